@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: MIT
+#
+# What demo.sh and test.sh share; they source it. POSIX sh.
+
+say() { printf '\n== %s\n' "$*"; }
+fail() { printf '%s: %s\n' "${0##*/}" "$*" >&2; exit 1; }
+
+# shellcheck disable=SC2034
+jobs=$(nproc 2>/dev/null || echo 2)
+
+as_root() {
+    if [ "$(id -u)" = 0 ]; then
+        env DEBIAN_FRONTEND=noninteractive "$@"
+    elif command -v sudo >/dev/null 2>&1; then
+        sudo env DEBIAN_FRONTEND=noninteractive "$@"
+    else
+        fail "needs root or sudo for: $*"
+    fi
+}
+
+have_package() {
+    # A program of that name will do, whoever installed it.
+    case $1 in
+        cmake | g++ | clang | ccache | python3) command -v "$1" >/dev/null 2>&1 && return 0 ;;
+        ninja-build) command -v ninja >/dev/null 2>&1 && return 0 ;;
+    esac
+    dpkg-query -W -f='${Status}' "$1" 2>/dev/null | grep -q 'ok installed'
+}
+
+missing_of() {
+    for package in "$@"; do
+        have_package "$package" || printf '%s ' "$package"
+    done
+}
+
+# need_packages PACKAGE...: installs those that are missing, or fails.
+need_packages() {
+    missing=$(missing_of "$@")
+    [ -n "$missing" ] || return 0
+    say "installing what is missing: $missing"
+    command -v apt-get >/dev/null 2>&1 || fail "no apt-get here; please install the counterparts of: $missing"
+    as_root apt-get update -qq || printf 'apt-get update failed; going on with the package lists that are there\n'
+    # shellcheck disable=SC2086
+    as_root apt-get install -y -qq --no-install-recommends $missing >/dev/null || fail "apt-get could not install: $missing"
+}
+
+# want_packages PACKAGE...: the same, but a distribution that lacks one of them is no failure: what needs it is left out.
+want_packages() {
+    missing=$(missing_of "$@")
+    [ -n "$missing" ] || return 0
+    command -v apt-get >/dev/null 2>&1 || return 0
+    as_root apt-get update -qq || true
+    known=''
+    for package in $missing; do
+        if apt-cache show "$package" >/dev/null 2>&1; then
+            known="$known $package"
+        else
+            printf 'this distribution has no package %s; what needs it is left out\n' "$package"
+        fi
+    done
+    # shellcheck disable=SC2086
+    [ -z "$known" ] || need_packages $known
+}
+
+# Sets nvcc to the compiler's path if it is 13.0 or newer, else to nothing. Fails instead if ABUT_REQUIRE_CUDA=1.
+find_nvcc() {
+    nvcc=$(command -v nvcc 2>/dev/null || true)
+    if [ -z "$nvcc" ] && [ -x /usr/local/cuda/bin/nvcc ]; then nvcc=/usr/local/cuda/bin/nvcc; fi
+    version=''
+    if [ -n "$nvcc" ]; then
+        version=$("$nvcc" --version 2>/dev/null | sed -n 's/.*release \([0-9][0-9]*\)\..*/\1/p')
+    fi
+    if [ "${version:-0}" -ge 13 ]; then
+        say "CUDA: using $nvcc"
+        return 0
+    fi
+    nvcc=''
+    [ "${ABUT_REQUIRE_CUDA:-0}" != 1 ] || fail 'ABUT_REQUIRE_CUDA=1, but there is no nvcc 13.0 or newer'
+    say 'CUDA: left out, there is no nvcc 13.0 or newer in PATH or /usr/local/cuda/bin'
+}
+
+cuda_device_present() {
+    [ -n "$nvcc" ] && command -v nvidia-smi >/dev/null 2>&1 && nvidia-smi -L 2>/dev/null | grep -q '^GPU '
+}

@@ -1,0 +1,105 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+#
+# usage: sh cmake/test.sh [--clang] [--tsan] [--asan] [--headers] [--bench] [--full] [--all] [--help]
+#
+# Installs what is missing from the distribution's packages (Debian 12, Ubuntu 24.04 or newer), builds the tests and runs
+# them, all in one run of ctest. With no argument:
+#   g++, Release, warnings as errors: all tests, the examples, each header alone, the include graph, an outside project;
+#   the .cu files, if nvcc 13.0 or newer is there (they run where a device is present, and are reported as skipped else);
+#   the address and undefined behaviour sanitizers on some of the layers.
+# More, each beside what is above:
+#   --clang     the same tests built by clang (no .cu files), its warnings as errors
+#   --tsan      the OpenMP paths under clang's thread sanitizer
+#   --asan      the address and undefined behaviour sanitizers on all layers
+#   --headers   each header alone with g++, clang and nvcc
+#   --bench     the benchmarks are built too (they are not run)
+#   --full      1,000,000 samples for each family and scalar instead of 5,000; tables go to docs/results
+#   --all       all of these but --full
+# Environment: ABUT_SAMPLES (samples for each family and scalar), ABUT_RESULTS (folder for tables), ABUT_REQUIRE_CUDA=1
+# (no nvcc is a failure).
+set -eu
+
+usage() { sed -n '/^# usage/,/^set/s/^# \{0,1\}//p' "$0"; }
+
+clang=no tsan=no asan=some headers=no bench=no full=no
+for argument in "$@"; do
+    case $argument in
+        --clang) clang=yes ;;
+        --tsan) tsan=yes ;;
+        --asan) asan=all ;;
+        --headers) headers=yes ;;
+        --bench) bench=yes ;;
+        --full) full=yes ;;
+        --all) clang=yes tsan=yes asan=all headers=yes bench=yes ;;
+        --help | -h) usage; exit 0 ;;
+        *) printf 'test.sh: no such argument: %s\n' "$argument" >&2; usage >&2; exit 2 ;;
+    esac
+done
+
+cd "$(dirname "$0")/.."
+. cmake/common.sh
+
+# --- packages ----------------------------------------------------------------------------------------------------------
+
+need_packages g++ cmake ninja-build python3 catch2 librapidcheck-dev libboost-dev
+want_packages libgmp-dev libmpfr-dev libcgal-dev libfcl-dev libtinyobjloader-dev libcli11-dev nlohmann-json3-dev ccache
+if [ $bench = yes ]; then want_packages libbenchmark-dev libembree-dev; fi
+if [ $clang = yes ] || [ $tsan = yes ] || [ $headers = yes ]; then
+    need_packages clang
+    major=$(clang++ -dumpversion | cut -d. -f1)
+    need_packages "libomp-$major-dev"
+    want_packages "libclang-rt-$major-dev"
+fi
+find_nvcc
+
+# --- build trees -------------------------------------------------------------------------------------------------------
+
+# build_tree NAME PRESET CMAKE-ARGUMENT...: configures and builds build/test/NAME.
+trees=''
+build_tree() {
+    name=$1 preset=$2
+    shift 2
+    say "building build/test/$name (preset $preset)"
+    cmake --preset "$preset" -B "build/test/$name" "$@" >"build/test/$name.log" 2>&1 ||
+        { cat "build/test/$name.log"; fail "configuring build/test/$name failed"; }
+    grep '^-- abut: ' "build/test/$name.log" || true
+    cmake --build "build/test/$name" --parallel "$jobs"
+    trees="$trees $name"
+}
+
+mkdir -p build/test
+compilers=$(command -v g++)
+if [ $headers = yes ]; then compilers="$compilers;$(command -v clang++);nvcc"; fi
+cuda=OFF
+if [ -n "$nvcc" ]; then cuda=ON; fi
+bench_option=OFF
+if [ $bench = yes ]; then bench_option=ON; fi
+layers='collide;io'
+if [ $asan = all ]; then layers=''; fi
+
+build_tree gcc default -DCMAKE_CXX_COMPILER=g++ -DABUT_CUDA=$cuda -DABUT_HEADER_COMPILERS="$compilers" -DABUT_BENCH=$bench_option
+build_tree asan asan -DCMAKE_CXX_COMPILER=g++ -DABUT_EXAMPLES=OFF -DABUT_TEST_PREFIX='asan/' -DABUT_TEST_LAYERS="$layers"
+if [ $clang = yes ]; then build_tree clang clang -DABUT_TEST_PREFIX='clang/'; fi
+if [ $tsan = yes ]; then
+    build_tree tsan tsan -DABUT_EXAMPLES=OFF -DABUT_TEST_PREFIX='tsan/' -DABUT_TEST_LAYERS='execution;shape;index;collide'
+fi
+
+# --- one run of ctest over all trees -----------------------------------------------------------------------------------
+
+for name in $trees; do printf 'subdirs("../%s")\n' "$name"; done >build/test/subdirs
+mkdir -p build/test/all
+mv build/test/subdirs build/test/all/CTestTestfile.cmake
+
+timeout=1200
+if [ $full = yes ]; then
+    : "${ABUT_SAMPLES:=1000000}" "${ABUT_RESULTS:=$(pwd)/docs/results}"
+    mkdir -p "$ABUT_RESULTS"
+    timeout=100000
+fi
+: "${ABUT_SAMPLES:=5000}"
+export ABUT_SAMPLES
+if [ -n "${ABUT_RESULTS:-}" ]; then export ABUT_RESULTS; fi
+
+say "testing with $jobs jobs, ABUT_SAMPLES=$ABUT_SAMPLES"
+exec ctest --test-dir build/test/all --parallel "$jobs" --timeout $timeout --no-tests=error --output-on-failure

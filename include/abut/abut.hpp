@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// All of abut for the serial and OpenMP policies. Nothing is needed but a C++20 compiler. <abut/cuda.hpp> adds CUDA.
+
+#include <abut/arithmetic/self_test.hpp>
+#include <abut/collide/query.hpp>
+#include <abut/config.hpp>
+#include <abut/error.hpp>
+#include <abut/index/bvh.hpp>
+#include <abut/index/grid.hpp>
+#include <abut/index/lbvh.hpp>
+#include <abut/predicate/intersects.hpp>
+#include <abut/shape/set.hpp>

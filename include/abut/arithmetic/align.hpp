@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// From floating point to integers: the coordinates of a predicate as integer multiples of one power of two. The sign of a
+// homogeneous polynomial does not see that power, so it never has to be put back. Numbers are taken apart by their bit
+// patterns: no operation here is floating-point arithmetic on them, so flush-to-zero modes and fast-math change nothing.
+
+#include <cstdint>
+
+#include <abut/arithmetic/arithmetic.hpp>
+#include <abut/arithmetic/wide_int.hpp>
+
+namespace abut {
+
+/// A finite number as mantissa * 2^exponent with an odd mantissa; zero has mantissa 0 and exponent 0.
+struct binary_parts {
+    std::int64_t mantissa;
+    int exponent;
+    int bits;  ///< an upper bound on the mantissa's width
+};
+
+namespace detail {
+
+/// log2 of the lowest set bit of x, for 0 < x < 2^62. A power of two converts exactly to double, whose exponent field is
+/// then the answer: one instruction on hosts and devices, and no intrinsic that differs between them.
+ABUT_HD constexpr int lowest_bit(std::int64_t x) {
+    return static_cast<int>(__builtin_bit_cast(std::uint64_t, static_cast<double>(x & -x)) >> 52) - 1023;
+}
+
+template <scalar T>
+struct float_format;
+template <>
+struct float_format<float> {
+    using word = std::uint32_t;
+    static constexpr int digits = 24, min_exponent = -149, max_exponent = 104;
+    static constexpr float largest = 0x1.fffffep127f;
+};
+template <>
+struct float_format<double> {
+    using word = std::uint64_t;
+    static constexpr int digits = 53, min_exponent = -1074, max_exponent = 971;
+    static constexpr double largest = 0x1.fffffffffffffp1023;
+};
+
+}  // namespace detail
+
+template <scalar T>
+ABUT_HD constexpr binary_parts take_apart(T x) {
+    using format = detail::float_format<T>;
+    using word = typename format::word;
+    constexpr int fraction = format::digits - 1;
+    const word w = __builtin_bit_cast(word, x);
+    const int biased = static_cast<int>((w << 1) >> (fraction + 1));
+    const word hidden = static_cast<word>(biased != 0) << fraction;
+    const auto m = static_cast<std::int64_t>((w & ((word{1} << fraction) - 1)) | hidden);
+    if (m == 0) return {0, 0, 0};
+    const int trailing = detail::lowest_bit(m);
+    const bool negative = (w >> (8 * static_cast<int>(sizeof(T)) - 1)) != 0;
+    return {(negative ? -m : m) >> trailing, format::min_exponent + (biased == 0 ? 0 : biased - 1) + trailing,
+            format::digits - trailing};
+}
+
+/// `V` finite numbers and the power of two, 2^low, that all are multiples of.
+template <int V>
+struct aligned {
+    binary_parts part[V];
+    int low, high;
+
+    template <scalar T>
+    ABUT_HD explicit constexpr aligned(const T (&value)[V]) : part{}, low{1 << 20}, high{-(1 << 20)} {
+        for (int i = 0; i < V; ++i) {
+            const binary_parts p = take_apart(value[i]);
+            part[i] = p;
+            if (p.mantissa == 0) continue;
+            low = p.exponent < low ? p.exponent : low;
+            high = p.exponent + p.bits > high ? p.exponent + p.bits : high;
+        }
+    }
+
+    /// All magnitudes are below 2^width() units of 2^low; negative where all numbers are zero.
+    ABUT_HD constexpr int width() const { return high - low; }
+
+    template <int L>
+    ABUT_HD constexpr wide_int<L> integer(int i) const {
+        return wide_int<L>::shifted(part[i].mantissa, part[i].mantissa == 0 ? 0 : part[i].exponent - low);
+    }
+};
+
+}  // namespace abut

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The exact stages of any predicate whose polynomials have degree 6 or less. A predicate is a type with one function,
+// `holds(const N (&value)[V]) -> bool`, written over a number type N with +, -, *, `sign_of_dot` and `squares_at_most`; the
+// values are the coordinates (and radii) that it depends on, all of one unit.
+
+#include <abut/arithmetic/align.hpp>
+#include <abut/arithmetic/arithmetic.hpp>
+#include <abut/arithmetic/sparse_sum.hpp>
+#include <abut/arithmetic/wide_int.hpp>
+
+namespace abut {
+
+/// In integers of `L` limbs a degree. Coordinates of up to 64 L - 4 bits leave headroom: a sum of three products of
+/// differences (a bit wider each) has degree 2 and at most 128 L - 4 bits, and it is down from there for higher degrees.
+template <class Predicate, int L, int V>
+ABUT_HD constexpr bool holds_in_limbs(const aligned<V>& x) {
+    wide_int<L> value[V]{};
+    for (int i = 0; i < V; ++i) value[i] = x.template integer<L>(i);
+    return Predicate::holds(value);
+}
+
+/// The stage in registers: `unknown` only where the exponents span more than 124 bits.
+template <class Predicate, scalar T, int V>
+ABUT_HD constexpr verdict decide_in_limbs(const T (&value)[V]) {
+    const aligned<V> x(value);
+    if (x.width() <= 60) return to_verdict(holds_in_limbs<Predicate, 1>(x));
+    if (x.width() <= 124) return to_verdict(holds_in_limbs<Predicate, 2>(x));
+    return verdict::unknown;
+}
+
+/// The last stage: any finite values, through sums that are never added up.
+template <class Predicate, scalar T, int V>
+ABUT_HD constexpr bool decide_at_any_span(const T (&value)[V]) {
+    const aligned<V> x(value);
+    sparse_sum<T, 1, 1> sum[V]{};
+    for (int i = 0; i < V; ++i) {
+        const binary_parts& p = x.part[i];
+        sum[i].term[0] = {wide_int<1>::shifted(p.mantissa, 0), p.mantissa == 0 ? 0 : p.exponent - x.low};
+    }
+    return Predicate::holds(sum);
+}
+
+}  // namespace abut

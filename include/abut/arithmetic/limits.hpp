@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Constants of the scalar types, as variables: the functions of std::numeric_limits are host functions, and code that also
+// runs on a device may not call them.
+
+#include <limits>
+
+#include <abut/arithmetic/arithmetic.hpp>
+
+namespace abut {
+
+template <scalar T>
+inline constexpr T largest_finite = std::numeric_limits<T>::max();
+template <scalar T>
+inline constexpr T smallest_normal = std::numeric_limits<T>::min();
+template <scalar T>
+inline constexpr T infinity = std::numeric_limits<T>::infinity();
+/// Half a unit in the last place of 1: the largest relative error of one rounded operation.
+template <scalar T>
+inline constexpr T unit_roundoff = std::numeric_limits<T>::epsilon() / 2;
+
+}  // namespace abut

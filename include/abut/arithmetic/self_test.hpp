@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What macros do not show, looked for at run time: flush-to-zero and denormals-are-zero modes (some libraries switch them on
+// when they are loaded; nvcc's -use_fast_math compiles them in), a rounding mode other than to nearest, and arithmetic that
+// breaks error-free transforms. Decisions (`intersects` with `filtered` or `exact`) are right under all of these; what
+// depends on them are the transforms and directed sums of error_free.hpp, and the bounds made of those.
+
+#include <cmath>
+
+#include <abut/arithmetic/error_free.hpp>
+
+namespace abut {
+
+/// What of IEEE arithmetic is in force on the calling thread.
+struct arithmetic_report {
+    bool gradual_underflow;  ///< denormal results are kept
+    bool denormal_inputs;    ///< denormal operands are read as what they are
+    bool round_to_nearest;   ///< ties to even
+    bool error_free;         ///< transforms return exact errors although their inputs could be contracted
+
+    [[nodiscard]] ABUT_HD constexpr bool passed() const {
+        return gradual_underflow && denormal_inputs && round_to_nearest && error_free;
+    }
+};
+
+namespace detail {
+
+/// A value that the compiler has to fetch at run time, so that no test is decided when it is compiled.
+template <scalar T>
+ABUT_HD inline T at_run_time(T x) {
+    volatile T hidden = x;
+    return hidden;
+}
+
+template <scalar T>
+ABUT_HD inline arithmetic_report self_test_of(T smallest_normal, T ulp) {
+    using word = typename float_format<T>::word;
+    const T normal = at_run_time(smallest_normal), half = at_run_time(T(0.5)), one = at_run_time(T(1));
+    const T denormal = at_run_time(__builtin_bit_cast(T, word{1})), tie = at_run_time(ulp / 2);
+    arithmetic_report r{};
+    r.gradual_underflow = __builtin_bit_cast(word, at_run_time(normal * half)) != 0;
+    r.denormal_inputs = denormal > 0 && static_cast<double>(denormal) > 0;
+    const T up = at_run_time(one + tie), down = at_run_time(-one - tie), past = at_run_time(one + T(1.5) * tie);
+    r.round_to_nearest = up == one && down == -one && past == one + ulp;
+    // x * x is 1 + 2 e + e^2, with e = 1025 ulp, and rounds to 1 + 2 e; a sum that swallows the product sees e^2 too.
+    const T e = at_run_time(1025 * ulp), x = at_run_time(one + e);
+    const error_free<T> sum = two_sum(x * x, -one), product = two_prod(x, x);
+    r.error_free = sum.value == 2 * e && sum.error == 0 && product.value == one + 2 * e && product.error == e * e;
+    return r;
+}
+
+}  // namespace detail
+
+/// Runs the checks for float and double; some nanoseconds, on the host or in a kernel.
+ABUT_HD inline arithmetic_report self_test() {
+    const arithmetic_report f = detail::self_test_of<float>(0x1p-126f, 0x1p-23f);
+    const arithmetic_report d = detail::self_test_of<double>(0x1p-1022, 0x1p-52);
+    return {f.gradual_underflow && d.gradual_underflow, f.denormal_inputs && d.denormal_inputs,
+            f.round_to_nearest && d.round_to_nearest, f.error_free && d.error_free};
+}
+
+}  // namespace abut

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What queries take beside their shapes, and what they give back.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <abut/config.hpp>
+#include <abut/execution/buffer.hpp>
+#include <abut/traverse/visit.hpp>
+
+namespace abut {
+
+/// Ids of two shapes that touch: `a` in a query's first argument, `b` in its second.
+struct index_pair {
+    std::uint32_t a, b;
+
+    friend constexpr bool operator==(const index_pair&, const index_pair&) = default;
+    friend constexpr auto operator<=>(const index_pair&, const index_pair&) = default;
+};
+
+/// The filter that keeps every pair.
+struct keep_all {
+    ABUT_HD constexpr bool operator()(std::uint32_t, std::uint32_t) const { return true; }
+};
+
+/// Options of `any`, `count`, `pairs` and `for_each_pair`.
+template <class Filter = keep_all>
+struct query_options {
+    /// Pairs sorted by a, then b. Without it their order is any, and may differ from call to call.
+    bool sorted = true;
+    /// filter(id in a, id in b) -> bool: pairs for which it is false are neither tested nor reported. A trivially copyable
+    /// functor, ABUT_HD under cuda; called concurrently.
+    Filter filter = {};
+    /// for_each_pair holds at most this many pairs at a time (8 bytes each, twice that while it searches).
+    std::uint64_t most_pairs = std::uint64_t{1} << 24;
+};
+
+/// The outcome of a query in the policy's memory: contiguous and immutable.
+template <class T, memory_space Space>
+class result {
+public:
+    using value_type = T;
+    using memory_space = Space;
+
+    result() = default;
+    explicit result(execution::buffer<T, Space> values) : values_(std::move(values)) {}
+
+    [[nodiscard]] std::size_t size() const { return values_.size(); }
+    [[nodiscard]] bool empty() const { return size() == 0; }
+    /// In the memory space of the policy that ran the query.
+    [[nodiscard]] const T* data() const { return values_.data(); }
+    [[nodiscard]] const T* begin() const requires std::same_as<Space, host_space> { return data(); }
+    [[nodiscard]] const T* end() const requires std::same_as<Space, host_space> { return data() + size(); }
+    [[nodiscard]] const T& operator[](std::size_t i) const requires std::same_as<Space, host_space> { return data()[i]; }
+
+    /// Copies to the host and waits for the copy.
+    [[nodiscard]] std::vector<T> to_host() const {
+        std::vector<T> copy(size());
+        values_.read(copy.data());
+        return copy;
+    }
+
+private:
+    execution::buffer<T, Space> values_;
+};
+
+/// The elements of a result in host memory. Waits for the copy. Throws std::bad_alloc, cuda_error.
+template <class T, memory_space Space>
+[[nodiscard]] std::vector<T> to_host(const result<T, Space>& values) {
+    return values.to_host();
+}
+
+}  // namespace abut

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// any, count, pairs, for_each_pair: which shapes of one set touch which of another. Each side is a set (an owner, a view or
+// one shape) or an index over a set; where neither is an index, all are compared with all in tiles.
+//
+// All four run on the policy and return when the answer is there. Their answers do not depend on the policy, the thread
+// count or the index. They throw invalid_geometry (views and single shapes, which are checked at each call), error (a set on
+// another device), capacity_error, std::bad_alloc and cuda_error.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include <abut/collide/search.hpp>
+#include <abut/index/bvh.hpp>
+#include <abut/index/grid.hpp>
+#include <abut/traverse/bvh_walk.hpp>
+#include <abut/traverse/grid_walk.hpp>
+
+namespace abut {
+
+namespace detail {
+
+template <class X>
+inline constexpr bool is_index = false;
+template <class Set, memory_space Space>
+inline constexpr bool is_index<bvh<Set, Space>> = true;
+template <class Set, memory_space Space>
+inline constexpr bool is_index<grid<Set, Space>> = true;
+
+template <class Set, memory_space Space>
+auto walk_of(const bvh<Set, Space>& index) {
+    return bvh_walk<typename bvh<Set, Space>::view_type>{index.view()};
+}
+template <class Set, memory_space Space>
+auto walk_of(const grid<Set, Space>& index) {
+    return grid_walk<typename grid<Set, Space>::view_type>{index.view()};
+}
+
+/// One side of a query, in the policy's memory: the resident set, and a walk if it is indexed.
+template <class Resident>
+struct plain_side {
+    Resident set;
+    auto shapes() const { return view_of(set); }
+};
+template <class Index>
+struct indexed_side {
+    Index index;
+    auto shapes() const { return view_of(index.set()); }
+};
+
+template <class X>
+inline constexpr bool is_indexed_side = false;
+template <class Index>
+inline constexpr bool is_indexed_side<indexed_side<Index>> = true;
+
+template <class Policy, class X>
+auto make_side(const Policy& on, const X& x, const char* function) {
+    if constexpr (is_index<X>) {
+        static_assert(std::same_as<typename X::memory_space, space_of<Policy>>,
+                      "abut: the index lies in other memory than the policy works in; make it with the same policy");
+        if (x.size() > 0 && x.device() != device_of(on)) {
+            throw error(std::string(function) + ": the index lies on device " + std::to_string(x.device()) +
+                        ", the policy works on device " + std::to_string(device_of(on)));
+        }
+        return indexed_side<X>{x};
+    } else {
+        auto set = make_resident(on, x, function);
+        return plain_side<decltype(set)>{std::move(set)};
+    }
+}
+
+/// Stage 1 of a search for queries [first, first + n): an index walks, two plain sets are tiled.
+template <arithmetic A, class Policy, class Sides, class TargetSide>
+struct find_candidates {
+    const Policy& on;
+    const Sides& sides;
+    const TargetSide& target;
+    std::size_t first, n;
+
+    template <class Late, class Hits>
+    void operator()(Late& late, Hits& hits) const {
+        if (n == 0 || sides.targets.size() == 0) return;
+        if constexpr (is_indexed_side<TargetSide>) {
+            const auto walk = walk_of(target.index);
+            using walk_type = std::remove_const_t<decltype(walk)>;
+            for_each_candidate(on, n, may_touch<walk_type, Sides>{walk, sides, first},
+                               walk_index<walk_type, Sides>{walk, sides, first}, decide_key<A, Sides>{sides}, late, hits);
+        } else {
+            for_each_tiled(on, n, sides.targets.size(), all_against_all<A, Sides>{sides, first}, late, hits);
+        }
+    }
+};
+
+/// Searches with `query_side` looking for `target_side`; `body(key, run, n)` gets the packing of keys, a function
+/// run(hits, first, n) that searches for a range of queries, and the number of queries.
+template <arithmetic A, class Policy, class QuerySide, class TargetSide, class Filter, class Body>
+auto with_search(const Policy& on, const QuerySide& query_side, const TargetSide& target_side, bool queries_are_b,
+                 const Filter& filter, const Body& body) {
+    const auto queries = query_side.shapes();
+    const auto targets = target_side.shapes();
+    using sides_type = sides<std::remove_const_t<decltype(queries)>, std::remove_const_t<decltype(targets)>, Filter>;
+    const int query_bits = id_bits(queries.size()), target_bits = id_bits(targets.size());
+    const pair_key key{queries_are_b ? target_bits : query_bits, queries_are_b ? query_bits : target_bits, queries_are_b};
+    const sides_type both{queries, targets, key, filter};
+    const auto run = [&](auto& hits, std::size_t first, std::size_t n) {
+        search<A>(on, both, hits, find_candidates<A, Policy, sides_type, TargetSide>{on, both, target_side, first, n});
+    };
+    return body(key, run, queries.size());
+}
+
+/// Brings both arguments to the policy and chooses who looks for whom: an index is looked in, and of two plain sets the
+/// larger one looks, since rows of tiles are what runs in parallel.
+template <arithmetic A, class Policy, class X, class Y, class Filter, class Body>
+auto on_both(const Policy& on, const X& x, const Y& y, const Filter& filter, const char* function, const Body& body) {
+    const auto a = make_side(on, x, function);
+    const auto b = make_side(on, y, function);
+    if constexpr (is_index<X>) {
+        return with_search<A>(on, b, a, true, filter, body);
+    } else if constexpr (is_index<Y>) {
+        return with_search<A>(on, a, b, false, filter, body);
+    } else {
+        return a.shapes().size() < b.shapes().size() ? with_search<A>(on, b, a, true, filter, body)
+                                                     : with_search<A>(on, a, b, false, filter, body);
+    }
+}
+
+struct unpack_key {
+    pair_key key;
+    const std::uint64_t* keys;
+    index_pair* out;
+    ABUT_HD void operator()(std::size_t i) const { out[i] = key.unpack(keys[i]); }
+};
+
+template <class Visitor>
+struct visit_key {
+    pair_key key;
+    const std::uint64_t* keys;
+    Visitor visitor;
+    ABUT_CALLS_ANY
+    template <class Flag>
+    ABUT_HD void operator()(std::size_t i, Flag& stopped) const {
+        if (!stopped.raised() && visitor(key.unpack(keys[i])) == visit::stop) stopped.raise();
+    }
+};
+
+template <class Policy>
+auto unpacked(const Policy& on, const pair_key& key, const execution::buffer_of<Policy, std::uint64_t>& keys) {
+    execution::buffer_of<Policy, index_pair> pairs(on, keys.size());
+    for_each_index(on, keys.size(), unpack_key{key, keys.data(), pairs.data()});
+    return pairs;
+}
+
+}  // namespace detail
+
+/// Whether any shape of `a` touches any shape of `b`. Stops at the first one found.
+template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Filter = keep_all>
+[[nodiscard]] bool any(const Policy& on, const X& a, const Y& b, const query_options<Filter>& options = {}) {
+    return detail::on_both<A>(on, a, b, options.filter, "abut::any", [&](const auto&, const auto& run, std::size_t n) {
+        execution::work_flag<space_of<Policy>> found(on);
+        run(found, 0, n);
+        return found.raised();
+    });
+}
+
+/// Number of pairs that touch. Stores none of them.
+template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Filter = keep_all>
+[[nodiscard]] std::uint64_t count(const Policy& on, const X& a, const Y& b, const query_options<Filter>& options = {}) {
+    return detail::on_both<A>(on, a, b, options.filter, "abut::count", [&](const auto&, const auto& run, std::size_t n) {
+        execution::work_count<space_of<Policy>> hits(on);
+        run(hits, 0, n);
+        return hits.total();
+    });
+}
+
+/// All pairs that touch, each once, in the policy's memory; sorted by a, then b, unless the options say otherwise.
+template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Filter = keep_all>
+[[nodiscard]] auto pairs(const Policy& on, const X& a, const Y& b, const query_options<Filter>& options = {}) {
+    using outcome = result<index_pair, space_of<Policy>>;
+    const auto body = [&](const detail::pair_key& key, const auto& run, std::size_t n) {
+        detail::key_queue<Policy> hits(on, n / 16);
+        run(hits, 0, n);
+        auto keys = hits.take();
+        if (options.sorted) sort_keys(on, keys, key.bits());
+        auto unpacked = detail::unpacked(on, key, keys);
+        synchronize(on);
+        return outcome(std::move(unpacked));
+    };
+    return detail::on_both<A>(on, a, b, options.filter, "abut::pairs", body);
+}
+
+/// Calls visitor(index_pair) -> visit once for every pair that touches, in no order, concurrently, in the policy's space (so
+/// under cuda it is a trivially copyable functor with an ABUT_HD operator()). `visit::stop` is best effort: pairs in flight
+/// still come. Memory is bounded by options.most_pairs pairs at a time, or by the pairs of one query shape if that has more.
+template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Visitor, class Filter = keep_all>
+void for_each_pair(const Policy& on, const X& a, const Y& b, const Visitor& visitor, const query_options<Filter>& options = {}) {
+    const auto body = [&](const detail::pair_key& key, const auto& run, std::size_t n) {
+        // Found pairs are gathered first and visited after, since a queue that proves too small is filled anew and a visitor
+        // must see each pair once. A range of queries with too many pairs is halved.
+        std::size_t step = n;
+        for (std::size_t first = 0; first < n;) {
+            step = std::min(step, n - first);
+            execution::work_count<space_of<Policy>> size(on);
+            run(size, first, step);
+            if (size.total() > options.most_pairs && step > 1) {
+                step = (step + 1) / 2;
+                continue;
+            }
+            detail::key_queue<Policy> hits(on, size.total());
+            run(hits, first, step);
+            execution::work_flag<space_of<Policy>> stopped(on);
+            for_each_index(on, hits.size(), detail::visit_key<Visitor>{key, hits.data(), visitor}, stopped);
+            if (stopped.raised()) return;
+            first += step;
+        }
+    };
+    detail::on_both<A>(on, a, b, options.filter, "abut::for_each_pair", body);
+}
+
+}  // namespace abut

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Version and the library's macros. There are few: every other header is written in plain C++20, and the code that runs
+// on a device is the code that runs on the host.
+
+#define ABUT_VERSION_MAJOR 0
+#define ABUT_VERSION_MINOR 1
+#define ABUT_VERSION_PATCH 0
+
+// ABUT_HD marks a function that may run on the host and on a CUDA device. Such functions call no `constexpr` function of
+// the standard library, so that nobody's build needs `--expt-relaxed-constexpr`.
+// ABUT_DEVICE_CODE is 1 while a compiler makes code for a device.
+// ABUT_NOINLINE keeps rarely run code with a large stack frame out of its callers.
+#if defined(__CUDACC__)
+#define ABUT_HD __host__ __device__
+#else
+#define ABUT_HD
+#endif
+
+// ABUT_CALLS_ANY stands before a template that calls what it is given (a filter, a visitor, a queue): on the host that may
+// be a plain host function, which nvcc would warn of in code that could run on a device as well.
+#if defined(__CUDACC__)
+#define ABUT_CALLS_ANY _Pragma("nv_exec_check_disable")
+#else
+#define ABUT_CALLS_ANY
+#endif
+
+#if defined(__CUDA_ARCH__)
+#define ABUT_DEVICE_CODE 1
+#else
+#define ABUT_DEVICE_CODE 0
+#endif
+
+#if defined(__CUDACC__)
+#define ABUT_NOINLINE __noinline__
+#else
+#define ABUT_NOINLINE [[gnu::noinline]]
+#endif

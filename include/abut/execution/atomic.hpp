@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Atomic operations on plain memory, for functors that run on the host and on a device. Relaxed unless the name says so.
+
+#include <atomic>
+#include <cstdint>
+
+#include <abut/config.hpp>
+
+namespace abut::execution {
+
+/// Adds and returns the value before. T: std::uint32_t or std::uint64_t.
+template <class T>
+ABUT_HD T atomic_add(T* target, T value) {
+#if ABUT_DEVICE_CODE
+    if constexpr (sizeof(T) == 8) {
+        return static_cast<T>(atomicAdd(reinterpret_cast<unsigned long long*>(target), static_cast<unsigned long long>(value)));
+    } else {
+        return atomicAdd(target, value);
+    }
+#else
+    return std::atomic_ref<T>(*target).fetch_add(value, std::memory_order_relaxed);
+#endif
+}
+
+/// Sets bits.
+inline ABUT_HD void atomic_or(std::uint32_t* target, std::uint32_t bits) {
+#if ABUT_DEVICE_CODE
+    atomicOr(target, bits);
+#else
+    std::atomic_ref<std::uint32_t>(*target).fetch_or(bits, std::memory_order_relaxed);
+#endif
+}
+
+/// Swaps, and orders memory: what this thread wrote before is seen by a thread that later swaps the same word, and what
+/// that thread wrote before its swap is seen here.
+inline ABUT_HD std::uint32_t atomic_exchange_acq_rel(std::uint32_t* target, std::uint32_t value) {
+#if ABUT_DEVICE_CODE
+    __threadfence();
+    std::uint32_t before = atomicExch(target, value);
+    __threadfence();
+    return before;
+#else
+    return std::atomic_ref<std::uint32_t>(*target).exchange(value, std::memory_order_acq_rel);
+#endif
+}
+
+/// Stores `desired` if the word is `expected`; returns the value before.
+inline ABUT_HD std::uint64_t atomic_compare_exchange(std::uint64_t* target, std::uint64_t expected, std::uint64_t desired) {
+#if ABUT_DEVICE_CODE
+    return atomicCAS(reinterpret_cast<unsigned long long*>(target), static_cast<unsigned long long>(expected),
+                     static_cast<unsigned long long>(desired));
+#else
+    std::atomic_ref<std::uint64_t>(*target).compare_exchange_strong(expected, desired, std::memory_order_relaxed);
+    return expected;
+#endif
+}
+
+/// A read and a write that other threads may race with: flags that only ever go up.
+inline ABUT_HD std::uint32_t atomic_load(const std::uint32_t* source) {
+#if ABUT_DEVICE_CODE
+    return *const_cast<const volatile std::uint32_t*>(source);
+#else
+    return std::atomic_ref<std::uint32_t>(*const_cast<std::uint32_t*>(source)).load(std::memory_order_relaxed);
+#endif
+}
+
+inline ABUT_HD void atomic_store(std::uint32_t* target, std::uint32_t value) {
+#if ABUT_DEVICE_CODE
+    *const_cast<volatile std::uint32_t*>(target) = value;
+#else
+    std::atomic_ref<std::uint32_t>(*target).store(value, std::memory_order_relaxed);
+#endif
+}
+
+}  // namespace abut::execution

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The CUDA policy: a stream on a device, its errors, and its memory. The verbs are in execution/cuda_verbs.hpp.
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <new>
+#include <string>
+
+#include <cuda_runtime_api.h>
+
+#include <abut/error.hpp>
+#include <abut/execution/buffer.hpp>
+#include <abut/execution/policy.hpp>
+
+namespace abut {
+
+/// A CUDA call that failed. The message names the call and carries CUDA's own text.
+class cuda_error : public error {
+public:
+    cuda_error(const char* call, cudaError_t code)
+        : error(std::string(call) + ": " + cudaGetErrorString(code) + " (" + cudaGetErrorName(code) + ")"), code_(code) {}
+    [[nodiscard]] cudaError_t code() const noexcept { return code_; }
+
+private:
+    cudaError_t code_;
+};
+
+namespace execution {
+
+/// Runs on one CUDA device, in the order of one stream. The stream belongs to the caller and has to outlive the sets,
+/// indices and results made on it. `cuda{}` is the default stream of the current device.
+struct cuda {
+    using memory_space = device_space;
+    cudaStream_t stream = nullptr;  ///< a stream of `device`
+    int device = -1;                ///< -1: the device that is current when a call is made
+};
+
+/// Memory taken from the system for one device, and what of it is in use, in bytes.
+struct memory_use {
+    std::uint64_t reserved, used, used_peak;
+};
+
+namespace detail {
+
+inline void check(cudaError_t code, const char* call) {
+    if (code == cudaSuccess) return;
+    cudaGetLastError();  // a failure that has been reported is not reported again by the next call
+    if (code == cudaErrorMemoryAllocation) throw std::bad_alloc();
+    throw cuda_error(call, code);
+}
+
+}  // namespace detail
+
+/// The device that the policy works on. Throws cuda_error where there is none.
+inline int device_of(const cuda& on) {
+    int device = on.device;
+    if (device < 0) detail::check(cudaGetDevice(&device), "cudaGetDevice");
+    return device;
+}
+
+namespace detail {
+
+/// Makes a device current and the one before it current again at the end of the scope.
+class current_device {
+public:
+    explicit current_device(int device) {
+        check(cudaGetDevice(&before_), "cudaGetDevice");
+        if (before_ != device) check(cudaSetDevice(device), "cudaSetDevice");
+        changed_ = before_ != device;
+    }
+    explicit current_device(const cuda& on) : current_device(device_of(on)) {}
+    current_device(const current_device&) = delete;
+    current_device& operator=(const current_device&) = delete;
+    ~current_device() {
+        if (changed_) cudaSetDevice(before_);
+    }
+
+private:
+    int before_ = 0;
+    bool changed_ = false;
+};
+
+/// The library's own pool on a device, made at first use and kept: it holds on to freed memory, so that a repeated query
+/// allocates nothing from the system. The device's default pool is left alone.
+inline cudaMemPool_t pool_of(int device) {
+    static std::mutex mutex;
+    static std::map<int, cudaMemPool_t> pools;
+    const std::scoped_lock lock(mutex);
+    auto [found, fresh] = pools.try_emplace(device, nullptr);
+    if (found->second == nullptr) {
+        cudaMemPoolProps properties{};
+        properties.allocType = cudaMemAllocationTypePinned;
+        properties.location.type = cudaMemLocationTypeDevice;
+        properties.location.id = device;
+        cudaMemPool_t pool = nullptr;
+        check(cudaMemPoolCreate(&pool, &properties), "cudaMemPoolCreate");
+        std::uint64_t keep = static_cast<std::uint64_t>(-1);
+        check(cudaMemPoolSetAttribute(pool, cudaMemPoolAttrReleaseThreshold, &keep), "cudaMemPoolSetAttribute");
+        found->second = pool;
+    }
+    return found->second;
+}
+
+/// A little page-locked memory for each host thread, through which sizes and sums come back without a slow copy.
+class pinned_scratch {
+public:
+    static constexpr std::size_t bytes = 256;
+    pinned_scratch() { check(cudaHostAlloc(&data_, bytes, cudaHostAllocPortable), "cudaHostAlloc"); }
+    pinned_scratch(const pinned_scratch&) = delete;
+    pinned_scratch& operator=(const pinned_scratch&) = delete;
+    ~pinned_scratch() { cudaFreeHost(data_); }
+
+    [[nodiscard]] static void* of_this_thread() {
+        thread_local pinned_scratch scratch;
+        return scratch.data_;
+    }
+
+private:
+    void* data_ = nullptr;
+};
+
+}  // namespace detail
+
+template <>
+struct allocator<device_space> {
+    allocator() = default;
+    explicit allocator(const cuda& on) : on_{on.stream, device_of(on)} {}
+
+    /// Throws std::bad_alloc when the device has not enough memory. Rows are aligned to 256 bytes.
+    [[nodiscard]] void* allocate(std::size_t bytes) const {
+        const detail::current_device scope(on_);
+        void* p = nullptr;
+        detail::check(cudaMallocFromPoolAsync(&p, bytes, detail::pool_of(on_.device), on_.stream), "cudaMallocFromPoolAsync");
+        return p;
+    }
+    void deallocate(void* p) const noexcept { cudaFreeAsync(p, on_.stream); }
+    void read(const void* from, std::size_t bytes, void* to) const {
+        const detail::current_device scope(on_);
+        detail::check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToHost, on_.stream), "cudaMemcpyAsync");
+        detail::check(cudaStreamSynchronize(on_.stream), "cudaStreamSynchronize");
+    }
+    [[nodiscard]] int device() const { return on_.device; }
+
+private:
+    cuda on_;
+};
+
+/// Waits until everything put into the policy's stream is done. Throws cuda_error.
+inline void synchronize(const cuda& on) {
+    const detail::current_device scope(on);
+    detail::check(cudaStreamSynchronize(on.stream), "cudaStreamSynchronize");
+}
+
+/// Waits for the stream and gives the memory that the library's pool keeps for this device, and does not use, back to the
+/// system. Throws cuda_error.
+inline void release_memory(const cuda& on) {
+    synchronize(on);
+    detail::check(cudaMemPoolTrimTo(detail::pool_of(device_of(on)), 0), "cudaMemPoolTrimTo");
+}
+
+/// What the library's pool holds on the policy's device. Does not synchronise.
+inline memory_use memory_in_use(const cuda& on) {
+    const cudaMemPool_t pool = detail::pool_of(device_of(on));
+    memory_use use{};
+    const auto read = [&](cudaMemPoolAttr attribute, std::uint64_t& value) {
+        detail::check(cudaMemPoolGetAttribute(pool, attribute, &value), "cudaMemPoolGetAttribute");
+    };
+    read(cudaMemPoolAttrReservedMemCurrent, use.reserved);
+    read(cudaMemPoolAttrUsedMemCurrent, use.used);
+    read(cudaMemPoolAttrUsedMemHigh, use.used_peak);
+    return use;
+}
+
+}  // namespace execution
+
+using execution::cuda;
+using execution::memory_in_use;
+using execution::memory_use;
+
+}  // namespace abut

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Who runs an algorithm and where its memory lies. A policy comes first in every call and is always given, never guessed.
+// `serial` and `openmp` are here; `cuda` is in execution/cuda.hpp, since it needs the CUDA toolkit.
+//
+// A policy supplies a small closed set of verbs, found by argument-dependent lookup in abut::execution. Everything above
+// this layer is written once on top of them. `on` is the policy, `n` a number of indices, functors are trivially copyable
+// and their `operator()` is ABUT_HD:
+//
+//   for_each_index(on, n, f)                f(i) for every i in [0, n), concurrently
+//   for_each_index(on, n, f, queue...)      f(i, sink...): what is pushed into sink k is gathered in queue k, complete, in
+//                                           no order (execution/work_queue.hpp); returns when all sizes are known
+//   for_each_candidate(on, n, test, walk, decide, late, queue...)
+//                                           for every i with test(i): walk(i, emitter, sink...) calls emitter.push(c) for
+//                                           each candidate c, and decide(c, late_sink, sink...) is called for it; or else,
+//                                           for want of room, c itself goes to the queue `late`
+//   for_each_tiled(on, n, m, tile, queue...)    tile(row, i, column, j, sink...) for all (i, j) of [0, n) x [0, m), in
+//                                           tiles: row = tile.load_row(i), column = tile.load_column(j)
+//   reduce(on, n, init, combine, f)         combine over f(i), returned on the host; combine associates and commutes
+//   reduce_into(on, n, out, init, combine, f)  the same, left in the policy's memory at `out`
+//   exclusive_scan(on, values, n)           in place over n + 1 values; the last becomes the total
+//   sort_keys(on, keys, bits)               unsigned keys in a buffer, ascending, the lowest `bits` bits count
+//   sort_by_key(on, keys, values, bits)     the same, stable, carrying values
+//   compact(on, n, test, out)               the i with test(i), ascending, to out; returns their number
+//   fill(on, out, n, value)                 copies of value
+//   upload(on, from, n, to), download(on, from, n, to)   between the caller's host memory and the policy's
+//   copy(on, from, n, to)                   within the policy's memory
+//   device_of(on)                           the CUDA device that the policy works on; -1 for host policies
+//   synchronize(on)                         waits for all of the above
+//   release_memory(on)                      gives pooled memory back to the system
+//
+// reduce, the loops with queues, compact, download and synchronize wait for the result; the others may return
+// before it is there.
+
+#include <concepts>
+#include <cstddef>
+#include <type_traits>
+
+namespace abut {
+
+/// Memory that the host reads and writes.
+struct host_space {};
+/// Memory of a CUDA device.
+struct device_space {};
+
+template <class S>
+concept memory_space = std::same_as<S, host_space> || std::same_as<S, device_space>;
+
+namespace execution {
+
+/// Runs on the calling thread.
+struct serial {
+    using memory_space = host_space;
+};
+
+/// Runs on OpenMP threads. Compiled without OpenMP it runs on the calling thread, as OpenMP programs do.
+struct openmp {
+    using memory_space = host_space;
+    int threads = 0;  ///< number of threads; 0 leaves it to the OpenMP runtime
+};
+
+}  // namespace execution
+
+using execution::openmp;
+using execution::serial;
+
+/// A policy names the memory it works in and supplies the verbs above; it is cheap to copy, and any number of host threads
+/// may use one policy at a time.
+template <class P>
+concept execution_policy = std::copyable<P> && memory_space<typename P::memory_space> && requires(const P& on) {
+    synchronize(on);
+    release_memory(on);
+};
+
+template <class P>
+using space_of = typename std::remove_cvref_t<P>::memory_space;
+
+/// True for policies that work in host memory.
+template <class P>
+concept host_policy = std::same_as<space_of<P>, host_space>;
+
+}  // namespace abut

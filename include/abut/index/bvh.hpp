@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Bounding volume hierarchies: how a tree lies in memory, who owns it, and how it is read. Builders are in files of their
+// own (lbvh.hpp); traversals are in traverse/ and read nodes through the accessor concept below alone, so that another
+// layout needs no second traversal.
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <abut/execution/buffer.hpp>
+#include <abut/execution/policy.hpp>
+#include <abut/shape/bounds.hpp>
+
+namespace abut {
+
+/// Reference to a child: a leaf with one shape, or an inner node.
+struct bvh_child {
+    static constexpr std::uint32_t leaf_bit = std::uint32_t{1} << 31;
+    std::uint32_t bits;
+
+    ABUT_HD static constexpr bvh_child leaf(std::uint32_t shape) { return {shape | leaf_bit}; }
+    ABUT_HD static constexpr bvh_child inner(std::uint32_t node) { return {node}; }
+    [[nodiscard]] ABUT_HD constexpr bool is_leaf() const { return (bits & leaf_bit) != 0; }
+    /// Id of the leaf's shape, or number of the inner node.
+    [[nodiscard]] ABUT_HD constexpr std::uint32_t index() const { return bits & ~leaf_bit; }
+
+    friend constexpr bool operator==(bvh_child, bvh_child) = default;
+};
+
+/// An inner node: its two children with their boxes, one cache line in single precision. Both boxes come with one fetch.
+template <scalar T>
+struct alignas(sizeof(T) == 4 ? 64 : 16) bvh_node {
+    aabb<T> bounds[2];
+    bvh_child child[2];
+};
+
+/// Depth of the deepest leaf that any builder may make, and so the size of a traversal's stack. Linear builders stay below
+/// it by construction: 63 bits of Morton code and 31 bits of position.
+inline constexpr int bvh_max_depth = 96;
+
+/// What a traversal needs of a tree. The accessors may run wherever the layout's memory can be read, take constant time,
+/// and may hand out boxes that are larger than they were built, never smaller.
+template <class L>
+concept bvh_layout =
+    std::is_trivially_copyable_v<L> && memory_space<typename L::memory_space> && requires(const L& tree, int side) {
+        typename L::scalar_type;
+        { tree.size() } -> std::convertible_to<std::size_t>;  // number of shapes; the rest is for trees that have some
+        { tree.root() } -> std::same_as<bvh_child>;
+        { tree.root_bounds() } -> std::convertible_to<aabb<typename L::scalar_type>>;
+        typename L::node_type;  // a node with both its children, side 0 and 1
+        { tree.fetch(std::uint32_t{}) } -> std::convertible_to<typename L::node_type>;
+        { tree.bounds(tree.fetch(std::uint32_t{}), side) } -> std::convertible_to<aabb<typename L::scalar_type>>;
+        { tree.child(tree.fetch(std::uint32_t{}), side) } -> std::same_as<bvh_child>;
+    };
+
+/// Root of a tree; lies with the nodes, because a build ends without telling the host.
+template <scalar T>
+struct bvh_root {
+    aabb<T> bounds;
+    bvh_child child;
+};
+
+/// The standard layout: full precision, both children's boxes in their parent.
+template <scalar T, memory_space Space>
+struct bvh_view {
+    using scalar_type = T;
+    using memory_space = Space;
+    using node_type = bvh_node<T>;
+
+    const bvh_node<T>* nodes = nullptr;
+    const bvh_root<T>* top = nullptr;
+    std::size_t count = 0;
+
+    [[nodiscard]] ABUT_HD std::size_t size() const { return count; }
+    [[nodiscard]] ABUT_HD bvh_child root() const { return top->child; }
+    [[nodiscard]] ABUT_HD aabb<T> root_bounds() const { return top->bounds; }
+    [[nodiscard]] ABUT_HD const node_type& fetch(std::uint32_t node) const { return nodes[node]; }
+    [[nodiscard]] ABUT_HD static const aabb<T>& bounds(const node_type& n, int side) { return n.bounds[side]; }
+    [[nodiscard]] ABUT_HD static bvh_child child(const node_type& n, int side) { return n.child[side]; }
+};
+
+/// Options of make_bvh.
+struct bvh_options {
+    /// Bits of the Morton codes that order the leaves: 30, 63, or 0 to choose from the scene: as few as tell that many shapes
+    /// apart, at most 30, and 63 where these turn out to leave an eighth of the shapes in crowds of one code, as in small
+    /// clusters far apart. The choice moves speed, never results.
+    int morton_bits = 0;
+};
+
+/// A tree over the shapes of a set, which it keeps alive. Immutable; any number of threads may query it. `Set` is an owner
+/// (mesh, spheres, ...) or a view over the caller's arrays, in the same memory as the tree.
+template <class Set, memory_space Space>
+class bvh {
+public:
+    using set_type = Set;
+    using scalar_type = typename Set::scalar_type;
+    using shape_type = typename Set::shape_type;
+    using memory_space = Space;
+    using view_type = bvh_view<scalar_type, Space>;
+
+    /// Storage of a finished tree: size() - 1 nodes (none for fewer than two shapes) and one root.
+    struct storage {
+        execution::buffer<bvh_node<scalar_type>, Space> nodes;
+        execution::buffer<bvh_root<scalar_type>, Space> root;
+    };
+
+    bvh(Set set, std::shared_ptr<const storage> tree) : set_(std::move(set)), tree_(std::move(tree)) {}
+
+    [[nodiscard]] const Set& set() const { return set_; }
+    /// Number of shapes.
+    [[nodiscard]] std::size_t size() const { return set_.size(); }
+    [[nodiscard]] view_type view() const { return {tree_->nodes.data(), tree_->root.data(), set_.size()}; }
+    [[nodiscard]] int device() const { return tree_->root.device(); }
+    /// Memory of the tree itself, in bytes.
+    [[nodiscard]] std::size_t bytes() const { return tree_->nodes.capacity_bytes() + tree_->root.capacity_bytes(); }
+
+private:
+    Set set_;
+    std::shared_ptr<const storage> tree_;
+};
+
+/// Checks a tree in host memory: every shape in exactly one leaf, every box around what lies below it and the shape's own
+/// box in its leaf, no leaf deeper than bvh_max_depth. Returns what is wrong, or an empty string. For tests; linear time.
+template <bvh_layout Layout, shape_view Shapes>
+[[nodiscard]] std::string find_flaw(const Layout& tree, const Shapes& shapes);
+
+}  // namespace abut

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// make_grid: uniform buckets in a hash table, so that empty space costs nothing, and coarser buckets for larger shapes, so
+// that a shape that spans many cells is stored once all the same.
+//
+// Space is cut into at most 2^19 base cells an axis; level l joins 2^l of them. A shape whose box spans at most 2^l + 1 base
+// cells in each axis goes to the finest such level, to the cell of its lower corner, and nowhere else: so a pair meets in
+// one cell. A query looks, on each level in use, at the cells under its own box and one more on the lower side. After the
+// base cell is found (which is monotone in the coordinate) all of this is in integers: nothing is lost to rounding.
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+#include <abut/arithmetic/limits.hpp>
+#include <abut/execution/atomic.hpp>
+#include <abut/execution/buffer.hpp>
+#include <abut/index/operand.hpp>
+#include <abut/shape/bounds.hpp>
+
+namespace abut {
+
+/// Options of make_grid.
+struct grid_options {
+    /// Width of the base cells. 0 chooses twice the mean of the shapes' longest box sides: four radii for equal spheres. A
+    /// width under 2^-19 of the scene's extent is raised to that.
+    double cell_width = 0;
+};
+
+/// How space is cut. Lies with the cells, because a build ends without telling the host.
+template <scalar T>
+struct grid_frame {
+    static constexpr int axis_bits = 19;
+    static constexpr int levels = axis_bits + 1;
+
+    aabb<T> bounds;
+    double cells_per_half;  ///< base cells in two units of length; halves, so that no difference overflows
+    std::uint32_t levels_in_use;
+
+    /// Base cell of a coordinate. Monotone, and 0 at the scene's lower end.
+    [[nodiscard]] ABUT_HD std::int32_t cell(T x, T lower) const {
+        const double at = (static_cast<double>(x) * 0.5 - static_cast<double>(lower) * 0.5) * cells_per_half;
+        constexpr double last = (1 << axis_bits) - 1;
+        return at > 0 ? (at < last ? static_cast<std::int32_t>(at) : (1 << axis_bits) - 1) : 0;
+    }
+    [[nodiscard]] ABUT_HD vec3<std::int32_t> cell(const vec3<T>& p) const {
+        return {cell(p.x, bounds.lower.x), cell(p.y, bounds.lower.y), cell(p.z, bounds.lower.z)};
+    }
+    /// Level at which a box that spans these base cells is stored.
+    [[nodiscard]] ABUT_HD static int level(const vec3<std::int32_t>& first, const vec3<std::int32_t>& last) {
+        const std::int32_t span = detail::greater(detail::greater(last.x - first.x, last.y - first.y), last.z - first.z);
+        int level = 0;
+        while ((1 << level) < span) ++level;
+        return level;
+    }
+    [[nodiscard]] ABUT_HD static std::uint64_t key(int level, const vec3<std::int32_t>& at) {
+        return ((static_cast<std::uint64_t>(level) << axis_bits | static_cast<std::uint64_t>(at.x)) << axis_bits |
+                static_cast<std::uint64_t>(at.y)) << axis_bits | static_cast<std::uint64_t>(at.z);
+    }
+};
+
+/// A shape in its cell.
+template <scalar T>
+struct grid_item {
+    aabb<T> box;
+    std::uint32_t id;
+};
+
+/// A trivially copyable view of a grid.
+template <scalar T, memory_space Space>
+struct grid_view {
+    using scalar_type = T;
+    using memory_space = Space;
+    static constexpr std::uint64_t no_key = static_cast<std::uint64_t>(-1);
+
+    const grid_frame<T>* frame = nullptr;
+    const std::uint64_t* keys = nullptr;     // open addressing; no_key marks a free slot
+    const std::uint32_t* starts = nullptr;   // slots + 1: items of slot s are [starts[s], starts[s + 1])
+    const grid_item<T>* items = nullptr;
+    std::uint64_t slots = 0;                 // a power of two
+    std::size_t count = 0;
+
+    [[nodiscard]] ABUT_HD std::size_t size() const { return count; }
+    [[nodiscard]] ABUT_HD static std::uint64_t first_slot(std::uint64_t key, std::uint64_t slots) {
+        key = (key ^ (key >> 31)) * 0x9e3779b97f4a7c15u;  // Fibonacci hashing
+        return (key >> 20) & (slots - 1);
+    }
+    /// The slot of a cell, or `slots` if the cell is empty.
+    [[nodiscard]] ABUT_HD std::uint64_t find(std::uint64_t key) const {
+        for (std::uint64_t slot = first_slot(key, slots);; slot = (slot + 1) & (slots - 1)) {
+            if (keys[slot] == key) return slot;
+            if (keys[slot] == no_key) return slots;
+        }
+    }
+};
+
+/// A grid over the shapes of a set, which it keeps alive. Immutable; any number of threads may query it.
+template <class Set, memory_space Space>
+class grid {
+public:
+    using set_type = Set;
+    using scalar_type = typename Set::scalar_type;
+    using shape_type = typename Set::shape_type;
+    using memory_space = Space;
+    using view_type = grid_view<scalar_type, Space>;
+
+    struct storage {
+        execution::buffer<grid_frame<scalar_type>, Space> frame;
+        execution::buffer<std::uint64_t, Space> keys;
+        execution::buffer<std::uint32_t, Space> starts;
+        execution::buffer<grid_item<scalar_type>, Space> items;
+    };
+
+    grid(Set set, std::shared_ptr<const storage> cells) : set_(std::move(set)), cells_(std::move(cells)) {}
+
+    [[nodiscard]] const Set& set() const { return set_; }
+    /// Number of shapes.
+    [[nodiscard]] std::size_t size() const { return set_.size(); }
+    [[nodiscard]] view_type view() const {
+        return {cells_->frame.data(), cells_->keys.data(), cells_->starts.data(), cells_->items.data(), cells_->keys.size(),
+                set_.size()};
+    }
+    [[nodiscard]] int device() const { return cells_->frame.device(); }
+    /// Memory of the grid itself, in bytes.
+    [[nodiscard]] std::size_t bytes() const {
+        return cells_->frame.capacity_bytes() + cells_->keys.capacity_bytes() + cells_->starts.capacity_bytes() +
+               cells_->items.capacity_bytes();
+    }
+
+private:
+    Set set_;
+    std::shared_ptr<const storage> cells_;
+};
+
+namespace detail {
+
+/// Box of all shapes and sum of half their longest sides.
+template <class T>
+struct extent_sum {
+    aabb<T> box;
+    double half_sides;
+};
+
+template <class T>
+ABUT_HD double half_longest_side(const aabb<T>& box) {
+    const vec3<double> half{static_cast<double>(box.upper.x) * 0.5 - static_cast<double>(box.lower.x) * 0.5,
+                            static_cast<double>(box.upper.y) * 0.5 - static_cast<double>(box.lower.y) * 0.5,
+                            static_cast<double>(box.upper.z) * 0.5 - static_cast<double>(box.lower.z) * 0.5};
+    return greater(greater(half.x, half.y), half.z);
+}
+
+template <shape_view Shapes>
+struct measure_shape {
+    Shapes shapes;
+    ABUT_HD auto operator()(std::size_t i) const {
+        const auto box = bounds(shapes[i]);
+        return extent_sum<typename Shapes::scalar_type>{box, half_longest_side(box)};
+    }
+};
+
+struct add_extents {
+    template <class T>
+    ABUT_HD extent_sum<T> operator()(const extent_sum<T>& a, const extent_sum<T>& b) const {
+        return {merge(a.box, b.box), a.half_sides + b.half_sides};
+    }
+};
+
+template <class T>
+struct set_frame {
+    const extent_sum<T>* sum;
+    grid_frame<T>* frame;
+    double count, cell_width;
+
+    ABUT_HD void operator()(std::size_t) const {
+        constexpr double cells = 1 << grid_frame<T>::axis_bits;
+        constexpr double tiny = 4 * smallest_normal<double>;
+        const double half_extent = half_longest_side(sum->box);
+        double half_width = cell_width > 0 ? cell_width / 2 : 2 * (sum->half_sides / count);
+        if (!(half_width <= half_extent)) half_width = half_extent;  // also where the sum has overflowed
+        half_width = greater(greater(half_width, half_extent / cells), tiny);
+        *frame = {sum->box, 1 / half_width, 0};
+    }
+};
+
+/// Finds or claims the slot of each shape's cell and counts the shapes in it.
+template <shape_view Shapes>
+struct count_in_cells {
+    using T = typename Shapes::scalar_type;
+    using view = grid_view<T, host_space>;
+    Shapes shapes;
+    grid_frame<T>* frame;
+    std::uint64_t* keys;
+    std::uint64_t slots;
+    std::uint32_t* counts;
+    std::uint64_t* place;  // slot and rank within it, for each shape
+
+    ABUT_HD void operator()(std::size_t i) const {
+        const aabb<T> box = bounds(shapes[i]);
+        const vec3<std::int32_t> first = frame->cell(box.lower), last = frame->cell(box.upper);
+        const int level = grid_frame<T>::level(first, last);
+        const std::uint64_t key = grid_frame<T>::key(level, {first.x >> level, first.y >> level, first.z >> level});
+        std::uint64_t slot = view::first_slot(key, slots);
+        for (;; slot = (slot + 1) & (slots - 1)) {
+            const std::uint64_t found = execution::atomic_compare_exchange(&keys[slot], view::no_key, key);
+            if (found == view::no_key || found == key) break;
+        }
+        if (const std::uint32_t bit = 1u << level; (execution::atomic_load(&frame->levels_in_use) & bit) == 0) {
+            execution::atomic_or(&frame->levels_in_use, bit);
+        }
+        place[i] = slot << 32 | execution::atomic_add(&counts[slot], 1u);
+    }
+};
+
+template <shape_view Shapes>
+struct put_in_cells {
+    using T = typename Shapes::scalar_type;
+    Shapes shapes;
+    const std::uint32_t* starts;
+    const std::uint64_t* place;
+    grid_item<T>* items;
+
+    ABUT_HD void operator()(std::size_t i) const {
+        const auto rank = static_cast<std::uint32_t>(place[i]);
+        items[starts[place[i] >> 32] + rank] = {bounds(shapes[i]), static_cast<std::uint32_t>(i)};
+    }
+};
+
+}  // namespace detail
+
+/// Builds a grid over the shapes of `set` in the policy's memory: a set in host memory is copied there first under cuda. A
+/// view over the caller's arrays is checked and has to outlive the grid. On CUDA the build may still be running when the
+/// call returns; queries on the same stream wait for it. Memory: 24 to 48 bytes a shape for the table, and a box and an id.
+/// Throws invalid_geometry (views only), error (a cell width that is negative or not a number), std::bad_alloc, cuda_error.
+template <execution_policy Policy, class Set>
+[[nodiscard]] auto make_grid(const Policy& on, const Set& set, const grid_options& options = {}) {
+    if (!(options.cell_width >= 0)) {
+        throw error("abut::make_grid: cell_width is " + detail::shortest(options.cell_width) + "; expected 0 or more");
+    }
+    auto resident = detail::make_resident(on, set, "abut::make_grid");
+    using grid_type = grid<decltype(resident), space_of<Policy>>;
+    using T = typename grid_type::scalar_type;
+    const auto shapes = detail::view_of(resident);
+    using shapes_type = std::remove_const_t<decltype(shapes)>;
+    const std::size_t n = shapes.size();
+    auto cells = std::make_shared<typename grid_type::storage>();
+    if (n > 0) {
+        std::size_t slots = 2;
+        while (slots < 2 * n) slots *= 2;
+        cells->frame = execution::buffer_of<Policy, grid_frame<T>>(on, 1);
+        cells->keys = execution::buffer_of<Policy, std::uint64_t>(on, slots);
+        cells->starts = execution::buffer_of<Policy, std::uint32_t>(on, slots + 1);
+        cells->items = execution::buffer_of<Policy, grid_item<T>>(on, n);
+        execution::buffer_of<Policy, detail::extent_sum<T>> sum(on, 1);
+        execution::buffer_of<Policy, std::uint64_t> place(on, n);
+        reduce_into(on, n, sum.data(), detail::extent_sum<T>{empty_box<T>(), 0.0}, detail::add_extents{},
+                    detail::measure_shape<shapes_type>{shapes});
+        for_each_index(on, 1, detail::set_frame<T>{sum.data(), cells->frame.data(), static_cast<double>(n), options.cell_width});
+        fill(on, cells->keys.data(), slots, grid_type::view_type::no_key);
+        fill(on, cells->starts.data(), slots, std::uint32_t{0});
+        for_each_index(on, n, detail::count_in_cells<shapes_type>{shapes, cells->frame.data(), cells->keys.data(), slots,
+                                                                  cells->starts.data(), place.data()});
+        exclusive_scan(on, cells->starts.data(), slots);
+        for_each_index(on, n, detail::put_in_cells<shapes_type>{shapes, cells->starts.data(), place.data(), cells->items.data()});
+    }
+    return grid_type(std::move(resident), std::move(cells));
+}
+
+/// The same with a cell width alone.
+template <execution_policy Policy, class Set>
+[[nodiscard]] auto make_grid(const Policy& on, const Set& set, double cell_width) {
+    return make_grid(on, set, grid_options{cell_width});
+}
+
+}  // namespace abut

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Brings a set to where a policy works: what every index and query does first with its arguments.
+
+#include <concepts>
+#include <string>
+
+#include <abut/error.hpp>
+#include <abut/execution/policy.hpp>
+#include <abut/shape/check.hpp>
+#include <abut/shape/set.hpp>
+
+namespace abut::detail {
+
+template <class X>
+inline constexpr bool is_shape = false;
+template <template <class> class Shape, scalar T>
+inline constexpr bool is_shape<Shape<T>> = std::same_as<Shape<T>, triangle<T>> || std::same_as<Shape<T>, sphere<T>>;
+
+/// An owner, a view, or one shape.
+template <class X>
+concept set_like = shape_set<X> || shape_view<X> || is_shape<X>;
+
+/// `set` in the policy's memory: an owner that lies there already is shared, one in host memory is copied under cuda; a view
+/// is checked and stays where it is; one shape is checked and becomes a view that carries it.
+template <execution_policy Policy, class Set>
+auto make_resident(const Policy& on, const Set& set, const char* function) {
+    static_assert(set_like<Set>,
+                  "abut: expected mesh, triangle_soup, spheres, equal_spheres, a view of one of them, a triangle or a sphere");
+    if constexpr (is_shape<Set>) {
+        const single_view<Set, space_of<Policy>> view{set};
+        check(on, view, function);
+        return view;
+    } else {
+        using space = typename Set::memory_space;
+        static_assert(std::same_as<space, space_of<Policy>> || std::same_as<space, host_space>,
+                      "abut: a host policy cannot read a set in device memory; copy_to(policy, set) brings it over");
+        if constexpr (shape_view<Set>) {
+            static_assert(std::same_as<space, space_of<Policy>>,
+                          "abut: this view is over host memory and the policy works elsewhere; make a set of it first");
+            check(on, set, function);
+            return set;
+        } else if constexpr (std::same_as<space, space_of<Policy>>) {
+            if (set.size() > 0 && set.device() != device_of(on)) {
+                throw error(std::string(function) + ": the set lies on device " + std::to_string(set.device()) +
+                            ", the policy works on device " + std::to_string(device_of(on)));
+            }
+            return set;
+        } else {
+            return set.copied_to(on);
+        }
+    }
+}
+
+template <class Resident>
+auto view_of(const Resident& set) {
+    if constexpr (shape_view<Resident>) {
+        return set;
+    } else {
+        return set.view();
+    }
+}
+
+}  // namespace abut::detail

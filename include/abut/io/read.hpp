@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Files into sets: a mesh from OBJ or PLY, spheres from CSV. Formats and exact rules: docs/files.md. The parsers beneath
+// work on text and bytes in memory (obj.hpp, ply.hpp, csv.hpp).
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include <abut/io/csv.hpp>
+#include <abut/io/error.hpp>
+#include <abut/io/file.hpp>
+#include <abut/io/mesh_data.hpp>
+#include <abut/io/obj.hpp>
+#include <abut/io/ply.hpp>
+#include <abut/shape/set.hpp>
+
+namespace abut::io {
+
+/// Vertices and faces of the file, by its extension (.obj or .ply, in any case), as plain vectors: for those who want to
+/// change them before they make a set. Throws io_error for another extension, for a file that cannot be read, and for one
+/// that is malformed or truncated; std::bad_alloc.
+template <scalar T>
+mesh_data<T> read_mesh_data(const std::filesystem::path& path) {
+    const std::string extension = detail::plain_name(path.extension().string());
+    const bool is_obj = extension == ".obj";
+    if (!is_obj && extension != ".ply") {
+        throw io_error(path.string(), "expected a file name that ends with .obj or .ply");
+    }
+    const std::vector<char> bytes = detail::read_file(path);
+    const std::string_view data(bytes.data(), bytes.size());
+    return is_obj ? parse_obj<T>(data, path.string()) : parse_ply<T>(data, path.string());
+}
+
+/// The mesh in a file: OBJ or PLY, by its extension. Polygons become triangles; vertices and triangles are in the file's
+/// order, vertices that no triangle uses included. Throws as `read_mesh_data` does, and what the constructor of `mesh`
+/// throws (capacity_error for 2^31 elements or more).
+///
+///     const auto mesh = abut::io::read_mesh<float>("part.obj");
+template <scalar T>
+mesh<T> read_mesh(const std::filesystem::path& path) {
+    const mesh_data<T> data = read_mesh_data<T>(path);
+    return mesh<T>{data.vertices, data.faces};
+}
+
+/// The spheres in a CSV file with the columns x,y,z,r, with or without a header line. Throws io_error for a file that
+/// cannot be read and for one that is malformed (three columns included: see `read_equal_spheres`), and what the
+/// constructor of `spheres` throws.
+///
+///     const auto grains = abut::io::read_spheres<float>("grains.csv");
+template <scalar T>
+spheres<T> read_spheres(const std::filesystem::path& path) {
+    const std::vector<char> text = detail::read_file(path);
+    return spheres<T>{parse_spheres<T>({text.data(), text.size()}, path.string())};
+}
+
+/// Spheres of one radius whose centers are in a CSV file with the columns x,y,z, with or without a header line. Throws
+/// io_error as `read_spheres` does (four columns included), and what the constructor of `equal_spheres` throws
+/// (invalid_geometry for a radius that is negative or not finite).
+///
+///     const auto drops = abut::io::read_equal_spheres<double>("centers.csv", 3.0);
+template <scalar T>
+equal_spheres<T> read_equal_spheres(const std::filesystem::path& path, std::type_identity_t<T> radius) {
+    const std::vector<char> text = detail::read_file(path);
+    return equal_spheres<T>{parse_centers<T>({text.data(), text.size()}, path.string()), radius};
+}
+
+}  // namespace abut::io

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Does a solid sphere touch a triangle? And, with radius 0, does a point lie on it?
+
+#include <abut/arithmetic/arithmetic.hpp>
+#include <abut/arithmetic/exact_stages.hpp>
+#include <abut/predicate/certified_ball.hpp>
+#include <abut/predicate/exact_ball.hpp>
+#include <abut/shape/primitive.hpp>
+
+namespace abut {
+
+/// One stage of the decision. `fast` always answers, in the input's own type and without a promise; `filtered` answers
+/// where its error bound allows; `exact` leaves `unknown` only spans of exponents beyond 124 bits. No stack to speak of.
+template <arithmetic A, scalar T>
+ABUT_HD constexpr verdict decide(const sphere<T>& s, const triangle<T>& t) {
+    if constexpr (std::same_as<A, exact>) {
+        const T value[] = {s.center.x, s.center.y, s.center.z, t.a.x, t.a.y, t.a.z, t.b.x,
+                           t.b.y, t.b.z, t.c.x, t.c.y, t.c.z, s.radius};
+        return decide_in_limbs<detail::ball_meets_triangle>(value);
+    } else if constexpr (std::same_as<A, filtered>) {
+        return detail::certified(s.center, s.radius, t.a, t.b, t.c);
+    } else {
+        return to_verdict(detail::approximate(s.radius, t.a - s.center, t.b - s.center, t.c - s.center));
+    }
+}
+
+/// The last stage: decides every finite input, slowly and with a stack frame that docs/numerics.md states.
+template <scalar T>
+ABUT_NOINLINE ABUT_HD constexpr bool resolve(const sphere<T>& s, const triangle<T>& t) {
+    const T value[] = {s.center.x, s.center.y, s.center.z, t.a.x, t.a.y, t.a.z, t.b.x,
+                       t.b.y, t.b.z, t.c.x, t.c.y, t.c.z, s.radius};
+    return decide_at_any_span<detail::ball_meets_triangle>(value);
+}
+
+/// A point is a sphere of radius 0.
+template <arithmetic A, scalar T>
+ABUT_HD constexpr verdict decide(const vec3<T>& p, const triangle<T>& t) {
+    return decide<A>(sphere<T>{p, T(0)}, t);
+}
+
+template <scalar T>
+ABUT_HD constexpr bool resolve(const vec3<T>& p, const triangle<T>& t) {
+    return resolve(sphere<T>{p, T(0)}, t);
+}
+
+}  // namespace abut

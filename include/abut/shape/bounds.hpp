@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Axis-aligned boxes around shapes. No box is ever too small: where arithmetic rounds, it rounds outward.
+
+#include <abut/arithmetic/error_free.hpp>
+#include <abut/arithmetic/limits.hpp>
+#include <abut/shape/primitive.hpp>
+
+namespace abut {
+
+namespace detail {
+
+template <class T>
+ABUT_HD constexpr T lesser(T a, T b) {
+    return b < a ? b : a;
+}
+template <class T>
+ABUT_HD constexpr T greater(T a, T b) {
+    return a < b ? b : a;
+}
+template <class T>
+ABUT_HD constexpr vec3<T> lesser(const vec3<T>& a, const vec3<T>& b) {
+    return {lesser(a.x, b.x), lesser(a.y, b.y), lesser(a.z, b.z)};
+}
+template <class T>
+ABUT_HD constexpr vec3<T> greater(const vec3<T>& a, const vec3<T>& b) {
+    return {greater(a.x, b.x), greater(a.y, b.y), greater(a.z, b.z)};
+}
+
+}  // namespace detail
+
+/// The box that every box contains: merging it in changes nothing, and nothing overlaps it.
+template <scalar T>
+ABUT_HD constexpr aabb<T> empty_box() {
+    constexpr T far = infinity<T>;
+    return {{far, far, far}, {-far, -far, -far}};
+}
+
+/// The smallest box around both. Exact.
+template <scalar T>
+ABUT_HD constexpr aabb<T> merge(const aabb<T>& a, const aabb<T>& b) {
+    return {detail::lesser(a.lower, b.lower), detail::greater(a.upper, b.upper)};
+}
+
+/// Whether the closed boxes share a point. Exact.
+template <scalar T>
+ABUT_HD constexpr bool overlaps(const aabb<T>& a, const aabb<T>& b) {
+    return a.lower.x <= b.upper.x && b.lower.x <= a.upper.x && a.lower.y <= b.upper.y && b.lower.y <= a.upper.y &&
+           a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;
+}
+
+/// Whether `inner` lies in `outer`. Exact.
+template <scalar T>
+ABUT_HD constexpr bool contains(const aabb<T>& outer, const aabb<T>& inner) {
+    return outer.lower.x <= inner.lower.x && inner.upper.x <= outer.upper.x && outer.lower.y <= inner.lower.y &&
+           inner.upper.y <= outer.upper.y && outer.lower.z <= inner.lower.z && inner.upper.z <= outer.upper.z;
+}
+
+/// The smallest box around a triangle. Exact.
+template <scalar T>
+ABUT_HD constexpr aabb<T> bounds(const triangle<T>& t) {
+    return {detail::lesser(detail::lesser(t.a, t.b), t.c), detail::greater(detail::greater(t.a, t.b), t.c)};
+}
+
+/// The smallest representable box around a sphere: faces round outward, to infinity where no number is large enough.
+template <scalar T>
+ABUT_HD constexpr aabb<T> bounds(const sphere<T>& s) {
+    const T r = s.radius;
+    return {{sub_down(s.center.x, r), sub_down(s.center.y, r), sub_down(s.center.z, r)},
+            {add_up(s.center.x, r), add_up(s.center.y, r), add_up(s.center.z, r)}};
+}
+
+}  // namespace abut

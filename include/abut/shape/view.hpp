@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Views: how algorithms read sets of shapes. A view is a few pointers and sizes, trivially copyable into a kernel; it owns
+// nothing and checks nothing. Views over the caller's own arrays, strides included, are made here too; queries and indices
+// check those when they get them.
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include <abut/execution/policy.hpp>
+#include <abut/shape/primitive.hpp>
+
+namespace abut {
+
+/// Three vertex indices.
+using face = std::array<std::uint32_t, 3>;
+
+/// A view: `size()` shapes, `view[i]` returns shape i by value; both may run wherever its memory can be read.
+template <class V>
+concept shape_view = std::is_trivially_copyable_v<V> && memory_space<typename V::memory_space> && requires(const V& v) {
+    typename V::scalar_type;
+    typename V::shape_type;
+    { v.size() } -> std::convertible_to<std::size_t>;
+    { v[std::size_t{}] } -> std::same_as<typename V::shape_type>;
+};
+
+namespace detail {
+
+/// `count` elements of type T, `stride` bytes apart.
+template <class T>
+struct strided {
+    const std::byte* data = nullptr;
+    std::size_t count = 0;
+    std::size_t stride = sizeof(T);
+
+    strided() = default;
+    ABUT_HD strided(const T* first, std::size_t n, std::size_t step = sizeof(T))
+        : data(reinterpret_cast<const std::byte*>(first)), count(n), stride(step) {}
+    ABUT_HD const T& operator[](std::size_t i) const { return *reinterpret_cast<const T*>(data + i * stride); }
+};
+
+}  // namespace detail
+
+/// Triangles as faces over shared vertices.
+template <scalar T, memory_space Space = host_space>
+struct mesh_view {
+    using scalar_type = T;
+    using shape_type = triangle<T>;
+    using memory_space = Space;
+
+    detail::strided<vec3<T>> vertices;
+    detail::strided<face> faces;
+
+    mesh_view() = default;
+    /// Over the caller's arrays, which have to outlive every use of the view; strides are in bytes and keep the elements
+    /// aligned.
+    ABUT_HD mesh_view(const vec3<T>* first_vertex, std::size_t vertex_count, const face* first_face, std::size_t face_count,
+                      std::size_t vertex_stride = sizeof(vec3<T>), std::size_t face_stride = sizeof(face))
+        : vertices(first_vertex, vertex_count, vertex_stride), faces(first_face, face_count, face_stride) {}
+
+    [[nodiscard]] ABUT_HD std::size_t size() const { return faces.count; }
+    [[nodiscard]] ABUT_HD triangle<T> operator[](std::size_t i) const {
+        // Not face::operator[]: that is a host function, and this also runs on devices.
+        const auto* const corner = reinterpret_cast<const std::uint32_t*>(faces.data + i * faces.stride);
+        return {vertices[corner[0]], vertices[corner[1]], vertices[corner[2]]};
+    }
+};
+
+/// Triangles that share nothing, three vertices each.
+template <scalar T, memory_space Space = host_space>
+struct triangle_soup_view {
+    using scalar_type = T;
+    using shape_type = triangle<T>;
+    using memory_space = Space;
+
+    detail::strided<triangle<T>> triangles;
+
+    triangle_soup_view() = default;
+    ABUT_HD triangle_soup_view(const triangle<T>* first, std::size_t count, std::size_t stride = sizeof(triangle<T>))
+        : triangles(first, count, stride) {}
+
+    [[nodiscard]] ABUT_HD std::size_t size() const { return triangles.count; }
+    [[nodiscard]] ABUT_HD triangle<T> operator[](std::size_t i) const { return triangles[i]; }
+};
+
+/// Spheres, each with its own radius.
+template <scalar T, memory_space Space = host_space>
+struct spheres_view {
+    using scalar_type = T;
+    using shape_type = sphere<T>;
+    using memory_space = Space;
+
+    detail::strided<sphere<T>> spheres;
+
+    spheres_view() = default;
+    ABUT_HD spheres_view(const sphere<T>* first, std::size_t count, std::size_t stride = sizeof(sphere<T>))
+        : spheres(first, count, stride) {}
+
+    [[nodiscard]] ABUT_HD std::size_t size() const { return spheres.count; }
+    [[nodiscard]] ABUT_HD sphere<T> operator[](std::size_t i) const { return spheres[i]; }
+};
+
+/// Spheres of one radius, which is stored once.
+template <scalar T, memory_space Space = host_space>
+struct equal_spheres_view {
+    using scalar_type = T;
+    using shape_type = sphere<T>;
+    using memory_space = Space;
+
+    detail::strided<vec3<T>> centers;
+    T radius = 0;
+
+    equal_spheres_view() = default;
+    ABUT_HD equal_spheres_view(const vec3<T>* first_center, std::size_t count, T radius_of_all,
+                               std::size_t stride = sizeof(vec3<T>))
+        : centers(first_center, count, stride), radius(radius_of_all) {}
+
+    [[nodiscard]] ABUT_HD std::size_t size() const { return centers.count; }
+    [[nodiscard]] ABUT_HD sphere<T> operator[](std::size_t i) const { return {centers[i], radius}; }
+};
+
+/// One shape, which the view carries: a set of one in any memory.
+template <class Shape, memory_space Space = host_space>
+struct single_view;
+
+template <template <class> class Shape, scalar T, memory_space Space>
+struct single_view<Shape<T>, Space> {
+    using scalar_type = T;
+    using shape_type = Shape<T>;
+    using memory_space = Space;
+
+    Shape<T> shape;
+
+    [[nodiscard]] ABUT_HD std::size_t size() const { return 1; }
+    [[nodiscard]] ABUT_HD Shape<T> operator[](std::size_t) const { return shape; }
+};
+
+}  // namespace abut

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Catch2, whichever of its two generations the machine has (Debian 12: version 2; Ubuntu 24.04: version 3), and a way to
+// skip a case that version 2 lacks.
+
+#if __has_include(<catch2/catch_test_macros.hpp>)
+#include <catch2/catch_approx.hpp>
+#include <catch2/catch_template_test_macros.hpp>
+#include <catch2/catch_test_macros.hpp>
+#include <catch2/generators/catch_generators_all.hpp>
+#include <catch2/matchers/catch_matchers_all.hpp>
+using Catch::Approx;
+#else
+#include <catch2/catch.hpp>
+#endif
+
+#include <cstdio>
+
+/// Leaves a test case (at its top level, before any assertion); ctest reports it as skipped, with the reason in its log.
+#define ABUT_SKIP(reason)                        \
+    do {                                         \
+        std::printf("abut skips: %s\n", reason); \
+        std::fflush(stdout);                     \
+        return;                                  \
+    } while (false)
