@@ -80,7 +80,12 @@ if [ $asan = all ]; then layers=''; fi
 
 build_tree gcc default -DCMAKE_CXX_COMPILER=g++ -DABUT_CUDA=$cuda -DABUT_HEADER_COMPILERS="$compilers" -DABUT_BENCH=$bench_option
 build_tree asan asan -DCMAKE_CXX_COMPILER=g++ -DABUT_EXAMPLES=OFF -DABUT_TEST_PREFIX='asan/' -DABUT_TEST_LAYERS="$layers"
-if [ $clang = yes ]; then build_tree clang clang -DABUT_TEST_PREFIX='clang/'; fi
+if [ $clang = yes ]; then
+    # --headers has checked them with clang already.
+    header_compilers=$(command -v clang++)
+    if [ $headers = yes ]; then header_compilers=''; fi
+    build_tree clang clang -DABUT_TEST_PREFIX='clang/' -DABUT_HEADER_COMPILERS="$header_compilers"
+fi
 if [ $tsan = yes ]; then
     build_tree tsan tsan -DABUT_EXAMPLES=OFF -DABUT_TEST_PREFIX='tsan/' -DABUT_TEST_LAYERS='execution;shape;index;collide'
 fi

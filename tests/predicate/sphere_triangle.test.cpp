@@ -21,9 +21,9 @@ using namespace abut;
 using test::family;
 
 struct tally {
-    std::uint64_t pairs = 0, hits = 0, missed = 0, phantom = 0;            // missed and phantom: of `fast`
-    std::uint64_t filter = 0, one_limb = 0, two_limbs = 0, any_span = 0;   // which stage decided
-    std::uint64_t wrong = 0;                                               // of any stage but `fast`, and of `intersects`
+    std::uint64_t pairs = 0, hits = 0, missed = 0, phantom = 0;           // missed and phantom: of `fast`
+    std::uint64_t filter = 0, one_limb = 0, two_limbs = 0, any_span = 0;  // which stage decided
+    std::uint64_t wrong = 0;                                              // of any stage but `fast`, and of `intersects`
 
     tally& operator+=(const tally& o) {
         pairs += o.pairs, hits += o.hits, missed += o.missed, phantom += o.phantom;
@@ -38,7 +38,7 @@ void examine(const test::sphere_triangle_pair<T>& p, std::uint64_t index, tally&
     const bool truth = test::oracle::intersects(s, t);
     const bool quick = intersects<fast>(s, t);
     const verdict by_filter = decide<filtered>(s, t), by_limbs = decide<exact>(s, t);
-    const T values[] = {s.center.x, s.center.y, s.center.z, t.a.x, t.a.y, t.a.z, t.b.x,
+    const T values[] = {s.center.x, s.center.y, s.center.z, t.a.x, t.a.y, t.a.z,   t.b.x,
                         t.b.y,      t.b.z,      t.c.x,      t.c.y, t.c.z, s.radius};
     const int width = aligned<13>(values).width();
 
@@ -61,7 +61,8 @@ void examine(const test::sphere_triangle_pair<T>& p, std::uint64_t index, tally&
     // The last stage is a hundred times slower than the others: all pairs that need it, and some that do not.
     if (by_limbs == verdict::unknown || index % 16 == 0) wrong = wrong || resolve(s, t) != truth;
     // The narrow stage must agree with the wide one where both may run.
-    if (width <= 60 && index % 4 == 0) wrong = wrong || holds_in_limbs<detail::ball_meets_triangle, 2>(aligned<13>(values)) != truth;
+    if (width <= 60 && index % 4 == 0)
+        wrong = wrong || holds_in_limbs<detail::ball_meets_triangle, 2>(aligned<13>(values)) != truth;
     sum.wrong += wrong;
 }
 
@@ -72,7 +73,9 @@ tally examine_family(family f) {
     });
 }
 
-double percent(std::uint64_t part, std::uint64_t whole) { return 100.0 * static_cast<double>(part) / static_cast<double>(whole); }
+double percent(std::uint64_t part, std::uint64_t whole) {
+    return 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+}
 double per_million(std::uint64_t part, std::uint64_t whole) { return 1e4 * percent(part, whole); }
 
 void print_row(std::FILE* out, const char* name, const char* type, const tally& t) {
@@ -84,8 +87,9 @@ void print_row(std::FILE* out, const char* name, const char* type, const tally& 
 }
 
 void print_head(std::FILE* out) {
-    std::fprintf(out, "Sphere against triangle, seed %llu; fast: missed / phantom per million; then the share of pairs that each "
-                      "stage decides (%%)\n\n",
+    std::fprintf(out,
+                 "Sphere against triangle, seed %llu; fast: missed / phantom per million; then the share of pairs that each "
+                 "stage decides (%%)\n\n",
                  static_cast<unsigned long long>(test::seed));
     std::fprintf(out, "| family | scalar | pairs | hits %% | fast | filter | 1 limb | 2 limbs | any span | wrong |\n");
     std::fprintf(out, "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Families of sphere-triangle pairs, each built to break something (docs/numerics.md says what). A pair is a pure function of
-// (seed, family, index), on hosts and devices alike and bit for bit: the generator counts instead of keeping a state, every sum
-// of products is an explicit fma, and nothing but + - * / sqrt fma is used.
+// Families of sphere-triangle pairs, each built to break something (docs/numerics.md says what). A pair is a pure function
+// of (seed, family, index), on hosts and devices alike and bit for bit: the generator counts instead of keeping a state,
+// every sum of products is an explicit fma, and nothing but + - * / sqrt fma is used.
 
 #include <cmath>
 #include <cstdint>
@@ -42,19 +42,20 @@ enum class family : int {
     denormal,
     largest,
     mixed_exponents,
+    any_scale,
     all_bit_patterns,
 };
 
-inline constexpr int family_count = 29;
+inline constexpr int family_count = 30;
 
 /// On the host only.
 inline const char* name_of(family f) {
     constexpr const char* names[family_count] = {
-        "random",         "offset 1e3",     "offset 1e6",   "scaled 1e-30", "scaled 1e-13", "scaled 1e-4",
-        "scaled 1e6",     "scaled 1e13",    "scaled 1e30",  "tangent vertex", "tangent edge", "tangent face",
-        "needle 1e3",     "needle 1e6",     "needle 1e9",   "needle 1e12",  "radius 0",     "radius tiny",
-        "lattice 4",      "lattice 16",     "lattice 256",  "0.1 lattice 4", "0.1 lattice 16", "0.1 lattice 256",
-        "degenerate",     "denormal",       "largest",      "mixed exponents", "all bit patterns"};
+        "random",     "offset 1e3",  "offset 1e6",  "scaled 1e-30",    "scaled 1e-13",   "scaled 1e-4",
+        "scaled 1e6", "scaled 1e13", "scaled 1e30", "tangent vertex",  "tangent edge",   "tangent face",
+        "needle 1e3", "needle 1e6",  "needle 1e9",  "needle 1e12",     "radius 0",       "radius tiny",
+        "lattice 4",  "lattice 16",  "lattice 256", "0.1 lattice 4",   "0.1 lattice 16", "0.1 lattice 256",
+        "degenerate", "denormal",    "largest",     "mixed exponents", "any scale",      "all bit patterns"};
     return names[static_cast<int>(f)];
 }
 
@@ -216,7 +217,7 @@ ABUT_HD pair<T> needle_pair(draws& d, double aspect) {
     const double distance = d.power_of_ten(-4, 0);
     p.s.center = round_to<T>(along(foot, distance, unit(cross_product(edge, cube(d, 1)))));
     const double r = length(cross_product(along(widened(p.s.center), -1, x), edge)) / length(edge);
-    p.s.radius = static_cast<T>(r * std::fma(d.below(2) == 0 ? -1.0 : 1.0, d.power_of_ten(-7, -1), 1));
+    p.s.radius = static_cast<T>(r * std::fma(d.below(2) == 0 ? -1.0 : 1.0, d.power_of_ten(-7, -1), 1.0));
     return p;
 }
 
@@ -232,7 +233,8 @@ ABUT_HD pair<T> point_pair(draws& d) {
     }
     const int u = d.below(5), v = d.below(5 - u);
     double c[3];
-    for (int k = 0; k < 3; ++k) c[k] = (u * x[0][k] + v * x[1][k] + (4 - u - v) * x[2][k]) / 4;  // integers below 2^10: exact
+    for (int k = 0; k < 3; ++k)
+        c[k] = (u * x[0][k] + v * x[1][k] + (4 - u - v) * x[2][k]) / 4;  // integers below 2^10: exact
     p.s = {round_to<T>({c[0], c[1], c[2]}), T(0)};
     T* const coordinate[3] = {&p.s.center.x, &p.s.center.y, &p.s.center.z};
     T& moved = *coordinate[d.below(3)];
@@ -312,8 +314,8 @@ ABUT_HD pair<T> largest_pair(draws& d) {
     return {{{v[9], v[10], v[11]}, r}, {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, {v[6], v[7], v[8]}}};
 }
 
-/// A huge ball that touches the plane z = 0 at the origin, and a triangle whose exponents are spread over all that there are:
-/// half of the time the plane's z decides, half of the time a corner is lifted by little.
+/// A huge ball that touches the plane z = 0 at the origin, and a triangle whose exponents are spread over all that there
+/// are: half of the time the plane's z decides, half of the time a corner is lifted by little.
 template <scalar T>
 ABUT_HD pair<T> mixed_pair(draws& d) {
     pair<T> p;
@@ -333,6 +335,21 @@ ABUT_HD pair<T> mixed_pair(draws& d) {
     return p;
 }
 
+/// Tangent within a step, times a power of two of the whole range; where that underflows, coordinates and radius are
+/// rounded.
+template <scalar T>
+ABUT_HD pair<T> any_scale_pair(draws& d) {
+    pair<T> p = tangent_pair<T>(d, d.below(3));
+    constexpr int reach = sizeof(T) == 4 ? 125 : 1020, fraction = sizeof(T) == 4 ? 23 : 52;
+    const int k = d.below(2 * reach) - reach;
+    const T scale = sizeof(T) == 4 ? static_cast<T>(from_bits(static_cast<std::uint32_t>(127 + k) << fraction % 32))
+                                   : static_cast<T>(from_bits(static_cast<std::uint64_t>(1023 + k) << fraction));
+    vec3<T>* const points[4] = {&p.t.a, &p.t.b, &p.t.c, &p.s.center};
+    for (vec3<T>* v : points) *v = scale * *v;
+    p.s.radius = scale * p.s.radius;
+    return p;
+}
+
 template <scalar T>
 ABUT_HD pair<T> any_pair(draws& d) {
     T v[13];
@@ -349,35 +366,66 @@ ABUT_HD sphere_triangle_pair<T> make_pair(std::uint64_t seed, family f, std::uin
     namespace make = construction;
     draws d(seed, static_cast<std::uint64_t>(f), index);
     switch (f) {
-        case family::random: return make::random_pair<T>(d, 1, 0);
-        case family::offset_1e3: return make::random_pair<T>(d, 1, 1e3);
-        case family::offset_1e6: return make::random_pair<T>(d, 1, 1e6);
-        case family::scaled_1e_minus_30: return make::random_pair<T>(d, 1e-30, 0);
-        case family::scaled_1e_minus_13: return make::random_pair<T>(d, 1e-13, 0);
-        case family::scaled_1e_minus_4: return make::random_pair<T>(d, 1e-4, 0);
-        case family::scaled_1e6: return make::random_pair<T>(d, 1e6, 0);
-        case family::scaled_1e13: return make::random_pair<T>(d, 1e13, 0);
-        case family::scaled_1e30: return make::random_pair<T>(d, 1e30, 0);
-        case family::tangent_vertex: return make::tangent_pair<T>(d, 0);
-        case family::tangent_edge: return make::tangent_pair<T>(d, 1);
-        case family::tangent_face: return make::tangent_pair<T>(d, 2);
-        case family::needle_1e3: return make::needle_pair<T>(d, 1e3);
-        case family::needle_1e6: return make::needle_pair<T>(d, 1e6);
-        case family::needle_1e9: return make::needle_pair<T>(d, 1e9);
-        case family::needle_1e12: return make::needle_pair<T>(d, 1e12);
-        case family::radius_zero: return make::point_pair<T>(d);
-        case family::radius_tiny: return make::tiny_radius_pair<T>(d);
-        case family::lattice_4: return make::lattice_pair<T>(d, 4, false, T(1));
-        case family::lattice_16: return make::lattice_pair<T>(d, 16, false, T(1));
-        case family::lattice_256: return make::lattice_pair<T>(d, 256, false, T(1));
-        case family::tenths_4: return make::lattice_pair<T>(d, 4, false, T(0.1));
-        case family::tenths_16: return make::lattice_pair<T>(d, 16, false, T(0.1));
-        case family::tenths_256: return make::lattice_pair<T>(d, 256, false, T(0.1));
-        case family::degenerate: return make::degenerate_pair<T>(d);
-        case family::denormal: return make::denormal_pair<T>(d);
-        case family::largest: return make::largest_pair<T>(d);
-        case family::mixed_exponents: return make::mixed_pair<T>(d);
-        case family::all_bit_patterns: return make::any_pair<T>(d);
+        case family::random:
+            return make::random_pair<T>(d, 1, 0);
+        case family::offset_1e3:
+            return make::random_pair<T>(d, 1, 1e3);
+        case family::offset_1e6:
+            return make::random_pair<T>(d, 1, 1e6);
+        case family::scaled_1e_minus_30:
+            return make::random_pair<T>(d, 1e-30, 0);
+        case family::scaled_1e_minus_13:
+            return make::random_pair<T>(d, 1e-13, 0);
+        case family::scaled_1e_minus_4:
+            return make::random_pair<T>(d, 1e-4, 0);
+        case family::scaled_1e6:
+            return make::random_pair<T>(d, 1e6, 0);
+        case family::scaled_1e13:
+            return make::random_pair<T>(d, 1e13, 0);
+        case family::scaled_1e30:
+            return make::random_pair<T>(d, 1e30, 0);
+        case family::tangent_vertex:
+            return make::tangent_pair<T>(d, 0);
+        case family::tangent_edge:
+            return make::tangent_pair<T>(d, 1);
+        case family::tangent_face:
+            return make::tangent_pair<T>(d, 2);
+        case family::needle_1e3:
+            return make::needle_pair<T>(d, 1e3);
+        case family::needle_1e6:
+            return make::needle_pair<T>(d, 1e6);
+        case family::needle_1e9:
+            return make::needle_pair<T>(d, 1e9);
+        case family::needle_1e12:
+            return make::needle_pair<T>(d, 1e12);
+        case family::radius_zero:
+            return make::point_pair<T>(d);
+        case family::radius_tiny:
+            return make::tiny_radius_pair<T>(d);
+        case family::lattice_4:
+            return make::lattice_pair<T>(d, 4, false, T(1));
+        case family::lattice_16:
+            return make::lattice_pair<T>(d, 16, false, T(1));
+        case family::lattice_256:
+            return make::lattice_pair<T>(d, 256, false, T(1));
+        case family::tenths_4:
+            return make::lattice_pair<T>(d, 4, false, T(0.1));
+        case family::tenths_16:
+            return make::lattice_pair<T>(d, 16, false, T(0.1));
+        case family::tenths_256:
+            return make::lattice_pair<T>(d, 256, false, T(0.1));
+        case family::degenerate:
+            return make::degenerate_pair<T>(d);
+        case family::denormal:
+            return make::denormal_pair<T>(d);
+        case family::largest:
+            return make::largest_pair<T>(d);
+        case family::mixed_exponents:
+            return make::mixed_pair<T>(d);
+        case family::any_scale:
+            return make::any_scale_pair<T>(d);
+        case family::all_bit_patterns:
+            return make::any_pair<T>(d);
     }
     return {};
 }

@@ -2,8 +2,8 @@
 #pragma once
 
 // The oracle for balls against points, segments and triangles, in unbounded integers. It shares no formula with the library:
-// the squared distance is the minimum of a convex quadratic over the barycentric weights, found by trying the supports of the
-// weights and checking the Karush-Kuhn-Tucker conditions, on the Gram matrix of the corners alone.
+// the squared distance is the minimum of a convex quadratic over the barycentric weights, found by trying the supports of
+// the weights and checking the Karush-Kuhn-Tucker conditions, on the Gram matrix of the corners alone.
 
 #include <cmath>
 #include <cstdint>
@@ -89,7 +89,8 @@ bool ball_and_points(const vec3<T>& center, const std::vector<T>& radii, const s
     values.insert(values.end(), radii.begin(), radii.end());
     const std::vector<integer> v = to_integers(values);
     std::vector<integer_point> w;
-    for (std::size_t i = 1; i <= points.size(); ++i) w.push_back({v[3 * i] - v[0], v[3 * i + 1] - v[1], v[3 * i + 2] - v[2]});
+    for (std::size_t i = 1; i <= points.size(); ++i)
+        w.push_back({v[3 * i] - v[0], v[3 * i + 1] - v[1], v[3 * i + 2] - v[2]});
     integer r = 0;
     for (std::size_t i = 3 * points.size() + 3; i < v.size(); ++i) r += v[i];
     return hull_reaches(w, r * r);

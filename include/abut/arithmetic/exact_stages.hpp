@@ -21,9 +21,10 @@ ABUT_HD constexpr bool holds_in_limbs(const aligned<V>& x) {
     return Predicate::holds(value);
 }
 
-/// The stage in registers: `unknown` only where the exponents span more than 124 bits.
+/// The stage in registers: `unknown` only where the exponents span more than 124 bits. Not inlined: it is rarely reached,
+/// and every kernel that decides would else be compiled with its thousands of instructions once more.
 template <class Predicate, scalar T, int V>
-ABUT_HD constexpr verdict decide_in_limbs(const T (&value)[V]) {
+ABUT_NOINLINE ABUT_HD constexpr verdict decide_in_limbs(const T (&value)[V]) {
     const aligned<V> x(value);
     if (x.width() <= 60) return to_verdict(holds_in_limbs<Predicate, 1>(x));
     if (x.width() <= 124) return to_verdict(holds_in_limbs<Predicate, 2>(x));

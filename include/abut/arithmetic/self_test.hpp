@@ -44,8 +44,9 @@ ABUT_HD inline arithmetic_report self_test_of(T smallest_normal, T ulp) {
     const T up = at_run_time(one + tie), down = at_run_time(-one - tie), past = at_run_time(one + T(1.5) * tie);
     r.round_to_nearest = up == one && down == -one && past == one + ulp;
     // x * x is 1 + 2 e + e^2, with e = 1025 ulp, and rounds to 1 + 2 e; a sum that swallows the product sees e^2 too.
-    const T e = at_run_time(1025 * ulp), x = at_run_time(one + e);
-    const error_free<T> sum = two_sum(x * x, -one), product = two_prod(x, x);
+    // Two copies of x, since a product that is used elsewhere too is not contracted.
+    const T e = at_run_time(1025 * ulp), x = at_run_time(one + e), y = at_run_time(one + e);
+    const error_free<T> sum = two_sum(x * x, -one), product = two_prod(y, y);
     r.error_free = sum.value == 2 * e && sum.error == 0 && product.value == one + 2 * e && product.error == e * e;
     return r;
 }

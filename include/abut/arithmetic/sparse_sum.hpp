@@ -36,8 +36,8 @@ ABUT_NOINLINE ABUT_HD constexpr void copy_terms(const sparse_term<D>* a, int cou
 
 /// Writes the terms of the product, with its sign changed where `negated`.
 template <int D, int E>
-ABUT_NOINLINE ABUT_HD constexpr void multiply_terms(const sparse_term<D>* a, int count_a, const sparse_term<E>* b, int count_b,
-                                                    bool negated, sparse_term<D + E>* r) {
+ABUT_NOINLINE ABUT_HD constexpr void multiply_terms(const sparse_term<D>* a, int count_a, const sparse_term<E>* b,
+                                                    int count_b, bool negated, sparse_term<D + E>* r) {
     for (int i = 0; i < count_a; ++i) {
         const wide_int<D> x = negated ? -a[i].mantissa : a[i].mantissa;
         for (int j = 0; j < count_b; ++j) *r++ = {x * b[j].mantissa, a[i].exponent + b[j].exponent};
@@ -130,7 +130,8 @@ public:
 private:
     using format = detail::float_format<T>;
     // The highest first digit, and behind it the product's own digits and one for the shift.
-    static constexpr int size = Degree * (format::max_exponent - format::min_exponent + format::digits) / 32 + 2 * Degree + 2;
+    static constexpr int size =
+        Degree * (format::max_exponent - format::min_exponent + format::digits) / 32 + 2 * Degree + 2;
 
     template <int D, int E>
     ABUT_NOINLINE ABUT_HD constexpr void add_products(const sparse_term<D>* a, int count_a, const sparse_term<E>* b,

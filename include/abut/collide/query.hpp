@@ -193,13 +193,14 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Y, cl
 
 /// Calls visitor(index_pair) -> visit once for every pair that touches, in no order, concurrently, in the policy's space (so
 /// under cuda it is a trivially copyable functor with an ABUT_HD operator()). `visit::stop` is best effort: pairs in flight
-/// still come. Memory is bounded by options.most_pairs pairs at a time, or by the pairs of one query shape if that has more.
+/// still come. Every pair is found twice, first to count: memory for results is bounded by options.most_pairs pairs at a
+/// time, or by the pairs of one query shape if that has more.
 template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Visitor, class Filter = keep_all>
 void for_each_pair(const Policy& on, const X& a, const Y& b, const Visitor& visitor, const query_options<Filter>& options = {}) {
     const auto body = [&](const detail::pair_key& key, const auto& run, std::size_t n) {
         // Found pairs are gathered first and visited after, since a queue that proves too small is filled anew and a visitor
         // must see each pair once. A range of queries with too many pairs is halved.
-        std::size_t step = n;
+        std::size_t step = std::max<std::size_t>(options.most_pairs / 16, 1);
         for (std::size_t first = 0; first < n;) {
             step = std::min(step, n - first);
             execution::work_count<space_of<Policy>> size(on);

@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -156,9 +155,9 @@ void gather(const cuda& on, const Launch& launch, Queues&... queues) {
     bool complete = false;
     while (!complete) {
         check(cudaMemsetAsync(words.data(), 0, bytes, on.stream), "cudaMemsetAsync");
-        std::uint64_t* word = words.data();
-        // A braced list, unlike arguments, is evaluated in order.
-        std::apply(launch, std::tuple<decltype(queues.make_sink(word))...>{queues.make_sink(word++)...});
+        [&]<std::size_t... K>(std::index_sequence<K...>) {
+            launch(queues.make_sink(words.data() + K)...);
+        }(std::index_sequence_for<Queues...>{});
         check(cudaMemcpyAsync(read, words.data(), bytes, cudaMemcpyDeviceToHost, on.stream), "cudaMemcpyAsync");
         check(cudaStreamSynchronize(on.stream), "cudaStreamSynchronize");
         complete = true;

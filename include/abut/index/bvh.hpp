@@ -9,11 +9,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <abut/execution/buffer.hpp>
 #include <abut/execution/policy.hpp>
 #include <abut/shape/bounds.hpp>
+#include <abut/shape/view.hpp>
 
 namespace abut {
 
@@ -55,6 +59,7 @@ concept bvh_layout =
         { tree.fetch(std::uint32_t{}) } -> std::convertible_to<typename L::node_type>;
         { tree.bounds(tree.fetch(std::uint32_t{}), side) } -> std::convertible_to<aabb<typename L::scalar_type>>;
         { tree.child(tree.fetch(std::uint32_t{}), side) } -> std::same_as<bvh_child>;
+        tree.prefetch(bvh_child{});  // a hint that the child may be fetched soon
     };
 
 /// Root of a tree; lies with the nodes, because a build ends without telling the host.
@@ -81,6 +86,11 @@ struct bvh_view {
     [[nodiscard]] ABUT_HD const node_type& fetch(std::uint32_t node) const { return nodes[node]; }
     [[nodiscard]] ABUT_HD static const aabb<T>& bounds(const node_type& n, int side) { return n.bounds[side]; }
     [[nodiscard]] ABUT_HD static bvh_child child(const node_type& n, int side) { return n.child[side]; }
+    ABUT_HD void prefetch([[maybe_unused]] bvh_child c) const {
+#if !ABUT_DEVICE_CODE
+        if (!c.is_leaf()) __builtin_prefetch(nodes + c.index());
+#endif
+    }
 };
 
 /// Options of make_bvh.
@@ -126,6 +136,40 @@ private:
 /// Checks a tree in host memory: every shape in exactly one leaf, every box around what lies below it and the shape's own
 /// box in its leaf, no leaf deeper than bvh_max_depth. Returns what is wrong, or an empty string. For tests; linear time.
 template <bvh_layout Layout, shape_view Shapes>
-[[nodiscard]] std::string find_flaw(const Layout& tree, const Shapes& shapes);
+[[nodiscard]] std::string find_flaw(const Layout& tree, const Shapes& shapes) {
+    using T = typename Layout::scalar_type;
+    struct entry {
+        bvh_child child;
+        aabb<T> box;
+        int depth;
+    };
+    const std::size_t n = shapes.size();
+    if (tree.size() != n) return "the tree has " + std::to_string(tree.size()) + " shapes, the set " + std::to_string(n);
+    if (n == 0) return {};
+    std::vector<int> seen(n, 0), used(n, 0);
+    std::vector<entry> pending{{tree.root(), tree.root_bounds(), 0}};
+    while (!pending.empty()) {
+        const entry e = pending.back();
+        pending.pop_back();
+        const std::uint32_t i = e.child.index();
+        const std::string name = (e.child.is_leaf() ? "leaf of shape " : "node ") + std::to_string(i);
+        if (e.depth > bvh_max_depth) return name + " is deeper than bvh_max_depth";
+        if (i >= (e.child.is_leaf() ? n : n - 1)) return name + " does not exist";
+        if ((e.child.is_leaf() ? seen : used)[i]++ > 0) return name + " is reached twice";
+        if (e.child.is_leaf()) {
+            if (!contains(e.box, bounds(shapes[i]))) return name + ": the box does not hold the shape";
+            continue;
+        }
+        const typename Layout::node_type node = tree.fetch(i);
+        for (int side = 0; side < 2; ++side) {
+            if (!contains(e.box, aabb<T>(tree.bounds(node, side)))) return name + ": the box does not hold the child's";
+            pending.push_back({tree.child(node, side), tree.bounds(node, side), e.depth + 1});
+        }
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+        if (seen[i] == 0) return "shape " + std::to_string(i) + " is in no leaf";
+    }
+    return {};
+}
 
 }  // namespace abut

@@ -5,32 +5,33 @@
 // the input's type (`fast`), and in double with certificates that are never wrong (`filtered`).
 //
 // Both ask three questions, cheapest first: is a vertex in the ball; does the direction g of the vertices' sum separate ball
-// and hull; and if neither, where is the hull's point q nearest to the centre. The first two leave few pairs of a real scene,
-// and their branches are predictable where the regions of the nearest point are not.
+// and hull; and if neither, where is the hull's point q nearest to the centre. The first two leave few pairs of a real
+// scene, and their branches are predictable where the regions of the nearest point are not.
 //
 // Why the certificates hold. The centre is the origin; v are the true vertices and w the computed ones; u = 2^-52, so that
 // every bound holds in each rounding mode, with and without contraction; M = max |v|. Differences of inputs round once:
 // |w - v| <= u |v|. Nothing trusts that g or q is where it should be.
 //
-// Apart. Of all the hull, a vertex has the smallest g . x, so the distance is at least min g . v / |g|, for any g. A computed
-// g . w is within 6u |g| M of g . v. With m the least of them, the shapes are apart where m > (r + 6uM) |g|; and
-// (r + 6uM)^2 <= (1 + 2^-30) r^2 + 2^-68 M^2, by (x + y)^2 <= (1 + e) x^2 + (1 + 1/e) y^2. The code takes 2^-29 and 2^-66,
-// which pays for rounding both sides of m^2 > reach g . g as well (some 16u).
+// Apart. Of all the hull, a vertex has the smallest g . x, so the distance is at least min g . v / |g|, for any g. A
+// computed g . w is within 6u |g| M of g . v. With m the least of them, the shapes are apart where m > (r + 6uM) |g|, and
+//     (r + 6uM)^2 <= (1 + 2^-30) r^2 + 2^-68 M^2    by (x + y)^2 <= (1 + e) x^2 + (1 + 1/e) y^2.
+// The code takes 2^-29 and 2^-66, which pays for rounding both sides of m^2 > reach g . g as well (some 16u).
 //
-// Touching. A vertex with |w|^2 <= r^2 up to some 16u; the code takes 2^-40. And q is a combination of the w whose weights, as
-// they stand in their registers, are >= 0 and sum to 1 within 4u. Rounding the edges (2uM), the products (2uM), the sums (2uM),
-// the points (uM) and the sum of the weights (8uM) leaves q within 16uM of the hull, which has a point x with
-// |x|^2 <= (|q| + 16uM)^2 <= (1 + 2^-31) |q|^2 + 2^-65 (1 + 2^-31) M^2. The code takes 2^-29 and 2^-64.
+// Touching. A vertex with |w|^2 <= r^2 up to some 16u; the code takes 2^-40. And q is a combination of the w whose weights,
+// as they stand in their registers, are >= 0 and sum to 1 within 4u. Rounding the edges (2uM), the products (2uM), the sums
+// (2uM), the points (uM) and the sum of the weights (8uM) leaves q within 16uM of the hull, which so has a point x with
+//     |x|^2 <= (|q| + 16uM)^2 <= (1 + 2^-31) |q|^2 + 2^-65 (1 + 2^-31) M^2.
+// The code takes 2^-29 and 2^-64.
 //
 // So pairs that are not within 2^-30 of tangency are decided, unless the shape is larger than the radius by many orders of
 // magnitude: the terms in M^2 amount to 2^-33 M in length, and how well q separates falls with (M / |q|)^2. The normal of a
 // face does not suffer from that and is tried last.
 //
 // Overflow cannot happen for float input; double input beyond 2^240 is left undecided, so that no product of degree 6 (the
-// normal's) reaches infinity but to make a comparison false. Underflow: what a product, or a number flushed to zero, loses is
-// below 2^-1020, and a float flushed before it becomes a double (some compilers and modes do) is off by less than 2^-126, its
-// square with the factor 1 + 1/e by less than 2^-219; `tiny` is more. Where m^2 > 2^-1000, what m lost does not matter. NaN
-// makes every comparison false.
+// normal's) reaches infinity but to make a comparison false. Underflow: what a product, or a number flushed to zero, loses
+// is below 2^-1020, and a float flushed before it becomes a double (some compilers and modes do) is off by less than 2^-126,
+// its square with the factor 1 + 1/e by less than 2^-219; `tiny` is more. Where m^2 > 2^-1000, what m lost does not matter.
+// NaN makes every comparison false.
 
 #include <abut/arithmetic/arithmetic.hpp>
 #include <abut/arithmetic/error_free.hpp>
@@ -76,8 +77,8 @@ ABUT_HD constexpr vec3<F> nearest_to_origin(const vec3<F>& a, const vec3<F>& b) 
 }
 
 /// and of a triangle, by regions: C. Ericson, Real-Time Collision Detection (2005), 5.1.5. Comparisons are strict where a
-/// degenerate edge would divide zero by zero. Each weight is a quotient of a number by a sum that contains it, of numbers that
-/// are not negative: so the weights are convex, however wrong their numbers.
+/// degenerate edge would divide zero by zero. Each weight is a quotient of a number by a sum that contains it, of numbers
+/// that are not negative: so the weights are convex, however wrong their numbers.
 template <scalar F>
 ABUT_HD constexpr vec3<F> nearest_to_origin(const vec3<F>& a, const vec3<F>& b, const vec3<F>& c) {
     const vec3<F> ab = b - a, ac = c - a;

@@ -32,13 +32,15 @@ ABUT_HD constexpr bool edge_in_ball(const vec3<N>& p, const vec3<N>& q, const ve
 /// Degree 6: the foot on the plane has three positive barycentric coordinates n . (p x q) / n . n, and
 /// |p . (q x s)| <= r |n|.
 template <class N, class M, class R>
-ABUT_HD constexpr bool face_in_ball(const vec3<N>& p, const vec3<N>& q, const vec3<N>& s, const vec3<M>& normal, const R& r) {
+ABUT_HD constexpr bool face_in_ball(const vec3<N>& p, const vec3<N>& q, const vec3<N>& s, const vec3<M>& normal,
+                                    const R& r) {
     const auto qs = cross(q, s);
     return sign_of_dot(normal, qs) > 0 && sign_of_dot(normal, cross(s, p)) > 0 && sign_of_dot(normal, cross(p, q)) > 0 &&
            squares_at_most(dot(p, qs), scale(r, normal));
 }
 
-/// How the values of a question lie in an array of any number type: the centre's coordinates, those of the points, the radius.
+/// How the values of a question lie in an array of any number type: the centre's coordinates, those of the points, the
+/// radius.
 template <class N, int V>
 ABUT_HD constexpr vec3<N> point_at(const N (&value)[V], int i) {
     return {value[3 * i], value[3 * i + 1], value[3 * i + 2]};

@@ -54,7 +54,8 @@ template <arithmetic A = filtered, class S, class U>
     } else if constexpr (decidable_pair<U, S>) {
         return intersects<A>(t, s);
     } else {
-        static_assert(decidable_pair<S, U>, "abut::intersects does not support this pair of shapes (both of one scalar type)");
+        static_assert(decidable_pair<S, U>,
+                      "abut::intersects does not support this pair of shapes (both of one scalar type)");
         return false;
     }
 }

@@ -15,8 +15,7 @@ namespace abut {
 template <arithmetic A, scalar T>
 ABUT_HD constexpr verdict decide(const sphere<T>& s, const segment<T>& t) {
     if constexpr (std::same_as<A, exact>) {
-        const T value[] = {s.center.x, s.center.y, s.center.z, t.a.x, t.a.y,
-                           t.a.z, t.b.x, t.b.y, t.b.z, s.radius};
+        const T value[] = {s.center.x, s.center.y, s.center.z, t.a.x, t.a.y, t.a.z, t.b.x, t.b.y, t.b.z, s.radius};
         return decide_in_limbs<detail::ball_meets_segment>(value);
     } else if constexpr (std::same_as<A, filtered>) {
         return detail::certified(s.center, s.radius, t.a, t.b);
@@ -28,8 +27,7 @@ ABUT_HD constexpr verdict decide(const sphere<T>& s, const segment<T>& t) {
 /// The last stage: decides every finite input.
 template <scalar T>
 ABUT_NOINLINE ABUT_HD constexpr bool resolve(const sphere<T>& s, const segment<T>& t) {
-    const T value[] = {s.center.x, s.center.y, s.center.z, t.a.x, t.a.y,
-                           t.a.z, t.b.x, t.b.y, t.b.z, s.radius};
+    const T value[] = {s.center.x, s.center.y, s.center.z, t.a.x, t.a.y, t.a.z, t.b.x, t.b.y, t.b.z, s.radius};
     return decide_at_any_span<detail::ball_meets_segment>(value);
 }
 

@@ -16,8 +16,7 @@ namespace abut {
 template <arithmetic A, scalar T>
 ABUT_HD constexpr verdict decide(const sphere<T>& s, const sphere<T>& t) {
     if constexpr (std::same_as<A, exact>) {
-        const T value[] = {s.center.x, s.center.y, s.center.z, t.center.x,
-                           t.center.y, t.center.z, s.radius, t.radius};
+        const T value[] = {s.center.x, s.center.y, s.center.z, t.center.x, t.center.y, t.center.z, s.radius, t.radius};
         return decide_in_limbs<detail::ball_meets_ball>(value);
     } else if constexpr (std::same_as<A, filtered>) {
         const double radii = detail::rounded(static_cast<double>(s.radius)) + detail::rounded(static_cast<double>(t.radius));
@@ -32,8 +31,7 @@ ABUT_HD constexpr verdict decide(const sphere<T>& s, const sphere<T>& t) {
 /// The last stage: decides every finite input.
 template <scalar T>
 ABUT_NOINLINE ABUT_HD constexpr bool resolve(const sphere<T>& s, const sphere<T>& t) {
-    const T value[] = {s.center.x, s.center.y, s.center.z, t.center.x,
-                           t.center.y, t.center.z, s.radius, t.radius};
+    const T value[] = {s.center.x, s.center.y, s.center.z, t.center.x, t.center.y, t.center.z, s.radius, t.radius};
     return decide_at_any_span<detail::ball_meets_ball>(value);
 }
 

@@ -16,8 +16,8 @@ namespace abut {
 template <arithmetic A, scalar T>
 ABUT_HD constexpr verdict decide(const sphere<T>& s, const triangle<T>& t) {
     if constexpr (std::same_as<A, exact>) {
-        const T value[] = {s.center.x, s.center.y, s.center.z, t.a.x, t.a.y, t.a.z, t.b.x,
-                           t.b.y, t.b.z, t.c.x, t.c.y, t.c.z, s.radius};
+        const T value[] = {s.center.x, s.center.y, s.center.z, t.a.x, t.a.y, t.a.z,   t.b.x,
+                           t.b.y,      t.b.z,      t.c.x,      t.c.y, t.c.z, s.radius};
         return decide_in_limbs<detail::ball_meets_triangle>(value);
     } else if constexpr (std::same_as<A, filtered>) {
         return detail::certified(s.center, s.radius, t.a, t.b, t.c);
@@ -29,8 +29,8 @@ ABUT_HD constexpr verdict decide(const sphere<T>& s, const triangle<T>& t) {
 /// The last stage: decides every finite input, slowly and with a stack frame that docs/numerics.md states.
 template <scalar T>
 ABUT_NOINLINE ABUT_HD constexpr bool resolve(const sphere<T>& s, const triangle<T>& t) {
-    const T value[] = {s.center.x, s.center.y, s.center.z, t.a.x, t.a.y, t.a.z, t.b.x,
-                       t.b.y, t.b.z, t.c.x, t.c.y, t.c.z, s.radius};
+    const T value[] = {s.center.x, s.center.y, s.center.z, t.a.x, t.a.y, t.a.z,   t.b.x,
+                       t.b.y,      t.b.z,      t.c.x,      t.c.y, t.c.z, s.radius};
     return decide_at_any_span<detail::ball_meets_triangle>(value);
 }
 

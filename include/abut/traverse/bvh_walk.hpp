@@ -37,6 +37,9 @@ struct bvh_walk {
         for (;;) {
             const typename Tree::node_type both = tree.fetch(node);
             const bvh_child left = tree.child(both, 0), right = tree.child(both, 1);
+            // Most of a walk on a processor core is waiting for nodes: both are asked for before either is known to be needed.
+            tree.prefetch(left);
+            tree.prefetch(right);
             bool go_left = reach(tree.bounds(both, 0)), go_right = reach(tree.bounds(both, 1));
             if (go_left && left.is_leaf()) {
                 if (visitor(left.index()) == visit::stop) return;

@@ -1,0 +1,82 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+#
+# canary.sh [COMPILER...]: compiles canary.cpp as users may, runs it, and checks that fast-math is refused. Compilers are
+# names or paths of g++, clang++ and nvcc (default: all three); one that is absent is skipped, and a line says so. nvcc's
+# part runs where there is a device and is compiled elsewhere. Exits 0 if nothing failed, and 77 if no compiler was there.
+
+here=$(cd "$(dirname "$0")" && pwd)
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+failed=0
+ran=0
+
+# check COMPILER FLAGS...: builds and runs.
+check() {
+    compiler=$1
+    shift
+    ran=1
+    if ! "$compiler" -std=c++20 "$@" -I"$here/../../include" "$here/canary.cpp" -o "$work/canary" >"$work/log" 2>&1; then
+        echo "FAILED to compile: $compiler $*"
+        cat "$work/log"
+        failed=1
+    elif "$work/canary"; then
+        echo "passed: $compiler $*"
+    else
+        echo "FAILED: $compiler $*"
+        failed=1
+    fi
+}
+
+# refuse COMPILER FLAGS...: must not compile, and say why.
+refuse() {
+    compiler=$1
+    shift
+    ran=1
+    if "$compiler" -std=c++20 "$@" -fsyntax-only -I"$here/../../include" "$here/canary.cpp" >"$work/log" 2>&1 ||
+        ! grep -q "abut: exact decisions need IEEE arithmetic" "$work/log"; then
+        echo "FAILED: $compiler $* is not refused"
+        failed=1
+    else
+        echo "refused: $compiler $*"
+    fi
+}
+
+if [ $# -eq 0 ]; then
+    nvcc=nvcc
+    command -v nvcc >/dev/null 2>&1 || nvcc=/usr/local/cuda/bin/nvcc
+    set -- g++ clang++ "$nvcc"
+fi
+for compiler in "$@"; do
+    if ! command -v "$compiler" >/dev/null 2>&1; then
+        echo "skipped: $compiler is not there"
+        continue
+    fi
+    native=
+    case $(uname -m) in x86_64 | aarch64) native=-march=native ;; esac
+    case $(basename "$compiler") in
+    *clang*)
+        check "$compiler" -O3 $native
+        check "$compiler" -O3 $native -ffp-contract=fast
+        check "$compiler" -O0
+        refuse "$compiler" -ffast-math
+        refuse "$compiler" -Ofast
+        refuse "$compiler" -ffinite-math-only
+        ;;
+    *nvcc*)
+        check "$compiler" -x cu -arch=sm_90 --fmad=true
+        check "$compiler" -x cu -arch=sm_90 --fmad=false
+        ;;
+    *)
+        check "$compiler" -O3 $native
+        check "$compiler" -O3 $native -ffp-contract=fast -flto
+        check "$compiler" -O0
+        refuse "$compiler" -ffast-math
+        refuse "$compiler" -Ofast
+        refuse "$compiler" -ffinite-math-only
+        refuse "$compiler" -funsafe-math-optimizations
+        ;;
+    esac
+done
+[ $ran -eq 1 ] || exit 77
+exit $failed

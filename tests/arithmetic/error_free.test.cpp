@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include <abut/arithmetic/error_free.hpp>
+
+#include <cmath>
+#include <limits>
+
+#include "support/catch.hpp"
+#include "support/families.hpp"
+#include "support/rational.hpp"
+#include "support/samples.hpp"
+
+namespace {
+
+using namespace abut;
+using test::integer;
+
+/// Two numbers of which one matters to the other: near in exponent, cancelling, or far apart.
+template <scalar T>
+void draw(test::draws& d, T& a, T& b) {
+    a = test::construction::any_finite<T>(d);
+    b = test::construction::any_finite<T>(d);
+    int e = 0;
+    std::frexp(a, &e);
+    constexpr int digits = std::numeric_limits<T>::digits;
+    const int kind = d.below(4);
+    if (kind == 0) b = std::ldexp(static_cast<T>(d.uniform(-1, 1)), e + d.below(2 * digits) - digits);
+    if (kind == 1) b = -test::construction::stepped(a, d.below(5) - 2);
+    if (kind == 2) {
+        a = d.below(2) == 0 ? std::numeric_limits<T>::max() : -std::numeric_limits<T>::max();
+        b = std::ldexp(static_cast<T>(d.uniform(-1, 1)), std::numeric_limits<T>::max_exponent - d.below(2 * digits));
+    }
+    if (!std::isfinite(b)) b = a;
+}
+
+template <scalar T>
+int compare_sum(T a, T b, T r) {
+    const auto z = test::to_integers(std::vector<T>{a, b, r});
+    const integer sum = z[0] + z[1];
+    return (sum > z[2]) - (sum < z[2]);
+}
+
+template <scalar T>
+bool is_least_upper(T a, T b, T r) {
+    constexpr T infinity = std::numeric_limits<T>::infinity(), largest = std::numeric_limits<T>::max();
+    if (r == infinity) return compare_sum(a, b, largest) > 0;
+    if (compare_sum(a, b, r) > 0) return false;
+    return r == -largest || compare_sum(a, b, std::nextafter(r, -infinity)) > 0;
+}
+
+template <scalar T>
+bool same_bits(T a, T b) {
+    return a == b && std::signbit(a) == std::signbit(b);
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("directed sums: the nearest representable number on the right side", "", float, double) {
+    using T = TestType;
+    test::draws d(test::seed, 3, sizeof(T));
+    std::uint64_t wrong = 0, exact_sums = 0, overflows = 0;
+    for (std::uint64_t i = 0; i < test::sample_count(); ++i) {
+        T a, b;
+        draw(d, a, b);
+        const T up = add_up(a, b), down = add_down(a, b);
+        wrong += !is_least_upper(a, b, up) || !is_least_upper<T>(-a, -b, -down);
+        wrong += !same_bits(sub_up(a, b), add_up(a, -b)) || !same_bits(sub_down(a, b), add_down(a, -b));
+        exact_sums += up == down;
+        overflows += std::isinf(up) || std::isinf(down);
+    }
+    CHECK(wrong == 0);
+    CHECK(exact_sums > 0);
+    CHECK(overflows > 0);
+}
+
+TEMPLATE_TEST_CASE("directed sums: edges of the range", "", float, double) {
+    using T = TestType;
+    constexpr T infinity = std::numeric_limits<T>::infinity(), largest = std::numeric_limits<T>::max();
+    constexpr T tiny = std::numeric_limits<T>::denorm_min(), ulp = std::numeric_limits<T>::epsilon();
+    CHECK(add_up(largest, largest) == infinity);
+    CHECK(add_down(largest, largest) == largest);
+    CHECK(add_up(-largest, -largest) == -largest);
+    CHECK(add_down(-largest, -largest) == -infinity);
+    CHECK(add_down(largest, tiny) == largest);
+    CHECK(add_up(largest, tiny) == infinity);
+    CHECK(add_up(infinity, T(1)) == infinity);
+    CHECK(add_down(-infinity, T(1)) == -infinity);
+    CHECK(add_down(infinity, -largest) == infinity);
+    CHECK(std::isnan(add_up(infinity, -infinity)));
+    CHECK(std::isnan(add_down(std::numeric_limits<T>::quiet_NaN(), T(1))));
+    CHECK(add_up(T(1), tiny) == 1 + ulp);
+    CHECK(add_down(T(1), -tiny) == 1 - ulp / 2);
+    CHECK(add_up(T(-1), tiny) == -1 + ulp / 2);
+    CHECK(add_up(tiny, tiny) == 2 * tiny);
+    CHECK(add_down(tiny, -2 * tiny) == -tiny);
+    CHECK(same_bits(add_up(T(1), T(-1)), T(0)));
+    CHECK(same_bits(add_down(T(1), T(-1)), T(0)));
+    CHECK(same_bits(add_down(T(-0.0), T(-0.0)), T(-0.0)));
+    CHECK(same_bits(sub_down(T(3), T(0.5)), T(2.5)));
+}
+
+TEMPLATE_TEST_CASE("two_sum, two_diff, two_prod: value and error make the exact result", "", float, double) {
+    using T = TestType;
+    test::draws d(test::seed, 4, sizeof(T));
+    std::uint64_t wrong = 0;
+    for (std::uint64_t i = 0; i < test::sample_count(); ++i) {
+        T a, b;
+        draw(d, a, b);
+        if (std::isfinite(a + b) && std::fabs(a) < std::numeric_limits<T>::max() / 2) {
+            const error_free<T> s = two_sum(a, b);
+            const auto z = test::to_integers(std::vector<T>{a, b, s.value, s.error});
+            wrong += z[0] + z[1] != z[2] + z[3] || s.value != a + b;
+        }
+        const T x = static_cast<T>(d.uniform(-2, 2)), y = static_cast<T>(d.uniform(-2, 2));
+        const error_free<T> p = two_prod(x, y), m = two_diff(x, y);
+        const auto z = test::to_integers(std::vector<T>{x, y, p.value, p.error, m.value, m.error, T(1)});
+        wrong += z[0] * z[1] != (z[2] + z[3]) * z[6] || z[0] - z[1] != z[4] + z[5];
+    }
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("directed sums are constant expressions") {
+    static_assert(add_up(1.0, 0x1p-60) == 1 + 0x1p-52 && add_down(1.0, 0x1p-60) == 1);
+    static_assert(sub_down(1.0f, 0x1p-60f) == 1 - 0x1p-24f && two_sum(1.0, 0x1p-60).error == 0x1p-60);
+}

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include <abut/arithmetic/sparse_sum.hpp>
+
+#include "support/catch.hpp"
+#include "support/families.hpp"
+#include "support/rational.hpp"
+#include "support/samples.hpp"
+
+namespace {
+
+using namespace abut;
+using test::integer;
+
+/// Any finite numbers; half of the time such that the scalar product of the first three and the last three cancels, exactly
+/// or but for little.
+template <scalar T>
+void draw(test::draws& d, T (&x)[6]) {
+    namespace make = test::construction;
+    for (T& e : x) e = make::any_finite<T>(d);
+    if (d.below(2) == 0) {
+        x[3] = x[1];
+        x[4] = -x[0];
+        x[5] = d.below(2) == 0 ? T(0) : make::least_denormal<T>;
+    }
+}
+
+template <scalar T>
+void check_signs() {
+    test::draws d(test::seed, 2, sizeof(T));
+    std::uint64_t wrong = 0, zero = 0;
+    for (std::uint64_t i = 0; i < test::sample_count(); ++i) {
+        T x[6];
+        draw(d, x);
+        const aligned<6> a(x);
+        sparse_sum<T, 1, 1> n[6];
+        for (int k = 0; k < 6; ++k) {
+            const binary_parts& p = a.part[k];
+            n[k].term[0] = {wide_int<1>::shifted(p.mantissa, 0), p.mantissa == 0 ? 0 : p.exponent - a.low};
+        }
+        const auto z = test::to_integers(std::vector<T>(x, x + 6));
+        const auto sign_of = [](const integer& v) { return v.sign(); };
+
+        // Degree 2: a sum of products; degree 6: squares of triple products of sums.
+        const vec3 p{n[0], n[1], n[2]}, q{n[3], n[4], n[5]};
+        const integer pq = z[0] * z[3] + z[1] * z[4] + z[2] * z[5];
+        wrong += sign_of_dot(p, q) != sign_of(pq);
+        const auto s = dot(cross(p, q), q - p);
+        wrong += sign_of_dot(cross(p, q), q - p) != 0;  // always
+        const auto u = (n[0] - n[3]) * (n[1] + n[4]) * n[2], v = n[5] * n[4] * n[3];
+        const integer iu = (z[0] - z[3]) * (z[1] + z[4]) * z[2], iv = z[5] * z[4] * z[3];
+        wrong += squares_at_most(vec3{u, u, u}, v) != (3 * iu * iu <= iv * iv);
+        wrong += squares_at_most(v, vec3{v, v, v}) != true;
+        wrong += squares_at_most(s, vec3{s, s, s}) != true;
+        zero += pq == 0;
+    }
+    CHECK(wrong == 0);
+    CHECK(zero > 0);
+}
+
+}  // namespace
+
+TEST_CASE("sparse_sum: signs agree with unbounded integers over all exponents") {
+    check_signs<float>();
+    check_signs<double>();
+}

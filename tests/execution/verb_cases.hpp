@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What every policy's verbs promise (execution/policy.hpp), checked against the standard library. One source for all
+// policies: tests/execution runs it on the host's, tests/cuda on the device.
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+#include <abut/execution/host.hpp>
+
+#include "support/catch.hpp"
+#include "support/scenes.hpp"
+
+namespace abut::test {
+
+struct write_square {
+    std::uint64_t* out;
+    ABUT_HD void operator()(std::size_t i) const { out[i] = i * i; }
+};
+struct identity {
+    ABUT_HD std::uint64_t operator()(std::size_t i) const { return i; }
+};
+struct sum {
+    ABUT_HD std::uint64_t operator()(std::uint64_t a, std::uint64_t b) const { return a + b; }
+};
+struct is_multiple {
+    std::size_t of;
+    ABUT_HD bool operator()(std::size_t i) const { return i % of == 0; }
+};
+/// Pushes i % 4 copies of i, and counts them.
+struct push_some {
+    ABUT_CALLS_ANY
+    template <class Queue, class Count>
+    ABUT_HD void operator()(std::size_t i, Queue& queue, Count& count) const {
+        for (std::size_t k = 0; k < i % 4; ++k) {
+            queue.push(i);
+            count.add(1);
+        }
+    }
+};
+struct emit_copies {
+    using candidate = std::uint64_t;
+    std::size_t copies;
+    ABUT_CALLS_ANY
+    template <class Emitter, class Hits>
+    ABUT_HD void operator()(std::size_t i, const Emitter& emitter, Hits&) const {
+        for (std::size_t k = 0; k < copies; ++k) emitter.push(i * copies + k);
+    }
+};
+/// Keeps what is not a multiple of 3; multiples of 5 are late.
+struct keep_some {
+    ABUT_CALLS_ANY
+    template <class Late, class Hits>
+    ABUT_HD void operator()(std::uint64_t candidate, Late& late, Hits& hits) const {
+        if (candidate % 5 == 0) {
+            late.push(candidate);
+        } else if (candidate % 3 != 0) {
+            hits.push(candidate);
+        }
+    }
+};
+struct raise_at {
+    std::size_t where;
+    ABUT_CALLS_ANY
+    template <class Flag>
+    ABUT_HD void operator()(std::size_t i, Flag& flag) const {
+        if (!flag.raised() && i == where) flag.raise();
+    }
+};
+struct product_tile {
+    struct row {
+        std::uint64_t value;
+    };
+    using column = std::uint64_t;
+    ABUT_HD row load_row(std::size_t i) const { return {i + 1}; }
+    ABUT_HD column load_column(std::size_t j) const { return j + 1; }
+    ABUT_CALLS_ANY
+    template <class Queue, class Count>
+    ABUT_HD void operator()(row& r, std::size_t i, const column& c, std::size_t j, Queue& queue, Count& count) const {
+        count.add(1);
+        if (r.value * c % 7 == 0 && r.value == i + 1 && c == j + 1) queue.push(i << 32 | j);
+    }
+};
+
+template <class Policy, class T>
+std::vector<T> on_host(const Policy& on, const T* values, std::size_t n) {
+    std::vector<T> copy(n);
+    download(on, values, n, copy.data());
+    return copy;
+}
+
+template <class Policy, class Queue>
+std::vector<std::uint64_t> sorted_content(const Policy& on, Queue& queue) {
+    auto values = on_host(on, queue.data(), queue.size());
+    std::sort(values.begin(), values.end());
+    return values;
+}
+
+inline const std::size_t verb_sizes[] = {0, 1, 2, 31, 255, 256, 257, 1023, 4096, 70'001};
+
+template <class Policy>
+void check_loops(const Policy& on) {
+    for (const std::size_t n : verb_sizes) {
+        CAPTURE(n);
+        execution::buffer_of<Policy, std::uint64_t> out(on, n);
+        fill(on, out.data(), n, std::uint64_t{7});
+        CHECK(on_host(on, out.data(), n) == std::vector<std::uint64_t>(n, 7));
+        for_each_index(on, n, write_square{out.data()});
+        std::vector<std::uint64_t> squares(n);
+        for (std::size_t i = 0; i < n; ++i) squares[i] = i * i;
+        CHECK(on_host(on, out.data(), n) == squares);
+
+        execution::work_queue<std::uint64_t, space_of<Policy>> queue(on);
+        execution::work_count<space_of<Policy>> count(on);
+        for_each_index(on, n, push_some{}, queue, count);
+        std::vector<std::uint64_t> expected;
+        for (std::size_t i = 0; i < n; ++i) expected.insert(expected.end(), i % 4, i);
+        CHECK(sorted_content(on, queue) == expected);
+        CHECK(count.total() == expected.size());
+
+        execution::work_flag<space_of<Policy>> flag(on), calm(on);
+        for_each_index(on, n, raise_at{n / 2}, flag);
+        for_each_index(on, n, raise_at{n}, calm);
+        CHECK(flag.raised() == (n > 0));
+        CHECK_FALSE(calm.raised());
+    }
+}
+
+/// Few selected indices with few candidates, all of them with some, and more candidates than any block has room for.
+template <class Policy>
+void check_candidates(const Policy& on) {
+    struct {
+        std::size_t n, of, copies;
+    } const cases[] = {{0, 1, 1}, {1, 1, 1}, {100'000, 97, 3}, {5000, 1, 4}, {70'000, 1, 1}, {3000, 1, 40}, {2, 1, 100'000}};
+    for (const auto& [n, of, copies] : cases) {
+        CAPTURE(n, of, copies);
+        execution::work_queue<std::uint64_t, space_of<Policy>> late(on), hits(on);
+        for_each_candidate(on, n, is_multiple{of}, emit_copies{copies}, keep_some{}, late, hits);
+        // What is late for want of room is for the caller to decide; every candidate is in one place.
+        std::vector<std::uint64_t> all = sorted_content(on, hits);
+        for (const std::uint64_t c : sorted_content(on, late)) {
+            if (c % 5 == 0 || c % 3 != 0) all.push_back(c);
+        }
+        std::sort(all.begin(), all.end());
+        std::vector<std::uint64_t> expected;
+        for (std::size_t i = 0; i < n; i += of) {
+            for (std::uint64_t c = i * copies; c < (i + 1) * copies; ++c) {
+                if (c % 5 == 0 || c % 3 != 0) expected.push_back(c);
+            }
+        }
+        CHECK(all == expected);
+    }
+}
+
+template <class Policy>
+void check_tiles(const Policy& on) {
+    const std::pair<std::size_t, std::size_t> sizes[] = {{0, 5}, {5, 0}, {1, 1}, {1, 3000}, {3000, 1}, {300, 257}, {257, 1000}};
+    for (const auto& [n, m] : sizes) {
+        CAPTURE(n, m);
+        execution::work_queue<std::uint64_t, space_of<Policy>> queue(on);
+        execution::work_count<space_of<Policy>> count(on);
+        for_each_tiled(on, n, m, product_tile{}, queue, count);
+        std::vector<std::uint64_t> expected;
+        for (std::size_t i = 0; i < n; ++i) {
+            for (std::size_t j = 0; j < m; ++j) {
+                if ((i + 1) * (j + 1) % 7 == 0) expected.push_back(i << 32 | j);
+            }
+        }
+        CHECK(sorted_content(on, queue) == expected);
+        CHECK(count.total() == n * m);
+    }
+}
+
+template <class Policy>
+void check_reductions(const Policy& on) {
+    for (const std::size_t n : verb_sizes) {
+        CAPTURE(n);
+        CHECK(reduce(on, n, std::uint64_t{0}, sum{}, identity{}) == n * (n + 1) / 2 - n);
+        execution::buffer_of<Policy, std::uint32_t> values(on, n + 1);
+        fill(on, values.data(), n, std::uint32_t{3});
+        exclusive_scan(on, values.data(), n);
+        std::vector<std::uint32_t> expected(n + 1);
+        for (std::size_t i = 0; i <= n; ++i) expected[i] = static_cast<std::uint32_t>(3 * i);
+        CHECK(on_host(on, values.data(), n + 1) == expected);
+
+        execution::buffer_of<Policy, std::uint32_t> kept(on, n + 1);
+        const std::size_t count = compact(on, n, is_multiple{3}, kept.data());
+        REQUIRE(count == (n + 2) / 3);
+        std::vector<std::uint32_t> multiples(count);
+        for (std::size_t i = 0; i < count; ++i) multiples[i] = static_cast<std::uint32_t>(3 * i);
+        CHECK(on_host(on, kept.data(), count) == multiples);
+    }
+}
+
+template <class Key, class Policy>
+void check_sorts(const Policy& on) {
+    uniform random(42);
+    for (const std::size_t n : verb_sizes) {
+        for (const int bits : {0, 1, 11, 12, 30, static_cast<int>(8 * sizeof(Key))}) {
+            CAPTURE(n, bits, sizeof(Key));
+            const Key mask = bits == 8 * sizeof(Key) ? static_cast<Key>(-1) : static_cast<Key>((Key{1} << bits) - 1);
+            std::vector<Key> keys(n);
+            std::vector<std::uint32_t> order(n);
+            for (Key& key : keys) key = static_cast<Key>(random() * 0x1p53) * Key{2654435761u} & mask;
+            std::iota(order.begin(), order.end(), 0u);
+
+            execution::buffer_of<Policy, Key> sorted(on, n), alone(on, n);
+            execution::buffer_of<Policy, std::uint32_t> values(on, n);
+            upload(on, keys.data(), n, sorted.data());
+            upload(on, keys.data(), n, alone.data());
+            upload(on, order.data(), n, values.data());
+            sort_by_key(on, sorted, values, bits);
+            sort_keys(on, alone, bits);
+            std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return keys[a] < keys[b]; });
+            std::sort(keys.begin(), keys.end());
+            CHECK(on_host(on, sorted.data(), n) == keys);
+            CHECK(on_host(on, alone.data(), n) == keys);
+            CHECK(on_host(on, values.data(), n) == order);
+        }
+    }
+}
+
+}  // namespace abut::test
