@@ -24,6 +24,11 @@ void draw(test::draws& d, T (&x)[6]) {
     }
 }
 
+template <class N>
+vec3<N> three(const N& x) {
+    return {x, x, x};
+}
+
 template <scalar T>
 void check_signs() {
     test::draws d(test::seed, 2, sizeof(T));
@@ -41,16 +46,17 @@ void check_signs() {
         const auto sign_of = [](const integer& v) { return v.sign(); };
 
         // Degree 2: a sum of products; degree 6: squares of triple products of sums.
-        const vec3 p{n[0], n[1], n[2]}, q{n[3], n[4], n[5]};
+        const vec3<sparse_sum<T, 1, 1>> p{n[0], n[1], n[2]}, q{n[3], n[4], n[5]};
         const integer pq = z[0] * z[3] + z[1] * z[4] + z[2] * z[5];
         wrong += sign_of_dot(p, q) != sign_of(pq);
         const auto s = dot(cross(p, q), q - p);
         wrong += sign_of_dot(cross(p, q), q - p) != 0;  // always
-        const auto u = (n[0] - n[3]) * (n[1] + n[4]) * n[2], v = n[5] * n[4] * n[3];
+        const auto u = (n[0] - n[3]) * (n[1] + n[4]) * n[2];
+        const auto v = n[5] * n[4] * n[3];
         const integer iu = (z[0] - z[3]) * (z[1] + z[4]) * z[2], iv = z[5] * z[4] * z[3];
-        wrong += squares_at_most(vec3{u, u, u}, v) != (3 * iu * iu <= iv * iv);
-        wrong += squares_at_most(v, vec3{v, v, v}) != true;
-        wrong += squares_at_most(s, vec3{s, s, s}) != true;
+        wrong += squares_at_most(three(u), v) != (3 * iu * iu <= iv * iv);
+        wrong += squares_at_most(v, three(v)) != true;
+        wrong += squares_at_most(s, three(s)) != true;
         zero += pq == 0;
     }
     CHECK(wrong == 0);

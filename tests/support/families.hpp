@@ -217,7 +217,8 @@ ABUT_HD pair<T> needle_pair(draws& d, double aspect) {
     const double distance = d.power_of_ten(-4, 0);
     p.s.center = round_to<T>(along(foot, distance, unit(cross_product(edge, cube(d, 1)))));
     const double r = length(cross_product(along(widened(p.s.center), -1, x), edge)) / length(edge);
-    p.s.radius = static_cast<T>(r * std::fma(d.below(2) == 0 ? -1.0 : 1.0, d.power_of_ten(-7, -1), 1.0));
+    const double side = d.below(2) == 0 ? -1 : 1;  // a statement of its own: draws come in order, arguments need not
+    p.s.radius = static_cast<T>(r * std::fma(side, d.power_of_ten(-7, -1), 1.0));
     return p;
 }
 

@@ -57,8 +57,9 @@ void gather(const Policy& on, std::size_t n, std::size_t grain, const Loop& loop
 template <class Decide>
 struct decide_at_once {
     Decide decide;
+    ABUT_CALLS_ANY
     template <class Candidate>
-    void push(const Candidate& candidate) const {
+    ABUT_HD void push(const Candidate& candidate) const {
         decide(candidate);
     }
 };
