@@ -127,9 +127,16 @@ ABUT_HD inline point unit(const point& a) {
     return {a.x / l, a.y / l, a.z / l};
 }
 
+/// Through memory: g++ 12, when it vectorises, drops the rounding where the number is widened again.
+template <scalar T>
+ABUT_HD T rounded_to(double x) {
+    const volatile T rounded = static_cast<T>(x);
+    return rounded;
+}
+
 template <scalar T>
 ABUT_HD vec3<T> round_to(const point& p) {
-    return {static_cast<T>(p.x), static_cast<T>(p.y), static_cast<T>(p.z)};
+    return {rounded_to<T>(p.x), rounded_to<T>(p.y), rounded_to<T>(p.z)};
 }
 
 template <scalar T>

@@ -24,6 +24,16 @@ concept decidable_pair = requires(const S& s, const U& t) {
 
 namespace detail {
 
+/// The shape as it lies in memory. g++ 12, when it vectorises, drops the rounding of double to float where the float is
+/// widened again: a caller's `static_cast<float>(x)` would reach the filter as x itself, and the integers as the float.
+template <class Shape>
+ABUT_HD constexpr Shape as_stored(Shape shape) {
+#if defined(__GNUC__) && !defined(__clang__) && !ABUT_DEVICE_CODE
+    if (!__builtin_is_constant_evaluated()) __asm__("" : "+m"(shape));
+#endif
+    return shape;
+}
+
 /// What the filter left, out of line so that it costs its callers neither registers nor a stack frame.
 template <class S, class U>
 ABUT_NOINLINE ABUT_HD constexpr bool intersects_exactly(const S& s, const U& t) {
@@ -46,7 +56,7 @@ template <arithmetic A = filtered, class S, class U>
             return decide<fast>(s, t) == verdict::yes;
         } else {
             if (std::same_as<A, filtered> && !__builtin_is_constant_evaluated()) {
-                const verdict v = decide<filtered>(s, t);
+                const verdict v = decide<filtered>(detail::as_stored(s), detail::as_stored(t));
                 if (v != verdict::unknown) return v == verdict::yes;
             }
             return detail::intersects_exactly(s, t);
