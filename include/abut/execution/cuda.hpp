@@ -180,5 +180,7 @@ inline memory_use memory_in_use(const cuda& on) {
 using execution::cuda;
 using execution::memory_in_use;
 using execution::memory_use;
+using execution::release_memory;
+using execution::synchronize;
 
 }  // namespace abut

@@ -187,4 +187,5 @@ void release_memory(const Policy&) {}
 
 namespace abut {
 using execution::release_memory;
+using execution::synchronize;
 }

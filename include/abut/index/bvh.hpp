@@ -62,7 +62,7 @@ concept bvh_layout =
         tree.prefetch(bvh_child{});  // a hint that the child may be fetched soon
     };
 
-/// Root of a tree; lies with the nodes, because a build ends without telling the host.
+/// Root of a tree; lies with the nodes, where walks read it.
 template <scalar T>
 struct bvh_root {
     aabb<T> bounds;

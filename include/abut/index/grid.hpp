@@ -30,7 +30,7 @@ struct grid_options {
     double cell_width = 0;
 };
 
-/// How space is cut. Lies with the cells, because a build ends without telling the host.
+/// How space is cut. Lies with the cells: a build does not wait for it, and walks read it where they run.
 template <scalar T>
 struct grid_frame {
     static constexpr int axis_bits = 19;
@@ -231,8 +231,8 @@ struct put_in_cells {
 }  // namespace detail
 
 /// Builds a grid over the shapes of `set` in the policy's memory: a set in host memory is copied there first under cuda. A
-/// view over the caller's arrays is checked and has to outlive the grid. On CUDA the build may still be running when the
-/// call returns; queries on the same stream wait for it. Memory: 24 to 48 bytes a shape for the table, and a box and an id.
+/// view over the caller's arrays is checked and has to outlive the grid. Returns when the grid is built. Memory: 24 to 48
+/// bytes a shape for the table, and a box and an id.
 /// Throws invalid_geometry (views only), error (a cell width that is negative or not a number), std::bad_alloc, cuda_error.
 template <execution_policy Policy, class Set>
 [[nodiscard]] auto make_grid(const Policy& on, const Set& set, const grid_options& options = {}) {
@@ -264,6 +264,7 @@ template <execution_policy Policy, class Set>
                                                                   cells->starts.data(), place.data()});
         exclusive_scan(on, cells->starts.data(), slots);
         for_each_index(on, n, detail::put_in_cells<shapes_type>{shapes, cells->starts.data(), place.data(), cells->items.data()});
+        synchronize(on);
     }
     return grid_type(std::move(resident), std::move(cells));
 }
