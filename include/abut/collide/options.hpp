@@ -26,7 +26,8 @@ struct keep_all {
     ABUT_HD constexpr bool operator()(std::uint32_t, std::uint32_t) const { return true; }
 };
 
-/// Options of `any`, `count`, `pairs` and `for_each_pair`.
+/// Options of `any`, `count`, `pairs` and `for_each_pair`. Without a filter, `{.sorted = false}` will do in a call; with one,
+/// write `query_options<my_filter>{.filter = my_filter{...}}`: clang 14 cannot deduce the argument of an aggregate.
 template <class Filter = keep_all>
 struct query_options {
     /// Pairs sorted by a, then b. Without it their order is any, and may differ from call to call.
@@ -34,7 +35,8 @@ struct query_options {
     /// filter(id in a, id in b) -> bool: pairs for which it is false are neither tested nor reported. A trivially copyable
     /// functor, ABUT_HD under cuda; called concurrently.
     Filter filter = {};
-    /// for_each_pair holds at most this many pairs at a time (8 bytes each, twice that while it searches).
+    /// for_each_pair holds at most this many found pairs at a time, 8 bytes each; under cuda, pairs that the filter cannot
+    /// decide are not counted in that.
     std::uint64_t most_pairs = std::uint64_t{1} << 24;
 };
 

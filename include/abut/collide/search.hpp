@@ -46,7 +46,7 @@ struct pair_key {
     ABUT_HD std::uint32_t target(std::uint64_t key) const { return queries_are_b ? unpack(key).a : unpack(key).b; }
 };
 
-// What to do with a pair that touches, for each kind of answer; and whether the search may end.
+// What to do with a pair that touches, for each kind of answer.
 
 ABUT_CALLS_ANY
 template <class Sink>
@@ -57,16 +57,6 @@ ABUT_HD void report(Sink& hits, std::uint64_t key) {
         hits.add(1);
     } else {
         hits.raise();
-    }
-}
-
-ABUT_CALLS_ANY
-template <class Sink>
-ABUT_HD bool is_over(const Sink& hits) {
-    if constexpr (requires { hits.raised(); }) {
-        return hits.raised();
-    } else {
-        return false;
     }
 }
 
@@ -112,8 +102,9 @@ struct sides {
     }
 };
 
-/// Stage 1 for one pair; what it cannot decide is late.
-template <arithmetic A, class Sides>
+/// Stage 1 for one pair; what it cannot decide is late. On the host there is nothing to wait for: `AtOnce` goes on to the
+/// integers, and only what is too wide for those is late.
+template <arithmetic A, bool AtOnce, class Sides>
 struct decide_key {
     Sides sides;
 
@@ -123,7 +114,10 @@ struct decide_key {
     ABUT_CALLS_ANY
     template <class Query, class Target, class Late, class Hits>
     ABUT_HD void operator()(std::uint64_t key, const Query& query, const Target& target, Late& late, Hits& hits) const {
-        const verdict v = decide_pair<A>(query, target);
+        verdict v = decide_pair<A>(query, target);
+        if constexpr (AtOnce && std::same_as<A, filtered>) {
+            if (v == verdict::unknown) v = decide_pair<exact>(query, target);
+        }
         if (v == verdict::yes) report(hits, key);
         if (v == verdict::unknown) late.push(key);
     }
@@ -157,13 +151,13 @@ struct walk_index {
         auto reach = reach_of(sides.queries[query]);
         walk.for_each(reach, [&](std::uint32_t target) {
             if (sides.wanted(query, target)) emitter.push(sides.key.pack(query, target));
-            return is_over(hits) ? visit::stop : visit::proceed;
+            return execution::is_over(hits) ? visit::stop : visit::proceed;
         });
     }
 };
 
 /// Queries against targets, all against all.
-template <arithmetic A, class Sides>
+template <arithmetic A, bool AtOnce, class Sides>
 struct all_against_all {
     struct column {
         typename Sides::target_shape shape;
@@ -188,10 +182,10 @@ struct all_against_all {
     ABUT_CALLS_ANY
     template <class Late, class Hits>
     ABUT_HD void operator()(row& query, std::size_t i, const column& target, std::size_t j, Late& late, Hits& hits) const {
-        if (!query.reach(target.box) || is_over(hits)) return;
+        if (!query.reach(target.box)) return;
         const auto query_id = static_cast<std::uint32_t>(first + i), target_id = static_cast<std::uint32_t>(j);
         if (!sides.wanted(query_id, target_id)) return;
-        decide_key<A, Sides>{sides}(sides.key.pack(query_id, target_id), query.shape, target.shape, late, hits);
+        decide_key<A, AtOnce, Sides>{sides}(sides.key.pack(query_id, target_id), query.shape, target.shape, late, hits);
     }
 };
 
@@ -260,11 +254,11 @@ template <arithmetic A, class Policy, class Sides, class Hits, class Find>
 void search(const Policy& on, const Sides& sides, Hits& hits, const Find& find) {
     key_queue<Policy> late(on);
     find(late, hits);
-    if (late.size() == 0 || is_over(hits)) return;
+    if (late.size() == 0 || execution::is_over(hits)) return;
     key_queue<Policy> wide(on), found(on);
     for_each_index(on, late.size(), settle<A, Sides>{sides, late.data()}, wide, found);
     hits.absorb(on, found);
-    if (wide.size() == 0 || is_over(hits)) return;
+    if (wide.size() == 0 || execution::is_over(hits)) return;
     key_queue<Policy> last(on, settle_on_host(on, sides, wide));
     hits.absorb(on, last);
 }

@@ -137,7 +137,14 @@ struct allocator<device_space> {
         detail::check(cudaMallocFromPoolAsync(&p, bytes, detail::pool_of(on_.device), on_.stream), "cudaMallocFromPoolAsync");
         return p;
     }
-    void deallocate(void* p) const noexcept { cudaFreeAsync(p, on_.stream); }
+    void deallocate(void* p) const noexcept {
+        // The default stream is the current device's: the memory goes back in the order of the stream that it came from.
+        int before = on_.device;
+        cudaGetDevice(&before);
+        if (before != on_.device) cudaSetDevice(on_.device);
+        cudaFreeAsync(p, on_.stream);
+        if (before != on_.device) cudaSetDevice(before);
+    }
     void read(const void* from, std::size_t bytes, void* to) const {
         const detail::current_device scope(on_);
         detail::check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToHost, on_.stream), "cudaMemcpyAsync");
@@ -148,6 +155,17 @@ struct allocator<device_space> {
 private:
     cuda on_;
 };
+
+/// Throws abut::error if `p` is memory of another device than the policy's.
+inline void require_access(const cuda& on, const void* p, const char* function) {
+    if (p == nullptr) return;
+    cudaPointerAttributes attributes{};
+    detail::check(cudaPointerGetAttributes(&attributes, p), "cudaPointerGetAttributes");
+    if (attributes.type == cudaMemoryTypeDevice && attributes.device != device_of(on)) {
+        throw error(std::string(function) + ": the view is over memory of device " + std::to_string(attributes.device) +
+                    ", the policy works on device " + std::to_string(device_of(on)));
+    }
+}
 
 /// Waits until everything put into the policy's stream is done. Throws cuda_error.
 inline void synchronize(const cuda& on) {

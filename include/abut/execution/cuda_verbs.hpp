@@ -39,6 +39,16 @@ __global__ void __launch_bounds__(block_size) for_each_gather_kernel(std::size_t
     if (i < n) f(i, sinks...);
 }
 
+/// Whether a flag among the sinks is raised, the same answer for all threads of the block.
+template <class... Sinks>
+__device__ bool block_is_over(const Sinks&... sinks) {
+    if constexpr ((is_flag<Sinks> || ...)) {
+        return __syncthreads_or(is_over(sinks...)) != 0;
+    } else {
+        return false;
+    }
+}
+
 /// Candidates of one block, in shared memory; the ones that find no room are late.
 template <class Candidate, class Late>
 struct candidate_sink {
@@ -47,7 +57,8 @@ struct candidate_sink {
     unsigned* count;
     Late late;
     __device__ void push(const Candidate& candidate) const {
-        const unsigned slot = atomicAdd(count, 1u);
+        // The counter rests once it is past the capacity: it cannot wrap around, whatever the number of candidates.
+        const unsigned slot = atomic_load(count) < capacity ? atomicAdd(count, 1u) : capacity;
         if (slot < capacity) {
             data[slot] = candidate;
         } else {
@@ -83,6 +94,7 @@ __global__ void __launch_bounds__(block_size)
 
     constexpr std::size_t step = std::size_t{rows} * block_size;
     for (std::size_t first = blockIdx.x * step; first < n; first += gridDim.x * step) {
+        if (block_is_over(sinks...)) return;
         bool pass[rows];
 #pragma unroll
         for (int row = 0; row < rows; ++row) {
@@ -115,6 +127,7 @@ __global__ void __launch_bounds__(block_size) for_each_tiled_kernel(std::size_t 
     const std::size_t i = std::size_t{blockIdx.x} * block_size + threadIdx.x;
     auto row = tile.load_row(i < n ? i : n - 1);
     for (std::size_t first = std::size_t{blockIdx.y} * block_size; first < m; first += std::size_t{gridDim.y} * block_size) {
+        if (block_is_over(sinks...)) return;
         const std::size_t width = m - first < block_size ? m - first : block_size;
         if (threadIdx.x < width) staged[threadIdx.x] = tile.load_column(first + threadIdx.x);
         __syncthreads();
@@ -245,7 +258,7 @@ public:
     [[nodiscard]] bool settle(const cuda& on, std::uint64_t count) {
         if (count > items_.size()) {
             items_ = {};  // first give back, then take: both never need to fit at once
-            items_ = buffer<T, device_space>(on, count);
+            items_ = buffer<T, device_space>(on, count + count / 8);  // what overflows a block varies from run to run
             return false;
         }
         size_ = count;
@@ -264,11 +277,15 @@ public:
         std::uint64_t* sum;
         /// The lanes of a warp that add together add once.
         __device__ void add(std::uint32_t k) const {
+#if defined(__CUDA_ARCH__) && __CUDA_ARCH__ < 800  // no warp-wide sum in hardware
+            if (k > 0) atomic_add(sum, std::uint64_t{k});
+#else
             const unsigned lanes = __activemask();
             const unsigned total = __reduce_add_sync(lanes, k);
             if (total > 0 && lane_id() == static_cast<unsigned>(__ffs(static_cast<int>(lanes)) - 1)) {
                 atomic_add(sum, std::uint64_t{total});
             }
+#endif
         }
     };
 

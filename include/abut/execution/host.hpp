@@ -71,7 +71,7 @@ decide_at_once(Decide) -> decide_at_once<Decide>;
 template <host_policy Policy, class F, class Queue, class... Queues>
 void for_each_index(const Policy& on, std::size_t n, const F& f, Queue& queue, Queues&... queues) {
     const auto loop = [&](std::size_t begin, std::size_t end, auto&... sinks) {
-        for (std::size_t i = begin; i < end; ++i) f(i, sinks...);
+        for (std::size_t i = begin; i < end && !is_over(sinks...); ++i) f(i, sinks...);
     };
     detail::gather(on, n, range_grain, loop, queue, queues...);
 }
@@ -81,7 +81,7 @@ void for_each_candidate(const Policy& on, std::size_t n, const Test& test, const
                         Queues&... queues) {
     const auto loop = [&](std::size_t begin, std::size_t end, auto& late, auto&... sinks) {
         const detail::decide_at_once emitter{[&](const typename Walk::candidate& c) { decide(c, late, sinks...); }};
-        for (std::size_t i = begin; i < end; ++i) {
+        for (std::size_t i = begin; i < end && !is_over(sinks...); ++i) {
             if (test(i)) walk(i, emitter, sinks...);
         }
     };
@@ -98,7 +98,7 @@ void for_each_tiled(const Policy& on, std::size_t n, std::size_t m, const Tile& 
             for (std::size_t first = 0; first < m; first += columns) {
                 const std::size_t width = std::min(columns, m - first);
                 for (std::size_t j = 0; j < width; ++j) staged[j] = tile.load_column(first + j);
-                for (std::size_t i = begin; i < end; ++i) {
+                for (std::size_t i = begin; i < end && !is_over(sinks...); ++i) {
                     auto row = tile.load_row(i);
                     for (std::size_t j = 0; j < width; ++j) tile(row, i, staged[j], first + j, sinks...);
                 }
@@ -170,6 +170,10 @@ template <host_policy Policy, class T>
 void copy(const Policy&, const T* from, std::size_t n, T* to) {
     if (n > 0) std::memcpy(static_cast<void*>(to), from, n * sizeof(T));
 }
+
+/// Host memory is open to all.
+template <host_policy Policy>
+void require_access(const Policy&, const void*, const char*) {}
 
 template <host_policy Policy>
 int device_of(const Policy&) {

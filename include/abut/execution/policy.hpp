@@ -17,7 +17,8 @@
 //                                           for want of room, c itself goes to the queue `late`
 //   for_each_tiled(on, n, m, tile, queue...)    tile(row, i, column, j, sink...) for all (i, j) of [0, n) x [0, m), in
 //                                           tiles: row = tile.load_row(i), column = tile.load_column(j)
-//   reduce(on, n, init, combine, f)         combine over f(i), returned on the host; combine associates and commutes
+//   reduce(on, n, init, combine, f)         combine over f(i), returned on the host; combine associates and
+//                                           commutes, and init is its identity
 //   reduce_into(on, n, out, init, combine, f)  the same, left in the policy's memory at `out`
 //   exclusive_scan(on, values, n)           in place over n + 1 values; the last becomes the total
 //   sort_keys(on, keys, bits)               unsigned keys in a buffer, ascending, the lowest `bits` bits count
@@ -26,6 +27,7 @@
 //   fill(on, out, n, value)                 copies of value
 //   upload(on, from, n, to), download(on, from, n, to)   between the caller's host memory and the policy's
 //   copy(on, from, n, to)                   within the policy's memory
+//   require_access(on, p, function)         throws if the policy cannot read memory at p
 //   device_of(on)                           the CUDA device that the policy works on; -1 for host policies
 //   synchronize(on)                         waits for all of the above
 //   release_memory(on)                      gives pooled memory back to the system

@@ -4,6 +4,7 @@
 // Least significant digit radix sort for unsigned keys in host memory, serial or on OpenMP threads: the standard library
 // has no sort of keys with values that runs on OpenMP, and std::sort takes 5 to 8 times as long on 32-bit codes.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <utility>
@@ -23,8 +24,9 @@ using histogram = std::array<std::size_t, digits>;
 /// One stable pass on the digit at `shift`. Each thread counts and scatters its own contiguous part. Returns false, having
 /// moved nothing, if all keys agree in the digit.
 template <class Key, class Move>
-bool radix_pass(int threads, const Key* keys, std::size_t n, int shift, std::vector<histogram>& counts, const Move& move) {
-    const auto digit = [=](Key key) { return static_cast<std::size_t>((key >> shift) & (digits - 1)); };
+bool radix_pass(int threads, const Key* keys, std::size_t n, int shift, Key mask, std::vector<histogram>& counts,
+                const Move& move) {
+    const auto digit = [=](Key key) { return static_cast<std::size_t>(key >> shift & mask); };
     for_each_part(threads, n, [&](int part, std::size_t begin, std::size_t end) {
         histogram& count = counts[static_cast<std::size_t>(part)];
         count.fill(0);
@@ -58,7 +60,9 @@ void radix_sort(const Policy& on, buffer<Key, host_space>& keys, buffer<Value, h
         const Value* const value = values ? values->data() : nullptr;
         Key* const moved_key = other_keys.data();
         Value* const moved_value = other_values.data();
-        const bool moved = detail::radix_pass(threads, key, n, shift, counts, [=](std::size_t from, std::size_t to) {
+        const int width = std::min(bits - shift, detail::digit_bits);
+        const auto mask = static_cast<Key>((Key{1} << width) - 1);
+        const bool moved = detail::radix_pass(threads, key, n, shift, mask, counts, [=](std::size_t from, std::size_t to) {
             moved_key[to] = key[from];
             if (value) moved_value[to] = value[from];
         });

@@ -27,6 +27,26 @@ class work_count;
 template <memory_space Space>
 class work_flag;
 
+/// A sink that others watch to stop early.
+template <class Sink>
+inline constexpr bool is_flag = requires(const Sink& sink) { sink.raised(); };
+
+ABUT_CALLS_ANY
+template <class Sink>
+ABUT_HD bool is_raised(const Sink& sink) {
+    if constexpr (is_flag<Sink>) {
+        return sink.raised();
+    } else {
+        return false;
+    }
+}
+
+/// Whether one of the sinks is a raised flag.
+template <class... Sinks>
+ABUT_HD bool is_over(const Sinks&... sinks) {
+    return (is_raised(sinks) || ...);
+}
+
 /// The elements of both, in a new buffer if both have some.
 template <execution_policy Policy, class T, memory_space Space>
 buffer<T, Space> joined(const Policy& on, buffer<T, Space>& a, buffer<T, Space>& b) {

@@ -132,9 +132,12 @@ constexpr int sufficient_morton_bits(std::size_t n) {
 
 /// Builds a tree over the shapes of `set` in the policy's memory: a set in host memory is copied there first under cuda. A
 /// view over the caller's arrays is checked and has to outlive the tree. Returns when the tree is built.
-/// Throws invalid_geometry (views only), std::bad_alloc, cuda_error.
+/// Throws invalid_geometry (views only), error (bits that are not an option), std::bad_alloc, cuda_error.
 template <execution_policy Policy, class Set>
 [[nodiscard]] auto make_bvh(const Policy& on, const Set& set, const bvh_options& options = {}) {
+    if (options.morton_bits != 0 && options.morton_bits != 30 && options.morton_bits != 63) {
+        throw error("abut::make_bvh: morton_bits is " + std::to_string(options.morton_bits) + "; expected 0, 30 or 63");
+    }
     auto resident = detail::make_resident(on, set, "abut::make_bvh");
     using tree_type = bvh<decltype(resident), space_of<Policy>>;
     using T = typename tree_type::scalar_type;

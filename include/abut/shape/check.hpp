@@ -83,6 +83,7 @@ template <class T>
 
 template <class Policy, class Element>
 void check_elements(const Policy& on, const strided<Element>& elements, const char* function, const char* name) {
+    require_access(on, elements.data, function);
     const std::size_t bad = reduce(on, elements.count, static_cast<std::size_t>(-1), minimum{}, bad_element<Element>{elements});
     if (bad == static_cast<std::size_t>(-1)) return;
     Element value;
@@ -104,6 +105,7 @@ void check(const Policy& on, const mesh_view<T, Space>& view, const char* functi
     check_elements(on, view.vertices, function, "vertex");
     const auto vertex_count = static_cast<std::uint32_t>(view.vertices.count);
     const std::size_t none = static_cast<std::size_t>(-1);
+    require_access(on, view.faces.data, function);
     const std::size_t bad = reduce(on, view.faces.count, none, minimum{}, bad_face{view.faces, vertex_count});
     if (bad == none) return;
     face value;
