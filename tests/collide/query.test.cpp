@@ -52,3 +52,34 @@ TEST_CASE("queries: many threads may query one index at a time") {
     for (std::thread& t : threads) t.join();
     CHECK(same == std::vector<int>(4, 5));
 }
+
+namespace {
+
+/// Keeps every pair and counts how often it was asked.
+struct counting_filter {
+    std::uint32_t* calls;
+    bool operator()(std::uint32_t, std::uint32_t) const {
+        execution::atomic_add(calls, 1u);
+        return true;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("queries: any stops at the first pair found") {
+    const triangle_soup<float> soup(std::vector<triangle<float>>(500, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+    const spheres<float> balls(std::vector<sphere<float>>(5000, {{0, 0, 0}, 1}));
+    std::uint32_t calls = 0;
+    const query_options<counting_filter> options{.filter = {&calls}};
+    CHECK(any(serial{}, soup, balls, options));
+    CHECK(calls <= 500);  // brute force: one row of a tile, not all 2,500,000 pairs
+    calls = 0;
+    CHECK(any(serial{}, make_bvh(serial{}, soup), balls, options));
+    CHECK(calls == 1);
+    calls = 0;
+    CHECK(any(serial{}, make_grid(serial{}, soup), balls, options));
+    CHECK(calls == 1);
+    calls = 0;
+    CHECK(any(openmp{.threads = 2}, make_bvh(serial{}, soup), balls, options));
+    CHECK(calls < 1000);
+}
