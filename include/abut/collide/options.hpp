@@ -35,8 +35,8 @@ struct query_options {
     /// filter(id in a, id in b) -> bool: pairs for which it is false are neither tested nor reported. A trivially copyable
     /// functor, ABUT_HD under cuda; called concurrently.
     Filter filter = {};
-    /// for_each_pair holds at most this many found pairs at a time, 8 bytes each; under cuda, pairs that the filter cannot
-    /// decide are not counted in that.
+    /// for_each_pair holds at most this many found pairs at a time, 8 bytes each; pairs that the filter cannot decide wait
+    /// beside them and are not counted in that.
     std::uint64_t most_pairs = std::uint64_t{1} << 24;
 };
 

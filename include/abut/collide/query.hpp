@@ -87,9 +87,9 @@ struct find_candidates {
             const auto walk = walk_of(target.index);
             using walk_type = std::remove_const_t<decltype(walk)>;
             for_each_candidate(on, n, may_touch<walk_type, Sides>{walk, sides, first},
-                               walk_index<walk_type, Sides>{walk, sides, first}, decide_key<A, host_policy<Policy>, Sides>{sides}, late, hits);
+                               walk_index<walk_type, Sides>{walk, sides, first}, decide_key<A, Sides>{sides}, late, hits);
         } else {
-            for_each_tiled(on, n, sides.targets.size(), all_against_all<A, host_policy<Policy>, Sides>{sides, first}, late, hits);
+            for_each_tiled(on, n, sides.targets.size(), all_against_all<A, Sides>{sides, first}, late, hits);
         }
     }
 };
@@ -165,8 +165,8 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Y, cl
     });
 }
 
-/// Number of pairs that touch. Stores none of them; under cuda, pairs that the filter cannot decide wait in a queue, 8 bytes
-/// each, for the second stage.
+/// Number of pairs that touch. Stores none of them; but pairs that the filter cannot decide wait in a queue, 8 bytes each,
+/// for the second stage.
 template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Filter = keep_all>
 [[nodiscard]] std::uint64_t count(const Policy& on, const X& a, const Y& b, const query_options<Filter>& options = {}) {
     return detail::on_both<A>(on, a, b, options.filter, "abut::count", [&](const auto&, const auto& run, std::size_t n) {

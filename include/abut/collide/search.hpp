@@ -102,9 +102,9 @@ struct sides {
     }
 };
 
-/// Stage 1 for one pair; what it cannot decide is late. On the host there is nothing to wait for: `AtOnce` goes on to the
-/// integers, and only what is too wide for those is late.
-template <arithmetic A, bool AtOnce, class Sides>
+/// Stage 1 for one pair; what it cannot decide is late, on the host as well: calling the integers from here made g++ inline
+/// less of the loop around it, and the query half as long again.
+template <arithmetic A, class Sides>
 struct decide_key {
     Sides sides;
 
@@ -114,10 +114,7 @@ struct decide_key {
     ABUT_CALLS_ANY
     template <class Query, class Target, class Late, class Hits>
     ABUT_HD void operator()(std::uint64_t key, const Query& query, const Target& target, Late& late, Hits& hits) const {
-        verdict v = decide_pair<A>(query, target);
-        if constexpr (AtOnce && std::same_as<A, filtered>) {
-            if (v == verdict::unknown) v = decide_pair<exact>(query, target);
-        }
+        const verdict v = decide_pair<A>(query, target);
         if (v == verdict::yes) report(hits, key);
         if (v == verdict::unknown) late.push(key);
     }
@@ -157,7 +154,7 @@ struct walk_index {
 };
 
 /// Queries against targets, all against all.
-template <arithmetic A, bool AtOnce, class Sides>
+template <arithmetic A, class Sides>
 struct all_against_all {
     struct column {
         typename Sides::target_shape shape;
@@ -185,7 +182,7 @@ struct all_against_all {
         if (!query.reach(target.box)) return;
         const auto query_id = static_cast<std::uint32_t>(first + i), target_id = static_cast<std::uint32_t>(j);
         if (!sides.wanted(query_id, target_id)) return;
-        decide_key<A, AtOnce, Sides>{sides}(sides.key.pack(query_id, target_id), query.shape, target.shape, late, hits);
+        decide_key<A, Sides>{sides}(sides.key.pack(query_id, target_id), query.shape, target.shape, late, hits);
     }
 };
 

@@ -81,8 +81,11 @@ void for_each_candidate(const Policy& on, std::size_t n, const Test& test, const
                         Queues&... queues) {
     const auto loop = [&](std::size_t begin, std::size_t end, auto& late, auto&... sinks) {
         const detail::decide_at_once emitter{[&](const typename Walk::candidate& c) { decide(c, late, sinks...); }};
-        for (std::size_t i = begin; i < end && !is_over(sinks...); ++i) {
-            if (test(i)) walk(i, emitter, sinks...);
+        for (std::size_t i = begin; i < end; ++i) {
+            if (test(i)) {
+                walk(i, emitter, sinks...);
+                if (is_over(sinks...)) return;
+            }
         }
     };
     detail::gather(on, n, range_grain, loop, queues...);
