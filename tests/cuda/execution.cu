@@ -12,15 +12,7 @@
 using namespace abut;
 using execution::buffer;
 
-TEST_CASE("verbs: cuda") {
-    const abut::cuda on;
-    test::check_loops(on);
-    test::check_candidates(on);
-    test::check_tiles(on);
-    test::check_reductions(on);
-    test::check_sorts<std::uint32_t>(on);
-    test::check_sorts<std::uint64_t>(on);
-}
+TEST_CASE("verbs: cuda") { test::check_verbs(abut::cuda{}); }
 
 TEMPLATE_TEST_CASE("bvh: well-formed on cuda, and the tree that serial builds", "", float, double) {
     test::check_trees<TestType>(abut::cuda{});

@@ -223,4 +223,14 @@ void check_sorts(const Policy& on) {
     }
 }
 
+template <class Policy>
+void check_verbs(const Policy& on) {
+    check_loops(on);
+    check_candidates(on);
+    check_tiles(on);
+    check_reductions(on);
+    check_sorts<std::uint32_t>(on);
+    check_sorts<std::uint64_t>(on);
+}
+
 }  // namespace abut::test

@@ -13,26 +13,12 @@ static_assert(execution_policy<openmp>);
 static_assert(!execution_policy<int>);
 static_assert(host_policy<serial> && host_policy<openmp>);
 
-namespace {
-
-template <class Policy>
-void check_all(const Policy& on) {
-    test::check_loops(on);
-    test::check_candidates(on);
-    test::check_tiles(on);
-    test::check_reductions(on);
-    test::check_sorts<std::uint32_t>(on);
-    test::check_sorts<std::uint64_t>(on);
-}
-
-}  // namespace
-
-TEST_CASE("verbs: serial") { check_all(serial{}); }
+TEST_CASE("verbs: serial") { test::check_verbs(serial{}); }
 
 TEST_CASE("verbs: openmp on 1, 2, 7 and all threads") {
     for (const int threads : {1, 2, 7, 0}) {
         CAPTURE(threads);
-        check_all(openmp{.threads = threads});
+        test::check_verbs(openmp{.threads = threads});
     }
 }
 
