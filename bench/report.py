@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Turns the JSON of bench_spheres_mesh and bench_spheres_mesh_cuda into the tables of docs/benchmarks.md.
+"""Turns the JSON of bench_spheres_mesh and bench_triangles, and of the same on CUDA, into the tables of docs/benchmarks.md.
 
 usage: report.py [--into PAGE.md] NAME=RESULTS.json...
 
@@ -28,7 +28,8 @@ class Results:
             sys.exit(f"{path}: not the results of a finished run: {problem}")
         self.context = data["context"]
         self.rows = {}
-        for row in data["benchmarks"]:
+        # Interleaved runs come in any order; family_index is the order in which the program lists them.
+        for row in sorted(data["benchmarks"], key=lambda r: r.get("family_index", 0)):
             if row.get("aggregate_name") != "median":
                 continue
             name = re.split(r"/(?:iterations|min_time|repeats|real_time)\b", row["run_name"])[0]
@@ -144,13 +145,157 @@ def break_even(r):
         table(["triangles", "spheres", "brute force", "buckets", "BVH"], rows)
 
 
+# --- triangles against triangles ---------------------------------------------------------------------------------------
+
+ARITHMETICS = ("fast", "filtered", "exact")
+STAGES = {"first": "filter", "late": "late", "word": "64 bits", "one_limb": "1 limb", "two_limbs": "2 limbs",
+          "any_span": "any span"}
+QUERIES = (("0", "any"), ("1", "count"), ("50", "count"), ("1", "any"), ("1", "pairs"), ("50", "pairs"), ("1", "unsorted"),
+           ("50", "unsorted"))
+
+
+def parts_of(r, kind, position):
+    """What stands at a position of the names of a kind, in the order of the program."""
+    return list(dict.fromkeys(n.split("/")[position] for n in r.rows if n.startswith(kind + "/")))
+
+
+def rate(r, name):
+    per_second = r.counter(name, "items_per_second")
+    return per_second / 1e6 if per_second else None
+
+
+def quotient(a, b, digits=2):
+    return f"{a / b:.{digits}f}" if a and b else ""
+
+
+def share(part):
+    """Per cent, with more digits where it is nearly all."""
+    if part is None:
+        return ""
+    return f"{100 * part:.3f}" if 0.99 < part < 1 else f"{100 * part:.3g}"
+
+
+def pairs_one_by_one(r):
+    peers = [p for p in ("cgal", "fcl") if f"pair/{p}/double/1" in r.rows]
+    names = {"cgal": "CGAL", "fcl": "FCL"}
+    rows = []
+    for scalar in ("float", "double"):
+        for percent in sorted(parts_of(r, "pair", 3), key=float):
+            rates = {a: rate(r, f"pair/{a}/{scalar}/{percent}") for a in ARITHMETICS}
+            # A peer's name says double: that is what it works in, on the same numbers as float.
+            theirs = [rate(r, f"pair/{p}/double/{percent}") if scalar == "float" else None for p in peers]
+            hits = r.counter(f"pair/filtered/{scalar}/{percent}", "hits")
+            rows.append([scalar, f"{100 * hits:.1f}"] + [shown(v) for v in rates.values()] +
+                        [quotient(rates["fast"], rates["filtered"])] + [shown(v) for v in theirs] +
+                        [quotient(rates["filtered"], v) for v in theirs])
+    head = ["", "hits, %"] + [f"`{a}`" for a in ARITHMETICS] + ["time of `filtered` / `fast`"]
+    head += [names[p] for p in peers] + [f"`filtered` over {names[p]}" for p in peers]
+    lines = ["Pairs decided one by one, in million a second:", ""] + table(head, rows)
+    if r.counter("pair/filtered/float/1", "registers") is None:
+        return lines
+    rows = []
+    for scalar in ("float", "double"):
+        for a in ARITHMETICS:
+            taken = [r.counter(f"pair/{a}/{scalar}/1", key) for key in ("registers", "local_bytes")]
+            rows.append([f"`{a}`, {scalar}"] + [f"{v:,.0f}" for v in taken])
+    return lines + ["What a thread of these kernels takes:", ""] + \
+        table(["", "registers", "bytes of local memory (stack and spills)"], rows)
+
+
+def one_against_many(r):
+    lines = []
+    for policy in ("serial", "openmp", "cuda"):
+        for scalar in ("float", "double"):
+            sizes = [n.split("/")[3] for n in r.rows if n.startswith(f"read/{scalar}/{policy}/")]
+            if not sizes:
+                continue
+
+            def name(q, a, percent, n):
+                return f"one/{q}/{a}/{scalar}/{percent}/{policy}/{n}"
+
+            asked = [(q, a, p) for p, q in QUERIES for a in ARITHMETICS if name(q, a, p, sizes[0]) in r.rows]
+            rows = []
+            for n in sizes:
+                read = r.ms(f"read/{scalar}/{policy}/{n}")
+                rows.append([f"{int(n):,}", shown(read)] + [shown(r.ms(name(*what, n))) for what in asked] +
+                            [quotient(r.ms(name(q, "filtered", p, n)), read) for q, p in (("any", "0"), ("count", "1"))])
+            head = ["triangles", "read"] + [f"`{q}`, {p} % hits, `{a}`" for q, a, p in asked]
+            lines += [f"One triangle against many, {policy}, {scalar}, in ms; the last two columns are `filtered`, with no hit "
+                      "and with 1 %, over a loop that only reads the same bytes:", ""]
+            lines += table(head + ["`any` / read", "`count` / read"], rows)
+    return lines
+
+
+def call_floor(r):
+    call, reading = r.ms("floor/call"), r.rows.get("floor/read")
+    if call is None:
+        return []
+    return [f"In the same run a GiB was read at {reading['bytes'] / reading['ms'] / 1e6:,.0f} GB/s, and a call that does next to "
+            f"nothing and waits for a number took {shown(call)} ms: no query is faster.", ""]
+
+
+def with_copy(r):
+    rows = []
+    for name in r.rows:
+        if name.startswith("one/copied/"):
+            _, _, _, scalar, _, policy, n = name.split("/")
+            times = [r.ms(name.replace("copied", "count", 1)), r.ms(f"copy/{scalar}/{policy}/{n}"), r.ms(name)]
+            rows.append([f"{int(n):,}", scalar] + [shown(t) for t in times] + [quotient(times[2], times[1])])
+    if not rows:
+        return []
+    head = ["triangles", "", "`count`, resident", "copy alone", "copy, check and `count`", "all / copy"]
+    return ["With the copy from page-locked host memory, and the check of every coordinate, before each `count` (1 % hits, "
+            "`filtered`), in ms:", ""] + table(head, rows)
+
+
+def many_against_many(r):
+    rows = []
+    for policy in ("serial", "openmp", "cuda"):
+        names = [name for name in r.rows if name.startswith("many/") and f"/{policy}/" in name]
+        for n in dict.fromkeys(name.split("/")[5] for name in names):
+            counted = f"many/count/filtered/float/{policy}/{n}"
+            times = [r.ms(f"many/{what}/float/{policy}/{n}") for what in ("count/fast", "count/filtered", "pairs/filtered")]
+            rows.append([f"{int(n):,} x {int(n):,}, {policy}", f"{r.counter(counted, 'found'):,.0f}"] +
+                        [shown(t) for t in times] + [shown(int(n) ** 2 / r.ms(counted) / 1e6)])
+    head = ["", "hits", "`count`, `fast`", "`count`, `filtered`", "`pairs`, `filtered`", "10^9 pairs/s"]
+    return ["Many against many, all pairs in tiles, float, in ms, and 10^9 pairs a second of `count`, `filtered`:", ""] + \
+        table(head, rows)
+
+
+def families(r):
+    lines = []
+    for scalar in ("float", "double"):
+        def name(a, family):
+            return f"family/{a}/{scalar}/{family}"
+
+        # `late` is a stage of float alone.
+        stages = [s for s in STAGES if (s, scalar) != ("late", "double")]
+        stages = [s for s in stages if r.counter(name("filtered", "random"), s) is not None]
+        arithmetics = [a for a in ARITHMETICS if name(a, "random") in r.rows]
+        rows = []
+        for family in parts_of(r, "family", 3):
+            rates = [rate(r, name(a, family)) for a in arithmetics]
+            rows.append([family, f"{100 * r.counter(name('filtered', family), 'hits'):.1f}"] + [shown(v) for v in rates] +
+                        [quotient(rates[0], rates[1])] + [share(r.counter(name("filtered", family), s)) for s in stages])
+        which = ", and which stage of `filtered` decides them, in %:" if stages else ":"
+        lines += [f"The families of `tests/support/triangle_families.hpp`, {scalar}, in million pairs a second{which}", ""]
+        lines += table(["family", "hits, %"] + [f"`{a}`" for a in arithmetics] + ["time of `filtered` / `fast`"] +
+                       [STAGES[s] for s in stages], rows)
+    return lines
+
+
+SPHERE_PARTS = (whole_scene, peers, floor, by_size, arithmetic, break_even)
+TRIANGLE_PARTS = (one_against_many, call_floor, with_copy, many_against_many, pairs_one_by_one, families)
+
+
 def report(r):
     machine = r.context.get("device")
     lines = []
     if machine:
         lines += [f"{machine}, CUDA {r.context['cuda'] // 1000}.{r.context['cuda'] % 1000 // 10}; pool at the end of the run: "
                   f"{r.context['pool_reserved']:,} bytes reserved, at most {r.context['pool_peak']:,} in use.", ""]
-    for part in (whole_scene, peers, floor, by_size, arithmetic, break_even):
+    is_triangles = any(name.startswith("family/") for name in r.rows)
+    for part in TRIANGLE_PARTS if is_triangles else SPHERE_PARTS:
         lines += part(r)
     return "\n".join(lines).rstrip() + "\n"
 

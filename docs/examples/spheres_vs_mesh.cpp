@@ -8,6 +8,7 @@
 
 #include <abut/abut.hpp>
 
+#include "program.hpp"
 #include "spheres_vs_mesh.hpp"
 
 namespace {
@@ -16,8 +17,8 @@ struct program {
     static constexpr const char* name = "spheres_vs_mesh";
     static constexpr const char* note = "";
     static constexpr bool has_threads = true;
-    using scalars = spheres_vs_mesh::types<float, double>;
-    using arithmetics = spheres_vs_mesh::types<abut::filtered, abut::fast, abut::exact>;
+    using scalars = example::types<float, double>;
+    using arithmetics = example::types<abut::filtered, abut::fast, abut::exact>;
 
     static std::vector<std::string> policies() { return {"openmp", "serial"}; }
     static void require_device() {}

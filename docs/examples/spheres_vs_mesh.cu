@@ -10,6 +10,7 @@
 
 #include <abut/cuda.hpp>
 
+#include "program.hpp"
 #include "spheres_vs_mesh.hpp"
 
 namespace {
@@ -19,8 +20,8 @@ struct program {
     static constexpr const char* note =
         "\nThis program runs on CUDA, in float and filtered; spheres_vs_mesh has double, fast and exact too.\n";
     static constexpr bool has_threads = false;
-    using scalars = spheres_vs_mesh::types<float>;
-    using arithmetics = spheres_vs_mesh::types<abut::filtered>;
+    using scalars = example::types<float>;
+    using arithmetics = example::types<abut::filtered>;
 
     static std::vector<std::string> policies() { return {"cuda"}; }
     static void require_device() {

@@ -7,21 +7,15 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
-#include <new>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
-
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 
@@ -29,6 +23,7 @@
 #include <abut/io/read.hpp>
 #include <abut/io/write.hpp>
 
+#include "program.hpp"
 #include "scene.hpp"
 
 namespace spheres_vs_mesh {
@@ -47,68 +42,6 @@ struct settings {
     int repeat = 1;
     std::string out_pairs = "spheres_vs_mesh_pairs.csv", out_mesh = "spheres_vs_mesh_hits.ply";
     bool no_output = false;
-};
-
-/// A complaint about the command line, which is the user's to mend.
-struct usage_error : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
-
-// --- where the time goes -----------------------------------------------------------------------------------------------
-
-/// Times named stages, and on a terminal says which one is running.
-class stopwatch {
-public:
-    /// Runs `work` as a stage and returns what it returns.
-    template <class Work>
-    decltype(auto) time(const char* stage, const Work& work) {
-        const running now(*this, stage);
-        return work();
-    }
-    /// The median of the stage's runs, in milliseconds; nothing if it has not run.
-    [[nodiscard]] std::optional<double> median(const std::string& stage) const {
-        for (const auto& [name, times] : stages_) {
-            if (name != stage) continue;
-            std::vector<double> sorted = times;
-            std::sort(sorted.begin(), sorted.end());
-            return (sorted[(sorted.size() - 1) / 2] + sorted[sorted.size() / 2]) / 2;
-        }
-        return std::nullopt;
-    }
-    void print() const {
-        for (const auto& stage : stages_) std::printf("  %-16s %12.3f\n", stage.first.c_str(), *median(stage.first));
-    }
-
-private:
-    class running {
-    public:
-        running(stopwatch& watch, const char* stage) : watch_(watch), stage_(stage) {
-            if (watch_.terminal_) std::fprintf(stderr, "\r\033[K%s ...", stage);
-            start_ = std::chrono::steady_clock::now();
-        }
-        running(const running&) = delete;
-        running& operator=(const running&) = delete;
-        ~running() {
-            const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start_;
-            if (watch_.terminal_) std::fputs("\r\033[K", stderr);
-            watch_.add(stage_, took.count());
-        }
-
-    private:
-        stopwatch& watch_;
-        const char* stage_;
-        std::chrono::steady_clock::time_point start_;
-    };
-
-    void add(const std::string& stage, double milliseconds) {
-        for (auto& [name, times] : stages_) {
-            if (name == stage) return times.push_back(milliseconds);
-        }
-        stages_.push_back({stage, {milliseconds}});
-    }
-
-    std::vector<std::pair<std::string, std::vector<double>>> stages_;
-    bool terminal_ = isatty(STDERR_FILENO) != 0;
 };
 
 // --- the scene ---------------------------------------------------------------------------------------------------------
@@ -168,7 +101,7 @@ std::variant<abut::equal_spheres<T>, abut::spheres<T>> read_spheres(const settin
 
 /// Reads or makes the scene, and makes checked sets of it.
 template <abut::scalar T>
-input<T> make_input(const settings& s, stopwatch& watch) {
+input<T> make_input(const settings& s, example::stopwatch& watch) {
     const bool embedded = s.mesh_file.empty();
     scene::surface<T> surface;
     std::vector<abut::vec3<T>> centers;
@@ -213,7 +146,7 @@ struct outcome {
 /// is make_bvh, make_grid or nothing.
 template <abut::arithmetic A, class Policy, class Mesh, class Spheres, class MakeIndex>
 outcome solve(const Policy& on, const Mesh& host_mesh, const Spheres& host_spheres, const MakeIndex& make_index, int repeat,
-              stopwatch& watch) {
+              example::stopwatch& watch) {
     constexpr bool elsewhere = !abut::host_policy<Policy>;
     if (elsewhere) watch.time("start device", [&] { synchronize(on); });
     const auto bring = [&] { return std::pair(abut::copy_to(on, host_mesh), abut::copy_to(on, host_spheres)); };
@@ -235,30 +168,6 @@ outcome solve(const Policy& on, const Mesh& host_mesh, const Spheres& host_spher
     return found;
 }
 
-/// A list of types.
-template <class... X>
-struct types {};
-
-template <class X>
-std::string name_of() {
-    if constexpr (std::same_as<X, float>) return "float";
-    if constexpr (std::same_as<X, double>) return "double";
-    if constexpr (std::same_as<X, abut::fast>) return "fast";
-    if constexpr (std::same_as<X, abut::filtered>) return "filtered";
-    if constexpr (std::same_as<X, abut::exact>) return "exact";
-}
-
-template <class... X>
-std::vector<std::string> names_of(types<X...>) {
-    return {name_of<X>()...};
-}
-
-/// Calls work.template operator()<X>() for the X of the list that has this name.
-template <class... X, class Work>
-void choose(types<X...>, const std::string& name, const Work& work) {
-    ((name_of<X>() == name ? work.template operator()<X>() : void()), ...);
-}
-
 /// Which index `auto` means for this scene.
 inline std::string chosen_index(const settings& s, std::size_t spheres, std::size_t triangles) {
     if (s.index != "auto") return s.index;
@@ -267,14 +176,10 @@ inline std::string chosen_index(const settings& s, std::size_t spheres, std::siz
 
 // --- what comes out ----------------------------------------------------------------------------------------------------
 
-inline std::size_t count_set(const std::vector<std::uint8_t>& flags) {
-    return static_cast<std::size_t>(std::count(flags.begin(), flags.end(), std::uint8_t{1}));
-}
-
 template <class Program, abut::scalar T>
 void run_as(const settings& s) {
     const auto begin = std::chrono::steady_clock::now();
-    stopwatch watch;
+    example::stopwatch watch;
     const auto in = make_input<T>(s, watch);
     const std::size_t triangles = in.mesh.size();
     const std::size_t spheres = std::visit([](const auto& set) { return set.size(); }, in.spheres);
@@ -294,7 +199,7 @@ void run_as(const settings& s) {
                 },
                 in.spheres);
         };
-        choose(typename Program::arithmetics{}, s.arithmetic, with);
+        example::choose(typename Program::arithmetics{}, s.arithmetic, with);
     };
     Program::with_policy(s, run);
 
@@ -317,8 +222,8 @@ void run_as(const settings& s) {
     }
     line("triangles", triangles);
     line("pairs", found.pairs.size());
-    line("triangles hit", count_set(triangle_hit));
-    line("spheres hit", count_set(sphere_hit));
+    line("triangles hit", example::count_set(triangle_hit));
+    line("spheres hit", example::count_set(sphere_hit));
     line("bytes of the index", found.index_bytes);
     std::printf("time in ms%s\n", s.repeat > 1 ? " (build and query: median of the runs)" : "");
     watch.print();
@@ -358,10 +263,10 @@ void describe(CLI::App& app, settings& s) {
         ->check(CLI::IsMember({"auto", "bvh", "grid", "none"}))
         ->capture_default_str();
     app.add_option("--arithmetic", s.arithmetic, "How pairs are decided; only fast can be wrong")
-        ->check(CLI::IsMember(names_of(arithmetics{})))
+        ->check(CLI::IsMember(example::names_of(arithmetics{})))
         ->capture_default_str();
     app.add_option("--scalar", s.scalar, "Type of the coordinates")
-        ->check(CLI::IsMember(names_of(scalars{})))
+        ->check(CLI::IsMember(example::names_of(scalars{})))
         ->capture_default_str();
     app.add_option("--repeat", s.repeat, "Build and query N times, and show the medians")
         ->type_name("N")
@@ -378,48 +283,30 @@ void describe(CLI::App& app, settings& s) {
 
 /// What CLI11 does not check.
 inline void check(const settings& s) {
-    if (s.radius && !(std::isfinite(*s.radius) && *s.radius >= 0)) throw usage_error("--radius: expected 0 or more");
-    if (s.threads > 0 && s.policy != "openmp") throw usage_error("--threads goes with --policy openmp");
+    if (s.radius && !(std::isfinite(*s.radius) && *s.radius >= 0))
+        throw example::usage_error("--radius: expected 0 or more");
+    if (s.threads > 0 && s.policy != "openmp") throw example::usage_error("--threads goes with --policy openmp");
     // Now, not after minutes of work.
     for (const auto& file : {s.mesh_file, s.spheres_file}) {
-        if (!file.empty() && !std::filesystem::exists(file)) throw usage_error(file + ": no such file");
+        if (!file.empty() && !std::filesystem::exists(file)) throw example::usage_error(file + ": no such file");
     }
     if (s.no_output) return;
-    for (const auto& file : {s.out_pairs, s.out_mesh}) {
-        const auto folder = std::filesystem::path(file).parent_path();
-        if (!folder.empty() && !std::filesystem::is_directory(folder)) throw usage_error(file + ": no such folder");
-    }
+    for (const auto& file : {s.out_pairs, s.out_mesh}) example::require_folder(file);
 }
 
-/// `Program` names itself, its policies, and the types that it is compiled for. Returns the exit status: 0, 1 if the run
-/// failed, 2 if the command line is wrong; a failure is one line on stderr.
+/// `Program` names itself, its policies, and the types that it is compiled for. Returns the exit status.
 template <class Program>
 int main(int argc, char** argv) {
-    const auto fail = [](const std::string& why, int status) {
-        std::fprintf(stderr, "%s: %s\n", Program::name, why.c_str());
-        return status;
-    };
     settings s;
     s.policy = Program::policies().front();
-    CLI::App app("", Program::name);
-    describe<Program>(app, s);
-    try {
-        app.parse(argc, argv);
+    const auto work = [&] {
         check(s);
         Program::require_device();
-        choose(typename Program::scalars{}, s.scalar, [&]<class T>() { run_as<Program, T>(s); });
+        example::choose(typename Program::scalars{}, s.scalar, [&]<class T>() { run_as<Program, T>(s); });
         return 0;
-    } catch (const CLI::Success& help) {
-        return app.exit(help);
-    } catch (const CLI::ParseError& e) {
-        return fail(e.what() + std::string(" (--help explains)"), 2);
-    } catch (const usage_error& e) {
-        return fail(e.what() + std::string(" (--help explains)"), 2);
-    } catch (const std::bad_alloc&) {
-        return fail("out of memory", 1);
-    } catch (const std::exception& e) {
-        return fail(e.what(), 1);
-    }
+    };
+    return example::run(
+        Program::name, argc, argv, [&](CLI::App& app) { describe<Program>(app, s); }, work);
 }
 
 }  // namespace spheres_vs_mesh

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "support/catch.hpp"
-#include "support/families.hpp"
+#include "support/draws.hpp"
 #include "support/samples.hpp"
 
 namespace {

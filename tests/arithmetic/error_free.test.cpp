@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "support/catch.hpp"
-#include "support/families.hpp"
+#include "support/draws.hpp"
 #include "support/rational.hpp"
 #include "support/samples.hpp"
 

@@ -2,7 +2,7 @@
 #include <abut/arithmetic/sparse_sum.hpp>
 
 #include "support/catch.hpp"
-#include "support/families.hpp"
+#include "support/draws.hpp"
 #include "support/rational.hpp"
 #include "support/samples.hpp"
 

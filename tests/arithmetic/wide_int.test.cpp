@@ -6,7 +6,7 @@
 #include <boost/multiprecision/cpp_int.hpp>
 
 #include "support/catch.hpp"
-#include "support/families.hpp"
+#include "support/draws.hpp"
 #include "support/samples.hpp"
 
 namespace {

@@ -62,6 +62,14 @@ struct keep_some {
         }
     }
 };
+/// What is late is kept after all, unless it came for want of room and is none of ours.
+struct settle_some {
+    ABUT_CALLS_ANY
+    template <class Hits>
+    ABUT_HD void operator()(std::uint64_t candidate, Hits& hits) const {
+        if (candidate % 5 == 0 || candidate % 3 != 0) hits.push(candidate);
+    }
+};
 struct raise_at {
     std::size_t where;
     ABUT_CALLS_ANY
@@ -74,14 +82,35 @@ struct product_tile {
     struct row {
         std::uint64_t value;
     };
+    struct reach {
+        std::uint64_t value;
+    };
     using column = std::uint64_t;
+    /// A share of all pairs, or all of them.
+    std::uint64_t modulus;
+    static bool passes(std::uint64_t modulus, std::uint64_t i, std::uint64_t j) { return (i * 3 + j) % modulus == 0; }
     ABUT_HD row load_row(std::size_t i) const { return {i + 1}; }
+    ABUT_HD reach reach_of(const row& r) const { return {(r.value - 1) * 3}; }
     ABUT_HD column load_column(std::size_t j) const { return j + 1; }
+    ABUT_HD bool passes(const reach& r, const column& c) const { return (r.value + c - 1) % modulus == 0; }
+    ABUT_CALLS_ANY
+    template <class Late, class Queue, class Count>
+    ABUT_HD void operator()(const row& r, std::size_t i, const column& c, std::size_t j, Late& late, Queue& queue,
+                            Count& count) const {
+        count.add(1);
+        if ((i + j) % 11 == 0) {
+            late.push(i << 32 | j);
+        } else if (r.value * c % 7 == 0 && r.value == i + 1 && c == j + 1) {
+            queue.push(i << 32 | j);
+        }
+    }
+};
+struct settle_product {
     ABUT_CALLS_ANY
     template <class Queue, class Count>
-    ABUT_HD void operator()(row& r, std::size_t i, const column& c, std::size_t j, Queue& queue, Count& count) const {
-        count.add(1);
-        if (r.value * c % 7 == 0 && r.value == i + 1 && c == j + 1) queue.push(i << 32 | j);
+    ABUT_HD void operator()(std::uint64_t key, Queue& queue, Count& count) const {
+        count.add(1000);
+        if (((key >> 32) + 1) * ((key & 0xffffffff) + 1) % 7 == 0) queue.push(key);
     }
 };
 
@@ -138,13 +167,8 @@ void check_candidates(const Policy& on) {
     for (const auto& [n, of, copies] : cases) {
         CAPTURE(n, of, copies);
         execution::work_queue<std::uint64_t, space_of<Policy>> late(on), hits(on);
-        for_each_candidate(on, n, is_multiple{of}, emit_copies{copies}, keep_some{}, late, hits);
-        // What is late for want of room is for the caller to decide; every candidate is in one place.
-        std::vector<std::uint64_t> all = sorted_content(on, hits);
-        for (const std::uint64_t c : sorted_content(on, late)) {
-            if (c % 5 == 0 || c % 3 != 0) all.push_back(c);
-        }
-        std::sort(all.begin(), all.end());
+        for_each_candidate(on, n, is_multiple{of}, emit_copies{copies}, keep_some{}, settle_some{}, late, hits);
+        const std::vector<std::uint64_t> all = sorted_content(on, hits);
         std::vector<std::uint64_t> expected;
         for (std::size_t i = 0; i < n; i += of) {
             for (std::uint64_t c = i * copies; c < (i + 1) * copies; ++c) {
@@ -159,18 +183,26 @@ template <class Policy>
 void check_tiles(const Policy& on) {
     const std::pair<std::size_t, std::size_t> sizes[] = {{0, 5}, {5, 0}, {1, 1}, {1, 3000}, {3000, 1}, {300, 257}, {257, 1000}};
     for (const auto& [n, m] : sizes) {
-        CAPTURE(n, m);
-        execution::work_queue<std::uint64_t, space_of<Policy>> queue(on);
-        execution::work_count<space_of<Policy>> count(on);
-        for_each_tiled(on, n, m, product_tile{}, queue, count);
-        std::vector<std::uint64_t> expected;
-        for (std::size_t i = 0; i < n; ++i) {
-            for (std::size_t j = 0; j < m; ++j) {
-                if ((i + 1) * (j + 1) % 7 == 0) expected.push_back(i << 32 | j);
+        for (const std::uint64_t modulus : {1, 2, 67}) {
+            CAPTURE(n, m, modulus);
+            execution::work_queue<std::uint64_t, space_of<Policy>> queue(on);
+            execution::work_count<space_of<Policy>> count(on);
+            execution::work_queue<std::uint64_t, space_of<Policy>> late(on);
+            for_each_tiled(on, n, m, product_tile{modulus}, settle_product{}, late, queue, count);
+            std::vector<std::uint64_t> expected;
+            std::uint64_t passed = 0, settled = 0;
+            for (std::size_t i = 0; i < n; ++i) {
+                for (std::size_t j = 0; j < m; ++j) {
+                    if (!product_tile::passes(modulus, i, j)) continue;
+                    ++passed;
+                    settled += (i + j) % 11 == 0;
+                    if ((i + 1) * (j + 1) % 7 == 0) expected.push_back(i << 32 | j);
+                }
             }
+            CHECK(sorted_content(on, queue) == expected);
+            CHECK(count.total() == passed + 1000 * settled);
+            CHECK(late.size() == settled);
         }
-        CHECK(sorted_content(on, queue) == expected);
-        CHECK(count.total() == n * m);
     }
 }
 

@@ -13,8 +13,10 @@
 
 #include "support/catch.hpp"
 #include "support/families.hpp"
+#include "support/hulls.hpp"
 #include "support/rational.hpp"
 #include "support/samples.hpp"
+#include "support/triangle_families.hpp"
 
 // The other pairs of shapes against the oracle, and what must not change an answer: the order of arguments and of corners,
 // powers of two, mirrors, and when it is computed.
@@ -23,6 +25,7 @@ namespace {
 
 using namespace abut;
 using test::family;
+using test::triangle_family;
 
 constexpr triangle<float> corner{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
 constexpr sphere<double> unit_ball{{0, 0, 0}, 1};
@@ -39,8 +42,9 @@ static_assert(intersects(segment<double>{{1, -5, 0}, {1, 5, 0}}, unit_ball));
 static_assert(!intersects(segment<double>{{0x1.0000000000001p0, -5, 0}, {0x1.0000000000001p0, 5, 0}}, unit_ball));
 
 static_assert(decidable_pair<sphere<float>, triangle<float>> && decidable_pair<vec3<double>, triangle<double>>);
-static_assert(!decidable_pair<triangle<float>, triangle<float>>);  // not yet
-static_assert(!decidable_pair<sphere<float>, triangle<double>>);   // mixed scalars
+static_assert(decidable_pair<triangle<float>, triangle<float>> && decidable_pair<segment<double>, triangle<double>>);
+static_assert(!decidable_pair<sphere<float>, triangle<double>>);  // mixed scalars
+static_assert(!decidable_pair<triangle<float>, triangle<double>> && !decidable_pair<segment<float>, triangle<double>>);
 static_assert(!decidable_pair<triangle<double>, sphere<float>>);
 
 struct tally {
@@ -61,15 +65,14 @@ void examine(const S& s, const U& t, bool truth, std::uint64_t index, tally& sum
     sum.wrong += wrong;
 }
 
-/// Every family, read as pairs of other shapes.
-template <scalar T, class Examine>
-void check_families(const char* what, Examine check_pair) {
+template <class Family, class MakePair, class Examine>
+void check_all(const char* what, int family_count, MakePair make_pair, Examine check_pair, double least_share) {
     tally all;
-    for (int i = 0; i < test::family_count; ++i) {
-        const auto f = static_cast<family>(i);
+    for (int i = 0; i < family_count; ++i) {
+        const auto f = static_cast<Family>(i);
         const tally t =
             test::in_threads<tally>(test::sample_count(), [&](std::uint64_t first, std::uint64_t last, tally& sum) {
-                for (std::uint64_t k = first; k < last; ++k) check_pair(test::make_pair<T>(test::seed, f, k), k, sum);
+                for (std::uint64_t k = first; k < last; ++k) check_pair(make_pair(f, k), k, sum);
             });
         INFO(what << ", " << test::name_of(f));
         CHECK(t.pairs >= test::sample_count());
@@ -78,9 +81,22 @@ void check_families(const char* what, Examine check_pair) {
     }
     const double share = static_cast<double>(all.hits) / static_cast<double>(all.pairs);
     std::printf("%s: %llu pairs of %d families, seed %llu, hits %.1f %%\n", what, static_cast<unsigned long long>(all.pairs),
-                test::family_count, static_cast<unsigned long long>(test::seed), 100 * share);
-    CHECK(share > 0.05);
+                family_count, static_cast<unsigned long long>(test::seed), 100 * share);
+    CHECK(share > least_share);
     CHECK(share < 0.95);
+}
+
+/// Every family, read as pairs of other shapes.
+template <scalar T, class Examine>
+void check_families(const char* what, Examine check_pair) {
+    const auto make_pair = [](family f, std::uint64_t k) { return test::make_pair<T>(test::seed, f, k); };
+    check_all<family>(what, test::family_count, make_pair, check_pair, 0.05);
+}
+
+template <scalar T, class Examine>
+void check_triangle_families(const char* what, Examine check_pair, double least_share) {
+    const auto make_pair = [](triangle_family f, std::uint64_t k) { return test::make_triangle_pair<T>(test::seed, f, k); };
+    check_all<triangle_family>(what, test::triangle_family_count, make_pair, check_pair, least_share);
 }
 
 }  // namespace
@@ -112,6 +128,29 @@ TEMPLATE_TEST_CASE("point and triangle: a sphere of radius 0", "", float, double
     }
     CHECK(all.wrong == 0);
     CHECK(all.hits * 20 > all.pairs);
+}
+
+// Of triangle pairs: the first one's corners in turn, and the edges between them.
+
+TEMPLATE_TEST_CASE("segment and triangle: every stage is right in every family of triangles", "", float, double) {
+    check_triangle_families<TestType>(
+        "segment and triangle",
+        [](const auto& p, std::uint64_t k, tally& sum) {
+            const triangle<TestType> turned = test::reordered(p.a, static_cast<int>(k % 6));
+            const segment<TestType> e{turned.a, turned.b};
+            examine(e, p.b, test::oracle::intersects(e, p.b), k, sum);
+        },
+        0.1);
+}
+
+TEMPLATE_TEST_CASE("point and triangle: every stage is right in every family of triangles", "", float, double) {
+    check_triangle_families<TestType>(
+        "point and triangle",
+        [](const auto& p, std::uint64_t k, tally& sum) {
+            const vec3<TestType> vertex = test::reordered(p.a, static_cast<int>(k % 3)).a;
+            examine(vertex, p.b, test::oracle::intersects(vertex, p.b), k, sum);
+        },
+        0.02);
 }
 
 TEMPLATE_TEST_CASE("answers do not depend on the order of corners, on powers of two, or on mirrors", "", float, double) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <abut/shape/bounds.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <rapidcheck.h>
@@ -73,6 +74,35 @@ void showValue(const abut::sphere<T>& s, std::ostream& out) {
 TEST_CASE("bounds: a sphere's box rounds outward, by one step at most") {
     check_spheres<float>();
     check_spheres<double>();
+}
+
+TEST_CASE("bounds: a capsule's box rounds outward, by one step at most") {
+    const auto property = []<class T>(T) {
+        const sphere<T> a = *comparable_sphere<T>(), b = *comparable_sphere<T>();
+        const capsule<T> s{{a.center, b.center}, a.radius};
+        const aabb<T> box = bounds(s);
+        const auto check = [&](T x, T y, T lower, T upper) {
+            check_tight(std::min(x, y), s.radius, lower, bounds(sphere<T>{{std::min(x, y), 0, 0}, s.radius}).upper.x);
+            check_tight(std::max(x, y), s.radius, bounds(sphere<T>{{std::max(x, y), 0, 0}, s.radius}).lower.x, upper);
+        };
+        check(s.axis.a.x, s.axis.b.x, box.lower.x, box.upper.x);
+        check(s.axis.a.y, s.axis.b.y, box.lower.y, box.upper.y);
+        check(s.axis.a.z, s.axis.b.z, box.lower.z, box.upper.z);
+    };
+    CHECK(rc::check("box of a capsule, float", [&] { property(float{}); }));
+    CHECK(rc::check("box of a capsule, double", [&] { property(double{}); }));
+}
+
+TEST_CASE("bounds: boxes of points, segments and boxes are exact, and a plane's is all of space") {
+    const aabb<double> box = bounds(segment<double>{{1, 5, -3}, {-2, 7, 0}});
+    CHECK(box.lower == vec3<double>{-2, 5, -3});
+    CHECK(box.upper == vec3<double>{1, 7, 0});
+    CHECK(bounds(box).lower == box.lower);
+    CHECK(bounds(box).upper == box.upper);
+    CHECK(bounds(vec3<double>{1, 2, 3}).lower == vec3<double>{1, 2, 3});
+    CHECK(bounds(vec3<double>{1, 2, 3}).upper == vec3<double>{1, 2, 3});
+    const double largest = std::numeric_limits<double>::max();
+    CHECK(contains(bounds(plane<double>{{0, 0, 1}, 4}), aabb<double>{{-largest, 0, 9}, {0, largest, largest}}));
 }
 
 TEST_CASE("bounds: boxes of triangles are exact, merging and comparing too") {

@@ -5,6 +5,7 @@
 // the squared distance is the minimum of a convex quadratic over the barycentric weights, found by trying the supports of
 // the weights and checking the Karush-Kuhn-Tucker conditions, on the Gram matrix of the corners alone.
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -28,10 +29,9 @@ std::vector<integer> to_integers(const std::vector<T>& values) {
         mantissa[i] = static_cast<std::int64_t>(std::ldexp(std::frexp(static_cast<double>(values[i]), &e), 53));
         exponent[i] = e - 53;
         if (mantissa[i] == 0) continue;
-        while (mantissa[i] % 2 == 0) {
-            mantissa[i] /= 2;
-            ++exponent[i];
-        }
+        const int zeros = std::countr_zero(static_cast<std::uint64_t>(mantissa[i]));
+        mantissa[i] >>= zeros;
+        exponent[i] += zeros;
         low = exponent[i] < low ? exponent[i] : low;
     }
     std::vector<integer> r(values.size());

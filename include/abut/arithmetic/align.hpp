@@ -60,6 +60,15 @@ ABUT_HD constexpr binary_parts take_apart(T x) {
             format::digits - trailing};
 }
 
+/// Whether x is neither zero nor normal. By its bits, since a processor may be told to read such a number as zero.
+template <scalar T>
+ABUT_HD constexpr bool is_subnormal(T x) {
+    using format = detail::float_format<T>;
+    using word = typename format::word;
+    const word magnitude = static_cast<word>(__builtin_bit_cast(word, x) << 1);
+    return magnitude != 0 && magnitude >> format::digits == 0;
+}
+
 /// `V` finite numbers and the power of two, 2^low, that all are multiples of.
 template <int V>
 struct aligned {

@@ -5,6 +5,8 @@
 // `holds(const N (&value)[V]) -> bool`, written over a number type N with +, -, *, `sign_of_dot` and `squares_at_most`; the
 // values are the coordinates (and radii) that it depends on, all of one unit.
 
+#include <cstdint>
+
 #include <abut/arithmetic/align.hpp>
 #include <abut/arithmetic/arithmetic.hpp>
 #include <abut/arithmetic/sparse_sum.hpp>
@@ -21,11 +23,34 @@ ABUT_HD constexpr bool holds_in_limbs(const aligned<V>& x) {
     return Predicate::holds(value);
 }
 
+namespace detail {
+
+/// The degree of a predicate that states it, or the highest.
+template <class Predicate>
+inline constexpr int degree_of = 6;
+template <class Predicate>
+    requires requires { Predicate::degree; }
+inline constexpr int degree_of<Predicate> = Predicate::degree;
+
+/// Coordinates of so many bits keep all values in 63 bits: a determinant is a sum of six products of differences.
+template <class Predicate>
+inline constexpr int word_bits = 60 / degree_of<Predicate> - 1;
+
+}  // namespace detail
+
 /// The stage in registers: `unknown` only where the exponents span more than 124 bits. Not inlined: it is rarely reached,
-/// and every kernel that decides would else be compiled with its thousands of instructions once more.
+/// and every kernel that decides would else be compiled with its thousands of instructions once more. Numbers on a coarse
+/// lattice need no wide integers.
 template <class Predicate, scalar T, int V>
 ABUT_NOINLINE ABUT_HD constexpr verdict decide_in_limbs(const T (&value)[V]) {
     const aligned<V> x(value);
+    if constexpr (detail::degree_of<Predicate> <= 3) {
+        if (x.width() <= detail::word_bits<Predicate>) {
+            std::int64_t word[V]{};
+            for (int i = 0; i < V; ++i) word[i] = static_cast<std::int64_t>(x.template integer<1>(i).limb[0]);
+            return to_verdict(Predicate::holds(word));
+        }
+    }
     if (x.width() <= 60) return to_verdict(holds_in_limbs<Predicate, 1>(x));
     if (x.width() <= 124) return to_verdict(holds_in_limbs<Predicate, 2>(x));
     return verdict::unknown;

@@ -105,6 +105,12 @@ public:
     }
 
     template <int K, int D>
+    ABUT_HD constexpr void add_sum(const sparse_sum<T, K, D>& a) {
+        static_assert(D <= Degree);
+        for (int i = 0; i < K; ++i) add(a.term[i].mantissa, a.term[i].exponent, 1);
+    }
+
+    template <int K, int D>
     ABUT_HD constexpr void add_square(const sparse_sum<T, K, D>& a, int weight) {
         add_product(a, a, weight);
     }
@@ -157,6 +163,14 @@ private:
     std::int64_t digit_[size];  // the lowest `used_` are set
     int used_ = 0;
 };
+
+/// -1, 0 or 1.
+template <scalar T, int K, int D>
+ABUT_NOINLINE ABUT_HD constexpr int sign(const sparse_sum<T, K, D>& a) {
+    accumulator<T, D> sum;
+    sum.add_sum(a);
+    return sum.sign();
+}
 
 /// The sign of a . b
 template <scalar T, int K, int D, int M, int E>

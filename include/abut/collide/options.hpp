@@ -26,8 +26,11 @@ struct keep_all {
     ABUT_HD constexpr bool operator()(std::uint32_t, std::uint32_t) const { return true; }
 };
 
-/// Options of `any`, `count`, `pairs` and `for_each_pair`. Without a filter, `{.sorted = false}` will do in a call; with one,
-/// write `query_options<my_filter>{.filter = my_filter{...}}`: clang 14 cannot deduce the argument of an aggregate.
+/// An argument of a query.
+enum class query_side : unsigned char { automatic, a, b };
+
+/// Options of `any`, `count`, `pairs` and `for_each_pair`. Without a filter, `{.sorted = false}` will do in a call; with
+/// one, write `query_options<my_filter>{.filter = my_filter{...}}`: clang 14 cannot deduce the argument of an aggregate.
 template <class Filter = keep_all>
 struct query_options {
     /// Pairs sorted by a, then b. Without it their order is any, and may differ from call to call.
@@ -38,6 +41,10 @@ struct query_options {
     /// for_each_pair holds at most this many found pairs at a time, 8 bytes each; pairs that the filter cannot decide wait
     /// beside them and are not counted in that.
     std::uint64_t most_pairs = std::uint64_t{1} << 24;
+    /// Where neither side is an index: the one that stays close to the cores, a tile of it at a time (under cuda in shared
+    /// memory), while the other streams by and is shared out among threads. By itself the smaller one. A single shape is
+    /// always the resident side, and an index the one that is looked in. It changes times, not answers.
+    query_side resident = query_side::automatic;
 };
 
 /// The outcome of a query in the policy's memory: contiguous and immutable.
@@ -54,9 +61,21 @@ public:
     [[nodiscard]] bool empty() const { return size() == 0; }
     /// In the memory space of the policy that ran the query.
     [[nodiscard]] const T* data() const { return values_.data(); }
-    [[nodiscard]] const T* begin() const requires std::same_as<Space, host_space> { return data(); }
-    [[nodiscard]] const T* end() const requires std::same_as<Space, host_space> { return data() + size(); }
-    [[nodiscard]] const T& operator[](std::size_t i) const requires std::same_as<Space, host_space> { return data()[i]; }
+    [[nodiscard]] const T* begin() const
+        requires std::same_as<Space, host_space>
+    {
+        return data();
+    }
+    [[nodiscard]] const T* end() const
+        requires std::same_as<Space, host_space>
+    {
+        return data() + size();
+    }
+    [[nodiscard]] const T& operator[](std::size_t i) const
+        requires std::same_as<Space, host_space>
+    {
+        return data()[i];
+    }
 
     /// Copies to the host and waits for the copy.
     [[nodiscard]] std::vector<T> to_host() const {

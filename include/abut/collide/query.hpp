@@ -80,16 +80,17 @@ struct find_candidates {
     const TargetSide& target;
     std::size_t first, n;
 
-    template <class Late, class Hits>
-    void operator()(Late& late, Hits& hits) const {
+    template <class Settle, class Late, class Wide, class Hits>
+    void operator()(const Settle& settle, Late& late, Wide& wide, Hits& hits) const {
         if (n == 0 || sides.targets.size() == 0) return;
         if constexpr (is_indexed_side<TargetSide>) {
             const auto walk = walk_of(target.index);
             using walk_type = std::remove_const_t<decltype(walk)>;
             for_each_candidate(on, n, may_touch<walk_type, Sides>{walk, sides, first},
-                               walk_index<walk_type, Sides>{walk, sides, first}, decide_key<A, Sides>{sides}, late, hits);
+                               walk_index<walk_type, Sides>{walk, sides, first}, decide_key<A, Sides>{sides}, settle, late,
+                               wide, hits);
         } else {
-            for_each_tiled(on, n, sides.targets.size(), all_against_all<A, Sides>{sides, first}, late, hits);
+            for_each_tiled(on, n, sides.targets.size(), all_against_all<A, Sides>{sides, first}, settle, late, wide, hits);
         }
     }
 };
@@ -114,16 +115,21 @@ auto with_search(const Policy& on, const QuerySide& query_side, const TargetSide
 /// Brings both arguments to the policy and chooses who looks for whom: an index is looked in, and of two plain sets the
 /// larger one looks, since rows of tiles are what runs in parallel.
 template <arithmetic A, class Policy, class X, class Y, class Filter, class Body>
-auto on_both(const Policy& on, const X& x, const Y& y, const Filter& filter, const char* function, const Body& body) {
+auto on_both(const Policy& on, const X& x, const Y& y, const query_options<Filter>& options, const char* function,
+             const Body& body) {
     const auto a = make_side(on, x, function);
     const auto b = make_side(on, y, function);
-    if constexpr (is_index<X>) {
-        return with_search<A>(on, b, a, true, filter, body);
-    } else if constexpr (is_index<Y>) {
-        return with_search<A>(on, a, b, false, filter, body);
+    const auto a_looks = [&] { return with_search<A>(on, a, b, false, options.filter, body); };
+    const auto b_looks = [&] { return with_search<A>(on, b, a, true, options.filter, body); };
+    constexpr bool indexed = is_index<X> || is_index<Y>;
+    if constexpr (indexed ? is_index<X> : is_shape<X>) {
+        return b_looks();
+    } else if constexpr (indexed || is_shape<Y>) {
+        return a_looks();
     } else {
-        return a.shapes().size() < b.shapes().size() ? with_search<A>(on, b, a, true, filter, body)
-                                                     : with_search<A>(on, a, b, false, filter, body);
+        const bool a_is_smaller = a.shapes().size() < b.shapes().size();
+        const bool a_stays = options.resident == query_side::automatic ? a_is_smaller : options.resident == query_side::a;
+        return a_stays ? b_looks() : a_looks();
     }
 }
 
@@ -158,7 +164,7 @@ auto unpacked(const Policy& on, const pair_key& key, const execution::buffer_of<
 /// Whether any shape of `a` touches any shape of `b`. Stops at the first one found.
 template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Filter = keep_all>
 [[nodiscard]] bool any(const Policy& on, const X& a, const Y& b, const query_options<Filter>& options = {}) {
-    return detail::on_both<A>(on, a, b, options.filter, "abut::any", [&](const auto&, const auto& run, std::size_t n) {
+    return detail::on_both<A>(on, a, b, options, "abut::any", [&](const auto&, const auto& run, std::size_t n) {
         execution::work_flag<space_of<Policy>> found(on);
         run(found, 0, n);
         return found.raised();
@@ -169,7 +175,7 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Y, cl
 /// for the second stage.
 template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Filter = keep_all>
 [[nodiscard]] std::uint64_t count(const Policy& on, const X& a, const Y& b, const query_options<Filter>& options = {}) {
-    return detail::on_both<A>(on, a, b, options.filter, "abut::count", [&](const auto&, const auto& run, std::size_t n) {
+    return detail::on_both<A>(on, a, b, options, "abut::count", [&](const auto&, const auto& run, std::size_t n) {
         execution::work_count<space_of<Policy>> hits(on);
         run(hits, 0, n);
         return hits.total();
@@ -189,7 +195,7 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Y, cl
         synchronize(on);
         return outcome(std::move(unpacked));
     };
-    return detail::on_both<A>(on, a, b, options.filter, "abut::pairs", body);
+    return detail::on_both<A>(on, a, b, options, "abut::pairs", body);
 }
 
 /// Calls visitor(index_pair) -> visit once for every pair that touches, in no order, concurrently, in the policy's space (so
@@ -197,7 +203,8 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Y, cl
 /// still come. Every pair is found twice, first to count: memory for results is bounded by options.most_pairs pairs at a
 /// time, or by the pairs of one query shape if that has more.
 template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Visitor, class Filter = keep_all>
-void for_each_pair(const Policy& on, const X& a, const Y& b, const Visitor& visitor, const query_options<Filter>& options = {}) {
+void for_each_pair(const Policy& on, const X& a, const Y& b, const Visitor& visitor,
+                   const query_options<Filter>& options = {}) {
     const auto body = [&](const detail::pair_key& key, const auto& run, std::size_t n) {
         // Found pairs are gathered first and visited after, since a queue that proves too small is filled anew and a visitor
         // must see each pair once. A range of queries with too many pairs is halved.
@@ -219,7 +226,7 @@ void for_each_pair(const Policy& on, const X& a, const Y& b, const Visitor& visi
             step *= 2;  // it was halved where pairs were dense
         }
     };
-    detail::on_both<A>(on, a, b, options.filter, "abut::for_each_pair", body);
+    detail::on_both<A>(on, a, b, options, "abut::for_each_pair", body);
 }
 
 }  // namespace abut

@@ -3,9 +3,9 @@
 
 // The engine of all queries: candidates from a walk or from tiles, decided in stages, left in a queue, a count or a flag.
 //
-// Stage 1 runs where the candidates are found. What its filter cannot decide is late: it goes to a queue, which stage 2
-// decides in fixed-width integers, whole warps at a time. What is too wide even for those (coordinates over 2^124 apart in one pair)
-// is decided on the host. No caller sees the difference.
+// Stage 1 runs where the candidates are found. What its filter cannot decide is late: it goes to a queue, and stage 2, which
+// follows at once, decides it with more effort and in fixed-width integers, whole warps at a time. What is too wide even for
+// those (coordinates over 2^124 apart in one pair) is decided on the host. No caller sees the difference.
 
 #include <cstddef>
 #include <cstdint>
@@ -73,6 +73,15 @@ ABUT_HD verdict decide_pair(const Query& query, const Target& target) {
     }
 }
 
+template <arithmetic A, class Query, class Target>
+ABUT_HD verdict decide_left_pair(const Query& query, const Target& target) {
+    if constexpr (decidable_pair<Query, Target>) {
+        return decide_left<A>(query, target);
+    } else {
+        return decide_left<A>(target, query);
+    }
+}
+
 template <class Query, class Target>
 bool resolve_pair(const Query& query, const Target& target) {
     if constexpr (decidable_pair<Query, Target>) {
@@ -108,7 +117,7 @@ template <arithmetic A, class Sides>
 struct decide_key {
     Sides sides;
 
-    ABUT_HD void operator()(std::uint64_t key, auto& late, auto& hits) const {
+    ABUT_HD void operator()(std::uint64_t key, auto& late, auto&, auto& hits) const {
         (*this)(key, sides.queries[sides.key.query(key)], sides.targets[sides.key.target(key)], late, hits);
     }
     ABUT_CALLS_ANY
@@ -142,8 +151,8 @@ struct walk_index {
     std::size_t first;
 
     ABUT_CALLS_ANY
-    template <class Emitter, class Hits>
-    ABUT_HD void operator()(std::size_t i, const Emitter& emitter, Hits& hits) const {
+    template <class Emitter, class Wide, class Hits>
+    ABUT_HD void operator()(std::size_t i, const Emitter& emitter, Wide&, Hits& hits) const {
         const auto query = static_cast<std::uint32_t>(first + i);
         auto reach = reach_of(sides.queries[query]);
         walk.for_each(reach, [&](std::uint32_t target) {
@@ -160,49 +169,44 @@ struct all_against_all {
         typename Sides::target_shape shape;
         decltype(bounds(typename Sides::target_shape{})) box;
     };
-    struct row {
-        typename Sides::query_shape shape;
-        decltype(reach_of(typename Sides::query_shape{})) reach;
-    };
+    using row = typename Sides::query_shape;
+    using reach = decltype(abut::reach_of(row{}));
 
     Sides sides;
     std::size_t first;
 
-    ABUT_HD row load_row(std::size_t i) const {
-        const auto shape = sides.queries[first + i];
-        return {shape, reach_of(shape)};
-    }
+    ABUT_HD row load_row(std::size_t i) const { return sides.queries[first + i]; }
+    ABUT_HD reach reach_of(const row& query) const { return abut::reach_of(query); }
     ABUT_HD column load_column(std::size_t j) const {
         const auto shape = sides.targets[j];
         return {shape, bounds(shape)};
     }
+    ABUT_HD bool passes(const reach& query, const column& target) const { return query(target.box); }
     ABUT_CALLS_ANY
-    template <class Late, class Hits>
-    ABUT_HD void operator()(row& query, std::size_t i, const column& target, std::size_t j, Late& late, Hits& hits) const {
-        if (!query.reach(target.box)) return;
+    template <class Late, class Wide, class Hits>
+    ABUT_HD void operator()(const row& query, std::size_t i, const column& target, std::size_t j, Late& late, Wide&,
+                            Hits& hits) const {
         const auto query_id = static_cast<std::uint32_t>(first + i), target_id = static_cast<std::uint32_t>(j);
         if (!sides.wanted(query_id, target_id)) return;
-        decide_key<A, Sides>{sides}(sides.key.pack(query_id, target_id), query.shape, target.shape, late, hits);
+        decide_key<A, Sides>{sides}(sides.key.pack(query_id, target_id), query, target.shape, late, hits);
     }
 };
 
-/// Stage 2 for one pair: stage 1 where it has not been tried, then fixed-width integers.
+/// Stage 2 for one pair: stage 1 where it has not been tried, then all that needs no more than registers.
 template <arithmetic A, class Sides>
 struct settle {
     Sides sides;
-    const std::uint64_t* keys;
 
     ABUT_CALLS_ANY
     template <class Wide, class Hits>
-    ABUT_HD void operator()(std::size_t i, Wide& wide, Hits& hits) const {
-        const std::uint64_t key = keys[i];
+    ABUT_HD void operator()(std::uint64_t key, Wide& wide, Hits& hits) const {
         const auto query = sides.queries[sides.key.query(key)];
         const auto target = sides.targets[sides.key.target(key)];
         verdict v = decide_pair<A>(query, target);
-        if constexpr (std::same_as<A, filtered>) {
-            if (v == verdict::unknown) v = decide_pair<exact>(query, target);
+        if constexpr (!std::same_as<A, exact>) {
+            if (v == verdict::unknown) v = decide_left_pair<A>(query, target);
         }
-        if (v == verdict::yes) hits.push(key);
+        if (v == verdict::yes) report(hits, key);
         if (v == verdict::unknown) wide.push(key);
     }
 };
@@ -246,15 +250,11 @@ std::vector<std::uint64_t> settle_on_host(const Policy& on, const Sides& sides, 
 }
 
 /// Runs the stages and leaves the outcome in `hits`: a work_queue of keys, a work_count or a work_flag.
-/// `find(late, hits)` is stage 1. Waits for the outcome.
+/// `find(settle, late, wide, hits)` is stages 1 and 2. Waits for the outcome.
 template <arithmetic A, class Policy, class Sides, class Hits, class Find>
 void search(const Policy& on, const Sides& sides, Hits& hits, const Find& find) {
-    key_queue<Policy> late(on);
-    find(late, hits);
-    if (late.size() == 0 || execution::is_over(hits)) return;
-    key_queue<Policy> wide(on), found(on);
-    for_each_index(on, late.size(), settle<A, Sides>{sides, late.data()}, wide, found);
-    hits.absorb(on, found);
+    key_queue<Policy> late(on), wide(on);
+    find(settle<A, Sides>{sides}, late, wide, hits);
     if (wide.size() == 0 || execution::is_over(hits)) return;
     key_queue<Policy> last(on, settle_on_host(on, sides, wide));
     hits.absorb(on, last);

@@ -15,7 +15,8 @@ template <class T>
 ABUT_HD T atomic_add(T* target, T value) {
 #if ABUT_DEVICE_CODE
     if constexpr (sizeof(T) == 8) {
-        return static_cast<T>(atomicAdd(reinterpret_cast<unsigned long long*>(target), static_cast<unsigned long long>(value)));
+        return static_cast<T>(
+            atomicAdd(reinterpret_cast<unsigned long long*>(target), static_cast<unsigned long long>(value)));
     } else {
         return atomicAdd(target, value);
     }
@@ -57,12 +58,13 @@ inline ABUT_HD std::uint64_t atomic_compare_exchange(std::uint64_t* target, std:
 #endif
 }
 
-/// A read and a write that other threads may race with: flags that only ever go up.
-inline ABUT_HD std::uint32_t atomic_load(const std::uint32_t* source) {
+/// A read and a write that other threads may race with: flags and counters that only ever go up. T as for atomic_add.
+template <class T>
+ABUT_HD T atomic_load(const T* source) {
 #if ABUT_DEVICE_CODE
-    return *const_cast<const volatile std::uint32_t*>(source);
+    return *const_cast<const volatile T*>(source);
 #else
-    return std::atomic_ref<std::uint32_t>(*const_cast<std::uint32_t*>(source)).load(std::memory_order_relaxed);
+    return std::atomic_ref<T>(*const_cast<T*>(source)).load(std::memory_order_relaxed);
 #endif
 }
 

@@ -25,9 +25,7 @@ struct allocator<host_space> {
     allocator() = default;
 
     /// Throws std::bad_alloc. Rows of 64 bytes never share a cache line with foreign data.
-    [[nodiscard]] void* allocate(std::size_t bytes) const {
-        return ::operator new(bytes, std::align_val_t{64});
-    }
+    [[nodiscard]] void* allocate(std::size_t bytes) const { return ::operator new(bytes, std::align_val_t{64}); }
     void deallocate(void* p) const noexcept { ::operator delete(p, std::align_val_t{64}); }
     /// Copies bytes of this memory to host memory and waits for them.
     void read(const void* from, std::size_t bytes, void* to) const { std::memcpy(to, from, bytes); }

@@ -5,6 +5,7 @@
 // loops are kernels of our own, because their shape decides the speed of everything above.
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -26,6 +27,21 @@ namespace abut::execution {
 namespace detail {
 
 inline constexpr int block_size = 256;
+inline constexpr unsigned warp_size = 32;
+/// Rows of for_each_tiled that a thread holds at a time.
+inline constexpr int rows_of_a_thread = 3;
+
+inline __device__ unsigned lane_id() {
+    unsigned lane;
+    asm("mov.u32 %0, %%laneid;" : "=r"(lane));
+    return lane;
+}
+
+/// A thread's last word to its sinks: what they have gathered in registers goes to memory.
+template <class... Sinks>
+__device__ void close_all(Sinks&... sinks) {
+    (sinks.close(), ...);
+}
 
 template <class F>
 __global__ void __launch_bounds__(block_size) for_each_kernel(std::size_t n, F f) {
@@ -33,20 +49,51 @@ __global__ void __launch_bounds__(block_size) for_each_kernel(std::size_t n, F f
     if (i < n) f(i);
 }
 
+/// Where the last kernel of a loop leaves the counters: the block that ends last copies them to the host and zeroes them.
+struct counter_delivery {
+    std::uint64_t* words;  // `count` of them, and one that counts blocks
+    std::uint64_t* to;
+    unsigned count;
+
+    __device__ void operator()() const {
+        __shared__ bool last;
+        __syncthreads();
+        if (threadIdx.x == 0) {
+            __threadfence();  // of the whole block: the barrier came before
+            const std::uint64_t blocks = std::uint64_t{gridDim.x} * gridDim.y;
+            last = atomicAdd(reinterpret_cast<unsigned long long*>(words + count), 1ull) + 1 == blocks;
+        }
+        __syncthreads();
+        if (!last || threadIdx.x > count) return;
+        __threadfence();
+        if (threadIdx.x < count) to[threadIdx.x] = atomic_load(words + threadIdx.x);
+        words[threadIdx.x] = 0;
+    }
+};
+
 template <class F, class... Sinks>
-__global__ void __launch_bounds__(block_size) for_each_gather_kernel(std::size_t n, F f, Sinks... sinks) {
+__global__ void __launch_bounds__(block_size)
+    for_each_gather_kernel(std::size_t n, F f, counter_delivery deliver, Sinks... sinks) {
     const std::size_t i = std::size_t{blockIdx.x} * block_size + threadIdx.x;
     if (i < n) f(i, sinks...);
+    close_all(sinks...);
+    deliver();
 }
 
 /// Whether a flag among the sinks is raised, the same answer for all threads of the block.
 template <class... Sinks>
 __device__ bool block_is_over(const Sinks&... sinks) {
     if constexpr ((is_flag<Sinks> || ...)) {
-        return __syncthreads_or(is_over(sinks...)) != 0;
+        return __syncthreads_or(threadIdx.x == 0 && is_over(sinks...)) != 0;
     } else {
         return false;
     }
+}
+
+/// Whether lane 0 sees a flag among the sinks raised: only that lane asks, because all warps of a device ask one address.
+template <class... Sinks>
+__device__ bool warp_is_over(unsigned lane, const Sinks&... sinks) {
+    return lane == 0 && is_over(sinks...);
 }
 
 /// Candidates of one block, in shared memory; the ones that find no room are late.
@@ -94,7 +141,7 @@ __global__ void __launch_bounds__(block_size)
 
     constexpr std::size_t step = std::size_t{rows} * block_size;
     for (std::size_t first = blockIdx.x * step; first < n; first += gridDim.x * step) {
-        if (block_is_over(sinks...)) return;
+        if (block_is_over(sinks...)) break;
         bool pass[rows];
 #pragma unroll
         for (int row = 0; row < rows; ++row) {
@@ -117,25 +164,95 @@ __global__ void __launch_bounds__(block_size)
         const unsigned spread = block_size / waiting;
         walk_and_decide(threadIdx.x % spread == 0 && threadIdx.x / spread < waiting, threadIdx.x / spread);
     }
+    close_all(sinks...);
 }
 
+/// Pairs of a row and a column that passed, of one warp. They wait until a whole warp can decide.
+struct waiting_pairs {
+    static constexpr unsigned capacity = 2 * warp_size;
+    std::uint32_t row[capacity];
+    std::uint32_t column[capacity];
+};
+
+/// All rows against all columns. A block keeps a tile of columns in shared memory while rows stream by; a thread holds
+/// several rows, so that a column read once serves them all and enough loads are under way. The cheap test leaves few pairs:
+/// they wait in shared memory until the lanes of a warp can decide one each, since a warp takes as long for one as for all.
 template <class Tile, class... Sinks>
-__global__ void __launch_bounds__(block_size) for_each_tiled_kernel(std::size_t n, std::size_t m, Tile tile, Sinks... sinks) {
+__global__ void __launch_bounds__(block_size, 3)
+    for_each_tiled_kernel(std::size_t n, std::size_t m, Tile tile, Sinks... sinks) {
     using column = typename Tile::column;
+    constexpr int rows = rows_of_a_thread;
+    constexpr unsigned warps = block_size / warp_size, all = 0xffffffff;
     __shared__ alignas(16) unsigned char memory[block_size * sizeof(column)];
+    __shared__ waiting_pairs waiting_of_warp[warps];
     column* const staged = reinterpret_cast<column*>(memory);
-    const std::size_t i = std::size_t{blockIdx.x} * block_size + threadIdx.x;
-    auto row = tile.load_row(i < n ? i : n - 1);
+    const unsigned lane = threadIdx.x % warp_size;
+    waiting_pairs& waiting = waiting_of_warp[threadIdx.x / warp_size];
+    const std::size_t step = std::size_t{block_size} * rows;
+
     for (std::size_t first = std::size_t{blockIdx.y} * block_size; first < m; first += std::size_t{gridDim.y} * block_size) {
-        if (block_is_over(sinks...)) return;
-        const std::size_t width = m - first < block_size ? m - first : block_size;
+        const unsigned width = m - first < block_size ? static_cast<unsigned>(m - first) : block_size;
+        __syncthreads();
         if (threadIdx.x < width) staged[threadIdx.x] = tile.load_column(first + threadIdx.x);
         __syncthreads();
-        if (i < n) {
-            for (std::size_t j = 0; j < width; ++j) tile(row, i, staged[j], first + j, sinks...);
+
+        unsigned count = 0;  // the same in all lanes
+        const auto decide = [&](unsigned slot) {
+            const std::size_t i = waiting.row[slot];
+            const unsigned j = waiting.column[slot];
+            tile(tile.load_row(i), i, staged[j], first + j, sinks...);
+        };
+        for (std::size_t base = blockIdx.x * step; base < n; base += gridDim.x * step) {
+            const bool stop = warp_is_over(lane, sinks...);
+            decltype(tile.reach_of(tile.load_row(0))) reach[rows];
+#pragma unroll
+            for (int k = 0; k < rows; ++k) {
+                const std::size_t i = base + static_cast<unsigned>(k * block_size) + threadIdx.x;
+                reach[k] = tile.reach_of(tile.load_row(i < n ? i : n - 1));
+            }
+            if (__any_sync(all, stop)) break;
+            for (unsigned j = 0; j < width; ++j) {
+                unsigned passed = 0;
+#pragma unroll
+                for (int k = 0; k < rows; ++k) passed |= static_cast<unsigned>(tile.passes(reach[k], staged[j])) << k;
+                if (!__any_sync(all, passed != 0)) continue;
+#pragma unroll
+                for (int k = 0; k < rows; ++k) {
+                    const std::size_t i = base + static_cast<unsigned>(k * block_size) + threadIdx.x;
+                    const bool mine = (passed >> k & 1) != 0 && i < n;
+                    const unsigned lanes = __ballot_sync(all, mine);
+                    if (mine) {
+                        const unsigned slot = count + static_cast<unsigned>(__popc(lanes & ((1u << lane) - 1)));
+                        waiting.row[slot] = static_cast<std::uint32_t>(i);
+                        waiting.column[slot] = j;
+                    }
+                    count += static_cast<unsigned>(__popc(lanes));
+                    if (count < warp_size) continue;
+                    __syncwarp();
+                    count -= warp_size;
+                    decide(count + lane);
+                    __syncwarp();
+                }
+            }
         }
-        __syncthreads();
+        __syncwarp();
+        if (lane < count) decide(lane);
     }
+    close_all(sinks...);
+}
+
+/// settle(c, sinks...) for every c that the kernel before has pushed into `late`.
+template <class Settle, class Late, class... Sinks>
+__global__ void __launch_bounds__(block_size)
+    settle_kernel(Settle settle, counter_delivery deliver, Late late, Sinks... sinks) {
+    const std::uint64_t pushed = atomic_load(late.count), count = pushed < late.capacity ? pushed : late.capacity;
+    constexpr std::uint64_t step = block_size;
+    for (std::uint64_t i = blockIdx.x * step + threadIdx.x; i < count; i += gridDim.x * step) {
+        if (is_over(sinks...)) break;
+        settle(late.data[i], sinks...);
+    }
+    close_all(sinks...);
+    deliver();
 }
 
 inline int multiprocessors(int device) {
@@ -144,38 +261,54 @@ inline int multiprocessors(int device) {
     return count;
 }
 
-/// Blocks of `kernel` that fill the device once.
-template <class Kernel>
-std::size_t resident_blocks(const cuda& on, Kernel kernel) {
+/// Blocks of `Kernel` that fill the device once, by the runtime's occupancy calculator. Asked once for each device: the
+/// question takes as long as a launch.
+template <auto Kernel>
+std::size_t resident_blocks(const cuda& on) {
+    constexpr int remembered = 64;
+    static std::atomic<std::size_t> answers[remembered];
+    const int device = device_of(on);
+    if (device < remembered && answers[device] != 0) return answers[device];
     int blocks = 0;
-    check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel, block_size, 0),
+    check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, Kernel, block_size, 0),
           "cudaOccupancyMaxActiveBlocksPerMultiprocessor");
-    return static_cast<std::size_t>(std::max(blocks, 1)) * static_cast<std::size_t>(multiprocessors(device_of(on)));
+    const std::size_t answer =
+        static_cast<std::size_t>(std::max(blocks, 1)) * static_cast<std::size_t>(multiprocessors(device));
+    if (device < remembered) answers[device] = answer;
+    return answer;
 }
 
 inline unsigned blocks_for(std::size_t n) { return static_cast<unsigned>((n + block_size - 1) / block_size); }
 
 inline void check_launch(const char* kernel) { check(cudaGetLastError(), kernel); }
 
-/// Runs `launch(sinks...)` with a sink of each queue, over zeroed 64-bit words in device memory, reads the words back, and
-/// runs again while a queue found that it was too small.
+/// The second kernel follows the first at once: the host need not know how much was left. That is little as a rule.
+template <class Settle, class Late, class... Sinks>
+void launch_settle(const cuda& on, const Settle& settle, const counter_delivery& deliver, const Late& late,
+                   const Sinks&... sinks) {
+    constexpr auto kernel = settle_kernel<Settle, Late, Sinks...>;
+    kernel<<<static_cast<unsigned>(resident_blocks<kernel>(on)), block_size, 0, on.stream>>>(settle, deliver, late,
+                                                                                             sinks...);
+    check_launch("settle");
+}
+
+/// Runs `launch(deliver, sinks...)` with a sink of each queue, over counters that are 0, reads what they have become, and
+/// runs again while a queue found that it was too small. The last kernel of `launch` calls `deliver`.
 template <class Launch, class... Queues>
 void gather(const cuda& on, const Launch& launch, Queues&... queues) {
-    constexpr std::size_t bytes = sizeof...(Queues) * sizeof(std::uint64_t);
-    static_assert(bytes <= pinned_scratch::bytes);
-    buffer<std::uint64_t, device_space> words(on, sizeof...(Queues));
-    auto* const read = static_cast<std::uint64_t*>(pinned_scratch::of_this_thread());
+    static_assert(sizeof...(Queues) <= loop_counters::most);
+    loop_counters& counters = loop_counters::of_this_thread(device_of(on));
+    const counter_delivery deliver{counters.words(), counters.read(), sizeof...(Queues)};
     bool complete = false;
     while (!complete) {
-        check(cudaMemsetAsync(words.data(), 0, bytes, on.stream), "cudaMemsetAsync");
+        counters.begin(on.stream);
         [&]<std::size_t... K>(std::index_sequence<K...>) {
-            launch(queues.make_sink(words.data() + K)...);
+            launch(deliver, queues.make_sink(counters.words() + K)...);
         }(std::index_sequence_for<Queues...>{});
-        check(cudaMemcpyAsync(read, words.data(), bytes, cudaMemcpyDeviceToHost, on.stream), "cudaMemcpyAsync");
-        check(cudaStreamSynchronize(on.stream), "cudaStreamSynchronize");
+        counters.end(on.stream);
         complete = true;
         std::size_t k = 0;
-        ((complete &= queues.settle(on, read[k++])), ...);
+        ((complete &= queues.settle(on, counters.read()[k++])), ...);
     }
 }
 
@@ -209,12 +342,6 @@ void download(const cuda& on, const T* from, std::size_t n, T* to) {
 
 // The queues in device memory: a sink counts in a word of device memory, and `settle` is told what it counted.
 
-inline __device__ unsigned lane_id() {
-    unsigned lane;
-    asm("mov.u32 %0, %%laneid;" : "=r"(lane));
-    return lane;
-}
-
 template <class T>
 class work_queue<T, device_space> {
 public:
@@ -226,12 +353,13 @@ public:
         __device__ void push(const T& value) const {
             const unsigned lanes = __activemask();
             const int leader = __ffs(static_cast<int>(lanes)) - 1;
-            const unsigned lane = lane_id();
+            const unsigned lane = detail::lane_id();
             std::uint64_t first = 0;
             if (static_cast<int>(lane) == leader) first = atomic_add(count, static_cast<std::uint64_t>(__popc(lanes)));
             const std::uint64_t slot = __shfl_sync(lanes, first, leader) + __popc(lanes & ((1u << lane) - 1));
             if (slot < capacity) data[slot] = value;
         }
+        __device__ void close() const {}
     };
 
     explicit work_queue(const cuda& on, std::size_t expected = 0) : items_(on, std::max<std::size_t>(expected, 4096)) {}
@@ -274,18 +402,19 @@ template <>
 class work_count<device_space> {
 public:
     struct sink {
-        std::uint64_t* sum;
-        /// The lanes of a warp that add together add once.
-        __device__ void add(std::uint32_t k) const {
-#if defined(__CUDA_ARCH__) && __CUDA_ARCH__ < 800  // no warp-wide sum in hardware
-            if (k > 0) atomic_add(sum, std::uint64_t{k});
-#else
+        std::uint64_t* total;
+        std::uint64_t mine = 0;
+        __device__ void add(std::uint32_t k) { mine += k; }
+        /// The lanes of a warp that end together add once.
+        __device__ void close() const {
             const unsigned lanes = __activemask();
-            const unsigned total = __reduce_add_sync(lanes, k);
-            if (total > 0 && lane_id() == static_cast<unsigned>(__ffs(static_cast<int>(lanes)) - 1)) {
-                atomic_add(sum, std::uint64_t{total});
+            std::uint64_t sum = mine;
+            if (lanes == 0xffffffff) {
+#pragma unroll
+                for (int away = 16; away > 0; away /= 2) sum += __shfl_down_sync(lanes, sum, away);
+                if (detail::lane_id() != 0) return;
             }
-#endif
+            if (sum > 0) atomic_add(total, sum);
         }
     };
 
@@ -314,6 +443,7 @@ public:
         [[nodiscard]] __device__ bool raised() const {
             return atomic_load(reinterpret_cast<const std::uint32_t*>(word)) != 0;
         }
+        __device__ void close() const {}
     };
 
     explicit work_flag(const cuda&) {}
@@ -342,43 +472,50 @@ void for_each_index(const cuda& on, std::size_t n, const F& f) {
 
 template <class F, class Queue, class... Queues>
 void for_each_index(const cuda& on, std::size_t n, const F& f, Queue& queue, Queues&... queues) {
+    if (n == 0) return;
     const detail::current_device scope(on);
-    const auto launch = [&](auto... sinks) {
-        if (n == 0) return;
-        detail::for_each_gather_kernel<<<detail::blocks_for(n), detail::block_size, 0, on.stream>>>(n, f, sinks...);
+    const auto launch = [&](const detail::counter_delivery& deliver, auto... sinks) {
+        detail::for_each_gather_kernel<<<detail::blocks_for(n), detail::block_size, 0, on.stream>>>(n, f, deliver, sinks...);
         detail::check_launch("for_each_index");
     };
     detail::gather(on, launch, queue, queues...);
 }
 
-template <class Test, class Walk, class Decide, class... Queues>
+template <class Test, class Walk, class Decide, class Settle, class Late, class... Queues>
 void for_each_candidate(const cuda& on, std::size_t n, const Test& test, const Walk& walk, const Decide& decide,
-                        Queues&... queues) {
+                        const Settle& settle, Late& late, Queues&... queues) {
+    if (n == 0) return;
     const detail::current_device scope(on);
-    const auto launch = [&](auto... sinks) {
-        if (n == 0) return;
-        const auto kernel = detail::for_each_candidate_kernel<Test, Walk, Decide, decltype(sinks)...>;
-        const std::size_t blocks = std::min(detail::resident_blocks(on, kernel), std::size_t{detail::blocks_for(n)});
-        kernel<<<static_cast<unsigned>(blocks), detail::block_size, 0, on.stream>>>(n, test, walk, decide, sinks...);
+    const auto launch = [&](const detail::counter_delivery& deliver, auto late_sink, auto... sinks) {
+        constexpr auto kernel =
+            detail::for_each_candidate_kernel<Test, Walk, Decide, decltype(late_sink), decltype(sinks)...>;
+        const std::size_t blocks = std::min(detail::resident_blocks<kernel>(on), std::size_t{detail::blocks_for(n)});
+        kernel<<<static_cast<unsigned>(blocks), detail::block_size, 0, on.stream>>>(n, test, walk, decide, late_sink,
+                                                                                    sinks...);
         detail::check_launch("for_each_candidate");
+        detail::launch_settle(on, settle, deliver, late_sink, sinks...);
     };
-    detail::gather(on, launch, queues...);
+    detail::gather(on, launch, late, queues...);
 }
 
-template <class Tile, class... Queues>
-void for_each_tiled(const cuda& on, std::size_t n, std::size_t m, const Tile& tile, Queues&... queues) {
+template <class Tile, class Settle, class Late, class... Queues>
+void for_each_tiled(const cuda& on, std::size_t n, std::size_t m, const Tile& tile, const Settle& settle, Late& late,
+                    Queues&... queues) {
+    if (n == 0 || m == 0) return;
     const detail::current_device scope(on);
-    const auto launch = [&](auto... sinks) {
-        if (n == 0 || m == 0) return;
-        const auto kernel = detail::for_each_tiled_kernel<Tile, decltype(sinks)...>;
-        const unsigned across = detail::blocks_for(n);
-        // Few rows: share the columns out, so that the device is full all the same.
-        const std::size_t wanted = 4 * detail::resident_blocks(on, kernel) / across + 1;
-        const auto down = static_cast<unsigned>(std::min({wanted, std::size_t{detail::blocks_for(m)}, std::size_t{65535}}));
-        kernel<<<dim3(across, down), detail::block_size, 0, on.stream>>>(n, m, tile, sinks...);
+    const auto launch = [&](const detail::counter_delivery& deliver, auto late_sink, auto... sinks) {
+        constexpr std::size_t rows = std::size_t{detail::block_size} * detail::rows_of_a_thread;
+        constexpr auto kernel = detail::for_each_tiled_kernel<Tile, decltype(late_sink), decltype(sinks)...>;
+        // As many blocks as the device holds at a time, for rows first; where there are few rows, columns are shared out.
+        const std::size_t room = detail::resident_blocks<kernel>(on);
+        const std::size_t across = std::min(room, (n + rows - 1) / rows);
+        const std::size_t down = std::min({room / across + 1, std::size_t{detail::blocks_for(m)}, std::size_t{65535}});
+        const dim3 blocks(static_cast<unsigned>(across), static_cast<unsigned>(down));
+        kernel<<<blocks, detail::block_size, 0, on.stream>>>(n, m, tile, late_sink, sinks...);
         detail::check_launch("for_each_tiled");
+        detail::launch_settle(on, settle, deliver, late_sink, sinks...);
     };
-    detail::gather(on, launch, queues...);
+    detail::gather(on, launch, late, queues...);
 }
 
 namespace detail {

@@ -18,7 +18,7 @@
 
 namespace abut::execution {
 
-inline constexpr std::size_t range_grain = 1024;
+inline constexpr std::size_t range_grain = 1024, late_grain = 64;
 
 template <host_policy Policy, class F>
 void for_each_index(const Policy& on, std::size_t n, const F& f) {
@@ -29,28 +29,60 @@ void for_each_index(const Policy& on, std::size_t n, const F& f) {
 
 namespace detail {
 
-/// Gives each thread its own sinks, runs `loop(thread, begin, end, sinks...)` over [0, n), and merges the sinks.
-template <class Policy, class Loop, class... Queues>
-void gather(const Policy& on, std::size_t n, std::size_t grain, const Loop& loop, Queues&... queues) {
-    const int threads = n <= grain ? 1 : thread_count(on);
+/// The sinks of all threads. `each` runs loop(begin, end, sinks...) over ranges of [0, n); `merge` hands the sinks' content
+/// to the queues.
+template <class... Queues>
+class thread_sinks {
+public:
+    template <class Policy>
+    thread_sinks(const Policy& on, Queues&... queues) : queues_(queues...) {
+        const int threads = thread_count(on);
+        all_.reserve(static_cast<std::size_t>(threads));
+        for (int t = 0; t < threads; ++t) all_.emplace_back(queues.make_local()...);
+    }
+
+    template <class Loop>
+    void each(std::size_t n, std::size_t grain, const Loop& loop) {
+        for_each_range(static_cast<int>(all_.size()), n, grain, [&](int thread, std::size_t begin, std::size_t end) {
+            sinks mine = std::move(all_[static_cast<std::size_t>(thread)]);
+            std::apply([&](auto&... sink) { loop(begin, end, sink...); }, mine);
+            all_[static_cast<std::size_t>(thread)] = std::move(mine);
+        });
+    }
+
+    template <class Policy>
+    void merge(const Policy& on) {
+        [&]<std::size_t... K>(std::index_sequence<K...>) { (merge_one<K>(on), ...); }(std::index_sequence_for<Queues...>{});
+    }
+
+private:
     using sinks = std::tuple<typename Queues::local...>;
-    std::vector<sinks> all;
-    all.reserve(static_cast<std::size_t>(threads));
-    for (int t = 0; t < threads; ++t) all.emplace_back(queues.make_local()...);
-    for_each_range(threads, n, grain, [&](int thread, std::size_t begin, std::size_t end) {
-        sinks mine = std::move(all[static_cast<std::size_t>(thread)]);
-        std::apply([&](auto&... sink) { loop(begin, end, sink...); }, mine);
-        all[static_cast<std::size_t>(thread)] = std::move(mine);
+
+    template <std::size_t K, class Policy>
+    void merge_one(const Policy& on) {
+        std::vector<std::tuple_element_t<K, sinks>*> locals;
+        for (sinks& s : all_) locals.push_back(&std::get<K>(s));
+        std::get<K>(queues_).merge(on, locals);
+    }
+
+    std::tuple<Queues&...> queues_;
+    std::vector<sinks> all_;
+};
+
+/// Runs loop(begin, end, late_sink, sinks...) over [0, n), then settle(c, sinks...) for all that it left in `late`.
+template <class Policy, class Loop, class Settle, class Late, class... Queues>
+void gather_and_settle(const Policy& on, std::size_t n, std::size_t grain, const Loop& loop, const Settle& settle,
+                       Late& late, Queues&... queues) {
+    thread_sinks<Late, Queues...> sinks(on, late, queues...);
+    sinks.each(n, grain, loop);
+    sinks.merge(on);
+    if (late.size() == 0 || is_over(queues...)) return;
+    const auto* const left = late.data();
+    thread_sinks<Queues...> more(on, queues...);
+    more.each(late.size(), late_grain, [&](std::size_t begin, std::size_t end, auto&... sink) {
+        for (std::size_t i = begin; i < end && !is_over(sink...); ++i) settle(left[i], sink...);
     });
-    const auto merge = [&]<std::size_t... K>(std::index_sequence<K...>) {
-        const auto merge_one = [&]<std::size_t I>(auto& queue, std::integral_constant<std::size_t, I>) {
-            std::vector<std::remove_reference_t<decltype(std::get<I>(all[0]))>*> locals;
-            for (sinks& s : all) locals.push_back(&std::get<I>(s));
-            queue.merge(on, locals);
-        };
-        (merge_one(queues, std::integral_constant<std::size_t, K>{}), ...);
-    };
-    merge(std::index_sequence_for<Queues...>{});
+    more.merge(on);
 }
 
 /// On the host a candidate is decided where it is found.
@@ -73,14 +105,16 @@ void for_each_index(const Policy& on, std::size_t n, const F& f, Queue& queue, Q
     const auto loop = [&](std::size_t begin, std::size_t end, auto&... sinks) {
         for (std::size_t i = begin; i < end && !is_over(sinks...); ++i) f(i, sinks...);
     };
-    detail::gather(on, n, range_grain, loop, queue, queues...);
+    detail::thread_sinks<Queue, Queues...> sinks(on, queue, queues...);
+    sinks.each(n, range_grain, loop);
+    sinks.merge(on);
 }
 
-template <host_policy Policy, class Test, class Walk, class Decide, class... Queues>
+template <host_policy Policy, class Test, class Walk, class Decide, class Settle, class Late, class... Queues>
 void for_each_candidate(const Policy& on, std::size_t n, const Test& test, const Walk& walk, const Decide& decide,
-                        Queues&... queues) {
-    const auto loop = [&](std::size_t begin, std::size_t end, auto& late, auto&... sinks) {
-        const detail::decide_at_once emitter{[&](const typename Walk::candidate& c) { decide(c, late, sinks...); }};
+                        const Settle& settle, Late& late, Queues&... queues) {
+    const auto loop = [&](std::size_t begin, std::size_t end, auto& late_sink, auto&... sinks) {
+        const detail::decide_at_once emitter{[&](const typename Walk::candidate& c) { decide(c, late_sink, sinks...); }};
         for (std::size_t i = begin; i < end; ++i) {
             if (test(i)) {
                 walk(i, emitter, sinks...);
@@ -88,26 +122,28 @@ void for_each_candidate(const Policy& on, std::size_t n, const Test& test, const
             }
         }
     };
-    detail::gather(on, n, range_grain, loop, queues...);
+    detail::gather_and_settle(on, n, range_grain, loop, settle, late, queues...);
 }
 
-template <host_policy Policy, class Tile, class... Queues>
-void for_each_tiled(const Policy& on, std::size_t n, std::size_t m, const Tile& tile, Queues&... queues) {
-    constexpr std::size_t rows = 64, columns = 256;
-    detail::gather(
-        on, n, rows,
-        [&](std::size_t begin, std::size_t end, auto&... sinks) {
-            typename Tile::column staged[columns];
-            for (std::size_t first = 0; first < m; first += columns) {
-                const std::size_t width = std::min(columns, m - first);
-                for (std::size_t j = 0; j < width; ++j) staged[j] = tile.load_column(first + j);
-                for (std::size_t i = begin; i < end && !is_over(sinks...); ++i) {
-                    auto row = tile.load_row(i);
-                    for (std::size_t j = 0; j < width; ++j) tile(row, i, staged[j], first + j, sinks...);
+template <host_policy Policy, class Tile, class Settle, class Late, class... Queues>
+void for_each_tiled(const Policy& on, std::size_t n, std::size_t m, const Tile& tile, const Settle& settle, Late& late,
+                    Queues&... queues) {
+    constexpr std::size_t columns = 256, pairs_of_a_thread = 16384;
+    const auto loop = [&](std::size_t begin, std::size_t end, auto& late_sink, auto&... sinks) {
+        typename Tile::column staged[columns];
+        for (std::size_t first = 0; first < m; first += columns) {
+            const std::size_t width = std::min(columns, m - first);
+            for (std::size_t j = 0; j < width; ++j) staged[j] = tile.load_column(first + j);
+            for (std::size_t i = begin; i < end && !is_over(sinks...); ++i) {
+                const auto row = tile.load_row(i);
+                auto reach = tile.reach_of(row);
+                for (std::size_t j = 0; j < width; ++j) {
+                    if (tile.passes(reach, staged[j])) tile(row, i, staged[j], first + j, late_sink, sinks...);
                 }
             }
-        },
-        queues...);
+        }
+    };
+    detail::gather_and_settle(on, n, std::max<std::size_t>(pairs_of_a_thread / (m + 1), 64), loop, settle, late, queues...);
 }
 
 template <host_policy Policy, class T, class Combine, class F>
@@ -195,4 +231,4 @@ void release_memory(const Policy&) {}
 namespace abut {
 using execution::release_memory;
 using execution::synchronize;
-}
+}  // namespace abut

@@ -11,12 +11,16 @@
 //   for_each_index(on, n, f)                f(i) for every i in [0, n), concurrently
 //   for_each_index(on, n, f, queue...)      f(i, sink...): what is pushed into sink k is gathered in queue k, complete, in
 //                                           no order (execution/work_queue.hpp); returns when all sizes are known
-//   for_each_candidate(on, n, test, walk, decide, late, queue...)
+//   for_each_candidate(on, n, test, walk, decide, settle, late, queue...)
 //                                           for every i with test(i): walk(i, emitter, sink...) calls emitter.push(c) for
 //                                           each candidate c, and decide(c, late_sink, sink...) is called for it; or else,
-//                                           for want of room, c itself goes to the queue `late`
-//   for_each_tiled(on, n, m, tile, queue...)    tile(row, i, column, j, sink...) for all (i, j) of [0, n) x [0, m), in
-//                                           tiles: row = tile.load_row(i), column = tile.load_column(j)
+//                                           for want of room, c itself goes to the queue `late`. Then settle(c, sink...)
+//                                           for every c in `late`
+//   for_each_tiled(on, n, m, tile, settle, late, queue...)
+//                                           tile(row, i, column, j, late_sink, sink...) for all (i, j) of [0, n) x [0, m)
+//                                           with tile.passes(reach, column): row = tile.load_row(i), reach =
+//                                           tile.reach_of(row), column = tile.load_column(j). Rows stream by; columns are
+//                                           kept close to the cores, in tiles. Then settle(c, sink...) for every c in `late`
 //   reduce(on, n, init, combine, f)         combine over f(i), returned on the host; combine associates and
 //                                           commutes, and init is its identity
 //   reduce_into(on, n, out, init, combine, f)  the same, left in the policy's memory at `out`

@@ -99,7 +99,7 @@ public:
             out += l->values.size();
             l->values = {};
         }
-        items_ = std::move(all);
+        items_ = joined(on, items_, all);
     }
 
 private:
@@ -126,7 +126,6 @@ public:
     [[nodiscard]] local make_local() { return {}; }
     template <class Policy>
     void merge(const Policy&, std::vector<local*>& locals) {
-        total_ = 0;
         for (const local* l : locals) total_ += l->sum;
     }
 

@@ -15,8 +15,20 @@ namespace abut::detail {
 
 template <class X>
 inline constexpr bool is_shape = false;
-template <template <class> class Shape, scalar T>
-inline constexpr bool is_shape<Shape<T>> = std::same_as<Shape<T>, triangle<T>> || std::same_as<Shape<T>, sphere<T>>;
+template <scalar T>
+inline constexpr bool is_shape<triangle<T>> = true;
+template <scalar T>
+inline constexpr bool is_shape<sphere<T>> = true;
+template <scalar T>
+inline constexpr bool is_shape<vec3<T>> = true;
+template <scalar T>
+inline constexpr bool is_shape<segment<T>> = true;
+template <scalar T>
+inline constexpr bool is_shape<aabb<T>> = true;
+template <scalar T>
+inline constexpr bool is_shape<plane<T>> = true;
+template <scalar T>
+inline constexpr bool is_shape<capsule<T>> = true;
 
 /// An owner, a view, or one shape.
 template <class X>
@@ -26,8 +38,10 @@ concept set_like = shape_set<X> || shape_view<X> || is_shape<X>;
 /// is checked and stays where it is; one shape is checked and becomes a view that carries it.
 template <execution_policy Policy, class Set>
 auto make_resident(const Policy& on, const Set& set, const char* function) {
-    static_assert(set_like<Set>,
-                  "abut: expected mesh, triangle_soup, spheres, equal_spheres, a view of one of them, a triangle or a sphere");
+    static_assert(
+        set_like<Set>,
+        "abut: expected mesh, triangle_soup, spheres, equal_spheres, a view of one of them, or one shape: triangle, "
+        "sphere, segment, aabb, plane, capsule or a point (vec3)");
     if constexpr (is_shape<Set>) {
         const single_view<Set, space_of<Policy>> view{set};
         check(on, view, function);

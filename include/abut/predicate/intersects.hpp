@@ -5,15 +5,21 @@
 // either order of arguments.
 
 #include <abut/arithmetic/arithmetic.hpp>
+#include <abut/predicate/aabb_triangle.hpp>
+#include <abut/predicate/capsule_triangle.hpp>
+#include <abut/predicate/plane_triangle.hpp>
+#include <abut/predicate/segment_triangle.hpp>
 #include <abut/predicate/sphere_segment.hpp>
 #include <abut/predicate/sphere_sphere.hpp>
 #include <abut/predicate/sphere_triangle.hpp>
+#include <abut/predicate/triangle_triangle.hpp>
 #include <abut/shape/primitive.hpp>
 
 namespace abut {
 
-/// A pair of shapes, in this order, that has the stages `decide<A>` for each arithmetic A (pure, host and device; never
-/// `unknown` for `fast`) and `resolve`, which answers whatever input they leave.
+/// A pair of shapes, in this order, that has the stages `decide<A>` for each arithmetic A and `resolve`, which answers
+/// whatever input they leave; between them a pair may have `decide_late<A>` for `fast` and `filtered`. All are pure, and run
+/// on hosts and devices. For `fast` the last of them never says `unknown`.
 template <class S, class U>
 concept decidable_pair = requires(const S& s, const U& t) {
     { decide<fast>(s, t) } -> std::same_as<verdict>;
@@ -25,27 +31,42 @@ concept decidable_pair = requires(const S& s, const U& t) {
 namespace detail {
 
 /// The shape as it lies in memory. g++ 12, when it vectorises, drops the rounding of double to float where the float is
-/// widened again: a caller's `static_cast<float>(x)` would reach the filter as x itself, and the integers as the float.
+/// widened again: a caller's `static_cast<float>(x)` would reach the filter as x itself, and the integers as the float. And a
+/// caller's product may be contracted into the filter's differences. The barrier claims to write, so that the compiler reads
+/// from memory again; nothing is written or copied.
 template <class Shape>
-ABUT_HD constexpr Shape as_stored(Shape shape) {
-#if defined(__GNUC__) && !defined(__clang__) && !ABUT_DEVICE_CODE
-    if (!__builtin_is_constant_evaluated()) __asm__("" : "+m"(shape));
+ABUT_HD constexpr const Shape& as_stored(const Shape& shape) {
+#if defined(__GNUC__) && !ABUT_DEVICE_CODE
+    if (!__builtin_is_constant_evaluated()) __asm__("" : "+m"(const_cast<Shape&>(shape)));
 #endif
     return shape;
 }
 
-/// What the filter left, out of line so that it costs its callers neither registers nor a stack frame.
-template <class S, class U>
-ABUT_NOINLINE ABUT_HD constexpr bool intersects_exactly(const S& s, const U& t) {
-    const verdict v = decide<exact>(s, t);
+/// What the first stage left, in registers: by the pair's `decide_late`, if it has one, then in integers.
+template <arithmetic A, class S, class U>
+ABUT_HD constexpr verdict decide_left(const S& s, const U& t) {
+    if constexpr (!std::same_as<A, exact> && requires { decide_late<A>(s, t); }) {
+        if (std::same_as<A, fast> || !__builtin_is_constant_evaluated()) {
+            const verdict v = decide_late<A>(s, t);
+            if (std::same_as<A, fast> || v != verdict::unknown) return v;
+        }
+    }
+    return decide<exact>(s, t);
+}
+
+/// All stages that follow the filter. They are out of line themselves, so that they cost callers neither registers nor a
+/// stack frame. This function must not be: with one more call in between, ptxas of CUDA 13.0 lost the address of a shape.
+template <arithmetic A, class S, class U>
+ABUT_HD constexpr bool intersects_exactly(const S& s, const U& t) {
+    const verdict v = decide_left<A>(s, t);
     return v == verdict::unknown ? resolve(s, t) : v == verdict::yes;
 }
 
 }  // namespace detail
 
-/// Whether two closed shapes have a point in common: spheres (solid), triangles, segments and points (vec3), as
-/// docs/numerics.md lists. With `filtered` and `exact` the answer is right for every finite input and the same on each
-/// compiler and device; `fast` is approximate. Constant expressions are decided in integers.
+/// Whether two closed shapes have a point in common: triangles, segments, points (vec3) and planes, and spheres, boxes and
+/// capsules, which are solid, as docs/numerics.md lists. With `filtered` and `exact` the answer is right for every finite
+/// input and the same on each compiler and device; `fast` is approximate. Constant expressions are decided in integers.
 ///
 ///     static_assert(abut::intersects(abut::sphere<float>{{0, 0, 5}, 5},
 ///                                    abut::triangle<float>{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}));
@@ -53,13 +74,14 @@ template <arithmetic A = filtered, class S, class U>
 [[nodiscard]] ABUT_HD constexpr bool intersects(const S& s, const U& t) {
     if constexpr (decidable_pair<S, U>) {
         if constexpr (std::same_as<A, fast>) {
-            return decide<fast>(s, t) == verdict::yes;
+            const verdict v = decide<fast>(s, t);
+            return v == verdict::unknown ? detail::decide_left<fast>(s, t) == verdict::yes : v == verdict::yes;
         } else {
             if (std::same_as<A, filtered> && !__builtin_is_constant_evaluated()) {
                 const verdict v = decide<filtered>(detail::as_stored(s), detail::as_stored(t));
                 if (v != verdict::unknown) return v == verdict::yes;
             }
-            return detail::intersects_exactly(s, t);
+            return detail::intersects_exactly<A>(s, t);
         }
     } else if constexpr (decidable_pair<U, S>) {
         return intersects<A>(t, s);

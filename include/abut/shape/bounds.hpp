@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Axis-aligned boxes around shapes. No box is ever too small: where arithmetic rounds, it rounds outward.
+// Axis-aligned boxes around shapes. No box is ever too small: where arithmetic rounds, it rounds outward, to infinity where
+// no number is large enough.
 
 #include <abut/arithmetic/error_free.hpp>
 #include <abut/arithmetic/limits.hpp>
@@ -63,12 +64,45 @@ ABUT_HD constexpr aabb<T> bounds(const triangle<T>& t) {
     return {detail::lesser(detail::lesser(t.a, t.b), t.c), detail::greater(detail::greater(t.a, t.b), t.c)};
 }
 
-/// The smallest representable box around a sphere: faces round outward, to infinity where no number is large enough.
+/// A point, a segment and a box are as large as their boxes. Exact.
+template <scalar T>
+ABUT_HD constexpr aabb<T> bounds(const vec3<T>& p) {
+    return {p, p};
+}
+template <scalar T>
+ABUT_HD constexpr aabb<T> bounds(const segment<T>& s) {
+    return {detail::lesser(s.a, s.b), detail::greater(s.a, s.b)};
+}
+template <scalar T>
+ABUT_HD constexpr aabb<T> bounds(const aabb<T>& box) {
+    return box;
+}
+
+namespace detail {
+
+template <scalar T>
+ABUT_HD constexpr aabb<T> grown(const aabb<T>& box, T by) {
+    return {{sub_down(box.lower.x, by), sub_down(box.lower.y, by), sub_down(box.lower.z, by)},
+            {add_up(box.upper.x, by), add_up(box.upper.y, by), add_up(box.upper.z, by)}};
+}
+
+}  // namespace detail
+
+/// The smallest representable box around a sphere or a capsule.
 template <scalar T>
 ABUT_HD constexpr aabb<T> bounds(const sphere<T>& s) {
-    const T r = s.radius;
-    return {{sub_down(s.center.x, r), sub_down(s.center.y, r), sub_down(s.center.z, r)},
-            {add_up(s.center.x, r), add_up(s.center.y, r), add_up(s.center.z, r)}};
+    return detail::grown(bounds(s.center), s.radius);
+}
+template <scalar T>
+ABUT_HD constexpr aabb<T> bounds(const capsule<T>& s) {
+    return detail::grown(bounds(s.axis), s.radius);
+}
+
+/// All of space: few planes have a smaller box.
+template <scalar T>
+ABUT_HD constexpr aabb<T> bounds(const plane<T>&) {
+    constexpr T far = infinity<T>;
+    return {{-far, -far, -far}, {far, far, far}};
 }
 
 }  // namespace abut

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Finds what is no geometry: coordinates that are not finite, negative radii, vertex indices out of range. Runs where the
-// data lies, so device memory is checked on the device.
+// Finds what is no geometry: coordinates that are not finite, negative radii, boxes inside out, vertex indices out of range.
+// Runs where the data lies, so device memory is checked on the device.
 
 #include <cstddef>
 #include <cstdint>
@@ -37,14 +37,29 @@ template <class T>
 ABUT_HD bool is_good(const sphere<T>& s) {
     return is_finite(s.center) && is_finite(s.radius) && s.radius >= 0;
 }
+template <class T>
+ABUT_HD bool is_good(const segment<T>& s) {
+    return is_finite(s.a) && is_finite(s.b);
+}
+template <class T>
+ABUT_HD bool is_good(const aabb<T>& box) {
+    return is_finite(box.lower) && is_finite(box.upper) && box.lower.x <= box.upper.x && box.lower.y <= box.upper.y &&
+           box.lower.z <= box.upper.z;
+}
+template <class T>
+ABUT_HD bool is_good(const plane<T>& p) {
+    return is_finite(p.normal) && is_finite(p.offset);
+}
+template <class T>
+ABUT_HD bool is_good(const capsule<T>& s) {
+    return is_good(s.axis) && is_finite(s.radius) && s.radius >= 0;
+}
 
 /// Index i if element i is bad, otherwise the largest index.
 template <class Element>
 struct bad_element {
     strided<Element> elements;
-    ABUT_HD std::size_t operator()(std::size_t i) const {
-        return is_good(elements[i]) ? static_cast<std::size_t>(-1) : i;
-    }
+    ABUT_HD std::size_t operator()(std::size_t i) const { return is_good(elements[i]) ? static_cast<std::size_t>(-1) : i; }
 };
 
 struct bad_face {
@@ -74,17 +89,47 @@ template <class T>
     refuse(function, element, i, t.c);
 }
 template <class T>
+[[noreturn]] void refuse_radius(const std::string& function, const std::string& element, std::size_t i, T radius) {
+    const bool negative = radius < 0;
+    throw invalid_geometry(function, element, i, negative ? "radius is negative" : "radius is not finite",
+                           static_cast<double>(radius));
+}
+template <class T>
 [[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const sphere<T>& s) {
     if (!is_finite(s.center)) refuse(function, element, i, s.center);
-    const bool negative = s.radius < 0;
-    throw invalid_geometry(function, element, i, negative ? "radius is negative" : "radius is not finite",
-                           static_cast<double>(s.radius));
+    refuse_radius(function, element, i, s.radius);
+}
+template <class T>
+[[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const segment<T>& s) {
+    refuse(function, element, i, is_finite(s.a) ? s.b : s.a);
+}
+template <class T>
+[[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const aabb<T>& box) {
+    if (!is_finite(box.lower)) refuse(function, element, i, box.lower);
+    if (!is_finite(box.upper)) refuse(function, element, i, box.upper);
+    const bool x = box.lower.x > box.upper.x, y = box.lower.y > box.upper.y;
+    const std::string name = x ? "x" : y ? "y" : "z";
+    throw invalid_geometry(function, element, i, "lower " + name + " is above upper " + name,
+                           static_cast<double>(x   ? box.lower.x
+                                               : y ? box.lower.y
+                                                   : box.lower.z));
+}
+template <class T>
+[[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const plane<T>& p) {
+    if (!is_finite(p.normal)) refuse(function, element, i, p.normal);
+    throw invalid_geometry(function, element, i, "offset is not finite", static_cast<double>(p.offset));
+}
+template <class T>
+[[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const capsule<T>& s) {
+    if (!is_good(s.axis)) refuse(function, element, i, s.axis);
+    refuse_radius(function, element, i, s.radius);
 }
 
 template <class Policy, class Element>
 void check_elements(const Policy& on, const strided<Element>& elements, const char* function, const char* name) {
     require_access(on, elements.data, function);
-    const std::size_t bad = reduce(on, elements.count, static_cast<std::size_t>(-1), minimum{}, bad_element<Element>{elements});
+    const std::size_t bad =
+        reduce(on, elements.count, static_cast<std::size_t>(-1), minimum{}, bad_element<Element>{elements});
     if (bad == static_cast<std::size_t>(-1)) return;
     Element value;
     download(on, &elements[bad], 1, &value);
@@ -94,7 +139,8 @@ void check_elements(const Policy& on, const strided<Element>& elements, const ch
 inline void check_count(std::size_t count, const char* function) {
     // Ids have 32 bits, and an index needs one of them for itself.
     if (count >= (std::size_t{1} << 31)) {
-        throw capacity_error(std::string(function) + ": " + std::to_string(count) + " elements; a set holds fewer than 2^31");
+        throw capacity_error(std::string(function) + ": " + std::to_string(count) +
+                             " elements; a set holds fewer than 2^31");
     }
 }
 

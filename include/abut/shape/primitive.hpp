@@ -33,4 +33,20 @@ struct aabb {
     vec3<T> lower, upper;
 };
 
+/// All x with normal . x == offset: a surface, and no half space. A normal of any length will do; with normal 0 it is
+/// everything where offset is 0, and else nothing, as the equation says.
+template <scalar T>
+struct plane {
+    vec3<T> normal;
+    T offset;
+};
+
+/// All points within `radius` of a segment, which may have no length: a solid ball swept along it. Radius 0 is the segment
+/// itself; a negative radius is no capsule.
+template <scalar T>
+struct capsule {
+    segment<T> axis;
+    T radius;
+};
+
 }  // namespace abut

@@ -7,6 +7,7 @@
 
 #include <concepts>
 
+#include <abut/arithmetic/absolute.hpp>
 #include <abut/arithmetic/limits.hpp>
 #include <abut/shape/bounds.hpp>
 #include <abut/shape/primitive.hpp>
@@ -33,6 +34,7 @@ struct ball_reach {
     sphere<T> ball;
     T limit;
 
+    ball_reach() = default;
     ABUT_HD explicit ball_reach(const sphere<T>& s) : ball(s) {
         constexpr T slack = 16 * unit_roundoff<T>, tiny = 2 * smallest_normal<T>;
         const T square = s.radius * s.radius;
@@ -51,9 +53,62 @@ struct ball_reach {
 template <scalar T>
 struct box_reach {
     aabb<T> query;
-    ABUT_HD explicit box_reach(const triangle<T>& t) : query(abut::bounds(t)) {}
+    box_reach() = default;
+    ABUT_HD explicit box_reach(const aabb<T>& box) : query(box) {}
     [[nodiscard]] ABUT_HD aabb<T> bounds() const { return query; }
     ABUT_HD bool operator()(const aabb<T>& box) const { return overlaps(query, box); }
+};
+
+// The next two compare sums of products whose magnitudes add up to `size`. Each number carries at most six roundings, two
+// numbers twelve, of 2u each in any rounding mode; 32u is more. What flush to zero takes is below the smallest normal number
+// times one factor of each product, or times 1. Where `size` is so large that something may overflow, every box is kept.
+
+/// A segment, or a capsule: by its box, and by the three axes that are orthogonal to it and to a coordinate axis, on which a
+/// segment is a point. A segment that runs across a scene touches few of the boxes in its own box.
+template <scalar T>
+struct swept_reach {
+    aabb<T> query;
+    vec3<T> middle, direction, grown;  ///< a + b, b - a, and the doubled radius times (|direction|'s other two coordinates)
+    T length, reach;                   ///< sums of magnitudes
+
+    swept_reach() = default;
+    ABUT_HD swept_reach(const segment<T>& axis, T radius, const aabb<T>& around)
+        : query(around), middle(axis.a + axis.b), direction(axis.b - axis.a) {
+        const vec3<T> d = absolute(direction);
+        grown = (radius + radius) * vec3<T>{d.y + d.z, d.z + d.x, d.x + d.y};
+        length = magnitudes(direction);
+        reach = magnitudes(axis.a) + magnitudes(axis.b) + (radius + radius);
+    }
+    [[nodiscard]] ABUT_HD aabb<T> bounds() const { return query; }
+    ABUT_HD bool operator()(const aabb<T>& box) const {
+        if (!overlaps(query, box)) return false;
+        constexpr T slack = 32 * unit_roundoff<T>, tiny = 32 * smallest_normal<T>;
+        const vec3<T> side = box.upper - box.lower, d = absolute(direction);
+        const vec3<T> off = absolute(cross(direction, (box.lower + box.upper) - middle));
+        const T far = reach + magnitudes(box.lower) + magnitudes(box.upper), size = length * far;
+        const T lost = slack * size + tiny * (length + far + 1);
+        const bool apart = off.x > (d.y * side.z + d.z * side.y) + (grown.x + lost) ||
+                           off.y > (d.z * side.x + d.x * side.z) + (grown.y + lost) ||
+                           off.z > (d.x * side.y + d.y * side.x) + (grown.z + lost);
+        return !(apart && size < largest_finite<T> / 16 && far < largest_finite<T> / 16);
+    }
+};
+
+/// A plane: by the box's corners that are nearest to it.
+template <scalar T>
+struct plane_reach {
+    plane<T> query;
+    plane_reach() = default;
+    ABUT_HD explicit plane_reach(const plane<T>& p) : query(p) {}
+    [[nodiscard]] ABUT_HD aabb<T> bounds() const { return abut::bounds(query); }
+    ABUT_HD bool operator()(const aabb<T>& box) const {
+        constexpr T slack = 32 * unit_roundoff<T>, tiny = 32 * smallest_normal<T>;
+        const vec3<T> n = absolute(query.normal), reach = absolute(box.lower) + absolute(box.upper);
+        const T height = dot(query.normal, box.lower + box.upper) - (query.offset + query.offset);
+        const T size = dot(n, reach) + (absolute(query.offset) + absolute(query.offset));
+        const T lost = slack * size + tiny * (magnitudes(n) + magnitudes(reach) + 1);
+        return !(absolute(height) > dot(n, box.upper - box.lower) + lost && size < largest_finite<T> / 16);
+    }
 };
 
 }  // namespace detail
@@ -64,7 +119,27 @@ ABUT_HD auto reach_of(const sphere<T>& s) {
 }
 template <scalar T>
 ABUT_HD auto reach_of(const triangle<T>& t) {
-    return detail::box_reach<T>(t);
+    return detail::box_reach<T>(bounds(t));
+}
+template <scalar T>
+ABUT_HD auto reach_of(const vec3<T>& p) {
+    return detail::box_reach<T>(bounds(p));
+}
+template <scalar T>
+ABUT_HD auto reach_of(const aabb<T>& box) {
+    return detail::box_reach<T>(box);
+}
+template <scalar T>
+ABUT_HD auto reach_of(const segment<T>& s) {
+    return detail::swept_reach<T>(s, T(0), bounds(s));
+}
+template <scalar T>
+ABUT_HD auto reach_of(const capsule<T>& s) {
+    return detail::swept_reach<T>(s.axis, s.radius, bounds(s));
+}
+template <scalar T>
+ABUT_HD auto reach_of(const plane<T>& p) {
+    return detail::plane_reach<T>(p);
 }
 
 }  // namespace abut

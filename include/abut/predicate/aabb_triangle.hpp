@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Does a triangle touch a solid box with faces along the axes? The stages are those of sphere_triangle.hpp.
+
+#include <abut/arithmetic/arithmetic.hpp>
+#include <abut/arithmetic/exact_stages.hpp>
+#include <abut/predicate/certified_box.hpp>
+#include <abut/predicate/exact_box.hpp>
+#include <abut/shape/primitive.hpp>
+
+namespace abut {
+
+/// One stage of the decision, as for a sphere and a triangle. A box has lower <= upper.
+template <arithmetic A, scalar T>
+ABUT_HD constexpr verdict decide(const aabb<T>& box, const triangle<T>& t) {
+    if constexpr (std::same_as<A, exact>) {
+        const detail::box_values<T> all(box, t);
+        return decide_in_limbs<detail::box_meets_triangle>(all.value);
+    } else if constexpr (std::same_as<A, filtered>) {
+        return detail::certified_box(box, t);
+    } else {
+        return to_verdict(detail::approximate_box(box, t));
+    }
+}
+
+/// The last stage: decides every finite input.
+template <scalar T>
+ABUT_NOINLINE ABUT_HD constexpr bool resolve(const aabb<T>& box, const triangle<T>& t) {
+    const detail::box_values<T> all(box, t);
+    return decide_at_any_span<detail::box_meets_triangle>(all.value);
+}
+
+}  // namespace abut

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What the stages of a predicate say of the pairs of a family, against the truth; and the table of it, on stdout and as
+// Markdown in the folder that ABUT_RESULTS names.
+
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+
+#include <abut/arithmetic/align.hpp>
+#include <abut/predicate/intersects.hpp>
+
+#include "samples.hpp"
+
+namespace abut::test {
+
+struct stage_tally {
+    std::uint64_t pairs = 0, hits = 0, missed = 0, phantom = 0;                     // missed and phantom: of `fast`
+    std::uint64_t filter = 0, late = 0, one_limb = 0, two_limbs = 0, any_span = 0;  // which stage decided
+    std::uint64_t wrong = 0;  // of any stage but `fast`, and of `intersects`
+
+    stage_tally& operator+=(const stage_tally& o) {
+        pairs += o.pairs, hits += o.hits, missed += o.missed, phantom += o.phantom;
+        filter += o.filter, late += o.late, one_limb += o.one_limb, two_limbs += o.two_limbs, any_span += o.any_span,
+            wrong += o.wrong;
+        return *this;
+    }
+};
+
+/// What lies between the filter and the integers: not every pair of shapes has it.
+template <class S, class U>
+verdict late_verdict(const S& s, const U& t) {
+    if constexpr (requires { decide_late<filtered>(s, t); }) {
+        return decide_late<filtered>(s, t);
+    } else {
+        return verdict::unknown;
+    }
+}
+
+/// Tries every stage on pair number `index`. `Predicate` is the one that the integers evaluate, and `values` its arguments.
+template <class Predicate, class S, class U, scalar T, int V>
+void examine_stages(const S& s, const U& t, const T (&values)[V], bool truth, std::uint64_t index, stage_tally& sum) {
+    const bool quick = intersects<fast>(s, t);
+    const verdict by_filter = decide<filtered>(s, t), late = late_verdict(s, t), by_limbs = decide<exact>(s, t);
+    const aligned<V> integers(values);
+    const int width = integers.width();
+
+    ++sum.pairs;
+    sum.hits += truth;
+    sum.missed += truth && !quick;
+    sum.phantom += !truth && quick;
+    if (by_filter != verdict::unknown) {
+        ++sum.filter;
+    } else if (late != verdict::unknown) {
+        ++sum.late;
+    } else if (width <= 60) {
+        ++sum.one_limb;
+    } else if (width <= 124) {
+        ++sum.two_limbs;
+    } else {
+        ++sum.any_span;
+    }
+    const auto contradicts = [truth](verdict v) { return v == to_verdict(!truth); };
+    bool wrong = contradicts(by_filter) || contradicts(late) || contradicts(by_limbs);
+    wrong = wrong || (by_limbs == verdict::unknown) != (width > 124);
+    wrong = wrong || decide<fast>(s, t) == to_verdict(!quick);
+    wrong = wrong || intersects(s, t) != truth || intersects<exact>(t, s) != truth;
+    // The last stage is a hundred times slower than the others: all pairs that need it, and some that do not.
+    if (by_limbs == verdict::unknown || index % 16 == 0) wrong = wrong || resolve(s, t) != truth;
+    // The narrow integers must agree with the wide ones where both may be used.
+    if (width <= 60 && index % 4 == 0) {
+        wrong = wrong || holds_in_limbs<Predicate, 1>(integers) != truth || holds_in_limbs<Predicate, 2>(integers) != truth;
+    }
+    sum.wrong += wrong;
+}
+
+inline double percent(std::uint64_t part, std::uint64_t whole) {
+    return 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+}
+
+class stage_table {
+public:
+    /// `file_name` without a folder; `title` says which shapes, and `late` whether they have a stage `decide_late`.
+    stage_table(const char* title, const char* file_name, bool late) : late_(late) {
+        if (const char* const folder = std::getenv("ABUT_RESULTS"); folder != nullptr && *folder != 0) {
+            const std::string path = std::string(folder) + "/" + file_name;
+            file_ = std::fopen(path.c_str(), "w");
+            if (file_ == nullptr) throw std::runtime_error("ABUT_RESULTS: cannot write " + path);
+        }
+        for (std::FILE* const out : {stdout, file_}) {
+            if (out == nullptr) continue;
+            std::fprintf(
+                out,
+                "%s, seed %llu; fast: missed / phantom per million; then the share of pairs that each stage decides "
+                "(%%)\n\n",
+                title, static_cast<unsigned long long>(seed));
+            std::fprintf(out,
+                         "| family | scalar | pairs | hits %% | fast | filter |%s 1 limb | 2 limbs | any span | wrong |\n",
+                         late_ ? " late |" : "");
+            std::fprintf(out, "| --- | --- | --- | --- | --- | --- |%s --- | --- | --- | --- |\n", late_ ? " --- |" : "");
+        }
+    }
+    ~stage_table() {
+        if (file_ != nullptr) std::fclose(file_);
+    }
+    stage_table(const stage_table&) = delete;
+    stage_table& operator=(const stage_table&) = delete;
+
+    void add(const char* family, const char* type, const stage_tally& t) {
+        for (std::FILE* const out : {stdout, file_}) {
+            if (out == nullptr) continue;
+            std::fprintf(out, "| %s | %s | %llu | %.1f | %.0f / %.0f | %.3f |", family, type,
+                         static_cast<unsigned long long>(t.pairs), percent(t.hits, t.pairs),
+                         1e4 * percent(t.missed, t.pairs), 1e4 * percent(t.phantom, t.pairs), percent(t.filter, t.pairs));
+            if (late_) std::fprintf(out, " %.3f |", percent(t.late, t.pairs));
+            std::fprintf(out, " %.3f | %.3f | %.3f | %llu |\n", percent(t.one_limb, t.pairs), percent(t.two_limbs, t.pairs),
+                         percent(t.any_span, t.pairs), static_cast<unsigned long long>(t.wrong));
+            std::fflush(out);
+        }
+    }
+
+private:
+    bool late_;
+    std::FILE* file_ = nullptr;
+};
+
+}  // namespace abut::test
