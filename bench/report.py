@@ -220,8 +220,8 @@ def one_against_many(r):
                 rows.append([f"{int(n):,}", shown(read)] + [shown(r.ms(name(*what, n))) for what in asked] +
                             [quotient(r.ms(name(q, "filtered", p, n)), read) for q, p in (("any", "0"), ("count", "1"))])
             head = ["triangles", "read"] + [f"`{q}`, {p} % hits, `{a}`" for q, a, p in asked]
-            lines += [f"One triangle against many, {policy}, {scalar}, in ms; the last two columns are `filtered`, with no hit "
-                      "and with 1 %, over a loop that only reads the same bytes:", ""]
+            lines += [f"One triangle against many, {policy}, {scalar}, in ms; the last two columns are `filtered`, with no "
+                      "hit and with 1 %, over a loop that only reads the same bytes:", ""]
             lines += table(head + ["`any` / read", "`count` / read"], rows)
     return lines
 
@@ -230,8 +230,9 @@ def call_floor(r):
     call, reading = r.ms("floor/call"), r.rows.get("floor/read")
     if call is None:
         return []
-    return [f"In the same run a GiB was read at {reading['bytes'] / reading['ms'] / 1e6:,.0f} GB/s, and a call that does next to "
-            f"nothing and waits for a number took {shown(call)} ms: no query is faster.", ""]
+    speed = reading["bytes"] / reading["ms"] / 1e6
+    return [f"In the same run a GiB was read at {speed:,.0f} GB/s, and a call that does next to nothing and waits for a "
+            f"number took {shown(call)} ms: no query is faster.", ""]
 
 
 def with_copy(r):

@@ -117,19 +117,20 @@ auto with_search(const Policy& on, const QuerySide& query_side, const TargetSide
 template <arithmetic A, class Policy, class X, class Y, class Filter, class Body>
 auto on_both(const Policy& on, const X& x, const Y& y, const query_options<Filter>& options, const char* function,
              const Body& body) {
+    // Generic, so that the order that is not taken is not compiled.
+    const auto a_looks = [&](const auto& a, const auto& b) { return with_search<A>(on, a, b, false, options.filter, body); };
+    const auto b_looks = [&](const auto& a, const auto& b) { return with_search<A>(on, b, a, true, options.filter, body); };
     const auto a = make_side(on, x, function);
     const auto b = make_side(on, y, function);
-    const auto a_looks = [&] { return with_search<A>(on, a, b, false, options.filter, body); };
-    const auto b_looks = [&] { return with_search<A>(on, b, a, true, options.filter, body); };
     constexpr bool indexed = is_index<X> || is_index<Y>;
     if constexpr (indexed ? is_index<X> : is_shape<X>) {
-        return b_looks();
+        return b_looks(a, b);
     } else if constexpr (indexed || is_shape<Y>) {
-        return a_looks();
+        return a_looks(a, b);
     } else {
         const bool a_is_smaller = a.shapes().size() < b.shapes().size();
         const bool a_stays = options.resident == query_side::automatic ? a_is_smaller : options.resident == query_side::a;
-        return a_stays ? b_looks() : a_looks();
+        return a_stays ? b_looks(a, b) : a_looks(a, b);
     }
 }
 

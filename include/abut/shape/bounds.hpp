@@ -44,11 +44,12 @@ ABUT_HD constexpr aabb<T> merge(const aabb<T>& a, const aabb<T>& b) {
     return {detail::lesser(a.lower, b.lower), detail::greater(a.upper, b.upper)};
 }
 
-/// Whether the closed boxes share a point. Exact.
+/// Whether the closed boxes share a point. Exact. One branch and not six: which of the comparisons fails is anyone's guess.
 template <scalar T>
 ABUT_HD constexpr bool overlaps(const aabb<T>& a, const aabb<T>& b) {
-    return a.lower.x <= b.upper.x && b.lower.x <= a.upper.x && a.lower.y <= b.upper.y && b.lower.y <= a.upper.y &&
-           a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;
+    const auto at_most = [](T x, T y) { return static_cast<unsigned>(x <= y); };
+    return (at_most(a.lower.x, b.upper.x) & at_most(b.lower.x, a.upper.x) & at_most(a.lower.y, b.upper.y) &
+            at_most(b.lower.y, a.upper.y) & at_most(a.lower.z, b.upper.z) & at_most(b.lower.z, a.upper.z)) != 0;
 }
 
 /// Whether `inner` lies in `outer`. Exact.
