@@ -3,10 +3,12 @@
 
 #include <cstdio>
 #include <cstring>
+#include <string>
 #include <vector>
 
 #include "support/catch.hpp"
 #include "support/families.hpp"
+#include "support/other_shapes.hpp"
 #include "support/samples.hpp"
 #include "support/triangle_families.hpp"
 
@@ -19,7 +21,7 @@ template <class T>
 struct sphere_triangle_pairs {
     test::family family;
     static constexpr int families = test::family_count;
-    [[nodiscard]] const char* name() const { return test::name_of(family); }
+    [[nodiscard]] std::string name() const { return test::name_of(family); }
     ABUT_HD test::sphere_triangle_pair<T> make(std::size_t i) const { return test::make_pair<T>(test::seed, family, i); }
 };
 
@@ -27,8 +29,19 @@ template <class T>
 struct triangle_pairs {
     test::triangle_family family;
     static constexpr int families = test::triangle_family_count;
-    [[nodiscard]] const char* name() const { return test::name_of(family); }
+    [[nodiscard]] std::string name() const { return test::name_of(family); }
     ABUT_HD test::triangle_pair<T> make(std::size_t i) const { return test::make_triangle_pair<T>(test::seed, family, i); }
+};
+
+/// A box, a plane or a capsule, and a triangle.
+template <class T, template <class> class Shape>
+struct shape_pairs {
+    test::shape_family family;
+    static constexpr int families = test::shape_family_count;
+    [[nodiscard]] std::string name() const { return "other shape, " + std::to_string(static_cast<int>(family)); }
+    ABUT_HD test::shape_triangle_pair<Shape, T> make(std::size_t i) const {
+        return test::make_shape_pair<Shape, T>(test::seed, family, i);
+    }
 };
 
 /// Every stage's answer for pair first + i of a family, in one byte, and a checksum of the generated input: a device may
@@ -80,9 +93,10 @@ void check_family(const Pairs& pairs, std::size_t n) {
             hits += device_decisions[i] & 1;
         }
     }
-    std::printf("%-18s %-6s n %zu, hits %5.1f %%, inputs that differ %zu, decisions that differ %zu, filtered against exact %zu\n",
-                pairs.name(), sizeof(T) == 4 ? "float" : "double", n, 100.0 * static_cast<double>(hits) / static_cast<double>(n),
-                other_inputs, other_decisions, split);
+    std::printf(
+        "%-18s %-6s n %zu, hits %5.1f %%, inputs that differ %zu, decisions that differ %zu, filtered against exact %zu\n",
+        pairs.name().c_str(), sizeof(T) == 4 ? "float" : "double", n,
+        100.0 * static_cast<double>(hits) / static_cast<double>(n), other_inputs, other_decisions, split);
     std::fflush(stdout);
     CHECK(other_inputs == 0);
     CHECK(other_decisions == 0);
@@ -111,6 +125,12 @@ TEMPLATE_TEST_CASE("spheres and triangles: cuda decides every family as the host
 
 TEMPLATE_TEST_CASE("triangles and triangles: cuda decides every family as the host does", "", float, double) {
     check_families<TestType, triangle_pairs<TestType>>();
+}
+
+TEMPLATE_TEST_CASE("other shapes and triangles: cuda decides every family as the host does", "", float, double) {
+    check_families<TestType, shape_pairs<TestType, aabb>>();
+    check_families<TestType, shape_pairs<TestType, plane>>();
+    check_families<TestType, shape_pairs<TestType, capsule>>();
 }
 
 TEST_CASE("arithmetic: the self-test passes on the device") {
