@@ -3,6 +3,6 @@
 #include <abut/abut.hpp>
 
 int main() {
-    const abut::triangle_soup<float> soup;
-    return abut::any(abut::serial{}, soup, soup);
+    const abut::spheres<float> balls;
+    return abut::any(abut::serial{}, balls, abut::aabb<float>{{0, 0, 0}, {1, 1, 1}});
 }
