@@ -99,7 +99,7 @@ void note_stages(benchmark::State& state, const pairs_of<T>& pairs) {
         }
     };
     for (const auto& [a, b] : pairs) {
-        const abut::aligned<18> integers(abut::detail::coordinates_of_triangles<T>(a, b).value);
+        const abut::aligned<18> integers(abut::detail::values_of(a, b).value);
         const int width = integers.width();
         ++(abut::decide<abut::filtered>(a, b) != abut::verdict::unknown ? first
            : is_late(a, b)                                              ? late

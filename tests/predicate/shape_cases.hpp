@@ -27,19 +27,19 @@ inline constexpr unsigned flush_and_no_denormals = 0x8040;  // of the SSE contro
 
 template <scalar T>
 void examine_shapes(const aabb<T>& box, const triangle<T>& t, std::uint64_t index, stage_tally& sum) {
-    const detail::box_values<T> all(box, t);
+    const auto all = detail::values_of(box, t);
     examine_stages<detail::box_meets_triangle>(box, t, all.value, oracle::intersects(box, t), index, sum);
 }
 
 template <scalar T>
 void examine_shapes(const plane<T>& p, const triangle<T>& t, std::uint64_t index, stage_tally& sum) {
-    const detail::plane_values<T> all(p, t);
+    const auto all = detail::values_of(p, t);
     examine_stages<detail::plane_meets_triangle>(p, t, all.value, oracle::intersects(p, t), index, sum);
 }
 
 template <scalar T>
 void examine_shapes(const capsule<T>& s, const triangle<T>& t, std::uint64_t index, stage_tally& sum) {
-    const detail::capsule_values<T> all(s, t);
+    const auto all = detail::values_of(s, t);
     examine_stages<detail::capsule_meets_triangle>(s, t, all.value, oracle::intersects(s, t), index, sum);
 }
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include <abut/arithmetic/absolute.hpp>
+#include <abut/arithmetic/magnitude.hpp>
 
 #include "shape_families.hpp"
 

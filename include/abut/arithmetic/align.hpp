@@ -66,7 +66,14 @@ ABUT_HD constexpr bool is_subnormal(T x) {
     using format = detail::float_format<T>;
     using word = typename format::word;
     const word magnitude = static_cast<word>(__builtin_bit_cast(word, x) << 1);
-    return magnitude != 0 && magnitude >> format::digits == 0;
+    return static_cast<word>(magnitude - 1) < (word{1} << format::digits) - 1;  // 0 wraps around, and is none
+}
+
+template <scalar T, int V>
+ABUT_HD constexpr bool any_subnormal(const T (&value)[V]) {
+    bool any = false;
+    for (int i = 0; i < V; ++i) any |= is_subnormal(value[i]);  // all of them: no branch for each
+    return any;
 }
 
 /// `V` finite numbers and the power of two, 2^low, that all are multiples of.

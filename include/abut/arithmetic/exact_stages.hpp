@@ -10,9 +10,39 @@
 #include <abut/arithmetic/align.hpp>
 #include <abut/arithmetic/arithmetic.hpp>
 #include <abut/arithmetic/sparse_sum.hpp>
+#include <abut/arithmetic/vec.hpp>
 #include <abut/arithmetic/wide_int.hpp>
 
 namespace abut {
+
+namespace detail {
+
+/// Numbers in a row, as a predicate's `holds` takes them.
+template <scalar T, int V>
+struct row_of {
+    T value[V];
+};
+
+template <scalar T>
+ABUT_HD constexpr T* append(T* end, T x) {
+    *end = x;
+    return end + 1;
+}
+template <scalar T>
+ABUT_HD constexpr T* append(T* end, const vec3<T>& p) {
+    return append(append(append(end, p.x), p.y), p.z);
+}
+
+/// The coordinates of points, and single numbers, in the order of the arguments.
+template <scalar T, class... Rest>
+ABUT_HD constexpr auto in_a_row(const vec3<T>& first, const Rest&... rest) {
+    row_of<T, 3 + ((std::same_as<Rest, T> ? 1 : 3) + ... + 0)> row{};
+    T* end = append(row.value, first);
+    ((end = append(end, rest)), ...);
+    return row;
+}
+
+}  // namespace detail
 
 /// In integers of `L` limbs a degree. Coordinates of up to 64 L - 4 bits leave headroom: a sum of three products of
 /// differences (a bit wider each) has degree 2 and at most 128 L - 4 bits, and it is down from there for higher degrees.

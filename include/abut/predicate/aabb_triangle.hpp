@@ -15,8 +15,7 @@ namespace abut {
 template <arithmetic A, scalar T>
 ABUT_HD constexpr verdict decide(const aabb<T>& box, const triangle<T>& t) {
     if constexpr (std::same_as<A, exact>) {
-        const detail::box_values<T> all(box, t);
-        return decide_in_limbs<detail::box_meets_triangle>(all.value);
+        return decide_in_limbs<detail::box_meets_triangle>(detail::values_of(box, t).value);
     } else if constexpr (std::same_as<A, filtered>) {
         return detail::certified_box(box, t);
     } else {
@@ -27,8 +26,7 @@ ABUT_HD constexpr verdict decide(const aabb<T>& box, const triangle<T>& t) {
 /// The last stage: decides every finite input.
 template <scalar T>
 ABUT_NOINLINE ABUT_HD constexpr bool resolve(const aabb<T>& box, const triangle<T>& t) {
-    const detail::box_values<T> all(box, t);
-    return decide_at_any_span<detail::box_meets_triangle>(all.value);
+    return decide_at_any_span<detail::box_meets_triangle>(detail::values_of(box, t).value);
 }
 
 }  // namespace abut

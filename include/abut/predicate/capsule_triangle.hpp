@@ -16,12 +16,9 @@ namespace detail {
 
 /// The ends of the axis, the triangle's corners, and the radius.
 template <scalar T>
-struct capsule_values {
-    T value[16];
-    ABUT_HD constexpr capsule_values(const capsule<T>& s, const triangle<T>& t)
-        : value{s.axis.a.x, s.axis.a.y, s.axis.a.z, s.axis.b.x, s.axis.b.y, s.axis.b.z, t.a.x, t.a.y,
-                t.a.z,      t.b.x,      t.b.y,      t.b.z,      t.c.x,      t.c.y,      t.c.z, s.radius} {}
-};
+ABUT_HD constexpr auto values_of(const capsule<T>& s, const triangle<T>& t) {
+    return in_a_row(s.axis.a, s.axis.b, t.a, t.b, t.c, s.radius);
+}
 
 }  // namespace detail
 
@@ -29,8 +26,7 @@ struct capsule_values {
 template <arithmetic A, scalar T>
 ABUT_HD constexpr verdict decide(const capsule<T>& s, const triangle<T>& t) {
     if constexpr (std::same_as<A, exact>) {
-        const detail::capsule_values<T> all(s, t);
-        return decide_in_limbs<detail::capsule_meets_triangle>(all.value);
+        return decide_in_limbs<detail::capsule_meets_triangle>(detail::values_of(s, t).value);
     } else if constexpr (std::same_as<A, filtered>) {
         return detail::certified_capsule(s, t);
     } else {
@@ -41,8 +37,7 @@ ABUT_HD constexpr verdict decide(const capsule<T>& s, const triangle<T>& t) {
 /// The last stage: decides every finite input.
 template <scalar T>
 ABUT_NOINLINE ABUT_HD constexpr bool resolve(const capsule<T>& s, const triangle<T>& t) {
-    const detail::capsule_values<T> all(s, t);
-    return decide_at_any_span<detail::capsule_meets_triangle>(all.value);
+    return decide_at_any_span<detail::capsule_meets_triangle>(detail::values_of(s, t).value);
 }
 
 }  // namespace abut

@@ -35,30 +35,11 @@
 
 #include <abut/arithmetic/arithmetic.hpp>
 #include <abut/arithmetic/error_free.hpp>
+#include <abut/arithmetic/magnitude.hpp>
 #include <abut/arithmetic/strict.hpp>
 #include <abut/arithmetic/vec.hpp>
 
 namespace abut::detail {
-
-template <scalar F>
-ABUT_HD constexpr F least(F a) {
-    return a;
-}
-
-template <scalar F, class... Rest>
-ABUT_HD constexpr F least(F a, F b, Rest... rest) {
-    return least(a < b ? a : b, rest...);
-}
-
-template <scalar F>
-ABUT_HD constexpr F greatest(F a) {
-    return a;
-}
-
-template <scalar F, class... Rest>
-ABUT_HD constexpr F greatest(F a, F b, Rest... rest) {
-    return greatest(a > b ? a : b, rest...);
-}
 
 /// The hull's point nearest to the origin: of a point,
 template <scalar F>

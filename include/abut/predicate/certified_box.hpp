@@ -29,9 +29,10 @@
 // that are not; they never call a smaller one larger. So "apart" is certain, and a tie is, where no input is denormal:
 // which is asked of the inputs' bits.
 
-#include <abut/arithmetic/absolute.hpp>
+#include <abut/arithmetic/magnitude.hpp>
 #include <abut/arithmetic/align.hpp>
 #include <abut/arithmetic/arithmetic.hpp>
+#include <abut/arithmetic/exact_stages.hpp>
 #include <abut/arithmetic/strict.hpp>
 #include <abut/arithmetic/vec.hpp>
 #include <abut/predicate/certified_ball.hpp>
@@ -86,35 +87,19 @@ ABUT_HD constexpr F greatest_coordinate(const vec3<F>& v) {
     return greatest(v.x, v.y, v.z);
 }
 
-/// Whether any of the numbers is denormal: by its bits, since arithmetic may take it for 0.
-template <scalar T, int V>
-ABUT_HD constexpr bool any_denormal(const T (&value)[V]) {
-    using word = typename float_format<T>::word;
-    constexpr int fraction = float_format<T>::digits - 1;
-    bool any = false;
-    for (int i = 0; i < V; ++i) {
-        const word magnitude = static_cast<word>(__builtin_bit_cast(word, value[i]) << 1);
-        any |= static_cast<word>(magnitude - 1) < (word{1} << (fraction + 1)) - 1;  // 0 wraps around and is none
-    }
-    return any;
-}
-
 /// The lower and the upper corner of a box and the corners of a triangle.
 template <scalar T>
-struct box_values {
-    T value[15];
-    ABUT_HD constexpr box_values(const aabb<T>& box, const triangle<T>& t)
-        : value{box.lower.x, box.lower.y, box.lower.z, box.upper.x, box.upper.y, box.upper.z, t.a.x, t.a.y,
-                t.a.z,       t.b.x,       t.b.y,       t.b.z,       t.c.x,       t.c.y,       t.c.z} {}
-};
+ABUT_HD constexpr auto values_of(const aabb<T>& box, const triangle<T>& t) {
+    return in_a_row(box.lower, box.upper, t.a, t.b, t.c);
+}
 
 /// Whether all gaps that are not certainly below 0 belong to axes that repeat the box's own, which are known not to
 /// separate. Where inputs are denormal it says no.
 template <scalar T>
 ABUT_HD constexpr bool only_ties(const aabb<T>& box, const triangle<T>& t, const box_frame<double>& frame, double bound,
                                  double normal_bound) {
-    const box_values<T> all(box, t);
-    if (any_denormal(all.value)) return false;
+    const auto all = values_of(box, t);
+    if (any_subnormal(all.value)) return false;
     const T* const v = all.value + 6;
     bool flat = false;
     for (int k = 0; k < 3; ++k) flat = flat || (v[k] == v[3 + k] && v[k] == v[6 + k]);

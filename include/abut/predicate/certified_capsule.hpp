@@ -21,7 +21,7 @@
 // at most 2uL, points uL, and products and sums another 5uLLL: a triple product is within 16uLLL. The code takes 2^-46 LLL,
 // 64uLLL. What flush to zero loses is below 2^-120 (L + 2^-120)^2 in float, and 2^-1010 (L + 1)^2 in double.
 
-#include <abut/arithmetic/absolute.hpp>
+#include <abut/arithmetic/magnitude.hpp>
 #include <abut/arithmetic/arithmetic.hpp>
 #include <abut/arithmetic/strict.hpp>
 #include <abut/arithmetic/vec.hpp>

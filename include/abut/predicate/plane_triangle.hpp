@@ -5,7 +5,7 @@
 // is linear, so it takes every value between its least and its greatest, on degenerate triangles as well. A plane whose
 // normal is 0 has one height everywhere and needs no case of its own.
 
-#include <abut/arithmetic/absolute.hpp>
+#include <abut/arithmetic/magnitude.hpp>
 #include <abut/arithmetic/arithmetic.hpp>
 #include <abut/arithmetic/error_free.hpp>
 #include <abut/arithmetic/exact_stages.hpp>
@@ -36,16 +36,8 @@ struct plane_meets_triangle {
 
 /// The plane's normal and offset, a 1, and the triangle's corners.
 template <scalar T>
-struct plane_values {
-    T value[14];
-    ABUT_HD constexpr plane_values(const plane<T>& p, const triangle<T>& t)
-        : value{p.normal.x, p.normal.y, p.normal.z, p.offset, 1,     t.a.x, t.a.y,
-                t.a.z,      t.b.x,      t.b.y,      t.b.z,    t.c.x, t.c.y, t.c.z} {}
-};
-
-template <scalar T>
-ABUT_HD constexpr vec3<double> in_double(const vec3<T>& v) {
-    return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+ABUT_HD constexpr auto values_of(const plane<T>& p, const triangle<T>& t) {
+    return in_a_row(p.normal, p.offset, T(1), t.a, t.b, t.c);
 }
 
 /// In double, also for float input. A height is a sum of three products and the offset, with at most four roundings on the
@@ -57,8 +49,8 @@ ABUT_HD constexpr vec3<double> in_double(const vec3<T>& v) {
 template <scalar T>
 ABUT_HD constexpr verdict certified_heights(const plane<T>& p, const triangle<T>& t) {
     constexpr double tiny = std::same_as<T, float> ? 0x1p-122 : 0x1p-1018;
-    const vec3<double> n = in_double(p.normal), a = in_double(t.a), b = in_double(t.b), c = in_double(t.c),
-                       size_n = absolute(n), size_a = absolute(a), size_b = absolute(b), size_c = absolute(c);
+    const vec3<double> n = widened(p.normal), a = widened(t.a), b = widened(t.b), c = widened(t.c), size_n = absolute(n),
+                       size_a = absolute(a), size_b = absolute(b), size_c = absolute(c);
     const double offset = rounded(static_cast<double>(p.offset));
     const vec3<double> reach{greatest(size_a.x, size_b.x, size_c.x), greatest(size_a.y, size_b.y, size_c.y),
                              greatest(size_a.z, size_b.z, size_c.z)};
@@ -77,8 +69,7 @@ ABUT_HD constexpr verdict certified_heights(const plane<T>& p, const triangle<T>
 template <arithmetic A, scalar T>
 ABUT_HD constexpr verdict decide(const plane<T>& p, const triangle<T>& t) {
     if constexpr (std::same_as<A, exact>) {
-        const detail::plane_values<T> all(p, t);
-        return decide_in_limbs<detail::plane_meets_triangle>(all.value);
+        return decide_in_limbs<detail::plane_meets_triangle>(detail::values_of(p, t).value);
     } else if constexpr (std::same_as<A, filtered>) {
         return detail::certified_heights(p, t);
     } else {
@@ -91,8 +82,7 @@ ABUT_HD constexpr verdict decide(const plane<T>& p, const triangle<T>& t) {
 /// The last stage: decides every finite input.
 template <scalar T>
 ABUT_NOINLINE ABUT_HD constexpr bool resolve(const plane<T>& p, const triangle<T>& t) {
-    const detail::plane_values<T> all(p, t);
-    return decide_at_any_span<detail::plane_meets_triangle>(all.value);
+    return decide_at_any_span<detail::plane_meets_triangle>(detail::values_of(p, t).value);
 }
 
 }  // namespace abut

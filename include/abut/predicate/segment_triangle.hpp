@@ -40,7 +40,7 @@ ABUT_HD constexpr verdict decide_late(const segment<T>& s, const triangle<T>& t)
 template <arithmetic A>
     requires std::same_as<A, filtered>
 ABUT_NOINLINE ABUT_HD constexpr verdict decide_late(const segment<float>& s, const triangle<float>& t) {
-    return detail::decide_widened(s, t);
+    return detail::decide_widened(s, t, detail::in_a_row(s.a, s.b, t.a, t.b, t.c));
 }
 
 /// The last stage: decides every finite input.

@@ -11,12 +11,20 @@
 
 namespace abut {
 
+namespace detail {
+
+template <scalar T>
+ABUT_HD constexpr auto values_of(const sphere<T>& s, const segment<T>& t) {
+    return in_a_row(s.center, t.a, t.b, s.radius);
+}
+
+}  // namespace detail
+
 /// One stage of the decision, as for a triangle.
 template <arithmetic A, scalar T>
 ABUT_HD constexpr verdict decide(const sphere<T>& s, const segment<T>& t) {
     if constexpr (std::same_as<A, exact>) {
-        const T value[] = {s.center.x, s.center.y, s.center.z, t.a.x, t.a.y, t.a.z, t.b.x, t.b.y, t.b.z, s.radius};
-        return decide_in_limbs<detail::ball_meets_segment>(value);
+        return decide_in_limbs<detail::ball_meets_segment>(detail::values_of(s, t).value);
     } else if constexpr (std::same_as<A, filtered>) {
         return detail::certified(s.center, s.radius, t.a, t.b);
     } else {
@@ -27,8 +35,7 @@ ABUT_HD constexpr verdict decide(const sphere<T>& s, const segment<T>& t) {
 /// The last stage: decides every finite input.
 template <scalar T>
 ABUT_NOINLINE ABUT_HD constexpr bool resolve(const sphere<T>& s, const segment<T>& t) {
-    const T value[] = {s.center.x, s.center.y, s.center.z, t.a.x, t.a.y, t.a.z, t.b.x, t.b.y, t.b.z, s.radius};
-    return decide_at_any_span<detail::ball_meets_segment>(value);
+    return decide_at_any_span<detail::ball_meets_segment>(detail::values_of(s, t).value);
 }
 
 }  // namespace abut

@@ -12,12 +12,20 @@
 
 namespace abut {
 
+namespace detail {
+
+template <scalar T>
+ABUT_HD constexpr auto values_of(const sphere<T>& s, const sphere<T>& t) {
+    return in_a_row(s.center, t.center, s.radius, t.radius);
+}
+
+}  // namespace detail
+
 /// One stage of the decision, as for a triangle.
 template <arithmetic A, scalar T>
 ABUT_HD constexpr verdict decide(const sphere<T>& s, const sphere<T>& t) {
     if constexpr (std::same_as<A, exact>) {
-        const T value[] = {s.center.x, s.center.y, s.center.z, t.center.x, t.center.y, t.center.z, s.radius, t.radius};
-        return decide_in_limbs<detail::ball_meets_ball>(value);
+        return decide_in_limbs<detail::ball_meets_ball>(detail::values_of(s, t).value);
     } else if constexpr (std::same_as<A, filtered>) {
         const double radii = detail::rounded(static_cast<double>(s.radius)) + detail::rounded(static_cast<double>(t.radius));
         return detail::certified_relative<T>(radii, detail::relative_to(s.center, t.center));
@@ -31,8 +39,7 @@ ABUT_HD constexpr verdict decide(const sphere<T>& s, const sphere<T>& t) {
 /// The last stage: decides every finite input.
 template <scalar T>
 ABUT_NOINLINE ABUT_HD constexpr bool resolve(const sphere<T>& s, const sphere<T>& t) {
-    const T value[] = {s.center.x, s.center.y, s.center.z, t.center.x, t.center.y, t.center.z, s.radius, t.radius};
-    return decide_at_any_span<detail::ball_meets_ball>(value);
+    return decide_at_any_span<detail::ball_meets_ball>(detail::values_of(s, t).value);
 }
 
 }  // namespace abut

@@ -11,14 +11,21 @@
 
 namespace abut {
 
+namespace detail {
+
+template <scalar T>
+ABUT_HD constexpr auto values_of(const sphere<T>& s, const triangle<T>& t) {
+    return in_a_row(s.center, t.a, t.b, t.c, s.radius);
+}
+
+}  // namespace detail
+
 /// One stage of the decision. `fast` always answers, in the input's own type and without a promise; `filtered` answers
 /// where its error bound allows; `exact` leaves `unknown` only spans of exponents beyond 124 bits. No stack to speak of.
 template <arithmetic A, scalar T>
 ABUT_HD constexpr verdict decide(const sphere<T>& s, const triangle<T>& t) {
     if constexpr (std::same_as<A, exact>) {
-        const T value[] = {s.center.x, s.center.y, s.center.z, t.a.x, t.a.y, t.a.z,   t.b.x,
-                           t.b.y,      t.b.z,      t.c.x,      t.c.y, t.c.z, s.radius};
-        return decide_in_limbs<detail::ball_meets_triangle>(value);
+        return decide_in_limbs<detail::ball_meets_triangle>(detail::values_of(s, t).value);
     } else if constexpr (std::same_as<A, filtered>) {
         return detail::certified(s.center, s.radius, t.a, t.b, t.c);
     } else {
@@ -29,9 +36,7 @@ ABUT_HD constexpr verdict decide(const sphere<T>& s, const triangle<T>& t) {
 /// The last stage: decides every finite input, slowly and with a stack frame that docs/numerics.md states.
 template <scalar T>
 ABUT_NOINLINE ABUT_HD constexpr bool resolve(const sphere<T>& s, const triangle<T>& t) {
-    const T value[] = {s.center.x, s.center.y, s.center.z, t.a.x, t.a.y, t.a.z,   t.b.x,
-                       t.b.y,      t.b.z,      t.c.x,      t.c.y, t.c.z, s.radius};
-    return decide_at_any_span<detail::ball_meets_triangle>(value);
+    return decide_at_any_span<detail::ball_meets_triangle>(detail::values_of(s, t).value);
 }
 
 /// A point is a sphere of radius 0.

@@ -13,14 +13,11 @@ namespace abut {
 
 namespace detail {
 
-/// The coordinates of two triangles, as exact_triangles.hpp expects them.
-template <class T>
-struct coordinates_of_triangles {
-    T value[18];
-    ABUT_HD constexpr coordinates_of_triangles(const triangle<T>& s, const triangle<T>& t)
-        : value{s.a.x, s.a.y, s.a.z, s.b.x, s.b.y, s.b.z, s.c.x, s.c.y, s.c.z,
-                t.a.x, t.a.y, t.a.z, t.b.x, t.b.y, t.b.z, t.c.x, t.c.y, t.c.z} {}
-};
+/// As exact_triangles.hpp expects them.
+template <scalar T>
+ABUT_HD constexpr auto values_of(const triangle<T>& s, const triangle<T>& t) {
+    return in_a_row(s.a, s.b, s.c, t.a, t.b, t.c);
+}
 
 }  // namespace detail
 
@@ -29,7 +26,7 @@ struct coordinates_of_triangles {
 template <arithmetic A, scalar T>
 ABUT_HD constexpr verdict decide(const triangle<T>& s, const triangle<T>& t) {
     if constexpr (std::same_as<A, exact>) {
-        return decide_in_limbs<detail::triangle_meets_triangle>(detail::coordinates_of_triangles<T>(s, t).value);
+        return decide_in_limbs<detail::triangle_meets_triangle>(detail::values_of(s, t).value);
     } else {
         return detail::decide_in_general_position<std::same_as<A, filtered>>(s, t);
     }
@@ -39,20 +36,20 @@ ABUT_HD constexpr verdict decide(const triangle<T>& s, const triangle<T>& t) {
 template <arithmetic A, scalar T>
     requires std::same_as<A, fast>
 ABUT_NOINLINE ABUT_HD constexpr verdict decide_late(const triangle<T>& s, const triangle<T>& t) {
-    return to_verdict(detail::triangle_meets_triangle::holds(detail::coordinates_of_triangles<T>(s, t).value));
+    return to_verdict(detail::triangle_meets_triangle::holds(detail::values_of(s, t).value));
 }
 
 /// `filtered` in float: once more in double, which decides what is in general position and not within an ulp of a double.
 template <arithmetic A>
     requires std::same_as<A, filtered>
 ABUT_NOINLINE ABUT_HD constexpr verdict decide_late(const triangle<float>& s, const triangle<float>& t) {
-    return detail::decide_widened(s, t);
+    return detail::decide_widened(s, t, detail::values_of(s, t));
 }
 
 /// The last stage: decides every finite input, slowly and with a stack frame that docs/numerics.md states.
 template <scalar T>
 ABUT_NOINLINE ABUT_HD constexpr bool resolve(const triangle<T>& s, const triangle<T>& t) {
-    return decide_at_any_span<detail::triangle_meets_triangle>(detail::coordinates_of_triangles<T>(s, t).value);
+    return decide_at_any_span<detail::triangle_meets_triangle>(detail::values_of(s, t).value);
 }
 
 }  // namespace abut

@@ -7,7 +7,7 @@
 
 #include <concepts>
 
-#include <abut/arithmetic/absolute.hpp>
+#include <abut/arithmetic/magnitude.hpp>
 #include <abut/arithmetic/limits.hpp>
 #include <abut/shape/bounds.hpp>
 #include <abut/shape/primitive.hpp>
