@@ -88,7 +88,9 @@ struct product_tile {
     using column = std::uint64_t;
     /// A share of all pairs, or all of them.
     std::uint64_t modulus;
+    const row* stored = nullptr;
     static bool passes(std::uint64_t modulus, std::uint64_t i, std::uint64_t j) { return (i * 3 + j) % modulus == 0; }
+    const row* rows_in_memory() const { return stored; }
     ABUT_HD row load_row(std::size_t i) const { return {i + 1}; }
     ABUT_HD reach reach_of(const row& r) const { return {(r.value - 1) * 3}; }
     ABUT_HD column load_column(std::size_t j) const { return j + 1; }
@@ -104,6 +106,10 @@ struct product_tile {
             queue.push(i << 32 | j);
         }
     }
+};
+struct store_row {
+    product_tile::row* out;
+    ABUT_HD void operator()(std::size_t i) const { out[i] = product_tile{1}.load_row(i); }
 };
 struct settle_product {
     ABUT_CALLS_ANY
@@ -180,28 +186,43 @@ void check_candidates(const Policy& on) {
 }
 
 template <class Policy>
+void check_tile(const Policy& on, std::size_t n, std::size_t m, const product_tile& tile) {
+    execution::work_queue<std::uint64_t, space_of<Policy>> queue(on);
+    execution::work_count<space_of<Policy>> count(on);
+    execution::work_queue<std::uint64_t, space_of<Policy>> late(on);
+    for_each_tiled(on, n, m, tile, settle_product{}, late, queue, count);
+    std::vector<std::uint64_t> expected;
+    std::uint64_t passed = 0, settled = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = 0; j < m; ++j) {
+            if (!product_tile::passes(tile.modulus, i, j)) continue;
+            ++passed;
+            settled += (i + j) % 11 == 0;
+            if ((i + 1) * (j + 1) % 7 == 0) expected.push_back(i << 32 | j);
+        }
+    }
+    CHECK(sorted_content(on, queue) == expected);
+    CHECK(count.total() == passed + 1000 * settled);
+    CHECK(late.size() == settled);
+}
+
+template <class Policy>
 void check_tiles(const Policy& on) {
-    const std::pair<std::size_t, std::size_t> sizes[] = {{0, 5}, {5, 0}, {1, 1}, {1, 3000}, {3000, 1}, {300, 257}, {257, 1000}};
+    const std::pair<std::size_t, std::size_t> sizes[] = {{0, 5},      {5, 0},    {1, 1},     {1, 3000},   {3000, 1},
+                                                         {300, 257},  {96, 1},   {97, 2},    {257, 1000}, {300'000, 1},
+                                                         {20'001, 3}, {767, 32}, {7680, 33}, {1537, 31}};
+    enum : int { computed, stored, stored_askew };
     for (const auto& [n, m] : sizes) {
-        for (const std::uint64_t modulus : {1, 2, 67}) {
-            CAPTURE(n, m, modulus);
-            execution::work_queue<std::uint64_t, space_of<Policy>> queue(on);
-            execution::work_count<space_of<Policy>> count(on);
-            execution::work_queue<std::uint64_t, space_of<Policy>> late(on);
-            for_each_tiled(on, n, m, product_tile{modulus}, settle_product{}, late, queue, count);
-            std::vector<std::uint64_t> expected;
-            std::uint64_t passed = 0, settled = 0;
-            for (std::size_t i = 0; i < n; ++i) {
-                for (std::size_t j = 0; j < m; ++j) {
-                    if (!product_tile::passes(modulus, i, j)) continue;
-                    ++passed;
-                    settled += (i + j) % 11 == 0;
-                    if ((i + 1) * (j + 1) % 7 == 0) expected.push_back(i << 32 | j);
-                }
+        // Rows one after another; "askew" is by 8 bytes.
+        execution::buffer_of<Policy, product_tile::row> memory(on, n + 1);
+        for (const int where : {computed, stored, stored_askew}) {
+            product_tile::row* const rows = where == computed ? nullptr : memory.data() + (where == stored_askew ? 1 : 0);
+            if (where != computed) for_each_index(on, n, store_row{rows});
+            for (const std::uint64_t modulus : {1, 2, 67}) {
+                if (n * m / modulus > 200'000) continue;  // or the test takes long
+                CAPTURE(n, m, modulus, where);
+                check_tile(on, n, m, product_tile{modulus, rows});
             }
-            CHECK(sorted_content(on, queue) == expected);
-            CHECK(count.total() == passed + 1000 * settled);
-            CHECK(late.size() == settled);
         }
     }
 }
@@ -246,7 +267,8 @@ void check_sorts(const Policy& on) {
             upload(on, order.data(), n, values.data());
             sort_by_key(on, sorted, values, bits);
             sort_keys(on, alone, bits);
-            std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return keys[a] < keys[b]; });
+            std::stable_sort(order.begin(), order.end(),
+                             [&](std::uint32_t a, std::uint32_t b) { return keys[a] < keys[b]; });
             std::sort(keys.begin(), keys.end());
             CHECK(on_host(on, sorted.data(), n) == keys);
             CHECK(on_host(on, alone.data(), n) == keys);

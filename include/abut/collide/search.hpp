@@ -64,30 +64,20 @@ ABUT_HD void report(Sink& hits, std::uint64_t key) {
 template <class Query, class Target>
 inline constexpr bool decidable = decidable_pair<Query, Target> || decidable_pair<Target, Query>;
 
-template <arithmetic A, class Query, class Target>
-ABUT_HD verdict decide_pair(const Query& query, const Target& target) {
-    if constexpr (decidable_pair<Query, Target>) {
-        return decide<A>(query, target);
-    } else {
-        return decide<A>(target, query);
-    }
-}
-
-template <arithmetic A, class Query, class Target>
-ABUT_HD verdict decide_left_pair(const Query& query, const Target& target) {
-    if constexpr (decidable_pair<Query, Target>) {
-        return decide_left<A>(query, target);
-    } else {
-        return decide_left<A>(target, query);
-    }
-}
-
 template <class Query, class Target>
-bool resolve_pair(const Query& query, const Target& target) {
+ABUT_HD const auto& first_of(const Query& query, const Target& target) {
     if constexpr (decidable_pair<Query, Target>) {
-        return resolve(query, target);
+        return query;
     } else {
-        return resolve(target, query);
+        return target;
+    }
+}
+template <class Query, class Target>
+ABUT_HD const auto& second_of(const Query& query, const Target& target) {
+    if constexpr (decidable_pair<Query, Target>) {
+        return target;
+    } else {
+        return query;
     }
 }
 
@@ -123,7 +113,7 @@ struct decide_key {
     ABUT_CALLS_ANY
     template <class Query, class Target, class Late, class Hits>
     ABUT_HD void operator()(std::uint64_t key, const Query& query, const Target& target, Late& late, Hits& hits) const {
-        const verdict v = decide_pair<A>(query, target);
+        const verdict v = decide<A>(first_of(query, target), second_of(query, target));
         if (v == verdict::yes) report(hits, key);
         if (v == verdict::unknown) late.push(key);
     }
@@ -175,6 +165,10 @@ struct all_against_all {
     Sides sides;
     std::size_t first;
 
+    [[nodiscard]] const row* rows_in_memory() const {
+        const row* const all = shapes_in_memory(sides.queries);
+        return all == nullptr ? nullptr : all + first;
+    }
     ABUT_HD row load_row(std::size_t i) const { return sides.queries[first + i]; }
     ABUT_HD reach reach_of(const row& query) const { return abut::reach_of(query); }
     ABUT_HD column load_column(std::size_t j) const {
@@ -202,9 +196,9 @@ struct settle {
     ABUT_HD void operator()(std::uint64_t key, Wide& wide, Hits& hits) const {
         const auto query = sides.queries[sides.key.query(key)];
         const auto target = sides.targets[sides.key.target(key)];
-        verdict v = decide_pair<A>(query, target);
+        verdict v = decide<A>(first_of(query, target), second_of(query, target));
         if constexpr (!std::same_as<A, exact>) {
-            if (v == verdict::unknown) v = decide_left_pair<A>(query, target);
+            if (v == verdict::unknown) v = decide_left<A>(first_of(query, target), second_of(query, target));
         }
         if (v == verdict::yes) report(hits, key);
         if (v == verdict::unknown) wide.push(key);
@@ -244,7 +238,7 @@ std::vector<std::uint64_t> settle_on_host(const Policy& on, const Sides& sides, 
     download(on, gathered.data(), n, pairs.data());
     std::vector<std::uint64_t> touching;
     for (const auto& pair : pairs) {
-        if (resolve_pair(pair.query, pair.target)) touching.push_back(pair.key);
+        if (resolve(first_of(pair.query, pair.target), second_of(pair.query, pair.target))) touching.push_back(pair.key);
     }
     return touching;
 }
@@ -253,7 +247,7 @@ std::vector<std::uint64_t> settle_on_host(const Policy& on, const Sides& sides, 
 /// `find(settle, late, wide, hits)` is stages 1 and 2. Waits for the outcome.
 template <arithmetic A, class Policy, class Sides, class Hits, class Find>
 void search(const Policy& on, const Sides& sides, Hits& hits, const Find& find) {
-    key_queue<Policy> late(on), wide(on);
+    key_queue<Policy> late(on), wide(on, 0);  // hardly anything is wide: no room is made for it unasked
     find(settle<A, Sides>{sides}, late, wide, hits);
     if (wide.size() == 0 || execution::is_over(hits)) return;
     key_queue<Policy> last(on, settle_on_host(on, sides, wide));

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <map>
 #include <mutex>
 #include <new>
@@ -123,50 +124,6 @@ private:
     void* data_ = nullptr;
 };
 
-/// Counters of the loops with queues: some words of a device's memory that are 0 between calls, and page-locked words that a
-/// kernel writes them to when it ends. One of each for each host thread, which waits for a loop before it starts another. So
-/// a loop takes no filling and no copy besides its kernels.
-class loop_counters {
-public:
-    static constexpr unsigned most = 15;  // and one for the kernel's own use
-
-    explicit loop_counters(int device) {
-        const current_device scope(device);
-        check(cudaMalloc(reinterpret_cast<void**>(&words_), (most + 1) * sizeof(std::uint64_t)), "cudaMalloc");
-        check(cudaHostAlloc(reinterpret_cast<void**>(&read_), most * sizeof(std::uint64_t),
-                            cudaHostAllocPortable | cudaHostAllocMapped),
-              "cudaHostAlloc");
-    }
-    loop_counters(const loop_counters&) = delete;
-    loop_counters& operator=(const loop_counters&) = delete;
-    ~loop_counters() {
-        cudaFree(words_);
-        cudaFreeHost(read_);
-    }
-
-    [[nodiscard]] static loop_counters& of_this_thread(int device) {
-        thread_local std::map<int, loop_counters> all;
-        return all.try_emplace(device, device).first->second;
-    }
-
-    /// Before a loop: makes sure of the zeros, which a loop that failed may not have left.
-    void begin(cudaStream_t stream) {
-        if (!clean_) check(cudaMemsetAsync(words_, 0, (most + 1) * sizeof(std::uint64_t), stream), "cudaMemsetAsync");
-        clean_ = false;
-    }
-    /// After a loop: waits for it.
-    void end(cudaStream_t stream) {
-        check(cudaStreamSynchronize(stream), "cudaStreamSynchronize");
-        clean_ = true;
-    }
-    [[nodiscard]] std::uint64_t* words() { return words_; }
-    [[nodiscard]] std::uint64_t* read() { return read_; }
-
-private:
-    std::uint64_t *words_ = nullptr, *read_ = nullptr;
-    bool clean_ = false;
-};
-
 }  // namespace detail
 
 template <>
@@ -216,6 +173,32 @@ inline void require_access(const cuda& on, const void* p, const char* function) 
 inline void synchronize(const cuda& on) {
     const detail::current_device scope(on);
     detail::check(cudaStreamSynchronize(on.stream), "cudaStreamSynchronize");
+}
+
+template <class T>
+void upload(const cuda& on, const T* from, std::size_t n, T* to) {
+    if (n == 0) return;
+    const detail::current_device scope(on);
+    detail::check(cudaMemcpyAsync(to, from, n * sizeof(T), cudaMemcpyHostToDevice, on.stream), "cudaMemcpyAsync");
+}
+
+template <class T>
+void copy(const cuda& on, const T* from, std::size_t n, T* to) {
+    if (n == 0) return;
+    const detail::current_device scope(on);
+    detail::check(cudaMemcpyAsync(to, from, n * sizeof(T), cudaMemcpyDeviceToDevice, on.stream), "cudaMemcpyAsync");
+}
+
+template <class T>
+void download(const cuda& on, const T* from, std::size_t n, T* to) {
+    const detail::current_device scope(on);
+    if (n > 0) {
+        const std::size_t bytes = n * sizeof(T);
+        void* const through = bytes <= detail::pinned_scratch::bytes ? detail::pinned_scratch::of_this_thread() : to;
+        detail::check(cudaMemcpyAsync(through, from, bytes, cudaMemcpyDeviceToHost, on.stream), "cudaMemcpyAsync");
+        detail::check(cudaStreamSynchronize(on.stream), "cudaStreamSynchronize");
+        if (through != to) std::memcpy(static_cast<void*>(to), through, bytes);
+    }
 }
 
 /// Waits for the stream and gives the memory that the library's pool keeps for this device, and does not use, back to the

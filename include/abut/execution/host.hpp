@@ -29,21 +29,22 @@ void for_each_index(const Policy& on, std::size_t n, const F& f) {
 
 namespace detail {
 
-/// The sinks of all threads. `each` runs loop(begin, end, sinks...) over ranges of [0, n); `merge` hands the sinks' content
-/// to the queues.
+/// The sinks of the threads that a loop over [0, n) takes. `each` runs loop(begin, end, sinks...) over ranges of it; `merge`
+/// hands the sinks' content to the queues.
 template <class... Queues>
 class thread_sinks {
 public:
     template <class Policy>
-    thread_sinks(const Policy& on, Queues&... queues) : queues_(queues...) {
-        const int threads = thread_count(on);
+    thread_sinks(const Policy& on, std::size_t n, std::size_t grain, Queues&... queues)
+        : n_(n), grain_(grain), queues_(queues...) {
+        const int threads = n <= grain ? 1 : thread_count(on);
         all_.reserve(static_cast<std::size_t>(threads));
         for (int t = 0; t < threads; ++t) all_.emplace_back(queues.make_local()...);
     }
 
     template <class Loop>
-    void each(std::size_t n, std::size_t grain, const Loop& loop) {
-        for_each_range(static_cast<int>(all_.size()), n, grain, [&](int thread, std::size_t begin, std::size_t end) {
+    void each(const Loop& loop) {
+        for_each_range(static_cast<int>(all_.size()), n_, grain_, [&](int thread, std::size_t begin, std::size_t end) {
             sinks mine = std::move(all_[static_cast<std::size_t>(thread)]);
             std::apply([&](auto&... sink) { loop(begin, end, sink...); }, mine);
             all_[static_cast<std::size_t>(thread)] = std::move(mine);
@@ -65,6 +66,7 @@ private:
         std::get<K>(queues_).merge(on, locals);
     }
 
+    std::size_t n_, grain_;
     std::tuple<Queues&...> queues_;
     std::vector<sinks> all_;
 };
@@ -73,13 +75,13 @@ private:
 template <class Policy, class Loop, class Settle, class Late, class... Queues>
 void gather_and_settle(const Policy& on, std::size_t n, std::size_t grain, const Loop& loop, const Settle& settle,
                        Late& late, Queues&... queues) {
-    thread_sinks<Late, Queues...> sinks(on, late, queues...);
-    sinks.each(n, grain, loop);
+    thread_sinks<Late, Queues...> sinks(on, n, grain, late, queues...);
+    sinks.each(loop);
     sinks.merge(on);
     if (late.size() == 0 || is_over(queues...)) return;
     const auto* const left = late.data();
-    thread_sinks<Queues...> more(on, queues...);
-    more.each(late.size(), late_grain, [&](std::size_t begin, std::size_t end, auto&... sink) {
+    thread_sinks<Queues...> more(on, late.size(), late_grain, queues...);
+    more.each([&](std::size_t begin, std::size_t end, auto&... sink) {
         for (std::size_t i = begin; i < end && !is_over(sink...); ++i) settle(left[i], sink...);
     });
     more.merge(on);
@@ -105,8 +107,8 @@ void for_each_index(const Policy& on, std::size_t n, const F& f, Queue& queue, Q
     const auto loop = [&](std::size_t begin, std::size_t end, auto&... sinks) {
         for (std::size_t i = begin; i < end && !is_over(sinks...); ++i) f(i, sinks...);
     };
-    detail::thread_sinks<Queue, Queues...> sinks(on, queue, queues...);
-    sinks.each(n, range_grain, loop);
+    detail::thread_sinks<Queue, Queues...> sinks(on, n, range_grain, queue, queues...);
+    sinks.each(loop);
     sinks.merge(on);
 }
 

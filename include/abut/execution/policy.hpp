@@ -20,7 +20,8 @@
 //                                           tile(row, i, column, j, late_sink, sink...) for all (i, j) of [0, n) x [0, m)
 //                                           with tile.passes(reach, column): row = tile.load_row(i), reach =
 //                                           tile.reach_of(row), column = tile.load_column(j). Rows stream by; columns are
-//                                           kept close to the cores, in tiles. Then settle(c, sink...) for every c in `late`
+//                                           kept close to the cores, in tiles. tile.rows_in_memory() is where rows lie one
+//                                           after another, or null. Then settle(c, sink...) for every c in `late`
 //   reduce(on, n, init, combine, f)         combine over f(i), returned on the host; combine associates and
 //                                           commutes, and init is its identity
 //   reduce_into(on, n, out, init, combine, f)  the same, left in the policy's memory at `out`

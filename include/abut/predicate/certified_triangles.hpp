@@ -111,13 +111,12 @@ template <bool Certified, scalar T>
 ABUT_HD constexpr verdict decide_in_general_position(const triangle<T>& s, const triangle<T>& t) {
     const edges_of<Certified, T> of_s(s), of_t(t);
     const vec3<T> to_s = between(t.a, s.a), to_t = between(s.a, t.a);
-    T error_of_s = 0, error_of_t = 0, error = 0;
+    T error_of_s = 0, error_of_t = 0;
     if constexpr (Certified) {
-        const T apart = magnitudes(to_s), reach = apart + (of_s.size + of_t.size);
-        if (!(reach < difference_limit<T>)) return verdict::unknown;
+        const T apart = magnitudes(to_s);
+        if (!(apart + (of_s.size + of_t.size) < difference_limit<T>)) return verdict::unknown;
         error_of_s = of_t.product * (apart + of_s.size) + flushed<T>;
         error_of_t = of_s.product * (apart + of_t.size) + flushed<T>;
-        error = determinant_error<T> * of_s.size * (reach * reach) + flushed<T>;
     }
     const vec3<T> m = of_t.normal(), n = of_s.normal();
     const heights<T> p{dot(m, to_s), dot(m, between(t.a, s.b)), dot(m, between(t.a, s.c)), error_of_s};
@@ -131,6 +130,11 @@ ABUT_HD constexpr verdict decide_in_general_position(const triangle<T>& s, const
     const T first = dot(cross(between(v.alone, v.next), across), between(v.alone, w.next));
     const T second = dot(cross(between(v.alone, v.last), between(v.alone, w.last)), across);
     const T most = greatest(first, second);
+    T error = 0;
+    if constexpr (Certified) {
+        const T apart = magnitudes(across);
+        error = determinant_error<T> * of_s.size * (apart * (apart + of_t.size)) + flushed<T>;
+    }
     return absolute(most) > error ? to_verdict(most < 0) : verdict::unknown;
 }
 

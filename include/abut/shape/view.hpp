@@ -139,4 +139,26 @@ struct single_view<Shape<T>, Space> {
     [[nodiscard]] ABUT_HD Shape<T> operator[](std::size_t) const { return shape; }
 };
 
+namespace detail {
+
+/// Where a set's shapes lie in memory one after another, as they are; null where they do not.
+template <shape_view V>
+const typename V::shape_type* shapes_in_memory(const V&) {
+    return nullptr;
+}
+template <class T>
+const T* shapes_in_memory(const strided<T>& s) {
+    return s.stride == sizeof(T) ? reinterpret_cast<const T*>(s.data) : nullptr;
+}
+template <scalar T, memory_space Space>
+const triangle<T>* shapes_in_memory(const triangle_soup_view<T, Space>& v) {
+    return shapes_in_memory(v.triangles);
+}
+template <scalar T, memory_space Space>
+const sphere<T>* shapes_in_memory(const spheres_view<T, Space>& v) {
+    return shapes_in_memory(v.spheres);
+}
+
+}  // namespace detail
+
 }  // namespace abut

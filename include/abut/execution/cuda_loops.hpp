@@ -1,0 +1,429 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The loops of `cuda` (execution/policy.hpp lists them), kernels of our own, because their shape decides the speed of
+// everything above.
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include <cuda_pipeline.h>
+#include <cuda_runtime.h>
+
+#include <abut/execution/cuda.hpp>
+#include <abut/execution/cuda_queue.hpp>
+#include <abut/execution/work_queue.hpp>
+
+namespace abut::execution {
+
+namespace detail {
+
+inline constexpr int block_size = 256;
+inline constexpr unsigned warp_size = 32;
+
+/// A thread's last word to its sinks: what they have gathered in registers goes to memory.
+template <class... Sinks>
+__device__ void close_all(Sinks&... sinks) {
+    (sinks.close(), ...);
+}
+
+template <class F>
+__global__ void __launch_bounds__(block_size) for_each_kernel(std::size_t n, F f) {
+    const std::size_t i = std::size_t{blockIdx.x} * block_size + threadIdx.x;
+    if (i < n) f(i);
+}
+
+/// Where the last kernel of a loop leaves the counters: the block that ends last copies them to the host and zeroes them.
+struct counter_delivery {
+    std::uint64_t* words;  // `count` of them, and one that counts blocks
+    std::uint64_t* to;
+    unsigned count;
+
+    __device__ void operator()() const {
+        __shared__ bool last;
+        __syncthreads();
+        if (threadIdx.x == 0) {
+            __threadfence();  // of the whole block: the barrier came before
+            const std::uint64_t blocks = std::uint64_t{gridDim.x} * gridDim.y;
+            last = atomicAdd(reinterpret_cast<unsigned long long*>(words + count), 1ull) + 1 == blocks;
+        }
+        __syncthreads();
+        if (!last || threadIdx.x > count) return;
+        __threadfence();
+        if (threadIdx.x < count) to[threadIdx.x] = atomic_load(words + threadIdx.x);
+        words[threadIdx.x] = 0;
+    }
+};
+
+template <class F, class... Sinks>
+__global__ void __launch_bounds__(block_size)
+    for_each_gather_kernel(std::size_t n, F f, counter_delivery deliver, Sinks... sinks) {
+    const std::size_t i = std::size_t{blockIdx.x} * block_size + threadIdx.x;
+    if (i < n) f(i, sinks...);
+    close_all(sinks...);
+    deliver();
+}
+
+/// Whether a flag among the sinks is raised, the same answer for all threads of the block.
+template <class... Sinks>
+__device__ bool block_is_over(const Sinks&... sinks) {
+    if constexpr ((is_flag<Sinks> || ...)) {
+        return __syncthreads_or(threadIdx.x == 0 && is_over(sinks...)) != 0;
+    } else {
+        return false;
+    }
+}
+
+/// Whether lane 0 sees a flag among the sinks raised: only that lane asks, because all warps of a device ask one address.
+template <class... Sinks>
+__device__ bool warp_is_over(unsigned lane, const Sinks&... sinks) {
+    return lane == 0 && is_over(sinks...);
+}
+
+/// Candidates of one block, in shared memory; the ones that find no room are late.
+template <class Candidate, class Late>
+struct candidate_sink {
+    static constexpr unsigned capacity = 2048;
+    Candidate* data;
+    unsigned* count;
+    Late late;
+    __device__ void push(const Candidate& candidate) const {
+        // The counter rests once it is past the capacity: it cannot wrap around, whatever the number of candidates.
+        const unsigned slot = atomic_load(count) < capacity ? atomicAdd(count, 1u) : capacity;
+        if (slot < capacity) {
+            data[slot] = candidate;
+        } else {
+            late.push(candidate);
+        }
+    }
+};
+
+/// Three steps of very different width: tests, of which one in a hundred may pass; walks, of uneven length; decisions, which
+/// come up at uneven times. Each step hands what it found to the next through shared memory, so that each runs with its
+/// lanes full. Few walkers are spread over all warps, since each waits for memory most of its time.
+template <class Test, class Walk, class Decide, class Late, class... Sinks>
+__global__ void __launch_bounds__(block_size)
+    for_each_candidate_kernel(std::size_t n, Test test, Walk walk, Decide decide, Late late, Sinks... sinks) {
+    using emitter = candidate_sink<typename Walk::candidate, Late>;
+    constexpr int rows = 4;  // tests in flight for each thread
+    __shared__ std::size_t selected[(rows + 1) * block_size];
+    __shared__ typename Walk::candidate candidates[emitter::capacity];
+    __shared__ unsigned waiting, found;
+    if (threadIdx.x == 0) waiting = found = 0;
+    __syncthreads();
+
+    const auto walk_and_decide = [&](bool mine, unsigned slot) {
+        const std::size_t i = mine ? selected[slot] : 0;
+        __syncthreads();
+        if (mine) walk(i, emitter{candidates, &found, late}, sinks...);
+        __syncthreads();
+        const unsigned count = found < emitter::capacity ? found : emitter::capacity;
+        for (unsigned k = threadIdx.x; k < count; k += block_size) decide(candidates[k], late, sinks...);
+        __syncthreads();
+        if (threadIdx.x == 0) found = 0;
+    };
+
+    constexpr std::size_t step = std::size_t{rows} * block_size;
+    for (std::size_t first = blockIdx.x * step; first < n; first += gridDim.x * step) {
+        if (block_is_over(sinks...)) break;
+        bool pass[rows];
+#pragma unroll
+        for (int row = 0; row < rows; ++row) {
+            const std::size_t i = first + static_cast<unsigned>(row * block_size) + threadIdx.x;
+            pass[row] = i < n && test(i);
+        }
+#pragma unroll
+        for (int row = 0; row < rows; ++row) {
+            const std::size_t i = first + static_cast<unsigned>(row * block_size) + threadIdx.x;
+            if (pass[row]) selected[atomicAdd(&waiting, 1u)] = i;
+        }
+        __syncthreads();
+        for (unsigned left = waiting; left >= block_size; left -= block_size) {
+            walk_and_decide(true, left - block_size + threadIdx.x);
+            if (threadIdx.x == 0) waiting = left - block_size;
+        }
+        __syncthreads();
+    }
+    if (waiting > 0) {
+        const unsigned spread = block_size / waiting;
+        walk_and_decide(threadIdx.x % spread == 0 && threadIdx.x / spread < waiting, threadIdx.x / spread);
+    }
+    close_all(sinks...);
+}
+
+/// Pairs of a row and a column that passed, of one warp. They wait until a whole warp can decide.
+struct waiting_pairs {
+    static constexpr unsigned capacity = 2 * warp_size;
+    std::uint32_t row[capacity];
+    std::uint32_t column[capacity];
+};
+
+/// What for_each_tiled keeps in shared memory. Where columns are few, loading rows is what takes time, and they `stream`:
+/// then a warp has two batches of rows here, one at hand and one on its way, and the rows of its waiting pairs.
+template <class Tile>
+struct tile_memory {
+    using column = typename Tile::column;
+    using row = typename Tile::row;
+    static constexpr unsigned warps = block_size / warp_size;
+    /// Rows that a thread holds at a time.
+    static constexpr unsigned rows = sizeof(row) <= 48 ? 3 : 1;
+    static constexpr unsigned batch = warp_size * rows, batch_bytes = batch * sizeof(row);
+    static_assert(batch_bytes % 16 == 0 && alignof(row) <= 16);
+    static constexpr unsigned waiting_bytes = waiting_pairs::capacity * sizeof(row);
+
+    static constexpr std::size_t few = 32;
+    ABUT_HD static constexpr unsigned width(bool stream) { return stream ? few : block_size; }
+    ABUT_HD static constexpr unsigned column_bytes(bool stream) {
+        return (width(stream) * unsigned{sizeof(column)} + 15) / 16 * 16;
+    }
+    ABUT_HD static constexpr unsigned bytes(bool stream) {
+        return column_bytes(stream) + (stream ? warps * (2 * batch_bytes + waiting_bytes) : 0);
+    }
+    static constexpr unsigned most_bytes = bytes(true) > bytes(false) ? bytes(true) : bytes(false);
+};
+
+/// All rows against all columns. A block keeps a tile of columns in shared memory while rows go by; a thread holds several
+/// rows, so that a column read once serves them all and enough loads are under way. The cheap test leaves few pairs: they
+/// wait in shared memory until the lanes of a warp can decide one each, since a warp takes as long for one as for all.
+/// Rows stream if `rows_in_memory` is where they lie one after another: a warp's next batch comes while it is busy with this
+/// one. Strided loads into registers would not: they cost a third more time than reading does.
+template <class Tile, class... Sinks>
+__global__ void __launch_bounds__(block_size, 2)
+    for_each_tiled_kernel(std::size_t n, std::size_t m, Tile tile, const typename Tile::row* rows_in_memory,
+                          Sinks... sinks) {
+    using column = typename Tile::column;
+    using row = typename Tile::row;
+    using memory = tile_memory<Tile>;
+    constexpr unsigned all = 0xffffffff;
+    extern __shared__ __align__(16) unsigned char shared_memory[];
+    __shared__ waiting_pairs waiting_of_warp[memory::warps];
+    constexpr unsigned rows = memory::rows;
+    const bool stream = rows_in_memory != nullptr;
+    const unsigned lane = threadIdx.x % warp_size, warp = threadIdx.x / warp_size, width = memory::width(stream);
+    column* const staged = reinterpret_cast<column*>(shared_memory);
+    unsigned char* const mine = shared_memory + memory::column_bytes(stream) +
+                                (stream ? warp * (2 * memory::batch_bytes + memory::waiting_bytes) : 0);
+    row* const waiting_rows = reinterpret_cast<row*>(mine + 2 * memory::batch_bytes);
+    waiting_pairs& waiting = waiting_of_warp[warp];
+    const std::size_t step = std::size_t{gridDim.x} * memory::warps * memory::batch;
+
+    const auto fetch = [&](std::size_t base, unsigned slot) {
+        if (stream && base + memory::batch <= n) {
+            const auto* const from = reinterpret_cast<const unsigned char*>(rows_in_memory + base);
+            unsigned char* const to = mine + slot * memory::batch_bytes;
+#pragma unroll
+            for (unsigned at = 0; at < memory::batch_bytes; at += warp_size * 16) {
+                const unsigned piece = at + lane * 16;
+                if (piece < memory::batch_bytes) __pipeline_memcpy_async(to + piece, from + piece, 16);
+            }
+        }
+        __pipeline_commit();
+    };
+
+    for (std::size_t first = std::size_t{blockIdx.y} * width; first < m; first += std::size_t{gridDim.y} * width) {
+        const unsigned columns = m - first < width ? static_cast<unsigned>(m - first) : width;
+        __syncthreads();
+        if (threadIdx.x < columns) staged[threadIdx.x] = tile.load_column(first + threadIdx.x);
+        __syncthreads();
+
+        unsigned count = 0, unasked = 0;  // the same in all lanes
+        const auto decide = [&](unsigned place) {
+            const std::size_t i = waiting.row[place];
+            const unsigned j = waiting.column[place];
+            unasked = 0;
+            tile(stream ? waiting_rows[place] : tile.load_row(i), i, staged[j], first + j, sinks...);
+        };
+        std::size_t base = (std::size_t{blockIdx.x} * memory::warps + warp) * memory::batch;
+        const unsigned look_up = stream ? 8 : 1;  // a batch of a stream is soon done, and asking takes its time
+        fetch(base, 0);
+        for (unsigned slot = 0; base < n; base += step, slot ^= 1) {
+            const bool ask = unasked++ % look_up == 0, stop = ask && warp_is_over(lane, sinks...);
+            __syncwarp();  // all lanes have read what is overwritten now
+            fetch(base + step, slot ^ 1);
+            __pipeline_wait_prior(1);
+            __syncwarp();
+            const bool whole = stream && base + memory::batch <= n;
+            const row* const batch = reinterpret_cast<const row*>(mine + slot * memory::batch_bytes) + lane;
+            const auto load = [&](unsigned k) {
+                const std::size_t i = base + k * warp_size + lane;
+                return whole ? batch[k * warp_size] : tile.load_row(i < n ? i : n - 1);
+            };
+            decltype(tile.reach_of(load(0))) reach[rows];
+#pragma unroll
+            for (unsigned k = 0; k < rows; ++k) reach[k] = tile.reach_of(load(k));
+            if (__any_sync(all, stop)) break;
+            for (unsigned j = 0; j < columns; ++j) {
+                unsigned passed = 0;
+#pragma unroll
+                for (unsigned k = 0; k < rows; ++k) {
+                    passed |= static_cast<unsigned>(tile.passes(reach[k], staged[j])) << k;
+                }
+                if (!__any_sync(all, passed != 0)) continue;
+#pragma unroll
+                for (unsigned k = 0; k < rows; ++k) {
+                    const std::size_t i = base + k * warp_size + lane;
+                    const bool waits = (passed >> k & 1) != 0 && i < n;
+                    const unsigned lanes = __ballot_sync(all, waits);
+                    if (waits) {
+                        const unsigned place = count + static_cast<unsigned>(__popc(lanes & ((1u << lane) - 1)));
+                        waiting.row[place] = static_cast<std::uint32_t>(i);
+                        waiting.column[place] = j;
+                        if (stream) waiting_rows[place] = load(k);
+                    }
+                    count += static_cast<unsigned>(__popc(lanes));
+                    if (count < warp_size) continue;
+                    __syncwarp();
+                    count -= warp_size;
+                    decide(count + lane);
+                    __syncwarp();
+                }
+            }
+        }
+        __pipeline_wait_prior(0);
+        __syncwarp();
+        if (lane < count) decide(lane);
+    }
+    close_all(sinks...);
+}
+
+/// settle(c, sinks...) for every c that the kernel before has pushed into `late`.
+template <class Settle, class Late, class... Sinks>
+__global__ void __launch_bounds__(block_size)
+    settle_kernel(Settle settle, counter_delivery deliver, Late late, Sinks... sinks) {
+    const std::uint64_t pushed = atomic_load(late.count), count = pushed < late.capacity ? pushed : late.capacity;
+    constexpr std::uint64_t step = block_size;
+    for (std::uint64_t i = blockIdx.x * step + threadIdx.x; i < count; i += gridDim.x * step) {
+        if (is_over(sinks...)) break;
+        settle(late.data[i], sinks...);
+    }
+    close_all(sinks...);
+    deliver();
+}
+
+inline int multiprocessors(int device) {
+    int count = 0;
+    check(cudaDeviceGetAttribute(&count, cudaDevAttrMultiProcessorCount, device), "cudaDeviceGetAttribute");
+    return count;
+}
+
+/// Blocks of `Kernel` that fill the device once, by the runtime's occupancy calculator, each with `Shared` bytes besides
+/// what it declares itself; no launch of it takes more than `MostShared`. Asked once for each device: the question takes as
+/// long as a launch.
+template <auto Kernel, unsigned Shared = 0, unsigned MostShared = Shared>
+std::size_t resident_blocks(const cuda& on) {
+    constexpr int remembered = 64;
+    static std::atomic<std::size_t> answers[remembered];
+    const int device = device_of(on);
+    if (device < remembered && answers[device] != 0) return answers[device];
+    int blocks = 0;
+    check(cudaFuncSetAttribute(Kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, int{MostShared}),
+          "cudaFuncSetAttribute");
+    check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, Kernel, block_size, Shared),
+          "cudaOccupancyMaxActiveBlocksPerMultiprocessor");
+    const std::size_t answer =
+        static_cast<std::size_t>(std::max(blocks, 1)) * static_cast<std::size_t>(multiprocessors(device));
+    if (device < remembered) answers[device] = answer;
+    return answer;
+}
+
+inline unsigned blocks_for(std::size_t n) { return static_cast<unsigned>((n + block_size - 1) / block_size); }
+
+inline void check_launch(const char* kernel) { check(cudaGetLastError(), kernel); }
+
+/// The second kernel follows the first at once: the host need not know how much was left. That is little as a rule.
+template <class Settle, class Late, class... Sinks>
+void launch_settle(const cuda& on, const Settle& settle, const counter_delivery& deliver, const Late& late,
+                   const Sinks&... sinks) {
+    constexpr auto kernel = settle_kernel<Settle, Late, Sinks...>;
+    kernel<<<static_cast<unsigned>(resident_blocks<kernel>(on)), block_size, 0, on.stream>>>(settle, deliver, late,
+                                                                                             sinks...);
+    check_launch("settle");
+}
+
+/// Runs `launch(deliver, sinks...)` with a sink of each queue, over counters that are 0, reads what they have become, and
+/// runs again while a queue found that it was too small. The last kernel of `launch` calls `deliver`.
+template <class Launch, class... Queues>
+void gather(const cuda& on, const Launch& launch, Queues&... queues) {
+    static_assert(sizeof...(Queues) <= loop_counters::most);
+    loop_counters& counters = loop_counters::of_this_thread(device_of(on));
+    const counter_delivery deliver{counters.words(), counters.read(), sizeof...(Queues)};
+    bool complete = false;
+    while (!complete) {
+        counters.begin(on.stream);
+        [&]<std::size_t... K>(std::index_sequence<K...>) {
+            launch(deliver, queues.make_sink(counters.words() + K)...);
+        }(std::index_sequence_for<Queues...>{});
+        counters.end(on.stream);
+        complete = true;
+        std::size_t k = 0;
+        ((complete &= queues.settle(on, counters.read()[k++])), ...);
+    }
+}
+
+}  // namespace detail
+
+template <class F>
+void for_each_index(const cuda& on, std::size_t n, const F& f) {
+    if (n == 0) return;
+    const detail::current_device scope(on);
+    detail::for_each_kernel<<<detail::blocks_for(n), detail::block_size, 0, on.stream>>>(n, f);
+    detail::check_launch("for_each_index");
+}
+
+template <class F, class Queue, class... Queues>
+void for_each_index(const cuda& on, std::size_t n, const F& f, Queue& queue, Queues&... queues) {
+    if (n == 0) return;
+    const detail::current_device scope(on);
+    const auto launch = [&](const detail::counter_delivery& deliver, auto... sinks) {
+        detail::for_each_gather_kernel<<<detail::blocks_for(n), detail::block_size, 0, on.stream>>>(n, f, deliver, sinks...);
+        detail::check_launch("for_each_index");
+    };
+    detail::gather(on, launch, queue, queues...);
+}
+
+template <class Test, class Walk, class Decide, class Settle, class Late, class... Queues>
+void for_each_candidate(const cuda& on, std::size_t n, const Test& test, const Walk& walk, const Decide& decide,
+                        const Settle& settle, Late& late, Queues&... queues) {
+    if (n == 0) return;
+    const detail::current_device scope(on);
+    const auto launch = [&](const detail::counter_delivery& deliver, auto late_sink, auto... sinks) {
+        constexpr auto kernel =
+            detail::for_each_candidate_kernel<Test, Walk, Decide, decltype(late_sink), decltype(sinks)...>;
+        const std::size_t blocks = std::min(detail::resident_blocks<kernel>(on), std::size_t{detail::blocks_for(n)});
+        kernel<<<static_cast<unsigned>(blocks), detail::block_size, 0, on.stream>>>(n, test, walk, decide, late_sink,
+                                                                                    sinks...);
+        detail::check_launch("for_each_candidate");
+        detail::launch_settle(on, settle, deliver, late_sink, sinks...);
+    };
+    detail::gather(on, launch, late, queues...);
+}
+
+template <class Tile, class Settle, class Late, class... Queues>
+void for_each_tiled(const cuda& on, std::size_t n, std::size_t m, const Tile& tile, const Settle& settle, Late& late,
+                    Queues&... queues) {
+    if (n == 0 || m == 0) return;
+    const detail::current_device scope(on);
+    const auto launch = [&](const detail::counter_delivery& deliver, auto late_sink, auto... sinks) {
+        using memory = detail::tile_memory<Tile>;
+        constexpr auto kernel = detail::for_each_tiled_kernel<Tile, decltype(late_sink), decltype(sinks)...>;
+        const auto* rows = m <= memory::few ? tile.rows_in_memory() : nullptr;
+        if (reinterpret_cast<std::uintptr_t>(rows) % 16 != 0) rows = nullptr;
+        // As many blocks as the device holds at a time, for rows first; where there are few rows, columns are shared out.
+        const bool stream = rows != nullptr;
+        const std::size_t room = stream ? detail::resident_blocks<kernel, memory::bytes(true), memory::most_bytes>(on)
+                                        : detail::resident_blocks<kernel, memory::bytes(false), memory::most_bytes>(on);
+        const std::size_t rows_of_block = memory::warps * memory::batch, width = memory::width(stream);
+        const std::size_t across = std::min(room, (n + rows_of_block - 1) / rows_of_block);
+        const std::size_t down = std::min({room / across + 1, (m + width - 1) / width, std::size_t{65535}});
+        const dim3 blocks(static_cast<unsigned>(across), static_cast<unsigned>(down));
+        kernel<<<blocks, detail::block_size, memory::bytes(stream), on.stream>>>(n, m, tile, rows, late_sink, sinks...);
+        detail::check_launch("for_each_tiled");
+        detail::launch_settle(on, settle, deliver, late_sink, sinks...);
+    };
+    detail::gather(on, launch, late, queues...);
+}
+
+}  // namespace abut::execution
