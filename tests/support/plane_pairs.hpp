@@ -53,8 +53,7 @@ ABUT_HD void from_numbers(draws& d, shape_family f, const T (&v)[16], shape_tria
     }
     if (f == shape_family::all_bit_patterns || f == shape_family::largest) return;
     // Through, or near, the middle of the numbers.
-    const vec3<T>& n = p.s.normal;
-    if (kind != 0) p.s.offset = n.x * v[13] + (n.y * v[14] + n.z * v[15]);
+    if (kind != 0) p.s.offset = height_at(p.s.normal, widened(vec3<T>{v[13], v[14], v[15]}));
     if (kind == 3) p.s.normal.x = -p.s.normal.x;
 }
 

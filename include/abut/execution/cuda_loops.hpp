@@ -237,7 +237,7 @@ __global__ void __launch_bounds__(block_size, 2)
             tile(stream ? waiting_rows[place] : tile.load_row(i), i, staged[j], first + j, sinks...);
         };
         std::size_t base = (std::size_t{blockIdx.x} * memory::warps + warp) * memory::batch;
-        const unsigned look_up = stream ? 8 : 1;  // a batch of a stream is soon done, and asking takes its time
+        const unsigned look_up = stream ? 4 : 1;  // a batch of a stream is soon done, and asking takes its time
         fetch(base, 0);
         for (unsigned slot = 0; base < n; base += step, slot ^= 1) {
             const bool ask = unasked++ % look_up == 0, stop = ask && warp_is_over(lane, sinks...);
