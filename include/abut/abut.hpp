@@ -5,6 +5,7 @@
 
 #include <abut/arithmetic/self_test.hpp>
 #include <abut/collide/query.hpp>
+#include <abut/collide/validate.hpp>
 #include <abut/config.hpp>
 #include <abut/error.hpp>
 #include <abut/index/bvh.hpp>

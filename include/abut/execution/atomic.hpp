@@ -47,13 +47,18 @@ inline ABUT_HD std::uint32_t atomic_exchange_acq_rel(std::uint32_t* target, std:
 #endif
 }
 
-/// Stores `desired` if the word is `expected`; returns the value before.
-inline ABUT_HD std::uint64_t atomic_compare_exchange(std::uint64_t* target, std::uint64_t expected, std::uint64_t desired) {
+/// Stores `desired` if the word is `expected`; returns the value before. T as for atomic_add.
+template <class T>
+ABUT_HD T atomic_compare_exchange(T* target, T expected, T desired) {
 #if ABUT_DEVICE_CODE
-    return atomicCAS(reinterpret_cast<unsigned long long*>(target), static_cast<unsigned long long>(expected),
-                     static_cast<unsigned long long>(desired));
+    if constexpr (sizeof(T) == 8) {
+        return atomicCAS(reinterpret_cast<unsigned long long*>(target), static_cast<unsigned long long>(expected),
+                         static_cast<unsigned long long>(desired));
+    } else {
+        return atomicCAS(target, expected, desired);
+    }
 #else
-    std::atomic_ref<std::uint64_t>(*target).compare_exchange_strong(expected, desired, std::memory_order_relaxed);
+    std::atomic_ref<T>(*target).compare_exchange_strong(expected, desired, std::memory_order_relaxed);
     return expected;
 #endif
 }
