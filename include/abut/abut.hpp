@@ -12,4 +12,6 @@
 #include <abut/index/grid.hpp>
 #include <abut/index/lbvh.hpp>
 #include <abut/predicate/intersects.hpp>
+#include <abut/shape/posed.hpp>
 #include <abut/shape/set.hpp>
+#include <abut/shape/volume.hpp>

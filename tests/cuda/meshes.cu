@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <abut/cuda.hpp>
 
+#include "collide/posed_cases.hpp"
 #include "collide/validate_cases.hpp"
 #include "support/catch.hpp"
 
 TEMPLATE_TEST_CASE("validate: cuda", "", float, double) { abut::test::check_validate<TestType>(abut::cuda{}); }
+
+TEMPLATE_TEST_CASE("queries of posed sets and indices: cuda", "", float, double) {
+    abut::test::check_all_posed<TestType>(abut::cuda{});
+}

@@ -2,7 +2,8 @@
 #pragma once
 
 // any, count, pairs, for_each_pair: which shapes of one set touch which of another. Each side is a set (an owner, a view or
-// one shape) or an index over a set; where neither is an index, all are compared with all in tiles.
+// one shape) or an index over a set, either of them posed or not; where neither is an index, all are compared with all in
+// tiles.
 //
 // All four run on the policy and return when the answer is there. Their answers do not depend on the policy, the thread
 // count or the index. They throw invalid_geometry (views and single shapes, which are checked at each call), error (a set on
@@ -16,8 +17,10 @@
 #include <abut/collide/search.hpp>
 #include <abut/index/bvh.hpp>
 #include <abut/index/grid.hpp>
+#include <abut/shape/posed.hpp>
 #include <abut/traverse/bvh_walk.hpp>
 #include <abut/traverse/grid_walk.hpp>
+#include <abut/traverse/posed_walk.hpp>
 
 namespace abut {
 
@@ -30,6 +33,14 @@ inline constexpr bool is_index<bvh<Set, Space>> = true;
 template <class Set, memory_space Space>
 inline constexpr bool is_index<grid<Set, Space>> = true;
 
+template <class Object>
+inline constexpr bool is_index<posed_object<Object>> = is_index<Object>;
+
+template <class X>
+inline constexpr bool is_posed = false;
+template <class Object>
+inline constexpr bool is_posed<posed_object<Object>> = true;
+
 template <class Set, memory_space Space>
 auto walk_of(const bvh<Set, Space>& index) {
     return bvh_walk<typename bvh<Set, Space>::view_type>{index.view()};
@@ -37,6 +48,16 @@ auto walk_of(const bvh<Set, Space>& index) {
 template <class Set, memory_space Space>
 auto walk_of(const grid<Set, Space>& index) {
     return grid_walk<typename grid<Set, Space>::view_type>{index.view()};
+}
+
+/// Where the box around all shapes of an index lies, in its memory.
+template <class Set, memory_space Space>
+auto box_of(const bvh<Set, Space>& index) {
+    return &index.view().top->bounds;
+}
+template <class Set, memory_space Space>
+auto box_of(const grid<Set, Space>& index) {
+    return &index.view().frame->bounds;
 }
 
 /// One side of a query, in the policy's memory: the resident set, and a walk if it is indexed.
@@ -49,16 +70,40 @@ template <class Index>
 struct indexed_side {
     Index index;
     auto shapes() const { return view_of(index.set()); }
+    auto walk() const { return walk_of(index); }
+};
+template <class Side, scalar T>
+struct posed_side {
+    Side side;
+    rigid<T> pose;
+    aabb<T> around;  ///< an index's shapes, in their frame
+    auto shapes() const { return posed_view<decltype(side.shapes())>{side.shapes(), pose}; }
+    auto walk() const { return posed_walk<decltype(side.walk())>(side.walk(), pose, around); }
 };
 
 template <class X>
 inline constexpr bool is_indexed_side = false;
 template <class Index>
 inline constexpr bool is_indexed_side<indexed_side<Index>> = true;
+template <class Side, scalar T>
+inline constexpr bool is_indexed_side<posed_side<Side, T>> = is_indexed_side<Side>;
 
 template <class Policy, class X>
 auto make_side(const Policy& on, const X& x, const char* function) {
-    if constexpr (is_index<X>) {
+    if constexpr (is_posed<X>) {
+        using T = typename X::scalar_type;
+        check(x.pose, function);
+        posed_side<decltype(make_side(on, x.object, function)), T> side{make_side(on, x.object, function), x.pose, {}};
+        bool surely_finite = side.shapes().size() == 0;
+        if constexpr (is_index<X>) {
+            if (!surely_finite) {
+                download(on, box_of(x.object), 1, &side.around);
+                surely_finite = stays_finite(x.pose, side.around);
+            }
+        }
+        if (!surely_finite) check(on, side.shapes(), function);
+        return side;
+    } else if constexpr (is_index<X>) {
         static_assert(std::same_as<typename X::memory_space, space_of<Policy>>,
                       "abut: the index lies in other memory than the policy works in; make it with the same policy");
         if (x.size() > 0 && x.device() != device_of(on)) {
@@ -84,7 +129,7 @@ struct find_candidates {
     void operator()(const Settle& settle, Late& late, Wide& wide, Hits& hits) const {
         if (n == 0 || sides.targets.size() == 0) return;
         if constexpr (is_indexed_side<TargetSide>) {
-            const auto walk = walk_of(target.index);
+            const auto walk = target.walk();
             using walk_type = std::remove_const_t<decltype(walk)>;
             for_each_candidate(on, n, may_touch<walk_type, Sides>{walk, sides, first},
                                walk_index<walk_type, Sides>{walk, sides, first}, decide_key<A, Sides>{sides}, settle, late,

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// A walk through a posed index: what a query reaches in the world, in the frame of the index.
+
+#include <utility>
+
+#include <abut/arithmetic/limits.hpp>
+#include <abut/arithmetic/magnitude.hpp>
+#include <abut/shape/bounds.hpp>
+#include <abut/shape/relative_pose.hpp>
+#include <abut/shape/rigid.hpp>
+
+namespace abut::detail {
+
+/// A box in the world around all that the shapes in `around`, posed, reach there: each coordinate by interval arithmetic in
+/// double, and a margin for rounding, in here and by `place`, and for balls, which a rotation that is not quite one would
+/// stretch. Of all space where it overflows.
+template <scalar T>
+aabb<T> world_box(const rigid<T>& pose, const aabb<T>& around) {
+    const vec3<double> lower = widened(around.lower), upper = widened(around.upper);
+    const double shift[] = {pose.translation.x, pose.translation.y, pose.translation.z};
+    T low[3], high[3];
+    for (int i = 0; i < 3; ++i) {
+        const vec3<double> r = widened(row(pose.rotation, i));
+        const vec3<double> one{r.x * lower.x, r.y * lower.y, r.z * lower.z},
+            other{r.x * upper.x, r.y * upper.y, r.z * upper.z};
+        const vec3<double> least = lesser(one, other), most = greater(one, other);
+        const double size = farthest(around) + absolute(shift[i]);
+        const double margin =
+            256 * static_cast<double>(unit_roundoff<T>) * size + 256 * static_cast<double>(smallest_normal<T>);
+        low[i] = static_cast<T>(((least.x + least.y) + least.z + shift[i]) - margin);
+        high[i] = static_cast<T>(((most.x + most.y) + most.z + shift[i]) + margin);
+        if (!(size < static_cast<double>(largest_finite<T>) / 4)) {
+            low[i] = -infinity<T>;
+            high[i] = infinity<T>;
+        }
+    }
+    return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
+}
+
+/// A prune functor over boxes of a posed object. `query` is a box in the world; see `posed_walk` for how far it goes.
+template <scalar T>
+struct posed_reach {
+    aabb<T> query;
+    const relative_pose<T>* to_world;
+
+    ABUT_HD bool operator()(const aabb<T>& box) const { return overlaps(query, *to_world, box); }
+    /// In the object's frame. The test of the second box's faces (relative_pose.hpp), solved for where it may be; twice the
+    /// slack covers the two roundings more.
+    [[nodiscard]] ABUT_HD aabb<T> bounds() const {
+        const auto &r = to_world->rotation, &m = to_world->magnitude;
+        const T slack = 4 * to_world->slack;
+        if (!(slack < infinity<T>)) return {{-slack, -slack, -slack}, {slack, slack, slack}};
+        const vec3<T> middle = (query.lower + query.upper) - (to_world->translation + to_world->translation);
+        const vec3<T> side = query.upper - query.lower;
+        const vec3<T> center = middle.x * r[0] + middle.y * r[1] + middle.z * r[2];
+        const vec3<T> width = side.x * m[0] + side.y * m[1] + side.z * m[2] + vec3<T>{slack, slack, slack};
+        return {T(0.5) * (center - width), T(0.5) * (center + width)};
+    }
+};
+
+/// `walk` is over an object in its own frame, whose shapes lie in `around`; the world sees them moved by `pose`.
+template <class Walk>
+struct posed_walk {
+    using scalar_type = typename Walk::scalar_type;
+    using T = scalar_type;
+
+    Walk walk;
+    aabb<T> world;  ///< around all that the object reaches there
+    relative_pose<T> to_world;
+
+    posed_walk(const Walk& in_frame, const rigid<T>& pose, const aabb<T>& around)
+        : walk(in_frame), world(world_box(pose, around)), to_world(make_relative_pose(rigid<T>{}, world, pose, around)) {}
+
+    /// False if the query touches nothing in the object.
+    template <class Reach>
+    ABUT_HD bool may_touch(Reach& reach) const {
+        posed_reach<T> posed{clipped(reach), &to_world};
+        return !is_empty(posed.query) && walk.may_touch(posed);
+    }
+
+    /// Calls visitor(shape id) -> visit for every shape whose box the query reaches, until it says stop.
+    template <class Reach, class Visitor>
+    ABUT_HD void for_each(Reach& reach, Visitor&& visitor) const {
+        posed_reach<T> posed{clipped(reach), &to_world};
+        walk.for_each(posed, std::forward<Visitor>(visitor));
+    }
+
+private:
+    /// What meets the object meets it in its box in the world; so the query need not be larger than that, which is what the
+    /// slack of the relative pose is made for.
+    template <class Reach>
+    ABUT_HD aabb<T> clipped(Reach& reach) const {
+        const aabb<T> box = reach.bounds();
+        return {greater(box.lower, world.lower), lesser(box.upper, world.upper)};
+    }
+    ABUT_HD static bool is_empty(const aabb<T>& box) {
+        return box.lower.x > box.upper.x || box.lower.y > box.upper.y || box.lower.z > box.upper.z;
+    }
+};
+
+}  // namespace abut::detail
