@@ -20,6 +20,7 @@
 #include <abut/shape/posed.hpp>
 #include <abut/traverse/bvh_walk.hpp>
 #include <abut/traverse/grid_walk.hpp>
+#include <abut/traverse/pair_walk.hpp>
 #include <abut/traverse/posed_walk.hpp>
 
 namespace abut {
@@ -88,6 +89,39 @@ inline constexpr bool is_indexed_side<indexed_side<Index>> = true;
 template <class Side, scalar T>
 inline constexpr bool is_indexed_side<posed_side<Side, T>> = is_indexed_side<Side>;
 
+/// The tree of a side, where it lies; void where it has none.
+template <class Side>
+struct tree_of_side {
+    static constexpr bool exists = false;
+};
+template <class Set, memory_space Space>
+struct tree_of_side<indexed_side<bvh<Set, Space>>> {
+    static constexpr bool exists = true, posed = false;
+    using T = typename Set::scalar_type;
+    static auto view(const indexed_side<bvh<Set, Space>>& side) { return side.index.view(); }
+    static rigid<T> pose(const indexed_side<bvh<Set, Space>>&) { return {}; }
+};
+template <class Side, scalar T>
+    requires tree_of_side<Side>::exists
+struct tree_of_side<posed_side<Side, T>> {
+    static constexpr bool exists = true, posed = true;
+    static auto view(const posed_side<Side, T>& side) { return tree_of_side<Side>::view(side.side); }
+    static rigid<T> pose(const posed_side<Side, T>& side) { return side.pose; }
+};
+
+/// How boxes of two sides' trees are compared, in host memory.
+template <class SideA, class SideB>
+auto box_overlap(const SideA& side_a, const SideB& side_b) {
+    using a = tree_of_side<SideA>;
+    using b = tree_of_side<SideB>;
+    if constexpr (a::posed || b::posed) {
+        return two_frames{make_relative_pose(a::pose(side_a), a::view(side_a).root_bounds(), b::pose(side_b),
+                                             b::view(side_b).root_bounds())};
+    } else {
+        return same_frame{};
+    }
+}
+
 template <class Policy, class X>
 auto make_side(const Policy& on, const X& x, const char* function) {
     if constexpr (is_posed<X>) {
@@ -117,17 +151,45 @@ auto make_side(const Policy& on, const X& x, const char* function) {
     }
 }
 
-/// Stage 1 of a search for queries [first, first + n): an index walks, two plain sets are tiled.
-template <arithmetic A, class Policy, class Sides, class TargetSide>
+/// All candidates of two trees below pair i of nodes.
+template <class Walk, class Sides>
+struct walk_pairs {
+    using candidate = std::uint64_t;
+    Walk walk;
+    Sides sides;
+    const node_pair* starts;
+
+    ABUT_CALLS_ANY
+    template <class Emitter, class Wide, class Hits>
+    ABUT_HD void operator()(std::size_t i, const Emitter& emitter, Wide&, Hits& hits) const {
+        walk.for_each(starts[i], [&](std::uint32_t query, std::uint32_t target) {
+            if (sides.wanted(query, target)) emitter.push(sides.key.pack(query, target));
+            return execution::is_over(hits) ? visit::stop : visit::proceed;
+        });
+    }
+};
+struct always {
+    ABUT_HD bool operator()(std::size_t) const { return true; }
+};
+
+/// Stage 1 of a search for queries [first, first + n): an index walks, two plain sets are tiled. On the host two trees walk
+/// together; on a device one thread for each query has more to do at a time than pairs of nodes would.
+template <arithmetic A, class Policy, class Sides, class QuerySide, class TargetSide>
 struct find_candidates {
     const Policy& on;
     const Sides& sides;
+    const QuerySide& query;
     const TargetSide& target;
     std::size_t first, n;
 
     template <class Settle, class Late, class Wide, class Hits>
     void operator()(const Settle& settle, Late& late, Wide& wide, Hits& hits) const {
         if (n == 0 || sides.targets.size() == 0) return;
+        constexpr bool two_trees = tree_of_side<QuerySide>::exists && tree_of_side<TargetSide>::exists &&
+                                   std::same_as<space_of<Policy>, host_space>;
+        if constexpr (two_trees) {
+            if (n == sides.queries.size() && n > 1 && sides.targets.size() > 1) return walk_both(settle, late, wide, hits);
+        }
         if constexpr (is_indexed_side<TargetSide>) {
             const auto walk = target.walk();
             using walk_type = std::remove_const_t<decltype(walk)>;
@@ -137,6 +199,21 @@ struct find_candidates {
         } else {
             for_each_tiled(on, n, sides.targets.size(), all_against_all<A, Sides>{sides, first}, settle, late, wide, hits);
         }
+    }
+
+    template <class Settle, class Late, class Wide, class Hits>
+    void walk_both(const Settle& settle, Late& late, Wide& wide, Hits& hits) const {
+        constexpr std::size_t enough =
+            4096;  // pairs of nodes: more than a thread takes at a time, and nothing beside a walk
+        const auto tree_a = tree_of_side<QuerySide>::view(query);
+        const auto tree_b = tree_of_side<TargetSide>::view(target);
+        const auto overlap = box_overlap(query, target);
+        using walk_type = pair_walk<std::remove_const_t<decltype(tree_a)>, std::remove_const_t<decltype(tree_b)>,
+                                    std::remove_const_t<decltype(overlap)>>;
+        const walk_type walk{tree_a, tree_b, overlap};
+        const auto starts = walk.split(enough);
+        for_each_candidate(on, starts.size(), always{}, walk_pairs<walk_type, Sides>{walk, sides, starts.data()},
+                           decide_key<A, Sides>{sides}, settle, late, wide, hits);
     }
 };
 
@@ -152,7 +229,9 @@ auto with_search(const Policy& on, const QuerySide& query_side, const TargetSide
     const pair_key key{queries_are_b ? target_bits : query_bits, queries_are_b ? query_bits : target_bits, queries_are_b};
     const sides_type both{queries, targets, key, filter};
     const auto run = [&](auto& hits, std::size_t first, std::size_t n) {
-        search<A>(on, both, hits, find_candidates<A, Policy, sides_type, TargetSide>{on, both, target_side, first, n});
+        search<A>(
+            on, both, hits,
+            find_candidates<A, Policy, sides_type, QuerySide, TargetSide>{on, both, query_side, target_side, first, n});
     };
     return body(key, run, queries.size());
 }

@@ -28,16 +28,22 @@ struct bvh_walk {
         const bvh_child root = tree.root();
         if (root.is_leaf()) {
             visitor(root.index());
-            return;
+        } else {
+            for_each_below(root.index(), reach, visitor);
         }
+    }
+
+    /// The same for the leaves below an inner node.
+    template <class Reach, class Visitor>
+    ABUT_HD void for_each_below(std::uint32_t node, Reach& reach, Visitor&& visitor) const {
         // One entry at most for each level above the current node.
         std::uint32_t pending[bvh_max_depth];
         int depth = 0;
-        std::uint32_t node = root.index();
         for (;;) {
             const typename Tree::node_type both = tree.fetch(node);
             const bvh_child left = tree.child(both, 0), right = tree.child(both, 1);
-            // Most of a walk on a processor core is waiting for nodes: both are asked for before either is known to be needed.
+            // Most of a walk on a processor core is waiting for nodes: both are asked for before either is known to be
+            // needed.
             tree.prefetch(left);
             tree.prefetch(right);
             bool go_left = reach(tree.bounds(both, 0)), go_right = reach(tree.bounds(both, 1));

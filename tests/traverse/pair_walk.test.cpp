@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <abut/abut.hpp>
+
+#include "support/catch.hpp"
+#include "support/poses.hpp"
+#include "support/scenes.hpp"
+
+namespace abut::test {
+
+using id_pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+/// What a walk visits, from each way of sharing it out, is what a plain loop over all boxes finds, each pair once.
+template <class T, class Overlap>
+std::size_t check_walk(const triangle_soup<T>& a, const triangle_soup<T>& b, const Overlap& overlap) {
+    const auto tree_a = make_bvh(serial{}, a), tree_b = make_bvh(serial{}, b);
+    id_pairs expected;
+    for (std::uint32_t i = 0; i < a.size(); ++i) {
+        for (std::uint32_t j = 0; j < b.size(); ++j) {
+            if (overlap(bounds(a.view()[i]), bounds(b.view()[j]))) expected.emplace_back(i, j);
+        }
+    }
+    using view = bvh_view<T, host_space>;
+    const detail::pair_walk<view, view, Overlap> walk{tree_a.view(), tree_b.view(), overlap};
+    for (const std::size_t enough : {1u, 2u, 5u, 100u, 100'000u}) {
+        CAPTURE(a.size(), b.size(), enough);
+        id_pairs seen;
+        for (const auto& start : walk.split(enough)) {
+            walk.for_each(start, [&](std::uint32_t i, std::uint32_t j) {
+                seen.emplace_back(i, j);
+                return visit::proceed;
+            });
+        }
+        std::sort(seen.begin(), seen.end());
+        CHECK(seen == expected);
+        std::size_t visits = 0;
+        for (const auto& start : walk.split(enough)) {
+            bool stopped = false;
+            walk.for_each(start, [&](std::uint32_t, std::uint32_t) {
+                CHECK_FALSE(stopped);
+                ++visits;
+                stopped = true;
+                return visit::stop;
+            });
+        }
+        CHECK((visits > 0) == !expected.empty());
+    }
+    return expected.size();
+}
+
+TEMPLATE_TEST_CASE("two trees at once: each pair of leaves whose boxes overlap, once", "", float, double) {
+    using T = TestType;
+    uniform random(20261124);
+    std::size_t pairs = 0;
+    for (const auto& [n, m] : {std::pair{2, 2}, {2, 300}, {300, 2}, {3, 5}, {40, 50}, {700, 600}}) {
+        const triangle_soup<T> a(random_triangles<T>(static_cast<std::size_t>(n), random));
+        const triangle_soup<T> b(random_triangles<T>(static_cast<std::size_t>(m), random));
+        pairs += check_walk(a, b, detail::same_frame{});
+        for (std::uint64_t k = 0; k < 4; ++k) {
+            draws d(20261124, 81, k);
+            const auto pose_a = make_pose<T>(d, 1), pose_b = make_pose<T>(d, 1);
+            const auto around = [](const triangle_soup<T>& s) { return make_bvh(serial{}, s).view().root_bounds(); };
+            pairs += check_walk(a, b, detail::two_frames<T>{make_relative_pose(pose_a, around(a), pose_b, around(b))});
+        }
+    }
+    CHECK(pairs > 10'000);
+    // All triangles in one place: a tree as deep as one gets, and every pair.
+    const triangle_soup<T> same(std::vector<triangle<T>>(300, triangle<T>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+    CHECK(check_walk(same, same, detail::same_frame{}) == 90'000);
+    // Chains: each box overlaps its neighbours alone.
+    std::vector<triangle<T>> chain;
+    for (int i = 0; i < 500; ++i) {
+        const T x = static_cast<T>(i);
+        chain.push_back({{x, 0, 0}, {x + 1, 0, 0}, {x, 1, 0}});
+    }
+    CHECK(check_walk(triangle_soup<T>(chain), triangle_soup<T>(chain), detail::same_frame{}) == 500 + 2 * 499);
+}
+
+}  // namespace abut::test
