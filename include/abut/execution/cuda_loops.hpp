@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <utility>
 
-#include <cuda_pipeline.h>
+#include <cuda_pipeline_primitives.h>
 #include <cuda_runtime.h>
 
 #include <abut/execution/cuda.hpp>

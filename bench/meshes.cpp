@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+//
+// usage: bench_meshes [--mesh=FILE] --benchmark_enable_random_interleaving=true --benchmark_out=cpu.json
+//
+// A mesh against a turned copy of itself (bench/meshes_scene.hpp): FILE (PLY or OBJ), or a torus of 345,744 triangles.
+// Names:
+//
+//   build/bvh/POLICY            a linear BVH over one of them; the peers build trees of their own (bench/meshes/)
+//   QUERY/baked/POLICY          pairs, unsorted, count or any between two trees, the second over the turned copy
+//   QUERY/posed/POLICY          the same, the second being the first tree under a pose
+//   one_sided/pairs/POLICY      one tree, and the shapes of the other mesh
+
+#include <cstddef>
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <utility>
+
+#include <benchmark/benchmark.h>
+
+#include <abut/abut.hpp>
+#include <abut/io/read.hpp>
+
+#include "meshes_scene.hpp"
+
+namespace {
+
+namespace scene = meshes_scene;
+
+const char* name_of(const abut::serial&) { return "serial"; }
+const char* name_of(const abut::openmp&) { return "openmp"; }
+
+template <class Work>
+void add(const std::string& name, bool threads, const Work& work) {
+    auto* const b = benchmark::RegisterBenchmark(name.c_str(), [work](benchmark::State& state) { work(state); });
+    b->Unit(benchmark::kMillisecond)->Repetitions(11)->ReportAggregatesOnly(true)->MinTime(0.01);
+    if (threads) b->UseRealTime();
+}
+
+abut::mesh<float> mesh_of(const scene::surface& s) { return {s.vertices, s.faces}; }
+
+template <class Policy>
+void add_policy(const Policy& on) {
+    const bool threads = std::same_as<Policy, abut::openmp>;
+    const auto a = mesh_of(scene::the_pair->a), b = mesh_of(scene::the_pair->b);
+    const auto tree_a = make_bvh(on, a), tree_b = make_bvh(on, b);
+    const auto posed_b = posed(tree_a, scene::the_pair->pose);
+    const std::string policy = name_of(on);
+    add("build/bvh/" + policy, threads, [on, a](benchmark::State& state) {
+        for (auto _ : state) benchmark::DoNotOptimize(make_bvh(on, a).size());
+    });
+    const auto add_queries = [&](const std::string& kind, const auto& other) {
+        add("pairs/" + kind + "/" + policy, threads, [on, tree_a, other](benchmark::State& state) {
+            std::size_t n = 0;
+            for (auto _ : state) n = pairs(on, tree_a, other).size();
+            state.counters["pairs"] = static_cast<double>(n);
+        });
+        add("unsorted/" + kind + "/" + policy, threads, [on, tree_a, other](benchmark::State& state) {
+            for (auto _ : state) benchmark::DoNotOptimize(pairs(on, tree_a, other, {.sorted = false}).size());
+        });
+        add("count/" + kind + "/" + policy, threads, [on, tree_a, other](benchmark::State& state) {
+            for (auto _ : state) benchmark::DoNotOptimize(count(on, tree_a, other));
+        });
+        add("any/" + kind + "/" + policy, threads, [on, tree_a, other](benchmark::State& state) {
+            for (auto _ : state) benchmark::DoNotOptimize(any(on, tree_a, other));
+        });
+    };
+    add_queries("baked", tree_b);
+    add_queries("posed", posed_b);
+    add("one_sided/pairs/" + policy, threads, [on, tree_a, b](benchmark::State& state) {
+        for (auto _ : state) benchmark::DoNotOptimize(pairs(on, tree_a, b).size());
+    });
+}
+
+scene::surface read_surface(const std::string& path) {
+    const auto mesh = abut::io::read_mesh<float>(path);
+    const auto view = mesh.view();
+    scene::surface s;
+    for (std::size_t i = 0; i < view.vertices.count; ++i) s.vertices.push_back(view.vertices[i]);
+    for (std::size_t i = 0; i < view.faces.count; ++i) s.faces.push_back(view.faces[i]);
+    return s;
+}
+
+void run(int argc, char** argv) {
+    const std::string flag = "--mesh=";
+    std::string path;
+    int kept = 1;
+    for (int i = 1; i < argc; ++i) {
+        const std::string argument = argv[i];
+        if (argument.rfind(flag, 0) == 0) {
+            path = argument.substr(flag.size());
+        } else {
+            argv[kept++] = argv[i];
+        }
+    }
+    argc = kept;
+    benchmark::Initialize(&argc, argv);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return;
+    const scene::mesh_pair pair = scene::make_pair(path.empty() ? scene::unit_torus() : read_surface(path));
+    scene::the_pair = &pair;
+    benchmark::AddCustomContext("mesh", path.empty() ? "torus" : path);
+    add_policy(abut::serial{});
+    add_policy(abut::openmp{});
+    for (const auto register_peer : scene::peers()) register_peer();
+    benchmark::RunSpecifiedBenchmarks();
+    benchmark::Shutdown();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        run(argc, argv);
+    } catch (const std::exception& problem) {
+        std::fprintf(stderr, "%s\n", problem.what());
+        return 1;
+    }
+    return 0;
+}
