@@ -37,11 +37,6 @@ inline constexpr bool is_index<grid<Set, Space>> = true;
 template <class Object>
 inline constexpr bool is_index<posed_object<Object>> = is_index<Object>;
 
-template <class X>
-inline constexpr bool is_posed = false;
-template <class Object>
-inline constexpr bool is_posed<posed_object<Object>> = true;
-
 template <class Set, memory_space Space>
 auto walk_of(const bvh<Set, Space>& index) {
     return bvh_walk<typename bvh<Set, Space>::view_type>{index.view()};
@@ -89,7 +84,7 @@ inline constexpr bool is_indexed_side<indexed_side<Index>> = true;
 template <class Side, scalar T>
 inline constexpr bool is_indexed_side<posed_side<Side, T>> = is_indexed_side<Side>;
 
-/// The tree of a side, where it lies; void where it has none.
+/// The tree of a side and its pose, if it has a tree.
 template <class Side>
 struct tree_of_side {
     static constexpr bool exists = false;
@@ -155,6 +150,7 @@ auto make_side(const Policy& on, const X& x, const char* function) {
 template <class Walk, class Sides>
 struct walk_pairs {
     using candidate = std::uint64_t;
+    static constexpr std::size_t grain = 32;  // each is a long walk
     Walk walk;
     Sides sides;
     const node_pair* starts;
@@ -188,7 +184,8 @@ struct find_candidates {
         constexpr bool two_trees = tree_of_side<QuerySide>::exists && tree_of_side<TargetSide>::exists &&
                                    std::same_as<space_of<Policy>, host_space>;
         if constexpr (two_trees) {
-            if (n == sides.queries.size() && n > 1 && sides.targets.size() > 1) return walk_both(settle, late, wide, hits);
+            const bool whole = n == sides.queries.size() && n > 1 && sides.targets.size() > 1;
+            if (whole && walk_both(settle, late, wide, hits)) return;
         }
         if constexpr (is_indexed_side<TargetSide>) {
             const auto walk = target.walk();
@@ -201,10 +198,11 @@ struct find_candidates {
         }
     }
 
+    /// False, and nothing done, where one tree is so small that threads could not share the walk.
     template <class Settle, class Late, class Wide, class Hits>
-    void walk_both(const Settle& settle, Late& late, Wide& wide, Hits& hits) const {
-        constexpr std::size_t enough =
-            4096;  // pairs of nodes: more than a thread takes at a time, and nothing beside a walk
+    bool walk_both(const Settle& settle, Late& late, Wide& wide, Hits& hits) const {
+        // Pairs of nodes to start from: one thread takes them as they come, more of them share many.
+        const std::size_t enough = execution::thread_count(on) > 1 ? 4096 : 1;
         const auto tree_a = tree_of_side<QuerySide>::view(query);
         const auto tree_b = tree_of_side<TargetSide>::view(target);
         const auto overlap = box_overlap(query, target);
@@ -212,8 +210,10 @@ struct find_candidates {
                                     std::remove_const_t<decltype(overlap)>>;
         const walk_type walk{tree_a, tree_b, overlap};
         const auto starts = walk.split(enough);
+        if (!starts.empty() && starts.size() < enough / 8) return false;
         for_each_candidate(on, starts.size(), always{}, walk_pairs<walk_type, Sides>{walk, sides, starts.data()},
                            decide_key<A, Sides>{sides}, settle, late, wide, hits);
+        return true;
     }
 };
 

@@ -87,6 +87,13 @@ void gather_and_settle(const Policy& on, std::size_t n, std::size_t grain, const
     more.merge(on);
 }
 
+/// Indices of for_each_candidate that a thread takes at a time, which a walk may state.
+template <class Walk>
+inline constexpr std::size_t grain_of = range_grain;
+template <class Walk>
+    requires requires { Walk::grain; }
+inline constexpr std::size_t grain_of<Walk> = Walk::grain;
+
 /// On the host a candidate is decided where it is found.
 template <class Decide>
 struct decide_at_once {
@@ -124,7 +131,7 @@ void for_each_candidate(const Policy& on, std::size_t n, const Test& test, const
             }
         }
     };
-    detail::gather_and_settle(on, n, range_grain, loop, settle, late, queues...);
+    detail::gather_and_settle(on, n, detail::grain_of<Walk>, loop, settle, late, queues...);
 }
 
 template <host_policy Policy, class Tile, class Settle, class Late, class... Queues>

@@ -13,11 +13,11 @@
 // The bound. Let e = 2u be the relative error of an operation in any rounding mode, and |v| the sum of a vector's
 // magnitudes. A determinant (f x g) . w is computed from differences (1+e) as products (1+e) of them, differences of those
 // (1+e), products (1+e) and two sums (1+e)^2: no more than eight factors on any path, so its error is below 8.01e |f| |g|
-// |w|, of which what is computed falls short by 20e at most. The code takes 10e. Contraction only lowers the errors. No
-// vector is measured but two edges of each triangle and one that joins them: a way from corner to corner is no longer than
-// the sum of the ways that it could be replaced by. Underflow, and numbers flushed to zero: let m be the smallest normal
-// number and B >= 1 a bound on all differences. An input or a result flushed to zero is off by m, a difference by 4m; what
-// that makes of the determinant is less than 89 m B^2. With B = 2^29, m = 2^-126 that is below 2^-61, with B = 2^300,
+// |w|, of which what is computed falls short by 20e at most. The code takes 10e. Contraction only lowers the errors. Few
+// vectors are measured, two edges of each triangle and one or two that join them: a way from corner to corner is no longer
+// than the sum of the ways that it could be replaced by. Underflow, and numbers flushed to zero: let m be the smallest
+// normal number and B >= 1 a bound on all differences. An input or a result flushed to zero is off by m, a difference by 4m;
+// what that makes of the determinant is less than 89 m B^2. With B = 2^29, m = 2^-126 that is below 2^-61, with B = 2^300,
 // m = 2^-1022 below 2^-415: `flushed` is more. The sum of the five magnitudes has to be below B / 2, and no difference is
 // more than that. What overflows fails that test, and so does NaN.
 

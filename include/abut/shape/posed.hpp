@@ -27,11 +27,17 @@ struct posed_object {
     [[nodiscard]] std::size_t size() const { return object.size(); }
 };
 
+template <class X>
+inline constexpr bool is_posed = false;
+template <class Object>
+inline constexpr bool is_posed<posed_object<Object>> = true;
+
 /// `object` (mesh, triangle_soup, spheres, equal_spheres, a view of one, a bvh or a grid) moved by `pose`, as an argument of
 /// queries. What touches is decided exactly, about shapes whose points `place` has rounded to the world's coordinates.
 /// Queries throw invalid_geometry where the rotation is not one within 16 units in the last place, and where a placed
-/// coordinate overflows.
+/// coordinate overflows. Of a posed object make one with the composed pose: `compose`.
 template <class Object>
+    requires(!is_posed<Object>)
 [[nodiscard]] posed_object<Object> posed(Object object, const rigid<typename Object::scalar_type>& pose) {
     return {std::move(object), pose};
 }

@@ -2,9 +2,9 @@
 #pragma once
 
 // Poses: a rotation and a translation, from an object's frame to the world's. What is decided about a posed shape is
-// decided about its corners as `place` rounds them, so `place` gives the same bits under every compiler, flag and device,
-// and the rest of this file is there to make poses and to refuse what is none. How two posed sets lie to each other, for
-// culling, is in relative_pose.hpp.
+// decided about its corners as `place` rounds them, so `place` gives the same bits under every compiler, flag and device
+// that rounds to nearest and keeps subnormals, and the rest of this file is there to make poses and to refuse what is none.
+// How two posed sets lie to each other, for culling, is in relative_pose.hpp.
 
 #include <cstddef>
 #include <string>

@@ -28,6 +28,8 @@ struct two_frames {
     relative_pose<T> b_to_a;
     ABUT_HD bool operator()(const aabb<T>& a, const aabb<T>& b) const { return overlaps(a, b_to_a, b); }
 };
+template <scalar T>
+two_frames(relative_pose<T>) -> two_frames<T>;
 
 /// An inner node of each tree.
 struct node_pair {
@@ -72,8 +74,9 @@ struct pair_walk {
         }
     }
 
-    /// Pairs of nodes with all of the overlapping leaves below them: about `enough` of them, for threads to share, unless
-    /// the trees are small. None where the trees do not meet. Both trees have inner nodes.
+    /// Pairs of nodes with all of the overlapping leaves below them: `enough` of them or up to four times as many, for
+    /// threads to share; fewer where leaves are met on the way, as in small trees. None where the trees do not meet. Both
+    /// trees have inner nodes.
     [[nodiscard]] std::vector<node_pair> split(std::size_t enough) const {
         std::vector<node_pair> now, done;
         if (overlap(a.root_bounds(), b.root_bounds())) now.push_back({a.root().index(), b.root().index()});
