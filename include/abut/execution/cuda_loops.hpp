@@ -182,6 +182,7 @@ struct tile_memory {
     ABUT_HD static constexpr unsigned bytes(bool stream) {
         return column_bytes(stream) + (stream ? warps * (2 * batch_bytes + waiting_bytes) : 0);
     }
+    static constexpr unsigned most_bytes = bytes(true) > bytes(false) ? bytes(true) : bytes(false);
 };
 
 /// All rows against all columns. A block keeps a tile of columns in shared memory while rows go by; a thread holds several
@@ -308,31 +309,25 @@ inline int multiprocessors(int device) {
     return count;
 }
 
-/// Shared memory that a block gets on every device without more ado, less 8 KiB for what kernels declare themselves.
-inline constexpr unsigned granted_shared = 40 << 10;
-
 /// Blocks of `Kernel` that fill the device once, by the runtime's occupancy calculator, each with `Shared` bytes besides
-/// what it declares itself; 0 where the device has not so much. Asked once for each device: the question takes as long as a
-/// launch.
-template <auto Kernel, unsigned Shared = 0>
+/// what it declares itself; no launch of it takes more than `MostShared`. 0 where the device has not so much. Asked once for
+/// each device: the question takes as long as a launch.
+template <auto Kernel, unsigned Shared = 0, unsigned MostShared = Shared>
 std::size_t resident_blocks(const cuda& on) {
     constexpr int remembered = 64;
     static std::atomic<std::size_t> answers[remembered];
     const int device = device_of(on);
-    if (device < remembered && answers[device] != 0) return answers[device] - 1;
+    if (device < remembered && answers[device] != 0) return answers[device];
     int blocks = 0;
-    // More than any device gives unasked has to be asked for; what is less is left alone, since the last word counts.
-    const bool fits = Shared <= granted_shared ||
-                      cudaFuncSetAttribute(Kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, int{Shared}) == cudaSuccess;
-    if (fits) {
-        check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, Kernel, block_size, Shared),
-              "cudaOccupancyMaxActiveBlocksPerMultiprocessor");
-    } else {
+    if (cudaFuncSetAttribute(Kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, int{MostShared}) != cudaSuccess) {
         cudaGetLastError();  // the refusal is an answer, and no error of the next call
+        return 0;
     }
-    if constexpr (Shared == 0) blocks = std::max(blocks, 1);
-    const std::size_t answer = static_cast<std::size_t>(blocks) * static_cast<std::size_t>(multiprocessors(device));
-    if (device < remembered) answers[device] = answer + 1;
+    check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, Kernel, block_size, Shared),
+          "cudaOccupancyMaxActiveBlocksPerMultiprocessor");
+    const std::size_t answer =
+        static_cast<std::size_t>(std::max(blocks, 1)) * static_cast<std::size_t>(multiprocessors(device));
+    if (device < remembered) answers[device] = answer;
     return answer;
 }
 
@@ -418,15 +413,14 @@ void for_each_tiled(const cuda& on, std::size_t n, std::size_t m, const Tile& ti
         constexpr auto kernel = detail::for_each_tiled_kernel<Tile, decltype(late_sink), decltype(sinks)...>;
         const auto* rows = m <= memory::few ? tile.rows_in_memory() : nullptr;
         if (reinterpret_cast<std::uintptr_t>(rows) % 16 != 0) rows = nullptr;
-        // As many blocks as the device holds at a time, for rows first; where there are few rows, columns are shared out. On
-        // a device without the shared memory to stream, threads load rows themselves.
-        static_assert(memory::bytes(false) <= detail::granted_shared);
-        std::size_t room = rows != nullptr ? detail::resident_blocks<kernel, memory::bytes(true)>(on) : 0;
-        const bool stream = room > 0;
-        if (!stream) {
+        // As many blocks as the device holds at a time, for rows first; where there are few rows, columns are shared out.
+        std::size_t room = rows != nullptr ? detail::resident_blocks<kernel, memory::bytes(true), memory::most_bytes>(on)
+                                           : detail::resident_blocks<kernel, memory::bytes(false), memory::most_bytes>(on);
+        if (room == 0) {  // a device without the shared memory to stream: threads load rows themselves
             rows = nullptr;
             room = std::max(detail::resident_blocks<kernel, memory::bytes(false)>(on), std::size_t{1});
         }
+        const bool stream = rows != nullptr;
         const std::size_t rows_of_block = memory::warps * memory::batch, width = memory::width(stream);
         const std::size_t across = std::min(room, (n + rows_of_block - 1) / rows_of_block);
         const std::size_t down = std::min({room / across + 1, (m + width - 1) / width, std::size_t{65535}});
