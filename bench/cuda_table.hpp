@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <exception>
 #include <initializer_list>
 #include <string>
 #include <utility>
@@ -169,6 +170,31 @@ inline void measure_floor(const abut::cuda& on, table& out) {
     rate("floor/call", 8, [&] { (void)reduce(on, std::size_t{1}, std::uint64_t{0}, either{}, word_at{from.data()}); });
     out.bandwidth = read;
     std::printf("copy %.0f GB/s, read %.0f GB/s\n", copied * 1e-6, read * 1e-6);
+}
+
+/// The main of a benchmark: measures the floor and calls body(on, out) on a stream of its own, then writes the table to the
+/// file that the first argument names, if there is one. Returns the exit status.
+template <class Body>
+int run(const char* program, int argc, char** argv, const Body& body) {
+    try {
+        cudaStream_t stream = nullptr;
+        check(cudaStreamCreate(&stream), "cudaStreamCreate");
+        {
+            const abut::cuda on{stream};
+            table out(on);
+            measure_floor(on, out);
+            body(on, out);
+            const auto memory = memory_in_use(on);
+            std::printf("pool: %llu bytes reserved, at most %llu in use\n", static_cast<unsigned long long>(memory.reserved),
+                        static_cast<unsigned long long>(memory.used_peak));
+            if (argc > 1) out.write(argv[1]);
+        }
+        check(cudaStreamDestroy(stream), "cudaStreamDestroy");
+        return 0;
+    } catch (const std::exception& e) {
+        std::fprintf(stderr, "%s: %s\n", program, e.what());
+        return 1;
+    }
 }
 
 }  // namespace bench

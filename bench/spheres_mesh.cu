@@ -124,34 +124,14 @@ void add_break_even(const abut::cuda& on, table& out) {
     }
 }
 
-void run(const char* path) {
-    cudaStream_t stream = nullptr;
-    check(cudaStreamCreate(&stream), "cudaStreamCreate");
-    {
-        const abut::cuda on{stream};
-        table out(on);
-        bench::measure_floor(on, out);
+}  // namespace
+
+int main(int argc, char** argv) {
+    return bench::run("bench_spheres_mesh_cuda", argc, argv, [](const abut::cuda& on, table& out) {
         const resident_scene data(on);
         add_index<bvh>(on, data, out);
         add_index<grid>(on, data, out);
         add_sizes(on, data, "none", data.mesh, out, 400);
         add_break_even(on, out);
-        const auto memory = memory_in_use(on);
-        std::printf("pool: %llu bytes reserved, at most %llu in use\n", static_cast<unsigned long long>(memory.reserved),
-                    static_cast<unsigned long long>(memory.used_peak));
-        if (path != nullptr) out.write(path);
-    }
-    check(cudaStreamDestroy(stream), "cudaStreamDestroy");
-}
-
-}  // namespace
-
-int main(int argc, char** argv) {
-    try {
-        run(argc > 1 ? argv[1] : nullptr);
-        return 0;
-    } catch (const std::exception& e) {
-        std::fprintf(stderr, "bench_spheres_mesh_cuda: %s\n", e.what());
-        return 1;
-    }
+    });
 }

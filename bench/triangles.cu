@@ -378,32 +378,15 @@ void add_many(const abut::cuda& on, table& out, const pinned& memory) {
     }
 }
 
-void run(const char* path) {
-    cudaStream_t stream = nullptr;
-    check(cudaStreamCreate(&stream), "cudaStreamCreate");
-    {
-        const abut::cuda on{stream};
-        table out(on);
-        bench::measure_floor(on, out);
+}  // namespace
+
+int main(int argc, char** argv) {
+    return bench::run("bench_triangles_cuda", argc, argv, [](const abut::cuda& on, table& out) {
         const pinned memory(scene::most_triangles * sizeof(abut::triangle<double>));
         one_bench<float>(on, out, memory).run();
         add_many(on, out, memory);
         one_bench<double>(on, out, memory).run();
         add_pairs<float>(on, out);
         add_pairs<double>(on, out);
-        if (path != nullptr) out.write(path);
-    }
-    check(cudaStreamDestroy(stream), "cudaStreamDestroy");
-}
-
-}  // namespace
-
-int main(int argc, char** argv) {
-    try {
-        run(argc > 1 ? argv[1] : nullptr);
-        return 0;
-    } catch (const std::exception& e) {
-        std::fprintf(stderr, "bench_triangles_cuda: %s\n", e.what());
-        return 1;
-    }
+    });
 }

@@ -51,35 +51,15 @@ void add(const abut::cuda& on, table& out, validate_meshes::size n, order o) {
     }
 }
 
-void run(const char* path) {
-    cudaStream_t stream = nullptr;
-    check(cudaStreamCreate(&stream), "cudaStreamCreate");
-    {
-        const abut::cuda on{stream};
-        table out(on);
-        bench::measure_floor(on, out);
+}  // namespace
+
+int main(int argc, char** argv) {
+    return bench::run("bench_validate_cuda", argc, argv, [](const abut::cuda& on, table& out) {
         for (const auto& n : validate_meshes::sizes) {
             for (const order o : {order::of_the_torus, order::random}) {
                 add<float>(on, out, n, o);
                 add<double>(on, out, n, o);
             }
         }
-        const auto memory = memory_in_use(on);
-        std::printf("pool: %llu bytes reserved, at most %llu in use\n", static_cast<unsigned long long>(memory.reserved),
-                    static_cast<unsigned long long>(memory.used_peak));
-        if (path != nullptr) out.write(path);
-    }
-    check(cudaStreamDestroy(stream), "cudaStreamDestroy");
-}
-
-}  // namespace
-
-int main(int argc, char** argv) {
-    try {
-        run(argc > 1 ? argv[1] : nullptr);
-        return 0;
-    } catch (const std::exception& e) {
-        std::fprintf(stderr, "bench_validate_cuda: %s\n", e.what());
-        return 1;
-    }
+    });
 }

@@ -71,9 +71,8 @@ test::stage_tally examine_family(triangle_family f) {
         test::sample_count(), [f](std::uint64_t first, std::uint64_t last, test::stage_tally& sum) {
             for (std::uint64_t i = first; i < last; ++i) {
                 const auto [s, t] = test::make_triangle_pair<T>(test::seed, f, i);
-                const T values[] = {s.a.x, s.a.y, s.a.z, s.b.x, s.b.y, s.b.z, s.c.x, s.c.y, s.c.z,
-                                    t.a.x, t.a.y, t.a.z, t.b.x, t.b.y, t.b.z, t.c.x, t.c.y, t.c.z};
-                test::examine_stages<detail::triangle_meets_triangle>(s, t, values, test::oracle::intersects(s, t), i, sum);
+                test::examine_stages<detail::triangle_meets_triangle>(s, t, detail::values_of(s, t).value,
+                                                                      test::oracle::intersects(s, t), i, sum);
             }
         });
 }
@@ -143,20 +142,8 @@ void ask_again(const triangle<T>& s, const triangle<T>& t, bool answer, changes&
 }  // namespace
 
 TEST_CASE("triangle and triangle: every stage is right in every family") {
-    test::stage_table table("Triangle against triangle", "triangle-triangle.md", true);
-    for (int i = 0; i < test::triangle_family_count; ++i) {
-        const auto f = static_cast<triangle_family>(i);
-        for (const bool single : {true, false}) {
-            const test::stage_tally t = single ? examine_family<float>(f) : examine_family<double>(f);
-            table.add(test::name_of(f), single ? "float" : "double", t);
-            INFO(test::name_of(f) << (single ? ", float" : ", double"));
-            CHECK(t.pairs >= test::sample_count());
-            CHECK(t.wrong == 0);
-            // A family in which everything touches, or nothing, tests nothing.
-            CHECK(test::percent(t.hits, t.pairs) > 5);
-            CHECK(test::percent(t.hits, t.pairs) < 95);
-        }
-    }
+    test::check_every_family<triangle_family>("Triangle against triangle", "triangle-triangle.md", true,
+                                              test::triangle_family_count, examine_family<float>, examine_family<double>);
 }
 
 TEMPLATE_TEST_CASE("triangle and triangle: triangles, segments and points, each against each", "", float, double) {

@@ -13,6 +13,7 @@
 #include <abut/arithmetic/align.hpp>
 #include <abut/predicate/intersects.hpp>
 
+#include "catch.hpp"
 #include "samples.hpp"
 
 namespace abut::test {
@@ -126,5 +127,26 @@ private:
     bool late_;
     std::FILE* file_ = nullptr;
 };
+
+/// Every stage against the oracle in each family, float and double: examine(f) -> stage_tally.
+template <class Family, class Float, class Double>
+void check_every_family(const char* title, const char* file_name, bool late, int count, const Float& examine_float,
+                        const Double& examine_double) {
+    stage_table table(title, file_name, late);
+    for (int i = 0; i < count; ++i) {
+        const auto f = static_cast<Family>(i);
+        for (const bool single : {true, false}) {
+            const stage_tally t = single ? examine_float(f) : examine_double(f);
+            const char* const type = single ? "float" : "double";
+            table.add(name_of(f), type, t);
+            INFO(name_of(f) << ", " << type);
+            CHECK(t.pairs >= sample_count());
+            CHECK(t.wrong == 0);
+            // A family in which everything touches, or nothing, tests nothing.
+            CHECK(percent(t.hits, t.pairs) > 5);
+            CHECK(percent(t.hits, t.pairs) < 95);
+        }
+    }
+}
 
 }  // namespace abut::test
