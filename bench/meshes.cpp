@@ -19,7 +19,6 @@
 #include <benchmark/benchmark.h>
 
 #include <abut/abut.hpp>
-#include <abut/io/read.hpp>
 
 #include "meshes_scene.hpp"
 
@@ -72,15 +71,6 @@ void add_policy(const Policy& on) {
     });
 }
 
-scene::surface read_surface(const std::string& path) {
-    const auto mesh = abut::io::read_mesh<float>(path);
-    const auto view = mesh.view();
-    scene::surface s;
-    for (std::size_t i = 0; i < view.vertices.count; ++i) s.vertices.push_back(view.vertices[i]);
-    for (std::size_t i = 0; i < view.faces.count; ++i) s.faces.push_back(view.faces[i]);
-    return s;
-}
-
 void run(int argc, char** argv) {
     const std::string flag = "--mesh=";
     std::string path;
@@ -96,7 +86,7 @@ void run(int argc, char** argv) {
     argc = kept;
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) return;
-    const scene::mesh_pair pair = scene::make_pair(path.empty() ? scene::unit_torus() : read_surface(path));
+    const scene::mesh_pair pair = scene::make_pair(path.empty() ? scene::unit_torus() : scene::read_surface(path));
     scene::the_pair = &pair;
     benchmark::AddCustomContext("mesh", path.empty() ? "torus" : path);
     add_policy(abut::serial{});

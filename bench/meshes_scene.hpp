@@ -6,9 +6,11 @@
 
 #include <cmath>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <abut/abut.hpp>
+#include <abut/io/read.hpp>
 
 #include "../tests/support/scenes.hpp"
 
@@ -18,6 +20,16 @@ struct surface {
     std::vector<abut::vec3<float>> vertices;
     std::vector<abut::face> faces;
 };
+
+/// A mesh from a PLY or OBJ file.
+inline surface read_surface(const std::string& path) {
+    const auto mesh = abut::io::read_mesh<float>(path);
+    const auto view = mesh.view();
+    surface s;
+    for (std::size_t i = 0; i < view.vertices.count; ++i) s.vertices.push_back(view.vertices[i]);
+    for (std::size_t i = 0; i < view.faces.count; ++i) s.faces.push_back(view.faces[i]);
+    return s;
+}
 
 struct mesh_pair {
     surface a, b;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
+#include <type_traits>
 #include <vector>
 
 #include <abut/execution/host.hpp>
@@ -78,6 +79,17 @@ struct raise_at {
         if (!flag.raised() && i == where) flag.raise();
     }
 };
+struct raise_always {
+    template <class Late, class Flag>
+    ABUT_HD void operator()(std::uint64_t, Late&, Flag& flag) const {
+        flag.raise();
+    }
+    template <class Flag>
+    ABUT_HD void operator()(std::uint64_t, Flag& flag) const {
+        flag.raise();
+    }
+};
+
 struct product_tile {
     struct row {
         std::uint64_t value;
@@ -134,7 +146,7 @@ std::vector<std::uint64_t> sorted_content(const Policy& on, Queue& queue) {
     return values;
 }
 
-inline const std::size_t verb_sizes[] = {0, 1, 2, 31, 255, 256, 257, 1023, 4096, 70'001};
+inline const std::size_t verb_sizes[] = {0, 1, 2, 31, 255, 256, 257, 1023, 4096, 8192, 70'001};
 
 template <class Policy>
 void check_loops(const Policy& on) {
@@ -182,6 +194,94 @@ void check_candidates(const Policy& on) {
             }
         }
         CHECK(all == expected);
+    }
+}
+
+/// Items that make items: a tree of which the shape depends on `shape` alone.
+struct grow {
+    enum class kind : unsigned { full, ragged, chain, comb };
+    struct item {
+        std::uint64_t path;
+        std::uint32_t depth;
+    };
+    using candidate = std::uint64_t;
+    static constexpr unsigned most_children = 4, most_depth = 96;
+    kind shape;
+    std::uint32_t depth;
+
+    [[nodiscard]] ABUT_HD item seed() const { return {1, 0}; }
+    [[nodiscard]] ABUT_HD bool has(std::uint64_t path, unsigned k) const {
+        switch (shape) {
+            case kind::full:
+                return true;
+            case kind::ragged:
+                return k == 0 || (path >> 40) % 100 < 27;
+            case kind::chain:
+                return k == 2;
+            case kind::comb:
+                return k > 0;
+        }
+        return false;
+    }
+    template <unsigned K, class Emitter>
+    ABUT_HD void child(const item& at, Emitter& emitter) const {
+        const std::uint64_t path = at.path * 6364136223846793005u + K + 1;
+        const bool is = has(path, K), ends = at.depth + 1 >= depth || (shape == kind::comb && K > 1);
+        const std::integral_constant<unsigned, K> k;
+        emitter.add(k, is && !ends, item{path, at.depth + 1});
+        emitter.push(k, is && ends, path);
+    }
+    template <class Emitter>
+    ABUT_HD void operator()(const item& at, Emitter& emitter) const {
+        child<0>(at, emitter);
+        child<1>(at, emitter);
+        child<2>(at, emitter);
+        child<3>(at, emitter);
+    }
+};
+
+/// The candidates, by recursion.
+struct grown {
+    std::vector<std::uint64_t> candidates;
+    void add(unsigned, bool is, const grow::item& at) {
+        if (is) next.push_back(at);
+    }
+    void push(unsigned, bool is, std::uint64_t candidate) {
+        if (is) candidates.push_back(candidate);
+    }
+    std::vector<grow::item> next;
+    explicit grown(const grow& tree) : next{tree.seed()} {
+        while (!next.empty()) {
+            const grow::item at = next.back();
+            next.pop_back();
+            tree(at, *this);
+        }
+    }
+};
+
+template <class Policy>
+void check_descents(const Policy& on) {
+    using kind = grow::kind;
+    struct {
+        grow tree;
+        std::size_t least;  ///< candidates that there should be, or the test shows nothing
+    } const cases[] = {{{kind::full, 1}, 4},         {{kind::full, 2}, 16},  {{kind::full, 10}, 1'000'000},
+                       {{kind::ragged, 20}, 10'000}, {{kind::chain, 95}, 1}, {{kind::comb, 95}, 180}};
+    for (const auto& [tree, least] : cases) {
+        CAPTURE(static_cast<unsigned>(tree.shape), tree.depth);
+        execution::work_queue<std::uint64_t, space_of<Policy>> late(on), hits(on);
+        for_each_descendant(on, tree, keep_some{}, settle_some{}, late, hits);
+        const grown truth(tree);
+        CHECK(truth.candidates.size() >= least);
+        std::vector<std::uint64_t> expected;
+        for (const std::uint64_t c : truth.candidates) {
+            if (c % 5 == 0 || c % 3 != 0) expected.push_back(c);
+        }
+        std::sort(expected.begin(), expected.end());
+        CHECK((sorted_content(on, hits) == expected));
+        execution::work_flag<space_of<Policy>> found(on);
+        for_each_descendant(on, tree, raise_always{}, raise_always{}, late, found);
+        CHECK(found.raised());
     }
 }
 
@@ -281,6 +381,7 @@ template <class Policy>
 void check_verbs(const Policy& on) {
     check_loops(on);
     check_candidates(on);
+    check_descents(on);
     check_tiles(on);
     check_reductions(on);
     check_sorts<std::uint32_t>(on);

@@ -15,7 +15,29 @@ namespace abut::test {
 
 using id_pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-/// What a walk visits, from each way of sharing it out, is what a plain loop over all boxes finds, each pair once.
+/// A walk as a policy takes it.
+template <class Walk>
+struct box_pairs {
+    using item = typename Walk::item;
+    using candidate = std::uint64_t;
+    static constexpr unsigned most_children = Walk::most_children, most_depth = Walk::most_depth;
+    Walk walk;
+    item seed() const { return walk.seed(); }
+    template <class Emitter>
+    void operator()(const item& at, Emitter& emitter) const {
+        walk.expand(
+            at, [&](auto k, bool is, const item& next) { emitter.add(k, is, next); },
+            [&](auto k, bool is, std::uint32_t i, std::uint32_t j) { emitter.push(k, is, std::uint64_t{i} << 32 | j); });
+    }
+};
+struct keep {
+    void operator()(std::uint64_t pair, auto&, auto& hits) const { hits.push(pair); }
+};
+struct nothing_is_late {
+    void operator()(std::uint64_t, auto&) const { FAIL(); }
+};
+
+/// What a walk finds on each policy is what a plain loop over all boxes finds, each pair once.
 template <class T, class Overlap>
 std::size_t check_walk(const triangle_soup<T>& a, const triangle_soup<T>& b, const Overlap& overlap) {
     const auto tree_a = make_bvh(serial{}, a), tree_b = make_bvh(serial{}, b);
@@ -26,30 +48,21 @@ std::size_t check_walk(const triangle_soup<T>& a, const triangle_soup<T>& b, con
         }
     }
     using view = bvh_view<T, host_space>;
-    const detail::pair_walk<view, view, Overlap> walk{tree_a.view(), tree_b.view(), overlap};
-    for (const std::size_t enough : {1u, 2u, 5u, 100u, 100'000u}) {
-        CAPTURE(a.size(), b.size(), enough);
+    using walk_type = detail::pair_walk<view, view, Overlap>;
+    const auto check_on = [&](const auto& on) {
+        execution::work_queue<std::uint64_t, host_space> late(on), hits(on);
+        for_each_descendant(on, box_pairs<walk_type>{{tree_a.view(), tree_b.view(), overlap}}, keep{}, nothing_is_late{},
+                            late, hits);
         id_pairs seen;
-        for (const auto& start : walk.split(enough)) {
-            walk.for_each(start, [&](std::uint32_t i, std::uint32_t j) {
-                seen.emplace_back(i, j);
-                return visit::proceed;
-            });
+        for (std::size_t i = 0; i < hits.size(); ++i) {
+            seen.emplace_back(static_cast<std::uint32_t>(hits.data()[i] >> 32), static_cast<std::uint32_t>(hits.data()[i]));
         }
         std::sort(seen.begin(), seen.end());
+        CAPTURE(a.size(), b.size());
         CHECK(seen == expected);
-        std::size_t visits = 0;
-        for (const auto& start : walk.split(enough)) {
-            bool stopped = false;
-            walk.for_each(start, [&](std::uint32_t, std::uint32_t) {
-                CHECK_FALSE(stopped);
-                ++visits;
-                stopped = true;
-                return visit::stop;
-            });
-        }
-        CHECK((visits > 0) == !expected.empty());
-    }
+    };
+    check_on(serial{});
+    check_on(openmp{3});
     return expected.size();
 }
 

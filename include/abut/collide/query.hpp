@@ -46,14 +46,16 @@ auto walk_of(const grid<Set, Space>& index) {
     return grid_walk<typename grid<Set, Space>::view_type>{index.view()};
 }
 
-/// Where the box around all shapes of an index lies, in its memory.
-template <class Set, memory_space Space>
-auto box_of(const bvh<Set, Space>& index) {
-    return &index.view().top->bounds;
+/// The box around all shapes of an index, which has some.
+template <class Policy, class Set, memory_space Space>
+auto box_of(const Policy&, const bvh<Set, Space>& index) {
+    return index.bounds();
 }
-template <class Set, memory_space Space>
-auto box_of(const grid<Set, Space>& index) {
-    return &index.view().frame->bounds;
+template <class Policy, class Set, memory_space Space>
+auto box_of(const Policy& on, const grid<Set, Space>& index) {
+    aabb<typename Set::scalar_type> box;
+    download(on, &index.view().frame->bounds, 1, &box);
+    return box;
 }
 
 /// One side of a query, in the policy's memory: the resident set, and a walk if it is indexed.
@@ -95,6 +97,7 @@ struct tree_of_side<indexed_side<bvh<Set, Space>>> {
     using T = typename Set::scalar_type;
     static auto view(const indexed_side<bvh<Set, Space>>& side) { return side.index.view(); }
     static rigid<T> pose(const indexed_side<bvh<Set, Space>>&) { return {}; }
+    static aabb<T> bounds(const indexed_side<bvh<Set, Space>>& side) { return side.index.bounds(); }
 };
 template <class Side, scalar T>
     requires tree_of_side<Side>::exists
@@ -102,16 +105,16 @@ struct tree_of_side<posed_side<Side, T>> {
     static constexpr bool exists = true, posed = true;
     static auto view(const posed_side<Side, T>& side) { return tree_of_side<Side>::view(side.side); }
     static rigid<T> pose(const posed_side<Side, T>& side) { return side.pose; }
+    static aabb<T> bounds(const posed_side<Side, T>& side) { return side.around; }
 };
 
-/// How boxes of two sides' trees are compared, in host memory.
+/// How boxes of two sides' trees are compared.
 template <class SideA, class SideB>
 auto box_overlap(const SideA& side_a, const SideB& side_b) {
     using a = tree_of_side<SideA>;
     using b = tree_of_side<SideB>;
     if constexpr (a::posed || b::posed) {
-        return two_frames{make_relative_pose(a::pose(side_a), a::view(side_a).root_bounds(), b::pose(side_b),
-                                             b::view(side_b).root_bounds())};
+        return two_frames{make_relative_pose(a::pose(side_a), a::bounds(side_a), b::pose(side_b), b::bounds(side_b))};
     } else {
         return same_frame{};
     }
@@ -126,7 +129,7 @@ auto make_side(const Policy& on, const X& x, const char* function) {
         bool surely_finite = side.shapes().size() == 0;
         if constexpr (is_index<X>) {
             if (!surely_finite) {
-                download(on, box_of(x.object), 1, &side.around);
+                side.around = box_of(on, x.object);
                 surely_finite = stays_finite(x.pose, side.around);
             }
         }
@@ -146,30 +149,29 @@ auto make_side(const Policy& on, const X& x, const char* function) {
     }
 }
 
-/// All candidates of two trees below pair i of nodes.
+/// One step down two trees.
 template <class Walk, class Sides>
-struct walk_pairs {
+struct expand_pair {
+    using item = typename Walk::item;
     using candidate = std::uint64_t;
-    static constexpr std::size_t grain = 32;  // each is a long walk
+    static constexpr unsigned most_children = Walk::most_children, most_depth = Walk::most_depth;
     Walk walk;
     Sides sides;
-    const node_pair* starts;
 
+    [[nodiscard]] ABUT_HD item seed() const { return walk.seed(); }
     ABUT_CALLS_ANY
-    template <class Emitter, class Wide, class Hits>
-    ABUT_HD void operator()(std::size_t i, const Emitter& emitter, Wide&, Hits& hits) const {
-        walk.for_each(starts[i], [&](std::uint32_t query, std::uint32_t target) {
-            if (sides.wanted(query, target)) emitter.push(sides.key.pack(query, target));
-            return execution::is_over(hits) ? visit::stop : visit::proceed;
-        });
+    template <class Emitter>
+    ABUT_HD void operator()(const item& at, Emitter&& emitter) const {
+        walk.expand(
+            at, [&](auto k, bool is, const item& next) { emitter.add(k, is, next); },
+            [&](auto k, bool is, std::uint32_t query, std::uint32_t target) {
+                emitter.push(k, is && sides.wanted(query, target), sides.key.pack(query, target));
+            });
     }
 };
-struct always {
-    ABUT_HD bool operator()(std::size_t) const { return true; }
-};
 
-/// Stage 1 of a search for queries [first, first + n): an index walks, two plain sets are tiled. On the host two trees walk
-/// together; on a device one thread for each query has more to do at a time than pairs of nodes would.
+/// Stage 1 of a search for queries [first, first + n): two trees walk together, a set in an index shape by shape, and two
+/// plain sets are tiled.
 template <arithmetic A, class Policy, class Sides, class QuerySide, class TargetSide>
 struct find_candidates {
     const Policy& on;
@@ -181,11 +183,12 @@ struct find_candidates {
     template <class Settle, class Late, class Wide, class Hits>
     void operator()(const Settle& settle, Late& late, Wide& wide, Hits& hits) const {
         if (n == 0 || sides.targets.size() == 0) return;
-        constexpr bool two_trees = tree_of_side<QuerySide>::exists && tree_of_side<TargetSide>::exists &&
-                                   std::same_as<space_of<Policy>, host_space>;
-        if constexpr (two_trees) {
-            const bool whole = n == sides.queries.size() && n > 1 && sides.targets.size() > 1;
-            if (whole && walk_both(settle, late, wide, hits)) return;
+        if constexpr (tree_of_side<QuerySide>::exists && tree_of_side<TargetSide>::exists) {
+            const std::size_t least = std::min(n, sides.targets.size()), most = std::max(n, sides.targets.size());
+            // A part of the queries is no tree, and a leaf alone has no place (traverse/pair_walk.hpp).
+            if (n == sides.queries.size() && least > 1 && most <= most_shapes_of_pair_walk) {
+                return walk_both(settle, late, wide, hits);
+            }
         }
         if constexpr (is_indexed_side<TargetSide>) {
             const auto walk = target.walk();
@@ -198,22 +201,15 @@ struct find_candidates {
         }
     }
 
-    /// False, and nothing done, where one tree is so small that threads could not share the walk.
     template <class Settle, class Late, class Wide, class Hits>
-    bool walk_both(const Settle& settle, Late& late, Wide& wide, Hits& hits) const {
-        // Pairs of nodes to start from: one thread takes them as they come, more of them share many.
-        const std::size_t enough = execution::thread_count(on) > 1 ? 4096 : 1;
+    void walk_both(const Settle& settle, Late& late, Wide& wide, Hits& hits) const {
         const auto tree_a = tree_of_side<QuerySide>::view(query);
         const auto tree_b = tree_of_side<TargetSide>::view(target);
         const auto overlap = box_overlap(query, target);
         using walk_type = pair_walk<std::remove_const_t<decltype(tree_a)>, std::remove_const_t<decltype(tree_b)>,
                                     std::remove_const_t<decltype(overlap)>>;
-        const walk_type walk{tree_a, tree_b, overlap};
-        const auto starts = walk.split(enough);
-        if (!starts.empty() && starts.size() < enough / 8) return false;
-        for_each_candidate(on, starts.size(), always{}, walk_pairs<walk_type, Sides>{walk, sides, starts.data()},
-                           decide_key<A, Sides>{sides}, settle, late, wide, hits);
-        return true;
+        for_each_descendant(on, expand_pair<walk_type, Sides>{{tree_a, tree_b, overlap}, sides}, decide_key<A, Sides>{sides},
+                            settle, late, wide, hits);
     }
 };
 
@@ -312,7 +308,7 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Y, cl
 [[nodiscard]] auto pairs(const Policy& on, const X& a, const Y& b, const query_options<Filter>& options = {}) {
     using outcome = result<index_pair, space_of<Policy>>;
     const auto body = [&](const detail::pair_key& key, const auto& run, std::size_t n) {
-        detail::key_queue<Policy> hits(on, n / 16);
+        detail::key_queue<Policy> hits(on, n / 4);
         run(hits, 0, n);
         auto keys = hits.take();
         if (options.sorted) sort_keys(on, keys, key.bits());

@@ -16,6 +16,7 @@
 #include <thrust/iterator/counting_iterator.h>
 
 #include <abut/execution/cuda.hpp>
+#include <abut/execution/cuda_expand.hpp>
 #include <abut/execution/cuda_loops.hpp>
 #include <abut/execution/cuda_queue.hpp>
 
@@ -31,6 +32,54 @@ void with_scratch(const cuda& on, const char* name, const Call& call) {
     check(call(nullptr, bytes), name);
     buffer<unsigned char, device_space> scratch(on, std::max<std::size_t>(bytes, 1));
     check(call(static_cast<void*>(scratch.data()), bytes), name);
+}
+
+/// Few keys are sorted by counting, for each, the keys before it: quadratic work, but in one short kernel, where a radix
+/// sort is five or more that wait for each other.
+inline constexpr std::size_t few_keys = 8192;
+inline constexpr unsigned ranks_of_warp = 4;
+
+/// A warp ranks some keys; each lane compares them with every 32nd key.
+template <class Key>
+__global__ void __launch_bounds__(block_size) rank_kernel(unsigned n, const Key* keys, Key* out) {
+    constexpr unsigned tile = 2048;
+    __shared__ Key staged[tile];
+    const unsigned lane = threadIdx.x % warp_size;
+    const unsigned first = (blockIdx.x * block_size + threadIdx.x) / warp_size * ranks_of_warp;
+    Key mine[ranks_of_warp];
+    unsigned rank[ranks_of_warp]{};
+#pragma unroll
+    for (unsigned k = 0; k < ranks_of_warp; ++k) mine[k] = keys[first + k < n ? first + k : n - 1];
+    for (unsigned base = 0; base < n; base += tile) {
+        const unsigned width = n - base < tile ? n - base : tile;
+        __syncthreads();
+        for (unsigned j = threadIdx.x; j < width; j += block_size) staged[j] = keys[base + j];
+        __syncthreads();
+        // Of equal keys the one that comes first is before; its own key is not before any.
+        const unsigned before = first > base ? (first - base < width ? first - base : width) : 0;
+        unsigned j = lane;
+#pragma unroll 8
+        for (; j < before; j += warp_size) {
+#pragma unroll
+            for (unsigned k = 0; k < ranks_of_warp; ++k) rank[k] += static_cast<unsigned>(staged[j] <= mine[k]);
+        }
+        for (; j < width && base + j < first + ranks_of_warp; j += warp_size) {
+#pragma unroll
+            for (unsigned k = 0; k < ranks_of_warp; ++k) {
+                rank[k] += static_cast<unsigned>(staged[j] < mine[k] || (staged[j] == mine[k] && base + j < first + k));
+            }
+        }
+#pragma unroll 8
+        for (; j < width; j += warp_size) {
+#pragma unroll
+            for (unsigned k = 0; k < ranks_of_warp; ++k) rank[k] += static_cast<unsigned>(staged[j] < mine[k]);
+        }
+    }
+#pragma unroll
+    for (unsigned k = 0; k < ranks_of_warp; ++k) {
+        const unsigned sum = __reduce_add_sync(0xffffffff, rank[k]);
+        if (lane == 0 && first + k < n) out[sum] = mine[k];
+    }
 }
 
 }  // namespace detail
@@ -64,6 +113,16 @@ template <class Key>
 void sort_keys(const cuda& on, buffer<Key, device_space>& keys, int bits) {
     if (keys.size() < 2) return;
     buffer<Key, device_space> other(on, keys.size());
+    if (keys.size() <= detail::few_keys) {
+        const detail::current_device scope(on);
+        const auto n = static_cast<unsigned>(keys.size());
+        constexpr unsigned ranks_of_block = detail::block_size / detail::warp_size * detail::ranks_of_warp;
+        detail::rank_kernel<<<(n + ranks_of_block - 1) / ranks_of_block, detail::block_size, 0, on.stream>>>(n, keys.data(),
+                                                                                                             other.data());
+        detail::check_launch("sort_keys");
+        keys.swap(other);
+        return;
+    }
     cub::DoubleBuffer<Key> both(keys.data(), other.data());
     detail::with_scratch(on, "cub::DeviceRadixSort::SortKeys", [&](void* scratch, std::size_t& bytes) {
         return cub::DeviceRadixSort::SortKeys(scratch, bytes, both, keys.size(), 0, bits, on.stream);

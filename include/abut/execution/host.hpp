@@ -18,7 +18,7 @@
 
 namespace abut::execution {
 
-inline constexpr std::size_t range_grain = 1024, late_grain = 64;
+inline constexpr std::size_t range_grain = 1024, late_grain = 64, descent_grain = 32;
 
 template <host_policy Policy, class F>
 void for_each_index(const Policy& on, std::size_t n, const F& f) {
@@ -87,13 +87,6 @@ void gather_and_settle(const Policy& on, std::size_t n, std::size_t grain, const
     more.merge(on);
 }
 
-/// Indices of for_each_candidate that a thread takes at a time, which a walk may state.
-template <class Walk>
-inline constexpr std::size_t grain_of = range_grain;
-template <class Walk>
-    requires requires { Walk::grain; }
-inline constexpr std::size_t grain_of<Walk> = Walk::grain;
-
 /// On the host a candidate is decided where it is found.
 template <class Decide>
 struct decide_at_once {
@@ -131,7 +124,95 @@ void for_each_candidate(const Policy& on, std::size_t n, const Test& test, const
             }
         }
     };
-    detail::gather_and_settle(on, n, detail::grain_of<Walk>, loop, settle, late, queues...);
+    detail::gather_and_settle(on, n, range_grain, loop, settle, late, queues...);
+}
+
+namespace detail {
+
+/// What waits in a descent: items on a stack, and candidates. `begin` makes room for what an item makes; adding is then free
+/// of branches.
+template <class Expand>
+class descent {
+public:
+    using item = typename Expand::item;
+    using candidate = typename Expand::candidate;
+
+    void begin() {
+        if (items_.size() < count_ + Expand::most_children) items_.resize(2 * count_ + 256);
+        if (candidates_.size() < found_ + Expand::most_children) candidates_.resize(2 * found_ + 256);
+    }
+    template <class Place>
+    void add(Place, bool is, const item& value) {
+        items_[count_] = value;
+        count_ += is;
+    }
+    template <class Place>
+    void push(Place, bool is, const candidate& value) {
+        candidates_[found_] = value;
+        found_ += is;
+    }
+
+    [[nodiscard]] std::size_t count() const { return count_; }
+    [[nodiscard]] item take() { return items_[--count_]; }
+    [[nodiscard]] const item& operator[](std::size_t i) const { return items_[i]; }
+    [[nodiscard]] std::size_t found() const { return found_; }
+    template <class Decide>
+    void decide_all(const Decide& decide) {
+        for (std::size_t i = 0; i < found_; ++i) decide(candidates_[i]);
+        found_ = 0;
+    }
+
+private:
+    std::vector<item> items_;
+    std::vector<candidate> candidates_;
+    std::size_t count_ = 0, found_ = 0;
+};
+
+}  // namespace detail
+
+template <host_policy Policy, class Expand, class Decide, class Settle, class Late, class... Queues>
+void for_each_descendant(const Policy& on, const Expand& expand, const Decide& decide, const Settle& settle, Late& late,
+                         Queues&... queues) {
+    // Level by level until there is enough for threads to share; then each goes depth first.
+    const std::size_t enough = thread_count(on) > 1 ? 4096 : 1;
+    detail::descent<Expand> level;
+    std::vector<typename Expand::candidate> early;
+    level.begin();
+    level.add(0, true, expand.seed());
+    while (level.count() > 0 && level.count() < enough) {
+        detail::descent<Expand> next;
+        for (std::size_t i = 0; i < level.count(); ++i) {
+            next.begin();
+            expand(level[i], next);
+        }
+        next.decide_all([&](const auto& candidate) { early.push_back(candidate); });
+        level = std::move(next);
+    }
+    const auto loop = [&](std::size_t begin, std::size_t end, auto& late_sink, auto&... sinks) {
+        // An early end is worth more than a long run of decisions.
+        constexpr std::size_t at_a_time = (is_flag<std::remove_reference_t<decltype(sinks)>> || ...) ? 1 : 64;
+        const auto decide_one = [&](const auto& candidate) { decide(candidate, late_sink, sinks...); };
+        detail::descent<Expand> mine;
+        for (std::size_t i = begin; i < end; ++i) {
+            if (is_over(sinks...)) return;
+            if (i < early.size()) {
+                decide_one(early[i]);
+                continue;
+            }
+            mine.begin();
+            mine.add(0, true, level[i - early.size()]);
+            while (mine.count() > 0) {
+                const auto at = mine.take();
+                mine.begin();
+                expand(at, mine);
+                if (mine.found() < at_a_time) continue;
+                mine.decide_all(decide_one);
+                if (is_over(sinks...)) return;
+            }
+            mine.decide_all(decide_one);
+        }
+    };
+    detail::gather_and_settle(on, early.size() + level.count(), descent_grain, loop, settle, late, queues...);
 }
 
 template <host_policy Policy, class Tile, class Settle, class Late, class... Queues>

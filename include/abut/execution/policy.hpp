@@ -16,6 +16,12 @@
 //                                           each candidate c, and decide(c, late_sink, sink...) is called for it; or else,
 //                                           for want of room, c itself goes to the queue `late`. Then settle(c, sink...)
 //                                           for every c in `late`
+//   for_each_descendant(on, expand, decide, settle, late, queue...)
+//                                           work that makes work: expand(item, emitter) for expand.seed() and every item
+//                                           that a call adds by emitter.add(k, item), in no order; candidates that it pushes
+//                                           by emitter.push(k, c) are decided, and the late settled, as above. Within a call
+//                                           each k < expand.most_children, a constant, is used once at most; an item
+//                                           descends from at most expand.most_depth others
 //   for_each_tiled(on, n, m, tile, settle, late, queue...)
 //                                           tile(row, i, column, j, late_sink, sink...) for all (i, j) of [0, n) x [0, m)
 //                                           with tile.passes(reach, column): row = tile.load_row(i), reach =
@@ -26,7 +32,7 @@
 //                                           commutes, and init is its identity
 //   reduce_into(on, n, out, init, combine, f)  the same, left in the policy's memory at `out`
 //   exclusive_scan(on, values, n)           in place over n + 1 values; the last becomes the total
-//   sort_keys(on, keys, bits)               unsigned keys in a buffer, ascending, the lowest `bits` bits count
+//   sort_keys(on, keys, bits)               unsigned keys below 2^bits in a buffer, ascending
 //   sort_by_key(on, keys, values, bits)     the same, stable, carrying values
 //   compact(on, n, test, out)               the i with test(i), ascending, to out; returns their number
 //   fill(on, out, n, value)                 copies of value

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -95,9 +96,9 @@ struct bvh_view {
 
 /// Options of make_bvh.
 struct bvh_options {
-    /// Bits of the Morton codes that order the leaves: 30, 63, or 0 to choose from the scene: as few as tell that many shapes
-    /// apart, at most 30, and 63 where these turn out to leave an eighth of the shapes in crowds of one code, as in small
-    /// clusters far apart. The choice moves speed, never results.
+    /// Bits of the Morton codes that order the leaves: 30, 63, or 0 to choose from the scene: as few as tell that many
+    /// shapes apart, at most 30, and 63 where these turn out to leave an eighth of the shapes in crowds of one code, as in
+    /// small clusters far apart. The choice moves speed, never results.
     int morton_bits = 0;
 };
 
@@ -116,6 +117,8 @@ public:
     struct storage {
         execution::buffer<bvh_node<scalar_type>, Space> nodes;
         execution::buffer<bvh_root<scalar_type>, Space> root;
+        mutable std::once_flag once = {};
+        mutable aabb<scalar_type> bounds = {};  ///< the root's, on the host, once it has been asked for
     };
 
     bvh(Set set, std::shared_ptr<const storage> tree) : set_(std::move(set)), tree_(std::move(tree)) {}
@@ -125,6 +128,16 @@ public:
     [[nodiscard]] std::size_t size() const { return set_.size(); }
     [[nodiscard]] view_type view() const { return {tree_->nodes.data(), tree_->root.data(), set_.size()}; }
     [[nodiscard]] int device() const { return tree_->root.device(); }
+    /// The box around all shapes; of no extent where there are none. The first call on a tree in device memory copies it to
+    /// the host and waits for that.
+    [[nodiscard]] aabb<scalar_type> bounds() const {
+        std::call_once(tree_->once, [this] {
+            bvh_root<scalar_type> root{empty_box<scalar_type>(), {}};
+            tree_->root.read(&root);
+            tree_->bounds = root.bounds;
+        });
+        return tree_->bounds;
+    }
     /// Memory of the tree itself, in bytes.
     [[nodiscard]] std::size_t bytes() const { return tree_->nodes.capacity_bytes() + tree_->root.capacity_bytes(); }
 

@@ -5,12 +5,10 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+#include <type_traits>
 
 #include <abut/index/bvh.hpp>
 #include <abut/shape/relative_pose.hpp>
-#include <abut/traverse/bvh_walk.hpp>
-#include <abut/traverse/visit.hpp>
 
 namespace abut::detail {
 
@@ -31,100 +29,56 @@ struct two_frames {
 template <scalar T>
 two_frames(relative_pose<T>) -> two_frames<T>;
 
-/// An inner node of each tree.
-struct node_pair {
-    std::uint32_t a, b;
-};
+/// A larger tree has no items, for want of bits.
+inline constexpr std::size_t most_shapes_of_pair_walk = std::size_t{1} << 30;
 
-/// Depth first, down both trees at once: an inner node has both its children's boxes, so a pair of nodes is four tests and
-/// two fetches, and no box has to be kept on the stack. A leaf walks on alone, through what is left of the other tree.
+/// Down both trees at once: an inner node has both its children's boxes, so a step is two fetches and four tests, and no box
+/// has to be kept. In which order steps are taken is the policy's to choose: depth first in a thread of the host, a block's
+/// newest items at a time on a device (execution/cuda_expand.hpp).
 template <bvh_layout A, bvh_layout B, class Overlap>
 struct pair_walk {
     A a;
     B b;
     Overlap overlap;
 
-    /// A pair of nodes leaves four at most, of which one is next.
-    static constexpr int most_pending = 3 * bvh_max_depth + 1;
-
-    /// Calls visitor(id in a, id in b) -> visit for all leaves below a pair of nodes whose boxes overlap, until it says
-    /// stop.
-    template <class Visitor>
-    ABUT_HD void for_each(node_pair start, Visitor&& visitor) const {
-        node_pair pending[most_pending];
-        int depth = 0;
-        pending[depth++] = start;
-        while (depth > 0) {
-            const node_pair at = pending[--depth];
-            const auto node_a = a.fetch(at.a);
-            const auto node_b = b.fetch(at.b);
-            for (int k = 0; k < 4; ++k) {
-                const int i = k / 2, j = k % 2;
-                if (!overlap(a.bounds(node_a, i), b.bounds(node_b, j))) continue;
-                const bvh_child child_a = a.child(node_a, i), child_b = b.child(node_b, j);
-                if (!child_a.is_leaf() && !child_b.is_leaf()) {
-                    a.prefetch(child_a);
-                    b.prefetch(child_b);
-                    pending[depth++] = {child_a.index(), child_b.index()};
-                } else if (leaf_and_rest(child_a, a.bounds(node_a, i), child_b, b.bounds(node_b, j), visitor) ==
-                           visit::stop) {
-                    return;
-                }
-            }
+    /// A node of each tree. A leaf goes by its place, which tells its box as well: child `side` of node n is place 2 n +
+    /// side.
+    struct item {
+        std::uint32_t a, b;
+        ABUT_HD static constexpr std::uint32_t leaf(std::uint32_t node, int side) {
+            return bvh_child::leaf_bit | (2 * node + static_cast<std::uint32_t>(side));
         }
-    }
+    };
+    static constexpr unsigned most_children = 4, most_depth = bvh_max_depth;
+    [[nodiscard]] ABUT_HD item seed() const { return {a.root().index(), b.root().index()}; }
 
-    /// Pairs of nodes with all of the overlapping leaves below them: `enough` of them or up to four times as many, for
-    /// threads to share; fewer where leaves are met on the way, as in small trees. None where the trees do not meet. Both
-    /// trees have inner nodes.
-    [[nodiscard]] std::vector<node_pair> split(std::size_t enough) const {
-        std::vector<node_pair> now, done;
-        if (overlap(a.root_bounds(), b.root_bounds())) now.push_back({a.root().index(), b.root().index()});
-        while (!now.empty() && now.size() + done.size() < enough) {
-            std::vector<node_pair> next;
-            for (const node_pair& at : now) {
-                const std::size_t before = next.size();
-                if (!children(at, next)) {
-                    next.resize(before);
-                    done.push_back(at);
-                }
-            }
-            now = std::move(next);
-        }
-        done.insert(done.end(), now.begin(), now.end());
-        return done;
-    }
-
-private:
-    /// One of the two is a leaf at least.
-    template <class Visitor>
-    ABUT_HD visit leaf_and_rest(bvh_child child_a, const aabb<typename A::scalar_type>& box_a, bvh_child child_b,
-                                const aabb<typename B::scalar_type>& box_b, Visitor& visitor) const {
-        if (child_a.is_leaf() && child_b.is_leaf()) return visitor(child_a.index(), child_b.index());
-        visit last = visit::proceed;
-        if (child_a.is_leaf()) {
-            const auto reach = [&](const auto& box) { return overlap(box_a, box); };
-            bvh_walk<B>{b}.for_each_below(child_b.index(), reach,
-                                          [&](std::uint32_t id) { return last = visitor(child_a.index(), id); });
-        } else {
-            const auto reach = [&](const auto& box) { return overlap(box, box_b); };
-            bvh_walk<A>{a}.for_each_below(child_a.index(), reach,
-                                          [&](std::uint32_t id) { return last = visitor(id, child_b.index()); });
-        }
-        return last;
-    }
-
-    /// Adds the pairs of children that overlap. False if there is a leaf among them.
-    bool children(const node_pair& at, std::vector<node_pair>& to) const {
-        const auto node_a = a.fetch(at.a);
-        const auto node_b = b.fetch(at.b);
-        for (int k = 0; k < 4; ++k) {
-            if (!overlap(a.bounds(node_a, k / 2), b.bounds(node_b, k % 2))) continue;
-            const bvh_child child_a = a.child(node_a, k / 2), child_b = b.child(node_b, k % 2);
-            if (child_a.is_leaf() || child_b.is_leaf()) return false;
-            to.push_back({child_a.index(), child_b.index()});
-        }
-        return true;
+    /// For the pairs k = 0 ... 3 of children, calls add(k, overlap, item), or visitor(k, overlap, id in a, id in b), where
+    /// `overlap` is false if there is nothing to be done. k is a constant to the compiler. Without a branch: which of the
+    /// boxes overlap is anyone's guess.
+    template <class Add, class Visitor>
+    ABUT_HD void expand(const item& at, const Add& add, const Visitor& visitor) const {
+        const bool a_is_leaf = (at.a & bvh_child::leaf_bit) != 0, b_is_leaf = (at.b & bvh_child::leaf_bit) != 0;
+        const std::uint32_t place_a = at.a & ~bvh_child::leaf_bit, place_b = at.b & ~bvh_child::leaf_bit;
+        const std::uint32_t index_a = a_is_leaf ? place_a / 2 : place_a, index_b = b_is_leaf ? place_b / 2 : place_b;
+        // Which children are meant: the leaf itself, or both.
+        const unsigned sides_a = a_is_leaf ? 1u << (place_a % 2) : 3u, sides_b = b_is_leaf ? 1u << (place_b % 2) : 3u;
+        const auto& node_a = a.fetch(index_a);
+        const auto& node_b = b.fetch(index_b);
+        const auto step = [&](auto k) {
+            constexpr unsigned i = decltype(k)::value / 2, j = decltype(k)::value % 2;
+            const unsigned meant = sides_a >> i & sides_b >> j & 1u;
+            const bool meet = (meant & static_cast<unsigned>(overlap(a.bounds(node_a, i), b.bounds(node_b, j)))) != 0;
+            const bvh_child child_a = a.child(node_a, i), child_b = b.child(node_b, j);
+            const bool leaves = (child_a.bits & child_b.bits & bvh_child::leaf_bit) != 0;
+            add(k, meet & !leaves,
+                item{child_a.is_leaf() ? item::leaf(index_a, i) : child_a.index(),
+                     child_b.is_leaf() ? item::leaf(index_b, j) : child_b.index()});
+            visitor(k, meet & leaves, child_a.index(), child_b.index());
+        };
+        step(std::integral_constant<unsigned, 0>{});
+        step(std::integral_constant<unsigned, 1>{});
+        step(std::integral_constant<unsigned, 2>{});
+        step(std::integral_constant<unsigned, 3>{});
     }
 };
 
