@@ -11,6 +11,10 @@
 #include <abut/index/bvh.hpp>
 #include <abut/index/grid.hpp>
 #include <abut/index/lbvh.hpp>
+#include <abut/index/leafless.hpp>
+#include <abut/index/quality.hpp>
+#include <abut/index/quantised.hpp>
+#include <abut/index/refit.hpp>
 #include <abut/predicate/intersects.hpp>
 #include <abut/shape/posed.hpp>
 #include <abut/shape/set.hpp>

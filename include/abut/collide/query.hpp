@@ -29,17 +29,17 @@ namespace detail {
 
 template <class X>
 inline constexpr bool is_index = false;
-template <class Set, memory_space Space>
-inline constexpr bool is_index<bvh<Set, Space>> = true;
+template <class Set, memory_space Space, class Layout>
+inline constexpr bool is_index<bvh<Set, Space, Layout>> = true;
 template <class Set, memory_space Space>
 inline constexpr bool is_index<grid<Set, Space>> = true;
 
 template <class Object>
 inline constexpr bool is_index<posed_object<Object>> = is_index<Object>;
 
-template <class Set, memory_space Space>
-auto walk_of(const bvh<Set, Space>& index) {
-    return bvh_walk<typename bvh<Set, Space>::view_type>{index.view()};
+template <class Set, memory_space Space, class Layout>
+auto walk_of(const bvh<Set, Space, Layout>& index) {
+    return bvh_walk<typename bvh<Set, Space, Layout>::view_type>{index.view()};
 }
 template <class Set, memory_space Space>
 auto walk_of(const grid<Set, Space>& index) {
@@ -47,8 +47,8 @@ auto walk_of(const grid<Set, Space>& index) {
 }
 
 /// The box around all shapes of an index, which has some.
-template <class Policy, class Set, memory_space Space>
-auto box_of(const Policy&, const bvh<Set, Space>& index) {
+template <class Policy, class Set, memory_space Space, class Layout>
+auto box_of(const Policy&, const bvh<Set, Space, Layout>& index) {
     return index.bounds();
 }
 template <class Policy, class Set, memory_space Space>
@@ -91,13 +91,14 @@ template <class Side>
 struct tree_of_side {
     static constexpr bool exists = false;
 };
-template <class Set, memory_space Space>
-struct tree_of_side<indexed_side<bvh<Set, Space>>> {
+template <class Set, memory_space Space, class Layout>
+struct tree_of_side<indexed_side<bvh<Set, Space, Layout>>> {
     static constexpr bool exists = true, posed = false;
     using T = typename Set::scalar_type;
-    static auto view(const indexed_side<bvh<Set, Space>>& side) { return side.index.view(); }
-    static rigid<T> pose(const indexed_side<bvh<Set, Space>>&) { return {}; }
-    static aabb<T> bounds(const indexed_side<bvh<Set, Space>>& side) { return side.index.bounds(); }
+    using side_type = indexed_side<bvh<Set, Space, Layout>>;
+    static auto view(const side_type& side) { return side.index.view(); }
+    static rigid<T> pose(const side_type&) { return {}; }
+    static aabb<T> bounds(const side_type& side) { return side.index.bounds(); }
 };
 template <class Side, scalar T>
     requires tree_of_side<Side>::exists

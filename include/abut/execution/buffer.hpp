@@ -68,6 +68,8 @@ public:
     void read(T* to) const {
         if (size_ > 0) memory_.read(data_, size_ * sizeof(T), to);
     }
+    /// A copy of all elements in host memory. Waits for it. Throws std::bad_alloc.
+    [[nodiscard]] buffer<T, host_space> to_host() const;
     /// The CUDA device that holds the elements; -1 for host memory.
     [[nodiscard]] int device() const { return memory_.device(); }
 
@@ -85,6 +87,13 @@ private:
     T* data_ = nullptr;
     std::size_t size_ = 0;
 };
+
+template <class T, memory_space Space>
+buffer<T, host_space> buffer<T, Space>::to_host() const {
+    buffer<T, host_space> copy(serial{}, size_);
+    read(copy.data());
+    return copy;
+}
 
 template <class Policy, class T>
 using buffer_of = buffer<T, space_of<Policy>>;

@@ -2,8 +2,9 @@
 #pragma once
 
 // Bounding volume hierarchies: how a tree lies in memory, who owns it, and how it is read. Builders are in files of their
-// own (lbvh.hpp); traversals are in traverse/ and read nodes through the accessor concept below alone, so that another
-// layout needs no second traversal.
+// own (lbvh.hpp, mean_split.hpp, binned_sah.hpp), and so are the layouts that a finished tree can be brought to
+// (quantised.hpp, leafless.hpp); traversals are in traverse/ and read nodes through the accessor concept below alone, so
+// that another layout needs no second traversal.
 
 #include <concepts>
 #include <cstddef>
@@ -44,7 +45,7 @@ struct alignas(sizeof(T) == 4 ? 64 : 16) bvh_node {
 };
 
 /// Depth of the deepest leaf that any builder may make, and so the size of a traversal's stack. Linear builders stay below
-/// it by construction: 63 bits of Morton code and 31 bits of position.
+/// it by construction: 63 bits of Morton code and 31 bits of position. Top-down builders halve what would get deeper.
 inline constexpr int bvh_max_depth = 96;
 
 /// What a traversal needs of a tree. The accessors may run wherever the layout's memory can be read, take constant time,
@@ -94,56 +95,114 @@ struct bvh_view {
     }
 };
 
+/// How the way from a node to the root goes on: `up` is twice the parent's number plus the side on which the node hangs
+/// there; of the root it is `bvh_link::none`.
+struct bvh_link {
+    static constexpr std::uint32_t none = static_cast<std::uint32_t>(-1);
+    std::uint32_t up;
+    bvh_child sibling;
+};
+
+/// What refit needs of a topology besides the nodes: made at the first refit, then shared by all trees of that topology.
+template <memory_space Space>
+struct bvh_links {
+    std::mutex making;
+    bool made = false;
+    execution::buffer<bvh_link, Space> of_nodes;
+    execution::buffer<std::uint32_t, Space> starts;  ///< nodes whose children are both leaves, ascending
+};
+
+/// The layout that trees are built in.
+struct standard_layout {
+    template <scalar T, memory_space Space>
+    using view = bvh_view<T, Space>;
+
+    /// A finished tree: one node fewer than it has shapes (none for none), and one root.
+    template <scalar T, memory_space Space>
+    struct storage {
+        execution::buffer<bvh_node<T>, Space> nodes;
+        execution::buffer<bvh_root<T>, Space> root;
+        std::shared_ptr<bvh_links<Space>> links = std::make_shared<bvh_links<Space>>();
+
+        [[nodiscard]] view<T, Space> view_of(std::size_t shapes) const { return {nodes.data(), root.data(), shapes}; }
+        [[nodiscard]] std::size_t bytes() const { return nodes.capacity_bytes() + root.capacity_bytes(); }
+        [[nodiscard]] storage<T, host_space> to_host() const { return {nodes.to_host(), root.to_host(), {}}; }
+    };
+};
+
+/// How a tree lies in memory: standard_layout, quantised_layout (quantised.hpp), leafless_layout (leafless.hpp). A layout
+/// names the view that traversals read and the storage that owns it, which has `view_of(shapes)`, `bytes()`, `to_host()` and
+/// the buffer `root` of one bvh_root, whose box holds every box that the view hands out.
+template <class L>
+concept bvh_layout_kind = requires(const typename L::template storage<float, host_space>& tree) {
+    requires bvh_layout<typename L::template view<float, host_space>>;
+    { tree.view_of(std::size_t{}) } -> std::same_as<typename L::template view<float, host_space>>;
+    { tree.bytes() } -> std::same_as<std::size_t>;
+    { tree.to_host() } -> std::same_as<typename L::template storage<float, host_space>>;
+    { tree.root.data() } -> std::same_as<const bvh_root<float>*>;
+};
+
+/// How make_bvh builds. The choice moves speed, never results.
+enum class bvh_builder : unsigned char {
+    linear,      ///< sorted along a Morton curve (lbvh.hpp): fast to build, on every policy
+    mean_split,  ///< top-down, at the mean of the axis of largest variance (mean_split.hpp): serial and openmp
+    sah          ///< top-down, by the surface area heuristic over bins (binned_sah.hpp): serial and openmp
+};
+
 /// Options of make_bvh.
 struct bvh_options {
     /// Bits of the Morton codes that order the leaves: 30, 63, or 0 to choose from the scene: as few as tell that many
     /// shapes apart, at most 30, and 63 where these turn out to leave an eighth of the shapes in crowds of one code, as in
-    /// small clusters far apart. The choice moves speed, never results.
+    /// small clusters far apart. The choice moves speed, never results. Of the linear builder alone.
     int morton_bits = 0;
+    bvh_builder builder = bvh_builder::linear;
 };
 
 /// A tree over the shapes of a set, which it keeps alive. Immutable; any number of threads may query it. `Set` is an owner
 /// (mesh, spheres, ...) or a view over the caller's arrays, in the same memory as the tree.
-template <class Set, memory_space Space>
+template <class Set, memory_space Space, bvh_layout_kind Layout = standard_layout>
 class bvh {
 public:
     using set_type = Set;
     using scalar_type = typename Set::scalar_type;
     using shape_type = typename Set::shape_type;
     using memory_space = Space;
-    using view_type = bvh_view<scalar_type, Space>;
-
-    /// Storage of a finished tree: size() - 1 nodes (none for fewer than two shapes) and one root.
-    struct storage {
-        execution::buffer<bvh_node<scalar_type>, Space> nodes;
-        execution::buffer<bvh_root<scalar_type>, Space> root;
-        mutable std::once_flag once = {};
-        mutable aabb<scalar_type> bounds = {};  ///< the root's, on the host, once it has been asked for
-    };
+    using layout_type = Layout;
+    using view_type = typename Layout::template view<scalar_type, Space>;
+    using storage = typename Layout::template storage<scalar_type, Space>;
 
     bvh(Set set, std::shared_ptr<const storage> tree) : set_(std::move(set)), tree_(std::move(tree)) {}
 
     [[nodiscard]] const Set& set() const { return set_; }
     /// Number of shapes.
     [[nodiscard]] std::size_t size() const { return set_.size(); }
-    [[nodiscard]] view_type view() const { return {tree_->nodes.data(), tree_->root.data(), set_.size()}; }
+    [[nodiscard]] view_type view() const { return tree_->view_of(set_.size()); }
     [[nodiscard]] int device() const { return tree_->root.device(); }
-    /// The box around all shapes; of no extent where there are none. The first call on a tree in device memory copies it to
-    /// the host and waits for that.
+    /// Memory of the tree itself, in bytes, without what refit keeps.
+    [[nodiscard]] std::size_t bytes() const { return tree_->bytes(); }
+    /// What owns the nodes.
+    [[nodiscard]] const storage& stored() const { return *tree_; }
+    /// The box around all shapes; empty where there are none. The first call on a tree in device memory copies it to the
+    /// host and waits for that.
     [[nodiscard]] aabb<scalar_type> bounds() const {
-        std::call_once(tree_->once, [this] {
+        std::call_once(known_->once, [this] {
             bvh_root<scalar_type> root{empty_box<scalar_type>(), {}};
             tree_->root.read(&root);
-            tree_->bounds = root.bounds;
+            known_->bounds = root.bounds;
         });
-        return tree_->bounds;
+        return known_->bounds;
     }
-    /// Memory of the tree itself, in bytes.
-    [[nodiscard]] std::size_t bytes() const { return tree_->nodes.capacity_bytes() + tree_->root.capacity_bytes(); }
 
 private:
+    /// What has been copied to the host.
+    struct known {
+        std::once_flag once;
+        aabb<scalar_type> bounds;
+    };
+
     Set set_;
     std::shared_ptr<const storage> tree_;
+    std::shared_ptr<known> known_ = std::make_shared<known>();
 };
 
 /// Checks a tree in host memory: every shape in exactly one leaf, every box around what lies below it and the shape's own

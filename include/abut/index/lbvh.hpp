@@ -11,7 +11,9 @@
 
 #include <abut/execution/atomic.hpp>
 #include <abut/execution/work_queue.hpp>
+#include <abut/index/binned_sah.hpp>
 #include <abut/index/bvh.hpp>
+#include <abut/index/mean_split.hpp>
 #include <abut/index/morton.hpp>
 #include <abut/index/operand.hpp>
 
@@ -128,15 +130,34 @@ constexpr int sufficient_morton_bits(std::size_t n) {
     return bits < 30 ? (bits + 2) / 3 * 3 : 30;
 }
 
+/// Builds by one of the top-down builders, where the policy has them. False if another is asked for.
+template <execution_policy Policy, shape_view Shapes, class Storage>
+bool build_from_top(const Policy& on, const Shapes& shapes, Storage& tree, bvh_builder builder) {
+    using T = typename Shapes::scalar_type;
+    if (builder == bvh_builder::linear) return false;
+    if constexpr (host_policy<Policy>) {
+        if (builder == bvh_builder::mean_split) build_top_down(on, shapes, tree, mean_splitter<T>{});
+        if (builder == bvh_builder::sah) build_top_down(on, shapes, tree, sah_splitter<T>{});
+    }
+    return true;
+}
+
 }  // namespace detail
 
 /// Builds a tree over the shapes of `set` in the policy's memory: a set in host memory is copied there first under cuda. A
 /// view over the caller's arrays is checked and has to outlive the tree. Returns when the tree is built.
-/// Throws invalid_geometry (views only), error (bits that are not an option), std::bad_alloc, cuda_error.
+/// The same shapes give the same tree on every policy that has the builder, and for any number of threads.
+/// Throws invalid_geometry (views only), error (bits that are not an option, a builder that the policy does not have),
+/// std::bad_alloc, cuda_error.
 template <execution_policy Policy, class Set>
 [[nodiscard]] auto make_bvh(const Policy& on, const Set& set, const bvh_options& options = {}) {
     if (options.morton_bits != 0 && options.morton_bits != 30 && options.morton_bits != 63) {
         throw error("abut::make_bvh: morton_bits is " + std::to_string(options.morton_bits) + "; expected 0, 30 or 63");
+    }
+    if (options.builder > bvh_builder::sah) throw error("abut::make_bvh: the builder is none of bvh_builder");
+    if (!host_policy<Policy> && options.builder != bvh_builder::linear) {
+        throw error(
+            "abut::make_bvh: on a device the builder is bvh_builder::linear; serial and openmp have mean_split and sah");
     }
     auto resident = detail::make_resident(on, set, "abut::make_bvh");
     using tree_type = bvh<decltype(resident), space_of<Policy>>;
@@ -146,7 +167,7 @@ template <execution_policy Policy, class Set>
     auto tree = std::make_shared<typename tree_type::storage>();
     tree->root = execution::buffer_of<Policy, bvh_root<T>>(on, n > 0 ? 1 : 0);
     tree->nodes = execution::buffer_of<Policy, bvh_node<T>>(on, n > 0 ? n - 1 : 0);
-    if (n > 0) {
+    if (n > 0 && !detail::build_from_top(on, shapes, *tree, options.builder)) {
         reduce_into(on, n, &tree->root.data()->bounds, empty_box<T>(), detail::merge_boxes{},
                     detail::shape_bounds<decltype(shapes)>{shapes});
         const bool choose = options.morton_bits == 0;

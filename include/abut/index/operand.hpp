@@ -67,6 +67,15 @@ auto make_resident(const Policy& on, const Set& set, const char* function) {
     }
 }
 
+/// Throws if an index lies on another device than the policy's.
+template <execution_policy Policy, class Index>
+void require_same_device(const Policy& on, const Index& index, const char* function) {
+    if (index.size() > 0 && index.device() != device_of(on)) {
+        throw error(std::string(function) + ": the index lies on device " + std::to_string(index.device()) +
+                    ", the policy works on device " + std::to_string(device_of(on)));
+    }
+}
+
 template <class Resident>
 auto view_of(const Resident& set) {
     if constexpr (shape_view<Resident>) {

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+//
+// usage: bench_builders_cuda [MESH or -] [OUT.json]
+//
+// Trees on a device, over a mesh (PLY or OBJ; - or nothing is a torus of 345,744 triangles) and over 10 million random
+// triangles. Names:
+//
+//   build/SCENE             make_bvh
+//   build_and_refit_first/SCENE   and the first refit of the topology, which derives links
+//   refit/SCENE             any later one, around other shapes
+//   convert/LAYOUT/SCENE    a tree in another layout
+//   pairs/LAYOUT            the mesh against a turned copy of itself (bench/meshes_scene.hpp), sorted, both in the layout
+
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include <abut/cuda.hpp>
+#include <abut/io/read.hpp>
+
+#include "cuda_table.hpp"
+#include "meshes_scene.hpp"
+
+namespace {
+
+using bench::check;
+using bench::counters;
+using bench::joined;
+using bench::table;
+namespace scene = meshes_scene;
+
+/// `shape_bytes` is what a shape takes to be read.
+template <class Set>
+void add_builds(const abut::cuda& on, table& out, const std::string& name, const Set& set, const Set& moved,
+                double shape_bytes) {
+    const double n = static_cast<double>(set.size());
+    const counters items{{"items", n}};
+    out.add(joined({"build", name}), 0, [&] {
+        if (make_bvh(on, set).size() != set.size()) throw abut::error("build");
+        return items;
+    });
+    const auto tree = make_bvh(on, set);
+    out.add(joined({"build_and_refit_first", name}), 0, [&] {
+        (void)refit(on, make_bvh(on, set), moved);
+        return items;
+    });
+    (void)refit(on, tree, moved);
+    // Shapes and links are read and nodes written.
+    out.add(joined({"refit", name}), n * (shape_bytes + sizeof(abut::bvh_link) + sizeof(abut::bvh_node<float>)), [&] {
+        (void)refit(on, tree, moved);
+        return items;
+    });
+    out.add(joined({"convert/quantised", name}), n * 96, [&] {
+        (void)quantised(on, tree);
+        return items;
+    });
+    out.add(joined({"convert/leafless", name}), n * 96, [&] {
+        (void)leafless(on, tree);
+        return items;
+    });
+}
+
+template <class Tree>
+void add_pairs(const abut::cuda& on, table& out, const std::string& name, const Tree& a, const Tree& b) {
+    const abut::bvh_quality q = quality(on, a);
+    out.add(joined({"pairs", name}), 0, [&] {
+        return counters{{"pairs", static_cast<double>(pairs(on, a, b).size())},
+                        {"sah_cost", q.sah_cost},
+                        {"bytes_per_shape", q.bytes_per_shape}};
+    });
+}
+
+scene::surface read_surface(const std::string& path) {
+    const auto mesh = abut::io::read_mesh<float>(path);
+    const auto view = mesh.view();
+    scene::surface s;
+    for (std::size_t i = 0; i < view.vertices.count; ++i) s.vertices.push_back(view.vertices[i]);
+    for (std::size_t i = 0; i < view.faces.count; ++i) s.faces.push_back(view.faces[i]);
+    return s;
+}
+
+abut::triangle_soup<float> random_soup(std::size_t n, std::uint64_t seed) {
+    abut::test::uniform random(seed);
+    std::vector<abut::triangle<float>> triangles(n);
+    for (auto& t : triangles) {
+        const auto p = random.point<float>(-1, 1);
+        const auto corner = [&] { return p + random.point<float>(-0.002, 0.002); };
+        t.a = corner();
+        t.b = corner();
+        t.c = corner();
+    }
+    return abut::triangle_soup<float>(triangles);
+}
+
+void run(const std::string& mesh, const char* path) {
+    cudaStream_t stream = nullptr;
+    check(cudaStreamCreate(&stream), "cudaStreamCreate");
+    {
+        const abut::cuda on{stream};
+        table out(on);
+        bench::measure_floor(on, out);
+        const scene::mesh_pair pair = scene::make_pair(mesh == "-" ? scene::unit_torus() : read_surface(mesh));
+        const auto a = copy_to(on, abut::mesh<float>(pair.a.vertices, pair.a.faces));
+        const auto b = copy_to(on, abut::mesh<float>(pair.b.vertices, pair.b.faces));
+        add_builds(on, out, "mesh", a, b, 12 + 6);  // three indices, and half a vertex
+        const auto tree_a = make_bvh(on, a), tree_b = make_bvh(on, b);
+        add_pairs(on, out, "standard", tree_a, tree_b);
+        add_pairs(on, out, "quantised", quantised(on, tree_a), quantised(on, tree_b));
+        add_pairs(on, out, "leafless", leafless(on, tree_a), leafless(on, tree_b));
+        add_builds(on, out, "random", copy_to(on, random_soup(10'000'000, 1)), copy_to(on, random_soup(10'000'000, 2)), 36);
+        if (path != nullptr) out.write(path);
+    }
+    check(cudaStreamDestroy(stream), "cudaStreamDestroy");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        run(argc > 1 ? argv[1] : "-", argc > 2 ? argv[2] : nullptr);
+        return 0;
+    } catch (const std::exception& e) {
+        std::fprintf(stderr, "bench_builders_cuda: %s\n", e.what());
+        return 1;
+    }
+}

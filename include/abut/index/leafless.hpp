@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// leafless: a tree without the boxes of its leaves, half the standard layout's memory. A walk takes a leaf's box to be that
+// of the node above it, and so tests the shape itself where the leaf's box would have been tested.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+#include <abut/execution/buffer.hpp>
+#include <abut/index/bvh.hpp>
+#include <abut/index/operand.hpp>
+
+namespace abut {
+
+/// An inner node: its own box and its children, half a cache line in single precision.
+template <scalar T>
+struct alignas(sizeof(T) == 4 ? 32 : 8) leafless_node {
+    aabb<T> box;
+    bvh_child child[2];
+};
+
+/// A view of a leafless tree. To fetch a node is to read its children's boxes too, where these lie.
+template <scalar T, memory_space Space>
+struct leafless_view {
+    using scalar_type = T;
+    using memory_space = Space;
+    using node_type = bvh_node<T>;
+
+    const leafless_node<T>* nodes = nullptr;
+    const bvh_root<T>* top = nullptr;
+    std::size_t count = 0;
+
+    [[nodiscard]] ABUT_HD std::size_t size() const { return count; }
+    [[nodiscard]] ABUT_HD bvh_child root() const { return top->child; }
+    [[nodiscard]] ABUT_HD aabb<T> root_bounds() const { return top->bounds; }
+    [[nodiscard]] ABUT_HD node_type fetch(std::uint32_t node) const {
+        const leafless_node<T> n = nodes[node];
+        return {{n.child[0].is_leaf() ? n.box : nodes[n.child[0].index()].box,
+                 n.child[1].is_leaf() ? n.box : nodes[n.child[1].index()].box},
+                {n.child[0], n.child[1]}};
+    }
+    [[nodiscard]] ABUT_HD static const aabb<T>& bounds(const node_type& n, int side) { return n.bounds[side]; }
+    [[nodiscard]] ABUT_HD static bvh_child child(const node_type& n, int side) { return n.child[side]; }
+    ABUT_HD void prefetch([[maybe_unused]] bvh_child c) const {
+#if !ABUT_DEVICE_CODE
+        if (!c.is_leaf()) __builtin_prefetch(nodes + c.index());
+#endif
+    }
+};
+
+/// 32 bytes a node in single precision, 56 in double.
+struct leafless_layout {
+    template <scalar T, memory_space Space>
+    using view = leafless_view<T, Space>;
+
+    template <scalar T, memory_space Space>
+    struct storage {
+        execution::buffer<leafless_node<T>, Space> nodes;
+        execution::buffer<bvh_root<T>, Space> root;
+
+        [[nodiscard]] view<T, Space> view_of(std::size_t shapes) const { return {nodes.data(), root.data(), shapes}; }
+        [[nodiscard]] std::size_t bytes() const { return nodes.capacity_bytes() + root.capacity_bytes(); }
+        [[nodiscard]] storage<T, host_space> to_host() const { return {nodes.to_host(), root.to_host()}; }
+    };
+};
+
+namespace detail {
+
+template <scalar T>
+struct drop_leaves {
+    const bvh_node<T>* from;
+    leafless_node<T>* to;
+    ABUT_HD void operator()(std::size_t i) const {
+        const bvh_node<T> node = from[i];
+        to[i] = {merge(node.bounds[0], node.bounds[1]), {node.child[0], node.child[1]}};
+    }
+};
+
+}  // namespace detail
+
+/// The same tree without boxes of leaves. It shares the set and nothing else; the one it was made of may go.
+/// Linear time; returns when it is done. Throws error (a tree on another device), std::bad_alloc, cuda_error.
+template <execution_policy Policy, class Set, memory_space Space>
+[[nodiscard]] bvh<Set, Space, leafless_layout> leafless(const Policy& on, const bvh<Set, Space>& tree) {
+    static_assert(std::same_as<Space, space_of<Policy>>,
+                  "abut: the index lies in other memory than the policy works in; make it with the same policy");
+    using tree_type = bvh<Set, Space, leafless_layout>;
+    using T = typename tree_type::scalar_type;
+    const std::size_t n = tree.size();
+    detail::require_same_device(on, tree, "abut::leafless");
+    auto fresh = std::make_shared<typename tree_type::storage>();
+    if (n > 0) {
+        fresh->nodes = execution::buffer_of<Policy, leafless_node<T>>(on, n - 1);
+        fresh->root = execution::buffer_of<Policy, bvh_root<T>>(on, 1);
+        for_each_index(on, n - 1, detail::drop_leaves<T>{tree.view().nodes, fresh->nodes.data()});
+        copy(on, tree.view().top, 1, fresh->root.data());
+        synchronize(on);
+    }
+    return tree_type(tree.set(), std::move(fresh));
+}
+
+}  // namespace abut

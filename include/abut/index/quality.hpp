@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// quality: numbers by which trees over the same shapes can be compared without running a query.
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <abut/execution/host.hpp>
+#include <abut/index/bvh.hpp>
+
+namespace abut {
+
+/// What `quality` measures of a tree. Surfaces are those of the boxes that a walk sees, so a layout whose boxes are larger
+/// than they were built shows it here. Where the root's box has no surface, every box counts as large as the root's.
+struct bvh_quality {
+    std::size_t shapes = 0;
+    /// Nodes and leaves whose boxes a random line meets, if it meets the root's: the sum of all boxes' surfaces over that of
+    /// the root's (the surface area heuristic with unit costs; Goldsmith and Salmon, 1987). 2 n - 1 at most.
+    double sah_cost = 0;
+    /// Depth of leaves; a tree of one shape has depth 0. At most bvh_max_depth.
+    int greatest_depth = 0;
+    double mean_depth = 0;
+    /// Surface of what children's boxes have in common with their siblings', over that of all nodes with children: 0 for
+    /// siblings that are apart, 1 for siblings in one place.
+    double overlap = 0;
+    /// Memory of the tree itself, over the number of shapes.
+    double bytes_per_shape = 0;
+};
+
+namespace detail {
+
+/// Half the surface of a box, each side times `unit`; 0 for none.
+template <scalar T>
+double half_surface(const aabb<T>& box, double unit) {
+    const auto side = [unit](T lower, T upper) {
+        return unit * (0.5 * static_cast<double>(upper) - 0.5 * static_cast<double>(lower));
+    };
+    const double x = side(box.lower.x, box.upper.x), y = side(box.lower.y, box.upper.y), z = side(box.lower.z, box.upper.z);
+    return x >= 0 && y >= 0 && z >= 0 ? x * y + (y * z + z * x) : 0;
+}
+
+/// A factor under which the sides of a box neither overflow nor all underflow.
+template <scalar T>
+double surface_unit(const aabb<T>& box) {
+    const auto half = [](T lower, T upper) { return 0.5 * static_cast<double>(upper) - 0.5 * static_cast<double>(lower); };
+    const double longest =
+        greater(greater(half(box.lower.x, box.upper.x), half(box.lower.y, box.upper.y)), half(box.lower.z, box.upper.z));
+    return lesser(1 / longest, largest_finite<double>);
+}
+
+template <scalar T>
+aabb<T> common_part(const aabb<T>& a, const aabb<T>& b) {
+    return {greater(a.lower, b.lower), lesser(a.upper, b.upper)};
+}
+
+/// Of a tree in host memory that has at least one shape. `bytes_per_shape` is left for the caller.
+template <bvh_layout Layout>
+bvh_quality measure(const Layout& tree) {
+    using T = typename Layout::scalar_type;
+    struct entry {
+        bvh_child child;
+        int depth;
+    };
+    const aabb<T> around = tree.root_bounds();
+    const double unit = surface_unit(around), whole = half_surface(around, unit);
+    const auto part = [&](const aabb<T>& box) {
+        const double surface = half_surface(box, unit);
+        return whole > 0 && surface <= whole ? surface / whole : 1;  // a box at infinity has a surface that is no number
+    };
+    bvh_quality q{.shapes = tree.size(), .sah_cost = 1};
+    double depths = 0, common = 0, of_nodes = 0;
+    std::vector<entry> pending{{tree.root(), 0}};
+    std::vector<double> surface{1};
+    while (!pending.empty()) {
+        const entry e = pending.back();
+        const double own = surface.back();
+        pending.pop_back();
+        surface.pop_back();
+        if (e.child.is_leaf()) {
+            depths += e.depth;
+            q.greatest_depth = greater(q.greatest_depth, e.depth);
+            continue;
+        }
+        const auto node = tree.fetch(e.child.index());
+        const aabb<T> left = tree.bounds(node, 0), right = tree.bounds(node, 1);
+        of_nodes += own;
+        const aabb<T> both = common_part(left, right);
+        if (overlaps(left, right)) common += part(both);
+        for (int side = 0; side < 2; ++side) {
+            const double next = part(side == 0 ? left : right);
+            q.sah_cost += next;
+            pending.push_back({tree.child(node, side), e.depth + 1});
+            surface.push_back(next);
+        }
+    }
+    q.mean_depth = depths / static_cast<double>(tree.size());
+    q.overlap = of_nodes > 0 ? common / of_nodes : 0;
+    return q;
+}
+
+}  // namespace detail
+
+/// Measures a tree, of any layout and in any memory: a tree in device memory is copied to the host first. Linear time on the
+/// calling thread; all numbers are 0 for a tree without shapes. Throws std::bad_alloc, cuda_error.
+template <class Set, memory_space Space, bvh_layout_kind Layout>
+[[nodiscard]] bvh_quality quality(const bvh<Set, Space, Layout>& tree) {
+    if (tree.size() == 0) return {};
+    bvh_quality q;
+    if constexpr (std::same_as<Space, host_space>) {
+        q = detail::measure(tree.view());
+    } else {
+        const auto copy = tree.stored().to_host();
+        q = detail::measure(copy.view_of(tree.size()));
+    }
+    q.bytes_per_shape = static_cast<double>(tree.bytes()) / static_cast<double>(tree.size());
+    return q;
+}
+
+/// The same, after all that was put into the policy's stream.
+template <execution_policy Policy, class Set, memory_space Space, bvh_layout_kind Layout>
+[[nodiscard]] bvh_quality quality(const Policy& on, const bvh<Set, Space, Layout>& tree) {
+    synchronize(on);
+    return quality(tree);
+}
+
+}  // namespace abut

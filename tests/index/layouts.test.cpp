@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include <abut/index/quantised.hpp>
+
+#include <limits>
+
+#include <abut/index/leafless.hpp>
+
+#include "index/layout_cases.hpp"
+
+using namespace abut;
+
+static_assert(bvh_layout_kind<standard_layout> && bvh_layout_kind<quantised_layout> && bvh_layout_kind<leafless_layout>);
+static_assert(!bvh_layout_kind<int> && !bvh_layout_kind<bvh_view<float, host_space>>);
+static_assert(bvh_layout<quantised_view<double, device_space>> && bvh_layout<leafless_view<double, device_space>>);
+static_assert(sizeof(quantised_node) == 32 && sizeof(leafless_node<float>) == 32 && sizeof(leafless_node<double>) == 56);
+
+TEMPLATE_TEST_CASE("layouts: well-formed, and no box smaller than it was built", "", float, double) {
+    test::check_all_layouts<TestType>(serial{});
+    test::check_all_layouts<TestType>(openmp{3});
+}
+
+TEMPLATE_TEST_CASE("layouts: queries do not depend on them", "", float, double) {
+    test::check_layout_queries<TestType>(serial{});
+    if constexpr (std::same_as<TestType, float>) test::check_layout_queries<TestType>(openmp{3});
+}
+
+TEMPLATE_TEST_CASE("quantiser: the nearest cells on either side, for any numbers", "", float, double) {
+    using T = TestType;
+    constexpr T huge = std::numeric_limits<T>::max(), tiny = std::numeric_limits<T>::denorm_min(),
+                least = std::numeric_limits<T>::min(), far = std::numeric_limits<T>::infinity();
+    const std::pair<T, T> axes[] = {
+        {-huge, huge},    {-far, far},        {-far, 0},       {0, far},
+        {huge / 2, huge}, {-huge, -huge},     {0, 0},          {-T(0), tiny},
+        {-tiny, tiny},    {0, 70'000 * tiny}, {-least, least}, {-tiny, huge},
+        {T(0.1), T(0.1)}, {T(0.1), T(0.3)},   {-1, T(1e-30)},  {T(1e6), T(1e6) + 1},
+        {0, 65535},       {0, 65536},         {-3, 1000},      {std::nextafter(T(1), T(0)), std::nextafter(T(1), T(2))}};
+    test::uniform random(91);
+    for (const auto& [lower, upper] : axes) {
+        const auto axis = detail::make_quantiser(lower, upper);
+        CAPTURE(lower, upper, axis.first, axis.step());
+        const auto at = [&](int cell) {
+            return quantised_frame<T>::at(axis.first, axis.step(), static_cast<std::uint16_t>(cell));
+        };
+        const auto check = [&](T x) {
+            CAPTURE(x);
+            const int below = axis.lower(x), above = axis.upper(x);
+            CHECK(at(below) <= x);
+            CHECK(at(above) >= x);
+            // The nearest: the next one is on the other side. Cells of infinity have no next.
+            if (std::isfinite(at(below)) && below < 65535) CHECK((at(below + 1) > x || below == above));
+            if (std::isfinite(at(above)) && above > 0) CHECK((at(above - 1) < x || below == above));
+        };
+        check(lower);
+        check(upper);
+        const T first = std::max(lower, -huge), last = std::min(upper, huge);
+        for (int i = 0; i < 200; ++i) {
+            const T t = static_cast<T>(random());
+            check(std::min(std::max(first * (1 - t) + last * t, lower), upper));
+            const T small = std::ldexp(i % 2 ? T(1) : T(-1), -static_cast<int>(random.below(i < 100 ? 149 : 1074)));
+            check(std::min(std::max(small, lower), upper));
+        }
+        // As fine as may be: half the step would not do.
+        const bool exact = axis.step() == tiny ||
+                           std::fabs(axis.first) * 2 > std::ldexp(T(1), std::numeric_limits<T>::digits) ||
+                           axis.upper(upper) >= 32767 ||
+                           std::fabs(axis.first + axis.upper(upper)) * 2 > std::ldexp(T(1), std::numeric_limits<T>::digits);
+        CHECK(exact);
+    }
+}
+
+TEST_CASE("layouts: what they cost") {
+    const test::torus<float> shape(200, 80, 1, 0.4);
+    const auto tree = make_bvh(serial{}, mesh<float>(shape.vertices, shape.faces), {.builder = bvh_builder::sah});
+    const auto standard = quality(tree), small = quality(quantised(serial{}, tree)),
+               bare = quality(leafless(serial{}, tree));
+    CHECK(standard.bytes_per_shape == Approx(64).margin(0.01));
+    CHECK(small.bytes_per_shape == Approx(32).margin(0.01));
+    CHECK(bare.bytes_per_shape == Approx(32).margin(0.01));
+    CHECK(small.sah_cost > standard.sah_cost);
+    CHECK(small.sah_cost < 1.02 * standard.sah_cost);
+    CHECK(bare.sah_cost > standard.sah_cost);
+    CHECK(small.greatest_depth == standard.greatest_depth);
+}
+
+TEST_CASE("layouts: a converted tree stands alone, and a refitted one can be converted") {
+    test::uniform random(95);
+    const triangle_soup<float> next(test::random_triangles<float>(500, random));
+    const auto [small, bare] = [&] {
+        const auto tree = make_bvh(serial{}, triangle_soup<float>(test::random_triangles<float>(500, random)));
+        return std::pair{quantised(serial{}, tree), leafless(serial{}, refit(serial{}, tree, next))};
+    }();
+    CHECK(find_flaw(small.view(), small.set().view()) == "");
+    CHECK(find_flaw(bare.view(), next.view()) == "");
+}
