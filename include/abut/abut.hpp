@@ -4,7 +4,9 @@
 // All of abut for the serial and OpenMP policies. Nothing is needed but a C++20 compiler. <abut/cuda.hpp> adds CUDA.
 
 #include <abut/arithmetic/self_test.hpp>
+#include <abut/collide/contacts.hpp>
 #include <abut/collide/query.hpp>
+#include <abut/collide/reduce_contacts.hpp>
 #include <abut/collide/validate.hpp>
 #include <abut/config.hpp>
 #include <abut/error.hpp>
@@ -15,6 +17,7 @@
 #include <abut/index/quality.hpp>
 #include <abut/index/quantised.hpp>
 #include <abut/index/refit.hpp>
+#include <abut/narrow/contact.hpp>
 #include <abut/predicate/intersects.hpp>
 #include <abut/shape/posed.hpp>
 #include <abut/shape/set.hpp>

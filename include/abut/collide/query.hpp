@@ -214,8 +214,8 @@ struct find_candidates {
     }
 };
 
-/// Searches with `query_side` looking for `target_side`; `body(key, run, n)` gets the packing of keys, a function
-/// run(hits, first, n) that searches for a range of queries, and the number of queries.
+/// Searches with `query_side` looking for `target_side`; `body(both, run, n)` gets the sides, a function run(hits, first, n)
+/// that searches for a range of queries, and the number of queries.
 template <arithmetic A, class Policy, class QuerySide, class TargetSide, class Filter, class Body>
 auto with_search(const Policy& on, const QuerySide& query_side, const TargetSide& target_side, bool queries_are_b,
                  const Filter& filter, const Body& body) {
@@ -230,7 +230,7 @@ auto with_search(const Policy& on, const QuerySide& query_side, const TargetSide
             on, both, hits,
             find_candidates<A, Policy, sides_type, QuerySide, TargetSide>{on, both, query_side, target_side, first, n});
     };
-    return body(key, run, queries.size());
+    return body(both, run, queries.size());
 }
 
 /// Brings both arguments to the policy and chooses who looks for whom: an index is looked in, and of two plain sets the
@@ -274,11 +274,14 @@ struct visit_key {
     }
 };
 
-template <class Policy>
-auto unpacked(const Policy& on, const pair_key& key, const execution::buffer_of<Policy, std::uint64_t>& keys) {
-    execution::buffer_of<Policy, index_pair> pairs(on, keys.size());
-    for_each_index(on, keys.size(), unpack_key{key, keys.data(), pairs.data()});
-    return pairs;
+/// The keys of all pairs that touch, sorted if wanted.
+template <class Policy, class Sides, class Run>
+auto touching_keys(const Policy& on, const Sides& both, const Run& run, std::size_t n, bool sorted) {
+    key_queue<Policy> hits(on, n / 4);
+    run(hits, 0, n);
+    auto keys = hits.take();
+    if (sorted) sort_keys(on, keys, both.key.bits());
+    return keys;
 }
 
 }  // namespace detail
@@ -308,14 +311,12 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Y, cl
 template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Filter = keep_all>
 [[nodiscard]] auto pairs(const Policy& on, const X& a, const Y& b, const query_options<Filter>& options = {}) {
     using outcome = result<index_pair, space_of<Policy>>;
-    const auto body = [&](const detail::pair_key& key, const auto& run, std::size_t n) {
-        detail::key_queue<Policy> hits(on, n / 4);
-        run(hits, 0, n);
-        auto keys = hits.take();
-        if (options.sorted) sort_keys(on, keys, key.bits());
-        auto unpacked = detail::unpacked(on, key, keys);
+    const auto body = [&](const auto& both, const auto& run, std::size_t n) {
+        const auto keys = detail::touching_keys(on, both, run, n, options.sorted);
+        execution::buffer_of<Policy, index_pair> pairs(on, keys.size());
+        for_each_index(on, keys.size(), detail::unpack_key{both.key, keys.data(), pairs.data()});
         synchronize(on);
-        return outcome(std::move(unpacked));
+        return outcome(std::move(pairs));
     };
     return detail::on_both<A>(on, a, b, options, "abut::pairs", body);
 }
@@ -327,7 +328,7 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Y, cl
 template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Visitor, class Filter = keep_all>
 void for_each_pair(const Policy& on, const X& a, const Y& b, const Visitor& visitor,
                    const query_options<Filter>& options = {}) {
-    const auto body = [&](const detail::pair_key& key, const auto& run, std::size_t n) {
+    const auto body = [&](const auto& both, const auto& run, std::size_t n) {
         // Found pairs are gathered first and visited after, since a queue that proves too small is filled anew and a visitor
         // must see each pair once. A range of queries with too many pairs is halved.
         std::size_t step = std::max<std::size_t>(options.most_pairs / 16, 1);
@@ -342,7 +343,7 @@ void for_each_pair(const Policy& on, const X& a, const Y& b, const Visitor& visi
             detail::key_queue<Policy> hits(on, size.total());
             run(hits, first, step);
             execution::work_flag<space_of<Policy>> stopped(on);
-            for_each_index(on, hits.size(), detail::visit_key<Visitor>{key, hits.data(), visitor}, stopped);
+            for_each_index(on, hits.size(), detail::visit_key<Visitor>{both.key, hits.data(), visitor}, stopped);
             if (stopped.raised()) return;
             first += step;
             step *= 2;  // it was halved where pairs were dense

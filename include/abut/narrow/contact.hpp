@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// `contact_of`: where, in which direction and how deep two shapes touch, if they do. Whether they do is decided exactly;
+// point, normal and depth are rounded, within `contact_bound`. docs/contacts.md says what they mean for each pair of shapes.
+
+#include <abut/arithmetic/arithmetic.hpp>
+#include <abut/narrow/directions.hpp>
+#include <abut/narrow/flat_contact.hpp>
+#include <abut/narrow/round_contact.hpp>
+#include <abut/narrow/triangle_contact.hpp>
+#include <abut/predicate/intersects.hpp>
+#include <abut/shape/primitive.hpp>
+
+namespace abut {
+
+/// A contact, or none. std::optional is not for kernels.
+template <scalar T>
+class optional_contact {
+public:
+    using value_type = contact<T>;
+
+    constexpr optional_contact() = default;
+    ABUT_HD constexpr optional_contact(const contact<T>& value) : value_(value), has_value_(true) {}
+
+    [[nodiscard]] ABUT_HD constexpr bool has_value() const { return has_value_; }
+    ABUT_HD constexpr explicit operator bool() const { return has_value_; }
+    /// Only where there is one.
+    [[nodiscard]] ABUT_HD constexpr const contact<T>& value() const { return value_; }
+    [[nodiscard]] ABUT_HD constexpr const contact<T>& operator*() const { return value_; }
+    [[nodiscard]] ABUT_HD constexpr const contact<T>* operator->() const { return &value_; }
+
+    friend constexpr bool operator==(const optional_contact&, const optional_contact&) = default;
+
+private:
+    contact<T> value_{};
+    bool has_value_ = false;
+};
+
+namespace detail {
+
+template <scalar T>
+ABUT_HD constexpr contact<T> reversed(const contact<T>& c) {
+    return {c.b, c.a, c.point, {-c.normal.x, -c.normal.y, -c.normal.z}, c.depth};
+}
+
+/// Pairs of shapes, in this order, of which contacts are written.
+template <class S, class U>
+concept contact_pair = requires(const S& s, const U& t) { contact_between(s, t); };
+
+/// In either order.
+template <class S, class U>
+ABUT_HD constexpr auto contact_in_any_order(const S& s, const U& t) {
+    if constexpr (contact_pair<S, U>) {
+        return contact_between(s, t);
+    } else {
+        static_assert(contact_pair<U, S>, "abut: there are no contacts of this pair of shapes");
+        return reversed(contact_between(t, s));
+    }
+}
+
+}  // namespace detail
+
+/// The contact of two closed shapes, with ids 0, or none where they do not touch; of the pairs that `intersects` takes, in
+/// either order. Whether they touch is decided as by intersects<A>; the numbers are the same bits for each A and on every
+/// compiler and device, in constant expressions too.
+///
+///     constexpr auto c = abut::contact_of(abut::sphere<float>{{0, 0, 4}, 5},
+///                                         abut::triangle<float>{{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}});
+///     static_assert(c && c->depth == 1 && c->normal == abut::vec3<float>{0, 0, 1});
+template <arithmetic A = filtered, class S, class U>
+[[nodiscard]] ABUT_HD constexpr auto contact_of(const S& s, const U& t) {
+    using found = decltype(detail::contact_in_any_order(s, t));
+    using T = decltype(found::depth);
+    if (!intersects<A>(s, t)) return optional_contact<T>();
+    return optional_contact<T>(detail::contact_in_any_order(detail::as_stored(s), detail::as_stored(t)));
+}
+
+}  // namespace abut

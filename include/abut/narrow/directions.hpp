@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// In which direction two touching shapes come apart, and how far they have to go. Moved by t along a unit vector n, a shape
+// is apart from another if t exceeds their overlap along n, max n.q - min n.p over points q of the one that stays and p of
+// the one that goes. So any direction has an honest depth, whatever rounding did to the direction, and the contact's is the
+// least over a few candidates.
+
+#include <cstdint>
+
+#include <abut/arithmetic/limits.hpp>
+#include <abut/narrow/nearest.hpp>
+#include <abut/narrow/numbers.hpp>
+#include <abut/shape/primitive.hpp>
+
+namespace abut {
+
+/// Where two shapes touch: shape `a` of a query's first argument and `b` of its second. `point` is a point of both;
+/// `normal` has length 1 and points from b to a; a moved by `depth` along it is apart from b. All but for rounding, which
+/// docs/contacts.md bounds.
+template <scalar T>
+struct contact {
+    std::uint32_t a, b;
+    vec3<T> point, normal;
+    T depth;
+
+    friend constexpr bool operator==(const contact&, const contact&) = default;
+};
+
+namespace detail::contact_math {
+
+/// Largest magnitudes of the numbers that shapes are made of.
+template <scalar T>
+ABUT_HD constexpr T magnitude_of(const vec3<T>& p) {
+    return greatest(absolute(p.x), absolute(p.y), absolute(p.z));
+}
+template <scalar T>
+ABUT_HD constexpr T magnitude_of(const triangle<T>& t) {
+    return greatest(magnitude_of(t.a), magnitude_of(t.b), magnitude_of(t.c));
+}
+template <scalar T>
+ABUT_HD constexpr T magnitude_of(const segment<T>& s) {
+    return greatest(magnitude_of(s.a), magnitude_of(s.b));
+}
+template <scalar T>
+ABUT_HD constexpr T magnitude_of(const sphere<T>& s) {
+    return greatest(magnitude_of(s.center), s.radius);
+}
+template <scalar T>
+ABUT_HD constexpr T magnitude_of(const capsule<T>& s) {
+    return greatest(magnitude_of(s.axis), s.radius);
+}
+template <scalar T>
+ABUT_HD constexpr T magnitude_of(const aabb<T>& s) {
+    return greatest(magnitude_of(s.lower), magnitude_of(s.upper));
+}
+/// Of a plane no point counts: it reaches everywhere.
+template <scalar T>
+ABUT_HD constexpr T magnitude_of(const plane<T>&) {
+    return 0;
+}
+
+/// The power of two that brings two shapes to [-2, 2): numbers that leave room for products. It rounds only what is
+/// 2^-1021 times as large as the largest number, or smaller.
+struct common_scale {
+    int exponent = 0;
+
+    template <class S, class U>
+    ABUT_HD constexpr common_scale(const S& s, const U& t) {
+        const double largest = static_cast<double>(greatest(magnitude_of(s), magnitude_of(t)));
+        if (largest > 0) exponent = exponent_of(largest);
+    }
+    template <scalar T>
+    ABUT_HD constexpr double operator()(T x) const {
+        return scaled(static_cast<double>(x), -exponent);
+    }
+    template <scalar T>
+    ABUT_HD constexpr point operator()(const vec3<T>& p) const {
+        return {(*this)(p.x), (*this)(p.y), (*this)(p.z)};
+    }
+    template <scalar T>
+    ABUT_HD constexpr corners operator()(const triangle<T>& t) const {
+        return {{(*this)(t.a), (*this)(t.b), (*this)(t.c)}};
+    }
+    /// Back, rounded to T; no further than the largest number.
+    template <scalar T>
+    ABUT_HD constexpr T back(double x) const {
+        const double y = scaled(x, exponent);
+        constexpr auto far = static_cast<double>(largest_finite<T>);
+        return y > far ? largest_finite<T> : y < -far ? -largest_finite<T> : rounded(static_cast<T>(y));
+    }
+    template <scalar T>
+    ABUT_HD constexpr vec3<T> back(const point& p) const {
+        return {back<T>(p.x), back<T>(p.y), back<T>(p.z)};
+    }
+};
+
+/// What gaps pass for none, squared, at the common scale: 2 units of roundoff for double; for float less than one.
+template <scalar T>
+ABUT_HD constexpr double tolerable_square() {
+    constexpr double gap = (std::same_as<T, float> ? 0.5 : 4) * static_cast<double>(unit_roundoff<T>);
+    return gap * gap;
+}
+
+/// A direction rounded to T, as contacts hold it.
+template <scalar T>
+ABUT_HD constexpr point as_stored_direction(const point& n) {
+    return {static_cast<double>(rounded(static_cast<T>(n.x))), static_cast<double>(rounded(static_cast<T>(n.y))),
+            static_cast<double>(rounded(static_cast<T>(n.z)))};
+}
+
+ABUT_HD constexpr bool is_zero(const point& p) { return p.x == 0 && p.y == 0 && p.z == 0; }
+
+/// The unit vector along u x v, rounded once. Zero where the sine between them is below 2^-96: they are as good as parallel.
+ABUT_NOINLINE ABUT_HD constexpr point unit_cross(const vec3<two_doubles>& u, const vec3<two_doubles>& v) {
+    const vec3<two_doubles> p = brought_to_one(u), q = brought_to_one(v), n = cross(p, q);
+    if (!(largest_of(rounded_off(n)) > 0x1p-96)) return {0, 0, 0};
+    return unit_vector(n);
+}
+
+/// The unit normal of a triangle, rounded to T: (b - a) x (c - a). Zero for one that is a segment or a point, or as good as.
+template <scalar T>
+ABUT_HD constexpr point face_normal(const corners& t) {
+    if constexpr (std::same_as<T, float>) {  // in doubles, where they lose no more than 2^-29
+        const auto ab = between<one_double>(t.at[0], t.at[1]), ac = between<one_double>(t.at[0], t.at[2]);
+        const auto n = cross(ab, ac);
+        const double square = dot(n, n).high, most = (dot(ab, ab) * dot(ac, ac)).high;
+        if (square > 0x1p-40 * most && square > 0x1p-900) return as_stored_direction<T>(unit_vector(n));
+    }
+    return as_stored_direction<T>(
+        unit_cross(between<two_doubles>(t.at[0], t.at[1]), between<two_doubles>(t.at[0], t.at[2])));
+}
+
+/// The longest edge of a triangle: what a degenerate one is.
+ABUT_HD constexpr vec3<two_doubles> longest_edge(const corners& t) {
+    vec3<two_doubles> longest{};
+    double most = 0;
+    for (int i = 0; i < 3; ++i) {
+        const vec3<two_doubles> edge = between<two_doubles>(t.at[i], t.at[i == 2 ? 0 : i + 1]);
+        const double size = largest_of(rounded_off(edge));
+        if (size > most) most = size, longest = edge;
+    }
+    return longest;
+}
+
+/// A unit vector orthogonal to v; of 0, the z axis.
+ABUT_HD constexpr point any_orthogonal(const vec3<two_doubles>& v) {
+    const point size = absolute(rounded_off(v));
+    if (is_zero(size)) return {0, 0, 1};
+    const bool x = size.x <= size.y && size.x <= size.z, y = !x && size.y <= size.z;
+    return unit_cross(v, as<two_doubles>({x ? 1.0 : 0.0, y ? 1.0 : 0.0, x || y ? 0.0 : 1.0}));
+}
+
+/// The extent of a shape along a direction: from the least to the greatest n.(p - origin).
+struct extent {
+    double lower, upper;
+};
+template <int K>
+ABUT_HD constexpr extent extent_of(const point (&corner)[K], const point& n, const point& origin) {
+    extent e{infinity<double>, -infinity<double>};
+    for (int i = 0; i < K; ++i) {
+        const double height = plain_dot(n, plain_difference(corner[i], origin));
+        e = {least(e.lower, height), greatest(e.upper, height)};
+    }
+    return e;
+}
+
+/// The candidate direction with the least overlap; of equals the first.
+struct least_overlap {
+    point normal{0, 0, 1};
+    double depth = infinity<double>;
+
+    ABUT_HD constexpr void offer(const point& n, double overlap) {
+        if (overlap < depth) depth = overlap, normal = n;
+    }
+    /// n and -n, or first -n where wanted.
+    ABUT_HD constexpr void offer_both(const point& n, const extent& a, const extent& b, bool negative_first = false) {
+        const double along = plain_sum(b.upper, -a.lower), against = plain_sum(a.upper, -b.lower);
+        if (negative_first) offer(negated(n), against);
+        offer(n, along);
+        if (!negative_first) offer(negated(n), against);
+    }
+};
+
+/// The contact from its parts at the common scale.
+template <scalar T>
+ABUT_HD constexpr contact<T> assembled(const common_scale& scale, const point& where, const least_overlap& way) {
+    const point& n = way.normal;
+    const double depth = way.depth > 0 ? way.depth : 0;
+    return {
+        0, 0, scale.back<T>(where), {static_cast<T>(n.x), static_cast<T>(n.y), static_cast<T>(n.z)}, scale.back<T>(depth)};
+}
+
+ABUT_HD constexpr point middle_of(const two_points& p) {
+    return {plain_sum(p.on_a.x, p.on_b.x) / 2, plain_sum(p.on_a.y, p.on_b.y) / 2, plain_sum(p.on_a.z, p.on_b.z) / 2};
+}
+
+}  // namespace detail::contact_math
+
+/// The rounding that is left in a contact of these two shapes, as a distance: its point is no farther than this from either
+/// shape; its depth is no farther than this from what it stands for; and a moved by depth + bound along the normal, each
+/// coordinate rounded, is apart from b. 32 units of roundoff (float: 2^-19, double: 2^-48) of the largest magnitude among
+/// the shapes' coordinates and radii, and 16 times the least positive number.
+template <class S, class U>
+[[nodiscard]] ABUT_HD constexpr auto contact_bound(const S& s, const U& t) {
+    auto largest = detail::greatest(detail::contact_math::magnitude_of(s), detail::contact_math::magnitude_of(t));
+    using T = decltype(largest);
+    constexpr T least_positive = __builtin_bit_cast(T, typename detail::float_format<T>::word{1});
+    return detail::plain_sum(detail::plain_product(largest, 32 * unit_roundoff<T>), 16 * least_positive);
+}
+
+}  // namespace abut

@@ -1,0 +1,386 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What a contact has to be, by definition, in numbers of 300 bits that share no formula with the library's, and by the exact
+// predicates. Each check returns null, or words for what is wrong.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
+#include <abut/narrow/contact.hpp>
+#include <abut/predicate/intersects.hpp>
+
+#include "catch.hpp"
+
+namespace abut::test {
+
+using wide = boost::multiprecision::number<
+    boost::multiprecision::cpp_bin_float<300, boost::multiprecision::digit_base_2, void, std::int32_t, -100000, 100000>,
+    boost::multiprecision::et_off>;
+using wide_point = vec3<wide>;
+
+template <scalar T>
+wide_point widest(const vec3<T>& p) {
+    return {wide(p.x), wide(p.y), wide(p.z)};
+}
+
+inline wide length_of(const wide_point& v) { return sqrt(dot(v, v)); }
+
+/// The corners of a shape, and the radius around them.
+struct wide_hull {
+    std::vector<wide_point> corners;
+    wide radius = 0;
+
+    wide upper(const wide_point& n) const {
+        wide r = dot(n, corners[0]);
+        for (const auto& p : corners) r = std::max(r, dot(n, p));
+        return r + radius * length_of(n);
+    }
+    wide lower(const wide_point& n) const { return -upper({-n.x, -n.y, -n.z}); }
+};
+
+template <scalar T>
+wide_hull hull_of(const triangle<T>& t) {
+    return {{widest(t.a), widest(t.b), widest(t.c)}};
+}
+template <scalar T>
+wide_hull hull_of(const segment<T>& s) {
+    return {{widest(s.a), widest(s.b)}};
+}
+template <scalar T>
+wide_hull hull_of(const vec3<T>& p) {
+    return {{widest(p)}};
+}
+template <scalar T>
+wide_hull hull_of(const sphere<T>& s) {
+    return {{widest(s.center)}, wide(s.radius)};
+}
+template <scalar T>
+wide_hull hull_of(const capsule<T>& s) {
+    return {{widest(s.axis.a), widest(s.axis.b)}, wide(s.radius)};
+}
+template <scalar T>
+wide_hull hull_of(const aabb<T>& box) {
+    wide_hull h;
+    for (int k = 0; k < 8; ++k) {
+        h.corners.push_back(widest(vec3<T>{k & 1 ? box.upper.x : box.lower.x, k & 2 ? box.upper.y : box.lower.y,
+                                           k & 4 ? box.upper.z : box.lower.z}));
+    }
+    return h;
+}
+
+/// How far a has to go along n, of any length, to be apart from b.
+inline wide overlap_along(const wide_hull& a, const wide_hull& b, const wide_point& n) {
+    return (b.upper(n) - a.lower(n)) / length_of(n);
+}
+
+/// The distance of a point from the hull of up to three corners.
+inline wide distance_from(const wide_point& x, const wide_hull& h) {
+    wide least = -1;
+    const auto offer = [&](const wide_point& y) {
+        const wide d = length_of(x - y);
+        if (least < 0 || d < least) least = d;
+    };
+    for (const auto& p : h.corners) offer(p);
+    for (std::size_t i = 0; i < h.corners.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            const wide_point e = h.corners[j] - h.corners[i];
+            const wide square = dot(e, e);
+            if (square == 0) continue;
+            const wide s = dot(e, x - h.corners[i]) / square;
+            if (s > 0 && s < 1) offer(h.corners[i] + s * e);
+        }
+    }
+    if (h.corners.size() == 3) {
+        const wide_point ab = h.corners[1] - h.corners[0], ac = h.corners[2] - h.corners[0], ax = x - h.corners[0];
+        const wide_point n = cross(ab, ac);
+        const wide square = dot(n, n);
+        if (square > 0) {
+            const wide v = dot(cross(ax, ac), n) / square, w = dot(cross(ab, ax), n) / square;
+            if (v >= 0 && w >= 0 && v + w <= 1) offer(h.corners[0] + v * ab + w * ac);
+        }
+    }
+    return least > h.radius ? least - h.radius : wide(0);
+}
+template <scalar T>
+wide distance_from(const wide_point& x, const aabb<T>& box) {
+    const auto beyond = [](const wide& v, T low, T high) { return v < low ? low - v : v > high ? v - high : wide(0); };
+    return length_of({beyond(x.x, box.lower.x, box.upper.x), beyond(x.y, box.lower.y, box.upper.y),
+                      beyond(x.z, box.lower.z, box.upper.z)});
+}
+template <class S>
+wide distance_from(const wide_point& x, const S& s) {
+    return distance_from(x, hull_of(s));
+}
+
+// --- moved along the normal, as a caller would, each operation rounded ----------------------------------------------------
+
+template <scalar T>
+vec3<T> moved_by(const vec3<T>& p, const vec3<T>& n, T by) {
+    const volatile T x = n.x * by, y = n.y * by, z = n.z * by;
+    const volatile T px = p.x + x, py = p.y + y, pz = p.z + z;
+    return {px, py, pz};
+}
+template <scalar T>
+triangle<T> moved_by(const triangle<T>& t, const vec3<T>& n, T by) {
+    return {moved_by(t.a, n, by), moved_by(t.b, n, by), moved_by(t.c, n, by)};
+}
+template <scalar T>
+segment<T> moved_by(const segment<T>& s, const vec3<T>& n, T by) {
+    return {moved_by(s.a, n, by), moved_by(s.b, n, by)};
+}
+template <scalar T>
+sphere<T> moved_by(const sphere<T>& s, const vec3<T>& n, T by) {
+    return {moved_by(s.center, n, by), s.radius};
+}
+template <scalar T>
+capsule<T> moved_by(const capsule<T>& s, const vec3<T>& n, T by) {
+    return {moved_by(s.axis, n, by), s.radius};
+}
+template <scalar T>
+aabb<T> moved_by(const aabb<T>& s, const vec3<T>& n, T by) {
+    return {moved_by(s.lower, n, by), moved_by(s.upper, n, by)};
+}
+
+template <class S>
+bool is_finite_shape(const S& s) {
+    return detail::is_finite(detail::contact_math::magnitude_of(s));
+}
+
+/// Worst figures seen, as fractions of contact_bound.
+struct contact_tally {
+    std::uint64_t touching = 0, moved = 0;
+    double gap = 0, depth = 0, excess = 0, length = 0;
+
+    contact_tally& operator+=(const contact_tally& t) {
+        touching += t.touching;
+        moved += t.moved;
+        gap = std::max(gap, t.gap);
+        depth = std::max(depth, t.depth);
+        excess = std::max(excess, t.excess);
+        length = std::max(length, t.length);
+        return *this;
+    }
+};
+
+/// Where a test ends: nearly all contacts could be moved apart without overflow, and there were enough of them.
+inline void check_total(const char* name, const contact_tally& tally, std::uint64_t at_least) {
+    std::printf("%s: %llu contacts; of contact_bound, gaps take %.3f, overlaps %.3f, depths %.3f\n", name,
+                static_cast<unsigned long long>(tally.touching), tally.gap, tally.excess, tally.depth);
+    CHECK(tally.touching > at_least);
+    CHECK(tally.moved > tally.touching / 10 * 9);
+}
+
+/// What holds of the contact of any two shapes but planes.
+template <class S, class U, scalar T>
+const char* wrong_with(const S& s, const U& t, const contact<T>& c, contact_tally& tally) {
+    ++tally.touching;
+    for (const T x : {c.point.x, c.point.y, c.point.z, c.normal.x, c.normal.y, c.normal.z, c.depth}) {
+        if (!detail::is_finite(x)) return "a number is not finite";
+    }
+    if (c.a != 0 || c.b != 0) return "ids are not 0";
+    if (c.depth < 0) return "depth is negative";
+    const T bound = contact_bound(s, t);
+    const wide_point x = widest(c.point), n = widest(c.normal);
+    const wide gap = std::max(distance_from(x, s), distance_from(x, t));
+    tally.gap = std::max(tally.gap, static_cast<double>(gap / wide(bound)));
+    if (gap > wide(bound)) return "the point is off the shapes";
+    const wide off = abs(length_of(n) - 1);
+    tally.length = std::max(tally.length, static_cast<double>(off / wide(unit_roundoff<T>)));
+    if (off > 2 * wide(unit_roundoff<T>)) return "the normal is no unit vector";
+    const wide overlap = std::min<wide>(overlap_along(hull_of(s), hull_of(t), n), wide(largest_finite<T>));  // it saturates
+    tally.excess = std::max(tally.excess, static_cast<double>(abs(overlap - wide(c.depth)) / wide(bound)));
+    if (abs(overlap - wide(c.depth)) > wide(bound)) return "depth is not the overlap along the normal";
+    const S moved = moved_by(s, c.normal, static_cast<T>(c.depth + bound));
+    if (c.depth < largest_finite<T> && is_finite_shape(moved)) {
+        ++tally.moved;
+        if (intersects<exact>(moved, t)) return "the moved pair is not disjoint";
+    }
+    return nullptr;
+}
+
+/// The exact normal of a triangle, of any length; 0 if its corners are on a line.
+template <scalar T>
+wide_point wide_normal(const triangle<T>& t) {
+    const wide_point a = widest(t.a);
+    return cross(widest(t.b) - a, widest(t.c) - a);
+}
+
+/// Whether the library takes a triangle for a segment: its sine at a is below 2^-96; or near that, which is left open.
+template <scalar T>
+bool is_as_good_as_segment(const triangle<T>& t) {
+    const wide_point a = widest(t.a), n = wide_normal(t);
+    const wide most = length_of(widest(t.b) - a) * length_of(widest(t.c) - a);
+    return length_of(n) <= most * wide(0x1p-90);
+}
+
+template <scalar T>
+const char* compare_depth(T depth, const wide& least, const wide& bound, contact_tally& tally) {
+    const wide off = abs(wide(depth) - std::min<wide>(least, wide(largest_finite<T>)));  // it saturates
+    tally.depth = std::max(tally.depth, static_cast<double>(off / bound));
+    return off > bound ? "depth is not the least of those that it is documented to be the least of" : nullptr;
+}
+
+/// The least overlap along directions of any length, both ways; none where all are 0.
+class least_of {
+public:
+    template <class S, class U>
+    least_of(const S& s, const U& t) : a_(hull_of(s)), b_(hull_of(t)) {}
+    void offer(const wide_point& n) {
+        if (length_of(n) == 0) return;
+        for (const wide_point& d : {n, wide_point{-n.x, -n.y, -n.z}}) {
+            const wide overlap = overlap_along(a_, b_, d);
+            if (least_ < 0 || overlap < least_) least_ = overlap;
+        }
+    }
+    [[nodiscard]] bool none() const { return least_ < 0; }
+    [[nodiscard]] wide value() const { return least_; }
+
+private:
+    wide_hull a_, b_;
+    wide least_ = -1;
+};
+
+/// Along face normals of either triangle.
+template <scalar T>
+const char* wrong_with_depth(const triangle<T>& s, const triangle<T>& t, const contact<T>& c, contact_tally& tally) {
+    least_of least(s, t);
+    if (!is_as_good_as_segment(s)) least.offer(wide_normal(s));
+    if (!is_as_good_as_segment(t)) least.offer(wide_normal(t));
+    if (least.none()) return nullptr;
+    return compare_depth(c.depth, least.value(), wide(contact_bound(s, t)), tally);
+}
+
+/// Along the box's axes and the triangle's normal.
+template <scalar T>
+const char* wrong_with_depth(const aabb<T>& s, const triangle<T>& t, const contact<T>& c, contact_tally& tally) {
+    least_of least(s, t);
+    if (!is_as_good_as_segment(t)) least.offer(wide_normal(t));
+    for (const wide_point& axis : {wide_point{1, 0, 0}, wide_point{0, 1, 0}, wide_point{0, 0, 1}}) least.offer(axis);
+    return compare_depth(c.depth, least.value(), wide(contact_bound(s, t)), tally);
+}
+
+/// The distance of a segment from a triangle.
+inline wide segment_distance(const wide_hull& s, const wide_hull& t) {
+    wide least = -1;
+    const auto offer = [&](const wide& d) {
+        if (least < 0 || d < least) least = d;
+    };
+    for (const auto& p : s.corners) offer(distance_from(p, {t.corners}));
+    for (const auto& p : t.corners) offer(distance_from(p, {s.corners}));
+    const wide_point &p = s.corners[0], &q = s.corners[1], u = q - p;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const wide_point &a = t.corners[i], &b = t.corners[(i + 1) % 3], v = b - a, n = cross(u, v);
+        const wide square = dot(n, n);
+        if (square == 0) continue;
+        const wide x = dot(cross(a - p, v), n) / square, y = dot(cross(a - p, u), n) / square;
+        if (x >= 0 && x <= 1 && y >= 0 && y <= 1) offer(length_of(p + x * u - a - y * v));
+    }
+    const wide_point n = cross(t.corners[1] - t.corners[0], t.corners[2] - t.corners[0]);
+    const wide from = dot(n, p - t.corners[0]), to = dot(n, q - t.corners[0]);
+    if ((from < 0 && to > 0) || (from > 0 && to < 0)) offer(distance_from(p + from / (from - to) * u, {t.corners}));
+    return least;
+}
+
+/// Of all directions: straight away; or out of the polytope of differences, if the axis meets the triangle.
+template <scalar T>
+const char* wrong_with_depth(const capsule<T>& s, const triangle<T>& t, const contact<T>& c, contact_tally& tally) {
+    const wide bound = wide(contact_bound(s, t)), distance = segment_distance(hull_of(s), hull_of(t));
+    if (distance > bound / 1000) return compare_depth(c.depth, wide(s.radius) - distance, bound, tally);
+    least_of least(s, t);
+    if (is_as_good_as_segment(t)) return nullptr;
+    least.offer(wide_normal(t));
+    const wide_point along = widest(s.axis.b) - widest(s.axis.a);
+    least.offer(cross(along, widest(t.b) - widest(t.a)));
+    least.offer(cross(along, widest(t.c) - widest(t.b)));
+    least.offer(cross(along, widest(t.a) - widest(t.c)));
+    return compare_depth(c.depth, least.value(), bound, tally);
+}
+
+/// Of all directions.
+template <scalar T, class U>
+const char* wrong_with_depth(const sphere<T>& s, const U& t, const contact<T>& c, contact_tally& tally) {
+    const wide_hull h = hull_of(t);
+    const wide least = wide(s.radius) + h.radius - distance_from(widest(s.center), {h.corners});
+    return compare_depth(c.depth, least, wide(contact_bound(s, t)), tally);
+}
+template <scalar T>
+const char* wrong_with_depth(const vec3<T>& s, const triangle<T>& t, const contact<T>& c, contact_tally& tally) {
+    return compare_depth(c.depth, wide(0), wide(contact_bound(s, t)), tally);
+}
+template <scalar T>
+const char* wrong_with_depth(const segment<T>& s, const triangle<T>& t, const contact<T>& c, contact_tally& tally) {
+    return wrong_with_depth(triangle<T>{s.a, s.b, s.b}, t, c, tally);
+}
+
+/// A plane and a triangle.
+template <scalar T>
+const char* wrong_with(const plane<T>& s, const triangle<T>& t, const contact<T>& c, contact_tally& tally) {
+    ++tally.touching;
+    const wide_point given = widest(s.normal), n = widest(c.normal);
+    const wide length = length_of(given), bound = wide(contact_bound(s, t));
+    if (length == 0) {
+        const bool as_said = c.point == t.a && c.normal == vec3<T>{0, 0, 1} && c.depth == largest_finite<T>;
+        return as_said ? nullptr : "not what is said of planes of normal 0";
+    }
+    const auto height = [&](const wide_point& p) -> wide { return (dot(given, p) - wide(s.offset)) / length; };
+    const wide gap = std::max<wide>(distance_from(widest(c.point), t), abs(height(widest(c.point))));
+    tally.gap = std::max(tally.gap, static_cast<double>(gap / bound));
+    if (gap > bound) return "the point is off the shapes";
+    if (abs(length_of(n) - 1) > 2 * wide(unit_roundoff<T>)) return "the normal is no unit vector";
+    const wide a = height(widest(t.a)), b = height(widest(t.b)), d = height(widest(t.c));
+    const wide above = std::max({a, b, d}), below = std::min({a, b, d});
+    const char* wrong = compare_depth(c.depth, std::min<wide>(above, -below), bound, tally);
+    if (wrong != nullptr) return wrong;
+    ++tally.moved;
+    const triangle<T> moved = moved_by(t, vec3<T>{-c.normal.x, -c.normal.y, -c.normal.z}, c.depth + contact_bound(s, t));
+    if (is_finite_shape(moved) && intersects<exact>(s, moved)) return "the moved pair is not disjoint";
+    return nullptr;
+}
+template <scalar T>
+const char* wrong_with_depth(const plane<T>&, const triangle<T>&, const contact<T>&, contact_tally&) {
+    return nullptr;  // in wrong_with
+}
+
+/// Both orders of a pair, and what is said of contacts in each.
+template <class S, class U>
+const char* check_contact(const S& s, const U& t, contact_tally& tally) {
+    const auto c = contact_of(s, t);
+    const auto back = contact_of(t, s);
+    const bool touch = intersects<exact>(s, t);
+    if (c.has_value() != touch || back.has_value() != touch) return "found is not what touches";
+    if (!touch) return nullptr;
+    if constexpr (!std::same_as<S, U>) {
+        if (back.value() != detail::reversed(c.value())) return "the other order is not the reverse";
+    }
+    const char* wrong = wrong_with(s, t, *c, tally);
+    return wrong != nullptr ? wrong : wrong_with_depth(s, t, *c, tally);
+}
+
+/// Pairs of a family until enough of them touch. `make(i)` is called with pair(s, t).
+template <class Make>
+contact_tally check_family(const std::string& name, std::uint64_t wanted, const Make& make) {
+    contact_tally tally;
+    for (std::uint64_t i = 0; i < 12 * wanted && tally.touching < wanted; ++i) {
+        const auto p = make(i);
+        const char* const wrong = check_contact(p.first, p.second, tally);
+        if (wrong != nullptr) FAIL_CHECK(name << ", pair " << i << ": " << wrong);
+    }
+    if (std::getenv("ABUT_VERBOSE") != nullptr) {
+        std::printf("%-28s %5llu touch, %5llu moved, gap %.3f, overlap %.3f, depth %.3f, length %.3f\n", name.c_str(),
+                    static_cast<unsigned long long>(tally.touching), static_cast<unsigned long long>(tally.moved), tally.gap,
+                    tally.excess, tally.depth, tally.length);
+    }
+    INFO(name);
+    CHECK(tally.touching > 0);
+    return tally;
+}
+
+}  // namespace abut::test
