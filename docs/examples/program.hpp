@@ -29,9 +29,10 @@ namespace example {
 
 // --- where the time goes -----------------------------------------------------------------------------------------------
 
-/// Times named stages, and on a terminal says which one is running.
+/// Times named stages, and on a terminal says which one is running; if it is told to, it says on stderr how long each took.
 class stopwatch {
 public:
+    explicit stopwatch(bool tells = false) : tells_(tells) {}
     /// Runs `work` as a stage and returns what it returns.
     template <class Work>
     decltype(auto) time(const char* stage, const Work& work) {
@@ -64,6 +65,7 @@ private:
         ~running() {
             const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start_;
             if (watch_.terminal_) std::fputs("\r\033[K", stderr);
+            if (watch_.tells_) std::fprintf(stderr, "%s: %.3f ms\n", stage_, took.count());
             watch_.add(stage_, took.count());
         }
 
@@ -81,7 +83,7 @@ private:
     }
 
     std::vector<std::pair<std::string, std::vector<double>>> stages_;
-    bool terminal_ = isatty(STDERR_FILENO) != 0;
+    bool terminal_ = isatty(STDERR_FILENO) != 0, tells_;
 };
 
 /// How many of a list of flags are set.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <memory>
 #include <vector>
 
 #include <fcl/fcl.h>
@@ -11,6 +10,7 @@
 #include <abut/index/lbvh.hpp>
 
 #include "support/catch.hpp"
+#include "support/fcl_model.hpp"
 #include "support/scenes.hpp"
 
 // FCL's BVH model of a mesh against spheres, in double and in general position: spheres whose set of triangles would change
@@ -40,15 +40,7 @@ TEST_CASE("queries: a mesh against spheres agrees with FCL in general position")
     };
     const auto ours = faces_of(balls), inner = faces_of(smaller), outer = faces_of(larger);
 
-    const auto model = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
-    std::vector<fcl::Vector3d> vertices;
-    std::vector<fcl::Triangle> triangles;
-    for (const auto& v : shape.vertices) vertices.emplace_back(v.x, v.y, v.z);
-    for (const face& f : shape.faces) triangles.emplace_back(f[0], f[1], f[2]);
-    model->beginModel();
-    model->addSubModel(vertices, triangles);
-    model->endModel();
-
+    const test::fcl_model model = test::make_fcl_model(surface.view());
     std::size_t compared = 0, near_tangency = 0, hits = 0, wrong = 0;
     for (std::size_t i = 0; i < balls.size(); ++i) {
         if (inner[i] != outer[i]) {

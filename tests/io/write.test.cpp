@@ -92,7 +92,7 @@ TEST_CASE("write_ply: values for other faces and bad names are refused before th
         const auto start = message.find("expected");
         return start == message.npos ? message : message.substr(start);
     };
-    const std::vector<std::uint8_t> three(3), two(2);
+    const std::vector<std::uint8_t> three(3), two(2), four(4);
     CHECK(refusal({.hit = three}) == "expected 2 values of 'hit', one for each face, found 3");
     CHECK(refusal({.face_properties = {{"depth", std::span<const float>()}}}) ==
           "expected 2 values of 'depth', one for each face, found 0");
@@ -102,7 +102,90 @@ TEST_CASE("write_ply: values for other faces and bad names are refused before th
     }
     CHECK(refusal({.hit = two, .face_properties = {{"red", std::span<const std::uint8_t>(two)}}}) ==
           "expected properties of different names, found 'red' again");
+    CHECK(refusal({.vertex_properties = {{"id", std::span<const std::uint8_t>(two)}}}) ==
+          "expected 4 values of 'id', one for each vertex, found 2");
+    CHECK(refusal({.vertex_properties = {{"x", std::span<const std::uint8_t>(four)}}}) ==
+          "expected properties of different names, found 'x' again");
     CHECK_FALSE(std::filesystem::exists(folder / "a.ply"));
+}
+
+TEST_CASE("write_ply: values of vertices lie between the position and the faces") {
+    const io_test::scratch folder;
+    const std::vector<std::uint32_t> id{1, 2, 3, 4000000000};
+    abut::io::write_ply(folder / "a.ply", square, halves, {.vertex_properties = {{"id", id}}});
+    const std::string text = io_test::content(folder / "a.ply");
+    const auto body = text.substr(text.find("end_header\n") + 11);
+    CHECK(text.find("property float z\nproperty uint id\nelement face 2\n") != std::string::npos);
+    CHECK(body.substr(48, 16) == std::string("\0\0\0\0\0\0\x80\x3f\0\0\0\0\0\x28\x6b\xee", 16));
+    CHECK(abut::io::read_mesh_data<float>(folder / "a.ply").faces == halves);
+}
+
+TEST_CASE("write_points_ply: the file, byte for byte") {
+    const io_test::scratch folder;
+    const std::vector<abut::vec3<float>> points{{0, 0, 1}, {2, 0, 0}}, normals{{0, 1, 0}, {-1, 0, 0}};
+    const std::vector<double> depth{0.5, -2};
+    abut::io::write_points_ply(folder / "a.ply", points, {.normals = normals, .properties = {{"depth", depth}}});
+    const std::string header =
+        "ply\nformat binary_little_endian 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
+        "property float nx\nproperty float ny\nproperty float nz\nproperty double depth\nend_header\n";
+    const std::string one("\0\0\x80\x3f", 4), zero(4, '\0'), two("\0\0\0\x40", 4), minus_one("\0\0\x80\xbf", 4);
+    CHECK(io_test::content(folder / "a.ply") == header + zero + zero + one + zero + one + zero +
+                                                    std::string("\0\0\0\0\0\0\xe0\x3f", 8) + two + zero + zero + minus_one +
+                                                    zero + zero + std::string("\0\0\0\0\0\0\0\xc0", 8));
+    abut::io::write_points_ply(folder / "b.ply", std::vector<abut::vec3<double>>{});
+    CHECK(io_test::content(folder / "b.ply") ==
+          "ply\nformat binary_little_endian 1.0\nelement vertex 0\nproperty double x\nproperty double y\n"
+          "property double z\nend_header\n");
+}
+
+TEST_CASE("write_mesh and write_points: the extension chooses the format") {
+    const io_test::scratch folder;
+    const std::vector<std::uint8_t> hit{0, 1};
+    const abut::mesh<float> mesh{square, halves};
+    abut::io::write_ply(folder / "a.ply", mesh, {.hit = hit});
+    abut::io::write_vtp(folder / "a.vtp", mesh, {.hit = hit});
+    for (const std::string name : {"b.ply", "b.PLY", "b.vtp", "b.Vtp"}) {
+        const auto known = io_test::content(folder / (name[2] == 'p' || name[2] == 'P' ? "a.ply" : "a.vtp"));
+        abut::io::write_mesh(folder / name, mesh, {.hit = hit});
+        CHECK(io_test::content(folder / name) == known);
+        abut::io::write_mesh(folder / name, mesh.view(), {.hit = hit});
+        CHECK(io_test::content(folder / name) == known);
+        abut::io::write_mesh(folder / name, square, halves, {.hit = hit});
+        CHECK(io_test::content(folder / name) == known);
+    }
+    abut::io::write_points_ply(folder / "a.ply", square);
+    abut::io::write_points_vtp(folder / "a.vtp", square);
+    for (const std::string name : {".ply", ".vtp"}) {
+        abut::io::write_points(folder / ("b" + name), square);
+        CHECK(io_test::content(folder / ("b" + name)) == io_test::content(folder / ("a" + name)));
+    }
+    for (const std::string name : {"a.obj", "a", "vtp"}) {
+        const auto path = folder / name;
+        CHECK(io_test::refusal([&] { abut::io::write_mesh(path, mesh); }) ==
+              path.string() + ": expected a file name that ends with .ply or .vtp");
+        CHECK(io_test::refusal([&] { abut::io::write_points(path, square); }) ==
+              path.string() + ": expected a file name that ends with .ply or .vtp");
+        CHECK_FALSE(std::filesystem::exists(path));
+    }
+}
+
+TEST_CASE("write_points: normals and values for other points are refused before the file is touched") {
+    const io_test::scratch folder;
+    const std::vector<abut::vec3<float>> two_normals(2);
+    const std::vector<float> two(2), four(4);
+    for (const std::string name : {"a.ply", "a.vtp"}) {
+        const auto refusal = [&](const abut::io::point_options<float>& options) {
+            const std::string message = io_test::refusal([&] { abut::io::write_points(folder / name, square, options); });
+            const auto start = message.find("expected");
+            return start == message.npos ? message : message.substr(start);
+        };
+        CHECK(refusal({.normals = two_normals}) == "expected 4 values of 'normal', one for each point, found 2");
+        CHECK(refusal({.properties = {{"depth", two}}}) == "expected 4 values of 'depth', one for each point, found 2");
+        CHECK(refusal({.properties = {{"a b", four}}}) == "expected the name of a property without blanks, found 'a b'");
+        CHECK(refusal({.properties = {{"d", four}, {"d", four}}}) ==
+              "expected properties of different names, found 'd' again");
+        CHECK_FALSE(std::filesystem::exists(folder / name));
+    }
 }
 
 TEST_CASE("write_pairs: header, ids, any container of pairs") {
@@ -141,5 +224,11 @@ TEST_CASE("writers: a full disk and a path that cannot be written are errors") {
     CHECK(io_test::refusal([&] { abut::io::write_pairs(full, std::vector<id_pair>(1000000)); }) ==
           "/dev/full: cannot be written: No space left on device");
     CHECK(io_test::refusal([&] { abut::io::write_ply(full, square, halves); }) ==
+          "/dev/full: cannot be written: No space left on device");
+    CHECK(io_test::refusal([&] { abut::io::write_vtp(full, square, halves); }) ==
+          "/dev/full: cannot be written: No space left on device");
+    CHECK(io_test::refusal([&] { abut::io::write_points_vtp(full, std::vector<abut::vec3<double>>(100000)); }) ==
+          "/dev/full: cannot be written: No space left on device");
+    CHECK(io_test::refusal([&] { abut::io::write_points_ply(full, square); }) ==
           "/dev/full: cannot be written: No space left on device");
 }
