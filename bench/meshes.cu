@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// usage: bench_meshes_cuda [OUT.json [MESH]]
+// usage: bench_meshes_cuda [OUT.json [MESH [SMALL]]]
 //
 // bench/meshes.cpp on CUDA: the same pair of meshes (MESH, PLY or OBJ, or a torus of 345,744 triangles) and the same names,
 // policy cuda, all data resident before the clock starts; and
@@ -8,15 +8,19 @@
 //   pairs/baked_with_build/cuda          one of the trees built in the call
 //   near/WHAT/cuda                       the mesh against its copy moved by (.0003, .0002, .0001) of its box: pairs, and
 //                                        boxes, the walk of both trees with a filter that refuses every pair
+//   batch/N/cuda                         N posed pairs of a small mesh in one call (SMALL, or a torus of 2,700 triangles)
+//   contacts/KIND/cuda                   contacts of the pair
 //   build/bvh/cuda/N, sort/cuda/N        a tree over N triangles, and the sort of 32-bit codes alone that is in it
 //
 // Each figure is the median of 21 runs, taken with CUDA events around the whole call, so what the host does between kernels
 // is in it.
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include <abut/cuda.hpp>
@@ -55,8 +59,43 @@ void add_pair(const abut::cuda& on, table& out, const meshes_scene::mesh_pair& p
     };
     add_queries("baked", tree_b);
     add_queries("posed", posed(tree_a, pair.pose));
+    out.add("contacts/baked/cuda", 0, [&] { return of(contacts(on, tree_a, tree_b).size()); });
+    out.add("contacts/posed/cuda", 0, [&] { return of(contacts(on, tree_a, posed(tree_a, pair.pose)).size()); });
     out.add("pairs/baked_with_build/cuda", 0, [&] { return of(pairs(on, tree_a, make_bvh(on, b)).size()); });
     out.add("one_sided/pairs/cuda", 0, [&] { return of(pairs(on, tree_a, b).size()); });
+}
+
+/// Pairs of one mesh and itself, a third to nine tenths of its size apart, turned at random.
+void add_batch(const abut::cuda& on, table& out, const meshes_scene::surface& small) {
+    const auto tree = make_bvh(on, device_mesh(on, small.vertices, small.faces));
+    const auto box = tree.bounds();
+    const abut::vec3<float> size = box.upper - box.lower, middle = 0.5f * (box.lower + box.upper);
+    std::uint64_t state = 1;
+    const auto next = [&state] {
+        state = state * 6364136223846793005ull + 1442695040888963407ull;
+        return static_cast<double>(state >> 11) * 0x1p-53;
+    };
+    std::vector<abut::posed_pair<std::remove_const_t<decltype(tree)>>> list;
+    for (int i = 0; i < 1000; ++i) {
+        const double turn = 6.28 * next(), c = std::cos(turn), s = std::sin(turn), far = 0.3 + 0.6 * next();
+        abut::rigid<float> pose;
+        pose.rotation[0] = pose.rotation[4] = static_cast<float>(c);
+        pose.rotation[3] = static_cast<float>(s);
+        pose.rotation[1] = -pose.rotation[3];
+        const abut::vec3<float> turned{pose.rotation[0] * middle.x + pose.rotation[1] * middle.y,
+                                       pose.rotation[3] * middle.x + pose.rotation[4] * middle.y, middle.z};
+        pose.translation = middle - turned + abut::vec3<float>{static_cast<float>(far) * size.x, 0, 0};
+        list.push_back({posed(tree, {}), posed(tree, pose)});
+    }
+    for (const std::size_t n : {1u, 10u, 100u, 1000u}) {
+        const std::vector part(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(n));
+        out.add(joined({"batch", std::to_string(n), "cuda"}), 0, [&] { return of(pairs(on, part).size()); });
+    }
+    out.add("batch/1000/one_by_one/cuda", 0, [&] {
+        std::size_t found = 0;
+        for (const auto& entry : list) found += pairs(on, entry.a, entry.b).size();
+        return of(found);
+    });
 }
 
 void add_near(const abut::cuda& on, table& out, const meshes_scene::surface& a) {
@@ -115,6 +154,9 @@ int main(int argc, char** argv) {
             meshes_scene::make_pair(argc > 2 ? meshes_scene::read_surface(argv[2]) : meshes_scene::unit_torus());
         add_pair(on, out, pair);
         add_near(on, out, pair.a);
+        const abut::test::torus<float> torus(45, 30, 0.35, 0.15);
+        add_batch(on, out,
+                  argc > 3 ? meshes_scene::read_surface(argv[3]) : meshes_scene::surface{torus.vertices, torus.faces});
         add_builds(on, out, device_mesh(on, pair.a.vertices, pair.a.faces));
         add_builds(on, out, random_mesh(on, 10'000'000));
     });

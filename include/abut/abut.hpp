@@ -4,6 +4,7 @@
 // All of abut for the serial and OpenMP policies. Nothing is needed but a C++20 compiler. <abut/cuda.hpp> adds CUDA.
 
 #include <abut/arithmetic/self_test.hpp>
+#include <abut/collide/batch.hpp>
 #include <abut/collide/contacts.hpp>
 #include <abut/collide/query.hpp>
 #include <abut/collide/reduce_contacts.hpp>

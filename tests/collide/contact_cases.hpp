@@ -149,6 +149,42 @@ void check_contacts_with_itself(const Policy& on) {
     CHECK(check_contacts(on, surface, pose, surface, pose) >= surface.size());
 }
 
+/// Two trees under poses, spheres, and the shapes that are alone, one query each: all that a policy may get wrong, for
+/// compilers that take long for a query.
+template <class T, class Policy>
+void check_few_contacts(const Policy& on) {
+    uniform random(20261131);
+    draws d(20261131, 83, 0);
+    const rigid<T> pose_a = make_pose<T>(d, 0.1), pose_b = make_pose<T>(d, 0.1);
+    const auto set_a = dense_triangles<T>(300, random), set_b = dense_triangles<T>(400, random);
+    const auto tree_a = posed(make_bvh(on, copy_to(on, set_a)), pose_a);
+    const auto tree_b = posed(make_bvh(on, copy_to(on, set_b)), pose_b);
+    const posed_view<typename triangle_soup<T>::view_type> view_a{set_a.view(), pose_a}, view_b{set_b.view(), pose_b};
+    const auto expected = true_contacts(view_a, view_b);
+    CHECK(expected.size() > 5000);
+    CHECK(same_bits(to_host(contacts(on, tree_a, tree_b)), expected));
+    contact_list<T> kept;
+    for (const auto& c : expected) {
+        const T along = detail::overlap_along_shared_line(view_a[c.a], view_b[c.b]);
+        if (along < 0 || along >= c.depth) kept.push_back(c);
+    }
+    CHECK(kept.size() < expected.size());
+    CHECK(same_bits(to_host(contacts(on, tree_a, tree_b, {.discard_sideways = true})), kept));
+    const auto check = [&](const auto& one) {
+        const single_view<std::remove_cvref_t<decltype(one)>> single{one};
+        const auto all = true_contacts(single, view_b);
+        CHECK(all.size() > 0);
+        CHECK(same_bits(to_host(contacts(on, one, tree_b)), all));
+    };
+    check(sphere<T>{{0, 0, 0}, T(0.5)});
+    check(capsule<T>{{{0, 0, 0}, {1, 0, 0}}, T(0.5)});
+    if constexpr (sizeof(T) == 4) {
+        check(segment<T>{{-4, T(0.1), T(0.1)}, {4, T(0.2), T(0.3)}});
+        check(aabb<T>{{-1, -1, -1}, {0, 1, 1}});
+        check(plane<T>{{1, 2, 3}, T(0.1)});
+    }
+}
+
 /// Single shapes on either side.
 template <class T, class Policy>
 void check_contacts_of_single_shapes(const Policy& on) {
@@ -228,6 +264,7 @@ void check_contact_errors(const Policy& on) {
 
 template <class T, class Policy>
 void check_all_contacts(const Policy& on) {
+    check_few_contacts<T>(on);
     check_contact_scenes<T>(on);
     check_contact_options<T>(on);
     check_contacts_with_itself<T>(on);

@@ -209,7 +209,9 @@ struct grow {
     kind shape;
     std::uint32_t depth;
 
-    [[nodiscard]] ABUT_HD item seed() const { return {1, 0}; }
+    std::size_t roots = 1;
+    [[nodiscard]] std::size_t seeds() const { return roots; }
+    [[nodiscard]] ABUT_HD item seed(std::size_t i) const { return {i + 1, 0}; }
     [[nodiscard]] ABUT_HD bool has(std::uint64_t path, unsigned k) const {
         switch (shape) {
             case kind::full:
@@ -250,7 +252,8 @@ struct grown {
         if (is) candidates.push_back(candidate);
     }
     std::vector<grow::item> next;
-    explicit grown(const grow& tree) : next{tree.seed()} {
+    explicit grown(const grow& tree) {
+        for (std::size_t i = 0; i < tree.roots; ++i) next.push_back(tree.seed(i));
         while (!next.empty()) {
             const grow::item at = next.back();
             next.pop_back();
@@ -281,7 +284,7 @@ void check_descents(const Policy& on) {
         CHECK((sorted_content(on, hits) == expected));
         execution::work_flag<space_of<Policy>> found(on);
         for_each_descendant(on, tree, raise_always{}, raise_always{}, late, found);
-        CHECK(found.raised());
+        CHECK(found.raised() == (least > 0));
     }
 }
 

@@ -22,7 +22,8 @@ struct box_pairs {
     using candidate = std::uint64_t;
     static constexpr unsigned most_children = Walk::most_children, most_depth = Walk::most_depth;
     Walk walk;
-    item seed() const { return walk.seed(); }
+    std::size_t seeds() const { return walk.seeds(); }
+    item seed(std::size_t i) const { return walk.seed(i); }
     template <class Emitter>
     void operator()(const item& at, Emitter& emitter) const {
         walk.expand(

@@ -159,7 +159,8 @@ struct expand_pair {
     Walk walk;
     Sides sides;
 
-    [[nodiscard]] ABUT_HD item seed() const { return walk.seed(); }
+    [[nodiscard]] std::size_t seeds() const { return walk.seeds(); }
+    [[nodiscard]] ABUT_HD item seed(std::size_t i) const { return walk.seed(i); }
     ABUT_CALLS_ANY
     template <class Emitter>
     ABUT_HD void operator()(const item& at, Emitter&& emitter) const {

@@ -47,6 +47,19 @@ inline ABUT_HD std::uint32_t atomic_exchange_acq_rel(std::uint32_t* target, std:
 #endif
 }
 
+/// The same between the indices of a group (for_each_in_groups), in memory that they share. On the host they take turns.
+inline ABUT_HD std::uint32_t exchange_in_group(std::uint32_t* target, std::uint32_t value) {
+#if ABUT_DEVICE_CODE
+    __threadfence_block();
+    const std::uint32_t before = atomicExch(target, value);
+    __threadfence_block();
+#else
+    const std::uint32_t before = *target;
+    *target = value;
+#endif
+    return before;
+}
+
 /// Stores `desired` if the word is `expected`; returns the value before. T as for atomic_add.
 template <class T>
 ABUT_HD T atomic_compare_exchange(T* target, T expected, T desired) {

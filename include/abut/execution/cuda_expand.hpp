@@ -66,10 +66,11 @@ struct expansion {
     using item = typename Expand::item;
     using candidate = typename Expand::candidate;
     static constexpr unsigned most = Expand::most_children;  ///< items and candidates that one item makes
-    static constexpr unsigned capacity = 5120, candidate_capacity = (most + 1) * block_size;
+    static constexpr unsigned capacity = 40960 / sizeof(item), candidate_capacity = (most + 1) * block_size;
     /// For a descent one item at a time, when there is no room for more.
     static constexpr unsigned reserve = Expand::most_depth * (most - 1) + most;
     static_assert(reserve + most * block_size <= capacity);
+    static_assert(sizeof(candidate) <= 16, "every device since compute capability 7.5 lets a block have 64 KiB");
 
     item items[capacity];
     candidate candidates[candidate_capacity];
@@ -85,9 +86,11 @@ struct item_list {
 };
 
 template <class Expand>
-__global__ void start_kernel(item_list<typename Expand::item> list, Expand expand) {
-    list.data[0] = expand.seed();
-    for (unsigned k = 0; k < 6; ++k) list.counts[k] = k == 0 ? 1 : 0;
+__global__ void __launch_bounds__(block_size)
+    start_kernel(item_list<typename Expand::item> list, unsigned seeds, Expand expand) {
+    const unsigned i = blockIdx.x * block_size + threadIdx.x;
+    if (i < seeds) list.data[i] = expand.seed(i);
+    if (i < 6) list.counts[i] = i == 0 ? seeds : 0;
 }
 
 /// When a block leaves the rest to the next kernel: it holds that many items, or has done that many steps.
@@ -187,18 +190,25 @@ void for_each_descendant(const cuda& on, const Expand& expand, const Decide& dec
     using item = typename Expand::item;
     using memory = detail::expansion<Expand>;
     constexpr unsigned bytes = sizeof(memory), block = detail::block_size, never = static_cast<unsigned>(-1);
+    const auto seeds = static_cast<unsigned>(expand.seeds());
+    if (seeds == 0) return;
     const detail::current_device scope(on);
     const auto launch = [&](const detail::counter_delivery& deliver, auto late_sink, auto... sinks) {
         constexpr auto kernel = detail::expand_kernel<Expand, Decide, decltype(late_sink), decltype(sinks)...>;
         const auto blocks = static_cast<unsigned>(detail::resident_blocks<kernel, sizeof(memory)>(on));
-        buffer<item, device_space> items(on, 1 + memory::capacity * (std::size_t{blocks} + 1));
+        const std::size_t begun_at = seeds, spread_at = begun_at + memory::capacity;
+        buffer<item, device_space> items(on, spread_at + memory::capacity * std::size_t{blocks});
         buffer<unsigned, device_space> counts(on, 6);
-        const detail::item_list<item> seed{items.data(), counts.data()}, begun{items.data() + 1, counts.data() + 2},
-            spread{items.data() + 1 + memory::capacity, counts.data() + 4};
-        detail::start_kernel<<<1, 1, 0, on.stream>>>(seed, expand);
-        kernel<<<1, block, bytes, on.stream>>>(seed, begun, {1024, never, 1}, expand, decide, late_sink, sinks...);
-        kernel<<<blocks, block, bytes, on.stream>>>(begun, spread, {1024, 8, 1}, expand, decide, late_sink, sinks...);
-        kernel<<<blocks, block, bytes, on.stream>>>(spread, seed, {never, never, 2}, expand, decide, late_sink, sinks...);
+        const detail::item_list<item> seed{items.data(), counts.data()}, begun{items.data() + begun_at, counts.data() + 2},
+            spread{items.data() + spread_at, counts.data() + 4};
+        detail::start_kernel<<<detail::blocks_for(seeds), block, 0, on.stream>>>(seed, seeds, expand);
+        const bool few = seeds < blocks;
+        if (few) {
+            kernel<<<1, block, bytes, on.stream>>>(seed, begun, {1024, never, 1}, expand, decide, late_sink, sinks...);
+        }
+        const detail::item_list<item>& all = few ? begun : seed;
+        kernel<<<blocks, block, bytes, on.stream>>>(all, spread, {1024, 8, 1}, expand, decide, late_sink, sinks...);
+        kernel<<<blocks, block, bytes, on.stream>>>(spread, begun, {never, never, 2}, expand, decide, late_sink, sinks...);
         detail::check_launch("for_each_descendant");
         detail::launch_settle(on, settle, deliver, late_sink, sinks...);
     };

@@ -67,6 +67,21 @@ __global__ void __launch_bounds__(block_size)
     deliver();
 }
 
+template <class F, class... Sinks>
+__global__ void __launch_bounds__(block_size)
+    for_each_in_groups_kernel(std::size_t n, F f, counter_delivery deliver, Sinks... sinks) {
+    __shared__ typename F::shared shared;
+    const std::size_t i = std::size_t{blockIdx.x} * block_size + threadIdx.x;
+    typename F::state state;
+    f.prepare(threadIdx.x, shared);
+    __syncthreads();
+    if (i < n) state = f.inside(i, shared);
+    __syncthreads();
+    if (i < n) f.outside(i, state, shared, sinks...);
+    close_all(sinks...);
+    deliver();
+}
+
 /// Whether a flag among the sinks is raised, the same answer for all threads of the block.
 template <class... Sinks>
 __device__ bool block_is_over(const Sinks&... sinks) {
@@ -382,6 +397,19 @@ void for_each_index(const cuda& on, std::size_t n, const F& f, Queue& queue, Que
     const auto launch = [&](const detail::counter_delivery& deliver, auto... sinks) {
         detail::for_each_gather_kernel<<<detail::blocks_for(n), detail::block_size, 0, on.stream>>>(n, f, deliver, sinks...);
         detail::check_launch("for_each_index");
+    };
+    detail::gather(on, launch, queue, queues...);
+}
+
+template <class F, class Queue, class... Queues>
+void for_each_in_groups(const cuda& on, std::size_t n, const F& f, Queue& queue, Queues&... queues) {
+    static_assert(group_size == detail::block_size);
+    if (n == 0) return;
+    const detail::current_device scope(on);
+    const auto launch = [&](const detail::counter_delivery& deliver, auto... sinks) {
+        detail::for_each_in_groups_kernel<<<detail::blocks_for(n), detail::block_size, 0, on.stream>>>(n, f, deliver,
+                                                                                                       sinks...);
+        detail::check_launch("for_each_in_groups");
     };
     detail::gather(on, launch, queue, queues...);
 }

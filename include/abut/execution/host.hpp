@@ -112,6 +112,25 @@ void for_each_index(const Policy& on, std::size_t n, const F& f, Queue& queue, Q
     sinks.merge(on);
 }
 
+template <host_policy Policy, class F, class... Queues>
+void for_each_in_groups(const Policy& on, std::size_t n, const F& f, Queues&... queues) {
+    constexpr std::size_t grain = 16;
+    const std::size_t groups = (n + group_size - 1) / group_size;
+    const auto loop = [&](std::size_t begin, std::size_t end, auto&... sinks) {
+        typename F::shared shared;
+        typename F::state states[group_size];
+        for (std::size_t group = begin; group < end; ++group) {
+            const std::size_t first = group * group_size, count = std::min<std::size_t>(group_size, n - first);
+            for (unsigned k = 0; k < group_size; ++k) f.prepare(k, shared);
+            for (std::size_t k = 0; k < count; ++k) states[k] = f.inside(first + k, shared);
+            for (std::size_t k = 0; k < count; ++k) f.outside(first + k, states[k], shared, sinks...);
+        }
+    };
+    detail::thread_sinks<Queues...> sinks(on, groups, grain, queues...);
+    sinks.each(loop);
+    sinks.merge(on);
+}
+
 template <host_policy Policy, class Test, class Walk, class Decide, class Settle, class Late, class... Queues>
 void for_each_candidate(const Policy& on, std::size_t n, const Test& test, const Walk& walk, const Decide& decide,
                         const Settle& settle, Late& late, Queues&... queues) {
@@ -173,12 +192,17 @@ private:
 template <host_policy Policy, class Expand, class Decide, class Settle, class Late, class... Queues>
 void for_each_descendant(const Policy& on, const Expand& expand, const Decide& decide, const Settle& settle, Late& late,
                          Queues&... queues) {
-    // Level by level until there is enough for threads to share; then each goes depth first.
-    const std::size_t enough = thread_count(on) > 1 ? 4096 : 1;
+    // Level by level until there is enough for threads to share; then each goes depth first. Who only wants to know whether
+    // there is one starts soon.
+    constexpr bool any_will_do = (is_flag<typename Queues::local> || ...);
+    const std::size_t threads = static_cast<std::size_t>(thread_count(on));
+    const std::size_t enough = threads == 1 ? 1 : any_will_do ? 4 * threads : 4096;
     detail::descent<Expand> level;
     std::vector<typename Expand::candidate> early;
-    level.begin();
-    level.add(0, true, expand.seed());
+    for (std::size_t i = 0; i < expand.seeds(); ++i) {
+        level.begin();
+        level.add(0, true, expand.seed(i));
+    }
     while (level.count() > 0 && level.count() < enough) {
         detail::descent<Expand> next;
         for (std::size_t i = 0; i < level.count(); ++i) {
@@ -212,7 +236,7 @@ void for_each_descendant(const Policy& on, const Expand& expand, const Decide& d
             mine.decide_all(decide_one);
         }
     };
-    detail::gather_and_settle(on, early.size() + level.count(), descent_grain, loop, settle, late, queues...);
+    detail::gather_and_settle(on, early.size() + level.count(), any_will_do ? 1 : descent_grain, loop, settle, late, queues...);
 }
 
 template <host_policy Policy, class Tile, class Settle, class Late, class... Queues>

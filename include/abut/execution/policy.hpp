@@ -11,6 +11,10 @@
 //   for_each_index(on, n, f)                f(i) for every i in [0, n), concurrently
 //   for_each_index(on, n, f, queue...)      f(i, sink...): what is pushed into sink k is gathered in queue k, complete, in
 //                                           no order (execution/work_queue.hpp); returns when all sizes are known
+//   for_each_in_groups(on, n, f, queue...)  indices by groups of group_size neighbours, who share an F::shared close to the
+//                                           core: f.prepare(k, shared) for every k < group_size, then
+//                                           state = f.inside(i, shared) for every i of the group, then
+//                                           f.outside(i, state, shared, sink...) for every i of it
 //   for_each_candidate(on, n, test, walk, decide, settle, late, queue...)
 //                                           for every i with test(i): walk(i, emitter, sink...) calls emitter.push(c) for
 //                                           each candidate c, and decide(c, late_sink, sink...) is called for it; or else,
@@ -61,6 +65,9 @@ template <class S>
 concept memory_space = std::same_as<S, host_space> || std::same_as<S, device_space>;
 
 namespace execution {
+
+/// Indices of a group in for_each_in_groups; the last one may have fewer.
+inline constexpr unsigned group_size = 256;
 
 /// Runs on the calling thread.
 struct serial {

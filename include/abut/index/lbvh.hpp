@@ -2,8 +2,8 @@
 #pragma once
 
 // make_bvh: a linear BVH in one bottom-up pass over shapes sorted by Morton code (Apetrei, "Fast and Simple Agglomerative
-// LBVH Construction", 2014). Each leaf climbs; of the two threads that reach a node, the second knows both boxes and goes on.
-// Topology and boxes depend on the shapes alone, not on the policy or the order of the threads.
+// LBVH Construction", 2014). Each leaf climbs; of the two threads that reach a node, the second knows both boxes and goes
+// on. Topology and boxes depend on the shapes alone, not on the policy or the order of the threads.
 
 #include <cstddef>
 #include <cstdint>
@@ -21,10 +21,18 @@ namespace abut {
 
 namespace detail {
 
+/// The box of shape i, which is kept too: it is read again out of order, and a box is one place where a triangle of a mesh
+/// is four.
 template <shape_view Shapes>
-struct shape_bounds {
+struct keep_bounds {
+    using T = typename Shapes::scalar_type;
     Shapes shapes;
-    ABUT_HD auto operator()(std::size_t i) const { return bounds(shapes[i]); }
+    aabb<T>* boxes;
+    ABUT_HD aabb<T> operator()(std::size_t i) const {
+        const aabb<T> box = bounds(shapes[i]);
+        boxes[i] = box;
+        return box;
+    }
 };
 
 struct merge_boxes {
@@ -34,35 +42,94 @@ struct merge_boxes {
     }
 };
 
-template <class Code, shape_view Shapes>
+template <class Code, scalar T>
 struct write_codes {
-    using scalar = typename Shapes::scalar_type;
-    Shapes shapes;
-    const bvh_root<scalar>* root;
+    const aabb<T>* boxes;
+    const bvh_root<T>* root;
     int unused_bits;
     Code* codes;
     std::uint32_t* ids;
     ABUT_HD void operator()(std::size_t i) const {
-        codes[i] = morton_code<Code>(bounds(shapes[i]), root->bounds) >> unused_bits;
+        codes[i] = morton_code<Code>(boxes[i], root->bounds) >> unused_bits;
         ids[i] = static_cast<std::uint32_t>(i);
     }
 };
 
 /// The climb of leaf i. A node between sorted leaves k and k + 1 is node k. A range of leaves [first, last] joins its
 /// neighbour across the closer of its two borders; `reached` holds, for each node, the far end of the child that came first.
-template <class Code, shape_view Shapes>
+/// Most nodes lie within a group of leaves (for_each_in_groups), which meet in the memory that they share; only ranges that
+/// find nobody there go on outside.
+template <class Code, scalar T>
 struct climb {
-    using T = typename Shapes::scalar_type;
     static constexpr std::uint32_t nobody = static_cast<std::uint32_t>(-1);
-    static constexpr std::uint32_t crowd = 8;  ///< more shapes than this with one code are counted: their order means nothing
+    static constexpr std::uint32_t crowd =
+        8;  ///< more shapes than this with one code are counted: their order means nothing
+    static constexpr std::uint32_t group = execution::group_size;
 
-    Shapes shapes;
+    const aabb<T>* boxes;
+    std::size_t shapes;
     const Code* codes;
     const std::uint32_t* ids;
     std::uint32_t* reached;
     bvh_node<T>* nodes;
     bvh_root<T>* root;
 
+    /// Nodes between leaves of one group.
+    struct shared {
+        bvh_node<T> nodes[group];
+        std::uint32_t reached[group], joined[group];
+    };
+    /// A range of leaves and the tree over it; `waits` is the place in the group of the node where it found nobody.
+    struct state {
+        aabb<T> box;
+        bvh_child child;
+        std::uint32_t first, last, waits;
+    };
+
+    ABUT_HD void prepare(unsigned k, shared& with) const {
+        with.reached[k] = nobody;
+        with.joined[k] = 0;
+    }
+    ABUT_HD state inside(std::size_t i, shared& with) const {
+        const auto leaf = static_cast<std::uint32_t>(i), first_of_group = leaf / group * group;
+        const std::uint32_t last_leaf = count() - 1;
+        const std::uint32_t last_of_group = last_leaf - first_of_group < group ? last_leaf : first_of_group + (group - 1);
+        const std::uint32_t id = ids[i];
+        state at{boxes[id], bvh_child::leaf(id), leaf, leaf, nobody};
+        while (!is_all(at)) {
+            const bool left = is_left(at);
+            const std::uint32_t node = node_above(at, left);
+            if (node < first_of_group || node >= last_of_group) return at;
+            const std::uint32_t k = node - first_of_group;
+            put(at, left, with.nodes[k]);
+            const std::uint32_t other = execution::exchange_in_group(&with.reached[k], far_end(at, left));
+            if (other == nobody) {
+                at.waits = k;
+                return at;
+            }
+            with.joined[k] = 1;
+            nodes[node] = with.nodes[k];
+            join(at, left, node, other, with.nodes[k].bounds[left ? 1 : 0]);
+        }
+        return at;
+    }
+    ABUT_CALLS_ANY
+    template <class Count>
+    ABUT_HD void outside(std::size_t i, state at, const shared& with, Count& crowded) const {
+        crowded.add(i + crowd < shapes && codes[i] == codes[i + crowd]);
+        if (at.waits != nobody && with.joined[at.waits] != 0) return;
+        while (!is_all(at)) {
+            const bool left = is_left(at);
+            const std::uint32_t node = node_above(at, left);
+            put(at, left, nodes[node]);
+            const std::uint32_t other = execution::atomic_exchange_acq_rel(&reached[node], far_end(at, left));
+            if (other == nobody) return;
+            join(at, left, node, other, load_fresh(nodes[node].bounds[left ? 1 : 0]));
+        }
+        *root = {at.box, at.child};
+    }
+
+private:
     /// How far apart leaves k and k + 1 are: the highest bit in which their codes, and between equal codes their positions,
     /// differ. Comparing the numbers compares those bits, since no two borders of one range share their highest bit.
     struct distance {
@@ -74,30 +141,24 @@ struct climb {
     };
     ABUT_HD distance across(std::uint32_t k) const { return {static_cast<Code>(codes[k] ^ codes[k + 1]), k ^ (k + 1)}; }
 
-    ABUT_CALLS_ANY
-    template <class Count>
-    ABUT_HD void operator()(std::size_t i, Count& crowded) const {
-        const auto last_leaf = static_cast<std::uint32_t>(shapes.size() - 1);
-        auto first = static_cast<std::uint32_t>(i), last = first;
-        const std::uint32_t id = ids[i];
-        crowded.add(first + crowd <= last_leaf && codes[first] == codes[first + crowd]);
-        bvh_child child = bvh_child::leaf(id);
-        aabb<T> box = bounds(shapes[id]);
-        while (first != 0 || last != last_leaf) {
-            const bool left = first == 0 || (last != last_leaf && across(last) < across(first - 1));
-            const std::uint32_t node = left ? last : first - 1;
-            const int side = left ? 0 : 1;
-            nodes[node].bounds[side] = box;
-            nodes[node].child[side] = child;
-            const std::uint32_t other = execution::atomic_exchange_acq_rel(&reached[node], left ? first : last);
-            if (other == nobody) return;
-            box = merge(box, load_fresh(nodes[node].bounds[1 - side]));
-            child = bvh_child::inner(node);
-            (left ? last : first) = other;
-        }
-        *root = {box, child};
+    [[nodiscard]] ABUT_HD std::uint32_t count() const { return static_cast<std::uint32_t>(shapes); }
+    ABUT_HD bool is_all(const state& at) const { return at.first == 0 && at.last == count() - 1; }
+    /// Whether the range is the left child of the node above.
+    ABUT_HD bool is_left(const state& at) const {
+        return at.first == 0 || (at.last != count() - 1 && across(at.last) < across(at.first - 1));
     }
-
+    ABUT_HD static std::uint32_t node_above(const state& at, bool left) { return left ? at.last : at.first - 1; }
+    ABUT_HD static std::uint32_t far_end(const state& at, bool left) { return left ? at.first : at.last; }
+    ABUT_HD static void put(const state& at, bool left, bvh_node<T>& node) {
+        node.bounds[left ? 0 : 1] = at.box;
+        node.child[left ? 0 : 1] = at.child;
+    }
+    /// Left before right, whoever comes first: the two zeros are told apart by it.
+    ABUT_HD static void join(state& at, bool left, std::uint32_t node, std::uint32_t other, const aabb<T>& sibling) {
+        at.box = left ? merge(at.box, sibling) : merge(sibling, at.box);
+        at.child = bvh_child::inner(node);
+        (left ? at.last : at.first) = other;
+    }
     /// Reads what another thread has just written, past a cache that may hold the line as it was before.
     ABUT_HD static aabb<T> load_fresh(const aabb<T>& box) {
         const volatile aabb<T>& now = box;
@@ -105,20 +166,20 @@ struct climb {
     }
 };
 
-/// Sorts the shapes by the first `bits` bits of their codes and builds the tree. Returns how many shapes have a code that the
-/// eighth one after them has too.
-template <class Code, execution_policy Policy, shape_view Shapes, class Storage>
-std::uint64_t build_lbvh(const Policy& on, const Shapes& shapes, Storage& tree, int bits) {
-    const std::size_t n = shapes.size();
+/// Sorts the shapes by the first `bits` bits of their codes and builds the tree. Returns how many shapes have a code that
+/// the eighth one after them has too.
+template <class Code, execution_policy Policy, scalar T, class Storage>
+std::uint64_t build_lbvh(const Policy& on, const execution::buffer_of<Policy, aabb<T>>& boxes, Storage& tree, int bits) {
+    const std::size_t n = boxes.size();
     execution::buffer_of<Policy, Code> codes(on, n);
     execution::buffer_of<Policy, std::uint32_t> ids(on, n), reached(on, n - 1);
     auto* const root = tree.root.data();
-    for_each_index(on, n, write_codes<Code, Shapes>{shapes, root, morton_bits<Code> - bits, codes.data(), ids.data()});
+    for_each_index(on, n, write_codes<Code, T>{boxes.data(), root, morton_bits<Code> - bits, codes.data(), ids.data()});
     sort_by_key(on, codes, ids, bits);
-    fill(on, reached.data(), n - 1, climb<Code, Shapes>::nobody);
+    fill(on, reached.data(), n - 1, climb<Code, T>::nobody);
     execution::work_count<space_of<Policy>> crowded(on);
-    const climb<Code, Shapes> each{shapes, codes.data(), ids.data(), reached.data(), tree.nodes.data(), root};
-    for_each_index(on, n, each, crowded);
+    const climb<Code, T> each{boxes.data(), n, codes.data(), ids.data(), reached.data(), tree.nodes.data(), root};
+    for_each_in_groups(on, n, each, crowded);
     return crowded.total();
 }
 
@@ -168,16 +229,17 @@ template <execution_policy Policy, class Set>
     tree->root = execution::buffer_of<Policy, bvh_root<T>>(on, n > 0 ? 1 : 0);
     tree->nodes = execution::buffer_of<Policy, bvh_node<T>>(on, n > 0 ? n - 1 : 0);
     if (n > 0 && !detail::build_from_top(on, shapes, *tree, options.builder)) {
+        execution::buffer_of<Policy, aabb<T>> boxes(on, n);
         reduce_into(on, n, &tree->root.data()->bounds, empty_box<T>(), detail::merge_boxes{},
-                    detail::shape_bounds<decltype(shapes)>{shapes});
+                    detail::keep_bounds<decltype(shapes)>{shapes, boxes.data()});
         const bool choose = options.morton_bits == 0;
         if (options.morton_bits != 63) {
             const int bits = choose ? detail::sufficient_morton_bits(n) : 30;
-            const std::uint64_t crowded = detail::build_lbvh<std::uint32_t>(on, shapes, *tree, bits);
+            const std::uint64_t crowded = detail::build_lbvh<std::uint32_t, Policy, T>(on, boxes, *tree, bits);
             if (!choose || crowded <= n / 8) return tree_type(std::move(resident), std::move(tree));
             // The first build has overwritten the scene's box with the root's, which is the same.
         }
-        detail::build_lbvh<std::uint64_t>(on, shapes, *tree, 63);
+        detail::build_lbvh<std::uint64_t, Policy, T>(on, boxes, *tree, 63);
     }
     return tree_type(std::move(resident), std::move(tree));
 }

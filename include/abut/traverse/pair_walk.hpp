@@ -50,7 +50,8 @@ struct pair_walk {
         }
     };
     static constexpr unsigned most_children = 4, most_depth = bvh_max_depth;
-    [[nodiscard]] ABUT_HD item seed() const { return {a.root().index(), b.root().index()}; }
+    [[nodiscard]] ABUT_HD static constexpr std::size_t seeds() { return 1; }
+    [[nodiscard]] ABUT_HD item seed(std::size_t) const { return {a.root().index(), b.root().index()}; }
 
     /// For the pairs k = 0 ... 3 of children, calls add(k, overlap, item), or visitor(k, overlap, id in a, id in b), where
     /// `overlap` is false if there is nothing to be done. k is a constant to the compiler. Without a branch: which of the

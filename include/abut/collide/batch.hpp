@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// pairs(policy, list): many pairs of posed indices in one call, for scenes of many bodies, of which each pair alone is too
+// little work for a device. All trees are walked together, down from all pairs of roots, and decided in the same stages as a
+// query of two (collide/search.hpp).
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <abut/collide/query.hpp>
+
+namespace abut {
+
+/// Two indices over sets (make_bvh), each under a pose: posed(index, pose). Any number of entries may share an index.
+template <class IndexA, class IndexB = IndexA>
+struct posed_pair {
+    posed_object<IndexA> a;
+    posed_object<IndexB> b;
+};
+
+/// Two shapes that touch: `pair` is the position in the list, `a` and `b` are ids in its sets.
+struct tagged_pair {
+    std::uint32_t pair, a, b;
+
+    friend constexpr bool operator==(const tagged_pair&, const tagged_pair&) = default;
+    friend constexpr auto operator<=>(const tagged_pair&, const tagged_pair&) = default;
+};
+
+/// Options of pairs(policy, list).
+struct batch_options {
+    /// Sorted by pair, then a, then b. Without it the order is any, and may differ from call to call.
+    bool sorted = true;
+};
+
+namespace detail {
+
+/// An entry of the list in the policy's memory.
+template <class TreeA, class TreeB, class ShapesA, class ShapesB>
+struct batch_member {
+    using T = typename TreeA::scalar_type;
+    TreeA tree_a;
+    TreeB tree_b;
+    posed_view<ShapesA> a;
+    posed_view<ShapesB> b;
+    relative_pose<T> b_to_a;
+};
+
+template <class Member>
+struct relate_frames {
+    Member* members;
+    const std::uint32_t* walked;
+    ABUT_HD void operator()(std::size_t i) const {
+        Member& m = members[walked[i]];
+        m.b_to_a = make_relative_pose(m.a.pose, m.tree_a.root_bounds(), m.b.pose, m.tree_b.root_bounds());
+    }
+};
+
+/// A number for a member and two ids.
+struct batch_key {
+    /// A shape of a member.
+    struct place {
+        std::uint32_t member, id;
+    };
+    int member_bits, a_bits, b_bits;
+
+    [[nodiscard]] int bits() const { return member_bits + a_bits + b_bits; }
+    ABUT_HD std::uint64_t pack(std::uint32_t member, std::uint32_t a, std::uint32_t b) const {
+        return (std::uint64_t{member} << a_bits | a) << b_bits | b;
+    }
+    ABUT_HD std::uint32_t member(std::uint64_t key) const { return static_cast<std::uint32_t>(key >> (a_bits + b_bits)); }
+    ABUT_HD place query(std::uint64_t key) const { return {member(key), low(key >> b_bits, a_bits)}; }
+    ABUT_HD place target(std::uint64_t key) const { return {member(key), low(key, b_bits)}; }
+
+private:
+    ABUT_HD static std::uint32_t low(std::uint64_t key, int bits) {
+        return static_cast<std::uint32_t>(key & ((std::uint64_t{1} << bits) - 1));
+    }
+};
+
+/// All members' shapes of one side.
+template <class Member>
+struct shapes_a_of {
+    const Member* members;
+    ABUT_HD auto operator[](const batch_key::place& at) const { return members[at.member].a[at.id]; }
+};
+template <class Member>
+struct shapes_b_of {
+    const Member* members;
+    ABUT_HD auto operator[](const batch_key::place& at) const { return members[at.member].b[at.id]; }
+};
+
+/// What the stages of a search see (search.hpp).
+template <class Member>
+struct batch_sides {
+    using query_shape = typename decltype(Member::a)::shape_type;
+    using target_shape = typename decltype(Member::b)::shape_type;
+    static_assert(decidable<query_shape, target_shape>, "abut: queries between sets of these two shapes are not supported");
+    shapes_a_of<Member> queries;
+    shapes_b_of<Member> targets;
+    batch_key key;
+};
+
+/// Boxes of a member's two frames.
+template <scalar T>
+struct frames_at {
+    const relative_pose<T>* b_to_a;
+    ABUT_HD bool operator()(const aabb<T>& a, const aabb<T>& b) const { return overlaps(a, *b_to_a, b); }
+};
+
+/// One step down two trees of a member.
+template <class Member>
+struct expand_member {
+    using T = typename Member::T;
+    using walk = pair_walk<decltype(Member::tree_a), decltype(Member::tree_b), frames_at<T>>;
+    struct item {
+        std::uint32_t member;
+        typename walk::item nodes;
+    };
+    using candidate = std::uint64_t;
+    static constexpr unsigned most_children = walk::most_children, most_depth = walk::most_depth;
+
+    const Member* members;
+    const std::uint32_t* walked;  ///< entries of which both trees have nodes: `n` of them
+    std::size_t n;
+    batch_key key;
+
+    [[nodiscard]] ABUT_HD walk walk_of(std::size_t i) const {
+        return {members[i].tree_a, members[i].tree_b, {&members[i].b_to_a}};
+    }
+    [[nodiscard]] std::size_t seeds() const { return n; }
+    [[nodiscard]] ABUT_HD item seed(std::size_t i) const { return {walked[i], walk_of(walked[i]).seed(0)}; }
+    ABUT_CALLS_ANY
+    template <class Emitter>
+    ABUT_HD void operator()(const item& at, Emitter&& emitter) const {
+        walk_of(at.member).expand(
+            at.nodes,
+            [&](auto k, bool is, const auto& next) {
+                emitter.add(k, is, item{at.member, next});
+            },
+            [&](auto k, bool is, std::uint32_t a, std::uint32_t b) { emitter.push(k, is, key.pack(at.member, a, b)); });
+    }
+};
+
+struct unpack_tagged {
+    batch_key key;
+    const std::uint64_t* keys;
+    tagged_pair* out;
+    ABUT_HD void operator()(std::size_t i) const {
+        const std::uint64_t k = keys[i];
+        out[i] = {key.member(k), key.query(k).id, key.target(k).id};
+    }
+};
+
+/// A side of entry i of a list, checked; an error names the entry.
+template <class Policy, class Index, class T = typename Index::scalar_type>
+auto make_member_side(const Policy& on, const posed_object<Index>& x, std::size_t i) {
+    try {
+        return make_side(on, x, "abut::pairs");
+    } catch (const error&) {
+        (void)make_side(on, x, ("abut::pairs: entry " + std::to_string(i) + " of the list").c_str());
+        throw;
+    }
+}
+
+/// The keys of all pairs of the entries that are walked, unsorted.
+template <arithmetic A, class Policy, class Member>
+auto keys_of_batch(const Policy& on, const std::vector<Member>& members, const std::vector<std::uint32_t>& walked,
+                   const batch_key& key) {
+    const std::size_t n = walked.size();
+    execution::buffer_of<Policy, Member> there(on, members.size());
+    execution::buffer_of<Policy, std::uint32_t> which(on, n);
+    upload(on, members.data(), members.size(), there.data());
+    upload(on, walked.data(), n, which.data());
+    for_each_index(on, n, relate_frames<Member>{there.data(), which.data()});
+    const batch_sides<Member> both{{there.data()}, {there.data()}, key};
+    const expand_member<Member> expand{there.data(), which.data(), n, key};
+    key_queue<Policy> hits(on, std::max(std::size_t{1} << 16, 64 * n));
+    search<A>(on, both, hits, [&](const auto& settle, auto& late, auto& wide, auto& found) {
+        for_each_descendant(on, expand, decide_key<A, batch_sides<Member>>{both}, settle, late, wide, found);
+    });
+    return hits;
+}
+
+}  // namespace detail
+
+/// All pairs of shapes that touch, of each entry of `list`: what pairs(policy, entry.a, entry.b) would say of each, in one
+/// call, tagged with the entry's position. In the policy's memory. An entry may be of an empty set. Returns when the result
+/// is there. Throws invalid_geometry, whose message names the entry (a rotation that is none, a placed coordinate that
+/// overflows), error (an index on another device), capacity_error (where the bits of a position and of two ids are more than
+/// 64: split the list), std::bad_alloc and cuda_error.
+///
+///     std::vector<abut::posed_pair<decltype(gear)>> list{{posed(gear, here), posed(gear, there)}};
+///     for (const auto& hit : to_host(abut::pairs(on, list))) use(hit.pair, hit.a, hit.b);
+template <arithmetic A = filtered, execution_policy Policy, class IndexA, class IndexB>
+[[nodiscard]] auto pairs(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
+                         const batch_options& options = {}) {
+    using outcome = result<tagged_pair, space_of<Policy>>;
+    using side_a = decltype(detail::make_member_side(on, list[0].a, 0));
+    using side_b = decltype(detail::make_member_side(on, list[0].b, 0));
+    using tree_a = detail::tree_of_side<side_a>;
+    using tree_b = detail::tree_of_side<side_b>;
+    static_assert(tree_a::exists && tree_b::exists, "abut: a list of pairs holds indices made by make_bvh");
+    using member =
+        detail::batch_member<decltype(tree_a::view(std::declval<side_a>())), decltype(tree_b::view(std::declval<side_b>())),
+                             decltype(std::declval<side_a>().shapes().shapes),
+                             decltype(std::declval<side_b>().shapes().shapes)>;
+    const std::size_t n = list.size();
+    std::vector<member> members;
+    std::vector<std::uint32_t> walked, rest;
+    members.reserve(n);
+    std::size_t most_a = 0, most_b = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const auto a = detail::make_member_side(on, list[i].a, i);
+        const auto b = detail::make_member_side(on, list[i].b, i);
+        const std::size_t size_a = list[i].a.size(), size_b = list[i].b.size();
+        most_a = std::max(most_a, size_a);
+        most_b = std::max(most_b, size_b);
+        members.push_back({tree_a::view(a), tree_b::view(b), a.shapes(), b.shapes(), {}});
+        const bool nodes = std::min(size_a, size_b) > 1 && std::max(size_a, size_b) <= detail::most_shapes_of_pair_walk;
+        if (std::min(size_a, size_b) > 0) (nodes ? walked : rest).push_back(static_cast<std::uint32_t>(i));
+    }
+    const detail::batch_key key{detail::id_bits(n), detail::id_bits(most_a), detail::id_bits(most_b)};
+    if (key.bits() > 64 || n > std::numeric_limits<std::uint32_t>::max()) {
+        throw capacity_error("abut::pairs: a list of " + std::to_string(n) + " entries with up to " +
+                             std::to_string(most_a) + " and " + std::to_string(most_b) +
+                             " shapes; expected positions and ids of 64 bits together");
+    }
+    auto hits = detail::keys_of_batch<A>(on, members, walked, key);
+    // Trees of one shape have no nodes to walk.
+    std::vector<std::uint64_t> more;
+    for (const std::uint32_t i : rest) {
+        for (const index_pair& ids : to_host(pairs<A>(on, list[i].a, list[i].b))) more.push_back(key.pack(i, ids.a, ids.b));
+    }
+    if (!more.empty()) {
+        detail::key_queue<Policy> others(on, more);
+        hits.absorb(on, others);
+    }
+    auto keys = hits.take();
+    if (options.sorted) sort_keys(on, keys, key.bits());
+    execution::buffer_of<Policy, tagged_pair> tagged(on, keys.size());
+    for_each_index(on, keys.size(), detail::unpack_tagged{key, keys.data(), tagged.data()});
+    synchronize(on);
+    return outcome(std::move(tagged));
+}
+
+}  // namespace abut
