@@ -226,6 +226,19 @@ void check_discarding(const Policy& on) {
     CHECK(kept.size() + 3 < all.size());
     const contact_options<> options{.discard_sideways = true};
     CHECK(same_bits(to_host(contacts(on, copy_to(on, a), copy_to(on, b), options)), kept));
+    // Ties, by symmetry, which rounding decides: the same way, whoever looks.
+    std::vector<triangle<T>> first, second;
+    for (std::uint64_t i = 0; i < 300; ++i) {
+        draws d(20261202, 86, i);
+        rigid<T> turn = make_pose<T>(d, 0);
+        turn.translation = {static_cast<T>(10 * i), 0, 0};
+        first.push_back(place(turn, triangle<T>{{-1, 0, -1}, {-1, 0, 1}, {1, 0, 0}}));
+        second.push_back(place(turn, triangle<T>{{2, -1, 0}, {2, 1, 0}, {0, 0, 0}}));
+    }
+    const auto ties_a = copy_to(on, triangle_soup<T>(first)), ties_b = copy_to(on, triangle_soup<T>(second));
+    const auto by_b = to_host(contacts(on, make_bvh(on, ties_a), ties_b, options));
+    CHECK(by_b.size() < 300);
+    CHECK(same_bits(to_host(contacts(on, ties_a, make_bvh(on, ties_b), options)), by_b));
     // Nothing to discard among spheres, and none of a set of none.
     const spheres<T> balls(random_spheres<T>(50, random));
     CHECK(same_bits(to_host(contacts(on, copy_to(on, balls), copy_to(on, b), options)),

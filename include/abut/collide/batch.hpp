@@ -157,13 +157,27 @@ struct unpack_tagged {
     }
 };
 
-/// A side of entry i of a list, checked; an error names the entry.
-template <class Policy, class Index, class T = typename Index::scalar_type>
-auto make_member_side(const Policy& on, const posed_object<Index>& x, std::size_t i) {
+template <class Index>
+inline constexpr bool is_tree = false;
+template <class Set, memory_space Space, class Layout>
+inline constexpr bool is_tree<bvh<Set, Space, Layout>> = true;
+
+/// What a query of two does with a side (make_side), without a copy of the index.
+template <class Policy, class Index>
+void check_entry(const Policy& on, const posed_object<Index>& x, const char* function) {
+    check(x.pose, function);
+    check_device(on, x.object, function);
+    if (x.size() == 0 || stays_finite(x.pose, x.object.bounds())) return;
+    const auto shapes = view_of(x.object.set());
+    check(on, posed_view<std::remove_const_t<decltype(shapes)>>{shapes, x.pose}, function);
+}
+/// An error names the entry.
+template <class Policy, class Index>
+void check_entry(const Policy& on, const posed_object<Index>& x, std::size_t i) {
     try {
-        return make_side(on, x, "abut::pairs");
+        check_entry(on, x, "abut::pairs");
     } catch (const error&) {
-        (void)make_side(on, x, ("abut::pairs: entry " + std::to_string(i) + " of the list").c_str());
+        check_entry(on, x, ("abut::pairs: entry " + std::to_string(i) + " of the list").c_str());
         throw;
     }
 }
@@ -180,7 +194,8 @@ auto keys_of_batch(const Policy& on, const std::vector<Member>& members, const s
     for_each_index(on, n, relate_frames<Member>{there.data(), which.data()});
     const batch_sides<Member> both{{there.data()}, {there.data()}, key};
     const expand_member<Member> expand{there.data(), which.data(), n, key};
-    key_queue<Policy> hits(on, std::max(std::size_t{1} << 16, 64 * n));
+    // Room for what is likely; it grows by itself.
+    key_queue<Policy> hits(on, std::clamp(512 * n, std::size_t{1} << 16, std::size_t{1} << 22));
     search<A>(on, both, hits, [&](const auto& settle, auto& late, auto& wide, auto& found) {
         for_each_descendant(on, expand, decide_key<A, batch_sides<Member>>{both}, settle, late, wide, found);
     });
@@ -190,10 +205,10 @@ auto keys_of_batch(const Policy& on, const std::vector<Member>& members, const s
 }  // namespace detail
 
 /// All pairs of shapes that touch, of each entry of `list`: what pairs(policy, entry.a, entry.b) would say of each, in one
-/// call, tagged with the entry's position. In the policy's memory. An entry may be of an empty set. Returns when the result
-/// is there. Throws invalid_geometry, whose message names the entry (a rotation that is none, a placed coordinate that
-/// overflows), error (an index on another device), capacity_error (where the bits of a position and of two ids are more than
-/// 64: split the list), std::bad_alloc and cuda_error.
+/// call, tagged with the entry's position. In the policy's memory. An entry may be of an empty set. Entries of a tree of one
+/// shape are searched one after another. Returns when the result is there. Throws invalid_geometry, whose message names the
+/// entry (a rotation that is none, a placed coordinate that overflows), error (an index on another device), capacity_error
+/// (where the bits of a position and of two ids are more than 64: split the list), std::bad_alloc and cuda_error.
 ///
 ///     std::vector<abut::posed_pair<decltype(gear)>> list{{posed(gear, here), posed(gear, there)}};
 ///     for (const auto& hit : to_host(abut::pairs(on, list))) use(hit.pair, hit.a, hit.b);
@@ -201,27 +216,31 @@ template <arithmetic A = filtered, execution_policy Policy, class IndexA, class 
 [[nodiscard]] auto pairs(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
                          const batch_options& options = {}) {
     using outcome = result<tagged_pair, space_of<Policy>>;
-    using side_a = decltype(detail::make_member_side(on, list[0].a, 0));
-    using side_b = decltype(detail::make_member_side(on, list[0].b, 0));
-    using tree_a = detail::tree_of_side<side_a>;
-    using tree_b = detail::tree_of_side<side_b>;
-    static_assert(tree_a::exists && tree_b::exists, "abut: a list of pairs holds indices made by make_bvh");
-    using member =
-        detail::batch_member<decltype(tree_a::view(std::declval<side_a>())), decltype(tree_b::view(std::declval<side_b>())),
-                             decltype(std::declval<side_a>().shapes().shapes),
-                             decltype(std::declval<side_b>().shapes().shapes)>;
+    static_assert(detail::is_tree<IndexA> && detail::is_tree<IndexB>,
+                  "abut: a list of pairs holds indices made by make_bvh");
+    static_assert(std::same_as<typename IndexA::memory_space, space_of<Policy>> &&
+                      std::same_as<typename IndexB::memory_space, space_of<Policy>>,
+                  "abut: an index lies in other memory than the policy works in; make it with the same policy");
+    using member = detail::batch_member<typename IndexA::view_type, typename IndexB::view_type,
+                                        decltype(detail::view_of(list[0].a.object.set())),
+                                        decltype(detail::view_of(list[0].b.object.set()))>;
     const std::size_t n = list.size();
     std::vector<member> members;
     std::vector<std::uint32_t> walked, rest;
     members.reserve(n);
     std::size_t most_a = 0, most_b = 0;
     for (std::size_t i = 0; i < n; ++i) {
-        const auto a = detail::make_member_side(on, list[i].a, i);
-        const auto b = detail::make_member_side(on, list[i].b, i);
-        const std::size_t size_a = list[i].a.size(), size_b = list[i].b.size();
+        const auto& [a, b] = list[i];
+        detail::check_entry(on, a, i);
+        detail::check_entry(on, b, i);
+        const std::size_t size_a = a.size(), size_b = b.size();
         most_a = std::max(most_a, size_a);
         most_b = std::max(most_b, size_b);
-        members.push_back({tree_a::view(a), tree_b::view(b), a.shapes(), b.shapes(), {}});
+        members.push_back({a.object.view(),
+                           b.object.view(),
+                           {detail::view_of(a.object.set()), a.pose},
+                           {detail::view_of(b.object.set()), b.pose},
+                           {}});
         const bool nodes = std::min(size_a, size_b) > 1 && std::max(size_a, size_b) <= detail::most_shapes_of_pair_walk;
         if (std::min(size_a, size_b) > 0) (nodes ? walked : rest).push_back(static_cast<std::uint32_t>(i));
     }
@@ -235,7 +254,8 @@ template <arithmetic A = filtered, execution_policy Policy, class IndexA, class 
     // Trees of one shape have no nodes to walk.
     std::vector<std::uint64_t> more;
     for (const std::uint32_t i : rest) {
-        for (const index_pair& ids : to_host(pairs<A>(on, list[i].a, list[i].b))) more.push_back(key.pack(i, ids.a, ids.b));
+        for (const index_pair& ids : to_host(pairs<A>(on, list[i].a, list[i].b, query_options<>{.sorted = false})))
+            more.push_back(key.pack(i, ids.a, ids.b));
     }
     if (!more.empty()) {
         detail::key_queue<Policy> others(on, more);

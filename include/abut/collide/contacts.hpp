@@ -81,7 +81,9 @@ struct is_not_sideways {
     ABUT_HD bool operator()(std::size_t i) const {
         const auto query = sides.queries[sides.key.query(keys[i])];
         const auto target = sides.targets[sides.key.target(keys[i])];
-        const auto along_line = overlap_along_shared_line(query, target);
+        // From a's side whoever looks: swapped, the numbers round differently.
+        const bool swap = sides.key.queries_are_b;
+        const auto along_line = overlap_along_shared_line(swap ? target : query, swap ? query : target);
         return along_line < 0 || !(along_line < contacts[i].depth);
     }
 };

@@ -69,7 +69,7 @@ struct expansion {
     static constexpr unsigned capacity = 40960 / sizeof(item), candidate_capacity = (most + 1) * block_size;
     /// For a descent one item at a time, when there is no room for more.
     static constexpr unsigned reserve = Expand::most_depth * (most - 1) + most;
-    static_assert(reserve + most * block_size <= capacity);
+    static_assert(reserve + (most + 1) * block_size <= capacity);
     static_assert(sizeof(candidate) <= 16, "every device since compute capability 7.5 lets a block have 64 KiB");
 
     item items[capacity];
@@ -93,9 +93,11 @@ __global__ void __launch_bounds__(block_size)
     if (i < 6) list.counts[i] = i == 0 ? seeds : 0;
 }
 
-/// When a block leaves the rest to the next kernel: it holds that many items, or has done that many steps.
+/// When a block leaves the rest to the next kernel: it holds that many items, or has done that many steps; but not while the
+/// list has more for it.
 struct expansion_limit {
-    unsigned items, steps, deals;  ///< and one in how many items is dealt out evenly at the start
+    unsigned items, steps;  ///< no number of steps is too many if `steps` is 0
+    unsigned deals;         ///< one in how many items is dealt out evenly at the start
 };
 
 /// Expands the items of `from` until `limit`; what is left goes to `to`, which has room for all that blocks hold.
@@ -151,7 +153,8 @@ __global__ void __launch_bounds__(block_size)
         const unsigned fit = room / memory::most > 0 ? room / memory::most : 1;
         unsigned width = count < block_size ? count : block_size;
         width = width < fit ? width : fit;
-        const bool stop = (count == 0 && !more) || over || (!more && (count >= limit.items || step >= limit.steps));
+        const bool stop =
+            (count == 0 && !more) || over || (!more && (count >= limit.items || (limit.steps > 0 && step >= limit.steps)));
         __syncthreads();
         if (stop) {
             if (threadIdx.x == 0) mine.count = over ? 0 : count;
@@ -204,11 +207,11 @@ void for_each_descendant(const cuda& on, const Expand& expand, const Decide& dec
         detail::start_kernel<<<detail::blocks_for(seeds), block, 0, on.stream>>>(seed, seeds, expand);
         const bool few = seeds < blocks;
         if (few) {
-            kernel<<<1, block, bytes, on.stream>>>(seed, begun, {1024, never, 1}, expand, decide, late_sink, sinks...);
+            kernel<<<1, block, bytes, on.stream>>>(seed, begun, {1024, 0, 1}, expand, decide, late_sink, sinks...);
         }
         const detail::item_list<item>& all = few ? begun : seed;
         kernel<<<blocks, block, bytes, on.stream>>>(all, spread, {1024, 8, 1}, expand, decide, late_sink, sinks...);
-        kernel<<<blocks, block, bytes, on.stream>>>(spread, begun, {never, never, 2}, expand, decide, late_sink, sinks...);
+        kernel<<<blocks, block, bytes, on.stream>>>(spread, begun, {never, 0, 2}, expand, decide, late_sink, sinks...);
         detail::check_launch("for_each_descendant");
         detail::launch_settle(on, settle, deliver, late_sink, sinks...);
     };

@@ -77,7 +77,9 @@ __global__ void __launch_bounds__(block_size) rank_kernel(unsigned n, const Key*
     }
 #pragma unroll
     for (unsigned k = 0; k < ranks_of_warp; ++k) {
-        const unsigned sum = __reduce_add_sync(0xffffffff, rank[k]);
+        unsigned sum = rank[k];
+#pragma unroll
+        for (unsigned away = warp_size / 2; away > 0; away /= 2) sum += __shfl_xor_sync(0xffffffff, sum, away);
         if (lane == 0 && first + k < n) out[sum] = mine[k];
     }
 }

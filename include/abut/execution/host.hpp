@@ -229,14 +229,16 @@ void for_each_descendant(const Policy& on, const Expand& expand, const Decide& d
                 const auto at = mine.take();
                 mine.begin();
                 expand(at, mine);
-                if (mine.found() < at_a_time) continue;
-                mine.decide_all(decide_one);
-                if (is_over(sinks...)) return;
+                if (mine.found() >= at_a_time) mine.decide_all(decide_one);
+                if constexpr (any_will_do) {
+                    if (is_over(sinks...)) return;
+                }
             }
             mine.decide_all(decide_one);
         }
     };
-    detail::gather_and_settle(on, early.size() + level.count(), any_will_do ? 1 : descent_grain, loop, settle, late, queues...);
+    detail::gather_and_settle(on, early.size() + level.count(), any_will_do ? 1 : descent_grain, loop, settle, late,
+                              queues...);
 }
 
 template <host_policy Policy, class Tile, class Settle, class Late, class... Queues>

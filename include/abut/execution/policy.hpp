@@ -14,18 +14,19 @@
 //   for_each_in_groups(on, n, f, queue...)  indices by groups of group_size neighbours, who share an F::shared close to the
 //                                           core: f.prepare(k, shared) for every k < group_size, then
 //                                           state = f.inside(i, shared) for every i of the group, then
-//                                           f.outside(i, state, shared, sink...) for every i of it
+//                                           f.outside(i, state, shared, sink...) for every i of it. Functors that write
+//                                           elsewhere take counts and flags alone: queues that overflow begin anew
 //   for_each_candidate(on, n, test, walk, decide, settle, late, queue...)
 //                                           for every i with test(i): walk(i, emitter, sink...) calls emitter.push(c) for
 //                                           each candidate c, and decide(c, late_sink, sink...) is called for it; or else,
 //                                           for want of room, c itself goes to the queue `late`. Then settle(c, sink...)
 //                                           for every c in `late`
 //   for_each_descendant(on, expand, decide, settle, late, queue...)
-//                                           work that makes work: expand(item, emitter) for expand.seed() and every item
-//                                           that a call adds by emitter.add(k, item), in no order; candidates that it pushes
-//                                           by emitter.push(k, c) are decided, and the late settled, as above. Within a call
-//                                           each k < expand.most_children, a constant, is used once at most; an item
-//                                           descends from at most expand.most_depth others
+//                                           work that makes work: expand(item, emitter) for expand.seed(i),
+//                                           i < expand.seeds(), and every item that a call adds by emitter.add(k, item), in
+//                                           no order; candidates that it pushes by emitter.push(k, c) are decided, and the
+//                                           late settled, as above. Within a call each k < expand.most_children, a constant,
+//                                           is used once at most; an item descends from at most expand.most_depth others
 //   for_each_tiled(on, n, m, tile, settle, late, queue...)
 //                                           tile(row, i, column, j, late_sink, sink...) for all (i, j) of [0, n) x [0, m)
 //                                           with tile.passes(reach, column): row = tile.load_row(i), reach =

@@ -126,7 +126,7 @@ struct standard_layout {
 
         [[nodiscard]] view<T, Space> view_of(std::size_t shapes) const { return {nodes.data(), root.data(), shapes}; }
         [[nodiscard]] std::size_t bytes() const { return nodes.capacity_bytes() + root.capacity_bytes(); }
-        [[nodiscard]] storage<T, host_space> to_host() const { return {nodes.to_host(), root.to_host(), {}}; }
+        [[nodiscard]] storage<T, host_space> to_host() const { return {nodes.to_host(), root.to_host()}; }
     };
 };
 

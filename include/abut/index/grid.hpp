@@ -58,7 +58,9 @@ struct grid_frame {
     }
     [[nodiscard]] ABUT_HD static std::uint64_t key(int level, const vec3<std::int32_t>& at) {
         return ((static_cast<std::uint64_t>(level) << axis_bits | static_cast<std::uint64_t>(at.x)) << axis_bits |
-                static_cast<std::uint64_t>(at.y)) << axis_bits | static_cast<std::uint64_t>(at.z);
+                static_cast<std::uint64_t>(at.y))
+                   << axis_bits |
+               static_cast<std::uint64_t>(at.z);
     }
 };
 
@@ -77,10 +79,10 @@ struct grid_view {
     static constexpr std::uint64_t no_key = static_cast<std::uint64_t>(-1);
 
     const grid_frame<T>* frame = nullptr;
-    const std::uint64_t* keys = nullptr;     // open addressing; no_key marks a free slot
-    const std::uint32_t* starts = nullptr;   // slots + 1: items of slot s are [starts[s], starts[s + 1])
+    const std::uint64_t* keys = nullptr;    // open addressing; no_key marks a free slot
+    const std::uint32_t* starts = nullptr;  // slots + 1: items of slot s are [starts[s], starts[s + 1])
     const grid_item<T>* items = nullptr;
-    std::uint64_t slots = 0;                 // a power of two
+    std::uint64_t slots = 0;  // a power of two
     std::size_t count = 0;
 
     [[nodiscard]] ABUT_HD std::size_t size() const { return count; }
@@ -120,8 +122,8 @@ public:
     /// Number of shapes.
     [[nodiscard]] std::size_t size() const { return set_.size(); }
     [[nodiscard]] view_type view() const {
-        return {cells_->frame.data(), cells_->keys.data(), cells_->starts.data(), cells_->items.data(), cells_->keys.size(),
-                set_.size()};
+        return {cells_->frame.data(), cells_->keys.data(), cells_->starts.data(),
+                cells_->items.data(), cells_->keys.size(), set_.size()};
     }
     [[nodiscard]] int device() const { return cells_->frame.device(); }
     /// Memory of the grid itself, in bytes.
@@ -257,13 +259,16 @@ template <execution_policy Policy, class Set>
         execution::buffer_of<Policy, std::uint64_t> place(on, n);
         reduce_into(on, n, sum.data(), detail::extent_sum<T>{empty_box<T>(), 0.0}, detail::add_extents{},
                     detail::measure_shape<shapes_type>{shapes});
-        for_each_index(on, 1, detail::set_frame<T>{sum.data(), cells->frame.data(), static_cast<double>(n), options.cell_width});
+        for_each_index(on, 1,
+                       detail::set_frame<T>{sum.data(), cells->frame.data(), static_cast<double>(n), options.cell_width});
         fill(on, cells->keys.data(), slots, grid_type::view_type::no_key);
         fill(on, cells->starts.data(), slots, std::uint32_t{0});
-        for_each_index(on, n, detail::count_in_cells<shapes_type>{shapes, cells->frame.data(), cells->keys.data(), slots,
-                                                                  cells->starts.data(), place.data()});
+        for_each_index(on, n,
+                       detail::count_in_cells<shapes_type>{shapes, cells->frame.data(), cells->keys.data(), slots,
+                                                           cells->starts.data(), place.data()});
         exclusive_scan(on, cells->starts.data(), slots);
-        for_each_index(on, n, detail::put_in_cells<shapes_type>{shapes, cells->starts.data(), place.data(), cells->items.data()});
+        for_each_index(on, n,
+                       detail::put_in_cells<shapes_type>{shapes, cells->starts.data(), place.data(), cells->items.data()});
         synchronize(on);
     }
     return grid_type(std::move(resident), std::move(cells));

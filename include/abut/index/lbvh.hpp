@@ -74,10 +74,21 @@ struct climb {
     bvh_node<T>* nodes;
     bvh_root<T>* root;
 
-    /// Nodes between leaves of one group.
+    /// Nodes between leaves of one group: side, coordinate, node, so that neighbours do not meet in one bank of memory.
     struct shared {
-        bvh_node<T> nodes[group];
+        T bounds[2][6][group];
+        bvh_child child[2][group];
         std::uint32_t reached[group], joined[group];
+
+        ABUT_HD void put(int side, std::uint32_t k, const aabb<T>& box, bvh_child is) {
+            const T values[] = {box.lower.x, box.lower.y, box.lower.z, box.upper.x, box.upper.y, box.upper.z};
+            for (int c = 0; c < 6; ++c) bounds[side][c][k] = values[c];
+            child[side][k] = is;
+        }
+        [[nodiscard]] ABUT_HD aabb<T> box(int side, std::uint32_t k) const {
+            const auto& b = bounds[side];
+            return {{b[0][k], b[1][k], b[2][k]}, {b[3][k], b[4][k], b[5][k]}};
+        }
     };
     /// A range of leaves and the tree over it; `waits` is the place in the group of the node where it found nobody.
     struct state {
@@ -101,15 +112,19 @@ struct climb {
             const std::uint32_t node = node_above(at, left);
             if (node < first_of_group || node >= last_of_group) return at;
             const std::uint32_t k = node - first_of_group;
-            put(at, left, with.nodes[k]);
+            const int side = left ? 0 : 1;
+            with.put(side, k, at.box, at.child);
             const std::uint32_t other = execution::exchange_in_group(&with.reached[k], far_end(at, left));
             if (other == nobody) {
                 at.waits = k;
                 return at;
             }
             with.joined[k] = 1;
-            nodes[node] = with.nodes[k];
-            join(at, left, node, other, with.nodes[k].bounds[left ? 1 : 0]);
+            const aabb<T> sibling = with.box(1 - side, k);
+            const bvh_child its = with.child[1 - side][k];
+            nodes[node] =
+                left ? bvh_node<T>{{at.box, sibling}, {at.child, its}} : bvh_node<T>{{sibling, at.box}, {its, at.child}};
+            join(at, left, node, other, sibling);
         }
         return at;
     }

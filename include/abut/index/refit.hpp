@@ -189,8 +189,8 @@ struct refit_single {
 /// The set may be of another kind than the tree's. It is brought to the policy's memory and checked as by make_bvh; a tree
 /// in another layout than the standard one is refitted before it is converted. Returns when the boxes are there. The first
 /// refit of a topology also derives 8 bytes a node and 4 for each node with two leaves, which all trees that come of it
-/// share. Throws invalid_geometry (views only), error (another number of shapes, a tree on another device), std::bad_alloc,
-/// cuda_error.
+/// share, `tree` too: under cuda the stream of that first refit has to outlive them all. Throws invalid_geometry (views
+/// only), error (another number of shapes, a tree on another device), std::bad_alloc, cuda_error.
 template <execution_policy Policy, class OldSet, memory_space Space, bvh_layout_kind Layout, class Set>
 [[nodiscard]] auto refit(const Policy& on, const bvh<OldSet, Space, Layout>& tree, const Set& set) {
     static_assert(std::same_as<Layout, standard_layout>,

@@ -63,8 +63,8 @@ struct pair_walk {
         const std::uint32_t index_a = a_is_leaf ? place_a / 2 : place_a, index_b = b_is_leaf ? place_b / 2 : place_b;
         // Which children are meant: the leaf itself, or both.
         const unsigned sides_a = a_is_leaf ? 1u << (place_a % 2) : 3u, sides_b = b_is_leaf ? 1u << (place_b % 2) : 3u;
-        const auto& node_a = a.fetch(index_a);
-        const auto& node_b = b.fetch(index_b);
+        const typename A::node_type node_a = a.fetch(index_a);
+        const typename B::node_type node_b = b.fetch(index_b);
         const auto step = [&](auto k) {
             constexpr unsigned i = decltype(k)::value / 2, j = decltype(k)::value % 2;
             const unsigned meant = sides_a >> i & sides_b >> j & 1u;
