@@ -34,6 +34,8 @@
 
 #if defined(__CUDACC__)
 #define ABUT_NOINLINE __noinline__
+#define ABUT_INLINE
 #else
 #define ABUT_NOINLINE [[gnu::noinline]]
+#define ABUT_INLINE [[gnu::always_inline]] inline
 #endif

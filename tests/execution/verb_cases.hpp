@@ -211,6 +211,7 @@ struct grow {
 
     std::size_t roots = 1;
     [[nodiscard]] std::size_t seeds() const { return roots; }
+    void prefetch(const item&) const {}
     [[nodiscard]] ABUT_HD item seed(std::size_t i) const { return {i + 1, 0}; }
     [[nodiscard]] ABUT_HD bool has(std::uint64_t path, unsigned k) const {
         switch (shape) {

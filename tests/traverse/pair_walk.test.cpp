@@ -23,6 +23,7 @@ struct box_pairs {
     static constexpr unsigned most_children = Walk::most_children, most_depth = Walk::most_depth;
     Walk walk;
     std::size_t seeds() const { return walk.seeds(); }
+    void prefetch(const item& at) const { walk.prefetch(at); }
     item seed(std::size_t i) const { return walk.seed(i); }
     template <class Emitter>
     void operator()(const item& at, Emitter& emitter) const {

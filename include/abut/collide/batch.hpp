@@ -134,10 +134,11 @@ struct expand_member {
         return {members[i].tree_a, members[i].tree_b, {&members[i].b_to_a}};
     }
     [[nodiscard]] std::size_t seeds() const { return n; }
+    void prefetch(const item& at) const { walk_of(at.member).prefetch(at.nodes); }
     [[nodiscard]] ABUT_HD item seed(std::size_t i) const { return {walked[i], walk_of(walked[i]).seed(0)}; }
     ABUT_CALLS_ANY
     template <class Emitter>
-    ABUT_HD void operator()(const item& at, Emitter&& emitter) const {
+    ABUT_INLINE ABUT_HD void operator()(const item& at, Emitter&& emitter) const {
         walk_of(at.member).expand(
             at.nodes,
             [&](auto k, bool is, const auto& next) {

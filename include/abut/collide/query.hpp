@@ -164,10 +164,11 @@ struct expand_pair {
     Sides sides;
 
     [[nodiscard]] std::size_t seeds() const { return walk.seeds(); }
+    void prefetch(const item& at) const { walk.prefetch(at); }
     [[nodiscard]] ABUT_HD item seed(std::size_t i) const { return walk.seed(i); }
     ABUT_CALLS_ANY
     template <class Emitter>
-    ABUT_HD void operator()(const item& at, Emitter&& emitter) const {
+    ABUT_INLINE ABUT_HD void operator()(const item& at, Emitter&& emitter) const {
         walk.expand(
             at, [&](auto k, bool is, const item& next) { emitter.add(k, is, next); },
             [&](auto k, bool is, std::uint32_t query, std::uint32_t target) {

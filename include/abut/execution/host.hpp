@@ -148,43 +148,41 @@ void for_each_candidate(const Policy& on, std::size_t n, const Test& test, const
 
 namespace detail {
 
-/// What waits in a descent: items on a stack, and candidates. `begin` makes room for what an item makes; adding is then free
-/// of branches.
+/// What the items of a level make.
 template <class Expand>
-class descent {
-public:
-    using item = typename Expand::item;
-    using candidate = typename Expand::candidate;
-
-    void begin() {
-        if (items_.size() < count_ + Expand::most_children) items_.resize(2 * count_ + 256);
-        if (candidates_.size() < found_ + Expand::most_children) candidates_.resize(2 * found_ + 256);
+struct next_level {
+    std::vector<typename Expand::item> items;
+    std::vector<typename Expand::candidate> candidates;
+    template <class Place>
+    void add(Place, bool is, const typename Expand::item& value) {
+        if (is) items.push_back(value);
     }
     template <class Place>
-    void add(Place, bool is, const item& value) {
-        items_[count_] = value;
-        count_ += is;
+    void push(Place, bool is, const typename Expand::candidate& value) {
+        if (is) candidates.push_back(value);
+    }
+};
+
+/// What waits in a descent from one item, in arrays of the size that it may need (75 KiB of stack for two trees): adding is
+/// free of branches, and g++ keeps the counts in registers.
+template <class Expand>
+struct descent {
+    static constexpr std::size_t at_a_time = 64;  ///< candidates that wait to be decided
+    static constexpr std::size_t most_width = 32;
+    typename Expand::item items[most_width * (Expand::most_depth * (Expand::most_children - 1) + Expand::most_children)];
+    typename Expand::candidate candidates[at_a_time + most_width * Expand::most_children];
+    std::size_t count = 0, found = 0;
+
+    template <class Place>
+    void add(Place, bool is, const typename Expand::item& value) {
+        items[count] = value;
+        count += is;
     }
     template <class Place>
-    void push(Place, bool is, const candidate& value) {
-        candidates_[found_] = value;
-        found_ += is;
+    void push(Place, bool is, const typename Expand::candidate& value) {
+        candidates[found] = value;
+        found += is;
     }
-
-    [[nodiscard]] std::size_t count() const { return count_; }
-    [[nodiscard]] item take() { return items_[--count_]; }
-    [[nodiscard]] const item& operator[](std::size_t i) const { return items_[i]; }
-    [[nodiscard]] std::size_t found() const { return found_; }
-    template <class Decide>
-    void decide_all(const Decide& decide) {
-        for (std::size_t i = 0; i < found_; ++i) decide(candidates_[i]);
-        found_ = 0;
-    }
-
-private:
-    std::vector<item> items_;
-    std::vector<candidate> candidates_;
-    std::size_t count_ = 0, found_ = 0;
 };
 
 }  // namespace detail
@@ -197,47 +195,45 @@ void for_each_descendant(const Policy& on, const Expand& expand, const Decide& d
     constexpr bool any_will_do = (is_flag<typename Queues::local> || ...);
     const std::size_t threads = static_cast<std::size_t>(thread_count(on));
     const std::size_t enough = threads == 1 ? 1 : any_will_do ? 4 * threads : 4096;
-    detail::descent<Expand> level;
-    std::vector<typename Expand::candidate> early;
-    for (std::size_t i = 0; i < expand.seeds(); ++i) {
-        level.begin();
-        level.add(0, true, expand.seed(i));
+    detail::next_level<Expand> start;
+    for (std::size_t i = 0; i < expand.seeds(); ++i) start.items.push_back(expand.seed(i));
+    while (!start.items.empty() && start.items.size() < enough) {
+        const auto level = std::exchange(start.items, {});
+        for (const auto& at : level) expand(at, start);
     }
-    while (level.count() > 0 && level.count() < enough) {
-        detail::descent<Expand> next;
-        for (std::size_t i = 0; i < level.count(); ++i) {
-            next.begin();
-            expand(level[i], next);
-        }
-        next.decide_all([&](const auto& candidate) { early.push_back(candidate); });
-        level = std::move(next);
-    }
+    const std::size_t early = start.candidates.size();
     const auto loop = [&](std::size_t begin, std::size_t end, auto& late_sink, auto&... sinks) {
-        // An early end is worth more than a long run of decisions.
-        constexpr std::size_t at_a_time = (is_flag<std::remove_reference_t<decltype(sinks)>> || ...) ? 1 : 64;
-        const auto decide_one = [&](const auto& candidate) { decide(candidate, late_sink, sinks...); };
-        detail::descent<Expand> mine;
-        for (std::size_t i = begin; i < end; ++i) {
-            if (is_over(sinks...)) return;
-            if (i < early.size()) {
-                decide_one(early[i]);
+        const Expand step = expand;
+        // An early end is worth more than a long run of decisions, and than many items whose fetches do not wait for each
+        // other.
+        constexpr std::size_t at_a_time = any_will_do ? 1 : detail::descent<Expand>::at_a_time;
+        constexpr std::size_t most_width = any_will_do ? 4 : detail::descent<Expand>::most_width;
+        for (std::size_t i = begin; i < end && !is_over(sinks...); ++i) {
+            if (i < early) {
+                decide(start.candidates[i], late_sink, sinks...);
                 continue;
             }
-            mine.begin();
-            mine.add(0, true, level[i - early.size()]);
-            while (mine.count() > 0) {
-                const auto at = mine.take();
-                mine.begin();
-                expand(at, mine);
-                if (mine.found() >= at_a_time) mine.decide_all(decide_one);
+            detail::descent<Expand> mine;
+            mine.items[mine.count++] = start.items[i - early];
+            while (mine.count > 0) {
+                typename Expand::item now[most_width];
+                const std::size_t width = mine.count < most_width ? mine.count : most_width;
+                for (std::size_t k = 0; k < width; ++k) {
+                    now[k] = mine.items[--mine.count];
+                    step.prefetch(now[k]);
+                }
+                for (std::size_t k = 0; k < width; ++k) step(now[k], mine);
+                if (mine.found >= at_a_time || mine.count == 0) {
+                    for (std::size_t k = 0; k < mine.found; ++k) decide(mine.candidates[k], late_sink, sinks...);
+                    mine.found = 0;
+                }
                 if constexpr (any_will_do) {
                     if (is_over(sinks...)) return;
                 }
             }
-            mine.decide_all(decide_one);
         }
     };
-    detail::gather_and_settle(on, early.size() + level.count(), any_will_do ? 1 : descent_grain, loop, settle, late,
+    detail::gather_and_settle(on, early + start.items.size(), any_will_do ? 1 : descent_grain, loop, settle, late,
                               queues...);
 }
 
