@@ -246,10 +246,12 @@ struct grow {
 /// The candidates, by recursion.
 struct grown {
     std::vector<std::uint64_t> candidates;
-    void add(unsigned, bool is, const grow::item& at) {
+    template <class Place>
+    void add(Place, bool is, const grow::item& at) {
         if (is) next.push_back(at);
     }
-    void push(unsigned, bool is, std::uint64_t candidate) {
+    template <class Place>
+    void push(Place, bool is, std::uint64_t candidate) {
         if (is) candidates.push_back(candidate);
     }
     std::vector<grow::item> next;

@@ -283,7 +283,7 @@ struct visit_key {
 /// The keys of all pairs that touch, sorted if wanted.
 template <class Policy, class Sides, class Run>
 auto touching_keys(const Policy& on, const Sides& both, const Run& run, std::size_t n, bool sorted) {
-    key_queue<Policy> hits(on, n / 4);
+    key_queue<Policy> hits(on, std::max(n / 4, std::size_t{1} << 16));
     run(hits, 0, n);
     auto keys = hits.take();
     if (sorted) sort_keys(on, keys, both.key.bits());
