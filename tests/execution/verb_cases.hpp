@@ -226,6 +226,7 @@ struct grow {
         }
         return false;
     }
+    ABUT_CALLS_ANY
     template <unsigned K, class Emitter>
     ABUT_HD void child(const item& at, Emitter& emitter) const {
         const std::uint64_t path = at.path * 6364136223846793005u + K + 1;
@@ -234,6 +235,7 @@ struct grow {
         emitter.add(k, is && !ends, item{path, at.depth + 1});
         emitter.push(k, is && ends, path);
     }
+    ABUT_CALLS_ANY
     template <class Emitter>
     ABUT_HD void operator()(const item& at, Emitter& emitter) const {
         child<0>(at, emitter);
