@@ -75,7 +75,7 @@ cuda=OFF
 if [ -n "$nvcc" ]; then cuda=ON; fi
 bench_option=OFF
 if [ $bench = yes ]; then bench_option=ON; fi
-layers='execution;index;traverse;io'
+layers='execution;traverse;io'
 if [ $asan = all ]; then layers=''; fi
 
 build_tree gcc default -DCMAKE_CXX_COMPILER=g++ -DABUT_CUDA=$cuda -DABUT_HEADER_COMPILERS="$compilers" -DABUT_BENCH=$bench_option
