@@ -14,17 +14,14 @@
 //   one_sided/BUILDER/LAYOUT         one tree, and the shapes of the other mesh
 
 #include <cstddef>
-#include <cstdio>
-#include <exception>
 #include <string>
 #include <utility>
 
 #include <benchmark/benchmark.h>
 
 #include <abut/abut.hpp>
-#include <abut/io/read.hpp>
 
-#include "meshes_scene.hpp"
+#include "meshes_main.hpp"
 
 namespace {
 
@@ -103,47 +100,6 @@ void add_all() {
     }
 }
 
-scene::surface read_surface(const std::string& path) {
-    const auto mesh = abut::io::read_mesh<float>(path);
-    const auto view = mesh.view();
-    scene::surface s;
-    for (std::size_t i = 0; i < view.vertices.count; ++i) s.vertices.push_back(view.vertices[i]);
-    for (std::size_t i = 0; i < view.faces.count; ++i) s.faces.push_back(view.faces[i]);
-    return s;
-}
-
-void run(int argc, char** argv) {
-    const std::string flag = "--mesh=";
-    std::string path;
-    int kept = 1;
-    for (int i = 1; i < argc; ++i) {
-        const std::string argument = argv[i];
-        if (argument.rfind(flag, 0) == 0) {
-            path = argument.substr(flag.size());
-        } else {
-            argv[kept++] = argv[i];
-        }
-    }
-    argc = kept;
-    benchmark::Initialize(&argc, argv);
-    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return;
-    const scene::mesh_pair pair = scene::make_pair(path.empty() ? scene::unit_torus() : read_surface(path));
-    scene::the_pair = &pair;
-    benchmark::AddCustomContext("mesh", path.empty() ? "torus" : path);
-    add_all();
-    for (const auto register_peer : scene::peers()) register_peer();
-    benchmark::RunSpecifiedBenchmarks();
-    benchmark::Shutdown();
-}
-
 }  // namespace
 
-int main(int argc, char** argv) {
-    try {
-        run(argc, argv);
-    } catch (const std::exception& problem) {
-        std::fprintf(stderr, "%s\n", problem.what());
-        return 1;
-    }
-    return 0;
-}
+int main(int argc, char** argv) { return meshes_scene::run(argc, argv, add_all); }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// usage: bench_builders_cuda [MESH or -] [OUT.json]
+// usage: bench_builders_cuda [OUT.json [MESH]]
 //
-// Trees on a device, over a mesh (PLY or OBJ; - or nothing is a torus of 345,744 triangles) and over 10 million random
+// Trees on a device, over a mesh (PLY or OBJ; without one a torus of 345,744 triangles) and over 10 million random
 // triangles. Names:
 //
 //   build/SCENE             make_bvh
@@ -12,20 +12,16 @@
 //   pairs/LAYOUT            the mesh against a turned copy of itself (bench/meshes_scene.hpp), sorted, both in the layout
 
 #include <cstdint>
-#include <cstdio>
-#include <exception>
 #include <string>
 #include <vector>
 
 #include <abut/cuda.hpp>
-#include <abut/io/read.hpp>
 
 #include "cuda_table.hpp"
 #include "meshes_scene.hpp"
 
 namespace {
 
-using bench::check;
 using bench::counters;
 using bench::joined;
 using bench::table;
@@ -72,15 +68,6 @@ void add_pairs(const abut::cuda& on, table& out, const std::string& name, const 
     });
 }
 
-scene::surface read_surface(const std::string& path) {
-    const auto mesh = abut::io::read_mesh<float>(path);
-    const auto view = mesh.view();
-    scene::surface s;
-    for (std::size_t i = 0; i < view.vertices.count; ++i) s.vertices.push_back(view.vertices[i]);
-    for (std::size_t i = 0; i < view.faces.count; ++i) s.faces.push_back(view.faces[i]);
-    return s;
-}
-
 abut::triangle_soup<float> random_soup(std::size_t n, std::uint64_t seed) {
     abut::test::uniform random(seed);
     std::vector<abut::triangle<float>> triangles(n);
@@ -94,14 +81,11 @@ abut::triangle_soup<float> random_soup(std::size_t n, std::uint64_t seed) {
     return abut::triangle_soup<float>(triangles);
 }
 
-void run(const std::string& mesh, const char* path) {
-    cudaStream_t stream = nullptr;
-    check(cudaStreamCreate(&stream), "cudaStreamCreate");
-    {
-        const abut::cuda on{stream};
-        table out(on);
-        bench::measure_floor(on, out);
-        const scene::mesh_pair pair = scene::make_pair(mesh == "-" ? scene::unit_torus() : read_surface(mesh));
+}  // namespace
+
+int main(int argc, char** argv) {
+    return bench::run("bench_builders_cuda", argc, argv, [&](const abut::cuda& on, table& out) {
+        const scene::mesh_pair pair = scene::make_pair(argc < 3 ? scene::unit_torus() : scene::read_surface(argv[2]));
         const auto a = copy_to(on, abut::mesh<float>(pair.a.vertices, pair.a.faces));
         const auto b = copy_to(on, abut::mesh<float>(pair.b.vertices, pair.b.faces));
         add_builds(on, out, "mesh", a, b, 12 + 6);  // three indices, and half a vertex
@@ -110,19 +94,5 @@ void run(const std::string& mesh, const char* path) {
         add_pairs(on, out, "quantised", quantised(on, tree_a), quantised(on, tree_b));
         add_pairs(on, out, "leafless", leafless(on, tree_a), leafless(on, tree_b));
         add_builds(on, out, "random", copy_to(on, random_soup(10'000'000, 1)), copy_to(on, random_soup(10'000'000, 2)), 36);
-        if (path != nullptr) out.write(path);
-    }
-    check(cudaStreamDestroy(stream), "cudaStreamDestroy");
-}
-
-}  // namespace
-
-int main(int argc, char** argv) {
-    try {
-        run(argc > 1 ? argv[1] : "-", argc > 2 ? argv[2] : nullptr);
-        return 0;
-    } catch (const std::exception& e) {
-        std::fprintf(stderr, "bench_builders_cuda: %s\n", e.what());
-        return 1;
-    }
+    });
 }

@@ -11,8 +11,6 @@
 //   one_sided/pairs/POLICY      one tree, and the shapes of the other mesh
 
 #include <cstddef>
-#include <cstdio>
-#include <exception>
 #include <string>
 #include <utility>
 
@@ -20,7 +18,7 @@
 
 #include <abut/abut.hpp>
 
-#include "meshes_scene.hpp"
+#include "meshes_main.hpp"
 
 namespace {
 
@@ -71,39 +69,11 @@ void add_policy(const Policy& on) {
     });
 }
 
-void run(int argc, char** argv) {
-    const std::string flag = "--mesh=";
-    std::string path;
-    int kept = 1;
-    for (int i = 1; i < argc; ++i) {
-        const std::string argument = argv[i];
-        if (argument.rfind(flag, 0) == 0) {
-            path = argument.substr(flag.size());
-        } else {
-            argv[kept++] = argv[i];
-        }
-    }
-    argc = kept;
-    benchmark::Initialize(&argc, argv);
-    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return;
-    const scene::mesh_pair pair = scene::make_pair(path.empty() ? scene::unit_torus() : scene::read_surface(path));
-    scene::the_pair = &pair;
-    benchmark::AddCustomContext("mesh", path.empty() ? "torus" : path);
-    add_policy(abut::serial{});
-    add_policy(abut::openmp{});
-    for (const auto register_peer : scene::peers()) register_peer();
-    benchmark::RunSpecifiedBenchmarks();
-    benchmark::Shutdown();
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
-        run(argc, argv);
-    } catch (const std::exception& problem) {
-        std::fprintf(stderr, "%s\n", problem.what());
-        return 1;
-    }
-    return 0;
+    return meshes_scene::run(argc, argv, [] {
+        add_policy(abut::serial{});
+        add_policy(abut::openmp{});
+    });
 }

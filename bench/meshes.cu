@@ -70,11 +70,7 @@ void add_batch(const abut::cuda& on, table& out, const meshes_scene::surface& sm
     const auto tree = make_bvh(on, device_mesh(on, small.vertices, small.faces));
     const auto box = tree.bounds();
     const abut::vec3<float> size = box.upper - box.lower, middle = 0.5f * (box.lower + box.upper);
-    std::uint64_t state = 1;
-    const auto next = [&state] {
-        state = state * 6364136223846793005ull + 1442695040888963407ull;
-        return static_cast<double>(state >> 11) * 0x1p-53;
-    };
+    abut::test::uniform next(1);
     std::vector<abut::posed_pair<std::remove_const_t<decltype(tree)>>> list;
     for (int i = 0; i < 1000; ++i) {
         const double turn = 6.28 * next(), c = std::cos(turn), s = std::sin(turn), far = 0.3 + 0.6 * next();
@@ -133,14 +129,10 @@ void add_builds(const abut::cuda& on, table& out, const device_mesh& mesh) {
 device_mesh random_mesh(const abut::cuda& on, std::size_t n) {
     std::vector<abut::vec3<float>> vertices;
     std::vector<abut::face> faces;
-    std::uint64_t state = 1;
-    const auto next = [&state] {
-        state = state * 6364136223846793005ull + 1442695040888963407ull;
-        return static_cast<float>(state >> 40) * 0x1p-24f;
-    };
+    abut::test::uniform random(1);
     for (std::uint32_t i = 0; i < n; ++i) {
-        const abut::vec3<float> at{next(), next(), next()};
-        for (int k = 0; k < 3; ++k) vertices.push_back(at + 0.004f * abut::vec3<float>{next(), next(), next()});
+        const auto at = random.point<float>(0, 1);
+        for (int k = 0; k < 3; ++k) vertices.push_back(at + random.point<float>(0, 0.004));
         faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
     }
     return device_mesh(on, vertices, faces);

@@ -167,7 +167,7 @@ inline constexpr bool is_tree<bvh<Set, Space, Layout>> = true;
 template <class Policy, class Index>
 void check_entry(const Policy& on, const posed_object<Index>& x, const char* function) {
     check(x.pose, function);
-    check_device(on, x.object, function);
+    require_same_device(on, x.object, function);
     if (x.size() == 0 || stays_finite(x.pose, x.object.bounds())) return;
     const auto shapes = view_of(x.object.set());
     check(on, posed_view<std::remove_const_t<decltype(shapes)>>{shapes, x.pose}, function);

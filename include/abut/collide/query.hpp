@@ -121,13 +121,6 @@ auto box_overlap(const SideA& side_a, const SideB& side_b) {
     }
 }
 
-template <class Policy, class Index>
-void check_device(const Policy& on, const Index& index, const char* function) {
-    if (index.size() == 0 || index.device() == device_of(on)) return;
-    throw error(std::string(function) + ": the index lies on device " + std::to_string(index.device()) +
-                ", the policy works on device " + std::to_string(device_of(on)));
-}
-
 template <class Policy, class X>
 auto make_side(const Policy& on, const X& x, const char* function) {
     if constexpr (is_posed<X>) {
@@ -146,7 +139,7 @@ auto make_side(const Policy& on, const X& x, const char* function) {
     } else if constexpr (is_index<X>) {
         static_assert(std::same_as<typename X::memory_space, space_of<Policy>>,
                       "abut: the index lies in other memory than the policy works in; make it with the same policy");
-        check_device(on, x, function);
+        require_same_device(on, x, function);
         return indexed_side<X>{x};
     } else {
         auto set = make_resident(on, x, function);

@@ -71,6 +71,17 @@ struct bvh_root {
     bvh_child child;
 };
 
+namespace detail {
+
+/// Reads what another thread has just written, past a cache that may hold the line as it was before.
+template <scalar T>
+ABUT_HD aabb<T> load_fresh(const aabb<T>& box) {
+    const volatile aabb<T>& now = box;
+    return {{now.lower.x, now.lower.y, now.lower.z}, {now.upper.x, now.upper.y, now.upper.z}};
+}
+
+}  // namespace detail
+
 /// The standard layout: full precision, both children's boxes in their parent.
 template <scalar T, memory_space Space>
 struct bvh_view {

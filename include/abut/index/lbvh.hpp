@@ -174,11 +174,6 @@ private:
         at.child = bvh_child::inner(node);
         (left ? at.last : at.first) = other;
     }
-    /// Reads what another thread has just written, past a cache that may hold the line as it was before.
-    ABUT_HD static aabb<T> load_fresh(const aabb<T>& box) {
-        const volatile aabb<T>& now = box;
-        return {{now.lower.x, now.lower.y, now.lower.z}, {now.upper.x, now.upper.y, now.upper.z}};
-    }
 };
 
 /// Sorts the shapes by the first `bits` bits of their codes and builds the tree. Returns how many shapes have a code that

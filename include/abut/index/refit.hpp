@@ -154,12 +154,6 @@ struct refit_climb {
             }
         }
     }
-
-    /// Reads what another thread has just written, past a cache that may hold the line as it was before.
-    ABUT_HD static aabb<T> load_fresh(const aabb<T>& box) {
-        const volatile aabb<T>& now = box;
-        return {{now.lower.x, now.lower.y, now.lower.z}, {now.upper.x, now.upper.y, now.upper.z}};
-    }
 };
 
 /// The climbs, with `shapes` read in the order of leaves.
