@@ -197,6 +197,91 @@ void check_candidates(const Policy& on) {
     }
 }
 
+/// Adds up a group in a heap: place k gets the sums of places 2 k and 2 k + 1, and index k those from 256 + k on. The sum of
+/// a whole group is late, as is what waits alone in the last one, and every seventh index.
+struct add_in_groups {
+    static constexpr unsigned parts = 2;
+    std::uint64_t* sums;
+    std::size_t n;
+
+    struct shared {
+        std::uint64_t value[2][execution::group_size];
+        std::uint32_t visitors[execution::group_size];
+    };
+    ABUT_CALLS_ANY
+    template <class Ready, class Late>
+    ABUT_HD static void hang(unsigned place, std::uint64_t sum, shared& with, Ready&& ready, Late&& late) {
+        const unsigned above = place / 2;
+        if (above == 0) {
+            with.value[0][0] = sum;
+            late.push(sum);
+            return;
+        }
+        with.value[place % 2][above] = sum;
+        if (execution::atomic_add(&with.visitors[above], std::uint32_t{1}) == 1) ready.push(above);
+    }
+    ABUT_HD void prepare(std::size_t first, unsigned k, shared& with) const {
+        with.visitors[k] = 0;
+        with.value[0][k] = with.value[1][k] = first;
+    }
+    ABUT_CALLS_ANY
+    template <class Ready, class Late, class Count>
+    ABUT_HD void begin(std::size_t i, shared& with, Ready&& ready, Late&& late, Count& count) const {
+        count.add(1);
+        if (i % 7 == 0) late.push(i);
+        const unsigned k = static_cast<unsigned>(i) % execution::group_size;
+        hang(execution::group_size + k, i, with, ready, late);
+    }
+    ABUT_CALLS_ANY
+    template <class Ready, class Late>
+    ABUT_HD void step(std::size_t, unsigned k, shared& with, Ready&& ready, Late&& late) const {
+        hang(k, with.value[0][k] + with.value[1][k], with, ready, late);
+    }
+    ABUT_CALLS_ANY
+    template <class Late>
+    ABUT_HD void end(std::size_t first, unsigned k, const shared& with, Late&& late) const {
+        if (with.visitors[k] == 1) late.push(with.value[0][k] == first ? with.value[1][k] : with.value[0][k]);
+    }
+    ABUT_HD void write(std::size_t first, unsigned t, const shared& with) const {
+        const std::size_t at = first + t / parts;
+        if (at < n) sums[parts * first + t] = t % parts == 0 ? with.value[0][0] : at;
+    }
+};
+struct keep_late {
+    ABUT_CALLS_ANY
+    template <class Count>
+    ABUT_HD void operator()(std::uint64_t value, Count& count) const {
+        count.add(static_cast<std::uint32_t>(value % 1024));
+    }
+};
+
+template <class Policy>
+void check_groups(const Policy& on) {
+    constexpr std::size_t size = execution::group_size;
+    for (const std::size_t n : {std::size_t{0}, std::size_t{1}, size - 1, size, size + 1, 3 * size, std::size_t{70'001}}) {
+        CAPTURE(n);
+        execution::buffer_of<Policy, std::uint64_t> sums(on, 2 * n);
+        execution::work_queue<std::uint64_t, space_of<Policy>> late(on, 2 * n);
+        execution::work_count<space_of<Policy>> count(on);
+        for_each_in_groups(on, n, add_in_groups{sums.data(), n}, keep_late{}, late, count);
+        const auto written = on_host(on, sums.data(), 2 * n);
+        std::uint64_t in_groups = 0, sevenths = 0, wrong = 0;
+        for (std::size_t i = 0; i < n; ++i) {
+            const std::size_t first = i / size * size;
+            const bool whole = first + size <= n;
+            if (i % 7 == 0) sevenths += i;
+            in_groups += i;
+            wrong += written[2 * i + 1] != i || (whole && written[2 * i] != size * first + size * (size - 1) / 2);
+        }
+        CHECK(wrong == 0);
+        const auto values = on_host(on, late.data(), late.size());
+        CHECK(std::accumulate(values.begin(), values.end(), std::uint64_t{0}) == in_groups + sevenths);
+        std::uint64_t settled = n;
+        for (const std::uint64_t value : values) settled += value % 1024;
+        CHECK(count.total() == settled);
+    }
+}
+
 /// Items that make items: a tree of which the shape depends on `shape` alone.
 struct grow {
     enum class kind : unsigned { full, ragged, chain, comb };
@@ -389,6 +474,7 @@ template <class Policy>
 void check_verbs(const Policy& on) {
     check_loops(on);
     check_candidates(on);
+    check_groups(on);
     check_descents(on);
     check_tiles(on);
     check_reductions(on);

@@ -38,26 +38,12 @@ inline ABUT_HD void atomic_or(std::uint32_t* target, std::uint32_t bits) {
 /// that thread wrote before its swap is seen here.
 inline ABUT_HD std::uint32_t atomic_exchange_acq_rel(std::uint32_t* target, std::uint32_t value) {
 #if ABUT_DEVICE_CODE
-    __threadfence();
-    std::uint32_t before = atomicExch(target, value);
-    __threadfence();
+    std::uint32_t before;
+    asm volatile("atom.acq_rel.gpu.exch.b32 %0, [%1], %2;" : "=r"(before) : "l"(target), "r"(value) : "memory");
     return before;
 #else
     return std::atomic_ref<std::uint32_t>(*target).exchange(value, std::memory_order_acq_rel);
 #endif
-}
-
-/// The same between the indices of a group (for_each_in_groups), in memory that they share. On the host they take turns.
-inline ABUT_HD std::uint32_t exchange_in_group(std::uint32_t* target, std::uint32_t value) {
-#if ABUT_DEVICE_CODE
-    __threadfence_block();
-    const std::uint32_t before = atomicExch(target, value);
-    __threadfence_block();
-#else
-    const std::uint32_t before = *target;
-    *target = value;
-#endif
-    return before;
 }
 
 /// Stores `desired` if the word is `expected`; returns the value before. T as for atomic_add.

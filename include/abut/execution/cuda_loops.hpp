@@ -67,19 +67,74 @@ __global__ void __launch_bounds__(block_size)
     deliver();
 }
 
-template <class F, class... Sinks>
-__global__ void __launch_bounds__(block_size)
-    for_each_in_groups_kernel(std::size_t n, F f, counter_delivery deliver, Sinks... sinks) {
+/// Candidates of one block, in shared memory; the ones that find no room are late.
+template <class Candidate, class Late, unsigned Capacity = 2048>
+struct candidate_sink {
+    static constexpr unsigned capacity = Capacity;
+    Candidate* data;
+    unsigned* count;
+    Late late;
+    __device__ void push(const Candidate& candidate) const {
+        // The counter rests once it is past the capacity: it cannot wrap around, whatever the number of candidates.
+        const unsigned slot = atomic_load(count) < capacity ? atomicAdd(count, 1u) : capacity;
+        if (slot < capacity) {
+            data[slot] = candidate;
+        } else {
+            late.push(candidate);
+        }
+    }
+};
+
+/// What is ready in a group: each index once at most.
+struct ready_in_block {
+    unsigned short* places;
+    unsigned* count;
+    __device__ void push(unsigned k) const { places[atomicAdd(count, 1u)] = static_cast<unsigned short>(k); }
+};
+
+/// Steps in rounds, so that the lanes that have one lie side by side; the last rounds, of few, are one warp's alone.
+template <class F, class Late, class... Sinks>
+__global__ void __launch_bounds__(block_size) for_each_in_groups_kernel(std::size_t n, F f, Late late, Sinks... sinks) {
+    using candidate = typename Late::value_type;
     __shared__ typename F::shared shared;
-    const std::size_t i = std::size_t{blockIdx.x} * block_size + threadIdx.x;
-    typename F::state state;
-    f.prepare(threadIdx.x, shared);
+    __shared__ candidate leaving[block_size];
+    __shared__ unsigned short places[block_size];
+    __shared__ unsigned left, counts[3];  // what is ready in a round, in the next one, and in the one after that
+    __shared__ std::uint64_t first_late;
+    const std::size_t first = std::size_t{blockIdx.x} * block_size, i = first + threadIdx.x;
+    if (threadIdx.x < 3) counts[threadIdx.x] = 0;
+    if (threadIdx.x == 3) left = 0;
+    f.prepare(first, threadIdx.x, shared);
     __syncthreads();
-    if (i < n) state = f.inside(i, shared);
+    const candidate_sink<candidate, Late, block_size> mine{leaving, &left, late};
+    if (i < n) f.begin(i, shared, ready_in_block{places, &counts[0]}, mine, sinks...);
+    unsigned round = 0, done = 0;
     __syncthreads();
-    if (i < n) f.outside(i, state, shared, sinks...);
+    for (;;) {
+        const unsigned count = counts[round], next = round == 2 ? 0 : round + 1, after = next == 2 ? 0 : next + 1;
+        if (count == 0) break;
+        const bool one_warp = count <= warp_size;
+        if (one_warp && threadIdx.x >= warp_size) break;
+        if (threadIdx.x == 0) counts[after] = 0;
+        const ready_in_block ready{places + done + count, &counts[next]};
+        if (threadIdx.x < count) f.step(first, places[done + threadIdx.x], shared, ready, mine);
+        done += count;
+        round = next;
+        if (one_warp) {
+            __syncwarp();
+        } else {
+            __syncthreads();
+        }
+    }
+    __syncthreads();
+    f.end(first, threadIdx.x, shared, mine);
+    for (unsigned t = threadIdx.x; t < F::parts * block_size; t += block_size) f.write(first, t, shared);
+    __syncthreads();
+    const unsigned count = left < block_size ? left : block_size;
+    if (threadIdx.x == 0 && count > 0) first_late = late.reserve(count);
+    __syncthreads();
+    if (threadIdx.x < count) late.put(first_late + threadIdx.x, leaving[threadIdx.x]);
     close_all(sinks...);
-    deliver();
 }
 
 /// Whether a flag among the sinks is raised, the same answer for all threads of the block.
@@ -97,24 +152,6 @@ template <class... Sinks>
 __device__ bool warp_is_over(unsigned lane, const Sinks&... sinks) {
     return lane == 0 && is_over(sinks...);
 }
-
-/// Candidates of one block, in shared memory; the ones that find no room are late.
-template <class Candidate, class Late>
-struct candidate_sink {
-    static constexpr unsigned capacity = 2048;
-    Candidate* data;
-    unsigned* count;
-    Late late;
-    __device__ void push(const Candidate& candidate) const {
-        // The counter rests once it is past the capacity: it cannot wrap around, whatever the number of candidates.
-        const unsigned slot = atomic_load(count) < capacity ? atomicAdd(count, 1u) : capacity;
-        if (slot < capacity) {
-            data[slot] = candidate;
-        } else {
-            late.push(candidate);
-        }
-    }
-};
 
 /// Three steps of very different width: tests, of which one in a hundred may pass; walks, of uneven length; decisions, which
 /// come up at uneven times. Each step hands what it found to the next through shared memory, so that each runs with its
@@ -401,17 +438,18 @@ void for_each_index(const cuda& on, std::size_t n, const F& f, Queue& queue, Que
     detail::gather(on, launch, queue, queues...);
 }
 
-template <class F, class Queue, class... Queues>
-void for_each_in_groups(const cuda& on, std::size_t n, const F& f, Queue& queue, Queues&... queues) {
+template <class F, class Settle, class Late, class... Queues>
+void for_each_in_groups(const cuda& on, std::size_t n, const F& f, const Settle& settle, Late& late, Queues&... queues) {
     static_assert(group_size == detail::block_size);
     if (n == 0) return;
     const detail::current_device scope(on);
-    const auto launch = [&](const detail::counter_delivery& deliver, auto... sinks) {
-        detail::for_each_in_groups_kernel<<<detail::blocks_for(n), detail::block_size, 0, on.stream>>>(n, f, deliver,
+    const auto launch = [&](const detail::counter_delivery& deliver, auto late_sink, auto... sinks) {
+        detail::for_each_in_groups_kernel<<<detail::blocks_for(n), detail::block_size, 0, on.stream>>>(n, f, late_sink,
                                                                                                        sinks...);
         detail::check_launch("for_each_in_groups");
+        detail::launch_settle(on, settle, deliver, late_sink, sinks...);
     };
-    detail::gather(on, launch, queue, queues...);
+    detail::gather(on, launch, late, queues...);
 }
 
 template <class Test, class Walk, class Decide, class Settle, class Late, class... Queues>

@@ -76,18 +76,23 @@ template <class T>
 class work_queue<T, device_space> {
 public:
     struct sink {
+        using value_type = T;
         T* data;
         std::uint64_t capacity;
         std::uint64_t* count;
+        /// Takes k places, and returns the first.
+        __device__ std::uint64_t reserve(std::uint64_t k) const { return atomic_add(count, k); }
+        __device__ void put(std::uint64_t place, const T& value) const {
+            if (place < capacity) data[place] = value;
+        }
         /// The lanes of a warp that push together count together.
         __device__ void push(const T& value) const {
             const unsigned lanes = __activemask();
             const int leader = __ffs(static_cast<int>(lanes)) - 1;
             const unsigned lane = detail::lane_id();
             std::uint64_t first = 0;
-            if (static_cast<int>(lane) == leader) first = atomic_add(count, static_cast<std::uint64_t>(__popc(lanes)));
-            const std::uint64_t slot = __shfl_sync(lanes, first, leader) + __popc(lanes & ((1u << lane) - 1));
-            if (slot < capacity) data[slot] = value;
+            if (static_cast<int>(lane) == leader) first = reserve(static_cast<unsigned>(__popc(lanes)));
+            put(__shfl_sync(lanes, first, leader) + __popc(lanes & ((1u << lane) - 1)), value);
         }
         __device__ void close() const {}
     };

@@ -112,23 +112,34 @@ void for_each_index(const Policy& on, std::size_t n, const F& f, Queue& queue, Q
     sinks.merge(on);
 }
 
-template <host_policy Policy, class F, class... Queues>
-void for_each_in_groups(const Policy& on, std::size_t n, const F& f, Queues&... queues) {
+namespace detail {
+
+/// What is ready in a group.
+struct ready_indices {
+    unsigned places[group_size];
+    unsigned count = 0;
+    void push(unsigned k) { places[count++] = k; }
+};
+
+}  // namespace detail
+
+template <host_policy Policy, class F, class Settle, class Late, class... Queues>
+void for_each_in_groups(const Policy& on, std::size_t n, const F& f, const Settle& settle, Late& late, Queues&... queues) {
     constexpr std::size_t grain = 16;
     const std::size_t groups = (n + group_size - 1) / group_size;
-    const auto loop = [&](std::size_t begin, std::size_t end, auto&... sinks) {
+    const auto loop = [&](std::size_t begin, std::size_t end, auto& late_sink, auto&... sinks) {
         typename F::shared shared;
-        typename F::state states[group_size];
+        detail::ready_indices ready;
         for (std::size_t group = begin; group < end; ++group) {
             const std::size_t first = group * group_size, count = std::min<std::size_t>(group_size, n - first);
-            for (unsigned k = 0; k < group_size; ++k) f.prepare(k, shared);
-            for (std::size_t k = 0; k < count; ++k) states[k] = f.inside(first + k, shared);
-            for (std::size_t k = 0; k < count; ++k) f.outside(first + k, states[k], shared, sinks...);
+            for (unsigned k = 0; k < group_size; ++k) f.prepare(first, k, shared);
+            for (std::size_t k = 0; k < count; ++k) f.begin(first + k, shared, ready, late_sink, sinks...);
+            while (ready.count > 0) f.step(first, ready.places[--ready.count], shared, ready, late_sink);
+            for (unsigned k = 0; k < group_size; ++k) f.end(first, k, shared, late_sink);
+            for (unsigned t = 0; t < F::parts * group_size; ++t) f.write(first, t, shared);
         }
     };
-    detail::thread_sinks<Queues...> sinks(on, groups, grain, queues...);
-    sinks.each(loop);
-    sinks.merge(on);
+    detail::gather_and_settle(on, groups, grain, loop, settle, late, queues...);
 }
 
 template <host_policy Policy, class Test, class Walk, class Decide, class Settle, class Late, class... Queues>

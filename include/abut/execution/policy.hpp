@@ -11,11 +11,17 @@
 //   for_each_index(on, n, f)                f(i) for every i in [0, n), concurrently
 //   for_each_index(on, n, f, queue...)      f(i, sink...): what is pushed into sink k is gathered in queue k, complete, in
 //                                           no order (execution/work_queue.hpp); returns when all sizes are known
-//   for_each_in_groups(on, n, f, queue...)  indices by groups of group_size neighbours, who share an F::shared close to the
-//                                           core: f.prepare(k, shared) for every k < group_size, then
-//                                           state = f.inside(i, shared) for every i of the group, then
-//                                           f.outside(i, state, shared, sink...) for every i of it. Functors that write
-//                                           elsewhere take counts and flags alone: queues that overflow begin anew
+//   for_each_in_groups(on, n, f, settle, late, queue...)
+//                                           indices by groups of group_size neighbours from `first` on, who share an
+//                                           F::shared close to the core. One after another: f.prepare(first, k, shared) for
+//                                           every k < group_size; f.begin(i, shared, ready, late_sink, sink...) for every i
+//                                           of the group; f.step(first, k, shared, ready, late_sink) for every k that these
+//                                           two push into `ready`, each k < group_size once at most, and a step pushes one
+//                                           at most; f.end(first, k, shared, late_sink) for every k < group_size, and
+//                                           f.write(first, t, shared) for every t < F::parts * group_size, neighbours side
+//                                           by side. When all groups are done, settle(c, sink...) for every c in `late`.
+//                                           Functors that write elsewhere take a `late` with room for all, and counts and
+//                                           flags alone: queues that overflow begin anew
 //   for_each_candidate(on, n, test, walk, decide, settle, late, queue...)
 //                                           for every i with test(i): walk(i, emitter, sink...) calls emitter.push(c) for
 //                                           each candidate c, and decide(c, late_sink, sink...) is called for it; or else,
@@ -26,8 +32,8 @@
 //                                           i < expand.seeds(), and every item that a call adds by emitter.add(k, item), in
 //                                           no order; candidates that it pushes by emitter.push(k, c) are decided, and the
 //                                           late settled, as above. Within a call each k < expand.most_children, a constant,
-//                                           is used once at most; an item descends from at most expand.most_depth others. expand.prefetch(item), on the
-//                                           host alone, is a hint that the item comes soon
+//                                           is used once at most; an item descends from at most expand.most_depth others.
+//                                           expand.prefetch(item), on the host alone, is a hint that the item comes soon
 //   for_each_tiled(on, n, m, tile, settle, late, queue...)
 //                                           tile(row, i, column, j, late_sink, sink...) for all (i, j) of [0, n) x [0, m)
 //                                           with tile.passes(reach, column): row = tile.load_row(i), reach =

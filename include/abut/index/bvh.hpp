@@ -42,6 +42,8 @@ template <scalar T>
 struct alignas(sizeof(T) == 4 ? 64 : 16) bvh_node {
     aabb<T> bounds[2];
     bvh_child child[2];
+    /// So that nodes are written whole: memory has to read what it is to write a part of.
+    std::uint32_t unused[sizeof(T) == 4 ? 2 : 1] = {};
 };
 
 /// Depth of the deepest leaf that any builder may make, and so the size of a traversal's stack. Linear builders stay below
@@ -106,21 +108,14 @@ struct bvh_view {
     }
 };
 
-/// How the way from a node to the root goes on: `up` is twice the parent's number plus the side on which the node hangs
-/// there; of the root it is `bvh_link::none`.
-struct bvh_link {
-    static constexpr std::uint32_t none = static_cast<std::uint32_t>(-1);
-    std::uint32_t up;
-    bvh_child sibling;
-};
-
 /// What refit needs of a topology besides the nodes: made at the first refit, then shared by all trees of that topology.
 template <memory_space Space>
 struct bvh_links {
+    static constexpr std::uint32_t none = static_cast<std::uint32_t>(-2);
     std::mutex making;
     bool made = false;
-    execution::buffer<bvh_link, Space> of_nodes;
-    execution::buffer<std::uint32_t, Space> starts;  ///< nodes whose children are both leaves, ascending
+    /// For each node twice its parent's number plus the side on which it hangs there; `none` for the root.
+    execution::buffer<std::uint32_t, Space> above;
 };
 
 /// The layout that trees are built in.

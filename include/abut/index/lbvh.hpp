@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// make_bvh: a linear BVH in one bottom-up pass over shapes sorted by Morton code (Apetrei, "Fast and Simple Agglomerative
-// LBVH Construction", 2014). Each leaf climbs; of the two threads that reach a node, the second knows both boxes and goes
-// on. Topology and boxes depend on the shapes alone, not on the policy or the order of the threads.
+// make_bvh: a linear BVH in one bottom-up pass over shapes sorted by Morton code (index/climb.hpp). Topology and boxes
+// depend on the shapes alone, not on the policy or the order of the threads.
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 
-#include <abut/execution/atomic.hpp>
 #include <abut/execution/work_queue.hpp>
 #include <abut/index/binned_sah.hpp>
 #include <abut/index/bvh.hpp>
+#include <abut/index/climb.hpp>
 #include <abut/index/mean_split.hpp>
 #include <abut/index/morton.hpp>
 #include <abut/index/operand.hpp>
@@ -55,96 +54,47 @@ struct write_codes {
     }
 };
 
-/// The climb of leaf i. A node between sorted leaves k and k + 1 is node k. A range of leaves [first, last] joins its
-/// neighbour across the closer of its two borders; `reached` holds, for each node, the far end of the child that came first.
-/// Most nodes lie within a group of leaves (for_each_in_groups), which meet in the memory that they share; only ranges that
-/// find nobody there go on outside.
+/// Leaves sorted by code, to climb through (index/climb.hpp). Node k lies between leaves k and k + 1. A range of leaves
+/// [first, last] joins its neighbour across the closer of its two borders; its token is the end that is far from there.
 template <class Code, scalar T>
-struct climb {
-    static constexpr std::uint32_t nobody = static_cast<std::uint32_t>(-1);
+struct sorted_leaves {
     static constexpr std::uint32_t crowd =
         8;  ///< more shapes than this with one code are counted: their order means nothing
-    static constexpr std::uint32_t group = execution::group_size;
 
     const aabb<T>* boxes;
     std::size_t shapes;
     const Code* codes;
     const std::uint32_t* ids;
-    std::uint32_t* reached;
-    bvh_node<T>* nodes;
-    bvh_root<T>* root;
 
-    /// Nodes between leaves of one group: side, coordinate, node, so that neighbours do not meet in one bank of memory.
-    struct shared {
-        T bounds[2][6][group];
-        bvh_child child[2][group];
-        std::uint32_t reached[group], joined[group];
-
-        ABUT_HD void put(int side, std::uint32_t k, const aabb<T>& box, bvh_child is) {
-            const T values[] = {box.lower.x, box.lower.y, box.lower.z, box.upper.x, box.upper.y, box.upper.z};
-            for (int c = 0; c < 6; ++c) bounds[side][c][k] = values[c];
-            child[side][k] = is;
-        }
-        [[nodiscard]] ABUT_HD aabb<T> box(int side, std::uint32_t k) const {
-            const auto& b = bounds[side];
-            return {{b[0][k], b[1][k], b[2][k]}, {b[3][k], b[4][k], b[5][k]}};
-        }
-    };
-    /// A range of leaves and the tree over it; `waits` is the place in the group of the node where it found nobody.
-    struct state {
+    struct subtree {
         aabb<T> box;
         bvh_child child;
-        std::uint32_t first, last, waits;
+        std::uint32_t first, last;
     };
 
-    ABUT_HD void prepare(unsigned k, shared& with) const {
-        with.reached[k] = nobody;
-        with.joined[k] = 0;
-    }
-    ABUT_HD state inside(std::size_t i, shared& with) const {
-        const auto leaf = static_cast<std::uint32_t>(i), first_of_group = leaf / group * group;
-        const std::uint32_t last_leaf = count() - 1;
-        const std::uint32_t last_of_group = last_leaf - first_of_group < group ? last_leaf : first_of_group + (group - 1);
-        const std::uint32_t id = ids[i];
-        state at{boxes[id], bvh_child::leaf(id), leaf, leaf, nobody};
-        while (!is_all(at)) {
-            const bool left = is_left(at);
-            const std::uint32_t node = node_above(at, left);
-            if (node < first_of_group || node >= last_of_group) return at;
-            const std::uint32_t k = node - first_of_group;
-            const int side = left ? 0 : 1;
-            with.put(side, k, at.box, at.child);
-            const std::uint32_t other = execution::exchange_in_group(&with.reached[k], far_end(at, left));
-            if (other == nobody) {
-                at.waits = k;
-                return at;
-            }
-            with.joined[k] = 1;
-            const aabb<T> sibling = with.box(1 - side, k);
-            const bvh_child its = with.child[1 - side][k];
-            nodes[node] =
-                left ? bvh_node<T>{{at.box, sibling}, {at.child, its}} : bvh_node<T>{{sibling, at.box}, {its, at.child}};
-            join(at, left, node, other, sibling);
-        }
-        return at;
+    ABUT_CALLS_ANY
+    template <class Hang>
+    ABUT_HD void start(std::size_t i, const Hang& hang) const {
+        const auto leaf = static_cast<std::uint32_t>(i);
+        hang(subtree{boxes[ids[i]], bvh_child::leaf(ids[i]), leaf, leaf});
     }
     ABUT_CALLS_ANY
     template <class Count>
-    ABUT_HD void outside(std::size_t i, state at, const shared& with, Count& crowded) const {
+    ABUT_HD void notice(std::size_t i, Count& crowded) const {
         crowded.add(i + crowd < shapes && codes[i] == codes[i + crowd]);
-        if (at.waits != nobody && with.joined[at.waits] != 0) return;
-        while (!is_all(at)) {
-            const bool left = is_left(at);
-            const std::uint32_t node = node_above(at, left);
-            put(at, left, nodes[node]);
-            const std::uint32_t other = execution::atomic_exchange_acq_rel(&reached[node], far_end(at, left));
-            if (other == nobody) return;
-            join(at, left, node, other, load_fresh(nodes[node].bounds[left ? 1 : 0]));
-        }
-        *root = {at.box, at.child};
     }
+    [[nodiscard]] ABUT_HD bool is_all(const subtree& at) const { return at.first == 0 && at.last == last_leaf(); }
+    template <class Reader>
+    [[nodiscard]] ABUT_HD std::uint32_t above(const subtree& at, const Reader& across) const {
+        const bool left = at.first == 0 || (at.last != last_leaf() && across(at.last) < across(at.first - 1));
+        return left ? 2 * at.last : 2 * (at.first - 1) + 1;
+    }
+    template <class Reader>
+    [[nodiscard]] ABUT_HD std::uint32_t token(const subtree& at, std::uint32_t place, const Reader&) const {
+        return place % 2 == 0 ? at.first : at.last;
+    }
+    [[nodiscard]] ABUT_HD subtree joined(std::uint32_t left, std::uint32_t right) const { return {{}, {}, left, right}; }
 
-private:
     /// How far apart leaves k and k + 1 are: the highest bit in which their codes, and between equal codes their positions,
     /// differ. Comparing the numbers compares those bits, since no two borders of one range share their highest bit.
     struct distance {
@@ -154,26 +104,33 @@ private:
             return code < other.code || (code == other.code && position < other.position);
         }
     };
-    ABUT_HD distance across(std::uint32_t k) const { return {static_cast<Code>(codes[k] ^ codes[k + 1]), k ^ (k + 1)}; }
+    struct far_reader {
+        const Code* codes;
+        ABUT_HD distance operator()(std::uint32_t k) const {
+            return {static_cast<Code>(codes[k] ^ codes[k + 1]), k ^ (k + 1)};
+        }
+    };
+    [[nodiscard]] ABUT_HD far_reader far() const { return {codes}; }
 
-    [[nodiscard]] ABUT_HD std::uint32_t count() const { return static_cast<std::uint32_t>(shapes); }
-    ABUT_HD bool is_all(const state& at) const { return at.first == 0 && at.last == count() - 1; }
-    /// Whether the range is the left child of the node above.
-    ABUT_HD bool is_left(const state& at) const {
-        return at.first == 0 || (at.last != count() - 1 && across(at.last) < across(at.first - 1));
+    /// Between the leaves of a group, and before the first one of them.
+    struct local {
+        Code across[execution::group_size + 1];
+    };
+    struct near_reader {
+        const Code* across;
+        std::uint32_t before;  ///< what across[0] is of
+        ABUT_HD distance operator()(std::uint32_t k) const { return {across[k - before], k ^ (k + 1)}; }
+    };
+    ABUT_HD void load(std::size_t first, unsigned k, local& to) const {
+        if (first + k + 1 < shapes) to.across[k + 1] = codes[first + k] ^ codes[first + k + 1];
+        if (k == 0 && first > 0) to.across[0] = codes[first - 1] ^ codes[first];
     }
-    ABUT_HD static std::uint32_t node_above(const state& at, bool left) { return left ? at.last : at.first - 1; }
-    ABUT_HD static std::uint32_t far_end(const state& at, bool left) { return left ? at.first : at.last; }
-    ABUT_HD static void put(const state& at, bool left, bvh_node<T>& node) {
-        node.bounds[left ? 0 : 1] = at.box;
-        node.child[left ? 0 : 1] = at.child;
+    [[nodiscard]] ABUT_HD near_reader near(std::size_t first, const local& from) const {
+        return {from.across, static_cast<std::uint32_t>(first) - 1};
     }
-    /// Left before right, whoever comes first: the two zeros are told apart by it.
-    ABUT_HD static void join(state& at, bool left, std::uint32_t node, std::uint32_t other, const aabb<T>& sibling) {
-        at.box = left ? merge(at.box, sibling) : merge(sibling, at.box);
-        at.child = bvh_child::inner(node);
-        (left ? at.last : at.first) = other;
-    }
+
+private:
+    [[nodiscard]] ABUT_HD std::uint32_t last_leaf() const { return static_cast<std::uint32_t>(shapes) - 1; }
 };
 
 /// Sorts the shapes by the first `bits` bits of their codes and builds the tree. Returns how many shapes have a code that
@@ -182,14 +139,12 @@ template <class Code, execution_policy Policy, scalar T, class Storage>
 std::uint64_t build_lbvh(const Policy& on, const execution::buffer_of<Policy, aabb<T>>& boxes, Storage& tree, int bits) {
     const std::size_t n = boxes.size();
     execution::buffer_of<Policy, Code> codes(on, n);
-    execution::buffer_of<Policy, std::uint32_t> ids(on, n), reached(on, n - 1);
+    execution::buffer_of<Policy, std::uint32_t> ids(on, n);
     auto* const root = tree.root.data();
     for_each_index(on, n, write_codes<Code, T>{boxes.data(), root, morton_bits<Code> - bits, codes.data(), ids.data()});
     sort_by_key(on, codes, ids, bits);
-    fill(on, reached.data(), n - 1, climb<Code, T>::nobody);
     execution::work_count<space_of<Policy>> crowded(on);
-    const climb<Code, T> each{boxes.data(), n, codes.data(), ids.data(), reached.data(), tree.nodes.data(), root};
-    for_each_in_groups(on, n, each, crowded);
+    climb_all(on, sorted_leaves<Code, T>{boxes.data(), n, codes.data(), ids.data()}, n, n, tree.nodes.data(), root, crowded);
     return crowded.total();
 }
 

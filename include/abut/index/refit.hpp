@@ -15,34 +15,29 @@
 #include <string>
 #include <utility>
 
-#include <abut/execution/atomic.hpp>
 #include <abut/execution/buffer.hpp>
 #include <abut/index/bvh.hpp>
+#include <abut/index/climb.hpp>
 #include <abut/index/operand.hpp>
 
 namespace abut {
 
 namespace detail {
 
-/// Writes the link of each node's children. Nodes are read, boxes are not.
+/// Writes where each node hangs.
 template <scalar T>
 struct write_links {
     const bvh_node<T>* nodes;
     bvh_child root;
-    bvh_link* links;
+    std::uint32_t* above;
     ABUT_HD void operator()(std::size_t i) const {
         const auto node = static_cast<std::uint32_t>(i);
-        const bvh_child left = nodes[i].child[0], right = nodes[i].child[1];
-        if (!left.is_leaf()) links[left.index()] = {2 * node, right};
-        if (!right.is_leaf()) links[right.index()] = {2 * node + 1, left};
-        if (node == root.index()) links[node] = {bvh_link::none, {}};
+        for (std::uint32_t side = 0; side < 2; ++side) {
+            const bvh_child child = nodes[i].child[side];
+            if (!child.is_leaf()) above[child.index()] = 2 * node + side;
+        }
+        if (node == root.index()) above[node] = bvh_links<host_space>::none;
     }
-};
-
-template <scalar T>
-struct has_two_leaves {
-    const bvh_node<T>* nodes;
-    ABUT_HD bool operator()(std::size_t i) const { return nodes[i].child[0].is_leaf() && nodes[i].child[1].is_leaf(); }
 };
 
 /// The links of a tree with two shapes or more: made by whoever needs them first.
@@ -56,15 +51,10 @@ const auto& links_of(const Policy& on, const Storage& tree) {
         const bvh_node<T>* const nodes = tree.nodes.data();
         bvh_root<T> root;
         download(on, tree.root.data(), 1, &root);
-        execution::buffer_of<Policy, bvh_link> of_nodes(on, n);
-        execution::buffer_of<Policy, std::uint32_t> found(on, n);
-        for_each_index(on, n, write_links<T>{nodes, root.child, of_nodes.data()});
-        const std::size_t count = compact(on, n, has_two_leaves<T>{nodes}, found.data());
-        execution::buffer_of<Policy, std::uint32_t> starts(on, count);
-        copy(on, found.data(), count, starts.data());
+        execution::buffer_of<Policy, std::uint32_t> above(on, n);
+        for_each_index(on, n, write_links<T>{nodes, root.child, above.data()});
         synchronize(on);  // another policy may use them, in a stream of its own
-        links.of_nodes = std::move(of_nodes);
-        links.starts = std::move(starts);
+        links.above = std::move(above);
         links.made = true;
     }
     return links;
@@ -89,82 +79,86 @@ struct write_box {
     ABUT_HD void operator()(std::size_t i) const { boxes[i] = bounds(shapes[i]); }
 };
 
+/// A tree whose boxes are made anew, to climb through (index/climb.hpp). Index i is node i, whose leaves start.
 template <shape_view Shapes>
-struct refit_climb {
+struct refitted_nodes {
     using T = typename Shapes::scalar_type;
 
     Shapes shapes;
     const bvh_node<T>* old;
-    const bvh_link* links;
-    const std::uint32_t* starts;
-    std::size_t start_count;
-    std::uint32_t* arrived;  ///< 0 for each node
-    bvh_node<T>* nodes;
-    bvh_root<T>* root;
+    const std::uint32_t* links;  ///< bvh_links::above
+    std::size_t count;
 
-    ABUT_HD void operator()(std::size_t i) const {
-        std::uint32_t node = starts[i];
+    struct subtree {
+        aabb<T> box;
+        bvh_child child;
+        std::uint32_t place;
+    };
+
+    ABUT_CALLS_ANY
+    template <class Hang>
+    ABUT_HD void start(std::size_t i, const Hang& hang) const {
+        prefetch(i);
+        const bvh_child left = old[i].child[0], right = old[i].child[1];
+        const auto place = 2 * static_cast<std::uint32_t>(i);
+        if (left.is_leaf()) hang(subtree{bounds(shapes[left.index()]), left, place});
+        if (right.is_leaf()) hang(subtree{bounds(shapes[right.index()]), right, place + 1});
+    }
+    ABUT_HD void notice(std::size_t) const {}
+    [[nodiscard]] ABUT_HD bool is_all(const subtree& at) const { return at.place == bvh_links<host_space>::none; }
+    template <class Reader>
+    [[nodiscard]] ABUT_HD std::uint32_t above(const subtree& at, const Reader&) const {
+        return at.place;
+    }
+    template <class Reader>
+    [[nodiscard]] ABUT_HD std::uint32_t token(const subtree&, std::uint32_t place, const Reader& link) const {
+        return link(place / 2);
+    }
+    [[nodiscard]] ABUT_HD subtree joined(std::uint32_t, std::uint32_t link) const { return {{}, {}, link}; }
+
+    struct local {
+        std::uint32_t links[execution::group_size];
+    };
+    struct near_reader {
+        const std::uint32_t *all, *links;
+        std::uint32_t first;
+        ABUT_HD std::uint32_t operator()(std::uint32_t node) const {
+            return node - first < execution::group_size ? links[node - first] : all[node];  // unsigned: or before the first
+        }
+    };
+    struct far_reader {
+        const std::uint32_t* all;
+        ABUT_HD std::uint32_t operator()(std::uint32_t node) const { return all[node]; }
+    };
+    ABUT_HD void load(std::size_t first, unsigned k, local& to) const {
+        if (first + k < count) to.links[k] = links[first + k];
+    }
+    [[nodiscard]] ABUT_HD near_reader near(std::size_t first, const local& from) const {
+        return {links, from.links, static_cast<std::uint32_t>(first)};
+    }
+    [[nodiscard]] ABUT_HD far_reader far() const { return {links}; }
+
+private:
+    /// A processor would wait for each box in turn; so what comes later is asked for now.
+    ABUT_HD void prefetch([[maybe_unused]] std::size_t i) const {
 #if !ABUT_DEVICE_CODE
-        // Processors guess how a climb goes on, often wrongly, and then wait for each box and node in turn; so what climbs
-        // that begin later will need is asked for now. Not in a function of its own: g++ drops calls that do nothing else.
         if constexpr (std::same_as<Shapes, box_view<T, host_space>>) {
             constexpr std::size_t ahead = 16;
-            if (i + 2 * ahead < start_count) {
-                __builtin_prefetch(old + starts[i + 2 * ahead]);
-                const std::uint32_t next = starts[i + ahead];
-                const bvh_link link = links[next];
-                __builtin_prefetch(shapes.boxes + old[next].child[0].index());
-                __builtin_prefetch(shapes.boxes + old[next].child[1].index());
-                if (link.sibling.is_leaf()) __builtin_prefetch(shapes.boxes + link.sibling.index());
-                __builtin_prefetch(nodes + next, 1);
-                __builtin_prefetch(nodes + link.up / 2, 1);
-                __builtin_prefetch(links + link.up / 2);
+            if (i + ahead >= count) return;
+            for (const bvh_child child : old[i + ahead].child) {
+                if (child.is_leaf()) __builtin_prefetch(shapes.boxes + child.index());
             }
         }
 #endif
-        const bvh_child left = old[node].child[0], right = old[node].child[1];
-        const aabb<T> box_left = bounds(shapes[left.index()]), box_right = bounds(shapes[right.index()]);
-        nodes[node] = {{box_left, box_right}, {left, right}};
-        aabb<T> box = merge(box_left, box_right);
-        for (;;) {
-            const bvh_link link = links[node];
-            const bvh_child self = bvh_child::inner(node);
-            if (link.up == bvh_link::none) {
-                *root = {box, self};
-                return;
-            }
-            node = link.up / 2;
-            const bool on_right = (link.up & 1) != 0;
-            aabb<T> other;
-            if (link.sibling.is_leaf()) {
-                other = bounds(shapes[link.sibling.index()]);
-            } else {
-                // For the other climb, if it is second.
-                nodes[node].bounds[on_right ? 1 : 0] = box;
-                if (execution::atomic_exchange_acq_rel(&arrived[node], 1u) == 0) return;
-                other = load_fresh(nodes[node].bounds[on_right ? 0 : 1]);
-            }
-            // The left box first, whichever climb this is: of zeros of both signs the first is kept.
-            if (on_right) {
-                nodes[node] = {{other, box}, {link.sibling, self}};
-                box = merge(other, box);
-            } else {
-                nodes[node] = {{box, other}, {self, link.sibling}};
-                box = merge(box, other);
-            }
-        }
     }
 };
 
-/// The climbs, with `shapes` read in the order of leaves.
+/// The climb, with `shapes` read in the order of leaves.
 template <class Policy, shape_view Shapes, class Storage>
 void refit_nodes(const Policy& on, const Shapes& shapes, const Storage& old, Storage& fresh) {
-    const auto& links = links_of(on, old);
-    execution::buffer_of<Policy, std::uint32_t> arrived(on, old.nodes.size());
-    fill(on, arrived.data(), arrived.size(), std::uint32_t{0});
-    for_each_index(on, links.starts.size(),
-                   refit_climb<Shapes>{shapes, old.nodes.data(), links.of_nodes.data(), links.starts.data(),
-                                       links.starts.size(), arrived.data(), fresh.nodes.data(), fresh.root.data()});
+    const std::size_t n = old.nodes.size();
+    const refitted_nodes<Shapes> tree{shapes, old.nodes.data(), links_of(on, old).above.data(), n};
+    climb_all(on, tree, n, n + 1, fresh.nodes.data(), fresh.root.data());
 }
 
 template <shape_view Shapes>
@@ -182,7 +176,7 @@ struct refit_single {
 ///
 /// The set may be of another kind than the tree's. It is brought to the policy's memory and checked as by make_bvh; a tree
 /// in another layout than the standard one is refitted before it is converted. Returns when the boxes are there. The first
-/// refit of a topology also derives 8 bytes a node and 4 for each node with two leaves, which all trees that come of it
+/// refit of a topology also derives 4 bytes a node, which all trees that come of it
 /// share, `tree` too: under cuda the stream of that first refit has to outlive them all. Throws invalid_geometry (views
 /// only), error (another number of shapes, a tree on another device), std::bad_alloc, cuda_error.
 template <execution_policy Policy, class OldSet, memory_space Space, bvh_layout_kind Layout, class Set>
