@@ -218,7 +218,7 @@ struct add_in_groups {
             return;
         }
         with.value[place % 2][above] = sum;
-        if (execution::atomic_add(&with.visitors[above], std::uint32_t{1}) == 1) ready.push(above);
+        if (execution::increment_in_group(&with.visitors[above]) == 1) ready.push(above);
     }
     ABUT_HD void prepare(std::size_t first, unsigned k, shared& with) const {
         with.visitors[k] = 0;

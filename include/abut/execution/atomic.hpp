@@ -46,6 +46,16 @@ inline ABUT_HD std::uint32_t atomic_exchange_acq_rel(std::uint32_t* target, std:
 #endif
 }
 
+/// Adds 1 and returns the value before, between the indices of a group (for_each_in_groups), in memory that they share. On the
+/// host they take turns.
+inline ABUT_HD std::uint32_t increment_in_group(std::uint32_t* target) {
+#if ABUT_DEVICE_CODE
+    return atomicAdd(target, 1u);
+#else
+    return (*target)++;
+#endif
+}
+
 /// Stores `desired` if the word is `expected`; returns the value before. T as for atomic_add.
 template <class T>
 ABUT_HD T atomic_compare_exchange(T* target, T expected, T desired) {

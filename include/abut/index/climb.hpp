@@ -24,10 +24,55 @@ struct hanging_subtree {
     std::uint32_t place, token;
 };
 
+/// The nodes of a group while they are made.
+template <scalar T, memory_space Space>
+struct node_table {
+    static constexpr unsigned parts = 1;  ///< in which a node is written
+    bvh_node<T> made[execution::group_size];
+
+    void put(std::uint32_t side, std::uint32_t k, const aabb<T>& box, bvh_child is) {
+        made[k].bounds[side] = box;
+        made[k].child[side] = is;
+    }
+    [[nodiscard]] const aabb<T>& box(std::uint32_t side, std::uint32_t k) const { return made[k].bounds[side]; }
+    [[nodiscard]] bvh_child child(std::uint32_t side, std::uint32_t k) const { return made[k].child[side]; }
+    void write(std::uint32_t k, unsigned, bvh_node<T>& to) const { to = made[k]; }
+};
+
 /// 16 bytes of a node.
 template <class Values>
 struct [[gnu::may_alias]] alignas(16) node_part {
     Values values;
+};
+
+/// On a device number by number, so that neighbours do not meet in one bank of memory; and rows are a little longer than a
+/// group for the sake of `write`, whose neighbours read different rows. Those write to one line of memory: nodes that were
+/// written one by one took a device twice as long.
+template <scalar T>
+struct node_table<T, device_space> {
+    static constexpr unsigned parts = sizeof(bvh_node<T>) / 16, numbers = 16 / sizeof(T), row = execution::group_size + 2;
+    T bounds[12][row];
+    bvh_child children[2][row];
+
+    ABUT_HD void put(std::uint32_t side, std::uint32_t k, const aabb<T>& box, bvh_child is) {
+        const T values[] = {box.lower.x, box.lower.y, box.lower.z, box.upper.x, box.upper.y, box.upper.z};
+        for (std::uint32_t c = 0; c < 6; ++c) bounds[6 * side + c][k] = values[c];
+        children[side][k] = is;
+    }
+    [[nodiscard]] ABUT_HD aabb<T> box(std::uint32_t side, std::uint32_t k) const {
+        const auto* const b = bounds + 6 * side;
+        return {{b[0][k], b[1][k], b[2][k]}, {b[3][k], b[4][k], b[5][k]}};
+    }
+    [[nodiscard]] ABUT_HD bvh_child child(std::uint32_t side, std::uint32_t k) const { return children[side][k]; }
+    ABUT_HD void write(std::uint32_t k, unsigned part, bvh_node<T>& to) const {
+        if (part + 1 < parts) {
+            node_part<T[numbers]> values;
+            for (unsigned j = 0; j < numbers; ++j) values.values[j] = bounds[part * numbers + j][k];
+            reinterpret_cast<node_part<T[numbers]>*>(&to)[part] = values;
+        } else {
+            reinterpret_cast<node_part<bvh_child[4]>*>(&to)[part] = {{children[0][k], children[1][k], {0}, {0}}};
+        }
+    }
 };
 
 /// `Tree` says how the climb goes. Its `subtree` has the members `box` and `child` and what else it needs; a group keeps
@@ -41,7 +86,7 @@ struct [[gnu::may_alias]] alignas(16) node_part {
 ///   above(subtree, reader)  the place where it hangs
 ///   token(subtree, place, reader)   what whoever goes on from there has to know, less than 2^32 - 1
 ///   joined(left_token, right_token)   what is not box and child of the subtree of a node
-template <class Tree, scalar T>
+template <class Tree, scalar T, memory_space Space>
 struct climb {
     static constexpr std::uint32_t nobody = static_cast<std::uint32_t>(-1);
     static constexpr std::uint32_t group = execution::group_size;
@@ -53,23 +98,10 @@ struct climb {
 
     using subtree = typename Tree::subtree;
 
-    /// The nodes of a group, number by number, so that neighbours do not meet in one bank of memory. Rows are a little
-    /// longer than a group for the sake of `write`, whose neighbours read different rows.
     struct shared {
-        T bounds[12][group + 2];
-        bvh_child child[2][group + 2];
+        node_table<T, Space> nodes;
         std::uint32_t token[2][group], visitors[group];
         typename Tree::local tree;
-
-        ABUT_HD void put(std::uint32_t side, std::uint32_t k, const aabb<T>& box, bvh_child is) {
-            const T values[] = {box.lower.x, box.lower.y, box.lower.z, box.upper.x, box.upper.y, box.upper.z};
-            for (std::uint32_t c = 0; c < 6; ++c) bounds[6 * side + c][k] = values[c];
-            child[side][k] = is;
-        }
-        [[nodiscard]] ABUT_HD aabb<T> box(std::uint32_t side, std::uint32_t k) const {
-            const auto* const b = bounds + 6 * side;
-            return {{b[0][k], b[1][k], b[2][k]}, {b[3][k], b[4][k], b[5][k]}};
-        }
     };
 
     ABUT_HD void prepare(std::size_t first, unsigned k, shared& with) const {
@@ -89,24 +121,13 @@ struct climb {
     template <class Ready, class Late>
     ABUT_HD void step(std::size_t first, unsigned k, shared& with, Ready&& ready, Late&& late) const {
         const auto first_node = static_cast<std::uint32_t>(first);
-        hang(joined({with.box(0, k), with.box(1, k)}, first_node + k, with.token[0][k], with.token[1][k]), first_node, with,
-             ready, late);
+        hang(joined({with.nodes.box(0, k), with.nodes.box(1, k)}, first_node + k, with.token[0][k], with.token[1][k]),
+             first_node, with, ready, late);
     }
-    /// Writes part t of the group's nodes, 16 bytes. Neighbours write to one line of memory: nodes written one by one took
-    /// a device twice as long.
-    static constexpr unsigned parts = sizeof(bvh_node<T>) / 16;
+    static constexpr unsigned parts = node_table<T, Space>::parts;
     ABUT_HD void write(std::size_t first, unsigned t, const shared& with) const {
-        constexpr unsigned numbers = 16 / sizeof(T);
-        const unsigned k = t / parts, part = t % parts;
-        if (with.visitors[k] != 2) return;
-        if (part + 1 < parts) {
-            node_part<T[numbers]> to;
-            for (unsigned j = 0; j < numbers; ++j) to.values[j] = with.bounds[part * numbers + j][k];
-            reinterpret_cast<node_part<T[numbers]>*>(nodes + first + k)[part] = to;
-        } else {
-            reinterpret_cast<node_part<bvh_child[4]>*>(nodes + first +
-                                                       k)[part] = {{with.child[0][k], with.child[1][k], {0}, {0}}};
-        }
+        const unsigned k = t / parts;
+        if (with.visitors[k] == 2) with.nodes.write(k, t % parts, nodes[first + k]);
     }
     /// Who waits at node k alone goes on outside.
     ABUT_CALLS_ANY
@@ -114,8 +135,8 @@ struct climb {
     ABUT_HD void end(std::size_t first, unsigned k, const shared& with, Late&& late) const {
         if (with.visitors[k] != 1) return;
         const std::uint32_t side = with.token[0][k] != nobody ? 0 : 1;
-        leave(2 * (static_cast<std::uint32_t>(first) + k) + side, with.token[side][k], with.box(side, k),
-              with.child[side][k], late);
+        leave(2 * (static_cast<std::uint32_t>(first) + k) + side, with.token[side][k], with.nodes.box(side, k),
+              with.nodes.child(side, k), late);
     }
 
     /// What is left of the groups.
@@ -168,9 +189,9 @@ private:
         const std::uint32_t place = tree.above(at, reader), token = tree.token(at, place, reader), side = place % 2;
         const std::uint32_t k = place / 2 - first_node;  // unsigned: beyond the group, or before it
         if (k >= group) return leave(place, token, at.box, at.child, late);
-        with.put(side, k, at.box, at.child);
+        with.nodes.put(side, k, at.box, at.child);
         with.token[side][k] = token;
-        if (execution::atomic_add(&with.visitors[k], std::uint32_t{1}) == 1) ready.push(k);
+        if (execution::increment_in_group(&with.visitors[k]) == 1) ready.push(k);
     }
 };
 
@@ -180,8 +201,8 @@ void climb_all(const Policy& on, const Tree& tree, std::size_t count, std::size_
                Queues&... queues) {
     execution::buffer_of<Policy, std::uint32_t> reached(on, n - 1);
     execution::work_queue<hanging_subtree, space_of<Policy>> late(on, count);
-    fill(on, reached.data(), n - 1, climb<Tree, T>::nobody);
-    const climb<Tree, T> each{tree, reached.data(), nodes, root};
+    fill(on, reached.data(), n - 1, climb<Tree, T, space_of<Policy>>::nobody);
+    const climb<Tree, T, space_of<Policy>> each{tree, reached.data(), nodes, root};
     for_each_in_groups(on, count, each, each, late, queues...);
 }
 

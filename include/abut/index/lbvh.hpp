@@ -75,6 +75,11 @@ struct sorted_leaves {
     ABUT_CALLS_ANY
     template <class Hang>
     ABUT_HD void start(std::size_t i, const Hang& hang) const {
+#if !ABUT_DEVICE_CODE
+        // A processor would wait for each box in turn; so what comes later is asked for now.
+        constexpr std::size_t ahead = 16;
+        if (i + ahead < shapes) __builtin_prefetch(boxes + ids[i + ahead]);
+#endif
         const auto leaf = static_cast<std::uint32_t>(i);
         hang(subtree{boxes[ids[i]], bvh_child::leaf(ids[i]), leaf, leaf});
     }

@@ -98,7 +98,18 @@ struct refitted_nodes {
     ABUT_CALLS_ANY
     template <class Hang>
     ABUT_HD void start(std::size_t i, const Hang& hang) const {
-        prefetch(i);
+#if !ABUT_DEVICE_CODE
+        // A processor would wait for each box in turn; so what comes later is asked for now. Not in a function of its own:
+        // g++ drops calls that do nothing else.
+        if constexpr (std::same_as<Shapes, box_view<T, host_space>>) {
+            constexpr std::size_t ahead = 16;
+            if (i + ahead < count) {
+                const bvh_node<T>& later = old[i + ahead];
+                if (later.child[0].is_leaf()) __builtin_prefetch(shapes.boxes + later.child[0].index());
+                if (later.child[1].is_leaf()) __builtin_prefetch(shapes.boxes + later.child[1].index());
+            }
+        }
+#endif
         const bvh_child left = old[i].child[0], right = old[i].child[1];
         const auto place = 2 * static_cast<std::uint32_t>(i);
         if (left.is_leaf()) hang(subtree{bounds(shapes[left.index()]), left, place});
@@ -137,20 +148,6 @@ struct refitted_nodes {
         return {links, from.links, static_cast<std::uint32_t>(first)};
     }
     [[nodiscard]] ABUT_HD far_reader far() const { return {links}; }
-
-private:
-    /// A processor would wait for each box in turn; so what comes later is asked for now.
-    ABUT_HD void prefetch([[maybe_unused]] std::size_t i) const {
-#if !ABUT_DEVICE_CODE
-        if constexpr (std::same_as<Shapes, box_view<T, host_space>>) {
-            constexpr std::size_t ahead = 16;
-            if (i + ahead >= count) return;
-            for (const bvh_child child : old[i + ahead].child) {
-                if (child.is_leaf()) __builtin_prefetch(shapes.boxes + child.index());
-            }
-        }
-#endif
-    }
 };
 
 /// The climb, with `shapes` read in the order of leaves.
