@@ -30,8 +30,10 @@ namespace scene = meshes_scene;
 const char* name_of(const abut::serial&) { return "serial"; }
 const char* name_of(const abut::openmp&) { return "openmp"; }
 
-constexpr std::pair<const char*, abut::bvh_builder> builders[] = {
-    {"linear", abut::bvh_builder::linear}, {"mean_split", abut::bvh_builder::mean_split}, {"sah", abut::bvh_builder::sah}};
+constexpr std::pair<const char*, abut::bvh_builder> builders[] = {{"linear", abut::bvh_builder::linear},
+                                                                  {"mean_split", abut::bvh_builder::mean_split},
+                                                                  {"sah", abut::bvh_builder::sah},
+                                                                  {"ploc", abut::bvh_builder::ploc}};
 
 template <class Work>
 void add(const std::string& name, bool threads, const Work& work) {

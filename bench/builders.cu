@@ -5,11 +5,13 @@
 // Trees on a device, over a mesh (PLY or OBJ; without one a torus of 345,744 triangles) and over 10 million random
 // triangles. Names:
 //
-//   build/SCENE             make_bvh
+//   build/SCENE             make_bvh, linear
+//   build/ploc/SCENE        the same by bvh_builder::ploc
 //   build_and_refit_first/SCENE   and the first refit of the topology, which derives links
 //   refit/SCENE             any later one, around other shapes
 //   convert/LAYOUT/SCENE    a tree in another layout
 //   pairs/LAYOUT            the mesh against a turned copy of itself (bench/meshes_scene.hpp), sorted, both in the layout
+//   pairs/ploc              the same, both built by ploc, in the standard layout
 
 #include <cstdint>
 #include <string>
@@ -35,6 +37,10 @@ void add_builds(const abut::cuda& on, table& out, const std::string& name, const
     const counters items{{"items", n}};
     out.add(joined({"build", name}), 0, [&] {
         if (make_bvh(on, set).size() != set.size()) throw abut::error("build");
+        return items;
+    });
+    out.add(joined({"build/ploc", name}), 0, [&] {
+        if (make_bvh(on, set, {.builder = abut::bvh_builder::ploc}).size() != set.size()) throw abut::error("build");
         return items;
     });
     const auto tree = make_bvh(on, set);
@@ -93,6 +99,8 @@ int main(int argc, char** argv) {
         add_pairs(on, out, "standard", tree_a, tree_b);
         add_pairs(on, out, "quantised", quantised(on, tree_a), quantised(on, tree_b));
         add_pairs(on, out, "leafless", leafless(on, tree_a), leafless(on, tree_b));
+        const abut::bvh_options by_ploc{.builder = abut::bvh_builder::ploc};
+        add_pairs(on, out, "ploc", make_bvh(on, a, by_ploc), make_bvh(on, b, by_ploc));
         add_builds(on, out, "random", copy_to(on, random_soup(10'000'000, 1)), copy_to(on, random_soup(10'000'000, 2)), 36);
     });
 }

@@ -23,11 +23,38 @@ TEST_CASE("refit: the same bits on the device as on the host") {
     }
 }
 
-TEST_CASE("builders: a device has one") {
+TEMPLATE_TEST_CASE("builders: ploc makes the same tree on the device as on the host", "", float, double) {
+    using T = TestType;
+    const auto check = [](const auto& set) {
+        for (const int bits : {0, 63}) {
+            const bvh_options options{.morton_bits = bits, .builder = bvh_builder::ploc};
+            const auto tree = make_bvh(abut::cuda{}, set, options);
+            CHECK(test::same_bits(make_bvh(serial{}, set, options).stored(), tree.stored().to_host()));
+        }
+    };
+    test::uniform random(73);
+    for (const std::size_t n : {0u, 1u, 2u, 3u, 100u, 256u, 257u, 1000u, 200'000u}) {
+        CAPTURE(n);
+        check(triangle_soup<T>(test::random_triangles<T>(n, random)));
+    }
+    for (const auto& [name, set] : test::hard_sets<T>(5000)) {
+        CAPTURE(name);
+        check(set);
+    }
+    std::vector<sphere<T>> nested;  // one pair joins at a time
+    for (int i = 0; i < 5000; ++i) nested.push_back({{0, 0, 0}, 1 + static_cast<T>(i) / 64});
+    check(spheres<T>(nested));
+    check(test::endless_spheres<T>(3000));
+    const triangle_soup<T> first(test::random_triangles<T>(20'000, random)),
+        second(test::random_triangles<T>(20'000, random));
+    test::check_refit(abut::cuda{}, make_bvh(abut::cuda{}, first, {.builder = bvh_builder::ploc}), second);
+}
+
+TEST_CASE("builders: a device has two") {
     const triangle_soup<float> set(std::vector<triangle<float>>(3));
     CHECK_THROWS_WITH(
         make_bvh(abut::cuda{}, set, {.builder = bvh_builder::sah}),
-        "abut::make_bvh: on a device the builder is bvh_builder::linear; serial and openmp have mean_split and sah");
+        "abut::make_bvh: on a device the builder is bvh_builder::linear or ploc; serial and openmp have mean_split and sah");
     const auto q = quality(abut::cuda{}, make_bvh(abut::cuda{}, set));
     CHECK(q.shapes == 3);
     CHECK(q.greatest_depth == 2);

@@ -15,7 +15,8 @@ using namespace abut;
 
 namespace {
 
-constexpr bvh_builder all_builders[] = {bvh_builder::linear, bvh_builder::mean_split, bvh_builder::sah};
+constexpr bvh_builder all_builders[] = {bvh_builder::linear, bvh_builder::mean_split, bvh_builder::sah, bvh_builder::ploc};
+constexpr bvh_builder builders_by_cost[] = {bvh_builder::mean_split, bvh_builder::sah, bvh_builder::ploc};
 constexpr bvh_builder top_down_builders[] = {bvh_builder::mean_split, bvh_builder::sah};
 
 /// Well-formed, and the same tree, bit for bit, from any number of threads.
@@ -137,6 +138,120 @@ TEST_CASE("builders: whatever a splitter chooses, no leaf is deeper than promise
 
 namespace {
 
+/// What ploc.hpp describes, round by round, on plain vectors. `rounds` becomes their number.
+template <class T>
+standard_layout::storage<T, host_space> joined_by_hand(const std::vector<aabb<T>>& boxes, int bits, int& rounds) {
+    struct item {
+        aabb<T> box;
+        bvh_child child;
+        std::size_t seat;
+    };
+    const std::size_t n = boxes.size();
+    standard_layout::storage<T, host_space> tree;
+    tree.nodes = {serial{}, n - 1};
+    tree.root = {serial{}, 1};
+    auto scene = empty_box<T>();
+    for (const auto& box : boxes) scene = merge(scene, box);
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
+    for (std::uint32_t i = 0; i < n; ++i) {
+        order.emplace_back(bits == 63 ? detail::morton_code<std::uint64_t>(boxes[i], scene)
+                                      : detail::morton_code<std::uint32_t>(boxes[i], scene) >> (30 - bits),
+                           i);
+    }
+    std::sort(order.begin(), order.end());
+    std::vector<item> row;
+    for (std::size_t k = 0; k < n; ++k) row.push_back({boxes[order[k].second], bvh_child::leaf(order[k].second), k});
+    const detail::plain_area<T> area(scene);
+    for (rounds = 0; row.size() > 1; ++rounds) {
+        std::vector<std::size_t> choice(row.size());
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            std::pair<T, std::size_t> least{infinity<T>, ~std::size_t{0}};
+            for (std::size_t j = 0; j < row.size(); ++j) {
+                const bool near = (i < j ? j - i : i - j) <= detail::ploc_radius;
+                if (i != j && near) least = std::min(least, {area(merge(row[i].box, row[j].box)), i ^ j});
+            }
+            choice[i] = rounds + detail::least_depth(row.size()) < bvh_max_depth ? i ^ least.second : i ^ 1;
+        }
+        std::vector<item> next;
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            const std::size_t j = choice[i];
+            const bool joins = j < row.size() && choice[j] == i;
+            if (!joins) next.push_back(row[i]);
+            if (!joins || j < i) continue;
+            const item &a = row[i], &b = row[j];
+            tree.nodes.data()[b.seat - 1] = {{a.box, b.box}, {a.child, b.child}};
+            next.push_back({merge(a.box, b.box), bvh_child::inner(static_cast<std::uint32_t>(b.seat - 1)), a.seat});
+        }
+        row = std::move(next);
+    }
+    *tree.root.data() = {row[0].box, row[0].child};
+    return tree;
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("builders: ploc joins those that choose each other", "", float, double) {
+    using T = TestType;
+    auto sets = test::hard_sets<T>(700);
+    test::uniform random(61);
+    for (const std::size_t n : {2u, 3u, 9u, 255u, 256u, 257u, 2000u}) {
+        sets.push_back({std::to_string(n) + " at random", triangle_soup<T>(test::random_triangles<T>(n, random))});
+    }
+    for (const auto& [name, set] : sets) {
+        std::vector<aabb<T>> boxes;
+        for (std::size_t i = 0; i < set.size(); ++i) boxes.push_back(bounds(set.view()[i]));
+        for (const int bits : {30, 63}) {
+            CAPTURE(name, bits);
+            const auto tree = make_bvh(serial{}, set, {.morton_bits = bits, .builder = bvh_builder::ploc});
+            int rounds = 0;
+            CHECK(test::same_bits(tree.stored(), joined_by_hand(boxes, bits, rounds)));
+            CHECK(quality(tree).greatest_depth <= rounds);
+        }
+    }
+}
+
+TEST_CASE("builders: ploc halves a row of equals, and one that joins a pair at a time after a while") {
+    for (const std::size_t n : {2u, 64u, 4096u}) {
+        const equal_spheres<float> same(std::vector<vec3<float>>(n, {1, 2, 3}), 0.5f);
+        const auto q = quality(make_bvh(serial{}, same, {.builder = bvh_builder::ploc}));
+        CHECK(q.greatest_depth == detail::least_depth(n));
+    }
+    // Each has all before it inside: the least surface that one can have with another is its own, and with the next more.
+    for (const std::size_t n : {10u, 92u, 93u, 94u, 97u, 98u, 300u, 20'000u}) {
+        CAPTURE(n);
+        std::vector<sphere<float>> nested;
+        for (std::size_t i = 0; i < n; ++i) nested.push_back({{0, 0, 0}, 1 + static_cast<float>(i) / 64});
+        check_builder(spheres<float>(nested), bvh_builder::ploc);
+        int depth = 0;
+        for (std::size_t left = n; left > 1; ++depth) {
+            left = depth + detail::least_depth(left) < bvh_max_depth ? left - 1 : (left + 1) / 2;
+        }
+        const auto q = quality(make_bvh(serial{}, spheres<float>(nested), {.builder = bvh_builder::ploc}));
+        CHECK(q.greatest_depth == depth);
+        CHECK((n < 97 || depth == bvh_max_depth));
+    }
+}
+
+TEST_CASE("builders: ploc takes Morton codes of any length") {
+    test::uniform random(67);
+    std::vector<vec3<float>> clusters;
+    for (int i = 0; i < 4000; ++i) {
+        const float far = i % 2 ? 1e6f : 0.0f;
+        clusters.push_back(vec3<float>{far, far, far} + random.point<float>(-1, 1));
+    }
+    const equal_spheres<float> set(clusters, 0.01f);
+    const auto built = [&](int bits) {
+        const auto tree = make_bvh(serial{}, set, {.morton_bits = bits, .builder = bvh_builder::ploc});
+        CHECK(find_flaw(tree.view(), set.view()) == "");
+        return tree;
+    };
+    const auto of_choice = built(0), coarse = built(30), fine = built(63);
+    CHECK(test::same_bits(of_choice.stored(), fine.stored()));  // few bits leave crowds here
+    CHECK(quality(fine).sah_cost < quality(coarse).sah_cost);
+}
+
+namespace {
+
 /// The ids below a child.
 template <class Tree>
 std::vector<std::uint32_t> ids_below(const Tree& tree, bvh_child child) {
@@ -150,7 +265,7 @@ std::vector<std::uint32_t> ids_below(const Tree& tree, bvh_child child) {
 
 std::vector<std::uint32_t> left_of_root(const std::vector<vec3<float>>& places, bvh_builder builder) {
     const auto tree = make_bvh(serial{}, equal_spheres<float>(places, 0.5f), {.builder = builder});
-    return ids_below(tree.view(), tree.view().child(tree.view().fetch(0), 0));
+    return ids_below(tree.view(), tree.view().child(tree.view().fetch(tree.view().root().index()), 0));
 }
 
 /// Boxes, some of them of all of space, which no set has today.
@@ -177,6 +292,8 @@ TEST_CASE("builders: where they divide") {
     // Boxes of side 1: three apart from five costs least.
     CHECK(left_of_root({{0, 0, 0}, {0, 0, 40}, {0, 0, 2}, {0, 0, 42}, {0, 0, 4}, {0, 0, 44}, {0, 0, 46}, {0, 0, 48}},
                        bvh_builder::sah) == ids{0, 2, 4});
+    // Two that are close, then the third that is closer to them than the last.
+    CHECK(left_of_root({{30, 0, 0}, {11, 0, 0}, {0, 0, 0}, {10, 0, 0}}, bvh_builder::ploc) == ids{1, 2, 3});
     // A plate and a few pieces above it: y, although x and z reach farther.
     std::vector<vec3<float>> plate;
     for (int i = 0; i < 10; ++i) {
@@ -235,7 +352,7 @@ TEST_CASE("builders: the same tree at any scale") {
         return children;
     };
     const auto triangles = test::random_triangles<float>(500, random);
-    for (const bvh_builder builder : top_down_builders) {
+    for (const bvh_builder builder : builders_by_cost) {
         const auto expected = at_scale(triangles, 1, builder);
         for (const float scale : {0x1p-100f, 0x1p-60f, 0x1p60f, 0x1p124f}) {
             CAPTURE(static_cast<int>(builder), scale);
@@ -262,6 +379,16 @@ TEST_CASE("builders: boxes without a middle") {
     };
     check(detail::sah_splitter<float>{});
     check(detail::mean_splitter<float>{});
+    standard_layout::storage<float, host_space> tree;
+    tree.nodes = {serial{}, boxes.size() - 1};
+    tree.root = {serial{}, 1};
+    for (const aabb<float>& scene : {aabb<float>{{-far, -1, -1}, {far, 1, 1}}, aabb<float>{{-1, -1, -1}, {1, 1, 1}}}) {
+        *tree.root.data() = {scene, {}};
+        execution::buffer<aabb<float>, host_space> copy(serial{}, boxes.size());
+        std::copy(boxes.begin(), boxes.end(), copy.data());
+        detail::build_ploc<serial, float>(serial{}, copy, tree, 0);
+        CHECK(find_flaw(tree.view_of(boxes.size()), shapes) == "");
+    }
 }
 
 TEMPLATE_TEST_CASE("builders: queries do not depend on them", "", float, double) {
@@ -280,19 +407,20 @@ TEMPLATE_TEST_CASE("builders: queries do not depend on them", "", float, double)
     }
 }
 
-TEST_CASE("builders: a tree by surfaces costs less than one by means, and that less than a linear one") {
+TEST_CASE("builders: a tree by surfaces costs less than one by means, and each less than a linear one") {
     const test::torus<float> shape(200, 80, 1, 0.4);
     const mesh<float> torus(shape.vertices, shape.faces);
-    double cost[3];
+    double cost[4];
     for (const bvh_builder builder : all_builders) {
         cost[static_cast<int>(builder)] = quality(make_bvh(serial{}, torus, {.builder = builder})).sah_cost;
     }
     CHECK(cost[1] < cost[0]);
     CHECK(cost[2] < cost[1]);
+    CHECK(cost[3] < cost[0]);
 }
 
 TEST_CASE("builders: options that there are not") {
     const auto set = triangle_soup<float>(std::vector<triangle<float>>(3));
-    CHECK_THROWS_WITH(make_bvh(serial{}, set, {.builder = static_cast<bvh_builder>(3)}),
+    CHECK_THROWS_WITH(make_bvh(serial{}, set, {.builder = static_cast<bvh_builder>(4)}),
                       "abut::make_bvh: the builder is none of bvh_builder");
 }

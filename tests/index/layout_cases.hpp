@@ -99,7 +99,7 @@ void check_layout_queries(const Policy& on) {
     CHECK(with_balls.size() > 200);
     CHECK(moved.size() > 100);
     const auto in_every_layout = [&](const auto& set, bvh_builder builder, const auto& use) {
-        const auto tree = make_bvh(on, set, {.builder = on_host ? builder : bvh_builder::linear});
+        const auto tree = make_bvh(on, set, {.builder = on_host ? builder : bvh_builder::ploc});
         use(tree);
         use(quantised(on, tree));
         use(leafless(on, tree));

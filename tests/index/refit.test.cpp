@@ -23,7 +23,7 @@ TEST_CASE("refit: of trees from every builder, the same bits from any number of 
     test::uniform random(53);
     const triangle_soup<float> first(test::random_triangles<float>(20'000, random)),
         second(test::random_triangles<float>(20'000, random));
-    for (const auto builder : {bvh_builder::linear, bvh_builder::mean_split, bvh_builder::sah}) {
+    for (const auto builder : {bvh_builder::linear, bvh_builder::mean_split, bvh_builder::sah, bvh_builder::ploc}) {
         CAPTURE(static_cast<int>(builder));
         const auto tree = make_bvh(serial{}, first, {.builder = builder});
         test::check_refit(serial{}, tree, second);

@@ -2,7 +2,7 @@
 #pragma once
 
 // Bounding volume hierarchies: how a tree lies in memory, who owns it, and how it is read. Builders are in files of their
-// own (lbvh.hpp, mean_split.hpp, binned_sah.hpp), and so are the layouts that a finished tree can be brought to
+// own (lbvh.hpp, mean_split.hpp, binned_sah.hpp, ploc.hpp), and so are the layouts that a finished tree can be brought to
 // (quantised.hpp, leafless.hpp); traversals are in traverse/ and read nodes through the accessor concept below alone, so
 // that another layout needs no second traversal.
 
@@ -47,7 +47,7 @@ struct alignas(sizeof(T) == 4 ? 64 : 16) bvh_node {
 };
 
 /// Depth of the deepest leaf that any builder may make, and so the size of a traversal's stack. Linear builders stay below
-/// it by construction: 63 bits of Morton code and 31 bits of position. Top-down builders halve what would get deeper.
+/// it by construction: 63 bits of Morton code and 31 bits of position. The others halve what would get deeper.
 inline constexpr int bvh_max_depth = 96;
 
 /// What a traversal needs of a tree. The accessors may run wherever the layout's memory can be read, take constant time,
@@ -152,14 +152,15 @@ concept bvh_layout_kind = requires(const typename L::template storage<float, hos
 enum class bvh_builder : unsigned char {
     linear,      ///< sorted along a Morton curve (lbvh.hpp): fast to build, on every policy
     mean_split,  ///< top-down, at the mean of the axis of largest variance (mean_split.hpp): serial and openmp
-    sah          ///< top-down, by the surface area heuristic over bins (binned_sah.hpp): serial and openmp
+    sah,         ///< top-down, by the surface area heuristic over bins (binned_sah.hpp): serial and openmp
+    ploc         ///< bottom-up, what costs least surface to join (ploc.hpp): better to query, on every policy
 };
 
 /// Options of make_bvh.
 struct bvh_options {
     /// Bits of the Morton codes that order the leaves: 30, 63, or 0 to choose from the scene: as few as tell that many
     /// shapes apart, at most 30, and 63 where these turn out to leave an eighth of the shapes in crowds of one code, as in
-    /// small clusters far apart. The choice moves speed, never results. Of the linear builder alone.
+    /// small clusters far apart. The choice moves speed, never results. Of linear and ploc.
     int morton_bits = 0;
     bvh_builder builder = bvh_builder::linear;
 };

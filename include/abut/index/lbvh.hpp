@@ -12,9 +12,10 @@
 #include <abut/index/binned_sah.hpp>
 #include <abut/index/bvh.hpp>
 #include <abut/index/climb.hpp>
+#include <abut/index/leaf_order.hpp>
 #include <abut/index/mean_split.hpp>
-#include <abut/index/morton.hpp>
 #include <abut/index/operand.hpp>
+#include <abut/index/ploc.hpp>
 
 namespace abut {
 
@@ -41,26 +42,10 @@ struct merge_boxes {
     }
 };
 
-template <class Code, scalar T>
-struct write_codes {
-    const aabb<T>* boxes;
-    const bvh_root<T>* root;
-    int unused_bits;
-    Code* codes;
-    std::uint32_t* ids;
-    ABUT_HD void operator()(std::size_t i) const {
-        codes[i] = morton_code<Code>(boxes[i], root->bounds) >> unused_bits;
-        ids[i] = static_cast<std::uint32_t>(i);
-    }
-};
-
 /// Leaves sorted by code, to climb through (index/climb.hpp). Node k lies between leaves k and k + 1. A range of leaves
 /// [first, last] joins its neighbour across the closer of its two borders; its token is the end that is far from there.
 template <class Code, scalar T>
 struct sorted_leaves {
-    static constexpr std::uint32_t crowd =
-        8;  ///< more shapes than this with one code are counted: their order means nothing
-
     const aabb<T>* boxes;
     std::size_t shapes;
     const Code* codes;
@@ -86,7 +71,7 @@ struct sorted_leaves {
     ABUT_CALLS_ANY
     template <class Count>
     ABUT_HD void notice(std::size_t i, Count& crowded) const {
-        crowded.add(i + crowd < shapes && codes[i] == codes[i + crowd]);
+        crowded.add(is_crowded<Code>{codes, shapes}(i));
     }
     [[nodiscard]] ABUT_HD bool is_all(const subtree& at) const { return at.first == 0 && at.last == last_leaf(); }
     template <class Reader>
@@ -143,29 +128,18 @@ private:
 template <class Code, execution_policy Policy, scalar T, class Storage>
 std::uint64_t build_lbvh(const Policy& on, const execution::buffer_of<Policy, aabb<T>>& boxes, Storage& tree, int bits) {
     const std::size_t n = boxes.size();
-    execution::buffer_of<Policy, Code> codes(on, n);
-    execution::buffer_of<Policy, std::uint32_t> ids(on, n);
-    auto* const root = tree.root.data();
-    for_each_index(on, n, write_codes<Code, T>{boxes.data(), root, morton_bits<Code> - bits, codes.data(), ids.data()});
-    sort_by_key(on, codes, ids, bits);
+    const auto order = order_leaves<Code, Policy, T>(on, boxes, tree.root.data(), bits);
     execution::work_count<space_of<Policy>> crowded(on);
-    climb_all(on, sorted_leaves<Code, T>{boxes.data(), n, codes.data(), ids.data()}, n, n, tree.nodes.data(), root, crowded);
+    const sorted_leaves<Code, T> leaves{boxes.data(), n, order.codes.data(), order.ids.data()};
+    climb_all(on, leaves, n, n, tree.nodes.data(), tree.root.data(), crowded);
     return crowded.total();
-}
-
-/// Bits that tell n shapes apart, with 6 to spare for their uneven spread, in whole bits of each axis: sorting fewer bits is
-/// faster.
-constexpr int sufficient_morton_bits(std::size_t n) {
-    int bits = 6;
-    while (n >> (bits - 6) > 1 && bits < 30) ++bits;
-    return bits < 30 ? (bits + 2) / 3 * 3 : 30;
 }
 
 /// Builds by one of the top-down builders, where the policy has them. False if another is asked for.
 template <execution_policy Policy, shape_view Shapes, class Storage>
 bool build_from_top(const Policy& on, const Shapes& shapes, Storage& tree, bvh_builder builder) {
     using T = typename Shapes::scalar_type;
-    if (builder == bvh_builder::linear) return false;
+    if (builder == bvh_builder::linear || builder == bvh_builder::ploc) return false;
     if constexpr (host_policy<Policy>) {
         if (builder == bvh_builder::mean_split) build_top_down(on, shapes, tree, mean_splitter<T>{});
         if (builder == bvh_builder::sah) build_top_down(on, shapes, tree, sah_splitter<T>{});
@@ -185,10 +159,11 @@ template <execution_policy Policy, class Set>
     if (options.morton_bits != 0 && options.morton_bits != 30 && options.morton_bits != 63) {
         throw error("abut::make_bvh: morton_bits is " + std::to_string(options.morton_bits) + "; expected 0, 30 or 63");
     }
-    if (options.builder > bvh_builder::sah) throw error("abut::make_bvh: the builder is none of bvh_builder");
-    if (!host_policy<Policy> && options.builder != bvh_builder::linear) {
+    if (options.builder > bvh_builder::ploc) throw error("abut::make_bvh: the builder is none of bvh_builder");
+    if (!host_policy<Policy> && options.builder != bvh_builder::linear && options.builder != bvh_builder::ploc) {
         throw error(
-            "abut::make_bvh: on a device the builder is bvh_builder::linear; serial and openmp have mean_split and sah");
+            "abut::make_bvh: on a device the builder is bvh_builder::linear or ploc; serial and openmp have mean_split and "
+            "sah");
     }
     auto resident = detail::make_resident(on, set, "abut::make_bvh");
     using tree_type = bvh<decltype(resident), space_of<Policy>>;
@@ -202,6 +177,10 @@ template <execution_policy Policy, class Set>
         execution::buffer_of<Policy, aabb<T>> boxes(on, n);
         reduce_into(on, n, &tree->root.data()->bounds, empty_box<T>(), detail::merge_boxes{},
                     detail::keep_bounds<decltype(shapes)>{shapes, boxes.data()});
+        if (options.builder == bvh_builder::ploc) {
+            detail::build_ploc<Policy, T>(on, boxes, *tree, options.morton_bits);
+            return tree_type(std::move(resident), std::move(tree));
+        }
         const bool choose = options.morton_bits == 0;
         if (options.morton_bits != 63) {
             const int bits = choose ? detail::sufficient_morton_bits(n) : 30;

@@ -2,10 +2,12 @@
 #pragma once
 
 // Morton codes: the interleaved bits of a point's position in a box. They only order the leaves of a tree; no decision
-// depends on them, so plain floating point is good enough.
+// depends on them, so floating point is good enough. It is not contracted: halves of denormal numbers are rounded, and trees
+// are the same on every policy.
 
 #include <cstdint>
 
+#include <abut/arithmetic/error_free.hpp>
 #include <abut/shape/primitive.hpp>
 
 namespace abut::detail {
@@ -32,12 +34,17 @@ inline constexpr int morton_axis_bits = sizeof(Code) == 4 ? 10 : 21;
 template <class Code>
 inline constexpr int morton_bits = 3 * morton_axis_bits<Code>;
 
+template <class T>
+ABUT_HD constexpr T sum_of_halves(T a, T b) {
+    return plain_sum(plain_product(a, T(0.5)), plain_product(b, T(0.5)));
+}
+
 /// Cell of x among 2^bits cells between lower and upper, clamped. Halves are taken first: upper - lower may overflow.
 template <class Code, class T>
 ABUT_HD constexpr Code morton_cell(T x, T lower, T upper) {
     constexpr T cells = static_cast<T>(Code{1} << morton_axis_bits<Code>);
-    const T extent = upper / 2 - lower / 2;
-    const T cell = extent > 0 ? (x / 2 - lower / 2) / extent * cells : T{0};
+    const T extent = sum_of_halves(upper, -lower);
+    const T cell = extent > 0 ? sum_of_halves(x, -lower) / extent * cells : T{0};
     if (!(cell > 0)) return 0;
     return cell < cells ? static_cast<Code>(cell) : static_cast<Code>(cells) - 1;
 }
@@ -45,9 +52,9 @@ ABUT_HD constexpr Code morton_cell(T x, T lower, T upper) {
 /// Code of the middle of `box` within `scene`. Code: std::uint32_t (10 bits an axis) or std::uint64_t (21).
 template <class Code, class T>
 ABUT_HD constexpr Code morton_code(const aabb<T>& box, const aabb<T>& scene) {
-    const Code x = morton_cell<Code>(box.lower.x / 2 + box.upper.x / 2, scene.lower.x, scene.upper.x);
-    const Code y = morton_cell<Code>(box.lower.y / 2 + box.upper.y / 2, scene.lower.y, scene.upper.y);
-    const Code z = morton_cell<Code>(box.lower.z / 2 + box.upper.z / 2, scene.lower.z, scene.upper.z);
+    const Code x = morton_cell<Code>(sum_of_halves(box.lower.x, box.upper.x), scene.lower.x, scene.upper.x);
+    const Code y = morton_cell<Code>(sum_of_halves(box.lower.y, box.upper.y), scene.lower.y, scene.upper.y);
+    const Code z = morton_cell<Code>(sum_of_halves(box.lower.z, box.upper.z), scene.lower.z, scene.upper.z);
     return spread_bits(x) << 2 | spread_bits(y) << 1 | spread_bits(z);
 }
 
