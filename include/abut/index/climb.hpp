@@ -30,13 +30,13 @@ struct node_table {
     static constexpr unsigned parts = 1;  ///< in which a node is written
     bvh_node<T> made[execution::group_size];
 
-    void put(std::uint32_t side, std::uint32_t k, const aabb<T>& box, bvh_child is) {
+    ABUT_HD void put(std::uint32_t side, std::uint32_t k, const aabb<T>& box, bvh_child is) {
         made[k].bounds[side] = box;
         made[k].child[side] = is;
     }
-    [[nodiscard]] const aabb<T>& box(std::uint32_t side, std::uint32_t k) const { return made[k].bounds[side]; }
-    [[nodiscard]] bvh_child child(std::uint32_t side, std::uint32_t k) const { return made[k].child[side]; }
-    void write(std::uint32_t k, unsigned, bvh_node<T>& to) const { to = made[k]; }
+    [[nodiscard]] ABUT_HD const aabb<T>& box(std::uint32_t side, std::uint32_t k) const { return made[k].bounds[side]; }
+    [[nodiscard]] ABUT_HD bvh_child child(std::uint32_t side, std::uint32_t k) const { return made[k].child[side]; }
+    ABUT_HD void write(std::uint32_t k, unsigned, bvh_node<T>& to) const { to = made[k]; }
 };
 
 /// 16 bytes of a node.
