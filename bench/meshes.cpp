@@ -9,6 +9,9 @@
 //   QUERY/baked/POLICY          pairs, unsorted, count or any between two trees, the second over the turned copy
 //   QUERY/posed/POLICY          the same, the second being the first tree under a pose
 //   one_sided/pairs/POLICY      one tree, and the shapes of the other mesh
+//   any/SCENE/KIND/BUILDER      whether anything touches, on one core, in the scenes of bench/any_scenes.hpp; counters hold
+//                               the number of pairs and the answer. Of posed shells, the inner one has the identity as pose.
+//                               Each of these, and of their peers, asks once before the clock starts, for the caches' sake
 
 #include <cstddef>
 #include <string>
@@ -18,6 +21,7 @@
 
 #include <abut/abut.hpp>
 
+#include "any_scenes.hpp"
 #include "meshes_main.hpp"
 
 namespace {
@@ -69,11 +73,35 @@ void add_policy(const Policy& on) {
     });
 }
 
+void add_any() {
+    const abut::serial on;
+    constexpr std::pair<const char*, abut::bvh_builder> builders[] = {{"linear", abut::bvh_builder::linear},
+                                                                      {"sah", abut::bvh_builder::sah}};
+    for (const auto& s : scene::any_scenes) {
+        for (const auto& [builder, options] : builders) {
+            const auto tree_a = make_bvh(on, mesh_of(s.pair.a), {.builder = options});
+            const auto tree_b = make_bvh(on, mesh_of(s.pair.b), {.builder = options});
+            const auto add_query = [&](const char* kind, const auto& other) {
+                add("any/" + s.name + "/" + kind + "/" + builder, false, [=, n = s.pairs](benchmark::State& state) {
+                    bool found = any(on, tree_a, other);
+                    for (auto _ : state) benchmark::DoNotOptimize(found = any(on, tree_a, other));
+                    state.counters["found"] = found ? 1 : 0;
+                    state.counters["pairs"] = static_cast<double>(n);
+                });
+            };
+            add_query("baked", tree_b);
+            add_query("posed", posed(s.is_copy() ? tree_a : tree_b, s.pair.pose));
+        }
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     return meshes_scene::run(argc, argv, [] {
         add_policy(abut::serial{});
         add_policy(abut::openmp{});
+        scene::any_scenes = scene::make_any_scenes(scene::the_pair->a);
+        add_any();
     });
 }

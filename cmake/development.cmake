@@ -90,12 +90,13 @@ function(abut_package name pattern debian)
     set(abut_package_${name}_found ${found} PARENT_SCOPE)
 endfunction()
 
-# A library without a CMake package of its own, as a target.
+# abut_plain_library(target library [include folder]): a library without a CMake package of its own, as a target.
 function(abut_plain_library target library)
     find_library(ABUT_LIBRARY_${library} ${library})
     if(ABUT_LIBRARY_${library} AND NOT TARGET ${target})
         add_library(${target} INTERFACE IMPORTED)
         target_link_libraries(${target} INTERFACE ${ABUT_LIBRARY_${library}})
+        target_include_directories(${target} SYSTEM INTERFACE ${ARGN})
     endif()
 endfunction()
 
@@ -129,8 +130,14 @@ endif()
 if(ABUT_BENCH)
     find_package(benchmark QUIET)
     find_package(embree QUIET)
+    find_path(ABUT_BULLET_INCLUDE BulletCollision/Gimpact/btGImpactQuantizedBvh.h PATH_SUFFIXES bullet)
+    if(ABUT_BULLET_INCLUDE)
+        abut_plain_library(abut_bullet BulletCollision ${ABUT_BULLET_INCLUDE})
+        abut_plain_library(abut_bullet_math LinearMath)
+    endif()
     abut_package(benchmark "<benchmark/" libbenchmark-dev benchmark::benchmark)
     abut_package(embree "<embree" libembree-dev embree)
+    abut_package(bullet "<BulletCollision/" libbullet-dev abut_bullet abut_bullet_math)
 endif()
 
 # The packages that a source includes, itself or through files of ours that it includes with quotes.

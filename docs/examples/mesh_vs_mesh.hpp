@@ -29,16 +29,12 @@
 
 namespace mesh_vs_mesh {
 
-struct settings {
+struct settings : example::common_settings {
     std::string file_a, file_b;
     std::vector<double> pose;
-    std::string policy, arithmetic = "filtered", scalar = "float";
-    int threads = 0;
     int bins = 8;
-    int repeat = 1;
     bool progress = false;
     std::string out = "mesh_vs_mesh";
-    bool no_output = false;
 };
 
 // --- the scene ---------------------------------------------------------------------------------------------------------
@@ -209,7 +205,7 @@ void run_as(const settings& s) {
     example::stopwatch watch(s.progress);
     const auto in = watch.time("read", [&] { return make_input<T>(s); });
     outcome<T> found;
-    Program::with_policy(s, [&](const auto& on) {
+    Program::with_policy(s.policy(), s.threads, [&](const auto& on) {
         example::choose(typename Program::arithmetics{}, s.arithmetic,
                         [&]<class A>() { found = solve<A>(on, in, s, watch); });
     });
@@ -229,7 +225,7 @@ void run_as(const settings& s) {
 
     const auto line = [](const char* what, std::size_t n) { std::printf("%-20s %12zu\n", what, n); };
     const auto hit = [](const auto& hits) { return hits.size() - static_cast<std::size_t>(std::ranges::count(hits, 0u)); };
-    std::printf("%s, %s arithmetic on %s\n", s.policy.c_str(), s.arithmetic.c_str(), s.scalar.c_str());
+    std::printf("%s, %s arithmetic on %s\n", s.policy().c_str(), s.arithmetic.c_str(), s.scalar.c_str());
     print_report("a", in.name_a, found.report_a);
     print_report("b", in.name_b, found.report_b);
     line("pairs", found.pairs.size());
@@ -261,33 +257,18 @@ void describe(CLI::App& app, settings& s) {
         "Without files: two tori of 9,216 triangles, one leaning through the other. With one file: it against\n"
         "itself.\n" +
         std::string(Program::note));
-    using scalars = typename Program::scalars;
-    using arithmetics = typename Program::arithmetics;
     app.add_option("a", s.file_a, "Read mesh a from an .obj or .ply file")->type_name("FILE");
     app.add_option("b", s.file_b, "Read mesh b from an .obj or .ply file")->type_name("FILE");
     app.add_option("--pose", s.pose, "Turn mesh b by ANGLE degrees about the axis X Y Z, then move it by TX TY TZ")
         ->type_name("X Y Z ANGLE TX TY TZ")
         ->expected(7);
-    app.add_option("--policy", s.policy, "What runs it")->check(CLI::IsMember(Program::policies()))->capture_default_str();
-    if (Program::has_threads) {
-        app.add_option("--threads", s.threads, "Threads of openmp (0: as many as OpenMP gives)")
-            ->check(CLI::Range(0, 4096))
-            ->capture_default_str();
-    }
-    app.add_option("--arithmetic", s.arithmetic, "How pairs are decided; only fast can be wrong")
-        ->check(CLI::IsMember(example::names_of(arithmetics{})))
-        ->capture_default_str();
-    app.add_option("--scalar", s.scalar, "Type of the coordinates")
-        ->check(CLI::IsMember(example::names_of(scalars{})))
-        ->capture_default_str();
+    example::add_policy<Program>(app, s);
+    example::add_types<Program>(app, s, "pairs");
     app.add_option("--reduce", s.bins, "Reduce contacts with N bins (0: do not)")
         ->type_name("N")
         ->check(CLI::Range(0, 1 << 20))
         ->capture_default_str();
-    app.add_option("--repeat", s.repeat, "Build and query N times, and show the medians")
-        ->type_name("N")
-        ->check(CLI::Range(1, 100000))
-        ->capture_default_str();
+    example::add_repeat(app, s, "Build and query");
     app.add_flag("--progress", s.progress, "Say on stderr when a stage is done");
     app.add_option("--out", s.out,
                    "Write PREFIX_a and PREFIX_b (the meshes, b where the pose puts it, triangles marked where hit),\n"
@@ -304,7 +285,7 @@ inline void check(const settings& s) {
     if (!s.pose.empty() && s.pose[3] != 0 && !std::isnormal(std::hypot(s.pose[0], s.pose[1], s.pose[2]))) {
         throw example::usage_error("--pose: expected an axis with a length");
     }
-    if (s.threads > 0 && s.policy != "openmp") throw example::usage_error("--threads goes with --policy openmp");
+    example::check_threads(s);
     if (!s.no_output) example::require_folder(s.out + "_a.ply");
 }
 
@@ -312,15 +293,13 @@ inline void check(const settings& s) {
 template <class Program>
 int main(int argc, char** argv) {
     settings s;
-    s.policy = Program::policies().front();
-    const auto work = [&] {
-        check(s);
-        Program::require_device();
-        example::choose(typename Program::scalars{}, s.scalar, [&]<class T>() { run_as<Program, T>(s); });
+    s.policies = {Program::policies().front()};
+    const auto work = [&]<class T>() {
+        run_as<Program, T>(s);
         return 0;
     };
-    return example::run(
-        Program::name, argc, argv, [&](CLI::App& app) { describe<Program>(app, s); }, work);
+    return example::run<Program>(
+        argc, argv, s, [&](CLI::App& app) { describe<Program>(app, s); }, [&] { check(s); }, work);
 }
 
 }  // namespace mesh_vs_mesh

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What the example programs share: a stopwatch for named stages, types chosen by their names, and how a command line is read
-// and a failure told. None of it is about collisions.
+// What the example programs share: a stopwatch for named stages, types and policies chosen by their names, and how a command
+// line is read and a failure told. None of it is about collisions.
 
 #include <algorithm>
 #include <chrono>
@@ -24,6 +24,7 @@
 #include <CLI/CLI.hpp>
 
 #include <abut/arithmetic/arithmetic.hpp>
+#include <abut/execution/policy.hpp>
 
 namespace example {
 
@@ -117,7 +118,73 @@ void choose(types<X...>, const std::string& name, const Work& work) {
     ((name_of<X>() == name ? work.template operator()<X>() : void()), ...);
 }
 
+/// What a program on the processor is compiled for, and its policies; program_cuda.hpp has the same of one on a GPU. A
+/// program adds its name.
+struct host_program {
+    static constexpr const char* note = "";
+    static constexpr bool has_threads = true;
+    using scalars = types<float, double>;
+    using arithmetics = types<abut::filtered, abut::fast, abut::exact>;
+
+    static std::vector<std::string> policies() { return {"openmp", "serial"}; }
+    static void require_device(const std::string&) {}
+    /// run(policy) for the policy of that name.
+    template <class Run>
+    static void with_policy(const std::string& name, int threads, const Run& run) {
+        if (name == "serial") return run(abut::serial{});
+        run(abut::openmp{.threads = threads});
+    }
+};
+
 // --- the command line --------------------------------------------------------------------------------------------------
+
+/// Settings that all programs have.
+struct common_settings {
+    std::vector<std::string> policies;
+    std::string arithmetic = "filtered", scalar = "float";
+    int threads = 0;
+    int repeat = 1;
+    bool no_output = false;
+
+    /// Where a program takes but one.
+    [[nodiscard]] const std::string& policy() const { return policies.front(); }
+};
+
+template <class Program>
+void add_threads(CLI::App& app, common_settings& s) {
+    if (!Program::has_threads) return;
+    app.add_option("--threads", s.threads, "Threads of openmp (0: as many as OpenMP gives)")
+        ->check(CLI::Range(0, 4096))
+        ->capture_default_str();
+}
+
+/// One policy, by default the first that the program has, and its threads.
+template <class Program>
+void add_policy(CLI::App& app, common_settings& s) {
+    app.add_option("--policy", s.policies.front(), "What runs it")
+        ->check(CLI::IsMember(Program::policies()))
+        ->capture_default_str();
+    add_threads<Program>(app, s);
+}
+
+/// `decided`: what the arithmetic is for.
+template <class Program>
+void add_types(CLI::App& app, common_settings& s, const std::string& decided) {
+    app.add_option("--arithmetic", s.arithmetic, "How " + decided + " are decided; only fast can be wrong")
+        ->check(CLI::IsMember(names_of(typename Program::arithmetics{})))
+        ->capture_default_str();
+    app.add_option("--scalar", s.scalar, "Type of the coordinates")
+        ->check(CLI::IsMember(names_of(typename Program::scalars{})))
+        ->capture_default_str();
+}
+
+/// `repeated`: what is done N times.
+inline void add_repeat(CLI::App& app, common_settings& s, const std::string& repeated) {
+    app.add_option("--repeat", s.repeat, repeated + " N times, and show the medians")
+        ->type_name("N")
+        ->check(CLI::Range(1, 100000))
+        ->capture_default_str();
+}
 
 /// A complaint about the command line, which is the user's to mend.
 struct usage_error : std::runtime_error {
@@ -130,19 +197,30 @@ inline void require_folder(const std::string& file) {
     if (!folder.empty() && !std::filesystem::is_directory(folder)) throw usage_error(file + ": no such folder");
 }
 
-/// Describes the options with `describe(app)`, reads them, and does the work, whose result is the exit status; 1 if it
-/// fails, 2 if the command line is wrong. A failure is one line on stderr.
-template <class Describe, class Work>
-int run(const char* name, int argc, char** argv, const Describe& describe, const Work& work) {
-    const auto fail = [name](const std::string& why, int status) {
-        std::fprintf(stderr, "%s: %s\n", name, why.c_str());
+inline void check_threads(const common_settings& s) {
+    if (s.threads > 0 && std::count(s.policies.begin(), s.policies.end(), "openmp") == 0) {
+        throw usage_error("--threads goes with --policy openmp");
+    }
+}
+
+/// The main of a program: describes the options with `describe(app)`, reads them into `s`, looks for what CLI11 does not
+/// with `check()`, and does work.template operator()<T>() for the scalar T, whose result is the exit status; 1 if it fails,
+/// 2 if the command line is wrong. A failure is one line on stderr.
+template <class Program, class Describe, class Check, class Work>
+int run(int argc, char** argv, const common_settings& s, const Describe& describe, const Check& check, const Work& work) {
+    const auto fail = [](const std::string& why, int status) {
+        std::fprintf(stderr, "%s: %s\n", Program::name, why.c_str());
         return status;
     };
-    CLI::App app("", name);
+    CLI::App app("", Program::name);
     describe(app);
     try {
         app.parse(argc, argv);
-        return work();
+        check();
+        for (const auto& policy : s.policies) Program::require_device(policy);
+        int status = 0;
+        choose(typename Program::scalars{}, s.scalar, [&]<class T>() { status = work.template operator()<T>(); });
+        return status;
     } catch (const CLI::Success& help) {
         return app.exit(help);
     } catch (const CLI::ParseError& e) {

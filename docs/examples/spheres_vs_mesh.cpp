@@ -3,30 +3,15 @@
 // Spheres against a mesh on the processor. spheres_vs_mesh.cu is the same program on a GPU; all but the policy is in
 // spheres_vs_mesh.hpp.
 
-#include <string>
-#include <vector>
-
 #include <abut/abut.hpp>
 
-#include "program.hpp"
 #include "spheres_vs_mesh.hpp"
+#include "program.hpp"
 
 namespace {
 
-struct program {
+struct program : example::host_program {
     static constexpr const char* name = "spheres_vs_mesh";
-    static constexpr const char* note = "";
-    static constexpr bool has_threads = true;
-    using scalars = example::types<float, double>;
-    using arithmetics = example::types<abut::filtered, abut::fast, abut::exact>;
-
-    static std::vector<std::string> policies() { return {"openmp", "serial"}; }
-    static void require_device() {}
-    template <class Run>
-    static void with_policy(const spheres_vs_mesh::settings& s, const Run& run) {
-        if (s.policy == "serial") return run(abut::serial{});
-        run(abut::openmp{.threads = s.threads});
-    }
 };
 
 }  // namespace

@@ -32,16 +32,13 @@ namespace spheres_vs_mesh {
 /// tree costs about as much as testing each triangle against so many spheres (measured: docs/benchmarks.md).
 inline constexpr std::size_t brute_force_below = 50;
 
-struct settings {
-    std::string policy, index = "auto", arithmetic = "filtered", scalar = "float";
+struct settings : example::common_settings {
+    std::string index = "auto";
     std::string mesh_file, spheres_file;
     std::optional<double> radius;
     std::optional<std::size_t> generate;
     std::uint64_t seed = scene::seed;
-    int threads = 0;
-    int repeat = 1;
     std::string out_pairs = "spheres_vs_mesh_pairs.csv", out_mesh = "spheres_vs_mesh_hits.ply";
-    bool no_output = false;
 };
 
 // --- the scene ---------------------------------------------------------------------------------------------------------
@@ -201,7 +198,7 @@ void run_as(const settings& s) {
         };
         example::choose(typename Program::arithmetics{}, s.arithmetic, with);
     };
-    Program::with_policy(s, run);
+    Program::with_policy(s.policy(), s.threads, run);
 
     std::vector<std::uint8_t> triangle_hit(triangles, 0), sphere_hit(spheres, 0);
     for (const auto& pair : found.pairs) triangle_hit[pair.a] = sphere_hit[pair.b] = 1;
@@ -215,7 +212,7 @@ void run_as(const settings& s) {
 
     const auto line = [](const char* what, std::size_t n) { std::printf("%-18s %12zu\n", what, n); };
     std::printf("%s, %s, %s arithmetic on %s, index %s\n", s.mesh_file.empty() ? "embedded torus" : s.mesh_file.c_str(),
-                s.policy.c_str(), s.arithmetic.c_str(), s.scalar.c_str(), index.c_str());
+                s.policy().c_str(), s.arithmetic.c_str(), s.scalar.c_str(), index.c_str());
     line("spheres", spheres);
     if (const auto* const equal = std::get_if<abut::equal_spheres<T>>(&in.spheres)) {
         std::printf("%-18s %12g\n", "radius", static_cast<double>(equal->view().radius));
@@ -241,8 +238,6 @@ void describe(CLI::App& app, settings& s) {
         "With --mesh and without --spheres: spheres in the mesh's box, by default 1,000,000 with the mean\n"
         "length of the triangles' sides as radius.\n" +
         std::string(Program::note));
-    using scalars = typename Program::scalars;
-    using arithmetics = typename Program::arithmetics;
     app.add_option("--mesh", s.mesh_file, "Read the mesh from an .obj or .ply file")->type_name("FILE");
     const auto file =
         app.add_option("--spheres", s.spheres_file, "Read the spheres from a .csv file: x,y,z,r; or x,y,z, with --radius")
@@ -253,25 +248,12 @@ void describe(CLI::App& app, settings& s) {
         ->check(CLI::Range(std::size_t{1}, std::size_t{2'147'483'647}))
         ->excludes(file);
     app.add_option("--seed", s.seed, "Seed of the spheres that are made")->excludes(file)->capture_default_str();
-    app.add_option("--policy", s.policy, "What runs it")->check(CLI::IsMember(Program::policies()))->capture_default_str();
-    if (Program::has_threads) {
-        app.add_option("--threads", s.threads, "Threads of openmp (0: as many as OpenMP gives)")
-            ->check(CLI::Range(0, 4096))
-            ->capture_default_str();
-    }
+    example::add_policy<Program>(app, s);
     app.add_option("--index", s.index, "How pairs are found; auto: none for fewer than 50 spheres or triangles, else bvh")
         ->check(CLI::IsMember({"auto", "bvh", "grid", "none"}))
         ->capture_default_str();
-    app.add_option("--arithmetic", s.arithmetic, "How pairs are decided; only fast can be wrong")
-        ->check(CLI::IsMember(example::names_of(arithmetics{})))
-        ->capture_default_str();
-    app.add_option("--scalar", s.scalar, "Type of the coordinates")
-        ->check(CLI::IsMember(example::names_of(scalars{})))
-        ->capture_default_str();
-    app.add_option("--repeat", s.repeat, "Build and query N times, and show the medians")
-        ->type_name("N")
-        ->check(CLI::Range(1, 100000))
-        ->capture_default_str();
+    example::add_types<Program>(app, s, "pairs");
+    example::add_repeat(app, s, "Build and query");
     app.add_option("--out-pairs", s.out_pairs, "Write the pairs (triangle,sphere; both count from 0) here")
         ->type_name("FILE.csv")
         ->capture_default_str();
@@ -285,7 +267,7 @@ void describe(CLI::App& app, settings& s) {
 inline void check(const settings& s) {
     if (s.radius && !(std::isfinite(*s.radius) && *s.radius >= 0))
         throw example::usage_error("--radius: expected 0 or more");
-    if (s.threads > 0 && s.policy != "openmp") throw example::usage_error("--threads goes with --policy openmp");
+    example::check_threads(s);
     // Now, not after minutes of work.
     for (const auto& file : {s.mesh_file, s.spheres_file}) {
         if (!file.empty() && !std::filesystem::exists(file)) throw example::usage_error(file + ": no such file");
@@ -298,15 +280,13 @@ inline void check(const settings& s) {
 template <class Program>
 int main(int argc, char** argv) {
     settings s;
-    s.policy = Program::policies().front();
-    const auto work = [&] {
-        check(s);
-        Program::require_device();
-        example::choose(typename Program::scalars{}, s.scalar, [&]<class T>() { run_as<Program, T>(s); });
+    s.policies = {Program::policies().front()};
+    const auto work = [&]<class T>() {
+        run_as<Program, T>(s);
         return 0;
     };
-    return example::run(
-        Program::name, argc, argv, [&](CLI::App& app) { describe<Program>(app, s); }, work);
+    return example::run<Program>(
+        argc, argv, s, [&](CLI::App& app) { describe<Program>(app, s); }, [&] { check(s); }, work);
 }
 
 }  // namespace spheres_vs_mesh

@@ -13,19 +13,9 @@
 
 namespace {
 
-struct program {
+struct program : example::host_program {
     static constexpr const char* name = "triangle_vs_many";
-    static constexpr const char* note = "";
-    using scalars = example::types<float, double>;
-    using arithmetics = example::types<abut::filtered, abut::fast, abut::exact>;
-
     static std::vector<std::string> policies() { return {"serial", "openmp"}; }
-    static void require_device(const std::string&) {}
-    template <class Run>
-    static void with_policy(const triangle_vs_many::settings& s, const std::string& policy, const Run& run) {
-        if (policy == "serial") return run(abut::serial{});
-        run(abut::openmp{.threads = s.threads});
-    }
 };
 
 }  // namespace

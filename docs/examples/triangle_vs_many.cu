@@ -1,41 +1,32 @@
 // SPDX-License-Identifier: MIT
 //
 // One triangle against many on the processor and on a GPU, compared. triangle_vs_many.cpp is the same program without the
-// GPU; all but the policies is in triangle_vs_many.hpp. It is compiled for fewer combinations, because each costs a good
-// deal of compile time.
+// GPU; all but the policies is in triangle_vs_many.hpp.
 
 #include <string>
 #include <vector>
 
-#include <cuda_runtime_api.h>
-
 #include <abut/cuda.hpp>
 
-#include "program.hpp"
+#include "program_cuda.hpp"
 #include "triangle_vs_many.hpp"
 
 namespace {
 
-struct program {
+struct program : example::cuda_program {
     static constexpr const char* name = "triangle_vs_many_cuda";
     static constexpr const char* note =
         "\nThis program has CUDA, in float and filtered; triangle_vs_many has double, fast and exact too.\n";
-    using scalars = example::types<float>;
-    using arithmetics = example::types<abut::filtered>;
+    static constexpr bool has_threads = true;
 
     static std::vector<std::string> policies() { return {"serial", "openmp", "cuda"}; }
     static void require_device(const std::string& policy) {
-        if (policy != "cuda") return;
-        int devices = 0;
-        const cudaError_t outcome = cudaGetDeviceCount(&devices);
-        if (outcome == cudaSuccess && devices > 0) return;
-        throw abut::error(std::string("no CUDA device can be used here: ") + cudaGetErrorString(outcome));
+        if (policy == "cuda") cuda_program::require_device(policy);
     }
     template <class Run>
-    static void with_policy(const triangle_vs_many::settings& s, const std::string& policy, const Run& run) {
-        if (policy == "serial") return run(abut::serial{});
-        if (policy == "openmp") return run(abut::openmp{.threads = s.threads});
-        run(abut::cuda{});
+    static void with_policy(const std::string& policy, int threads, const Run& run) {
+        if (policy == "cuda") return run(abut::cuda{});
+        example::host_program::with_policy(policy, threads, run);
     }
 };
 

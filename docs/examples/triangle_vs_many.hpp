@@ -26,17 +26,12 @@
 
 namespace triangle_vs_many {
 
-struct settings {
+struct settings : example::common_settings {
     std::size_t triangles = 1'000'000;
     double size = 0.55;
     std::uint64_t seed = 2012;
     bool any = false, all = false;
-    std::vector<std::string> policies;
-    std::string arithmetic = "filtered", scalar = "float";
-    int threads = 0;
-    int repeat = 1;
     std::string out = "triangle_vs_many.ply";
-    bool no_output = false;
 
     [[nodiscard]] bool asks_any() const { return any || !all; }
     [[nodiscard]] bool asks_count() const { return !any && !all; }
@@ -207,7 +202,7 @@ int run_as(const settings& s) {
     std::vector<outcome> found;
     for (const std::string& policy : s.policies) {
         found.emplace_back().policy = policy;
-        Program::with_policy(s, policy, [&](const auto& on) {
+        Program::with_policy(policy, s.threads, [&](const auto& on) {
             example::choose(typename Program::arithmetics{}, s.arithmetic,
                             [&]<class A>() { solve<A>(on, triangles, s, found.back()); });
         });
@@ -239,8 +234,6 @@ CLI::Option* describe(CLI::App& app, settings& s) {
         "policy in turn; triangles on which policies differ are listed, and make the exit status 1.\n\n"
         "Without --any and --all it asks all it can: is any triangle hit, how many, and which.\n" +
         std::string(Program::note));
-    using scalars = typename Program::scalars;
-    using arithmetics = typename Program::arithmetics;
     app.add_option("--triangles", s.triangles, "Make N triangles")
         ->type_name("N")
         ->check(CLI::Range(std::size_t{1}, std::size_t{700'000'000}))  // io writes up to 2^31 vertices
@@ -258,19 +251,9 @@ CLI::Option* describe(CLI::App& app, settings& s) {
         ->delimiter(',')
         ->check(CLI::IsMember(Program::policies()))
         ->capture_default_str();
-    app.add_option("--threads", s.threads, "Threads of openmp (0: as many as OpenMP gives)")
-        ->check(CLI::Range(0, 4096))
-        ->capture_default_str();
-    app.add_option("--arithmetic", s.arithmetic, "How triangles are decided; only fast can be wrong")
-        ->check(CLI::IsMember(example::names_of(arithmetics{})))
-        ->capture_default_str();
-    app.add_option("--scalar", s.scalar, "Type of the coordinates")
-        ->check(CLI::IsMember(example::names_of(scalars{})))
-        ->capture_default_str();
-    app.add_option("--repeat", s.repeat, "Upload and ask N times, and show the medians")
-        ->type_name("N")
-        ->check(CLI::Range(1, 100000))
-        ->capture_default_str();
+    example::add_threads<Program>(app, s);
+    example::add_types<Program>(app, s, "triangles");
+    example::add_repeat(app, s, "Upload and ask");
     const auto out =
         app.add_option("--out", s.out, "Write the scene here, its triangles marked where hit; not with --any alone")
             ->type_name("FILE.ply")
@@ -287,9 +270,7 @@ inline void check(const settings& s, bool names_a_file) {
             throw example::usage_error("--policy: " + policy + " is there twice");
         }
     }
-    if (s.threads > 0 && std::count(s.policies.begin(), s.policies.end(), "openmp") == 0) {
-        throw example::usage_error("--threads goes with --policy openmp");
-    }
+    example::check_threads(s);
     if (names_a_file && !s.asks_all())
         throw example::usage_error("--out: --any does not find which triangles are hit; add --all");
     if (!s.no_output && s.asks_all()) example::require_folder(s.out);
@@ -301,15 +282,9 @@ int main(int argc, char** argv) {
     settings s;
     s.policies = Program::policies();
     const CLI::Option* out = nullptr;
-    const auto work = [&] {
-        check(s, out->count() > 0);
-        for (const auto& policy : s.policies) Program::require_device(policy);
-        int status = 0;
-        example::choose(typename Program::scalars{}, s.scalar, [&]<class T>() { status = run_as<Program, T>(s); });
-        return status;
-    };
-    return example::run(
-        Program::name, argc, argv, [&](CLI::App& app) { out = describe<Program>(app, s); }, work);
+    const auto describe_all = [&](CLI::App& app) { out = describe<Program>(app, s); };
+    const auto check_all = [&] { check(s, out->count() > 0); };
+    return example::run<Program>(argc, argv, s, describe_all, check_all, [&]<class T>() { return run_as<Program, T>(s); });
 }
 
 }  // namespace triangle_vs_many

@@ -56,57 +56,51 @@ void compare(const mesh<double>& a, const fcl_model& model_a, const mesh<double>
     all.hits += theirs.size();
 }
 
+/// How often `b` is put somewhere in a box around `a`, and what has to come of it for the comparison to mean something.
+struct poses {
+    std::uint64_t seed, count;
+    vec3<double> lower, upper;
+    double margin;
+    int least_that_meet;
+    std::size_t least_hits;
+};
+
+comparison compare_under(const poses& all, const char* name, const mesh<double>& a, const mesh<double>& b) {
+    comparison sum;
+    const fcl_model model = make_fcl_model(a.view());
+    for (std::uint64_t k = 0; k < all.count; ++k) {
+        compare(a, model, b, pose_within<double>(all.seed, k, all.lower, all.upper), all.margin, sum);
+    }
+    sum.print(name);
+    CHECK(sum.meet > all.least_that_meet);
+    CHECK(sum.hits > all.least_hits);
+    CHECK(sum.near_contact * 1000 <= sum.hits);
+    CHECK(sum.wrong == 0);
+    return sum;
+}
+
 }  // namespace
 
 TEST_CASE("meshes against meshes: FCL finds the same pairs in general position") {
-    constexpr std::uint64_t seed = 20261201;
-    comparison all;
     const torus<double> ring(48, 24, 2, 0.7);
-    const mesh<double> first(ring.vertices, ring.faces), second = as_mesh(ball_surface<double>(4, 1.5));
-    const fcl_model model = make_fcl_model(first.view());
-    for (std::uint64_t k = 0; k < 60; ++k) {
-        compare(first, model, second, pose_within<double>(seed, k, {-2.5, -2.5, -2.5}, {2.5, 2.5, 2.5}), 1e-9, all);
-    }
-    all.print("torus and ball");
-    CHECK(all.meet > 40);
-    CHECK(all.hits > 6000);
-    CHECK(all.near_contact * 1000 <= all.hits);
-    CHECK(all.wrong == 0);
+    compare_under({20261201, 60, {-2.5, -2.5, -2.5}, {2.5, 2.5, 2.5}, 1e-9, 40, 6000}, "torus and ball",
+                  {ring.vertices, ring.faces}, as_mesh(ball_surface<double>(4, 1.5)));
 }
 
 TEST_CASE("meshes against meshes: FCL finds the same pairs of its own robot and room") {
     const auto folder = io_test::meshes();
     if (!folder) ABUT_SKIP("the folder of real meshes is not there (ABUT_DATA)");
-    constexpr std::uint64_t seed = 20261202;
-    comparison all;
     const auto env = io::read_mesh<double>(*folder / "env.obj"), rob = io::read_mesh<double>(*folder / "rob.obj");
-    const fcl_model model = make_fcl_model(env.view());
-    for (std::uint64_t k = 0; k < 400; ++k) {
-        compare(env, model, rob, pose_within<double>(seed, k, {-3000, -3000, 0}, {3000, 3000, 3000}), 1e-6, all);
-    }
-    all.print("env.obj and rob.obj");
-    CHECK(all.meet > 100);
+    const comparison all = compare_under({20261202, 400, {-3000, -3000, 0}, {3000, 3000, 3000}, 1e-6, 100, 5000},
+                                         "env.obj and rob.obj", env, rob);
     CHECK(all.meet < all.scenes);
-    CHECK(all.hits > 5000);
-    CHECK(all.near_contact * 1000 <= all.hits);
-    CHECK(all.wrong == 0);
 }
 
 TEST_CASE("meshes against meshes: FCL finds the same pairs of two scans") {
     const auto folder = io_test::meshes();
     if (!folder) ABUT_SKIP("the folder of real meshes is not there (ABUT_DATA)");
-    constexpr std::uint64_t seed = 20261203;
-    comparison all;
     const auto scan = io::read_mesh<double>(*folder / "armadillo_2766.ply");
-    const fcl_model model = make_fcl_model(scan.view());
-    for (std::uint64_t k = 0; k < 40; ++k) {
-        compare(scan, model, scan, pose_within<double>(seed, k, {-0.4, -0.4, -0.4}, {0.4, 0.4, 0.4}), 1e-9, all);
-    }
-    all.print("armadillo_2766.ply");
-    CHECK(all.meet > 20);
-    CHECK(all.hits > 5000);
-    CHECK(all.near_contact * 1000 <= all.hits);
-    CHECK(all.wrong == 0);
+    compare_under({20261203, 40, {-0.4, -0.4, -0.4}, {0.4, 0.4, 0.4}, 1e-9, 20, 5000}, "armadillo_2766.ply", scan, scan);
 }
 
 }  // namespace abut::test

@@ -20,11 +20,9 @@ struct surface_data {
     std::vector<face> faces;
 };
 
-/// The octahedron with each triangle cut in four `levels` times: 8 * 4^levels triangles, facing outwards.
+/// A sphere from a solid with corners on the unit sphere, each of whose triangles is cut in four `levels` times.
 template <scalar T>
-surface_data<T> ball_surface(int levels, double radius) {
-    std::vector<vec3<double>> points{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-    std::vector<face> faces{{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+surface_data<T> refined_ball(std::vector<vec3<double>> points, std::vector<face> faces, int levels, double radius) {
     for (int level = 0; level < levels; ++level) {
         std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
         const auto middle = [&](std::uint32_t a, std::uint32_t b) {
@@ -49,6 +47,36 @@ surface_data<T> ball_surface(int levels, double radius) {
         made.vertices.push_back({static_cast<T>(radius * p.x), static_cast<T>(radius * p.y), static_cast<T>(radius * p.z)});
     }
     return made;
+}
+
+/// From the octahedron: 8 * 4^levels triangles, facing outwards.
+template <scalar T>
+surface_data<T> ball_surface(int levels, double radius) {
+    return refined_ball<T>({{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
+                           {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}, levels,
+                           radius);
+}
+
+/// From the icosahedron: 20 * 4^levels triangles of nearly one size, facing outwards.
+template <scalar T>
+surface_data<T> icosphere(int levels, double radius) {
+    const double golden = (1 + std::sqrt(5.0)) / 2, l = std::sqrt(1 + golden * golden), s = 1 / l, g = golden / l;
+    return refined_ball<T>({{-s, g, 0},
+                            {s, g, 0},
+                            {-s, -g, 0},
+                            {s, -g, 0},
+                            {0, -s, g},
+                            {0, s, g},
+                            {0, -s, -g},
+                            {0, s, -g},
+                            {g, 0, -s},
+                            {g, 0, s},
+                            {-g, 0, -s},
+                            {-g, 0, s}},
+                           {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                            {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                            {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}},
+                           levels, radius);
 }
 
 using lattice_point = std::array<std::int64_t, 3>;

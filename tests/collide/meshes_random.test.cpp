@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+
+// Random runs: two random meshes of 1 to 200 triangles under random poses, a tree over each of any builder, built or
+// refitted, in any layout, and a query of any kind, on either policy of the host. No pair is lost and none is made up: the
+// truth is a plain loop over `intersects<exact>`. Run k of a seed is the same run everywhere.
+
+#include "collide/mesh_cases.hpp"
+
+#include <algorithm>
+#include <concepts>
+#include <cstdint>
+#include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "support/catch.hpp"
+#include "support/samples.hpp"
+
+namespace abut::test {
+
+namespace {
+
+// --- what a run draws --------------------------------------------------------------------------------------------------
+
+enum class mesh_kind : int { soup, tangle, lattice, ball, ring, chain, copies };
+constexpr const char* kind_names[] = {"soup", "tangle", "lattice", "ball", "ring", "chain", "copies"};
+constexpr int kinds = 7;
+
+constexpr std::pair<const char*, bvh_options> builders[] = {
+    {"linear", {}},
+    {"linear, 30 bits", {.morton_bits = 30}},
+    {"linear, 63 bits", {.morton_bits = 63}},
+    {"mean_split", {.builder = bvh_builder::mean_split}},
+    {"sah", {.builder = bvh_builder::sah}},
+};
+constexpr const char* layouts[] = {"standard", "quantised", "leafless"};
+constexpr const char* questions[] = {"pairs", "unsorted", "exact", "count", "any", "one tree"};
+
+template <auto& Names>
+int draw_one_of(draws& d) {
+    return d.below(static_cast<int>(std::size(Names)));
+}
+
+/// Triangles of a kind, in a box of side 2 or about that: apart from each other, of few vertices, on a lattice that makes
+/// ties of most pairs, closed surfaces, in a line that doubles its steps, all in one place.
+template <scalar T>
+surface_data<T> random_surface(draws& d, mesh_kind kind) {
+    using construction::round_to;
+    if (kind == mesh_kind::ball) return ball_surface<T>(d.below(3), d.uniform(0.2, 1));
+    if (kind == mesh_kind::ring) {
+        const int around = 3 + d.below(8), across = 3 + d.below(8);
+        const torus<T> ring(static_cast<std::uint32_t>(around), static_cast<std::uint32_t>(across), 0.7,
+                            d.uniform(0.1, 0.4));
+        return {ring.vertices, ring.faces};
+    }
+    surface_data<T> made;
+    const int n = 1 + d.below(d.below(4) == 0 ? 4 : 200);
+    const auto id = [](int i) { return static_cast<std::uint32_t>(i); };
+    if (kind == mesh_kind::tangle || kind == mesh_kind::lattice) {
+        const int points = 3 + d.below(60), half = 1 + d.below(4);
+        const auto whole = [&] { return T(d.below(2 * half + 1) - half); };
+        for (int i = 0; i < points; ++i) {
+            if (kind == mesh_kind::tangle) {
+                made.vertices.push_back(round_to<T>(construction::cube(d, 1)));
+            } else {
+                const T x = whole(), y = whole(), z = whole();
+                made.vertices.push_back({x, y, z});
+            }
+        }
+        for (int i = 0; i < n; ++i) {
+            const int a = d.below(points), b = d.below(points), c = d.below(points);
+            made.faces.push_back({id(a), id(b), id(c)});
+        }
+        return made;
+    }
+    construction::point at = construction::cube(d, 1);
+    double step = 1e-6, size = d.power_of_ten(-3, 0);
+    for (int i = 0; i < n; ++i) {
+        if (kind == mesh_kind::soup) at = construction::cube(d, 1), size = d.power_of_ten(-3, 0);
+        if (kind == mesh_kind::chain) at.x += step, size = step, step *= 1.1;
+        for (int k = 0; k < 3; ++k) {
+            // Copies are of one triangle, but for a few.
+            const bool copy = kind == mesh_kind::copies && i > 0 && i % 16 != 0;
+            made.vertices.push_back(copy ? made.vertices[static_cast<std::size_t>(k)]
+                                         : round_to<T>(construction::along(at, size, construction::cube(d, 1))));
+        }
+        made.faces.push_back({id(3 * i), id(3 * i + 1), id(3 * i + 2)});
+    }
+    return made;
+}
+
+template <scalar T>
+struct random_scene {
+    mesh_kind kind_a, kind_b;
+    placed_mesh<T> a, b;
+};
+
+/// Both at any scale, near each other, near the origin or not; some without poses, some turned by quarters, where lattices
+/// meet in planes.
+template <scalar T>
+random_scene<T> make_scene(draws& d) {
+    const auto kind_a = static_cast<mesh_kind>(d.below(kinds));
+    const auto kind_b = d.below(3) == 0 ? kind_a : static_cast<mesh_kind>(d.below(kinds));
+    const T scales[] = {1, T(0x1p-33), T(0x1p33), T(1e-3)};
+    const T scale = scales[std::max(0, d.below(6) - 2)];
+    const mesh<T> a = as_mesh(random_surface<T>(d, kind_a)), b = as_mesh(random_surface<T>(d, kind_b));
+    random_scene<T> s{kind_a, kind_b, {scaled(a, scale), {}}, {scaled(b, scale), {}}};
+    const int poses = d.below(4);
+    if (poses == 0) return s;
+    const bool on_lattice = kind_a == mesh_kind::lattice && kind_b == mesh_kind::lattice && d.below(2) == 0;
+    const double reach = d.power_of_ten(-2, 0), far = d.below(4) == 0 ? 100 : 0;
+    for (rigid<T>* const pose : {&s.a.pose, &s.b.pose}) {
+        *pose = make_pose<T>(d, reach);
+        vec3<T>& t = pose->translation;
+        if (on_lattice) {
+            construction::set_quarter_turns(*pose, d);
+            t = {T(d.below(5) - 2), T(d.below(5) - 2), T(d.below(5) - 2)};
+        }
+        t = {(t.x + T(far)) * scale, (t.y - T(far)) * scale, t.z * scale};
+        if (poses == 1) break;
+    }
+    return s;
+}
+
+// --- how it is asked ---------------------------------------------------------------------------------------------------
+
+struct tree_kind {
+    int builder, layout;
+    bool refitted;
+
+    explicit tree_kind(draws& d)
+        : builder(draw_one_of<builders>(d)), layout(draw_one_of<layouts>(d)), refitted(d.below(4) == 0) {}
+    [[nodiscard]] std::string text() const {
+        return std::string(builders[builder].first) + ", " + layouts[layout] + (refitted ? ", refitted" : "");
+    }
+};
+
+/// use(tree) of a kind over a mesh. A refitted tree was built over the same faces where the mesh is turned inside out.
+template <class Policy, scalar T, class Use>
+void with_tree(const Policy& on, const mesh<T>& shape, const tree_kind& kind, const Use& use) {
+    const bvh_options& options = builders[kind.builder].second;
+    const auto tree =
+        kind.refitted ? refit(on, make_bvh(on, scaled(shape, T(-1)), options), shape) : make_bvh(on, shape, options);
+    if constexpr (std::same_as<Policy, serial>) {  // the walks are the openmp policy's: one layout will do
+        use(tree);
+    } else {
+        if (kind.layout == 0) use(tree);
+        if (kind.layout == 1) use(quantised(on, tree));
+        if (kind.layout == 2) use(leafless(on, tree));
+    }
+}
+
+template <class Tree>
+inline constexpr bool is_standard = std::same_as<typename Tree::layout_type, standard_layout>;
+template <class Tree>
+inline constexpr bool is_standard<posed_object<Tree>> = is_standard<Tree>;
+
+/// Whether a query of two trees is right. Questions other than for pairs are for the standard layout: each is a query to
+/// compile anew.
+template <class Policy, class X, class Y>
+bool is_right(const Policy& on, const X& x, const Y& y, int question, const pair_list& expected) {
+    if constexpr (is_standard<X> && is_standard<Y>) {
+        if (question == 2) return to_host(pairs<exact>(on, x, y)) == expected;
+        if (question == 3) return count(on, x, y) == expected.size();
+        if (question == 4) return any(on, x, y) == !expected.empty();
+    }
+    pair_list found = to_host(pairs(on, x, y, {.sorted = question != 1}));
+    if (question == 1) std::sort(found.begin(), found.end());
+    return found == expected;
+}
+
+template <class Policy, scalar T>
+bool run(const Policy& on, draws& d, const random_scene<T>& s, const pair_list& expected, std::string& told) {
+    tree_kind of_a(d), of_b(d);
+    if (std::same_as<Policy, serial>) of_a.layout = of_b.layout = 0;
+    int question = draw_one_of<questions>(d);
+    if (question > 1 && question < 5 && (of_a.layout != 0 || of_b.layout != 0)) question = 0;
+    const bool in_one_frame = s.a.pose == rigid<T>{} && s.b.pose == rigid<T>{} && d.below(2) == 0;
+    told += std::string(questions[question]) + "; a: " + kind_names[static_cast<int>(s.kind_a)] + ", " + of_a.text() +
+            "; b: " + kind_names[static_cast<int>(s.kind_b)] + ", " + of_b.text() + (in_one_frame ? "; not posed" : "");
+    bool right = false;
+    with_tree(on, s.a.shape, of_a, [&](const auto& a) {
+        if (question == 5) {
+            right = to_host(pairs(on, posed(a, s.a.pose), posed(s.b.shape, s.b.pose))) == expected;
+            return;
+        }
+        with_tree(on, s.b.shape, of_b, [&](const auto& b) {
+            right = in_one_frame ? is_right(on, a, b, question, expected)
+                                 : is_right(on, posed(a, s.a.pose), posed(b, s.b.pose), question, expected);
+        });
+    });
+    return right;
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("meshes against meshes: no pair is lost in random runs", "", float, double) {
+    using T = TestType;
+    constexpr std::uint64_t stream = sizeof(T) == 4 ? 87 : 88;
+    const std::uint64_t runs = sample_count() / 10;  // 500, or what ABUT_SAMPLES says
+    std::uint64_t meet = 0, hits = 0;
+    for (std::uint64_t k = 0; k < runs; ++k) {
+        draws d(seed, stream, k);
+        const random_scene<T> s = make_scene<T>(d);
+        const pair_list expected = exact_pairs(s.a, s.b);
+        const int threads = d.below(4);
+        std::string told = threads == 0 ? "serial; " : "openmp, " + std::to_string(threads) + " threads; ";
+        const bool right =
+            threads == 0 ? run(serial{}, d, s, expected, told) : run(openmp{.threads = threads}, d, s, expected, told);
+        meet += expected.empty() ? 0 : 1;
+        hits += expected.size();
+        CAPTURE(seed, stream, k, told, s.a.shape.size(), s.b.shape.size(), expected.size());
+        CHECK(right);
+    }
+    std::printf("random runs: seed %llu, stream %llu, %llu of %llu pairs of meshes meet, %llu hits\n",
+                static_cast<unsigned long long>(seed), static_cast<unsigned long long>(stream),
+                static_cast<unsigned long long>(meet), static_cast<unsigned long long>(runs),
+                static_cast<unsigned long long>(hits));
+    CHECK(meet * 3 > runs);
+    CHECK(meet * 20 < runs * 19);
+    CHECK(hits > 50 * runs);
+}
+
+}  // namespace abut::test
