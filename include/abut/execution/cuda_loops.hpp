@@ -99,7 +99,7 @@ __global__ void __launch_bounds__(block_size) for_each_in_groups_kernel(std::siz
     __shared__ typename F::shared shared;
     __shared__ candidate leaving[block_size];
     __shared__ unsigned short places[block_size];
-    __shared__ unsigned left, counts[3];  // what is ready in a round, in the next one, and in the one after that
+    __shared__ unsigned left, tail, counts[3];  // what is ready in a round, in the next one, and in the one after that
     __shared__ std::uint64_t first_late;
     const std::size_t first = std::size_t{blockIdx.x} * block_size, i = first + threadIdx.x;
     if (threadIdx.x < 3) counts[threadIdx.x] = 0;
@@ -108,29 +108,34 @@ __global__ void __launch_bounds__(block_size) for_each_in_groups_kernel(std::siz
     __syncthreads();
     const candidate_sink<candidate, Late, block_size> mine{leaving, &left, late};
     if (i < n) f.begin(i, shared, ready_in_block{places, &counts[0]}, mine, sinks...);
-    unsigned round = 0, done = 0;
     __syncthreads();
-    for (;;) {
-        const unsigned count = counts[round], next = round == 2 ? 0 : round + 1, after = next == 2 ? 0 : next + 1;
-        if (count == 0) break;
-        const bool one_warp = count <= warp_size;
-        if (one_warp && threadIdx.x >= warp_size) break;
+    unsigned round = 0, done = 0, count = counts[0];
+    while (count > warp_size) {
+        const unsigned next = round == 2 ? 0 : round + 1, after = next == 2 ? 0 : next + 1;
         if (threadIdx.x == 0) counts[after] = 0;
         const ready_in_block ready{places + done + count, &counts[next]};
         if (threadIdx.x < count) f.step(first, places[done + threadIdx.x], shared, ready, mine);
         done += count;
         round = next;
-        if (one_warp) {
-            __syncwarp();
-        } else {
-            __syncthreads();
+        __syncthreads();
+        count = counts[round];
+    }
+    while (count > 0 && threadIdx.x < warp_size) {
+        if (threadIdx.x == 0) tail = 0;
+        __syncwarp();
+        if (threadIdx.x < count) {
+            f.step(first, places[done + threadIdx.x], shared, ready_in_block{places + done + count, &tail}, mine);
         }
+        __syncwarp();
+        done += count;
+        count = tail;
+        __syncwarp();
     }
     __syncthreads();
     f.end(first, threadIdx.x, shared, mine);
     for (unsigned t = threadIdx.x; t < F::parts * block_size; t += block_size) f.write(first, t, shared);
     __syncthreads();
-    const unsigned count = left < block_size ? left : block_size;
+    count = left < block_size ? left : block_size;
     if (threadIdx.x == 0 && count > 0) first_late = late.reserve(count);
     __syncthreads();
     if (threadIdx.x < count) late.put(first_late + threadIdx.x, leaving[threadIdx.x]);
