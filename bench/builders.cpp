@@ -8,8 +8,9 @@
 //   build/BUILDER/POLICY             a tree over one mesh, of any builder
 //   build/embree_QUALITY/serial      the peer's (bench/builders/)
 //   refit/BUILDER/POLICY             such a tree around the turned mesh
-//   convert/LAYOUT/POLICY            such a tree in another layout
+//   convert/LAYOUT/POLICY            such a tree in another layout; convert/wide/BUILDER/POLICY depends on the builder
 //   pairs/baked/BUILDER/LAYOUT       pairs of two trees, sorted, on one core; counters hold what `quality` says of the first
+//   unsorted/baked/BUILDER/LAYOUT    the same, unsorted, as the peer's unsorted/embree_QUALITY/serial
 //   pairs/posed/BUILDER/LAYOUT       the same, the second being the first tree under a pose
 //   one_sided/BUILDER/LAYOUT         one tree, and the shapes of the other mesh
 
@@ -64,6 +65,12 @@ void add_builds(const Policy& on, const abut::mesh<float>& a, const abut::mesh<f
     add(std::string("convert/leafless/") + name_of(on), threads, [=](benchmark::State& state) {
         for (auto _ : state) benchmark::DoNotOptimize(leafless(on, tree).size());
     });
+    for (const auto& [name, builder] : builders) {
+        const auto from = make_bvh(on, a, {.builder = builder});
+        add(std::string("convert/wide/") + name + "/" + name_of(on), threads, [=](benchmark::State& state) {
+            for (auto _ : state) benchmark::DoNotOptimize(wide(on, from).size());
+        });
+    }
 }
 
 template <class Tree>
@@ -82,6 +89,9 @@ void add_queries(const std::string& suffix, const Tree& a, const Tree& b) {
             state.counters["bytes_per_shape"] = q.bytes_per_shape;
         });
     };
+    add("unsorted/baked/" + suffix, false, [=](benchmark::State& state) {
+        for (auto _ : state) benchmark::DoNotOptimize(pairs(on, a, b, {.sorted = false}).size());
+    });
     add_pairs("pairs/baked/", b);
     add_pairs("pairs/posed/", posed(a, scene::the_pair->pose));
     add_pairs("one_sided/", b.set());
@@ -99,6 +109,7 @@ void add_all() {
         add_queries(start + "standard", tree_a, tree_b);
         add_queries(start + "quantised", quantised(on, tree_a), quantised(on, tree_b));
         add_queries(start + "leafless", leafless(on, tree_a), leafless(on, tree_b));
+        add_queries(start + "wide", wide(on, tree_a), wide(on, tree_b));
     }
 }
 

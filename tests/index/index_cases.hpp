@@ -19,7 +19,7 @@ struct host_tree {
     std::vector<bvh_node<T>> nodes;
     std::vector<bvh_root<T>> root;
 
-    bvh_view<T, host_space> view(std::size_t shapes) const { return {nodes.data(), root.data(), shapes}; }
+    bvh_view<T, host_space> view(std::size_t shapes) const { return {{nodes.data(), root.data(), shapes}}; }
 };
 
 template <class Policy, class Tree>

@@ -3,8 +3,13 @@
 
 // What every policy's layouts promise. tests/index runs it on the host's policies, tests/cuda on the device.
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <abut/abut.hpp>
@@ -70,6 +75,89 @@ void check_layouts(const Policy& on, const Set& set) {
     CHECK(bare.bytes() == (n > 0 ? (n - 1) * sizeof(leafless_node<T>) + sizeof(bvh_root<T>) : 0));
 }
 
+/// A wide tree of a binary one: children whose boxes and numbers are those of the binary tree, four of them unless all are
+/// leaves, and the same bits from any number of threads.
+template <class Policy, class Set>
+void check_wide(const Policy& on, const Set& set, bvh_builder builder) {
+    using T = typename Set::scalar_type;
+    const auto same = [](const aabb<T>& a, const aabb<T>& b) { return std::memcmp(&a, &b, sizeof a) == 0; };
+    const auto tree = make_bvh(on, set, {.builder = builder});
+    const auto result = wide(on, tree);
+    const auto view = result.view();
+    const auto& nodes = result.stored().nodes;
+    CHECK(find_flaw(view, set.view()) == "");
+    CHECK(result.bytes() == nodes.size() * sizeof(wide_node<T>) + (set.size() > 0 ? sizeof(bvh_root<T>) : 0));
+    if (set.size() == 0) return;
+    CHECK(same(view.root_bounds(), tree.view().root_bounds()));
+    CHECK(quality(result).greatest_depth <= quality(tree).greatest_depth);
+
+    // Boxes of leaves and nodes, by what lies below them: the least shape there, and how many shapes.
+    const auto boxes_of = [&](const auto& any_tree) {
+        using box_of = std::pair<std::pair<std::uint32_t, std::size_t>, aabb<T>>;
+        std::vector<box_of> boxes;
+        const auto below = [&](const auto& self, bvh_child child) -> std::pair<std::uint32_t, std::size_t> {
+            if (child.is_leaf()) return {child.index(), 1};
+            const auto node = any_tree.fetch(child.index());
+            std::pair<std::uint32_t, std::size_t> all{bvh_child::leaf_bit, 0};
+            for (int side = 0; side < any_tree.children(node); ++side) {
+                const auto part = self(self, any_tree.child(node, side));
+                boxes.push_back({part, any_tree.bounds(node, side)});
+                all = {std::min(all.first, part.first), all.second + part.second};
+            }
+            return all;
+        };
+        below(below, any_tree.root());
+        std::sort(boxes.begin(), boxes.end(), [](const box_of& a, const box_of& b) { return a.first < b.first; });
+        return boxes;
+    };
+    const auto known = boxes_of(tree.view()), kept = boxes_of(view);
+    std::size_t found = 0;
+    for (const auto& [what, box] : known) {
+        found += found < kept.size() && kept[found].first == what && same(kept[found].second, box) ? 1 : 0;
+    }
+    CHECK(found == kept.size());
+
+    bool full = true, empty = true;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const wide_node<T>& node = nodes.data()[i];
+        bool leaves = true;
+        for (int side = 0; side < view.children(node); ++side) leaves = leaves && view.child(node, side).is_leaf();
+        full = full && (leaves || node.count == 4);
+        for (int side = view.children(node); side < 4; ++side) {
+            empty = empty && same(view.bounds(node, side), empty_box<T>()) && view.child(node, side) == bvh_child::leaf(0);
+        }
+    }
+    CHECK(full);
+    CHECK(empty);
+
+    const auto other = wide(openmp{5}, tree);
+    CHECK(other.stored().nodes.size() == nodes.size());
+    bool equal = view.root() == other.view().root();
+    for (std::size_t i = 0; equal && i < nodes.size(); ++i) {
+        const wide_node<T>&a = nodes.data()[i], &b = other.stored().nodes.data()[i];
+        equal = std::memcmp(&a, &b, offsetof(wide_node<T>, count) + sizeof a.count) == 0;
+    }
+    CHECK(equal);
+}
+
+template <class T, class Policy>
+void check_all_wide(const Policy& on) {
+    uniform random(82);
+    for (const bvh_builder builder : {bvh_builder::linear, bvh_builder::mean_split, bvh_builder::sah}) {
+        CAPTURE(static_cast<int>(builder));
+        for (std::size_t n = 0; n <= 100; ++n) {
+            CAPTURE(n);
+            check_wide(on, triangle_soup<T>(random_triangles<T>(n, random)), builder);
+        }
+        check_wide(on, spheres<T>(random_spheres<T>(20'000, random)), builder);
+        check_wide(on, endless_spheres<T>(2000), builder);
+        for (const auto& [name, set] : hard_sets<T>(2000)) {
+            CAPTURE(name);
+            check_wide(on, set, builder);
+        }
+    }
+}
+
 template <class T, class Policy>
 void check_all_layouts(const Policy& on) {
     uniform random(81);
@@ -103,6 +191,7 @@ void check_layout_queries(const Policy& on) {
         use(tree);
         use(quantised(on, tree));
         use(leafless(on, tree));
+        if constexpr (on_host) use(wide(on, tree));
     };
     in_every_layout(a, bvh_builder::sah, [&](const auto& tree_a) {
         CHECK(to_host(pairs(on, tree_a, balls)) == with_balls);
@@ -110,6 +199,7 @@ void check_layout_queries(const Policy& on) {
         in_every_layout(b, bvh_builder::mean_split, [&](const auto& tree_b) {
             CHECK(to_host(pairs(on, tree_a, tree_b)) == expected);
             CHECK(to_host(pairs(on, posed(tree_a, quarter), tree_b)) == moved);
+            CHECK(to_host(pairs(on, posed(tree_a, quarter), posed(tree_b, rigid<T>{}))) == moved);
             CHECK(any(on, tree_b, tree_a));
         });
     });

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <abut/index/quantised.hpp>
 
+#include <atomic>
 #include <limits>
 
 #include <abut/index/leafless.hpp>
+#include <abut/index/wide.hpp>
 
 #include "index/layout_cases.hpp"
 
@@ -12,11 +14,85 @@ using namespace abut;
 static_assert(bvh_layout_kind<standard_layout> && bvh_layout_kind<quantised_layout> && bvh_layout_kind<leafless_layout>);
 static_assert(!bvh_layout_kind<int> && !bvh_layout_kind<bvh_view<float, host_space>>);
 static_assert(bvh_layout<quantised_view<double, device_space>> && bvh_layout<leafless_view<double, device_space>>);
+static_assert(bvh_layout_kind<wide_layout> && bvh_layout<wide_view<double, host_space>>);
+static_assert(detail::wide_bvh_layout<wide_view<float, host_space>> &&
+              !detail::wide_bvh_layout<bvh_view<float, host_space>>);
+static_assert(sizeof(wide_node<float>) == 128 && sizeof(wide_node<double>) == 224);
 static_assert(sizeof(quantised_node) == 32 && sizeof(leafless_node<float>) == 32 && sizeof(leafless_node<double>) == 56);
 
 TEMPLATE_TEST_CASE("layouts: well-formed, and no box smaller than it was built", "", float, double) {
     test::check_all_layouts<TestType>(serial{});
     test::check_all_layouts<TestType>(openmp{3});
+}
+
+TEMPLATE_TEST_CASE("wide: well-formed, with boxes as they were built, of any builder", "", float, double) {
+    test::check_all_wide<TestType>(serial{});
+    test::check_all_wide<TestType>(openmp{3});
+}
+
+TEMPLATE_TEST_CASE("wide: boxes that are all of space, and places without a child", "", float, double) {
+    using T = TestType;
+    // The box of a child that a node has not must not be met, not even by infinite ones.
+    const spheres<T> endless = test::endless_spheres<T>(333), few = test::endless_spheres<T>(7);
+    const triangle_soup<T> soup = test::hard_sets<T>(200).back().set;
+    for (const auto& on : {openmp{1}, openmp{3}}) {
+        const auto a = wide(on, make_bvh(on, endless)), b = wide(on, make_bvh(on, few));
+        const auto c = wide(on, make_bvh(on, soup));
+        const auto expected = to_host(pairs(on, soup, endless)), with_few = to_host(pairs(on, soup, few));
+        CHECK(expected.size() > 1000);
+        CHECK(to_host(pairs(on, c, a)) == expected);
+        CHECK(to_host(pairs(on, c, b)) == with_few);
+        CHECK(to_host(pairs(on, soup, a)) == expected);
+        CHECK(to_host(pairs(on, c, make_bvh(on, endless))) == expected);
+    }
+}
+
+TEMPLATE_TEST_CASE("wide: every kind of query, beside every kind of side", "", float, double) {
+    using T = TestType;
+    test::uniform random(84);
+    const triangle_soup<T> a(test::random_triangles<T>(700, random)), b(test::random_triangles<T>(900, random));
+    const spheres<T> balls(test::random_spheres<T>(300, random));
+    const auto check_on = [&](const auto& on) {
+        auto tree = make_bvh(on, a);
+        auto index = wide(on, tree), other = wide(on, make_bvh(on, b, {.builder = bvh_builder::sah}));
+        const auto expected = to_host(pairs(on, a, b)), with_balls = to_host(pairs(on, balls, a));
+        CHECK(expected.size() > 500);
+        CHECK(count(on, index, other) == expected.size());
+        CHECK(any(on, index, other));
+        CHECK(!any(on, index, posed(other, rigid<T>{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {100, 0, 0}})));
+        CHECK(to_host(pairs(on, index, make_grid(on, b))) == expected);
+        CHECK(to_host(pairs(on, index, b)) == expected);
+        CHECK(to_host(pairs(on, balls, index)) == with_balls);
+        CHECK(to_host(pairs(on, make_grid(on, balls), index)) == with_balls);
+        for (const std::size_t most : {std::size_t{1} << 20, std::size_t{100}}) {
+            std::atomic<std::size_t> seen{0}, sum{0};
+            std::size_t expected_sum = 0;
+            for (const auto& [i, j] : expected) expected_sum += std::size_t{i} * 1009 + j;
+            const auto visitor = [&](const index_pair& p) {
+                ++seen;
+                sum += std::size_t{p.a} * 1009 + p.b;
+                return visit::proceed;
+            };
+            for_each_pair(on, index, other, visitor, {.most_pairs = most});
+            CHECK(seen == expected.size());
+            CHECK(sum == expected_sum);
+        }
+        // A list of pairs, wide on both sides and on one.
+        const rigid<T> quarter{{0, -1, 0, 1, 0, 0, 0, 0, 1}, {T(0.1), T(0.2), T(0.3)}};
+        const auto moved = to_host(pairs(on, posed(a, quarter), b));
+        CHECK(moved.size() > 100);
+        const std::vector<posed_pair<decltype(index), decltype(other)>> list{{posed(index, {}), posed(other, {})},
+                                                                             {posed(index, quarter), posed(other, {})}};
+        const std::vector<posed_pair<decltype(tree), decltype(other)>> mixed{{posed(tree, {}), posed(other, {})},
+                                                                             {posed(tree, quarter), posed(other, {})}};
+        std::vector<tagged_pair> tagged;
+        for (const auto& [i, j] : expected) tagged.push_back({0, i, j});
+        for (const auto& [i, j] : moved) tagged.push_back({1, i, j});
+        CHECK((to_host(pairs(on, list)) == tagged));
+        CHECK((to_host(pairs(on, mixed)) == tagged));
+    };
+    check_on(serial{});
+    check_on(openmp{3});
 }
 
 TEMPLATE_TEST_CASE("layouts: queries do not depend on them", "", float, double) {
@@ -72,7 +148,7 @@ TEST_CASE("layouts: what they cost") {
     const test::torus<float> shape(200, 80, 1, 0.4);
     const auto tree = make_bvh(serial{}, mesh<float>(shape.vertices, shape.faces), {.builder = bvh_builder::sah});
     const auto standard = quality(tree), small = quality(quantised(serial{}, tree)),
-               bare = quality(leafless(serial{}, tree));
+               bare = quality(leafless(serial{}, tree)), broad = quality(wide(serial{}, tree));
     CHECK(standard.bytes_per_shape == Approx(64).margin(0.01));
     CHECK(small.bytes_per_shape == Approx(32).margin(0.01));
     CHECK(bare.bytes_per_shape == Approx(32).margin(0.01));
@@ -80,6 +156,9 @@ TEST_CASE("layouts: what they cost") {
     CHECK(small.sah_cost < 1.02 * standard.sah_cost);
     CHECK(bare.sah_cost > standard.sah_cost);
     CHECK(small.greatest_depth == standard.greatest_depth);
+    CHECK(broad.bytes_per_shape < 70);
+    CHECK(broad.sah_cost < 0.9 * standard.sah_cost);
+    CHECK(broad.mean_depth < 0.7 * standard.mean_depth);
 }
 
 TEST_CASE("layouts: a converted tree stands alone, and a refitted one can be converted") {

@@ -40,17 +40,16 @@ struct nothing_is_late {
 };
 
 /// What a walk finds on each policy is what a plain loop over all boxes finds, each pair once.
-template <class T, class Overlap>
-std::size_t check_walk(const triangle_soup<T>& a, const triangle_soup<T>& b, const Overlap& overlap) {
-    const auto tree_a = make_bvh(serial{}, a), tree_b = make_bvh(serial{}, b);
+template <class T, class TreeA, class TreeB, class Overlap>
+std::size_t check_walk(const triangle_soup<T>& a, const TreeA& tree_a, const triangle_soup<T>& b, const TreeB& tree_b,
+                       const Overlap& overlap) {
     id_pairs expected;
     for (std::uint32_t i = 0; i < a.size(); ++i) {
         for (std::uint32_t j = 0; j < b.size(); ++j) {
             if (overlap(bounds(a.view()[i]), bounds(b.view()[j]))) expected.emplace_back(i, j);
         }
     }
-    using view = bvh_view<T, host_space>;
-    using walk_type = detail::pair_walk<view, view, Overlap>;
+    using walk_type = detail::pair_walk<typename TreeA::view_type, typename TreeB::view_type, Overlap>;
     const auto check_on = [&](const auto& on) {
         execution::work_queue<std::uint64_t, host_space> late(on), hits(on);
         for_each_descendant(on, box_pairs<walk_type>{{tree_a.view(), tree_b.view(), overlap}}, keep{}, nothing_is_late{},
@@ -66,6 +65,17 @@ std::size_t check_walk(const triangle_soup<T>& a, const triangle_soup<T>& b, con
     check_on(serial{});
     check_on(openmp{3});
     return expected.size();
+}
+
+/// Binary trees, wide ones, and one of each.
+template <class T, class Overlap>
+std::size_t check_walk(const triangle_soup<T>& a, const triangle_soup<T>& b, const Overlap& overlap) {
+    const auto tree_a = make_bvh(serial{}, a), tree_b = make_bvh(serial{}, b);
+    const auto wide_a = wide(serial{}, tree_a), wide_b = wide(serial{}, tree_b);
+    check_walk(a, wide_a, b, wide_b, overlap);
+    check_walk(a, wide_a, b, tree_b, overlap);
+    check_walk(a, tree_a, b, wide_b, overlap);
+    return check_walk(a, tree_a, b, tree_b, overlap);
 }
 
 TEMPLATE_TEST_CASE("two trees at once: each pair of leaves whose boxes overlap, once", "", float, double) {

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -88,11 +89,13 @@ template <class Member>
 struct shapes_a_of {
     const Member* members;
     ABUT_HD auto operator[](const batch_key::place& at) const { return members[at.member].a[at.id]; }
+    ABUT_INLINE void prefetch(const batch_key::place& at, int step) const { members[at.member].a.prefetch(at.id, step); }
 };
 template <class Member>
 struct shapes_b_of {
     const Member* members;
     ABUT_HD auto operator[](const batch_key::place& at) const { return members[at.member].b[at.id]; }
+    ABUT_INLINE void prefetch(const batch_key::place& at, int step) const { members[at.member].b.prefetch(at.id, step); }
 };
 
 /// What the stages of a search see (search.hpp).
@@ -111,6 +114,33 @@ template <scalar T>
 struct frames_at {
     const relative_pose<T>* b_to_a;
     ABUT_HD bool operator()(const aabb<T>& a, const aabb<T>& b) const { return overlaps(a, *b_to_a, b); }
+    ABUT_INLINE ABUT_HD auto operator()(const box_lanes<T>& a, const box_lanes<T>& b) const {
+        return overlaps(a, *b_to_a, b);
+    }
+};
+
+// What the walk of a member finds, handed to a policy's emitter; see query.hpp.
+
+template <class Item, class Emitter>
+struct add_member_item {
+    Emitter& emitter;
+    std::uint32_t member;
+    ABUT_CALLS_ANY
+    template <class Number, class Nodes>
+    ABUT_INLINE ABUT_HD void operator()(Number k, bool is, const Nodes& next) const {
+        emitter.add(k, is, Item{member, next});
+    }
+};
+template <class Emitter>
+struct push_member_key {
+    Emitter& emitter;
+    std::uint32_t member;
+    const batch_key& key;
+    ABUT_CALLS_ANY
+    template <class Number>
+    ABUT_INLINE ABUT_HD void operator()(Number k, bool is, std::uint32_t a, std::uint32_t b) const {
+        emitter.push(k, is, key.pack(member, a, b));
+    }
 };
 
 /// One step down two trees of a member.
@@ -134,17 +164,14 @@ struct expand_member {
         return {members[i].tree_a, members[i].tree_b, {&members[i].b_to_a}};
     }
     [[nodiscard]] std::size_t seeds() const { return n; }
-    void prefetch(const item& at) const { walk_of(at.member).prefetch(at.nodes); }
+    ABUT_INLINE void prefetch(const item& at) const { walk_of(at.member).prefetch(at.nodes); }
     [[nodiscard]] ABUT_HD item seed(std::size_t i) const { return {walked[i], walk_of(walked[i]).seed(0)}; }
     ABUT_CALLS_ANY
     template <class Emitter>
     ABUT_INLINE ABUT_HD void operator()(const item& at, Emitter&& emitter) const {
-        walk_of(at.member).expand(
-            at.nodes,
-            [&](auto k, bool is, const auto& next) {
-                emitter.add(k, is, item{at.member, next});
-            },
-            [&](auto k, bool is, std::uint32_t a, std::uint32_t b) { emitter.push(k, is, key.pack(at.member, a, b)); });
+        using sink = std::remove_reference_t<Emitter>;
+        walk_of(at.member).expand(at.nodes, add_member_item<item, sink>{emitter, at.member},
+                                  push_member_key<sink>{emitter, at.member, key});
     }
 };
 
@@ -242,7 +269,8 @@ template <arithmetic A = filtered, execution_policy Policy, class IndexA, class 
                            {detail::view_of(a.object.set()), a.pose},
                            {detail::view_of(b.object.set()), b.pose},
                            {}});
-        const bool nodes = std::min(size_a, size_b) > 1 && std::max(size_a, size_b) <= detail::most_shapes_of_pair_walk;
+        const bool nodes =
+            std::min(size_a, size_b) > 1 && std::max(size_a, size_b) <= detail::expand_member<member>::walk::most_shapes;
         if (std::min(size_a, size_b) > 0) (nodes ? walked : rest).push_back(static_cast<std::uint32_t>(i));
     }
     const detail::batch_key key{detail::id_bits(n), detail::id_bits(most_a), detail::id_bits(most_b)};

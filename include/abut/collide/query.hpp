@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <type_traits>
 
 #include <abut/collide/search.hpp>
 #include <abut/index/bvh.hpp>
@@ -147,6 +148,28 @@ auto make_side(const Policy& on, const X& x, const char* function) {
     }
 }
 
+// What a walk of two trees finds, handed to a policy's emitter. No lambdas: nvcc would warn of emitters of the host.
+
+template <class Emitter>
+struct add_item {
+    Emitter& emitter;
+    ABUT_CALLS_ANY
+    template <class Number, class Item>
+    ABUT_INLINE ABUT_HD void operator()(Number k, bool is, const Item& next) const {
+        emitter.add(k, is, next);
+    }
+};
+template <class Emitter, class Sides>
+struct push_key {
+    Emitter& emitter;
+    const Sides& sides;
+    ABUT_CALLS_ANY
+    template <class Number>
+    ABUT_INLINE ABUT_HD void operator()(Number k, bool is, std::uint32_t query, std::uint32_t target) const {
+        emitter.push(k, is && sides.wanted(query, target), sides.key.pack(query, target));
+    }
+};
+
 /// One step down two trees.
 template <class Walk, class Sides>
 struct expand_pair {
@@ -157,16 +180,13 @@ struct expand_pair {
     Sides sides;
 
     [[nodiscard]] std::size_t seeds() const { return walk.seeds(); }
-    void prefetch(const item& at) const { walk.prefetch(at); }
+    ABUT_INLINE void prefetch(const item& at) const { walk.prefetch(at); }
     [[nodiscard]] ABUT_HD item seed(std::size_t i) const { return walk.seed(i); }
     ABUT_CALLS_ANY
     template <class Emitter>
     ABUT_INLINE ABUT_HD void operator()(const item& at, Emitter&& emitter) const {
-        walk.expand(
-            at, [&](auto k, bool is, const item& next) { emitter.add(k, is, next); },
-            [&](auto k, bool is, std::uint32_t query, std::uint32_t target) {
-                emitter.push(k, is && sides.wanted(query, target), sides.key.pack(query, target));
-            });
+        using sink = std::remove_reference_t<Emitter>;
+        walk.expand(at, add_item<sink>{emitter}, push_key<sink, Sides>{emitter, sides});
     }
 };
 
@@ -184,10 +204,12 @@ struct find_candidates {
     void operator()(const Settle& settle, Late& late, Wide& wide, Hits& hits) const {
         if (n == 0 || sides.targets.size() == 0) return;
         if constexpr (tree_of_side<QuerySide>::exists && tree_of_side<TargetSide>::exists) {
+            using walk_type = decltype(walk_of_both());
             const std::size_t least = std::min(n, sides.targets.size()), most = std::max(n, sides.targets.size());
             // A part of the queries is no tree, and a leaf alone has no place (traverse/pair_walk.hpp).
-            if (n == sides.queries.size() && least > 1 && most <= most_shapes_of_pair_walk) {
-                return walk_both(settle, late, wide, hits);
+            if (n == sides.queries.size() && least > 1 && most <= walk_type::most_shapes) {
+                return for_each_descendant(on, expand_pair<walk_type, Sides>{walk_of_both(), sides},
+                                           decide_key<A, Sides>{sides}, settle, late, wide, hits);
             }
         }
         if constexpr (is_indexed_side<TargetSide>) {
@@ -201,15 +223,13 @@ struct find_candidates {
         }
     }
 
-    template <class Settle, class Late, class Wide, class Hits>
-    void walk_both(const Settle& settle, Late& late, Wide& wide, Hits& hits) const {
+private:
+    auto walk_of_both() const {
         const auto tree_a = tree_of_side<QuerySide>::view(query);
         const auto tree_b = tree_of_side<TargetSide>::view(target);
         const auto overlap = box_overlap(query, target);
-        using walk_type = pair_walk<std::remove_const_t<decltype(tree_a)>, std::remove_const_t<decltype(tree_b)>,
-                                    std::remove_const_t<decltype(overlap)>>;
-        for_each_descendant(on, expand_pair<walk_type, Sides>{{tree_a, tree_b, overlap}, sides}, decide_key<A, Sides>{sides},
-                            settle, late, wide, hits);
+        return pair_walk<std::remove_const_t<decltype(tree_a)>, std::remove_const_t<decltype(tree_b)>,
+                         std::remove_const_t<decltype(overlap)>>{tree_a, tree_b, overlap};
     }
 };
 

@@ -110,6 +110,11 @@ struct decide_key {
     ABUT_HD void operator()(std::uint64_t key, auto& late, auto&, auto& hits) const {
         (*this)(key, sides.queries[sides.key.query(key)], sides.targets[sides.key.target(key)], late, hits);
     }
+    /// A hint that the pair will be decided soon; see shape_view.
+    ABUT_INLINE void prefetch(std::uint64_t key, int step) const {
+        prefetch_shape(sides.queries, sides.key.query(key), step);
+        prefetch_shape(sides.targets, sides.key.target(key), step);
+    }
     ABUT_CALLS_ANY
     template <class Query, class Target, class Late, class Hits>
     ABUT_HD void operator()(std::uint64_t key, const Query& query, const Target& target, Late& late, Hits& hits) const {

@@ -174,14 +174,17 @@ struct next_level {
     }
 };
 
-/// What waits in a descent from one item, in arrays of the size that it may need (75 KiB of stack for two trees): adding is
-/// free of branches, and g++ keeps the counts in registers.
+/// What waits in a descent from one item, in arrays of the size that it may need (39 KiB of stack for two binary trees, 54
+/// for two of four children a node): adding is free of branches, and g++ keeps the counts in registers.
 template <class Expand>
 struct descent {
-    static constexpr std::size_t at_a_time = 64;  ///< candidates that wait to be decided
-    static constexpr std::size_t most_width = 32;
-    typename Expand::item items[most_width * (Expand::most_depth * (Expand::most_children - 1) + Expand::most_children)];
-    typename Expand::candidate candidates[at_a_time + most_width * Expand::most_children];
+    static constexpr std::size_t at_a_time = 256;  ///< candidates that wait to be decided
+    static constexpr std::size_t most_width = 32, most = Expand::most_children, one_deep = Expand::most_depth * (most - 1);
+    /// With more items than these, one is taken at a time: what it leaves on its way down has room above those of the last
+    /// turn with more.
+    static constexpr std::size_t many = 4096;
+    typename Expand::item items[many + most_width * (most - 1) + one_deep + most];
+    typename Expand::candidate candidates[at_a_time + most_width * most];
     std::size_t count = 0, found = 0;
 
     template <class Place>
@@ -195,6 +198,22 @@ struct descent {
         found += is;
     }
 };
+
+/// Decides n candidates one after another. What a candidate refers to is asked for in two steps before its turn, since the
+/// second of them has to read what the first one asks for.
+template <bool AtOnce, class Candidate, class Decide, class... Sinks>
+void decide_all(const Candidate* candidates, std::size_t n, const Decide& decide, Sinks&... sinks) {
+    if constexpr (!AtOnce && requires { decide.prefetch(candidates[0], 0); }) {
+        constexpr std::size_t ahead = 8;
+        for (std::size_t k = 0; k < n + 2 * ahead; ++k) {
+            if (k < n) decide.prefetch(candidates[k], 0);
+            if (k >= ahead && k < n + ahead) decide.prefetch(candidates[k - ahead], 1);
+            if (k >= 2 * ahead) decide(candidates[k - 2 * ahead], sinks...);
+        }
+    } else {
+        for (std::size_t k = 0; k < n; ++k) decide(candidates[k], sinks...);
+    }
+}
 
 }  // namespace detail
 
@@ -228,14 +247,14 @@ void for_each_descendant(const Policy& on, const Expand& expand, const Decide& d
             mine.items[mine.count++] = start.items[i - early];
             while (mine.count > 0) {
                 typename Expand::item now[most_width];
-                const std::size_t width = mine.count < most_width ? mine.count : most_width;
+                const std::size_t width = mine.count < most_width ? mine.count : mine.count > mine.many ? 1 : most_width;
                 for (std::size_t k = 0; k < width; ++k) {
                     now[k] = mine.items[--mine.count];
                     step.prefetch(now[k]);
                 }
                 for (std::size_t k = 0; k < width; ++k) step(now[k], mine);
                 if (mine.found >= at_a_time || mine.count == 0) {
-                    for (std::size_t k = 0; k < mine.found; ++k) decide(mine.candidates[k], late_sink, sinks...);
+                    detail::decide_all<any_will_do>(mine.candidates, mine.found, decide, late_sink, sinks...);
                     mine.found = 0;
                 }
                 if constexpr (any_will_do) {

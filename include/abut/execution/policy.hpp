@@ -31,9 +31,11 @@
 //                                           work that makes work: expand(item, emitter) for expand.seed(i),
 //                                           i < expand.seeds(), and every item that a call adds by emitter.add(k, item), in
 //                                           no order; candidates that it pushes by emitter.push(k, c) are decided, and the
-//                                           late settled, as above. Within a call each k < expand.most_children, a constant,
-//                                           is used once at most; an item descends from at most expand.most_depth others.
-//                                           expand.prefetch(item), on the host alone, is a hint that the item comes soon
+//                                           late settled, as above. Within a call each k < expand.most_children, a constant
+//                                           (any number, on the host), is used once at most; an item descends from at most
+//                                           expand.most_depth others. On the host alone, expand.prefetch(item) is a hint
+//                                           that the item comes soon, and decide.prefetch(c, step), which decide need not
+//                                           have, that c does: step 0, and some time later 1
 //   for_each_tiled(on, n, m, tile, settle, late, queue...)
 //                                           tile(row, i, column, j, late_sink, sink...) for all (i, j) of [0, n) x [0, m)
 //                                           with tile.passes(reach, column): row = tile.load_row(i), reach =

@@ -3,8 +3,8 @@
 
 // Bounding volume hierarchies: how a tree lies in memory, who owns it, and how it is read. Builders are in files of their
 // own (lbvh.hpp, mean_split.hpp, binned_sah.hpp, ploc.hpp), and so are the layouts that a finished tree can be brought to
-// (quantised.hpp, leafless.hpp); traversals are in traverse/ and read nodes through the accessor concept below alone, so
-// that another layout needs no second traversal.
+// (quantised.hpp, leafless.hpp, wide.hpp); traversals are in traverse/ and read nodes through the accessor concept below
+// alone, so that another layout needs no second traversal.
 
 #include <concepts>
 #include <cstddef>
@@ -59,8 +59,10 @@ concept bvh_layout =
         { tree.size() } -> std::convertible_to<std::size_t>;  // number of shapes; the rest is for trees that have some
         { tree.root() } -> std::same_as<bvh_child>;
         { tree.root_bounds() } -> std::convertible_to<aabb<typename L::scalar_type>>;
-        typename L::node_type;  // a node with both its children, side 0 and 1
+        { L::width } -> std::convertible_to<int>;  // the most children that a node has
+        typename L::node_type;                     // a node with its children, sides 0, 1, ...
         { tree.fetch(std::uint32_t{}) } -> std::convertible_to<typename L::node_type>;
+        { tree.children(tree.fetch(std::uint32_t{})) } -> std::same_as<int>;  // two at least; always two where width is 2
         { tree.bounds(tree.fetch(std::uint32_t{}), side) } -> std::convertible_to<aabb<typename L::scalar_type>>;
         { tree.child(tree.fetch(std::uint32_t{}), side) } -> std::same_as<bvh_child>;
         tree.prefetch(bvh_child{});  // a hint that the child may be fetched soon
@@ -84,28 +86,42 @@ ABUT_HD aabb<T> load_fresh(const aabb<T>& box) {
 
 }  // namespace detail
 
-/// The standard layout: full precision, both children's boxes in their parent.
-template <scalar T, memory_space Space>
-struct bvh_view {
+/// What views of all layouts have in common: where the nodes and the root lie, and the number of shapes. `Node` is what lies
+/// in memory, `Width` the number of its children; a layout whose nodes may have fewer says so itself.
+template <scalar T, memory_space Space, class Node, int Width = 2>
+struct bvh_view_base {
     using scalar_type = T;
     using memory_space = Space;
-    using node_type = bvh_node<T>;
+    static constexpr int width = Width;
 
-    const bvh_node<T>* nodes = nullptr;
+    const Node* nodes = nullptr;
     const bvh_root<T>* top = nullptr;
     std::size_t count = 0;
 
     [[nodiscard]] ABUT_HD std::size_t size() const { return count; }
     [[nodiscard]] ABUT_HD bvh_child root() const { return top->child; }
     [[nodiscard]] ABUT_HD aabb<T> root_bounds() const { return top->bounds; }
-    [[nodiscard]] ABUT_HD const node_type& fetch(std::uint32_t node) const { return nodes[node]; }
-    [[nodiscard]] ABUT_HD static const aabb<T>& bounds(const node_type& n, int side) { return n.bounds[side]; }
-    [[nodiscard]] ABUT_HD static bvh_child child(const node_type& n, int side) { return n.child[side]; }
-    ABUT_HD void prefetch([[maybe_unused]] bvh_child c) const {
+    [[nodiscard]] ABUT_HD static int children(const auto&) { return Width; }
+    ABUT_INLINE ABUT_HD void prefetch([[maybe_unused]] bvh_child c) const {
 #if !ABUT_DEVICE_CODE
-        if (!c.is_leaf()) __builtin_prefetch(nodes + c.index());
+        if (c.is_leaf()) return;
+        const auto* const line = reinterpret_cast<const char*>(nodes + c.index());
+        __builtin_prefetch(line);
+        if constexpr (sizeof(Node) > 64) __builtin_prefetch(line + 64);
+        if constexpr (sizeof(Node) > 128) __builtin_prefetch(line + 128);
+        if constexpr (sizeof(Node) > 192) __builtin_prefetch(line + 192);
 #endif
     }
+};
+
+/// The standard layout: full precision, both children's boxes in their parent.
+template <scalar T, memory_space Space>
+struct bvh_view : bvh_view_base<T, Space, bvh_node<T>> {
+    using node_type = bvh_node<T>;
+
+    [[nodiscard]] ABUT_HD const node_type& fetch(std::uint32_t node) const { return this->nodes[node]; }
+    [[nodiscard]] ABUT_HD static const aabb<T>& bounds(const node_type& n, int side) { return n.bounds[side]; }
+    [[nodiscard]] ABUT_HD static bvh_child child(const node_type& n, int side) { return n.child[side]; }
 };
 
 /// What refit needs of a topology besides the nodes: made at the first refit, then shared by all trees of that topology.
@@ -130,15 +146,15 @@ struct standard_layout {
         execution::buffer<bvh_root<T>, Space> root;
         std::shared_ptr<bvh_links<Space>> links = std::make_shared<bvh_links<Space>>();
 
-        [[nodiscard]] view<T, Space> view_of(std::size_t shapes) const { return {nodes.data(), root.data(), shapes}; }
+        [[nodiscard]] view<T, Space> view_of(std::size_t shapes) const { return {{nodes.data(), root.data(), shapes}}; }
         [[nodiscard]] std::size_t bytes() const { return nodes.capacity_bytes() + root.capacity_bytes(); }
         [[nodiscard]] storage<T, host_space> to_host() const { return {nodes.to_host(), root.to_host()}; }
     };
 };
 
-/// How a tree lies in memory: standard_layout, quantised_layout (quantised.hpp), leafless_layout (leafless.hpp). A layout
-/// names the view that traversals read and the storage that owns it, which has `view_of(shapes)`, `bytes()`, `to_host()` and
-/// the buffer `root` of one bvh_root, whose box holds every box that the view hands out.
+/// How a tree lies in memory: standard_layout, quantised_layout (quantised.hpp), leafless_layout (leafless.hpp), wide_layout
+/// (wide.hpp). A layout names the view that traversals read and the storage that owns it, which has `view_of(shapes)`,
+/// `bytes()`, `to_host()` and the buffer `root` of one bvh_root, whose box holds every box that the view hands out.
 template <class L>
 concept bvh_layout_kind = requires(const typename L::template storage<float, host_space>& tree) {
     requires bvh_layout<typename L::template view<float, host_space>>;
@@ -240,7 +256,9 @@ template <bvh_layout Layout, shape_view Shapes>
             continue;
         }
         const typename Layout::node_type node = tree.fetch(i);
-        for (int side = 0; side < 2; ++side) {
+        const int children = tree.children(node);
+        if (children < 2 || children > Layout::width) return name + " has " + std::to_string(children) + " children";
+        for (int side = 0; side < children; ++side) {
             if (!contains(e.box, aabb<T>(tree.bounds(node, side)))) return name + ": the box does not hold the child's";
             pending.push_back({tree.child(node, side), tree.bounds(node, side), e.depth + 1});
         }

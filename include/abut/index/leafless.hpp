@@ -24,31 +24,16 @@ struct alignas(sizeof(T) == 4 ? 32 : 8) leafless_node {
 
 /// A view of a leafless tree. To fetch a node is to read its children's boxes too, where these lie.
 template <scalar T, memory_space Space>
-struct leafless_view {
-    using scalar_type = T;
-    using memory_space = Space;
+struct leafless_view : bvh_view_base<T, Space, leafless_node<T>> {
     using node_type = bvh_node<T>;
 
-    const leafless_node<T>* nodes = nullptr;
-    const bvh_root<T>* top = nullptr;
-    std::size_t count = 0;
-
-    [[nodiscard]] ABUT_HD std::size_t size() const { return count; }
-    [[nodiscard]] ABUT_HD bvh_child root() const { return top->child; }
-    [[nodiscard]] ABUT_HD aabb<T> root_bounds() const { return top->bounds; }
     [[nodiscard]] ABUT_HD node_type fetch(std::uint32_t node) const {
-        const leafless_node<T> n = nodes[node];
-        return {{n.child[0].is_leaf() ? n.box : nodes[n.child[0].index()].box,
-                 n.child[1].is_leaf() ? n.box : nodes[n.child[1].index()].box},
-                {n.child[0], n.child[1]}};
+        const leafless_node<T> n = this->nodes[node];
+        const auto box_of = [&](bvh_child child) { return child.is_leaf() ? n.box : this->nodes[child.index()].box; };
+        return {{box_of(n.child[0]), box_of(n.child[1])}, {n.child[0], n.child[1]}};
     }
     [[nodiscard]] ABUT_HD static const aabb<T>& bounds(const node_type& n, int side) { return n.bounds[side]; }
     [[nodiscard]] ABUT_HD static bvh_child child(const node_type& n, int side) { return n.child[side]; }
-    ABUT_HD void prefetch([[maybe_unused]] bvh_child c) const {
-#if !ABUT_DEVICE_CODE
-        if (!c.is_leaf()) __builtin_prefetch(nodes + c.index());
-#endif
-    }
 };
 
 /// 32 bytes a node in single precision, 56 in double.
@@ -61,7 +46,7 @@ struct leafless_layout {
         execution::buffer<leafless_node<T>, Space> nodes;
         execution::buffer<bvh_root<T>, Space> root;
 
-        [[nodiscard]] view<T, Space> view_of(std::size_t shapes) const { return {nodes.data(), root.data(), shapes}; }
+        [[nodiscard]] view<T, Space> view_of(std::size_t shapes) const { return {{nodes.data(), root.data(), shapes}}; }
         [[nodiscard]] std::size_t bytes() const { return nodes.capacity_bytes() + root.capacity_bytes(); }
         [[nodiscard]] storage<T, host_space> to_host() const { return {nodes.to_host(), root.to_host()}; }
     };

@@ -23,8 +23,8 @@ struct bvh_quality {
     /// Depth of leaves; a tree of one shape has depth 0. At most bvh_max_depth.
     int greatest_depth = 0;
     double mean_depth = 0;
-    /// Surface of what children's boxes have in common with their siblings', over that of all nodes with children: 0 for
-    /// siblings that are apart, 1 for siblings in one place.
+    /// Surface of what pairs of siblings' boxes have in common, over that of all nodes with children: 0 for siblings that
+    /// are apart, 1 for two siblings in one place. A node of four children has six pairs.
     double overlap = 0;
     /// Memory of the tree itself, over the number of shapes.
     double bytes_per_shape = 0;
@@ -85,12 +85,14 @@ bvh_quality measure(const Layout& tree) {
             continue;
         }
         const auto node = tree.fetch(e.child.index());
-        const aabb<T> left = tree.bounds(node, 0), right = tree.bounds(node, 1);
         of_nodes += own;
-        const aabb<T> both = common_part(left, right);
-        if (overlaps(left, right)) common += part(both);
-        for (int side = 0; side < 2; ++side) {
-            const double next = part(side == 0 ? left : right);
+        for (int side = 0; side < tree.children(node); ++side) {
+            const aabb<T> box = tree.bounds(node, side);
+            for (int other = 0; other < side; ++other) {
+                const aabb<T> sibling = tree.bounds(node, other);
+                if (overlaps(sibling, box)) common += part(common_part(sibling, box));
+            }
+            const double next = part(box);
             q.sah_cost += next;
             pending.push_back({tree.child(node, side), e.depth + 1});
             surface.push_back(next);

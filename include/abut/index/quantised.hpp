@@ -47,29 +47,16 @@ struct alignas(32) quantised_node {
 
 /// A view of a quantised tree.
 template <scalar T, memory_space Space>
-struct quantised_view {
-    using scalar_type = T;
-    using memory_space = Space;
+struct quantised_view : bvh_view_base<T, Space, quantised_node> {
     using node_type = quantised_node;
 
-    const quantised_node* nodes = nullptr;
-    const bvh_root<T>* top = nullptr;
-    std::size_t count = 0;
     quantised_frame<T> frame{};
 
-    [[nodiscard]] ABUT_HD std::size_t size() const { return count; }
-    [[nodiscard]] ABUT_HD bvh_child root() const { return top->child; }
-    [[nodiscard]] ABUT_HD aabb<T> root_bounds() const { return top->bounds; }
-    [[nodiscard]] ABUT_HD const node_type& fetch(std::uint32_t node) const { return nodes[node]; }
+    [[nodiscard]] ABUT_HD const node_type& fetch(std::uint32_t node) const { return this->nodes[node]; }
     [[nodiscard]] ABUT_HD aabb<T> bounds(const node_type& n, int side) const {
         return {frame.at(n.bounds[side].lower), frame.at(n.bounds[side].upper)};
     }
     [[nodiscard]] ABUT_HD static bvh_child child(const node_type& n, int side) { return n.child[side]; }
-    ABUT_HD void prefetch([[maybe_unused]] bvh_child c) const {
-#if !ABUT_DEVICE_CODE
-        if (!c.is_leaf()) __builtin_prefetch(nodes + c.index());
-#endif
-    }
 };
 
 /// 32 bytes a node.
@@ -83,7 +70,9 @@ struct quantised_layout {
         execution::buffer<bvh_root<T>, Space> root;
         quantised_frame<T> frame{};
 
-        [[nodiscard]] view<T, Space> view_of(std::size_t shapes) const { return {nodes.data(), root.data(), shapes, frame}; }
+        [[nodiscard]] view<T, Space> view_of(std::size_t shapes) const {
+            return {{nodes.data(), root.data(), shapes}, frame};
+        }
         [[nodiscard]] std::size_t bytes() const { return nodes.capacity_bytes() + root.capacity_bytes(); }
         [[nodiscard]] storage<T, host_space> to_host() const { return {nodes.to_host(), root.to_host(), frame}; }
     };

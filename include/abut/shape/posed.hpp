@@ -54,6 +54,7 @@ struct posed_view {
 
     [[nodiscard]] ABUT_HD std::size_t size() const { return shapes.size(); }
     [[nodiscard]] ABUT_HD shape_type operator[](std::size_t i) const { return place(pose, shapes[i]); }
+    ABUT_INLINE void prefetch(std::size_t i, int step) const { detail::prefetch_shape(shapes, i, step); }
 };
 
 namespace detail {

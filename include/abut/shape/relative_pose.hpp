@@ -140,16 +140,27 @@ ABUT_HD constexpr unsigned exceeds(const vec3<T>& v, const vec3<T>& limit) {
     return larger(v.x, limit.x) | larger(v.y, limit.y) | larger(v.z, limit.z);
 }
 
+/// Whether the faces of a's box, or of b's, tell two boxes apart; see below. N is a number, or several (box_lanes.hpp).
+template <class N>
+ABUT_HD constexpr auto apart_by_a(const vec3<N>& a, const vec3<N>& b, const vec3<N>& d, const vec3<N> (&m)[3], N slack) {
+    return exceeds(absolute(d), a + vec3<N>{dot(m[0], b), dot(m[1], b), dot(m[2], b)} + vec3<N>{slack, slack, slack});
+}
+template <class N>
+ABUT_HD constexpr auto apart_by_b(const vec3<N>& a, const vec3<N>& b, const vec3<N>& d, const vec3<N> (&r)[3],
+                                  const vec3<N> (&m)[3], N slack) {
+    return exceeds(absolute(d.x * r[0] + d.y * r[1] + d.z * r[2]),
+                   a.x * m[0] + a.y * m[1] + a.z * m[2] + b + vec3<N>{slack, slack, slack});
+}
+
 /// Two boxes by their half widths (or widths, and the rest doubled as well): `d` is the way from a's centre to b's along a's
 /// axes, `r` and `m` the rows of b's axes in a's frame and their magnitudes. One branch, before the edges: the faces of one
 /// box alone reject some boxes that nobody can predict, and a wrong guess costs more than the faces of the other.
 template <box_axes Axes, scalar T>
 ABUT_HD constexpr bool boxes_overlap(const vec3<T>& a, const vec3<T>& b, const vec3<T>& d, const vec3<T> (&r)[3],
                                      const vec3<T> (&m)[3], T slack) {
-    const vec3<T> all{slack, slack, slack};
-    unsigned apart = exceeds(absolute(d), a + vec3<T>{dot(m[0], b), dot(m[1], b), dot(m[2], b)} + all);
+    unsigned apart = apart_by_a(a, b, d, m, slack);
     if constexpr (Axes == box_axes::of_a) return apart == 0;
-    apart |= exceeds(absolute(d.x * r[0] + d.y * r[1] + d.z * r[2]), a.x * m[0] + a.y * m[1] + a.z * m[2] + b + all);
+    apart |= apart_by_b(a, b, d, r, m, slack);
     if constexpr (Axes == box_axes::faces) return apart == 0;
     if (apart != 0) return false;
     // e_i x r_j, the three j of an i at a time. b's part is the same for each i, with another row.

@@ -19,7 +19,9 @@ namespace abut {
 /// Three vertex indices.
 using face = std::array<std::uint32_t, 3>;
 
-/// A view: `size()` shapes, `view[i]` returns shape i by value; both may run wherever its memory can be read.
+/// A view: `size()` shapes, `view[i]` returns shape i by value; both may run wherever its memory can be read. It may have
+/// `prefetch(i, step)`, a hint on the host that shape i will be read soon: step 0 first, and some time later step 1, which
+/// may read what step 0 asks for.
 template <class V>
 concept shape_view = std::is_trivially_copyable_v<V> && memory_space<typename V::memory_space> && requires(const V& v) {
     typename V::scalar_type;
@@ -41,6 +43,11 @@ struct strided {
     ABUT_HD strided(const T* first, std::size_t n, std::size_t step = sizeof(T))
         : data(reinterpret_cast<const std::byte*>(first)), count(n), stride(step) {}
     ABUT_HD const T& operator[](std::size_t i) const { return *reinterpret_cast<const T*>(data + i * stride); }
+    /// From the first to the last byte, which may lie on two cache lines.
+    ABUT_INLINE void prefetch(std::size_t i) const {
+        __builtin_prefetch(data + i * stride);
+        __builtin_prefetch(data + i * stride + sizeof(T) - 1);
+    }
 };
 
 }  // namespace detail
@@ -68,6 +75,10 @@ struct mesh_view {
         const auto* const corner = reinterpret_cast<const std::uint32_t*>(faces.data + i * faces.stride);
         return {vertices[corner[0]], vertices[corner[1]], vertices[corner[2]]};
     }
+    ABUT_INLINE void prefetch(std::size_t i, int step) const {
+        if (step == 0) return faces.prefetch(i);
+        for (const std::uint32_t k : faces[i]) vertices.prefetch(k);
+    }
 };
 
 /// Triangles that share nothing, three vertices each.
@@ -85,6 +96,9 @@ struct triangle_soup_view {
 
     [[nodiscard]] ABUT_HD std::size_t size() const { return triangles.count; }
     [[nodiscard]] ABUT_HD triangle<T> operator[](std::size_t i) const { return triangles[i]; }
+    ABUT_INLINE void prefetch(std::size_t i, int step) const {
+        if (step == 0) triangles.prefetch(i);
+    }
 };
 
 /// Spheres, each with its own radius.
@@ -102,6 +116,9 @@ struct spheres_view {
 
     [[nodiscard]] ABUT_HD std::size_t size() const { return spheres.count; }
     [[nodiscard]] ABUT_HD sphere<T> operator[](std::size_t i) const { return spheres[i]; }
+    ABUT_INLINE void prefetch(std::size_t i, int step) const {
+        if (step == 0) spheres.prefetch(i);
+    }
 };
 
 /// Spheres of one radius, which is stored once.
@@ -121,6 +138,9 @@ struct equal_spheres_view {
 
     [[nodiscard]] ABUT_HD std::size_t size() const { return centers.count; }
     [[nodiscard]] ABUT_HD sphere<T> operator[](std::size_t i) const { return {centers[i], radius}; }
+    ABUT_INLINE void prefetch(std::size_t i, int step) const {
+        if (step == 0) centers.prefetch(i);
+    }
 };
 
 /// One shape, which the view carries: a set of one in any memory.
@@ -140,6 +160,13 @@ struct single_view<Shape<T>, Space> {
 };
 
 namespace detail {
+
+/// The hint to a view, or to what reads views by other indices, that has it. Inlined by force, like all hints: g++ takes a
+/// call of a function that only prefetches for one without effect, and drops it.
+template <class V, class Index>
+ABUT_INLINE void prefetch_shape(const V& shapes, const Index& i, int step) {
+    if constexpr (requires { shapes.prefetch(i, step); }) shapes.prefetch(i, step);
+}
 
 /// Where a set's shapes lie in memory one after another, as they are; null where they do not.
 template <shape_view V>

@@ -36,6 +36,16 @@ struct bvh_walk {
     /// The same for the leaves below an inner node.
     template <class Reach, class Visitor>
     ABUT_HD void for_each_below(std::uint32_t node, Reach& reach, Visitor&& visitor) const {
+        if constexpr (Tree::width > 2) {
+            for_each_below_wide(node, reach, visitor);
+        } else {
+            for_each_below_two(node, reach, visitor);
+        }
+    }
+
+private:
+    template <class Reach, class Visitor>
+    ABUT_HD void for_each_below_two(std::uint32_t node, Reach& reach, Visitor& visitor) const {
         // One entry at most for each level above the current node.
         std::uint32_t pending[bvh_max_depth];
         int depth = 0;
@@ -65,6 +75,27 @@ struct bvh_walk {
             } else {
                 return;
             }
+        }
+    }
+
+    template <class Reach, class Visitor>
+    ABUT_HD void for_each_below_wide(std::uint32_t node, Reach& reach, Visitor& visitor) const {
+        std::uint32_t pending[bvh_max_depth * (Tree::width - 1) + 1];
+        int waiting = 0;
+        for (;;) {
+            const auto& all = tree.fetch(node);
+            for (int side = 0; side < tree.children(all); ++side) {
+                if (!reach(tree.bounds(all, side))) continue;
+                const bvh_child child = tree.child(all, side);
+                if (child.is_leaf()) {
+                    if (visitor(child.index()) == visit::stop) return;
+                } else {
+                    tree.prefetch(child);
+                    pending[waiting++] = child.index();
+                }
+            }
+            if (waiting == 0) return;
+            node = pending[--waiting];
         }
     }
 };

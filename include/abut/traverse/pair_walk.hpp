@@ -7,15 +7,23 @@
 #include <cstdint>
 #include <type_traits>
 
+#include <abut/arithmetic/lanes.hpp>
 #include <abut/index/bvh.hpp>
+#include <abut/shape/box_lanes.hpp>
 #include <abut/shape/relative_pose.hpp>
 
 namespace abut::detail {
+
+// How boxes of two trees are compared: one with one, or four with four, which gives a lane_mask.
 
 /// Boxes of one frame.
 struct same_frame {
     template <scalar T>
     ABUT_HD bool operator()(const aabb<T>& a, const aabb<T>& b) const {
+        return overlaps(a, b);
+    }
+    template <scalar T>
+    ABUT_INLINE ABUT_HD auto operator()(const box_lanes<T>& a, const box_lanes<T>& b) const {
         return overlaps(a, b);
     }
 };
@@ -25,68 +33,136 @@ template <scalar T>
 struct two_frames {
     relative_pose<T> b_to_a;
     ABUT_HD bool operator()(const aabb<T>& a, const aabb<T>& b) const { return overlaps(a, b_to_a, b); }
+    ABUT_INLINE ABUT_HD auto operator()(const box_lanes<T>& a, const box_lanes<T>& b) const {
+        return overlaps(a, b_to_a, b);
+    }
 };
 template <scalar T>
 two_frames(relative_pose<T>) -> two_frames<T>;
 
-/// A larger tree has no items, for want of bits.
-inline constexpr std::size_t most_shapes_of_pair_walk = std::size_t{1} << 30;
+/// A layout that hands out the boxes of four children at once, for tests of four with four.
+template <class L>
+concept wide_bvh_layout = bvh_layout<L> && L::width == 4 && requires(const L& tree) {
+    { tree.all_bounds(tree.fetch(std::uint32_t{})) } -> std::same_as<box_lanes<typename L::scalar_type>>;
+};
 
-/// Down both trees at once: an inner node has both its children's boxes, so a step is two fetches and four tests, and no box
-/// has to be kept. In which order steps are taken is the policy's to choose: depth first in a thread of the host, a block's
-/// newest items at a time on a device (execution/cuda_expand.hpp).
+/// Down both trees at once: an inner node has its children's boxes, so a step is two fetches and four tests (sixteen, in
+/// rows of four, where nodes have four children), and no box has to be kept. In which order steps are taken is the policy's
+/// to choose: depth first in a thread of the host, a block's newest items at a time on a device (execution/cuda_expand.hpp).
 template <bvh_layout A, bvh_layout B, class Overlap>
 struct pair_walk {
     A a;
     B b;
     Overlap overlap;
 
-    /// A node of each tree. A leaf goes by its place, which tells its box as well: child `side` of node n is place 2 n +
-    /// side.
+    static constexpr unsigned width_a = A::width, width_b = B::width;
+    static constexpr unsigned most_children = width_a * width_b, most_depth = bvh_max_depth;
+    /// Trees of more shapes have no items, for want of bits.
+    static constexpr std::size_t most_shapes = bvh_child::leaf_bit / (width_a > width_b ? width_a : width_b);
+
+    /// A node of each tree. A leaf goes by its place, which tells its box as well: child `side` of node n is place
+    /// width * n + side.
     struct item {
         std::uint32_t a, b;
-        ABUT_HD static constexpr std::uint32_t leaf(std::uint32_t node, int side) {
-            return bvh_child::leaf_bit | (2 * node + static_cast<std::uint32_t>(side));
-        }
     };
-    static constexpr unsigned most_children = 4, most_depth = bvh_max_depth;
     [[nodiscard]] ABUT_HD static constexpr std::size_t seeds() { return 1; }
     [[nodiscard]] ABUT_HD item seed(std::size_t) const { return {a.root().index(), b.root().index()}; }
 
     /// A hint that the item will be expanded soon. The parent of a leaf has been fetched before.
-    void prefetch(const item& at) const {
+    ABUT_INLINE void prefetch(const item& at) const {
         if ((at.a & bvh_child::leaf_bit) == 0) a.prefetch(bvh_child::inner(at.a));
         if ((at.b & bvh_child::leaf_bit) == 0) b.prefetch(bvh_child::inner(at.b));
     }
 
-    /// For the pairs k = 0 ... 3 of children, calls add(k, overlap, item), or visitor(k, overlap, id in a, id in b), where
-    /// `overlap` is false if there is nothing to be done. k is a constant to the compiler. Inlined by force: g++ would
-    /// not where a program has several queries, and they took twice as long. Without a branch: which of the
-    /// boxes overlap is anyone's guess.
+    /// For pairs k of children, calls add(k, overlap, item), or visitor(k, overlap, id in a, id in b), where `overlap` is
+    /// false if there is nothing to be done. For binary trees k = 0 ... 3 are constants to the compiler, and there is no
+    /// branch: which of the boxes overlap is anyone's guess. For wider ones k is a number, of pairs that overlap alone; on
+    /// the host. Inlined by force: g++ would not where a program has several queries, and they took twice as long.
     template <class Add, class Visitor>
     ABUT_INLINE ABUT_HD void expand(const item& at, const Add& add, const Visitor& visitor) const {
-        const bool a_is_leaf = (at.a & bvh_child::leaf_bit) != 0, b_is_leaf = (at.b & bvh_child::leaf_bit) != 0;
-        const std::uint32_t place_a = at.a & ~bvh_child::leaf_bit, place_b = at.b & ~bvh_child::leaf_bit;
-        const std::uint32_t index_a = a_is_leaf ? place_a / 2 : place_a, index_b = b_is_leaf ? place_b / 2 : place_b;
-        // Which children are meant: the leaf itself, or both.
-        const unsigned sides_a = a_is_leaf ? 1u << (place_a % 2) : 3u, sides_b = b_is_leaf ? 1u << (place_b % 2) : 3u;
-        const typename A::node_type node_a = a.fetch(index_a);
-        const typename B::node_type node_b = b.fetch(index_b);
-        const auto step = [&](auto k) {
-            constexpr unsigned i = decltype(k)::value / 2, j = decltype(k)::value % 2;
-            const unsigned meant = sides_a >> i & sides_b >> j & 1u;
-            const bool meet = (meant & static_cast<unsigned>(overlap(a.bounds(node_a, i), b.bounds(node_b, j)))) != 0;
-            const bvh_child child_a = a.child(node_a, i), child_b = b.child(node_b, j);
-            const bool leaves = (child_a.bits & child_b.bits & bvh_child::leaf_bit) != 0;
-            add(k, meet & !leaves,
-                item{child_a.is_leaf() ? item::leaf(index_a, i) : child_a.index(),
-                     child_b.is_leaf() ? item::leaf(index_b, j) : child_b.index()});
-            visitor(k, meet & leaves, child_a.index(), child_b.index());
-        };
-        step(std::integral_constant<unsigned, 0>{});
-        step(std::integral_constant<unsigned, 1>{});
-        step(std::integral_constant<unsigned, 2>{});
-        step(std::integral_constant<unsigned, 3>{});
+        const place at_a(at.a, width_a), at_b(at.b, width_b);
+        if constexpr (width_a == 2 && width_b == 2) {
+            const typename A::node_type of_a = a.fetch(at_a.node);
+            const typename B::node_type of_b = b.fetch(at_b.node);
+            // Which children are meant: the leaf itself, or both.
+            const unsigned sides_a = at_a.is_leaf ? 1u << at_a.side : 3u, sides_b = at_b.is_leaf ? 1u << at_b.side : 3u;
+            const auto step = [&](auto k) {
+                constexpr unsigned i = decltype(k)::value / 2, j = decltype(k)::value % 2;
+                const unsigned meant = sides_a >> i & sides_b >> j & 1u;
+                const bool meet = (meant & static_cast<unsigned>(overlap(a.bounds(of_a, i), b.bounds(of_b, j)))) != 0;
+                hand_on(k, meet, a.child(of_a, i), 2 * at_a.node + i, b.child(of_b, j), 2 * at_b.node + j, add, visitor);
+            };
+            step(std::integral_constant<unsigned, 0>{});
+            step(std::integral_constant<unsigned, 1>{});
+            step(std::integral_constant<unsigned, 2>{});
+            step(std::integral_constant<unsigned, 3>{});
+        } else {
+            const auto& of_a = a.fetch(at_a.node);
+            const auto& of_b = b.fetch(at_b.node);
+            for (unsigned meet = meeting(at_a, of_a, at_b, of_b); meet != 0; meet &= meet - 1) {
+                const unsigned k = lowest_bit(meet), i = k / width_b, j = k % width_b;
+                hand_on(k, true, a.child(of_a, static_cast<int>(i)), width_a * at_a.node + i,
+                        b.child(of_b, static_cast<int>(j)), width_b * at_b.node + j, add, visitor);
+            }
+        }
+    }
+
+private:
+    /// Half an item.
+    struct place {
+        bool is_leaf;
+        std::uint32_t node, side;  ///< of a leaf, its parent and where it hangs there; of a node, itself
+
+        ABUT_INLINE ABUT_HD place(std::uint32_t bits, std::uint32_t width) : is_leaf((bits & bvh_child::leaf_bit) != 0) {
+            const std::uint32_t number = bits & ~bvh_child::leaf_bit;
+            node = is_leaf ? number / width : number;
+            side = number % width;
+        }
+    };
+
+    /// A pair of children, which hang at two places.
+    template <class Number, class Add, class Visitor>
+    ABUT_INLINE ABUT_HD static void hand_on(Number k, bool meet, bvh_child child_a, std::uint32_t place_a, bvh_child child_b,
+                                            std::uint32_t place_b, const Add& add, const Visitor& visitor) {
+        const bool leaves = (child_a.bits & child_b.bits & bvh_child::leaf_bit) != 0;
+        add(k, meet & !leaves,
+            item{child_a.is_leaf() ? bvh_child::leaf_bit | place_a : child_a.index(),
+                 child_b.is_leaf() ? bvh_child::leaf_bit | place_b : child_b.index()});
+        visitor(k, meet & leaves, child_a.index(), child_b.index());
+    }
+
+    /// Which children overlap, of those that an item means: bit width_b * i + j is side i of a's node and side j of b's.
+    ABUT_INLINE ABUT_HD unsigned meeting(const place& at_a, const typename A::node_type& of_a, const place& at_b,
+                                         const typename B::node_type& of_b) const {
+        const int n = a.children(of_a), m = b.children(of_b);
+        const int i = static_cast<int>(at_a.side), j = static_cast<int>(at_b.side);
+        if constexpr (wide_bvh_layout<A> && wide_bvh_layout<B>) {
+            using boxes = box_lanes<typename A::scalar_type>;
+            using row = decltype(overlap(boxes{}, boxes{}));
+            const auto first = [](int count) { return (1u << count) - 1; };
+            if (at_b.is_leaf) {
+                const row one[] = {overlap(a.all_bounds(of_a), boxes::all(b.bounds(of_b, j)))};
+                const unsigned bits = bits_of(one) & first(n);
+                return ((bits & 1) | (bits & 2) << 3 | (bits & 4) << 6 | (bits & 8) << 9) << j;
+            }
+            const boxes all = b.all_bounds(of_b);
+            if (at_a.is_leaf) {
+                const row one[] = {overlap(boxes::all(a.bounds(of_a, i)), all)};
+                return (bits_of(one) & first(m)) << 4 * i;
+            }
+            const row rows[] = {overlap(boxes::all(a.bounds(of_a, 0)), all), overlap(boxes::all(a.bounds(of_a, 1)), all),
+                                overlap(boxes::all(a.bounds(of_a, 2)), all), overlap(boxes::all(a.bounds(of_a, 3)), all)};
+            return bits_of(rows) & first(4 * n) & 0x1111 * first(m);
+        } else {
+            unsigned meet = 0;
+            for (int k = at_a.is_leaf ? i : 0; k < (at_a.is_leaf ? i + 1 : n); ++k) {
+                for (int l = at_b.is_leaf ? j : 0; l < (at_b.is_leaf ? j + 1 : m); ++l) {
+                    const bool both = overlap(a.bounds(of_a, k), b.bounds(of_b, l));
+                    meet |= static_cast<unsigned>(both) << (B::width * k + l);
+                }
+            }
+            return meet;
+        }
     }
 };
 

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Four numbers at a time, for tests of boxes on a processor: registers of 16 bytes, which all of x86-64 and 64-bit ARM has,
+// by the vector extensions of g++ and clang. g++ 12 makes none of them of a plain loop over four comparisons. Other
+// compilers, and nvcc, which allows no vectors in functions that may run on a device, get four registers of one number each;
+// results are the same, since each lane is computed like a number on its own.
+
+#include <cstdint>
+#include <cstring>
+
+#include <abut/arithmetic/arithmetic.hpp>
+#include <abut/arithmetic/magnitude.hpp>
+#include <abut/arithmetic/vec.hpp>
+
+namespace abut::detail {
+
+#if defined(__GNUC__) && !defined(__CUDACC__)
+template <scalar T>
+struct register_of {
+    typedef T type __attribute__((vector_size(16)));
+};
+#else
+template <scalar T>
+struct register_of {
+    using type = T;
+};
+#endif
+
+/// Answers of four comparisons.
+template <class Answer, int Registers>
+struct lane_mask {
+    Answer at[Registers];
+
+    ABUT_INLINE ABUT_HD friend lane_mask operator&(lane_mask a, const lane_mask& b) {
+        for (int i = 0; i < Registers; ++i) a.at[i] = static_cast<Answer>(a.at[i] & b.at[i]);
+        return a;
+    }
+    ABUT_INLINE ABUT_HD friend lane_mask operator!(lane_mask a) {
+        for (int i = 0; i < Registers; ++i) a.at[i] = static_cast<Answer>(a.at[i] == 0);
+        return a;
+    }
+    ABUT_INLINE ABUT_HD friend lane_mask operator|(lane_mask a, const lane_mask& b) {
+        for (int i = 0; i < Registers; ++i) a.at[i] = static_cast<Answer>(a.at[i] | b.at[i]);
+        return a;
+    }
+};
+
+/// Numbers k = 0 ... 3. The register is a template parameter so that what two compilers make of it has two names.
+template <scalar T, class Register = typename register_of<T>::type>
+struct lanes {
+    static constexpr int in_register = static_cast<int>(sizeof(Register) / sizeof(T)), registers = 4 / in_register;
+    using mask = lane_mask<decltype(Register{} < Register{}), registers>;
+
+    Register at[registers];
+
+    /// Four numbers that lie one after another.
+    ABUT_INLINE ABUT_HD static lanes load(const T* from) {
+        lanes r;
+        for (int i = 0; i < registers; ++i) std::memcpy(&r.at[i], from + i * in_register, sizeof(Register));
+        return r;
+    }
+    /// The same number four times. (x - 0 is x, also of -0.0, and no compiler computes it.)
+    ABUT_INLINE ABUT_HD static lanes all(T x) {
+        lanes r;
+        for (int i = 0; i < registers; ++i) r.at[i] = x - Register{};
+        return r;
+    }
+
+    ABUT_INLINE ABUT_HD friend lanes operator+(lanes a, const lanes& b) {
+        for (int i = 0; i < registers; ++i) a.at[i] = a.at[i] + b.at[i];
+        return a;
+    }
+    ABUT_INLINE ABUT_HD friend lanes operator-(lanes a, const lanes& b) {
+        for (int i = 0; i < registers; ++i) a.at[i] = a.at[i] - b.at[i];
+        return a;
+    }
+    ABUT_INLINE ABUT_HD friend lanes operator*(lanes a, const lanes& b) {
+        for (int i = 0; i < registers; ++i) a.at[i] = a.at[i] * b.at[i];
+        return a;
+    }
+    ABUT_INLINE ABUT_HD friend mask operator<=(const lanes& a, const lanes& b) {
+        mask r;
+        for (int i = 0; i < registers; ++i) r.at[i] = a.at[i] <= b.at[i];
+        return r;
+    }
+    ABUT_INLINE ABUT_HD friend mask operator>(const lanes& a, const lanes& b) {
+        mask r;
+        for (int i = 0; i < registers; ++i) r.at[i] = a.at[i] > b.at[i];
+        return r;
+    }
+};
+
+/// Without the sign; that of 0 and of NaN may stay.
+template <scalar T, class Register>
+ABUT_INLINE ABUT_HD lanes<T, Register> absolute(lanes<T, Register> x) {
+    for (Register& r : x.at) r = r > -r ? r : -r;
+    return x;
+}
+
+/// Bit 4 r + k is lane k of row r.
+template <class Answer, int Registers, int Rows>
+ABUT_INLINE ABUT_HD unsigned bits_of(const lane_mask<Answer, Registers> (&rows)[Rows]) {
+    if constexpr (Registers == 4) {
+        unsigned bits = 0;
+        for (int r = 0; r < Rows; ++r) {
+            for (int k = 0; k < 4; ++k) bits |= static_cast<unsigned>(rows[r].at[k] != 0) << (4 * r + k);
+        }
+        return bits;
+    } else {
+        // Each lane keeps its own bit, and then all of them are joined; g++ knows no shorter way to a number than this one.
+        constexpr int in_register = 4 / Registers;
+        Answer all{};
+        for (int r = 0; r < Rows; ++r) {
+            for (int i = 0; i < Registers; ++i) {
+                Answer own{};
+                for (int k = 0; k < in_register; ++k) own[k] = 1 << (4 * r + in_register * i + k);
+                all |= rows[r].at[i] & own;
+            }
+        }
+        std::uint64_t half[2];
+        std::memcpy(half, &all, sizeof half);
+        const std::uint64_t both = half[0] | half[1];
+        return static_cast<unsigned>(both | both >> 32);
+    }
+}
+
+/// The lowest bit of a number that is not 0.
+ABUT_INLINE ABUT_HD unsigned lowest_bit(unsigned bits) {
+#if ABUT_DEVICE_CODE
+    return static_cast<unsigned>(__ffs(static_cast<int>(bits))) - 1;
+#else
+    return static_cast<unsigned>(__builtin_ctz(bits));
+#endif
+}
+
+}  // namespace abut::detail

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// wide: a tree of four children a node, for queries on a processor. Two of its nodes are sixteen tests of boxes, which take
+// four rows of four at a time and need no more cache lines than the few binary nodes that they stand for.
+//
+// A node's children are those of a binary node, of which the one with the largest surface is replaced by its own two until
+// there are four, or all of them are leaves: I. Wald, C. Benthin, S. Boulos, Getting rid of packets (2008), section 3.1.
+
+#include <algorithm>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <abut/arithmetic/limits.hpp>
+#include <abut/execution/buffer.hpp>
+#include <abut/execution/host.hpp>
+#include <abut/execution/parallel.hpp>
+#include <abut/index/bvh.hpp>
+#include <abut/shape/box_lanes.hpp>
+
+namespace abut {
+
+/// An inner node: `count` children, two to four, with their boxes by axis; two cache lines in single precision. Only a node
+/// all of whose children are leaves has fewer than four. Places of children that a node has not hold the empty box.
+template <scalar T>
+struct alignas(sizeof(T) == 4 ? 64 : 32) wide_node {
+    T lower[3][4], upper[3][4];
+    bvh_child child[4];
+    std::uint32_t count;
+};
+
+/// A view of a wide tree.
+template <scalar T, memory_space Space>
+struct wide_view : bvh_view_base<T, Space, wide_node<T>, 4> {
+    using node_type = wide_node<T>;
+
+    [[nodiscard]] ABUT_HD const node_type& fetch(std::uint32_t node) const { return this->nodes[node]; }
+    [[nodiscard]] ABUT_HD static int children(const node_type& n) { return static_cast<int>(n.count); }
+    [[nodiscard]] ABUT_HD static aabb<T> bounds(const node_type& n, int side) {
+        return {{n.lower[0][side], n.lower[1][side], n.lower[2][side]},
+                {n.upper[0][side], n.upper[1][side], n.upper[2][side]}};
+    }
+    [[nodiscard]] ABUT_HD static bvh_child child(const node_type& n, int side) { return n.child[side]; }
+    /// Of all four places.
+    [[nodiscard]] ABUT_HD static auto all_bounds(const node_type& n) { return detail::box_lanes<T>::load(n.lower, n.upper); }
+};
+
+/// 128 bytes a node in single precision, 224 in double, for two to three shapes.
+struct wide_layout {
+    template <scalar T, memory_space Space>
+    using view = wide_view<T, Space>;
+
+    template <scalar T, memory_space Space>
+    struct storage {
+        execution::buffer<wide_node<T>, Space> nodes;
+        execution::buffer<bvh_root<T>, Space> root;
+
+        [[nodiscard]] view<T, Space> view_of(std::size_t shapes) const { return {{nodes.data(), root.data(), shapes}}; }
+        [[nodiscard]] std::size_t bytes() const { return nodes.capacity_bytes() + root.capacity_bytes(); }
+        [[nodiscard]] storage<T, host_space> to_host() const { return {nodes.to_host(), root.to_host()}; }
+    };
+};
+
+namespace detail {
+
+template <scalar T>
+struct widen_tree {
+    const bvh_node<T>* from;
+
+    /// A binary node that is to become a wide one, and the place that refers to it: four for each node.
+    struct waiting {
+        std::uint32_t node;
+        std::size_t place;
+    };
+
+    /// The wide node in place of a binary one; its children are binary nodes still.
+    [[nodiscard]] wide_node<T> opened(std::uint32_t node) const {
+        aabb<T> box[4];
+        wide_node<T> to;
+        for (const int side : {0, 1}) {
+            box[side] = from[node].bounds[side];
+            to.child[side] = from[node].child[side];
+        }
+        to.count = 2;
+        while (to.count < 4) {
+            std::uint32_t largest = 4;
+            T most = 0;
+            for (std::uint32_t k = 0; k < to.count; ++k) {
+                if (to.child[k].is_leaf()) continue;
+                const vec3<T> side = box[k].upper - box[k].lower;
+                const T surface = side.x * side.y + (side.y * side.z + side.z * side.x);
+                // NaN, of a box at infinity, is as large as any.
+                if (largest == 4 || !(surface <= most)) {
+                    largest = k;
+                    most = surface;
+                }
+            }
+            if (largest == 4) break;
+            const bvh_node<T>& next = from[to.child[largest].index()];
+            box[to.count] = next.bounds[1];
+            to.child[to.count] = next.child[1];
+            box[largest] = next.bounds[0];
+            to.child[largest] = next.child[0];
+            ++to.count;
+        }
+        for (std::uint32_t k = 0; k < 4; ++k) {
+            if (k >= to.count) {
+                box[k] = empty_box<T>();
+                to.child[k] = bvh_child::leaf(0);
+            }
+            const T lower[] = {box[k].lower.x, box[k].lower.y, box[k].lower.z},
+                    upper[] = {box[k].upper.x, box[k].upper.y, box[k].upper.z};
+            for (int axis = 0; axis < 3; ++axis) {
+                to.lower[axis][k] = lower[axis];
+                to.upper[axis][k] = upper[axis];
+            }
+        }
+        return to;
+    }
+
+    /// Appends the wide node in place of a binary one, puts its number where it is referred to (the first one's is not, from
+    /// here), and calls wait(waiting) for its inner children, the last one first.
+    template <class Wait>
+    void append(const waiting& at, std::vector<wide_node<T>>& nodes, const Wait& wait) const {
+        const std::size_t number = nodes.size();
+        if (number > 0) nodes[at.place / 4].child[at.place % 4] = bvh_child::inner(static_cast<std::uint32_t>(number));
+        nodes.push_back(opened(at.node));
+        for (std::uint32_t k = nodes.back().count; k-- > 0;) {
+            const bvh_child child = nodes.back().child[k];
+            if (!child.is_leaf()) wait(waiting{child.index(), 4 * number + k});
+        }
+    }
+
+    /// All wide nodes below a binary one, depth first, numbered from 0.
+    [[nodiscard]] std::vector<wide_node<T>> below(std::uint32_t node) const {
+        std::vector<wide_node<T>> nodes;
+        std::vector<waiting> pending{{node, 0}};
+        while (!pending.empty()) {
+            const waiting at = pending.back();
+            pending.pop_back();
+            append(at, nodes, [&](const waiting& next) { pending.push_back(next); });
+        }
+        return nodes;
+    }
+};
+
+/// The wide nodes in place of all binary ones below `root`. A few are made breadth first, whatever the number of threads,
+/// and then each part below them by itself.
+template <scalar T, host_policy Policy>
+execution::buffer<wide_node<T>, host_space> widen(const Policy& on, const bvh_node<T>* from, std::uint32_t root) {
+    constexpr std::size_t enough = 256;
+    using waiting = typename widen_tree<T>::waiting;
+    const widen_tree<T> tree{from};
+    std::vector<wide_node<T>> top;
+    std::vector<waiting> parts{{root, 0}};
+    std::size_t done = 0;
+    for (; done < parts.size() && parts.size() - done < enough; ++done) {
+        const waiting at = parts[done];
+        tree.append(at, top, [&](const waiting& next) { parts.push_back(next); });
+    }
+    parts.erase(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(done));
+
+    const int threads = execution::thread_count(on);
+    std::vector<std::vector<wide_node<T>>> below(parts.size());
+    execution::for_each_range(threads, parts.size(), 1, [&](int, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) below[i] = tree.below(parts[i].node);
+    });
+    std::vector<std::uint32_t> first(parts.size() + 1, static_cast<std::uint32_t>(top.size()));
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        top[parts[i].place / 4].child[parts[i].place % 4] = bvh_child::inner(first[i]);
+        first[i + 1] = first[i] + static_cast<std::uint32_t>(below[i].size());
+    }
+    execution::buffer<wide_node<T>, host_space> nodes(on, first.back());
+    std::copy(top.begin(), top.end(), nodes.data());
+    execution::for_each_range(threads, parts.size(), 1, [&](int, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            wide_node<T>* const to = nodes.data() + first[i];
+            for (std::size_t k = 0; k < below[i].size(); ++k) {
+                to[k] = below[i][k];
+                for (bvh_child& child : to[k].child) child.bits += child.is_leaf() ? 0 : first[i];
+            }
+            below[i] = {};
+        }
+    });
+    return nodes;
+}
+
+}  // namespace detail
+
+/// The same tree with two to four children a node, for the host's policies. It shares the set and nothing else; the one it
+/// was made of may go. Some 62 bytes a shape in single precision, 108 in double, and never more than 86 and 150. The tree is
+/// the same for any number of threads. Linear time; needs up to twice as much memory again while it works. Returns when it
+/// is done. Throws std::bad_alloc.
+///
+///     const auto tree = wide(on, make_bvh(on, mesh, {.builder = bvh_builder::sah}));
+template <execution_policy Policy, class Set, memory_space Space>
+[[nodiscard]] bvh<Set, Space, wide_layout> wide(const Policy& on, const bvh<Set, Space>& tree) {
+    static_assert(host_policy<Policy> && std::same_as<Space, host_space>,
+                  "abut: the wide layout is for the host's policies, serial and openmp");
+    using tree_type = bvh<Set, Space, wide_layout>;
+    using T = typename tree_type::scalar_type;
+    auto fresh = std::make_shared<typename tree_type::storage>();
+    if (tree.size() > 0) {
+        bvh_root<T> root = *tree.view().top;
+        if (!root.child.is_leaf()) {
+            fresh->nodes = detail::widen<T>(on, tree.view().nodes, root.child.index());
+            root.child = bvh_child::inner(0);
+        }
+        fresh->root = execution::buffer_of<Policy, bvh_root<T>>(on, 1);
+        *fresh->root.data() = root;
+    }
+    return tree_type(tree.set(), std::move(fresh));
+}
+
+}  // namespace abut
