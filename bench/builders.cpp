@@ -110,6 +110,19 @@ void add_all() {
         add_queries(start + "quantised", quantised(on, tree_a), quantised(on, tree_b));
         add_queries(start + "leafless", leafless(on, tree_a), leafless(on, tree_b));
         add_queries(start + "wide", wide(on, tree_a), wide(on, tree_b));
+        if (builder == abut::bvh_builder::sah) {
+            const auto boxes_a = oriented(on, tree_a), boxes_b = oriented(on, tree_b);
+            add("unsorted/baked/sah/oriented", false, [=](benchmark::State& state) {
+                for (auto _ : state) benchmark::DoNotOptimize(pairs(on, boxes_a, boxes_b, {.sorted = false}).size());
+            });
+            add("pairs/posed/sah/oriented", false,
+                [=, posed_a = posed(boxes_a, scene::the_pair->pose)](benchmark::State& state) {
+                    for (auto _ : state) benchmark::DoNotOptimize(pairs(on, boxes_a, posed_a).size());
+                });
+            add("convert/oriented/sah/serial", false, [=](benchmark::State& state) {
+                for (auto _ : state) benchmark::DoNotOptimize(oriented(on, tree_a).size());
+            });
+        }
     }
 }
 

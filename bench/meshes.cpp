@@ -73,25 +73,32 @@ void add_policy(const Policy& on) {
     });
 }
 
+/// One scene, with trees a and b of one kind.
+template <class Tree>
+void add_any_of(const scene::any_scene& s, const std::string& tree, const Tree& tree_a, const Tree& tree_b) {
+    const abut::serial on;
+    const auto add_query = [&](const char* kind, const auto& other) {
+        add("any/" + s.name + "/" + kind + "/" + tree, false, [=, n = s.pairs](benchmark::State& state) {
+            bool found = any(on, tree_a, other);
+            for (auto _ : state) benchmark::DoNotOptimize(found = any(on, tree_a, other));
+            state.counters["found"] = found ? 1 : 0;
+            state.counters["pairs"] = static_cast<double>(n);
+        });
+    };
+    add_query("baked", tree_b);
+    add_query("posed", posed(s.is_copy() ? tree_a : tree_b, s.pair.pose));
+}
+
 void add_any() {
     const abut::serial on;
-    constexpr std::pair<const char*, abut::bvh_builder> builders[] = {{"linear", abut::bvh_builder::linear},
-                                                                      {"sah", abut::bvh_builder::sah}};
     for (const auto& s : scene::any_scenes) {
-        for (const auto& [builder, options] : builders) {
-            const auto tree_a = make_bvh(on, mesh_of(s.pair.a), {.builder = options});
-            const auto tree_b = make_bvh(on, mesh_of(s.pair.b), {.builder = options});
-            const auto add_query = [&](const char* kind, const auto& other) {
-                add("any/" + s.name + "/" + kind + "/" + builder, false, [=, n = s.pairs](benchmark::State& state) {
-                    bool found = any(on, tree_a, other);
-                    for (auto _ : state) benchmark::DoNotOptimize(found = any(on, tree_a, other));
-                    state.counters["found"] = found ? 1 : 0;
-                    state.counters["pairs"] = static_cast<double>(n);
-                });
-            };
-            add_query("baked", tree_b);
-            add_query("posed", posed(s.is_copy() ? tree_a : tree_b, s.pair.pose));
-        }
+        const auto a = mesh_of(s.pair.a), b = mesh_of(s.pair.b);
+        const abut::bvh_options sah{.builder = abut::bvh_builder::sah};
+        const auto tree_a = make_bvh(on, a, sah), tree_b = make_bvh(on, b, sah);
+        add_any_of(s, "linear", make_bvh(on, a), make_bvh(on, b));
+        add_any_of(s, "sah", tree_a, tree_b);
+        add_any_of(s, "sah_wide", wide(on, tree_a), wide(on, tree_b));
+        add_any_of(s, "sah_oriented", oriented(on, tree_a), oriented(on, tree_b));
     }
 }
 

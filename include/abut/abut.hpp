@@ -18,6 +18,7 @@
 #include <abut/index/quality.hpp>
 #include <abut/index/quantised.hpp>
 #include <abut/index/refit.hpp>
+#include <abut/index/oriented.hpp>
 #include <abut/index/wide.hpp>
 #include <abut/narrow/contact.hpp>
 #include <abut/predicate/intersects.hpp>

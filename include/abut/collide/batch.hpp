@@ -113,7 +113,10 @@ struct batch_sides {
 template <scalar T>
 struct frames_at {
     const relative_pose<T>* b_to_a;
-    ABUT_HD bool operator()(const aabb<T>& a, const aabb<T>& b) const { return overlaps(a, *b_to_a, b); }
+    template <class Box>
+    ABUT_HD bool operator()(const Box& a, const Box& b) const {
+        return overlaps(a, *b_to_a, b);
+    }
     ABUT_INLINE ABUT_HD auto operator()(const box_lanes<T>& a, const box_lanes<T>& b) const {
         return overlaps(a, *b_to_a, b);
     }

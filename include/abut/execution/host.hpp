@@ -235,9 +235,10 @@ void for_each_descendant(const Policy& on, const Expand& expand, const Decide& d
     const auto loop = [&](std::size_t begin, std::size_t end, auto& late_sink, auto&... sinks) {
         const Expand step = expand;
         // An early end is worth more than a long run of decisions, and than many items whose fetches do not wait for each
-        // other.
+        // other; but the longer it does not come, the more items are taken at a time.
         constexpr std::size_t at_a_time = any_will_do ? 1 : detail::descent<Expand>::at_a_time;
-        constexpr std::size_t most_width = any_will_do ? 4 : detail::descent<Expand>::most_width;
+        constexpr std::size_t most_width = detail::descent<Expand>::most_width, first_width = 4, turns_of_a_width = 16;
+        std::size_t turns = 0;
         for (std::size_t i = begin; i < end && !is_over(sinks...); ++i) {
             if (i < early) {
                 decide(start.candidates[i], late_sink, sinks...);
@@ -247,7 +248,9 @@ void for_each_descendant(const Policy& on, const Expand& expand, const Decide& d
             mine.items[mine.count++] = start.items[i - early];
             while (mine.count > 0) {
                 typename Expand::item now[most_width];
-                const std::size_t width = mine.count < most_width ? mine.count : mine.count > mine.many ? 1 : most_width;
+                const std::size_t wide =
+                    any_will_do ? std::min(first_width + turns++ / turns_of_a_width, most_width) : most_width;
+                const std::size_t width = mine.count < wide ? mine.count : mine.count > mine.many ? 1 : wide;
                 for (std::size_t k = 0; k < width; ++k) {
                     now[k] = mine.items[--mine.count];
                     step.prefetch(now[k]);

@@ -3,8 +3,8 @@
 
 // Bounding volume hierarchies: how a tree lies in memory, who owns it, and how it is read. Builders are in files of their
 // own (lbvh.hpp, mean_split.hpp, binned_sah.hpp, ploc.hpp), and so are the layouts that a finished tree can be brought to
-// (quantised.hpp, leafless.hpp, wide.hpp); traversals are in traverse/ and read nodes through the accessor concept below
-// alone, so that another layout needs no second traversal.
+// (quantised.hpp, leafless.hpp, wide.hpp, oriented.hpp); traversals are in traverse/ and read nodes through the accessor
+// concept below alone, so that another layout needs no second traversal.
 
 #include <concepts>
 #include <cstddef>
@@ -59,8 +59,9 @@ concept bvh_layout =
         { tree.size() } -> std::convertible_to<std::size_t>;  // number of shapes; the rest is for trees that have some
         { tree.root() } -> std::same_as<bvh_child>;
         { tree.root_bounds() } -> std::convertible_to<aabb<typename L::scalar_type>>;
-        { L::width } -> std::convertible_to<int>;  // the most children that a node has
-        typename L::node_type;                     // a node with its children, sides 0, 1, ...
+        { L::width } -> std::convertible_to<int>;    // the most children that a node has
+        { L::nested } -> std::convertible_to<bool>;  // whether each box holds its children's, and not their shapes alone
+        typename L::node_type;                       // a node with its children, sides 0, 1, ...
         { tree.fetch(std::uint32_t{}) } -> std::convertible_to<typename L::node_type>;
         { tree.children(tree.fetch(std::uint32_t{})) } -> std::same_as<int>;  // two at least; always two where width is 2
         { tree.bounds(tree.fetch(std::uint32_t{}), side) } -> std::convertible_to<aabb<typename L::scalar_type>>;
@@ -93,6 +94,7 @@ struct bvh_view_base {
     using scalar_type = T;
     using memory_space = Space;
     static constexpr int width = Width;
+    static constexpr bool nested = true;
 
     const Node* nodes = nullptr;
     const bvh_root<T>* top = nullptr;
@@ -259,8 +261,11 @@ template <bvh_layout Layout, shape_view Shapes>
         const int children = tree.children(node);
         if (children < 2 || children > Layout::width) return name + " has " + std::to_string(children) + " children";
         for (int side = 0; side < children; ++side) {
-            if (!contains(e.box, aabb<T>(tree.bounds(node, side)))) return name + ": the box does not hold the child's";
-            pending.push_back({tree.child(node, side), tree.bounds(node, side), e.depth + 1});
+            const aabb<T> box = tree.bounds(node, side), &around = e.box;
+            if (Layout::nested && !contains(around, box)) return name + ": the box does not hold the child's";
+            // Where boxes are not nested, a shape has to lie in what all above it have in common.
+            const aabb<T> common{detail::greater(around.lower, box.lower), detail::lesser(around.upper, box.upper)};
+            pending.push_back({tree.child(node, side), common, e.depth + 1});
         }
     }
     for (std::size_t i = 0; i < n; ++i) {

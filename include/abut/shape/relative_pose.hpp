@@ -179,7 +179,7 @@ ABUT_HD constexpr bool boxes_overlap(const vec3<T>& a, const vec3<T>& b, const v
 /// balls or capsules placed by `place`. False is certain: see the head of this file. The boxes are not empty, and lie in
 /// those of make_relative_pose.
 template <box_axes Axes = box_axes::faces, scalar T>
-ABUT_HD constexpr bool overlaps(const aabb<T>& a, const relative_pose<T>& pose, const aabb<T>& b) {
+ABUT_INLINE ABUT_HD constexpr bool overlaps(const aabb<T>& a, const relative_pose<T>& pose, const aabb<T>& b) {
     const vec3<T>* const r = pose.rotation;
     const vec3<T> middle = b.lower + b.upper, from_a = (pose.translation + pose.translation) - (a.lower + a.upper);
     const vec3<T> d = vec3<T>{dot(r[0], middle), dot(r[1], middle), dot(r[2], middle)} + from_a;

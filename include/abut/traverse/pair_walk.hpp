@@ -3,6 +3,7 @@
 
 // Two trees at once: the pairs of leaves whose boxes overlap, without a walk from the root for each leaf of one tree.
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -10,16 +11,17 @@
 #include <abut/arithmetic/lanes.hpp>
 #include <abut/index/bvh.hpp>
 #include <abut/shape/box_lanes.hpp>
+#include <abut/shape/obb.hpp>
 #include <abut/shape/relative_pose.hpp>
 
 namespace abut::detail {
 
-// How boxes of two trees are compared: one with one, or four with four, which gives a lane_mask.
+// How boxes of two trees are compared: one with one, along the axes or oriented, or four with four, which gives a lane_mask.
 
 /// Boxes of one frame.
 struct same_frame {
-    template <scalar T>
-    ABUT_HD bool operator()(const aabb<T>& a, const aabb<T>& b) const {
+    template <class Box>
+    ABUT_HD bool operator()(const Box& a, const Box& b) const {
         return overlaps(a, b);
     }
     template <scalar T>
@@ -32,7 +34,10 @@ struct same_frame {
 template <scalar T>
 struct two_frames {
     relative_pose<T> b_to_a;
-    ABUT_HD bool operator()(const aabb<T>& a, const aabb<T>& b) const { return overlaps(a, b_to_a, b); }
+    template <class Box>
+    ABUT_HD bool operator()(const Box& a, const Box& b) const {
+        return overlaps(a, b_to_a, b);
+    }
     ABUT_INLINE ABUT_HD auto operator()(const box_lanes<T>& a, const box_lanes<T>& b) const {
         return overlaps(a, b_to_a, b);
     }
@@ -44,6 +49,12 @@ two_frames(relative_pose<T>) -> two_frames<T>;
 template <class L>
 concept wide_bvh_layout = bvh_layout<L> && L::width == 4 && requires(const L& tree) {
     { tree.all_bounds(tree.fetch(std::uint32_t{})) } -> std::same_as<box_lanes<typename L::scalar_type>>;
+};
+
+/// A layout whose boxes are oriented ones.
+template <class L>
+concept oriented_bvh_layout = bvh_layout<L> && requires(const L& tree, int side) {
+    { tree.volume(tree.fetch(std::uint32_t{}), side) } -> std::convertible_to<obb<typename L::scalar_type>>;
 };
 
 /// Down both trees at once: an inner node has its children's boxes, so a step is two fetches and four tests (sixteen, in
@@ -89,7 +100,12 @@ struct pair_walk {
             const auto step = [&](auto k) {
                 constexpr unsigned i = decltype(k)::value / 2, j = decltype(k)::value % 2;
                 const unsigned meant = sides_a >> i & sides_b >> j & 1u;
-                const bool meet = (meant & static_cast<unsigned>(overlap(a.bounds(of_a, i), b.bounds(of_b, j)))) != 0;
+                bool meet;
+                if constexpr (oriented_bvh_layout<A> && oriented_bvh_layout<B>) {
+                    meet = meant != 0 && overlap(a.volume(of_a, i), b.volume(of_b, j));  // a test is worth the branch
+                } else {
+                    meet = (meant & static_cast<unsigned>(overlap(a.bounds(of_a, i), b.bounds(of_b, j)))) != 0;
+                }
                 hand_on(k, meet, a.child(of_a, i), 2 * at_a.node + i, b.child(of_b, j), 2 * at_b.node + j, add, visitor);
             };
             step(std::integral_constant<unsigned, 0>{});
