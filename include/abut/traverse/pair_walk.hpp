@@ -95,23 +95,10 @@ struct pair_walk {
         if constexpr (width_a == 2 && width_b == 2) {
             const typename A::node_type of_a = a.fetch(at_a.node);
             const typename B::node_type of_b = b.fetch(at_b.node);
-            // Which children are meant: the leaf itself, or both.
-            const unsigned sides_a = at_a.is_leaf ? 1u << at_a.side : 3u, sides_b = at_b.is_leaf ? 1u << at_b.side : 3u;
-            const auto step = [&](auto k) {
-                constexpr unsigned i = decltype(k)::value / 2, j = decltype(k)::value % 2;
-                const unsigned meant = sides_a >> i & sides_b >> j & 1u;
-                bool meet;
-                if constexpr (oriented_bvh_layout<A> && oriented_bvh_layout<B>) {
-                    meet = meant != 0 && overlap(a.volume(of_a, i), b.volume(of_b, j));  // a test is worth the branch
-                } else {
-                    meet = (meant & static_cast<unsigned>(overlap(a.bounds(of_a, i), b.bounds(of_b, j)))) != 0;
-                }
-                hand_on(k, meet, a.child(of_a, i), 2 * at_a.node + i, b.child(of_b, j), 2 * at_b.node + j, add, visitor);
-            };
-            step(std::integral_constant<unsigned, 0>{});
-            step(std::integral_constant<unsigned, 1>{});
-            step(std::integral_constant<unsigned, 2>{});
-            step(std::integral_constant<unsigned, 3>{});
+            compare<0>(at_a, of_a, at_b, of_b, add, visitor);
+            compare<1>(at_a, of_a, at_b, of_b, add, visitor);
+            compare<2>(at_a, of_a, at_b, of_b, add, visitor);
+            compare<3>(at_a, of_a, at_b, of_b, add, visitor);
         } else {
             const auto& of_a = a.fetch(at_a.node);
             const auto& of_b = b.fetch(at_b.node);
@@ -135,6 +122,23 @@ private:
             side = number % width;
         }
     };
+
+    /// Pair K of binary nodes' children. No lambda: g++ would not inline it where a program has several queries.
+    template <unsigned K, class Add, class Visitor>
+    ABUT_INLINE ABUT_HD void compare(const place& at_a, const typename A::node_type& of_a, const place& at_b,
+                                     const typename B::node_type& of_b, const Add& add, const Visitor& visitor) const {
+        constexpr unsigned i = K / 2, j = K % 2;
+        // A leaf is meant itself, of a node both children.
+        const bool meant = (!at_a.is_leaf | (at_a.side == i)) & (!at_b.is_leaf | (at_b.side == j));
+        bool meet;
+        if constexpr (oriented_bvh_layout<A> && oriented_bvh_layout<B>) {
+            meet = meant && overlap(a.volume(of_a, i), b.volume(of_b, j));  // a test is worth the branch
+        } else {
+            meet = meant & overlap(a.bounds(of_a, i), b.bounds(of_b, j));
+        }
+        hand_on(std::integral_constant<unsigned, K>{}, meet, a.child(of_a, i), 2 * at_a.node + i, b.child(of_b, j),
+                2 * at_b.node + j, add, visitor);
+    }
 
     /// A pair of children, which hang at two places.
     template <class Number, class Add, class Visitor>
