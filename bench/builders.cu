@@ -49,8 +49,8 @@ void add_builds(const abut::cuda& on, table& out, const std::string& name, const
         return items;
     });
     (void)refit(on, tree, moved);
-    // Shapes and links are read and nodes written.
-    out.add(joined({"refit", name}), n * (shape_bytes + sizeof(abut::bvh_link) + sizeof(abut::bvh_node<float>)), [&] {
+    // Shapes, links and the old nodes are read, and nodes written.
+    out.add(joined({"refit", name}), n * (shape_bytes + sizeof(std::uint32_t) + 2 * sizeof(abut::bvh_node<float>)), [&] {
         (void)refit(on, tree, moved);
         return items;
     });
