@@ -34,7 +34,7 @@
 
 #if defined(__CUDACC__)
 #define ABUT_NOINLINE __noinline__
-#define ABUT_INLINE
+#define ABUT_INLINE inline
 #else
 #define ABUT_NOINLINE [[gnu::noinline]]
 #define ABUT_INLINE [[gnu::always_inline]] inline

@@ -175,7 +175,8 @@ struct next_level {
 };
 
 /// What waits in a descent from one item, in arrays of the size that it may need (39 KiB of stack for two binary trees, 54
-/// for two of four children a node): adding is free of branches, and g++ keeps the counts in registers.
+/// for two of four children a node, half as much again for lists of pairs): adding is free of branches, and g++ keeps the
+/// counts in registers.
 template <class Expand>
 struct descent {
     static constexpr std::size_t at_a_time = 256;  ///< candidates that wait to be decided

@@ -154,8 +154,8 @@ struct standard_layout {
     };
 };
 
-/// How a tree lies in memory: standard_layout, quantised_layout (quantised.hpp), leafless_layout (leafless.hpp), wide_layout
-/// (wide.hpp). A layout names the view that traversals read and the storage that owns it, which has `view_of(shapes)`,
+/// How a tree lies in memory: standard_layout, quantised_layout, leafless_layout, wide_layout, oriented_layout (in headers
+/// of these names). A layout names the view that traversals read and the storage that owns it, which has `view_of(shapes)`,
 /// `bytes()`, `to_host()` and the buffer `root` of one bvh_root, whose box holds every box that the view hands out.
 template <class L>
 concept bvh_layout_kind = requires(const typename L::template storage<float, host_space>& tree) {

@@ -14,7 +14,8 @@
 namespace abut {
 
 /// What `quality` measures of a tree. Surfaces are those of the boxes that a walk sees, so a layout whose boxes are larger
-/// than they were built shows it here. Where the root's box has no surface, every box counts as large as the root's.
+/// than they were built shows it here; of oriented boxes, which this is not for, those of the boxes around them. Where the
+/// root's box has no surface, every box counts as large as the root's.
 struct bvh_quality {
     std::size_t shapes = 0;
     /// Nodes and leaves whose boxes a random line meets, if it meets the root's: the sum of all boxes' surfaces over that of

@@ -3,10 +3,7 @@
 
 // refit: a tree's boxes made anew around shapes that have moved, bottom-up in one pass, while its topology stays. A build
 // sorts; this does not, and so it is what a step of a simulation pays for.
-//
-// A climb begins at each node with two leaves. Where a node's other child is a leaf, the climb reads that leaf's shape and
-// goes on; where it is a node, the second climb that arrives goes on. So only nodes above two nodes need an atomic
-// operation, about a third of them.
+// How boxes are made from the leaves up: index/climb.hpp. Here each node starts its own leaves.
 
 #include <cstddef>
 #include <cstdint>

@@ -2,7 +2,7 @@
 #pragma once
 
 // Four boxes side by side, and the tests of boxes in one frame or two on all of them at once: the same operations in the
-// same order as for one box (bounds.hpp, relative_pose.hpp), and so the same answers and the same bounds on errors.
+// same order as for one box (bounds.hpp, relative_pose.hpp), and so the same bounds on errors.
 
 #include <abut/arithmetic/lanes.hpp>
 #include <abut/shape/bounds.hpp>
@@ -11,42 +11,45 @@
 
 namespace abut::detail {
 
-template <scalar T>
+/// As with lanes, what two compilers make of it has two names.
+template <scalar T, class Register = typename register_of<T>::type>
 struct box_lanes {
-    vec3<lanes<T>> lower, upper;
+    using lanes_type = lanes<T, Register>;
+    vec3<lanes_type> lower, upper;
 
     /// From coordinates by axis.
     ABUT_INLINE ABUT_HD static box_lanes load(const T (&lower)[3][4], const T (&upper)[3][4]) {
-        return {{lanes<T>::load(lower[0]), lanes<T>::load(lower[1]), lanes<T>::load(lower[2])},
-                {lanes<T>::load(upper[0]), lanes<T>::load(upper[1]), lanes<T>::load(upper[2])}};
+        return {{lanes_type::load(lower[0]), lanes_type::load(lower[1]), lanes_type::load(lower[2])},
+                {lanes_type::load(upper[0]), lanes_type::load(upper[1]), lanes_type::load(upper[2])}};
     }
     /// One box four times.
     ABUT_INLINE ABUT_HD static box_lanes all(const aabb<T>& box) {
-        return {{lanes<T>::all(box.lower.x), lanes<T>::all(box.lower.y), lanes<T>::all(box.lower.z)},
-                {lanes<T>::all(box.upper.x), lanes<T>::all(box.upper.y), lanes<T>::all(box.upper.z)}};
+        return {{lanes_type::all(box.lower.x), lanes_type::all(box.lower.y), lanes_type::all(box.lower.z)},
+                {lanes_type::all(box.upper.x), lanes_type::all(box.upper.y), lanes_type::all(box.upper.z)}};
     }
 };
 
 /// Whether boxes of one frame share a point.
-template <scalar T>
-ABUT_INLINE ABUT_HD auto overlaps(const box_lanes<T>& a, const box_lanes<T>& b) {
+template <scalar T, class Register>
+ABUT_INLINE ABUT_HD auto overlaps(const box_lanes<T, Register>& a, const box_lanes<T, Register>& b) {
     return ((a.lower.x <= b.upper.x) & (b.lower.x <= a.upper.x)) & ((a.lower.y <= b.upper.y) & (b.lower.y <= a.upper.y)) &
            ((a.lower.z <= b.upper.z) & (b.lower.z <= a.upper.z));
 }
 
-template <scalar T>
-ABUT_INLINE ABUT_HD vec3<lanes<T>> absolute(const vec3<lanes<T>>& v) {
+template <scalar T, class Register>
+ABUT_INLINE ABUT_HD vec3<lanes<T, Register>> absolute(const vec3<lanes<T, Register>>& v) {
     return {absolute(v.x), absolute(v.y), absolute(v.z)};
 }
-template <scalar T>
-ABUT_INLINE ABUT_HD auto exceeds(const vec3<lanes<T>>& v, const vec3<lanes<T>>& limit) {
+template <scalar T, class Register>
+ABUT_INLINE ABUT_HD auto exceeds(const vec3<lanes<T, Register>>& v, const vec3<lanes<T, Register>>& limit) {
     return (v.x > limit.x) | (v.y > limit.y) | (v.z > limit.z);
 }
 
 /// Whether boxes of two frames may hold shapes that meet in the world, by the faces of both boxes.
-template <scalar T>
-ABUT_INLINE ABUT_HD auto overlaps(const box_lanes<T>& a, const relative_pose<T>& pose, const box_lanes<T>& b) {
-    using many = lanes<T>;
+template <scalar T, class Register>
+ABUT_INLINE ABUT_HD auto overlaps(const box_lanes<T, Register>& a, const relative_pose<T>& pose,
+                                  const box_lanes<T, Register>& b) {
+    using many = lanes<T, Register>;
     const auto all = [](const vec3<T>& v) { return vec3<many>{many::all(v.x), many::all(v.y), many::all(v.z)}; };
     const vec3<many> r[] = {all(pose.rotation[0]), all(pose.rotation[1]), all(pose.rotation[2])};
     const vec3<many> m[] = {all(pose.magnitude[0]), all(pose.magnitude[1]), all(pose.magnitude[2])};
