@@ -2,6 +2,7 @@
 #include <abut/index/quantised.hpp>
 
 #include <atomic>
+#include <concepts>
 #include <limits>
 
 #include <abut/index/leafless.hpp>
@@ -91,8 +92,8 @@ TEMPLATE_TEST_CASE("wide: every kind of query, beside every kind of side", "", f
         CHECK((to_host(pairs(on, list)) == tagged));
         CHECK((to_host(pairs(on, mixed)) == tagged));
     };
-    check_on(serial{});
     check_on(openmp{3});
+    if constexpr (std::same_as<T, float>) check_on(serial{});  // the same walks: compiling them takes long
 }
 
 TEMPLATE_TEST_CASE("layouts: queries do not depend on them", "", float, double) {

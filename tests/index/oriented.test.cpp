@@ -2,6 +2,7 @@
 #include <abut/index/oriented.hpp>
 
 #include <cmath>
+#include <concepts>
 #include <cstring>
 #include <type_traits>
 #include <vector>
@@ -115,8 +116,8 @@ TEMPLATE_TEST_CASE("oriented: queries do not depend on it", "", float, double) {
         CHECK(tagged.size() > 2000);
         CHECK((to_host(pairs(on, list)) == tagged));
     };
-    check_on(serial{});
     check_on(openmp{3});
+    if constexpr (std::same_as<T, float>) check_on(serial{});  // the same walks: compiling them takes long
     for (const auto& [name, soup] : test::hard_sets<T>(150)) {
         CAPTURE(name);
         const auto index = oriented(serial{}, make_bvh(serial{}, soup));
