@@ -411,7 +411,7 @@ void check_tiles(const Policy& on) {
         for (const int where : {computed, stored, stored_askew}) {
             product_tile::row* const rows = where == computed ? nullptr : memory.data() + (where == stored_askew ? 1 : 0);
             if (where != computed) for_each_index(on, n, store_row{rows});
-            for (const std::uint64_t modulus : {1, 2, 67}) {
+            for (const std::uint64_t modulus : {1u, 2u, 67u}) {
                 if (n * m / modulus > 200'000) continue;  // or the test takes long
                 CAPTURE(n, m, modulus, where);
                 check_tile(on, n, m, product_tile{modulus, rows});

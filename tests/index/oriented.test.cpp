@@ -62,7 +62,7 @@ TEMPLATE_TEST_CASE("oriented: well-formed, of any builder", "", float, double) {
     using T = TestType;
     test::uniform random(85);
     for (const auto builder : {bvh_builder::linear, bvh_builder::sah, bvh_builder::ploc}) {
-        for (const std::size_t n : {0, 1, 2, 3, 7, 100, 1000}) {
+        for (const std::size_t n : {0u, 1u, 2u, 3u, 7u, 100u, 1000u}) {
             const triangle_soup<T> soup(test::random_triangles<T>(n, random));
             const auto tree = make_bvh(serial{}, soup, {.builder = builder});
             const auto result = oriented(serial{}, tree), threads = oriented(openmp{3}, tree);
