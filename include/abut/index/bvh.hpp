@@ -93,6 +93,7 @@ template <scalar T, memory_space Space, class Node, int Width = 2>
 struct bvh_view_base {
     using scalar_type = T;
     using memory_space = Space;
+    using stored_node = Node;
     static constexpr int width = Width;
     static constexpr bool nested = true;
 
@@ -114,6 +115,18 @@ struct bvh_view_base {
         if constexpr (sizeof(Node) > 192) __builtin_prefetch(line + 192);
 #endif
     }
+};
+
+/// What owns a tree of a layout that has nodes and a root and nothing else.
+template <class Layout, scalar T, memory_space Space>
+struct bvh_storage {
+    using view = typename Layout::template view<T, Space>;
+    execution::buffer<typename view::stored_node, Space> nodes;
+    execution::buffer<bvh_root<T>, Space> root;
+
+    [[nodiscard]] view view_of(std::size_t shapes) const { return {{nodes.data(), root.data(), shapes}}; }
+    [[nodiscard]] std::size_t bytes() const { return nodes.capacity_bytes() + root.capacity_bytes(); }
+    [[nodiscard]] bvh_storage<Layout, T, host_space> to_host() const { return {nodes.to_host(), root.to_host()}; }
 };
 
 /// The standard layout: full precision, both children's boxes in their parent.

@@ -45,14 +45,7 @@ struct oriented_layout {
     using view = oriented_view<T, Space>;
 
     template <scalar T, memory_space Space>
-    struct storage {
-        execution::buffer<oriented_node<T>, Space> nodes;
-        execution::buffer<bvh_root<T>, Space> root;
-
-        [[nodiscard]] view<T, Space> view_of(std::size_t shapes) const { return {{nodes.data(), root.data(), shapes}}; }
-        [[nodiscard]] std::size_t bytes() const { return nodes.capacity_bytes() + root.capacity_bytes(); }
-        [[nodiscard]] storage<T, host_space> to_host() const { return {nodes.to_host(), root.to_host()}; }
-    };
+    using storage = bvh_storage<oriented_layout, T, Space>;
 };
 
 namespace detail {
