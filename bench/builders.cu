@@ -7,7 +7,7 @@
 //
 //   build/SCENE             make_bvh, linear
 //   build/ploc/SCENE        the same by bvh_builder::ploc
-//   build_and_refit_first/SCENE   and the first refit of the topology, which derives links
+//   build_and_refit_first/SCENE   and the first refit of the topology, which derives its plan
 //   refit/SCENE             any later one, around other shapes
 //   convert/LAYOUT/SCENE    a tree in another layout
 //   pairs/LAYOUT            the mesh against a turned copy of itself (bench/meshes_scene.hpp), sorted, both in the layout
@@ -49,8 +49,8 @@ void add_builds(const abut::cuda& on, table& out, const std::string& name, const
         return items;
     });
     (void)refit(on, tree, moved);
-    // Shapes, links and the old nodes are read, and nodes written.
-    out.add(joined({"refit", name}), n * (shape_bytes + sizeof(std::uint32_t) + 2 * sizeof(abut::bvh_node<float>)), [&] {
+    // Shapes, their order and the steps are read, and nodes written.
+    out.add(joined({"refit", name}), n * (shape_bytes + sizeof(std::uint32_t) + sizeof(abut::refit_step) + sizeof(abut::bvh_node<float>)), [&] {
         (void)refit(on, tree, moved);
         return items;
     });

@@ -48,7 +48,7 @@ void check_refit(const Policy& on, const Tree& tree, const Set& set) {
     CHECK(find_flaw(after.view_of(set.size()), set.view()) == "");
     CHECK(is_tight(after.view_of(set.size()), set.view()));
     CHECK(same_bits(after, last));
-    CHECK(refitted.stored().links == tree.stored().links);
+    CHECK(refitted.stored().plan == tree.stored().plan);
     CHECK(same_bits(before, tree.stored().to_host()));
     bool same_topology = before.nodes.size() == after.nodes.size();
     for (std::size_t i = 0; same_topology && i < before.nodes.size(); ++i) {
@@ -83,8 +83,8 @@ void check_refits(const Policy& on) {
         check_refit(on, make_bvh(on, first), second);
         check_unmoved(on, first);
     }
-    const triangle_soup<T> many(random_triangles<T>(50'000, random));
-    check_refit(on, make_bvh(on, many), triangle_soup<T>(random_triangles<T>(50'000, random)));
+    const triangle_soup<T> many(random_triangles<T>(300'000, random));
+    check_refit(on, make_bvh(on, many), triangle_soup<T>(random_triangles<T>(300'000, random)));
     check_unmoved(on, many);
     // From one hard set to the next, and to shapes of another kind.
     const auto sets = hard_sets<T>(2000);
@@ -93,7 +93,7 @@ void check_refits(const Policy& on) {
         CAPTURE(sets[i].name, next.name);
         check_refit(on, make_bvh(on, sets[i].set), next.set);
     }
-    check_refit(on, make_bvh(on, many), spheres<T>(random_spheres<T>(50'000, random)));
+    check_refit(on, make_bvh(on, many), spheres<T>(random_spheres<T>(300'000, random)));
     check_refit(on, make_bvh(on, sets[0].set), endless_spheres<T>(2000));
 }
 

@@ -142,6 +142,23 @@ __global__ void __launch_bounds__(block_size) for_each_in_groups_kernel(std::siz
     close_all(sinks...);
 }
 
+template <class F>
+__global__ void __launch_bounds__(block_size) for_each_in_turns_kernel(F f) {
+    __shared__ typename F::shared shared;
+    const std::size_t first = std::size_t{blockIdx.x} * block_size;
+    f.load(first, threadIdx.x, shared);
+    __syncthreads();
+    const unsigned turns = f.turns(shared);
+    for (unsigned t = 0; t < turns; ++t) {
+        const index_range now = f.of_turn(t, shared);
+        if (now.begin + threadIdx.x < now.end) f.step(t, first, now.begin + threadIdx.x, shared);
+        __syncthreads();
+    }
+    if constexpr (F::parts > 0) {
+        for (unsigned t = threadIdx.x; t < F::parts * block_size; t += block_size) f.write(first, t, shared);
+    }
+}
+
 /// Whether a flag among the sinks is raised, the same answer for all threads of the block.
 template <class... Sinks>
 __device__ bool block_is_over(const Sinks&... sinks) {
@@ -455,6 +472,15 @@ void for_each_in_groups(const cuda& on, std::size_t n, const F& f, const Settle&
         detail::launch_settle(on, settle, deliver, late_sink, sinks...);
     };
     detail::gather(on, launch, late, queues...);
+}
+
+template <class F>
+void for_each_in_turns(const cuda& on, std::size_t n, const F& f) {
+    static_assert(group_size == detail::block_size);
+    if (n == 0) return;
+    const detail::current_device scope(on);
+    detail::for_each_in_turns_kernel<<<detail::blocks_for(n), detail::block_size, 0, on.stream>>>(f);
+    detail::check_launch("for_each_in_turns");
 }
 
 template <class Test, class Walk, class Decide, class Settle, class Late, class... Queues>

@@ -142,6 +142,27 @@ void for_each_in_groups(const Policy& on, std::size_t n, const F& f, const Settl
     detail::gather_and_settle(on, groups, grain, loop, settle, late, queues...);
 }
 
+template <host_policy Policy, class F>
+void for_each_in_turns(const Policy& on, std::size_t n, const F& f) {
+    constexpr std::size_t grain = 16;
+    const std::size_t groups = (n + group_size - 1) / group_size;
+    for_each_range(thread_count(on), groups, grain, [&](int, std::size_t begin, std::size_t end) {
+        typename F::shared shared;
+        for (std::size_t group = begin; group < end; ++group) {
+            const std::size_t first = group * group_size;
+            for (unsigned k = 0; k < group_size; ++k) f.load(first, k, shared);
+            const unsigned turns = f.turns(shared);
+            for (unsigned t = 0; t < turns; ++t) {
+                const index_range now = f.of_turn(t, shared);
+                for (unsigned k = now.begin; k < now.end; ++k) f.step(t, first, k, shared);
+            }
+            if constexpr (F::parts > 0) {
+                for (unsigned t = 0; t < F::parts * group_size; ++t) f.write(first, t, shared);
+            }
+        }
+    });
+}
+
 template <host_policy Policy, class Test, class Walk, class Decide, class Settle, class Late, class... Queues>
 void for_each_candidate(const Policy& on, std::size_t n, const Test& test, const Walk& walk, const Decide& decide,
                         const Settle& settle, Late& late, Queues&... queues) {

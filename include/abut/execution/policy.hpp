@@ -22,6 +22,11 @@
 //                                           by side. When all groups are done, settle(c, sink...) for every c in `late`.
 //                                           Functors that write elsewhere take a `late` with room for all, and counts and
 //                                           flags alone: queues that overflow begin anew
+//   for_each_in_turns(on, n, f)             such groups again, turn by turn: f.load(first, k, shared) for every k < group_size;
+//                                           then for t = 0 ... f.turns(shared) - 1 f.step(t, first, k, shared) for every k of
+//                                           the index_range f.of_turn(t, shared), which ends at group_size at most; then
+//                                           f.write(first, t, shared) for every t < F::parts * group_size, neighbours side
+//                                           by side
 //   for_each_candidate(on, n, test, walk, decide, settle, late, queue...)
 //                                           for every i with test(i): walk(i, emitter, sink...) calls emitter.push(c) for
 //                                           each candidate c, and decide(c, late_sink, sink...) is called for it; or else,
@@ -78,6 +83,11 @@ namespace execution {
 
 /// Indices of a group in for_each_in_groups; the last one may have fewer.
 inline constexpr unsigned group_size = 256;
+
+/// From `begin` to before `end`.
+struct index_range {
+    unsigned begin, end;
+};
 
 /// Runs on the calling thread.
 struct serial {

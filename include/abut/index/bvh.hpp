@@ -139,14 +139,32 @@ struct bvh_view : bvh_view_base<T, Space, bvh_node<T>> {
     [[nodiscard]] ABUT_HD static bvh_child child(const node_type& n, int side) { return n.child[side]; }
 };
 
-/// What refit needs of a topology besides the nodes: made at the first refit, then shared by all trees of that topology.
+/// How refit makes a node, among the shapes of a group (index/refit_plan.hpp). A place of 256 is a border between shapes.
+struct alignas(16) refit_step {
+    static constexpr std::uint32_t spans = std::uint32_t{1} << 31;
+    std::uint32_t node;  ///< its number; or `spans` and its number among those that have shapes of several groups below them
+    bvh_child child[2];
+    unsigned char border;
+    unsigned char left, right;  ///< the borders of its sides; its own for a leaf
+    unsigned char turn;         ///< those of its sides come in earlier ones
+};
+
+/// A node with shapes of several groups below it, from `first` to `last` in their order.
+struct alignas(16) spanning_node {
+    std::uint32_t node;
+    bvh_child child[2];
+    std::uint32_t border, first, last;
+    std::uint32_t before, after;  ///< the numbers of such nodes at the borders before `first` and after `last`, if there are
+};
+
+/// What refit needs of a topology: made at the first refit, then shared by all trees of that topology.
 template <memory_space Space>
-struct bvh_links {
-    static constexpr std::uint32_t none = static_cast<std::uint32_t>(-2);
+struct refit_plan {
     std::mutex making;
     bool made = false;
-    /// For each node twice its parent's number plus the side on which it hangs there; `none` for the root.
-    execution::buffer<std::uint32_t, Space> above;
+    execution::buffer<std::uint32_t, Space> leaves;  ///< ids of shapes in the order in which a walk meets them
+    execution::buffer<refit_step, Space> steps;      ///< by groups, and in each by turns
+    execution::buffer<spanning_node, Space> spanning;
 };
 
 /// The layout that trees are built in.
@@ -159,7 +177,7 @@ struct standard_layout {
     struct storage {
         execution::buffer<bvh_node<T>, Space> nodes;
         execution::buffer<bvh_root<T>, Space> root;
-        std::shared_ptr<bvh_links<Space>> links = std::make_shared<bvh_links<Space>>();
+        std::shared_ptr<refit_plan<Space>> plan = std::make_shared<refit_plan<Space>>();
 
         [[nodiscard]] view<T, Space> view_of(std::size_t shapes) const { return {{nodes.data(), root.data(), shapes}}; }
         [[nodiscard]] std::size_t bytes() const { return nodes.capacity_bytes() + root.capacity_bytes(); }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// From the leaves of a tree to its root, as builders and refit go (Apetrei, "Fast and Simple Agglomerative LBVH
+// From the leaves of a tree to its root, as the linear builder goes (Apetrei, "Fast and Simple Agglomerative LBVH
 // Construction", 2014): every subtree that is finished hangs itself below the node above; of the two that come to a node the
 // second makes sure that it is finished in turn. Boxes depend on the tree alone, not on who came second.
 //
@@ -15,6 +15,7 @@
 #include <abut/execution/atomic.hpp>
 #include <abut/execution/work_queue.hpp>
 #include <abut/index/bvh.hpp>
+#include <abut/index/node_part.hpp>
 
 namespace abut::detail {
 
@@ -39,18 +40,12 @@ struct node_table {
     ABUT_HD void write(std::uint32_t k, unsigned, bvh_node<T>& to) const { to = made[k]; }
 };
 
-/// 16 bytes of a node.
-template <class Values>
-struct [[gnu::may_alias]] alignas(16) node_part {
-    Values values;
-};
-
 /// On a device number by number, so that neighbours do not meet in one bank of memory; and rows are a little longer than a
 /// group for the sake of `write`, whose neighbours read different rows. Those write to one line of memory: nodes that were
 /// written one by one took a device twice as long.
 template <scalar T>
 struct node_table<T, device_space> {
-    static constexpr unsigned parts = sizeof(bvh_node<T>) / 16, numbers = 16 / sizeof(T), row = execution::group_size + 2;
+    static constexpr unsigned parts = node_parts<T>, row = execution::group_size + 2;
     T bounds[12][row];
     bvh_child children[2][row];
 
@@ -65,13 +60,7 @@ struct node_table<T, device_space> {
     }
     [[nodiscard]] ABUT_HD bvh_child child(std::uint32_t side, std::uint32_t k) const { return children[side][k]; }
     ABUT_HD void write(std::uint32_t k, unsigned part, bvh_node<T>& to) const {
-        if (part + 1 < parts) {
-            node_part<T[numbers]> values;
-            for (unsigned j = 0; j < numbers; ++j) values.values[j] = bounds[part * numbers + j][k];
-            reinterpret_cast<node_part<T[numbers]>*>(&to)[part] = values;
-        } else {
-            reinterpret_cast<node_part<bvh_child[4]>*>(&to)[part] = {{children[0][k], children[1][k], {0}, {0}}};
-        }
+        write_node_part(to, part, [&](unsigned q) { return bounds[q][k]; }, children[0][k], children[1][k]);
     }
 };
 

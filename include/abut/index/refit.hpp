@@ -1,60 +1,41 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// refit: a tree's boxes made anew around shapes that have moved, bottom-up in one pass, while its topology stays. A build
-// sorts; this does not, and so it is what a step of a simulation pays for.
-// How boxes are made from the leaves up: index/climb.hpp. Here each node starts its own leaves.
+// refit: a tree's boxes made anew around shapes that have moved, while its topology stays. A build sorts; this does not, and
+// so it is what a step of a simulation pays for. In which order boxes are made is known beforehand (index/refit_plan.hpp):
+// groups of 256 shapes first, then boxes of runs of whole groups, then the nodes that have shapes of several groups.
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include <abut/execution/buffer.hpp>
 #include <abut/index/bvh.hpp>
-#include <abut/index/climb.hpp>
+#include <abut/index/node_part.hpp>
 #include <abut/index/operand.hpp>
+#include <abut/index/refit_plan.hpp>
 
 namespace abut {
 
 namespace detail {
 
-/// Writes where each node hangs.
-template <scalar T>
-struct write_links {
-    const bvh_node<T>* nodes;
-    bvh_child root;
-    std::uint32_t* above;
-    ABUT_HD void operator()(std::size_t i) const {
-        const auto node = static_cast<std::uint32_t>(i);
-        for (std::uint32_t side = 0; side < 2; ++side) {
-            const bvh_child child = nodes[i].child[side];
-            if (!child.is_leaf()) above[child.index()] = 2 * node + side;
-        }
-        if (node == root.index()) above[node] = bvh_links<host_space>::none;
-    }
-};
-
-/// The links of a tree with two shapes or more: made by whoever needs them first.
+/// The plan of a tree with two shapes or more: made by whoever needs it first.
 template <class Policy, class Storage>
-const auto& links_of(const Policy& on, const Storage& tree) {
-    using T = std::remove_cvref_t<decltype(tree.root.data()->bounds.lower.x)>;
-    auto& links = *tree.links;
-    const std::scoped_lock lock(links.making);
-    if (!links.made) {
-        const std::size_t n = tree.nodes.size();
-        const bvh_node<T>* const nodes = tree.nodes.data();
-        bvh_root<T> root;
+const auto& plan_of(const Policy& on, const Storage& tree) {
+    auto& plan = *tree.plan;
+    const std::scoped_lock lock(plan.making);
+    if (!plan.made) {
+        std::remove_cvref_t<decltype(*tree.root.data())> root;
         download(on, tree.root.data(), 1, &root);
-        execution::buffer_of<Policy, std::uint32_t> above(on, n);
-        for_each_index(on, n, write_links<T>{nodes, root.child, above.data()});
-        synchronize(on);  // another policy may use them, in a stream of its own
-        links.above = std::move(above);
-        links.made = true;
+        make_refit_plan(on, tree.nodes.data(), tree.nodes.size(), root.child, plan);
+        plan.made = true;
     }
-    return links;
+    return plan;
 }
 
 /// Boxes as a set of shapes.
@@ -76,83 +57,226 @@ struct write_box {
     ABUT_HD void operator()(std::size_t i) const { boxes[i] = bounds(shapes[i]); }
 };
 
-/// A tree whose boxes are made anew, to climb through (index/climb.hpp). Index i is node i, whose leaves start.
+/// Boxes in the memory that a group shares.
+template <scalar T, memory_space Space, unsigned Count>
+struct box_table {
+    aabb<T> boxes[Count];
+    ABUT_HD void put(unsigned k, const aabb<T>& box) { boxes[k] = box; }
+    [[nodiscard]] ABUT_HD const aabb<T>& operator[](unsigned k) const { return boxes[k]; }
+};
+/// On a device number by number, so that neighbours do not meet in one bank of memory.
+template <scalar T, unsigned Count>
+struct box_table<T, device_space, Count> {
+    T values[6][Count];
+    ABUT_HD void put(unsigned k, const aabb<T>& box) {
+        const T numbers[] = {box.lower.x, box.lower.y, box.lower.z, box.upper.x, box.upper.y, box.upper.z};
+        for (unsigned c = 0; c < 6; ++c) values[c][k] = numbers[c];
+    }
+    [[nodiscard]] ABUT_HD aabb<T> operator[](unsigned k) const {
+        return {{values[0][k], values[1][k], values[2][k]}, {values[3][k], values[4][k], values[5][k]}};
+    }
+};
+
+/// The parts of both sides of a spanning node that lie in the group of its border.
+template <scalar T>
+struct side_boxes {
+    aabb<T> left, right;
+};
+
+/// All that happens within groups.
 template <shape_view Shapes>
-struct refitted_nodes {
+struct refit_groups {
     using T = typename Shapes::scalar_type;
+    using Space = typename Shapes::memory_space;
+    static constexpr unsigned group = execution::group_size;
+    /// In which a node is written: neighbours write side by side, since a device that writes nodes one by one takes twice as
+    /// long.
+    static constexpr unsigned parts = std::same_as<Space, device_space> ? node_parts<T> : 1;
 
     Shapes shapes;
-    const bvh_node<T>* old;
-    const std::uint32_t* links;  ///< bvh_links::above
-    std::size_t count;
+    std::uint32_t count;
+    const std::uint32_t* leaves;
+    const refit_step* steps;
+    bvh_node<T>* nodes;
+    side_boxes<T>* spanning;
+    aabb<T>* groups;
 
-    struct subtree {
-        aabb<T> box;
-        bvh_child child;
-        std::uint32_t place;
+    struct shared {
+        box_table<T, Space, 2 * group> boxes;  ///< of shapes, and from `group` on of what is below borders
+        refit_step steps[group];
+        std::uint16_t starts[group_trees::turns + 1];  ///< the first step of each turn
+        std::uint16_t turns;
+        std::uint16_t step_at[group];  ///< of a border
     };
 
-    ABUT_CALLS_ANY
-    template <class Hang>
-    ABUT_HD void start(std::size_t i, const Hang& hang) const {
+    ABUT_HD void load(std::size_t first, unsigned k, shared& with) const {
+        const std::size_t i = first + k;
+        if (i >= count) return;
+        if (k == 0 && i + 1 == count) with.turns = 0;
+        if (i + 1 < count && k + 1 < group) {
+            const refit_step step = steps[i];
+            with.steps[k] = step;
+            with.step_at[step.border] = static_cast<std::uint16_t>(k);
+            if (k == 0 || steps[i - 1].turn != step.turn) with.starts[step.turn] = static_cast<std::uint16_t>(k);
+            if (k + 2 == group || i + 2 == count) {
+                with.turns = static_cast<std::uint16_t>(step.turn + 1);
+                with.starts[step.turn + 1] = static_cast<std::uint16_t>(k + 1);
+            }
+        }
 #if !ABUT_DEVICE_CODE
         // A processor would wait for each box in turn; so what comes later is asked for now. Not in a function of its own:
         // g++ drops calls that do nothing else.
         if constexpr (std::same_as<Shapes, box_view<T, host_space>>) {
             constexpr std::size_t ahead = 16;
-            if (i + ahead < count) {
-                const bvh_node<T>& later = old[i + ahead];
-                if (later.child[0].is_leaf()) __builtin_prefetch(shapes.boxes + later.child[0].index());
-                if (later.child[1].is_leaf()) __builtin_prefetch(shapes.boxes + later.child[1].index());
-            }
+            if (i + ahead < count) __builtin_prefetch(shapes.boxes + leaves[i + ahead]);
         }
 #endif
-        const bvh_child left = old[i].child[0], right = old[i].child[1];
-        const auto place = 2 * static_cast<std::uint32_t>(i);
-        if (left.is_leaf()) hang(subtree{bounds(shapes[left.index()]), left, place});
-        if (right.is_leaf()) hang(subtree{bounds(shapes[right.index()]), right, place + 1});
+        with.boxes.put(k, bounds(shapes[leaves[i]]));
     }
-    ABUT_HD void notice(std::size_t) const {}
-    [[nodiscard]] ABUT_HD bool is_all(const subtree& at) const { return at.place == bvh_links<host_space>::none; }
-    template <class Reader>
-    [[nodiscard]] ABUT_HD std::uint32_t above(const subtree& at, const Reader&) const {
-        return at.place;
+    [[nodiscard]] ABUT_HD unsigned turns(const shared& with) const { return with.turns; }
+    [[nodiscard]] ABUT_HD execution::index_range of_turn(unsigned t, const shared& with) const {
+        return {with.starts[t], with.starts[t + 1]};
     }
-    template <class Reader>
-    [[nodiscard]] ABUT_HD std::uint32_t token(const subtree&, std::uint32_t place, const Reader& link) const {
-        return link(place / 2);
+    ABUT_HD void step(unsigned, std::size_t, unsigned k, shared& with) const {
+        const refit_step& step = with.steps[k];
+        with.boxes.put(group + step.border, merge(with.boxes[left(step)], with.boxes[right(step)]));
     }
-    [[nodiscard]] ABUT_HD subtree joined(std::uint32_t, std::uint32_t link) const { return {{}, {}, link}; }
-
-    struct local {
-        std::uint32_t links[execution::group_size];
-    };
-    struct near_reader {
-        const std::uint32_t *all, *links;
-        std::uint32_t first;
-        ABUT_HD std::uint32_t operator()(std::uint32_t node) const {
-            return node - first < execution::group_size ? links[node - first] : all[node];  // unsigned: or before the first
+    ABUT_HD void write(std::size_t first, unsigned t, const shared& with) const {
+        const unsigned k = t / parts, part = t % parts;
+        if (t == 0) groups[first / group] = with.turns == 0 ? with.boxes[0] : with.boxes[group + last(with).border];
+        if (first + k + 1 >= count || k + 1 == group) return;
+        const refit_step& step = with.steps[with.step_at[k]];
+        const unsigned place[] = {left(step), right(step)};
+        if ((step.node & refit_step::spans) != 0) {
+            if (part == 0) spanning[step.node & ~refit_step::spans] = {with.boxes[place[0]], with.boxes[place[1]]};
+        } else if constexpr (parts == 1) {
+            nodes[step.node] = {{with.boxes[place[0]], with.boxes[place[1]]}, {step.child[0], step.child[1]}};
+        } else {
+            const auto number = [&](unsigned q) { return with.boxes.values[q % 6][place[q / 6]]; };
+            write_node_part(nodes[step.node], part, number, step.child[0], step.child[1]);
         }
-    };
-    struct far_reader {
-        const std::uint32_t* all;
-        ABUT_HD std::uint32_t operator()(std::uint32_t node) const { return all[node]; }
-    };
-    ABUT_HD void load(std::size_t first, unsigned k, local& to) const {
-        if (first + k < count) to.links[k] = links[first + k];
     }
-    [[nodiscard]] ABUT_HD near_reader near(std::size_t first, const local& from) const {
-        return {links, from.links, static_cast<std::uint32_t>(first)};
+
+private:
+    [[nodiscard]] ABUT_HD static unsigned left(const refit_step& step) {
+        return step.left == step.border ? step.border : group + step.left;
     }
-    [[nodiscard]] ABUT_HD far_reader far() const { return {links}; }
+    [[nodiscard]] ABUT_HD static unsigned right(const refit_step& step) {
+        return step.right == step.border ? step.border + 1u : group + step.right;
+    }
+    [[nodiscard]] ABUT_HD static const refit_step& last(const shared& with) { return with.steps[with.starts[with.turns] - 1]; }
 };
 
-/// The climb, with `shapes` read in the order of leaves.
+/// Boxes of runs of groups: in row j those of 2^j groups, from each group on. Runs stay within 256 groups; those that would
+/// not are left as they are and not asked for. Row 0 is there.
+template <scalar T, memory_space Space>
+struct tabulate_runs {
+    static constexpr unsigned group = execution::group_size, parts = 0, rows = 9;
+    static_assert(1 << (rows - 1) == group);
+
+    aabb<T>* table;
+    std::size_t groups;
+
+    struct shared {
+        box_table<T, Space, group> runs[2];
+    };
+    ABUT_HD void load(std::size_t first, unsigned k, shared& with) const {
+        with.runs[0].put(k, table[first + k < groups ? first + k : groups - 1]);
+    }
+    [[nodiscard]] ABUT_HD unsigned turns(const shared&) const { return rows - 1; }
+    [[nodiscard]] ABUT_HD execution::index_range of_turn(unsigned, const shared&) const { return {0, group}; }
+    ABUT_HD void step(unsigned t, std::size_t first, unsigned k, shared& with) const {
+        const auto& from = with.runs[t % 2];
+        const unsigned next = k + (1u << t);
+        const aabb<T> box = next < group ? merge(from[k], from[next]) : from[k];
+        with.runs[(t + 1) % 2].put(k, box);
+        if (first + k < groups) table[(t + 1) * groups + first + k] = box;
+    }
+    ABUT_HD void write(std::size_t, unsigned, const shared&) const {}
+};
+
+/// Nodes with shapes of several groups.
+template <scalar T>
+struct refit_spanning {
+    static constexpr std::uint32_t group = execution::group_size;
+
+    const spanning_node* all;
+    std::uint32_t count;  ///< of shapes
+    std::size_t groups;
+    const aabb<T>* table;           ///< see tabulate_runs
+    const side_boxes<T>* in_group;  ///< what each has in the group of its border
+    bvh_node<T>* nodes;
+    bvh_root<T>* root;
+
+    ABUT_HD void operator()(std::size_t i) const {
+        const spanning_node at = all[i];
+        const std::uint32_t own = at.border / group;
+        const bool ends = ends_group(at.border);  // then the group is below the left side as far as that reaches
+        aabb<T> left = empty_box<T>(), right = empty_box<T>();
+        if (at.first / group != own || ends) {
+            left = at.first % group == 0 ? table[at.first / group] : in_group[at.before].right;
+            left = merge(left, run(at.first / group + 1, ends ? own + 1 : own));
+        }
+        if (!ends) {
+            left = merge(left, in_group[i].left);
+            right = in_group[i].right;
+        }
+        if (at.last / group != own) {
+            right = merge(right, run(own + 1, at.last / group));
+            const bool whole = ends_group(at.last) || at.last + 1 == count;
+            right = merge(right, whole ? table[at.last / group] : in_group[at.after].left);
+        }
+        nodes[at.node] = {{left, right}, {at.child[0], at.child[1]}};
+        if (at.first == 0 && at.last + 1 == count) *root = {merge(left, right), bvh_child::inner(at.node)};
+    }
+
+private:
+    /// Groups from `from` to before `to`; an empty box for none.
+    [[nodiscard]] ABUT_HD aabb<T> run(std::uint32_t from, std::uint32_t to) const {
+        if (from >= to) return empty_box<T>();
+        const std::uint32_t first = from / group, last = (to - 1) / group;
+        if (first == last) return short_run(from, to);
+        aabb<T> box = short_run(from, (first + 1) * group);
+        for (std::uint32_t k = first + 1; k < last; ++k) box = merge(box, table[8 * groups + k * group]);
+        return merge(box, short_run(last * group, to));
+    }
+    /// Of one row's reach: two runs cover it.
+    [[nodiscard]] ABUT_HD aabb<T> short_run(std::uint32_t from, std::uint32_t to) const {
+        std::uint32_t row = 0;
+        while (to - from >= 2u << row) ++row;
+        return merge(table[row * groups + from], table[row * groups + to - (1u << row)]);
+    }
+};
+
+template <scalar T>
+struct write_root {
+    const aabb<T>* box;
+    const bvh_root<T>* old;
+    bvh_root<T>* root;
+    ABUT_HD void operator()(std::size_t) const { *root = {*box, old->child}; }
+};
+
+/// The boxes, with `shapes` read in the order of leaves.
 template <class Policy, shape_view Shapes, class Storage>
 void refit_nodes(const Policy& on, const Shapes& shapes, const Storage& old, Storage& fresh) {
-    const std::size_t n = old.nodes.size();
-    const refitted_nodes<Shapes> tree{shapes, old.nodes.data(), links_of(on, old).above.data(), n};
-    climb_all(on, tree, n, n + 1, fresh.nodes.data(), fresh.root.data());
+    using T = typename Shapes::scalar_type;
+    using runs = tabulate_runs<T, space_of<Policy>>;
+    const auto& plan = plan_of(on, old);
+    const auto count = static_cast<std::uint32_t>(old.nodes.size() + 1);
+    const std::size_t groups = (count - 1) / execution::group_size + 1;
+    execution::buffer_of<Policy, side_boxes<T>> in_group(on, plan.spanning.size());
+    execution::buffer_of<Policy, aabb<T>> table(on, runs::rows * groups);
+    for_each_in_turns(on, count,
+                      refit_groups<Shapes>{shapes, count, plan.leaves.data(), plan.steps.data(), fresh.nodes.data(),
+                                           in_group.data(), table.data()});
+    if (groups == 1) {
+        for_each_index(on, 1, write_root<T>{table.data(), old.root.data(), fresh.root.data()});
+        return;
+    }
+    for_each_in_turns(on, groups, runs{table.data(), groups});
+    for_each_index(on, plan.spanning.size(),
+                   refit_spanning<T>{plan.spanning.data(), count, groups, table.data(), in_group.data(),
+                                     fresh.nodes.data(), fresh.root.data()});
 }
 
 template <shape_view Shapes>
@@ -170,8 +294,8 @@ struct refit_single {
 ///
 /// The set may be of another kind than the tree's. It is brought to the policy's memory and checked as by make_bvh; a tree
 /// in another layout than the standard one is refitted before it is converted. Returns when the boxes are there. The first
-/// refit of a topology also derives 4 bytes a node, which all trees that come of it
-/// share, `tree` too: under cuda the stream of that first refit has to outlive them all. Throws invalid_geometry (views
+/// refit of a topology also derives in what order boxes are made, which takes longer than the refit itself: some 21 bytes a
+/// shape, which all trees that come of it share, `tree` too: under cuda the stream of that first refit has to outlive them all. Throws invalid_geometry (views
 /// only), error (another number of shapes, a tree on another device), std::bad_alloc, cuda_error.
 template <execution_policy Policy, class OldSet, memory_space Space, bvh_layout_kind Layout, class Set>
 [[nodiscard]] auto refit(const Policy& on, const bvh<OldSet, Space, Layout>& tree, const Set& set) {
@@ -194,7 +318,7 @@ template <execution_policy Policy, class OldSet, memory_space Space, bvh_layout_
     fresh->root = execution::buffer_of<Policy, bvh_root<T>>(on, n > 0 ? 1 : 0);
     fresh->nodes = execution::buffer_of<Policy, bvh_node<T>>(on, n > 0 ? n - 1 : 0);
     const auto& old = tree.stored();
-    fresh->links = old.links;
+    fresh->plan = old.plan;
     if (n == 1) {
         for_each_index(on, 1, detail::refit_single<shapes_type>{shapes, fresh->root.data()});
     } else if (n > 1) {

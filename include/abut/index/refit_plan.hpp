@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What refit derives of a topology, once: in which order its boxes are made.
+//
+// Shapes are put in the order in which a walk from left to right meets them. A node then stands for the border between the
+// last shape below its left side and the first one below its right side, and each border has one node. Shapes are divided
+// into groups of neighbours, and a tree restricted to the shapes of one group is again a tree, with one node for each border
+// inside the group. In it a node's turn is its height, so a group makes its boxes turn by turn in the memory that it shares,
+// and nothing is counted or waited for. Nodes with shapes of several groups, about eight a group, are put together after
+// that (refit.hpp): each of their sides is the end of one group, whole groups, and the beginning of another.
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include <abut/execution/atomic.hpp>
+#include <abut/execution/buffer.hpp>
+#include <abut/execution/work_queue.hpp>
+#include <abut/index/bvh.hpp>
+
+namespace abut::detail {
+
+inline constexpr std::uint32_t no_place = static_cast<std::uint32_t>(-1);
+
+/// Writes where each node hangs: twice its parent's number, plus the side.
+template <scalar T>
+struct write_links {
+    const bvh_node<T>* nodes;
+    bvh_child root;
+    std::uint32_t* above;
+    ABUT_HD void operator()(std::size_t i) const {
+        const auto node = static_cast<std::uint32_t>(i);
+        for (std::uint32_t side = 0; side < 2; ++side) {
+            const bvh_child child = nodes[i].child[side];
+            if (!child.is_leaf()) above[child.index()] = 2 * node + side;
+        }
+        if (node == root.index()) above[node] = no_place;
+    }
+};
+
+/// From the leaves of trees to their roots: of the two that come to a node the second one goes on. `Tree` says
+/// `is_leaf(node, side)`, `above[node]`, `leaf_value`, and what a node is worth: `join(node, left, right)`.
+template <class Tree>
+struct fold_up {
+    Tree tree;
+    std::uint32_t* reached;  ///< for each node the value of the side that came first; at the start `no_place`
+
+    ABUT_HD void operator()(std::size_t i) const {
+        for (std::uint32_t side = 0; side < 2; ++side) {
+            if (!tree.is_leaf(i, side)) continue;
+            std::uint32_t place = 2 * static_cast<std::uint32_t>(i) + side, value = Tree::leaf_value;
+            while (place != no_place) {
+                const std::uint32_t node = place / 2;
+                const std::uint32_t other = execution::atomic_exchange_acq_rel(&reached[node], value);
+                if (other == no_place) break;
+                value = place % 2 == 0 ? tree.join(node, value, other) : tree.join(node, other, value);
+                place = tree.above[node];
+            }
+        }
+    }
+};
+
+/// The shapes below a node: `count` from `first` on in the order, of which `left` are on its left side.
+struct node_range {
+    std::uint32_t first, left, count;
+    [[nodiscard]] ABUT_HD std::uint32_t border() const { return first + left - 1; }
+    [[nodiscard]] ABUT_HD std::uint32_t last() const { return first + count - 1; }
+    [[nodiscard]] ABUT_HD bool spans_groups() const {
+        return first / execution::group_size != last() / execution::group_size;
+    }
+};
+
+template <scalar T>
+struct count_shapes {
+    static constexpr std::uint32_t leaf_value = 1;
+    const bvh_node<T>* nodes;
+    const std::uint32_t* above;
+    node_range* ranges;
+    [[nodiscard]] ABUT_HD bool is_leaf(std::size_t node, std::uint32_t side) const {
+        return nodes[node].child[side].is_leaf();
+    }
+    [[nodiscard]] ABUT_HD std::uint32_t join(std::uint32_t node, std::uint32_t left, std::uint32_t right) const {
+        ranges[node].left = left;
+        return ranges[node].count = left + right;
+    }
+};
+
+/// From the root down, where the shapes below each node begin in the order.
+template <scalar T>
+struct place_shapes {
+    struct item {
+        std::uint32_t node, first;
+    };
+    using candidate = std::uint32_t;  // none
+    static constexpr unsigned most_children = 2, most_depth = bvh_max_depth;
+
+    const bvh_node<T>* nodes;
+    bvh_child root;
+    node_range* ranges;
+    std::uint32_t *node_at, *leaves;
+
+    [[nodiscard]] std::size_t seeds() const { return 1; }
+    [[nodiscard]] ABUT_HD item seed(std::size_t) const { return {root.index(), 0}; }
+    void prefetch(const item&) const {}
+    ABUT_CALLS_ANY
+    template <class Emitter>
+    ABUT_HD void operator()(const item& at, Emitter&& emitter) const {
+        ranges[at.node].first = at.first;
+        const std::uint32_t middle = at.first + ranges[at.node].left;
+        node_at[middle - 1] = at.node;
+        const bvh_child left = nodes[at.node].child[0], right = nodes[at.node].child[1];
+        if (left.is_leaf()) leaves[at.first] = left.index();
+        if (right.is_leaf()) leaves[middle] = right.index();
+        emitter.add(std::integral_constant<unsigned, 0>{}, !left.is_leaf(), item{left.index(), at.first});
+        emitter.add(std::integral_constant<unsigned, 1>{}, !right.is_leaf(), item{right.index(), middle});
+    }
+};
+struct decide_nothing {
+    ABUT_HD void operator()(std::uint32_t, auto&...) const {}
+};
+
+/// The last border of a group lies between it and the next one: no node of the tree that is restricted to the group.
+ABUT_HD constexpr bool ends_group(std::uint32_t border) {
+    return border % execution::group_size == execution::group_size - 1;
+}
+
+/// Trees restricted to groups, by borders. Keys are groups above turns, by which borders are sorted.
+struct group_trees {
+    static constexpr std::uint32_t leaf_value = 0;
+    static constexpr int turn_bits = 7;
+    static constexpr std::uint32_t turns = 1u << turn_bits, no_turn = turns - 1;
+    static_assert(bvh_max_depth < no_turn);
+    const std::uint32_t* below;  ///< at place 2 border + side a border, or `no_place` for a leaf
+    const std::uint32_t* above;
+    std::uint32_t* keys;
+    [[nodiscard]] ABUT_HD bool is_leaf(std::size_t border, std::uint32_t side) const {
+        return !ends_group(static_cast<std::uint32_t>(border)) && below[2 * border + side] == no_place;
+    }
+    [[nodiscard]] ABUT_HD static std::uint32_t key(std::uint32_t border, std::uint32_t turn) {
+        return border / execution::group_size << turn_bits | turn;
+    }
+    [[nodiscard]] ABUT_HD std::uint32_t join(std::uint32_t border, std::uint32_t left, std::uint32_t right) const {
+        const std::uint32_t turn = left < right ? right : left;
+        keys[border] = key(border, turn);
+        return turn + 1;
+    }
+};
+
+/// Restricts the tree to groups.
+template <scalar T>
+struct write_group_trees {
+    const bvh_node<T>* nodes;
+    const node_range* ranges;
+    const std::uint32_t* node_at;
+    std::uint32_t *below, *above, *keys, *borders;
+
+    ABUT_HD void operator()(std::size_t i) const {
+        const auto border = static_cast<std::uint32_t>(i);
+        borders[i] = border;
+        if (ends_group(border)) {
+            keys[i] = group_trees::key(border, group_trees::no_turn);
+            return;
+        }
+        for (std::uint32_t side = 0; side < 2; ++side) {
+            const std::uint32_t next = nearest(border, side);
+            below[2 * i + side] = next;
+            if (next != no_place) above[next] = 2 * border + side;
+        }
+    }
+
+private:
+    /// What hangs on that side once other groups' shapes are gone: of nodes whose border is beyond the group only the side
+    /// towards it is left.
+    [[nodiscard]] ABUT_HD std::uint32_t nearest(std::uint32_t border, std::uint32_t side) const {
+        bvh_child child = nodes[node_at[border]].child[side];
+        while (!child.is_leaf()) {
+            const std::uint32_t at = ranges[child.index()].border();
+            if (at / execution::group_size == border / execution::group_size && !ends_group(at)) return at;
+            child = nodes[child.index()].child[1 - side];
+        }
+        return no_place;
+    }
+};
+
+struct spans_groups {
+    const node_range* ranges;
+    const std::uint32_t* node_at;
+    ABUT_HD bool operator()(std::size_t border) const { return ranges[node_at[border]].spans_groups(); }
+};
+
+struct number_spanning {
+    const std::uint32_t* borders;
+    std::uint32_t* numbers;
+    ABUT_HD void operator()(std::size_t i) const { numbers[borders[i]] = static_cast<std::uint32_t>(i); }
+};
+
+/// What has been found out, as refit reads it.
+template <scalar T>
+struct write_spanning {
+    const bvh_node<T>* nodes;
+    const node_range* ranges;
+    const std::uint32_t *node_at, *borders, *numbers;
+    std::uint32_t all;  ///< borders
+    spanning_node* out;
+
+    ABUT_HD void operator()(std::size_t i) const {
+        const std::uint32_t border = borders[i], node = node_at[border];
+        const node_range range = ranges[node];
+        const std::uint32_t first = range.first, last = range.last();
+        out[i] = {node,
+                  {nodes[node].child[0], nodes[node].child[1]},
+                  border,
+                  first,
+                  last,
+                  first > 0 ? numbers[first - 1] : no_place,
+                  last < all ? numbers[last] : no_place};
+    }
+};
+
+template <scalar T>
+struct write_steps {
+    const bvh_node<T>* nodes;
+    const node_range* ranges;
+    const std::uint32_t *node_at, *below, *keys, *borders, *numbers;
+    refit_step* out;
+
+    ABUT_HD void operator()(std::size_t i) const {
+        const std::uint32_t border = borders[i], node = node_at[border];
+        const std::uint32_t to = ranges[node].spans_groups() ? refit_step::spans | numbers[border] : node;
+        const auto place = [&](std::uint32_t side) {
+            const std::uint32_t next = ends_group(border) ? no_place : below[2 * border + side];
+            return static_cast<unsigned char>((next == no_place ? border : next) % execution::group_size);
+        };
+        out[i] = {to,
+                  {nodes[node].child[0], nodes[node].child[1]},
+                  static_cast<unsigned char>(border % execution::group_size),
+                  place(0),
+                  place(1),
+                  static_cast<unsigned char>(keys[i] % group_trees::turns)};
+    }
+};
+
+/// Number of bits of the numbers up to x.
+constexpr int bits_up_to(std::size_t x) {
+    int bits = 0;
+    while (x >> bits != 0) ++bits;
+    return bits;
+}
+
+/// Of a tree with `count` nodes, one at least. Takes time and memory as building does.
+template <class Policy, scalar T>
+void make_refit_plan(const Policy& on, const bvh_node<T>* nodes, std::size_t count, bvh_child root,
+                     refit_plan<space_of<Policy>>& plan) {
+    using numbers = execution::buffer_of<Policy, std::uint32_t>;
+    numbers above(on, count), reached(on, count), node_at(on, count);
+    execution::buffer_of<Policy, node_range> ranges(on, count);
+    plan.leaves = numbers(on, count + 1);
+    for_each_index(on, count, write_links<T>{nodes, root, above.data()});
+    fill(on, reached.data(), count, no_place);
+    for_each_index(on, count, fold_up<count_shapes<T>>{{nodes, above.data(), ranges.data()}, reached.data()});
+    execution::work_queue<std::uint32_t, space_of<Policy>> none(on, 1);
+    for_each_descendant(on, place_shapes<T>{nodes, root, ranges.data(), node_at.data(), plan.leaves.data()},
+                        decide_nothing{}, decide_nothing{}, none);
+
+    numbers below(on, 2 * count), keys(on, count), borders(on, count);
+    fill(on, above.data(), count, no_place);
+    fill(on, reached.data(), count, no_place);
+    for_each_index(on, count,
+                   write_group_trees<T>{nodes, ranges.data(), node_at.data(), below.data(), above.data(), keys.data(),
+                                        borders.data()});
+    for_each_index(on, count, fold_up<group_trees>{{below.data(), above.data(), keys.data()}, reached.data()});
+    sort_by_key(on, keys, borders, group_trees::turn_bits + bits_up_to(count / execution::group_size));
+
+    numbers& spanning = reached;
+    numbers& number_of = above;
+    const std::size_t many = compact(on, count, spans_groups{ranges.data(), node_at.data()}, spanning.data());
+    for_each_index(on, many, number_spanning{spanning.data(), number_of.data()});
+    plan.spanning = execution::buffer_of<Policy, spanning_node>(on, many);
+    for_each_index(on, many,
+                   write_spanning<T>{nodes, ranges.data(), node_at.data(), spanning.data(), number_of.data(),
+                                     static_cast<std::uint32_t>(count), plan.spanning.data()});
+    plan.steps = execution::buffer_of<Policy, refit_step>(on, count);
+    for_each_index(on, count,
+                   write_steps<T>{nodes, ranges.data(), node_at.data(), below.data(), keys.data(), borders.data(),
+                                  number_of.data(), plan.steps.data()});
+    synchronize(on);  // another policy may use it, in a stream of its own
+}
+
+}  // namespace abut::detail
