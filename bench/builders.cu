@@ -50,10 +50,11 @@ void add_builds(const abut::cuda& on, table& out, const std::string& name, const
     });
     (void)refit(on, tree, moved);
     // Shapes, their order and the steps are read, and nodes written.
-    out.add(joined({"refit", name}), n * (shape_bytes + sizeof(std::uint32_t) + sizeof(abut::refit_step) + sizeof(abut::bvh_node<float>)), [&] {
-        (void)refit(on, tree, moved);
-        return items;
-    });
+    out.add(joined({"refit", name}),
+            n * (shape_bytes + sizeof(std::uint32_t) + sizeof(abut::refit_step) + sizeof(abut::bvh_node<float>)), [&] {
+                (void)refit(on, tree, moved);
+                return items;
+            });
     out.add(joined({"convert/quantised", name}), n * 96, [&] {
         (void)quantised(on, tree);
         return items;

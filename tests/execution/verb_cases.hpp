@@ -282,6 +282,54 @@ void check_groups(const Policy& on) {
     }
 }
 
+/// Adds up each group by doubling: after turn t place k holds the sum of the 2^(t+1) values from there on, of as many as
+/// there are. What it writes is that of the whole group first, and then of all that come after in it.
+struct add_in_turns {
+    static constexpr unsigned parts = 2;
+    std::uint64_t* sums;
+    std::size_t n;
+
+    struct shared {
+        std::uint64_t value[2][execution::group_size];
+        unsigned count;
+    };
+    ABUT_HD void load(std::size_t first, unsigned k, shared& with) const {
+        with.value[0][k] = with.value[1][k] = first + k < n ? first + k : 0;
+        if (k == 0)
+            with.count = n - first < execution::group_size ? static_cast<unsigned>(n - first) : execution::group_size;
+    }
+    [[nodiscard]] ABUT_HD unsigned turns(const shared&) const { return 8; }
+    /// What comes after the last value of the group stays as it is.
+    [[nodiscard]] ABUT_HD execution::index_range of_turn(unsigned, const shared& with) const { return {0, with.count}; }
+    ABUT_HD void step(unsigned t, std::size_t, unsigned k, shared& with) const {
+        const auto& from = with.value[t % 2];
+        const unsigned next = k + (1u << t);
+        with.value[(t + 1) % 2][k] = from[k] + (next < execution::group_size ? from[next] : 0);
+    }
+    ABUT_HD void write(std::size_t first, unsigned t, const shared& with) const {
+        const std::size_t at = first + t / parts;
+        if (at < n) sums[parts * first + t] = with.value[0][t % parts == 0 ? 0 : t / parts];
+    }
+};
+
+template <class Policy>
+void check_turns(const Policy& on) {
+    constexpr std::size_t size = execution::group_size;
+    for (const std::size_t n : {std::size_t{0}, std::size_t{1}, size - 1, size, size + 1, 3 * size, std::size_t{70'001}}) {
+        CAPTURE(n);
+        execution::buffer_of<Policy, std::uint64_t> sums(on, 2 * n);
+        for_each_in_turns(on, n, add_in_turns{sums.data(), n});
+        const auto written = on_host(on, sums.data(), 2 * n);
+        std::uint64_t wrong = 0;
+        for (std::size_t i = 0; i < n; ++i) {
+            const std::size_t first = i / size * size, end = std::min(n, first + size);
+            const auto sum = [end](std::size_t from) { return (end - from) * (from + end - 1) / 2; };
+            wrong += written[2 * i] != sum(first) || written[2 * i + 1] != sum(i);
+        }
+        CHECK(wrong == 0);
+    }
+}
+
 /// Items that make items: a tree of which the shape depends on `shape` alone.
 struct grow {
     enum class kind : unsigned { full, ragged, chain, comb };
@@ -475,6 +523,7 @@ void check_verbs(const Policy& on) {
     check_loops(on);
     check_candidates(on);
     check_groups(on);
+    check_turns(on);
     check_descents(on);
     check_tiles(on);
     check_reductions(on);

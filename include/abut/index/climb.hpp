@@ -15,14 +15,15 @@
 #include <abut/execution/atomic.hpp>
 #include <abut/execution/work_queue.hpp>
 #include <abut/index/bvh.hpp>
+#include <abut/index/leaf_order.hpp>
 #include <abut/index/node_part.hpp>
 
 namespace abut::detail {
 
-/// A subtree whose box and child are written where it hangs: at place 2 node + side. `token` is what else the node has to
-/// know.
+/// A subtree whose box and child are written where it hangs: at place 2 node + side. `end` is the end of its leaves that is
+/// far from there.
 struct hanging_subtree {
-    std::uint32_t place, token;
+    std::uint32_t place, end;
 };
 
 /// The nodes of a group while they are made.
@@ -60,60 +61,61 @@ struct node_table<T, device_space> {
     }
     [[nodiscard]] ABUT_HD bvh_child child(std::uint32_t side, std::uint32_t k) const { return children[side][k]; }
     ABUT_HD void write(std::uint32_t k, unsigned part, bvh_node<T>& to) const {
-        write_node_part(to, part, [&](unsigned q) { return bounds[q][k]; }, children[0][k], children[1][k]);
+        write_node_part(
+            to, part, [&](unsigned q) { return bounds[q][k]; }, children[0][k], children[1][k]);
     }
 };
 
-/// `Tree` says how the climb goes. Its `subtree` has the members `box` and `child` and what else it needs; a group keeps
-/// what it needs to know of the tree in a `local`.
-///   load(first, k, local)   brings what belongs to index first + k, of which there need not be one
-///   near(first, local)      reads the tree for subtrees of the group from `first` on
-///   far()                   reads it for any
-///   start(i, hang)          calls hang(subtree) for each leaf of index i, less than three
-///   notice(i, sinks...)     sees each index once, and the queues of the loop
-///   is_all(subtree)         whether it is the whole tree
-///   above(subtree, reader)  the place where it hangs
-///   token(subtree, place, reader)   what whoever goes on from there has to know, less than 2^32 - 1
-///   joined(left_token, right_token)   what is not box and child of the subtree of a node
-template <class Tree, scalar T, memory_space Space>
+/// A climb over leaves that are sorted by code. Node k lies between leaves k and k + 1. A range of leaves [first, last]
+/// joins its neighbour across the closer of its two borders.
+template <class Code, scalar T, memory_space Space>
 struct climb {
     static constexpr std::uint32_t nobody = static_cast<std::uint32_t>(-1);
     static constexpr std::uint32_t group = execution::group_size;
+    static constexpr unsigned parts = node_table<T, Space>::parts;
 
-    Tree tree;
-    std::uint32_t* reached;  ///< for each node the token of whoever came first, outside of groups
+    const aabb<T>* boxes;
+    std::uint32_t leaves;
+    const Code* codes;
+    const std::uint32_t* ids;
+    std::uint32_t* reached;  ///< for each node the end of whoever came first, outside of groups
     bvh_node<T>* nodes;
     bvh_root<T>* root;
 
-    using subtree = typename Tree::subtree;
-
     struct shared {
         node_table<T, Space> nodes;
-        std::uint32_t token[2][group], visitors[group];
-        typename Tree::local tree;
+        std::uint32_t end[2][group], visitors[group];
+        Code across[group + 1];  ///< between leaf k of the group and the one before it
     };
 
     ABUT_HD void prepare(std::size_t first, unsigned k, shared& with) const {
-        tree.load(first, k, with.tree);
-        with.token[0][k] = with.token[1][k] = nobody;
+        if (first + k + 1 < leaves) with.across[k + 1] = codes[first + k] ^ codes[first + k + 1];
+        if (k == 0 && first > 0) with.across[0] = codes[first - 1] ^ codes[first];
+        with.end[0][k] = with.end[1][k] = nobody;
         with.visitors[k] = 0;
     }
     ABUT_CALLS_ANY
-    template <class Ready, class Late, class... Sinks>
-    ABUT_HD void begin(std::size_t i, shared& with, Ready&& ready, Late&& late, Sinks&... sinks) const {
-        tree.notice(i, sinks...);
-        const std::uint32_t first_node = static_cast<std::uint32_t>(i) / group * group;
-        tree.start(i, [&](const subtree& leaf) { hang(leaf, first_node, with, ready, late); });
+    template <class Ready, class Late, class Count>
+    ABUT_HD void begin(std::size_t i, shared& with, Ready&& ready, Late&& late, Count& crowded) const {
+#if !ABUT_DEVICE_CODE
+        // A processor would wait for each box in turn; so what comes later is asked for now.
+        constexpr std::size_t ahead = 16;
+        if (i + ahead < leaves) __builtin_prefetch(boxes + ids[i + ahead]);
+#endif
+        crowded.add(is_crowded<Code>{codes, leaves}(i));
+        const auto leaf = static_cast<std::uint32_t>(i);
+        hang({boxes[ids[i]], bvh_child::leaf(ids[i]), leaf, leaf}, leaf / group * group, with, ready, late);
     }
     /// Both subtrees below node k of the group are there.
     ABUT_CALLS_ANY
     template <class Ready, class Late>
     ABUT_HD void step(std::size_t first, unsigned k, shared& with, Ready&& ready, Late&& late) const {
         const auto first_node = static_cast<std::uint32_t>(first);
-        hang(joined({with.nodes.box(0, k), with.nodes.box(1, k)}, first_node + k, with.token[0][k], with.token[1][k]),
+        // The left box before the right one: the two zeros are told apart by it.
+        hang({merge(with.nodes.box(0, k), with.nodes.box(1, k)), bvh_child::inner(first_node + k), with.end[0][k],
+              with.end[1][k]},
              first_node, with, ready, late);
     }
-    static constexpr unsigned parts = node_table<T, Space>::parts;
     ABUT_HD void write(std::size_t first, unsigned t, const shared& with) const {
         const unsigned k = t / parts;
         if (with.visitors[k] == 2) with.nodes.write(k, t % parts, nodes[first + k]);
@@ -123,76 +125,99 @@ struct climb {
     template <class Late>
     ABUT_HD void end(std::size_t first, unsigned k, const shared& with, Late&& late) const {
         if (with.visitors[k] != 1) return;
-        const std::uint32_t side = with.token[0][k] != nobody ? 0 : 1;
-        leave(2 * (static_cast<std::uint32_t>(first) + k) + side, with.token[side][k], with.nodes.box(side, k),
+        const std::uint32_t side = with.end[0][k] != nobody ? 0 : 1;
+        leave({2 * (static_cast<std::uint32_t>(first) + k) + side, with.end[side][k]}, with.nodes.box(side, k),
               with.nodes.child(side, k), late);
     }
 
     /// What is left of the groups.
-    template <class... Sinks>
-    ABUT_HD void operator()(const hanging_subtree& from, Sinks&...) const {
-        std::uint32_t place = from.place, token = from.token;
+    template <class Count>
+    ABUT_HD void operator()(hanging_subtree at, Count&) const {
         for (;;) {
-            const std::uint32_t node = place / 2, side = place % 2;
-            const std::uint32_t other = execution::atomic_exchange_acq_rel(&reached[node], token);
+            const std::uint32_t node = at.place / 2, side = at.place % 2;
+            const std::uint32_t other = execution::atomic_exchange_acq_rel(&reached[node], at.end);
             if (other == nobody) return;
-            const boxes both{load_fresh(nodes[node].bounds[0]), load_fresh(nodes[node].bounds[1])};
-            const subtree at = joined(both, node, side == 0 ? token : other, side == 0 ? other : token);
-            if (tree.is_all(at)) {
-                *root = {at.box, at.child};
-                return;
-            }
-            place = tree.above(at, tree.far());
-            token = tree.token(at, place, tree.far());
-            nodes[place / 2].bounds[place % 2] = at.box;
-            nodes[place / 2].child[place % 2] = at.child;
+            const aabb<T> left = load_fresh(nodes[node].bounds[0]), right = load_fresh(nodes[node].bounds[1]);
+            const subtree both{merge(left, right), bvh_child::inner(node), side == 0 ? at.end : other,
+                               side == 0 ? other : at.end};
+            if (is_all(both)) return;
+            at = above(both, [this](std::uint32_t k) -> distance {
+                return {static_cast<Code>(codes[k] ^ codes[k + 1]), k ^ (k + 1)};
+            });
+            put(at.place, both.box, both.child);
         }
     }
 
 private:
-    struct boxes {
-        aabb<T> left, right;
+    struct subtree {
+        aabb<T> box;
+        bvh_child child;
+        std::uint32_t first, last;
     };
-    /// The left box before the right one: the two zeros are told apart by it.
-    ABUT_HD subtree joined(const boxes& both, std::uint32_t node, std::uint32_t left, std::uint32_t right) const {
-        subtree at = tree.joined(left, right);
-        at.box = merge(both.left, both.right);
-        at.child = bvh_child::inner(node);
-        return at;
+
+    /// How far apart leaves k and k + 1 are: the highest bit in which their codes, and between equal codes their positions,
+    /// differ. Comparing the numbers compares those bits, since no two borders of one range share their highest bit.
+    struct distance {
+        Code code;
+        std::uint32_t position;
+        ABUT_HD bool operator<(const distance& other) const {
+            return code < other.code || (code == other.code && position < other.position);
+        }
+    };
+
+    /// Whether it is the whole tree; then it has been written.
+    ABUT_HD bool is_all(const subtree& at) const {
+        const bool all = at.first == 0 && at.last == leaves - 1;
+        if (all) *root = {at.box, at.child};
+        return all;
+    }
+    template <class Across>
+    [[nodiscard]] ABUT_HD hanging_subtree above(const subtree& at, const Across& across) const {
+        const bool left = at.first == 0 || (at.last != leaves - 1 && across(at.last) < across(at.first - 1));
+        return left ? hanging_subtree{2 * at.last, at.first} : hanging_subtree{2 * (at.first - 1) + 1, at.last};
+    }
+    ABUT_HD void put(std::uint32_t place, const aabb<T>& box, bvh_child is) const {
+        nodes[place / 2].bounds[place % 2] = box;
+        nodes[place / 2].child[place % 2] = is;
     }
     ABUT_CALLS_ANY
     template <class Late>
-    ABUT_HD void leave(std::uint32_t place, std::uint32_t token, const aabb<T>& box, bvh_child is, Late&& late) const {
-        nodes[place / 2].bounds[place % 2] = box;
-        nodes[place / 2].child[place % 2] = is;
-        late.push(hanging_subtree{place, token});
+    ABUT_HD void leave(const hanging_subtree& at, const aabb<T>& box, bvh_child is, Late&& late) const {
+        put(at.place, box, is);
+        late.push(at);
     }
     ABUT_CALLS_ANY
     template <class Ready, class Late>
     ABUT_HD void hang(const subtree& at, std::uint32_t first_node, shared& with, Ready&& ready, Late&& late) const {
-        if (tree.is_all(at)) {
-            *root = {at.box, at.child};
-            return;
-        }
-        const auto reader = tree.near(first_node, with.tree);
-        const std::uint32_t place = tree.above(at, reader), token = tree.token(at, place, reader), side = place % 2;
-        const std::uint32_t k = place / 2 - first_node;  // unsigned: beyond the group, or before it
-        if (k >= group) return leave(place, token, at.box, at.child, late);
+        if (is_all(at)) return;
+        const hanging_subtree next = above(at, [&](std::uint32_t k) -> distance {
+            return {with.across[k + 1 - first_node], k ^ (k + 1)};
+        });
+        const std::uint32_t side = next.place % 2, k = next.place / 2 - first_node;  // unsigned: or before the group
+        if (k >= group) return leave(next, at.box, at.child, late);
         with.nodes.put(side, k, at.box, at.child);
-        with.token[side][k] = token;
+        with.end[side][k] = next.end;
         if (execution::increment_in_group(&with.visitors[k]) == 1) ready.push(k);
     }
 };
 
-/// Climbs from `count` indices through a tree of n shapes.
-template <scalar T, execution_policy Policy, class Tree, class... Queues>
-void climb_all(const Policy& on, const Tree& tree, std::size_t count, std::size_t n, bvh_node<T>* nodes, bvh_root<T>* root,
-               Queues&... queues) {
+/// Sorts n > 0 shapes by the first `bits` bits of their codes and builds the tree; its root holds the scene's box. Returns
+/// how many shapes have a code that the eighth one after them has too.
+template <class Code, execution_policy Policy, scalar T, class Storage>
+std::uint64_t build_lbvh(const Policy& on, const execution::buffer_of<Policy, aabb<T>>& boxes, Storage& tree, int bits) {
+    using climb_type = climb<Code, T, space_of<Policy>>;
+    const std::size_t n = boxes.size();
+    const auto order = order_leaves<Code, Policy, T>(on, boxes, tree.root.data(), bits);
+    execution::work_count<space_of<Policy>> crowded(on);
     execution::buffer_of<Policy, std::uint32_t> reached(on, n - 1);
-    execution::work_queue<hanging_subtree, space_of<Policy>> late(on, count);
-    fill(on, reached.data(), n - 1, climb<Tree, T, space_of<Policy>>::nobody);
-    const climb<Tree, T, space_of<Policy>> each{tree, reached.data(), nodes, root};
-    for_each_in_groups(on, count, each, each, late, queues...);
+    execution::work_queue<hanging_subtree, space_of<Policy>> late(on, n);
+    fill(on, reached.data(), n - 1, climb_type::nobody);
+    const climb_type each{boxes.data(),       static_cast<std::uint32_t>(n),
+                          order.codes.data(), order.ids.data(),
+                          reached.data(),     tree.nodes.data(),
+                          tree.root.data()};
+    for_each_in_groups(on, n, each, each, late, crowded);
+    return crowded.total();
 }
 
 }  // namespace abut::detail

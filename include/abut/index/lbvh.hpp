@@ -8,11 +8,9 @@
 #include <cstdint>
 #include <memory>
 
-#include <abut/execution/work_queue.hpp>
 #include <abut/index/binned_sah.hpp>
 #include <abut/index/bvh.hpp>
 #include <abut/index/climb.hpp>
-#include <abut/index/leaf_order.hpp>
 #include <abut/index/mean_split.hpp>
 #include <abut/index/operand.hpp>
 #include <abut/index/ploc.hpp>
@@ -41,99 +39,6 @@ struct merge_boxes {
         return merge(a, b);
     }
 };
-
-/// Leaves sorted by code, to climb through (index/climb.hpp). Node k lies between leaves k and k + 1. A range of leaves
-/// [first, last] joins its neighbour across the closer of its two borders; its token is the end that is far from there.
-template <class Code, scalar T>
-struct sorted_leaves {
-    const aabb<T>* boxes;
-    std::size_t shapes;
-    const Code* codes;
-    const std::uint32_t* ids;
-
-    struct subtree {
-        aabb<T> box;
-        bvh_child child;
-        std::uint32_t first, last;
-    };
-
-    ABUT_CALLS_ANY
-    template <class Hang>
-    ABUT_HD void start(std::size_t i, const Hang& hang) const {
-#if !ABUT_DEVICE_CODE
-        // A processor would wait for each box in turn; so what comes later is asked for now.
-        constexpr std::size_t ahead = 16;
-        if (i + ahead < shapes) __builtin_prefetch(boxes + ids[i + ahead]);
-#endif
-        const auto leaf = static_cast<std::uint32_t>(i);
-        hang(subtree{boxes[ids[i]], bvh_child::leaf(ids[i]), leaf, leaf});
-    }
-    ABUT_CALLS_ANY
-    template <class Count>
-    ABUT_HD void notice(std::size_t i, Count& crowded) const {
-        crowded.add(is_crowded<Code>{codes, shapes}(i));
-    }
-    [[nodiscard]] ABUT_HD bool is_all(const subtree& at) const { return at.first == 0 && at.last == last_leaf(); }
-    template <class Reader>
-    [[nodiscard]] ABUT_HD std::uint32_t above(const subtree& at, const Reader& across) const {
-        const bool left = at.first == 0 || (at.last != last_leaf() && across(at.last) < across(at.first - 1));
-        return left ? 2 * at.last : 2 * (at.first - 1) + 1;
-    }
-    template <class Reader>
-    [[nodiscard]] ABUT_HD std::uint32_t token(const subtree& at, std::uint32_t place, const Reader&) const {
-        return place % 2 == 0 ? at.first : at.last;
-    }
-    [[nodiscard]] ABUT_HD subtree joined(std::uint32_t left, std::uint32_t right) const { return {{}, {}, left, right}; }
-
-    /// How far apart leaves k and k + 1 are: the highest bit in which their codes, and between equal codes their positions,
-    /// differ. Comparing the numbers compares those bits, since no two borders of one range share their highest bit.
-    struct distance {
-        Code code;
-        std::uint32_t position;
-        ABUT_HD bool operator<(const distance& other) const {
-            return code < other.code || (code == other.code && position < other.position);
-        }
-    };
-    struct far_reader {
-        const Code* codes;
-        ABUT_HD distance operator()(std::uint32_t k) const {
-            return {static_cast<Code>(codes[k] ^ codes[k + 1]), k ^ (k + 1)};
-        }
-    };
-    [[nodiscard]] ABUT_HD far_reader far() const { return {codes}; }
-
-    /// Between the leaves of a group, and before the first one of them.
-    struct local {
-        Code across[execution::group_size + 1];
-    };
-    struct near_reader {
-        const Code* across;
-        std::uint32_t before;  ///< what across[0] is of
-        ABUT_HD distance operator()(std::uint32_t k) const { return {across[k - before], k ^ (k + 1)}; }
-    };
-    ABUT_HD void load(std::size_t first, unsigned k, local& to) const {
-        if (first + k + 1 < shapes) to.across[k + 1] = codes[first + k] ^ codes[first + k + 1];
-        if (k == 0 && first > 0) to.across[0] = codes[first - 1] ^ codes[first];
-    }
-    [[nodiscard]] ABUT_HD near_reader near(std::size_t first, const local& from) const {
-        return {from.across, static_cast<std::uint32_t>(first) - 1};
-    }
-
-private:
-    [[nodiscard]] ABUT_HD std::uint32_t last_leaf() const { return static_cast<std::uint32_t>(shapes) - 1; }
-};
-
-/// Sorts the shapes by the first `bits` bits of their codes and builds the tree. Returns how many shapes have a code that
-/// the eighth one after them has too.
-template <class Code, execution_policy Policy, scalar T, class Storage>
-std::uint64_t build_lbvh(const Policy& on, const execution::buffer_of<Policy, aabb<T>>& boxes, Storage& tree, int bits) {
-    const std::size_t n = boxes.size();
-    const auto order = order_leaves<Code, Policy, T>(on, boxes, tree.root.data(), bits);
-    execution::work_count<space_of<Policy>> crowded(on);
-    const sorted_leaves<Code, T> leaves{boxes.data(), n, order.codes.data(), order.ids.data()};
-    climb_all(on, leaves, n, n, tree.nodes.data(), tree.root.data(), crowded);
-    return crowded.total();
-}
 
 /// Builds by one of the top-down builders, where the policy has them. False if another is asked for.
 template <execution_policy Policy, shape_view Shapes, class Storage>

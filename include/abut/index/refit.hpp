@@ -164,7 +164,9 @@ private:
     [[nodiscard]] ABUT_HD static unsigned right(const refit_step& step) {
         return step.right == step.border ? step.border + 1u : group + step.right;
     }
-    [[nodiscard]] ABUT_HD static const refit_step& last(const shared& with) { return with.steps[with.starts[with.turns] - 1]; }
+    [[nodiscard]] ABUT_HD static const refit_step& last(const shared& with) {
+        return with.steps[with.starts[with.turns] - 1];
+    }
 };
 
 /// Boxes of runs of groups: in row j those of 2^j groups, from each group on. Runs stay within 256 groups; those that would
@@ -275,8 +277,8 @@ void refit_nodes(const Policy& on, const Shapes& shapes, const Storage& old, Sto
     }
     for_each_in_turns(on, groups, runs{table.data(), groups});
     for_each_index(on, plan.spanning.size(),
-                   refit_spanning<T>{plan.spanning.data(), count, groups, table.data(), in_group.data(),
-                                     fresh.nodes.data(), fresh.root.data()});
+                   refit_spanning<T>{plan.spanning.data(), count, groups, table.data(), in_group.data(), fresh.nodes.data(),
+                                     fresh.root.data()});
 }
 
 template <shape_view Shapes>
@@ -295,8 +297,9 @@ struct refit_single {
 /// The set may be of another kind than the tree's. It is brought to the policy's memory and checked as by make_bvh; a tree
 /// in another layout than the standard one is refitted before it is converted. Returns when the boxes are there. The first
 /// refit of a topology also derives in what order boxes are made, which takes longer than the refit itself: some 21 bytes a
-/// shape, which all trees that come of it share, `tree` too: under cuda the stream of that first refit has to outlive them all. Throws invalid_geometry (views
-/// only), error (another number of shapes, a tree on another device), std::bad_alloc, cuda_error.
+/// shape, which all trees that come of it share, `tree` too: under cuda the stream of that first refit has to outlive them
+/// all. Throws invalid_geometry (views only), error (another number of shapes, a tree on another device), std::bad_alloc,
+/// cuda_error.
 template <execution_policy Policy, class OldSet, memory_space Space, bvh_layout_kind Layout, class Set>
 [[nodiscard]] auto refit(const Policy& on, const bvh<OldSet, Space, Layout>& tree, const Set& set) {
     static_assert(std::same_as<Layout, standard_layout>,

@@ -266,9 +266,9 @@ void make_refit_plan(const Policy& on, const bvh_node<T>* nodes, std::size_t cou
     numbers below(on, 2 * count), keys(on, count), borders(on, count);
     fill(on, above.data(), count, no_place);
     fill(on, reached.data(), count, no_place);
-    for_each_index(on, count,
-                   write_group_trees<T>{nodes, ranges.data(), node_at.data(), below.data(), above.data(), keys.data(),
-                                        borders.data()});
+    for_each_index(
+        on, count,
+        write_group_trees<T>{nodes, ranges.data(), node_at.data(), below.data(), above.data(), keys.data(), borders.data()});
     for_each_index(on, count, fold_up<group_trees>{{below.data(), above.data(), keys.data()}, reached.data()});
     sort_by_key(on, keys, borders, group_trees::turn_bits + bits_up_to(count / execution::group_size));
 
