@@ -8,7 +8,8 @@
 //   build/BUILDER/POLICY             a tree over one mesh, of any builder
 //   build/embree_QUALITY/serial      the peer's (bench/builders/)
 //   refit/BUILDER/POLICY             such a tree around the turned mesh
-//   convert/LAYOUT/POLICY            such a tree in another layout; convert/wide/BUILDER/POLICY depends on the builder
+//   convert/LAYOUT/POLICY            such a tree in another layout; convert/LAYOUT/BUILDER/POLICY depends on the builder.
+//                                    Layouts by their names; oriented, sphere and kdop18 are trees of these volumes
 //   pairs/baked/BUILDER/LAYOUT       pairs of two trees, sorted, on one core; counters hold what `quality` says of the first
 //   unsorted/baked/BUILDER/LAYOUT    the same, unsorted, as the peer's unsorted/embree_QUALITY/serial
 //   pairs/posed/BUILDER/LAYOUT       the same, the second being the first tree under a pose
@@ -97,6 +98,22 @@ void add_queries(const std::string& suffix, const Tree& a, const Tree& b) {
     add_pairs("one_sided/", b.set());
 }
 
+/// Of trees by the surface area heuristic.
+template <class Volume, class Tree>
+void add_volume(const std::string& name, const Tree& tree_a, const Tree& tree_b) {
+    const abut::serial on;
+    const auto a = abut::bounded_by<Volume>(on, tree_a), b = abut::bounded_by<Volume>(on, tree_b);
+    add("unsorted/baked/sah/" + name, false, [=](benchmark::State& state) {
+        for (auto _ : state) benchmark::DoNotOptimize(pairs(on, a, b, {.sorted = false}).size());
+    });
+    add("pairs/posed/sah/" + name, false, [=, posed_a = posed(a, scene::the_pair->pose)](benchmark::State& state) {
+        for (auto _ : state) benchmark::DoNotOptimize(pairs(on, a, posed_a).size());
+    });
+    add("convert/" + name + "/sah/serial", false, [=](benchmark::State& state) {
+        for (auto _ : state) benchmark::DoNotOptimize(abut::bounded_by<Volume>(on, tree_a).size());
+    });
+}
+
 void add_all() {
     const abut::mesh<float> a(scene::the_pair->a.vertices, scene::the_pair->a.faces);
     const abut::mesh<float> b(scene::the_pair->b.vertices, scene::the_pair->b.faces);
@@ -111,17 +128,9 @@ void add_all() {
         add_queries(start + "leafless", leafless(on, tree_a), leafless(on, tree_b));
         add_queries(start + "wide", wide(on, tree_a), wide(on, tree_b));
         if (builder == abut::bvh_builder::sah) {
-            const auto boxes_a = oriented(on, tree_a), boxes_b = oriented(on, tree_b);
-            add("unsorted/baked/sah/oriented", false, [=](benchmark::State& state) {
-                for (auto _ : state) benchmark::DoNotOptimize(pairs(on, boxes_a, boxes_b, {.sorted = false}).size());
-            });
-            add("pairs/posed/sah/oriented", false,
-                [=, posed_a = posed(boxes_a, scene::the_pair->pose)](benchmark::State& state) {
-                    for (auto _ : state) benchmark::DoNotOptimize(pairs(on, boxes_a, posed_a).size());
-                });
-            add("convert/oriented/sah/serial", false, [=](benchmark::State& state) {
-                for (auto _ : state) benchmark::DoNotOptimize(oriented(on, tree_a).size());
-            });
+            add_volume<abut::obb<float>>("oriented", tree_a, tree_b);
+            add_volume<abut::sphere<float>>("sphere", tree_a, tree_b);
+            add_volume<abut::kdop<float, 18>>("kdop18", tree_a, tree_b);
         }
     }
 }

@@ -99,6 +99,8 @@ void add_any() {
         add_any_of(s, "sah", tree_a, tree_b);
         add_any_of(s, "sah_wide", wide(on, tree_a), wide(on, tree_b));
         add_any_of(s, "sah_oriented", oriented(on, tree_a), oriented(on, tree_b));
+        add_any_of(s, "sah_kdop18", abut::bounded_by<abut::kdop<float, 18>>(on, tree_a),
+                   abut::bounded_by<abut::kdop<float, 18>>(on, tree_b));
     }
 }
 

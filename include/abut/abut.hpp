@@ -11,6 +11,7 @@
 #include <abut/collide/validate.hpp>
 #include <abut/config.hpp>
 #include <abut/error.hpp>
+#include <abut/index/bounded.hpp>
 #include <abut/index/bvh.hpp>
 #include <abut/index/grid.hpp>
 #include <abut/index/lbvh.hpp>
@@ -18,7 +19,6 @@
 #include <abut/index/quality.hpp>
 #include <abut/index/quantised.hpp>
 #include <abut/index/refit.hpp>
-#include <abut/index/oriented.hpp>
 #include <abut/index/wide.hpp>
 #include <abut/narrow/contact.hpp>
 #include <abut/predicate/intersects.hpp>

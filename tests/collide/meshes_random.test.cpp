@@ -35,7 +35,7 @@ constexpr std::pair<const char*, bvh_options> builders[] = {
     {"sah", {.builder = bvh_builder::sah}},
     {"ploc", {.builder = bvh_builder::ploc}},
 };
-constexpr const char* layouts[] = {"standard", "quantised", "leafless", "wide", "oriented"};
+constexpr const char* layouts[] = {"standard", "quantised", "leafless", "wide", "oriented", "spheres", "18-DOPs"};
 /// From here on layouts are for both sides of a query, and compiled for these alone.
 constexpr int first_for_both = 3;
 constexpr const char* questions[] = {"pairs", "unsorted", "exact", "count", "any", "one tree"};
@@ -153,6 +153,8 @@ void with_tree(const Policy& on, const mesh<T>& shape, const tree_kind& kind, co
         if (kind.layout == 2) use(leafless(on, tree));
         if (kind.layout == 3) use(wide(on, tree));
         if (kind.layout == 4) use(oriented(on, tree));
+        if (kind.layout == 5) use(bounded_by<sphere<T>>(on, tree));
+        if (kind.layout == 6) use(bounded_by<kdop<T, 18>>(on, tree));
     }
 }
 
@@ -165,7 +167,8 @@ struct layout_of<posed_object<Tree>> : layout_of<Tree> {};
 template <class Tree, class Layout>
 inline constexpr bool has_layout = std::same_as<typename layout_of<Tree>::type, Layout>;
 template <class Tree>
-inline constexpr bool is_for_both = has_layout<Tree, wide_layout> || has_layout<Tree, oriented_layout>;
+inline constexpr bool is_for_both =
+    !has_layout<Tree, standard_layout> && !has_layout<Tree, quantised_layout> && !has_layout<Tree, leafless_layout>;
 template <class X, class Y>
 inline constexpr bool may_meet = has_layout<X, typename layout_of<Y>::type> || (!is_for_both<X> && !is_for_both<Y>);
 

@@ -109,13 +109,13 @@ struct batch_sides {
     batch_key key;
 };
 
-/// Boxes of a member's two frames.
+/// Volumes of a member's two frames.
 template <scalar T>
 struct frames_at {
     const relative_pose<T>* b_to_a;
-    template <class Box>
-    ABUT_HD bool operator()(const Box& a, const Box& b) const {
-        return overlaps(a, *b_to_a, b);
+    template <class Volume>
+    ABUT_HD bool operator()(const Volume& a, const Volume& b) const {
+        return overlaps_posed(a, *b_to_a, b);
     }
     ABUT_INLINE ABUT_HD auto operator()(const box_lanes<T>& a, const box_lanes<T>& b) const {
         return overlaps(a, *b_to_a, b);

@@ -3,7 +3,7 @@
 
 // Bounding volume hierarchies: how a tree lies in memory, who owns it, and how it is read. Builders are in files of their
 // own (lbvh.hpp, mean_split.hpp, binned_sah.hpp, ploc.hpp), and so are the layouts that a finished tree can be brought to
-// (quantised.hpp, leafless.hpp, wide.hpp, oriented.hpp); traversals are in traverse/ and read nodes through the accessor
+// (quantised.hpp, leafless.hpp, wide.hpp, bounded.hpp); traversals are in traverse/ and read nodes through the accessor
 // concept below alone, so that another layout needs no second traversal.
 
 #include <concepts>
@@ -185,7 +185,7 @@ struct standard_layout {
     };
 };
 
-/// How a tree lies in memory: standard_layout, quantised_layout, leafless_layout, wide_layout, oriented_layout (in headers
+/// How a tree lies in memory: standard_layout, quantised_layout, leafless_layout, wide_layout, bounded_layout<V> (in headers
 /// of these names). A layout names the view that traversals read and the storage that owns it, which has `view_of(shapes)`,
 /// `bytes()`, `to_host()` and the buffer `root` of one bvh_root, whose box holds every box that the view hands out.
 template <class L>

@@ -14,7 +14,7 @@
 namespace abut {
 
 /// What `quality` measures of a tree. Surfaces are those of the boxes that a walk sees, so a layout whose boxes are larger
-/// than they were built shows it here; of oriented boxes, which this is not for, those of the boxes around them. Where the
+/// than they were built shows it here; of other volumes, which this is not for, those of the boxes around them. Where the
 /// root's box has no surface, every box counts as large as the root's.
 struct bvh_quality {
     std::size_t shapes = 0;

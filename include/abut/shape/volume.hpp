@@ -28,16 +28,29 @@ concept triangle_range = requires(const R& triangles, std::size_t i) {
 
 namespace detail {
 
+/// A volume's scalar type, and a volume of the same kind with another one.
 template <class V>
 struct volume_scalar;
 template <template <class> class V, scalar T>
 struct volume_scalar<V<T>> {
     using type = T;
+    template <scalar U>
+    using rebound = V<U>;
 };
 template <scalar T, int K>
 struct volume_scalar<kdop<T, K>> {
     using type = T;
+    template <scalar U>
+    using rebound = kdop<U, K>;
 };
+
+/// Whether a volume merged from two is as small as one made around all that they hold.
+template <class V>
+inline constexpr bool merges_tightly = false;
+template <scalar T>
+inline constexpr bool merges_tightly<aabb<T>> = true;
+template <scalar T, int K>
+inline constexpr bool merges_tightly<kdop<T, K>> = true;
 
 template <class T>
 struct one_triangle {

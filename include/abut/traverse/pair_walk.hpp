@@ -11,17 +11,17 @@
 #include <abut/arithmetic/lanes.hpp>
 #include <abut/index/bvh.hpp>
 #include <abut/shape/box_lanes.hpp>
-#include <abut/shape/obb.hpp>
 #include <abut/shape/relative_pose.hpp>
+#include <abut/shape/volume.hpp>
 
 namespace abut::detail {
 
-// How boxes of two trees are compared: one with one, along the axes or oriented, or four with four, which gives a lane_mask.
+// How volumes of two trees are compared: one with one, of one kind, or boxes four with four, which gives a lane_mask.
 
-/// Boxes of one frame.
+/// Volumes of one frame.
 struct same_frame {
-    template <class Box>
-    ABUT_HD bool operator()(const Box& a, const Box& b) const {
+    template <class Volume>
+    ABUT_HD bool operator()(const Volume& a, const Volume& b) const {
         return overlaps(a, b);
     }
     template <scalar T>
@@ -30,13 +30,24 @@ struct same_frame {
     }
 };
 
-/// Boxes of two frames (shape/relative_pose.hpp).
+/// Volumes of two frames (shape/relative_pose.hpp). Polytopes by their boxes: under a pose a slab takes as long as several
+/// boxes do, and queries that compared them all took two to ten times as long (docs/hierarchies.md).
+template <class Volume, scalar T>
+ABUT_INLINE ABUT_HD bool overlaps_posed(const Volume& a, const relative_pose<T>& b_to_a, const Volume& b) {
+    return overlaps(a, b_to_a, b);
+}
+template <scalar T, int K>
+ABUT_INLINE ABUT_HD bool overlaps_posed(const kdop<T, K>& a, const relative_pose<T>& b_to_a, const kdop<T, K>& b) {
+    return overlaps(bounds(a), b_to_a, bounds(b));
+}
+
+/// By one relative pose.
 template <scalar T>
 struct two_frames {
     relative_pose<T> b_to_a;
-    template <class Box>
-    ABUT_HD bool operator()(const Box& a, const Box& b) const {
-        return overlaps(a, b_to_a, b);
+    template <class Volume>
+    ABUT_HD bool operator()(const Volume& a, const Volume& b) const {
+        return overlaps_posed(a, b_to_a, b);
     }
     ABUT_INLINE ABUT_HD auto operator()(const box_lanes<T>& a, const box_lanes<T>& b) const {
         return overlaps(a, b_to_a, b);
@@ -51,11 +62,16 @@ concept wide_bvh_layout = bvh_layout<L> && L::width == 4 && requires(const L& tr
     { tree.all_bounds(tree.fetch(std::uint32_t{})) } -> std::same_as<box_lanes<typename L::scalar_type>>;
 };
 
-/// A layout whose boxes are oriented ones.
+/// A layout that hands out volumes, around which its boxes are.
 template <class L>
-concept oriented_bvh_layout = bvh_layout<L> && requires(const L& tree, int side) {
-    { tree.volume(tree.fetch(std::uint32_t{}), side) } -> std::convertible_to<obb<typename L::scalar_type>>;
+concept volume_bvh_layout = bvh_layout<L> && bounding_volume<typename L::volume_type> && requires(const L& tree, int side) {
+    { tree.volume(tree.fetch(std::uint32_t{}), side) } -> std::convertible_to<typename L::volume_type>;
 };
+
+/// Two that hand out volumes of one kind, which are then compared. All other pairs of trees are compared by their boxes.
+template <class A, class B>
+concept bvh_layouts_of_one_volume =
+    volume_bvh_layout<A> && volume_bvh_layout<B> && std::same_as<typename A::volume_type, typename B::volume_type>;
 
 /// Down both trees at once: an inner node has its children's boxes, so a step is two fetches and four tests (sixteen, in
 /// rows of four, where nodes have four children), and no box has to be kept. In which order steps are taken is the policy's
@@ -131,7 +147,7 @@ private:
         // A leaf is meant itself, of a node both children.
         const bool meant = (!at_a.is_leaf | (at_a.side == i)) & (!at_b.is_leaf | (at_b.side == j));
         bool meet;
-        if constexpr (oriented_bvh_layout<A> && oriented_bvh_layout<B>) {
+        if constexpr (bvh_layouts_of_one_volume<A, B>) {
             meet = meant && overlap(a.volume(of_a, i), b.volume(of_b, j));  // a test is worth the branch
         } else {
             meet = meant & overlap(a.bounds(of_a, i), b.bounds(of_b, j));

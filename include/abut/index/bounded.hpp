@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// bounded_by: a tree of any bounding volume (shape/volume.hpp), over the topology of a finished one. Trees of oriented boxes
+// (S. Gottschalk, M. Lin, D. Manocha, OBBTree, 1996) have a name of their own, oriented: where surfaces come close to each
+// other without touching, boxes that lie along them tell them apart many levels sooner than boxes along the axes do, and it
+// does not matter how the objects are turned.
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <abut/execution/buffer.hpp>
+#include <abut/execution/host.hpp>
+#include <abut/execution/parallel.hpp>
+#include <abut/index/bvh.hpp>
+#include <abut/index/operand.hpp>
+#include <abut/shape/volume.hpp>
+
+namespace abut {
+
+/// An inner node: its two children with their volumes, in whole cache lines in single precision.
+template <bounding_volume V>
+struct alignas(sizeof(typename detail::volume_scalar<V>::type) == 4 ? 64 : 16) bounded_node {
+    V volume[2];
+    bvh_child child[2];
+};
+
+/// A view of a tree of volumes. `bounds` is of the box along the axes around a volume, which is made anew each time.
+template <bounding_volume V, memory_space Space>
+struct bounded_view : bvh_view_base<typename detail::volume_scalar<V>::type, Space, bounded_node<V>> {
+    using volume_type = V;
+    using node_type = bounded_node<V>;
+    static constexpr bool nested = false;
+
+    [[nodiscard]] ABUT_HD const node_type& fetch(std::uint32_t node) const { return this->nodes[node]; }
+    [[nodiscard]] ABUT_HD static const V& volume(const node_type& n, int side) { return n.volume[side]; }
+    [[nodiscard]] ABUT_HD static auto bounds(const node_type& n, int side) { return abut::bounds(n.volume[side]); }
+    [[nodiscard]] ABUT_HD static bvh_child child(const node_type& n, int side) { return n.child[side]; }
+};
+
+/// Both children's volumes in their parent. Bytes a node in single and double precision: 64 and 80 for spheres, 128 and 256
+/// for oriented boxes, 128 and 240, 192 and 304, 256 and 432 for kdop of 14, 18 and 26 planes.
+template <bounding_volume V>
+struct bounded_layout {
+    template <scalar T, memory_space Space>
+    using view = bounded_view<typename detail::volume_scalar<V>::template rebound<T>, Space>;
+
+    template <scalar T, memory_space Space>
+    using storage = bvh_storage<bounded_layout, T, Space>;
+};
+
+namespace detail {
+
+/// Shapes in the order in which a walk from left to right meets them; those below a node, or in a leaf, lie side by side.
+struct leaves_in_order {
+    struct range {
+        std::uint32_t first, count;
+    };
+    std::vector<std::uint32_t> shapes;
+    std::vector<std::uint32_t> nodes_met;  ///< parents before their children
+    std::vector<range> of_node;
+
+    template <scalar T>
+    leaves_in_order(const bvh_node<T>* nodes, std::size_t node_count, bvh_child root) : of_node(node_count) {
+        shapes.reserve(node_count + 1);
+        std::vector<bvh_child> pending{root};
+        nodes_met.reserve(node_count);
+        while (!pending.empty()) {
+            const bvh_child at = pending.back();
+            pending.pop_back();
+            if (at.is_leaf()) {
+                shapes.push_back(at.index());
+                continue;
+            }
+            nodes_met.push_back(at.index());
+            of_node[at.index()].first = static_cast<std::uint32_t>(shapes.size());
+            pending.push_back(nodes[at.index()].child[1]);
+            pending.push_back(nodes[at.index()].child[0]);
+        }
+        children_first([&](std::uint32_t node) {
+            of_node[node].count = of(nodes[node].child[0]).count + of(nodes[node].child[1]).count;
+        });
+    }
+    /// Calls use(node) for all nodes, those below a node before it.
+    template <class Use>
+    void children_first(const Use& use) const {
+        for (std::size_t i = nodes_met.size(); i-- > 0;) use(nodes_met[i]);
+    }
+    /// Of a child that hangs at a node.
+    [[nodiscard]] range of(bvh_child child) const { return child.is_leaf() ? range{0, 1} : of_node[child.index()]; }
+};
+
+/// Triangles by their place in an order. For devices as well, since `around` is, though none gets here.
+template <shape_view Shapes>
+struct some_triangles {
+    const Shapes* shapes;
+    const std::uint32_t* ids;
+    std::size_t count;
+    [[nodiscard]] ABUT_HD std::size_t size() const { return count; }
+    [[nodiscard]] ABUT_HD auto operator[](std::size_t i) const { return (*shapes)[ids[i]]; }
+};
+
+}  // namespace detail
+
+/// A tree of volumes V of the same topology, for triangles and the host's policies. It shares the set and nothing else; the
+/// one it was made of may go. Each volume is as small as one made around all triangles in it. Oriented boxes and spheres are
+/// made so, in time proportional to the number of shapes times the depth of the tree: some thirty and seventy linear builds.
+/// kdop and aabb are merged from below, in linear time: some ten. Returns when it is done. Throws std::bad_alloc.
+///
+/// Two trees of one kind of volume are told apart by these, but of kdop under a pose by the boxes along the axes. Such boxes
+/// are what a tree of volumes stands for together with anything else, slowly where they have to be made at each look.
+///
+///     const auto tree = bounded_by<kdop<float, 18>>(on, make_bvh(on, mesh, {.builder = bvh_builder::sah}));
+template <bounding_volume V, execution_policy Policy, class Set, memory_space Space>
+[[nodiscard]] bvh<Set, Space, bounded_layout<V>> bounded_by(const Policy& on, const bvh<Set, Space>& tree) {
+    static_assert(host_policy<Policy> && std::same_as<Space, host_space>,
+                  "abut: trees of volumes are for the host's policies, serial and openmp");
+    using tree_type = bvh<Set, Space, bounded_layout<V>>;
+    using T = typename tree_type::scalar_type;
+    static_assert(std::same_as<typename detail::volume_scalar<V>::type, T>,
+                  "abut: the volumes and the tree's shapes differ in their scalar type");
+    static_assert(std::same_as<typename Set::shape_type, triangle<T>>, "abut: volumes are made around triangles alone");
+    const std::size_t n = tree.size();
+    auto fresh = std::make_shared<typename tree_type::storage>();
+    if (n > 0) {
+        const bvh_node<T>* const nodes = tree.view().nodes;
+        const bvh_root<T> root = *tree.view().top;
+        const auto shapes = detail::view_of(tree.set());
+        const detail::leaves_in_order leaves(nodes, n - 1, root.child);
+        fresh->nodes = execution::buffer_of<Policy, bounded_node<V>>(on, n - 1);
+        fresh->root = execution::buffer_of<Policy, bvh_root<T>>(on, 1);
+        bounded_node<V>* const to = fresh->nodes.data();
+        using triangles = detail::some_triangles<std::remove_const_t<decltype(shapes)>>;
+        // Nodes near the root take longest, and lie anywhere: small parts, dealt out as threads become free.
+        execution::for_each_range(execution::thread_count(on), n - 1, 16, [&](int, std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                for (int side = 0; side < 2; ++side) {
+                    const bvh_child child = nodes[i].child[side];
+                    to[i].child[side] = child;
+                    if (detail::merges_tightly<V> && !child.is_leaf()) continue;
+                    const std::uint32_t leaf = child.index();
+                    const auto [first, count] = leaves.of(child);
+                    to[i].volume[side] =
+                        around<V>(triangles{&shapes, child.is_leaf() ? &leaf : leaves.shapes.data() + first, count});
+                }
+            }
+        });
+        if constexpr (detail::merges_tightly<V>) {
+            leaves.children_first([to](std::uint32_t node) {
+                for (int side = 0; side < 2; ++side) {
+                    const bvh_child child = to[node].child[side];
+                    if (child.is_leaf()) continue;
+                    to[node].volume[side] = merge(to[child.index()].volume[0], to[child.index()].volume[1]);
+                }
+            });
+        }
+        // The root's box has to hold all that the view hands out.
+        const auto box_of_node = [to](std::size_t i) { return merge(bounds(to[i].volume[0]), bounds(to[i].volume[1])); };
+        const auto joined = [](const aabb<T>& a, const aabb<T>& b) { return merge(a, b); };
+        *fresh->root.data() = {reduce(on, n - 1, root.bounds, joined, box_of_node), root.child};
+    }
+    return tree_type(tree.set(), std::move(fresh));
+}
+
+/// A tree of oriented boxes, fitted along the principal axes of the corners in them; two are told apart by fifteen axes. It
+/// pays for queries that come close and touch little, again and again: nested or neighbouring surfaces, `any`.
+///
+///     const auto tree = oriented(on, make_bvh(on, mesh, {.builder = bvh_builder::sah}));
+template <execution_policy Policy, class Set, memory_space Space>
+[[nodiscard]] bvh<Set, Space, bounded_layout<obb<typename Set::scalar_type>>> oriented(const Policy& on,
+                                                                                       const bvh<Set, Space>& tree) {
+    return bounded_by<obb<typename Set::scalar_type>>(on, tree);
+}
+
+}  // namespace abut
