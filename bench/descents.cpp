@@ -2,12 +2,13 @@
 //
 // usage: bench_descents [MESH...]
 //
-// Which of two trees to descend first: boxes compared, and the time that comparing takes on one core, for four rules, over
-// the pair of bench/meshes_scene.hpp made of each mesh (PLY or OBJ; without one a torus). A plain recursion that decides
-// nothing: the library descends both at once (traverse/pair_walk.hpp), and this says why. Then the tests of that rule by
-// depth, as tables of Markdown.
+// Which of two trees to descend first: boxes compared, and the time that the walk takes on one core, for each traversal,
+// over the pair of bench/meshes_scene.hpp made of each mesh (PLY or OBJ; without one a torus). A plain recursion counts, the
+// library walks, with a filter that refuses every pair, so that nothing is decided. Then the boxes that both at once
+// compares by depth, as tables of Markdown.
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -21,10 +22,16 @@
 
 namespace {
 
-using tree_view = abut::bvh_view<float, abut::host_space>;
+using tree = abut::bvh<abut::mesh<float>, abut::host_space>;
+using abut::traversal;
 
-enum class rule { one_first, larger_first, alternate, both_at_once };
-constexpr const char* rule_names[] = {"one first", "larger first", "alternate", "both at once"};
+constexpr const char* names[] = {"both at once", "one first", "larger first", "alternate", "breadth first"};
+
+/// Refuses every pair, but no compiler knows.
+struct refuse_all {
+    std::uint32_t wanted;
+    bool operator()(std::uint32_t a, std::uint32_t) const { return a == wanted; }
+};
 
 struct tally {
     std::uint64_t tests = 0, leaves = 0;
@@ -36,9 +43,9 @@ float surface(const abut::aabb<float>& box) {
     return d.x * d.y + d.y * d.z + d.z * d.x;
 }
 
-template <rule Rule>
+template <traversal Rule>
 struct descent {
-    tree_view a, b;
+    tree::view_type a, b;
     tally& seen;
 
     /// Two subtrees whose boxes meet.
@@ -50,9 +57,9 @@ struct descent {
         }
         bool open_x = !x.is_leaf(), open_y = !y.is_leaf();
         if (open_x && open_y) {
-            if (Rule == rule::one_first) open_y = false;
-            if (Rule == rule::larger_first) (surface(box_x) >= surface(box_y) ? open_y : open_x) = false;
-            if (Rule == rule::alternate) (last_was_x ? open_x : open_y) = false;
+            if (Rule == traversal::one_first) open_y = false;
+            if (Rule == traversal::larger_first) (surface(box_x) >= surface(box_y) ? open_y : open_x) = false;
+            if (Rule == traversal::alternate) (last_was_x ? open_x : open_y) = false;
         }
         const int sides_x = open_x ? 2 : 1, sides_y = open_y ? 2 : 1;
         for (int i = 0; i < sides_x; ++i) {
@@ -69,27 +76,34 @@ struct descent {
     }
 };
 
-template <rule Rule>
-tally measure(const tree_view& a, const tree_view& b, double& ms) {
-    std::vector<double> times;
-    tally seen;
-    for (int run = 0; run < 11; ++run) {
-        seen = {};
+/// Median of 11 runs.
+template <traversal Traversal>
+double ms_of(const tree& a, const tree& b) {
+    const abut::query_options<refuse_all, Traversal> options{.filter = {0xffffffff}, .start_depth = 0};
+    std::array<double, 11> times;
+    for (double& t : times) {
         const auto start = std::chrono::steady_clock::now();
-        descent<Rule>{a, b, seen}.meet(a.root(), a.root_bounds(), b.root(), b.root_bounds(), 0, false);
-        times.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+        const std::uint64_t none = count(abut::serial{}, a, b, options);
+        t = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+        if (none != 0) throw abut::error("bench_descents: a pair that was refused");
     }
     std::sort(times.begin(), times.end());
-    ms = times[times.size() / 2];
-    return seen;
+    return times[times.size() / 2];
 }
 
-template <rule Rule>
-tally print_row(const tree_view& a, const tree_view& b) {
-    double ms = 0;
-    tally seen = measure<Rule>(a, b, ms);
-    std::printf("| %s | %llu | %.2f | %llu |\n", rule_names[static_cast<int>(Rule)],
-                static_cast<unsigned long long>(seen.tests), ms, static_cast<unsigned long long>(seen.leaves));
+template <traversal Traversal>
+void print_row(const tree& a, const tree& b, const tally& seen) {
+    std::printf("| %s | %llu | %.2f | %llu |\n", names[static_cast<int>(Traversal)],
+                static_cast<unsigned long long>(seen.tests), ms_of<Traversal>(a, b),
+                static_cast<unsigned long long>(seen.leaves));
+}
+
+template <traversal Traversal>
+tally print_row(const tree& a, const tree& b) {
+    tally seen;
+    const auto x = a.view(), y = b.view();
+    descent<Traversal>{x, y, seen}.meet(x.root(), x.root_bounds(), y.root(), y.root_bounds(), 0, false);
+    print_row<Traversal>(a, b, seen);
     return seen;
 }
 
@@ -104,10 +118,11 @@ void print_tables(const std::string& path) {
         std::printf(
             "%s, %zu triangles, `%s`\n\n| descend | boxes compared | ms | pairs of leaves |\n| --- | ---: | ---: | ---: |\n",
             path.empty() ? "torus" : path.c_str(), a.size(), name);
-        print_row<rule::one_first>(a.view(), b.view());
-        print_row<rule::larger_first>(a.view(), b.view());
-        print_row<rule::alternate>(a.view(), b.view());
-        const tally seen = print_row<rule::both_at_once>(a.view(), b.view());
+        print_row<traversal::one_first>(a, b);
+        print_row<traversal::larger_first>(a, b);
+        print_row<traversal::alternate>(a, b);
+        const tally seen = print_row<traversal::both_at_once>(a, b);
+        print_row<traversal::breadth_first>(a, b, seen);  // from the roots, it compares the same boxes
         std::printf("\nBoth at once, boxes compared by depth:");
         for (std::size_t depth = 0; depth < seen.by_depth.size() && seen.by_depth[depth] > 0; ++depth) {
             std::printf(" %llu", static_cast<unsigned long long>(seen.by_depth[depth]));

@@ -8,6 +8,7 @@
 //   build/bvh/POLICY            a linear BVH over one of them; the peers build trees of their own (bench/meshes/)
 //   QUERY/baked/POLICY          pairs, unsorted, count or any between two trees, the second over the turned copy
 //   QUERY/posed/POLICY          the same, the second being the first tree under a pose
+//   traversal/NAME              unsorted/baked on one core by each traversal but the default; breadth first with its depth
 //   one_sided/pairs/POLICY      one tree, and the shapes of the other mesh
 //   any/SCENE/KIND/BUILDER      whether anything touches, on one core, in the scenes of bench/any_scenes.hpp; counters hold
 //                               the number of pairs and the answer. Of posed shells, the inner one has the identity as pose.
@@ -73,6 +74,24 @@ void add_policy(const Policy& on) {
     });
 }
 
+template <abut::traversal Traversal>
+void add_traversal(const std::string& name, int start_depth = 0) {
+    const abut::serial on;
+    const auto a = make_bvh(on, mesh_of(scene::the_pair->a)), b = make_bvh(on, mesh_of(scene::the_pair->b));
+    const abut::query_options<abut::keep_all, Traversal> options{.sorted = false, .start_depth = start_depth};
+    add("traversal/" + name, false, [on, a, b, options](benchmark::State& state) {
+        for (auto _ : state) benchmark::DoNotOptimize(pairs(on, a, b, options).size());
+    });
+}
+
+void add_traversals() {
+    using enum abut::traversal;
+    add_traversal<one_first>("one_first");
+    add_traversal<larger_first>("larger_first");
+    add_traversal<alternate>("alternate");
+    for (const int depth : {0, 6}) add_traversal<breadth_first>("breadth_first/" + std::to_string(depth), depth);
+}
+
 /// One scene, with trees a and b of one kind.
 template <class Tree>
 void add_any_of(const scene::any_scene& s, const std::string& tree, const Tree& tree_a, const Tree& tree_b) {
@@ -110,6 +129,7 @@ int main(int argc, char** argv) {
     return meshes_scene::run(argc, argv, [] {
         add_policy(abut::serial{});
         add_policy(abut::openmp{});
+        add_traversals();
         scene::any_scenes = scene::make_any_scenes(scene::the_pair->a);
         add_any();
     });

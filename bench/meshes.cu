@@ -6,6 +6,7 @@
 // policy cuda, all data resident before the clock starts; and
 //
 //   pairs/baked_with_build/cuda          one of the trees built in the call
+//   traversal/NAME/cuda                  unsorted/baked by each traversal but the default; breadth first with its depth
 //   near/WHAT/cuda                       the mesh against its copy moved by (.0003, .0002, .0001) of its box: pairs, and
 //                                        boxes, the walk of both trees with a filter that refuses every pair
 //   batch/N/cuda                         N posed pairs of a small mesh in one call (SMALL, or a torus of 2,700 triangles)
@@ -43,6 +44,13 @@ struct refuse_all {
     ABUT_HD bool operator()(std::uint32_t a, std::uint32_t) const { return a == wanted; }
 };
 
+template <abut::traversal Traversal, class Tree>
+void add_traversal(const abut::cuda& on, table& out, const std::string& name, const Tree& a, const Tree& b,
+                   int start_depth = 0) {
+    const abut::query_options<abut::keep_all, Traversal> options{.sorted = false, .start_depth = start_depth};
+    out.add(joined({"traversal", name, "cuda"}), 0, [&] { return of(pairs(on, a, b, options).size()); });
+}
+
 void add_pair(const abut::cuda& on, table& out, const meshes_scene::mesh_pair& pair) {
     const device_mesh a(on, pair.a.vertices, pair.a.faces), b(on, pair.b.vertices, pair.b.faces);
     const auto tree_a = make_bvh(on, a), tree_b = make_bvh(on, b);
@@ -58,6 +66,13 @@ void add_pair(const abut::cuda& on, table& out, const meshes_scene::mesh_pair& p
         out.add(joined({"boxes", kind, "cuda"}), 0, [&] { return of(count(on, tree_a, other, none)); });
     };
     add_queries("baked", tree_b);
+    using enum abut::traversal;
+    add_traversal<one_first>(on, out, "one_first", tree_a, tree_b);
+    add_traversal<larger_first>(on, out, "larger_first", tree_a, tree_b);
+    add_traversal<alternate>(on, out, "alternate", tree_a, tree_b);
+    for (const int depth : {0, 4, 6, 8}) {
+        add_traversal<breadth_first>(on, out, joined({"breadth_first", std::to_string(depth)}), tree_a, tree_b, depth);
+    }
     add_queries("posed", posed(tree_a, pair.pose));
     out.add("contacts/baked/cuda", 0, [&] { return of(contacts(on, tree_a, tree_b).size()); });
     out.add("contacts/posed/cuda", 0, [&] { return of(contacts(on, tree_a, posed(tree_a, pair.pose)).size()); });

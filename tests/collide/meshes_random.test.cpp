@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 
 // Random runs: two random meshes of 1 to 200 triangles under random poses, a tree over each of any builder, built or
-// refitted, in any layout, and a query of any kind, on either policy of the host. No pair is lost and none is made up: the
-// truth is a plain loop over `intersects<exact>`. Run k of a seed is the same run everywhere.
+// refitted, in any layout, and a query of any kind and traversal, on either policy of the host. No pair is lost and none is
+// made up: the truth is a plain loop over `intersects<exact>`. Run k of a seed is the same run everywhere.
 
 #include "collide/mesh_cases.hpp"
 
@@ -38,7 +38,9 @@ constexpr std::pair<const char*, bvh_options> builders[] = {
 constexpr const char* layouts[] = {"standard", "quantised", "leafless", "wide", "oriented", "spheres", "18-DOPs"};
 /// From here on layouts are for both sides of a query, and compiled for these alone.
 constexpr int first_for_both = 3;
-constexpr const char* questions[] = {"pairs", "unsorted", "exact", "count", "any", "one tree"};
+constexpr const char* questions[] = {"pairs",    "unsorted",  "exact",        "count",     "any",
+                                     "one tree", "one first", "larger first", "alternate", "breadth first"};
+constexpr int one_tree = 5;
 
 template <auto& Names>
 int draw_one_of(draws& d) {
@@ -172,6 +174,16 @@ inline constexpr bool is_for_both =
 template <class X, class Y>
 inline constexpr bool may_meet = has_layout<X, typename layout_of<Y>::type> || (!is_for_both<X> && !is_for_both<Y>);
 
+/// Traversals but the default are for posed trees of the openmp policy, and follow the other questions.
+template <class Policy, class X>
+inline constexpr bool may_choose = std::same_as<Policy, openmp> && is_posed<X>;
+
+template <traversal Traversal, class Policy, class X, class Y>
+bool is_walked_right(const Policy& on, const X& x, const Y& y, const pair_list& expected) {
+    const int depth = static_cast<int>(expected.size() % (most_start_depth + 1));
+    return to_host(pairs(on, x, y, query_options<keep_all, Traversal>{.start_depth = depth})) == expected;
+}
+
 /// Whether a query of two trees is right. Questions other than for pairs are for the standard layout: each is a query to
 /// compile anew.
 template <class Policy, class X, class Y>
@@ -180,6 +192,12 @@ bool is_right(const Policy& on, const X& x, const Y& y, int question, const pair
         if (question == 2) return to_host(pairs<exact>(on, x, y)) == expected;
         if (question == 3) return count(on, x, y) == expected.size();
         if (question == 4) return any(on, x, y) == !expected.empty();
+        if constexpr (may_choose<Policy, X>) {
+            if (question == one_tree + 1) return is_walked_right<traversal::one_first>(on, x, y, expected);
+            if (question == one_tree + 2) return is_walked_right<traversal::larger_first>(on, x, y, expected);
+            if (question == one_tree + 3) return is_walked_right<traversal::alternate>(on, x, y, expected);
+            if (question == one_tree + 4) return is_walked_right<traversal::breadth_first>(on, x, y, expected);
+        }
     }
     if constexpr (may_meet<X, Y>) {
         pair_list found = to_host(pairs(on, x, y, {.sorted = question != 1}));
@@ -198,13 +216,15 @@ bool run(const Policy& on, draws& d, const random_scene<T>& s, const pair_list& 
         of_a.layout = of_b.layout = std::max(of_a.layout, of_b.layout);
     }
     int question = draw_one_of<questions>(d);
-    if (question > 1 && question < 5 && (of_a.layout != 0 || of_b.layout != 0)) question = 0;
     const bool in_one_frame = s.a.pose == rigid<T>{} && s.b.pose == rigid<T>{} && d.below(2) == 0;
+    if (question > one_tree && (std::same_as<Policy, serial> || in_one_frame)) question = 0;
+    if (question > one_tree) of_a.layout = of_b.layout = 0;
+    if (question > 1 && question < one_tree && (of_a.layout != 0 || of_b.layout != 0)) question = 0;
     told += std::string(questions[question]) + "; a: " + kind_names[static_cast<int>(s.kind_a)] + ", " + of_a.text() +
             "; b: " + kind_names[static_cast<int>(s.kind_b)] + ", " + of_b.text() + (in_one_frame ? "; not posed" : "");
     bool right = false;
     with_tree(on, s.a.shape, of_a, [&](const auto& a) {
-        if (question == 5) {
+        if (question == one_tree) {
             right = to_host(pairs(on, posed(a, s.a.pose), posed(s.b.shape, s.b.pose))) == expected;
             return;
         }

@@ -9,6 +9,7 @@
 
 #include <abut/config.hpp>
 #include <abut/execution/buffer.hpp>
+#include <abut/traverse/traversal.hpp>
 #include <abut/traverse/visit.hpp>
 
 namespace abut {
@@ -31,7 +32,10 @@ enum class query_side : unsigned char { automatic, a, b };
 
 /// Options of `any`, `count`, `pairs` and `for_each_pair`. Without a filter, `{.sorted = false}` will do in a call; with
 /// one, write `query_options<my_filter>{.filter = my_filter{...}}`: clang 14 cannot deduce the argument of an aggregate.
-template <class Filter = keep_all>
+/// How two trees are walked is a template argument, so that a program compiles what it asks for:
+/// `query_options<keep_all, traversal::larger_first>{}`. It is for queries of two indices made by make_bvh, posed or not;
+/// other queries take no notice of it.
+template <class Filter = keep_all, traversal Traversal = traversal::both_at_once>
 struct query_options {
     /// Pairs sorted by a, then b. Without it their order is any, and may differ from call to call.
     bool sorted = true;
@@ -45,6 +49,12 @@ struct query_options {
     /// memory), while the other streams by and is shared out among threads. By itself the smaller one. A single shape is
     /// always the resident side, and an index the one that is looked in. It changes times, not answers.
     query_side resident = query_side::automatic;
+    /// Of traversal::breadth_first alone: the depth at which it begins, 0 to most_start_depth. All nodes there of one tree
+    /// are compared with all of the other one, whatever lies above them; a leaf above that depth counts as one of them. 0
+    /// and 1 are the roots' children. A tree that is too small to have so many levels if it were balanced begins at the last
+    /// of those, and a node of wide_layout is two levels. On a device a deep start saves steps that cannot fill it; on a
+    /// host it saves nothing.
+    int start_depth = 6;
 };
 
 /// The outcome of a query in the policy's memory: contiguous and immutable.

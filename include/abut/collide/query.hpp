@@ -20,9 +20,12 @@
 #include <abut/index/grid.hpp>
 #include <abut/shape/posed.hpp>
 #include <abut/traverse/bvh_walk.hpp>
+#include <abut/traverse/frontier.hpp>
 #include <abut/traverse/grid_walk.hpp>
 #include <abut/traverse/pair_walk.hpp>
 #include <abut/traverse/posed_walk.hpp>
+#include <abut/traverse/rule_walk.hpp>
+#include <abut/traverse/traversal.hpp>
 
 namespace abut {
 
@@ -190,15 +193,23 @@ struct expand_pair {
     }
 };
 
+/// The walk of two trees for a traversal.
+template <traversal Traversal, class A, class B, class Overlap>
+using chosen_walk =
+    typename std::conditional_t<Traversal == traversal::both_at_once || Traversal == traversal::breadth_first,
+                                std::type_identity<pair_walk<A, B, Overlap>>,
+                                std::type_identity<rule_walk<A, B, Overlap, Traversal>>>::type;
+
 /// Stage 1 of a search for queries [first, first + n): two trees walk together, a set in an index shape by shape, and two
 /// plain sets are tiled.
-template <arithmetic A, class Policy, class Sides, class QuerySide, class TargetSide>
+template <arithmetic A, traversal Traversal, class Policy, class Sides, class QuerySide, class TargetSide>
 struct find_candidates {
     const Policy& on;
     const Sides& sides;
     const QuerySide& query;
     const TargetSide& target;
     std::size_t first, n;
+    int start_depth;
 
     template <class Settle, class Late, class Wide, class Hits>
     void operator()(const Settle& settle, Late& late, Wide& wide, Hits& hits) const {
@@ -208,8 +219,13 @@ struct find_candidates {
             const std::size_t least = std::min(n, sides.targets.size()), most = std::max(n, sides.targets.size());
             // A part of the queries is no tree, and a leaf alone has no place (traverse/pair_walk.hpp).
             if (n == sides.queries.size() && least > 1 && most <= walk_type::most_shapes) {
-                return for_each_descendant(on, expand_pair<walk_type, Sides>{walk_of_both(), sides},
-                                           decide_key<A, Sides>{sides}, settle, late, wide, hits);
+                const expand_pair<walk_type, Sides> expand{walk_of_both(), sides};
+                const decide_key<A, Sides> decide{sides};
+                if constexpr (Traversal == traversal::breadth_first) {
+                    return for_each_on_levels(on, expand, start_depth, decide, settle, late, wide, hits);
+                } else {
+                    return for_each_descendant(on, expand, decide, settle, late, wide, hits);
+                }
             }
         }
         if constexpr (is_indexed_side<TargetSide>) {
@@ -228,38 +244,42 @@ private:
         const auto tree_a = tree_of_side<QuerySide>::view(query);
         const auto tree_b = tree_of_side<TargetSide>::view(target);
         const auto overlap = box_overlap(query, target);
-        return pair_walk<std::remove_const_t<decltype(tree_a)>, std::remove_const_t<decltype(tree_b)>,
-                         std::remove_const_t<decltype(overlap)>>{tree_a, tree_b, overlap};
+        using walk_type = chosen_walk<Traversal, std::remove_const_t<decltype(tree_a)>,
+                                      std::remove_const_t<decltype(tree_b)>, std::remove_const_t<decltype(overlap)>>;
+        return walk_type{tree_a, tree_b, overlap};
     }
 };
 
 /// Searches with `query_side` looking for `target_side`; `body(both, run, n)` gets the sides, a function run(hits, first, n)
 /// that searches for a range of queries, and the number of queries.
-template <arithmetic A, class Policy, class QuerySide, class TargetSide, class Filter, class Body>
+template <arithmetic A, class Policy, class QuerySide, class TargetSide, class Filter, traversal Traversal, class Body>
 auto with_search(const Policy& on, const QuerySide& query_side, const TargetSide& target_side, bool queries_are_b,
-                 const Filter& filter, const Body& body) {
+                 const query_options<Filter, Traversal>& options, const Body& body) {
     const auto queries = query_side.shapes();
     const auto targets = target_side.shapes();
     using sides_type = sides<std::remove_const_t<decltype(queries)>, std::remove_const_t<decltype(targets)>, Filter>;
     const int query_bits = id_bits(queries.size()), target_bits = id_bits(targets.size());
     const pair_key key{queries_are_b ? target_bits : query_bits, queries_are_b ? query_bits : target_bits, queries_are_b};
-    const sides_type both{queries, targets, key, filter};
+    const sides_type both{queries, targets, key, options.filter};
+    using find = find_candidates<A, Traversal, Policy, sides_type, QuerySide, TargetSide>;
     const auto run = [&](auto& hits, std::size_t first, std::size_t n) {
-        search<A>(
-            on, both, hits,
-            find_candidates<A, Policy, sides_type, QuerySide, TargetSide>{on, both, query_side, target_side, first, n});
+        search<A>(on, both, hits, find{on, both, query_side, target_side, first, n, options.start_depth});
     };
     return body(both, run, queries.size());
 }
 
 /// Brings both arguments to the policy and chooses who looks for whom: an index is looked in, and of two plain sets the
 /// larger one looks, since rows of tiles are what runs in parallel.
-template <arithmetic A, class Policy, class X, class Y, class Filter, class Body>
-auto on_both(const Policy& on, const X& x, const Y& y, const query_options<Filter>& options, const char* function,
+template <arithmetic A, class Policy, class X, class Y, class Filter, traversal Traversal, class Body>
+auto on_both(const Policy& on, const X& x, const Y& y, const query_options<Filter, Traversal>& options, const char* function,
              const Body& body) {
+    if (Traversal == traversal::breadth_first && (options.start_depth < 0 || options.start_depth > most_start_depth)) {
+        throw error(std::string(function) + ": start_depth is " + std::to_string(options.start_depth) + ", not in 0.." +
+                    std::to_string(most_start_depth));
+    }
     // Generic, so that the order that is not taken is not compiled.
-    const auto a_looks = [&](const auto& a, const auto& b) { return with_search<A>(on, a, b, false, options.filter, body); };
-    const auto b_looks = [&](const auto& a, const auto& b) { return with_search<A>(on, b, a, true, options.filter, body); };
+    const auto a_looks = [&](const auto& a, const auto& b) { return with_search<A>(on, a, b, false, options, body); };
+    const auto b_looks = [&](const auto& a, const auto& b) { return with_search<A>(on, b, a, true, options, body); };
     const auto a = make_side(on, x, function);
     const auto b = make_side(on, y, function);
     constexpr bool indexed = is_index<X> || is_index<Y>;
@@ -306,8 +326,9 @@ auto touching_keys(const Policy& on, const Sides& both, const Run& run, std::siz
 }  // namespace detail
 
 /// Whether any shape of `a` touches any shape of `b`. Stops at the first one found.
-template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Filter = keep_all>
-[[nodiscard]] bool any(const Policy& on, const X& a, const Y& b, const query_options<Filter>& options = {}) {
+template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Filter = keep_all,
+          traversal Traversal = traversal::both_at_once>
+[[nodiscard]] bool any(const Policy& on, const X& a, const Y& b, const query_options<Filter, Traversal>& options = {}) {
     return detail::on_both<A>(on, a, b, options, "abut::any", [&](const auto&, const auto& run, std::size_t n) {
         execution::work_flag<space_of<Policy>> found(on);
         run(found, 0, n);
@@ -317,8 +338,10 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Y, cl
 
 /// Number of pairs that touch. Stores none of them; but pairs that the filter cannot decide wait in a queue, 8 bytes each,
 /// for the second stage.
-template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Filter = keep_all>
-[[nodiscard]] std::uint64_t count(const Policy& on, const X& a, const Y& b, const query_options<Filter>& options = {}) {
+template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Filter = keep_all,
+          traversal Traversal = traversal::both_at_once>
+[[nodiscard]] std::uint64_t count(const Policy& on, const X& a, const Y& b,
+                                  const query_options<Filter, Traversal>& options = {}) {
     return detail::on_both<A>(on, a, b, options, "abut::count", [&](const auto&, const auto& run, std::size_t n) {
         execution::work_count<space_of<Policy>> hits(on);
         run(hits, 0, n);
@@ -327,8 +350,9 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Y, cl
 }
 
 /// All pairs that touch, each once, in the policy's memory; sorted by a, then b, unless the options say otherwise.
-template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Filter = keep_all>
-[[nodiscard]] auto pairs(const Policy& on, const X& a, const Y& b, const query_options<Filter>& options = {}) {
+template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Filter = keep_all,
+          traversal Traversal = traversal::both_at_once>
+[[nodiscard]] auto pairs(const Policy& on, const X& a, const Y& b, const query_options<Filter, Traversal>& options = {}) {
     using outcome = result<index_pair, space_of<Policy>>;
     const auto body = [&](const auto& both, const auto& run, std::size_t n) {
         const auto keys = detail::touching_keys(on, both, run, n, options.sorted);
@@ -344,9 +368,10 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Y, cl
 /// under cuda it is a trivially copyable functor with an ABUT_HD operator()). `visit::stop` is best effort: pairs in flight
 /// still come. Every pair is found twice, first to count: memory for results is bounded by options.most_pairs pairs at a
 /// time, or by the pairs of one query shape if that has more.
-template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Visitor, class Filter = keep_all>
+template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Visitor, class Filter = keep_all,
+          traversal Traversal = traversal::both_at_once>
 void for_each_pair(const Policy& on, const X& a, const Y& b, const Visitor& visitor,
-                   const query_options<Filter>& options = {}) {
+                   const query_options<Filter, Traversal>& options = {}) {
     const auto body = [&](const auto& both, const auto& run, std::size_t n) {
         // Found pairs are gathered first and visited after, since a queue that proves too small is filled anew and a visitor
         // must see each pair once. A range of queries with too many pairs is halved.

@@ -159,6 +159,7 @@ public:
     void absorb(const cuda&, const Queue& more) {
         total_ += more.size();
     }
+    void absorb(const cuda&, const work_count& more) { total_ += more.total_; }
     [[nodiscard]] sink make_sink(std::uint64_t* sum) { return {sum}; }
     [[nodiscard]] bool settle(const cuda&, std::uint64_t sum) {
         total_ = sum;
@@ -187,6 +188,7 @@ public:
     void absorb(const cuda&, const Queue& more) {
         raised_ |= more.size() > 0;
     }
+    void absorb(const cuda&, const work_flag& more) { raised_ |= more.raised_; }
     [[nodiscard]] sink make_sink(std::uint64_t* word) { return {word}; }
     [[nodiscard]] bool settle(const cuda&, std::uint64_t word) {
         raised_ = word != 0;

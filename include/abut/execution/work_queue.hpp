@@ -122,6 +122,11 @@ public:
     void absorb(const Policy&, const Queue& more) {
         total_ += more.size();
     }
+    /// Adds another sum.
+    template <execution_policy Policy>
+    void absorb(const Policy&, const work_count& more) {
+        total_ += more.total_;
+    }
 
     [[nodiscard]] local make_local() { return {}; }
     template <class Policy>
@@ -149,6 +154,11 @@ public:
     template <execution_policy Policy, class Queue>
     void absorb(const Policy&, const Queue& more) {
         if (more.size() > 0) word_ = 1;
+    }
+    /// Raised if either is.
+    template <execution_policy Policy>
+    void absorb(const Policy&, const work_flag& more) {
+        word_ |= more.word_;
     }
 
     [[nodiscard]] local make_local() { return {&word_}; }

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// In which order two trees are walked down together.
+
+namespace abut {
+
+/// How a query of two trees comes by its candidates: which of two nodes whose boxes meet is opened, that is, replaced by its
+/// children, and in which order that is done. The choice moves speed, never results; docs/hierarchies.md says which to take.
+enum class traversal : unsigned char {
+    /// Both nodes, depth first (pair_walk.hpp). Take it unless you have measured that another pays.
+    both_at_once,
+    /// The first argument's node as long as it has children, and only then the other's, depth first (rule_walk.hpp). For
+    /// comparisons.
+    one_first,
+    /// The node with the larger box, depth first. Take it where one set is small beside the other, a tool in a landscape:
+    /// there it takes half the time.
+    larger_first,
+    /// The node of the tree that was not opened last, depth first. It stands between both_at_once and larger_first.
+    alternate,
+    /// Both nodes, level by level, from all pairs of nodes at query_options::start_depth on (frontier.hpp). For
+    /// comparisons; each level takes memory for its pairs of nodes.
+    breadth_first
+};
+
+/// The deepest level at which breadth_first begins: it compares 2^20 pairs of boxes there.
+inline constexpr int most_start_depth = 10;
+
+}  // namespace abut
