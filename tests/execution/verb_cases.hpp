@@ -306,9 +306,8 @@ struct add_in_turns {
         const unsigned next = k + (1u << t);
         with.value[(t + 1) % 2][k] = from[k] + (next < execution::group_size ? from[next] : 0);
     }
-    ABUT_HD void write(std::size_t first, unsigned t, const shared& with) const {
-        const std::size_t at = first + t / parts;
-        if (at < n) sums[parts * first + t] = with.value[0][t % parts == 0 ? 0 : t / parts];
+    ABUT_HD void write(std::size_t first, unsigned k, unsigned part, const shared& with) const {
+        if (first + k < n) sums[parts * (first + k) + part] = with.value[0][part == 0 ? 0 : k];
     }
 };
 

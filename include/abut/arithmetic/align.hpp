@@ -27,6 +27,11 @@ ABUT_HD constexpr int lowest_bit(std::int64_t x) {
     return static_cast<int>(__builtin_bit_cast(std::uint64_t, static_cast<double>(x & -x)) >> 52) - 1023;
 }
 
+/// log2 of the highest set bit of x > 0, in the same way.
+ABUT_HD constexpr std::uint32_t highest_bit(std::uint32_t x) {
+    return static_cast<std::uint32_t>(__builtin_bit_cast(std::uint64_t, static_cast<double>(x)) >> 52) - 1023;
+}
+
 template <scalar T>
 struct float_format;
 template <>

@@ -142,6 +142,7 @@ __global__ void __launch_bounds__(block_size) for_each_in_groups_kernel(std::siz
     close_all(sinks...);
 }
 
+/// The last turns, of few, are one warp's alone.
 template <class F>
 __global__ void __launch_bounds__(block_size) for_each_in_turns_kernel(F f) {
     __shared__ typename F::shared shared;
@@ -149,13 +150,32 @@ __global__ void __launch_bounds__(block_size) for_each_in_turns_kernel(F f) {
     f.load(first, threadIdx.x, shared);
     __syncthreads();
     const unsigned turns = f.turns(shared);
-    for (unsigned t = 0; t < turns; ++t) {
+    unsigned t = 0;
+    for (; t < turns; ++t) {
         const index_range now = f.of_turn(t, shared);
-        if (now.begin + threadIdx.x < now.end) f.step(t, first, now.begin + threadIdx.x, shared);
+        if (now.end - now.begin <= warp_size) break;
+        if (threadIdx.x < now.end - now.begin) f.step(t, first, now.begin + threadIdx.x, shared);
         __syncthreads();
     }
+    if (threadIdx.x < warp_size) {
+        for (; t < turns; ++t) {
+            const index_range now = f.of_turn(t, shared);
+            if (threadIdx.x < now.end - now.begin) f.step(t, first, now.begin + threadIdx.x, shared);
+            __syncwarp();
+        }
+    }
+    __syncthreads();
     if constexpr (F::parts > 0) {
-        for (unsigned t = threadIdx.x; t < F::parts * block_size; t += block_size) f.write(first, t, shared);
+        if constexpr (block_size % F::parts == 0) {
+            const unsigned part = threadIdx.x % F::parts;  // the same for all that a thread writes
+            for (unsigned k = threadIdx.x / F::parts; k < block_size; k += block_size / F::parts) {
+                f.write(first, k, part, shared);
+            }
+        } else {
+            for (unsigned i = threadIdx.x; i < F::parts * block_size; i += block_size) {
+                f.write(first, i / F::parts, i % F::parts, shared);
+            }
+        }
     }
 }
 

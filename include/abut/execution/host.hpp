@@ -156,8 +156,10 @@ void for_each_in_turns(const Policy& on, std::size_t n, const F& f) {
                 const index_range now = f.of_turn(t, shared);
                 for (unsigned k = now.begin; k < now.end; ++k) f.step(t, first, k, shared);
             }
-            if constexpr (F::parts > 0) {
-                for (unsigned t = 0; t < F::parts * group_size; ++t) f.write(first, t, shared);
+            for (unsigned k = 0; k < group_size; ++k) {
+                if constexpr (F::parts > 0) {
+                    for (unsigned part = 0; part < F::parts; ++part) f.write(first, k, part, shared);
+                }
             }
         }
     });

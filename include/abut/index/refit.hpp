@@ -14,6 +14,7 @@
 #include <type_traits>
 #include <utility>
 
+#include <abut/arithmetic/align.hpp>
 #include <abut/execution/buffer.hpp>
 #include <abut/index/bvh.hpp>
 #include <abut/index/node_part.hpp>
@@ -64,10 +65,11 @@ struct box_table {
     ABUT_HD void put(unsigned k, const aabb<T>& box) { boxes[k] = box; }
     [[nodiscard]] ABUT_HD const aabb<T>& operator[](unsigned k) const { return boxes[k]; }
 };
-/// On a device number by number, so that neighbours do not meet in one bank of memory.
+/// On a device number by number, so that neighbours do not meet in one bank of memory; rows are a little longer for the sake
+/// of those who read one box together.
 template <scalar T, unsigned Count>
 struct box_table<T, device_space, Count> {
-    T values[6][Count];
+    T values[6][Count + 4];
     ABUT_HD void put(unsigned k, const aabb<T>& box) {
         const T numbers[] = {box.lower.x, box.lower.y, box.lower.z, box.upper.x, box.upper.y, box.upper.z};
         for (unsigned c = 0; c < 6; ++c) values[c][k] = numbers[c];
@@ -112,17 +114,11 @@ struct refit_groups {
     ABUT_HD void load(std::size_t first, unsigned k, shared& with) const {
         const std::size_t i = first + k;
         if (i >= count) return;
-        if (k == 0 && i + 1 == count) with.turns = 0;
-        if (i + 1 < count && k + 1 < group) {
-            const refit_step step = steps[i];
-            with.steps[k] = step;
-            with.step_at[step.border] = static_cast<std::uint16_t>(k);
-            if (k == 0 || steps[i - 1].turn != step.turn) with.starts[step.turn] = static_cast<std::uint16_t>(k);
-            if (k + 2 == group || i + 2 == count) {
-                with.turns = static_cast<std::uint16_t>(step.turn + 1);
-                with.starts[step.turn + 1] = static_cast<std::uint16_t>(k + 1);
-            }
-        }
+        // Reads first, then writes: a device would wait for the first before it asked for the others.
+        const bool has_step = i + 1 < count && k + 1 < group;
+        const std::size_t at = has_step ? i : 0;
+        const refit_step step = steps[at];
+        const unsigned turn_before = steps[at > 0 ? at - 1 : 0].turn;
 #if !ABUT_DEVICE_CODE
         // A processor would wait for each box in turn; so what comes later is asked for now. Not in a function of its own:
         // g++ drops calls that do nothing else.
@@ -131,7 +127,18 @@ struct refit_groups {
             if (i + ahead < count) __builtin_prefetch(shapes.boxes + leaves[i + ahead]);
         }
 #endif
-        with.boxes.put(k, bounds(shapes[leaves[i]]));
+        const aabb<T> box = bounds(shapes[leaves[i]]);
+        if (k == 0 && i + 1 == count) with.turns = 0;
+        if (has_step) {
+            with.steps[k] = step;
+            with.step_at[step.border] = static_cast<std::uint16_t>(k);
+            if (k == 0 || turn_before != step.turn) with.starts[step.turn] = static_cast<std::uint16_t>(k);
+            if (k + 2 == group || i + 2 == count) {
+                with.turns = static_cast<std::uint16_t>(step.turn + 1);
+                with.starts[step.turn + 1] = static_cast<std::uint16_t>(k + 1);
+            }
+        }
+        with.boxes.put(k, box);
     }
     [[nodiscard]] ABUT_HD unsigned turns(const shared& with) const { return with.turns; }
     [[nodiscard]] ABUT_HD execution::index_range of_turn(unsigned t, const shared& with) const {
@@ -141,18 +148,18 @@ struct refit_groups {
         const refit_step& step = with.steps[k];
         with.boxes.put(group + step.border, merge(with.boxes[left(step)], with.boxes[right(step)]));
     }
-    ABUT_HD void write(std::size_t first, unsigned t, const shared& with) const {
-        const unsigned k = t / parts, part = t % parts;
-        if (t == 0) groups[first / group] = with.turns == 0 ? with.boxes[0] : with.boxes[group + last(with).border];
+    ABUT_HD void write(std::size_t first, unsigned k, unsigned part, const shared& with) const {
+        if (k == 0 && part == 0)
+            groups[first / group] = with.turns == 0 ? with.boxes[0] : with.boxes[group + last(with).border];
         if (first + k + 1 >= count || k + 1 == group) return;
         const refit_step& step = with.steps[with.step_at[k]];
-        const unsigned place[] = {left(step), right(step)};
+        const unsigned a = left(step), b = right(step);
         if ((step.node & refit_step::spans) != 0) {
-            if (part == 0) spanning[step.node & ~refit_step::spans] = {with.boxes[place[0]], with.boxes[place[1]]};
+            if (part == 0) spanning[step.node & ~refit_step::spans] = {with.boxes[a], with.boxes[b]};
         } else if constexpr (parts == 1) {
-            nodes[step.node] = {{with.boxes[place[0]], with.boxes[place[1]]}, {step.child[0], step.child[1]}};
+            nodes[step.node] = {{with.boxes[a], with.boxes[b]}, {step.child[0], step.child[1]}};
         } else {
-            const auto number = [&](unsigned q) { return with.boxes.values[q % 6][place[q / 6]]; };
+            const auto number = [&](unsigned q) { return with.boxes.values[q % 6][q < 6 ? a : b]; };
             write_node_part(nodes[step.node], part, number, step.child[0], step.child[1]);
         }
     }
@@ -194,7 +201,7 @@ struct tabulate_runs {
         with.runs[(t + 1) % 2].put(k, box);
         if (first + k < groups) table[(t + 1) * groups + first + k] = box;
     }
-    ABUT_HD void write(std::size_t, unsigned, const shared&) const {}
+    ABUT_HD void write(std::size_t, unsigned, unsigned, const shared&) const {}
 };
 
 /// Nodes with shapes of several groups.
@@ -244,8 +251,7 @@ private:
     }
     /// Of one row's reach: two runs cover it.
     [[nodiscard]] ABUT_HD aabb<T> short_run(std::uint32_t from, std::uint32_t to) const {
-        std::uint32_t row = 0;
-        while (to - from >= 2u << row) ++row;
+        const std::uint32_t row = highest_bit(to - from);
         return merge(table[row * groups + from], table[row * groups + to - (1u << row)]);
     }
 };
