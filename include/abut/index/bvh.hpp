@@ -139,14 +139,15 @@ struct bvh_view : bvh_view_base<T, Space, bvh_node<T>> {
     [[nodiscard]] ABUT_HD static bvh_child child(const node_type& n, int side) { return n.child[side]; }
 };
 
-/// How refit makes a node, among the shapes of a group (index/refit_plan.hpp). A place of 256 is a border between shapes.
+/// How refit makes a node, among the shapes of a group (index/refit_plan.hpp), and where a shape's box goes. Each step has
+/// two slots, k and 256 + k, for the boxes of its sides.
 struct alignas(16) refit_step {
-    static constexpr std::uint32_t spans = std::uint32_t{1} << 31;
+    static constexpr std::uint32_t spans = std::uint32_t{1} << 31, no_slot = 511;
     std::uint32_t node;  ///< its number; or `spans` and its number among those that have shapes of several groups below them
     bvh_child child[2];
-    unsigned char border;
-    unsigned char left, right;  ///< the borders of its sides; its own for a leaf
-    unsigned char turn;         ///< those of its sides come in earlier ones
+    std::uint32_t box_to : 9;  ///< the slot of the box around both sides, in a later turn; the last step of a group has none
+    std::uint32_t turn : 7;
+    std::uint32_t shape_to : 9;  ///< the slot of the shape at the same place in the order; none if it is the only one
 };
 
 /// A node with shapes of several groups below it, from `first` to `last` in their order.
@@ -163,7 +164,7 @@ struct refit_plan {
     std::mutex making;
     bool made = false;
     execution::buffer<std::uint32_t, Space> leaves;  ///< ids of shapes in the order in which a walk meets them
-    execution::buffer<refit_step, Space> steps;      ///< by groups, and in each by turns
+    execution::buffer<refit_step, Space> steps;      ///< as many, by groups, and in each by turns; the last is none
     execution::buffer<spanning_node, Space> spanning;
 };
 

@@ -65,17 +65,19 @@ struct box_table {
     ABUT_HD void put(unsigned k, const aabb<T>& box) { boxes[k] = box; }
     [[nodiscard]] ABUT_HD const aabb<T>& operator[](unsigned k) const { return boxes[k]; }
 };
-/// On a device number by number, so that neighbours do not meet in one bank of memory; rows are a little longer for the sake
-/// of those who read one box together.
+/// On a device number by number, so that neighbours do not meet in one bank of memory, nor the two slots of a step, nor
+/// those who read one box together.
 template <scalar T, unsigned Count>
 struct box_table<T, device_space, Count> {
-    T values[6][Count + 4];
+    T values[6][Count + 34];
+    [[nodiscard]] ABUT_HD static unsigned column(unsigned k) { return k + k / execution::group_size * 16; }
     ABUT_HD void put(unsigned k, const aabb<T>& box) {
         const T numbers[] = {box.lower.x, box.lower.y, box.lower.z, box.upper.x, box.upper.y, box.upper.z};
-        for (unsigned c = 0; c < 6; ++c) values[c][k] = numbers[c];
+        for (unsigned c = 0; c < 6; ++c) values[c][column(k)] = numbers[c];
     }
     [[nodiscard]] ABUT_HD aabb<T> operator[](unsigned k) const {
-        return {{values[0][k], values[1][k], values[2][k]}, {values[3][k], values[4][k], values[5][k]}};
+        const unsigned at = column(k);
+        return {{values[0][at], values[1][at], values[2][at]}, {values[3][at], values[4][at], values[5][at]}};
     }
 };
 
@@ -104,21 +106,18 @@ struct refit_groups {
     aabb<T>* groups;
 
     struct shared {
-        box_table<T, Space, 2 * group> boxes;  ///< of shapes, and from `group` on of what is below borders
-        refit_step steps[group];
+        box_table<T, Space, 2 * group> slots;
+        std::uint16_t box_to[group];
         std::uint16_t starts[group_trees::turns + 1];  ///< the first step of each turn
         std::uint16_t turns;
-        std::uint16_t step_at[group];  ///< of a border
     };
 
     ABUT_HD void load(std::size_t first, unsigned k, shared& with) const {
         const std::size_t i = first + k;
         if (i >= count) return;
         // Reads first, then writes: a device would wait for the first before it asked for the others.
-        const bool has_step = i + 1 < count && k + 1 < group;
-        const std::size_t at = has_step ? i : 0;
-        const refit_step step = steps[at];
-        const unsigned turn_before = steps[at > 0 ? at - 1 : 0].turn;
+        const refit_step step = steps[i];
+        const unsigned turn_before = steps[i > 0 ? i - 1 : 0].turn;
 #if !ABUT_DEVICE_CODE
         // A processor would wait for each box in turn; so what comes later is asked for now. Not in a function of its own:
         // g++ drops calls that do nothing else.
@@ -128,51 +127,47 @@ struct refit_groups {
         }
 #endif
         const aabb<T> box = bounds(shapes[leaves[i]]);
+        with.slots.put(step.shape_to == refit_step::no_slot ? 0 : step.shape_to, box);
+        with.box_to[k] = static_cast<std::uint16_t>(step.box_to);
         if (k == 0 && i + 1 == count) with.turns = 0;
-        if (has_step) {
-            with.steps[k] = step;
-            with.step_at[step.border] = static_cast<std::uint16_t>(k);
-            if (k == 0 || turn_before != step.turn) with.starts[step.turn] = static_cast<std::uint16_t>(k);
-            if (k + 2 == group || i + 2 == count) {
-                with.turns = static_cast<std::uint16_t>(step.turn + 1);
-                with.starts[step.turn + 1] = static_cast<std::uint16_t>(k + 1);
-            }
+        if (!is_step(first, k)) return;
+        if (k == 0 || turn_before != step.turn) with.starts[step.turn] = static_cast<std::uint16_t>(k);
+        if (!is_step(first, k + 1)) {
+            with.turns = static_cast<std::uint16_t>(step.turn + 1);
+            with.starts[step.turn + 1] = static_cast<std::uint16_t>(k + 1);
         }
-        with.boxes.put(k, box);
     }
     [[nodiscard]] ABUT_HD unsigned turns(const shared& with) const { return with.turns; }
     [[nodiscard]] ABUT_HD execution::index_range of_turn(unsigned t, const shared& with) const {
         return {with.starts[t], with.starts[t + 1]};
     }
     ABUT_HD void step(unsigned, std::size_t, unsigned k, shared& with) const {
-        const refit_step& step = with.steps[k];
-        with.boxes.put(group + step.border, merge(with.boxes[left(step)], with.boxes[right(step)]));
+        const unsigned to = with.box_to[k];
+        if (to != refit_step::no_slot) with.slots.put(to, merge(with.slots[k], with.slots[group + k]));
     }
     ABUT_HD void write(std::size_t first, unsigned k, unsigned part, const shared& with) const {
-        if (k == 0 && part == 0)
-            groups[first / group] = with.turns == 0 ? with.boxes[0] : with.boxes[group + last(with).border];
-        if (first + k + 1 >= count || k + 1 == group) return;
-        const refit_step& step = with.steps[with.step_at[k]];
-        const unsigned a = left(step), b = right(step);
+        if (k == 0 && part == 0) {
+            const unsigned last = with.turns == 0 ? 0 : with.starts[with.turns] - 1u;
+            groups[first / group] = with.turns == 0 ? with.slots[0] : merge(with.slots[last], with.slots[group + last]);
+        }
+        if (!is_step(first, k)) return;
+        const refit_step step = steps[first + k];
         if ((step.node & refit_step::spans) != 0) {
-            if (part == 0) spanning[step.node & ~refit_step::spans] = {with.boxes[a], with.boxes[b]};
+            if (part == 0) spanning[step.node & ~refit_step::spans] = {with.slots[k], with.slots[group + k]};
         } else if constexpr (parts == 1) {
-            nodes[step.node] = {{with.boxes[a], with.boxes[b]}, {step.child[0], step.child[1]}};
+            nodes[step.node] = {{with.slots[k], with.slots[group + k]}, {step.child[0], step.child[1]}};
         } else {
-            const auto number = [&](unsigned q) { return with.boxes.values[q % 6][q < 6 ? a : b]; };
+            const auto number = [&](unsigned q) {
+                return with.slots.values[q % 6][with.slots.column(q < 6 ? k : group + k)];
+            };
             write_node_part(nodes[step.node], part, number, step.child[0], step.child[1]);
         }
     }
 
 private:
-    [[nodiscard]] ABUT_HD static unsigned left(const refit_step& step) {
-        return step.left == step.border ? step.border : group + step.left;
-    }
-    [[nodiscard]] ABUT_HD static unsigned right(const refit_step& step) {
-        return step.right == step.border ? step.border + 1u : group + step.right;
-    }
-    [[nodiscard]] ABUT_HD static const refit_step& last(const shared& with) {
-        return with.steps[with.starts[with.turns] - 1];
+    /// A group of m shapes has m - 1 steps.
+    [[nodiscard]] ABUT_HD bool is_step(std::size_t first, unsigned k) const {
+        return first + k + 1 < count && k + 1 < group;
     }
 };
 
@@ -219,37 +214,41 @@ struct refit_spanning {
 
     ABUT_HD void operator()(std::size_t i) const {
         const spanning_node at = all[i];
-        const std::uint32_t own = at.border / group;
+        const std::uint32_t own = at.border / group, first = at.first / group, last = at.last / group;
         const bool ends = ends_group(at.border);  // then the group is below the left side as far as that reaches
-        aabb<T> left = empty_box<T>(), right = empty_box<T>();
-        if (at.first / group != own || ends) {
-            left = at.first % group == 0 ? table[at.first / group] : in_group[at.before].right;
-            left = merge(left, run(at.first / group + 1, ends ? own + 1 : own));
-        }
-        if (!ends) {
-            left = merge(left, in_group[i].left);
-            right = in_group[i].right;
-        }
-        if (at.last / group != own) {
-            right = merge(right, run(own + 1, at.last / group));
-            const bool whole = ends_group(at.last) || at.last + 1 == count;
-            right = merge(right, whole ? table[at.last / group] : in_group[at.after].left);
-        }
+        const bool left_too = first != own || ends, right_too = last != own;
+        // What a side has not is another part of it once more: so all are read at once, and none is waited for alone.
+        const aabb<T>& left_near = in_group[i].left;
+        const aabb<T>* const left_end = !left_too               ? &left_near
+                                        : at.first % group == 0 ? &table[first]
+                                                                : &in_group[at.before].right;
+        const aabb<T>& right_near = in_group[i].right;
+        const bool whole = ends_group(at.last) || at.last + 1 == count;
+        const aabb<T>* const right_end = !right_too ? &right_near : whole ? &table[last] : &in_group[at.after].left;
+        aabb<T> left = merged(*left_end, first + 1, left_too ? ends ? own + 1 : own : 0, ends ? *left_end : left_near);
+        aabb<T> right = merged(ends ? *right_end : right_near, own + 1, right_too ? last : 0, *right_end);
         nodes[at.node] = {{left, right}, {at.child[0], at.child[1]}};
         if (at.first == 0 && at.last + 1 == count) *root = {merge(left, right), bvh_child::inner(at.node)};
     }
 
 private:
-    /// Groups from `from` to before `to`; an empty box for none.
-    [[nodiscard]] ABUT_HD aabb<T> run(std::uint32_t from, std::uint32_t to) const {
-        if (from >= to) return empty_box<T>();
+    /// The boxes a and b and those of groups `from` to before `to`, which come between them; there may be none.
+    [[nodiscard]] ABUT_HD aabb<T> merged(const aabb<T>& a, std::uint32_t from, std::uint32_t to, const aabb<T>& b) const {
+        const bool none = from >= to;
+        const std::uint32_t row = none ? 0 : highest_bit(to - from);
+        if (!none && from / group != (to - 1) / group) return merge(merge(a, long_run(from, to)), b);
+        const aabb<T>& run = none ? a : table[row * groups + from];
+        const aabb<T>& more = none ? a : table[row * groups + to - (1u << row)];
+        return merge(merge(a, merge(run, more)), b);
+    }
+    /// Of more than one row's reach.
+    [[nodiscard]] ABUT_HD aabb<T> long_run(std::uint32_t from, std::uint32_t to) const {
         const std::uint32_t first = from / group, last = (to - 1) / group;
-        if (first == last) return short_run(from, to);
         aabb<T> box = short_run(from, (first + 1) * group);
         for (std::uint32_t k = first + 1; k < last; ++k) box = merge(box, table[8 * groups + k * group]);
         return merge(box, short_run(last * group, to));
     }
-    /// Of one row's reach: two runs cover it.
+    /// Two runs cover it.
     [[nodiscard]] ABUT_HD aabb<T> short_run(std::uint32_t from, std::uint32_t to) const {
         const std::uint32_t row = highest_bit(to - from);
         return merge(table[row * groups + from], table[row * groups + to - (1u << row)]);

@@ -218,26 +218,48 @@ struct write_spanning {
     }
 };
 
+/// Which step of its group each border is.
+struct number_steps {
+    const std::uint32_t* borders;
+    std::uint32_t* step_of;
+    ABUT_HD void operator()(std::size_t i) const {
+        step_of[borders[i]] = static_cast<std::uint32_t>(i % execution::group_size);
+    }
+};
+
 template <scalar T>
 struct write_steps {
     const bvh_node<T>* nodes;
     const node_range* ranges;
-    const std::uint32_t *node_at, *below, *keys, *borders, *numbers;
+    const std::uint32_t *node_at, *below, *above, *keys, *borders, *step_of, *numbers;
+    std::uint32_t all;  ///< borders
     refit_step* out;
 
     ABUT_HD void operator()(std::size_t i) const {
-        const std::uint32_t border = borders[i], node = node_at[border];
-        const std::uint32_t to = ranges[node].spans_groups() ? refit_step::spans | numbers[border] : node;
-        const auto place = [&](std::uint32_t side) {
-            const std::uint32_t next = ends_group(border) ? no_place : below[2 * border + side];
-            return static_cast<unsigned char>((next == no_place ? border : next) % execution::group_size);
-        };
-        out[i] = {to,
-                  {nodes[node].child[0], nodes[node].child[1]},
-                  static_cast<unsigned char>(border % execution::group_size),
-                  place(0),
-                  place(1),
-                  static_cast<unsigned char>(keys[i] % group_trees::turns)};
+        refit_step step{0,
+                        {{0}, {0}},
+                        refit_step::no_slot,
+                        group_trees::no_turn,
+                        shape_slot(static_cast<std::uint32_t>(i)) & refit_step::no_slot};
+        if (i < all) {
+            const std::uint32_t border = borders[i], node = node_at[border];
+            step.node = ranges[node].spans_groups() ? refit_step::spans | numbers[border] : node;
+            for (int side = 0; side < 2; ++side) step.child[side] = nodes[node].child[side];
+            step.box_to = slot(above[border]) & refit_step::no_slot;  // the mask is for -Wconversion
+            step.turn = keys[i] % group_trees::turns;
+        }
+        out[i] = step;
+    }
+
+private:
+    /// Of a place where something hangs in a group's tree.
+    [[nodiscard]] ABUT_HD std::uint32_t slot(std::uint32_t place) const {
+        return place == no_place ? refit_step::no_slot : place % 2 * execution::group_size + step_of[place / 2];
+    }
+    /// A leaf hangs to the left of the border after it, or to the right of the one before it.
+    [[nodiscard]] ABUT_HD std::uint32_t shape_slot(std::uint32_t i) const {
+        if (i < all && !ends_group(i) && below[2 * i] == no_place) return slot(2 * i);
+        return i % execution::group_size == 0 ? refit_step::no_slot : slot(2 * (i - 1) + 1);
     }
 };
 
@@ -272,18 +294,20 @@ void make_refit_plan(const Policy& on, const bvh_node<T>* nodes, std::size_t cou
     for_each_index(on, count, fold_up<group_trees>{{below.data(), above.data(), keys.data()}, reached.data()});
     sort_by_key(on, keys, borders, group_trees::turn_bits + bits_up_to(count / execution::group_size));
 
+    numbers number_of(on, count), step_of(on, count);
+    for_each_index(on, count, number_steps{borders.data(), step_of.data()});
     numbers& spanning = reached;
-    numbers& number_of = above;
     const std::size_t many = compact(on, count, spans_groups{ranges.data(), node_at.data()}, spanning.data());
     for_each_index(on, many, number_spanning{spanning.data(), number_of.data()});
     plan.spanning = execution::buffer_of<Policy, spanning_node>(on, many);
     for_each_index(on, many,
                    write_spanning<T>{nodes, ranges.data(), node_at.data(), spanning.data(), number_of.data(),
                                      static_cast<std::uint32_t>(count), plan.spanning.data()});
-    plan.steps = execution::buffer_of<Policy, refit_step>(on, count);
-    for_each_index(on, count,
-                   write_steps<T>{nodes, ranges.data(), node_at.data(), below.data(), keys.data(), borders.data(),
-                                  number_of.data(), plan.steps.data()});
+    plan.steps = execution::buffer_of<Policy, refit_step>(on, count + 1);
+    for_each_index(
+        on, count + 1,
+        write_steps<T>{nodes, ranges.data(), node_at.data(), below.data(), above.data(), keys.data(), borders.data(),
+                       step_of.data(), number_of.data(), static_cast<std::uint32_t>(count), plan.steps.data()});
     synchronize(on);  // another policy may use it, in a stream of its own
 }
 
