@@ -5,7 +5,7 @@
 // Which of two trees to descend first: boxes compared, and the time that the walk takes on one core, for each traversal,
 // over the pair of bench/meshes_scene.hpp made of each mesh (PLY or OBJ; without one a torus). A plain recursion counts, the
 // library walks, with a filter that refuses every pair, so that nothing is decided. Then the boxes that both at once
-// compares by depth, as tables of Markdown.
+// compares by depth, and walks of small patches against the whole, as tables of Markdown.
 
 #include <algorithm>
 #include <array>
@@ -102,7 +102,8 @@ template <traversal Traversal>
 tally print_row(const tree& a, const tree& b) {
     tally seen;
     const auto x = a.view(), y = b.view();
-    descent<Traversal>{x, y, seen}.meet(x.root(), x.root_bounds(), y.root(), y.root_bounds(), 0, false);
+    descent<Traversal>{x, y, seen}.meet(x.root(), x.root_bounds(), y.root(), y.root_bounds(), 0,
+                                        true);  // alternate: b first
     print_row<Traversal>(a, b, seen);
     return seen;
 }
@@ -131,12 +132,50 @@ void print_tables(const std::string& path) {
     }
 }
 
+/// The `n` faces of `from` that are nearest to the place where it first touches `other`.
+abut::mesh<float> patch(const meshes_scene::surface& from, const tree& whole, const tree& other, std::size_t n) {
+    const auto hits = pairs(abut::serial{}, whole, other);
+    const abut::vec3<float> center = from.vertices[from.faces[hits.size() > 0 ? hits[0].a : 0][0]];
+    const auto away = [&](const auto& face) {
+        const auto d = from.vertices[face[0]] - center;
+        return dot(d, d);
+    };
+    auto faces = from.faces;
+    n = std::min(n, faces.size());
+    std::nth_element(faces.begin(), faces.begin() + static_cast<std::ptrdiff_t>(n - 1), faces.end(),
+                     [&](const auto& x, const auto& y) { return away(x) < away(y); });
+    faces.resize(n);
+    return abut::mesh<float>(from.vertices, faces);
+}
+
+/// A small set beside a large one.
+void print_patches(const std::string& path) {
+    const auto pair = meshes_scene::make_pair(path.empty() ? meshes_scene::unit_torus() : meshes_scene::read_surface(path));
+    const abut::serial on;
+    const abut::bvh_options by_sah{.builder = abut::bvh_builder::sah};
+    const auto a = make_bvh(on, abut::mesh<float>(pair.a.vertices, pair.a.faces), by_sah);
+    const auto b = make_bvh(on, abut::mesh<float>(pair.b.vertices, pair.b.faces), by_sah);
+    std::printf("A patch of the second mesh, first argument, against the first mesh, `sah`, us\n\n| triangles |");
+    for (const char* name : {"both at once", "larger first", "alternate", "one first"}) std::printf(" %s |", name);
+    std::printf("\n| ---: | ---: | ---: | ---: | ---: |\n");
+    for (const std::size_t n : {70u, 700u, 7000u, 70000u}) {
+        const auto small = make_bvh(on, patch(pair.b, b, a, n), by_sah);
+        std::printf("| %zu | %.1f | %.1f | %.1f | %.1f |\n", small.size(), 1000 * ms_of<traversal::both_at_once>(small, a),
+                    1000 * ms_of<traversal::larger_first>(small, a), 1000 * ms_of<traversal::alternate>(small, a),
+                    1000 * ms_of<traversal::one_first>(small, a));
+    }
+    std::printf("\n");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     try {
-        if (argc < 2) print_tables({});
-        for (int i = 1; i < argc; ++i) print_tables(argv[i]);
+        for (int i = argc < 2 ? 0 : 1; i < argc; ++i) {
+            const std::string path = i == 0 ? "" : argv[i];
+            print_tables(path);
+            print_patches(path);
+        }
         return 0;
     } catch (const std::exception& problem) {
         std::fprintf(stderr, "bench_descents: %s\n", problem.what());

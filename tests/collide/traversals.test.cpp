@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-
 #include "collide/traversal_cases.hpp"
 
 namespace abut::test {
@@ -38,6 +37,28 @@ template <traversal... Traversals, class Layout>
 void check_layouts(const Layout& lay) {
     check_layouts<Traversals...>(lay, lay);
 }
+
+/// A tree of a layout, and another under a pose.
+template <traversal Traversal, class Layout>
+void check_posed_layout(const Layout& lay) {
+    constexpr openmp on{.threads = 2};
+    uniform random(20261206);
+    draws d(20261206, 91, 0);
+    const rigid<float> pose = make_pose<float>(d, 1);
+    const auto a = random_soup<float>(400, random);
+    const auto b = brought_back(random_triangles<float>(300, random), pose, {0, 0, 0});
+    using view = posed_view<triangle_soup<float>::view_type>;
+    const pair_list expected = placed_truth(a.view(), view{b.view(), pose});
+    CHECK(expected.size() > 100);
+    check_walked<Traversal>(on, lay(make_bvh(on, a)), posed(lay(make_bvh(on, b)), pose), expected);
+}
+
+// All give the same pairs; these are different walks.
+using tree_view = bvh_view<float, host_space>;
+template <traversal Traversal>
+inline constexpr bool is_rule = std::same_as<detail::chosen_walk<Traversal, tree_view, tree_view, detail::same_frame>,
+                                             detail::rule_walk<tree_view, tree_view, detail::same_frame, Traversal>>;
+static_assert(is_rule<traversal::one_first> && is_rule<traversal::larger_first> && is_rule<traversal::alternate>);
 
 /// Counts its calls.
 struct calls_of {
@@ -93,6 +114,10 @@ TEST_CASE("traversals: layouts") {
     SECTION("oriented") { check_layouts<one_first, larger_first, alternate, breadth_first>(turned); }
     SECTION("18-DOPs") {
         check_layouts<larger_first>([&](const auto& tree) { return bounded_by<kdop<float, 18>>(on, tree); });
+    }
+    SECTION("posed") {
+        check_posed_layout<larger_first>(turned);
+        check_posed_layout<alternate>(of_four);
     }
     SECTION("quantised") { check_layouts<alternate>(in_16_bits); }
     SECTION("mixed") {

@@ -282,32 +282,29 @@ void check_groups(const Policy& on) {
     }
 }
 
-/// Adds up each group by doubling: after turn t place k holds the sum of the 2^(t+1) values from there on, of as many as
-/// there are. What it writes is that of the whole group first, and then of all that come after in it.
+/// Adds up each group in a heap, level by level: place k gets the sums of places 2 k and 2 k + 1, and index k of the group
+/// is place 256 + k. Of each index it writes the sum of the group, that of place k, and itself.
 struct add_in_turns {
-    static constexpr unsigned parts = 2;
+    static constexpr unsigned parts = 3, size = execution::group_size;
     std::uint64_t* sums;
     std::size_t n;
 
     struct shared {
-        std::uint64_t value[2][execution::group_size];
-        unsigned count;
+        std::uint64_t value[2 * size];
     };
     ABUT_HD void load(std::size_t first, unsigned k, shared& with) const {
-        with.value[0][k] = with.value[1][k] = first + k < n ? first + k : 0;
-        if (k == 0)
-            with.count = n - first < execution::group_size ? static_cast<unsigned>(n - first) : execution::group_size;
+        with.value[size + k] = first + k < n ? first + k : 0;
+        if (k == 0) with.value[0] = 0;
     }
     [[nodiscard]] ABUT_HD unsigned turns(const shared&) const { return 8; }
-    /// What comes after the last value of the group stays as it is.
-    [[nodiscard]] ABUT_HD execution::index_range of_turn(unsigned, const shared& with) const { return {0, with.count}; }
-    ABUT_HD void step(unsigned t, std::size_t, unsigned k, shared& with) const {
-        const auto& from = with.value[t % 2];
-        const unsigned next = k + (1u << t);
-        with.value[(t + 1) % 2][k] = from[k] + (next < execution::group_size ? from[next] : 0);
+    [[nodiscard]] ABUT_HD execution::index_range of_turn(unsigned t, const shared&) const {
+        return {size >> (t + 1), size >> t};
+    }
+    ABUT_HD void step(unsigned, std::size_t, unsigned k, shared& with) const {
+        with.value[k] = with.value[2 * k] + with.value[2 * k + 1];
     }
     ABUT_HD void write(std::size_t first, unsigned k, unsigned part, const shared& with) const {
-        if (first + k < n) sums[parts * (first + k) + part] = with.value[0][part == 0 ? 0 : k];
+        if (first + k < n) sums[parts * (first + k) + part] = with.value[part == 0 ? 1 : part == 1 ? k : size + k];
     }
 };
 
@@ -316,14 +313,20 @@ void check_turns(const Policy& on) {
     constexpr std::size_t size = execution::group_size;
     for (const std::size_t n : {std::size_t{0}, std::size_t{1}, size - 1, size, size + 1, 3 * size, std::size_t{70'001}}) {
         CAPTURE(n);
-        execution::buffer_of<Policy, std::uint64_t> sums(on, 2 * n);
+        execution::buffer_of<Policy, std::uint64_t> sums(on, 3 * n);
         for_each_in_turns(on, n, add_in_turns{sums.data(), n});
-        const auto written = on_host(on, sums.data(), 2 * n);
+        const auto written = on_host(on, sums.data(), 3 * n);
         std::uint64_t wrong = 0;
         for (std::size_t i = 0; i < n; ++i) {
-            const std::size_t first = i / size * size, end = std::min(n, first + size);
-            const auto sum = [end](std::size_t from) { return (end - from) * (from + end - 1) / 2; };
-            wrong += written[2 * i] != sum(first) || written[2 * i + 1] != sum(i);
+            const std::size_t first = i / size * size, k = i % size;
+            const auto below = [&](std::size_t place) {
+                std::size_t from = place, count = 1;
+                for (; from < size; from *= 2) count *= 2;
+                std::uint64_t sum = 0;
+                for (std::size_t j = first + from - size; j < first + from - size + count && j < n; ++j) sum += j;
+                return sum;
+            };
+            wrong += written[3 * i] != below(1) || written[3 * i + 1] != (k == 0 ? 0 : below(k)) || written[3 * i + 2] != i;
         }
         CHECK(wrong == 0);
     }

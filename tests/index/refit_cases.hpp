@@ -4,6 +4,7 @@
 // What refit promises on every policy. tests/index runs it on the host's policies, tests/cuda on the device.
 
 #include <cstring>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -77,7 +78,11 @@ void check_unmoved(const Policy& on, const triangle_soup<T>& set) {
 template <class T, class Policy>
 void check_refits(const Policy& on) {
     uniform random(51);
-    for (std::size_t n = 0; n <= 100; ++n) {
+    std::vector<std::size_t> sizes(101);
+    std::iota(sizes.begin(), sizes.end(), std::size_t{0});
+    // Groups that are whole, and a last one with one shape or two; and as many groups as a row of runs reaches, or one more.
+    for (const std::size_t n : {255, 256, 257, 258, 511, 512, 513, 514, 65'535, 65'536, 65'537}) sizes.push_back(n);
+    for (const std::size_t n : sizes) {
         CAPTURE(n);
         const triangle_soup<T> first(random_triangles<T>(n, random)), second(random_triangles<T>(n, random));
         check_refit(on, make_bvh(on, first), second);

@@ -27,7 +27,14 @@ ABUT_HD constexpr int lowest_bit(std::int64_t x) {
     return static_cast<int>(__builtin_bit_cast(std::uint64_t, static_cast<double>(x & -x)) >> 52) - 1023;
 }
 
-/// log2 of the highest set bit of x > 0, in the same way.
+/// Number of bits of the numbers up to x.
+constexpr int bits_up_to(std::uint64_t x) {
+    int bits = 0;
+    while (bits < 64 && x >> bits != 0) ++bits;
+    return bits;
+}
+
+/// log2 of the highest set bit of x > 0, as that of the lowest one.
 ABUT_HD constexpr std::uint32_t highest_bit(std::uint32_t x) {
     return static_cast<std::uint32_t>(__builtin_bit_cast(std::uint64_t, static_cast<double>(x)) >> 52) - 1023;
 }

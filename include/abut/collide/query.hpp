@@ -7,7 +7,7 @@
 //
 // All four run on the policy and return when the answer is there. Their answers do not depend on the policy, the thread
 // count or the index. They throw invalid_geometry (views and single shapes, which are checked at each call), error (a set on
-// another device), capacity_error, std::bad_alloc and cuda_error.
+// another device, a start_depth out of range), capacity_error, std::bad_alloc and cuda_error.
 
 #include <algorithm>
 #include <cstddef>

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <abut/arithmetic/align.hpp>
 #include <abut/collide/options.hpp>
 #include <abut/execution/host.hpp>
 #include <abut/execution/work_queue.hpp>
@@ -21,11 +22,7 @@
 namespace abut::detail {
 
 /// Number of bits that ids below n need.
-constexpr int id_bits(std::size_t n) {
-    int bits = 0;
-    while (bits < 32 && (n > 0 ? n - 1 : 0) >> bits != 0) ++bits;
-    return bits;
-}
+constexpr int id_bits(std::size_t n) { return bits_up_to(n > 0 ? n - 1 : 0); }
 
 /// Pairs travel as one number, a above b, in as few bits as the sets need: sorting them is then a short radix sort.
 struct pair_key {

@@ -156,8 +156,8 @@ void for_each_in_turns(const Policy& on, std::size_t n, const F& f) {
                 const index_range now = f.of_turn(t, shared);
                 for (unsigned k = now.begin; k < now.end; ++k) f.step(t, first, k, shared);
             }
-            for (unsigned k = 0; k < group_size; ++k) {
-                if constexpr (F::parts > 0) {
+            if constexpr (F::parts > 0) {
+                for (unsigned k = 0; k < group_size; ++k) {
                     for (unsigned part = 0; part < F::parts; ++part) f.write(first, k, part, shared);
                 }
             }

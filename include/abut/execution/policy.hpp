@@ -22,11 +22,12 @@
 //                                           by side. When all groups are done, settle(c, sink...) for every c in `late`.
 //                                           Functors that write elsewhere take a `late` with room for all, and counts and
 //                                           flags alone: queues that overflow begin anew
-//   for_each_in_turns(on, n, f)             such groups again, turn by turn: f.load(first, k, shared) for every k of a
-//                                           group; then for t = 0 ... f.turns(shared) - 1 f.step(t, first, k, shared) for
-//                                           every k of the index_range f.of_turn(t, shared), no longer than that of the turn
-//                                           before nor than a group; then f.write(first, k, part, shared) for every part <
-//                                           F::parts of every k of a group, neighbours side by side
+//   for_each_in_turns(on, n, f)             such groups again, turn by turn: f.load(first, k, shared) for every
+//                                           k < group_size; then for t = 0 ... f.turns(shared) - 1 f.step(t, first, k, shared)
+//                                           for every k of the index_range f.of_turn(t, shared), no longer than that of the turn
+//                                           before nor than group_size; then f.write(first, k, part, shared) for every
+//                                           part < F::parts of every k < group_size, neighbours side by side. The last group,
+//                                           which may have fewer indices, gets every k too
 //   for_each_candidate(on, n, test, walk, decide, settle, late, queue...)
 //                                           for every i with test(i): walk(i, emitter, sink...) calls emitter.push(c) for
 //                                           each candidate c, and decide(c, late_sink, sink...) is called for it; or else,

@@ -76,17 +76,6 @@ struct bvh_root {
     bvh_child child;
 };
 
-namespace detail {
-
-/// Reads what another thread has just written, past a cache that may hold the line as it was before.
-template <scalar T>
-ABUT_HD aabb<T> load_fresh(const aabb<T>& box) {
-    const volatile aabb<T>& now = box;
-    return {{now.lower.x, now.lower.y, now.lower.z}, {now.upper.x, now.upper.y, now.upper.z}};
-}
-
-}  // namespace detail
-
 /// What views of all layouts have in common: where the nodes and the root lie, and the number of shapes. `Node` is what lies
 /// in memory, `Width` the number of its children; a layout whose nodes may have fewer says so itself.
 template <scalar T, memory_space Space, class Node, int Width = 2>
@@ -164,7 +153,7 @@ struct refit_plan {
     std::mutex making;
     bool made = false;
     execution::buffer<std::uint32_t, Space> leaves;  ///< ids of shapes in the order in which a walk meets them
-    execution::buffer<refit_step, Space> steps;      ///< as many, by groups, and in each by turns; the last is none
+    execution::buffer<refit_step, Space> steps;      ///< as many, by groups, in each by turns; its last is none
     execution::buffer<spanning_node, Space> spanning;
 };
 

@@ -66,6 +66,13 @@ struct node_table<T, device_space> {
     }
 };
 
+/// Reads what another thread has just written, past a cache that may hold the line as it was before.
+template <scalar T>
+ABUT_HD aabb<T> load_fresh(const aabb<T>& box) {
+    const volatile aabb<T>& now = box;
+    return {{now.lower.x, now.lower.y, now.lower.z}, {now.upper.x, now.upper.y, now.upper.z}};
+}
+
 /// A climb over leaves that are sorted by code. Node k lies between leaves k and k + 1. A range of leaves [first, last]
 /// joins its neighbour across the closer of its two borders.
 template <class Code, scalar T, memory_space Space>

@@ -196,7 +196,6 @@ struct tabulate_runs {
         with.runs[(t + 1) % 2].put(k, box);
         if (first + k < groups) table[(t + 1) * groups + first + k] = box;
     }
-    ABUT_HD void write(std::size_t, unsigned, unsigned, const shared&) const {}
 };
 
 /// Nodes with shapes of several groups.

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <type_traits>
 
+#include <abut/arithmetic/align.hpp>
 #include <abut/execution/atomic.hpp>
 #include <abut/execution/buffer.hpp>
 #include <abut/execution/work_queue.hpp>
@@ -86,7 +87,8 @@ struct count_shapes {
     }
 };
 
-/// From the root down, where the shapes below each node begin in the order.
+/// From the root down, where the shapes below each node begin in the order. It writes elsewhere, which does no harm: there
+/// is no queue that could overflow, and so nothing is done twice.
 template <scalar T>
 struct place_shapes {
     struct item {
@@ -262,13 +264,6 @@ private:
         return i % execution::group_size == 0 ? refit_step::no_slot : slot(2 * (i - 1) + 1);
     }
 };
-
-/// Number of bits of the numbers up to x.
-constexpr int bits_up_to(std::size_t x) {
-    int bits = 0;
-    while (x >> bits != 0) ++bits;
-    return bits;
-}
 
 /// Of a tree with `count` nodes, one at least. Takes time and memory as building does.
 template <class Policy, scalar T>

@@ -91,7 +91,7 @@ private:
         return opens_b ? is_of_b | node.index() : node.index();
     }
 
-    // Half of surfaces.
+    // Half of surfaces. Where they overflow or vanish, the tree that was opened last goes on.
     ABUT_HD static T surface(const box& x) {
         const vec3<T> side = x.upper - x.lower;
         return side.x * side.y + (side.y * side.z + side.z * side.x);
