@@ -315,7 +315,7 @@ void check_turns(const Policy& on) {
         CAPTURE(n);
         execution::buffer_of<Policy, std::uint64_t> sums(on, 3 * n);
         for_each_in_turns(on, n, add_in_turns{sums.data(), n});
-        const auto written = on_host(on, sums.data(), 3 * n);
+        const auto written = on_host(on, sums.data(), sums.size());
         std::uint64_t wrong = 0;
         for (std::size_t i = 0; i < n; ++i) {
             const std::size_t first = i / size * size, k = i % size;
