@@ -81,7 +81,8 @@ void check_refits(const Policy& on) {
     std::vector<std::size_t> sizes(101);
     std::iota(sizes.begin(), sizes.end(), std::size_t{0});
     // Groups that are whole, and a last one with one shape or two; and as many groups as a row of runs reaches, or one more.
-    for (const std::size_t n : {255u, 256u, 257u, 258u, 511u, 512u, 513u, 514u, 65'535u, 65'536u, 65'537u}) sizes.push_back(n);
+    for (const std::size_t n : {255u, 256u, 257u, 258u, 511u, 512u, 513u, 514u, 65'535u, 65'536u, 65'537u})
+        sizes.push_back(n);
     for (const std::size_t n : sizes) {
         CAPTURE(n);
         const triangle_soup<T> first(random_triangles<T>(n, random)), second(random_triangles<T>(n, random));
