@@ -197,6 +197,9 @@ void check_candidates(const Policy& on) {
     }
 }
 
+/// No group, groups that are whole, and a last one with one index or a few.
+inline constexpr std::size_t group_counts[] = {0, 1, 255, 256, 257, 768, 70'001};
+
 /// Adds up a group in a heap: place k gets the sums of places 2 k and 2 k + 1, and index k those from 256 + k on. The sum of
 /// a whole group is late, as is what waits alone in the last one, and every seventh index.
 struct add_in_groups {
@@ -258,7 +261,7 @@ struct keep_late {
 template <class Policy>
 void check_groups(const Policy& on) {
     constexpr std::size_t size = execution::group_size;
-    for (const std::size_t n : {std::size_t{0}, std::size_t{1}, size - 1, size, size + 1, 3 * size, std::size_t{70'001}}) {
+    for (const std::size_t n : group_counts) {
         CAPTURE(n);
         execution::buffer_of<Policy, std::uint64_t> sums(on, 2 * n);
         execution::work_queue<std::uint64_t, space_of<Policy>> late(on, 2 * n);
@@ -311,7 +314,7 @@ struct add_in_turns {
 template <class Policy>
 void check_turns(const Policy& on) {
     constexpr std::size_t size = execution::group_size;
-    for (const std::size_t n : {std::size_t{0}, std::size_t{1}, size - 1, size, size + 1, 3 * size, std::size_t{70'001}}) {
+    for (const std::size_t n : group_counts) {
         CAPTURE(n);
         execution::buffer_of<Policy, std::uint64_t> sums(on, 3 * n);
         for_each_in_turns(on, n, add_in_turns{sums.data(), n});

@@ -12,13 +12,13 @@
 #include <memory>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 #include <abut/execution/buffer.hpp>
 #include <abut/execution/host.hpp>
 #include <abut/execution/parallel.hpp>
 #include <abut/index/bvh.hpp>
 #include <abut/index/operand.hpp>
+#include <abut/index/walk_order.hpp>
 #include <abut/shape/volume.hpp>
 
 namespace abut {
@@ -56,43 +56,20 @@ struct bounded_layout {
 
 namespace detail {
 
-/// Shapes in the order in which a walk from left to right meets them; those below a node, or in a leaf, lie side by side.
-struct leaves_in_order {
-    struct range {
-        std::uint32_t first, count;
-    };
-    std::vector<std::uint32_t> shapes;
-    std::vector<std::uint32_t> nodes_met;  ///< parents before their children
-    std::vector<range> of_node;
-
-    template <scalar T>
-    leaves_in_order(const bvh_node<T>* nodes, std::size_t node_count, bvh_child root) : of_node(node_count) {
-        shapes.reserve(node_count + 1);
-        std::vector<bvh_child> pending{root};
-        nodes_met.reserve(node_count);
-        while (!pending.empty()) {
-            const bvh_child at = pending.back();
-            pending.pop_back();
-            if (at.is_leaf()) {
-                shapes.push_back(at.index());
-                continue;
-            }
-            nodes_met.push_back(at.index());
-            of_node[at.index()].first = static_cast<std::uint32_t>(shapes.size());
-            pending.push_back(nodes[at.index()].child[1]);
-            pending.push_back(nodes[at.index()].child[0]);
-        }
-        children_first([&](std::uint32_t node) {
-            of_node[node].count = of(nodes[node].child[0]).count + of(nodes[node].child[1]).count;
-        });
+/// Volumes merged from below, to be folded up (index/walk_order.hpp): what a node holds goes to where it hangs.
+template <bounding_volume V>
+struct merge_volumes {
+    static constexpr std::uint32_t leaf_value = 0;
+    bounded_node<V>* nodes;
+    const std::uint32_t* above;
+    [[nodiscard]] ABUT_HD bool is_leaf(std::size_t node, std::uint32_t side) const {
+        return nodes[node].child[side].is_leaf();
     }
-    /// Calls use(node) for all nodes, those below a node before it.
-    template <class Use>
-    void children_first(const Use& use) const {
-        for (std::size_t i = nodes_met.size(); i-- > 0;) use(nodes_met[i]);
+    ABUT_HD std::uint32_t join(std::uint32_t node, std::uint32_t, std::uint32_t) const {
+        const std::uint32_t place = above[node];
+        if (place != no_place) nodes[place / 2].volume[place % 2] = merge(nodes[node].volume[0], nodes[node].volume[1]);
+        return leaf_value;
     }
-    /// Of a child that hangs at a node.
-    [[nodiscard]] range of(bvh_child child) const { return child.is_leaf() ? range{0, 1} : of_node[child.index()]; }
 };
 
 /// Triangles by their place in an order. For devices as well, since `around` is, though none gets here.
@@ -131,10 +108,10 @@ template <bounding_volume V, execution_policy Policy, class Set, memory_space Sp
         const bvh_node<T>* const nodes = tree.view().nodes;
         const bvh_root<T> root = *tree.view().top;
         const auto shapes = detail::view_of(tree.set());
-        const detail::leaves_in_order leaves(nodes, n - 1, root.child);
         fresh->nodes = execution::buffer_of<Policy, bounded_node<V>>(on, n - 1);
         fresh->root = execution::buffer_of<Policy, bvh_root<T>>(on, 1);
         bounded_node<V>* const to = fresh->nodes.data();
+        const auto order = n > 1 ? detail::order_by_walk(on, nodes, n - 1, root.child) : detail::walk_order<Space>{};
         using triangles = detail::some_triangles<std::remove_const_t<decltype(shapes)>>;
         // Nodes near the root take longest, and lie anywhere: small parts, dealt out as threads become free.
         execution::for_each_range(execution::thread_count(on), n - 1, 16, [&](int, std::size_t begin, std::size_t end) {
@@ -143,21 +120,18 @@ template <bounding_volume V, execution_policy Policy, class Set, memory_space Sp
                     const bvh_child child = nodes[i].child[side];
                     to[i].child[side] = child;
                     if (detail::merges_tightly<V> && !child.is_leaf()) continue;
+                    const detail::node_range of =
+                        child.is_leaf() ? detail::node_range{0, 0, 1} : order.ranges.data()[child.index()];
                     const std::uint32_t leaf = child.index();
-                    const auto [first, count] = leaves.of(child);
                     to[i].volume[side] =
-                        around<V>(triangles{&shapes, child.is_leaf() ? &leaf : leaves.shapes.data() + first, count});
+                        around<V>(triangles{&shapes, child.is_leaf() ? &leaf : order.leaves.data() + of.first, of.count});
                 }
             }
         });
         if constexpr (detail::merges_tightly<V>) {
-            leaves.children_first([to](std::uint32_t node) {
-                for (int side = 0; side < 2; ++side) {
-                    const bvh_child child = to[node].child[side];
-                    if (child.is_leaf()) continue;
-                    to[node].volume[side] = merge(to[child.index()].volume[0], to[child.index()].volume[1]);
-                }
-            });
+            execution::buffer_of<Policy, std::uint32_t> reached(on, n - 1);
+            fill(on, reached.data(), n - 1, detail::no_place);
+            for_each_index(on, n - 1, detail::fold_up<detail::merge_volumes<V>>{{to, order.above.data()}, reached.data()});
         }
         // The root's box has to hold all that the view hands out.
         const auto box_of_node = [to](std::size_t i) { return merge(bounds(to[i].volume[0]), bounds(to[i].volume[1])); };

@@ -3,124 +3,24 @@
 
 // What refit derives of a topology, once: in which order its boxes are made.
 //
-// Shapes are put in the order in which a walk from left to right meets them. A node then stands for the border between the
-// last shape below its left side and the first one below its right side, and each border has one node. Shapes are divided
-// into groups of neighbours, and a tree restricted to the shapes of one group is again a tree, with one node for each border
-// inside the group. In it a node's turn is its height, so a group makes its boxes turn by turn in the memory that it shares,
-// and nothing is counted or waited for. Nodes with shapes of several groups, about eight a group, are put together after
-// that (refit.hpp): each of their sides is the end of one group, whole groups, and the beginning of another.
+// Shapes are put in the order in which a walk from left to right meets them (walk_order.hpp). A node then stands for the
+// border between the last shape below its left side and the first one below its right side, and each border has one node.
+// Shapes are divided into groups of neighbours, and a tree restricted to the shapes of one group is again a tree, with one
+// node for each border inside the group. In it a node's turn is its height, so a group makes its boxes turn by turn in the
+// memory that it shares, and nothing is counted or waited for. Nodes with shapes of several groups, about eight a group, are
+// put together after that (refit.hpp): each of their sides is the end of one group, whole groups, and the beginning of
+// another.
 
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
+#include <utility>
 
 #include <abut/arithmetic/align.hpp>
-#include <abut/execution/atomic.hpp>
 #include <abut/execution/buffer.hpp>
-#include <abut/execution/work_queue.hpp>
 #include <abut/index/bvh.hpp>
+#include <abut/index/walk_order.hpp>
 
 namespace abut::detail {
-
-inline constexpr std::uint32_t no_place = static_cast<std::uint32_t>(-1);
-
-/// Writes where each node hangs: twice its parent's number, plus the side.
-template <scalar T>
-struct write_links {
-    const bvh_node<T>* nodes;
-    bvh_child root;
-    std::uint32_t* above;
-    ABUT_HD void operator()(std::size_t i) const {
-        const auto node = static_cast<std::uint32_t>(i);
-        for (std::uint32_t side = 0; side < 2; ++side) {
-            const bvh_child child = nodes[i].child[side];
-            if (!child.is_leaf()) above[child.index()] = 2 * node + side;
-        }
-        if (node == root.index()) above[node] = no_place;
-    }
-};
-
-/// From the leaves of trees to their roots: of the two that come to a node the second one goes on. `Tree` says
-/// `is_leaf(node, side)`, `above[node]`, `leaf_value`, and what a node is worth: `join(node, left, right)`.
-template <class Tree>
-struct fold_up {
-    Tree tree;
-    std::uint32_t* reached;  ///< for each node the value of the side that came first; at the start `no_place`
-
-    ABUT_HD void operator()(std::size_t i) const {
-        for (std::uint32_t side = 0; side < 2; ++side) {
-            if (!tree.is_leaf(i, side)) continue;
-            std::uint32_t place = 2 * static_cast<std::uint32_t>(i) + side, value = Tree::leaf_value;
-            while (place != no_place) {
-                const std::uint32_t node = place / 2;
-                const std::uint32_t other = execution::atomic_exchange_acq_rel(&reached[node], value);
-                if (other == no_place) break;
-                value = place % 2 == 0 ? tree.join(node, value, other) : tree.join(node, other, value);
-                place = tree.above[node];
-            }
-        }
-    }
-};
-
-/// The shapes below a node: `count` from `first` on in the order, of which `left` are on its left side.
-struct node_range {
-    std::uint32_t first, left, count;
-    [[nodiscard]] ABUT_HD std::uint32_t border() const { return first + left - 1; }
-    [[nodiscard]] ABUT_HD std::uint32_t last() const { return first + count - 1; }
-    [[nodiscard]] ABUT_HD bool spans_groups() const {
-        return first / execution::group_size != last() / execution::group_size;
-    }
-};
-
-template <scalar T>
-struct count_shapes {
-    static constexpr std::uint32_t leaf_value = 1;
-    const bvh_node<T>* nodes;
-    const std::uint32_t* above;
-    node_range* ranges;
-    [[nodiscard]] ABUT_HD bool is_leaf(std::size_t node, std::uint32_t side) const {
-        return nodes[node].child[side].is_leaf();
-    }
-    [[nodiscard]] ABUT_HD std::uint32_t join(std::uint32_t node, std::uint32_t left, std::uint32_t right) const {
-        ranges[node].left = left;
-        return ranges[node].count = left + right;
-    }
-};
-
-/// From the root down, where the shapes below each node begin in the order. It writes elsewhere, which does no harm: there
-/// is no queue that could overflow, and so nothing is done twice.
-template <scalar T>
-struct place_shapes {
-    struct item {
-        std::uint32_t node, first;
-    };
-    using candidate = std::uint32_t;  // none
-    static constexpr unsigned most_children = 2, most_depth = bvh_max_depth;
-
-    const bvh_node<T>* nodes;
-    bvh_child root;
-    node_range* ranges;
-    std::uint32_t *node_at, *leaves;
-
-    [[nodiscard]] std::size_t seeds() const { return 1; }
-    [[nodiscard]] ABUT_HD item seed(std::size_t) const { return {root.index(), 0}; }
-    void prefetch(const item&) const {}
-    ABUT_CALLS_ANY
-    template <class Emitter>
-    ABUT_HD void operator()(const item& at, Emitter&& emitter) const {
-        ranges[at.node].first = at.first;
-        const std::uint32_t middle = at.first + ranges[at.node].left;
-        node_at[middle - 1] = at.node;
-        const bvh_child left = nodes[at.node].child[0], right = nodes[at.node].child[1];
-        if (left.is_leaf()) leaves[at.first] = left.index();
-        if (right.is_leaf()) leaves[middle] = right.index();
-        emitter.add(std::integral_constant<unsigned, 0>{}, !left.is_leaf(), item{left.index(), at.first});
-        emitter.add(std::integral_constant<unsigned, 1>{}, !right.is_leaf(), item{right.index(), middle});
-    }
-};
-struct decide_nothing {
-    ABUT_HD void operator()(std::uint32_t, auto&...) const {}
-};
 
 /// The last border of a group lies between it and the next one: no node of the tree that is restricted to the group.
 ABUT_HD constexpr bool ends_group(std::uint32_t border) {
@@ -270,17 +170,9 @@ template <class Policy, scalar T>
 void make_refit_plan(const Policy& on, const bvh_node<T>* nodes, std::size_t count, bvh_child root,
                      refit_plan<space_of<Policy>>& plan) {
     using numbers = execution::buffer_of<Policy, std::uint32_t>;
-    numbers above(on, count), reached(on, count), node_at(on, count);
-    execution::buffer_of<Policy, node_range> ranges(on, count);
-    plan.leaves = numbers(on, count + 1);
-    for_each_index(on, count, write_links<T>{nodes, root, above.data()});
-    fill(on, reached.data(), count, no_place);
-    for_each_index(on, count, fold_up<count_shapes<T>>{{nodes, above.data(), ranges.data()}, reached.data()});
-    execution::work_queue<std::uint32_t, space_of<Policy>> none(on, 1);
-    for_each_descendant(on, place_shapes<T>{nodes, root, ranges.data(), node_at.data(), plan.leaves.data()},
-                        decide_nothing{}, decide_nothing{}, none);
-
-    numbers below(on, 2 * count), keys(on, count), borders(on, count);
+    auto [above, ranges, node_at, leaves] = order_by_walk(on, nodes, count, root);
+    plan.leaves = std::move(leaves);
+    numbers reached(on, count), below(on, 2 * count), keys(on, count), borders(on, count);
     fill(on, above.data(), count, no_place);
     fill(on, reached.data(), count, no_place);
     for_each_index(
