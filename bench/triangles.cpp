@@ -103,8 +103,8 @@ void note_stages(benchmark::State& state, const pairs_of<T>& pairs) {
         const int width = integers.width();
         ++(abut::decide<abut::filtered>(a, b) != abut::verdict::unknown ? first
            : is_late(a, b)                                              ? late
-           : width <= abut::detail::word_bits<predicate>                ? word
-           : width <= 60                                                ? one_limb
+           : width <= abut::detail::word_digits<predicate>              ? word
+           : width <= 59                                                ? one_limb
            : width <= 124                                               ? two_limbs
                                                                         : any_span);
     }
@@ -215,7 +215,7 @@ template <class Policy>
 void read(benchmark::State& state, Policy on, std::size_t n) {
     const auto& many = soup(kind::few, n);
     const std::size_t bytes = n * sizeof(abut::triangle<float>), grain = 1 << 15;
-    const sum_of_words part{reinterpret_cast<const unsigned char*>(many.view().triangles.data), bytes, grain};
+    const sum_of_words part{reinterpret_cast<const unsigned char*>(many.view().shapes.data), bytes, grain};
     const auto plus = [](std::uint64_t a, std::uint64_t b) { return a + b; };
     for (auto _ : state) benchmark::DoNotOptimize(reduce(on, (bytes + grain - 1) / grain, std::uint64_t{0}, plus, part));
     state.SetBytesProcessed(static_cast<std::int64_t>(bytes) * static_cast<std::int64_t>(state.iterations()));

@@ -300,7 +300,7 @@ public:
         for (const std::size_t n : scene::one_sizes) {
             const resident_soup<T> soup(on_, scene_.first(n));
             read_ms_[n] = add_read(on_, out_, joined({"read", scalar_name<T>, "cuda", std::to_string(n)}),
-                                   soup.view().triangles.data, n * sizeof(abut::triangle<T>));
+                                   soup.view().shapes.data, n * sizeof(abut::triangle<T>));
             add<any_query, abut::filtered>(soup, "filtered");
         }
         for (const auto& share : scene::one_shares) {

@@ -50,8 +50,8 @@ struct input {
     abut::rigid<T> pose;
 };
 
-/// The pose of an axis, an angle in degrees and a translation. Its matrix is made in long double and rounded once, since a
-/// rotation has to be one within a few units in the last place.
+/// The pose of an axis, an angle in degrees and a translation. Its matrix is made in long double and rounded once: trees cull
+/// best where a rotation is one to the last places.
 template <abut::scalar T>
 abut::rigid<T> pose_of(const std::vector<double>& numbers) {
     if (numbers.empty()) return {};

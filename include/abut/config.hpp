@@ -19,7 +19,8 @@
 #endif
 
 // ABUT_CALLS_ANY stands before a template that calls what it is given (a filter, a visitor, a queue): on the host that may
-// be a plain host function, which nvcc would warn of in code that could run on a device as well.
+// be a plain host function, which nvcc would warn of in code that could run on a device as well. On a device nothing would
+// be left of such a call, so what a user gives has to pass the verb require_callable first (execution/policy.hpp).
 #if defined(__CUDACC__)
 #define ABUT_CALLS_ANY _Pragma("nv_exec_check_disable")
 #else

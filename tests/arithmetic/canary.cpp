@@ -76,8 +76,8 @@ ABUT_HD void check(std::uint64_t seed, failures& f) {
         const T more = p.value + c;  // must not pull the product in
         f.two_prod += !product_is_exact(a, b, p.value, p.error) || more != abut::detail::at_run_time(ab + c);
 
-        const T up = abut::add_up(product(a, b), product(c, d)), down = abut::sub_down(product(a, b), product(c, d));
-        f.directed += up != abut::add_up(ab, cd) || down != abut::sub_down(ab, cd);
+        const T up = abut::add_up(product(a, b), product(c, d)), down = abut::add_down(product(a, b), -product(c, d));
+        f.directed += up != abut::add_up(ab, cd) || down != abut::add_down(ab, -cd);
         const auto exact_sum = abut::two_sum(ab, cd);
         f.directed += up < exact_sum.value || (exact_sum.error > 0) != (up > exact_sum.value);
 

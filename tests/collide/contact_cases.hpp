@@ -105,8 +105,8 @@ void check_contact_options(const Policy& on) {
     CHECK(same_bits(to_host(contacts(on, tree_a, tree_b)), expected));
     CHECK(same_bits(to_host(contacts(on, make_grid(on, a), b)), expected));
     CHECK(same_bits(to_host(contacts<exact>(on, a, tree_b)), expected));
-    const contact_options<> unsorted{.sorted = false}, a_stays{.resident = query_side::a},
-        b_stays{.resident = query_side::b};
+    const contact_options<> unsorted{.sorted = false}, a_stays{.resident = argument::a},
+        b_stays{.resident = argument::b};
     CHECK(same_bits(sorted(to_host(contacts(on, a, b, unsorted))), expected));
     CHECK(same_bits(to_host(contacts(on, a, b, a_stays)), expected));
     CHECK(same_bits(to_host(contacts(on, a, b, b_stays)), expected));

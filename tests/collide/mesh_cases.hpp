@@ -117,7 +117,7 @@ void check_ways(const Policy& on, const placed_mesh<T>& a, const placed_mesh<T>&
     CHECK(to_host(pairs(on, grid_a, tree_b)) == expected);
     CHECK(to_host(pairs(on, grid_b, tree_a)) == back);
     CHECK(to_host(pairs(on, grid_a, plain_b)) == expected);
-    CHECK(to_host(pairs(on, plain_a, plain_b, query_options<>{.resident = turn % 2 == 0 ? query_side::a : query_side::b})) ==
+    CHECK(to_host(pairs(on, plain_a, plain_b, query_options<>{.resident = turn % 2 == 0 ? argument::a : argument::b})) ==
           expected);
     CHECK(count(on, plain_a, grid_b) == expected.size());
     CHECK(count(on, tree_a, grid_b) == expected.size());

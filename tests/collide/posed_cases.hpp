@@ -57,20 +57,18 @@ std::size_t check_posed(const Policy& on, const A& set_a, const rigid<T>& pose_a
     return expected.size();
 }
 
-/// Shapes that share a part of the world, of side 2 and `far` from its origin, in the frames of their objects: brought back
-/// there by the inverse pose, which is good enough for that.
+/// Shapes that share a part of the world, of side 2 and `center` away from its origin, in the frames of their objects.
 template <scalar T>
 triangle_soup<T> brought_back(const std::vector<triangle<T>>& triangles, const rigid<T>& pose, const vec3<T>& center) {
     std::vector<triangle<T>> frame;
-    const rigid<T> back = inverse(pose);
-    for (const auto& t : triangles) frame.push_back(place(back, triangle<T>{t.a + center, t.b + center, t.c + center}));
+    const auto back = [&](const vec3<T>& p) { return construction::taken_back(pose, p + center); };
+    for (const auto& t : triangles) frame.push_back({back(t.a), back(t.b), back(t.c)});
     return triangle_soup<T>(frame);
 }
 template <scalar T>
 spheres<T> brought_back(const std::vector<sphere<T>>& balls, const rigid<T>& pose, const vec3<T>& center) {
     std::vector<sphere<T>> frame;
-    const rigid<T> back = inverse(pose);
-    for (const auto& s : balls) frame.push_back(place(back, sphere<T>{s.center + center, s.radius}));
+    for (const auto& s : balls) frame.push_back({construction::taken_back(pose, s.center + center), s.radius});
     return spheres<T>(frame);
 }
 
@@ -85,7 +83,8 @@ void check_posed_scenes(const Policy& on) {
         for (const bool a_moves : {false, true}) {
             for (int k = 0; k < 4; ++k) {
                 draws d(seed, 77, static_cast<std::uint64_t>(scene++));
-                const rigid<T> pose_a = a_moves ? make_pose<T>(d, far) : rigid<T>{}, pose_b = make_pose<T>(d, far);
+                const auto drawn = [&] { return k % 2 == 0 ? make_pose<T>(d, far) : make_loose_pose<T>(d, far); };
+                const rigid<T> pose_a = a_moves ? drawn() : rigid<T>{}, pose_b = drawn();
                 const auto center = random.point<T>(-far, far);
                 CAPTURE(far, a_moves, k);
                 const std::size_t n = k == 0 ? 1 : 150;
@@ -143,17 +142,46 @@ void check_posed_touches(const Policy& on) {
     CHECK(meet > 50);
 }
 
+/// Balls under poses that shrink all else, and triangles that touch them where they reach farthest, or miss them by a
+/// little.
+template <class T, class Policy>
+void check_posed_balls(const Policy& on) {
+    std::size_t meet = 0;
+    for (std::uint64_t i = 0; i < 60; ++i) {
+        draws d(20261124, 81, i);
+        const double shrink = -0.49 * rotation_tolerance, by[3][3] = {{shrink, 0, 0}, {0, shrink, 0}, {0, 0, shrink}};
+        rigid<T> pose = make_pose<T>(d, 1);
+        if (d.below(3) == 0) construction::set_quarter_turns(pose, d);
+        pose = construction::strained(pose, by);
+        const sphere<T> ball{construction::round_to<T>(construction::cube(d, 0.1)), T(1)};
+        const vec3<double> c = construction::widened(place(pose, ball).center);
+        std::vector<triangle<T>> points;
+        for (const double along : {1.0, 1 - 1e-6, 1 - 1e-5, 1 - 1e-4, 1 - 1e-3, 1 + 1e-6}) {
+            for (int side = 0; side < 6; ++side) {
+                const double off = side < 3 ? along : -along;
+                const auto p = construction::round_to<T>(
+                    {c.x + (side % 3 == 0 ? off : 0), c.y + (side % 3 == 1 ? off : 0), c.z + (side % 3 == 2 ? off : 0)});
+                points.push_back({p, p, p});
+            }
+        }
+        CAPTURE(i);
+        meet += check_posed(on, triangle_soup<T>(points), rigid<T>{}, spheres<T>({ball, ball}), pose);
+    }
+    CHECK(meet > 60 * 2 * 24);
+}
+
 template <class T, class Policy>
 void check_posed_errors(const Policy& on) {
     const auto soup = copy_to(on, triangle_soup<T>({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{9, 9, 9}, {8, 8, 8}, {7, 7, 7}}}));
     const auto tree = make_bvh(on, soup);
     rigid<T> bent;
-    bent.rotation[4] = T(1.001);
+    bent.rotation[4] = T(1.0006);
     CHECK_THROWS_AS(any(on, posed(soup, bent), soup), invalid_geometry);
     CHECK_THROWS_AS(any(on, soup, posed(tree, bent)), invalid_geometry);
     rigid<T> away;
     away.translation.y = std::numeric_limits<T>::max();
-    const auto far = copy_to(on, triangle_soup<T>(std::vector<triangle<T>>{{{0, 0, 0}, {1, 0, 0}, {0, away.translation.y / 2, 0}}}));
+    const auto far =
+        copy_to(on, triangle_soup<T>(std::vector<triangle<T>>{{{0, 0, 0}, {1, 0, 0}, {0, away.translation.y / 2, 0}}}));
     CHECK_THROWS_AS(any(on, posed(far, away), soup), invalid_geometry);
     CHECK_THROWS_AS(any(on, posed(make_bvh(on, far), away), soup), invalid_geometry);
     CHECK_FALSE(any(on, posed(soup, away), soup));  // huge and yet finite
@@ -166,6 +194,7 @@ void check_all_posed(const Policy& on) {
     check_posed_scenes<T>(on);
     check_posed_onto_itself<T>(on);
     check_posed_touches<T>(on);
+    check_posed_balls<T>(on);
     check_posed_errors<T>(on);
 }
 

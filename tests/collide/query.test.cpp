@@ -83,3 +83,17 @@ TEST_CASE("queries: any stops at the first pair found") {
     CHECK(any(openmp{.threads = 2}, make_bvh(serial{}, soup), balls, options));
     CHECK(calls < 1000);
 }
+
+TEST_CASE("queries: pairs that a first try leaves open are all found, and once") {
+    // The truth of the truth: the engine's own pairs against a plain loop.
+    const auto soup = test::coplanar_triangles<double>(150);
+    test::pair_list expected;
+    for (std::uint32_t i = 0; i < soup.size(); ++i) {
+        for (std::uint32_t j = 0; j < soup.size(); ++j) {
+            if (intersects<exact>(soup.view()[i], soup.view()[j])) expected.push_back({i, j});
+        }
+    }
+    CHECK(to_host(pairs(serial{}, soup, soup)) == expected);
+    test::check_dense<double>(serial{}, 150);
+    test::check_dense<float>(openmp{.threads = 3}, 700);
+}

@@ -59,7 +59,8 @@ struct stop_at_once {
 };
 
 template <class Policy, class X, class Y>
-void check_visits(const Policy& on, const X& a, const Y& b, std::size_t a_size, std::size_t b_size, const pair_list& expected) {
+void check_visits(const Policy& on, const X& a, const Y& b, std::size_t a_size, std::size_t b_size,
+                  const pair_list& expected) {
     for (const std::uint64_t most : {std::uint64_t{1}, std::uint64_t{100}, std::uint64_t{1} << 24}) {
         CAPTURE(most);
         execution::buffer_of<Policy, std::uint32_t> visits(on, a_size * b_size + 1);
@@ -236,6 +237,65 @@ void check_permutation(const Policy& on) {
     std::sort(after.begin(), after.end());
     CHECK(before == after);
     CHECK(before.size() > 100);
+}
+
+/// Triangles in one plane, which no filter decides, and where nearly all boxes meet.
+template <class T>
+triangle_soup<T> coplanar_triangles(std::size_t n) {
+    uniform random(20261122);
+    std::vector<triangle<T>> triangles;
+    for (std::size_t i = 0; i < n; ++i) {
+        const auto corner = [&] {
+            const vec3<T> p = random.point<T>(-1, 1);
+            return vec3<T>{p.x, p.y, T(0.1)};
+        };
+        triangles.push_back({corner(), corner(), corner()});
+    }
+    return triangle_soup<T>(triangles);
+}
+
+/// Adds up the visits, and their ids.
+struct visit_sum {
+    std::uint64_t *visits, *ids;
+    ABUT_HD visit operator()(index_pair p) const {
+        execution::atomic_add(visits, std::uint64_t{1});
+        execution::atomic_add(ids, std::uint64_t{p.a} << 20 | p.b);
+        return visit::proceed;
+    }
+};
+
+/// A soup against itself where all pairs are left open by the first try: complete and each pair once, in every form of a
+/// query, and whatever finds no room to wait. `expected` pairs, of which `sum` adds up the ids as visit_sum does.
+template <class Policy, class X, class Y>
+void check_open_pairs(const Policy& on, const X& a, const Y& b, std::uint64_t expected, std::uint64_t sum) {
+    CHECK(any(on, a, b));
+    CHECK(count(on, a, b) == expected);
+    CHECK(pairs(on, a, b, {.sorted = false}).size() == expected);
+    execution::buffer_of<Policy, std::uint64_t> sums(on, 2);
+    fill(on, sums.data(), 2, std::uint64_t{0});
+    for_each_pair(on, a, b, visit_sum{sums.data(), sums.data() + 1});
+    std::uint64_t seen[2];
+    sums.read(seen);
+    CHECK(seen[0] == expected);
+    CHECK(seen[1] == sum);
+}
+
+template <class T, class Policy>
+void check_dense(const Policy& on, std::size_t n) {
+    const triangle_soup<T> soup = coplanar_triangles<T>(n);
+    std::uint64_t expected = 0, sum = 0;
+    for (const index_pair& p : to_host(pairs(serial{}, soup, soup))) {
+        ++expected;
+        sum += std::uint64_t{p.a} << 20 | p.b;
+    }
+    CHECK(expected > n * n / 2);
+    const auto there = copy_to(on, soup);
+    const auto tree = make_bvh(on, there);
+    CAPTURE(n, expected);
+    check_open_pairs(on, there, there, expected, sum);
+    check_open_pairs(on, tree, there, expected, sum);
+    check_open_pairs(on, tree, tree, expected, sum);
+    check_open_pairs(on, make_grid(on, there), there, expected, sum);
 }
 
 template <class T, class Policy>

@@ -50,8 +50,8 @@ template <class T>
 std::vector<std::array<double, 6>> in_six_dimensions(const contact_list<T>& all) {
     vec3<double> lower{1e300, 1e300, 1e300}, upper{-1e300, -1e300, -1e300};
     for (const auto& c : all) {
-        lower = detail::lesser(lower, detail::widened(c.point));
-        upper = detail::greater(upper, detail::widened(c.point));
+        lower = detail::least(lower, detail::widened(c.point));
+        upper = detail::greatest(upper, detail::widened(c.point));
     }
     const vec3<double> middle = 0.5 * (lower + upper), side = upper - lower;
     const double half = std::max({side.x, side.y, side.z}) / 2;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 
-// A mesh against one box, plane, capsule or point: complete and the same with each index, on each policy, in either order of
-// arguments. The truth is a plain loop over `intersects<exact>`, whose own truth is tests/predicate.
+// A mesh against one box, plane, capsule or point, and sets of all shapes: complete and the same with each index, on each
+// policy, in either order of arguments. The truth is a plain loop over `intersects<exact>`, whose own truth is
+// tests/predicate.
 
 #include <abut/abut.hpp>
 
@@ -10,6 +11,7 @@
 #include <limits>
 #include <vector>
 
+#include "collide/set_cases.hpp"
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
 
@@ -63,7 +65,7 @@ void check_random_shapes(const Policy& on, std::uint64_t seed, int count) {
         const vec3<T> p = random.point<T>(-3.5, 3.5), q = random.point<T>(-3.5, 3.5);
         const T size = static_cast<T>(random(0, 1));
         const aabb<T> near_p{{p.x - size, p.y - size, p.z - size}, {p.x + size, p.y + size, p.z + size}};
-        check_against(on, ring, i % 4 == 0 ? aabb<T>{detail::lesser(p, q), detail::greater(p, q)} : near_p, boxes.hits,
+        check_against(on, ring, i % 4 == 0 ? aabb<T>{detail::least(p, q), detail::greatest(p, q)} : near_p, boxes.hits,
                       boxes.misses);
         check_against(on, ring, plane<T>{q, dot(p, q)}, planes.hits, planes.misses);
         check_against(on, ring, capsule<T>{{p, q}, size / 4}, capsules.hits, capsules.misses);
@@ -167,4 +169,90 @@ TEST_CASE("queries: one shape that is none is refused, by name") {
                       "abut::pairs: shape 0: offset is not finite (inf)");
     CHECK_THROWS_WITH(make_bvh(serial{}, plane<double>{{inf, 0, 1}, 0}), "abut::make_bvh: shape 0: x is not finite (inf)");
     CHECK_THROWS_WITH(make_grid(serial{}, vec3<double>{0, inf, 1}), "abut::make_grid: shape 0: y is not finite (inf)");
+}
+
+TEST_CASE("queries: sets of every two shapes that have a predicate") {
+    for (const int threads : {1, 2, 7}) {
+        CAPTURE(threads);
+        test::check_all_pairs_of_shapes<float>(openmp{.threads = threads});
+    }
+    test::check_pair_of_shapes<sphere<double>, sphere<double>>(serial{}, 71);
+}
+
+TEST_CASE("queries: views over the caller's own arrays, of each shape") {
+    struct item {
+        capsule<float> pill;
+        aabb<float> box;
+        segment<float> line;
+        vec3<float> place;
+        int id;
+    };
+    test::uniform random(73);
+    const auto pills = test::shape_maker<capsule<float>>(random, false)(150);
+    const auto some_boxes = test::shape_maker<aabb<float>>(random, false)(150);
+    const auto lines = test::shape_maker<segment<float>>(random, false)(150);
+    const auto places = test::shape_maker<vec3<float>>(random, true)(150);
+    std::vector<item> items;
+    for (std::size_t i = 0; i < 150; ++i) items.push_back({pills[i], some_boxes[i], lines[i], places[i], 9});
+    const triangle_soup<float> soup(test::shape_maker<triangle<float>>(random, true)(200));
+    const openmp on{.threads = 2};
+    const auto check = [&](const auto& view) {
+        const pair_list expected = test::all_that_touch(view, soup.view());
+        CHECK(expected.size() > 5);
+        CHECK(to_host(pairs(on, make_grid(on, view), soup)) == expected);
+    };
+    check(capsules_view<float>(&items[0].pill, items.size(), sizeof(item)));
+    check(boxes_view<float>(&items[0].box, items.size(), sizeof(item)));
+    check(segments_view<float>(&items[0].line, items.size(), sizeof(item)));
+    check(points_view<float>(&items[0].place, items.size(), sizeof(item)));
+    items[7].box.lower.x = 5;
+    CHECK_THROWS_WITH(any(on, boxes_view<float>(&items[0].box, items.size(), sizeof(item)), soup),
+                      "abut::any: box 7: lower x is above upper x (5)");
+}
+
+TEST_CASE("queries: posed sets of shapes, and posed shapes alone") {
+    const openmp on{.threads = 2};
+    test::uniform random(79);
+    const triangle_soup<double> soup(test::shape_maker<triangle<double>>(random, false)(200));
+    rigid<double> pose;
+    pose.rotation[0] = pose.rotation[8] = 0.6;
+    pose.rotation[2] = -0.8;
+    pose.rotation[6] = 0.8;
+    pose.translation = {0.25, 0, -0.5};
+    const auto check = [&](const auto& set) {
+        const pair_list expected = test::all_that_touch(
+            posed_view<typename std::remove_cvref_t<decltype(set)>::view_type>{set.view(), pose}, soup.view());
+        CHECK(expected.size() > 20);
+        CHECK(to_host(pairs(on, posed(set, pose), soup)) == expected);
+        CHECK(to_host(pairs(on, posed(make_bvh(on, set), pose), make_bvh(on, soup))) == expected);
+    };
+    check(capsules<double>(test::shape_maker<capsule<double>>(random, false)(150)));
+    check(segments<double>(test::shape_maker<segment<double>>(random, false)(150)));
+    const auto check_one = [&](const auto& shape) {
+        pair_list expected;
+        for (std::uint32_t j = 0; j < soup.size(); ++j) {
+            if (intersects<exact>(place(pose, shape), soup.view()[j])) expected.push_back({0, j});
+        }
+        CHECK(expected.size() > 3);
+        CHECK(to_host(pairs(on, posed(shape, pose), soup)) == expected);
+        CHECK(to_host(pairs(on, posed(shape, pose), make_bvh(on, soup))) == expected);
+        CHECK(any(on, soup, posed(shape, pose)));
+    };
+    check_one(triangle<double>{{-1, -1, 0}, {1, -1, 0.25}, {0, 1, 0}});
+    check_one(sphere<double>{{0, 0, 0}, 0.5});
+    auto stretched = pose;
+    stretched.rotation[4] = 2;
+    CHECK_THROWS_WITH(any(on, soup, posed(sphere<double>{{0, 0, 0}, 1}, stretched)),
+                      "abut::any: rotation row 1: its squared length differs from 1 by more than 2^-10 (3)");
+}
+
+TEST_CASE("queries: contacts of two sets of spheres") {
+    test::uniform random(83);
+    const spheres<float> a(test::shape_maker<sphere<float>>(random, false)(150));
+    const spheres<float> b(test::shape_maker<sphere<float>>(random, true)(150));
+    const auto expected = test::all_that_touch(a.view(), b.view());
+    const auto found = to_host(contacts(serial{}, make_bvh(serial{}, a), b));
+    REQUIRE(found.size() == expected.size());
+    CHECK(found.size() > 50);
+    for (std::size_t i = 0; i < found.size(); ++i) CHECK(index_pair{found[i].a, found[i].b} == expected[i]);
 }

@@ -30,7 +30,7 @@ mesh<T> as_mesh(const std::vector<triangle<T>>& triangles) {
 /// Brute force, with either side resident; the answers are sorted pairs, so nothing else can show.
 template <class Policy, class X, class Y>
 void check_resident(const Policy& on, const X& a, const Y& b, const pair_list& expected) {
-    for (const query_side side : {query_side::a, query_side::b}) {
+    for (const argument side : {argument::a, argument::b}) {
         CHECK(to_host(pairs(on, a, b, query_options<>{.resident = side})) == expected);
         CHECK(any(on, a, b, query_options<>{.resident = side}) == !expected.empty());
     }

@@ -2,7 +2,7 @@
 #pragma once
 
 // What `validate` says on every policy, against answers that are known and against a naive oracle: maps and sets over faces
-// one by one, written from the definitions in collide/mesh_report.hpp and from nothing else.
+// one by one, written from the definitions in shape/mesh_report.hpp and from nothing else.
 
 #include <algorithm>
 #include <array>

@@ -7,6 +7,7 @@
 #include <abut/io/read.hpp>
 
 #include "io/support.hpp"
+#include "shape/feature_cases.hpp"
 #include "support/catch.hpp"
 
 using namespace abut;
@@ -135,4 +136,16 @@ TEST_CASE("validate: welded where its report says that vertices coincide") {
         CHECK(r.nonmanifold_edges.size() == known.bad);
         CHECK(r.coincident_vertices.empty());
     }
+}
+
+TEST_CASE("features: edges and vertices of the real meshes") {
+    if (!io_test::meshes()) ABUT_SKIP("the folder of real meshes is not there (ABUT_DATA)");
+    std::size_t read = 0;
+    for (const char* file : {"meshes/fandisk.ply", "meshes/stanford-bunny.ply", "meshes/ogre.ply", "meshes/teapot.obj",
+                             "meshes/suzanne.obj", "meshes/env.obj"}) {
+        CAPTURE(file);
+        const auto data = io::read_mesh_data<float>(io_test::meshes()->parent_path() / file);
+        read += test::check_features(openmp{.threads = 2}, data.vertices, data.faces);
+    }
+    CHECK(read > 300'000);
 }

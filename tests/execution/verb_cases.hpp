@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <abut/execution/host.hpp>
+#include <abut/execution/ordered.hpp>
 
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
@@ -24,8 +25,16 @@ struct write_square {
 struct identity {
     ABUT_HD std::uint64_t operator()(std::size_t i) const { return i; }
 };
+struct element {
+    const std::uint64_t* values;
+    ABUT_HD std::uint64_t operator()(std::size_t i) const { return values[i]; }
+};
 struct sum {
     ABUT_HD std::uint64_t operator()(std::uint64_t a, std::uint64_t b) const { return a + b; }
+};
+struct write_remainder {
+    std::uint32_t* out;
+    ABUT_HD void operator()(std::size_t i) const { out[i] = static_cast<std::uint32_t>(i * i % 11); }
 };
 struct is_multiple {
     std::size_t of;
@@ -42,33 +51,37 @@ struct push_some {
         }
     }
 };
+/// Each multiple of `of` finds `copies` candidates; a walk that was stopped goes on where it was.
 struct emit_copies {
     using candidate = std::uint64_t;
-    std::size_t copies;
+    struct cursor {
+        std::size_t next = 0;
+    };
+    std::size_t of, copies;
+    ABUT_HD bool may_find(std::size_t i) const { return is_multiple{of}(i); }
     ABUT_CALLS_ANY
     template <class Emitter, class Hits>
-    ABUT_HD void operator()(std::size_t i, const Emitter& emitter, Hits&) const {
-        for (std::size_t k = 0; k < copies; ++k) emitter.push(i * copies + k);
+    ABUT_HD bool operator()(std::size_t i, cursor& at, const Emitter& emitter, Hits&) const {
+        for (; at.next < copies; ++at.next) {
+            if (emitter.is_full()) return true;
+            emitter.push(i * copies + at.next);
+        }
+        return false;
     }
 };
-/// Keeps what is not a multiple of 3; multiples of 5 are late.
+/// Keeps what is not a multiple of 3; multiples of 5 are left open, and kept when they are finished.
 struct keep_some {
     ABUT_CALLS_ANY
-    template <class Late, class Hits>
-    ABUT_HD void operator()(std::uint64_t candidate, Late& late, Hits& hits) const {
-        if (candidate % 5 == 0) {
-            late.push(candidate);
-        } else if (candidate % 3 != 0) {
-            hits.push(candidate);
-        }
+    template <class Hits>
+    ABUT_HD bool operator()(std::uint64_t candidate, Hits& hits) const {
+        if (candidate % 5 == 0) return false;
+        if (candidate % 3 != 0) hits.push(candidate);
+        return true;
     }
-};
-/// What is late is kept after all, unless it came for want of room and is none of ours.
-struct settle_some {
     ABUT_CALLS_ANY
     template <class Hits>
-    ABUT_HD void operator()(std::uint64_t candidate, Hits& hits) const {
-        if (candidate % 5 == 0 || candidate % 3 != 0) hits.push(candidate);
+    ABUT_HD void finish(std::uint64_t candidate, Hits& hits) const {
+        hits.push(candidate);
     }
 };
 struct raise_at {
@@ -79,13 +92,16 @@ struct raise_at {
         if (!flag.raised() && i == where) flag.raise();
     }
 };
+/// Every second candidate is left open.
 struct raise_always {
-    template <class Late, class Flag>
-    ABUT_HD void operator()(std::uint64_t, Late&, Flag& flag) const {
+    template <class Flag>
+    ABUT_HD bool operator()(std::uint64_t candidate, Flag& flag) const {
+        if (candidate % 2 == 0) return false;
         flag.raise();
+        return true;
     }
     template <class Flag>
-    ABUT_HD void operator()(std::uint64_t, Flag& flag) const {
+    ABUT_HD void finish(std::uint64_t, Flag& flag) const {
         flag.raise();
     }
 };
@@ -98,6 +114,7 @@ struct product_tile {
         std::uint64_t value;
     };
     using column = std::uint64_t;
+    using candidate = std::uint64_t;
     /// A share of all pairs, or all of them.
     std::uint64_t modulus;
     const row* stored = nullptr;
@@ -107,31 +124,27 @@ struct product_tile {
     ABUT_HD reach reach_of(const row& r) const { return {(r.value - 1) * 3}; }
     ABUT_HD column load_column(std::size_t j) const { return j + 1; }
     ABUT_HD bool passes(const reach& r, const column& c) const { return (r.value + c - 1) % modulus == 0; }
+    ABUT_HD candidate candidate_of(std::size_t i, std::size_t j) const { return i << 32 | j; }
+    /// Every eleventh diagonal is left open.
     ABUT_CALLS_ANY
-    template <class Late, class Queue, class Count>
-    ABUT_HD void operator()(const row& r, std::size_t i, const column& c, std::size_t j, Late& late, Queue& queue,
-                            Count& count) const {
+    template <class Queue, class Count>
+    ABUT_HD bool operator()(const row& r, std::size_t i, const column& c, std::size_t j, Queue& queue, Count& count) const {
         count.add(1);
-        if ((i + j) % 11 == 0) {
-            late.push(i << 32 | j);
-        } else if (r.value * c % 7 == 0 && r.value == i + 1 && c == j + 1) {
-            queue.push(i << 32 | j);
-        }
+        if ((i + j) % 11 == 0) return false;
+        if (r.value * c % 7 == 0 && r.value == i + 1 && c == j + 1) queue.push(i << 32 | j);
+        return true;
+    }
+    ABUT_CALLS_ANY
+    template <class Queue, class Count>
+    ABUT_HD void finish(std::uint64_t key, Queue& queue, Count& count) const {
+        count.add(1000);
+        if (((key >> 32) + 1) * ((key & 0xffffffff) + 1) % 7 == 0) queue.push(key);
     }
 };
 struct store_row {
     product_tile::row* out;
     ABUT_HD void operator()(std::size_t i) const { out[i] = product_tile{1}.load_row(i); }
 };
-struct settle_product {
-    ABUT_CALLS_ANY
-    template <class Queue, class Count>
-    ABUT_HD void operator()(std::uint64_t key, Queue& queue, Count& count) const {
-        count.add(1000);
-        if (((key >> 32) + 1) * ((key & 0xffffffff) + 1) % 7 == 0) queue.push(key);
-    }
-};
-
 template <class Policy, class T>
 std::vector<T> on_host(const Policy& on, const T* values, std::size_t n) {
     std::vector<T> copy(n);
@@ -184,8 +197,8 @@ void check_candidates(const Policy& on) {
     } const cases[] = {{0, 1, 1}, {1, 1, 1}, {100'000, 97, 3}, {5000, 1, 4}, {70'000, 1, 1}, {3000, 1, 40}, {2, 1, 100'000}};
     for (const auto& [n, of, copies] : cases) {
         CAPTURE(n, of, copies);
-        execution::work_queue<std::uint64_t, space_of<Policy>> late(on), hits(on);
-        for_each_candidate(on, n, is_multiple{of}, emit_copies{copies}, keep_some{}, settle_some{}, late, hits);
+        execution::work_queue<std::uint64_t, space_of<Policy>> hits(on);
+        for_each_candidate(on, n, emit_copies{of, copies}, keep_some{}, hits);
         const std::vector<std::uint64_t> all = sorted_content(on, hits);
         std::vector<std::uint64_t> expected;
         for (std::size_t i = 0; i < n; i += of) {
@@ -197,127 +210,58 @@ void check_candidates(const Policy& on) {
     }
 }
 
-/// No group, groups that are whole, and a last one with one index or a few.
-inline constexpr std::size_t group_counts[] = {0, 1, 255, 256, 257, 768, 70'001};
-
-/// Adds up a group in a heap: place k gets the sums of places 2 k and 2 k + 1, and index k those from 256 + k on. The sum of
-/// a whole group is late, as is what waits alone in the last one, and every seventh index.
-struct add_in_groups {
-    static constexpr unsigned parts = 2;
-    std::uint64_t* sums;
-    std::size_t n;
-
-    struct shared {
-        std::uint64_t value[2][execution::group_size];
-        std::uint32_t visitors[execution::group_size];
-    };
-    ABUT_CALLS_ANY
-    template <class Ready, class Late>
-    ABUT_HD static void hang(unsigned place, std::uint64_t sum, shared& with, Ready&& ready, Late&& late) {
-        const unsigned above = place / 2;
-        if (above == 0) {
-            with.value[0][0] = sum;
-            late.push(sum);
-            return;
-        }
-        with.value[place % 2][above] = sum;
-        if (execution::increment_in_group(&with.visitors[above]) == 1) ready.push(above);
-    }
-    ABUT_HD void prepare(std::size_t first, unsigned k, shared& with) const {
-        with.visitors[k] = 0;
-        with.value[0][k] = with.value[1][k] = first;
-    }
-    ABUT_CALLS_ANY
-    template <class Ready, class Late, class Count>
-    ABUT_HD void begin(std::size_t i, shared& with, Ready&& ready, Late&& late, Count& count) const {
-        count.add(1);
-        if (i % 7 == 0) late.push(i);
-        const unsigned k = static_cast<unsigned>(i) % execution::group_size;
-        hang(execution::group_size + k, i, with, ready, late);
-    }
-    ABUT_CALLS_ANY
-    template <class Ready, class Late>
-    ABUT_HD void step(std::size_t, unsigned k, shared& with, Ready&& ready, Late&& late) const {
-        hang(k, with.value[0][k] + with.value[1][k], with, ready, late);
-    }
-    ABUT_CALLS_ANY
-    template <class Late>
-    ABUT_HD void end(std::size_t first, unsigned k, const shared& with, Late&& late) const {
-        if (with.visitors[k] == 1) late.push(with.value[0][k] == first ? with.value[1][k] : with.value[0][k]);
-    }
-    ABUT_HD void write(std::size_t first, unsigned t, const shared& with) const {
-        const std::size_t at = first + t / parts;
-        if (at < n) sums[parts * first + t] = t % parts == 0 ? with.value[0][0] : at;
-    }
-};
-struct keep_late {
-    ABUT_CALLS_ANY
-    template <class Count>
-    ABUT_HD void operator()(std::uint64_t value, Count& count) const {
-        count.add(static_cast<std::uint32_t>(value % 1024));
-    }
-};
-
-template <class Policy>
-void check_groups(const Policy& on) {
-    constexpr std::size_t size = execution::group_size;
-    for (const std::size_t n : group_counts) {
-        CAPTURE(n);
-        execution::buffer_of<Policy, std::uint64_t> sums(on, 2 * n);
-        execution::work_queue<std::uint64_t, space_of<Policy>> late(on, 2 * n);
-        execution::work_count<space_of<Policy>> count(on);
-        for_each_in_groups(on, n, add_in_groups{sums.data(), n}, keep_late{}, late, count);
-        const auto written = on_host(on, sums.data(), 2 * n);
-        std::uint64_t in_groups = 0, sevenths = 0, wrong = 0;
-        for (std::size_t i = 0; i < n; ++i) {
-            const std::size_t first = i / size * size;
-            const bool whole = first + size <= n;
-            if (i % 7 == 0) sevenths += i;
-            in_groups += i;
-            wrong += written[2 * i + 1] != i || (whole && written[2 * i] != size * first + size * (size - 1) / 2);
-        }
-        CHECK(wrong == 0);
-        const auto values = on_host(on, late.data(), late.size());
-        CHECK(std::accumulate(values.begin(), values.end(), std::uint64_t{0}) == in_groups + sevenths);
-        std::uint64_t settled = n;
-        for (const std::uint64_t value : values) settled += value % 1024;
-        CHECK(count.total() == settled);
-    }
-}
-
 /// Adds up each group in a heap, level by level: place k gets the sums of places 2 k and 2 k + 1, and index k of the group
-/// is place 256 + k. Of each index it writes the sum of the group, that of place k, and itself.
-struct add_in_turns {
-    static constexpr unsigned parts = 3, size = execution::group_size;
+/// is place 256 + k. Of each index it writes the sum of the group, that of place k, itself, how many indices of the group
+/// are 1 more than a multiple of 3, and how many sums of the heap's upper levels are odd.
+struct add_in_groups {
+    static constexpr unsigned parts = 5, size = execution::group_size;
     std::uint64_t* sums;
     std::size_t n;
 
     struct shared {
         std::uint64_t value[2 * size];
+        unsigned odd;
     };
-    ABUT_HD void load(std::size_t first, unsigned k, shared& with) const {
-        with.value[size + k] = first + k < n ? first + k : 0;
-        if (k == 0) with.value[0] = 0;
-    }
-    [[nodiscard]] ABUT_HD unsigned turns(const shared&) const { return 8; }
-    [[nodiscard]] ABUT_HD execution::index_range of_turn(unsigned t, const shared&) const {
-        return {size >> (t + 1), size >> t};
-    }
-    ABUT_HD void step(unsigned, std::size_t, unsigned k, shared& with) const {
-        with.value[k] = with.value[2 * k] + with.value[2 * k + 1];
-    }
-    ABUT_HD void write(std::size_t first, unsigned k, unsigned part, const shared& with) const {
-        if (first + k < n) sums[parts * (first + k) + part] = with.value[part == 0 ? 1 : part == 1 ? k : size + k];
+    ABUT_HD void operator()(const execution::group<shared>& members) const {
+        const std::size_t first = members.first;
+        shared& with = members.shared;
+        const unsigned thirds = members.count(0, size, [&](unsigned k) {
+            with.value[size + k] = first + k < n ? first + k : 0;
+            return first + k < n && (first + k) % 3 == 1;
+        });
+        members.each([&](unsigned k) {
+            if (k == 0) with.value[0] = 0;
+        });
+        const auto add = [&](unsigned k) {
+            with.value[k] = with.value[2 * k] + with.value[2 * k + 1];
+            return with.value[k] % 2 == 1;
+        };
+        unsigned width = size / 2;
+        for (; width > execution::subgroup_size; width /= 2) members.each(width, 2 * width, add);
+        members.in_subgroup([&](const execution::subgroup& some) {
+            unsigned odd = 0;
+            for (; width > 4; width /= 2) odd += some.count(width, 2 * width, add);
+            for (; width > 0; width /= 2) some.each(width, 2 * width, add);
+            some.each(0, 1, [&](unsigned) { with.odd = odd; });
+        });
+        members.each(0, parts * size, [&](unsigned t) {
+            const unsigned k = t / parts;
+            const std::uint64_t values[parts] = {with.value[1], with.value[k], with.value[size + k], thirds, with.odd};
+            if (first + k < n) sums[parts * first + t] = values[t % parts];
+        });
     }
 };
 
+/// No group, groups that are whole, and a last one with one index or a few.
+inline constexpr std::size_t group_counts[] = {0, 1, 255, 256, 257, 768, 70'001};
+
 template <class Policy>
-void check_turns(const Policy& on) {
-    constexpr std::size_t size = execution::group_size;
+void check_groups(const Policy& on) {
+    constexpr std::size_t size = execution::group_size, parts = add_in_groups::parts;
     for (const std::size_t n : group_counts) {
         CAPTURE(n);
-        execution::buffer_of<Policy, std::uint64_t> sums(on, 3 * n);
-        for_each_in_turns(on, n, add_in_turns{sums.data(), n});
+        execution::buffer_of<Policy, std::uint64_t> sums(on, parts * n);
+        for_each_group(on, n, add_in_groups{sums.data(), n});
         const auto written = on_host(on, sums.data(), sums.size());
         std::uint64_t wrong = 0;
         for (std::size_t i = 0; i < n; ++i) {
@@ -329,9 +273,39 @@ void check_turns(const Policy& on) {
                 for (std::size_t j = first + from - size; j < first + from - size + count && j < n; ++j) sum += j;
                 return sum;
             };
-            wrong += written[3 * i] != below(1) || written[3 * i + 1] != (k == 0 ? 0 : below(k)) || written[3 * i + 2] != i;
+            std::uint64_t thirds = 0, odd = 0;
+            if (k == 0) {
+                for (std::size_t j = first; j < first + size && j < n; ++j) thirds += j % 3 == 1;
+                for (std::size_t place = 8; place < 64; ++place) odd += below(place) % 2;
+                wrong += written[parts * i + 3] != thirds || written[parts * i + 4] != odd;
+            }
+            wrong += written[parts * i] != below(1) || written[parts * i + 1] != (k == 0 ? 0 : below(k)) ||
+                     written[parts * i + 2] != i;
         }
         CHECK(wrong == 0);
+    }
+}
+
+/// The number of indices lies in the policy's memory.
+template <class Policy>
+void check_indirect(const Policy& on) {
+    for (const std::size_t n : verb_sizes) {
+        CAPTURE(n);
+        execution::buffer_of<Policy, std::uint32_t> number(on, 1);
+        execution::buffer_of<Policy, std::uint64_t> out(on, n + 1);
+        fill(on, number.data(), 1, static_cast<std::uint32_t>(n));
+        fill(on, out.data(), n + 1, std::uint64_t{7});
+        for_each_indirect(on, number.data(), write_square{out.data()});
+        std::vector<std::uint64_t> squares(n + 1, 7), expected;
+        for (std::size_t i = 0; i < n; ++i) squares[i] = i * i;
+        CHECK(on_host(on, out.data(), n + 1) == squares);
+
+        execution::work_queue<std::uint64_t, space_of<Policy>> queue(on);
+        execution::work_count<space_of<Policy>> count(on);
+        for_each_indirect(on, number.data(), push_some{}, queue, count);
+        for (std::size_t i = 0; i < n; ++i) expected.insert(expected.end(), i % 4, i);
+        CHECK(sorted_content(on, queue) == expected);
+        CHECK(count.total() == expected.size());
     }
 }
 
@@ -415,8 +389,8 @@ void check_descents(const Policy& on) {
                        {{kind::ragged, 20}, 10'000}, {{kind::chain, 95}, 1}, {{kind::comb, 95}, 180}};
     for (const auto& [tree, least] : cases) {
         CAPTURE(static_cast<unsigned>(tree.shape), tree.depth);
-        execution::work_queue<std::uint64_t, space_of<Policy>> late(on), hits(on);
-        for_each_descendant(on, tree, keep_some{}, settle_some{}, late, hits);
+        execution::work_queue<std::uint64_t, space_of<Policy>> hits(on);
+        for_each_descendant(on, tree, keep_some{}, hits);
         const grown truth(tree);
         CHECK(truth.candidates.size() >= least);
         std::vector<std::uint64_t> expected;
@@ -426,7 +400,7 @@ void check_descents(const Policy& on) {
         std::sort(expected.begin(), expected.end());
         CHECK((sorted_content(on, hits) == expected));
         execution::work_flag<space_of<Policy>> found(on);
-        for_each_descendant(on, tree, raise_always{}, raise_always{}, late, found);
+        for_each_descendant(on, tree, raise_always{}, found);
         CHECK(found.raised() == (least > 0));
     }
 }
@@ -435,8 +409,7 @@ template <class Policy>
 void check_tile(const Policy& on, std::size_t n, std::size_t m, const product_tile& tile) {
     execution::work_queue<std::uint64_t, space_of<Policy>> queue(on);
     execution::work_count<space_of<Policy>> count(on);
-    execution::work_queue<std::uint64_t, space_of<Policy>> late(on);
-    for_each_tiled(on, n, m, tile, settle_product{}, late, queue, count);
+    for_each_tiled(on, n, m, tile, queue, count);
     std::vector<std::uint64_t> expected;
     std::uint64_t passed = 0, settled = 0;
     for (std::size_t i = 0; i < n; ++i) {
@@ -449,7 +422,6 @@ void check_tile(const Policy& on, std::size_t n, std::size_t m, const product_ti
     }
     CHECK(sorted_content(on, queue) == expected);
     CHECK(count.total() == passed + 1000 * settled);
-    CHECK(late.size() == settled);
 }
 
 template <class Policy>
@@ -479,15 +451,23 @@ void check_reductions(const Policy& on) {
         CAPTURE(n);
         CHECK(reduce(on, n, std::uint64_t{0}, sum{}, identity{}) == n * (n + 1) / 2 - n);
         execution::buffer_of<Policy, std::uint32_t> values(on, n + 1);
-        fill(on, values.data(), n, std::uint32_t{3});
+        for_each_index(on, n, write_remainder{values.data()});
         exclusive_scan(on, values.data(), n);
         std::vector<std::uint32_t> expected(n + 1);
-        for (std::size_t i = 0; i <= n; ++i) expected[i] = static_cast<std::uint32_t>(3 * i);
+        for (std::size_t i = 0; i < n; ++i) expected[i + 1] = static_cast<std::uint32_t>(expected[i] + i * i % 11);
         CHECK(on_host(on, values.data(), n + 1) == expected);
 
         execution::buffer_of<Policy, std::uint32_t> kept(on, n + 1);
         const std::size_t count = compact(on, n, is_multiple{3}, kept.data());
         REQUIRE(count == (n + 2) / 3);
+        execution::buffer_of<Policy, std::uint64_t> sum_there(on, 1), twin(on, n);
+        reduce_into(on, n, sum_there.data(), std::uint64_t{0}, sum{}, identity{});
+        CHECK(on_host(on, sum_there.data(), 1).front() == n * (n + 1) / 2 - n);
+        for_each_task(on, n, write_square{twin.data()});
+        execution::buffer_of<Policy, std::uint64_t> squares(on, n);
+        copy(on, twin.data(), n, squares.data());
+        CHECK(reduce(on, n, std::uint64_t{0}, sum{}, element{squares.data()}) ==
+              (n == 0 ? 0 : (n - 1) * n * (2 * n - 1) / 6));
         std::vector<std::uint32_t> multiples(count);
         for (std::size_t i = 0; i < count; ++i) multiples[i] = static_cast<std::uint32_t>(3 * i);
         CHECK(on_host(on, kept.data(), count) == multiples);
@@ -523,14 +503,66 @@ void check_sorts(const Policy& on) {
     }
 }
 
+/// Index i offers `width` values, of which many are equal, and passes over those above the bound. `visits` counts the
+/// others.
+struct offer_some {
+    std::size_t width;
+    std::uint64_t* visits;
+    ABUT_HD static double value(std::size_t i, std::size_t k) {
+        return static_cast<double>((i * 2654435761u + k * 40503u) % 1009) * 0.25;
+    }
+    /// Of equal values the last one to come has the least key.
+    ABUT_HD std::uint64_t key(std::size_t i, std::size_t k) const { return (1'000'000 - i) * width + (width - k); }
+    ABUT_CALLS_ANY
+    template <class Sink>
+    ABUT_HD void operator()(std::size_t i, Sink& best) const {
+        for (std::size_t k = 0; k < width; ++k) {
+            if (value(i, k) > best.bound()) continue;
+            best.offer(value(i, k), key(i, k));
+            execution::atomic_add(visits, std::uint64_t{1});
+        }
+    }
+};
+
+template <class Policy>
+void check_ordered(const Policy& on) {
+    for (const std::size_t n : {0u, 1u, 31u, 257u, 5000u}) {
+        CAPTURE(n);
+        execution::buffer_of<Policy, std::uint64_t> visits(on, 1);
+        fill(on, visits.data(), 1, std::uint64_t{0});
+        const offer_some walk{40, visits.data()};
+        std::vector<execution::least_value> of_each(n);
+        execution::least_value of_all;
+        for (std::size_t i = 0; i < n; ++i) {
+            for (std::size_t k = 0; k < walk.width; ++k) of_each[i].offer(walk.value(i, k), walk.key(i, k));
+            of_all.offer(of_each[i].value, of_each[i].key);
+        }
+        execution::best_of_each<space_of<Policy>> each(on, n);
+        for_each_ordered(on, n, walk, each);
+        CHECK((on_host(on, each.data(), n) == of_each));
+        const std::uint64_t alone = on_host(on, visits.data(), 1)[0];
+        execution::best_of_all<space_of<Policy>> all(on);
+        for_each_ordered(on, n, walk, all);
+        CHECK((all.least() == of_all));
+        // One bound for all passes over more.
+        const std::uint64_t together = on_host(on, visits.data(), 1)[0] - alone;
+        CHECK(alone <= n * walk.width);
+        if (n == 5000) CHECK(together < alone / 2);
+        // What comes in later loops is added.
+        for_each_ordered(on, std::size_t{1}, walk, all);
+        CHECK((all.least() == of_all || n == 0));
+    }
+}
+
 template <class Policy>
 void check_verbs(const Policy& on) {
     check_loops(on);
     check_candidates(on);
     check_groups(on);
-    check_turns(on);
+    check_indirect(on);
     check_descents(on);
     check_tiles(on);
+    check_ordered(on);
     check_reductions(on);
     check_sorts<std::uint32_t>(on);
     check_sorts<std::uint64_t>(on);

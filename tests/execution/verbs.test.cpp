@@ -3,7 +3,15 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <limits>
+#include <mutex>
+#include <set>
 #include <stdexcept>
+#include <thread>
+#include <vector>
 
 #include "execution/verb_cases.hpp"
 #include "support/catch.hpp"
@@ -17,8 +25,8 @@ static_assert(host_policy<serial> && host_policy<openmp>);
 
 TEST_CASE("verbs: serial") { test::check_verbs(serial{}); }
 
-TEST_CASE("verbs: openmp on 1, 2, 7 and all threads") {
-    for (const int threads : {1, 2, 7, 0}) {
+TEST_CASE("verbs: openmp on 1, 2, 7, all and far too many threads") {
+    for (const int threads : {1, 2, 7, 0, 30'000}) {
         CAPTURE(threads);
         test::check_verbs(openmp{.threads = threads});
     }
@@ -48,7 +56,11 @@ struct flood {
 };
 struct keep_depth {
     std::atomic<int>* hints;
-    void operator()(unsigned depth, auto&, auto& hits) const { hits.push(depth); }
+    bool operator()(unsigned depth, auto& hits) const {
+        hits.push(depth);
+        return true;
+    }
+    void finish(unsigned, auto&) const { FAIL("nothing is left open"); }
     void prefetch(unsigned, int step) const { *hints += step == 0 ? 1 : -1; }
 };
 
@@ -59,9 +71,8 @@ TEST_CASE("verbs: a descent has room for as many items as there may be, and hint
         constexpr long most = 200'000;
         std::atomic<long> left{most};
         std::atomic<int> hints{0};
-        execution::work_queue<unsigned, host_space> late(on), hits(on);
-        for_each_descendant(
-            on, flood{&left}, keep_depth{&hints}, [](unsigned, auto&) { FAIL(); }, late, hits);
+        execution::work_queue<unsigned, host_space> hits(on);
+        for_each_descendant(on, flood{&left}, keep_depth{&hints}, hits);
         CHECK(hits.size() == 1 + 15 * most);
         CHECK(*std::max_element(hits.data(), hits.data() + hits.size()) == 96);
         CHECK(hints == 0);
@@ -82,6 +93,141 @@ TEST_CASE("verbs: what a functor throws on any thread arrives at the caller") {
         return i;
     };
     CHECK_THROWS_AS(reduce(openmp{.threads = 3}, 100'000, std::size_t{0}, first, worse), std::bad_alloc);
+}
+
+namespace {
+
+/// A call on one thread that waits until another thread has called as well, but not for ever.
+class rendezvous {
+public:
+    void operator()() {
+        std::unique_lock lock(mutex_);
+        if (!callers_.insert(std::this_thread::get_id()).second) return;
+        all_there_.notify_all();
+        all_there_.wait_for(lock, std::chrono::seconds(20), [&] { return callers_.size() > 1; });
+    }
+    [[nodiscard]] bool met() const { return callers_.size() > 1; }
+
+private:
+    std::mutex mutex_;
+    std::condition_variable all_there_;
+    std::set<std::thread::id> callers_;
+};
+
+/// A number of which the sum is made on more threads than one.
+struct met_sum {
+    static inline rendezvous* meeting = nullptr;
+    std::uint64_t value = 0;
+    friend met_sum operator+(met_sum a, met_sum b) {
+        if (meeting) (*meeting)();
+        return {a.value + b.value};
+    }
+};
+
+}  // namespace
+
+TEST_CASE("verbs: scans, selections, reductions and groups of openmp run on its threads") {
+    const openmp on{.threads = 2};
+    if (concurrency(on) == 1) return;  // compiled without OpenMP
+    constexpr std::size_t n = 50'000;
+    SECTION("exclusive_scan") {
+        rendezvous meeting;
+        std::vector<met_sum> values(n + 1, met_sum{3});
+        met_sum::meeting = &meeting;
+        exclusive_scan(on, values.data(), n);
+        met_sum::meeting = nullptr;
+        CHECK(meeting.met());
+        CHECK(values[n].value == 3 * n);
+    }
+    SECTION("compact") {
+        rendezvous meeting;
+        std::vector<std::uint32_t> kept(n);
+        const auto odd = [&](std::size_t i) {
+            meeting();
+            return i % 2 == 1;
+        };
+        CHECK(compact(on, n, odd, kept.data()) == n / 2);
+        CHECK(meeting.met());
+        CHECK(kept[n / 2 - 1] == n - 1);
+    }
+    SECTION("reduce") {
+        rendezvous meeting;
+        const auto one = [&](std::size_t) {
+            meeting();
+            return std::size_t{1};
+        };
+        CHECK(reduce(on, n, std::size_t{0}, std::plus<std::size_t>{}, one) == n);
+        CHECK(meeting.met());
+    }
+    SECTION("for_each_task") {
+        rendezvous meeting;
+        for_each_task(on, 2, [&](std::size_t) { meeting(); });
+        CHECK(meeting.met());
+    }
+}
+
+TEST_CASE("verbs: a loop takes no more threads than it has ranges, nor than eight for each processor") {
+    for (const int threads : {30'000, 200'000, std::numeric_limits<int>::max()}) {
+        const openmp on{.threads = threads};
+        CHECK(concurrency(on) >= 1);
+        CHECK(static_cast<unsigned>(concurrency(on)) <= 8 * std::max(std::thread::hardware_concurrency(), 1u));
+        std::atomic<int> most{0};
+        const auto note = [&](int thread, std::size_t, std::size_t) {
+            for (int seen = most; seen < thread && !most.compare_exchange_weak(seen, thread);) {
+            }
+        };
+        for_each_range(on, 2'500, 1'000, note);
+        CHECK(most < 3);
+        CHECK(reduce(on, 1'000'000, std::uint64_t{0}, test::sum{}, test::identity{}) == 499'999'500'000);
+    }
+    CHECK(concurrency(openmp{.threads = 1}) == 1);
+}
+
+TEST_CASE("verbs: loops within loops, on threads of one policy and of several") {
+    const openmp outer{.threads = 3};
+    std::vector<std::uint64_t> sums(40);
+    for_each_task(outer, sums.size(), [&](std::size_t i) {
+        sums[i] = reduce(openmp{.threads = 2}, 20'000 + i, std::uint64_t{0}, test::sum{}, test::identity{});
+        execution::work_count<host_space> count(outer);
+        for_each_index(
+            outer, 3'000, [](std::size_t, auto& sink) { sink.add(1); }, count);
+        if (count.total() != 3'000) sums[i] = 0;
+    });
+    for (std::size_t i = 0; i < sums.size(); ++i) CHECK(sums[i] == (20'000 + i) * (19'999 + i) / 2);
+}
+
+TEST_CASE("verbs: when a functor throws on one thread, the others end soon") {
+    const openmp on{.threads = 2};
+    if (concurrency(on) == 1) return;  // compiled without OpenMP
+    std::atomic<bool> thrown{false};
+    std::atomic<std::size_t> begun{0}, after{0};
+    // The thread that throws waits for the other to be at work, and that one takes its time with each index then.
+    const auto throw_first = [&](std::size_t i) {
+        if (i == 0) {
+            const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+            while (begun == 0 && std::chrono::steady_clock::now() < limit) std::this_thread::yield();
+            thrown = true;
+            throw std::runtime_error("the first");
+        }
+        ++begun;
+        while (!thrown) std::this_thread::yield();
+        ++after;
+        std::this_thread::sleep_for(std::chrono::microseconds(20));
+    };
+    SECTION("a loop begins no more ranges") {
+        constexpr std::size_t n = 32 * 1024;
+        CHECK_THROWS_WITH(for_each_index(on, n, throw_first), "the first");
+        CHECK(begun > 0);
+        CHECK(after < n / 2);
+    }
+    SECTION("a loop with queues does not end its range") {
+        constexpr std::size_t n = 2 * 1024;
+        execution::work_count<host_space> count(on);
+        const auto with_sink = [&](std::size_t i, auto&) { throw_first(i); };
+        CHECK_THROWS_WITH(for_each_index(on, n, with_sink, count), "the first");
+        CHECK(begun > 0);
+        CHECK(after < n / 4);
+    }
 }
 
 TEST_CASE("buffers: memory for more elements than can be addressed is refused") {

@@ -10,6 +10,7 @@
 #include "index/tree_cases.hpp"
 #include "support/catch.hpp"
 #include "support/encloses.hpp"
+#include "support/find_flaw.hpp"
 #include "support/poses.hpp"
 #include "support/scenes.hpp"
 #include "support/surfaces.hpp"
@@ -90,7 +91,7 @@ TEMPLATE_TEST_CASE("bounded: well-formed, of any builder", "", sphere<float>, sp
             const auto tree = make_bvh(serial{}, soup, {.builder = builder});
             const auto result = bounded_by<TestType>(serial{}, tree);
             CAPTURE(n);
-            CHECK(find_flaw(result.view(), soup.view()) == "");
+            CHECK(test::find_flaw(result.view(), soup.view()) == "");
             CHECK(same_nodes<TestType>(result, bounded_by<TestType>(openmp{3}, tree)));
             if (n <= 100) CHECK(holds_all<TestType>(result));
         }
@@ -99,7 +100,7 @@ TEMPLATE_TEST_CASE("bounded: well-formed, of any builder", "", sphere<float>, sp
         for (const auto& [name, soup] : test::hard_sets<T>(n)) {
             CAPTURE(name, n);
             const auto result = bounded_by<TestType>(serial{}, make_bvh(serial{}, soup));
-            CHECK(find_flaw(result.view(), soup.view()) == "");
+            CHECK(test::find_flaw(result.view(), soup.view()) == "");
             if (n <= 100) CHECK(holds_all<TestType>(result));
         }
     }

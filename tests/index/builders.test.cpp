@@ -10,6 +10,7 @@
 
 #include "index/tree_cases.hpp"
 #include "support/catch.hpp"
+#include "support/find_flaw.hpp"
 
 using namespace abut;
 
@@ -24,7 +25,7 @@ template <class Set>
 void check_builder(const Set& set, bvh_builder builder) {
     const bvh_options options{.builder = builder};
     const auto tree = make_bvh(serial{}, set, options);
-    CHECK(find_flaw(tree.view(), set.view()) == "");
+    CHECK(test::find_flaw(tree.view(), set.view()) == "");
     if (builder == bvh_builder::linear) return;  // tests/index/bvh.test.cpp
     for (const int threads : {2, 3}) {
         CAPTURE(threads);
@@ -114,7 +115,7 @@ bvh_quality built_by(const Set& set) {
     nodes->nodes = {serial{}, set.size() - 1};
     nodes->root = {serial{}, 1};
     detail::build_top_down(serial{}, set.view(), *nodes, Splitter{});
-    CHECK(find_flaw(nodes->view_of(set.size()), set.view()) == "");
+    CHECK(test::find_flaw(nodes->view_of(set.size()), set.view()) == "");
     return quality(tree(set, nodes));
 }
 
@@ -242,7 +243,7 @@ TEST_CASE("builders: ploc takes Morton codes of any length") {
     const equal_spheres<float> set(clusters, 0.01f);
     const auto built = [&](int bits) {
         const auto tree = make_bvh(serial{}, set, {.morton_bits = bits, .builder = bvh_builder::ploc});
-        CHECK(find_flaw(tree.view(), set.view()) == "");
+        CHECK(test::find_flaw(tree.view(), set.view()) == "");
         return tree;
     };
     const auto of_choice = built(0), coarse = built(30), fine = built(63);
@@ -323,7 +324,10 @@ TEST_CASE("builders: sah takes the cheapest of its divisions") {
                 (goes_left ? left_count : right_count) += 1;
             }
             if (left_count == 0 || right_count == 0) return std::numeric_limits<double>::infinity();
-            return left_count * detail::half_surface(left, 1) + right_count * detail::half_surface(right, 1);
+            const auto surface = [](const aabb<float>& box) {
+                return detail::half_surface(detail::half_sides<double>(box));
+            };
+            return left_count * surface(left) + right_count * surface(right);
         };
         const auto chosen = detail::sah_splitter<float>{}(refs.data(), all);
         double least = std::numeric_limits<double>::infinity();
@@ -375,7 +379,7 @@ TEST_CASE("builders: boxes without a middle") {
         tree.nodes = {serial{}, boxes.size() - 1};
         tree.root = {serial{}, 1};
         detail::build_top_down(serial{}, shapes, tree, splitter);
-        CHECK(find_flaw(tree.view_of(boxes.size()), shapes) == "");
+        CHECK(test::find_flaw(tree.view_of(boxes.size()), shapes) == "");
     };
     check(detail::sah_splitter<float>{});
     check(detail::mean_splitter<float>{});
@@ -387,7 +391,7 @@ TEST_CASE("builders: boxes without a middle") {
         execution::buffer<aabb<float>, host_space> copy(serial{}, boxes.size());
         std::copy(boxes.begin(), boxes.end(), copy.data());
         detail::build_ploc<serial, float>(serial{}, copy, tree, 0);
-        CHECK(find_flaw(tree.view_of(boxes.size()), shapes) == "");
+        CHECK(test::find_flaw(tree.view_of(boxes.size()), shapes) == "");
     }
 }
 

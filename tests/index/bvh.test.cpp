@@ -5,6 +5,7 @@
 
 #include "index/index_cases.hpp"
 #include "support/catch.hpp"
+#include "support/find_flaw.hpp"
 
 using namespace abut;
 
@@ -27,19 +28,22 @@ TEST_CASE("bvh: find_flaw finds planted flaws") {
     const auto flaw_after = [&](auto&& spoil) {
         auto tree = built;
         spoil(tree);
-        return find_flaw(tree.view(50), soup.view());
+        return test::find_flaw(tree.view(50), soup.view());
     };
     CHECK(flaw_after([](auto&) {}) == "");
     // The first node that has a leaf on its left.
     std::size_t k = 0;
     while (!built.nodes[k].child[0].is_leaf()) ++k;
     const auto step_down = [](float& x) { x = std::nextafter(x, -std::numeric_limits<float>::infinity()); };
-    CHECK(flaw_after([&](auto& t) { step_down(t.nodes[k].bounds[0].upper.y); }).find("does not hold the shape") != std::string::npos);
-    CHECK(flaw_after([&](auto& t) { step_down(t.root[0].bounds.upper.x); }).find("does not hold the child's") != std::string::npos);
-    CHECK(flaw_after([&](auto& t) { t.nodes[k].child[0] = bvh_child::leaf(50); }).find("does not exist") != std::string::npos);
+    CHECK(flaw_after([&](auto& t) { step_down(t.nodes[k].bounds[0].upper.y); }).find("does not hold the shape") !=
+          std::string::npos);
+    CHECK(flaw_after([&](auto& t) { step_down(t.root[0].bounds.upper.x); }).find("does not hold the child's") !=
+          std::string::npos);
+    CHECK(flaw_after([&](auto& t) { t.nodes[k].child[0] = bvh_child::leaf(50); }).find("does not exist") !=
+          std::string::npos);
     CHECK(flaw_after([&](auto& t) { t.nodes[k].child[0] = t.root[0].child; }).find("reached twice") != std::string::npos);
     CHECK_FALSE(flaw_after([&](auto& t) { t.root[0].child = bvh_child::leaf(0); }).empty());
-    CHECK(find_flaw(built.view(49), soup.view()) == "the tree has 49 shapes, the set 50");
+    CHECK(test::find_flaw(built.view(49), soup.view()) == "the tree has 49 shapes, the set 50");
 }
 
 TEST_CASE("bvh: an index keeps its set alive, and views over arrays are checked") {
@@ -47,7 +51,7 @@ TEST_CASE("bvh: an index keeps its set alive, and views over arrays are checked"
         test::uniform random(5);
         return make_bvh(serial{}, triangle_soup<float>(test::random_triangles<float>(10, random)));
     }();
-    CHECK(find_flaw(tree.view(), tree.set().view()) == "");
+    CHECK(test::find_flaw(tree.view(), tree.set().view()) == "");
     CHECK(tree.bytes() == 9 * sizeof(bvh_node<float>) + sizeof(bvh_root<float>));
     const std::vector<sphere<float>> bad{{{0, 0, 0}, 1}, {{0, 0, 0}, -1}};
     CHECK_THROWS_WITH(make_bvh(serial{}, spheres_view<float>(bad.data(), 2)),
@@ -70,6 +74,7 @@ TEST_CASE("morton: codes interleave and clamp") {
     CHECK(code(-5, 2000, 0) == detail::spread_bits(std::uint32_t{1023}) << 1);
     constexpr double huge = std::numeric_limits<double>::max();
     const aabb<double> all{{-huge, -huge, -huge}, {huge, huge, huge}};
-    CHECK(detail::morton_code<std::uint64_t>(aabb<double>{{huge, huge, huge}, {huge, huge, huge}}, all) == 0x7fffffffffffffffu);
+    CHECK(detail::morton_code<std::uint64_t>(aabb<double>{{huge, huge, huge}, {huge, huge, huge}}, all) ==
+          0x7fffffffffffffffu);
     CHECK(detail::morton_code<std::uint64_t>(aabb<double>{{1, 1, 1}, {1, 1, 1}}, {{1, 1, 1}, {1, 1, 1}}) == 0);
 }

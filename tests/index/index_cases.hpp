@@ -9,6 +9,7 @@
 #include <abut/index/lbvh.hpp>
 
 #include "support/catch.hpp"
+#include "support/find_flaw.hpp"
 #include "support/scenes.hpp"
 
 namespace abut::test {
@@ -74,7 +75,8 @@ void check_trees(const Policy& on) {
         for (std::size_t i = 0; i < line.size(); ++i) line[i].x = std::ldexp(T(1), static_cast<int>(i % 120) - 60);
         check_tree(on, equal_spheres<T>(line, T(0)), options);
         constexpr T huge = std::numeric_limits<T>::max();
-        check_tree(on, spheres<T>({{{huge, 0, 0}, 1}, {{-huge, 0, 0}, huge}, {{0, huge, -huge}, 0}, {{0, 0, 0}, 0}}), options);
+        check_tree(on, spheres<T>({{{huge, 0, 0}, 1}, {{-huge, 0, 0}, huge}, {{0, huge, -huge}, 0}, {{0, 0, 0}, 0}}),
+                   options);
     }
 }
 

@@ -16,6 +16,7 @@
 
 #include "index/tree_cases.hpp"
 #include "support/catch.hpp"
+#include "support/find_flaw.hpp"
 #include "support/scenes.hpp"
 
 namespace abut::test {

@@ -58,7 +58,7 @@ TEST_CASE("refit: many at once, of one tree that none has refitted before") {
         std::vector<std::string> flaws(4);
         std::vector<std::thread> threads;
         for (auto& flaw : flaws) {
-            threads.emplace_back([&] { flaw = find_flaw(refit(serial{}, tree, second).view(), second.view()); });
+            threads.emplace_back([&] { flaw = test::find_flaw(refit(serial{}, tree, second).view(), second.view()); });
         }
         for (auto& t : threads) t.join();
         for (const auto& flaw : flaws) CHECK(flaw == "");
@@ -71,6 +71,6 @@ TEST_CASE("refit: the new tree keeps its set alive and outlives the old one") {
         const auto old = make_bvh(serial{}, triangle_soup<float>(test::random_triangles<float>(100, random)));
         return refit(serial{}, old, triangle_soup<float>(test::random_triangles<float>(100, random)));
     }();
-    CHECK(find_flaw(tree.view(), tree.set().view()) == "");
-    CHECK(find_flaw(refit(serial{}, tree, tree.set()).view(), tree.set().view()) == "");
+    CHECK(test::find_flaw(tree.view(), tree.set().view()) == "");
+    CHECK(test::find_flaw(refit(serial{}, tree, tree.set()).view(), tree.set().view()) == "");
 }

@@ -12,6 +12,7 @@
 
 #include "index/tree_cases.hpp"
 #include "support/catch.hpp"
+#include "support/find_flaw.hpp"
 #include "support/scenes.hpp"
 
 namespace abut::test {

@@ -171,7 +171,7 @@ triangle<T> turned(const triangle<T>& t) {
 template <class T>
 aabb<T> turned(const aabb<T>& box) {
     const vec3<T> p = turned(box.lower), q = turned(box.upper);
-    return {detail::lesser(p, q), detail::greater(p, q)};
+    return {detail::least(p, q), detail::greatest(p, q)};
 }
 template <class T>
 plane<T> turned(const plane<T>& p) {

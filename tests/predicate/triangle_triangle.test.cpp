@@ -167,6 +167,40 @@ TEMPLATE_TEST_CASE("triangle and triangle: triangles, segments and points, each 
     CHECK(wrong == 0);
 }
 
+// What makes dense ties cheap; without it the integers would give the same answers.
+TEMPLATE_TEST_CASE("triangle and triangle: ties on a coarse grid and at shared corners are decided before the integers", "",
+                   float, double) {
+    using T = TestType;
+    std::uint64_t left = 0, undecided = 0, shared = 0, missed = 0;
+    for (const triangle_family f : {triangle_family::lattice_4, triangle_family::lattice_16, triangle_family::lattice_256}) {
+        for (std::uint64_t k = 0; k < test::sample_count(); ++k) {
+            auto [s, t] = test::make_triangle_pair<T>(test::seed, f, k);
+            // Anywhere on the grid, of any unit, and with the largest number that has 16 bits
+            const T unit = std::ldexp(T(1), static_cast<int>(k % 181) - 90), off = static_cast<T>(0xffff - 256);
+            const auto placed = [&](T x, int) { return (k % 2 == 0 ? x + off : x) * unit; };
+            s = each_coordinate(s, placed), t = each_coordinate(t, placed);
+            if (decide<filtered>(s, t) != verdict::unknown) continue;
+            ++left;
+            undecided += decide_late<filtered>(s, t) != to_verdict(test::oracle::intersects(s, t));
+        }
+    }
+    for (const triangle_family f : {triangle_family::shared_vertex, triangle_family::shared_edge, triangle_family::copied}) {
+        for (std::uint64_t k = 0; k < test::sample_count(); ++k) {
+            const auto [s, t] = test::make_triangle_pair<T>(test::seed, f, k);
+            bool any = false;
+            for (const vec3<T>& p : {s.a, s.b, s.c}) any = any || p == t.a || p == t.b || p == t.c;
+            shared += any;
+            missed += any && decide_late<filtered>(s, t) != verdict::yes;
+        }
+    }
+    std::printf("ties, %s: %llu on grids, %llu at shared corners\n", sizeof(T) == 4 ? "float" : "double",
+                static_cast<unsigned long long>(left), static_cast<unsigned long long>(shared));
+    CHECK(left * 10 > test::sample_count());
+    CHECK(undecided == 0);
+    CHECK(shared * 2 > test::sample_count());
+    CHECK(missed == 0);
+}
+
 TEMPLATE_TEST_CASE("triangle and triangle: one answer in all 72 orders", "", float, double) {
     check_changes<TestType>("orders", [](const auto& p, test::draws&, bool answer, changes& sum) {
         for (int k = 0; k < 36; ++k) ask_again(test::reordered(p.a, k % 6), test::reordered(p.b, k / 6), answer, sum);

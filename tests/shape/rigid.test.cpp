@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <abut/shape/rigid.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <boost/multiprecision/cpp_int.hpp>
 
@@ -23,6 +27,11 @@ static_assert(place(rigid<float>{}, vec3<float>{1, 2, 3}) == vec3<float>{1, 2, 3
 static_assert(place(quarter, vec3<double>{1, 0, 0}) == vec3<double>{1, 3, 3});
 static_assert(compose(quarter, inverse(quarter)) == rigid<double>{});
 static_assert(place(quarter, sphere<double>{{1, 0, 0}, 5}).radius == 5);
+
+constexpr double quarter_by_rows[12] = {0, -1, 0, 1, 1, 0, 0, 2, 0, 0, 1, 3};
+constexpr std::array<double, 12> quarter_by_columns{0, 1, 0, -1, 0, 0, 0, 0, 1, 1, 2, 3};
+static_assert(rigid_from_matrix<double>(quarter_by_rows, matrix_order::row_major) == quarter);
+static_assert(rigid_from_matrix<double>(quarter_by_columns, matrix_order::column_major) == quarter);
 
 template <class T>
 rational exact_coordinate(const rigid<T>& pose, const vec3<T>& p, int i) {
@@ -134,7 +143,7 @@ std::string refusal(const rigid<T>& pose, std::size_t index) {
 
 template <class T>
 void check_refusals() {
-    const T nan = std::numeric_limits<T>::quiet_NaN(), ulp = std::numeric_limits<T>::epsilon();
+    const T nan = std::numeric_limits<T>::quiet_NaN();
     rigid<T> pose;
     CHECK(refusal(pose, 0) == "accepted");
     pose.rotation[5] = nan;
@@ -144,26 +153,164 @@ void check_refusals() {
     CHECK(refusal(pose, 2) == "abut::posed: translation coordinate 2: is not finite (-inf)");
     pose = {};
     pose.rotation[4] = 2;
-    CHECK(refusal(pose, 1) == "abut::posed: rotation row 1: its squared length is not 1 (4)");
+    CHECK(refusal(pose, 1) == "abut::posed: rotation row 1: its squared length differs from 1 by more than 2^-10 (3)");
     pose = {};
     pose.rotation[4] = largest_finite<T>;
     CHECK(refusal(pose, 1) != "accepted");
     pose = {};
     pose.rotation[8] = -1;
-    CHECK(refusal(pose, 0) == "abut::posed: rotation 0: it reflects: the determinant is -1 (-1)");
-    // 16 units in the last place are accepted and 17 are not, of a squared length (8 of the length) and of a product.
+    CHECK(refusal(pose, 0) == "abut::posed: rotation 0: it reflects: its determinant is negative (-1)");
+    // 2^-10 is accepted and a little more is not, of a squared length and of a product.
+    const auto length = [](double square) { return static_cast<T>(std::sqrt(square)); };
     pose = {};
-    pose.rotation[0] = 1 + 7 * ulp;
+    pose.rotation[0] = length(1 + 0.999 * 0x1p-10);
     CHECK(refusal(pose, 0) == "accepted");
-    pose.rotation[0] = 1 + 9 * ulp;
-    CHECK(refusal(pose, 0) != "accepted");
-    pose.rotation[0] = 1 - 9 * ulp;
-    CHECK(refusal(pose, 0) != "accepted");
+    pose.rotation[0] = length(1 - 0.999 * 0x1p-10);
+    CHECK(refusal(pose, 0) == "accepted");
+    pose.rotation[0] = length(1 + 1.001 * 0x1p-10);
+    CHECK(refusal(pose, 0).find("row 0: its squared length differs from 1 by more than 2^-10 (0.00097") !=
+          std::string::npos);
+    pose.rotation[0] = length(1 - 1.001 * 0x1p-10);
+    CHECK(refusal(pose, 0).find("row 0: its squared length differs from 1 by more than 2^-10 (-0.00097") !=
+          std::string::npos);
     pose = {};
-    pose.rotation[1] = 16 * ulp;
+    pose.rotation[1] = T(0x1p-10);
     CHECK(refusal(pose, 0) == "accepted");
-    pose.rotation[1] = 17 * ulp;
-    CHECK(refusal(pose, 1).find("row 1: is not orthogonal to row 0") != std::string::npos);
+    pose.rotation[1] = T(-1.25 * 0x1p-10);
+    CHECK(refusal(pose, 1) ==
+          "abut::posed: rotation row 1: its product with row 0 differs from 0 by more than 2^-10 (-0.00122070312)");
+}
+
+/// Products of 1000 joints, and rotations printed with few digits, are what programs have.
+template <class T>
+void check_acceptance() {
+    const std::uint64_t n = test::sample_count() / 50 + 1;
+    std::uint64_t refused = 0, refused_printed = 0;
+    for (std::uint64_t i = 0; i < n; ++i) {
+        test::draws d(test::seed, 4, i);
+        rigid<T> product = test::make_pose<T>(d, 1);
+        for (int k = 0; k < 1000; ++k) product = compose(test::make_pose<T>(d, 1e-3), product);
+        refused += !test::is_accepted(product);
+        const rigid<T> pose = test::make_pose<T>(d, 1);
+        for (int digits = 4; digits <= 12; ++digits)
+            refused_printed += !test::is_accepted(test::construction::printed(pose, digits));
+    }
+    CHECK(refused == 0);
+    CHECK(refused_printed == 0);
+}
+
+/// U = orthonormalised(A) is nearest to A if and only if the product of A and U's transposed is symmetric and positive
+/// definite (K. Fan, A. Hoffman, Some metric inequalities in the space of matrices, 1955): in rationals, no iteration.
+/// Returns how far from symmetric it is, as a part of its size, or infinity where it is not positive definite.
+template <class T>
+double off_from_nearest(const rigid<T>& given, const rigid<T>& nearest) {
+    rational h[3][3], size = 0;
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            for (int k = 0; k < 3; ++k)
+                h[i][j] += rational(given.rotation[3 * i + k]) * rational(nearest.rotation[3 * j + k]);
+            size += abs(h[i][j]);
+        }
+    }
+    const rational minor = h[0][0] * h[1][1] - h[0][1] * h[1][0];
+    const rational determinant = h[0][0] * (h[1][1] * h[2][2] - h[1][2] * h[2][1]) -
+                                 h[0][1] * (h[1][0] * h[2][2] - h[1][2] * h[2][0]) +
+                                 h[0][2] * (h[1][0] * h[2][1] - h[1][1] * h[2][0]);
+    if (h[0][0] <= 0 || minor <= 0 || determinant <= 0) return infinity<double>;
+    const rational off = abs(h[0][1] - h[1][0]) + abs(h[1][2] - h[2][1]) + abs(h[2][0] - h[0][2]);
+    return static_cast<double>(rational(off / size));
+}
+
+template <class T>
+void check_orthonormalised() {
+    constexpr auto unit = static_cast<double>(unit_roundoff<T>);
+    double rows_off = 0, off = 0, off_strained = 0, moved = 0;
+    for (std::uint64_t i = 0; i < test::sample_count(); ++i) {
+        test::draws d(test::seed, 5, i);
+        const rigid<T> pose = test::make_pose<T>(d, 1), once = orthonormalised(pose);
+        REQUIRE(once.translation == pose.translation);
+        for (int k = 0; k < 9; ++k) {
+            moved = std::max(moved, static_cast<double>(detail::absolute(once.rotation[k] - pose.rotation[k])));
+        }
+        rows_off = std::max(rows_off, test::deviation_of_rows(once));
+        off = std::max(off, off_from_nearest(pose, once));
+
+        // Strained far beyond what is accepted, and of any size.
+        rigid<T> strained = test::construction::strained(d, pose, d.power_of_ten(-3, 0) / 2);
+        const auto scale = static_cast<T>(d.power_of_ten(sizeof(T) == 4 ? -36 : -300, sizeof(T) == 4 ? 37 : 300));
+        for (T& x : strained.rotation) x *= scale;
+        const rigid<T> mended = orthonormalised(strained);
+        rows_off = std::max(rows_off, test::deviation_of_rows(mended));
+        off_strained = std::max(off_strained, off_from_nearest(strained, mended));
+    }
+    CHECK(rows_off < 16 * unit);
+    CHECK(off < 8 * unit);
+    CHECK(off_strained < 8 * unit);
+    CHECK(moved < 32 * unit);
+
+    // Far from any rotation, down to where it is refused: one axis a million times as short as the others.
+    for (const double least : {1e-1, 1e-3, 1e-5, 1.1e-6}) {
+        rigid<T> flat;
+        flat.rotation[1] = T(0.5);
+        flat.rotation[8] = static_cast<T>(least);
+        flat.rotation[6] = T(0.25) * static_cast<T>(least);
+        const rigid<T> mended = orthonormalised(flat);
+        CHECK(test::deviation_of_rows(mended) < 16 * unit);
+        CHECK(off_from_nearest(flat, mended) < 8 * unit);
+    }
+}
+
+template <class T>
+std::string refusal_to_mend(const std::array<double, 9>& rotation) {
+    rigid<T> pose;
+    std::transform(rotation.begin(), rotation.end(), pose.rotation, [](double x) { return static_cast<T>(x); });
+    try {
+        (void)orthonormalised(pose);
+    } catch (const invalid_geometry& e) {
+        return e.what();
+    }
+    return "accepted";
+}
+
+template <class T>
+void check_refusals_to_mend() {
+    const std::string singular =
+        "abut::orthonormalised: rotation 0: it reflects or is singular: its determinant, in units of "
+        "its largest entry, is below 2^-20 (";
+    CHECK(refusal_to_mend<T>({3, 0, 0, 0, 3, 0, 0, 0, 3}) == "accepted");
+    CHECK(refusal_to_mend<T>({2, 0, 0, 0, 2, 0, 0, 0, -2}) == singular + "-1)");
+    CHECK(refusal_to_mend<T>({0, 0, 0, 0, 0, 0, 0, 0, 0}) == singular + "0)");
+    CHECK(refusal_to_mend<T>({1, 2, 3, 2, 4, 6, 0, 0, 1}) == singular + "0)");
+    CHECK(refusal_to_mend<T>({1, 0, 0, 0, 1, 0, 0, 0, 1e-7}) != "accepted");
+    CHECK(refusal_to_mend<T>({1, 0, 0, 0, 1, 0, 0, std::nan(""), 1}) ==
+          "abut::orthonormalised: rotation entry 7: is not finite (nan)");
+}
+
+template <class T>
+void check_matrices() {
+    for (std::uint64_t i = 0; i < 100; ++i) {
+        test::draws d(test::seed, 6, i);
+        const rigid<T> pose = test::make_loose_pose<T>(d, 10);
+        const T* const r = pose.rotation;
+        const vec3<T>& t = pose.translation;
+        const T rows[16] = {r[0], r[1], r[2], t.x, r[3], r[4], r[5], t.y, r[6], r[7], r[8], t.z, 0, 0, T(-0.0), 1};
+        const std::array<T, 16> columns{r[0], r[3], r[6], 0, r[1], r[4], r[7], 0, r[2], r[5], r[8], 0, t.x, t.y, t.z, 1};
+        const std::array<T, 12> three{r[0], r[3], r[6], r[1], r[4], r[7], r[2], r[5], r[8], t.x, t.y, t.z};
+        REQUIRE(rigid_from_matrix<T>(rows, matrix_order::row_major) == pose);
+        REQUIRE(rigid_from_matrix<T>(columns, matrix_order::column_major) == pose);
+        REQUIRE(rigid_from_matrix(std::span<const T, 12>(rows, 12), matrix_order::row_major) == pose);
+        REQUIRE(rigid_from_matrix<T>(three, matrix_order::column_major) == pose);
+    }
+    // A last row that is none, in both orders: a matrix taken for one of the other order is noticed where it moves.
+    const T moves[16] = {1, 0, 0, 5, 0, 1, 0, 6, 0, 0, 1, 7, 0, 0, 0, 1};
+    CHECK(rigid_from_matrix<T>(moves, matrix_order::row_major).translation == vec3<T>{5, 6, 7});
+    CHECK_THROWS_WITH(rigid_from_matrix<T>(moves, matrix_order::column_major),
+                      "abut::rigid_from_matrix: matrix entry 3: the last row has to be 0 0 0 1 (5)");
+    T projects[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, T(0.5)};
+    CHECK_THROWS_WITH(rigid_from_matrix<T>(projects, matrix_order::row_major),
+                      "abut::rigid_from_matrix: matrix entry 15: the last row has to be 0 0 0 1 (0.5)");
+    projects[15] = std::numeric_limits<T>::quiet_NaN();
+    CHECK_THROWS_AS(rigid_from_matrix<T>(projects, matrix_order::row_major), invalid_geometry);
 }
 
 }  // namespace
@@ -183,6 +330,15 @@ TEMPLATE_TEST_CASE("rigid: inverses and compositions, but for rounding", "", flo
 TEMPLATE_TEST_CASE("rigid: what is no pose is refused, with its place and value", "", float, double) {
     check_refusals<TestType>();
 }
+
+TEMPLATE_TEST_CASE("rigid: long products and short prints are accepted", "", float, double) { check_acceptance<TestType>(); }
+
+TEMPLATE_TEST_CASE("rigid: orthonormalised is the nearest rotation, by rationals", "", float, double) {
+    check_orthonormalised<TestType>();
+    check_refusals_to_mend<TestType>();
+}
+
+TEMPLATE_TEST_CASE("rigid: poses from matrices of both orders", "", float, double) { check_matrices<TestType>(); }
 
 TEST_CASE("rigid: a box stays finite, or may not") {
     const aabb<float> box{{-1, -2, 0}, {1e38f, 3, 4}};

@@ -16,6 +16,7 @@
 
 #include <abut/narrow/contact.hpp>
 #include <abut/predicate/intersects.hpp>
+#include <abut/predicate/zero_area.hpp>
 
 #include "catch.hpp"
 
@@ -213,12 +214,12 @@ wide_point wide_normal(const triangle<T>& t) {
     return cross(widest(t.b) - a, widest(t.c) - a);
 }
 
-/// Whether the library takes a triangle for a segment: its sine at a is below 2^-96; or near that, which is left open.
+/// Whether a triangle's normal is known in these numbers: it has none, or its corners span few enough bits.
 template <scalar T>
-bool is_as_good_as_segment(const triangle<T>& t) {
-    const wide_point a = widest(t.a), n = wide_normal(t);
+bool has_known_normal(const triangle<T>& t) {
+    const wide_point a = widest(t.a);
     const wide most = length_of(widest(t.b) - a) * length_of(widest(t.c) - a);
-    return length_of(n) <= most * wide(0x1p-90);
+    return length_of(wide_normal(t)) > most * wide(0x1p-230) || has_zero_area(t);
 }
 
 template <scalar T>
@@ -251,9 +252,10 @@ private:
 /// Along face normals of either triangle.
 template <scalar T>
 const char* wrong_with_depth(const triangle<T>& s, const triangle<T>& t, const contact<T>& c, contact_tally& tally) {
+    if (!has_known_normal(s) || !has_known_normal(t)) return nullptr;
     least_of least(s, t);
-    if (!is_as_good_as_segment(s)) least.offer(wide_normal(s));
-    if (!is_as_good_as_segment(t)) least.offer(wide_normal(t));
+    if (!has_zero_area(s)) least.offer(wide_normal(s));
+    if (!has_zero_area(t)) least.offer(wide_normal(t));
     if (least.none()) return nullptr;
     return compare_depth(c.depth, least.value(), wide(contact_bound(s, t)), tally);
 }
@@ -261,8 +263,9 @@ const char* wrong_with_depth(const triangle<T>& s, const triangle<T>& t, const c
 /// Along the box's axes and the triangle's normal.
 template <scalar T>
 const char* wrong_with_depth(const aabb<T>& s, const triangle<T>& t, const contact<T>& c, contact_tally& tally) {
+    if (!has_known_normal(t)) return nullptr;
     least_of least(s, t);
-    if (!is_as_good_as_segment(t)) least.offer(wide_normal(t));
+    if (!has_zero_area(t)) least.offer(wide_normal(t));
     for (const wide_point& axis : {wide_point{1, 0, 0}, wide_point{0, 1, 0}, wide_point{0, 0, 1}}) least.offer(axis);
     return compare_depth(c.depth, least.value(), wide(contact_bound(s, t)), tally);
 }
@@ -295,7 +298,7 @@ const char* wrong_with_depth(const capsule<T>& s, const triangle<T>& t, const co
     const wide bound = wide(contact_bound(s, t)), distance = segment_distance(hull_of(s), hull_of(t));
     if (distance > bound / 1000) return compare_depth(c.depth, wide(s.radius) - distance, bound, tally);
     least_of least(s, t);
-    if (is_as_good_as_segment(t)) return nullptr;
+    if (!has_known_normal(t) || has_zero_area(t)) return nullptr;
     least.offer(wide_normal(t));
     const wide_point along = widest(s.axis.b) - widest(s.axis.a);
     least.offer(cross(along, widest(t.b) - widest(t.a)));
@@ -308,7 +311,11 @@ const char* wrong_with_depth(const capsule<T>& s, const triangle<T>& t, const co
 template <scalar T, class U>
 const char* wrong_with_depth(const sphere<T>& s, const U& t, const contact<T>& c, contact_tally& tally) {
     const wide_hull h = hull_of(t);
-    const wide least = wide(s.radius) + h.radius - distance_from(widest(s.center), {h.corners});
+    const wide distance = distance_from(widest(s.center), {h.corners}), least = wide(s.radius) + h.radius - distance;
+    if constexpr (std::same_as<U, triangle<T>>) {
+        const wide farther = length_of(widest(c.point) - widest(s.center)) - distance;
+        if (farther > wide(contact_bound(s, t))) return "the point is not the nearest one";
+    }
     return compare_depth(c.depth, least, wide(contact_bound(s, t)), tally);
 }
 template <scalar T>

@@ -181,7 +181,7 @@ ABUT_HD triangle<T> triangle_of(const T* v) {
 
 template <scalar T>
 ABUT_HD aabb<T> box_of(const vec3<T>& p, const vec3<T>& q) {
-    return {abut::detail::lesser(p, q), abut::detail::greater(p, q)};
+    return {abut::detail::least(p, q), abut::detail::greatest(p, q)};
 }
 
 ABUT_HD inline double scale_of(shape_family f) {

@@ -57,7 +57,7 @@ void examine_stages(const S& s, const U& t, const T (&values)[V], bool truth, st
         ++sum.filter;
     } else if (late != verdict::unknown) {
         ++sum.late;
-    } else if (width <= 60) {
+    } else if (width <= 59) {
         ++sum.one_limb;
     } else if (width <= 124) {
         ++sum.two_limbs;

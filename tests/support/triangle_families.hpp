@@ -52,9 +52,11 @@ enum class triangle_family : int {
     mixed_exponents,
     any_scale,
     all_bit_patterns,
+    grid_borders,
+    signed_zeros,
 };
 
-inline constexpr int triangle_family_count = static_cast<int>(triangle_family::all_bit_patterns) + 1;
+inline constexpr int triangle_family_count = static_cast<int>(triangle_family::signed_zeros) + 1;
 
 /// On the host only.
 inline const char* name_of(triangle_family f) {
@@ -66,7 +68,7 @@ inline const char* name_of(triangle_family f) {
         "coplanar tilted", "coplanar aligned",   "coplanar nested", "collinear edges", "lattice 4",
         "lattice 16",      "lattice 256",        "0.1 lattice 4",   "0.1 lattice 16",  "0.1 lattice 256",
         "degenerate",      "degenerate rounded", "denormal",        "largest",         "mixed exponents",
-        "any scale",       "all bit patterns"};
+        "any scale",       "all bit patterns",   "grid borders",    "signed zeros"};
     return names[static_cast<int>(f)];
 }
 
@@ -521,6 +523,58 @@ ABUT_HD pair<T> mixed_pair(draws& d) {
     return reordered_pair(d, p);
 }
 
+/// A corner on an edge, on a grid of which all coordinates take 15 to 19 bits, many of them near the ends of their range; or
+/// one unit off, or one step; times a power of two.
+template <scalar T>
+ABUT_HD pair<T> grid_border_pair(draws& d) {
+    constexpr int fraction = sizeof(T) == 4 ? 23 : 52, bias = sizeof(T) == 4 ? 127 : 1023,
+                  reach = sizeof(T) == 4 ? 105 : 360;
+    const int quarter = 1 << (12 + d.below(5)), weight = d.below(5), power = d.below(2 * reach + 1) - reach;
+    const T unit = sizeof(T) == 4 ? static_cast<T>(from_bits(static_cast<std::uint32_t>(bias + power) << fraction % 32))
+                                  : static_cast<T>(from_bits(static_cast<std::uint64_t>(bias + power) << fraction));
+    const bool extreme = d.below(2) == 0;
+    int on[9], at[9];
+    for (int& x : on) {
+        x = 4 * (d.below(2 * quarter - 1) - (quarter - 1));
+        if (extreme && d.below(4) != 0) x = (x < 0 ? -4 : 4) * (quarter - 1 - d.below(9));
+    }
+    for (int k = 0; k < 3; ++k) {
+        at[k] = (weight * on[3 + k] + (4 - weight) * on[k]) / 4;
+        for (int i = 3; i < 9; i += 3) {
+            const int out = at[k] + (at[k] - on[6 + k]) / 4 + d.below(quarter + 1) - quarter / 2;
+            at[i + k] = out < -4 * quarter ? 1 - 4 * quarter : out > 4 * quarter ? 4 * quarter - 1 : out;
+        }
+    }
+    const int kind = d.below(4);
+    if (kind == 1) at[d.below(3)] += d.below(2) == 0 ? -1 : 1;
+    pair<T> p;
+    vec3<T>* const corners[6] = {&p.a.a, &p.a.b, &p.a.c, &p.b.a, &p.b.b, &p.b.c};
+    for (int i = 0; i < 18; ++i) coordinate(*corners[i / 3], i % 3) = static_cast<T>(i < 9 ? at[i] : on[i - 9]) * unit;
+    if (kind == 2) move_any(d, p.a.a, d.below(2) == 0 ? -1 : 1);
+    return reordered_pair(d, p);
+}
+
+/// Small integers, many of them 0 of either sign, half of the time with a corner in common but for such signs; or one of the
+/// zeros is a denormal number.
+template <scalar T>
+ABUT_HD pair<T> signed_zeros_pair(draws& d) {
+    pair<T> p;
+    vec3<T>* const corners[6] = {&p.a.a, &p.a.b, &p.a.c, &p.b.a, &p.b.b, &p.b.c};
+    for (vec3<T>* v : corners) {
+        for (int k = 0; k < 3; ++k) coordinate(*v, k) = d.below(2) == 0 ? T(0) : static_cast<T>(d.below(7) - 3);
+    }
+    if (d.below(2) == 0) p.b.a = p.a.a;
+    const bool nearly = d.below(2) == 0;
+    for (vec3<T>* v : corners) {
+        for (int k = 0; k < 3; ++k) {
+            T& x = coordinate(*v, k);
+            if (x == 0 && nearly && d.below(8) == 0) x = least_denormal<T>;
+            if (d.below(2) == 0 && (x == 0 || x == least_denormal<T>)) x = -x;
+        }
+    }
+    return reordered_pair(d, p);
+}
+
 /// Pairs that touch or nearly do, times a power of two of the whole range; where that underflows, rounded.
 template <scalar T>
 ABUT_HD pair<T> any_scale_pair(draws& d) {
@@ -630,6 +684,10 @@ ABUT_HD triangle_pair<T> make_triangle_pair(std::uint64_t seed_value, triangle_f
             return make::any_scale_pair<T>(d);
         case triangle_family::all_bit_patterns:
             return make::any_pair<T>(d);
+        case triangle_family::grid_borders:
+            return make::grid_border_pair<T>(d);
+        case triangle_family::signed_zeros:
+            return make::signed_zeros_pair<T>(d);
     }
     return {};
 }

@@ -33,10 +33,11 @@ struct box_pairs {
     }
 };
 struct keep {
-    void operator()(std::uint64_t pair, auto&, auto& hits) const { hits.push(pair); }
-};
-struct nothing_is_late {
-    void operator()(std::uint64_t, auto&) const { FAIL(); }
+    bool operator()(std::uint64_t pair, auto& hits) const {
+        hits.push(pair);
+        return true;
+    }
+    void finish(std::uint64_t, auto&) const { FAIL("nothing is left open"); }
 };
 
 /// What a walk finds on each policy is what a plain loop over all boxes finds, each pair once.
@@ -51,9 +52,8 @@ std::size_t check_walk(const triangle_soup<T>& a, const TreeA& tree_a, const tri
     }
     using walk_type = detail::pair_walk<typename TreeA::view_type, typename TreeB::view_type, Overlap>;
     const auto check_on = [&](const auto& on) {
-        execution::work_queue<std::uint64_t, host_space> late(on), hits(on);
-        for_each_descendant(on, box_pairs<walk_type>{{tree_a.view(), tree_b.view(), overlap}}, keep{}, nothing_is_late{},
-                            late, hits);
+        execution::work_queue<std::uint64_t, host_space> hits(on);
+        for_each_descendant(on, box_pairs<walk_type>{{tree_a.view(), tree_b.view(), overlap}}, keep{}, hits);
         id_pairs seen;
         for (std::size_t i = 0; i < hits.size(); ++i) {
             seen.emplace_back(static_cast<std::uint32_t>(hits.data()[i] >> 32), static_cast<std::uint32_t>(hits.data()[i]));

@@ -46,8 +46,8 @@ void check_balls(std::size_t n) {
         const T scale = std::ldexp(T(1), static_cast<int>(random(-span, span)));
         const auto point = [&] { return scale * random.point<T>(-1, 1); };
         const vec3<T> p = point(), q = point(), center = point();
-        const aabb<T> box{detail::lesser(p, q), detail::greater(p, q)};
-        const vec3<T> away = center - detail::lesser(detail::greater(center, box.lower), box.upper);
+        const aabb<T> box{detail::least(p, q), detail::greatest(p, q)};
+        const vec3<T> away = center - detail::least(detail::greatest(center, box.lower), box.upper);
         T radius = static_cast<T>(std::hypot(static_cast<long double>(away.x), static_cast<long double>(away.y),
                                              static_cast<long double>(away.z)));
         for (int step = static_cast<int>(random.below(7)) - 3; step != 0; step += step < 0 ? 1 : -1) {
@@ -122,7 +122,7 @@ void check_planes(std::size_t n) {
     for (std::size_t i = 0; i < n; ++i) {
         const T scale = i % 2 == 0 ? T(1) : any_scale<T>(random);
         const vec3<T> p = scale * random.point<T>(-1, 1), q = scale * random.point<T>(-1, 1);
-        const aabb<T> box{detail::lesser(p, q), detail::greater(p, q)};
+        const aabb<T> box{detail::least(p, q), detail::greatest(p, q)};
         plane<T> query{random.point<T>(-1, 1), 0};
         const vec3<T> corner{random() < 0.5 ? p.x : q.x, random() < 0.5 ? p.y : q.y, random() < 0.5 ? p.z : q.z};
         query.offset = stepped_some(dot(query.normal, corner), random);
@@ -149,7 +149,7 @@ void check_capsules(std::size_t n) {
     for (std::size_t i = 0; i < n; ++i) {
         const T scale = i % 2 == 0 ? T(1) : any_scale<T>(random);
         const vec3<T> p = random.point<T>(-1, 1), q = random.point<T>(-1, 1), along = random.point<T>(-4, 4);
-        const aabb<T> box{detail::lesser(p, q), detail::greater(p, q)};
+        const aabb<T> box{detail::least(p, q), detail::greatest(p, q)};
         // A direction away from the edge along z, orthogonal to the axis.
         const T length = std::hypot(along.x, along.y);
         vec3<T> away{along.y / length, -along.x / length, 0};

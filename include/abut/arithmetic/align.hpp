@@ -45,13 +45,11 @@ template <>
 struct float_format<float> {
     using word = std::uint32_t;
     static constexpr int digits = 24, min_exponent = -149, max_exponent = 104;
-    static constexpr float largest = 0x1.fffffep127f;
 };
 template <>
 struct float_format<double> {
     using word = std::uint64_t;
     static constexpr int digits = 53, min_exponent = -1074, max_exponent = 971;
-    static constexpr double largest = 0x1.fffffffffffffp1023;
 };
 
 }  // namespace detail

@@ -4,13 +4,16 @@
 // Sums and products together with their rounding errors, and sums rounded in a stated direction. They hold whatever the
 // compiler contracts: products use an explicit fma, and each operand of a sum passes a barrier first, because a compiler
 // that inlines `two_sum(a * b, c)` may otherwise compute a * b + c in one rounding in one place and in two in another.
-// They need round-to-nearest and gradual underflow at run time (arithmetic/self_test.hpp looks).
+// Errors of sums and products need round-to-nearest and gradual underflow at run time (arithmetic/self_test.hpp looks).
+// Directed sums need neither.
 
 #include <cmath>
 #include <cstdint>
 
 #include <abut/arithmetic/align.hpp>
 #include <abut/arithmetic/arithmetic.hpp>
+#include <abut/arithmetic/limits.hpp>
+#include <abut/arithmetic/magnitude.hpp>
 #include <abut/arithmetic/strict.hpp>
 #include <abut/config.hpp>
 
@@ -64,18 +67,35 @@ ABUT_HD constexpr T plain_product(T a, T b) {
     return rounded(a * b);
 }
 
-/// The next representable number above a finite x; above the largest one, infinity.
+/// 2^k, if that is a normal number.
+template <scalar T>
+ABUT_HD constexpr T power_of_two(int k) {
+    using format = float_format<T>;
+    return __builtin_bit_cast(T, static_cast<typename format::word>(k - format::min_exponent - format::digits + 2)
+                                     << (format::digits - 1));
+}
+
+/// Whether x is 0 or -0. By its bits: where denormals are read as zero, they equal 0 too.
+template <scalar T>
+ABUT_HD constexpr bool is_zero(T x) {
+    using word = typename float_format<T>::word;
+    return static_cast<word>(__builtin_bit_cast(word, x) << 1) == 0;
+}
+
+/// Whether the sign bit is set.
+template <scalar T>
+ABUT_HD constexpr bool has_sign(T x) {
+    using word = typename float_format<T>::word;
+    return __builtin_bit_cast(word, x) >> (8 * sizeof(T) - 1) != 0;
+}
+
+/// The next representable number above a finite x; above the largest one, infinity. By bits, in every mode.
 template <scalar T>
 ABUT_HD constexpr T next_up(T x) {
     using word = typename float_format<T>::word;
     const word w = __builtin_bit_cast(word, x);
-    if (x == 0) return __builtin_bit_cast(T, word{1});
-    return __builtin_bit_cast(T, x > 0 ? w + 1 : w - 1);
-}
-
-template <scalar T>
-ABUT_HD constexpr bool is_finite(T x) {
-    return x >= -float_format<T>::largest && x <= float_format<T>::largest;
+    if (is_zero(x)) return __builtin_bit_cast(T, word{1});
+    return __builtin_bit_cast(T, static_cast<word>(has_sign(x) ? w - 1 : w + 1));
 }
 
 }  // namespace detail
@@ -108,40 +128,84 @@ ABUT_HD inline error_free<T> two_prod(T a, T b) {
     return {p, std::fma(a, b, -p)};
 }
 
+namespace detail {
+
+/// The least representable number >= a + b, given s = a + b as it is rounded. None of the three is denormal.
+template <scalar T>
+ABUT_HD constexpr T add_up_normal(T a, T b, T s) {
+    if (!is_finite(s)) return is_finite(a) && is_finite(b) && s < 0 ? -largest_finite<T> : s;
+    // Dekker's tail without its last subtraction: s - larger is exact in each rounding mode. Where it is flushed to zero, it
+    // was nearer to zero than `smaller`, and compares as it did.
+    const bool a_larger = absolute(a) > absolute(b);
+    const T larger = a_larger ? a : b, smaller = a_larger ? b : a;
+    return smaller > plain_sum(s, -larger) ? next_up(s) : s;
+}
+
+/// What numbers near 0 are multiplied by, so that no sum or difference of theirs is denormal.
+template <scalar T>
+inline constexpr T up_scale = power_of_two<T>(2 * float_format<T>::digits);
+template <scalar T>
+inline constexpr T scaled_denormal = power_of_two<T>(2 * float_format<T>::digits + float_format<T>::min_exponent);
+
+/// x * up_scale, exactly, for an x that is not large. Not by arithmetic on a denormal number, which may be read as 0: such
+/// a number is as many steps as its bits say.
+template <scalar T>
+ABUT_HD constexpr T scaled_up(T x) {
+    using word = typename float_format<T>::word;
+    if (!is_subnormal(x)) return plain_product(x, up_scale<T>);
+    const word steps = __builtin_bit_cast(word, x) & (static_cast<word>(-1) >> 1);
+    const T magnitude = plain_product(static_cast<T>(steps), scaled_denormal<T>);
+    return has_sign(x) ? -magnitude : magnitude;
+}
+
+/// x / up_scale, which is representable.
+template <scalar T>
+ABUT_HD constexpr T scaled_down(T x) {
+    using word = typename float_format<T>::word;
+    if (absolute(x) >= up_scale<T> * smallest_normal<T>) return plain_product(x, 1 / up_scale<T>);
+    const auto steps = static_cast<word>(plain_product(absolute(x), 1 / scaled_denormal<T>));
+    const word sign = __builtin_bit_cast(word, x) & ~(static_cast<word>(-1) >> 1);
+    return __builtin_bit_cast(T, static_cast<word>(sign | steps));
+}
+
+/// add_up where a, b or the sum may be denormal.
+template <scalar T>
+ABUT_HD constexpr T add_up_denormal(T a, T b) {
+    if (is_zero(a) && is_zero(b)) return plain_sum(a, b);
+    if (is_zero(a)) return b;
+    if (is_zero(b)) return a;
+    if (absolute(a) < 1 && absolute(b) < 1) {
+        const T x = scaled_up(a), y = scaled_up(b);
+        return scaled_down(add_up_normal(x, y, plain_sum(x, y)));
+    }
+    // A denormal number is far below half a step of the other one: any other such number gives the same.
+    const auto normal = [](T x) { return !is_subnormal(x) ? x : has_sign(x) ? -smallest_normal<T> : smallest_normal<T>; };
+    a = normal(a);
+    b = normal(b);
+    return add_up_normal(a, b, plain_sum(a, b));
+}
+
+}  // namespace detail
+
 /// The least representable number >= a + b, for finite a and b; infinity if there is none. Exactly a + b where that is
-/// representable. NaN and infinities pass as in a + b. Overflow is no constant expression.
+/// representable. NaN and infinities pass as in a + b. The same in each rounding mode, with denormals flushed to zero or
+/// read as zero. Overflow is no constant expression.
 template <scalar T>
 ABUT_HD constexpr T add_up(T a, T b) {
+    using detail::absolute;
     a = detail::rounded(a);
     b = detail::rounded(b);
     const T s = detail::plain_sum(a, b);
-    if (!detail::is_finite(s)) {
-        const bool overflowed = detail::is_finite(a) && detail::is_finite(b);
-        return overflowed && s < 0 ? -detail::float_format<T>::largest : s;
-    }
-    // Dekker's tail without its last subtraction: s - larger is exact, and a comparison cannot underflow.
-    const bool a_larger = (a < 0 ? -a : a) > (b < 0 ? -b : b);
-    const T larger = a_larger ? a : b, smaller = a_larger ? b : a;
-    return smaller > detail::plain_sum(s, -larger) ? detail::next_up(s) : s;
+    constexpr T normal = smallest_normal<T>;
+    if (absolute(a) < normal || absolute(b) < normal || absolute(s) < normal) return detail::add_up_denormal(a, b);
+    return detail::add_up_normal(a, b, s);
 }
 
 /// The greatest representable number <= a + b.
 template <scalar T>
 ABUT_HD constexpr T add_down(T a, T b) {
     const T up = add_up(-a, -b);
-    return up == 0 ? detail::plain_sum(a, b) : -up;  // so that an exact zero keeps the sign of a + b
-}
-
-/// The least representable number >= a - b.
-template <scalar T>
-ABUT_HD constexpr T sub_up(T a, T b) {
-    return add_up(a, -b);
-}
-
-/// The greatest representable number <= a - b.
-template <scalar T>
-ABUT_HD constexpr T sub_down(T a, T b) {
-    return add_down(a, -b);
+    return detail::is_zero(up) ? detail::plain_sum(a, b) : -up;  // so that an exact zero keeps the sign of a + b
 }
 
 }  // namespace abut

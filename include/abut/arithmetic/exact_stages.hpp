@@ -3,12 +3,16 @@
 
 // The exact stages of any predicate whose polynomials have degree 6 or less. A predicate is a type with one function,
 // `holds(const N (&value)[V]) -> bool`, written over a number type N with +, -, *, `sign_of_dot` and `squares_at_most`; the
-// values are the coordinates (and radii) that it depends on, all of one unit.
+// values are the coordinates (and radii) that it depends on, all of one unit. It may state the `degree` of its polynomials, and
+// how many of the values' first triples are `points`, which may all be moved by one vector: then it is also asked in words.
 
 #include <cstdint>
 
 #include <abut/arithmetic/align.hpp>
 #include <abut/arithmetic/arithmetic.hpp>
+#include <abut/arithmetic/error_free.hpp>
+#include <abut/arithmetic/magnitude.hpp>
+#include <abut/arithmetic/plain_sign.hpp>
 #include <abut/arithmetic/sparse_sum.hpp>
 #include <abut/arithmetic/vec.hpp>
 #include <abut/arithmetic/wide_int.hpp>
@@ -55,35 +59,90 @@ ABUT_HD constexpr bool holds_in_limbs(const aligned<V>& x) {
 
 namespace detail {
 
-/// The degree of a predicate that states it, or the highest.
+/// Numbers as integers of one unit, below 2^59 in magnitude.
+template <int V>
+struct short_integers {
+    std::int64_t at[V];
+    std::uint64_t digits;  ///< those that are 1 in the magnitude of any
+    bool exact;            ///< whether the numbers are such integers; else these are not they
+
+    /// By their bits: each mantissa is moved to its place below that of the largest number.
+    template <scalar T>
+    ABUT_HD explicit constexpr short_integers(const T (&value)[V]) : at{}, digits{0}, exact{false} {
+        using format = float_format<T>;
+        using word = typename format::word;
+        constexpr int fraction = format::digits - 1;
+        word exponent[V]{}, most = 1;
+        for (int i = 0; i < V; ++i) {
+            exponent[i] = static_cast<word>(__builtin_bit_cast(word, value[i]) << 1) >> (fraction + 1);
+            most = exponent[i] > most ? exponent[i] : most;
+        }
+        std::uint64_t lost = 0;
+        for (int i = 0; i < V; ++i) {
+            const auto bits = __builtin_bit_cast(word, value[i]);
+            const word normal = exponent[i] != 0, below = most - exponent[i] - (1 - normal), down = below < 63 ? below : 63;
+            const std::uint64_t mantissa = (bits & ((word{1} << fraction) - 1)) | normal << fraction;
+            const std::uint64_t at_top = mantissa << (59 - format::digits), in_place = at_top >> down;
+            lost |= in_place << down ^ at_top;
+            digits |= in_place;
+            const auto negative = -static_cast<std::int64_t>(bits >> (8 * static_cast<int>(sizeof(T)) - 1));
+            at[i] = (static_cast<std::int64_t>(in_place) ^ negative) - negative;
+        }
+        exact = lost == 0;
+    }
+
+    /// How many zeros all of them end with.
+    [[nodiscard]] ABUT_HD constexpr int zeros() const {
+        return digits == 0 ? 0 : lowest_bit(static_cast<std::int64_t>(digits));
+    }
+    /// Whether so many digits are enough, without these zeros.
+    [[nodiscard]] ABUT_HD constexpr bool fit(int count) const { return digits >> zeros() >> count == 0; }
+
+    /// Takes the first point off all points: fewer digits remain where they are close to it.
+    template <int Points>
+    ABUT_HD constexpr void move_first_point_to_0() {
+        digits = 0;
+        for (int i = 3 * Points - 1; i >= 0; --i) at[i] -= at[i % 3];
+        for (int i = 0; i < V; ++i) digits |= static_cast<std::uint64_t>(at[i] < 0 ? -at[i] : at[i]);
+    }
+};
+
+/// So many digits a coordinate keep all that is computed in words, and signs and comparisons of squares in two. Differences
+/// are below E = 2^(digits + 1). Up to degree 4 nothing but sums of two products of differences, or of four products of
+/// coordinates, is computed before; those stay below 2^63 with 30 digits. In degree 6 the largest number is a difference's
+/// product with a vector of such sums: 6 E^3, below 2^63 with 19 digits.
+///
+/// A predicate that does not state its `degree`, as those of a user need not, is not asked in words: 0.
 template <class Predicate>
-inline constexpr int degree_of = 6;
+inline constexpr int word_digits = 0;
 template <class Predicate>
     requires requires { Predicate::degree; }
-inline constexpr int degree_of<Predicate> = Predicate::degree;
-
-/// Coordinates of so many bits keep all values in 63 bits: a determinant is a sum of six products of differences.
-template <class Predicate>
-inline constexpr int word_bits = 60 / degree_of<Predicate> - 1;
+inline constexpr int word_digits<Predicate> = Predicate::degree <= 4 ? 30 : 19;
 
 }  // namespace detail
 
 /// The stage in registers: `unknown` only where the exponents span more than 124 bits. Not inlined: it is rarely reached,
-/// and every kernel that decides would else be compiled with its thousands of instructions once more. Numbers on a coarse
-/// lattice need no wide integers.
+/// and every kernel that decides would else be compiled with its thousands of instructions once more. Numbers that are few
+/// digits apart need no wide integers.
 template <class Predicate, scalar T, int V>
 ABUT_NOINLINE ABUT_HD constexpr verdict decide_in_limbs(const T (&value)[V]) {
-    const aligned<V> x(value);
-    if constexpr (detail::degree_of<Predicate> <= 3) {
-        if (x.width() <= detail::word_bits<Predicate>) {
-            std::int64_t word[V]{};
-            for (int i = 0; i < V; ++i) word[i] = static_cast<std::int64_t>(x.template integer<1>(i).limb[0]);
-            return to_verdict(Predicate::holds(word));
+    constexpr int word_digits = detail::word_digits<Predicate>;
+    detail::short_integers<V> x(value);
+    if (!x.exact) {
+        const aligned<V> wide(value);
+        return wide.width() <= 124 ? to_verdict(holds_in_limbs<Predicate, 2>(wide)) : verdict::unknown;
+    }
+    if constexpr (word_digits > 0) {
+        if (!x.fit(word_digits)) x.template move_first_point_to_0<Predicate::points>();
+        if (x.fit(word_digits)) {
+            const int zeros = x.zeros();
+            for (std::int64_t& n : x.at) n >>= zeros;
+            return to_verdict(Predicate::holds(x.at));
         }
     }
-    if (x.width() <= 60) return to_verdict(holds_in_limbs<Predicate, 1>(x));
-    if (x.width() <= 124) return to_verdict(holds_in_limbs<Predicate, 2>(x));
-    return verdict::unknown;
+    wide_int<1> limb[V]{};
+    for (int i = 0; i < V; ++i) limb[i] = wide_int<1>::shifted(x.at[i], 0);
+    return to_verdict(Predicate::holds(limb));
 }
 
 /// The last stage: any finite values, through sums that are never added up.

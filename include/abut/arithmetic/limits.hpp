@@ -7,6 +7,7 @@
 #include <limits>
 
 #include <abut/arithmetic/arithmetic.hpp>
+#include <abut/config.hpp>
 
 namespace abut {
 
@@ -19,5 +20,15 @@ inline constexpr T infinity = std::numeric_limits<T>::infinity();
 /// Half a unit in the last place of 1: the largest relative error of one rounded operation.
 template <scalar T>
 inline constexpr T unit_roundoff = std::numeric_limits<T>::epsilon() / 2;
+
+namespace detail {
+
+/// Neither infinite nor NaN.
+template <scalar T>
+ABUT_HD constexpr bool is_finite(T x) {
+    return x >= -largest_finite<T> && x <= largest_finite<T>;
+}
+
+}  // namespace detail
 
 }  // namespace abut

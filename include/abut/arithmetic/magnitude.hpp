@@ -2,7 +2,9 @@
 #pragma once
 
 // |x|, the least and the greatest of numbers, and sizes of vectors, without a branch, on hosts, on devices and in constant
-// expressions. `x < 0 ? -x : x` will not do: it keeps the sign of -0.0, so compilers may not make it a mask, and g++ jumps.
+// expressions. `x < 0 ? -x : x` will not do for |x|: it keeps the sign of -0.0, so compilers may not make it a mask, and g++
+// jumps. These are the library's only minimum and maximum of numbers: std::fmin is a call, and std::min says the opposite of
+// NaN.
 
 #include <abut/arithmetic/arithmetic.hpp>
 #include <abut/arithmetic/vec.hpp>
@@ -24,24 +26,35 @@ ABUT_HD constexpr F magnitudes(const vec3<F>& v) {
     return absolute(v.x) + absolute(v.y) + absolute(v.z);
 }
 
-/// The least of the arguments. NaN is passed over where it stands first, and is the answer where it stands last.
-template <scalar F>
+/// The least of the arguments: the second of two that do not compare. So NaN is passed over where it stands first, and is
+/// the answer where it stands last. Of two it is one instruction of processors, MINSS and its like.
+template <class F>
 ABUT_HD constexpr F least(F a) {
     return a;
 }
-template <scalar F, class... Rest>
+template <class F, class... Rest>
 ABUT_HD constexpr F least(F a, F b, Rest... rest) {
     return least(a < b ? a : b, rest...);
 }
 
 /// The greatest of the arguments; NaN as for `least`.
-template <scalar F>
+template <class F>
 ABUT_HD constexpr F greatest(F a) {
     return a;
 }
-template <scalar F, class... Rest>
+template <class F, class... Rest>
 ABUT_HD constexpr F greatest(F a, F b, Rest... rest) {
     return greatest(a > b ? a : b, rest...);
+}
+
+/// Coordinate by coordinate.
+template <class T>
+ABUT_HD constexpr vec3<T> least(const vec3<T>& a, const vec3<T>& b) {
+    return {least(a.x, b.x), least(a.y, b.y), least(a.z, b.z)};
+}
+template <class T>
+ABUT_HD constexpr vec3<T> greatest(const vec3<T>& a, const vec3<T>& b) {
+    return {greatest(a.x, b.x), greatest(a.y, b.y), greatest(a.z, b.z)};
 }
 
 template <scalar T>

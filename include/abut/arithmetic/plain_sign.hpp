@@ -2,26 +2,56 @@
 #pragma once
 
 // Where a predicate ends, for numbers that are taken as they come: integers that cannot overflow, and floating point without
-// a promise. wide_int.hpp and sparse_sum.hpp answer the same questions exactly.
+// a promise. wide_int.hpp and sparse_sum.hpp answer the same questions for longer numbers.
 
+#include <cstdint>
 #include <type_traits>
 
 #include <abut/arithmetic/vec.hpp>
+#include <abut/arithmetic/wide_int.hpp>
 
 namespace abut {
 
 /// -1, 0 or 1.
 template <class N>
     requires std::is_arithmetic_v<N>
-ABUT_HD constexpr int sign(N a) {
-    return (a > 0) - (a < 0);
-}
+ABUT_HD constexpr int sign(N a) { return (a > 0) - (a < 0); }
 
 /// The sign of a . b
 template <class N>
     requires std::is_arithmetic_v<N>
 ABUT_HD constexpr int sign_of_dot(const vec3<N>& a, const vec3<N>& b) {
     return sign(dot(a, b));
+}
+
+// Words whose products need two: differences of coordinates and what is computed of them.
+
+ABUT_HD constexpr int128 product(std::int64_t a, std::int64_t b) { return static_cast<int128>(a) * b; }
+
+/// The sign of a . b
+ABUT_HD constexpr int sign_of_dot(const vec3<std::int64_t>& a, const vec3<std::int64_t>& b) {
+    const int128 sum = product(a.x, b.x) + product(a.y, b.y) + product(a.z, b.z);
+    return (sum > 0) - (sum < 0);
+}
+
+ABUT_HD constexpr int128 square(std::int64_t a) { return product(a, a); }
+ABUT_HD constexpr int128 square(const vec3<std::int64_t>& a) { return square(a.x) + square(a.y) + square(a.z); }
+
+template <class N>
+    requires std::is_floating_point_v<N>
+ABUT_HD constexpr N square(N a) {
+    return a * a;
+}
+template <class N>
+    requires std::is_floating_point_v<N>
+ABUT_HD constexpr N square(const vec3<N>& a) {
+    return dot(a, a);
+}
+
+/// |a|^2 <= |b|^2, where a and b are numbers or vectors.
+template <class A, class B>
+ABUT_HD constexpr auto squares_at_most(const A& a, const B& b) -> decltype(square(a) <= square(b)) {
+    return square(a) <= square(b);
 }
 
 }  // namespace abut

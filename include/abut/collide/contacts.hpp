@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// contacts: where, in which direction and how deep the shapes of one set touch those of another. It is `pairs` and one loop
-// more: what touches is decided and sorted first, and then each pair gets its contact.
+// contacts: where, in which direction and how deep the shapes of one set touch those of another. It is `pairs` with another
+// answer: what touches is decided and sorted first, and then each pair gets its contact.
 
 #include <cstddef>
 #include <cstdint>
@@ -21,7 +21,7 @@ struct contact_options {
     /// filter(id in a, id in b) -> bool, as in query_options.
     Filter filter = {};
     /// Which of two plain sets stays close to the cores, as in query_options.
-    query_side resident = query_side::automatic;
+    argument resident = argument::automatic;
     /// Leaves out contacts of two triangles that come apart by a shorter move along the line that their planes share than
     /// along the contact's normal (N. Backman's rule): they pass by each other at an edge or a corner, and tell little of
     /// how the surfaces as a whole lie to each other. Contacts of depth 0, of parallel planes and of other shapes stay.
@@ -36,54 +36,24 @@ inline constexpr bool share_lines = false;
 template <scalar T>
 inline constexpr bool share_lines<triangle<T>, triangle<T>> = true;
 
-template <class Sides>
-using contact_of_sides = decltype(contact_in_any_order(typename Sides::query_shape{}, typename Sides::target_shape{}));
-
-/// The contact of each pair.
-template <class Sides>
-struct fetch_contact {
-    Sides sides;
-    const std::uint64_t* keys;
-    contact_of_sides<Sides>* out;
-
-    ABUT_HD void operator()(std::size_t i) const {
-        const std::uint64_t key = keys[i];
-        const auto query = sides.queries[sides.key.query(key)];
-        const auto target = sides.targets[sides.key.target(key)];
-        auto found = between(query, target, sides.key.queries_are_b);
-        const index_pair ids = sides.key.unpack(key);
-        found.a = ids.a;
-        found.b = ids.b;
-        out[i] = found;
-    }
-
-private:
-    /// One call for either order: kernels get large enough by one.
-    template <class Query, class Target>
-    ABUT_HD static auto between(const Query& query, const Target& target, bool queries_are_b) {
-        if constexpr (std::same_as<Query, Target>) {
-            return contact_between(queries_are_b ? target : query, queries_are_b ? query : target);
-        } else {
-            const auto found = contact_between(first_of(query, target), second_of(query, target));
-            const bool a_is_first = contact_pair<Query, Target> != queries_are_b;
-            return a_is_first ? found : reversed(found);
-        }
+/// Finds out whether two shapes touch, and knows their contact.
+template <arithmetic A>
+struct touch_and_contact : touch<A> {
+    template <class View>
+    ABUT_HD auto answer(const View& both, std::uint64_t key) const {
+        return both.tagged(key, contact_in_any_order(both.shape_a(key), both.shape_b(key)));
     }
 };
 
 /// Whether a contact stays where some are discarded.
-template <class Sides>
+template <class View, class Contact>
 struct is_not_sideways {
-    Sides sides;
+    View both;
     const std::uint64_t* keys;
-    const contact_of_sides<Sides>* contacts;
+    const Contact* contacts;
 
     ABUT_HD bool operator()(std::size_t i) const {
-        const auto query = sides.queries[sides.key.query(keys[i])];
-        const auto target = sides.targets[sides.key.target(keys[i])];
-        // From a's side whoever looks: swapped, the numbers round differently.
-        const bool swap = sides.key.queries_are_b;
-        const auto along_line = overlap_along_shared_line(swap ? target : query, swap ? query : target);
+        const auto along_line = overlap_along_shared_line(both.shape_a(keys[i]), both.shape_b(keys[i]));
         return along_line < 0 || !(along_line < contacts[i].depth);
     }
 };
@@ -98,12 +68,29 @@ struct gather_contacts {
 
 /// The contacts with test(i), in their order.
 template <class Policy, class Contact, class Test>
-auto contacts_with(const Policy& on, const execution::buffer_of<Policy, Contact>& all, const Test& test) {
+auto contacts_with(const Policy& on, const result<Contact, space_of<Policy>>& all, const Test& test) {
     execution::buffer_of<Policy, std::uint64_t> which(on, all.size());
     const std::size_t n = compact(on, all.size(), test, which.data());
     execution::buffer_of<Policy, Contact> kept(on, n);
     for_each_index(on, n, gather_contacts<Contact>{all.data(), which.data(), kept.data()});
-    return kept;
+    synchronize(on);
+    return result<Contact, space_of<Policy>>(std::move(kept));
+}
+
+/// The contacts of any pairing, of two arguments or of a list.
+template <arithmetic A, class Policy, class Pairing>
+auto contacts_of(const Policy& on, const Pairing& pairing, bool discard_sideways) {
+    using view = typename Pairing::view_type;
+    const touch_and_contact<A> judge;
+    const auto keys = find_keys(on, pairing, judge);
+    auto all = answers_to(on, pairing, judge, keys);
+    if constexpr (share_lines<typename view::shape_type_a, typename view::shape_type_b>) {
+        using found = typename decltype(all)::value_type;
+        if (discard_sideways) {
+            return contacts_with(on, all, is_not_sideways<view, found>{pairing.view(), keys.data(), all.data()});
+        }
+    }
+    return all;
 }
 
 }  // namespace detail
@@ -126,23 +113,7 @@ auto contacts_with(const Policy& on, const execution::buffer_of<Policy, Contact>
 template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Filter = keep_all>
 [[nodiscard]] auto contacts(const Policy& on, const X& a, const Y& b, const contact_options<Filter>& options = {}) {
     const query_options<Filter> query{.sorted = options.sorted, .filter = options.filter, .resident = options.resident};
-    const auto body = [&](const auto& both, const auto& run, std::size_t n) {
-        using sides_type = std::remove_cvref_t<decltype(both)>;
-        using found = detail::contact_of_sides<sides_type>;
-        using outcome = result<found, space_of<Policy>>;
-        const auto keys = detail::touching_keys(on, both, run, n, options.sorted);
-        execution::buffer_of<Policy, found> all(on, keys.size());
-        for_each_index(on, keys.size(), detail::fetch_contact<sides_type>{both, keys.data(), all.data()});
-        if constexpr (detail::share_lines<typename sides_type::query_shape, typename sides_type::target_shape>) {
-            if (options.discard_sideways) {
-                all = detail::contacts_with<Policy, found>(
-                    on, all, detail::is_not_sideways<sides_type>{both, keys.data(), all.data()});
-            }
-        }
-        synchronize(on);
-        return outcome(std::move(all));
-    };
-    return detail::on_both<A>(on, a, b, query, "abut::contacts", body);
+    return detail::contacts_of<A>(on, detail::pair_up(on, a, b, query, "abut::contacts"), options.discard_sideways);
 }
 
 }  // namespace abut

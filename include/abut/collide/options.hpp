@@ -27,8 +27,8 @@ struct keep_all {
     ABUT_HD constexpr bool operator()(std::uint32_t, std::uint32_t) const { return true; }
 };
 
-/// An argument of a query.
-enum class query_side : unsigned char { automatic, a, b };
+/// An argument of a query, the first or the second one.
+enum class argument : unsigned char { automatic, a, b };
 
 /// Options of `any`, `count`, `pairs` and `for_each_pair`. Without a filter, `{.sorted = false}` will do in a call; with
 /// one, write `query_options<my_filter>{.filter = my_filter{...}}`: clang 14 cannot deduce the argument of an aggregate.
@@ -42,13 +42,13 @@ struct query_options {
     /// filter(id in a, id in b) -> bool: pairs for which it is false are neither tested nor reported. A trivially copyable
     /// functor, ABUT_HD under cuda; called concurrently.
     Filter filter = {};
-    /// for_each_pair holds at most this many found pairs at a time, 8 bytes each; pairs that the filter cannot decide wait
-    /// beside them and are not counted in that.
-    std::uint64_t most_pairs = std::uint64_t{1} << 24;
+    /// On a device, of pairs whose coordinates are too far apart for integers in registers, 2^124 in one pair: how many of
+    /// them wait for the host at a time, 8 bytes and their shapes each. No other pairs wait.
+    std::uint64_t most_pairs = std::uint64_t{1} << 18;
     /// Where neither side is an index: the one that stays close to the cores, a tile of it at a time (under cuda in shared
     /// memory), while the other streams by and is shared out among threads. By itself the smaller one. A single shape is
     /// always the resident side, and an index the one that is looked in. It changes times, not answers.
-    query_side resident = query_side::automatic;
+    argument resident = argument::automatic;
     /// Of traversal::breadth_first alone: the depth at which it begins, 0 to most_start_depth. All nodes there of one tree
     /// are compared with all of the other one, whatever lies above them; a leaf above that depth counts as one of them. 0
     /// and 1 are the roots' children. A tree that is too small to have so many levels if it were balanced begins at the last

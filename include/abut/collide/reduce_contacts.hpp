@@ -98,11 +98,6 @@ private:
     }
 };
 
-struct count_up {
-    std::uint32_t* out;
-    ABUT_HD void operator()(std::size_t i) const { out[i] = static_cast<std::uint32_t>(i); }
-};
-
 template <class Key>
 struct write_keys {
     Key key;
@@ -130,7 +125,7 @@ template <class Policy>
 class contact_order {
 public:
     contact_order(const Policy& on, std::size_t n) : order_(on, n), keys_(on, n) {
-        for_each_index(on, n, count_up{order_.data()});
+        for_each_index(on, n, execution::write_index<std::remove_cvref_t<decltype(*order_.data())>>{order_.data()});
     }
     template <class Key>
     void sort(const Policy& on, const Key& key, int bits) {

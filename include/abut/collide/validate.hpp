@@ -4,20 +4,20 @@
 // validate: what a mesh is made of, and what is wrong with it as a surface. Not for what a surface does to itself by its
 // place in space: faces that pass through each other are for queries.
 //
-// Edges are found by sorting half-edges (collide/half_edges.hpp), components and the fans of vertices by union-find over
-// what edges connect, duplicate faces and vertices in one place by sorting suspects (collide/equal_elements.hpp), and faces
+// Edges are found by sorting half-edges (shape/half_edges.hpp), components and the fans of vertices by union-find over
+// what edges connect, duplicate faces and vertices in one place by sorting suspects (shape/equal_elements.hpp), and faces
 // without area by a filter in floating point, what it leaves in integers. All of it is loops, sorts and reductions of the
 // policy; a list takes a pass of its own only where there is something to list.
 
+#include <algorithm>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include <abut/collide/equal_elements.hpp>
-#include <abut/collide/half_edges.hpp>
-#include <abut/collide/mesh_report.hpp>
+#include <abut/shape/equal_elements.hpp>
+#include <abut/shape/mesh_report.hpp>
 #include <abut/collide/search.hpp>
 #include <abut/error.hpp>
 #include <abut/execution/disjoint_sets.hpp>
@@ -26,6 +26,7 @@
 #include <abut/index/operand.hpp>
 #include <abut/predicate/zero_area.hpp>
 #include <abut/shape/check.hpp>
+#include <abut/shape/half_edges.hpp>
 #include <abut/shape/set.hpp>
 
 namespace abut {
@@ -40,6 +41,26 @@ template <scalar T, memory_space Space>
 inline constexpr bool is_mesh<mesh_view<T, Space>> = true;
 
 // --- edges ----------------------------------------------------------------------------------------------------------------
+
+// What a list is made of: properties of half-edge i. Those of an edge hold for its first half-edge alone.
+
+struct is_boundary {
+    sorted_half_edges table;
+    ABUT_HD bool operator()(std::size_t i) const { return table.is_edge(i) && table.is_first(i) && !table.goes_on(i, 1); }
+};
+
+struct is_nonmanifold {
+    sorted_half_edges table;
+    ABUT_HD bool operator()(std::size_t i) const { return table.is_edge(i) && table.is_first(i) && table.goes_on(i, 2); }
+};
+
+struct is_inconsistent {
+    sorted_half_edges table;
+    ABUT_HD bool operator()(std::size_t i) const {
+        return table.is_edge(i) && table.is_first(i) && table.goes_on(i, 1) && !table.goes_on(i, 2) &&
+               table.backward(i) == table.backward(i + 1);
+    }
+};
 
 struct edge_tally {
     std::uint64_t edges = 0, boundary = 0, nonmanifold = 0, inconsistent = 0, maybe_duplicate = 0, no_edge = 0;
@@ -66,9 +87,20 @@ struct tally_edges {
     }
 };
 
+/// The whole edge, where i is its first half-edge. Doubling steps, then halving: an edge of two faces is short work, and one
+/// of a million no long work.
 struct mesh_edge_of {
     sorted_half_edges table;
-    ABUT_HD mesh_edge operator()(std::uint32_t i) const { return table.mesh_edge_at(i); }
+    ABUT_HD mesh_edge operator()(std::uint32_t i) const {
+        std::size_t step = 1;
+        while (table.goes_on(i, step)) step *= 2;
+        std::size_t low = step / 2, high = step;  // goes on so far; no longer so far
+        while (high - low > 1) {
+            const std::size_t middle = low + (high - low) / 2;
+            (table.goes_on(i, middle) ? low : high) = middle;
+        }
+        return {table.lower(i), table.upper(i), static_cast<std::uint32_t>(high), table.face_of(i), table.face_of(i + low)};
+    }
 };
 
 /// Joins neighbours: the vertices of an edge are of one component, and the corners of its faces at either of its ends are of
@@ -121,7 +153,7 @@ struct has_many_fans {
 template <scalar T>
 struct is_nonfinite {
     strided<vec3<T>> vertices;
-    ABUT_HD bool operator()(std::size_t v) const { return !is_good(vertices[v]); }
+    ABUT_HD bool operator()(std::size_t v) const { return !is_valid(vertices[v]); }
 };
 
 template <scalar T>
@@ -164,7 +196,7 @@ struct settle_area {
     template <class Flat, class Wide>
     ABUT_HD void operator()(std::size_t i, Flat& flat, Wide& wide) const {
         const auto t = mesh[late[i]];
-        if (!is_good(t)) return;
+        if (!is_valid(t)) return;
         const verdict v = decide_zero_area<exact>(t);
         if (v == verdict::yes) flat.push(late[i]);
         if (v == verdict::unknown) wide.push(late[i]);
@@ -179,20 +211,20 @@ std::vector<std::uint32_t> find_zero_area(const Policy& on, const View& mesh) {
     id_queue<Policy> late(on), flat(on), wide(on);
     for_each_index(on, mesh.size(), suspect_area<View>{mesh}, late);
     for_each_index(on, late.size(), settle_area<View>{mesh, late.data()}, flat, wide);
+    auto ids = flat.take();
+    sort_keys(on, ids, id_bits(mesh.size()));
+    auto found = downloaded<Policy, std::uint32_t>(on, ids);
     if (wide.size() > 0) {  // stage 3 is the host's, as in queries: it takes a large stack
         const auto triangles =
             downloaded<Policy, typename View::shape_type>(on, evaluated(on, shape_at<View>{mesh}, wide.data(), wide.size()));
-        std::vector<std::uint32_t> ids(wide.size()), settled;
-        download(on, wide.data(), ids.size(), ids.data());
-        for (std::size_t i = 0; i < ids.size(); ++i) {
-            if (resolve_zero_area(triangles[i])) settled.push_back(ids[i]);
+        std::vector<std::uint32_t> left(wide.size());
+        download(on, wide.data(), left.size(), left.data());
+        for (std::size_t i = 0; i < left.size(); ++i) {
+            if (resolve_zero_area(triangles[i])) found.push_back(left[i]);
         }
-        id_queue<Policy> last(on, settled);
-        flat.absorb(on, last);
+        std::sort(found.begin(), found.end());
     }
-    auto ids = flat.take();
-    sort_keys(on, ids, id_bits(mesh.size()));
-    return downloaded<Policy, std::uint32_t>(on, ids);
+    return found;
 }
 
 // --- all of it ------------------------------------------------------------------------------------------------------------
@@ -276,10 +308,7 @@ auto mesh_to_validate(const Policy& on, const Mesh& mesh) {
     const auto check_sizes = [&](const auto& view) {
         check_count(view.faces.count, function);
         check_count(view.vertices.count, function);
-        if (view.faces.count > 0xffffffff / 3) {
-            throw capacity_error(std::string(function) + ": " + std::to_string(view.faces.count) +
-                                 " faces; their sides are numbered in 32 bits, which is enough for 1431655765");
-        }
+        check_sides(view.faces.count, function);
         require_access(on, view.faces.data, function);
         require_access(on, view.vertices.data, function);
     };
@@ -297,7 +326,7 @@ auto mesh_to_validate(const Policy& on, const Mesh& mesh) {
 
 }  // namespace detail
 
-/// What there is of a mesh and what is wrong with it (collide/mesh_report.hpp): edges, boundary, edges of more than two
+/// What there is of a mesh and what is wrong with it (shape/mesh_report.hpp): edges, boundary, edges of more than two
 /// faces, orientation, fans, components, Euler characteristic; faces that repeat an index, have no area or occur twice;
 /// vertices that are unused or in one place. All of it exact, and bit for bit the same on each policy and number of threads.
 ///

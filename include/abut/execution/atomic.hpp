@@ -46,7 +46,7 @@ inline ABUT_HD std::uint32_t atomic_exchange_acq_rel(std::uint32_t* target, std:
 #endif
 }
 
-/// Adds 1 and returns the value before, between the indices of a group (for_each_in_groups), in memory that they share. On
+/// Adds 1 and returns the value before, between the members of a group (execution/group.hpp), in memory that they share. On
 /// the host they take turns.
 inline ABUT_HD std::uint32_t increment_in_group(std::uint32_t* target) {
 #if ABUT_DEVICE_CODE

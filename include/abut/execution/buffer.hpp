@@ -25,8 +25,8 @@ struct allocator<host_space> {
     allocator() = default;
 
     /// Throws std::bad_alloc. Rows of 64 bytes never share a cache line with foreign data.
-    [[nodiscard]] void* allocate(std::size_t bytes) const { return ::operator new(bytes, std::align_val_t{64}); }
-    void deallocate(void* p) const noexcept { ::operator delete(p, std::align_val_t{64}); }
+    [[nodiscard]] void* allocate(std::size_t bytes) const { return ::operator new (bytes, std::align_val_t{64}); }
+    void deallocate(void* p) const noexcept { ::operator delete (p, std::align_val_t{64}); }
     /// Copies bytes of this memory to host memory and waits for them.
     void read(const void* from, std::size_t bytes, void* to) const { std::memcpy(to, from, bytes); }
     /// Host memory is one place.
@@ -45,7 +45,7 @@ public:
 
     buffer() = default;
     /// `n` elements of unspecified value. Throws std::bad_alloc.
-    template <execution_policy Policy>
+    template <works_in<Space> Policy>
     buffer(const Policy& on, std::size_t n) : memory_(on), size_(n) {
         if (n > static_cast<std::size_t>(-1) / sizeof(T)) throw std::bad_alloc();
         if (n > 0) data_ = static_cast<T*>(memory_.allocate(n * sizeof(T)));

@@ -10,6 +10,7 @@
 #include <mutex>
 #include <new>
 #include <string>
+#include <type_traits>
 
 #include <cuda_runtime_api.h>
 
@@ -167,6 +168,26 @@ inline void require_access(const cuda& on, const void* p, const char* function) 
         throw error(std::string(function) + ": the view is over memory of device " + std::to_string(attributes.device) +
                     ", the policy works on device " + std::to_string(device_of(on)));
     }
+}
+
+/// Its name is what nvcc says of a functor that it refuses. (The body is not there where nvcc compiles for the host.)
+template <class F, class... Args>
+__device__ void functors_for_the_policy_cuda_have_to_be_marked_ABUT_HD([[maybe_unused]] const F& f,
+                                                                       [[maybe_unused]] const Args&... args) {
+    (void)f(args...);
+}
+
+/// Does not compile where a device cannot call f(args...). Templates for hosts and devices call what they are given unasked
+/// (ABUT_CALLS_ANY), and of a host's function nothing would be left there: a filter would let every pair pass. Of a
+/// `__device__` function nvcc refuses it. Taking the address is enough, so no code is made and nothing runs. What a marked
+/// functor calls in turn is its own matter: nvcc warns there.
+template <class F, class... Args>
+void require_callable(const cuda&, const F&, const Args&...) {
+    static_assert(!std::is_pointer_v<std::decay_t<F>>,
+                  "abut: a pointer to a function of the host cannot be called on a device: pass a functor marked ABUT_HD");
+    static_assert(!std::is_polymorphic_v<F>,
+                  "abut: virtual functions of an object that was made on the host cannot be called on a device");
+    (void)&functors_for_the_policy_cuda_have_to_be_marked_ABUT_HD<F, Args...>;
 }
 
 /// Waits until everything put into the policy's stream is done. Throws cuda_error.

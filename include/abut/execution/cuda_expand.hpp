@@ -101,10 +101,10 @@ struct expansion_limit {
 };
 
 /// Expands the items of `from` until `limit`; what is left goes to `to`, which has room for all that blocks hold.
-template <class Expand, class Decide, class Late, class... Sinks>
+template <class Expand, class Judge, class Late, class... Sinks>
 __global__ void __launch_bounds__(block_size)
     expand_kernel(item_list<typename Expand::item> from, item_list<typename Expand::item> to, expansion_limit limit,
-                  Expand expand, Decide decide, Late late, Sinks... sinks) {
+                  Expand expand, Judge judge, Late late, Sinks... sinks) {
     using memory = expansion<Expand>;
     using item = typename Expand::item;
     constexpr unsigned fetch_below = block_size / 2;
@@ -112,8 +112,10 @@ __global__ void __launch_bounds__(block_size)
     memory& mine = *reinterpret_cast<memory*>(shared_memory);
     const unsigned total = from.counts[0];
 
-    const auto decide_all = [&] {
-        for (unsigned k = threadIdx.x; k < mine.found; k += block_size) decide(mine.candidates[k], late, sinks...);
+    const auto judge_all = [&] {
+        for (unsigned k = threadIdx.x; k < mine.found; k += block_size) {
+            if (!judge(mine.candidates[k], sinks...)) late.push(mine.candidates[k]);
+        }
         __syncthreads();
         if (threadIdx.x == 0) mine.found = 0;
         __syncthreads();
@@ -146,7 +148,7 @@ __global__ void __launch_bounds__(block_size)
     for (unsigned step = 0;; ++step) {
         unsigned count = mine.count;
         const unsigned fetched = mine.fetched;
-        const bool over = block_is_over(sinks...), more = mine.left != 0;
+        const bool over = block_is_over(late, sinks...), more = mine.left != 0;
         if (threadIdx.x < fetched) mine.items[count + threadIdx.x] = take(mine.first + threadIdx.x);
         count += fetched;
         const unsigned room = count + memory::reserve < memory::capacity ? memory::capacity - memory::reserve - count : 0;
@@ -175,10 +177,10 @@ __global__ void __launch_bounds__(block_size)
         append(children.candidates, children.candidate_mask, mine.candidates, &mine.found);
         __syncthreads();
         // An early end is worth more than full lanes.
-        if (mine.found >= ((is_flag<Sinks> || ...) ? 1 : block_size)) decide_all();
+        if (mine.found >= ((is_flag<Sinks> || ...) ? 1 : block_size)) judge_all();
     }
     __syncthreads();
-    decide_all();
+    judge_all();
     if (threadIdx.x == 0) mine.first = mine.count > 0 ? atomicAdd(to.counts, mine.count) : 0;
     __syncthreads();
     for (unsigned k = threadIdx.x; k < mine.count; k += block_size) to.data[mine.first + k] = mine.items[k];
@@ -187,17 +189,17 @@ __global__ void __launch_bounds__(block_size)
 
 }  // namespace detail
 
-template <class Expand, class Decide, class Settle, class Late, class... Queues>
-void for_each_descendant(const cuda& on, const Expand& expand, const Decide& decide, const Settle& settle, Late& late,
-                         Queues&... queues) {
+template <expander Expand, class Judge, class... Queues>
+    requires candidate_judge<Judge, typename Expand::candidate, sink_of<Queues>...>
+std::uint64_t for_each_descendant(const cuda& on, const Expand& expand, const Judge& judge, Queues&... queues) {
     using item = typename Expand::item;
     using memory = detail::expansion<Expand>;
     constexpr unsigned bytes = sizeof(memory), block = detail::block_size, never = static_cast<unsigned>(-1);
     const auto seeds = static_cast<unsigned>(expand.seeds());
-    if (seeds == 0) return;
+    if (seeds == 0) return 0;
     const detail::current_device scope(on);
-    const auto launch = [&](const detail::counter_delivery& deliver, auto late_sink, auto... sinks) {
-        constexpr auto kernel = detail::expand_kernel<Expand, Decide, decltype(late_sink), decltype(sinks)...>;
+    const auto launch = [&](auto late_sink, auto... sinks) {
+        constexpr auto kernel = detail::expand_kernel<Expand, Judge, decltype(late_sink), decltype(sinks)...>;
         const auto blocks = static_cast<unsigned>(detail::resident_blocks<kernel, sizeof(memory)>(on));
         const std::size_t begun_at = seeds, spread_at = begun_at + memory::capacity;
         buffer<item, device_space> items(on, spread_at + memory::capacity * std::size_t{blocks});
@@ -206,16 +208,13 @@ void for_each_descendant(const cuda& on, const Expand& expand, const Decide& dec
             spread{items.data() + spread_at, counts.data() + 4};
         detail::start_kernel<<<detail::blocks_for(seeds), block, 0, on.stream>>>(seed, seeds, expand);
         const bool few = seeds < blocks;
-        if (few) {
-            kernel<<<1, block, bytes, on.stream>>>(seed, begun, {1024, 0, 1}, expand, decide, late_sink, sinks...);
-        }
+        if (few) kernel<<<1, block, bytes, on.stream>>>(seed, begun, {1024, 0, 1}, expand, judge, late_sink, sinks...);
         const detail::item_list<item>& all = few ? begun : seed;
-        kernel<<<blocks, block, bytes, on.stream>>>(all, spread, {1024, 8, 1}, expand, decide, late_sink, sinks...);
-        kernel<<<blocks, block, bytes, on.stream>>>(spread, begun, {never, 0, 2}, expand, decide, late_sink, sinks...);
+        kernel<<<blocks, block, bytes, on.stream>>>(all, spread, {1024, 8, 1}, expand, judge, late_sink, sinks...);
+        kernel<<<blocks, block, bytes, on.stream>>>(spread, begun, {never, 0, 2}, expand, judge, late_sink, sinks...);
         detail::check_launch("for_each_descendant");
-        detail::launch_settle(on, settle, deliver, late_sink, sinks...);
     };
-    detail::gather(on, launch, late, queues...);
+    return detail::judge_and_finish<typename Expand::candidate>(on, detail::any_number, judge, launch, queues...);
 }
 
 }  // namespace abut::execution

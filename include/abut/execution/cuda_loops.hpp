@@ -15,6 +15,9 @@
 
 #include <abut/execution/cuda.hpp>
 #include <abut/execution/cuda_queue.hpp>
+#include <abut/execution/generic.hpp>
+#include <abut/execution/group.hpp>
+#include <abut/execution/roles.hpp>
 #include <abut/execution/work_queue.hpp>
 
 namespace abut::execution {
@@ -23,6 +26,7 @@ namespace detail {
 
 inline constexpr int block_size = 256;
 inline constexpr unsigned warp_size = 32;
+inline constexpr std::uint64_t any_number = ~std::uint64_t{0};
 
 /// A thread's last word to its sinks: what they have gathered in registers goes to memory.
 template <class... Sinks>
@@ -67,116 +71,21 @@ __global__ void __launch_bounds__(block_size)
     deliver();
 }
 
-/// Candidates of one block, in shared memory; the ones that find no room are late.
-template <class Candidate, class Late, unsigned Capacity = 2048>
+/// Candidates of one block, in shared memory, with room for some of each walk when it is full.
+template <class Candidate>
 struct candidate_sink {
-    static constexpr unsigned capacity = Capacity;
+    static constexpr unsigned capacity = 2048, spare = 2;
     Candidate* data;
     unsigned* count;
-    Late late;
-    __device__ void push(const Candidate& candidate) const {
-        // The counter rests once it is past the capacity: it cannot wrap around, whatever the number of candidates.
-        const unsigned slot = atomic_load(count) < capacity ? atomicAdd(count, 1u) : capacity;
-        if (slot < capacity) {
-            data[slot] = candidate;
-        } else {
-            late.push(candidate);
-        }
-    }
+    __device__ void push(const Candidate& candidate) const { data[atomicAdd(count, 1u)] = candidate; }
+    [[nodiscard]] __device__ bool is_full() const { return atomic_load(count) > capacity - spare * block_size; }
 };
 
-/// What is ready in a group: each index once at most.
-struct ready_in_block {
-    unsigned short* places;
-    unsigned* count;
-    __device__ void push(unsigned k) const { places[atomicAdd(count, 1u)] = static_cast<unsigned short>(k); }
-};
-
-/// Steps in rounds, so that the lanes that have one lie side by side; the last rounds, of few, are one warp's alone.
-template <class F, class Late, class... Sinks>
-__global__ void __launch_bounds__(block_size) for_each_in_groups_kernel(std::size_t n, F f, Late late, Sinks... sinks) {
-    using candidate = typename Late::value_type;
-    __shared__ typename F::shared shared;
-    __shared__ candidate leaving[block_size];
-    __shared__ unsigned short places[block_size];
-    __shared__ unsigned left, tail, counts[3];  // what is ready in a round, in the next one, and in the one after that
-    __shared__ std::uint64_t first_late;
-    const std::size_t first = std::size_t{blockIdx.x} * block_size, i = first + threadIdx.x;
-    if (threadIdx.x < 3) counts[threadIdx.x] = 0;
-    if (threadIdx.x == 3) left = 0;
-    f.prepare(first, threadIdx.x, shared);
-    __syncthreads();
-    const candidate_sink<candidate, Late, block_size> mine{leaving, &left, late};
-    if (i < n) f.begin(i, shared, ready_in_block{places, &counts[0]}, mine, sinks...);
-    __syncthreads();
-    unsigned round = 0, done = 0, count = counts[0];
-    while (count > warp_size) {
-        const unsigned next = round == 2 ? 0 : round + 1, after = next == 2 ? 0 : next + 1;
-        if (threadIdx.x == 0) counts[after] = 0;
-        const ready_in_block ready{places + done + count, &counts[next]};
-        if (threadIdx.x < count) f.step(first, places[done + threadIdx.x], shared, ready, mine);
-        done += count;
-        round = next;
-        __syncthreads();
-        count = counts[round];
-    }
-    while (count > 0 && threadIdx.x < warp_size) {
-        if (threadIdx.x == 0) tail = 0;
-        __syncwarp();
-        if (threadIdx.x < count) {
-            f.step(first, places[done + threadIdx.x], shared, ready_in_block{places + done + count, &tail}, mine);
-        }
-        __syncwarp();
-        done += count;
-        count = tail;
-        __syncwarp();
-    }
-    __syncthreads();
-    f.end(first, threadIdx.x, shared, mine);
-    for (unsigned t = threadIdx.x; t < F::parts * block_size; t += block_size) f.write(first, t, shared);
-    __syncthreads();
-    count = left < block_size ? left : block_size;
-    if (threadIdx.x == 0 && count > 0) first_late = late.reserve(count);
-    __syncthreads();
-    if (threadIdx.x < count) late.put(first_late + threadIdx.x, leaving[threadIdx.x]);
-    close_all(sinks...);
-}
-
-/// The last turns, of few, are one warp's alone.
+/// A block is a group: each of its threads runs the functor, and takes its share of each step.
 template <class F>
-__global__ void __launch_bounds__(block_size) for_each_in_turns_kernel(F f) {
+__global__ void __launch_bounds__(group_size) for_each_group_kernel(F f) {
     __shared__ typename F::shared shared;
-    const std::size_t first = std::size_t{blockIdx.x} * block_size;
-    f.load(first, threadIdx.x, shared);
-    __syncthreads();
-    const unsigned turns = f.turns(shared);
-    unsigned t = 0;
-    for (; t < turns; ++t) {
-        const index_range now = f.of_turn(t, shared);
-        if (now.end - now.begin <= warp_size) break;
-        if (threadIdx.x < now.end - now.begin) f.step(t, first, now.begin + threadIdx.x, shared);
-        __syncthreads();
-    }
-    if (threadIdx.x < warp_size) {
-        for (; t < turns; ++t) {
-            const index_range now = f.of_turn(t, shared);
-            if (threadIdx.x < now.end - now.begin) f.step(t, first, now.begin + threadIdx.x, shared);
-            __syncwarp();
-        }
-    }
-    __syncthreads();
-    if constexpr (F::parts > 0) {
-        if constexpr (block_size % F::parts == 0) {
-            const unsigned part = threadIdx.x % F::parts;  // the same for all that a thread writes
-            for (unsigned k = threadIdx.x / F::parts; k < block_size; k += block_size / F::parts) {
-                f.write(first, k, part, shared);
-            }
-        } else {
-            for (unsigned i = threadIdx.x; i < F::parts * block_size; i += block_size) {
-                f.write(first, i / F::parts, i % F::parts, shared);
-            }
-        }
-    }
+    f(group<typename F::shared>(std::size_t{blockIdx.x} * group_size, shared));
 }
 
 /// Whether a flag among the sinks is raised, the same answer for all threads of the block.
@@ -197,37 +106,45 @@ __device__ bool warp_is_over(unsigned lane, const Sinks&... sinks) {
 
 /// Three steps of very different width: tests, of which one in a hundred may pass; walks, of uneven length; decisions, which
 /// come up at uneven times. Each step hands what it found to the next through shared memory, so that each runs with its
-/// lanes full. Few walkers are spread over all warps, since each waits for memory most of its time.
-template <class Test, class Walk, class Decide, class Late, class... Sinks>
+/// lanes full. Few walkers are spread over all warps, since each waits for memory most of its time. Where candidates have no
+/// room, walks rest until these are judged.
+template <class Walk, class Judge, class Late, class... Sinks>
 __global__ void __launch_bounds__(block_size)
-    for_each_candidate_kernel(std::size_t n, Test test, Walk walk, Decide decide, Late late, Sinks... sinks) {
-    using emitter = candidate_sink<typename Walk::candidate, Late>;
+    for_each_candidate_kernel(std::size_t n, Walk walk, Judge judge, Late late, Sinks... sinks) {
+    using candidate = typename Walk::candidate;
+    using emitter = candidate_sink<candidate>;
     constexpr int rows = 4;  // tests in flight for each thread
     __shared__ std::size_t selected[(rows + 1) * block_size];
-    __shared__ typename Walk::candidate candidates[emitter::capacity];
+    __shared__ candidate candidates[emitter::capacity];
     __shared__ unsigned waiting, found;
     if (threadIdx.x == 0) waiting = found = 0;
     __syncthreads();
 
-    const auto walk_and_decide = [&](bool mine, unsigned slot) {
+    const auto walk_and_judge = [&](bool mine, unsigned slot) {
         const std::size_t i = mine ? selected[slot] : 0;
-        __syncthreads();
-        if (mine) walk(i, emitter{candidates, &found, late}, sinks...);
-        __syncthreads();
-        const unsigned count = found < emitter::capacity ? found : emitter::capacity;
-        for (unsigned k = threadIdx.x; k < count; k += block_size) decide(candidates[k], late, sinks...);
-        __syncthreads();
-        if (threadIdx.x == 0) found = 0;
+        typename Walk::cursor at;
+        bool more = false;
+        do {
+            __syncthreads();
+            if (mine) mine = walk(i, at, emitter{candidates, &found}, sinks...);
+            __syncthreads();
+            const unsigned count = found;
+            for (unsigned k = threadIdx.x; k < count; k += block_size) {
+                if (!judge(candidates[k], sinks...)) late.push(candidates[k]);
+            }
+            more = __syncthreads_or(mine && !is_over(late, sinks...)) != 0;
+            if (threadIdx.x == 0) found = 0;
+        } while (more);
     };
 
     constexpr std::size_t step = std::size_t{rows} * block_size;
     for (std::size_t first = blockIdx.x * step; first < n; first += gridDim.x * step) {
-        if (block_is_over(sinks...)) break;
+        if (block_is_over(late, sinks...)) break;
         bool pass[rows];
 #pragma unroll
         for (int row = 0; row < rows; ++row) {
             const std::size_t i = first + static_cast<unsigned>(row * block_size) + threadIdx.x;
-            pass[row] = i < n && test(i);
+            pass[row] = i < n && walk.may_find(i);
         }
 #pragma unroll
         for (int row = 0; row < rows; ++row) {
@@ -236,14 +153,14 @@ __global__ void __launch_bounds__(block_size)
         }
         __syncthreads();
         for (unsigned left = waiting; left >= block_size; left -= block_size) {
-            walk_and_decide(true, left - block_size + threadIdx.x);
+            walk_and_judge(true, left - block_size + threadIdx.x);
             if (threadIdx.x == 0) waiting = left - block_size;
         }
         __syncthreads();
     }
     if (waiting > 0) {
         const unsigned spread = block_size / waiting;
-        walk_and_decide(threadIdx.x % spread == 0 && threadIdx.x / spread < waiting, threadIdx.x / spread);
+        walk_and_judge(threadIdx.x % spread == 0 && threadIdx.x / spread < waiting, threadIdx.x / spread);
     }
     close_all(sinks...);
 }
@@ -284,12 +201,13 @@ struct tile_memory {
 /// wait in shared memory until the lanes of a warp can decide one each, since a warp takes as long for one as for all.
 /// Rows stream if `rows_in_memory` is where they lie one after another: a warp's next batch comes while it is busy with this
 /// one. Strided loads into registers would not: they cost a third more time than reading does.
-template <class Tile, class... Sinks>
+template <class Tile, class Late, class... Sinks>
 __global__ void __launch_bounds__(block_size, 2)
-    for_each_tiled_kernel(std::size_t n, std::size_t m, Tile tile, const typename Tile::row* rows_in_memory,
+    for_each_tiled_kernel(std::size_t n, std::size_t m, Tile tile, const typename Tile::row* rows_in_memory, Late late,
                           Sinks... sinks) {
     using column = typename Tile::column;
     using row = typename Tile::row;
+    using candidate = typename Tile::candidate;
     using memory = tile_memory<Tile>;
     constexpr unsigned all = 0xffffffff;
     extern __shared__ __align__(16) unsigned char shared_memory[];
@@ -325,16 +243,17 @@ __global__ void __launch_bounds__(block_size, 2)
 
         unsigned count = 0, unasked = 0;  // the same in all lanes
         const auto decide = [&](unsigned place) {
-            const std::size_t i = waiting.row[place];
-            const unsigned j = waiting.column[place];
+            const std::size_t i = waiting.row[place], j = waiting.column[place];
             unasked = 0;
-            tile(stream ? waiting_rows[place] : tile.load_row(i), i, staged[j], first + j, sinks...);
+            if (!tile(stream ? waiting_rows[place] : tile.load_row(i), i, staged[j], first + j, sinks...)) {
+                late.push(tile.candidate_of(i, first + j));
+            }
         };
         std::size_t base = (std::size_t{blockIdx.x} * memory::warps + warp) * memory::batch;
         const unsigned look_up = stream ? 4 : 1;  // a batch of a stream is soon done, and asking takes its time
         fetch(base, 0);
         for (unsigned slot = 0; base < n; base += step, slot ^= 1) {
-            const bool ask = unasked++ % look_up == 0, stop = ask && warp_is_over(lane, sinks...);
+            const bool ask = unasked++ % look_up == 0, stop = ask && warp_is_over(lane, late, sinks...);
             __syncwarp();  // all lanes have read what is overwritten now
             fetch(base + step, slot ^ 1);
             __pipeline_wait_prior(1);
@@ -383,15 +302,28 @@ __global__ void __launch_bounds__(block_size, 2)
     close_all(sinks...);
 }
 
-/// settle(c, sinks...) for every c that the kernel before has pushed into `late`.
-template <class Settle, class Late, class... Sinks>
+/// A judge's last word on what a loop left open, if all of it found room.
+template <class Judge, class Late, class... Sinks>
 __global__ void __launch_bounds__(block_size)
-    settle_kernel(Settle settle, counter_delivery deliver, Late late, Sinks... sinks) {
-    const std::uint64_t pushed = atomic_load(late.count), count = pushed < late.capacity ? pushed : late.capacity;
-    constexpr std::uint64_t step = block_size;
-    for (std::uint64_t i = blockIdx.x * step + threadIdx.x; i < count; i += gridDim.x * step) {
+    finish_kernel(Judge judge, counter_delivery deliver, Late late, Sinks... sinks) {
+    const std::uint64_t pushed = atomic_load(late.count), count = pushed <= late.capacity ? pushed : 0;
+    const std::uint64_t step = std::uint64_t{gridDim.x} * block_size;
+    for (std::uint64_t i = std::uint64_t{blockIdx.x} * block_size + threadIdx.x; i < count; i += step) {
         if (is_over(sinks...)) break;
-        settle(late.data[i], sinks...);
+        judge.finish(late.data[i], sinks...);
+    }
+    close_all(sinks...);
+    deliver();
+}
+
+/// Reads how many indices there are when it starts.
+template <class F, class... Sinks>
+__global__ void __launch_bounds__(block_size)
+    for_each_indirect_kernel(const std::uint32_t* n, F f, counter_delivery deliver, Sinks... sinks) {
+    const std::size_t count = *n, step = std::size_t{gridDim.x} * block_size;
+    for (std::size_t i = std::size_t{blockIdx.x} * block_size + threadIdx.x; i < count; i += step) {
+        if (is_over(sinks...)) break;
+        f(i, sinks...);
     }
     close_all(sinks...);
     deliver();
@@ -429,18 +361,9 @@ inline unsigned blocks_for(std::size_t n) { return static_cast<unsigned>((n + bl
 
 inline void check_launch(const char* kernel) { check(cudaGetLastError(), kernel); }
 
-/// The second kernel follows the first at once: the host need not know how much was left. That is little as a rule.
-template <class Settle, class Late, class... Sinks>
-void launch_settle(const cuda& on, const Settle& settle, const counter_delivery& deliver, const Late& late,
-                   const Sinks&... sinks) {
-    constexpr auto kernel = settle_kernel<Settle, Late, Sinks...>;
-    kernel<<<static_cast<unsigned>(resident_blocks<kernel>(on)), block_size, 0, on.stream>>>(settle, deliver, late,
-                                                                                             sinks...);
-    check_launch("settle");
-}
-
 /// Runs `launch(deliver, sinks...)` with a sink of each queue, over counters that are 0, reads what they have become, and
-/// runs again while a queue found that it was too small. The last kernel of `launch` calls `deliver`.
+/// runs again while a queue found that it was too small: only the last run counts. The last kernel of `launch` calls
+/// `deliver`.
 template <class Launch, class... Queues>
 void gather(const cuda& on, const Launch& launch, Queues&... queues) {
     static_assert(sizeof...(Queues) <= loop_counters::most);
@@ -449,13 +372,14 @@ void gather(const cuda& on, const Launch& launch, Queues&... queues) {
     bool complete = false;
     while (!complete) {
         counters.begin(on.stream);
-        [&]<std::size_t... K>(std::index_sequence<K...>) {
-            launch(deliver, queues.make_sink(counters.words() + K)...);
-        }(std::index_sequence_for<Queues...>{});
+        [&]<std::size_t... K>(std::index_sequence<K...>) { launch(deliver, queues.make_sink(counters.words() + K)...); }
+        (std::index_sequence_for<Queues...>{});
         counters.end(on.stream);
-        complete = true;
+        const std::uint64_t* const counts = counters.read();
         std::size_t k = 0;
-        ((complete &= queues.settle(on, counters.read()[k++])), ...);
+        complete = (queues.has_room(counts[k++]) && ...);
+        k = 0;
+        complete ? (queues.take_in(counts[k++]), ...) : (queues.make_room(on, counts[k++]), ...);
     }
 }
 
@@ -480,52 +404,78 @@ void for_each_index(const cuda& on, std::size_t n, const F& f, Queue& queue, Que
     detail::gather(on, launch, queue, queues...);
 }
 
-template <class F, class Settle, class Late, class... Queues>
-void for_each_in_groups(const cuda& on, std::size_t n, const F& f, const Settle& settle, Late& late, Queues&... queues) {
-    static_assert(group_size == detail::block_size);
-    if (n == 0) return;
+/// The blocks that a device holds at a time share the indices, however many these are.
+template <class F, class... Queues>
+void for_each_indirect(const cuda& on, const std::uint32_t* n, const F& f, Queues&... queues) {
     const detail::current_device scope(on);
-    const auto launch = [&](const detail::counter_delivery& deliver, auto late_sink, auto... sinks) {
-        detail::for_each_in_groups_kernel<<<detail::blocks_for(n), detail::block_size, 0, on.stream>>>(n, f, late_sink,
-                                                                                                       sinks...);
-        detail::check_launch("for_each_in_groups");
-        detail::launch_settle(on, settle, deliver, late_sink, sinks...);
+    const auto launch = [&](const detail::counter_delivery& deliver, auto... sinks) {
+        constexpr auto kernel = detail::for_each_indirect_kernel<F, decltype(sinks)...>;
+        const auto blocks = static_cast<unsigned>(detail::resident_blocks<kernel>(on));
+        kernel<<<blocks, detail::block_size, 0, on.stream>>>(n, f, deliver, sinks...);
+        detail::check_launch("for_each_indirect");
     };
-    detail::gather(on, launch, late, queues...);
+    if constexpr (sizeof...(Queues) == 0) {
+        launch(detail::counter_delivery{nullptr, nullptr, 0});
+    } else {
+        detail::gather(on, launch, queues...);
+    }
 }
 
 template <class F>
-void for_each_in_turns(const cuda& on, std::size_t n, const F& f) {
-    static_assert(group_size == detail::block_size);
-    if (n == 0) return;
-    const detail::current_device scope(on);
-    detail::for_each_in_turns_kernel<<<detail::blocks_for(n), detail::block_size, 0, on.stream>>>(f);
-    detail::check_launch("for_each_in_turns");
+void for_each_group(const cuda& on, std::size_t n, const F& f) {
+    static_assert(group_functor<F>, "abut: for_each_group: the functor is no group_functor (execution/roles.hpp)");
+    if constexpr (group_functor<F>) {
+        if (n == 0) return;
+        const detail::current_device scope(on);
+        const auto groups = static_cast<unsigned>(n / group_size + (n % group_size != 0));
+        detail::for_each_group_kernel<<<groups, group_size, 0, on.stream>>>(f);
+        detail::check_launch("for_each_group");
+    }
 }
 
-template <class Test, class Walk, class Decide, class Settle, class Late, class... Queues>
-void for_each_candidate(const cuda& on, std::size_t n, const Test& test, const Walk& walk, const Decide& decide,
-                        const Settle& settle, Late& late, Queues&... queues) {
-    if (n == 0) return;
-    const detail::current_device scope(on);
-    const auto launch = [&](const detail::counter_delivery& deliver, auto late_sink, auto... sinks) {
-        constexpr auto kernel =
-            detail::for_each_candidate_kernel<Test, Walk, Decide, decltype(late_sink), decltype(sinks)...>;
-        const std::size_t blocks = std::min(detail::resident_blocks<kernel>(on), std::size_t{detail::blocks_for(n)});
-        kernel<<<static_cast<unsigned>(blocks), detail::block_size, 0, on.stream>>>(n, test, walk, decide, late_sink,
-                                                                                    sinks...);
-        detail::check_launch("for_each_candidate");
-        detail::launch_settle(on, settle, deliver, late_sink, sinks...);
+namespace detail {
+
+/// A loop that judges at most `pairs` candidates: launch(late_sink, sinks...) starts it. The kernel that finishes what it
+/// leaves open follows at once: the host need not know how much that is, and it is little as a rule. Returns how many of these found no room, and so were not finished.
+template <class Candidate, class Judge, class Launch, class... Queues>
+std::uint64_t judge_and_finish(const cuda& on, std::uint64_t pairs, const Judge& judge, const Launch& launch,
+                               Queues&... queues) {
+    open_queue<Candidate, (is_flag<sink_of<Queues>> || ...)> late(on, pairs);
+    const auto both = [&](const counter_delivery& deliver, auto late_sink, auto... sinks) {
+        launch(late_sink, sinks...);
+        constexpr auto kernel = finish_kernel<Judge, decltype(late_sink), decltype(sinks)...>;
+        kernel<<<static_cast<unsigned>(resident_blocks<kernel>(on)), block_size, 0, on.stream>>>(judge, deliver, late_sink,
+                                                                                                 sinks...);
+        check_launch("finish");
     };
-    detail::gather(on, launch, late, queues...);
+    do {
+        gather(on, both, late, queues...);
+    } while (!late.is_complete() && !is_over(queues...));
+    return late.unfinished();
 }
 
-template <class Tile, class Settle, class Late, class... Queues>
-void for_each_tiled(const cuda& on, std::size_t n, std::size_t m, const Tile& tile, const Settle& settle, Late& late,
-                    Queues&... queues) {
-    if (n == 0 || m == 0) return;
+}  // namespace detail
+
+template <class Walk, class Judge, class... Queues>
+    requires candidate_walk<Walk, sink_of<Queues>...> && candidate_judge<Judge, typename Walk::candidate, sink_of<Queues>...>
+std::uint64_t for_each_candidate(const cuda& on, std::size_t n, const Walk& walk, const Judge& judge, Queues&... queues) {
+    if (n == 0) return 0;
     const detail::current_device scope(on);
-    const auto launch = [&](const detail::counter_delivery& deliver, auto late_sink, auto... sinks) {
+    const auto launch = [&](auto late_sink, auto... sinks) {
+        constexpr auto kernel = detail::for_each_candidate_kernel<Walk, Judge, decltype(late_sink), decltype(sinks)...>;
+        const std::size_t blocks = std::min(detail::resident_blocks<kernel>(on), std::size_t{detail::blocks_for(n)});
+        kernel<<<static_cast<unsigned>(blocks), detail::block_size, 0, on.stream>>>(n, walk, judge, late_sink, sinks...);
+        detail::check_launch("for_each_candidate");
+    };
+    return detail::judge_and_finish<typename Walk::candidate>(on, detail::any_number, judge, launch, queues...);
+}
+
+template <class Tile, class... Queues>
+    requires tile_functor<Tile, sink_of<Queues>...>
+std::uint64_t for_each_tiled(const cuda& on, std::size_t n, std::size_t m, const Tile& tile, Queues&... queues) {
+    if (n == 0 || m == 0) return 0;
+    const detail::current_device scope(on);
+    const auto launch = [&](auto late_sink, auto... sinks) {
         using memory = detail::tile_memory<Tile>;
         constexpr auto kernel = detail::for_each_tiled_kernel<Tile, decltype(late_sink), decltype(sinks)...>;
         const auto* rows = m <= memory::few ? tile.rows_in_memory() : nullptr;
@@ -544,9 +494,8 @@ void for_each_tiled(const cuda& on, std::size_t n, std::size_t m, const Tile& ti
         const dim3 blocks(static_cast<unsigned>(across), static_cast<unsigned>(down));
         kernel<<<blocks, detail::block_size, memory::bytes(stream), on.stream>>>(n, m, tile, rows, late_sink, sinks...);
         detail::check_launch("for_each_tiled");
-        detail::launch_settle(on, settle, deliver, late_sink, sinks...);
     };
-    detail::gather(on, launch, late, queues...);
+    return detail::judge_and_finish<typename Tile::candidate>(on, std::uint64_t{n} * m, tile, launch, queues...);
 }
 
 }  // namespace abut::execution

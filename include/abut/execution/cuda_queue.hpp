@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The queues of execution/work_queue.hpp in device memory: a sink counts in a word of device memory, and `settle` is told
-// what it counted. And those words.
+// The queues of execution/work_queue.hpp in device memory: a sink counts in a word of device memory. After the loop each
+// queue is asked has_room(count), about what its word has become. If all have, each is told to take_in(count); if not, to
+// make_room, and the loop runs again. And those words.
 
 #include <algorithm>
 #include <cstddef>
@@ -76,33 +77,23 @@ template <class T>
 class work_queue<T, device_space> {
 public:
     struct sink {
-        using value_type = T;
         T* data;
         std::uint64_t capacity;
         std::uint64_t* count;
-        /// Takes k places, and returns the first.
-        __device__ std::uint64_t reserve(std::uint64_t k) const { return atomic_add(count, k); }
-        __device__ void put(std::uint64_t place, const T& value) const {
-            if (place < capacity) data[place] = value;
-        }
         /// The lanes of a warp that push together count together.
         __device__ void push(const T& value) const {
             const unsigned lanes = __activemask();
             const int leader = __ffs(static_cast<int>(lanes)) - 1;
             const unsigned lane = detail::lane_id();
             std::uint64_t first = 0;
-            if (static_cast<int>(lane) == leader) first = reserve(static_cast<unsigned>(__popc(lanes)));
-            put(__shfl_sync(lanes, first, leader) + __popc(lanes & ((1u << lane) - 1)), value);
+            if (static_cast<int>(lane) == leader) first = atomic_add(count, static_cast<std::uint64_t>(__popc(lanes)));
+            const std::uint64_t at = __shfl_sync(lanes, first, leader) + __popc(lanes & ((1u << lane) - 1));
+            if (at < capacity) data[at] = value;
         }
         __device__ void close() const {}
     };
 
     explicit work_queue(const cuda& on, std::size_t expected = 1 << 16) : items_(on, expected) {}
-
-    work_queue(const cuda& on, const std::vector<T>& values) : items_(on, values.size()), size_(values.size()) {
-        upload(on, values.data(), values.size(), items_.data());
-        synchronize(on);
-    }
 
     [[nodiscard]] std::size_t size() const { return size_; }
     [[nodiscard]] T* data() { return items_.data(); }
@@ -111,21 +102,17 @@ public:
         items_.shrink(std::exchange(size_, 0));
         return std::move(items_);
     }
-    void absorb(const cuda& on, work_queue& more) {
-        buffer<T, device_space> mine = take(), others = more.take();
-        items_ = joined(on, mine, others);
-        size_ = items_.size();
-    }
 
-    [[nodiscard]] sink make_sink(std::uint64_t* count) { return {items_.data(), items_.size(), count}; }
-    [[nodiscard]] bool settle(const cuda& on, std::uint64_t count) {
-        if (count > items_.size()) {
-            items_ = {};  // first give back, then take: both never need to fit at once
-            items_ = buffer<T, device_space>(on, count + count / 8);  // what overflows a block varies from run to run
-            return false;
-        }
-        size_ = count;
-        return true;
+    [[nodiscard]] sink make_sink(std::uint64_t* count) { return {items_.data() + size_, items_.size() - size_, count}; }
+    [[nodiscard]] bool has_room(std::uint64_t count) const { return count <= items_.size() - size_; }
+    void take_in(std::uint64_t count) { size_ += count; }
+    void make_room(const cuda& on, std::uint64_t count) {
+        if (has_room(count)) return;
+        const std::size_t room = size_ + count + count / 8;  // what overflows a block varies from run to run
+        if (size_ == 0) items_ = {};                         // first give back, then take: both never need to fit at once
+        buffer<T, device_space> larger(on, room);
+        copy(on, items_.data(), size_, larger.data());
+        items_ = std::move(larger);
     }
 
 private:
@@ -155,16 +142,10 @@ public:
 
     explicit work_count(const cuda&) {}
     [[nodiscard]] std::uint64_t total() const { return total_; }
-    template <class Queue>
-    void absorb(const cuda&, const Queue& more) {
-        total_ += more.size();
-    }
-    void absorb(const cuda&, const work_count& more) { total_ += more.total_; }
     [[nodiscard]] sink make_sink(std::uint64_t* sum) { return {sum}; }
-    [[nodiscard]] bool settle(const cuda&, std::uint64_t sum) {
-        total_ = sum;
-        return true;
-    }
+    [[nodiscard]] bool has_room(std::uint64_t) const { return true; }
+    void take_in(std::uint64_t sum) { total_ += sum; }
+    void make_room(const cuda&, std::uint64_t) {}
 
 private:
     std::uint64_t total_ = 0;
@@ -184,19 +165,94 @@ public:
 
     explicit work_flag(const cuda&) {}
     [[nodiscard]] bool raised() const { return raised_; }
-    template <class Queue>
-    void absorb(const cuda&, const Queue& more) {
-        raised_ |= more.size() > 0;
-    }
-    void absorb(const cuda&, const work_flag& more) { raised_ |= more.raised_; }
     [[nodiscard]] sink make_sink(std::uint64_t* word) { return {word}; }
-    [[nodiscard]] bool settle(const cuda&, std::uint64_t word) {
-        raised_ = word != 0;
-        return true;
-    }
+    [[nodiscard]] bool has_room(std::uint64_t) const { return true; }
+    void take_in(std::uint64_t word) { raised_ |= word != 0; }
+    void make_room(const cuda&, std::uint64_t) {}
 
 private:
     bool raised_ = false;
+};
+
+template <class F>
+class work_visit<F, device_space> {
+public:
+    struct sink {
+        F visitor;
+        std::uint64_t* word;
+        template <class T>
+        __device__ void push(const T& value) const {
+            if (!raised() && !visitor(value)) atomic_store(reinterpret_cast<std::uint32_t*>(word), 1);
+        }
+        [[nodiscard]] __device__ bool raised() const {
+            return atomic_load(reinterpret_cast<const std::uint32_t*>(word)) != 0;
+        }
+        __device__ void close() const {}
+    };
+
+    work_visit(const cuda&, const F& visitor) : visitor_(visitor) {}
+    [[nodiscard]] bool raised() const { return raised_; }
+    [[nodiscard]] sink make_sink(std::uint64_t* word) { return {visitor_, word}; }
+    [[nodiscard]] bool has_room(std::uint64_t) const { return true; }
+    void take_in(std::uint64_t word) { raised_ |= word != 0; }
+    void make_room(const cuda&, std::uint64_t) {}
+
+private:
+    F visitor_;
+    bool raised_ = false;
+};
+
+/// The first values of many: those that find room stay, all are counted, and no loop runs again for their sake.
+template <class T>
+class capped_queue<T, device_space> {
+public:
+    using sink = typename work_queue<T, device_space>::sink;
+
+    capped_queue(const cuda& on, std::size_t capacity) : items_(on, capacity) {}
+    /// Number of values that were pushed.
+    [[nodiscard]] std::uint64_t pushed() const { return pushed_; }
+    [[nodiscard]] std::size_t capacity() const { return items_.size(); }
+    [[nodiscard]] const T* data() const { return items_.data(); }
+
+    [[nodiscard]] sink make_sink(std::uint64_t* count) { return {items_.data(), items_.size(), count}; }
+    [[nodiscard]] bool has_room(std::uint64_t) const { return true; }
+    void take_in(std::uint64_t count) { pushed_ = count; }
+    void make_room(const cuda&, std::uint64_t) {}
+
+private:
+    buffer<T, device_space> items_;
+    std::uint64_t pushed_ = 0;
+};
+
+/// What a loop leaves open. Where one hit will do, the loop rests when there is enough to finish first.
+template <class T, bool AnyWillDo>
+class open_queue : public capped_queue<T, device_space> {
+    using base = capped_queue<T, device_space>;
+    static constexpr std::uint64_t most = most_open, enough = std::uint64_t{1} << 14;
+
+public:
+    struct sink : base::sink {
+        std::uint64_t stop_at;
+        [[nodiscard]] __device__ bool raised() const requires AnyWillDo { return atomic_load(this->count) >= stop_at; }
+    };
+
+    /// For a loop over no more than `pairs` candidates.
+    open_queue(const cuda& on, std::uint64_t pairs) : base(on, pairs < most ? pairs : most) {}
+
+    [[nodiscard]] sink make_sink(std::uint64_t* count) {
+        return {base::make_sink(count), patient_ ? ~std::uint64_t{0} : enough};
+    }
+    /// Whether the loop came to its end. If not, the next one will.
+    [[nodiscard]] bool is_complete() {
+        const bool complete = !AnyWillDo || patient_ || this->pushed() < enough;
+        patient_ = true;
+        return complete;
+    }
+    /// How many values found no room; then none of them has been finished.
+    [[nodiscard]] std::uint64_t unfinished() const { return this->pushed() > this->capacity() ? this->pushed() : 0; }
+
+private:
+    bool patient_ = false;
 };
 
 }  // namespace abut::execution

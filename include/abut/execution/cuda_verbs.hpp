@@ -2,7 +2,7 @@
 #pragma once
 
 // The verbs of `cuda` (execution/policy.hpp lists them). Reductions, scans, sorts and selections are CUB's; the loops are in
-// execution/cuda_loops.hpp.
+// execution/cuda_loops.hpp, and what is left is execution/generic.hpp's.
 
 #include <algorithm>
 #include <cstddef>
@@ -19,6 +19,7 @@
 #include <abut/execution/cuda_expand.hpp>
 #include <abut/execution/cuda_loops.hpp>
 #include <abut/execution/cuda_queue.hpp>
+#include <abut/execution/generic.hpp>
 
 namespace abut::execution {
 
@@ -94,14 +95,6 @@ void reduce_into(const cuda& on, std::size_t n, T* out, T init, const Combine& c
     });
 }
 
-template <class T, class Combine, class F>
-T reduce(const cuda& on, std::size_t n, T init, const Combine& combine, const F& f) {
-    buffer<T, device_space> out(on, 1);
-    reduce_into(on, n, out.data(), init, combine, f);
-    download(on, out.data(), 1, &init);
-    return init;
-}
-
 template <class T>
 void exclusive_scan(const cuda& on, T* values, std::size_t n) {
     const detail::current_device scope(on);
@@ -157,22 +150,6 @@ std::size_t compact(const cuda& on, std::size_t n, const Test& test, Index* out)
     std::uint64_t count = 0;
     download(on, kept.data(), 1, &count);
     return count;
-}
-
-namespace detail {
-
-template <class T>
-struct store {
-    T* out;
-    T value;
-    __device__ void operator()(std::size_t i) const { out[i] = value; }
-};
-
-}  // namespace detail
-
-template <class T>
-void fill(const cuda& on, T* out, std::size_t n, const T& value) {
-    for_each_index(on, n, detail::store<T>{out, value});
 }
 
 }  // namespace abut::execution

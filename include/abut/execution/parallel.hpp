@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The two parallel loops of the host policies; all their verbs are made of these.
+// Ranges of indices on threads: the one loop of `serial` and `openmp`, of which all their verbs are made.
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <exception>
 
@@ -15,66 +16,80 @@
 
 namespace abut::execution {
 
-inline int thread_count(const serial&) { return 1; }
-inline int thread_count([[maybe_unused]] const openmp& on) {
+inline int concurrency(const serial&) { return 1; }
+/// More threads than a few for each processor gain nothing, and a runtime that cannot start as many as it is told to ends
+/// the program.
+inline int concurrency([[maybe_unused]] const openmp& on) {
 #if defined(_OPENMP)
-    return on.threads > 0 ? on.threads : omp_get_max_threads();
+    constexpr int for_each_processor = 8;
+    const int wanted = on.threads > 0 ? on.threads : omp_get_max_threads();
+    return std::max(1, std::min({wanted, for_each_processor * omp_get_num_procs(), omp_get_thread_limit()}));
 #else
     return 1;
 #endif
 }
 
-/// Cuts [0, n) into one contiguous part for each thread and calls f(part, begin, end), also for empty parts. The first
-/// exception thrown is thrown again after all threads are done.
+namespace detail {
+
+/// Threads for n indices in ranges of `grain`: no more than there are ranges, and one at least.
+template <class Policy>
+int range_threads(const Policy& on, std::size_t n, std::size_t grain) {
+    const std::size_t ranges = n / grain + (n % grain != 0);
+    return static_cast<int>(std::clamp<std::size_t>(ranges, 1, static_cast<std::size_t>(concurrency(on))));
+}
+
+/// Told when a functor has thrown: then no more work begins.
+class failure_flag {
+public:
+    void raise() { raised_.store(true, std::memory_order_relaxed); }
+    [[nodiscard]] bool raised() const { return raised_.load(std::memory_order_relaxed); }
+
+private:
+    std::atomic<bool> raised_{false};
+};
+
+}  // namespace detail
+
+/// On the calling thread there is one range.
 template <class F>
-void for_each_part(int threads, std::size_t n, const F& f) {
-    if (threads <= 1) return f(0, std::size_t{0}, n);
+void for_each_range(const serial&, std::size_t n, std::size_t, const F& f) {
+    if (n > 0) f(0, std::size_t{0}, n);
+}
+
+/// Calls f(thread, begin, end) on ranges of `grain` indices that idle threads fetch; on the calling thread alone there is
+/// one range. The first exception thrown is thrown again when all threads are done. None of them begins another range then.
+template <class F>
+void for_each_range(const openmp& on, std::size_t n, std::size_t grain, const F& f) {
+    const int threads = detail::range_threads(on, n, grain);
+    if (threads == 1) return for_each_range(serial{}, n, grain, f);
 #if defined(_OPENMP)
     std::exception_ptr failure;
-    const auto parts = static_cast<std::size_t>(threads);
-#pragma omp parallel for num_threads(threads) schedule(static, 1) shared(failure)
-    for (int part = 0; part < threads; ++part) {
+    detail::failure_flag failed;
+    const std::size_t ranges = n / grain + (n % grain != 0);
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 1) shared(failure, failed)
+    for (std::size_t range = 0; range < ranges; ++range) {
+        if (failed.raised()) continue;
         try {
-            const auto p = static_cast<std::size_t>(part);
-            f(part, n / parts * p + std::min(p, n % parts), n / parts * (p + 1) + std::min(p + 1, n % parts));
+            f(omp_get_thread_num(), range * grain, range * grain + std::min(grain, n - range * grain));
         } catch (...) {
+            failed.raise();
 #pragma omp critical(abut_failure)
             if (!failure) failure = std::current_exception();
         }
     }
     if (failure) std::rethrow_exception(failure);
 #else
-    // thread_count may come from a translation unit with OpenMP.
-    const auto parts = static_cast<std::size_t>(threads);
-    for (std::size_t p = 0; p < parts; ++p) {
-        f(static_cast<int>(p), n / parts * p + std::min(p, n % parts), n / parts * (p + 1) + std::min(p + 1, n % parts));
-    }
+    for_each_range(serial{}, n, grain, f);  // concurrency may come from a translation unit with OpenMP
 #endif
 }
 
-/// Calls f(thread, begin, end) on ranges of at most `grain` indices that idle threads fetch: for work of uneven cost.
-template <class F>
-void for_each_range(int threads, std::size_t n, std::size_t grain, const F& f) {
-    if (threads <= 1 || n <= grain) {
-        if (n > 0) f(0, std::size_t{0}, n);
-        return;
-    }
-#if defined(_OPENMP)
-    std::exception_ptr failure;
-    const std::size_t ranges = (n + grain - 1) / grain;
-#pragma omp parallel for num_threads(threads) schedule(dynamic, 1) shared(failure)
-    for (std::size_t range = 0; range < ranges; ++range) {
-        try {
-            f(omp_get_thread_num(), range * grain, std::min(n, (range + 1) * grain));
-        } catch (...) {
-#pragma omp critical(abut_failure)
-            if (!failure) failure = std::current_exception();
-        }
-    }
-    if (failure) std::rethrow_exception(failure);
-#else
-    f(0, std::size_t{0}, n);
-#endif
-}
+/// A policy in host memory whose loops are made of ranges on threads (execution/host.hpp): `serial`, `openmp`, and another
+/// that supplies concurrency(on) and for_each_range(on, n, grain, f) as openmp does. That calls f(thread, begin, end) for
+/// ranges of `grain` indices or more. No two calls at a time have the same `thread`, which is below concurrency(on), and 0
+/// where n <= grain. It returns when all calls have, and throws again what one of them has thrown.
+template <class P>
+concept range_policy = host_policy<P> && requires(const P& on, void (*f)(int, std::size_t, std::size_t)) {
+    for_each_range(on, std::size_t{}, std::size_t{}, f);
+};
 
 }  // namespace abut::execution

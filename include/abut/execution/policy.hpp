@@ -4,71 +4,66 @@
 // Who runs an algorithm and where its memory lies. A policy comes first in every call and is always given, never guessed.
 // `serial` and `openmp` are here; `cuda` is in execution/cuda.hpp, since it needs the CUDA toolkit.
 //
-// A policy supplies a small closed set of verbs, found by argument-dependent lookup in abut::execution. Everything above
-// this layer is written once on top of them. `on` is the policy, `n` a number of indices, functors are trivially copyable
-// and their `operator()` is ABUT_HD:
+// A policy has a small closed set of verbs, free functions found by argument-dependent lookup. Everything above this layer
+// is written once on top of them. `on` is the policy, `n` a number of indices, and functors are as their roles ask
+// (execution/roles.hpp). Loops run concurrently and in no order. With queues (execution/work_queue.hpp) a loop returns when
+// their contents are complete; what a functor leaves in its k-th sink is then in the k-th queue.
 //
-//   for_each_index(on, n, f)                f(i) for every i in [0, n), concurrently
-//   for_each_index(on, n, f, queue...)      f(i, sink...): what is pushed into sink k is gathered in queue k, complete, in
-//                                           no order (execution/work_queue.hpp); returns when all sizes are known
-//   for_each_in_groups(on, n, f, settle, late, queue...)
-//                                           indices by groups of group_size neighbours from `first` on, who share an
-//                                           F::shared close to the core. One after another: f.prepare(first, k, shared) for
-//                                           every k < group_size; f.begin(i, shared, ready, late_sink, sink...) for every i
-//                                           of the group; f.step(first, k, shared, ready, late_sink) for every k that these
-//                                           two push into `ready`, each k < group_size once at most, and a step pushes one
-//                                           at most; f.end(first, k, shared, late_sink) for every k < group_size, and
-//                                           f.write(first, t, shared) for every t < F::parts * group_size, neighbours side
-//                                           by side. When all groups are done, settle(c, sink...) for every c in `late`.
-//                                           Functors that write elsewhere take a `late` with room for all, and counts and
-//                                           flags alone: queues that overflow begin anew
-//   for_each_in_turns(on, n, f)             such groups again, turn by turn: f.load(first, k, shared) for every
-//                                           k < group_size; then for t = 0 ... f.turns(shared) - 1 f.step(t, first, k, shared)
-//                                           for every k of the index_range f.of_turn(t, shared), no longer than that of the turn
-//                                           before nor than group_size; then f.write(first, k, part, shared) for every
-//                                           part < F::parts of every k < group_size, neighbours side by side. The last group,
-//                                           which may have fewer indices, gets every k too
-//   for_each_candidate(on, n, test, walk, decide, settle, late, queue...)
-//                                           for every i with test(i): walk(i, emitter, sink...) calls emitter.push(c) for
-//                                           each candidate c, and decide(c, late_sink, sink...) is called for it; or else,
-//                                           for want of room, c itself goes to the queue `late`. Then settle(c, sink...)
-//                                           for every c in `late`
-//   for_each_descendant(on, expand, decide, settle, late, queue...)
-//                                           work that makes work: expand(item, emitter) for expand.seed(i),
-//                                           i < expand.seeds(), and every item that a call adds by emitter.add(k, item), in
-//                                           no order; candidates that it pushes by emitter.push(k, c) are decided, and the
-//                                           late settled, as above. Within a call each k < expand.most_children, a constant
-//                                           (any number, on the host), is used once at most; an item descends from at most
-//                                           expand.most_depth others. On the host alone, expand.prefetch(item) is a hint
-//                                           that the item comes soon, and decide.prefetch(c, step), which decide need not
-//                                           have, that c does: step 0, and some time later 1
-//   for_each_tiled(on, n, m, tile, settle, late, queue...)
-//                                           tile(row, i, column, j, late_sink, sink...) for all (i, j) of [0, n) x [0, m)
-//                                           with tile.passes(reach, column): row = tile.load_row(i), reach =
-//                                           tile.reach_of(row), column = tile.load_column(j). Rows stream by; columns are
-//                                           kept close to the cores, in tiles. tile.rows_in_memory() is where rows lie one
-//                                           after another, or null. Then settle(c, sink...) for every c in `late`
-//   reduce(on, n, init, combine, f)         combine over f(i), returned on the host; combine associates and
-//                                           commutes, and init is its identity
+// These a policy supplies itself:
+//
+//   for_each_index(on, n, f)                f(i) for every i < n
+//   for_each_index(on, n, f, queue...)      f(i, sink...) for every i < n
+//
+// and, if it works in other memory than the host's:
+//
+//   upload(on, from, n, to)                 from the caller's host memory to the policy's
+//   download(on, from, n, to)               back
+//   require_access(on, p, function)         throws if the policy cannot read memory at p
+//   require_callable(on, f, args...)        does nothing; does not compile if the policy could not call f(args...)
+//   device_of(on)                           the CUDA device that the policy works on; -1 for the host
+//   synchronize(on)                         waits for all that was asked of the policy
+//   release_memory(on)                      gives pooled memory back to the system
+//   for_each_group(on, n, f)                f(group) for all groups of group_size neighbouring indices, of which the last
+//                                           may have fewer (execution/group.hpp)
+//
+// These it gets, made of the ones above (execution/generic.hpp; for_each_ordered in host memory alone), and may supply better
+// ones:
+//
+//   concurrency(on)                         about how many indices are worked on at a time; a hint, 1 or more
+//   for_each_task(on, n, f)                 for_each_index for work that is long and of uneven length
+//   for_each_indirect(on, n, f, queue...)   for_each_index with a number of indices that lies at `n` in the policy's memory,
+//                                           where an earlier loop leaves it: the host need not wait to learn it
+//   for_each_candidate(on, n, walk, judge, queue...)
+//                                           judges all candidates that the walks of every i < n find
+//   for_each_descendant(on, expand, judge, queue...)
+//                                           judges all candidates that items find, from the seeds down
+//   for_each_ordered(on, n, walk, best)     walk(i, sink) for every i < n, each by one thread, which decides where it walks:
+//                                           nearest first. The sink takes what it finds by sink.offer(value, key), and
+//                                           sink.bound(), which shrinks meanwhile, tells what is still worth looking at: all
+//                                           that is not above. `best` is of each index or of all (execution/ordered.hpp)
+//   for_each_tiled(on, n, m, tile, queue...)
+//                                           judges all pairs of n rows and m columns that pass. Rows stream by; columns are
+//                                           kept close to the cores, in tiles. What a judge leaves open waits in room of a
+//                                           fixed size until it is finished. Where more is left open than finds room, none of
+//                                           it is finished; these three return how many that are, and else 0
+//   reduce(on, n, init, combine, f)         combine over f(i), returned on the host; init is the identity of combine
 //   reduce_into(on, n, out, init, combine, f)  the same, left in the policy's memory at `out`
 //   exclusive_scan(on, values, n)           in place over n + 1 values; the last becomes the total
 //   sort_keys(on, keys, bits)               unsigned keys below 2^bits in a buffer, ascending
 //   sort_by_key(on, keys, values, bits)     the same, stable, carrying values
 //   compact(on, n, test, out)               the i with test(i), ascending, to out; returns their number
 //   fill(on, out, n, value)                 copies of value
-//   upload(on, from, n, to), download(on, from, n, to)   between the caller's host memory and the policy's
 //   copy(on, from, n, to)                   within the policy's memory
-//   require_access(on, p, function)         throws if the policy cannot read memory at p
-//   device_of(on)                           the CUDA device that the policy works on; -1 for host policies
-//   synchronize(on)                         waits for all of the above
-//   release_memory(on)                      gives pooled memory back to the system
 //
-// reduce, the loops with queues, compact, download and synchronize wait for the result; the others may return
-// before it is there.
+// reduce, the loops with queues, for_each_ordered with one best of all, compact, download and synchronize wait for the
+// result; the others may return before it is there.
 
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <type_traits>
+
+#include <abut/execution/roles.hpp>
 
 namespace abut {
 
@@ -80,15 +75,21 @@ struct device_space {};
 template <class S>
 concept memory_space = std::same_as<S, host_space> || std::same_as<S, device_space>;
 
+template <class P>
+using space_of = typename std::remove_cvref_t<P>::memory_space;
+
+template <class P, class Space>
+concept works_in = std::same_as<space_of<P>, Space>;
+
+/// True for policies that work in host memory.
+template <class P>
+concept host_policy = works_in<P, host_space>;
+
 namespace execution {
 
-/// Indices of a group in for_each_in_groups; the last one may have fewer.
-inline constexpr unsigned group_size = 256;
-
-/// From `begin` to before `end`.
-struct index_range {
-    unsigned begin, end;
-};
+/// A base for policies outside of this namespace. It is empty: through it calls find the verbs that the policy does not
+/// supply itself.
+struct policy_base {};
 
 /// Runs on the calling thread.
 struct serial {
@@ -98,27 +99,69 @@ struct serial {
 /// Runs on OpenMP threads. Compiled without OpenMP it runs on the calling thread, as OpenMP programs do.
 struct openmp {
     using memory_space = host_space;
-    int threads = 0;  ///< number of threads; 0 leaves it to the OpenMP runtime
+    /// Number of threads; 0 leaves it to the OpenMP runtime. A loop takes no more of them than it has ranges of work, nor
+    /// more than eight for each processor.
+    int threads = 0;
 };
+
+template <class T, memory_space Space>
+class buffer;
+template <memory_space Space>
+class work_flag;
+
+/// Has every verb, its own or a default. Asked by execution_policy.
+template <class P>
+concept has_verbs = requires(const P& on, std::size_t n, const unsigned* from, unsigned* to,
+                             buffer<unsigned, space_of<P>>& values, work_flag<space_of<P>>& queue,
+                             const archetype::functor& f, const archetype::value& value, const archetype::combine& combine) {
+    for_each_index(on, n, f);
+    for_each_index(on, n, f, queue);
+    for_each_task(on, n, f);
+    for_each_indirect(on, from, f, queue);
+    for_each_group(on, n, archetype::group_functor{});
+    for_each_candidate(on, n, archetype::walk{}, archetype::judge{}, queue);
+    for_each_descendant(on, archetype::expander{}, archetype::judge{}, queue);
+    for_each_tiled(on, n, n, archetype::tile{}, queue);
+    { reduce(on, n, 0u, combine, value) } -> std::same_as<unsigned>;
+    reduce_into(on, n, to, 0u, combine, value);
+    exclusive_scan(on, to, n);
+    sort_keys(on, values, 32);
+    sort_by_key(on, values, values, 32);
+    { compact(on, n, archetype::test{}, to) } -> std::convertible_to<std::size_t>;
+    fill(on, to, n, 0u);
+    copy(on, from, n, to);
+    upload(on, from, n, to);
+    download(on, from, n, to);
+    require_access(on, from, "");
+    require_callable(on, f, n);
+    { device_of(on) } -> std::same_as<int>;
+    { concurrency(on) } -> std::same_as<int>;
+    synchronize(on);
+    release_memory(on);
+};
+
+namespace detail {
+
+/// Says in one line what is wrong with a type that means to be a policy.
+template <class P>
+consteval bool refuse_policy() {
+    static_assert(!std::derived_from<P, policy_base>,
+                  "abut: this policy lacks a verb: it has to supply for_each_index(on, n, f) and for_each_index(on, n, f, "
+                  "queue...), and in other memory than the host's those of memory (execution/policy.hpp)");
+    return false;
+}
+
+}  // namespace detail
 
 }  // namespace execution
 
 using execution::openmp;
 using execution::serial;
 
-/// A policy names the memory it works in and supplies the verbs above; it is cheap to copy, and any number of host threads
-/// may use one policy at a time.
+/// A policy names the memory it works in and has the verbs above; it is cheap to copy, and any number of host threads may
+/// use one policy at a time.
 template <class P>
-concept execution_policy = std::copyable<P> && memory_space<typename P::memory_space> && requires(const P& on) {
-    synchronize(on);
-    release_memory(on);
-};
-
-template <class P>
-using space_of = typename std::remove_cvref_t<P>::memory_space;
-
-/// True for policies that work in host memory.
-template <class P>
-concept host_policy = std::same_as<space_of<P>, host_space>;
+concept execution_policy = std::copyable<P> && memory_space<typename P::memory_space> &&
+    (execution::has_verbs<P> || execution::detail::refuse_policy<P>());
 
 }  // namespace abut

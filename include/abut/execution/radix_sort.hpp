@@ -1,72 +1,124 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Least significant digit radix sort for unsigned keys in host memory, serial or on OpenMP threads: the standard library
-// has no sort of keys with values that runs on OpenMP, and std::sort takes 5 to 8 times as long on 32-bit codes.
+// Least significant digit radix sort for unsigned keys, by the loops of any policy: the standard library has no sort of keys
+// with values that runs on OpenMP, and std::sort takes 5 to 8 times as long on 32-bit codes.
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
-#include <vector>
 
 #include <abut/execution/buffer.hpp>
-#include <abut/execution/parallel.hpp>
 
 namespace abut::execution {
 
 namespace detail {
 
-inline constexpr int digit_bits = 11;
-inline constexpr std::size_t digits = std::size_t{1} << digit_bits;
-using histogram = std::array<std::size_t, digits>;
-
-/// One stable pass on the digit at `shift`. Each thread counts and scatters its own contiguous part. Returns false, having
-/// moved nothing, if all keys agree in the digit.
-template <class Key, class Move>
-bool radix_pass(int threads, const Key* keys, std::size_t n, int shift, Key mask, std::vector<histogram>& counts,
-                const Move& move) {
-    const auto digit = [=](Key key) { return static_cast<std::size_t>(key >> shift & mask); };
-    for_each_part(threads, n, [&](int part, std::size_t begin, std::size_t end) {
-        histogram& count = counts[static_cast<std::size_t>(part)];
-        count.fill(0);
-        for (std::size_t i = begin; i < end; ++i) ++count[digit(keys[i])];
-    });
-    std::size_t offset = 0;
-    for (std::size_t d = 0; d < digits; ++d) {
-        const std::size_t before = offset;
-        for (histogram& count : counts) offset += std::exchange(count[d], offset);
-        if (offset - before == n) return false;
+/// [0, n) in contiguous parts of nearly one size.
+struct equal_parts {
+    std::size_t n, count;
+    [[nodiscard]] ABUT_HD std::size_t begin(std::size_t part) const {
+        const std::size_t longer = n % count;
+        return n / count * part + (part < longer ? part : longer);
     }
-    for_each_part(threads, n, [&](int part, std::size_t begin, std::size_t end) {
-        histogram& next = counts[static_cast<std::size_t>(part)];
-        for (std::size_t i = begin; i < end; ++i) move(i, next[digit(keys[i])]++);
-    });
-    return true;
+    [[nodiscard]] ABUT_HD std::size_t end(std::size_t part) const { return begin(part + 1); }
+};
+
+/// As many parts as keep the policy busy; small ones are not worth it.
+template <class Policy>
+equal_parts parts_for(const Policy& on, std::size_t n) {
+    constexpr std::size_t least = 8192;
+    return {n, std::clamp<std::size_t>(n / least, 1, static_cast<std::size_t>(concurrency(on)))};
 }
+
+/// One digit of all keys.
+template <class Key>
+struct digit_of_keys {
+    static constexpr int bits = 11;
+    static constexpr std::size_t values = std::size_t{1} << bits;
+    const Key* keys;
+    int shift;
+    Key mask;
+    [[nodiscard]] ABUT_HD std::size_t operator()(std::size_t i) const {
+        return static_cast<std::size_t>(keys[i] >> shift & mask);
+    }
+};
+
+/// How often each part has each value of the digit.
+template <class Key>
+struct count_digits {
+    digit_of_keys<Key> digit;
+    equal_parts parts;
+    std::size_t* counts;
+    ABUT_HD void operator()(std::size_t part) const {
+        std::size_t* const mine = counts + part * digit.values;
+        for (std::size_t d = 0; d < digit.values; ++d) mine[d] = 0;
+        for (std::size_t i = parts.begin(part); i < parts.end(part); ++i) ++mine[digit(i)];
+    }
+};
+
+/// Where each part's keys of each digit go, in place of their counts. Whether all keys agree in the digit comes last.
+struct offset_digits {
+    std::size_t values;
+    equal_parts parts;
+    std::size_t* counts;
+    ABUT_HD void operator()(std::size_t) const {
+        std::size_t offset = 0, agree = 0;
+        for (std::size_t d = 0; d < values; ++d) {
+            const std::size_t before = offset;
+            for (std::size_t part = 0; part < parts.count; ++part) {
+                std::size_t& count = counts[part * values + d];
+                const std::size_t mine = count;
+                count = offset;
+                offset += mine;
+            }
+            agree |= static_cast<std::size_t>(offset - before == parts.n);
+        }
+        counts[parts.count * values] = agree;
+    }
+};
+
+template <class Key, class Value>
+struct move_by_digit {
+    digit_of_keys<Key> digit;
+    equal_parts parts;
+    std::size_t* offsets;
+    const Value* values;  ///< or null
+    Key* moved_keys;
+    Value* moved_values;
+    ABUT_HD void operator()(std::size_t part) const {
+        std::size_t* const next = offsets + part * digit.values;
+        for (std::size_t i = parts.begin(part); i < parts.end(part); ++i) {
+            const std::size_t to = next[digit(i)]++;
+            moved_keys[to] = digit.keys[i];
+            if (values != nullptr) moved_values[to] = values[i];
+        }
+    }
+};
 
 }  // namespace detail
 
 /// Sorts by the lowest `bits` bits, stable, and carries `values` along unless it is null. Uses as much memory again.
-template <class Policy, class Key, class Value>
-void radix_sort(const Policy& on, buffer<Key, host_space>& keys, buffer<Value, host_space>* values, int bits) {
+template <class Policy, class Key, class Value, memory_space Space>
+void radix_sort(const Policy& on, buffer<Key, Space>& keys, buffer<Value, Space>* values, int bits) {
+    using digit = detail::digit_of_keys<Key>;
     const std::size_t n = keys.size();
-    const int threads = n < 16384 ? 1 : thread_count(on);
-    std::vector<detail::histogram> counts(static_cast<std::size_t>(threads));
-    buffer<Key, host_space> other_keys(on, n);
-    buffer<Value, host_space> other_values(on, values ? n : 0);
-    for (int shift = 0; shift < bits; shift += detail::digit_bits) {
-        const Key* const key = keys.data();
-        const Value* const value = values ? values->data() : nullptr;
-        Key* const moved_key = other_keys.data();
-        Value* const moved_value = other_values.data();
-        const int width = std::min(bits - shift, detail::digit_bits);
-        const auto mask = static_cast<Key>((Key{1} << width) - 1);
-        const bool moved = detail::radix_pass(threads, key, n, shift, mask, counts, [=](std::size_t from, std::size_t to) {
-            moved_key[to] = key[from];
-            if (value) moved_value[to] = value[from];
-        });
-        if (!moved) continue;
+    const detail::equal_parts parts = detail::parts_for(on, n);
+    buffer<std::size_t, Space> counts(on, parts.count * digit::values + 1);
+    buffer<Key, Space> other_keys(on, n);
+    buffer<Value, Space> other_values(on, values ? n : 0);
+    for (int shift = 0; shift < bits; shift += digit::bits) {
+        const int width = std::min(bits - shift, digit::bits);
+        const digit of{keys.data(), shift, static_cast<Key>((Key{1} << width) - 1)};
+        for_each_task(on, parts.count, detail::count_digits<Key>{of, parts, counts.data()});
+        for_each_task(on, 1, detail::offset_digits{digit::values, parts, counts.data()});
+        std::size_t agree = 0;
+        download(on, counts.data() + counts.size() - 1, 1, &agree);
+        if (agree != 0) continue;
+        for_each_task(on, parts.count,
+                      detail::move_by_digit<Key, Value>{of, parts, counts.data(), values ? values->data() : nullptr,
+                                                        other_keys.data(), other_values.data()});
         keys.swap(other_keys);
         if (values) values->swap(other_values);
     }

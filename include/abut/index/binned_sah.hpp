@@ -9,7 +9,10 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <abut/arithmetic/limits.hpp>
+#include <abut/arithmetic/magnitude.hpp>
 #include <abut/index/top_down.hpp>
+#include <abut/shape/box_measure.hpp>
 
 namespace abut::detail {
 
@@ -20,17 +23,17 @@ struct bin_grid {
     T last;
 
     bin_grid(const aabb<T>& keys, int bins) : lower(keys.lower), last(static_cast<T>(bins - 1)) {
-        const vec3<T> side = keys.upper - keys.lower;
         // A little less than the number of bins, so that the upper end falls into the last one. An axis without extent has
-        // one bin in use, as has one whose extent is so small that the quotient overflows.
+        // one bin in use, as has one that is so short that keys may be off by a bin: by 2 m, m being the smallest normal
+        // number, where they are computed again in another way and something is flushed to zero.
         const T n = static_cast<T>(bins) * (1 - 8 * unit_roundoff<T>);
-        per_unit = {n / side.x, n / side.y, n / side.z};
-        per_unit = {per_unit.x <= largest_finite<T> ? per_unit.x : 0, per_unit.y <= largest_finite<T> ? per_unit.y : 0,
-                    per_unit.z <= largest_finite<T> ? per_unit.z : 0};
+        const auto over = [n](T extent) { return extent > 8 * n * smallest_normal<T> ? n / extent : 0; };
+        const vec3<T> extent = keys.upper - keys.lower;
+        per_unit = {over(extent.x), over(extent.y), over(extent.z)};
     }
-    /// Also for NaN.
+    /// NaN falls into the last bin.
     [[nodiscard]] int operator()(T key, int axis) const {
-        return static_cast<int>(lesser(last, (key - coordinate(lower, axis)) * coordinate(per_unit, axis)));
+        return static_cast<int>(least((key - coordinate(lower, axis)) * coordinate(per_unit, axis), last));
     }
 };
 
@@ -80,13 +83,10 @@ private:
     /// its sides: it counts where shapes lie in a line and no box has a surface.
     struct scaled_area {
         T unit;
-        explicit scaled_area(const aabb<T>& box) {
-            const vec3<T> half = T(0.5) * box.upper - T(0.5) * box.lower;
-            unit = lesser(1 / greater(greater(half.x, half.y), half.z), largest_finite<T>);
-        }
+        explicit scaled_area(const aabb<T>& box) { unit = surface_unit(longest(half_sides<T>(box))); }
         T operator()(const aabb<T>& box) const {
-            const vec3<T> side = unit * (T(0.5) * box.upper - T(0.5) * box.lower);
-            return side.x * side.y + (side.y * side.z + side.z * side.x) + T(0x1p-20) * (side.x + side.y + side.z);
+            const vec3<T> sides = unit * half_sides<T>(box);
+            return half_surface(sides) + T(0x1p-20) * (sides.x + sides.y + sides.z);
         }
     };
 

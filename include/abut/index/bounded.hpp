@@ -15,7 +15,6 @@
 
 #include <abut/execution/buffer.hpp>
 #include <abut/execution/host.hpp>
-#include <abut/execution/parallel.hpp>
 #include <abut/index/bvh.hpp>
 #include <abut/index/operand.hpp>
 #include <abut/index/walk_order.hpp>
@@ -38,9 +37,9 @@ struct bounded_view : bvh_view_base<typename detail::volume_scalar<V>::type, Spa
     static constexpr bool nested = false;
 
     [[nodiscard]] ABUT_HD const node_type& fetch(std::uint32_t node) const { return this->nodes[node]; }
-    [[nodiscard]] ABUT_HD static const V& volume(const node_type& n, int side) { return n.volume[side]; }
-    [[nodiscard]] ABUT_HD static auto bounds(const node_type& n, int side) { return abut::bounds(n.volume[side]); }
-    [[nodiscard]] ABUT_HD static bvh_child child(const node_type& n, int side) { return n.child[side]; }
+    [[nodiscard]] ABUT_HD static const V& volume(const node_type& n, int slot) { return n.volume[slot]; }
+    [[nodiscard]] ABUT_HD static auto bounds(const node_type& n, int slot) { return abut::bounds(n.volume[slot]); }
+    [[nodiscard]] ABUT_HD static bvh_child child(const node_type& n, int slot) { return n.child[slot]; }
 };
 
 /// Both children's volumes in their parent. Bytes a node in single and double precision: 64 and 80 for spheres, 128 and 256
@@ -62,17 +61,17 @@ struct merge_volumes {
     static constexpr std::uint32_t leaf_value = 0;
     bounded_node<V>* nodes;
     const std::uint32_t* above;
-    [[nodiscard]] ABUT_HD bool is_leaf(std::size_t node, std::uint32_t side) const {
-        return nodes[node].child[side].is_leaf();
+    [[nodiscard]] ABUT_HD bool is_leaf(std::size_t node, std::uint32_t slot) const {
+        return nodes[node].child[slot].is_leaf();
     }
     ABUT_HD std::uint32_t join(std::uint32_t node, std::uint32_t, std::uint32_t) const {
-        const std::uint32_t place = above[node];
-        if (place != no_place) nodes[place / 2].volume[place % 2] = merge(nodes[node].volume[0], nodes[node].volume[1]);
+        const std::uint32_t link = above[node];
+        if (link != no_link) nodes[link / 2].volume[link % 2] = merge(nodes[node].volume[0], nodes[node].volume[1]);
         return leaf_value;
     }
 };
 
-/// Triangles by their place in an order. For devices as well, since `around` is, though none gets here.
+/// Triangles by their position in an order. For devices as well, since `around` is, though none gets here.
 template <shape_view Shapes>
 struct some_triangles {
     const Shapes* shapes;
@@ -113,24 +112,22 @@ template <bounding_volume V, execution_policy Policy, class Set, memory_space Sp
         bounded_node<V>* const to = fresh->nodes.data();
         const auto order = n > 1 ? detail::order_by_walk(on, nodes, n - 1, root.child) : detail::walk_order<Space>{};
         using triangles = detail::some_triangles<std::remove_const_t<decltype(shapes)>>;
-        // Nodes near the root take longest, and lie anywhere: small parts, dealt out as threads become free.
-        execution::for_each_range(execution::thread_count(on), n - 1, 16, [&](int, std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                for (int side = 0; side < 2; ++side) {
-                    const bvh_child child = nodes[i].child[side];
-                    to[i].child[side] = child;
-                    if (detail::merges_tightly<V> && !child.is_leaf()) continue;
-                    const detail::node_range of =
-                        child.is_leaf() ? detail::node_range{0, 0, 1} : order.ranges.data()[child.index()];
-                    const std::uint32_t leaf = child.index();
-                    to[i].volume[side] =
-                        around<V>(triangles{&shapes, child.is_leaf() ? &leaf : order.leaves.data() + of.first, of.count});
-                }
+        // Nodes near the root take longest, and lie anywhere.
+        for_each_task(on, n - 1, [&](std::size_t i) {
+            for (int slot = 0; slot < 2; ++slot) {
+                const bvh_child child = nodes[i].child[slot];
+                to[i].child[slot] = child;
+                if (detail::merges_tightly<V> && !child.is_leaf()) continue;
+                const detail::node_range of =
+                    child.is_leaf() ? detail::node_range{0, 0, 1} : order.ranges.data()[child.index()];
+                const std::uint32_t leaf = child.index();
+                to[i].volume[slot] =
+                    around<V>(triangles{&shapes, child.is_leaf() ? &leaf : order.leaves.data() + of.first, of.count});
             }
         });
         if constexpr (detail::merges_tightly<V>) {
             execution::buffer_of<Policy, std::uint32_t> reached(on, n - 1);
-            fill(on, reached.data(), n - 1, detail::no_place);
+            fill(on, reached.data(), n - 1, detail::no_link);
             for_each_index(on, n - 1, detail::fold_up<detail::merge_volumes<V>>{{to, order.above.data()}, reached.data()});
         }
         // The root's box has to hold all that the view hands out.

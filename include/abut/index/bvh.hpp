@@ -11,10 +11,8 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
-#include <string>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 #include <abut/execution/buffer.hpp>
 #include <abut/execution/policy.hpp>
@@ -53,21 +51,21 @@ inline constexpr int bvh_max_depth = 96;
 /// What a traversal needs of a tree. The accessors may run wherever the layout's memory can be read, take constant time,
 /// and may hand out boxes that are larger than they were built, never smaller.
 template <class L>
-concept bvh_layout =
-    std::is_trivially_copyable_v<L> && memory_space<typename L::memory_space> && requires(const L& tree, int side) {
-        typename L::scalar_type;
-        { tree.size() } -> std::convertible_to<std::size_t>;  // number of shapes; the rest is for trees that have some
-        { tree.root() } -> std::same_as<bvh_child>;
-        { tree.root_bounds() } -> std::convertible_to<aabb<typename L::scalar_type>>;
-        { L::width } -> std::convertible_to<int>;    // the most children that a node has
-        { L::nested } -> std::convertible_to<bool>;  // whether each box holds its children's, and not their shapes alone
-        typename L::node_type;                       // a node with its children, sides 0, 1, ...
-        { tree.fetch(std::uint32_t{}) } -> std::convertible_to<typename L::node_type>;
-        { tree.children(tree.fetch(std::uint32_t{})) } -> std::same_as<int>;  // two at least; always two where width is 2
-        { tree.bounds(tree.fetch(std::uint32_t{}), side) } -> std::convertible_to<aabb<typename L::scalar_type>>;
-        { tree.child(tree.fetch(std::uint32_t{}), side) } -> std::same_as<bvh_child>;
-        tree.prefetch(bvh_child{});  // a hint that the child may be fetched soon
-    };
+concept bvh_layout = std::is_trivially_copyable_v<L> && memory_space<typename L::memory_space> &&
+    requires(const L& tree, int slot) {
+    typename L::scalar_type;
+    { tree.size() } -> std::convertible_to<std::size_t>;  // number of shapes; the rest is for trees that have some
+    { tree.root() } -> std::same_as<bvh_child>;
+    { tree.root_bounds() } -> std::convertible_to<aabb<typename L::scalar_type>>;
+    { L::width } -> std::convertible_to<int>;    // the most children that a node has
+    { L::nested } -> std::convertible_to<bool>;  // whether each box holds its children's, and not their shapes alone
+    typename L::node_type;                       // a node; its children are in slots 0, 1, ...
+    { tree.fetch(std::uint32_t{}) } -> std::convertible_to<typename L::node_type>;
+    { tree.children(tree.fetch(std::uint32_t{})) } -> std::same_as<int>;  // two at least; always two where width is 2
+    { tree.bounds(tree.fetch(std::uint32_t{}), slot) } -> std::convertible_to<aabb<typename L::scalar_type>>;
+    { tree.child(tree.fetch(std::uint32_t{}), slot) } -> std::same_as<bvh_child>;
+    tree.prefetch(bvh_child{});  // a hint that the child may be fetched soon
+};
 
 /// Root of a tree; lies with the nodes, where walks read it.
 template <scalar T>
@@ -124,37 +122,19 @@ struct bvh_view : bvh_view_base<T, Space, bvh_node<T>> {
     using node_type = bvh_node<T>;
 
     [[nodiscard]] ABUT_HD const node_type& fetch(std::uint32_t node) const { return this->nodes[node]; }
-    [[nodiscard]] ABUT_HD static const aabb<T>& bounds(const node_type& n, int side) { return n.bounds[side]; }
-    [[nodiscard]] ABUT_HD static bvh_child child(const node_type& n, int side) { return n.child[side]; }
+    [[nodiscard]] ABUT_HD static const aabb<T>& bounds(const node_type& n, int slot) { return n.bounds[slot]; }
+    [[nodiscard]] ABUT_HD static bvh_child child(const node_type& n, int slot) { return n.child[slot]; }
 };
 
-/// How refit makes a node, among the shapes of a group (index/refit_plan.hpp), and where a shape's box goes. Each step has
-/// two slots, k and 256 + k, for the boxes of its sides.
-struct alignas(16) refit_step {
-    static constexpr std::uint32_t spans = std::uint32_t{1} << 31, no_slot = 511;
-    std::uint32_t node;  ///< its number; or `spans` and its number among those that have shapes of several groups below them
-    bvh_child child[2];
-    std::uint32_t box_to : 9;  ///< the slot of the box around both sides, in a later turn; the last step of a group has none
-    std::uint32_t turn : 7;
-    std::uint32_t shape_to : 9;  ///< the slot of the shape at the same place in the order; none if it is the only one
-};
-
-/// A node with shapes of several groups below it, from `first` to `last` in their order.
-struct alignas(16) spanning_node {
-    std::uint32_t node;
-    bvh_child child[2];
-    std::uint32_t border, first, last;
-    std::uint32_t before, after;  ///< the numbers of such nodes at the borders before `first` and after `last`, if there are
-};
-
-/// What refit needs of a topology: made at the first refit, then shared by all trees of that topology.
+/// What refit derives of a topology (index/refit_plan.hpp).
 template <memory_space Space>
-struct refit_plan {
+struct refit_plan;
+
+/// Where the first refit of a tree leaves its plan, for all trees of that topology.
+template <memory_space Space>
+struct shared_refit_plan {
     std::mutex making;
-    bool made = false;
-    execution::buffer<std::uint32_t, Space> leaves;  ///< ids of shapes in the order in which a walk meets them
-    execution::buffer<refit_step, Space> steps;      ///< as many, by groups, in each by turns; its last is none
-    execution::buffer<spanning_node, Space> spanning;
+    std::shared_ptr<const refit_plan<Space>> made;
 };
 
 /// The layout that trees are built in.
@@ -167,7 +147,7 @@ struct standard_layout {
     struct storage {
         execution::buffer<bvh_node<T>, Space> nodes;
         execution::buffer<bvh_root<T>, Space> root;
-        std::shared_ptr<refit_plan<Space>> plan = std::make_shared<refit_plan<Space>>();
+        std::shared_ptr<shared_refit_plan<Space>> plan = std::make_shared<shared_refit_plan<Space>>();
 
         [[nodiscard]] view<T, Space> view_of(std::size_t shapes) const { return {{nodes.data(), root.data(), shapes}}; }
         [[nodiscard]] std::size_t bytes() const { return nodes.capacity_bytes() + root.capacity_bytes(); }
@@ -250,49 +230,5 @@ private:
     std::shared_ptr<const storage> tree_;
     std::shared_ptr<known> known_ = std::make_shared<known>();
 };
-
-/// Checks a tree in host memory: every shape in exactly one leaf, every box around what lies below it and the shape's own
-/// box in its leaf, no leaf deeper than bvh_max_depth. Returns what is wrong, or an empty string. For tests; linear time.
-template <bvh_layout Layout, shape_view Shapes>
-[[nodiscard]] std::string find_flaw(const Layout& tree, const Shapes& shapes) {
-    using T = typename Layout::scalar_type;
-    struct entry {
-        bvh_child child;
-        aabb<T> box;
-        int depth;
-    };
-    const std::size_t n = shapes.size();
-    if (tree.size() != n) return "the tree has " + std::to_string(tree.size()) + " shapes, the set " + std::to_string(n);
-    if (n == 0) return {};
-    std::vector<int> seen(n, 0), used(n, 0);
-    std::vector<entry> pending{{tree.root(), tree.root_bounds(), 0}};
-    while (!pending.empty()) {
-        const entry e = pending.back();
-        pending.pop_back();
-        const std::uint32_t i = e.child.index();
-        const std::string name = (e.child.is_leaf() ? "leaf of shape " : "node ") + std::to_string(i);
-        if (e.depth > bvh_max_depth) return name + " is deeper than bvh_max_depth";
-        if (i >= (e.child.is_leaf() ? n : n - 1)) return name + " does not exist";
-        if ((e.child.is_leaf() ? seen : used)[i]++ > 0) return name + " is reached twice";
-        if (e.child.is_leaf()) {
-            if (!contains(e.box, bounds(shapes[i]))) return name + ": the box does not hold the shape";
-            continue;
-        }
-        const typename Layout::node_type node = tree.fetch(i);
-        const int children = tree.children(node);
-        if (children < 2 || children > Layout::width) return name + " has " + std::to_string(children) + " children";
-        for (int side = 0; side < children; ++side) {
-            const aabb<T> box = tree.bounds(node, side), &around = e.box;
-            if (Layout::nested && !contains(around, box)) return name + ": the box does not hold the child's";
-            // Where boxes are not nested, a shape has to lie in what all above it have in common.
-            const aabb<T> common{detail::greater(around.lower, box.lower), detail::lesser(around.upper, box.upper)};
-            pending.push_back({tree.child(node, side), common, e.depth + 1});
-        }
-    }
-    for (std::size_t i = 0; i < n; ++i) {
-        if (seen[i] == 0) return "shape " + std::to_string(i) + " is in no leaf";
-    }
-    return {};
-}
 
 }  // namespace abut

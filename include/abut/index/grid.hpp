@@ -20,6 +20,7 @@
 #include <abut/execution/buffer.hpp>
 #include <abut/index/operand.hpp>
 #include <abut/shape/bounds.hpp>
+#include <abut/shape/box_measure.hpp>
 
 namespace abut {
 
@@ -37,12 +38,14 @@ struct grid_frame {
     static constexpr int levels = axis_bits + 1;
 
     aabb<T> bounds;
-    double cells_per_half;  ///< base cells in two units of length; halves, so that no difference overflows
+    double cells_per_unit;  ///< base cells in a unit of length
     std::uint32_t levels_in_use;
 
-    /// Base cell of a coordinate. Monotone, and 0 at the scene's lower end.
+    /// Base cell of a coordinate. Monotone, and 0 at the scene's lower end. There is no product to be contracted into a sum,
+    /// so it is the same function wherever it is compiled; but not in another rounding mode, or with other denormals. A
+    /// difference that overflows is infinite, and in the last cell.
     [[nodiscard]] ABUT_HD std::int32_t cell(T x, T lower) const {
-        const double at = (static_cast<double>(x) * 0.5 - static_cast<double>(lower) * 0.5) * cells_per_half;
+        const double at = (static_cast<double>(x) - static_cast<double>(lower)) * cells_per_unit;
         constexpr double last = (1 << axis_bits) - 1;
         return at > 0 ? (at < last ? static_cast<std::int32_t>(at) : (1 << axis_bits) - 1) : 0;
     }
@@ -51,7 +54,7 @@ struct grid_frame {
     }
     /// Level at which a box that spans these base cells is stored.
     [[nodiscard]] ABUT_HD static int level(const vec3<std::int32_t>& first, const vec3<std::int32_t>& last) {
-        const std::int32_t span = detail::greater(detail::greater(last.x - first.x, last.y - first.y), last.z - first.z);
+        const std::int32_t span = detail::greatest(last.x - first.x, last.y - first.y, last.z - first.z);
         int level = 0;
         while ((1 << level) < span) ++level;
         return level;
@@ -146,20 +149,12 @@ struct extent_sum {
     double half_sides;
 };
 
-template <class T>
-ABUT_HD double half_longest_side(const aabb<T>& box) {
-    const vec3<double> half{static_cast<double>(box.upper.x) * 0.5 - static_cast<double>(box.lower.x) * 0.5,
-                            static_cast<double>(box.upper.y) * 0.5 - static_cast<double>(box.lower.y) * 0.5,
-                            static_cast<double>(box.upper.z) * 0.5 - static_cast<double>(box.lower.z) * 0.5};
-    return greater(greater(half.x, half.y), half.z);
-}
-
 template <shape_view Shapes>
 struct measure_shape {
     Shapes shapes;
     ABUT_HD auto operator()(std::size_t i) const {
         const auto box = bounds(shapes[i]);
-        return extent_sum<typename Shapes::scalar_type>{box, half_longest_side(box)};
+        return extent_sum<typename Shapes::scalar_type>{box, longest(half_sides<double>(box))};
     }
 };
 
@@ -179,11 +174,11 @@ struct set_frame {
     ABUT_HD void operator()(std::size_t) const {
         constexpr double cells = 1 << grid_frame<T>::axis_bits;
         constexpr double tiny = 4 * smallest_normal<double>;
-        const double half_extent = half_longest_side(sum->box);
+        const double half_extent = longest(half_sides<double>(sum->box));
         double half_width = cell_width > 0 ? cell_width / 2 : 2 * (sum->half_sides / count);
         if (!(half_width <= half_extent)) half_width = half_extent;  // also where the sum has overflowed
-        half_width = greater(greater(half_width, half_extent / cells), tiny);
-        *frame = {sum->box, 1 / half_width, 0};
+        half_width = greatest(half_width, half_extent / cells, tiny);
+        *frame = {sum->box, 0.5 / half_width, 0};
     }
 };
 
@@ -197,7 +192,7 @@ struct count_in_cells {
     std::uint64_t* keys;
     std::uint64_t slots;
     std::uint32_t* counts;
-    std::uint64_t* place;  // slot and rank within it, for each shape
+    std::uint64_t* position;  // slot and rank within it, for each shape
 
     ABUT_HD void operator()(std::size_t i) const {
         const aabb<T> box = bounds(shapes[i]);
@@ -212,7 +207,7 @@ struct count_in_cells {
         if (const std::uint32_t bit = 1u << level; (execution::atomic_load(&frame->levels_in_use) & bit) == 0) {
             execution::atomic_or(&frame->levels_in_use, bit);
         }
-        place[i] = slot << 32 | execution::atomic_add(&counts[slot], 1u);
+        position[i] = slot << 32 | execution::atomic_add(&counts[slot], 1u);
     }
 };
 
@@ -221,12 +216,12 @@ struct put_in_cells {
     using T = typename Shapes::scalar_type;
     Shapes shapes;
     const std::uint32_t* starts;
-    const std::uint64_t* place;
+    const std::uint64_t* position;
     grid_item<T>* items;
 
     ABUT_HD void operator()(std::size_t i) const {
-        const auto rank = static_cast<std::uint32_t>(place[i]);
-        items[starts[place[i] >> 32] + rank] = {bounds(shapes[i]), static_cast<std::uint32_t>(i)};
+        const auto rank = static_cast<std::uint32_t>(position[i]);
+        items[starts[position[i] >> 32] + rank] = {bounds(shapes[i]), static_cast<std::uint32_t>(i)};
     }
 };
 
@@ -256,7 +251,7 @@ template <execution_policy Policy, class Set>
         cells->starts = execution::buffer_of<Policy, std::uint32_t>(on, slots + 1);
         cells->items = execution::buffer_of<Policy, grid_item<T>>(on, n);
         execution::buffer_of<Policy, detail::extent_sum<T>> sum(on, 1);
-        execution::buffer_of<Policy, std::uint64_t> place(on, n);
+        execution::buffer_of<Policy, std::uint64_t> position(on, n);
         reduce_into(on, n, sum.data(), detail::extent_sum<T>{empty_box<T>(), 0.0}, detail::add_extents{},
                     detail::measure_shape<shapes_type>{shapes});
         for_each_index(on, 1,
@@ -265,10 +260,10 @@ template <execution_policy Policy, class Set>
         fill(on, cells->starts.data(), slots, std::uint32_t{0});
         for_each_index(on, n,
                        detail::count_in_cells<shapes_type>{shapes, cells->frame.data(), cells->keys.data(), slots,
-                                                           cells->starts.data(), place.data()});
+                                                           cells->starts.data(), position.data()});
         exclusive_scan(on, cells->starts.data(), slots);
-        for_each_index(on, n,
-                       detail::put_in_cells<shapes_type>{shapes, cells->starts.data(), place.data(), cells->items.data()});
+        for_each_index(
+            on, n, detail::put_in_cells<shapes_type>{shapes, cells->starts.data(), position.data(), cells->items.data()});
         synchronize(on);
     }
     return grid_type(std::move(resident), std::move(cells));

@@ -52,6 +52,41 @@ bool build_from_top(const Policy& on, const Shapes& shapes, Storage& tree, bvh_b
     return true;
 }
 
+/// make_bvh, by the linear builder alone unless `AnyBuilder`: who asks for no other compiles no other.
+template <bool AnyBuilder, execution_policy Policy, class Set>
+auto build_bvh(const Policy& on, const Set& set, const bvh_options& options) {
+    auto resident = make_resident(on, set, "abut::make_bvh");
+    using tree_type = bvh<decltype(resident), space_of<Policy>>;
+    using T = typename tree_type::scalar_type;
+    const auto shapes = view_of(resident);
+    const std::size_t n = shapes.size();
+    auto tree = std::make_shared<typename tree_type::storage>();
+    tree->root = execution::buffer_of<Policy, bvh_root<T>>(on, n > 0 ? 1 : 0);
+    tree->nodes = execution::buffer_of<Policy, bvh_node<T>>(on, n > 0 ? n - 1 : 0);
+    bool built = n == 0;
+    if constexpr (AnyBuilder) built = built || build_from_top(on, shapes, *tree, options.builder);
+    if (!built) {
+        execution::buffer_of<Policy, aabb<T>> boxes(on, n);
+        reduce_into(on, n, &tree->root.data()->bounds, empty_box<T>(), merge_boxes{},
+                    keep_bounds<decltype(shapes)>{shapes, boxes.data()});
+        if constexpr (AnyBuilder) {
+            if (options.builder == bvh_builder::ploc) {
+                build_ploc<Policy, T>(on, boxes, *tree, options.morton_bits);
+                return tree_type(std::move(resident), std::move(tree));
+            }
+        }
+        const bool choose = options.morton_bits == 0;
+        if (options.morton_bits != 63) {
+            const int bits = choose ? sufficient_morton_bits(n) : 30;
+            const std::uint64_t crowded = build_lbvh<std::uint32_t, Policy, T>(on, boxes, *tree, bits);
+            if (!choose || crowded <= n / 8) return tree_type(std::move(resident), std::move(tree));
+            // The first build has overwritten the scene's box with the root's, which is the same.
+        }
+        build_lbvh<std::uint64_t, Policy, T>(on, boxes, *tree, 63);
+    }
+    return tree_type(std::move(resident), std::move(tree));
+}
+
 }  // namespace detail
 
 /// Builds a tree over the shapes of `set` in the policy's memory: a set in host memory is copied there first under cuda. A
@@ -60,7 +95,13 @@ bool build_from_top(const Policy& on, const Shapes& shapes, Storage& tree, bvh_b
 /// Throws invalid_geometry (views only), error (bits that are not an option, a builder that the policy does not have),
 /// std::bad_alloc, cuda_error.
 template <execution_policy Policy, class Set>
-[[nodiscard]] auto make_bvh(const Policy& on, const Set& set, const bvh_options& options = {}) {
+[[nodiscard]] auto make_bvh(const Policy& on, const Set& set) {
+    return detail::build_bvh<false>(on, set, {});
+}
+
+/// The same with options, of which `{}` are the defaults. All builders are compiled, which takes a compiler a second.
+template <execution_policy Policy, class Set>
+[[nodiscard]] auto make_bvh(const Policy& on, const Set& set, const bvh_options& options) {
     if (options.morton_bits != 0 && options.morton_bits != 30 && options.morton_bits != 63) {
         throw error("abut::make_bvh: morton_bits is " + std::to_string(options.morton_bits) + "; expected 0, 30 or 63");
     }
@@ -70,32 +111,7 @@ template <execution_policy Policy, class Set>
             "abut::make_bvh: on a device the builder is bvh_builder::linear or ploc; serial and openmp have mean_split and "
             "sah");
     }
-    auto resident = detail::make_resident(on, set, "abut::make_bvh");
-    using tree_type = bvh<decltype(resident), space_of<Policy>>;
-    using T = typename tree_type::scalar_type;
-    const auto shapes = detail::view_of(resident);
-    const std::size_t n = shapes.size();
-    auto tree = std::make_shared<typename tree_type::storage>();
-    tree->root = execution::buffer_of<Policy, bvh_root<T>>(on, n > 0 ? 1 : 0);
-    tree->nodes = execution::buffer_of<Policy, bvh_node<T>>(on, n > 0 ? n - 1 : 0);
-    if (n > 0 && !detail::build_from_top(on, shapes, *tree, options.builder)) {
-        execution::buffer_of<Policy, aabb<T>> boxes(on, n);
-        reduce_into(on, n, &tree->root.data()->bounds, empty_box<T>(), detail::merge_boxes{},
-                    detail::keep_bounds<decltype(shapes)>{shapes, boxes.data()});
-        if (options.builder == bvh_builder::ploc) {
-            detail::build_ploc<Policy, T>(on, boxes, *tree, options.morton_bits);
-            return tree_type(std::move(resident), std::move(tree));
-        }
-        const bool choose = options.morton_bits == 0;
-        if (options.morton_bits != 63) {
-            const int bits = choose ? detail::sufficient_morton_bits(n) : 30;
-            const std::uint64_t crowded = detail::build_lbvh<std::uint32_t, Policy, T>(on, boxes, *tree, bits);
-            if (!choose || crowded <= n / 8) return tree_type(std::move(resident), std::move(tree));
-            // The first build has overwritten the scene's box with the root's, which is the same.
-        }
-        detail::build_lbvh<std::uint64_t, Policy, T>(on, boxes, *tree, 63);
-    }
-    return tree_type(std::move(resident), std::move(tree));
+    return detail::build_bvh<true>(on, set, options);
 }
 
 }  // namespace abut

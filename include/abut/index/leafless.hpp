@@ -32,8 +32,8 @@ struct leafless_view : bvh_view_base<T, Space, leafless_node<T>> {
         const auto box_of = [&](bvh_child child) { return child.is_leaf() ? n.box : this->nodes[child.index()].box; };
         return {{box_of(n.child[0]), box_of(n.child[1])}, {n.child[0], n.child[1]}};
     }
-    [[nodiscard]] ABUT_HD static const aabb<T>& bounds(const node_type& n, int side) { return n.bounds[side]; }
-    [[nodiscard]] ABUT_HD static bvh_child child(const node_type& n, int side) { return n.child[side]; }
+    [[nodiscard]] ABUT_HD static const aabb<T>& bounds(const node_type& n, int slot) { return n.bounds[slot]; }
+    [[nodiscard]] ABUT_HD static bvh_child child(const node_type& n, int slot) { return n.child[slot]; }
 };
 
 /// 32 bytes a node in single precision, 56 in double.

@@ -6,7 +6,9 @@
 
 #include <cstddef>
 
+#include <abut/arithmetic/magnitude.hpp>
 #include <abut/index/top_down.hpp>
+#include <abut/shape/box_measure.hpp>
 
 namespace abut::detail {
 
@@ -23,10 +25,8 @@ struct mean_splitter {
     below_position<T> operator()(const shape_ref<T>* refs, const subtree<T>& part) const {
         // Keys are measured from the middle of their box, in units of its longest half side: no square overflows, and what
         // underflows is small beside the largest.
-        const vec3<double> lower = widened(part.keys.lower), upper = widened(part.keys.upper);
-        const vec3<double> middle = 0.5 * lower + 0.5 * upper, half = 0.5 * upper - 0.5 * lower;
-        const double longest = greater(greater(half.x, half.y), half.z);
-        const double unit = lesser(1 / longest, largest_finite<double>);
+        const vec3<double> middle = 0.5 * widened(part.keys.lower) + 0.5 * widened(part.keys.upper);
+        const double unit = surface_unit(longest(half_sides<double>(part.keys)));
         vec3<double> sum{0, 0, 0}, squares{0, 0, 0};
         for (std::size_t i = 0; i < part.count; ++i) {
             const vec3<double> off = unit * (widened(refs[i].key()) - middle);
@@ -39,11 +39,6 @@ struct mean_splitter {
                                     squares.z / n - mean.z * mean.z};
         const int axis = variance.x >= variance.y && variance.x >= variance.z ? 0 : variance.y >= variance.z ? 1 : 2;
         return {axis, coordinate(middle, axis) + coordinate(mean, axis) / unit};
-    }
-
-private:
-    static vec3<double> widened(const vec3<T>& v) {
-        return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
     }
 };
 

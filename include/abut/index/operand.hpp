@@ -14,37 +14,22 @@
 namespace abut::detail {
 
 template <class X>
-inline constexpr bool is_shape = false;
-template <scalar T>
-inline constexpr bool is_shape<triangle<T>> = true;
-template <scalar T>
-inline constexpr bool is_shape<sphere<T>> = true;
-template <scalar T>
-inline constexpr bool is_shape<vec3<T>> = true;
-template <scalar T>
-inline constexpr bool is_shape<segment<T>> = true;
-template <scalar T>
-inline constexpr bool is_shape<aabb<T>> = true;
-template <scalar T>
-inline constexpr bool is_shape<plane<T>> = true;
-template <scalar T>
-inline constexpr bool is_shape<capsule<T>> = true;
+concept is_shape = shape<X>;
 
 /// An owner, a view, or one shape.
 template <class X>
-concept set_like = shape_set<X> || shape_view<X> || is_shape<X>;
+concept set_like = shape_set<X> || shape_view<X> || shape<X>;
 
 /// `set` in the policy's memory: an owner that lies there already is shared, one in host memory is copied under cuda; a view
 /// is checked and stays where it is; one shape is checked and becomes a view that carries it.
 template <execution_policy Policy, class Set>
 auto make_resident(const Policy& on, const Set& set, const char* function) {
-    static_assert(
-        set_like<Set>,
-        "abut: expected mesh, triangle_soup, spheres, equal_spheres, a view of one of them, or one shape: triangle, "
-        "sphere, segment, aabb, plane, capsule or a point (vec3)");
-    if constexpr (is_shape<Set>) {
+    static_assert(set_like<Set>,
+                  "abut: expected a set (mesh, triangle_soup, spheres, ...), a view of one, or one shape; a type is a shape "
+                  "if it is plain data and has bounds(shape) in its namespace, as docs/extending.md says");
+    if constexpr (shape<Set>) {
         const single_view<Set, space_of<Policy>> view{set};
-        check(on, view, function);
+        detail::check(on, view, function);
         return view;
     } else {
         using space = typename Set::memory_space;
@@ -53,7 +38,7 @@ auto make_resident(const Policy& on, const Set& set, const char* function) {
         if constexpr (shape_view<Set>) {
             static_assert(std::same_as<space, space_of<Policy>>,
                           "abut: this view is over host memory and the policy works elsewhere; make a set of it first");
-            check(on, set, function);
+            detail::check(on, set, function);
             return set;
         } else if constexpr (std::same_as<space, space_of<Policy>>) {
             if (set.size() > 0 && set.device() != device_of(on)) {

@@ -22,6 +22,7 @@
 #include <abut/index/leaf_order.hpp>
 #include <abut/index/morton.hpp>
 #include <abut/index/top_down.hpp>
+#include <abut/shape/box_measure.hpp>
 
 namespace abut::detail {
 
@@ -69,18 +70,17 @@ struct plain_area {
 
     explicit plain_area(const aabb<T>& scene) {
         const auto half = [](T lower, T upper) { return sum_of_halves(upper, -lower); };
-        const T longest = greater(greater(half(scene.lower.x, scene.upper.x), half(scene.lower.y, scene.upper.y)),
-                                  half(scene.lower.z, scene.upper.z));
-        unit = greater(smallest_normal<T>, lesser(T(0.5) / longest, largest_finite<T>));
+        const vec3<T> sides{half(scene.lower.x, scene.upper.x), half(scene.lower.y, scene.upper.y),
+                            half(scene.lower.z, scene.upper.z)};
+        unit = greatest(T(0.5) * surface_unit(longest(sides)), smallest_normal<T>);
     }
     /// A box that ends at infinity may have no surface that is a number; it counts as the largest.
     ABUT_HD T operator()(const aabb<T>& box) const {
-        const T x = plain_product(unit, plain_sum(box.upper.x, -box.lower.x)),
-                y = plain_product(unit, plain_sum(box.upper.y, -box.lower.y)),
-                z = plain_product(unit, plain_sum(box.upper.z, -box.lower.z));
-        const T x_y = plain_sum(x, y);
-        const T area =
-            plain_sum(plain_sum(plain_product(x, y), plain_product(x_y, z)), plain_product(T(0x1p-40), plain_sum(x_y, z)));
+        const vec3<T> sides{plain_product(unit, plain_sum(box.upper.x, -box.lower.x)),
+                            plain_product(unit, plain_sum(box.upper.y, -box.lower.y)),
+                            plain_product(unit, plain_sum(box.upper.z, -box.lower.z))};
+        const T length = plain_sum(plain_sum(sides.x, sides.y), sides.z);
+        const T area = plain_sum(plain_half_surface(sides), plain_product(T(0x1p-40), length));
         return area < infinity<T> ? area : infinity<T>;
     }
 };

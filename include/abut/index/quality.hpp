@@ -10,6 +10,7 @@
 
 #include <abut/execution/host.hpp>
 #include <abut/index/bvh.hpp>
+#include <abut/shape/box_measure.hpp>
 
 namespace abut {
 
@@ -33,28 +34,9 @@ struct bvh_quality {
 
 namespace detail {
 
-/// Half the surface of a box, each side times `unit`; 0 for none.
-template <scalar T>
-double half_surface(const aabb<T>& box, double unit) {
-    const auto side = [unit](T lower, T upper) {
-        return unit * (0.5 * static_cast<double>(upper) - 0.5 * static_cast<double>(lower));
-    };
-    const double x = side(box.lower.x, box.upper.x), y = side(box.lower.y, box.upper.y), z = side(box.lower.z, box.upper.z);
-    return x >= 0 && y >= 0 && z >= 0 ? x * y + (y * z + z * x) : 0;
-}
-
-/// A factor under which the sides of a box neither overflow nor all underflow.
-template <scalar T>
-double surface_unit(const aabb<T>& box) {
-    const auto half = [](T lower, T upper) { return 0.5 * static_cast<double>(upper) - 0.5 * static_cast<double>(lower); };
-    const double longest =
-        greater(greater(half(box.lower.x, box.upper.x), half(box.lower.y, box.upper.y)), half(box.lower.z, box.upper.z));
-    return lesser(1 / longest, largest_finite<double>);
-}
-
 template <scalar T>
 aabb<T> common_part(const aabb<T>& a, const aabb<T>& b) {
-    return {greater(a.lower, b.lower), lesser(a.upper, b.upper)};
+    return {greatest(a.lower, b.lower), least(a.upper, b.upper)};
 }
 
 /// Of a tree in host memory that has at least one shape. `bytes_per_shape` is left for the caller.
@@ -66,9 +48,11 @@ bvh_quality measure(const Layout& tree) {
         int depth;
     };
     const aabb<T> around = tree.root_bounds();
-    const double unit = surface_unit(around), whole = half_surface(around, unit);
+    const double unit = surface_unit(longest(half_sides<double>(around)));
+    const auto surface_of = [unit](const aabb<T>& box) { return half_surface(unit * half_sides<double>(box)); };
+    const double whole = surface_of(around);
     const auto part = [&](const aabb<T>& box) {
-        const double surface = half_surface(box, unit);
+        const double surface = surface_of(box);
         return whole > 0 && surface <= whole ? surface / whole : 1;  // a box at infinity has a surface that is no number
     };
     bvh_quality q{.shapes = tree.size(), .sah_cost = 1};
@@ -82,20 +66,20 @@ bvh_quality measure(const Layout& tree) {
         surface.pop_back();
         if (e.child.is_leaf()) {
             depths += e.depth;
-            q.greatest_depth = greater(q.greatest_depth, e.depth);
+            q.greatest_depth = greatest(q.greatest_depth, e.depth);
             continue;
         }
         const auto node = tree.fetch(e.child.index());
         of_nodes += own;
-        for (int side = 0; side < tree.children(node); ++side) {
-            const aabb<T> box = tree.bounds(node, side);
-            for (int other = 0; other < side; ++other) {
+        for (int slot = 0; slot < tree.children(node); ++slot) {
+            const aabb<T> box = tree.bounds(node, slot);
+            for (int other = 0; other < slot; ++other) {
                 const aabb<T> sibling = tree.bounds(node, other);
                 if (overlaps(sibling, box)) common += part(common_part(sibling, box));
             }
             const double next = part(box);
             q.sah_cost += next;
-            pending.push_back({tree.child(node, side), e.depth + 1});
+            pending.push_back({tree.child(node, slot), e.depth + 1});
             surface.push_back(next);
         }
     }

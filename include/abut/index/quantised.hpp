@@ -4,12 +4,14 @@
 // quantised: a tree whose boxes are kept in 16 bits a coordinate, half the standard layout's memory in single precision and
 // a quarter and more in double. No box becomes smaller.
 //
-// A coordinate is an integer times a step, a power of two, so large that 2^16 integers span the root's box. The integers are
-// exact in T: below 2^digits all are, and a coordinate of more steps than that is a whole number of them, since T has no
-// digits left for a fraction. So a box is made of an exact sum and an exact product (or one that overflows to infinity,
-// which is outward): it is the same on every device and under every contraction, and rounding outward once, when the tree is
-// converted, is all the care that there is.
+// A coordinate is an integer times a step, a power of two, so large that 2^16 integers span the root's box, and not
+// denormal. The integers are exact in T: below 2^digits all are, and a coordinate of more steps than that is a whole number
+// of them, since T has no digits left for a fraction. So a box is made of an exact sum and an exact product, which is not
+// denormal (or one that overflows, outward or to the largest number): it is the same on every device, under every
+// contraction and where denormals are flushed to zero. Rounding outward once, when the tree is converted, is all the care
+// that there is. There a denormal coordinate may be read as zero, in the tree as in queries (shape/bounds.hpp).
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -18,6 +20,7 @@
 #include <utility>
 
 #include <abut/arithmetic/limits.hpp>
+#include <abut/arithmetic/magnitude.hpp>
 #include <abut/execution/buffer.hpp>
 #include <abut/index/bvh.hpp>
 #include <abut/index/operand.hpp>
@@ -53,10 +56,10 @@ struct quantised_view : bvh_view_base<T, Space, quantised_node> {
     quantised_frame<T> frame{};
 
     [[nodiscard]] ABUT_HD const node_type& fetch(std::uint32_t node) const { return this->nodes[node]; }
-    [[nodiscard]] ABUT_HD aabb<T> bounds(const node_type& n, int side) const {
-        return {frame.at(n.bounds[side].lower), frame.at(n.bounds[side].upper)};
+    [[nodiscard]] ABUT_HD aabb<T> bounds(const node_type& n, int slot) const {
+        return {frame.at(n.bounds[slot].lower), frame.at(n.bounds[slot].upper)};
     }
-    [[nodiscard]] ABUT_HD static bvh_child child(const node_type& n, int side) { return n.child[side]; }
+    [[nodiscard]] ABUT_HD static bvh_child child(const node_type& n, int slot) { return n.child[slot]; }
 };
 
 /// 32 bytes a node.
@@ -90,7 +93,7 @@ struct quantiser {
     explicit quantiser(int exponent)
         : down{power(exponent / 2), power(exponent - exponent / 2)},
           up{power(-(exponent / 2)), power(-(exponent - exponent / 2))},
-          beyond(power(std::numeric_limits<T>::max_exponent - exponent)) {}
+          beyond(exponent > 0 ? power(std::numeric_limits<T>::max_exponent - exponent) : infinity<T>) {}
 
     /// The greatest integer that stands for x or less; infinite where T has none so large.
     [[nodiscard]] ABUT_HD T below(T x) const {
@@ -116,9 +119,13 @@ private:
 /// The finest axis on which 2^16 integers span [lower, upper].
 template <scalar T>
 quantiser<T> make_quantiser(T lower, T upper) {
-    constexpr int digits = std::numeric_limits<T>::digits;
-    // Whether an axis fits is monotone in its exponent. The least stands for the smallest denormal; the most always fits.
-    int enough = std::numeric_limits<T>::max_exponent - 1, too_small = std::numeric_limits<T>::min_exponent - digits - 1;
+    // Whether an axis fits is monotone in its exponent; the most always fits. The least is that of the smallest normal
+    // number, or of one in whose unit no coordinate overflows.
+    constexpr int max_exponent = std::numeric_limits<T>::max_exponent;
+    const T most = greatest(absolute(lower), absolute(upper));
+    const int power_above = most <= largest_finite<T> ? std::ilogb(greatest(most, smallest_normal<T>)) + 1 : max_exponent;
+    int enough = max_exponent - 1,
+        too_small = std::max(std::numeric_limits<T>::min_exponent - 1, power_above - max_exponent) - 1;
     while (enough - too_small > 1) {
         const int e = too_small + (enough - too_small) / 2;
         const quantiser<T> axis(e);
@@ -137,9 +144,9 @@ struct quantise_node {
     quantiser<T> x, y, z;
 
     ABUT_HD void operator()(std::size_t i) const {
-        for (int side = 0; side < 2; ++side) {
-            to[i].bounds[side] = quantised(from[i].bounds[side]);
-            to[i].child[side] = from[i].child[side];
+        for (int slot = 0; slot < 2; ++slot) {
+            to[i].bounds[slot] = quantised(from[i].bounds[slot]);
+            to[i].child[slot] = from[i].child[slot];
         }
     }
     [[nodiscard]] ABUT_HD quantised_node::box quantised(const aabb<T>& box) const {
@@ -152,7 +159,7 @@ struct quantise_node {
 
 /// The same tree in 16 bits a coordinate: 32 bytes a shape. It shares the set and nothing else; the one it was made of may
 /// go. Boxes grow by less than a step on each side, and a step is at most the extent of the root's box along the axis over
-/// 2^15 - 2, or the smallest number that T has. So a tree of very many small shapes, or of one far from all others, loses.
+/// 2^15 - 2, or the smallest normal number of T. So a tree of very many small shapes, or of one far from all others, loses.
 /// Linear time; returns when it is done. Throws error (a tree on another device), std::bad_alloc, cuda_error.
 template <execution_policy Policy, class Set, memory_space Space>
 [[nodiscard]] bvh<Set, Space, quantised_layout> quantised(const Policy& on, const bvh<Set, Space>& tree) {

@@ -16,6 +16,8 @@
 
 #include <abut/arithmetic/align.hpp>
 #include <abut/execution/buffer.hpp>
+#include <abut/execution/generic.hpp>
+#include <abut/execution/group.hpp>
 #include <abut/index/bvh.hpp>
 #include <abut/index/node_part.hpp>
 #include <abut/index/operand.hpp>
@@ -27,16 +29,16 @@ namespace detail {
 
 /// The plan of a tree with two shapes or more: made by whoever needs it first.
 template <class Policy, class Storage>
-const auto& plan_of(const Policy& on, const Storage& tree) {
-    auto& plan = *tree.plan;
-    const std::scoped_lock lock(plan.making);
-    if (!plan.made) {
+auto plan_of(const Policy& on, const Storage& tree) {
+    const std::scoped_lock lock(tree.plan->making);
+    auto& made = tree.plan->made;
+    if (made == nullptr) {
         std::remove_cvref_t<decltype(*tree.root.data())> root;
         download(on, tree.root.data(), 1, &root);
-        make_refit_plan(on, tree.nodes.data(), tree.nodes.size(), root.child, plan);
-        plan.made = true;
+        made = std::make_shared<const refit_plan<space_of<Policy>>>(
+            make_refit_plan(on, tree.nodes.data(), tree.nodes.size(), root.child));
     }
-    return plan;
+    return made;
 }
 
 /// Boxes as a set of shapes.
@@ -65,7 +67,7 @@ struct box_table {
     ABUT_HD void put(unsigned k, const aabb<T>& box) { boxes[k] = box; }
     [[nodiscard]] ABUT_HD const aabb<T>& operator[](unsigned k) const { return boxes[k]; }
 };
-/// On a device number by number, so that neighbours do not meet in one bank of memory, nor the two slots of a step, nor
+/// On a device number by number, so that neighbours do not meet in one bank of memory, nor the two entries of a step, nor
 /// those who read one box together.
 template <scalar T, unsigned Count>
 struct box_table<T, device_space, Count> {
@@ -106,12 +108,30 @@ struct refit_groups {
     aabb<T>* groups;
 
     struct shared {
-        box_table<T, Space, 2 * group> slots;
+        box_table<T, Space, 2 * group> boxes;
         std::uint16_t box_to[group];
         std::uint16_t starts[group_trees::turns + 1];  ///< the first step of each turn
         std::uint16_t turns;
     };
 
+    /// Turn by turn. The last turns, of few, are a subgroup's.
+    ABUT_HD void operator()(const execution::group<shared>& members) const {
+        const std::size_t first = members.first;
+        shared& with = members.shared;
+        members.each([&](unsigned k) { load(first, k, with); });
+        const auto make_box = [&](unsigned k) { step(k, with); };
+        const unsigned turns = with.turns;
+        unsigned t = 0;
+        for (; t < turns && with.starts[t + 1] - with.starts[t] > int{execution::subgroup_size}; ++t) {
+            members.each(with.starts[t], with.starts[t + 1], make_box);
+        }
+        members.in_subgroup([&](const execution::subgroup& some) {
+            for (; t < turns; ++t) some.each(with.starts[t], with.starts[t + 1], make_box);
+        });
+        members.each(0, parts * group, [&](unsigned i) { write(first, i / parts, i % parts, with); });
+    }
+
+private:
     ABUT_HD void load(std::size_t first, unsigned k, shared& with) const {
         const std::size_t i = first + k;
         if (i >= count) return;
@@ -127,7 +147,7 @@ struct refit_groups {
         }
 #endif
         const aabb<T> box = bounds(shapes[leaves[i]]);
-        with.slots.put(step.shape_to == refit_step::no_slot ? 0 : step.shape_to, box);
+        with.boxes.put(step.shape_to == refit_step::no_entry ? 0 : step.shape_to, box);
         with.box_to[k] = static_cast<std::uint16_t>(step.box_to);
         if (k == 0 && i + 1 == count) with.turns = 0;
         if (!is_step(first, k)) return;
@@ -137,34 +157,28 @@ struct refit_groups {
             with.starts[step.turn + 1] = static_cast<std::uint16_t>(k + 1);
         }
     }
-    [[nodiscard]] ABUT_HD unsigned turns(const shared& with) const { return with.turns; }
-    [[nodiscard]] ABUT_HD execution::index_range of_turn(unsigned t, const shared& with) const {
-        return {with.starts[t], with.starts[t + 1]};
-    }
-    ABUT_HD void step(unsigned, std::size_t, unsigned k, shared& with) const {
+    ABUT_HD void step(unsigned k, shared& with) const {
         const unsigned to = with.box_to[k];
-        if (to != refit_step::no_slot) with.slots.put(to, merge(with.slots[k], with.slots[group + k]));
+        if (to != refit_step::no_entry) with.boxes.put(to, merge(with.boxes[k], with.boxes[group + k]));
     }
     ABUT_HD void write(std::size_t first, unsigned k, unsigned part, const shared& with) const {
         if (k == 0 && part == 0) {
             const unsigned last = with.turns == 0 ? 0 : with.starts[with.turns] - 1u;
-            groups[first / group] = with.turns == 0 ? with.slots[0] : merge(with.slots[last], with.slots[group + last]);
+            groups[first / group] = with.turns == 0 ? with.boxes[0] : merge(with.boxes[last], with.boxes[group + last]);
         }
         if (!is_step(first, k)) return;
         const refit_step step = steps[first + k];
         if ((step.node & refit_step::spans) != 0) {
-            if (part == 0) spanning[step.node & ~refit_step::spans] = {with.slots[k], with.slots[group + k]};
+            if (part == 0) spanning[step.node & ~refit_step::spans] = {with.boxes[k], with.boxes[group + k]};
         } else if constexpr (parts == 1) {
-            nodes[step.node] = {{with.slots[k], with.slots[group + k]}, {step.child[0], step.child[1]}};
+            nodes[step.node] = {{with.boxes[k], with.boxes[group + k]}, {step.child[0], step.child[1]}};
         } else {
             const auto number = [&](unsigned q) {
-                return with.slots.values[q % 6][with.slots.column(q < 6 ? k : group + k)];
+                return with.boxes.values[q % 6][with.boxes.column(q < 6 ? k : group + k)];
             };
             write_node_part(nodes[step.node], part, number, step.child[0], step.child[1]);
         }
     }
-
-private:
     /// A group of m shapes has m - 1 steps.
     [[nodiscard]] ABUT_HD bool is_step(std::size_t first, unsigned k) const {
         return first + k + 1 < count && k + 1 < group;
@@ -175,7 +189,7 @@ private:
 /// not are left as they are and not asked for. Row 0 is there.
 template <scalar T, memory_space Space>
 struct tabulate_runs {
-    static constexpr unsigned group = execution::group_size, parts = 0, rows = 9;
+    static constexpr unsigned group = execution::group_size, rows = 9;
     static_assert(1 << (rows - 1) == group);
 
     aabb<T>* table;
@@ -184,17 +198,19 @@ struct tabulate_runs {
     struct shared {
         box_table<T, Space, group> runs[2];
     };
-    ABUT_HD void load(std::size_t first, unsigned k, shared& with) const {
-        with.runs[0].put(k, table[first + k < groups ? first + k : groups - 1]);
-    }
-    [[nodiscard]] ABUT_HD unsigned turns(const shared&) const { return rows - 1; }
-    [[nodiscard]] ABUT_HD execution::index_range of_turn(unsigned, const shared&) const { return {0, group}; }
-    ABUT_HD void step(unsigned t, std::size_t first, unsigned k, shared& with) const {
-        const auto& from = with.runs[t % 2];
-        const unsigned next = k + (1u << t);
-        const aabb<T> box = next < group ? merge(from[k], from[next]) : from[k];
-        with.runs[(t + 1) % 2].put(k, box);
-        if (first + k < groups) table[(t + 1) * groups + first + k] = box;
+    ABUT_HD void operator()(const execution::group<shared>& members) const {
+        const std::size_t first = members.first;
+        shared& with = members.shared;
+        members.each([&](unsigned k) { with.runs[0].put(k, table[first + k < groups ? first + k : groups - 1]); });
+        for (unsigned row = 0; row + 1 < rows; ++row) {
+            const auto& from = with.runs[row % 2];
+            members.each([&](unsigned k) {
+                const unsigned next = k + (1u << row);
+                const aabb<T> box = next < group ? merge(from[k], from[next]) : from[k];
+                with.runs[(row + 1) % 2].put(k, box);
+                if (first + k < groups) table[(row + 1) * groups + first + k] = box;
+            });
+        }
     }
 };
 
@@ -216,7 +232,8 @@ struct refit_spanning {
         const std::uint32_t own = at.border / group, first = at.first / group, last = at.last / group;
         const bool ends = ends_group(at.border);  // then the group is below the left side as far as that reaches
         const bool left_too = first != own || ends, right_too = last != own;
-        // What a side has not is another part of it once more: so all are read at once, and none is waited for alone.
+        // A child consists of up to three parts. For a part that it does not have, another of its parts is read twice, which
+        // changes no box: so all are read at once, and none is waited for alone.
         const aabb<T>& left_near = in_group[i].left;
         const aabb<T>* const left_end = !left_too               ? &left_near
                                         : at.first % group == 0 ? &table[first]
@@ -267,19 +284,20 @@ template <class Policy, shape_view Shapes, class Storage>
 void refit_nodes(const Policy& on, const Shapes& shapes, const Storage& old, Storage& fresh) {
     using T = typename Shapes::scalar_type;
     using runs = tabulate_runs<T, space_of<Policy>>;
-    const auto& plan = plan_of(on, old);
+    const auto made = plan_of(on, old);
+    const auto& plan = *made;
     const auto count = static_cast<std::uint32_t>(old.nodes.size() + 1);
     const std::size_t groups = (count - 1) / execution::group_size + 1;
     execution::buffer_of<Policy, side_boxes<T>> in_group(on, plan.spanning.size());
     execution::buffer_of<Policy, aabb<T>> table(on, runs::rows * groups);
-    for_each_in_turns(on, count,
-                      refit_groups<Shapes>{shapes, count, plan.leaves.data(), plan.steps.data(), fresh.nodes.data(),
-                                           in_group.data(), table.data()});
+    for_each_group(on, count,
+                   refit_groups<Shapes>{shapes, count, plan.leaves.data(), plan.steps.data(), fresh.nodes.data(),
+                                        in_group.data(), table.data()});
     if (groups == 1) {
         for_each_index(on, 1, write_root<T>{table.data(), old.root.data(), fresh.root.data()});
         return;
     }
-    for_each_in_turns(on, groups, runs{table.data(), groups});
+    for_each_group(on, groups, runs{table.data(), groups});
     for_each_index(on, plan.spanning.size(),
                    refit_spanning<T>{plan.spanning.data(), count, groups, table.data(), in_group.data(), fresh.nodes.data(),
                                      fresh.root.data()});

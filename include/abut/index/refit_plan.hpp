@@ -20,7 +20,35 @@
 #include <abut/index/bvh.hpp>
 #include <abut/index/walk_order.hpp>
 
-namespace abut::detail {
+namespace abut {
+
+/// How refit makes a node among the shapes of a group, and where a shape's box goes. While a group is made, step k has the
+/// entries k and 256 + k of a table for the boxes of its two children.
+struct alignas(16) refit_step {
+    static constexpr std::uint32_t spans = std::uint32_t{1} << 31, no_entry = 511;
+    std::uint32_t node;  ///< its number; or `spans` and its number among those that have shapes of several groups below them
+    bvh_child child[2];
+    std::uint32_t box_to : 9;  ///< the entry of the node's own box, in a later turn; the last step of a group has none
+    std::uint32_t turn : 7;
+    std::uint32_t shape_to : 9;  ///< the entry of the shape at this position in the order; none if it is the only one
+};
+
+/// A node with shapes of several groups below it, from `first` to `last` in their order.
+struct alignas(16) spanning_node {
+    std::uint32_t node;
+    bvh_child child[2];
+    std::uint32_t border, first, last;
+    std::uint32_t before, after;  ///< the numbers of such nodes at the borders before `first` and after `last`, if there are
+};
+
+template <memory_space Space>
+struct refit_plan {
+    execution::buffer<std::uint32_t, Space> leaves;  ///< ids of shapes in the order in which a walk meets them
+    execution::buffer<refit_step, Space> steps;      ///< as many, by groups, in each by turns; its last is none
+    execution::buffer<spanning_node, Space> spanning;
+};
+
+namespace detail {
 
 /// The last border of a group lies between it and the next one: no node of the tree that is restricted to the group.
 ABUT_HD constexpr bool ends_group(std::uint32_t border) {
@@ -33,11 +61,11 @@ struct group_trees {
     static constexpr int turn_bits = 7;
     static constexpr std::uint32_t turns = 1u << turn_bits, no_turn = turns - 1;
     static_assert(bvh_max_depth < no_turn);
-    const std::uint32_t* below;  ///< at place 2 border + side a border, or `no_place` for a leaf
+    const std::uint32_t* below;  ///< at link 2 border + slot a border, or `no_link` for a leaf
     const std::uint32_t* above;
     std::uint32_t* keys;
-    [[nodiscard]] ABUT_HD bool is_leaf(std::size_t border, std::uint32_t side) const {
-        return !ends_group(static_cast<std::uint32_t>(border)) && below[2 * border + side] == no_place;
+    [[nodiscard]] ABUT_HD bool is_leaf(std::size_t border, std::uint32_t slot) const {
+        return !ends_group(static_cast<std::uint32_t>(border)) && below[2 * border + slot] == no_link;
     }
     [[nodiscard]] ABUT_HD static std::uint32_t key(std::uint32_t border, std::uint32_t turn) {
         return border / execution::group_size << turn_bits | turn;
@@ -64,24 +92,24 @@ struct write_group_trees {
             keys[i] = group_trees::key(border, group_trees::no_turn);
             return;
         }
-        for (std::uint32_t side = 0; side < 2; ++side) {
-            const std::uint32_t next = nearest(border, side);
-            below[2 * i + side] = next;
-            if (next != no_place) above[next] = 2 * border + side;
+        for (std::uint32_t slot = 0; slot < 2; ++slot) {
+            const std::uint32_t next = nearest(border, slot);
+            below[2 * i + slot] = next;
+            if (next != no_link) above[next] = 2 * border + slot;
         }
     }
 
 private:
-    /// What hangs on that side once other groups' shapes are gone: of nodes whose border is beyond the group only the side
+    /// What hangs there once other groups' shapes are gone: of nodes whose border is beyond the group only the side
     /// towards it is left.
-    [[nodiscard]] ABUT_HD std::uint32_t nearest(std::uint32_t border, std::uint32_t side) const {
-        bvh_child child = nodes[node_at[border]].child[side];
+    [[nodiscard]] ABUT_HD std::uint32_t nearest(std::uint32_t border, std::uint32_t slot) const {
+        bvh_child child = nodes[node_at[border]].child[slot];
         while (!child.is_leaf()) {
             const std::uint32_t at = ranges[child.index()].border();
             if (at / execution::group_size == border / execution::group_size && !ends_group(at)) return at;
-            child = nodes[child.index()].child[1 - side];
+            child = nodes[child.index()].child[1 - slot];
         }
-        return no_place;
+        return no_link;
     }
 };
 
@@ -115,8 +143,8 @@ struct write_spanning {
                   border,
                   first,
                   last,
-                  first > 0 ? numbers[first - 1] : no_place,
-                  last < all ? numbers[last] : no_place};
+                  first > 0 ? numbers[first - 1] : no_link,
+                  last < all ? numbers[last] : no_link};
     }
 };
 
@@ -140,41 +168,41 @@ struct write_steps {
     ABUT_HD void operator()(std::size_t i) const {
         refit_step step{0,
                         {{0}, {0}},
-                        refit_step::no_slot,
+                        refit_step::no_entry,
                         group_trees::no_turn,
-                        shape_slot(static_cast<std::uint32_t>(i)) & refit_step::no_slot};
+                        shape_entry(static_cast<std::uint32_t>(i)) & refit_step::no_entry};
         if (i < all) {
             const std::uint32_t border = borders[i], node = node_at[border];
             step.node = ranges[node].spans_groups() ? refit_step::spans | numbers[border] : node;
-            for (int side = 0; side < 2; ++side) step.child[side] = nodes[node].child[side];
-            step.box_to = slot(above[border]) & refit_step::no_slot;  // the mask is for -Wconversion
+            for (int slot = 0; slot < 2; ++slot) step.child[slot] = nodes[node].child[slot];
+            step.box_to = entry(above[border]) & refit_step::no_entry;  // the mask is for -Wconversion
             step.turn = keys[i] % group_trees::turns;
         }
         out[i] = step;
     }
 
 private:
-    /// Of a place where something hangs in a group's tree.
-    [[nodiscard]] ABUT_HD std::uint32_t slot(std::uint32_t place) const {
-        return place == no_place ? refit_step::no_slot : place % 2 * execution::group_size + step_of[place / 2];
+    /// Of what hangs at a link in a group's tree.
+    [[nodiscard]] ABUT_HD std::uint32_t entry(std::uint32_t link) const {
+        return link == no_link ? refit_step::no_entry : link % 2 * execution::group_size + step_of[link / 2];
     }
     /// A leaf hangs to the left of the border after it, or to the right of the one before it.
-    [[nodiscard]] ABUT_HD std::uint32_t shape_slot(std::uint32_t i) const {
-        if (i < all && !ends_group(i) && below[2 * i] == no_place) return slot(2 * i);
-        return i % execution::group_size == 0 ? refit_step::no_slot : slot(2 * (i - 1) + 1);
+    [[nodiscard]] ABUT_HD std::uint32_t shape_entry(std::uint32_t i) const {
+        if (i < all && !ends_group(i) && below[2 * i] == no_link) return entry(2 * i);
+        return i % execution::group_size == 0 ? refit_step::no_entry : entry(2 * (i - 1) + 1);
     }
 };
 
 /// Of a tree with `count` nodes, one at least. Takes time and memory as building does.
 template <class Policy, scalar T>
-void make_refit_plan(const Policy& on, const bvh_node<T>* nodes, std::size_t count, bvh_child root,
-                     refit_plan<space_of<Policy>>& plan) {
+refit_plan<space_of<Policy>> make_refit_plan(const Policy& on, const bvh_node<T>* nodes, std::size_t count, bvh_child root) {
+    refit_plan<space_of<Policy>> plan;
     using numbers = execution::buffer_of<Policy, std::uint32_t>;
     auto [above, ranges, node_at, leaves] = order_by_walk(on, nodes, count, root);
     plan.leaves = std::move(leaves);
     numbers reached(on, count), below(on, 2 * count), keys(on, count), borders(on, count);
-    fill(on, above.data(), count, no_place);
-    fill(on, reached.data(), count, no_place);
+    fill(on, above.data(), count, no_link);
+    fill(on, reached.data(), count, no_link);
     for_each_index(
         on, count,
         write_group_trees<T>{nodes, ranges.data(), node_at.data(), below.data(), above.data(), keys.data(), borders.data()});
@@ -196,6 +224,9 @@ void make_refit_plan(const Policy& on, const bvh_node<T>* nodes, std::size_t cou
         write_steps<T>{nodes, ranges.data(), node_at.data(), below.data(), above.data(), keys.data(), borders.data(),
                        step_of.data(), number_of.data(), static_cast<std::uint32_t>(count), plan.steps.data()});
     synchronize(on);  // another policy may use it, in a stream of its own
+    return plan;
 }
 
-}  // namespace abut::detail
+}  // namespace detail
+
+}  // namespace abut

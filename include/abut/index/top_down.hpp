@@ -14,7 +14,6 @@
 
 #include <abut/arithmetic/limits.hpp>
 #include <abut/execution/host.hpp>
-#include <abut/execution/parallel.hpp>
 #include <abut/index/bvh.hpp>
 #include <abut/shape/bounds.hpp>
 
@@ -153,8 +152,8 @@ private:
         const vec3<T> spread = part.keys.upper - part.keys.lower;
         const int axis = spread.x >= spread.y && spread.x >= spread.z ? 0 : spread.y >= spread.z ? 1 : 2;
         const auto before = [axis](const shape_ref<T>& a, const shape_ref<T>& b) {
-            // NaN has no place in an order; here it is at the lower end.
-            const T x = greater(-infinity<T>, a.key(axis)), y = greater(-infinity<T>, b.key(axis));
+            // NaN is not in the order of numbers; here it is at the lower end.
+            const T x = greatest(a.key(axis), -infinity<T>), y = greatest(b.key(axis), -infinity<T>);
             return x < y || (x == y && a.id < b.id);
         };
         shape_ref<T>* const first = refs + part.first;
@@ -194,28 +193,24 @@ void build_top_down(const Policy& on, const Shapes& shapes, Storage& tree, const
     *tree.root.data() = {all.box, n == 1 ? bvh_child::leaf(0) : bvh_child::inner(0)};
 
     constexpr std::size_t small = 1024, parts_of_a_thread = 8;
-    const int threads = execution::thread_count(on);
+    const int threads = concurrency(on);
     const top_down<T, Splitter> build{refs.data(), tree.nodes.data(), choose};
     std::vector<subtree<T>> parts{all};
     const auto is_large = [&](const subtree<T>& part) { return part.count > small; };
     while (threads > 1 && parts.size() < parts_of_a_thread * static_cast<std::size_t>(threads) &&
            std::any_of(parts.begin(), parts.end(), is_large)) {
         std::vector<subtree<T>> next(2 * parts.size());
-        execution::for_each_range(threads, parts.size(), 1, [&](int, std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                const auto both = is_large(parts[i]) ? build.split(parts[i])
-                                                     : typename top_down<T, Splitter>::halves{{parts[i], parts[i]}};
-                next[2 * i] = both.side[0];
-                next[2 * i + 1] = both.side[1];
-                if (!is_large(parts[i])) next[2 * i + 1].count = 0;
-            }
+        for_each_task(on, parts.size(), [&](std::size_t i) {
+            const auto both =
+                is_large(parts[i]) ? build.split(parts[i]) : typename top_down<T, Splitter>::halves{{parts[i], parts[i]}};
+            next[2 * i] = both.side[0];
+            next[2 * i + 1] = both.side[1];
+            if (!is_large(parts[i])) next[2 * i + 1].count = 0;
         });
         std::erase_if(next, [](const subtree<T>& part) { return part.count == 0; });
         parts = std::move(next);
     }
-    execution::for_each_range(threads, parts.size(), 1, [&](int, std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) build.finish(parts[i]);
-    });
+    for_each_task(on, parts.size(), [&](std::size_t i) { build.finish(parts[i]); });
 }
 
 }  // namespace abut::detail

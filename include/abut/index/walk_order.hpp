@@ -15,9 +15,10 @@
 
 namespace abut::detail {
 
-inline constexpr std::uint32_t no_place = static_cast<std::uint32_t>(-1);
+/// A link says where a child hangs: 2 * node + slot. This is none, and also none of other numbers.
+inline constexpr std::uint32_t no_link = static_cast<std::uint32_t>(-1);
 
-/// Writes where each node hangs: twice its parent's number, plus the side.
+/// Writes the link of each inner node.
 template <scalar T>
 struct write_links {
     const bvh_node<T>* nodes;
@@ -25,37 +26,37 @@ struct write_links {
     std::uint32_t* above;
     ABUT_HD void operator()(std::size_t i) const {
         const auto node = static_cast<std::uint32_t>(i);
-        for (std::uint32_t side = 0; side < 2; ++side) {
-            const bvh_child child = nodes[i].child[side];
-            if (!child.is_leaf()) above[child.index()] = 2 * node + side;
+        for (std::uint32_t slot = 0; slot < 2; ++slot) {
+            const bvh_child child = nodes[i].child[slot];
+            if (!child.is_leaf()) above[child.index()] = 2 * node + slot;
         }
-        if (node == root.index()) above[node] = no_place;
+        if (node == root.index()) above[node] = no_link;
     }
 };
 
 /// From the leaves of trees to their roots: of the two that come to a node the second one goes on. `Tree` says
-/// `is_leaf(node, side)`, `above[node]`, `leaf_value`, and what a node is worth: `join(node, left, right)`.
+/// `is_leaf(node, slot)`, `above[node]`, `leaf_value`, and what a node is worth: `join(node, left, right)`.
 template <class Tree>
 struct fold_up {
     Tree tree;
-    std::uint32_t* reached;  ///< for each node the value of the side that came first; at the start `no_place`
+    std::uint32_t* reached;  ///< for each node the value of the child that came first; at the start `no_link`
 
     ABUT_HD void operator()(std::size_t i) const {
-        for (std::uint32_t side = 0; side < 2; ++side) {
-            if (!tree.is_leaf(i, side)) continue;
-            std::uint32_t place = 2 * static_cast<std::uint32_t>(i) + side, value = Tree::leaf_value;
-            while (place != no_place) {
-                const std::uint32_t node = place / 2;
+        for (std::uint32_t slot = 0; slot < 2; ++slot) {
+            if (!tree.is_leaf(i, slot)) continue;
+            std::uint32_t link = 2 * static_cast<std::uint32_t>(i) + slot, value = Tree::leaf_value;
+            while (link != no_link) {
+                const std::uint32_t node = link / 2;
                 const std::uint32_t other = execution::atomic_exchange_acq_rel(&reached[node], value);
-                if (other == no_place) break;
-                value = place % 2 == 0 ? tree.join(node, value, other) : tree.join(node, other, value);
-                place = tree.above[node];
+                if (other == no_link) break;
+                value = link % 2 == 0 ? tree.join(node, value, other) : tree.join(node, other, value);
+                link = tree.above[node];
             }
         }
     }
 };
 
-/// The shapes below a node: `count` from `first` on in the order, of which `left` are on its left side.
+/// The shapes below a node: `count` from `first` on in the order, of which `left` are below its left child.
 struct node_range {
     std::uint32_t first, left, count;
     [[nodiscard]] ABUT_HD std::uint32_t border() const { return first + left - 1; }
@@ -71,8 +72,8 @@ struct count_shapes {
     const bvh_node<T>* nodes;
     const std::uint32_t* above;
     node_range* ranges;
-    [[nodiscard]] ABUT_HD bool is_leaf(std::size_t node, std::uint32_t side) const {
-        return nodes[node].child[side].is_leaf();
+    [[nodiscard]] ABUT_HD bool is_leaf(std::size_t node, std::uint32_t slot) const {
+        return nodes[node].child[slot].is_leaf();
     }
     [[nodiscard]] ABUT_HD std::uint32_t join(std::uint32_t node, std::uint32_t left, std::uint32_t right) const {
         ranges[node].left = left;
@@ -111,14 +112,15 @@ struct place_shapes {
         emitter.add(std::integral_constant<unsigned, 1>{}, !right.is_leaf(), item{right.index(), middle});
     }
 };
-struct decide_nothing {
-    ABUT_HD void operator()(std::uint32_t, auto&...) const {}
+struct judge_nothing {
+    ABUT_HD bool operator()(std::uint32_t, auto&...) const { return true; }
+    ABUT_HD void finish(std::uint32_t, auto&...) const {}
 };
 
 /// Shapes in the order in which a walk from left to right meets them: those below a node lie side by side.
 template <memory_space Space>
 struct walk_order {
-    execution::buffer<std::uint32_t, Space> above;    ///< for each node the place where it hangs; `no_place` for the root
+    execution::buffer<std::uint32_t, Space> above;    ///< the link of each node; `no_link` for the root
     execution::buffer<node_range, Space> ranges;      ///< of each node
     execution::buffer<std::uint32_t, Space> node_at;  ///< by borders
     execution::buffer<std::uint32_t, Space> leaves;   ///< ids
@@ -130,11 +132,10 @@ walk_order<space_of<Policy>> order_by_walk(const Policy& on, const bvh_node<T>* 
     walk_order<space_of<Policy>> order{{on, count}, {on, count}, {on, count}, {on, count + 1}};
     execution::buffer_of<Policy, std::uint32_t> reached(on, count);
     for_each_index(on, count, write_links<T>{nodes, root, order.above.data()});
-    fill(on, reached.data(), count, no_place);
+    fill(on, reached.data(), count, no_link);
     for_each_index(on, count, fold_up<count_shapes<T>>{{nodes, order.above.data(), order.ranges.data()}, reached.data()});
-    execution::work_queue<std::uint32_t, space_of<Policy>> none(on, 1);
     for_each_descendant(on, place_shapes<T>{nodes, root, order.ranges.data(), order.node_at.data(), order.leaves.data()},
-                        decide_nothing{}, decide_nothing{}, none);
+                        judge_nothing{});
     return order;
 }
 

@@ -18,14 +18,14 @@
 #include <abut/arithmetic/limits.hpp>
 #include <abut/execution/buffer.hpp>
 #include <abut/execution/host.hpp>
-#include <abut/execution/parallel.hpp>
 #include <abut/index/bvh.hpp>
 #include <abut/shape/box_lanes.hpp>
+#include <abut/shape/box_measure.hpp>
 
 namespace abut {
 
 /// An inner node: `count` children, two to four, with their boxes by axis; two cache lines in single precision. Only a node
-/// all of whose children are leaves has fewer than four. Places of children that a node has not hold the empty box.
+/// all of whose children are leaves has fewer than four. Slots without a child hold the empty box.
 template <scalar T>
 struct alignas(sizeof(T) == 4 ? 64 : 32) wide_node {
     T lower[3][4], upper[3][4];
@@ -40,12 +40,12 @@ struct wide_view : bvh_view_base<T, Space, wide_node<T>, 4> {
 
     [[nodiscard]] ABUT_HD const node_type& fetch(std::uint32_t node) const { return this->nodes[node]; }
     [[nodiscard]] ABUT_HD static int children(const node_type& n) { return static_cast<int>(n.count); }
-    [[nodiscard]] ABUT_HD static aabb<T> bounds(const node_type& n, int side) {
-        return {{n.lower[0][side], n.lower[1][side], n.lower[2][side]},
-                {n.upper[0][side], n.upper[1][side], n.upper[2][side]}};
+    [[nodiscard]] ABUT_HD static aabb<T> bounds(const node_type& n, int slot) {
+        return {{n.lower[0][slot], n.lower[1][slot], n.lower[2][slot]},
+                {n.upper[0][slot], n.upper[1][slot], n.upper[2][slot]}};
     }
-    [[nodiscard]] ABUT_HD static bvh_child child(const node_type& n, int side) { return n.child[side]; }
-    /// Of all four places.
+    [[nodiscard]] ABUT_HD static bvh_child child(const node_type& n, int slot) { return n.child[slot]; }
+    /// Of all four slots.
     [[nodiscard]] ABUT_HD static auto all_bounds(const node_type& n) { return detail::box_lanes<T>::load(n.lower, n.upper); }
 };
 
@@ -64,19 +64,19 @@ template <scalar T>
 struct widen_tree {
     const bvh_node<T>* from;
 
-    /// A binary node that is to become a wide one, and the place that refers to it: four for each node.
+    /// A binary node that is to become a wide one, and where its number goes: to slot link % 4 of wide node link / 4.
     struct waiting {
         std::uint32_t node;
-        std::size_t place;
+        std::size_t link;
     };
 
     /// The wide node in place of a binary one; its children are binary nodes still.
     [[nodiscard]] wide_node<T> opened(std::uint32_t node) const {
         aabb<T> box[4];
         wide_node<T> to;
-        for (const int side : {0, 1}) {
-            box[side] = from[node].bounds[side];
-            to.child[side] = from[node].child[side];
+        for (const int slot : {0, 1}) {
+            box[slot] = from[node].bounds[slot];
+            to.child[slot] = from[node].child[slot];
         }
         to.count = 2;
         while (to.count < 4) {
@@ -84,8 +84,7 @@ struct widen_tree {
             T most = 0;
             for (std::uint32_t k = 0; k < to.count; ++k) {
                 if (to.child[k].is_leaf()) continue;
-                const vec3<T> side = box[k].upper - box[k].lower;
-                const T surface = side.x * side.y + (side.y * side.z + side.z * side.x);
+                const T surface = half_surface(box[k].upper - box[k].lower);
                 // NaN, of a box at infinity, is as large as any.
                 if (largest == 4 || !(surface <= most)) {
                     largest = k;
@@ -120,7 +119,7 @@ struct widen_tree {
     template <class Wait>
     void append(const waiting& at, std::vector<wide_node<T>>& nodes, const Wait& wait) const {
         const std::size_t number = nodes.size();
-        if (number > 0) nodes[at.place / 4].child[at.place % 4] = bvh_child::inner(static_cast<std::uint32_t>(number));
+        if (number > 0) nodes[at.link / 4].child[at.link % 4] = bvh_child::inner(static_cast<std::uint32_t>(number));
         nodes.push_back(opened(at.node));
         for (std::uint32_t k = nodes.back().count; k-- > 0;) {
             const bvh_child child = nodes.back().child[k];
@@ -157,27 +156,22 @@ execution::buffer<wide_node<T>, host_space> widen(const Policy& on, const bvh_no
     }
     parts.erase(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(done));
 
-    const int threads = execution::thread_count(on);
     std::vector<std::vector<wide_node<T>>> below(parts.size());
-    execution::for_each_range(threads, parts.size(), 1, [&](int, std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) below[i] = tree.below(parts[i].node);
-    });
+    for_each_task(on, parts.size(), [&](std::size_t i) { below[i] = tree.below(parts[i].node); });
     std::vector<std::uint32_t> first(parts.size() + 1, static_cast<std::uint32_t>(top.size()));
     for (std::size_t i = 0; i < parts.size(); ++i) {
-        top[parts[i].place / 4].child[parts[i].place % 4] = bvh_child::inner(first[i]);
+        top[parts[i].link / 4].child[parts[i].link % 4] = bvh_child::inner(first[i]);
         first[i + 1] = first[i] + static_cast<std::uint32_t>(below[i].size());
     }
     execution::buffer<wide_node<T>, host_space> nodes(on, first.back());
     std::copy(top.begin(), top.end(), nodes.data());
-    execution::for_each_range(threads, parts.size(), 1, [&](int, std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            wide_node<T>* const to = nodes.data() + first[i];
-            for (std::size_t k = 0; k < below[i].size(); ++k) {
-                to[k] = below[i][k];
-                for (bvh_child& child : to[k].child) child.bits += child.is_leaf() ? 0 : first[i];
-            }
-            below[i] = {};
+    for_each_task(on, parts.size(), [&](std::size_t i) {
+        wide_node<T>* const to = nodes.data() + first[i];
+        for (std::size_t k = 0; k < below[i].size(); ++k) {
+            to[k] = below[i][k];
+            for (bvh_child& child : to[k].child) child.bits += child.is_leaf() ? 0 : first[i];
         }
+        below[i] = {};
     });
     return nodes;
 }

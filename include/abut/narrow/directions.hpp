@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include <abut/arithmetic/limits.hpp>
+#include <abut/arithmetic/magnitude.hpp>
 #include <abut/narrow/nearest.hpp>
 #include <abut/narrow/numbers.hpp>
 #include <abut/shape/primitive.hpp>
@@ -109,46 +110,91 @@ ABUT_HD constexpr point as_stored_direction(const point& n) {
             static_cast<double>(rounded(static_cast<T>(n.z)))};
 }
 
-ABUT_HD constexpr bool is_zero(const point& p) { return p.x == 0 && p.y == 0 && p.z == 0; }
+/// The way from one corner of a shape to another, brought to one and not rounded: what a common scale loses of short edges
+/// stays. `exponent` tells lengths apart: times 2^exponent it is that way. Of equal corners it is 0.
+struct edge {
+    vec3<two_doubles> direction;
+    int exponent;
 
-/// The unit vector along u x v, rounded once. Zero where the sine between them is below 2^-96: they are as good as parallel.
-ABUT_NOINLINE ABUT_HD constexpr point unit_cross(const vec3<two_doubles>& u, const vec3<two_doubles>& v) {
-    const vec3<two_doubles> p = brought_to_one(u), q = brought_to_one(v), n = cross(p, q);
-    if (!(largest_of(rounded_off(n)) > 0x1p-96)) return {0, 0, 0};
-    return unit_vector(n);
+    ABUT_HD constexpr bool is_longer_than(const edge& e) const {
+        return exponent != e.exponent ? exponent > e.exponent
+                                      : largest_of(rounded_off(direction)) > largest_of(rounded_off(e.direction));
+    }
+};
+template <scalar T>
+ABUT_NOINLINE ABUT_HD constexpr edge edge_between(const vec3<T>& from, const vec3<T>& to) {
+    const point p = widened(from), q = widened(to);
+    // By a quarter where the difference might overflow. What this rounds is nothing beside such a length.
+    const point half{plain_sum(q.x / 2, -p.x / 2), plain_sum(q.y / 2, -p.y / 2), plain_sum(q.z / 2, -p.z / 2)};
+    const bool far = largest_of(half) >= 0x1p1022;
+    const vec3<two_doubles> way = far ? between<two_doubles>(scaled(p, -2), scaled(q, -2)) : between<two_doubles>(p, q);
+    const double largest = largest_of(rounded_off(way));
+    if (!(largest > 0)) return {way, -2000};
+    const int exponent = exponent_of(largest);
+    return {scaled_vector(way, -exponent), exponent + (far ? 2 : 0)};
+}
+/// From corner i to the next.
+template <scalar T>
+ABUT_HD constexpr edge edge_of(const triangle<T>& t, int i) {
+    return edge_between(i == 0 ? t.a : i == 1 ? t.b : t.c, i == 0 ? t.b : i == 1 ? t.c : t.a);
 }
 
-/// The unit normal of a triangle, rounded to T: (b - a) x (c - a). Zero for one that is a segment or a point, or as good as.
+/// The unit vector along u x v, rounded once; zero where they are parallel. Both have been brought to one.
+ABUT_HD constexpr point unit_cross(const vec3<two_doubles>& u, const vec3<two_doubles>& v) {
+    return unit_vector(accurate_cross(u, v));
+}
+
+/// (b - a) x (c - a), of any length: of a needle from its shortest edge and the next one, between which the sine is largest.
+/// Zero for a triangle that is a segment or a point.
 template <scalar T>
-ABUT_HD constexpr point face_normal(const corners& t) {
+ABUT_NOINLINE ABUT_HD constexpr vec3<two_doubles> face_direction(const triangle<T>& t) {
+    const vec3<two_doubles> n = cross(edge_between(t.a, t.b).direction, edge_between(t.a, t.c).direction);
+    if (largest_of(rounded_off(n)) > 0x1p-40) return n;
+    int shortest = 0;
+    for (int i = 1; i < 3; ++i) {
+        if (edge_of(t, shortest).is_longer_than(edge_of(t, i))) shortest = i;
+    }
+    return accurate_cross(edge_of(t, shortest).direction, edge_of(t, shortest == 2 ? 0 : shortest + 1).direction);
+}
+
+/// The unit normal of a triangle, rounded to T: (b - a) x (c - a). Zero for one that is a segment or a point.
+template <scalar T>
+ABUT_HD constexpr point face_normal(const triangle<T>& t) {
     if constexpr (std::same_as<T, float>) {  // in doubles, where they lose no more than 2^-29
-        const auto ab = between<one_double>(t.at[0], t.at[1]), ac = between<one_double>(t.at[0], t.at[2]);
+        const point a = widened(t.a);
+        const auto ab = between<one_double>(a, widened(t.b)), ac = between<one_double>(a, widened(t.c));
         const auto n = cross(ab, ac);
         const double square = dot(n, n).high, most = (dot(ab, ab) * dot(ac, ac)).high;
-        if (square > 0x1p-40 * most && square > 0x1p-900) return as_stored_direction<T>(unit_vector(n));
+        if (square > 0x1p-40 * most) return as_stored_direction<T>(unit_vector(n));
     }
-    return as_stored_direction<T>(
-        unit_cross(between<two_doubles>(t.at[0], t.at[1]), between<two_doubles>(t.at[0], t.at[2])));
+    return as_stored_direction<T>(unit_vector(face_direction(t)));
 }
 
-/// The longest edge of a triangle: what a degenerate one is.
-ABUT_HD constexpr vec3<two_doubles> longest_edge(const corners& t) {
-    vec3<two_doubles> longest{};
-    double most = 0;
-    for (int i = 0; i < 3; ++i) {
-        const vec3<two_doubles> edge = between<two_doubles>(t.at[i], t.at[i == 2 ? 0 : i + 1]);
-        const double size = largest_of(rounded_off(edge));
-        if (size > most) most = size, longest = edge;
+/// Which edge of a triangle is the longest, by the corner that it starts from: what a degenerate triangle is.
+template <scalar T>
+ABUT_HD constexpr int longest_edge(const triangle<T>& t) {
+    int longest = 0;
+    for (int i = 1; i < 3; ++i) {
+        if (edge_of(t, i).is_longer_than(edge_of(t, longest))) longest = i;
     }
     return longest;
 }
 
-/// A unit vector orthogonal to v; of 0, the z axis.
+/// A unit vector orthogonal to v, which has been brought to one; of 0, the z axis.
 ABUT_HD constexpr point any_orthogonal(const vec3<two_doubles>& v) {
     const point size = absolute(rounded_off(v));
     if (is_zero(size)) return {0, 0, 1};
     const bool x = size.x <= size.y && size.x <= size.z, y = !x && size.y <= size.z;
     return unit_cross(v, as<two_doubles>({x ? 1.0 : 0.0, y ? 1.0 : 0.0, x || y ? 0.0 : 1.0}));
+}
+
+/// The direction in which two degenerate triangles come apart: across both segments, or across one and any way, or along z.
+template <scalar T>
+ABUT_HD constexpr point across_both(const triangle<T>& s, const triangle<T>& t) {
+    const vec3<two_doubles> along_s = edge_of(s, longest_edge(s)).direction, along_t = edge_of(t, longest_edge(t)).direction;
+    const point both = unit_cross(along_s, along_t);
+    if (!is_zero(both)) return both;
+    return any_orthogonal(is_zero(along_s) ? along_t : along_s);
 }
 
 /// The extent of a shape along a direction: from the least to the greatest n.(p - origin).

@@ -31,7 +31,7 @@ struct two_points {
 template <class N>
 ABUT_HD constexpr N into_unit(const N& s) {
     if (!(s.high > 0)) return N::of(0);
-    return s.high < 1 ? s : N::of(1);
+    return s < N::of(1) ? s : N::of(1);
 }
 
 /// p + s (q - p), with s in [0, 1].
@@ -61,9 +61,9 @@ template <class N>
 ABUT_NOINLINE ABUT_HD constexpr foot_point<N> foot_on_triangle(const point& x, const corners& t) {
     const vec3<N> ab = between<N>(t.at[0], t.at[1]), ac = between<N>(t.at[0], t.at[2]), ax = between<N>(t.at[0], x);
     foot_point<N> nearest{t.at[0], ax};
-    double least_square = infinity<double>;
+    N least_square = N::of(infinity<double>);
     const auto offer = [&](const foot_point<N>& foot) {
-        const double square = dot(foot.away, foot.away).high;
+        const N square = dot(foot.away, foot.away);
         if (square < least_square) least_square = square, nearest = foot;
     };
     const vec3<N> n = cross(ab, ac), normal = brought_to_one(n);
@@ -99,85 +99,59 @@ ABUT_NOINLINE ABUT_HD constexpr near_points<N> near_segments(const point& p0, co
     return {{on_segment(p0, p1, s), on_segment(q0, q1, t)}, scale(s, u) - scale(t, v) - step};
 }
 
-/// Where a segment passes the plane of a triangle, and the triangle's point nearest to that. False where it does not.
+/// Where a segment crosses a triangle.
 template <class N>
-ABUT_NOINLINE ABUT_HD constexpr bool pierces(const point& p, const point& q, const corners& t, near_points<N>& out) {
-    const vec3<N> normal = cross(between<N>(t.at[0], t.at[1]), between<N>(t.at[0], t.at[2]));
-    const N at_p = dot(normal, between<N>(t.at[0], p)), at_q = dot(normal, between<N>(t.at[0], q));
-    if ((at_p.high > 0 && at_q.high > 0) || (at_p.high < 0 && at_q.high < 0)) return false;
-    const N fall = at_p - at_q;
-    if (fall.high == 0) return false;
-    const point passing = on_segment(p, q, into_unit(at_p / fall));
-    const foot_point<N> foot = foot_on_triangle<N>(passing, t);
-    out = {{passing, foot.at}, foot.away};
-    return true;
-}
-
-/// Gathers pairs of points. Of those whose gap is tolerable, the mean of each side's points; those are on the shapes as
-/// well, and no farther from each other than the widest of the gaps. Or else the pair with the least gap.
-class gathered_points {
-public:
-    ABUT_HD explicit constexpr gathered_points(double tolerable_square) : tolerable_square_(tolerable_square) {}
-
-    ABUT_HD constexpr void offer(const two_points& found) {
-        const double square = found.squared_gap();
-        if (square < least_square_) least_square_ = square, nearest_ = found;
-        if (!(square <= tolerable_square_)) return;
-        if (count_ == 0) first_ = found;
-        add(sum_.on_a, plain_difference(found.on_a, first_.on_a));
-        add(sum_.on_b, plain_difference(found.on_b, first_.on_b));
-        ++count_;
-    }
-    /// Whether some gap is tolerable.
-    [[nodiscard]] ABUT_HD constexpr bool meet() const { return count_ > 0; }
-    [[nodiscard]] ABUT_HD constexpr two_points result() const {
-        if (count_ == 0) return nearest_;
-        two_points mean = first_;
-        add(mean.on_a, {sum_.on_a.x / count_, sum_.on_a.y / count_, sum_.on_a.z / count_});
-        add(mean.on_b, {sum_.on_b.x / count_, sum_.on_b.y / count_, sum_.on_b.z / count_});
-        return mean;
-    }
-
-private:
-    ABUT_HD static constexpr void add(point& p, const point& q) {
-        p = {plain_sum(p.x, q.x), plain_sum(p.y, q.y), plain_sum(p.z, q.z)};
-    }
-
-    double tolerable_square_, least_square_ = infinity<double>;
-    two_points nearest_{}, first_{};
-    two_points sum_{};  ///< of differences from the first
-    int count_ = 0;
+struct crossing {
+    bool exists;
+    bool is_certain;  ///< too plainly to be a matter of rounding
+    near_points<N> found;
 };
 
-/// The extreme points of two triangles' common part are where an edge of one passes the other, where edges meet and where
-/// corners lie on the other; all of them, by features in turn.
+/// Volumes below this, of corners in [-2, 2), may be nothing but rounding.
 template <class N>
-ABUT_HD constexpr void gather(const corners& a, const corners& b, gathered_points& all) {
-    near_points<N> found{};
+inline constexpr double certain_volume = 0x1p-44;
+template <>
+inline constexpr double certain_volume<two_doubles> = 0x1p-94;
+
+/// By the volumes that the segment's ends span with the triangle, and that the segment spans with its edges.
+template <class N>
+ABUT_NOINLINE ABUT_HD constexpr crossing<N> crossing_of(const point& p, const point& q, const corners& t) {
+    crossing<N> none{};
+    const vec3<N> normal = cross(between<N>(t.at[0], t.at[1]), between<N>(t.at[0], t.at[2]));
+    const N at_p = dot(normal, between<N>(t.at[0], p)), at_q = dot(normal, between<N>(t.at[0], q));
+    if ((at_p.high > 0 && at_q.high > 0) || (at_p.high < 0 && at_q.high < 0)) return none;
+    const N fall = at_p - at_q;
+    if (fall.high == 0) return none;
+    const vec3<N> axis = between<N>(p, q);
+    const double sign = fall.high > 0 ? -1 : 1;
+    double least_volume = least(absolute(at_p.high), absolute(at_q.high));
     for (int i = 0; i < 3; ++i) {
-        const int j = i == 2 ? 0 : i + 1;
-        if (pierces<N>(a.at[i], a.at[j], b, found)) all.offer(found.at);
-        if (pierces<N>(b.at[i], b.at[j], a, found)) all.offer(found.at.swapped());
-        // Named first: of braces around a call nvcc 13.0 makes code that g++ does not take.
-        const foot_point<N> on_b = foot_on_triangle<N>(a.at[i], b), on_a = foot_on_triangle<N>(b.at[i], a);
-        all.offer(two_points{a.at[i], on_b.at});
-        all.offer(two_points{on_a.at, b.at[i]});
-        for (int k = 0; k < 3; ++k) {
-            all.offer(near_segments<N>(a.at[i], a.at[j], b.at[k], b.at[k == 2 ? 0 : k + 1]).at);
-        }
+        const vec3<N> from = between<N>(p, t.at[i]), to = between<N>(p, t.at[i == 2 ? 0 : i + 1]);
+        least_volume = least(least_volume, sign * dot(axis, cross(from, to)).high);
     }
+    if (least_volume < 0) return none;
+    const point passing = on_segment(p, q, into_unit(at_p / fall));
+    const foot_point<N> foot = foot_on_triangle<N>(passing, t);
+    return {true, least_volume > certain_volume<N>, {{passing, foot.at}, foot.away}};
 }
 
-/// Of a segment and a triangle, at any distance from each other.
+/// Of a segment and a triangle, at any distance from each other. Where they cross, there is no way from one to the other.
 template <class N>
-ABUT_HD constexpr near_points<N> nearest_points(const point& p, const point& q, const corners& t) {
-    near_points<N> nearest{}, passing{};
-    double least_square = infinity<double>;
+struct near_axis {
+    near_points<N> nearest;
+    bool crosses;
+};
+template <class N>
+ABUT_HD constexpr near_axis<N> nearest_points(const point& p, const point& q, const corners& t) {
+    const crossing<N> through = crossing_of<N>(p, q, t);
+    if (through.is_certain) return {{through.found.at, as<N>({0, 0, 0})}, true};
+    near_points<N> nearest{};
+    N least_square = N::of(infinity<double>);
     const auto offer = [&](const near_points<N>& found) {
-        const double square = dot(found.away, found.away).high;
+        const N square = dot(found.away, found.away);
         if (square < least_square) least_square = square, nearest = found;
     };
-    if (pierces<N>(p, q, t, passing)) offer(passing);
+    if (through.exists) offer(through.found);
     const foot_point<N> at_p = foot_on_triangle<N>(p, t), at_q = foot_on_triangle<N>(q, t);
     offer({{p, at_p.at}, at_p.away});
     offer({{q, at_q.at}, at_q.away});
@@ -186,7 +160,7 @@ ABUT_HD constexpr near_points<N> nearest_points(const point& p, const point& q, 
         const foot_point<N> foot = foot_on_segment<N>(t.at[k], p, q);
         offer({{foot.at, t.at[k]}, {-foot.away.x, -foot.away.y, -foot.away.z}});
     }
-    return nearest;
+    return {nearest, false};
 }
 
 }  // namespace abut::detail::contact_math

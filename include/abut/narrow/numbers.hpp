@@ -154,7 +154,7 @@ ABUT_HD constexpr int exponent_of(double x) {
     if (biased != 0) return biased - 1023;
     return static_cast<int>(__builtin_bit_cast(std::uint64_t, x * 0x1p54) >> 52 & 0x7ff) - 1023 - 54;
 }
-/// x 2^e, for -2046 <= e <= 2046; in two steps, since 2^e itself may be out of range.
+/// x 2^e, for -2044 <= e <= 2046; in two steps, since 2^e itself may be out of range.
 ABUT_HD constexpr double scaled(double x, int e) {
     const int half = e / 2;
     return plain_product(plain_product(x, power_of_two(half)), power_of_two(e - half));
@@ -172,6 +172,69 @@ template <class N>
 ABUT_HD constexpr vec3<N> brought_to_one(const vec3<N>& v) {
     const double largest = largest_of(rounded_off(v));
     return largest > 0 ? scaled_vector(v, -exponent_of(largest)) : v;
+}
+
+ABUT_HD constexpr bool is_zero(const point& p) { return p.x == 0 && p.y == 0 && p.z == 0; }
+template <class N>
+ABUT_HD constexpr bool is_zero(const vec3<N>& v) {
+    return is_zero(rounded_off(v));
+}
+
+/// A sum of up to 16 doubles that are not rounded: parts that do not overlap, the smallest first (Shewchuk: Adaptive
+/// Precision Floating-Point Arithmetic, 1997, theorem 10).
+class exact_sum {
+public:
+    ABUT_HD constexpr void add(double x) {
+        if (x == 0) return;
+        for (int i = 0; i < count_; ++i) {
+            const error_free<double> s = two_sum(part_[i], x);
+            part_[i] = s.error;
+            x = s.value;
+        }
+        part_[count_++] = x;
+    }
+    /// Exact but for errors of products that fall below the least positive number.
+    ABUT_HD constexpr void add_product(double a, double b) {
+        if (a == 0 || b == 0) return;
+        const double p = plain_product(a, b);
+        add(product_error(a, b, p));
+        add(p);
+    }
+    ABUT_HD constexpr void add_product(const two_doubles& a, const two_doubles& b) {
+        add_product(a.low, b.low);
+        add_product(a.low, b.high);
+        add_product(a.high, b.low);
+        add_product(a.high, b.high);
+    }
+    [[nodiscard]] ABUT_HD constexpr two_doubles total() const {
+        two_doubles sum{0, 0};
+        for (int i = count_ - 1; i >= 0; --i) sum = sum + two_doubles::of(part_[i]);
+        return sum;
+    }
+
+private:
+    double part_[16]{};
+    int count_ = 0;
+};
+
+/// a b - c d, rounded once.
+ABUT_NOINLINE ABUT_HD constexpr two_doubles difference_of_products(const two_doubles& a, const two_doubles& b,
+                                                                   const two_doubles& c, const two_doubles& d) {
+    exact_sum all;
+    all.add_product(a, b);
+    all.add_product(-c, d);
+    return all.total();
+}
+
+/// u x v, right in nearly all of its digits also where u and v are nearly parallel. Both have been brought to one. Zero
+/// where the sine between them is below 2^-900, for there products underflow.
+ABUT_NOINLINE ABUT_HD constexpr vec3<two_doubles> accurate_cross(const vec3<two_doubles>& u, const vec3<two_doubles>& v) {
+    const vec3<two_doubles> n = cross(u, v);
+    if (largest_of(rounded_off(n)) > 0x1p-40) return n;
+    const vec3<two_doubles> exact{difference_of_products(u.y, v.z, u.z, v.y), difference_of_products(u.z, v.x, u.x, v.z),
+                                  difference_of_products(u.x, v.y, u.y, v.x)};
+    if (largest_of(rounded_off(exact)) > 0x1p-900) return exact;
+    return {two_doubles::of(0), two_doubles::of(0), two_doubles::of(0)};
 }
 
 /// v / |v|, and zero for zero. No overflow or underflow on the way.

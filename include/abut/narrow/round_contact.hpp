@@ -25,40 +25,82 @@ struct numbers_for<double> {
 template <scalar T>
 using number_for = typename numbers_for<T>::type;
 
-/// The way out of a triangle for the ball of this radius swept along p q, whose nearest points are known: straight away, or
-/// where that is so short that its direction is uncertain, or 0, whatever is shortest.
-template <scalar T, class N>
-ABUT_HD constexpr least_overlap way_out(const point& p, const point& q, double radius, const corners& t,
-                                        const vec3<N>& away) {
-    const point axis[2] = {p, q};
-    least_overlap way;
-    const auto extents = [&](const point& n, extent& of_axis, extent& of_t) {
-        of_axis = extent_of(axis, n, p);
-        of_t = extent_of(t.at, n, p);
-        of_axis = {plain_sum(of_axis.lower, -radius), plain_sum(of_axis.upper, radius)};
-    };
-    extent a{}, b{};
-    const point straight = as_stored_direction<T>(unit_vector(away));
-    if (!is_zero(straight)) {
-        extents(straight, a, b);
-        way.offer(straight, plain_sum(b.upper, -a.lower));
+/// A ball swept along an axis (a sphere's is a point), and a triangle, at the common scale.
+struct round_pair {
+    point axis[2];
+    double radius;
+    corners t;
+
+    template <class S, scalar T>
+    ABUT_HD constexpr round_pair(const common_scale& scale, const S& s, const segment<T>& s_axis, const triangle<T>& s_t)
+        : axis{scale(s_axis.a), scale(s_axis.b)}, radius(scale(s.radius)), t(scale(s_t)) {}
+
+    ABUT_HD constexpr extent of_ball(const point& n) const {
+        const extent e = extent_of(axis, n, axis[0]);
+        return {plain_sum(e.lower, -radius), plain_sum(e.upper, radius)};
     }
-    if (largest_of(rounded_off(away)) > 0x1p-12) return way;
+    ABUT_HD constexpr extent of_triangle(const point& n) const { return extent_of(t.at, n, axis[0]); }
+};
+
+/// How much more than the least a depth may be for its direction to pass: a fraction of contact_bound that covers rounding
+/// of a right one.
+template <scalar T>
+inline constexpr double tolerable_excess = (std::same_as<T, float> ? 8 : 16) * static_cast<double>(unit_roundoff<T>);
+
+/// The directions of faces: of the triangle, and of what the axis and each edge span. One of them separates an axis that
+/// lies in the triangle soonest.
+template <scalar T>
+ABUT_NOINLINE ABUT_HD constexpr void offer_faces(const round_pair& pair, const segment<T>& axis, const triangle<T>& t,
+                                                 least_overlap& way) {
     const auto offer_both = [&](const point& n) {
         if (is_zero(n)) return;
         const point stored = as_stored_direction<T>(n);
-        extents(stored, a, b);
-        way.offer_both(stored, a, b);
+        way.offer_both(stored, pair.of_ball(stored), pair.of_triangle(stored));
     };
-    const point normal = face_normal<T>(t);
-    if (is_zero(normal)) {
-        offer_both(across_both({{p, q, q}}, t));
-    } else {
-        offer_both(normal);
-        const vec3<two_doubles> along = between<two_doubles>(p, q);
-        if (is_zero(rounded_off(along))) return way;
-        for (int i = 0; i < 3; ++i) offer_both(unit_cross(along, between<two_doubles>(t.at[i], t.at[i == 2 ? 0 : i + 1])));
+    const point normal = face_normal(t);
+    if (is_zero(normal)) return offer_both(across_both(triangle<T>{axis.a, axis.b, axis.b}, t));
+    offer_both(normal);
+    const vec3<two_doubles> along = edge_between(axis.a, axis.b).direction;
+    if (is_zero(along)) return;
+    for (int i = 0; i < 3; ++i) offer_both(unit_cross(along, edge_of(t, i).direction));
+}
+
+/// The directions between all features of the axis and of the triangle's boundary. One of them is the nearest's, where
+/// distances do not tell which: they hardly differ where directions do.
+template <scalar T>
+ABUT_NOINLINE ABUT_HD constexpr void offer_features(const round_pair& pair, least_overlap& way) {
+    using N = two_doubles;
+    const point &p = pair.axis[0], &q = pair.axis[1];
+    const auto offer = [&](const vec3<N>& away, double sign) {
+        const point n = as_stored_direction<T>(scale(sign, unit_vector(away)));
+        if (!is_zero(n)) way.offer(n, plain_sum(pair.of_triangle(n).upper, -pair.of_ball(n).lower));
+    };
+    for (int i = 0; i < 3; ++i) {
+        const point &from = pair.t.at[i], &to = pair.t.at[i == 2 ? 0 : i + 1];
+        offer(foot_on_segment<N>(p, from, to).away, 1);
+        offer(foot_on_segment<N>(q, from, to).away, 1);
+        offer(foot_on_segment<N>(from, p, q).away, -1);
+        offer(near_segments<N>(p, q, from, to).away, 1);
     }
+}
+
+/// The way out of a triangle for a ball swept along an axis, whose nearest points are known: straight away. Moved by less
+/// than the radius less the distance nothing comes apart, so a direction is right if its depth is that. If it is not, or if
+/// the way is so short that its direction is uncertain, or 0, the shortest one in any direction.
+template <scalar T, class N>
+ABUT_HD constexpr least_overlap way_out(const round_pair& pair, const segment<T>& axis, const triangle<T>& t,
+                                        const vec3<N>& away, bool crosses) {
+    least_overlap way;
+    double distance = 0;
+    const point straight = as_stored_direction<T>(unit_vector(away));
+    if (!is_zero(straight)) {
+        way.offer(straight, plain_sum(pair.of_triangle(straight).upper, -pair.of_ball(straight).lower));
+        distance = plain_dot(straight, rounded_off(away));
+    }
+    const double enough = plain_sum(plain_sum(pair.radius, -distance), tolerable_excess<T>);
+    if (largest_of(rounded_off(away)) > 0x1p-12 && way.depth <= enough) return way;
+    offer_faces<T>(pair, axis, t, way);
+    if (!crosses && way.depth > enough) offer_features<T>(pair, way);
     return way;
 }
 
@@ -73,10 +115,10 @@ template <scalar T>
 ABUT_NOINLINE ABUT_HD constexpr contact<T> contact_between(const sphere<T>& s, const triangle<T>& t) {
     using namespace contact_math;
     const common_scale scale(s, t);
-    const corners corner = scale(t);
-    const point center = scale(s.center);
-    const auto foot = foot_on_triangle<number_for<T>>(center, corner);
-    return assembled<T>(scale, foot.at, way_out<T>(center, center, scale(s.radius), corner, foot.away));
+    const segment<T> axis{s.center, s.center};
+    const round_pair pair(scale, s, axis, t);
+    const auto foot = foot_on_triangle<number_for<T>>(pair.axis[0], pair.t);
+    return assembled<T>(scale, foot.at, way_out<T>(pair, axis, t, foot.away, false));
 }
 
 /// The triangle's point nearest to the axis.
@@ -84,10 +126,9 @@ template <scalar T>
 ABUT_NOINLINE ABUT_HD constexpr contact<T> contact_between(const capsule<T>& s, const triangle<T>& t) {
     using namespace contact_math;
     const common_scale scale(s, t);
-    const corners corner = scale(t);
-    const point p = scale(s.axis.a), q = scale(s.axis.b);
-    const auto nearest = nearest_points<number_for<T>>(p, q, corner);
-    return assembled<T>(scale, nearest.at.on_b, way_out<T>(p, q, scale(s.radius), corner, nearest.away));
+    const round_pair pair(scale, s, s.axis, t);
+    const auto found = nearest_points<number_for<T>>(pair.axis[0], pair.axis[1], pair.t);
+    return assembled<T>(scale, found.nearest.at.on_b, way_out<T>(pair, s.axis, t, found.nearest.away, found.crosses));
 }
 
 /// Along the line through both centres, the middle of what both spheres have of it.

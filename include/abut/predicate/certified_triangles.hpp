@@ -28,6 +28,7 @@
 #include <abut/arithmetic/exact_stages.hpp>
 #include <abut/arithmetic/limits.hpp>
 #include <abut/arithmetic/vec.hpp>
+#include <abut/predicate/lone_corner.hpp>
 #include <abut/shape/primitive.hpp>
 
 namespace abut::detail {
@@ -93,19 +94,16 @@ ABUT_HD constexpr vec3<T> corner(const triangle<T>& t, unsigned k) {
 #endif
 }
 
-/// A triangle's corners from the one that is alone on its side, in the order in which the other's lone corner is above. One
-/// bit or two of `above` and of `other_above` are set. Which corner it is nobody can predict: it is looked up in two-bit
-/// tables, since a branch would cost more than all the arithmetic.
+/// A triangle's corners in the order that `lone_corner` finds.
 template <scalar T>
 struct turned {
     vec3<T> alone, next, last;
 
     ABUT_HD constexpr turned(const triangle<T>& t, unsigned above, unsigned other_above) {
-        const unsigned k = 0b01'10'10'01'00'00u >> 2 * above & 3;
-        const unsigned at = 2 * k + (0b0001'0110u >> other_above & 1) * 8;  // one bit: the lone corner is above
-        alone = corner(t, k);
-        next = corner(t, 0b00'10'01'00'01'00'10u >> at & 3);
-        last = corner(t, 0b01'00'10'00'00'10'01u >> at & 3);
+        const lone_corner k(above, other_above);
+        alone = corner(t, k.alone);
+        next = corner(t, k.next);
+        last = corner(t, k.last);
     }
 };
 

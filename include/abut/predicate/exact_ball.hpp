@@ -11,6 +11,7 @@
 // strict: a boundary belongs to a feature of lower dimension, and an edge or a face without extent has no interior, so
 // degenerate triangles need no case of their own.
 
+#include <abut/arithmetic/plain_sign.hpp>
 #include <abut/arithmetic/sparse_sum.hpp>
 #include <abut/arithmetic/vec.hpp>
 #include <abut/arithmetic/wide_int.hpp>
@@ -47,6 +48,8 @@ ABUT_HD constexpr vec3<N> point_at(const N (&value)[V], int i) {
 }
 
 struct ball_meets_segment {
+    static constexpr int degree = 4, points = 3;
+
     template <class N>
     ABUT_HD static constexpr bool holds(const N (&value)[10]) {
         const vec3<N> center = point_at(value, 0), a = point_at(value, 1), b = point_at(value, 2);
@@ -57,6 +60,8 @@ struct ball_meets_segment {
 };
 
 struct ball_meets_triangle {
+    static constexpr int degree = 6, points = 4;
+
     template <class N>
     ABUT_HD static constexpr bool holds(const N (&value)[13]) {
         const vec3<N> center = point_at(value, 0), a = point_at(value, 1), b = point_at(value, 2), c = point_at(value, 3);
@@ -71,6 +76,8 @@ struct ball_meets_triangle {
 
 /// The radii are added exactly, in the number type that decides.
 struct ball_meets_ball {
+    static constexpr int degree = 2, points = 2;
+
     template <class N>
     ABUT_HD static constexpr bool holds(const N (&value)[8]) {
         return vertex_in_ball(point_at(value, 1) - point_at(value, 0), value[6] + value[7]);

@@ -20,6 +20,7 @@
 //   not orthogonal to the line.
 // - P is a point: one of the e_i.
 
+#include <abut/arithmetic/plain_sign.hpp>
 #include <abut/arithmetic/sparse_sum.hpp>
 #include <abut/arithmetic/vec.hpp>
 #include <abut/arithmetic/wide_int.hpp>
@@ -63,6 +64,8 @@ ABUT_HD constexpr bool apart_beside_edge(const coordinate_of_all<N>& x, const co
 
 /// The box's lower and upper corner, then the triangle's corners.
 struct box_meets_triangle {
+    static constexpr int degree = 3, points = 5;
+
     template <class N>
     ABUT_HD static constexpr bool holds(const N (&value)[15]) {
         coordinate_of_all<N> axis[3]{};

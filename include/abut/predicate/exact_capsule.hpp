@@ -14,6 +14,7 @@
 // radius, so each yes is backed by two points. Degenerate shapes need no case of their own: their features without extent
 // have no inside, and no foot strictly in it.
 
+#include <abut/arithmetic/plain_sign.hpp>
 #include <abut/arithmetic/sparse_sum.hpp>
 #include <abut/arithmetic/vec.hpp>
 #include <abut/arithmetic/wide_int.hpp>
@@ -45,6 +46,8 @@ ABUT_HD constexpr bool crosses_face(const vec3<N>& d, const vec3<N> (&p)[3], con
 
 /// The axis's ends, the triangle's corners, the radius.
 struct capsule_meets_triangle {
+    static constexpr int degree = 6, points = 5;
+
     template <class N>
     ABUT_HD static constexpr bool holds(const N (&value)[16]) {
         const vec3<N> s0 = point_at(value, 0), s1 = point_at(value, 1);

@@ -9,6 +9,7 @@
 #include <abut/arithmetic/arithmetic.hpp>
 #include <abut/arithmetic/error_free.hpp>
 #include <abut/arithmetic/exact_stages.hpp>
+#include <abut/arithmetic/plain_sign.hpp>
 #include <abut/arithmetic/strict.hpp>
 #include <abut/predicate/certified_ball.hpp>
 #include <abut/shape/primitive.hpp>
@@ -20,6 +21,8 @@ namespace detail {
 /// Degree 2. The exact stages see one unit of all values, so that a product is worth its square: the offset is multiplied
 /// by a 1 of that unit.
 struct plane_meets_triangle {
+    static constexpr int degree = 2, points = 0;
+
     template <class N>
     ABUT_HD static constexpr bool holds(const N (&value)[14]) {
         const vec3<N> normal{value[0], value[1], value[2]};

@@ -37,10 +37,14 @@ ABUT_HD constexpr verdict decide_late(const segment<T>& s, const triangle<T>& t)
     return decide_late<fast>(detail::as_triangle(s), t);
 }
 
-template <arithmetic A>
+template <arithmetic A, scalar T>
     requires std::same_as<A, filtered>
-ABUT_NOINLINE ABUT_HD constexpr verdict decide_late(const segment<float>& s, const triangle<float>& t) {
-    return detail::decide_widened(s, t, detail::in_a_row(s.a, s.b, t.a, t.b, t.c));
+ABUT_NOINLINE ABUT_HD constexpr verdict decide_late(const segment<T>& s, const triangle<T>& t) {
+    const verdict v = detail::decide_ties(detail::as_triangle(s), t);
+    if constexpr (std::same_as<T, float>) {
+        if (v == verdict::unknown) return detail::decide_widened(s, t, detail::in_a_row(s.a, s.b, t.a, t.b, t.c));
+    }
+    return v;
 }
 
 /// The last stage: decides every finite input.

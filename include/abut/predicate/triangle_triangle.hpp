@@ -6,6 +6,7 @@
 #include <abut/arithmetic/arithmetic.hpp>
 #include <abut/arithmetic/exact_stages.hpp>
 #include <abut/predicate/certified_triangles.hpp>
+#include <abut/predicate/coarse_grid.hpp>
 #include <abut/predicate/exact_triangles.hpp>
 #include <abut/shape/primitive.hpp>
 
@@ -17,6 +18,36 @@ namespace detail {
 template <scalar T>
 ABUT_HD constexpr auto values_of(const triangle<T>& s, const triangle<T>& t) {
     return in_a_row(s.a, s.b, s.c, t.a, t.b, t.c);
+}
+
+template <class N, scalar T>
+ABUT_HD constexpr three_points<N> corners_of(const triangle<T>& t) {
+    const auto as_numbers = [](const vec3<T>& p) {
+        return vec3<N>{static_cast<N>(p.x), static_cast<N>(p.y), static_cast<N>(p.z)};
+    };
+    return {{as_numbers(t.a), as_numbers(t.b), as_numbers(t.c)}};
+}
+
+/// Whether a corner of s is one of t's, as in faces that are neighbours. By their bits, since a processor may be told to
+/// read other numbers as 0; so -0.0 and 0.0 differ here.
+template <scalar T>
+ABUT_HD constexpr bool share_a_corner(const triangle<T>& s, const triangle<T>& t) {
+    using word = typename float_format<T>::word;
+    const auto differing = [](T x, T y) { return __builtin_bit_cast(word, x) ^ __builtin_bit_cast(word, y); };
+    const auto same = [differing](const vec3<T>& p, const vec3<T>& q) {
+        return static_cast<unsigned>((differing(p.x, q.x) | differing(p.y, q.y) | differing(p.z, q.z)) == 0);
+    };
+    const auto among = [&t, same](const vec3<T>& p) { return same(p, t.a) | same(p, t.b) | same(p, t.c); };
+    return (among(s.a) | among(s.b) | among(s.c)) != 0;  // no branch for each
+}
+
+/// The pairs that are dense in what no error bound decides, and cheap: `yes` where a corner is in common, and either where
+/// all corners are on a coarse grid.
+template <scalar T>
+ABUT_HD constexpr verdict decide_ties(const triangle<T>& s, const triangle<T>& t) {
+    if (share_a_corner(s, t)) return verdict::yes;
+    if (!on_coarse_grid(s, t)) return verdict::unknown;
+    return to_verdict(hulls_meet(corners_of<double>(s), corners_of<double>(t)));
 }
 
 }  // namespace detail
@@ -36,14 +67,19 @@ ABUT_HD constexpr verdict decide(const triangle<T>& s, const triangle<T>& t) {
 template <arithmetic A, scalar T>
     requires std::same_as<A, fast>
 ABUT_NOINLINE ABUT_HD constexpr verdict decide_late(const triangle<T>& s, const triangle<T>& t) {
-    return to_verdict(detail::triangle_meets_triangle::holds(detail::values_of(s, t).value));
+    return to_verdict(hulls_meet(detail::corners_of<T>(s), detail::corners_of<T>(t)));
 }
 
-/// `filtered` in float: once more in double, which decides what is in general position and not within an ulp of a double.
-template <arithmetic A>
+/// `filtered`, where the first stage left the pair: for triangles with a corner in common, that are on a coarse grid, or in
+/// float and decided in double.
+template <arithmetic A, scalar T>
     requires std::same_as<A, filtered>
-ABUT_NOINLINE ABUT_HD constexpr verdict decide_late(const triangle<float>& s, const triangle<float>& t) {
-    return detail::decide_widened(s, t, detail::values_of(s, t));
+ABUT_NOINLINE ABUT_HD constexpr verdict decide_late(const triangle<T>& s, const triangle<T>& t) {
+    const verdict v = detail::decide_ties(s, t);
+    if constexpr (std::same_as<T, float>) {
+        if (v == verdict::unknown) return detail::decide_widened(s, t, detail::values_of(s, t));
+    }
+    return v;
 }
 
 /// The last stage: decides every finite input, slowly and with a stack frame that docs/numerics.md states.

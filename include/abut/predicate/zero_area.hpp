@@ -17,7 +17,7 @@ namespace abut {
 namespace detail {
 
 struct corners_on_a_line {
-    static constexpr int degree = 2;
+    static constexpr int degree = 2, points = 3;
 
     template <class N>
     ABUT_HD static constexpr bool holds(const N (&v)[9]) {

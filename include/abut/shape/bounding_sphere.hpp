@@ -5,8 +5,8 @@
 // an infinite radius.
 //
 // Overlap. For points p and q of the balls with p = R q + t + error (relative_pose.hpp), the way D = R c_b + t - c_a
-// between the centres is no longer than r_a + 1.001 |error| + |R| r_b, and |R| is below 1 + 64 e, since R is orthonormal
-// within 127 e. Rounding D takes e_d (8.8 |c_b| + 5.1 (|t| + |c_a|)), with e of the input's type and e_d of double.
+// between the centres is no longer than r_a + |error| + |R| r_b, and |R| is below 1 + 1.5 dev(R), since R^T R - 1 stretches
+// by no more than 3 dev(R). Rounding D takes e_d (8.8 |c_b| + 5.1 (|t| + |c_a|)), with e_d of double.
 
 #include <cstddef>
 #include <type_traits>
@@ -33,7 +33,7 @@ ABUT_HD constexpr T distance_above(const vec3<T>& a, const vec3<T>& b) {
 /// A centre in the box, in registers: what is measured from it has to be measured from the number that is stored.
 template <scalar T>
 ABUT_HD constexpr vec3<T> center_in(const aabb<T>& box, const vec3<T>& p) {
-    const vec3<T> c = lesser(greater(p, box.lower), box.upper);
+    const vec3<T> c = least(greatest(p, box.lower), box.upper);
     return {rounded(c.x), rounded(c.y), rounded(c.z)};
 }
 
@@ -82,8 +82,8 @@ ABUT_HD constexpr sphere<T> merge(const sphere<T>& a, const sphere<T>& b) {
     const T part = w >= 0 && w <= 1 ? w : half;
     const vec3<T> center =
         detail::center_in(bounds(segment<T>{a.center, b.center}), (1 - part) * a.center + part * b.center);
-    return {center, detail::greater(add_up(detail::distance_above(center, a.center), a.radius),
-                                    add_up(detail::distance_above(center, b.center), b.radius))};
+    return {center, detail::greatest(add_up(detail::distance_above(center, a.center), a.radius),
+                                     add_up(detail::distance_above(center, b.center), b.radius))};
 }
 
 /// Whether the balls may share a point. False is certain.
@@ -100,13 +100,12 @@ ABUT_HD constexpr bool overlaps(const sphere<T>& a, const sphere<T>& b) {
 template <scalar T>
 ABUT_HD constexpr bool overlaps(const sphere<T>& a, const relative_pose<T>& pose, const sphere<T>& b) {
     using namespace detail;
-    constexpr double e = 2 * static_cast<double>(unit_roundoff<T>);
     const vec3<double> from = widened(a.center), to = widened(b.center), t = widened(pose.translation);
     const vec3<double> way = vec3<double>{dot(widened(pose.rotation[0]), to), dot(widened(pose.rotation[1]), to),
                                           dot(widened(pose.rotation[2]), to)} +
                              (t - from);
-    const double r = static_cast<double>(b.radius);
-    const double reach = static_cast<double>(a.radius) + (r + 80 * e * r) + (1 + 0x1p-9) * static_cast<double>(pose.slack);
+    const double r = static_cast<double>(b.radius), stretch = 1.6 * static_cast<double>(pose.deviation);
+    const double reach = static_cast<double>(a.radius) + (r + stretch * r) + static_cast<double>(pose.slack);
     return within_reach(way, reach, magnitudes(from) + magnitudes(to) + magnitudes(t));
 }
 

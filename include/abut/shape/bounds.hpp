@@ -3,33 +3,18 @@
 
 // Axis-aligned boxes around shapes. No box is ever too small: where arithmetic rounds, it rounds outward, to infinity where
 // no number is large enough.
+//
+// Denormals. A thread may read denormal numbers as zero. Let z(x) be what it reads: 0 where |x| is below the smallest normal
+// number m, and else x. z is monotone: from x <= y follows z(x) <= z(y). So comparing a shape's lower end with another's
+// upper end keeps all that it kept before, and more. Nor does it matter that minima and maxima of denormal numbers are any
+// of them, or 0: their z is right, and comparisons see no more. What is computed with such an end is off by less than m.
 
 #include <abut/arithmetic/error_free.hpp>
 #include <abut/arithmetic/limits.hpp>
+#include <abut/arithmetic/magnitude.hpp>
 #include <abut/shape/primitive.hpp>
 
 namespace abut {
-
-namespace detail {
-
-template <class T>
-ABUT_HD constexpr T lesser(T a, T b) {
-    return b < a ? b : a;
-}
-template <class T>
-ABUT_HD constexpr T greater(T a, T b) {
-    return a < b ? b : a;
-}
-template <class T>
-ABUT_HD constexpr vec3<T> lesser(const vec3<T>& a, const vec3<T>& b) {
-    return {lesser(a.x, b.x), lesser(a.y, b.y), lesser(a.z, b.z)};
-}
-template <class T>
-ABUT_HD constexpr vec3<T> greater(const vec3<T>& a, const vec3<T>& b) {
-    return {greater(a.x, b.x), greater(a.y, b.y), greater(a.z, b.z)};
-}
-
-}  // namespace detail
 
 /// The box that every box contains: merging it in changes nothing, and nothing overlaps it.
 template <scalar T>
@@ -38,10 +23,11 @@ ABUT_HD constexpr aabb<T> empty_box() {
     return {{far, far, far}, {-far, -far, -far}};
 }
 
-/// The smallest box around both. Exact.
+/// The smallest box around both. Exact. A coordinate of b that is NaN is passed over, as that of a box around infinite
+/// boxes' middles may be (index/top_down.hpp).
 template <scalar T>
 ABUT_HD constexpr aabb<T> merge(const aabb<T>& a, const aabb<T>& b) {
-    return {detail::lesser(a.lower, b.lower), detail::greater(a.upper, b.upper)};
+    return {detail::least(b.lower, a.lower), detail::greatest(b.upper, a.upper)};
 }
 
 /// Whether the closed boxes share a point. Exact. One branch and not six: which of the comparisons fails is anyone's guess.
@@ -62,7 +48,7 @@ ABUT_HD constexpr bool contains(const aabb<T>& outer, const aabb<T>& inner) {
 /// The smallest box around a triangle. Exact.
 template <scalar T>
 ABUT_HD constexpr aabb<T> bounds(const triangle<T>& t) {
-    return {detail::lesser(detail::lesser(t.a, t.b), t.c), detail::greater(detail::greater(t.a, t.b), t.c)};
+    return {detail::least(detail::least(t.a, t.b), t.c), detail::greatest(detail::greatest(t.a, t.b), t.c)};
 }
 
 /// A point, a segment and a box are as large as their boxes. Exact.
@@ -72,31 +58,25 @@ ABUT_HD constexpr aabb<T> bounds(const vec3<T>& p) {
 }
 template <scalar T>
 ABUT_HD constexpr aabb<T> bounds(const segment<T>& s) {
-    return {detail::lesser(s.a, s.b), detail::greater(s.a, s.b)};
+    return {detail::least(s.a, s.b), detail::greatest(s.a, s.b)};
 }
 template <scalar T>
 ABUT_HD constexpr aabb<T> bounds(const aabb<T>& box) {
     return box;
 }
 
-namespace detail {
-
-template <scalar T>
-ABUT_HD constexpr aabb<T> grown(const aabb<T>& box, T by) {
-    return {{sub_down(box.lower.x, by), sub_down(box.lower.y, by), sub_down(box.lower.z, by)},
-            {add_up(box.upper.x, by), add_up(box.upper.y, by), add_up(box.upper.z, by)}};
-}
-
-}  // namespace detail
-
-/// The smallest representable box around a sphere or a capsule.
+/// The smallest representable box around a sphere.
 template <scalar T>
 ABUT_HD constexpr aabb<T> bounds(const sphere<T>& s) {
-    return detail::grown(bounds(s.center), s.radius);
+    const vec3<T>& c = s.center;
+    const T r = s.radius;
+    return {{add_down(c.x, -r), add_down(c.y, -r), add_down(c.z, -r)}, {add_up(c.x, r), add_up(c.y, r), add_up(c.z, r)}};
 }
+/// And around a capsule: around its two ends, and not around the box of its axis, since a minimum of denormal numbers is any
+/// of them where they are read as zero.
 template <scalar T>
 ABUT_HD constexpr aabb<T> bounds(const capsule<T>& s) {
-    return detail::grown(bounds(s.axis), s.radius);
+    return merge(bounds(sphere<T>{s.axis.a, s.radius}), bounds(sphere<T>{s.axis.b, s.radius}));
 }
 
 /// All of space: few planes have a smaller box.

@@ -1,74 +1,42 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Finds what is no geometry: coordinates that are not finite, negative radii, boxes inside out, vertex indices out of range.
+// Finds what is no geometry: shapes that are not valid (shape/shape.hpp), vertex indices out of range, too many elements.
 // Runs where the data lies, so device memory is checked on the device.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <type_traits>
 
-#include <abut/arithmetic/limits.hpp>
 #include <abut/error.hpp>
+#include <abut/execution/buffer.hpp>
 #include <abut/execution/host.hpp>
+#include <abut/shape/shape.hpp>
 #include <abut/shape/view.hpp>
 
 namespace abut::detail {
 
-template <class T>
-ABUT_HD bool is_finite(T x) {
-    return x >= -largest_finite<T> && x <= largest_finite<T>;  // false for NaN as well
-}
+inline constexpr std::size_t none_is_bad = static_cast<std::size_t>(-1);
 
-template <class T>
-ABUT_HD bool is_finite(const vec3<T>& p) {
-    return is_finite(p.x) && is_finite(p.y) && is_finite(p.z);
-}
-
-template <class T>
-ABUT_HD bool is_good(const vec3<T>& p) {
-    return is_finite(p);
-}
-template <class T>
-ABUT_HD bool is_good(const triangle<T>& t) {
-    return is_finite(t.a) && is_finite(t.b) && is_finite(t.c);
-}
-template <class T>
-ABUT_HD bool is_good(const sphere<T>& s) {
-    return is_finite(s.center) && is_finite(s.radius) && s.radius >= 0;
-}
-template <class T>
-ABUT_HD bool is_good(const segment<T>& s) {
-    return is_finite(s.a) && is_finite(s.b);
-}
-template <class T>
-ABUT_HD bool is_good(const aabb<T>& box) {
-    return is_finite(box.lower) && is_finite(box.upper) && box.lower.x <= box.upper.x && box.lower.y <= box.upper.y &&
-           box.lower.z <= box.upper.z;
-}
-template <class T>
-ABUT_HD bool is_good(const plane<T>& p) {
-    return is_finite(p.normal) && is_finite(p.offset);
-}
-template <class T>
-ABUT_HD bool is_good(const capsule<T>& s) {
-    return is_good(s.axis) && is_finite(s.radius) && s.radius >= 0;
-}
-
-/// Index i if element i is bad, otherwise the largest index.
-template <class Element>
-struct bad_element {
-    strided<Element> elements;
-    ABUT_HD std::size_t operator()(std::size_t i) const { return is_good(elements[i]) ? static_cast<std::size_t>(-1) : i; }
+/// Index i if shape i is not valid, otherwise the largest index.
+template <shape_view V>
+struct bad_shape {
+    V shapes;
+    ABUT_HD std::size_t operator()(std::size_t i) const { return is_valid(shapes[i]) ? none_is_bad : i; }
 };
 
-struct bad_face {
-    strided<face> faces;
+/// Likewise of a face or an edge whose vertices are not all there.
+template <std::size_t N>
+struct bad_corners {
+    strided<std::array<std::uint32_t, N>> elements;
     std::uint32_t vertex_count;
     ABUT_HD std::size_t operator()(std::size_t i) const {
-        const auto* const corner = reinterpret_cast<const std::uint32_t*>(faces.data + i * faces.stride);
-        const bool good = corner[0] < vertex_count && corner[1] < vertex_count && corner[2] < vertex_count;
-        return good ? static_cast<std::size_t>(-1) : i;
+        const std::uint32_t* const corner = corners_at(elements, i);
+        bool good = true;
+        for (std::size_t k = 0; k < N; ++k) good = good && corner[k] < vertex_count;
+        return good ? none_is_bad : i;
     }
 };
 
@@ -76,37 +44,45 @@ struct minimum {
     ABUT_HD std::size_t operator()(std::size_t a, std::size_t b) const { return b < a ? b : a; }
 };
 
-template <class T>
+template <shape_view V>
+struct fetch_shape {
+    V shapes;
+    std::size_t which;
+    typename V::shape_type* out;
+    ABUT_HD void operator()(std::size_t i) const { out[i] = shapes[which]; }
+};
+
+// What is wrong with a shape that is not valid, as an exception.
+
+template <scalar T>
 [[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const vec3<T>& p) {
     const bool x = !is_finite(p.x), y = !is_finite(p.y);
     const std::string name = x ? "x" : y ? "y" : "z";
     throw invalid_geometry(function, element, i, name + " is not finite", static_cast<double>(x ? p.x : y ? p.y : p.z));
 }
-template <class T>
+template <scalar T>
 [[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const triangle<T>& t) {
-    if (!is_finite(t.a)) refuse(function, element, i, t.a);
-    if (!is_finite(t.b)) refuse(function, element, i, t.b);
-    refuse(function, element, i, t.c);
+    refuse(function, element, i, !is_valid(t.a) ? t.a : !is_valid(t.b) ? t.b : t.c);
 }
-template <class T>
+template <scalar T>
 [[noreturn]] void refuse_radius(const std::string& function, const std::string& element, std::size_t i, T radius) {
     const bool negative = radius < 0;
     throw invalid_geometry(function, element, i, negative ? "radius is negative" : "radius is not finite",
                            static_cast<double>(radius));
 }
-template <class T>
+template <scalar T>
 [[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const sphere<T>& s) {
-    if (!is_finite(s.center)) refuse(function, element, i, s.center);
+    if (!is_valid(s.center)) refuse(function, element, i, s.center);
     refuse_radius(function, element, i, s.radius);
 }
-template <class T>
+template <scalar T>
 [[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const segment<T>& s) {
-    refuse(function, element, i, is_finite(s.a) ? s.b : s.a);
+    refuse(function, element, i, is_valid(s.a) ? s.b : s.a);
 }
-template <class T>
+template <scalar T>
 [[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const aabb<T>& box) {
-    if (!is_finite(box.lower)) refuse(function, element, i, box.lower);
-    if (!is_finite(box.upper)) refuse(function, element, i, box.upper);
+    if (!is_valid(box.lower)) refuse(function, element, i, box.lower);
+    if (!is_valid(box.upper)) refuse(function, element, i, box.upper);
     const bool x = box.lower.x > box.upper.x, y = box.lower.y > box.upper.y;
     const std::string name = x ? "x" : y ? "y" : "z";
     throw invalid_geometry(function, element, i, "lower " + name + " is above upper " + name,
@@ -114,26 +90,60 @@ template <class T>
                                                : y ? box.lower.y
                                                    : box.lower.z));
 }
-template <class T>
+template <scalar T>
 [[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const plane<T>& p) {
-    if (!is_finite(p.normal)) refuse(function, element, i, p.normal);
+    if (!is_valid(p.normal)) refuse(function, element, i, p.normal);
     throw invalid_geometry(function, element, i, "offset is not finite", static_cast<double>(p.offset));
 }
-template <class T>
+template <scalar T>
 [[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const capsule<T>& s) {
-    if (!is_good(s.axis)) refuse(function, element, i, s.axis);
+    if (!is_valid(s.axis)) refuse(function, element, i, s.axis);
     refuse_radius(function, element, i, s.radius);
 }
+/// Of a shape of the caller's own: what is wrong with its box, or else that its own is_valid says no.
+template <shape S>
+[[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const S& s) {
+    const aabb<scalar_type_of<S>> box = bounds(s);
+    if (!is_valid(box)) refuse(function, element, i, box);
+    throw invalid_geometry(function, element, i, "is_valid refuses it; its least x is", static_cast<double>(box.lower.x));
+}
 
-template <class Policy, class Element>
-void check_elements(const Policy& on, const strided<Element>& elements, const char* function, const char* name) {
-    require_access(on, elements.data, function);
-    const std::size_t bad =
-        reduce(on, elements.count, static_cast<std::size_t>(-1), minimum{}, bad_element<Element>{elements});
-    if (bad == static_cast<std::size_t>(-1)) return;
-    Element value;
-    download(on, &elements[bad], 1, &value);
-    refuse(function, name, bad, value);
+/// How messages name a shape, and the set that owns such shapes.
+struct shape_name {
+    const char *one, *set;
+};
+template <class S>
+inline constexpr shape_name name_of{"shape", "abut::shapes"};
+template <scalar T>
+inline constexpr shape_name name_of<triangle<T>>{"triangle", "abut::triangle_soup"};
+template <scalar T>
+inline constexpr shape_name name_of<sphere<T>>{"sphere", "abut::spheres"};
+template <scalar T>
+inline constexpr shape_name name_of<vec3<T>>{"point", "abut::points"};
+template <scalar T>
+inline constexpr shape_name name_of<segment<T>>{"segment", "abut::segments"};
+template <scalar T>
+inline constexpr shape_name name_of<capsule<T>>{"capsule", "abut::capsules"};
+template <scalar T>
+inline constexpr shape_name name_of<aabb<T>>{"box", "abut::boxes"};
+
+/// Throws if a shape is not valid, with the first such.
+template <class Policy, shape_view V>
+void check_shapes(const Policy& on, const V& view, const char* function, const char* element) {
+    const std::size_t bad = reduce(on, view.size(), none_is_bad, minimum{}, bad_shape<V>{view});
+    if (bad == none_is_bad) return;
+    typename V::shape_type shape;
+    execution::buffer_of<Policy, typename V::shape_type> copy(on, 1);
+    for_each_index(on, 1, fetch_shape<V>{view, bad, copy.data()});
+    download(on, copy.data(), 1, &shape);
+    refuse(function, element, bad, shape);
+}
+
+/// Likewise of an array, which the policy has to be able to read.
+template <class Policy, shape S>
+void check_array(const Policy& on, const strided<S>& array, const char* function, const char* element) {
+    require_access(on, array.data, function);
+    check_shapes(on, shapes_view<S, space_of<Policy>>(array.first(), array.count, array.stride), function, element);
 }
 
 inline void check_count(std::size_t count, const char* function) {
@@ -144,46 +154,56 @@ inline void check_count(std::size_t count, const char* function) {
     }
 }
 
-template <class Policy, class T, class Space>
+/// Shapes over shared vertices, each given by the numbers of N of them.
+template <class Policy, scalar T, std::size_t N>
+void check_indexed(const Policy& on, const strided<vec3<T>>& vertices, const strided<std::array<std::uint32_t, N>>& elements,
+                   const char* function, const char* element) {
+    check_count(elements.count, function);
+    check_count(vertices.count, function);
+    check_array(on, vertices, function, "vertex");
+    const auto vertex_count = static_cast<std::uint32_t>(vertices.count);
+    require_access(on, elements.data, function);
+    const std::size_t bad = reduce(on, elements.count, none_is_bad, minimum{}, bad_corners<N>{elements, vertex_count});
+    if (bad == none_is_bad) return;
+    std::array<std::uint32_t, N> corners;
+    download(on, &elements[bad], 1, &corners);
+    std::size_t k = 0;
+    while (corners[k] < vertex_count) ++k;
+    throw invalid_geometry(function, element, bad,
+                           "vertex index out of range, there are " + std::to_string(vertex_count) + " vertices", corners[k]);
+}
+
+// What a view has to hold: each throws in the name of `function`.
+
+/// A view of the caller's own. Where its memory lies is the caller's to know.
+template <class Policy, shape_view V>
+void check(const Policy& on, const V& view, const char* function) {
+    check_count(view.size(), function);
+    check_shapes(on, view, function, name_of<typename V::shape_type>.one);
+}
+template <class Policy, shape S, memory_space Space>
+void check(const Policy& on, const shapes_view<S, Space>& view, const char* function) {
+    check_count(view.size(), function);
+    check_array(on, view.shapes, function, name_of<S>.one);
+}
+template <class Policy, scalar T, memory_space Space>
 void check(const Policy& on, const mesh_view<T, Space>& view, const char* function) {
-    check_count(view.faces.count, function);
-    check_count(view.vertices.count, function);
-    check_elements(on, view.vertices, function, "vertex");
-    const auto vertex_count = static_cast<std::uint32_t>(view.vertices.count);
-    const std::size_t none = static_cast<std::size_t>(-1);
-    require_access(on, view.faces.data, function);
-    const std::size_t bad = reduce(on, view.faces.count, none, minimum{}, bad_face{view.faces, vertex_count});
-    if (bad == none) return;
-    face value;
-    download(on, &view.faces[bad], 1, &value);
-    const std::uint32_t index = value[0] >= vertex_count ? value[0] : value[1] >= vertex_count ? value[1] : value[2];
-    throw invalid_geometry(function, "face", bad,
-                           "vertex index out of range, there are " + std::to_string(vertex_count) + " vertices", index);
+    check_indexed(on, view.vertices, view.faces, function, "face");
 }
-
-template <class Policy, class T, class Space>
-void check(const Policy& on, const triangle_soup_view<T, Space>& view, const char* function) {
-    check_count(view.size(), function);
-    check_elements(on, view.triangles, function, "triangle");
+template <class Policy, scalar T, memory_space Space>
+void check(const Policy& on, const edge_mesh_view<T, Space>& view, const char* function) {
+    check_indexed(on, view.vertices, view.edges, function, "edge");
 }
-
-template <class Policy, class T, class Space>
-void check(const Policy& on, const spheres_view<T, Space>& view, const char* function) {
-    check_count(view.size(), function);
-    check_elements(on, view.spheres, function, "sphere");
-}
-
-template <class Policy, class T, class Space>
+template <class Policy, scalar T, memory_space Space>
 void check(const Policy& on, const equal_spheres_view<T, Space>& view, const char* function) {
     check_count(view.size(), function);
     const sphere<T> first{{0, 0, 0}, view.radius};
-    if (!is_good(first)) refuse(function, "sphere", 0, first);
-    check_elements(on, view.centers, function, "sphere");
+    if (!is_valid(first)) refuse(function, "sphere", 0, first);
+    check_array(on, view.centers, function, "sphere");
 }
-
-template <class Policy, class Shape, class Space>
-void check(const Policy&, const single_view<Shape, Space>& view, const char* function) {
-    if (!is_good(view.shape)) refuse(function, "shape", 0, view.shape);
+template <class Policy, shape S, memory_space Space>
+void check(const Policy&, const single_view<S, Space>& view, const char* function) {
+    if (!is_valid(view.shape)) refuse(function, "shape", 0, view.shape);
 }
 
 }  // namespace abut::detail

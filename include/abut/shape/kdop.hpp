@@ -10,11 +10,11 @@
 // frame that is a vector m, and m is a sum of three of the polytope's own normals with weights that are not negative: the
 // same sum of its planes bounds m . x for all x in it. So K slabs are compared, and no linear program is solved.
 //
-// Its error, with the notation of relative_pose.hpp: |n| <= 1.7321 and the sum of |m|'s coordinates is below 3.02. m is
-// off by 3.5 e a coordinate, and as a sum of weights times normals by 12.1 e more; the bound itself is a sum of three
-// products, whose magnitudes add up to M: 5 e M. n . t carries 9 e |t|, the sums that are compared 2 e of their
-// magnitudes. From b's normals to a's frame, R^T R - 1 counts too: 3 dev(R) Q, which is less than what the slack holds
-// beyond the error that it stands for. The code takes 1.75 slack + e (24 (|x| + |t|) + 8 M + 4 |planes|) with |x| from
+// Its error, with the notation of relative_pose.hpp: |n| <= 1.7321, |m| <= 1.738 and the sum of |m|'s coordinates is below
+// 3.02. m is off by 3.5 e a coordinate, and as a sum of weights times normals by 12.1 e more; the bound itself is a sum of
+// three products, whose magnitudes add up to M: 5 e M. n . t carries 9 e |t|, the sums that are compared 2 e of their
+// magnitudes. From b's normals to a's frame, R^T R - 1 counts too: 3 dev(R) Q, of the 7 dev(R) Q in 1.75 slack that nothing
+// else needs. The code takes 1.75 slack + e (24 (|x| + |t|) + 8 M + 4 |planes|) with |x| from
 // the polytope's own box.
 
 #include <cstddef>
@@ -49,8 +49,6 @@ struct kdop_normal {
 
 template <int K>
 inline constexpr bool has_diagonals = K == 14 || K == 26;
-template <int K>
-inline constexpr bool has_edges = K == 18 || K == 26;
 
 template <int K>
 ABUT_HD constexpr kdop_normal normal_of(int i) {
@@ -167,8 +165,8 @@ ABUT_HD constexpr kdop<T, K> around_all(std::type_identity<kdop<T, K>>, const Tr
     detail::for_each_corner<T>(triangles, [&r](const vec3<T>& p) {
         for (int i = 0; i < K / 2; ++i) {
             const detail::kdop_normal n = detail::normal_of<K>(i);
-            r.upper[i] = detail::greater(r.upper[i], detail::along_up(n, p));
-            r.lower[i] = detail::lesser(r.lower[i], -detail::along_up({-n.x, -n.y, -n.z}, p));
+            r.upper[i] = detail::greatest(r.upper[i], detail::along_up(n, p));
+            r.lower[i] = detail::least(r.lower[i], -detail::along_up({-n.x, -n.y, -n.z}, p));
         }
     });
     return r;
@@ -179,8 +177,8 @@ template <scalar T, int K>
 ABUT_HD constexpr kdop<T, K> merge(const kdop<T, K>& a, const kdop<T, K>& b) {
     kdop<T, K> r{};
     for (int i = 0; i < K / 2; ++i) {
-        r.lower[i] = detail::lesser(a.lower[i], b.lower[i]);
-        r.upper[i] = detail::greater(a.upper[i], b.upper[i]);
+        r.lower[i] = detail::least(a.lower[i], b.lower[i]);
+        r.upper[i] = detail::greatest(a.upper[i], b.upper[i]);
     }
     return r;
 }
@@ -203,7 +201,7 @@ ABUT_HD constexpr bool overlaps(const kdop<T, K>& a, const relative_pose<T>& pos
     const vec3<T> t = pose.translation;
     const auto farthest_coordinates = [](const kdop<T, K>& v) {
         const aabb<T> box = bounds(v);
-        return magnitudes(greater(absolute(box.lower), absolute(box.upper)));
+        return magnitudes(greatest(absolute(box.lower), absolute(box.upper)));
     };
     const T moved = magnitudes(t), of_a = farthest_coordinates(a) + moved, of_b = farthest_coordinates(b) + moved;
     const T slack = T(1.75) * pose.slack;

@@ -11,11 +11,13 @@
 // as rows:
 //     A R (B^-1 - B^T) y                    55 e |h_b|
 //     A R B^T as computed                   19 e |h_b|          two products of matrices, each rounded
-//     that it is not orthonormal            421 e |h_b|         275 e for three rotations; cofactors are 1.53 times that
+//     that it is not orthonormal            227 e |h_b|         148 e for two rotations; cofactors are 1.53 times that
+//                                           4.6 dev(R) |h_b|    R^T R - 1 stretches by 3 dev(R), and as above
 //     the way between the centres, turned   18 e (|c_a| + |t| + |c_b|)
 //     sums of half widths                   7 e (|h_a| + |h_b|)
-// together below e (20 (|c_a| + |t| + |c_b|) + 8 |h_a| + 520 |h_b|), and 128 m for what is flushed to zero. To this the
-// slack of the relative pose is added, which is larger than the error that it stands for.
+// together, along axes no longer than 1.003, below e (20 (|c_a| + |t| + |c_b|) + 8 |h_a| + 330 |h_b|) + 5 dev(R) |h_b|, and
+// 128 m for what is flushed to zero. To this the slack of the relative pose is added, which is larger than the error that it
+// stands for.
 
 #include <cstddef>
 #include <type_traits>
@@ -24,6 +26,7 @@
 #include <abut/arithmetic/magnitude.hpp>
 #include <abut/arithmetic/vec.hpp>
 #include <abut/shape/bounds.hpp>
+#include <abut/shape/box_measure.hpp>
 #include <abut/shape/outward.hpp>
 #include <abut/shape/primitive.hpp>
 #include <abut/shape/relative_pose.hpp>
@@ -62,7 +65,7 @@ struct obb_fit {
         constexpr double e = 2 * unit_roundoff<double>;
         const double far =
             absolute(dot(axis, p)) + (8 * e * dot(absolute(axis), absolute(p)) + off + 16 * smallest_normal<double>);
-        most = far <= largest_finite<double> ? greater(most, far) : infinity<double>;  // NaN as well
+        most = far <= largest_finite<double> ? greatest(most, far) : infinity<double>;  // NaN as well
     }
     ABUT_HD constexpr void see(const vec3<double>& p, const vec3<double>& off) {
         const vec3<double> way = p - center;
@@ -127,16 +130,6 @@ ABUT_HD constexpr void set_axes(vec3<T> (&axes)[3], const vec3<double> (&v)[3]) 
     axes[2] = to_scalar<T>(z);
 }
 
-template <scalar T>
-ABUT_HD constexpr double half_surface(const vec3<T>& half_widths) {
-    const vec3<double> h = widened(half_widths);
-    return h.x * h.y + h.y * h.z + h.z * h.x;
-}
-
-}  // namespace detail
-
-namespace detail {
-
 /// How corners spread, by their covariance in units of `scale` from `middle`: nothing overflows, and what underflows is
 /// nothing beside the rest.
 struct corner_spread {
@@ -148,7 +141,7 @@ struct corner_spread {
     ABUT_HD constexpr explicit corner_spread(const aabb<T>& box)
         : middle(0.5 * widened(box.lower) + 0.5 * widened(box.upper)), scale(1) {
         const vec3<double> size = widened(box.upper) - middle;
-        const double most = greater(size.x, greater(size.y, size.z));
+        const double most = longest(size);
         if (most > 0) scale = most;
     }
     template <scalar T>
@@ -188,7 +181,7 @@ ABUT_HD constexpr obb<T> merged_along(const obb<T>& a, const obb<T>& b) {
     for (int i = 0; i < 3; ++i) {
         const vec3<double> axis = widened(a.axes[i]);
         const double at = dot(axis, way), reach = reach_along(b, axis);
-        middle = middle + (0.5 * (lesser(-own[i], at - reach) + greater(own[i], at + reach))) * axis;
+        middle = middle + (0.5 * (least(at - reach, -own[i]) + greatest(at + reach, own[i]))) * axis;
     }
     obb<T> r{center_at<T>(middle, from), {a.axes[0], a.axes[1], a.axes[2]}, {}};
     obb_fit fit(r.center, r.axes);
@@ -212,8 +205,8 @@ ABUT_HD constexpr obb<T> around_all(std::type_identity<obb<T>>, const Triangles&
     vec3<double> lower{infinity<double>, infinity<double>, infinity<double>}, upper = -1.0 * lower;
     for_each_corner<T>(triangles, [&](const vec3<T>& p) {
         const vec3<double> q = spread.in_units(p), along{dot(found.v[0], q), dot(found.v[1], q), dot(found.v[2], q)};
-        lower = lesser(lower, along);
-        upper = greater(upper, along);
+        lower = least(along, lower);
+        upper = greatest(along, upper);
     });
     const vec3<double> way = (0.5 * spread.scale) * (lower + upper);
     obb<T> r{};
@@ -229,7 +222,8 @@ ABUT_HD constexpr obb<T> around_all(std::type_identity<obb<T>>, const Triangles&
 template <scalar T>
 ABUT_HD constexpr obb<T> merge(const obb<T>& a, const obb<T>& b) {
     const obb<T> along_a = detail::merged_along(a, b), along_b = detail::merged_along(b, a);
-    return detail::half_surface(along_b.half_widths) < detail::half_surface(along_a.half_widths) ? along_b : along_a;
+    const auto surface = [](const obb<T>& box) { return detail::half_surface(detail::widened(box.half_widths)); };
+    return surface(along_b) < surface(along_a) ? along_b : along_a;
 }
 
 /// A box along the coordinate axes around it.
@@ -238,17 +232,17 @@ ABUT_HD constexpr aabb<T> bounds(const obb<T>& b) {
     detail::obb_fit fit(b.center, {{T(1), T(0), T(0)}, {T(0), T(1), T(0)}, {T(0), T(0), T(1)}});
     fit.see(b);
     const vec3<T> h = fit.rounded_widths<T>();
-    return {{sub_down(b.center.x, h.x), sub_down(b.center.y, h.y), sub_down(b.center.z, h.z)},
+    return {{add_down(b.center.x, -h.x), add_down(b.center.y, -h.y), add_down(b.center.z, -h.z)},
             {add_up(b.center.x, h.x), add_up(b.center.y, h.y), add_up(b.center.z, h.z)}};
 }
 
 namespace detail {
 
 /// `b_axes` are b's axes in the frame in which a is; `way` leads from a's centre to b's there, and has been computed from
-/// numbers whose magnitudes add up to `size`.
+/// numbers whose magnitudes add up to `size`. `deviation` is of the rotation between the frames.
 template <box_axes Axes, scalar T>
 ABUT_HD constexpr bool obbs_overlap(const obb<T>& a, const vec3<T> (&b_axes)[3], const vec3<T>& b_half_widths,
-                                    const vec3<T>& way, T size, T slack) {
+                                    const vec3<T>& way, T size, T deviation, T slack) {
     constexpr T e = 2 * unit_roundoff<T>, flushed = 128 * smallest_normal<T>;
     const T of_a = magnitudes(a.half_widths), of_b = magnitudes(b_half_widths);
     vec3<T> r[3]{}, m[3]{};
@@ -257,7 +251,7 @@ ABUT_HD constexpr bool obbs_overlap(const obb<T>& a, const vec3<T> (&b_axes)[3],
         m[i] = absolute(r[i]);
     }
     const vec3<T> d{dot(a.axes[0], way), dot(a.axes[1], way), dot(a.axes[2], way)};
-    const T all = slack + (e * (20 * size + 8 * of_a + 520 * of_b) + flushed);
+    const T all = slack + (e * (20 * size + 8 * of_a + 330 * of_b) + 5 * deviation * of_b + flushed);
     return boxes_overlap<Axes>(a.half_widths, b_half_widths, d, r, m, all) ||
            !(size + of_a + of_b + slack < largest_finite<T> / 64);
 }
@@ -268,7 +262,7 @@ ABUT_HD constexpr bool obbs_overlap(const obb<T>& a, const vec3<T> (&b_axes)[3],
 template <box_axes Axes = box_axes::all, scalar T>
 ABUT_HD constexpr bool overlaps(const obb<T>& a, const obb<T>& b) {
     return detail::obbs_overlap<Axes>(a, b.axes, b.half_widths, b.center - a.center,
-                                      detail::magnitudes(a.center) + detail::magnitudes(b.center), T(0));
+                                      detail::magnitudes(a.center) + detail::magnitudes(b.center), T(0), T(0));
 }
 
 /// Whether boxes, each in the frame of its object, may hold shapes that meet in the world, as for aabb (relative_pose.hpp).
@@ -280,8 +274,9 @@ ABUT_HD constexpr bool overlaps(const obb<T>& a, const relative_pose<T>& pose, c
     };
     const vec3<T> axes[3] = {turned(b.axes[0]), turned(b.axes[1]), turned(b.axes[2])};
     const vec3<T> way = turned(b.center) + (pose.translation - a.center);
-    return detail::obbs_overlap<Axes>(
-        a, axes, b.half_widths, way, magnitudes(a.center) + magnitudes(pose.translation) + magnitudes(b.center), pose.slack);
+    return detail::obbs_overlap<Axes>(a, axes, b.half_widths, way,
+                                      magnitudes(a.center) + magnitudes(pose.translation) + magnitudes(b.center),
+                                      pose.deviation, pose.slack);
 }
 
 }  // namespace abut

@@ -34,11 +34,14 @@ ABUT_HD constexpr aabb<T> box_around(const Triangles& triangles) {
     return box;
 }
 
-/// A number of type T that is not less than x >= 0; infinite where there is none, and where x is NaN.
+/// A number of type T that is not less than x >= 0, nor than 4 m more, m being the smallest normal number of T: so much may
+/// x lack where it is a length or a product with a unit vector, each of three coordinates is a difference of two that are
+/// read as zero, and the difference is flushed to zero. Infinite where there is none, and where x is NaN.
 template <scalar T>
 ABUT_HD constexpr T rounded_up(double x) {
-    if (!(x < static_cast<double>(largest_finite<T>))) return infinity<T>;
-    return next_up(static_cast<T>(x));
+    const double most = x + 4 * static_cast<double>(smallest_normal<T>);
+    if (!(most < static_cast<double>(largest_finite<T>))) return infinity<T>;
+    return next_up(static_cast<T>(most));
 }
 
 /// sqrt(x) within a few roundings, for x >= 0. In constant expressions, where the library's may not be called, by Newton's

@@ -27,18 +27,47 @@ struct posed_object {
     [[nodiscard]] std::size_t size() const { return object.size(); }
 };
 
+/// One shape and its pose.
+template <shape Shape>
+struct posed_object<Shape> {
+    using scalar_type = scalar_type_of<Shape>;
+
+    Shape object;
+    rigid<scalar_type> pose;
+
+    [[nodiscard]] std::size_t size() const { return 1; }
+};
+
+namespace detail {
+
+template <class Object>
+struct shape_of_object {
+    using type = typename Object::shape_type;
+};
+template <shape Shape>
+struct shape_of_object<Shape> {
+    using type = Shape;
+};
+
+}  // namespace detail
+
 template <class X>
 inline constexpr bool is_posed = false;
 template <class Object>
 inline constexpr bool is_posed<posed_object<Object>> = true;
 
-/// `object` (mesh, triangle_soup, spheres, equal_spheres, a view of one, a bvh or a grid) moved by `pose`, as an argument of
-/// queries. What touches is decided exactly, about shapes whose points `place` has rounded to the world's coordinates.
-/// Queries throw invalid_geometry where the rotation is not one within 16 units in the last place, and where a placed
-/// coordinate overflows. Of a posed object make one with the composed pose: `compose`.
+/// `object` (a set, a view of one, a bvh, a grid, or one shape) moved by `pose`, as an argument of queries. What touches is
+/// decided exactly, about shapes whose points `place` has rounded to the world's coordinates: the pose's numbers as they are
+/// define where these lie, also of a rotation that is not quite orthonormal, which stretches or shears a mesh as much as it
+/// is off. Radii stay. Queries throw invalid_geometry where two rows' product is off from 0, or from 1 of a row with itself,
+/// by more than `rotation_tolerance` (2^-10), where the rotation reflects, and where a placed coordinate overflows;
+/// `orthonormalised` makes a rotation of a matrix that is refused, and queries cull best with one that is orthonormal to the
+/// last places. Of a posed object make one with the composed pose: `compose`.
 template <class Object>
     requires(!is_posed<Object>)
-[[nodiscard]] posed_object<Object> posed(Object object, const rigid<typename Object::scalar_type>& pose) {
+[[nodiscard]] posed_object<Object> posed(Object object, const rigid<scalar_type_of<Object>>& pose) {
+    static_assert(placeable<typename detail::shape_of_object<Object>::type>,
+                  "abut: such shapes cannot be posed, for want of place(pose, shape); boxes stay along the axes");
     return {std::move(object), pose};
 }
 
@@ -59,31 +88,10 @@ struct posed_view {
 
 namespace detail {
 
-template <shape_view V>
-struct bad_shape {
-    V shapes;
-    ABUT_HD std::size_t operator()(std::size_t i) const { return is_good(shapes[i]) ? static_cast<std::size_t>(-1) : i; }
-};
-
-template <shape_view V>
-struct fetch_shape {
-    V shapes;
-    std::size_t which;
-    typename V::shape_type* out;
-    ABUT_HD void operator()(std::size_t i) const { out[i] = shapes[which]; }
-};
-
 /// Whether placed coordinates overflow. Looks at every shape.
 template <class Policy, shape_view V>
 void check(const Policy& on, const posed_view<V>& placed, const char* function) {
-    const std::size_t none = static_cast<std::size_t>(-1);
-    const std::size_t bad = reduce(on, placed.size(), none, minimum{}, bad_shape<posed_view<V>>{placed});
-    if (bad == none) return;
-    execution::buffer_of<Policy, typename V::shape_type> copy(on, 1);
-    for_each_index(on, 1, fetch_shape<posed_view<V>>{placed, bad, copy.data()});
-    typename V::shape_type shape;
-    download(on, copy.data(), 1, &shape);
-    refuse(function, "posed shape", bad, shape);
+    check_shapes(on, placed, function, "posed shape");
 }
 
 }  // namespace detail

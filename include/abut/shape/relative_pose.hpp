@@ -10,22 +10,28 @@
 // With the poses (A, s) and (B, t) as they are stored, A p + s and B q + t differ by no more than the rounding of
 // `place`. Put into a's frame, with D = A^T A - 1 and the relative pose (R, d) as it is stored,
 //     p = R q + d + error,   error = (A^T B - R) q + (A^T (t - s) - d) + A^T (rounding) - D p.
-// Let e = 2u be the relative error of an operation in any rounding mode, m the smallest normal number, and P, Q, S, T,
-// |d| the sums of magnitudes of p and q at their farthest and of s, t and d. Rows and columns of rotations are shorter
-// than 1.001.
+// This is exact, however far A and B are from orthonormal; but A^T may stretch what it is applied to. The rows of A are
+// orthonormal within 2^-10 (rigid.hpp): A A^T - 1 has no entry larger than that and no eigenvalue larger than 3 2^-10. So
+// the squares of A's singular values are 1 within 3 2^-10, and none of them, and no column, is larger than 1.0015. The same
+// is true of B. No singular value and no column of R, which is A^T B but for rounding, is larger than 1.003. Entries of D
+// may be as large as 3 2^-10, but are far smaller for most poses, so they are measured. Let e = 2u be the relative error of
+// an operation in any rounding mode, m the smallest normal number, and P, Q, S, T, |d| the sums of magnitudes of p and q at
+// their farthest and of s, t and d. Along an axis no longer than 1.003 (below):
 //     rounding to the world     7 e (P + Q) + 1.1 e (S + T)     by the bound of `place`, three coordinates
 //     A^T B - R                 9.3 e Q                         nine entries of three products and two sums
 //     A^T (t - s) - d           6.5 e |d|
 //     D p                       1.75 dev(A) P                   dev: the largest entry of D, as it is measured
-// Balls and capsules are placed by their centres, and their radius is not stretched: 1.6 (dev(A) P + dev(B) Q) more.
+// Balls and capsules are placed by their centres, and their radius is not stretched. A is S U with a rotation U and S of
+// A's singular values: a point at v from the centre in the world is at U^T v in the frame, but for (S - 1) v. As the squares
+// of singular values are 1 within 3 dev(A), they are 1 within 1.51 dev(A): with b's part 1.6 (dev(A) P + dev(B) Q) more.
 //
 // The test. Let c and h be a box's centre and half widths: points of a's box are c_a + x with |x_i| <= h_ai, alike for b.
 // For any axis n then |n . (R c_b + d - c_a)| <= sum |n_i| h_ai + sum |n . r_j| h_bj + |n . error|, where r_j are R's
-// columns. The axes are n = e_i, n = r_j and n = e_i x r_j. For the latter two the code takes |r_j . r_k| for 0 or 1, and
-// |n . r_k| for the entry of R that it is if R is orthonormal (S. Gottschalk, M. Lin, D. Manocha, OBBTree, 1996). That is
-// wrong by at most dev(R) Q, where dev(R) is measured too, and also of the columns' cross products. Nothing divides by
-// |n|: axes of edges that are nearly parallel, which are nearly 0, compare rounding errors with the slack and separate
-// nothing.
+// columns. The axes are n = e_i, n = r_j and n = e_i x r_j, none longer than the longest r_j. For the latter two the code
+// takes |r_j . r_k| for 0 or 1, and |n . r_k| for the entry of R that it is if R is orthonormal (S. Gottschalk, M. Lin, D.
+// Manocha, OBBTree, 1996). That is wrong by at most dev(R) Q, where dev(R) is measured too, and also of the columns' cross
+// products. Nothing divides by |n|: axes of edges that are nearly parallel, which are nearly 0, compare rounding errors with
+// the slack and separate nothing.
 //     rounding of the test      e (14.1 Q + 8.1 P + 8.1 |d|)    at most eight roundings on the way of each number
 //
 // All together this is below e (16 P + 32 Q + 16 |d| + 2 (S + T)) + 4 (dev(A) P + dev(B) Q + dev(R) Q), the slack. What
@@ -52,7 +58,8 @@ struct relative_pose {
     vec3<T> rotation[3];   ///< its rows
     vec3<T> magnitude[3];  ///< their magnitudes
     vec3<T> translation;
-    T slack;  ///< in length; infinite where coordinates are too large to tell anything apart
+    T deviation;  ///< of the rotation's columns from orthonormal, measured; below 0.01
+    T slack;      ///< in length; infinite where coordinates are too large to tell anything apart
 };
 
 /// Which axes the test of two boxes tries. More of them keep fewer boxes in vain, and cost more: on the boxes that a walk
@@ -94,9 +101,10 @@ ABUT_HD constexpr vec3<T> to_scalar(const vec3<double>& v) {
 }  // namespace detail
 
 /// The pose of b's frame in a's. `around_a` and `around_b` hold, each in the frame of its object, all shapes that are to be
-/// compared, and all boxes: the bounds of the sets, or of their trees' roots. (Other volumes than boxes may stick out.) Both
-/// rotations have to be orthonormal within 16 units in the last place. The larger the boxes and the farther from their
-/// frames' origins, the larger the slack: some 1e-5 of that in float, 1e-14 in double.
+/// compared, and all boxes: the bounds of the sets, or of their trees' roots. (Other volumes than boxes may stick out.) The
+/// rows of both rotations have to be orthonormal within `rotation_tolerance`. The larger the boxes and the farther from
+/// their frames' origins, the larger the slack: some 1e-5 of that in float, 1e-14 in double, and some ten times what
+/// rotations are off from orthonormal.
 template <scalar T>
 ABUT_HD constexpr relative_pose<T> make_relative_pose(const rigid<T>& pose_a, const aabb<T>& around_a,
                                                       const rigid<T>& pose_b, const aabb<T>& around_b) {
@@ -121,6 +129,7 @@ ABUT_HD constexpr relative_pose<T> make_relative_pose(const rigid<T>& pose_a, co
     const double dev_a = deviation(a[0], a[1], a[2]), dev_b = deviation(b[0], b[1], b[2]);
     const double p = farthest(around_a), q = farthest(around_b), moved = magnitudes(s) + magnitudes(t);
     constexpr double e = 2 * static_cast<double>(unit_roundoff<T>), flushed = 128 * static_cast<double>(smallest_normal<T>);
+    r.deviation = static_cast<T>(dev_r);
     if (!(p + q + magnitudes(d) + moved < static_cast<double>(largest_finite<T>) / 64)) {
         r.slack = infinity<T>;
         return r;

@@ -7,6 +7,7 @@
 // How two posed sets lie to each other, for culling, is in relative_pose.hpp.
 
 #include <cstddef>
+#include <span>
 #include <string>
 
 #include <abut/arithmetic/error_free.hpp>
@@ -21,6 +22,9 @@
 namespace abut {
 
 /// x -> rotation x + translation, with the rotation's nine numbers row by row. `rigid<T>{}` moves nothing.
+///
+/// Queries take rotations whose rows are orthonormal within `rotation_tolerance`, and no reflections: products of many
+/// rotations, and ones printed with three digits or more. They are not mended: points go where these nine numbers put them.
 template <scalar T>
 struct rigid {
     T rotation[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -28,6 +32,9 @@ struct rigid {
 
     friend constexpr bool operator==(const rigid&, const rigid&) = default;
 };
+
+/// By how much the dot product of two rows of a rotation may differ from 0, and that of a row with itself from 1.
+inline constexpr double rotation_tolerance = 0x1p-10;
 
 namespace detail {
 
@@ -61,7 +68,7 @@ ABUT_HD constexpr vec3<T> column(const T (&m)[9], int j) {
 template <scalar T>
 ABUT_HD constexpr double farthest(const aabb<T>& box) {
     const vec3<double> lower = absolute(widened(box.lower)), upper = absolute(widened(box.upper));
-    return magnitudes(greater(lower, upper));
+    return magnitudes(greatest(lower, upper));
 }
 
 }  // namespace detail
@@ -104,7 +111,7 @@ ABUT_HD constexpr bool stays_finite(const rigid<T>& pose, const aabb<T>& box) {
 
 /// The pose that places as `inner` does first and `outer` after, but for rounding: place(compose(a, b), p) and
 /// place(a, place(b, p)) differ in the last places. Rotations drift from orthonormal by some units of roundoff with each
-/// product, and are refused in the end: a program that composes without end has to make them orthonormal itself.
+/// product, so that a product of thousands in float may be refused: `orthonormalised` takes the drift out.
 template <scalar T>
 ABUT_HD constexpr rigid<T> compose(const rigid<T>& outer, const rigid<T>& inner) {
     rigid<T> r;
@@ -118,7 +125,8 @@ ABUT_HD constexpr rigid<T> compose(const rigid<T>& outer, const rigid<T>& inner)
     return r;
 }
 
-/// The pose back, by the transposed rotation; but for rounding, as above.
+/// The pose back, by the transposed rotation: place(inverse(pose), place(pose, p)) is p but for rounding, as above, and for
+/// what the rotation is off from orthonormal, times |p|.
 template <scalar T>
 ABUT_HD constexpr rigid<T> inverse(const rigid<T>& pose) {
     rigid<T> r;
@@ -132,11 +140,10 @@ ABUT_HD constexpr rigid<T> inverse(const rigid<T>& pose) {
 
 namespace detail {
 
-/// Throws invalid_geometry in the name of `function` where a pose is none: where a number is not finite (index: which entry
-/// of the rotation, or which coordinate), where two rows' product is off by more than 16 units in the last place of 1
-/// (index: the row), or where the rotation reflects (its determinant is -1; index 0).
+/// Throws invalid_geometry in the name of `function` where a number is not finite (index: which entry of the rotation, or
+/// which coordinate).
 template <scalar T>
-void check(const rigid<T>& pose, const std::string& function) {
+void check_finite(const rigid<T>& pose, const std::string& function) {
     for (std::size_t i = 0; i < 9; ++i) {
         const T x = pose.rotation[i];
         if (!is_finite(x)) throw invalid_geometry(function, "rotation entry", i, "is not finite", static_cast<double>(x));
@@ -146,24 +153,129 @@ void check(const rigid<T>& pose, const std::string& function) {
         const auto value = static_cast<double>(shift[i]);
         if (!is_finite(value)) throw invalid_geometry(function, "translation coordinate", i, "is not finite", value);
     }
-    constexpr double tolerance = 32 * static_cast<double>(unit_roundoff<T>);  // 16 units in the last place
+}
+
+/// Throws invalid_geometry in the name of `function` where a pose is none: where a number is not finite, where two rows'
+/// product is off by more than `rotation_tolerance` (index: the row; value: by how much), or where the rotation reflects
+/// (index 0; value: its determinant).
+template <scalar T>
+void check(const rigid<T>& pose, const std::string& function) {
+    check_finite(pose, function);
     const vec3<double> rows[3] = {widened(row(pose.rotation, 0)), widened(row(pose.rotation, 1)),
                                   widened(row(pose.rotation, 2))};
     for (std::size_t i = 0; i < 3; ++i) {
-        const double square = dot(rows[i], rows[i]);
-        if (!(absolute(square - 1) <= tolerance)) {
-            throw invalid_geometry(function, "rotation row", i, "its squared length is not 1", square);
+        const double off = dot(rows[i], rows[i]) - 1;
+        if (!(absolute(off) <= rotation_tolerance)) {
+            throw invalid_geometry(function, "rotation row", i, "its squared length differs from 1 by more than 2^-10", off);
         }
         for (std::size_t j = 0; j < i; ++j) {
             const double product = dot(rows[i], rows[j]);
-            if (absolute(product) <= tolerance) continue;
-            throw invalid_geometry(function, "rotation row", i, "is not orthogonal to row " + std::to_string(j), product);
+            if (absolute(product) <= rotation_tolerance) continue;
+            throw invalid_geometry(function, "rotation row", i,
+                                   "its product with row " + std::to_string(j) + " differs from 0 by more than 2^-10",
+                                   product);
         }
     }
     const double determinant = dot(cross(rows[0], rows[1]), rows[2]);
-    if (determinant < 0) throw invalid_geometry(function, "rotation", 0, "it reflects: the determinant is -1", determinant);
+    if (determinant < 0) {
+        throw invalid_geometry(function, "rotation", 0, "it reflects: its determinant is negative", determinant);
+    }
 }
 
 }  // namespace detail
+
+/// The pose with the rotation that is nearest to the given one, by the sum of the entries' squared differences: the
+/// orthogonal factor of the polar decomposition, by Newton's iteration (N. Higham, Computing the polar decomposition, with
+/// applications, 1986) in double, rounded to T. The translation stays. Rows are then orthonormal within some units of
+/// roundoff; of a rotation that was so before, entries change by as much. What scales or shears is dropped without a word.
+/// Last digits may depend on the compiler and its flags.
+///
+/// Throws invalid_geometry where a number is not finite, and where the determinant, in units of the largest entry, is not
+/// above 2^-20: such a matrix reflects or is singular, or so nearly that it says little about a rotation.
+///
+///     pose = abut::compose(step, pose);
+///     if (++steps % 1000 == 0) pose = abut::orthonormalised(pose);
+template <scalar T>
+[[nodiscard]] rigid<T> orthonormalised(const rigid<T>& pose) {
+    const std::string function = "abut::orthonormalised";
+    detail::check_finite(pose, function);
+    double largest = 0;
+    for (const T x : pose.rotation) largest = detail::greatest(largest, detail::absolute(static_cast<double>(x)));
+    vec3<double> rows[3];
+    for (int i = 0; i < 3; ++i) {
+        const vec3<double> r = detail::widened(detail::row(pose.rotation, i));
+        rows[i] = {r.x / largest, r.y / largest, r.z / largest};
+    }
+    const double determinant = dot(cross(rows[0], rows[1]), rows[2]);
+    if (!(determinant > 0x1p-20)) {  // NaN where all is 0
+        throw invalid_geometry(function, "rotation", 0,
+                               "it reflects or is singular: its determinant, in units of its largest entry, is below 2^-20",
+                               largest == 0 ? 0 : determinant);
+    }
+    // The error of a step is about half the square of the step before: after one of 2^-27 there is nothing left to gain.
+    double step = 1;
+    while (step > 0x1p-27) {
+        const vec3<double> cofactors[3] = {cross(rows[1], rows[2]), cross(rows[2], rows[0]), cross(rows[0], rows[1])};
+        const double inverse_determinant = 1 / dot(rows[0], cofactors[0]);
+        step = 0;
+        for (int i = 0; i < 3; ++i) {
+            const vec3<double> next = 0.5 * (rows[i] + inverse_determinant * cofactors[i]);
+            step = detail::greatest(step, detail::magnitudes(next - rows[i]));
+            rows[i] = next;
+        }
+    }
+    rigid<T> r = pose;
+    for (int i = 0; i < 3; ++i) {
+        r.rotation[3 * i] = static_cast<T>(rows[i].x);
+        r.rotation[3 * i + 1] = static_cast<T>(rows[i].y);
+        r.rotation[3 * i + 2] = static_cast<T>(rows[i].z);
+    }
+    return r;
+}
+
+/// Which numbers of a matrix lie side by side: those of a row, or those of a column (OpenGL, Eigen and GLM by default).
+enum class matrix_order { row_major, column_major };
+
+namespace detail {
+
+template <scalar T, std::size_t N>
+constexpr rigid<T> rigid_from_entries(std::span<const T, N> m, matrix_order order) {
+    const auto entry = [&](std::size_t i, std::size_t j) {
+        return order == matrix_order::row_major ? m[4 * i + j] : m[N / 4 * j + i];
+    };
+    rigid<T> r;
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) r.rotation[3 * i + j] = entry(i, j);
+    }
+    r.translation = {entry(0, 3), entry(1, 3), entry(2, 3)};
+    return r;
+}
+
+}  // namespace detail
+
+/// The pose of a 3 x 4 matrix that multiplies columns from the left: three columns of rotation, and one of translation.
+/// Numbers are taken as they are; queries check them, and `orthonormalised` makes them a rotation.
+///
+///     const float m[12] = {1, 0, 0, 5, 0, 1, 0, 6, 0, 0, 1, 7};
+///     const auto pose = abut::rigid_from_matrix<float>(m, abut::matrix_order::row_major);  // moves by (5, 6, 7)
+template <scalar T>
+[[nodiscard]] constexpr rigid<T> rigid_from_matrix(std::span<const T, 12> m, matrix_order order) {
+    return detail::rigid_from_entries(m, order);
+}
+
+/// The same of a 4 x 4 matrix. Throws invalid_geometry, with the number's place in `m`, where the last row is not 0 0 0 1.
+/// Matrices that multiply rows from the right have the translation in their last row: stored by rows, they are the same
+/// sixteen numbers as column_major.
+template <scalar T>
+[[nodiscard]] constexpr rigid<T> rigid_from_matrix(std::span<const T, 16> m, matrix_order order) {
+    for (std::size_t j = 0; j < 4; ++j) {
+        const std::size_t at = order == matrix_order::row_major ? 12 + j : 4 * j + 3;
+        if (m[at] != T(j == 3 ? 1 : 0)) {
+            throw invalid_geometry("abut::rigid_from_matrix", "matrix entry", at, "the last row has to be 0 0 0 1",
+                                   static_cast<double>(m[at]));
+        }
+    }
+    return detail::rigid_from_entries(m, order);
+}
 
 }  // namespace abut

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Sets of shapes that own their memory: mesh, triangle_soup, spheres, equal_spheres. A set is checked when it is made and
-// never changes after that; copies share the storage, which lives as long as a set or an index uses it.
+// Sets of shapes that own their memory. `shapes<Shape>` holds shapes as they are: triangle_soup, spheres, points, segments,
+// capsules and boxes are its names for the library's own. `equal_spheres` shares a radius, `mesh` and `edge_mesh` share
+// vertices. A set is checked when it is made and never changes after that; copies share the storage, which lives as long as
+// a set or an index uses it.
 //
 // Every constructor copies its input into the memory of a policy (the host's, where none is given), checks it there and
 // returns when that is done. It throws invalid_geometry with the first bad element's index and value, capacity_error for
@@ -12,6 +14,7 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <abut/execution/buffer.hpp>
@@ -34,6 +37,8 @@ public:
         upload(on, values.data(), values.size(), fresh->data());
         values_ = std::move(fresh);
     }
+    explicit shared_array(execution::buffer<T, Space> values)
+        : values_(std::make_shared<const execution::buffer<T, Space>>(std::move(values))) {}
 
     [[nodiscard]] const T* data() const { return values_ ? values_->data() : nullptr; }
     [[nodiscard]] std::size_t size() const { return values_ ? values_->size() : 0; }
@@ -56,121 +61,65 @@ private:
     std::shared_ptr<const execution::buffer<T, Space>> values_;
 };
 
-struct no_check {};
+/// Makes sets of arrays that have been checked, and takes such arrays out (shape/features.hpp).
+struct set_parts;
 
 }  // namespace detail
 
-/// Triangles as faces over shared vertices: a surface, not a solid.
-template <scalar T, memory_space Space = host_space>
-class mesh {
+/// Shapes as they are, each with all its numbers: the library's own, or the caller's (docs/extending.md).
+template <shape Shape, memory_space Space = host_space>
+class shapes {
 public:
-    using scalar_type = T;
-    using shape_type = triangle<T>;
+    using scalar_type = scalar_type_of<Shape>;
+    using shape_type = Shape;
     using memory_space = Space;
-    using view_type = mesh_view<T, Space>;
+    using view_type = shapes_view<Shape, Space>;
 
-    mesh() = default;
-    mesh(const std::vector<vec3<T>>& vertices, const std::vector<face>& faces)
+    shapes() = default;
+    shapes(const std::vector<Shape>& values)
         requires std::same_as<Space, host_space>
-        : mesh(serial{}, vertices, faces) {}
+        : shapes(serial{}, values) {}
     template <execution_policy Policy>
         requires std::same_as<space_of<Policy>, Space>
-    mesh(const Policy& on, std::span<const vec3<T>> vertices, std::span<const face> faces)
-        : vertices_(on, vertices), faces_(on, faces) {
-        detail::check(on, view(), "abut::mesh");
+    shapes(const Policy& on, std::span<const Shape> values) : values_(on, values) {
+        detail::check(on, view(), detail::name_of<Shape>.set);
     }
 
-    /// Number of triangles.
-    [[nodiscard]] std::size_t size() const { return faces_.size(); }
-    [[nodiscard]] view_type view() const { return {vertices_.data(), vertices_.size(), faces_.data(), faces_.size()}; }
-    [[nodiscard]] int device() const { return faces_.device(); }
+    [[nodiscard]] std::size_t size() const { return values_.size(); }
+    [[nodiscard]] view_type view() const { return {values_.data(), values_.size()}; }
+    [[nodiscard]] int device() const { return values_.device(); }
 
     template <execution_policy Policy>
     [[nodiscard]] auto copied_to(const Policy& to) const {
-        return mesh<T, space_of<Policy>>(detail::no_check{}, vertices_.copied_to(to), faces_.copied_to(to));
+        shapes<Shape, space_of<Policy>> copy;
+        copy.values_ = values_.copied_to(to);
+        return copy;
     }
 
 private:
-    template <scalar, abut::memory_space>
-    friend class mesh;
-    mesh(detail::no_check, detail::shared_array<vec3<T>, Space> vertices, detail::shared_array<face, Space> faces)
-        : vertices_(std::move(vertices)), faces_(std::move(faces)) {}
+    template <shape, abut::memory_space>
+    friend class shapes;
+    friend detail::set_parts;
 
-    detail::shared_array<vec3<T>, Space> vertices_;
-    detail::shared_array<face, Space> faces_;
+    detail::shared_array<Shape, Space> values_;
 };
 
 /// Triangles that share nothing, three vertices each.
 template <scalar T, memory_space Space = host_space>
-class triangle_soup {
-public:
-    using scalar_type = T;
-    using shape_type = triangle<T>;
-    using memory_space = Space;
-    using view_type = triangle_soup_view<T, Space>;
-
-    triangle_soup() = default;
-    triangle_soup(const std::vector<triangle<T>>& triangles)
-        requires std::same_as<Space, host_space>
-        : triangle_soup(serial{}, triangles) {}
-    template <execution_policy Policy>
-        requires std::same_as<space_of<Policy>, Space>
-    triangle_soup(const Policy& on, std::span<const triangle<T>> triangles) : triangles_(on, triangles) {
-        detail::check(on, view(), "abut::triangle_soup");
-    }
-
-    [[nodiscard]] std::size_t size() const { return triangles_.size(); }
-    [[nodiscard]] view_type view() const { return {triangles_.data(), triangles_.size()}; }
-    [[nodiscard]] int device() const { return triangles_.device(); }
-
-    template <execution_policy Policy>
-    [[nodiscard]] auto copied_to(const Policy& to) const {
-        return triangle_soup<T, space_of<Policy>>(detail::no_check{}, triangles_.copied_to(to));
-    }
-
-private:
-    template <scalar, abut::memory_space>
-    friend class triangle_soup;
-    triangle_soup(detail::no_check, detail::shared_array<triangle<T>, Space> triangles) : triangles_(std::move(triangles)) {}
-
-    detail::shared_array<triangle<T>, Space> triangles_;
-};
-
+using triangle_soup = shapes<triangle<T>, Space>;
 /// Solid spheres, each with its own radius.
 template <scalar T, memory_space Space = host_space>
-class spheres {
-public:
-    using scalar_type = T;
-    using shape_type = sphere<T>;
-    using memory_space = Space;
-    using view_type = spheres_view<T, Space>;
-
-    spheres() = default;
-    spheres(const std::vector<sphere<T>>& values)
-        requires std::same_as<Space, host_space>
-        : spheres(serial{}, values) {}
-    template <execution_policy Policy>
-        requires std::same_as<space_of<Policy>, Space>
-    spheres(const Policy& on, std::span<const sphere<T>> values) : spheres_(on, values) {
-        detail::check(on, view(), "abut::spheres");
-    }
-
-    [[nodiscard]] std::size_t size() const { return spheres_.size(); }
-    [[nodiscard]] view_type view() const { return {spheres_.data(), spheres_.size()}; }
-    [[nodiscard]] int device() const { return spheres_.device(); }
-
-    template <execution_policy Policy>
-    [[nodiscard]] auto copied_to(const Policy& to) const {
-        return spheres<T, space_of<Policy>>(detail::no_check{}, spheres_.copied_to(to));
-    }
-
-private:
-    template <scalar, abut::memory_space>
-    friend class spheres;
-    spheres(detail::no_check, detail::shared_array<sphere<T>, Space> values) : spheres_(std::move(values)) {}
-
-    detail::shared_array<sphere<T>, Space> spheres_;
-};
+using spheres = shapes<sphere<T>, Space>;
+template <scalar T, memory_space Space = host_space>
+using points = shapes<vec3<T>, Space>;
+template <scalar T, memory_space Space = host_space>
+using segments = shapes<segment<T>, Space>;
+/// Solid capsules, each with its own radius.
+template <scalar T, memory_space Space = host_space>
+using capsules = shapes<capsule<T>, Space>;
+/// Solid boxes along the axes.
+template <scalar T, memory_space Space = host_space>
+using boxes = shapes<aabb<T>, Space>;
 
 /// Solid spheres of one radius, which is stored once.
 template <scalar T, memory_space Space = host_space>
@@ -197,18 +146,97 @@ public:
 
     template <execution_policy Policy>
     [[nodiscard]] auto copied_to(const Policy& to) const {
-        return equal_spheres<T, space_of<Policy>>(detail::no_check{}, centers_.copied_to(to), radius_);
+        equal_spheres<T, space_of<Policy>> copy;
+        copy.centers_ = centers_.copied_to(to);
+        copy.radius_ = radius_;
+        return copy;
     }
 
 private:
     template <scalar, abut::memory_space>
     friend class equal_spheres;
-    equal_spheres(detail::no_check, detail::shared_array<vec3<T>, Space> centers, T radius)
-        : centers_(std::move(centers)), radius_(radius) {}
 
     detail::shared_array<vec3<T>, Space> centers_;
     T radius_ = 0;
 };
+
+namespace detail {
+
+/// What `indexed_set` has to know of a view: its elements, itself in other memory, and the set's name.
+template <class View>
+struct indexed_kind;
+template <scalar T, memory_space Space>
+struct indexed_kind<mesh_view<T, Space>> {
+    using element = face;
+    template <memory_space Other>
+    using in = mesh_view<T, Other>;
+    static constexpr const char* name = "abut::mesh";
+};
+template <scalar T, memory_space Space>
+struct indexed_kind<edge_mesh_view<T, Space>> {
+    using element = edge;
+    template <memory_space Other>
+    using in = edge_mesh_view<T, Other>;
+    static constexpr const char* name = "abut::edge_mesh";
+};
+
+}  // namespace detail
+
+/// Shapes over shared vertices: a mesh or an edge_mesh, by its view.
+template <shape_view View>
+class indexed_set {
+    using kind = detail::indexed_kind<View>;
+    using element = typename kind::element;
+    using vertex = vec3<typename View::scalar_type>;
+
+public:
+    using scalar_type = typename View::scalar_type;
+    using shape_type = typename View::shape_type;
+    using memory_space = typename View::memory_space;
+    using view_type = View;
+
+    indexed_set() = default;
+    indexed_set(const std::vector<vertex>& vertices, const std::vector<element>& elements)
+        requires std::same_as<memory_space, host_space>
+        : indexed_set(serial{}, vertices, elements) {}
+    template <execution_policy Policy>
+        requires std::same_as<space_of<Policy>, memory_space>
+    indexed_set(const Policy& on, std::span<const vertex> vertices, std::span<const element> elements)
+        : vertices_(on, vertices), elements_(on, elements) {
+        detail::check(on, view(), kind::name);
+    }
+
+    /// Number of faces or edges.
+    [[nodiscard]] std::size_t size() const { return elements_.size(); }
+    [[nodiscard]] view_type view() const {
+        return {vertices_.data(), vertices_.size(), elements_.data(), elements_.size()};
+    }
+    [[nodiscard]] int device() const { return elements_.device(); }
+
+    template <execution_policy Policy>
+    [[nodiscard]] auto copied_to(const Policy& to) const {
+        indexed_set<typename kind::template in<space_of<Policy>>> copy;
+        copy.vertices_ = vertices_.copied_to(to);
+        copy.elements_ = elements_.copied_to(to);
+        return copy;
+    }
+
+private:
+    template <shape_view>
+    friend class indexed_set;
+    friend detail::set_parts;
+
+    detail::shared_array<vertex, memory_space> vertices_;
+    detail::shared_array<element, memory_space> elements_;
+};
+
+/// Triangles as faces over shared vertices: a surface, not a solid. mesh<float>(vertices, faces).
+template <scalar T, memory_space Space = host_space>
+using mesh = indexed_set<mesh_view<T, Space>>;
+/// Segments as edges over shared vertices. edge_mesh<float>(vertices, edges); `edges` makes one of a mesh
+/// (shape/features.hpp).
+template <scalar T, memory_space Space = host_space>
+using edge_mesh = indexed_set<edge_mesh_view<T, Space>>;
 
 /// A set that owns its memory: it gives a view, and copies of itself in other memory.
 template <class S>

@@ -13,22 +13,26 @@
 
 #include <abut/execution/policy.hpp>
 #include <abut/shape/primitive.hpp>
+#include <abut/shape/shape.hpp>
 
 namespace abut {
 
 /// Three vertex indices.
 using face = std::array<std::uint32_t, 3>;
 
+/// Two vertex indices.
+using edge = std::array<std::uint32_t, 2>;
+
 /// A view: `size()` shapes, `view[i]` returns shape i by value; both may run wherever its memory can be read. It may have
 /// `prefetch(i, step)`, a hint on the host that shape i will be read soon: step 0 first, and some time later step 1, which
 /// may read what step 0 asks for.
 template <class V>
-concept shape_view = std::is_trivially_copyable_v<V> && memory_space<typename V::memory_space> && requires(const V& v) {
-    typename V::scalar_type;
-    typename V::shape_type;
-    { v.size() } -> std::convertible_to<std::size_t>;
-    { v[std::size_t{}] } -> std::same_as<typename V::shape_type>;
-};
+concept shape_view = std::is_trivially_copyable_v<V> && memory_space<typename V::memory_space> &&
+                     shape<typename V::shape_type> &&
+                     std::same_as<typename V::scalar_type, scalar_type_of<typename V::shape_type>> && requires(const V& v) {
+                         { v.size() } -> std::convertible_to<std::size_t>;
+                         { v[std::size_t{}] } -> std::same_as<typename V::shape_type>;
+                     };
 
 namespace detail {
 
@@ -42,6 +46,7 @@ struct strided {
     strided() = default;
     ABUT_HD strided(const T* first, std::size_t n, std::size_t step = sizeof(T))
         : data(reinterpret_cast<const std::byte*>(first)), count(n), stride(step) {}
+    [[nodiscard]] ABUT_HD const T* first() const { return reinterpret_cast<const T*>(data); }
     ABUT_HD const T& operator[](std::size_t i) const { return *reinterpret_cast<const T*>(data + i * stride); }
     /// From the first to the last byte, which may lie on two cache lines.
     ABUT_INLINE void prefetch(std::size_t i) const {
@@ -50,7 +55,48 @@ struct strided {
     }
 };
 
+/// The vertices of face or edge i. Not by std::array's operator[]: that is a host function, and this also runs on devices.
+template <std::size_t N>
+ABUT_HD const std::uint32_t* corners_at(const strided<std::array<std::uint32_t, N>>& elements, std::size_t i) {
+    return reinterpret_cast<const std::uint32_t*>(elements.data + i * elements.stride);
+}
+
 }  // namespace detail
+
+/// Shapes as they are, each with all its numbers: triangles that share nothing, spheres each with its own radius, any shape.
+template <shape Shape, memory_space Space = host_space>
+struct shapes_view {
+    using scalar_type = scalar_type_of<Shape>;
+    using shape_type = Shape;
+    using memory_space = Space;
+
+    detail::strided<Shape> shapes;
+
+    shapes_view() = default;
+    /// Over the caller's array, which has to outlive every use of the view; the stride is in bytes and keeps the shapes
+    /// aligned.
+    ABUT_HD shapes_view(const Shape* first, std::size_t count, std::size_t stride = sizeof(Shape))
+        : shapes(first, count, stride) {}
+
+    [[nodiscard]] ABUT_HD std::size_t size() const { return shapes.count; }
+    [[nodiscard]] ABUT_HD Shape operator[](std::size_t i) const { return shapes[i]; }
+    ABUT_INLINE void prefetch(std::size_t i, int step) const {
+        if (step == 0) shapes.prefetch(i);
+    }
+};
+
+template <scalar T, memory_space Space = host_space>
+using triangle_soup_view = shapes_view<triangle<T>, Space>;
+template <scalar T, memory_space Space = host_space>
+using spheres_view = shapes_view<sphere<T>, Space>;
+template <scalar T, memory_space Space = host_space>
+using points_view = shapes_view<vec3<T>, Space>;
+template <scalar T, memory_space Space = host_space>
+using segments_view = shapes_view<segment<T>, Space>;
+template <scalar T, memory_space Space = host_space>
+using capsules_view = shapes_view<capsule<T>, Space>;
+template <scalar T, memory_space Space = host_space>
+using boxes_view = shapes_view<aabb<T>, Space>;
 
 /// Triangles as faces over shared vertices.
 template <scalar T, memory_space Space = host_space>
@@ -63,16 +109,14 @@ struct mesh_view {
     detail::strided<face> faces;
 
     mesh_view() = default;
-    /// Over the caller's arrays, which have to outlive every use of the view; strides are in bytes and keep the elements
-    /// aligned.
+    /// Over the caller's arrays, as above.
     ABUT_HD mesh_view(const vec3<T>* first_vertex, std::size_t vertex_count, const face* first_face, std::size_t face_count,
                       std::size_t vertex_stride = sizeof(vec3<T>), std::size_t face_stride = sizeof(face))
         : vertices(first_vertex, vertex_count, vertex_stride), faces(first_face, face_count, face_stride) {}
 
     [[nodiscard]] ABUT_HD std::size_t size() const { return faces.count; }
     [[nodiscard]] ABUT_HD triangle<T> operator[](std::size_t i) const {
-        // Not face::operator[]: that is a host function, and this also runs on devices.
-        const auto* const corner = reinterpret_cast<const std::uint32_t*>(faces.data + i * faces.stride);
+        const std::uint32_t* const corner = detail::corners_at(faces, i);
         return {vertices[corner[0]], vertices[corner[1]], vertices[corner[2]]};
     }
     ABUT_INLINE void prefetch(std::size_t i, int step) const {
@@ -81,43 +125,31 @@ struct mesh_view {
     }
 };
 
-/// Triangles that share nothing, three vertices each.
+/// Segments as edges over shared vertices.
 template <scalar T, memory_space Space = host_space>
-struct triangle_soup_view {
+struct edge_mesh_view {
     using scalar_type = T;
-    using shape_type = triangle<T>;
+    using shape_type = segment<T>;
     using memory_space = Space;
 
-    detail::strided<triangle<T>> triangles;
+    detail::strided<vec3<T>> vertices;
+    detail::strided<edge> edges;
 
-    triangle_soup_view() = default;
-    ABUT_HD triangle_soup_view(const triangle<T>* first, std::size_t count, std::size_t stride = sizeof(triangle<T>))
-        : triangles(first, count, stride) {}
+    edge_mesh_view() = default;
+    /// Over the caller's arrays, as above.
+    ABUT_HD edge_mesh_view(const vec3<T>* first_vertex, std::size_t vertex_count, const edge* first_edge,
+                           std::size_t edge_count, std::size_t vertex_stride = sizeof(vec3<T>),
+                           std::size_t edge_stride = sizeof(edge))
+        : vertices(first_vertex, vertex_count, vertex_stride), edges(first_edge, edge_count, edge_stride) {}
 
-    [[nodiscard]] ABUT_HD std::size_t size() const { return triangles.count; }
-    [[nodiscard]] ABUT_HD triangle<T> operator[](std::size_t i) const { return triangles[i]; }
-    ABUT_INLINE void prefetch(std::size_t i, int step) const {
-        if (step == 0) triangles.prefetch(i);
+    [[nodiscard]] ABUT_HD std::size_t size() const { return edges.count; }
+    [[nodiscard]] ABUT_HD segment<T> operator[](std::size_t i) const {
+        const std::uint32_t* const end = detail::corners_at(edges, i);
+        return {vertices[end[0]], vertices[end[1]]};
     }
-};
-
-/// Spheres, each with its own radius.
-template <scalar T, memory_space Space = host_space>
-struct spheres_view {
-    using scalar_type = T;
-    using shape_type = sphere<T>;
-    using memory_space = Space;
-
-    detail::strided<sphere<T>> spheres;
-
-    spheres_view() = default;
-    ABUT_HD spheres_view(const sphere<T>* first, std::size_t count, std::size_t stride = sizeof(sphere<T>))
-        : spheres(first, count, stride) {}
-
-    [[nodiscard]] ABUT_HD std::size_t size() const { return spheres.count; }
-    [[nodiscard]] ABUT_HD sphere<T> operator[](std::size_t i) const { return spheres[i]; }
     ABUT_INLINE void prefetch(std::size_t i, int step) const {
-        if (step == 0) spheres.prefetch(i);
+        if (step == 0) return edges.prefetch(i);
+        for (const std::uint32_t k : edges[i]) vertices.prefetch(k);
     }
 };
 
@@ -144,19 +176,16 @@ struct equal_spheres_view {
 };
 
 /// One shape, which the view carries: a set of one in any memory.
-template <class Shape, memory_space Space = host_space>
-struct single_view;
-
-template <template <class> class Shape, scalar T, memory_space Space>
-struct single_view<Shape<T>, Space> {
-    using scalar_type = T;
-    using shape_type = Shape<T>;
+template <shape Shape, memory_space Space = host_space>
+struct single_view {
+    using scalar_type = scalar_type_of<Shape>;
+    using shape_type = Shape;
     using memory_space = Space;
 
-    Shape<T> shape;
+    Shape shape;
 
     [[nodiscard]] ABUT_HD std::size_t size() const { return 1; }
-    [[nodiscard]] ABUT_HD Shape<T> operator[](std::size_t) const { return shape; }
+    [[nodiscard]] ABUT_HD Shape operator[](std::size_t) const { return shape; }
 };
 
 namespace detail {
@@ -173,17 +202,9 @@ template <shape_view V>
 const typename V::shape_type* shapes_in_memory(const V&) {
     return nullptr;
 }
-template <class T>
-const T* shapes_in_memory(const strided<T>& s) {
-    return s.stride == sizeof(T) ? reinterpret_cast<const T*>(s.data) : nullptr;
-}
-template <scalar T, memory_space Space>
-const triangle<T>* shapes_in_memory(const triangle_soup_view<T, Space>& v) {
-    return shapes_in_memory(v.triangles);
-}
-template <scalar T, memory_space Space>
-const sphere<T>* shapes_in_memory(const spheres_view<T, Space>& v) {
-    return shapes_in_memory(v.spheres);
+template <shape Shape, memory_space Space>
+const Shape* shapes_in_memory(const shapes_view<Shape, Space>& v) {
+    return v.shapes.stride == sizeof(Shape) ? v.shapes.first() : nullptr;
 }
 
 }  // namespace detail

@@ -69,18 +69,19 @@ ABUT_HD constexpr aabb<T> around_all(std::type_identity<aabb<T>>, const Triangle
 
 /// Plain data that encloses points. All of these run on hosts and devices, take constant time (`around_all`: linear), and
 /// may say that volumes overlap that do not, never the reverse. A volume encloses what it was made around, and a merged one
-/// what either did, exactly: by its stored numbers, in real arithmetic.
+/// what either did, exactly: by its stored numbers, in real arithmetic. (A thread that reads denormals as zero makes volumes
+/// that enclose by the numbers as it reads them; bounds.hpp says why that is enough.)
 template <class V>
-concept bounding_volume =
-    std::is_trivially_copyable_v<V> && requires { typename detail::volume_scalar<V>::type; } &&
-    requires(const V& a, const V& b, const relative_pose<typename detail::volume_scalar<V>::type>& pose,
-             const detail::one_triangle<typename detail::volume_scalar<V>::type>& triangles) {
-        { around_all(std::type_identity<V>{}, triangles) } -> std::same_as<V>;
-        { merge(a, b) } -> std::same_as<V>;
-        { overlaps(a, b) } -> std::same_as<bool>;        // both in one frame
-        { overlaps(a, pose, b) } -> std::same_as<bool>;  // each in the frame of its object
-        { bounds(a) } -> std::same_as<aabb<typename detail::volume_scalar<V>::type>>;
-    };
+concept bounding_volume = std::is_trivially_copyable_v<V> && requires {
+    typename detail::volume_scalar<V>::type;
+} && requires(const V& a, const V& b, const relative_pose<typename detail::volume_scalar<V>::type>& pose,
+              const detail::one_triangle<typename detail::volume_scalar<V>::type>& triangles) {
+    { around_all(std::type_identity<V>{}, triangles) } -> std::same_as<V>;
+    { merge(a, b) } -> std::same_as<V>;
+    { overlaps(a, b) } -> std::same_as<bool>;        // both in one frame
+    { overlaps(a, pose, b) } -> std::same_as<bool>;  // each in the frame of its object
+    { bounds(a) } -> std::same_as<aabb<typename detail::volume_scalar<V>::type>>;
+};
 
 /// A volume around triangles, at least one: around<obb<float>>(mesh.view()).
 template <bounding_volume V, triangle_range<typename detail::volume_scalar<V>::type> Triangles>

@@ -22,34 +22,49 @@ struct bvh_walk {
         return reach(tree.root_bounds());
     }
 
-    /// Calls visitor(shape id) -> visit for every leaf whose box the query reaches, until it says stop.
-    template <class Reach, class Visitor>
-    ABUT_HD void for_each(Reach& reach, Visitor&& visitor) const {
-        const bvh_child root = tree.root();
-        if (root.is_leaf()) {
-            visitor(root.index());
-        } else {
-            for_each_below(root.index(), reach, visitor);
-        }
-    }
+    /// Where a walk that rests goes on: the inner nodes still to see, the next one last.
+    struct cursor {
+        static constexpr int stack_size = Tree::width > 2 ? bvh_max_depth*(Tree::width - 1) + 1 : bvh_max_depth + 1;
+        std::uint32_t pending[stack_size];  ///< not initialised
+        int waiting = -1;                   ///< how many; a walk that has not begun has the root to see
+    };
 
-    /// The same for the leaves below an inner node.
-    template <class Reach, class Visitor>
-    ABUT_HD void for_each_below(std::uint32_t node, Reach& reach, Visitor&& visitor) const {
+    /// Calls visitor(shape id) -> visit for every leaf whose box the query reaches, until it says stop. Rests where rests()
+    /// says so, which it is asked before each node; then it returns true, and another call with the same query goes on from
+    /// `at`. At its end it returns false.
+    template <class Reach, class Rests, class Visitor>
+    ABUT_HD bool for_each(Reach& reach, cursor& at, const Rests& rests, Visitor&& visitor) const {
+        if (at.waiting < 0) {
+            const bvh_child root = tree.root();
+            at.waiting = 0;
+            if (root.is_leaf()) {
+                visitor(root.index());
+            } else {
+                at.pending[at.waiting++] = root.index();
+            }
+        }
+        if (at.waiting == 0) return false;
         if constexpr (Tree::width > 2) {
-            for_each_below_wide(node, reach, visitor);
+            return for_each_below_wide(reach, at, rests, visitor);
         } else {
-            for_each_below_two(node, reach, visitor);
+            return for_each_below_two(reach, at, rests, visitor);
         }
     }
 
 private:
-    template <class Reach, class Visitor>
-    ABUT_HD void for_each_below_two(std::uint32_t node, Reach& reach, Visitor& visitor) const {
+    template <class Reach, class Rests, class Visitor>
+    ABUT_HD bool for_each_below_two(Reach& reach, cursor& at, const Rests& rests, Visitor& visitor) const {
         // One entry at most for each level above the current node.
-        std::uint32_t pending[bvh_max_depth];
-        int depth = 0;
+        std::uint32_t* const pending = at.pending;
+        int depth = at.waiting - 1;
+        std::uint32_t node = pending[depth];
+        at.waiting = 0;
         for (;;) {
+            if (rests()) {
+                pending[depth] = node;
+                at.waiting = depth + 1;
+                return true;
+            }
             const typename Tree::node_type both = tree.fetch(node);
             const bvh_child left = tree.child(both, 0), right = tree.child(both, 1);
             // Most of a walk on a processor core is waiting for nodes: both are asked for before either is known to be
@@ -58,11 +73,11 @@ private:
             tree.prefetch(right);
             bool go_left = reach(tree.bounds(both, 0)), go_right = reach(tree.bounds(both, 1));
             if (go_left && left.is_leaf()) {
-                if (visitor(left.index()) == visit::stop) return;
+                if (visitor(left.index()) == visit::stop) return false;
                 go_left = false;
             }
             if (go_right && right.is_leaf()) {
-                if (visitor(right.index()) == visit::stop) return;
+                if (visitor(right.index()) == visit::stop) return false;
                 go_right = false;
             }
             if (go_left) {
@@ -73,30 +88,33 @@ private:
             } else if (depth > 0) {
                 node = pending[--depth];
             } else {
-                return;
+                return false;
             }
         }
     }
 
-    template <class Reach, class Visitor>
-    ABUT_HD void for_each_below_wide(std::uint32_t node, Reach& reach, Visitor& visitor) const {
-        std::uint32_t pending[bvh_max_depth * (Tree::width - 1) + 1];
-        int waiting = 0;
-        for (;;) {
-            const auto& all = tree.fetch(node);
-            for (int side = 0; side < tree.children(all); ++side) {
-                if (!reach(tree.bounds(all, side))) continue;
-                const bvh_child child = tree.child(all, side);
+    template <class Reach, class Rests, class Visitor>
+    ABUT_HD bool for_each_below_wide(Reach& reach, cursor& at, const Rests& rests, Visitor& visitor) const {
+        std::uint32_t* const pending = at.pending;
+        int waiting = at.waiting;
+        while (waiting > 0) {
+            if (rests()) {
+                at.waiting = waiting;
+                return true;
+            }
+            const auto& all = tree.fetch(pending[--waiting]);
+            for (int slot = 0; slot < tree.children(all); ++slot) {
+                if (!reach(tree.bounds(all, slot))) continue;
+                const bvh_child child = tree.child(all, slot);
                 if (child.is_leaf()) {
-                    if (visitor(child.index()) == visit::stop) return;
+                    if (visitor(child.index()) == visit::stop) return false;
                 } else {
                     tree.prefetch(child);
                     pending[waiting++] = child.index();
                 }
             }
-            if (waiting == 0) return;
-            node = pending[--waiting];
         }
+        return false;
     }
 };
 

@@ -2,9 +2,9 @@
 #pragma once
 
 // Two trees at once, breadth first: level by level, from all pairs of nodes at a chosen depth on. A step is that of
-// pair_walk.hpp for every item of a level. A first loop decides the candidates that the level has and counts the items that
-// it makes; a scan of the counts says where they go; a second loop writes them there. So a level is the same on every
-// policy, and each item has its place before it is made.
+// pair_walk.hpp for every item of a level. A first loop counts the items that the level makes; a scan of the counts says
+// where they go; a second loop writes them there, and judges the candidates that the level has. So a level is the same on
+// every policy, and each item has its place before it is made.
 
 #include <algorithm>
 #include <cstddef>
@@ -58,16 +58,25 @@ struct pair_ends {
     ABUT_HD void operator()(std::size_t i) const { out[i] = {a.end(paths_a[i / count_b]), b.end(paths_b[i % count_b])}; }
 };
 
-// What a walk makes, handed on; see add_item in collide/query.hpp.
-
-/// Counts items, and hands candidates to a policy's emitter.
-template <class Emitter>
-struct count_and_push {
-    const Emitter& emitter;
-    std::uint32_t& items;
+/// Takes what a step makes, and counts the items.
+struct count_made {
+    std::uint32_t items = 0;
     template <class Number, class Item>
-    ABUT_INLINE ABUT_HD void add(Number, bool is, const Item&) const {
+    ABUT_INLINE ABUT_HD void add(Number, bool is, const Item&) {
         items += static_cast<std::uint32_t>(is);
+    }
+    template <class Number, class Candidate>
+    ABUT_INLINE ABUT_HD void push(Number, bool, const Candidate&) const {}
+};
+
+/// Takes what a step makes, writes the items, and hands the candidates to a policy's emitter.
+template <class Item, class Emitter>
+struct write_and_push {
+    Item* to;
+    const Emitter& emitter;
+    template <class Number>
+    ABUT_INLINE ABUT_HD void add(Number, bool is, const Item& next) {
+        if (is) *to++ = next;
     }
     ABUT_CALLS_ANY
     template <class Number, class Candidate>
@@ -75,72 +84,37 @@ struct count_and_push {
         if (is) emitter.push(c);
     }
 };
-template <class Item>
-struct write_item {
-    Item*& to;
-    template <class Number>
-    ABUT_INLINE ABUT_HD void operator()(Number, bool is, const Item& next) const {
-        if (is) *to++ = next;
-    }
-};
-struct drop_candidate {
-    template <class Number>
-    ABUT_INLINE ABUT_HD void operator()(Number, bool, std::uint32_t, std::uint32_t) const {}
-};
-
-struct every_index {
-    ABUT_HD constexpr bool operator()(std::size_t) const { return true; }
-};
 
 /// The first loop over a level.
 template <class Expand>
 struct count_items {
-    using candidate = typename Expand::candidate;
     Expand expand;
     const typename Expand::item* items;
     std::uint32_t* counts;
-
-    ABUT_CALLS_ANY
-    template <class Emitter, class Wide, class Hits, class Total>
-    ABUT_HD void operator()(std::size_t i, const Emitter& emitter, Wide&, Hits&, Total& total) const {
-        std::uint32_t made = 0;
-        expand(items[i], count_and_push<Emitter>{emitter, made});
-        counts[i] = made;
-        total.add(made);
-    }
-};
-/// The functors of a search beside a total that is not theirs.
-template <class Decide>
-struct decide_beside_total {
-    Decide decide;
-    ABUT_CALLS_ANY
-    template <class Candidate, class Late, class Wide, class Hits, class Total>
-    ABUT_HD void operator()(const Candidate& c, Late& late, Wide& wide, Hits& hits, Total&) const {
-        decide(c, late, wide, hits);
-    }
-};
-template <class Settle>
-struct settle_beside_total {
-    Settle settle;
-    ABUT_CALLS_ANY
-    template <class Candidate, class Wide, class Hits, class Total>
-    ABUT_HD void operator()(const Candidate& c, Wide& wide, Hits& hits, Total&) const {
-        settle(c, wide, hits);
+    ABUT_HD void operator()(std::size_t i) const {
+        count_made made;
+        expand(items[i], made);
+        counts[i] = made.items;
     }
 };
 
 /// The second loop: `first` holds where the items that each one makes begin.
 template <class Expand>
 struct write_items {
-    using item = typename Expand::item;
+    using candidate = typename Expand::candidate;
+    struct cursor {};
     Expand expand;
-    const item* items;
+    const typename Expand::item* items;
     const std::uint32_t* first;
-    item* out;
+    typename Expand::item* out;
 
-    ABUT_HD void operator()(std::size_t i) const {
-        item* to = out + first[i];
-        expand.walk.expand(items[i], write_item<item>{to}, drop_candidate{});
+    [[nodiscard]] ABUT_HD bool may_find(std::size_t) const { return true; }
+    /// A pair of binary nodes makes four candidates at most. A device, which has no others, has room for those of all walks.
+    ABUT_CALLS_ANY
+    template <class Emitter, class... Sinks>
+    ABUT_HD bool operator()(std::size_t i, cursor&, const Emitter& emitter, Sinks&...) const {
+        expand(items[i], write_and_push<typename Expand::item, Emitter>{out + first[i], emitter});
+        return false;
     }
 };
 
@@ -176,11 +150,10 @@ auto begin_at_depth(const Policy& on, const Walk& walk, int start_depth) {
     return items;
 }
 
-/// Finds and decides the candidates of two trees: `expand` is a step of pair_walk, and the rest as in for_each_descendant.
-/// Levels of very many items are taken in parts, the deepest first, so that memory is bounded by the depth of the trees.
-template <class Policy, class Expand, class Decide, class Settle, class Late, class Wide, class Hits>
-void for_each_on_levels(const Policy& on, const Expand& expand, int start_depth, const Decide& decide, const Settle& settle,
-                        Late&, Wide& wide, Hits& hits) {
+/// Judges the candidates of two trees: `expand` is a step of pair_walk, and run(loop) runs a loop that judges. Levels of
+/// very many items are taken in parts, the deepest first, so that memory is bounded by the depth of the trees.
+template <class Policy, class Expand, class Run>
+void for_each_on_levels(const Policy& on, const Expand& expand, int start_depth, const Run& run) {
     using item = typename Expand::item;
     constexpr std::size_t most_at_a_time = std::size_t{1} << 22;
     struct level {
@@ -193,27 +166,19 @@ void for_each_on_levels(const Policy& on, const Expand& expand, int start_depth,
         if (n > 0) levels.push_back({std::move(items), n});
     };
     add_level(begin_at_depth(on, expand.walk, start_depth));
-    while (!levels.empty()) {
+    while (!levels.empty() && !run.is_over()) {
         level& from = levels.back();
         const std::size_t n = std::min(from.left, most_at_a_time);
         from.left -= n;
         const item* const items = from.items.data() + from.left;
         execution::buffer_of<Policy, std::uint32_t> counts(on, n + 1);
-        Late late(on);
-        Wide more_wide(on, 0);
-        Hits more(on);
-        execution::work_count<space_of<Policy>> total(on);
-        for_each_candidate(on, n, every_index{}, count_items<Expand>{expand, items, counts.data()},
-                           decide_beside_total<Decide>{decide}, settle_beside_total<Settle>{settle}, late, more_wide, more,
-                           total);
-        wide.absorb(on, more_wide);
-        hits.absorb(on, more);
-        if (execution::is_over(hits)) return;
+        for_each_index(on, n, count_items<Expand>{expand, items, counts.data()});
         exclusive_scan(on, counts.data(), n);
-        execution::buffer_of<Policy, item> next(on, total.total());
-        if (next.size() > 0) {
-            for_each_index(on, n, write_items<Expand>{expand, items, counts.data(), next.data()});
-        }
+        std::uint32_t total = 0;
+        download(on, counts.data() + n, 1, &total);
+        execution::buffer_of<Policy, item> next(on, total);
+        const write_items<Expand> write{expand, items, counts.data(), next.data()};
+        run([&](const auto& judge, auto&... sinks) { return for_each_candidate(on, n, write, judge, sinks...); });
         if (from.left == 0) levels.pop_back();
         add_level(std::move(next));
     }

@@ -103,8 +103,9 @@ struct pair_walk {
 
     /// For pairs k of children, calls add(k, overlap, item), or visitor(k, overlap, id in a, id in b), where `overlap` is
     /// false if there is nothing to be done. For binary trees k = 0 ... 3 are constants to the compiler, and there is no
-    /// branch: which of the boxes overlap is anyone's guess. For wider ones k is a number, of pairs that overlap alone; on
-    /// the host. Inlined by force: g++ would not where a program has several queries, and they took twice as long.
+    /// branch: one on whether boxes overlap would often be predicted wrong. For wider ones k is a number, of pairs that
+    /// overlap alone; on the host. Inlined by force: g++ would not where a program has several queries, and they took twice
+    /// as long.
     template <class Add, class Visitor>
     ABUT_INLINE ABUT_HD void expand(const item& at, const Add& add, const Visitor& visitor) const {
         const place at_a(at.a, width_a), at_b(at.b, width_b);

@@ -14,8 +14,8 @@
 namespace abut::detail {
 
 /// A box in the world around all that the shapes in `around`, posed, reach there: each coordinate by interval arithmetic in
-/// double, and a margin for rounding, in here and by `place`, and for balls, which a rotation that is not quite one would
-/// stretch. Of all space where it overflows.
+/// double, and a margin for rounding, in here and by `place`, and for balls: a row shorter than 1 shrinks their box, and
+/// their radius stays. Of all space where it overflows.
 template <scalar T>
 aabb<T> world_box(const rigid<T>& pose, const aabb<T>& around) {
     const vec3<double> lower = widened(around.lower), upper = widened(around.upper);
@@ -25,12 +25,14 @@ aabb<T> world_box(const rigid<T>& pose, const aabb<T>& around) {
         const vec3<double> r = widened(row(pose.rotation, i));
         const vec3<double> one{r.x * lower.x, r.y * lower.y, r.z * lower.z},
             other{r.x * upper.x, r.y * upper.y, r.z * upper.z};
-        const vec3<double> least = lesser(one, other), most = greater(one, other);
+        const vec3<double> low_ends = least(one, other), high_ends = greatest(one, other);
         const double size = farthest(around) + absolute(shift[i]);
+        // 1 - |r| is less than 1 - |r|^2, and the measuring of it less than 8 units of roundoff off.
+        const double short_by = absolute(dot(r, r) - 1) * farthest(around);
         const double margin =
-            256 * static_cast<double>(unit_roundoff<T>) * size + 256 * static_cast<double>(smallest_normal<T>);
-        low[i] = static_cast<T>(((least.x + least.y) + least.z + shift[i]) - margin);
-        high[i] = static_cast<T>(((most.x + most.y) + most.z + shift[i]) + margin);
+            short_by + 256 * static_cast<double>(unit_roundoff<T>) * size + 256 * static_cast<double>(smallest_normal<T>);
+        low[i] = static_cast<T>(((low_ends.x + low_ends.y) + low_ends.z + shift[i]) - margin);
+        high[i] = static_cast<T>(((high_ends.x + high_ends.y) + high_ends.z + shift[i]) + margin);
         if (!(size < static_cast<double>(largest_finite<T>) / 4)) {
             low[i] = -infinity<T>;
             high[i] = infinity<T>;
@@ -65,6 +67,7 @@ template <class Walk>
 struct posed_walk {
     using scalar_type = typename Walk::scalar_type;
     using T = scalar_type;
+    using cursor = typename Walk::cursor;
 
     Walk walk;
     aabb<T> world;  ///< around all that the object reaches there
@@ -80,11 +83,11 @@ struct posed_walk {
         return !is_empty(posed.query) && walk.may_touch(posed);
     }
 
-    /// Calls visitor(shape id) -> visit for every shape whose box the query reaches, until it says stop.
-    template <class Reach, class Visitor>
-    ABUT_HD void for_each(Reach& reach, Visitor&& visitor) const {
+    /// As the walk in the frame.
+    template <class Reach, class Rests, class Visitor>
+    ABUT_HD bool for_each(Reach& reach, cursor& at, const Rests& rests, Visitor&& visitor) const {
         posed_reach<T> posed{clipped(reach), &to_world};
-        walk.for_each(posed, std::forward<Visitor>(visitor));
+        return walk.for_each(posed, at, rests, std::forward<Visitor>(visitor));
     }
 
 private:
@@ -93,7 +96,7 @@ private:
     template <class Reach>
     ABUT_HD aabb<T> clipped(Reach& reach) const {
         const aabb<T> box = reach.bounds();
-        return {greater(box.lower, world.lower), lesser(box.upper, world.upper)};
+        return {greatest(box.lower, world.lower), least(box.upper, world.upper)};
     }
     ABUT_HD static bool is_empty(const aabb<T>& box) {
         return box.lower.x > box.upper.x || box.lower.y > box.upper.y || box.lower.z > box.upper.z;

@@ -2,8 +2,8 @@
 #pragma once
 
 // Prune functors: how far a query reaches. `reach(box)` is false only if nothing in the box can touch the query; rounding
-// may keep a box too many and never loses one. A prune functor may tighten itself while a traversal runs (nearest, first
-// impact); these do not.
+// may keep a box too many and never loses one. These stay as they are while a traversal runs; those that tighten, as better
+// is found, are in ordered_walk.hpp.
 
 #include <concepts>
 
@@ -25,10 +25,14 @@ namespace detail {
 
 /// A ball, by its squared distance from the box.
 ///
-/// Let u be half a unit in the last place. The differences carry (1+u), their squares (1+u)^3, the sum (1+u)^5 in all, so a
-/// true distance d <= r is computed as at most r^2 (1+6u) plus underflow. r*r loses at most a factor (1-u), so a limit of
-/// r*r (1+16u) plus twice the smallest normal number lies above that, with subnormals flushed to zero as well. If the limit
-/// overflows, it is infinite and keeps every box. Fused multiply-adds only lower the errors.
+/// Let u be half a unit in the last place. To nearest, the differences carry (1+u), their squares (1+u)^3, the sum (1+u)^5
+/// in all, so a true distance d <= r is computed as at most r^2 (1+6u) plus underflow. r*r loses at most a factor (1-u), so
+/// a limit of r*r (1+16u) plus 2 m lies above that, where m is the smallest normal number. Rounded upward, the distance
+/// carries (1+10u) and the limit loses nothing; downward, the distance gains nothing and the limit has (1+12u) left. With
+/// denormals read as zero and flushed to zero a difference is off by less than 3 m, so the distance by less than 6 m and its
+/// square by 12 m r and a little: less than 10u r^2 where r is above 1, and less than 2 m where it is below 1/12. Between
+/// them both, since 12 m r is then far below u r^2. If the limit overflows, it is infinite and keeps every box. Fused
+/// multiply-adds only lower the errors.
 template <scalar T>
 struct ball_reach {
     sphere<T> ball;
@@ -43,7 +47,7 @@ struct ball_reach {
     ABUT_HD bool operator()(const aabb<T>& box) const {
         // From the nearest point of the box. Clamping compiles to a minimum and a maximum; a comparison with a constant 0
         // would be a branch that is often predicted wrong.
-        const vec3<T> away = ball.center - lesser(greater(ball.center, box.lower), box.upper);
+        const vec3<T> away = ball.center - least(greatest(ball.center, box.lower), box.upper);
         return dot(away, away) <= limit;
     }
     [[nodiscard]] ABUT_HD aabb<T> bounds() const { return abut::bounds(ball); }
@@ -60,8 +64,10 @@ struct box_reach {
 };
 
 // The next two compare sums of products whose magnitudes add up to `size`. Each number carries at most six roundings, two
-// numbers twelve, of 2u each in any rounding mode; 32u is more. What flush to zero takes is below the smallest normal number
-// times one factor of each product, or times 1. Where `size` is so large that something may overflow, every box is kept.
+// numbers twelve, of 2u each in any rounding mode; 32u is more. Let m be the smallest normal number. Where denormals are
+// read as zero and flushed to zero, a number is off by less than m, a sum of two by 3 m, the difference of two sums by 7 m:
+// so a product by 7 m times its other factor, or by m where it vanishes itself. Added up, that is below 26 m times the one
+// factor, 19 m times the other, and 12 m. Where `size` is so large that something may overflow, every box is kept.
 
 /// A segment, or a capsule: by its box, and by the three axes that are orthogonal to it and to a coordinate axis, on which a
 /// segment is a point. A segment that runs across a scene touches few of the boxes in its own box.

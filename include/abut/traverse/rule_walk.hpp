@@ -8,8 +8,10 @@
 #include <cstdint>
 #include <type_traits>
 
+#include <abut/arithmetic/magnitude.hpp>
 #include <abut/arithmetic/vec.hpp>
 #include <abut/index/bvh.hpp>
+#include <abut/shape/box_measure.hpp>
 #include <abut/shape/volume.hpp>
 #include <abut/shape/primitive.hpp>
 #include <abut/traverse/pair_walk.hpp>
@@ -40,8 +42,7 @@ struct rule_walk {
     };
     [[nodiscard]] ABUT_HD static constexpr std::size_t seeds() { return 1; }
     [[nodiscard]] ABUT_HD item seed(std::size_t) const {
-        const bool opens_b = Rule == traversal::one_first ||
-                             (Rule == traversal::larger_first && surface(b.root_bounds()) > surface(a.root_bounds()));
+        const bool opens_b = Rule == traversal::larger_first && surface(b.root_bounds()) > surface(a.root_bounds());
         return {opening(opens_b, opens_b ? b.root() : a.root()), place_of_root};
     }
 
@@ -56,7 +57,7 @@ struct rule_walk {
     }
 
     /// As pair_walk::expand, for pairs k of a child and what stays closed. Of trees of one type each is opened by the same
-    /// code: which of them it is is anyone's guess.
+    /// code, since a branch on which one it is would often be predicted wrong.
     template <class Add, class Visitor>
     ABUT_INLINE ABUT_HD void expand(const item& at, const Add& add, const Visitor& visitor) const {
         const bool opens_b = (at.open & is_of_b) != 0;
@@ -92,11 +93,8 @@ private:
     }
 
     // Half of surfaces. Where they overflow or vanish, the tree that was opened last goes on.
-    ABUT_HD static T surface(const box& x) {
-        const vec3<T> side = x.upper - x.lower;
-        return side.x * side.y + (side.y * side.z + side.z * side.x);
-    }
-    ABUT_HD static double surface(const obb<T>& x) { return half_surface(x.half_widths); }
+    ABUT_HD static T surface(const box& x) { return half_surface(x.upper - x.lower); }
+    ABUT_HD static double surface(const obb<T>& x) { return half_surface(widened(x.half_widths)); }
     template <class Volume>
     ABUT_HD static T surface(const Volume& x) {
         return surface(bounds(x));
@@ -166,7 +164,7 @@ private:
 
     /// Whether a child of the node that was opened is opened before what stayed closed.
     ABUT_INLINE ABUT_HD static bool is_next(bool is_b, bool is_larger) {
-        return Rule == traversal::one_first ? is_b : Rule == traversal::larger_first && is_larger;
+        return Rule == traversal::one_first ? !is_b : Rule == traversal::larger_first && is_larger;
     }
 };
 

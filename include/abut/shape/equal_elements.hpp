@@ -10,10 +10,10 @@
 #include <vector>
 
 #include <abut/arithmetic/align.hpp>
-#include <abut/collide/half_edges.hpp>
-#include <abut/collide/mesh_report.hpp>
+#include <abut/shape/mesh_report.hpp>
 #include <abut/execution/host.hpp>
-#include <abut/shape/check.hpp>
+#include <abut/shape/half_edges.hpp>
+#include <abut/shape/shape.hpp>
 #include <abut/shape/view.hpp>
 
 namespace abut::detail {
@@ -68,6 +68,21 @@ auto listed(const Policy& on, std::size_t n, std::size_t most, const Test& test,
     return downloaded<Policy, value>(on, evaluated(on, f, ids.data(), ids.size()));
 }
 
+/// Where the run of equal elements begins that i is in. equal(j), for j <= i, says whether element j equals element i.
+template <class Equal>
+ABUT_HD std::size_t first_of_run(std::size_t i, const Equal& equal) {
+    std::size_t begin = 0;
+    while (begin < i) {
+        const std::size_t middle = begin + (i - begin) / 2;
+        if (equal(middle)) {
+            i = middle;
+        } else {
+            begin = middle + 1;
+        }
+    }
+    return i;
+}
+
 /// All but the first of equal elements, ascending, each with the first.
 template <class Policy>
 struct repeats {
@@ -105,6 +120,24 @@ repeats<Policy> find_repeats(const Policy& on, const id_buffer<Policy>& ids, con
 }
 
 // --- duplicate faces ------------------------------------------------------------------------------------------------------
+
+/// Whether another face may have the same three vertices. It would share all edges, so one of them tells: that of the two
+/// smaller vertices. If the edge has two faces, they do if their third vertices are equal; of more faces each may.
+struct may_be_duplicate {
+    sorted_half_edges table;
+    ABUT_HD bool operator()(std::size_t i) const {
+        const bool goes_back = !table.is_first(i), goes_ahead = table.goes_on(i, 1);
+        if (!table.is_edge(i) || (!goes_back && !goes_ahead)) return false;
+        const bool is_second = goes_back && !goes_ahead && table.is_first(i - 1);
+        if (is_second || (!goes_back && !table.goes_on(i, 2))) {
+            const std::size_t other = is_second ? i - 1 : i + 1;
+            // What the keys have of the third vertices saves nearly all reads of faces.
+            const bool may = ((table.keys[i] ^ table.keys[other]) & ~half_edge_key::backward_bit) == 0;
+            if (!may || table.opposite(i) != table.opposite(other)) return false;
+        }
+        return table.opposite(i) > table.upper(i);
+    }
+};
 
 struct opposite_of {
     sorted_half_edges table;
@@ -203,14 +236,9 @@ struct same_place {
     strided<vec3<T>> vertices;
     ABUT_HD bool operator()(std::uint32_t u, std::uint32_t v) const {
         const vec3<T> p = vertices[u], q = vertices[v];
-        return is_good(p) && place_word(p.x) == place_word(q.x) && place_word(p.y) == place_word(q.y) &&
+        return is_valid(p) && place_word(p.x) == place_word(q.x) && place_word(p.y) == place_word(q.y) &&
                place_word(p.z) == place_word(q.z);
     }
-};
-
-struct write_id {
-    std::uint32_t* ids;
-    ABUT_HD void operator()(std::size_t i) const { ids[i] = static_cast<std::uint32_t>(i); }
 };
 
 /// Whether a neighbour in a sorted array is equal.
@@ -242,7 +270,7 @@ template <class Policy, scalar T>
 std::vector<coincident_vertex> find_coincident(const Policy& on, const strided<vec3<T>>& vertices) {
     const std::size_t n = vertices.count;
     id_buffer<Policy> ids(on, n);
-    for_each_index(on, n, write_id{ids.data()});
+    for_each_index(on, n, execution::write_index<std::uint32_t>{ids.data()});
     auto hashes = evaluated(on, hash_of_place<T>{vertices}, ids.data(), n);
     sort_by_key(on, hashes, ids, 32);
     const has_equal_neighbour suspect{hashes.data(), n};

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+//
+// usage: bench_nearest --benchmark_enable_random_interleaving=true --benchmark_out=nearest.json
+//
+// For each of many points the nearest triangle: the centres of the scene of Lee and Hsieh, 2019, and its torus. Names:
+//
+//   nearest/INDEX/POLICY/POINTS    the query alone; the index is there
+//
+// The peer (bench/nearest/) is in the same run, where its package is there.
+
+#include <cstddef>
+#include <string>
+
+#include <benchmark/benchmark.h>
+
+#include <abut/abut.hpp>
+
+#include "../docs/examples/scene.hpp"
+
+namespace {
+
+const abut::mesh<float>& torus() {
+    static const abut::mesh<float> made = [] {
+        const auto surface = scene::torus<float>();
+        return abut::mesh<float>(surface.vertices, surface.faces);
+    }();
+    return made;
+}
+
+struct bvh {
+    static constexpr const char* name = "bvh";
+    static auto make(const auto& on) { return abut::make_bvh(on, torus()); }
+};
+struct sah {
+    static constexpr const char* name = "sah";
+    static auto make(const auto& on) { return abut::make_bvh(on, torus(), {.builder = abut::bvh_builder::sah}); }
+};
+struct wide_sah {
+    static constexpr const char* name = "wide_sah";
+    static auto make(const auto& on) { return abut::wide(on, sah::make(on)); }
+};
+
+template <class Index, class Policy>
+void nearest(benchmark::State& state, Policy on, std::size_t n) {
+    const auto index = Index::make(on);
+    const abut::points<float> points(scene::centers<float>(n));
+    double sum = 0;
+    for (auto _ : state) {
+        const auto found = abut::nearest(on, index, points);
+        state.PauseTiming();
+        sum = 0;
+        for (const auto& near : found) sum += static_cast<double>(near.distance);
+        state.ResumeTiming();
+    }
+    state.counters["points"] = static_cast<double>(n);
+    state.counters["mean_distance"] = sum / static_cast<double>(n);
+}
+
+template <class Index, class Policy>
+void add(const char* policy, const Policy& on) {
+    for (const std::size_t n : {std::size_t{100'000}, scene::sphere_count}) {
+        const std::string name = std::string("nearest/") + Index::name + "/" + policy + "/" + std::to_string(n);
+        benchmark::RegisterBenchmark(name.c_str(), nearest<Index, Policy>, on, n)
+            ->Repetitions(5)
+            ->ReportAggregatesOnly(true)
+            ->Unit(benchmark::kMillisecond)
+            ->UseRealTime()
+            ->Iterations(1);
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    add<bvh>("serial", abut::serial{});
+    add<sah>("serial", abut::serial{});
+    add<wide_sah>("serial", abut::serial{});
+    add<bvh>("openmp", abut::openmp{});
+    benchmark::Initialize(&argc, argv);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+    benchmark::RunSpecifiedBenchmarks();
+    benchmark::Shutdown();
+    return 0;
+}

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+//
+// usage: bench_ties_cuda [OUT.json]
+//
+// bench/ties.cpp on CUDA, with the same scenes; the voxel models are larger, and a torus stands in for the mesh. Names:
+//
+//   pair/ARITHMETIC/SCALAR/NAME    a plain kernel that calls `intersects` for each of a family's pairs; counters registers,
+//   and
+//                                  local_bytes, which is stack and spills of a thread
+//   count/ARITHMETIC/SCALAR/NAME   whole queries, with two trees
+//
+// Behind each row of `filtered` and `exact` stands its time divided by that of `fast`.
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include <cuda_runtime.h>
+
+#include <abut/cuda.hpp>
+
+#include "cuda_table.hpp"
+#include "ties_scene.hpp"
+
+namespace {
+
+using bench::check;
+using bench::counters;
+using bench::joined;
+using bench::table;
+
+namespace scene = ties_scene;
+namespace test = abut::test;
+
+template <class T>
+constexpr const char* scalar_name = sizeof(T) == 4 ? "float" : "double";
+
+template <abut::arithmetic A, abut::scalar T>
+struct decide_pair {
+    const test::triangle_pair<T>* pairs;
+    std::uint8_t* touches;
+    ABUT_HD void operator()(std::size_t i) const {
+        touches[i] = static_cast<std::uint8_t>(abut::intersects<A>(pairs[i].a, pairs[i].b));
+    }
+};
+
+template <abut::scalar T>
+struct make_pair {
+    test::triangle_family family;
+    test::triangle_pair<T>* out;
+    ABUT_HD void operator()(std::size_t i) const { out[i] = test::make_triangle_pair<T>(scene::seed, family, i); }
+};
+
+struct byte_at {
+    const std::uint8_t* bytes;
+    ABUT_HD std::uint64_t operator()(std::size_t i) const { return bytes[i]; }
+};
+struct sum {
+    ABUT_HD std::uint64_t operator()(std::uint64_t a, std::uint64_t b) const { return a + b; }
+};
+
+/// Rows for the three arithmetics: `ask(A{}, name, fast_milliseconds)` adds one, given the time of `fast` or 0.
+struct outcome {
+    double milliseconds, hits;
+};
+template <class Ask>
+void add_arithmetics(const char* kind, const char* scalar, const std::string& name, const Ask& ask) {
+    const auto row = [&](const char* arithmetic) { return joined({kind, arithmetic, scalar, name}); };
+    const outcome fast = ask(abut::fast{}, row("fast"), 0.0);
+    const outcome filtered = ask(abut::filtered{}, row("filtered"), fast.milliseconds);
+    const outcome exact = ask(abut::exact{}, row("exact"), fast.milliseconds);
+    if (filtered.hits != exact.hits) throw abut::error(name + ": filtered and exact disagree");
+}
+
+/// Adds the row, and a line with the ratio.
+template <class Work>
+double add_row(table& out, const std::string& name, double fast_milliseconds, const Work& work) {
+    const double milliseconds = out.add(name, 0, work);
+    if (fast_milliseconds > 0) std::printf("%-38s %11.2f times fast\n", "", milliseconds / fast_milliseconds);
+    return milliseconds;
+}
+
+template <abut::scalar T>
+void add_families(const abut::cuda& on, table& out) {
+    constexpr std::size_t n = std::size_t{1} << 22;
+    abut::execution::buffer_of<abut::cuda, test::triangle_pair<T>> pairs(on, n);
+    abut::execution::buffer_of<abut::cuda, std::uint8_t> touches(on, n);
+    for (const auto family : scene::families) {
+        for_each_index(on, n, make_pair<T>{family, pairs.data()});
+        const auto ask = [&]<class A>(A, const std::string& name, double fast_milliseconds) -> outcome {
+            const decide_pair<A, T> decide{pairs.data(), touches.data()};
+            cudaFuncAttributes kernel{};
+            check(cudaFuncGetAttributes(&kernel, abut::execution::detail::for_each_kernel<decide_pair<A, T>>),
+                  "cudaFuncGetAttributes");
+            for_each_index(on, n, decide);
+            const auto hits = static_cast<double>(reduce(on, n, std::uint64_t{0}, sum{}, byte_at{touches.data()}));
+            const double milliseconds = add_row(out, name, fast_milliseconds, [&] {
+                for_each_index(on, n, decide);
+                return counters{{"items", static_cast<double>(n)},
+                                {"hits", hits / static_cast<double>(n)},
+                                {"registers", static_cast<double>(kernel.numRegs)},
+                                {"local_bytes", static_cast<double>(kernel.localSizeBytes)}};
+            });
+            return {milliseconds, hits};
+        };
+        add_arithmetics("pair", scalar_name<T>, test::name_of(family), ask);
+    }
+}
+
+template <abut::scalar T>
+void add_queries(const abut::cuda& on, table& out) {
+    for (const auto& s : scene::scenes<T>(64, nullptr)) {
+        const auto a = abut::make_bvh(on, copy_to(on, abut::mesh<T>(s.a.vertices, s.a.faces)));
+        const auto b = abut::make_bvh(on, copy_to(on, abut::mesh<T>(s.b.vertices, s.b.faces)));
+        const auto ask = [&]<class A>(A, const std::string& name, double fast_milliseconds) -> outcome {
+            double found = 0;
+            const double milliseconds = add_row(out, name, fast_milliseconds, [&] {
+                found = static_cast<double>(abut::count<A>(on, a, b));
+                return counters{{"found", found}};
+            });
+            return {milliseconds, found};
+        };
+        add_arithmetics("count", scalar_name<T>, s.name, ask);
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return bench::run("bench_ties_cuda", argc, argv, [](const abut::cuda& on, table& out) {
+        add_families<float>(on, out);
+        add_queries<float>(on, out);
+        add_families<double>(on, out);
+        add_queries<double>(on, out);
+    });
+}

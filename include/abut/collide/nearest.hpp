@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// nearest: for each of many points the nearest shape of a set, the point on it, and the distance.
+//
+// By definition the answer is the shape with the least squared distance, as narrow/nearest_point.hpp computes it, and of
+// equal ones the one with the least id. Everything else here moves time and no answer: which index there is, in what order
+// the points are taken.
+
+#include <algorithm>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <abut/collide/judge.hpp>
+#include <abut/collide/operand.hpp>
+#include <abut/collide/options.hpp>
+#include <abut/execution/host.hpp>
+#include <abut/execution/ordered.hpp>
+#include <abut/index/leaf_order.hpp>
+#include <abut/index/lbvh.hpp>
+#include <abut/index/morton.hpp>
+#include <abut/narrow/nearest_point.hpp>
+#include <abut/traverse/ordered_walk.hpp>
+
+namespace abut {
+
+/// The id of no shape.
+inline constexpr std::uint32_t no_id = static_cast<std::uint32_t>(-1);
+
+/// A shape near a point, where on it, and how far that is. Where there are no shapes: `no_id`, the point asked about and
+/// infinity. A distance that T has no number for is infinite too.
+template <scalar T>
+struct neighbor {
+    std::uint32_t id;
+    vec3<T> point;
+    T distance;
+
+    friend constexpr bool operator==(const neighbor&, const neighbor&) = default;
+};
+
+namespace detail {
+
+/// Measures squared distances.
+template <scalar T>
+struct measure_distance {
+    length_unit<T> unit;
+    template <approachable S>
+    ABUT_HD double measure(const S& s, const vec3<T>& p, double bound) const {
+        return squared_distance_within(bound, p, s, unit);
+    }
+};
+
+/// A walk through an index from each of many points, in an order of theirs. (To begin each with what is nearest to the one
+/// before was tried. It spares a walk one node in sixty: nearest first, the first shape that it meets is good enough.)
+template <class Walk, class Frame, shape_view Shapes, shape_view Points, class Judge>
+struct walk_from_points {
+    static_assert(measuring_judge<Judge, typename Shapes::shape_type, typename Points::shape_type>);
+    Walk walk;
+    Frame frame;
+    Shapes shapes;
+    Points points;
+    Judge judge;
+    const std::uint32_t* order;  ///< null for their own
+
+    ABUT_CALLS_ANY
+    template <class Best>
+    ABUT_HD void operator()(std::size_t i, Best& best) const {
+        const auto p = points[order == nullptr ? i : order[i]];
+        auto reach = frame.ball_around(p);
+        walk(reach, best, [&](std::uint32_t id) { best.offer(judge.measure(shapes[id], p, best.bound()), id); });
+    }
+    ABUT_INLINE void prefetch(std::size_t i) const {
+        if (order != nullptr) prefetch_shape(points, order[i], 0);
+    }
+};
+
+/// Every shape against one of the points.
+template <shape_view Shapes, shape_view Points, class Judge>
+struct measure_each_shape {
+    Shapes shapes;
+    Points points;
+    std::size_t point;
+    Judge judge;
+    ABUT_CALLS_ANY
+    template <class Best>
+    ABUT_HD void operator()(std::size_t i, Best& best) const {
+        best.offer(judge.measure(shapes[i], points[point], best.bound()), i);
+    }
+};
+
+/// The answers, each where its point is.
+template <shape_view Shapes, shape_view Points>
+struct write_neighbors {
+    using T = typename Points::scalar_type;
+    Shapes shapes;
+    Points points;
+    length_unit<T> unit;
+    const std::uint32_t* order;
+    const execution::least_value* found;  ///< null for none
+    neighbor<T>* out;
+
+    ABUT_HD void operator()(std::size_t i) const {
+        const std::size_t k = order == nullptr ? i : order[i];
+        const vec3<T> p = points[k];
+        if (found == nullptr || found[i].key >= no_id) {
+            out[k] = {no_id, p, infinity<T>};
+            return;
+        }
+        const auto id = static_cast<std::uint32_t>(found[i].key);
+        const auto shape = shapes[id];
+        const vec3<double> way = way_from(p, shape, unit);
+        const double length = contact_math::root(contact_math::one_double{plain_dot(way, way)}).high;
+        out[k] = {id, end_of_way(shape, p, way, unit), rounded(static_cast<T>(unit.length(length)))};
+    }
+};
+
+// --- what operands bring
+// ---------------------------------------------------------------------------------------------------
+
+template <class Operand>
+auto ordered_walk_of(const Operand& x) {
+    if constexpr (Operand::is_posed) {
+        return ordered_walk_of(x.operand);
+    } else if constexpr (Operand::has_tree) {
+        return ordered_tree_walk<decltype(x.tree())>{x.tree()};
+    } else if constexpr (Operand::is_indexed) {
+        return ordered_grid_walk<decltype(x.index.view())>{x.index.view()};
+    } else {
+        return ordered_list_walk{x.shapes().size()};
+    }
+}
+
+/// From where points look at it. `unit` is what lengths in the world are measured in.
+template <class Operand, scalar T>
+auto frame_of(const Operand& x, const length_unit<T>& unit) {
+    if constexpr (Operand::is_posed && Operand::is_indexed) {
+        return object_frame<T>(unit.length(1), x.pose, x.around);
+    } else {
+        return world_frame<T>{unit.length(1)};
+    }
+}
+
+template <shape_view Shapes>
+struct box_of_shape {
+    Shapes shapes;
+    ABUT_HD auto operator()(std::size_t i) const { return bounds(shapes[i]); }
+};
+
+/// A unit for all points and all shapes, of which there are some.
+template <class Policy, class Operand, shape_view Points>
+auto common_unit(const Policy& on, [[maybe_unused]] const Operand& x, [[maybe_unused]] const Points& points) {
+    using T = typename Points::scalar_type;
+    if constexpr (std::same_as<T, float>) {
+        return length_unit<T>{};
+    } else {
+        const auto box_of = [&](const auto& shapes) {
+            using shapes_type = std::remove_cvref_t<decltype(shapes)>;
+            return reduce(on, shapes.size(), empty_box<T>(), merge_boxes{}, box_of_shape<shapes_type>{shapes});
+        };
+        aabb<T> box;
+        if constexpr (Operand::is_posed && Operand::is_indexed) {
+            const double most = 2 * farthest(x.around) + magnitudes(x.pose.translation);
+            box = {{-most, -most, -most}, {most, most, most}};
+        } else if constexpr (Operand::is_indexed) {
+            box = x.bounds(on);
+        } else {
+            box = box_of(x.shapes());
+        }
+        box = merge(box, box_of(points));
+        return unit_for(box, box.lower);
+    }
+}
+
+template <shape_view Points>
+struct write_point_codes {
+    using T = typename Points::scalar_type;
+    Points points;
+    const aabb<T>* around;
+    int unused_bits;
+    std::uint32_t *codes, *ids;
+    ABUT_HD void operator()(std::size_t i) const {
+        codes[i] = morton_code<std::uint32_t>(bounds(points[i]), *around) >> unused_bits;
+        ids[i] = static_cast<std::uint32_t>(i);
+    }
+};
+
+/// Points along a Morton curve.
+template <class Policy, shape_view Points>
+execution::buffer_of<Policy, std::uint32_t> order_points(const Policy& on, const Points& points) {
+    using T = typename Points::scalar_type;
+    const std::size_t n = points.size();
+    const int bits = std::min(24, sufficient_morton_bits(n));
+    execution::buffer_of<Policy, aabb<T>> around(on, 1);
+    execution::buffer_of<Policy, std::uint32_t> codes(on, n), ids(on, n);
+    reduce_into(on, n, around.data(), empty_box<T>(), merge_boxes{}, box_of_shape<Points>{points});
+    for_each_index(
+        on, n,
+        write_point_codes<Points>{points, around.data(), morton_bits<std::uint32_t> - bits, codes.data(), ids.data()});
+    sort_by_key(on, codes, ids, bits);
+    return ids;
+}
+
+/// Points as an operand: a set of points, a view of one, one point, or a row of them in host memory.
+template <class Policy, class Points>
+auto make_points(const Policy& on, const Points& points, const char* function) {
+    if constexpr (
+        requires { std::span(points.data(), points.size()); } && !requires { points.view(); } && !shape_view<Points>) {
+        const std::span row(points.data(), points.size());
+        using point = std::remove_cv_t<typename decltype(row)::element_type>;
+        if constexpr (host_policy<Policy>) {
+            return make_operand(on, shapes_view<point>(row.data(), row.size()), function);
+        } else {
+            return make_operand(on, shapes<point, space_of<Policy>>(on, row), function);
+        }
+    } else {
+        return make_operand(on, points, function);
+    }
+}
+
+/// Fewer points than these look at a plain set one at a time, and the shapes are shared out among threads.
+inline constexpr std::size_t few_points = 64;
+/// As many points as these, or more, are taken along a curve: neighbours walk through the same nodes.
+inline constexpr std::size_t many_points = 4096;
+
+}  // namespace detail
+
+/// For each of `points` the nearest shape of `index`, in the order of the points, in the policy's memory: the shape's id,
+/// the point on it and the distance. Of equal distances the least id. `index` is a bvh of any layout, a grid, a set, a view
+/// or one shape, posed or not, of any shapes with `nearest_point` (triangles, segments, points, and solid spheres, capsules
+/// and boxes, in which the distance is 0). `points` is a set of points, a view, one point (vec3), or a vector or span of
+/// points in host memory.
+///
+/// The same bits on every policy, for every index and any number of threads. Distances are computed in double; those that
+/// differ by less than docs/numerics.md says may be taken for each other. Without an index every point looks at every shape;
+/// in a grid, points that are far from all shapes look at many. Returns when the answers are there. Throws invalid_geometry
+/// (views, single shapes, rows of points), error (a set on another device), std::bad_alloc, cuda_error.
+///
+///     const auto near = abut::to_host(abut::nearest(on, abut::make_bvh(on, mesh), abut::vertices(other)));
+template <execution_policy Policy, class X, class Points>
+[[nodiscard]] auto nearest(const Policy& on, const X& index, const Points& points) {
+    using namespace detail;
+    constexpr const char* function = "abut::nearest";
+    const auto x = make_operand(on, index, function);
+    const auto queries = make_points(on, points, function);
+    const auto there = x.shapes();
+    const auto from = queries.shapes();
+    using shapes_type = std::remove_const_t<decltype(there)>;
+    using points_type = std::remove_const_t<decltype(from)>;
+    using T = typename points_type::scalar_type;
+    static_assert(std::same_as<typename points_type::shape_type, vec3<T>>,
+                  "abut: nearest looks from points: a set or a row of vec3, or one");
+    static_assert(std::same_as<typename shapes_type::scalar_type, T>,
+                  "abut: both sides of a query need the same scalar type, float or double");
+    static_assert(approachable<typename shapes_type::shape_type>,
+                  "abut: nearest needs nearest_point(shape, p) in the namespace of the shape, as docs/extending.md says");
+
+    const std::size_t n = from.size(), m = there.size();
+    execution::buffer_of<Policy, neighbor<T>> out(on, n);
+    const auto finish = [&](const length_unit<T>& unit, const std::uint32_t* order, const execution::least_value* found) {
+        for_each_index(on, n, write_neighbors<shapes_type, points_type>{there, from, unit, order, found, out.data()});
+        synchronize(on);
+        return result<neighbor<T>, space_of<Policy>>(std::move(out));
+    };
+    if (n == 0 || m == 0) return finish({}, nullptr, nullptr);
+
+    const auto unit = common_unit(on, x, from);
+    const measure_distance<T> judge{unit};
+    if constexpr (!decltype(x)::is_indexed) {
+        if (n < few_points) {
+            std::vector<execution::least_value> found;
+            for (std::size_t k = 0; k < n; ++k) {
+                execution::best_of_all<space_of<Policy>> best(on);
+                for_each_ordered(on, m, measure_each_shape<shapes_type, points_type, decltype(judge)>{there, from, k, judge},
+                                 best);
+                found.push_back(best.least());
+            }
+            execution::buffer_of<Policy, execution::least_value> values(on, n);
+            upload(on, found.data(), n, values.data());
+            return finish(unit, nullptr, values.data());
+        }
+    }
+    const auto walk = ordered_walk_of(x);
+    const auto frame = frame_of(x, unit);
+    execution::buffer_of<Policy, std::uint32_t> order;
+    if (decltype(x)::is_indexed && n >= many_points && n < no_id) order = order_points(on, from);
+    execution::best_of_each<space_of<Policy>> best(on, n);
+    using walk_type = walk_from_points<std::remove_const_t<decltype(walk)>, std::remove_const_t<decltype(frame)>,
+                                       shapes_type, points_type, measure_distance<T>>;
+    for_each_ordered(on, n, walk_type{walk, frame, there, from, judge, order.data()}, best);
+    return finish(unit, order.data(), best.data());
+}
+
+}  // namespace abut

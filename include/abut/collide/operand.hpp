@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Operands: the arguments of a query, brought to where its policy works. An operand has shapes, and if it is an index also a
+// way to look in it; under a pose both are placed.
+
+#include <concepts>
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+
+#include <abut/index/bvh.hpp>
+#include <abut/index/grid.hpp>
+#include <abut/index/operand.hpp>
+#include <abut/shape/posed.hpp>
+#include <abut/traverse/bvh_walk.hpp>
+#include <abut/traverse/grid_walk.hpp>
+#include <abut/traverse/posed_walk.hpp>
+
+namespace abut::detail {
+
+/// A set, a view of one, or one shape.
+template <class Resident>
+struct plain_operand {
+    static constexpr bool is_indexed = false, has_tree = false, is_posed = false;
+    Resident set;
+
+    [[nodiscard]] auto shapes() const { return view_of(set); }
+};
+
+/// An index and the set that it keeps.
+template <class Index>
+struct indexed_operand;
+
+template <class Set, memory_space Space, class Layout>
+struct indexed_operand<bvh<Set, Space, Layout>> {
+    static constexpr bool is_indexed = true, has_tree = true, is_posed = false;
+    using T = typename Set::scalar_type;
+    bvh<Set, Space, Layout> index;
+
+    [[nodiscard]] auto shapes() const { return view_of(index.set()); }
+    [[nodiscard]] auto tree() const { return index.view(); }
+    [[nodiscard]] auto walk() const { return bvh_walk<typename bvh<Set, Space, Layout>::view_type>{tree()}; }
+    /// Around all shapes, of which there are some.
+    template <class Policy>
+    [[nodiscard]] aabb<T> bounds(const Policy&) const {
+        return index.bounds();
+    }
+};
+
+template <class Set, memory_space Space>
+struct indexed_operand<grid<Set, Space>> {
+    static constexpr bool is_indexed = true, has_tree = false, is_posed = false;
+    using T = typename Set::scalar_type;
+    grid<Set, Space> index;
+
+    [[nodiscard]] auto shapes() const { return view_of(index.set()); }
+    [[nodiscard]] auto walk() const { return grid_walk<typename grid<Set, Space>::view_type>{index.view()}; }
+    template <class Policy>
+    [[nodiscard]] aabb<T> bounds(const Policy& on) const {
+        aabb<T> box;
+        download(on, &index.view().frame->bounds, 1, &box);
+        return box;
+    }
+};
+
+/// An operand under a pose. Nothing is copied: shapes are placed as they are read, and an index is looked in in its frame.
+template <class Operand, scalar T>
+struct posed_operand {
+    static constexpr bool is_indexed = Operand::is_indexed, has_tree = Operand::has_tree, is_posed = true;
+    Operand operand;
+    rigid<T> pose;
+    aabb<T> around;  ///< an index's shapes, in their frame
+
+    [[nodiscard]] auto shapes() const { return posed_view<decltype(operand.shapes())>{operand.shapes(), pose}; }
+    [[nodiscard]] auto tree() const { return operand.tree(); }
+    [[nodiscard]] auto walk() const { return posed_walk<decltype(operand.walk())>(operand.walk(), pose, around); }
+};
+
+template <class X>
+inline constexpr bool is_index = requires {
+    sizeof(indexed_operand<X>);
+};
+
+/// `x` for the policy; errors are thrown in the name of `function`.
+template <class Policy, class X>
+auto make_operand(const Policy& on, const X& x, const char* function) {
+    if constexpr (is_posed<X>) {
+        check(x.pose, function);
+        using operand_type = decltype(make_operand(on, x.object, function));
+        posed_operand<operand_type, typename X::scalar_type> placed{make_operand(on, x.object, function), x.pose, {}};
+        bool surely_finite = placed.shapes().size() == 0;
+        if constexpr (operand_type::is_indexed) {
+            if (!surely_finite) {
+                placed.around = placed.operand.bounds(on);
+                surely_finite = stays_finite(x.pose, placed.around);
+            }
+        }
+        if (!surely_finite) check(on, placed.shapes(), function);
+        return placed;
+    } else if constexpr (is_index<X>) {
+        static_assert(std::same_as<typename X::memory_space, space_of<Policy>>,
+                      "abut: the index lies in other memory than the policy works in; make it with the same policy");
+        require_same_device(on, x, function);
+        return indexed_operand<X>{x};
+    } else {
+        auto set = make_resident(on, x, function);
+        return plain_operand<decltype(set)>{std::move(set)};
+    }
+}
+
+}  // namespace abut::detail

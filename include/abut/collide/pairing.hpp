@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Who pairs up: two operands, the numbers by which their pairs go, and the way to the pairs that come near each other. The
+// roles are dealt out here and nowhere else: two trees are walked together, the shapes of one operand look in the index of
+// the other, and two plain sets are compared all with all, in tiles.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include <abut/arithmetic/align.hpp>
+#include <abut/collide/judge.hpp>
+#include <abut/collide/operand.hpp>
+#include <abut/collide/options.hpp>
+#include <abut/traverse/frontier.hpp>
+#include <abut/traverse/pair_walk.hpp>
+#include <abut/traverse/reach.hpp>
+#include <abut/traverse/rule_walk.hpp>
+#include <abut/traverse/traversal.hpp>
+
+namespace abut::detail {
+
+/// Number of bits that ids below n need.
+constexpr int id_bits(std::size_t n) { return bits_up_to(n > 0 ? n - 1 : 0); }
+
+/// A pair travels as one number, a's id above b's, in as few bits as the sets need: sorting is then a short radix sort.
+struct pair_key {
+    int a_bits, b_bits;
+
+    [[nodiscard]] int bits() const { return a_bits + b_bits; }
+    [[nodiscard]] ABUT_HD std::uint64_t pack(std::uint32_t a, std::uint32_t b) const {
+        return std::uint64_t{a} << b_bits | b;
+    }
+    [[nodiscard]] ABUT_HD std::uint32_t a(std::uint64_t key) const { return static_cast<std::uint32_t>(key >> b_bits); }
+    [[nodiscard]] ABUT_HD std::uint32_t b(std::uint64_t key) const {
+        return static_cast<std::uint32_t>(key & ((std::uint64_t{1} << b_bits) - 1));
+    }
+    [[nodiscard]] ABUT_HD index_pair unpack(std::uint64_t key) const { return {a(key), b(key)}; }
+};
+
+/// A set of one shape.
+template <class View>
+inline constexpr bool is_single = false;
+template <class Shape, memory_space Space>
+inline constexpr bool is_single<single_view<Shape, Space>> = true;
+
+/// What a kernel sees of a pairing: the shapes of both operands by the key of a pair, and which pairs are wanted.
+template <shape_view A, shape_view B, class Filter>
+struct pair_view {
+    using shape_type_a = typename A::shape_type;
+    using shape_type_b = typename B::shape_type;
+    A a;
+    B b;
+    pair_key key;
+    Filter filter;
+
+    [[nodiscard]] ABUT_HD shape_type_a shape_a(std::uint64_t k) const { return a[key.a(k)]; }
+    [[nodiscard]] ABUT_HD shape_type_b shape_b(std::uint64_t k) const { return b[key.b(k)]; }
+    [[nodiscard]] ABUT_HD std::uint64_t pack(std::uint32_t id_a, std::uint32_t id_b) const { return key.pack(id_a, id_b); }
+    [[nodiscard]] ABUT_HD index_pair ids(std::uint64_t k) const { return key.unpack(k); }
+    /// The same of a contact.
+    template <class Contact>
+    [[nodiscard]] ABUT_HD Contact tagged(std::uint64_t k, Contact c) const {
+        c.a = key.a(k);
+        c.b = key.b(k);
+        return c;
+    }
+    ABUT_CALLS_ANY
+    [[nodiscard]] ABUT_HD bool wanted(std::uint32_t id_a, std::uint32_t id_b) const { return filter(id_a, id_b); }
+    ABUT_INLINE void prefetch(std::uint64_t k, int step) const {
+        prefetch_shape(a, key.a(k), step);
+        prefetch_shape(b, key.b(k), step);
+    }
+};
+
+// The ways to candidates, as the verbs of a policy take them (execution/policy.hpp). `Ids` packs two ids into a key and says
+// whether the pair is wanted; `RowsAreB` says whose shapes look.
+
+template <bool RowsAreB, class Ids>
+ABUT_HD std::uint64_t pack_row(const Ids& ids, std::uint32_t row, std::uint32_t found) {
+    return RowsAreB ? ids.pack(found, row) : ids.pack(row, found);
+}
+ABUT_CALLS_ANY
+template <bool RowsAreB, class Ids>
+ABUT_HD bool is_wanted_by_row(const Ids& ids, std::uint32_t row, std::uint32_t found) {
+    return RowsAreB ? ids.wanted(found, row) : ids.wanted(row, found);
+}
+
+/// Each shape of one operand looks in the index of the other.
+template <bool RowsAreB, class Walk, class Rows, class Ids>
+struct look_up {
+    using candidate = std::uint64_t;
+    using cursor = typename Walk::cursor;
+    Walk walk;
+    Rows rows;
+    Ids ids;
+
+    /// Whether row i may find anything at all.
+    [[nodiscard]] ABUT_HD bool may_find(std::size_t i) const {
+        auto reach = reach_of(rows[i]);
+        return walk.may_touch(reach);
+    }
+    /// Hands on what row i finds from `at` on. True if there may be more, for which the emitter has no room.
+    ABUT_CALLS_ANY
+    template <class Emitter, class... Sinks>
+    ABUT_HD bool operator()(std::size_t i, cursor& at, const Emitter& emitter, Sinks&... sinks) const {
+        const auto row = static_cast<std::uint32_t>(i);
+        auto reach = reach_of(rows[i]);
+        return walk.for_each(
+            reach, at, [&] { return emitter.is_full(); },
+            [&](std::uint32_t found) {
+                if (is_wanted_by_row<RowsAreB>(ids, row, found)) emitter.push(pack_row<RowsAreB>(ids, row, found));
+                return execution::is_over(sinks...) ? visit::stop : visit::proceed;
+            });
+    }
+};
+
+/// Found by argument-dependent lookup, also where a member has the same name.
+template <class Shape>
+ABUT_HD auto reach_of_shape(const Shape& s) {
+    return reach_of(s);
+}
+
+/// All shapes of one operand against all of the other.
+template <bool RowsAreB, class Rows, class Columns, class Ids, class Judge>
+struct all_with_all {
+    using candidate = std::uint64_t;
+    using row = typename Rows::shape_type;
+    using reach = decltype(reach_of_shape(row{}));
+    struct column {
+        typename Columns::shape_type shape;
+        decltype(bounds(typename Columns::shape_type{})) box;
+    };
+    Rows rows;
+    Columns columns;
+    Ids ids;
+    Judge judge;
+
+    [[nodiscard]] const row* rows_in_memory() const { return shapes_in_memory(rows); }
+    [[nodiscard]] ABUT_HD row load_row(std::size_t i) const { return rows[i]; }
+    [[nodiscard]] ABUT_HD reach reach_of(const row& r) const { return reach_of_shape(r); }
+    [[nodiscard]] ABUT_HD column load_column(std::size_t j) const {
+        const auto shape = columns[j];
+        return {shape, bounds(shape)};
+    }
+    [[nodiscard]] ABUT_HD bool passes(const reach& r, const column& c) const { return r(c.box); }
+    [[nodiscard]] ABUT_HD std::uint64_t candidate_of(std::size_t i, std::size_t j) const {
+        return pack_row<RowsAreB>(ids, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
+    }
+    ABUT_CALLS_ANY
+    template <class Hits>
+    ABUT_HD bool operator()(const row& r, std::size_t i, const column& c, std::size_t j, Hits& hits, auto&...) const {
+        if (!is_wanted_by_row<RowsAreB>(ids, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j))) return true;
+        if constexpr (RowsAreB) {
+            return judge.decide(candidate_of(i, j), c.shape, r, hits);
+        } else {
+            return judge.decide(candidate_of(i, j), r, c.shape, hits);
+        }
+    }
+    ABUT_CALLS_ANY
+    template <class... Sinks>
+    ABUT_HD void finish(std::uint64_t key, Sinks&... sinks) const {
+        judge.finish(key, sinks...);
+    }
+};
+
+/// Judges what the rows find.
+template <bool RowsAreB, class Policy, class Walk, class Rows, class Ids, class Run>
+void look(const Policy& on, const Walk& walk, const Rows& rows, const Ids& ids, const Run& run) {
+    const look_up<RowsAreB, Walk, Rows, Ids> each{walk, rows, ids};
+    run([&](const auto& judge, auto&... sinks) { return for_each_candidate(on, rows.size(), each, judge, sinks...); });
+}
+
+// What a walk of two trees finds, handed to a policy's emitter. No lambdas: nvcc would warn of emitters of the host.
+
+template <class Emitter>
+struct add_item {
+    Emitter& emitter;
+    ABUT_CALLS_ANY
+    template <class Number, class Item>
+    ABUT_INLINE ABUT_HD void operator()(Number k, bool is, const Item& next) const {
+        emitter.add(k, is, next);
+    }
+};
+template <class Emitter, class Ids>
+struct push_pair {
+    Emitter& emitter;
+    const Ids& ids;
+    ABUT_CALLS_ANY
+    template <class Number>
+    ABUT_INLINE ABUT_HD void operator()(Number k, bool is, std::uint32_t a, std::uint32_t b) const {
+        emitter.push(k, is && ids.wanted(a, b), ids.pack(a, b));
+    }
+};
+
+/// One step down two trees.
+template <class Walk, class Ids>
+struct expand_pair {
+    using item = typename Walk::item;
+    using candidate = std::uint64_t;
+    static constexpr unsigned most_children = Walk::most_children, most_depth = Walk::most_depth;
+    Walk walk;
+    Ids ids;
+
+    [[nodiscard]] std::size_t seeds() const { return walk.seeds(); }
+    [[nodiscard]] ABUT_HD item seed(std::size_t i) const { return walk.seed(i); }
+    ABUT_INLINE void prefetch(const item& at) const { walk.prefetch(at); }
+    ABUT_CALLS_ANY
+    template <class Emitter>
+    ABUT_INLINE ABUT_HD void operator()(const item& at, Emitter&& emitter) const {
+        using sink = std::remove_reference_t<Emitter>;
+        walk.expand(at, add_item<sink>{emitter}, push_pair<sink, Ids>{emitter, ids});
+    }
+};
+
+/// The walk of two trees for a traversal.
+template <traversal Traversal, class A, class B, class Overlap>
+using chosen_walk =
+    typename std::conditional_t<Traversal == traversal::both_at_once || Traversal == traversal::breadth_first,
+                                std::type_identity<pair_walk<A, B, Overlap>>,
+                                std::type_identity<rule_walk<A, B, Overlap, Traversal>>>::type;
+
+/// How boxes of two operands' trees are compared.
+template <class A, class B>
+auto box_overlap(const A& a, const B& b) {
+    if constexpr (A::is_posed && B::is_posed) {
+        return two_frames{make_relative_pose(a.pose, a.around, b.pose, b.around)};
+    } else if constexpr (A::is_posed) {
+        return two_frames{make_relative_pose(a.pose, a.around, {}, b.index.bounds())};
+    } else if constexpr (B::is_posed) {
+        return two_frames{make_relative_pose({}, a.index.bounds(), b.pose, b.around)};
+    } else {
+        return same_frame{};
+    }
+}
+
+/// Two operands that are asked about their pairs.
+template <class A, class B, class Filter, traversal Traversal>
+struct pairing {
+    A a;
+    B b;
+    pair_key key;
+    query_options<Filter, Traversal> options;
+
+    using view_a = decltype(std::declval<const A&>().shapes());
+    using view_b = decltype(std::declval<const B&>().shapes());
+    using view_type = pair_view<view_a, view_b, Filter>;
+    static_assert(std::same_as<typename view_a::scalar_type, typename view_b::scalar_type>,
+                  "abut: both sides of a query need the same scalar type, float or double");
+    static_assert(decidable<typename view_a::shape_type, typename view_b::shape_type>,
+                  "abut: queries between sets of these two shapes are not supported");
+
+    [[nodiscard]] view_type view() const { return {a.shapes(), b.shapes(), key, options.filter}; }
+    /// Room that results are likely to need.
+    [[nodiscard]] std::size_t likely_hits() const {
+        return std::max({a.shapes().size() / 4, b.shapes().size() / 4, std::size_t{1} << 16});
+    }
+
+    /// Judges all pairs that come near each other, by loops that `run` runs (judged_loops in search.hpp).
+    template <class Policy, class Run>
+    void judge_candidates(const Policy& on, const Run& run) const {
+        const view_type both = view();
+        if (both.a.size() == 0 || both.b.size() == 0) return;
+        if constexpr (A::has_tree && B::has_tree) {
+            const std::size_t least = std::min(both.a.size(), both.b.size()), most = std::max(both.a.size(), both.b.size());
+            const auto walk = walk_of_both();
+            using walk_type = std::remove_const_t<decltype(walk)>;
+            if (least > 1 && most <= walk_type::most_shapes) {  // a leaf alone has no place (traverse/pair_walk.hpp)
+                const expand_pair<walk_type, view_type> expand{walk, both};
+                if constexpr (Traversal == traversal::breadth_first) {
+                    return for_each_on_levels(on, expand, options.start_depth, run);
+                } else {
+                    return run(
+                        [&](const auto& judge, auto&... sinks) { return for_each_descendant(on, expand, judge, sinks...); });
+                }
+            }
+        }
+        if constexpr (A::is_indexed) {
+            look<true>(on, a.walk(), both.b, both, run);
+        } else if constexpr (B::is_indexed) {
+            look<false>(on, b.walk(), both.a, both, run);
+        } else {
+            compare_all(on, both, run);
+        }
+    }
+
+private:
+    auto walk_of_both() const {
+        const auto tree_a = a.tree();
+        const auto tree_b = b.tree();
+        const auto overlap = box_overlap(a, b);
+        return chosen_walk<Traversal, std::remove_const_t<decltype(tree_a)>, std::remove_const_t<decltype(tree_b)>,
+                           std::remove_const_t<decltype(overlap)>>{tree_a, tree_b, overlap};
+    }
+
+    /// Rows of tiles are what runs in parallel, so the larger set provides them; a single shape never does.
+    template <class Policy, class Run>
+    void compare_all(const Policy& on, const view_type& both, const Run& run) const {
+        const auto rows_a = [&] { compare<false>(on, both.a, both.b, both, run); };
+        const auto rows_b = [&] { compare<true>(on, both.b, both.a, both, run); };
+        if constexpr (is_single<view_a>) {
+            rows_b();
+        } else if constexpr (is_single<view_b>) {
+            rows_a();
+        } else {
+            const bool a_is_smaller = both.a.size() < both.b.size();
+            const bool a_stays = options.resident == argument::automatic ? a_is_smaller : options.resident == argument::a;
+            a_stays ? rows_b() : rows_a();
+        }
+    }
+    template <bool RowsAreB, class Policy, class Rows, class Columns, class Run>
+    static void compare(const Policy& on, const Rows& rows, const Columns& columns, const view_type& both, const Run& run) {
+        run([&](const auto& judge, auto&... sinks) {
+            using judge_type = std::remove_cvref_t<decltype(judge)>;
+            const all_with_all<RowsAreB, Rows, Columns, view_type, judge_type> tile{rows, columns, both, judge};
+            return for_each_tiled(on, rows.size(), columns.size(), tile, sinks...);
+        });
+    }
+};
+
+/// Both arguments of a query, ready to be paired; errors are thrown in the name of `function`.
+template <class Policy, class X, class Y, class Filter, traversal Traversal>
+auto pair_up(const Policy& on, const X& x, const Y& y, const query_options<Filter, Traversal>& options,
+             const char* function) {
+    if (Traversal == traversal::breadth_first && (options.start_depth < 0 || options.start_depth > most_start_depth)) {
+        throw error(std::string(function) + ": start_depth is " + std::to_string(options.start_depth) + ", not in 0.." +
+                    std::to_string(most_start_depth));
+    }
+    require_callable(on, options.filter, std::uint32_t{}, std::uint32_t{});
+    auto a = make_operand(on, x, function);
+    auto b = make_operand(on, y, function);
+    const pair_key key{id_bits(a.shapes().size()), id_bits(b.shapes().size())};
+    return pairing<decltype(a), decltype(b), Filter, Traversal>{std::move(a), std::move(b), key, options};
+}
+
+}  // namespace abut::detail

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The least of many values, for walks that look for it: sinks that give back what they have, and the verb
+// for_each_ordered, of which execution/policy.hpp says what it does. Two kinds:
+//
+//   best_of_each<Space>   the least of each index by itself
+//   best_of_all<Space>    the least of all indices; they share a bound
+//
+// Both take sink.offer(value, key), and keep the least value and, of equal ones, the least key; sink.bound() is what values
+// have to stay below, or equal, to matter. Values are doubles, 0 or more. What is left does not depend on the order in which
+// values come, and so not on threads, as long as nothing at the bound is left out.
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include <abut/execution/atomic.hpp>
+#include <abut/execution/buffer.hpp>
+#include <abut/execution/parallel.hpp>
+
+namespace abut::execution {
+
+/// A value and whose it is. At first there is none: an infinite value of the largest key.
+struct least_value {
+    double value = __builtin_huge_val();
+    std::uint64_t key = static_cast<std::uint64_t>(-1);
+
+    ABUT_HD void offer(double v, std::uint64_t k) {
+        if (v < value || (v == value && k < key)) value = v, key = k;
+    }
+    friend constexpr bool operator==(const least_value&, const least_value&) = default;
+};
+
+struct lesser_value {
+    ABUT_HD least_value operator()(least_value a, const least_value& b) const {
+        a.offer(b.value, b.key);
+        return a;
+    }
+};
+
+template <memory_space Space>
+class best_of_each {
+public:
+    /// Of the index that is being walked.
+    struct sink {
+        least_value* out;
+        least_value mine{};
+
+        ABUT_HD void begin(std::size_t) { mine = {}; }
+        ABUT_HD void offer(double value, std::uint64_t key) { mine.offer(value, key); }
+        [[nodiscard]] ABUT_HD double bound() const { return mine.value; }
+        ABUT_HD void end(std::size_t i) { out[i] = mine; }
+        ABUT_HD void close() {}
+    };
+
+    template <execution_policy Policy>
+    best_of_each(const Policy& on, std::size_t n) : values_(on, n) {}
+
+    /// By index, in the policy's memory.
+    [[nodiscard]] const least_value* data() const { return values_.data(); }
+
+    [[nodiscard]] sink make_sink(std::size_t /*thread*/) { return {values_.data()}; }
+    template <class Policy>
+    void begin(const Policy&, std::size_t /*threads*/) {}
+    template <class Policy>
+    void end(const Policy&) {}
+
+private:
+    buffer<least_value, Space> values_;
+};
+
+template <memory_space Space>
+class best_of_all;  // of devices: execution/cuda_ordered.hpp
+
+template <>
+class best_of_all<host_space> {
+public:
+    /// Of one thread.
+    struct sink {
+        std::uint64_t* word;  ///< the bits of the least value of all threads; those of positive doubles are ordered alike
+        least_value* out;
+        least_value mine{};
+
+        ABUT_HD void begin(std::size_t) {}
+        ABUT_HD void offer(double value, std::uint64_t key) {
+            mine.offer(value, key);
+            const auto bits = __builtin_bit_cast(std::uint64_t, mine.value);
+            for (std::uint64_t seen = atomic_load(word); bits < seen;) {
+                const std::uint64_t before = atomic_compare_exchange(word, seen, bits);
+                if (before == seen) break;
+                seen = before;
+            }
+        }
+        [[nodiscard]] ABUT_HD double bound() const { return __builtin_bit_cast(double, atomic_load(word)); }
+        ABUT_HD void end(std::size_t) {}
+        ABUT_HD void close() { out->offer(mine.value, mine.key); }
+    };
+
+    template <execution_policy Policy>
+    explicit best_of_all(const Policy&) {}
+    /// The least of all loops so far.
+    [[nodiscard]] least_value least() const { return least_; }
+
+    [[nodiscard]] sink make_sink(std::size_t thread) { return {&word_, of_threads_.data() + thread}; }
+    template <class Policy>
+    void begin(const Policy& on, std::size_t threads) {
+        of_threads_ = buffer<least_value, host_space>(on, threads);
+        for (std::size_t t = 0; t < of_threads_.size(); ++t) of_threads_.data()[t] = {};
+    }
+    template <class Policy>
+    void end(const Policy&) {
+        for (std::size_t t = 0; t < of_threads_.size(); ++t) least_ = lesser_value{}(least_, of_threads_.data()[t]);
+    }
+
+private:
+    least_value least_{};
+    std::uint64_t word_ = __builtin_bit_cast(std::uint64_t, __builtin_huge_val());
+    buffer<least_value, host_space> of_threads_;
+};
+
+namespace detail {
+
+template <class Walk, class Best>
+struct walk_alone {
+    Walk walk;
+    Best* best;
+    void operator()(std::size_t i) const {
+        auto sink = best->make_sink(i);
+        sink.begin(i);
+        walk(i, sink);
+        sink.end(i);
+        sink.close();
+    }
+};
+
+}  // namespace detail
+
+/// Of a policy that says nothing of its threads: each index has a sink of its own.
+template <host_policy Policy, class Walk, class Best>
+void for_each_ordered(const Policy& on, std::size_t n, const Walk& walk, Best& best) {
+    best.begin(on, n);
+    for_each_index(on, n, detail::walk_alone<Walk, Best>{walk, &best});
+    best.end(on);
+}
+
+template <range_policy Policy, class Walk, class Best>
+void for_each_ordered(const Policy& on, std::size_t n, const Walk& walk, Best& best) {
+    constexpr std::size_t grain = 256, ahead = 8;
+    best.begin(on, static_cast<std::size_t>(concurrency(on)));
+    for_each_range(on, n, grain, [&](int thread, std::size_t begin, std::size_t end) {
+        auto sink = best.make_sink(static_cast<std::size_t>(thread));
+        for (std::size_t i = begin; i < end; ++i) {
+            if constexpr (requires { walk.prefetch(i); }) {
+                if (i + ahead < end) walk.prefetch(i + ahead);
+            }
+            sink.begin(i);
+            walk(i, sink);
+            sink.end(i);
+        }
+        sink.close();
+    });
+    best.end(on);
+}
+
+}  // namespace abut::execution

@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The point of a shape that is nearest to a given one, and how far it is. Everything is computed in double, relative to the
+// given point, one rounded operation after another: the same bits under every compiler, flag and device that rounds to
+// nearest and keeps subnormals. Not for the nearest points of two shapes: those are in nearest.hpp.
+//
+// Two things hold for every way that `way_to` returns, from the query to a point of the shape. It never leaves the box
+// around the shape, whose corners are brought into the frame of the query by the same rounded operations. So its square is
+// never less than that of the way to the box: rounding is monotone, and culling by boxes loses nothing. And it ends on the
+// shape but for a few units of roundoff of its own length and of the shape's size, whatever the shape: combinations of
+// corners have weights in [0, 1].
+//
+// A triangle's nearest point is one of seven candidates: three corners, three edges, the face. Let h be the least height of
+// the triangle, L its size, d the distance and u the roundoff. The normal is tilted by some u L / h, so the face's point is
+// off by d u L / h across the triangle, or by h, since it does not leave it: by e, the lesser of both. Along the triangle it
+// is off by u (d + L). The distance is least there, so it is off by no more than e^2 / d, which is below u L for any h. The
+// same is true where a poor normal takes an edge for the face or the face for an edge. So needles need no special care.
+
+#include <concepts>
+#include <cstdint>
+
+#include <abut/arithmetic/error_free.hpp>
+#include <abut/arithmetic/limits.hpp>
+#include <abut/arithmetic/magnitude.hpp>
+#include <abut/arithmetic/strict.hpp>
+#include <abut/arithmetic/vec.hpp>
+#include <abut/narrow/numbers.hpp>
+#include <abut/shape/bounds.hpp>
+#include <abut/shape/primitive.hpp>
+#include <abut/shape/shape.hpp>
+
+namespace abut {
+
+namespace detail {
+
+/// What lengths are measured in: a power of two that keeps squares, and products of four lengths, from overflow and
+/// underflow. Floats need none, being computed in double.
+template <scalar T>
+struct length_unit {
+    ABUT_HD static constexpr double of(T x) { return static_cast<double>(x); }
+    ABUT_HD static constexpr double length(double x) { return x; }
+};
+template <>
+struct length_unit<double> {
+    double per_length = 1, unit = 1;
+
+    length_unit() = default;
+    /// For coordinates that are nowhere larger in magnitude than `largest`: they come below 2^250.
+    ABUT_HD explicit constexpr length_unit(double largest) {
+        if (!(largest > 0)) return;
+        const int e = 249 - contact_math::exponent_of(largest), k = e < -1000 ? -1000 : e > 1000 ? 1000 : e;
+        per_length = contact_math::power_of_two(k);
+        unit = contact_math::power_of_two(-k);
+    }
+    [[nodiscard]] ABUT_HD constexpr double of(double x) const { return plain_product(x, per_length); }
+    [[nodiscard]] ABUT_HD constexpr double length(double x) const { return plain_product(x, unit); }
+};
+
+template <scalar T>
+ABUT_HD constexpr vec3<double> way_between(const vec3<T>& from, const vec3<T>& to, const length_unit<T>& unit) {
+    return {plain_sum(unit.of(to.x), -unit.of(from.x)), plain_sum(unit.of(to.y), -unit.of(from.y)),
+            plain_sum(unit.of(to.z), -unit.of(from.z))};
+}
+
+/// x in a box. With a box around the way's end, in the frame of the query.
+ABUT_HD constexpr vec3<double> held(const vec3<double>& x, const vec3<double>& lower, const vec3<double>& upper) {
+    return least(greatest(x, lower), upper);
+}
+template <scalar T>
+ABUT_HD constexpr vec3<double> held(const vec3<double>& way, const aabb<T>& box, const vec3<T>& p,
+                                    const length_unit<T>& unit) {
+    return held(way, way_between(p, box.lower, unit), way_between(p, box.upper, unit));
+}
+
+// --- in the frame of the query, which is the origin ----------------------------------------------------------------------
+
+using contact_math::plain_difference;
+using contact_math::plain_dot;
+
+ABUT_HD constexpr vec3<double> plain_cross(const vec3<double>& a, const vec3<double>& b) {
+    const auto minor = [](double s, double t, double x, double y) {
+        return plain_sum(plain_product(s, t), -plain_product(x, y));
+    };
+    return {minor(a.y, b.z, a.z, b.y), minor(a.z, b.x, a.x, b.z), minor(a.x, b.y, a.y, b.x)};
+}
+/// p + t v
+ABUT_HD constexpr vec3<double> plain_step(const vec3<double>& p, double t, const vec3<double>& v) {
+    return {plain_sum(p.x, plain_product(t, v.x)), plain_sum(p.y, plain_product(t, v.y)),
+            plain_sum(p.z, plain_product(t, v.z))};
+}
+
+/// The point of a segment that is nearest to the origin, seen from the end that is nearer to it. So both triangles at an
+/// edge find the same bits.
+ABUT_HD constexpr vec3<double> foot_on_edge(const vec3<double>& nearer, const vec3<double>& farther) {
+    const vec3<double> edge = plain_difference(farther, nearer);
+    const double along = -plain_dot(nearer, edge), length = plain_dot(edge, edge);
+    if (!(along > 0 && length > 0)) return nearer;
+    const double t = along / length;
+    return plain_step(nearer, t < 1 ? t : 1, edge);
+}
+ABUT_HD constexpr vec3<double> foot_on_segment(const vec3<double>& a, const vec3<double>& b) {
+    const bool b_is_nearer = plain_dot(b, b) < plain_dot(a, a);
+    const vec3<double> foot = b_is_nearer ? foot_on_edge(b, a) : foot_on_edge(a, b);
+    return held(foot, least(a, b), greatest(a, b));
+}
+
+/// Three corners and their squares.
+struct seen_triangle {
+    vec3<double> a, b, c;
+    double aa, bb, cc;
+
+    ABUT_HD constexpr seen_triangle(const vec3<double>& p, const vec3<double>& q, const vec3<double>& r)
+        : a(p), b(q), c(r), aa(plain_dot(p, p)), bb(plain_dot(q, q)), cc(plain_dot(r, r)) {}
+
+    /// Long, and seldom called beside `is_beyond`: out of line.
+    [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr vec3<double> foot() const {
+        return held(foot_of_corners(), least(least(a, b), c), greatest(greatest(a, b), c));
+    }
+
+private:
+    /// The corner that is nearest comes first.
+    [[nodiscard]] ABUT_HD constexpr vec3<double> foot_of_corners() const {
+        if (bb < aa && !(cc < bb)) return foot_from(b, bb, a, aa, c, cc);
+        if (cc < aa) return foot_from(c, cc, a, aa, b, bb);
+        return foot_from(a, aa, b, bb, c, cc);
+    }
+    /// Whether there is a foot on the face. The weight of c is that of a height, and may be poor; that of b makes up for it
+    /// along the triangle, whatever it is.
+    ABUT_HD static constexpr bool has_foot_on_face(const vec3<double>& a, const vec3<double>& ab, const vec3<double>& ac,
+                                                   vec3<double>& foot) {
+        const vec3<double> n = plain_cross(ab, ac);
+        const double nn = plain_dot(n, n);
+        if (!(nn > 0)) return false;
+        const double of_c = -plain_dot(plain_cross(n, ab), a) / nn;
+        if (!(of_c > 0 && of_c < 1)) return false;
+        const vec3<double> at_height = plain_step(a, of_c, ac);
+        const double of_b = -plain_dot(at_height, ab) / plain_dot(ab, ab);
+        foot = plain_step(at_height, of_b, ab);
+        return of_b > 0 && plain_sum(of_b, of_c) < 1;
+    }
+    ABUT_HD static constexpr vec3<double> foot_from(const vec3<double>& a, double aa, const vec3<double>& b, double bb,
+                                                    const vec3<double>& c, double cc) {
+        const vec3<double> ab = plain_difference(b, a), ac = plain_difference(c, a);
+        const double along_ab = -plain_dot(a, ab), along_ac = -plain_dot(a, ac);
+        if (!(along_ab > 0) && !(along_ac > 0)) return a;
+
+        vec3<double> nearest{};
+        if (has_foot_on_face(a, ab, ac, nearest)) return nearest;
+        nearest = a;
+        double least_square = aa;
+        const auto offer = [&](const vec3<double>& foot) {
+            const double square = plain_dot(foot, foot);
+            if (square < least_square) least_square = square, nearest = foot;
+        };
+        if (along_ab > 0) offer(foot_on_edge(a, b));
+        if (along_ac > 0) offer(foot_on_edge(a, c));
+        offer(cc < bb ? foot_on_edge(c, b) : foot_on_edge(b, c));
+        return nearest;
+    }
+};
+
+/// Whether a triangle is surely farther from p than the root of `limit`: if a plane has p in front of it, that far away, and
+/// all three corners behind it. Most of what a walk meets is told so, in a fraction of the time that the foot takes.
+///
+/// The plane is orthogonal to w, the sum of the corners as p sees them, as it is rounded. A corner's product with w is off
+/// by less than 5u |w| |corner|. The least product is at least |w| |corner| / 32 for each of them, or nothing is said, so
+/// that it is off by 160u of itself; squares, and the foot's own square, by less than 2^-14. What underflows is nothing
+/// beside 2^-100 (or 2^-900), and what overflows says nothing, or is greater than any limit.
+template <scalar T>
+ABUT_HD bool is_beyond(const triangle<T>& t, const vec3<T>& p, T limit) {
+    const vec3<T> a = t.a - p, b = t.b - p, c = t.c - p, w = a + b + c;
+    const T product = least(dot(w, a), dot(w, b), dot(w, c)), square = product * product;
+    const T far = T(0x1p-10) * (dot(a, a) + dot(b, b) + dot(c, c)), near = T(1 + 0x1p-13) * limit;
+    constexpr T tiny = std::same_as<T, float> ? T(0x1p-100) : T(0x1p-900);
+    return product > 0 && square > tiny && square > dot(w, w) * (near > far ? near : far);
+}
+
+/// From the origin to a ball around `center`; nothing if it is inside.
+ABUT_HD inline vec3<double> way_to_ball(const vec3<double>& center, double radius) {
+    const double length = contact_math::root(contact_math::one_double{plain_dot(center, center)}).high;
+    const double gap = plain_sum(length, -radius);
+    if (!(gap > 0)) return {0, 0, 0};
+    const double t = gap / length;
+    return {plain_product(t, center.x), plain_product(t, center.y), plain_product(t, center.z)};
+}
+
+// --- the way from p to each shape ----------------------------------------------------------------------------------------
+
+template <scalar T>
+ABUT_HD vec3<double> way_to(const vec3<T>& q, const vec3<T>& p, const length_unit<T>& unit) {
+    return way_between(p, q, unit);
+}
+template <scalar T>
+ABUT_HD vec3<double> way_to(const segment<T>& s, const vec3<T>& p, const length_unit<T>& unit) {
+    return foot_on_segment(way_between(p, s.a, unit), way_between(p, s.b, unit));
+}
+template <scalar T>
+ABUT_HD vec3<double> way_to(const triangle<T>& t, const vec3<T>& p, const length_unit<T>& unit) {
+    return seen_triangle(way_between(p, t.a, unit), way_between(p, t.b, unit), way_between(p, t.c, unit)).foot();
+}
+template <scalar T>
+ABUT_HD vec3<double> way_to(const sphere<T>& s, const vec3<T>& p, const length_unit<T>& unit) {
+    return held(way_to_ball(way_between(p, s.center, unit), unit.of(s.radius)), bounds(s), p, unit);
+}
+template <scalar T>
+ABUT_HD vec3<double> way_to(const capsule<T>& s, const vec3<T>& p, const length_unit<T>& unit) {
+    return held(way_to_ball(way_to(s.axis, p, unit), unit.of(s.radius)), bounds(s), p, unit);
+}
+template <scalar T>
+ABUT_HD vec3<double> way_to(const aabb<T>& box, const vec3<T>& p, const length_unit<T>& unit) {
+    return held(vec3<double>{0, 0, 0}, box, p, unit);
+}
+
+/// Shapes that the library measures by itself.
+template <class S>
+concept has_way_to = requires(const S& s, const vec3<scalar_type_of<S>>& p, const length_unit<scalar_type_of<S>>& unit) {
+    way_to(s, p, unit);
+};
+
+/// p plus the way, in T, and in the shape's box.
+template <scalar T>
+ABUT_HD vec3<T> end_of_way(const vec3<T>& p, const vec3<double>& way, const aabb<T>& box, const length_unit<T>& unit) {
+    const auto one = [&](T x, double d) {
+        return rounded(static_cast<T>(plain_sum(static_cast<double>(x), unit.length(d))));
+    };
+    return least(greatest(vec3<T>{one(p.x, way.x), one(p.y, way.y), one(p.z, way.z)}, box.lower), box.upper);
+}
+/// Where the way leads to a corner it is the corner, and of a box nothing is rounded.
+template <class S, scalar T>
+ABUT_HD vec3<T> end_of_way(const S& s, const vec3<T>& p, const vec3<double>& way, const length_unit<T>& unit) {
+    if constexpr (std::same_as<S, aabb<T>>) return least(greatest(p, s.lower), s.upper);
+    if constexpr (requires { s.b; }) {
+        if (way == way_between(p, s.a, unit)) return s.a;
+        if (way == way_between(p, s.b, unit)) return s.b;
+    }
+    if constexpr (requires { s.c; }) {
+        if (way == way_between(p, s.c, unit)) return s.c;
+    }
+    return end_of_way(p, way, bounds(s), unit);
+}
+
+/// A unit for one shape and one point.
+template <scalar T>
+ABUT_HD length_unit<T> unit_for(const aabb<T>& box, const vec3<T>& p) {
+    if constexpr (std::same_as<T, double>) {
+        const vec3<double> most = greatest(greatest(absolute(box.lower), absolute(box.upper)), absolute(p));
+        return length_unit<double>(least(greatest(most.x, most.y, most.z), largest_finite<double>));
+    } else {
+        return {};
+    }
+}
+
+}  // namespace detail
+
+/// The point of a shape that is nearest to `p`: of a point (vec3), segment, triangle, sphere, capsule or box; the last three
+/// are solid, and p itself is nearest where it is inside. It lies in the box around the shape. docs/numerics.md says how
+/// accurate it is. p and the shape are finite.
+///
+///     const auto q = abut::nearest_point(abut::segment<float>{{0, 0, 0}, {4, 0, 0}}, {1, 2, 0});   // (1, 0, 0)
+template <detail::has_way_to S>
+[[nodiscard]] ABUT_HD vec3<scalar_type_of<S>> nearest_point(const S& s, const vec3<scalar_type_of<S>>& p) {
+    const auto unit = detail::unit_for(bounds(s), p);
+    return detail::end_of_way(s, p, detail::way_to(s, p, unit), unit);
+}
+
+/// Has `nearest_point(s, p)`: the point of s that is nearest to p, found by argument-dependent lookup. Pure, on hosts and
+/// devices. The result is taken into the box of the shape.
+template <class S>
+concept approachable = shape<S> && requires(const S& s, const vec3<scalar_type_of<S>>& p) {
+    { nearest_point(s, p) } -> std::same_as<vec3<scalar_type_of<S>>>;
+};
+
+namespace detail {
+
+/// The way from p to any shape; to one of the caller's own by the point that it names.
+template <approachable S, scalar T>
+ABUT_HD vec3<double> way_from(const vec3<T>& p, const S& s, const length_unit<T>& unit) {
+    if constexpr (has_way_to<S>) {
+        return way_to(s, p, unit);
+    } else {
+        return held(way_between(p, nearest_point(s, p), unit), bounds(s), p, unit);
+    }
+}
+
+/// The square of that way. For ways longer than the root of `bound` any number above `bound` will do.
+template <approachable S, scalar T>
+ABUT_HD double squared_distance_within(double bound, const vec3<T>& p, const S& s, const length_unit<T>& unit) {
+    vec3<double> way{};
+    if constexpr (std::same_as<S, triangle<T>>) {
+        if (is_beyond(s, p, static_cast<T>(unit.length(unit.length(bound + 4 * smallest_normal<double>)))))
+            return infinity<double>;
+        way = way_to(s, p, unit);
+    } else {
+        way = way_from(p, s, unit);
+    }
+    return plain_dot(way, way);
+}
+
+}  // namespace detail
+
+}  // namespace abut

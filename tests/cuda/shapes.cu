@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include <abut/cuda.hpp>
+
+#include <vector>
+
+#include "../../docs/examples/cylinder.hpp"
+#include "collide/nearest_cases.hpp"
+#include "collide/set_cases.hpp"
+#include "shape/feature_cases.hpp"
+#include "support/catch.hpp"
+
+TEST_CASE("nearest: cuda") {
+    abut::test::check_all_nearest<float>(abut::cuda{});
+    abut::test::check_nearest_to_mesh<double>(abut::cuda{});
+    abut::test::check_nearest_scales<double>(abut::cuda{});
+}
+
+TEST_CASE("queries: sets of other shapes, cuda") {
+    using namespace abut;
+    test::check_pair_of_shapes<sphere<float>, sphere<float>>(abut::cuda{}, 61);
+    test::check_pair_of_shapes<vec3<float>, triangle<float>>(abut::cuda{}, 62);
+    test::check_pair_of_shapes<capsule<double>, triangle<double>>(abut::cuda{}, 63);
+}
+
+TEST_CASE("queries: a caller's own shape, cuda") {
+    using namespace abut;
+    test::uniform random(64);
+    std::vector<plant::cylinder<float>> cylinders;
+    for (int i = 0; i < 200; ++i) cylinders.push_back({random.point<float>(-1, 1), 0.2f, 0.5f});
+    const triangle_soup<float> soup(test::random_triangles<float>(300, random));
+    CHECK(test::check_sets_of(abut::cuda{}, shapes<plant::cylinder<float>>(cylinders), soup) > 100);
+}
+
+TEMPLATE_TEST_CASE("features: cuda", "", float, double) {
+    abut::test::check_all_features<TestType>(abut::cuda{}, 20);
+    abut::test::check_features_in_queries<TestType>(abut::cuda{});
+}
