@@ -35,6 +35,10 @@ struct sah {
     static constexpr const char* name = "sah";
     static auto make(const auto& on) { return abut::make_bvh(on, torus(), {.builder = abut::bvh_builder::sah}); }
 };
+struct oriented_sah {
+    static constexpr const char* name = "oriented_sah";
+    static auto make(const auto& on) { return abut::oriented(on, sah::make(on)); }
+};
 struct wide_sah {
     static constexpr const char* name = "wide_sah";
     static auto make(const auto& on) { return abut::wide(on, sah::make(on)); }
@@ -75,6 +79,7 @@ int main(int argc, char** argv) {
     add<bvh>("serial", abut::serial{});
     add<sah>("serial", abut::serial{});
     add<wide_sah>("serial", abut::serial{});
+    add<oriented_sah>("serial", abut::serial{});
     add<bvh>("openmp", abut::openmp{});
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;

@@ -42,6 +42,8 @@ int main(int argc, char** argv) {
         const auto joined_tree = abut::make_bvh(on, mesh, {.builder = abut::bvh_builder::ploc});
         add(on, "bvh", tree, mesh_bytes + static_cast<double>(tree.bytes()), out);
         add(on, "ploc", joined_tree, mesh_bytes + static_cast<double>(joined_tree.bytes()), out);
+        const auto turned = abut::oriented(on, joined_tree);
+        add(on, "oriented", turned, mesh_bytes + static_cast<double>(turned.bytes()), out);
         const auto small = abut::quantised(on, tree);
         add(on, "quantised", small, mesh_bytes + static_cast<double>(small.bytes()), out);
     });

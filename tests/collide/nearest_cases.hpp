@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <cstdio>
 #include <limits>
@@ -85,10 +86,10 @@ void check_nearest_by_trees(const Policy& on, const Set& set, const std::vector<
     const auto tree = make_bvh(on, there);
     check_answers(on, quantised(on, tree), points, expected);
     check_answers(on, leafless(on, tree), points, expected);
+    check_answers(on, oriented(on, tree), points, expected);
     check_answers(on, make_bvh(on, there, {.builder = bvh_builder::ploc}), points, expected);
     if constexpr (host_policy<Policy>) {
         check_answers(on, wide(on, tree), points, expected);
-        check_answers(on, oriented(on, tree), points, expected);
         check_answers(on, make_bvh(on, there, {.builder = bvh_builder::sah}), points, expected);
         check_answers(on, make_bvh(on, there, {.builder = bvh_builder::mean_split}), points, expected);
     }
@@ -102,6 +103,8 @@ void check_nearest_posed(const Policy& on, const Set& set, const std::vector<vec
     check_answers(on, posed(there, pose), points, expected);
     check_answers(on, posed(make_bvh(on, there), pose), points, expected);
     check_answers(on, posed(make_grid(on, there), pose), points, expected);
+    if constexpr (std::same_as<typename Set::shape_type, triangle<T>>)
+        check_answers(on, posed(oriented(on, make_bvh(on, there)), pose), points, expected);
 }
 
 /// Points in and around a box of side 2, and on what is there.

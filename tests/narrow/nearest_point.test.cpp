@@ -12,6 +12,9 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/cpp_int.hpp>
 
+#include <abut/shape/volume.hpp>
+#include <abut/traverse/ordered_walk.hpp>
+
 #include "support/catch.hpp"
 #include "support/draws.hpp"
 
@@ -228,9 +231,16 @@ void check_triangles() {
 
             const auto unit = detail::unit_for(bounds(t), p);
             const vec3<double> way = detail::way_to(t, p, unit);
-            // What is said to be beyond some limit is farther, as computed.
-            const double square = detail::plain_dot(way, way) * unit.length(1) * unit.length(1);
-            CHECK_FALSE(detail::is_beyond(t, p, static_cast<T>(square)));
+            // Bounds hold for what is computed, and no volume around the triangle is out of a reach that shrank to it.
+            const double square = detail::plain_dot(way, way);
+            const detail::distance_bounds<T> bounds_of(t, p);
+            CHECK_FALSE(bounds_of.are_beyond(detail::square_from(unit, square)));
+            CHECK(bounds_of.at_least() <= detail::square_from(unit, square));
+            CHECK(square <= detail::square_in(unit, bounds_of.at_most()));
+            auto ball = detail::world_frame<T>{unit.length(1)}.ball_around(p);
+            ball.shrink_to(square);
+            CHECK(ball.keeps(ball.least_in(bounds(t))));
+            CHECK(ball.keeps(ball.least_in(around<obb<T>>(t))));
         }
         std::printf("%-15s %-6s distance %.2f, point %.2f\n", f.name, sizeof(T) == 4 ? "float" : "double", worst.distance,
                     worst.point);
@@ -257,6 +267,12 @@ TEMPLATE_TEST_CASE("nearest_point: scale by powers of two changes no digit, to t
             const T s = std::ldexp(T(1), e);
             const triangle<T> u = times(t, s);
             const vec3<T> far = nearest_point(u, s * p);
+            const auto unit = detail::unit_for(bounds(u), s * p);
+            const double square = detail::squared_distance(s * p, u, unit);
+            CHECK(square <= detail::square_in(unit, detail::distance_bounds<T>(u, s * p).at_most()));
+            auto ball = detail::world_frame<T>{unit.length(1)}.ball_around(s * p);
+            ball.shrink_to(square);
+            CHECK(ball.keeps(ball.least_in(around<obb<T>>(u))));
             const vec3<T> off = detail::absolute(far - s * q);
             CAPTURE(i, e, far.x, far.y, far.z, s * q.x, s * q.y, s * q.z);
             CHECK(detail::greatest(off.x, off.y, off.z) <= std::numeric_limits<T>::denorm_min());  // 0, but for denormals

@@ -49,9 +49,74 @@ namespace detail {
 template <scalar T>
 struct measure_distance {
     length_unit<T> unit;
+    /// Where the distance is surely above `bound`, infinity will do.
     template <approachable S>
     ABUT_HD double measure(const S& s, const vec3<T>& p, double bound) const {
-        return squared_distance_within(bound, p, s, unit);
+        if constexpr (has_distance_bounds<S>) {
+            if (distance_bounds<T>(s, p).are_beyond(square_from(unit, bound))) return infinity<double>;
+        }
+        return squared_distance(p, s, unit);
+    }
+};
+
+/// A shape that waits to be measured, and what the square of its distance is surely not below.
+template <scalar T>
+struct waiting_shape {
+    std::uint32_t id;
+    T at_least;
+};
+
+/// The nearest of some shapes that wait, if it is within the bound. Out of line: what it needs of registers is for few, and
+/// walks need theirs.
+template <class Shapes, scalar T>
+ABUT_NOINLINE ABUT_HD execution::least_value nearest_of(const Shapes shapes, const waiting_shape<T>* waiting, int n,
+                                                        const vec3<T> p, const length_unit<T> unit, double bound) {
+    execution::least_value best;
+    T limit = square_from(unit, bound);
+    for (int k = 0; k < n; ++k) {
+        if (waiting[k].at_least > limit) continue;
+        best.offer(squared_distance(p, shapes[waiting[k].id], unit), waiting[k].id);
+        limit = least(limit, square_from(unit, best.value));
+    }
+    return best;
+}
+
+/// What a walk from p meets goes to a sink. Shapes that take long to measure wait: meanwhile the nearest corner shrinks the
+/// bound, and most of those that wait turn out to be farther. Of a fine torus a point far away measures some five triangles
+/// so, instead of seventeen.
+template <shape_view Shapes, scalar T, class Judge, class Best>
+struct near_shapes {
+    static constexpr bool wait = has_distance_bounds<typename Shapes::shape_type>;
+    static constexpr int room = 32;
+    const Shapes& shapes;
+    const vec3<T> p;
+    const Judge& judge;
+    Best& best;
+    double limit = infinity<double>;
+    int count = 0;
+    waiting_shape<T> waiting[wait ? room : 1];  ///< not initialised
+
+    ABUT_HD near_shapes(const Shapes& all, const vec3<T>& from, const Judge& with, Best& to)
+        : shapes(all), p(from), judge(with), best(to) {}
+    [[nodiscard]] ABUT_HD double bound() const { return least(limit, best.bound()); }
+    ABUT_HD void meet(std::uint32_t id) {
+        if constexpr (wait) {
+            const distance_bounds<T> distance(shapes[id], p);
+            if (distance.are_beyond(square_from(judge.unit, bound()))) return;
+            limit = least(limit, square_in(judge.unit, distance.at_most()));
+            waiting[count++] = {id, distance.at_least()};
+            if (count == room) measure();
+        } else {
+            best.offer(judge.measure(shapes[id], p, bound()), id);
+        }
+    }
+    /// Measures those that wait.
+    ABUT_HD void measure() {
+        if constexpr (wait) {
+            const auto found = nearest_of(shapes, waiting, count, p, judge.unit, bound());
+            best.offer(found.value, found.key);
+            count = 0;
+        }
     }
 };
 
@@ -72,7 +137,20 @@ struct walk_from_points {
     ABUT_HD void operator()(std::size_t i, Best& best) const {
         const auto p = points[order == nullptr ? i : order[i]];
         auto reach = frame.ball_around(p);
-        walk(reach, best, [&](std::uint32_t id) { best.offer(judge.measure(shapes[id], p, best.bound()), id); });
+        near_shapes<Shapes, typename Points::scalar_type, Judge, Best> near(shapes, p, judge, best);
+        walk(reach, near, [&](std::uint32_t id) { near.meet(id); });
+        near.measure();
+    }
+    ABUT_CALLS_ANY
+    template <class Best, class Team>
+        requires Walk::in_teams
+    ABUT_HD void together(std::size_t i, bool is_there, Best& best, Team team) const {
+        const auto p = points[!is_there ? 0 : order == nullptr ? i : order[i]];
+        auto reach = frame.ball_around(p);
+        if (!is_there) reach.close();
+        near_shapes<Shapes, typename Points::scalar_type, Judge, Best> near(shapes, p, judge, best);
+        walk(reach, near, [&](std::uint32_t id) { near.meet(id); }, team);
+        near.measure();
     }
     ABUT_INLINE void prefetch(std::size_t i) const {
         if (order != nullptr) prefetch_shape(points, order[i], 0);
@@ -224,8 +302,10 @@ auto make_points(const Policy& on, const Points& points, const char* function) {
 
 /// Fewer points than these look at a plain set one at a time, and the shapes are shared out among threads.
 inline constexpr std::size_t few_points = 64;
-/// As many points as these, or more, are taken along a curve: neighbours walk through the same nodes.
-inline constexpr std::size_t many_points = 4096;
+/// As many points as these, or more, are taken along a curve: neighbours walk through the same nodes. On a device they walk
+/// together.
+template <class Policy>
+inline constexpr std::size_t many_points = host_policy<Policy> ? 4096 : 64;
 
 }  // namespace detail
 
@@ -287,7 +367,7 @@ template <execution_policy Policy, class X, class Points>
     const auto walk = ordered_walk_of(x);
     const auto frame = frame_of(x, unit);
     execution::buffer_of<Policy, std::uint32_t> order;
-    if (decltype(x)::is_indexed && n >= many_points && n < no_id) order = order_points(on, from);
+    if (decltype(x)::is_indexed && n >= many_points<Policy> && n < no_id) order = order_points(on, from);
     execution::best_of_each<space_of<Policy>> best(on, n);
     using walk_type = walk_from_points<std::remove_const_t<decltype(walk)>, std::remove_const_t<decltype(frame)>,
                                        shapes_type, points_type, measure_distance<T>>;

@@ -88,11 +88,16 @@ __global__ void __launch_bounds__(group_size) for_each_group_kernel(F f) {
     f(group<typename F::shared>(std::size_t{blockIdx.x} * group_size, shared));
 }
 
-/// Whether a flag among the sinks is raised, the same answer for all threads of the block.
+/// Whether a flag among the sinks is raised, the same answer for all threads of the block. Each is asked by another warp,
+/// since they are far away, and one after another took as long as all the rest of a step.
 template <class... Sinks>
 __device__ bool block_is_over(const Sinks&... sinks) {
+    static_assert(sizeof...(sinks) <= block_size / warp_size);
     if constexpr ((is_flag<Sinks> || ...)) {
-        return __syncthreads_or(threadIdx.x == 0 && is_over(sinks...)) != 0;
+        unsigned first = 0;
+        bool over = false;
+        (..., (over |= threadIdx.x == first && is_over(sinks), first += warp_size));
+        return __syncthreads_or(over) != 0;
     } else {
         return false;
     }
@@ -436,7 +441,8 @@ void for_each_group(const cuda& on, std::size_t n, const F& f) {
 namespace detail {
 
 /// A loop that judges at most `pairs` candidates: launch(late_sink, sinks...) starts it. The kernel that finishes what it
-/// leaves open follows at once: the host need not know how much that is, and it is little as a rule. Returns how many of these found no room, and so were not finished.
+/// leaves open follows at once: the host need not know how much that is, and it is little as a rule. Returns how many of
+/// these found no room, and so were not finished.
 template <class Candidate, class Judge, class Launch, class... Queues>
 std::uint64_t judge_and_finish(const cuda& on, std::uint64_t pairs, const Judge& judge, const Launch& launch,
                                Queues&... queues) {

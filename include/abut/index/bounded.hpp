@@ -83,10 +83,11 @@ struct some_triangles {
 
 }  // namespace detail
 
-/// A tree of volumes V of the same topology, for triangles and the host's policies. It shares the set and nothing else; the
+/// A tree of volumes V of the same topology, for triangles. It shares the set and nothing else; the
 /// one it was made of may go. Each volume is as small as one made around all triangles in it. Oriented boxes and spheres are
 /// made so, in time proportional to the number of shapes times the depth of the tree: some thirty and seventy linear builds.
-/// kdop and aabb are merged from below, in linear time: some ten. Returns when it is done. Throws std::bad_alloc.
+/// kdop and aabb are merged from below, in linear time: some ten. For a device it is made on all threads of the host, of a copy
+/// of the tree, and brought there. Returns when it is done. Throws std::bad_alloc, cuda_error.
 ///
 /// Two trees of one kind of volume are told apart by these, but of kdop under a pose by the boxes along the axes. Such boxes
 /// are what a tree of volumes stands for together with anything else, slowly where they have to be made at each look.
@@ -94,8 +95,8 @@ struct some_triangles {
 ///     const auto tree = bounded_by<kdop<float, 18>>(on, make_bvh(on, mesh, {.builder = bvh_builder::sah}));
 template <bounding_volume V, execution_policy Policy, class Set, memory_space Space>
 [[nodiscard]] bvh<Set, Space, bounded_layout<V>> bounded_by(const Policy& on, const bvh<Set, Space>& tree) {
-    static_assert(host_policy<Policy> && std::same_as<Space, host_space>,
-                  "abut: trees of volumes are for the host's policies, serial and openmp");
+    static_assert(host_policy<Policy> || std::same_as<Space, space_of<Policy>>,
+                  "abut: a tree of volumes is made by a policy of the memory where the tree is");
     using tree_type = bvh<Set, Space, bounded_layout<V>>;
     using T = typename tree_type::scalar_type;
     static_assert(std::same_as<typename detail::volume_scalar<V>::type, T>,
@@ -103,7 +104,18 @@ template <bounding_volume V, execution_policy Policy, class Set, memory_space Sp
     static_assert(std::same_as<typename Set::shape_type, triangle<T>>, "abut: volumes are made around triangles alone");
     const std::size_t n = tree.size();
     auto fresh = std::make_shared<typename tree_type::storage>();
-    if (n > 0) {
+    if constexpr (!host_policy<Policy>) {
+        const auto set = copy_to(openmp{}, tree.set());
+        using on_host = bvh<std::remove_const_t<decltype(set)>, host_space>;
+        const auto made = bounded_by<V>(
+            openmp{}, on_host(set, std::make_shared<typename on_host::storage>(tree.stored().to_host())));
+        const auto& from = made.stored();
+        fresh->nodes = execution::buffer_of<Policy, bounded_node<V>>(on, from.nodes.size());
+        fresh->root = execution::buffer_of<Policy, bvh_root<T>>(on, from.root.size());
+        upload(on, from.nodes.data(), from.nodes.size(), fresh->nodes.data());
+        upload(on, from.root.data(), from.root.size(), fresh->root.data());
+        synchronize(on);
+    } else if (n > 0) {
         const bvh_node<T>* const nodes = tree.view().nodes;
         const bvh_root<T> root = *tree.view().top;
         const auto shapes = detail::view_of(tree.set());

@@ -160,21 +160,48 @@ private:
     }
 };
 
-/// Whether a triangle is surely farther from p than the root of `limit`: if a plane has p in front of it, that far away, and
-/// all three corners behind it. Most of what a walk meets is told so, in a fraction of the time that the foot takes.
+/// What is known of how far a triangle is from p, before its foot is computed: surely farther than the root of `limit`, if a
+/// plane has p in front of it, that far away, and all three corners behind it. Most of what a walk meets is told so, in a
+/// fraction of the time that the foot takes.
 ///
 /// The plane is orthogonal to w, the sum of the corners as p sees them, as it is rounded. A corner's product with w is off
 /// by less than 5u |w| |corner|. The least product is at least |w| |corner| / 32 for each of them, or nothing is said, so
 /// that it is off by 160u of itself; squares, and the foot's own square, by less than 2^-14. What underflows is nothing
 /// beside 2^-100 (or 2^-900), and what overflows says nothing, or is greater than any limit.
 template <scalar T>
-ABUT_HD bool is_beyond(const triangle<T>& t, const vec3<T>& p, T limit) {
-    const vec3<T> a = t.a - p, b = t.b - p, c = t.c - p, w = a + b + c;
-    const T product = least(dot(w, a), dot(w, b), dot(w, c)), square = product * product;
-    const T far = T(0x1p-10) * (dot(a, a) + dot(b, b) + dot(c, c)), near = T(1 + 0x1p-13) * limit;
-    constexpr T tiny = std::same_as<T, float> ? T(0x1p-100) : T(0x1p-900);
-    return product > 0 && square > tiny && square > dot(w, w) * (near > far ? near : far);
-}
+struct distance_bounds {
+    T product, of_w, all, nearest;  ///< the least product; squares: of w, of all corners' ways in sum, of the shortest way
+
+    ABUT_HD distance_bounds(const triangle<T>& t, const vec3<T>& p) {
+        const vec3<T> a = t.a - p, b = t.b - p, c = t.c - p, w = a + b + c;
+        const T aa = dot(a, a), bb = dot(b, b), cc = dot(c, c);
+        product = least(dot(w, a), dot(w, b), dot(w, c));
+        of_w = dot(w, w);
+        all = aa + bb + cc;
+        nearest = least(aa, bb, cc);
+    }
+    /// Whether it is surely farther than the root of `limit`.
+    [[nodiscard]] ABUT_HD bool are_beyond(T limit) const {
+        const T square = product * product, far = T(0x1p-10) * all, near = T(1 + 0x1p-13) * limit;
+        return product > 0 && square > tiny && square > of_w * (near > far ? near : far);
+    }
+    /// What the square of the way is surely not below.
+    [[nodiscard]] ABUT_HD T at_least() const {
+        const T square = product * product;
+        const bool tells = product > 0 && square > tiny && square > of_w * (T(0x1p-10) * all);
+        return tells ? square / of_w * T(1 - 0x1p-12) : T(0);
+    }
+    /// What the square of the way is surely not above: that of the way to the nearest corner, and what the foot may be off,
+    /// which is below some 2^-50 of d and of the triangle's size, or its square below 2^-50 of their product. With
+    /// d^2 / 2^18, which covers the roundings here too, and the squares of all corners' ways / 2^50 that is covered many
+    /// times over.
+    [[nodiscard]] ABUT_HD T at_most() const {
+        return nearest + T(0x1p-18) * nearest + T(0x1p-50) * all + 8 * smallest_normal<T>;
+    }
+
+private:
+    static constexpr T tiny = std::same_as<T, float> ? T(0x1p-100) : T(0x1p-900);
+};
 
 /// From the origin to a ball around `center`; nothing if it is inside.
 ABUT_HD inline vec3<double> way_to_ball(const vec3<double>& center, double radius) {
@@ -283,19 +310,27 @@ ABUT_HD vec3<double> way_from(const vec3<T>& p, const S& s, const length_unit<T>
     }
 }
 
-/// The square of that way. For ways longer than the root of `bound` any number above `bound` will do.
+/// The square of that way.
 template <approachable S, scalar T>
-ABUT_HD double squared_distance_within(double bound, const vec3<T>& p, const S& s, const length_unit<T>& unit) {
-    vec3<double> way{};
-    if constexpr (std::same_as<S, triangle<T>>) {
-        if (is_beyond(s, p, static_cast<T>(unit.length(unit.length(bound + 4 * smallest_normal<double>)))))
-            return infinity<double>;
-        way = way_to(s, p, unit);
-    } else {
-        way = way_from(p, s, unit);
-    }
+ABUT_HD double squared_distance(const vec3<T>& p, const S& s, const length_unit<T>& unit) {
+    const vec3<double> way = way_from(p, s, unit);
     return plain_dot(way, way);
 }
+
+/// A square of lengths in T as one in its unit.
+template <scalar T>
+ABUT_HD double square_in(const length_unit<T>& unit, T square) {
+    return plain_product(unit.of(square), unit.of(T(1)));
+}
+/// And back, for comparisons: what is lost to underflow is added.
+template <scalar T>
+ABUT_HD T square_from(const length_unit<T>& unit, double square) {
+    return static_cast<T>(unit.length(unit.length(square + 4 * smallest_normal<double>)));
+}
+
+/// Shapes whose distance takes long to compute, and is bounded in less.
+template <class S>
+concept has_distance_bounds = std::same_as<S, triangle<scalar_type_of<S>>>;
 
 }  // namespace detail
 

@@ -236,6 +236,22 @@ ABUT_HD constexpr aabb<T> bounds(const obb<T>& b) {
             {add_up(b.center.x, h.x), add_up(b.center.y, h.y), add_up(b.center.z, h.z)}};
 }
 
+/// Less than the square of p's distance to what the box holds, or equal. By the box's own terms x - p has a component of at
+/// least |a_i . (p - c)| - h_i along each axis. That is computed with an error below 16u (|p - c| + h_i), in any rounding
+/// mode, and axes that are orthonormal within 32u stretch lengths by less than 100u; from there on all is relative.
+template <scalar T>
+ABUT_HD constexpr T least_squared_distance(const obb<T>& b, const vec3<T>& p) {
+    const vec3<T> way = p - b.center;
+    const T size = detail::magnitudes(way), off = 16 * unit_roundoff<T> * size + 16 * smallest_normal<T>;
+    const auto beyond = [&](const vec3<T>& axis, T half_width) {
+        const T gap = detail::absolute(dot(axis, way)) - (half_width + 16 * unit_roundoff<T> * half_width + off);
+        return gap > 0 ? gap * gap : T(0);
+    };
+    const T square = beyond(b.axes[0], b.half_widths.x) + beyond(b.axes[1], b.half_widths.y) +
+                     beyond(b.axes[2], b.half_widths.z);
+    return size < largest_finite<T> / 64 ? square * (1 - 256 * unit_roundoff<T>) : T(0);
+}
+
 namespace detail {
 
 /// `b_axes` are b's axes in the frame in which a is; `way` leads from a's centre to b's there, and has been computed from

@@ -12,6 +12,7 @@
 #include <abut/arithmetic/error_free.hpp>
 #include <abut/arithmetic/limits.hpp>
 #include <abut/arithmetic/magnitude.hpp>
+#include <abut/execution/ordered.hpp>
 #include <abut/index/bvh.hpp>
 #include <abut/index/grid.hpp>
 #include <abut/shape/bounds.hpp>
@@ -54,6 +55,12 @@ struct shrinking_ball {
         const vec3<T> away = center - least(greatest(center, box.lower), box.upper);
         return dot(away, away);
     }
+    /// Of a volume that bounds distances better than the box around it.
+    template <class V>
+        requires requires(const V& volume, const vec3<T>& p) { least_squared_distance(volume, p); }
+    ABUT_HD T least_in(const V& volume) const {
+        return least_squared_distance(volume, center);
+    }
     [[nodiscard]] ABUT_HD bool keeps(T least) const { return !(least > limit); }
     ABUT_HD bool operator()(const aabb<T>& box) const { return keeps(least_in(box)); }
     /// bound: a squared distance in the world, in its unit.
@@ -68,6 +75,8 @@ struct shrinking_ball {
         }
         limit = static_cast<T>(square * grown + tiny);
     }
+    /// A ball of nothing: it keeps no box.
+    ABUT_HD void close() { limit = -1; }
     /// Not less than the ball's.
     [[nodiscard]] ABUT_HD T radius() const {
         return static_cast<T>(std::sqrt(static_cast<double>(limit)) * (1 + 8 * static_cast<double>(unit_roundoff<T>)));
@@ -125,17 +134,31 @@ ABUT_HD void tighten(Reach& reach, const Best& best, double& bound) {
     }
 }
 
+/// Least distance of what a node's slot holds: of its volume where there is one that tells, or else of its box.
+template <class Reach, class Tree>
+ABUT_HD auto least_in_slot(const Reach& reach, const Tree& tree, const typename Tree::node_type& node, int slot) {
+    if constexpr (requires { reach.least_in(tree.volume(node, slot)); }) {
+        return reach.least_in(tree.volume(node, slot));
+    } else {
+        return reach.least_in(tree.bounds(node, slot));
+    }
+}
+
 /// Nearest child first; the others wait with their distances, and are dropped when their turn comes if the reach has shrunk
 /// below that. Leaves wait like nodes. A walk without branches on what is nearer and what is kept was tried, also with four
 /// nodes at a time: it took half as long again on one core, which guesses right more often than not.
+///
+/// A team (execution/ordered.hpp) walks as one: it goes where any of its threads has to, and first where most of them are
+/// nearer. Each thread keeps distances of its own, and visits what it keeps itself.
 template <bvh_layout Tree>
 struct ordered_tree_walk {
     using T = typename Tree::scalar_type;
+    static constexpr bool in_teams = true;
     Tree tree;
 
     ABUT_CALLS_ANY
-    template <class Reach, class Best, class Visitor>
-    ABUT_HD void operator()(Reach& reach, Best& best, const Visitor& visitor) const {
+    template <class Reach, class Best, class Visitor, class Team = execution::alone>
+    ABUT_HD void operator()(Reach& reach, Best& best, const Visitor& visitor, Team = {}) const {
         struct entry {
             bvh_child child;
             T least;
@@ -146,20 +169,20 @@ struct ordered_tree_walk {
         tighten(reach, best, bound);
         entry at{tree.root(), T(0)};
         for (;;) {
-            while (reach.keeps(at.least) && !at.child.is_leaf()) {
+            while (Team::any(reach.keeps(at.least)) && !at.child.is_leaf()) {
                 const auto& node = tree.fetch(at.child.index());
-                at = {tree.child(node, 0), reach.least_in(tree.bounds(node, 0))};
+                at = {tree.child(node, 0), least_in_slot(reach, tree, node, 0)};
                 tree.prefetch(at.child);
                 for (int side = 1; side < tree.children(node); ++side) {
-                    entry other{tree.child(node, side), reach.least_in(tree.bounds(node, side))};
+                    entry other{tree.child(node, side), least_in_slot(reach, tree, node, side)};
                     tree.prefetch(other.child);
-                    if (other.least < at.least) {
+                    if (Team::most(other.least < at.least)) {
                         const entry before = at;
                         at = other;
                         other = before;
                     }
                     pending[waiting] = other;
-                    waiting += reach.keeps(other.least);
+                    waiting += Team::any(reach.keeps(other.least));
                 }
             }
             if (reach.keeps(at.least)) visitor(at.child.index());
@@ -167,7 +190,7 @@ struct ordered_tree_walk {
             do {
                 if (waiting == 0) return;
                 at = pending[--waiting];
-            } while (!reach.keeps(at.least));
+            } while (!Team::any(reach.keeps(at.least)));
         }
     }
 };
@@ -186,6 +209,7 @@ struct reach_in_box {
 template <class Grid>
 struct ordered_grid_walk {
     using T = typename Grid::scalar_type;
+    static constexpr bool in_teams = false;
     Grid grid;
 
     ABUT_CALLS_ANY
@@ -215,6 +239,7 @@ struct ordered_grid_walk {
 
 /// All of n shapes, one after another.
 struct ordered_list_walk {
+    static constexpr bool in_teams = false;
     std::size_t count;
 
     ABUT_CALLS_ANY
