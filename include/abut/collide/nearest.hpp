@@ -21,9 +21,8 @@
 #include <abut/collide/options.hpp>
 #include <abut/execution/host.hpp>
 #include <abut/execution/ordered.hpp>
-#include <abut/index/leaf_order.hpp>
+#include <abut/index/curve_order.hpp>
 #include <abut/index/lbvh.hpp>
-#include <abut/index/morton.hpp>
 #include <abut/narrow/nearest_point.hpp>
 #include <abut/traverse/ordered_walk.hpp>
 
@@ -197,8 +196,7 @@ struct write_neighbors {
     }
 };
 
-// --- what operands bring
-// ---------------------------------------------------------------------------------------------------
+// --- what operands bring -----------------------------------------------------------------------------------------------
 
 template <class Operand>
 auto ordered_walk_of(const Operand& x) {
@@ -223,12 +221,6 @@ auto frame_of(const Operand& x, const length_unit<T>& unit) {
     }
 }
 
-template <shape_view Shapes>
-struct box_of_shape {
-    Shapes shapes;
-    ABUT_HD auto operator()(std::size_t i) const { return bounds(shapes[i]); }
-};
-
 /// A unit for all points and all shapes, of which there are some.
 template <class Policy, class Operand, shape_view Points>
 auto common_unit(const Policy& on, [[maybe_unused]] const Operand& x, [[maybe_unused]] const Points& points) {
@@ -252,35 +244,6 @@ auto common_unit(const Policy& on, [[maybe_unused]] const Operand& x, [[maybe_un
         box = merge(box, box_of(points));
         return unit_for(box, box.lower);
     }
-}
-
-template <shape_view Points>
-struct write_point_codes {
-    using T = typename Points::scalar_type;
-    Points points;
-    const aabb<T>* around;
-    int unused_bits;
-    std::uint32_t *codes, *ids;
-    ABUT_HD void operator()(std::size_t i) const {
-        codes[i] = morton_code<std::uint32_t>(bounds(points[i]), *around) >> unused_bits;
-        ids[i] = static_cast<std::uint32_t>(i);
-    }
-};
-
-/// Points along a Morton curve.
-template <class Policy, shape_view Points>
-execution::buffer_of<Policy, std::uint32_t> order_points(const Policy& on, const Points& points) {
-    using T = typename Points::scalar_type;
-    const std::size_t n = points.size();
-    const int bits = std::min(24, sufficient_morton_bits(n));
-    execution::buffer_of<Policy, aabb<T>> around(on, 1);
-    execution::buffer_of<Policy, std::uint32_t> codes(on, n), ids(on, n);
-    reduce_into(on, n, around.data(), empty_box<T>(), merge_boxes{}, box_of_shape<Points>{points});
-    for_each_index(
-        on, n,
-        write_point_codes<Points>{points, around.data(), morton_bits<std::uint32_t> - bits, codes.data(), ids.data()});
-    sort_by_key(on, codes, ids, bits);
-    return ids;
 }
 
 /// Points as an operand: a set of points, a view of one, one point, or a row of them in host memory.
@@ -367,7 +330,7 @@ template <execution_policy Policy, class X, class Points>
     const auto walk = ordered_walk_of(x);
     const auto frame = frame_of(x, unit);
     execution::buffer_of<Policy, std::uint32_t> order;
-    if (decltype(x)::is_indexed && n >= many_points<Policy> && n < no_id) order = order_points(on, from);
+    if (decltype(x)::is_indexed && n >= many_points<Policy> && n < no_id) order = order_on_curve(on, from);
     execution::best_of_each<space_of<Policy>> best(on, n);
     using walk_type = walk_from_points<std::remove_const_t<decltype(walk)>, std::remove_const_t<decltype(frame)>,
                                        shapes_type, points_type, measure_distance<T>>;
