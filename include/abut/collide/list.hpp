@@ -147,7 +147,7 @@ template <scalar T>
 struct frames_at {
     const relative_pose<T>* b_to_a;
     template <class Volume>
-    ABUT_HD bool operator()(const Volume& a, const Volume& b) const {
+    ABUT_INLINE ABUT_HD bool operator()(const Volume& a, const Volume& b) const {
         return overlaps_posed(a, *b_to_a, b);
     }
     ABUT_INLINE ABUT_HD auto operator()(const box_lanes<T>& a, const box_lanes<T>& b) const {
@@ -195,7 +195,7 @@ struct expand_member {
         using sink = std::remove_reference_t<Emitter>;
         const ids of_member{list, at.member};
         walk_of(at.member).expand(at.nodes, add_member_item<item, sink>{emitter, at.member},
-                                  push_pair<sink, ids>{emitter, of_member});
+                                  push_pair<false, sink, ids>{emitter, of_member});
     }
 };
 

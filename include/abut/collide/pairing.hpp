@@ -186,19 +186,19 @@ struct add_item {
         emitter.add(k, is, next);
     }
 };
-template <class Emitter, class Ids>
+template <bool RowsAreB, class Emitter, class Ids>
 struct push_pair {
     Emitter& emitter;
     const Ids& ids;
     ABUT_CALLS_ANY
     template <class Number>
-    ABUT_INLINE ABUT_HD void operator()(Number k, bool is, std::uint32_t a, std::uint32_t b) const {
-        emitter.push(k, is && ids.wanted(a, b), ids.pack(a, b));
+    ABUT_INLINE ABUT_HD void operator()(Number k, bool is, std::uint32_t row, std::uint32_t found) const {
+        emitter.push(k, is && is_wanted_by_row<RowsAreB>(ids, row, found), pack_row<RowsAreB>(ids, row, found));
     }
 };
 
-/// One step down two trees.
-template <class Walk, class Ids>
+/// One step down two trees, of which the rows' is the walk's first.
+template <bool RowsAreB, class Walk, class Ids>
 struct expand_pair {
     using item = typename Walk::item;
     using candidate = std::uint64_t;
@@ -213,7 +213,7 @@ struct expand_pair {
     template <class Emitter>
     ABUT_INLINE ABUT_HD void operator()(const item& at, Emitter&& emitter) const {
         using sink = std::remove_reference_t<Emitter>;
-        walk.expand(at, add_item<sink>{emitter}, push_pair<sink, Ids>{emitter, ids});
+        walk.expand(at, add_item<sink>{emitter}, push_pair<RowsAreB, sink, Ids>{emitter, ids});
     }
 };
 
@@ -270,7 +270,7 @@ struct pairing {
             const auto walk = walk_of_both();
             using walk_type = std::remove_const_t<decltype(walk)>;
             if (least > 1 && most <= walk_type::most_shapes) {  // a leaf alone has no place (traverse/pair_walk.hpp)
-                const expand_pair<walk_type, view_type> expand{walk, both};
+                const expand_pair<true, walk_type, view_type> expand{walk, both};
                 if constexpr (Traversal == traversal::breadth_first) {
                     return for_each_on_levels(on, expand, options.start_depth, run);
                 } else {
@@ -289,12 +289,14 @@ struct pairing {
     }
 
 private:
+    /// As where a alone is indexed, b's shapes are the rows. Which tree is the first moves no answer, but what `any` meets
+    /// first.
     auto walk_of_both() const {
-        const auto tree_a = a.tree();
-        const auto tree_b = b.tree();
-        const auto overlap = box_overlap(a, b);
-        return chosen_walk<Traversal, std::remove_const_t<decltype(tree_a)>, std::remove_const_t<decltype(tree_b)>,
-                           std::remove_const_t<decltype(overlap)>>{tree_a, tree_b, overlap};
+        const auto rows = b.tree();
+        const auto index = a.tree();
+        const auto overlap = box_overlap(b, a);
+        return chosen_walk<Traversal, std::remove_const_t<decltype(rows)>, std::remove_const_t<decltype(index)>,
+                           std::remove_const_t<decltype(overlap)>>{rows, index, overlap};
     }
 
     /// Rows of tiles are what runs in parallel, so the larger set provides them; a single shape never does.

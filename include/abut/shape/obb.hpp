@@ -254,11 +254,18 @@ ABUT_HD constexpr T least_squared_distance(const obb<T>& b, const vec3<T>& p) {
 
 namespace detail {
 
+/// What |h_b| counts in the error of the test, where the rotation between the frames has this deviation.
+template <scalar T>
+ABUT_HD constexpr T turned_off(T deviation) {
+    constexpr T e = 2 * unit_roundoff<T>;
+    return 330 * e + 5 * deviation;
+}
+
 /// `b_axes` are b's axes in the frame in which a is; `way` leads from a's centre to b's there, and has been computed from
-/// numbers whose magnitudes add up to `size`. `deviation` is of the rotation between the frames.
+/// numbers whose magnitudes add up to `size`. `off_by_b` is the error in units of |h_b| (`turned_off`).
 template <box_axes Axes, scalar T>
 ABUT_HD constexpr bool obbs_overlap(const obb<T>& a, const vec3<T> (&b_axes)[3], const vec3<T>& b_half_widths,
-                                    const vec3<T>& way, T size, T deviation, T slack) {
+                                    const vec3<T>& way, T size, T off_by_b, T slack) {
     constexpr T e = 2 * unit_roundoff<T>, flushed = 128 * smallest_normal<T>;
     const T of_a = magnitudes(a.half_widths), of_b = magnitudes(b_half_widths);
     vec3<T> r[3]{}, m[3]{};
@@ -267,7 +274,7 @@ ABUT_HD constexpr bool obbs_overlap(const obb<T>& a, const vec3<T> (&b_axes)[3],
         m[i] = absolute(r[i]);
     }
     const vec3<T> d{dot(a.axes[0], way), dot(a.axes[1], way), dot(a.axes[2], way)};
-    const T all = slack + (e * (20 * size + 8 * of_a + 330 * of_b) + 5 * deviation * of_b + flushed);
+    const T all = slack + (e * (20 * size + 8 * of_a) + off_by_b * of_b + flushed);
     return boxes_overlap<Axes>(a.half_widths, b_half_widths, d, r, m, all) ||
            !(size + of_a + of_b + slack < largest_finite<T> / 64);
 }
@@ -278,7 +285,8 @@ ABUT_HD constexpr bool obbs_overlap(const obb<T>& a, const vec3<T> (&b_axes)[3],
 template <box_axes Axes = box_axes::all, scalar T>
 ABUT_HD constexpr bool overlaps(const obb<T>& a, const obb<T>& b) {
     return detail::obbs_overlap<Axes>(a, b.axes, b.half_widths, b.center - a.center,
-                                      detail::magnitudes(a.center) + detail::magnitudes(b.center), T(0), T(0));
+                                      detail::magnitudes(a.center) + detail::magnitudes(b.center), detail::turned_off(T(0)),
+                                      T(0));
 }
 
 /// Whether boxes, each in the frame of its object, may hold shapes that meet in the world, as for aabb (relative_pose.hpp).
@@ -292,7 +300,7 @@ ABUT_HD constexpr bool overlaps(const obb<T>& a, const relative_pose<T>& pose, c
     const vec3<T> way = turned(b.center) + (pose.translation - a.center);
     return detail::obbs_overlap<Axes>(a, axes, b.half_widths, way,
                                       magnitudes(a.center) + magnitudes(pose.translation) + magnitudes(b.center),
-                                      pose.deviation, pose.slack);
+                                      detail::turned_off(pose.deviation), pose.slack);
 }
 
 }  // namespace abut

@@ -22,7 +22,7 @@ namespace abut::detail {
 /// Down two trees: of two subtrees whose boxes meet one is opened, and its children's boxes are compared with the box of the
 /// other. A step is two fetches and two tests (four where nodes have four children). No box has to be kept: that of the
 /// subtree which stays lies in its parent. `one_first` opens b first; of a query that is the tree of the first argument
-/// (on_both in collide/query.hpp). The interface is pair_walk's.
+/// (walk_of_both in collide/pairing.hpp). The interface is pair_walk's.
 template <bvh_layout A, bvh_layout B, class Overlap, traversal Rule>
 struct rule_walk {
     static_assert(Rule == traversal::one_first || Rule == traversal::larger_first || Rule == traversal::alternate);
@@ -42,7 +42,8 @@ struct rule_walk {
     };
     [[nodiscard]] ABUT_HD static constexpr std::size_t seeds() { return 1; }
     [[nodiscard]] ABUT_HD item seed(std::size_t) const {
-        const bool opens_b = Rule == traversal::larger_first && surface(b.root_bounds()) > surface(a.root_bounds());
+        const bool opens_b = Rule == traversal::one_first ||
+                             (Rule == traversal::larger_first && surface(b.root_bounds()) > surface(a.root_bounds()));
         return {opening(opens_b, opens_b ? b.root() : a.root()), place_of_root};
     }
 
@@ -164,7 +165,7 @@ private:
 
     /// Whether a child of the node that was opened is opened before what stayed closed.
     ABUT_INLINE ABUT_HD static bool is_next(bool is_b, bool is_larger) {
-        return Rule == traversal::one_first ? !is_b : Rule == traversal::larger_first && is_larger;
+        return Rule == traversal::one_first ? is_b : Rule == traversal::larger_first && is_larger;
     }
 };
 
