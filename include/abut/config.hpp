@@ -10,12 +10,15 @@
 
 // ABUT_HD marks a function that may run on the host and on a CUDA device. Such functions call no `constexpr` function of
 // the standard library, so that nobody's build needs `--expt-relaxed-constexpr`.
+// ABUT_DEVICE marks one that nvcc compiles for a device alone.
 // ABUT_DEVICE_CODE is 1 while a compiler makes code for a device.
 // ABUT_NOINLINE keeps rarely run code with a large stack frame out of its callers.
 #if defined(__CUDACC__)
 #define ABUT_HD __host__ __device__
+#define ABUT_DEVICE __device__
 #else
 #define ABUT_HD
+#define ABUT_DEVICE
 #endif
 
 // ABUT_CALLS_ANY stands before a template that calls what it is given (a filter, a visitor, a queue): on the host that may

@@ -62,9 +62,9 @@ struct touch {
         if constexpr (std::same_as<A, exact>) {
             return verdict::unknown;  // the first try was all that registers can do
         } else if constexpr (decidable_pair<S, U>) {
-            return decide_left<A>(s, t);
+            return decide_open<A>(s, t);
         } else {
-            return decide_left<A>(t, s);
+            return decide_open<A>(t, s);
         }
     }
     template <class S, class U>

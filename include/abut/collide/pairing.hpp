@@ -336,6 +336,12 @@ auto pair_up(const Policy& on, const X& x, const Y& y, const query_options<Filte
     auto a = make_operand(on, x, function);
     auto b = make_operand(on, y, function);
     const pair_key key{id_bits(a.shapes().size()), id_bits(b.shapes().size())};
+    using shape_a = typename decltype(a.shapes())::shape_type;
+    using shape_b = typename decltype(b.shapes())::shape_type;
+    if constexpr (decidable<shape_a, shape_b>) {  // or else what follows says so
+        require_callable(on, functions_of_shapes_have_to_be_marked_ABUT_HD<shape_a, shape_b>{},
+                         static_cast<const shape_a*>(nullptr), static_cast<const shape_b*>(nullptr));
+    }
     return pairing<decltype(a), decltype(b), Filter, Traversal>{std::move(a), std::move(b), key, options};
 }
 

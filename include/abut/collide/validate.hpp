@@ -16,8 +16,6 @@
 #include <string>
 #include <vector>
 
-#include <abut/shape/equal_elements.hpp>
-#include <abut/shape/mesh_report.hpp>
 #include <abut/collide/search.hpp>
 #include <abut/error.hpp>
 #include <abut/execution/disjoint_sets.hpp>
@@ -26,7 +24,9 @@
 #include <abut/index/operand.hpp>
 #include <abut/predicate/zero_area.hpp>
 #include <abut/shape/check.hpp>
+#include <abut/shape/equal_elements.hpp>
 #include <abut/shape/half_edges.hpp>
+#include <abut/shape/mesh_report.hpp>
 #include <abut/shape/set.hpp>
 
 namespace abut {
@@ -103,36 +103,7 @@ struct mesh_edge_of {
     }
 };
 
-/// Joins neighbours: the vertices of an edge are of one component, and the corners of its faces at either of its ends are of
-/// one fan.
-struct connect {
-    sorted_half_edges table;
-    execution::disjoint_sets fans, components;
-    ABUT_HD void operator()(std::size_t i) const {
-        if (!table.is_edge(i)) return;
-        if (table.is_first(i)) {
-            components.unite(table.lower(i), table.upper(i));
-        } else {
-            fans.unite(table.lower_corner(i - 1), table.lower_corner(i));
-            fans.unite(table.upper_corner(i - 1), table.upper_corner(i));
-        }
-    }
-};
-
 // --- vertices -------------------------------------------------------------------------------------------------------------
-
-/// Each fan has one corner that stands for it.
-struct count_fans {
-    strided<face> faces;
-    std::size_t vertex_count;
-    execution::disjoint_sets fans;
-    std::uint32_t* fans_of_vertex;
-    ABUT_HD void operator()(std::size_t corner) const {
-        if (!fans.is_root(corner)) return;
-        const corner_ids c = corners_of(faces, corner / 3);
-        if (spans_triangle(c, vertex_count)) execution::atomic_add(fans_of_vertex + c.of[corner % 3], 1u);
-    }
-};
 
 struct vertex_tally {
     std::uint64_t unused = 0, nonmanifold = 0, nonfinite = 0, components = 0;

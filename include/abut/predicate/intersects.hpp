@@ -44,7 +44,7 @@ ABUT_HD constexpr const Shape& as_stored(const Shape& shape) {
 
 /// What the first stage left, in registers: by the pair's `decide_late`, if it has one, then in integers.
 template <arithmetic A, class S, class U>
-ABUT_HD constexpr verdict decide_left(const S& s, const U& t) {
+ABUT_HD constexpr verdict decide_open(const S& s, const U& t) {
     if constexpr (!std::same_as<A, exact> && requires { decide_late<A>(s, t); }) {
         if (std::same_as<A, fast> || !__builtin_is_constant_evaluated()) {
             const verdict v = decide_late<A>(s, t);
@@ -54,11 +54,25 @@ ABUT_HD constexpr verdict decide_left(const S& s, const U& t) {
     return decide<exact>(s, t);
 }
 
+/// Calls what queries call of two shapes, for the verb require_callable: of functions of the host, which a shape of the
+/// caller's own may have by mistake, nothing would be left on a device. Its name is what nvcc says then.
+template <class S, class U>
+struct functions_of_shapes_have_to_be_marked_ABUT_HD {
+    ABUT_DEVICE void operator()(const S* s, const U* t) const {
+        (void)bounds(*s), (void)bounds(*t);
+        if constexpr (decidable_pair<S, U>) {
+            (void)decide<filtered>(*s, *t);
+        } else {
+            (void)decide<filtered>(*t, *s);
+        }
+    }
+};
+
 /// All stages that follow the filter. They are out of line themselves, so that they cost callers neither registers nor a
 /// stack frame. This function must not be: with one more call in between, ptxas of CUDA 13.0 lost the address of a shape.
 template <arithmetic A, class S, class U>
 ABUT_HD constexpr bool intersects_exactly(const S& s, const U& t) {
-    const verdict v = decide_left<A>(s, t);
+    const verdict v = decide_open<A>(s, t);
     return v == verdict::unknown ? resolve(s, t) : v == verdict::yes;
 }
 
@@ -75,7 +89,7 @@ template <arithmetic A = filtered, class S, class U>
     if constexpr (decidable_pair<S, U>) {
         if constexpr (std::same_as<A, fast>) {
             const verdict v = decide<fast>(s, t);
-            return v == verdict::unknown ? detail::decide_left<fast>(s, t) == verdict::yes : v == verdict::yes;
+            return v == verdict::unknown ? detail::decide_open<fast>(s, t) == verdict::yes : v == verdict::yes;
         } else {
             if (std::same_as<A, filtered> && !__builtin_is_constant_evaluated()) {
                 const verdict v = decide<filtered>(detail::as_stored(s), detail::as_stored(t));

@@ -30,7 +30,7 @@ ABUT_HD constexpr aabb<T> merge(const aabb<T>& a, const aabb<T>& b) {
     return {detail::least(b.lower, a.lower), detail::greatest(b.upper, a.upper)};
 }
 
-/// Whether the closed boxes share a point. Exact. One branch and not six: which of the comparisons fails is anyone's guess.
+/// Whether the closed boxes share a point. Exact. One branch and not six, since none of the six could be predicted.
 template <scalar T>
 ABUT_HD constexpr bool overlaps(const aabb<T>& a, const aabb<T>& b) {
     const auto at_most = [](T x, T y) { return static_cast<unsigned>(x <= y); };

@@ -12,6 +12,8 @@
 
 #include <abut/config.hpp>
 #include <abut/error.hpp>
+#include <abut/execution/atomic.hpp>
+#include <abut/execution/disjoint_sets.hpp>
 #include <abut/execution/host.hpp>
 #include <abut/shape/view.hpp>
 
@@ -144,6 +146,35 @@ private:
     half_edge_key key_;
     execution::buffer_of<Policy, std::uint64_t> keys_;
     execution::buffer_of<Policy, std::uint32_t> half_edges_;
+};
+
+/// Joins neighbours: the vertices of an edge are of one component, and the corners of its faces at either of its ends are of
+/// one fan.
+struct connect {
+    sorted_half_edges table;
+    execution::disjoint_sets fans, components;
+    ABUT_HD void operator()(std::size_t i) const {
+        if (!table.is_edge(i)) return;
+        if (table.is_first(i)) {
+            components.unite(table.lower(i), table.upper(i));
+        } else {
+            fans.unite(table.lower_corner(i - 1), table.lower_corner(i));
+            fans.unite(table.upper_corner(i - 1), table.upper_corner(i));
+        }
+    }
+};
+
+/// Each fan has one corner that stands for it.
+struct count_fans {
+    strided<face> faces;
+    std::size_t vertex_count;
+    execution::disjoint_sets fans;
+    std::uint32_t* fans_of_vertex;
+    ABUT_HD void operator()(std::size_t corner) const {
+        if (!fans.is_root(corner)) return;
+        const corner_ids c = corners_of(faces, corner / 3);
+        if (spans_triangle(c, vertex_count)) execution::atomic_add(fans_of_vertex + c.of[corner % 3], 1u);
+    }
 };
 
 }  // namespace abut::detail

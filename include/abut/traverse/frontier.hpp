@@ -30,7 +30,7 @@ struct descent_path {
     [[nodiscard]] ABUT_HD std::uint32_t end(std::size_t path) const {
         constexpr std::uint32_t width = Tree::width;
         bvh_child at = tree.root();
-        std::uint32_t place = 0;
+        std::uint32_t link = 0;
         for (int level = 0; level < depth; ++level, path /= width) {
             const auto digit = static_cast<std::uint32_t>(path % width);
             if (at.is_leaf()) {
@@ -39,10 +39,10 @@ struct descent_path {
             }
             const auto& node = tree.fetch(at.index());
             if (static_cast<int>(digit) >= tree.children(node)) return nowhere;
-            place = width * at.index() + digit;
+            link = width * at.index() + digit;
             at = tree.child(node, static_cast<int>(digit));
         }
-        return at.is_leaf() ? bvh_child::leaf_bit | place : at.index();
+        return at.is_leaf() ? bvh_child::leaf_bit | link : at.index();
     }
     ABUT_HD bool operator()(std::size_t path) const { return end(path) != nowhere; }
 };

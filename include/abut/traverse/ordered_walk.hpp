@@ -157,7 +157,7 @@ struct ordered_tree_walk {
     Tree tree;
 
     ABUT_CALLS_ANY
-    template <class Reach, class Best, class Visitor, class Team = execution::alone>
+    template <shrinking_reach<T> Reach, class Best, class Visitor, class Team = execution::alone>
     ABUT_HD void operator()(Reach& reach, Best& best, const Visitor& visitor, Team = {}) const {
         struct entry {
             bvh_child child;
@@ -173,8 +173,8 @@ struct ordered_tree_walk {
                 const auto& node = tree.fetch(at.child.index());
                 at = {tree.child(node, 0), least_in_slot(reach, tree, node, 0)};
                 tree.prefetch(at.child);
-                for (int side = 1; side < tree.children(node); ++side) {
-                    entry other{tree.child(node, side), least_in_slot(reach, tree, node, side)};
+                for (int slot = 1; slot < tree.children(node); ++slot) {
+                    entry other{tree.child(node, slot), least_in_slot(reach, tree, node, slot)};
                     tree.prefetch(other.child);
                     if (Team::most(other.least < at.least)) {
                         const entry before = at;

@@ -66,8 +66,8 @@ concept wide_bvh_layout = bvh_layout<L> && L::width == 4 && requires(const L& tr
 
 /// A layout that hands out volumes, around which its boxes are.
 template <class L>
-concept volume_bvh_layout = bvh_layout<L> && bounding_volume<typename L::volume_type> && requires(const L& tree, int side) {
-    { tree.volume(tree.fetch(std::uint32_t{}), side) } -> std::convertible_to<typename L::volume_type>;
+concept volume_bvh_layout = bvh_layout<L> && bounding_volume<typename L::volume_type> && requires(const L& tree, int slot) {
+    { tree.volume(tree.fetch(std::uint32_t{}), slot) } -> std::convertible_to<typename L::volume_type>;
 };
 
 /// Two that hand out volumes of one kind, which are then compared. All other pairs of trees are compared by their boxes.
@@ -89,8 +89,8 @@ struct pair_walk {
     /// Trees of more shapes have no items, for want of bits.
     static constexpr std::size_t most_shapes = bvh_child::leaf_bit / (width_a > width_b ? width_a : width_b);
 
-    /// A node of each tree. A leaf goes by its place, which tells its box as well: child `side` of node n is place
-    /// width * n + side.
+    /// A node of each tree. A leaf goes by the link to it, which tells its box as well: the link to
+    /// slot s of node n is width * n + s.
     struct item {
         std::uint32_t a, b;
     };
@@ -110,7 +110,7 @@ struct pair_walk {
     /// as long.
     template <class Add, class Visitor>
     ABUT_INLINE ABUT_HD void expand(const item& at, const Add& add, const Visitor& visitor) const {
-        const place at_a(at.a, width_a), at_b(at.b, width_b);
+        const half_item at_a(at.a, width_a), at_b(at.b, width_b);
         if constexpr (width_a == 2 && width_b == 2) {
             const typename A::node_type of_a = a.fetch(at_a.node);
             const typename B::node_type of_b = b.fetch(at_b.node);
@@ -131,24 +131,24 @@ struct pair_walk {
 
 private:
     /// Half an item.
-    struct place {
+    struct half_item {
         bool is_leaf;
-        std::uint32_t node, side;  ///< of a leaf, its parent and where it hangs there; of a node, itself
+        std::uint32_t node, slot;  ///< of a leaf, its parent and where it hangs there; of a node, itself
 
-        ABUT_INLINE ABUT_HD place(std::uint32_t bits, std::uint32_t width) : is_leaf((bits & bvh_child::leaf_bit) != 0) {
+        ABUT_INLINE ABUT_HD half_item(std::uint32_t bits, std::uint32_t width) : is_leaf((bits & bvh_child::leaf_bit) != 0) {
             const std::uint32_t number = bits & ~bvh_child::leaf_bit;
             node = is_leaf ? number / width : number;
-            side = number % width;
+            slot = number % width;
         }
     };
 
     /// Pair K of binary nodes' children. No lambda: g++ would not inline it where a program has several queries.
     template <unsigned K, class Add, class Visitor>
-    ABUT_INLINE ABUT_HD void compare(const place& at_a, const typename A::node_type& of_a, const place& at_b,
+    ABUT_INLINE ABUT_HD void compare(const half_item& at_a, const typename A::node_type& of_a, const half_item& at_b,
                                      const typename B::node_type& of_b, const Add& add, const Visitor& visitor) const {
         constexpr unsigned i = K / 2, j = K % 2;
         // A leaf is meant itself, of a node both children.
-        const bool meant = (!at_a.is_leaf | (at_a.side == i)) & (!at_b.is_leaf | (at_b.side == j));
+        const bool meant = (!at_a.is_leaf | (at_a.slot == i)) & (!at_b.is_leaf | (at_b.slot == j));
         bool meet;
         if constexpr (bvh_layouts_of_one_volume<A, B>) {
             meet = meant && overlap(a.volume(of_a, i), b.volume(of_b, j));  // a test is worth the branch
@@ -159,22 +159,22 @@ private:
                 2 * at_b.node + j, add, visitor);
     }
 
-    /// A pair of children, which hang at two places.
+    /// A pair of children, and the links to them.
     template <class Number, class Add, class Visitor>
-    ABUT_INLINE ABUT_HD static void hand_on(Number k, bool meet, bvh_child child_a, std::uint32_t place_a, bvh_child child_b,
-                                            std::uint32_t place_b, const Add& add, const Visitor& visitor) {
+    ABUT_INLINE ABUT_HD static void hand_on(Number k, bool meet, bvh_child child_a, std::uint32_t link_a, bvh_child child_b,
+                                            std::uint32_t link_b, const Add& add, const Visitor& visitor) {
         const bool leaves = (child_a.bits & child_b.bits & bvh_child::leaf_bit) != 0;
         add(k, meet & !leaves,
-            item{child_a.is_leaf() ? bvh_child::leaf_bit | place_a : child_a.index(),
-                 child_b.is_leaf() ? bvh_child::leaf_bit | place_b : child_b.index()});
+            item{child_a.is_leaf() ? bvh_child::leaf_bit | link_a : child_a.index(),
+                 child_b.is_leaf() ? bvh_child::leaf_bit | link_b : child_b.index()});
         visitor(k, meet & leaves, child_a.index(), child_b.index());
     }
 
-    /// Which children overlap, of those that an item means: bit width_b * i + j is side i of a's node and side j of b's.
-    ABUT_INLINE ABUT_HD unsigned meeting(const place& at_a, const typename A::node_type& of_a, const place& at_b,
+    /// Which children overlap, of those that an item means: bit width_b * i + j is slot i of a's node and slot j of b's.
+    ABUT_INLINE ABUT_HD unsigned meeting(const half_item& at_a, const typename A::node_type& of_a, const half_item& at_b,
                                          const typename B::node_type& of_b) const {
         const int n = a.children(of_a), m = b.children(of_b);
-        const int i = static_cast<int>(at_a.side), j = static_cast<int>(at_b.side);
+        const int i = static_cast<int>(at_a.slot), j = static_cast<int>(at_b.slot);
         if constexpr (wide_bvh_layout<A> && wide_bvh_layout<B>) {
             using boxes = box_lanes<typename A::scalar_type>;
             using row = decltype(overlap(boxes{}, boxes{}));

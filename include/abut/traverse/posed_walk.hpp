@@ -55,9 +55,9 @@ struct posed_reach {
         const T slack = 4 * to_world->slack;
         if (!(slack < infinity<T>)) return {{-slack, -slack, -slack}, {slack, slack, slack}};
         const vec3<T> middle = (query.lower + query.upper) - (to_world->translation + to_world->translation);
-        const vec3<T> side = query.upper - query.lower;
+        const vec3<T> size = query.upper - query.lower;
         const vec3<T> center = middle.x * r[0] + middle.y * r[1] + middle.z * r[2];
-        const vec3<T> width = side.x * m[0] + side.y * m[1] + side.z * m[2] + vec3<T>{slack, slack, slack};
+        const vec3<T> width = size.x * m[0] + size.y * m[1] + size.z * m[2] + vec3<T>{slack, slack, slack};
         return {T(0.5) * (center - width), T(0.5) * (center + width)};
     }
 };

@@ -89,13 +89,13 @@ struct swept_reach {
     ABUT_HD bool operator()(const aabb<T>& box) const {
         if (!overlaps(query, box)) return false;
         constexpr T slack = 32 * unit_roundoff<T>, tiny = 32 * smallest_normal<T>;
-        const vec3<T> side = box.upper - box.lower, d = absolute(direction);
+        const vec3<T> extent = box.upper - box.lower, d = absolute(direction);
         const vec3<T> off = absolute(cross(direction, (box.lower + box.upper) - middle));
         const T far = reach + magnitudes(box.lower) + magnitudes(box.upper), size = length * far;
         const T lost = slack * size + tiny * (length + far + 1);
-        const bool apart = off.x > (d.y * side.z + d.z * side.y) + (grown.x + lost) ||
-                           off.y > (d.z * side.x + d.x * side.z) + (grown.y + lost) ||
-                           off.z > (d.x * side.y + d.y * side.x) + (grown.z + lost);
+        const bool apart = off.x > (d.y * extent.z + d.z * extent.y) + (grown.x + lost) ||
+                           off.y > (d.z * extent.x + d.x * extent.z) + (grown.y + lost) ||
+                           off.z > (d.x * extent.y + d.y * extent.x) + (grown.z + lost);
         return !(apart && size < largest_finite<T> / 16 && far < largest_finite<T> / 16);
     }
 };

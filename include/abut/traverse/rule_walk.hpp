@@ -35,8 +35,8 @@ struct rule_walk {
     /// Trees of more shapes have no items, for want of bits.
     static constexpr std::size_t most_shapes = bvh_child::leaf_bit / most_children;
 
-    /// The node to be opened, with the highest bit set if it is one of b, and the place of the other tree's subtree: child
-    /// `side` of node n is at place width * n + side, and the root at a place of its own.
+    /// The node to be opened, with the highest bit set if it is one of b, and the link to the other tree's subtree: the
+    /// link to slot s of node n is width * n + s, and the root has a link of its own.
     struct item {
         std::uint32_t open, other;
     };
@@ -44,7 +44,7 @@ struct rule_walk {
     [[nodiscard]] ABUT_HD item seed(std::size_t) const {
         const bool opens_b = Rule == traversal::one_first ||
                              (Rule == traversal::larger_first && surface(b.root_bounds()) > surface(a.root_bounds()));
-        return {opening(opens_b, opens_b ? b.root() : a.root()), place_of_root};
+        return {opening(opens_b, opens_b ? b.root() : a.root()), link_of_root};
     }
 
     /// A hint that the item will be expanded soon. The parent of what stays closed has been fetched before.
@@ -73,7 +73,7 @@ struct rule_walk {
     }
 
 private:
-    static constexpr std::uint32_t is_of_b = bvh_child::leaf_bit, place_of_root = static_cast<std::uint32_t>(-1);
+    static constexpr std::uint32_t is_of_b = bvh_child::leaf_bit, link_of_root = static_cast<std::uint32_t>(-1);
     using T = typename A::scalar_type;
     using box = aabb<T>;
     /// Two such trees are compared by their volumes; but that of a root is a box along the axes.
@@ -83,10 +83,10 @@ private:
     template <class Volume>
     struct closed {
         bvh_child child;
-        std::uint32_t place;
+        std::uint32_t link;
         const Volume& volume;  ///< not of a root, if `by_volume`
         const box& root;       ///< of a root alone
-        [[nodiscard]] ABUT_HD bool is_root() const { return place == place_of_root; }
+        [[nodiscard]] ABUT_HD bool is_root() const { return link == link_of_root; }
     };
 
     ABUT_HD static std::uint32_t opening(bool opens_b, bvh_child node) {
@@ -104,17 +104,17 @@ private:
     template <class Opened, class Other, class Add, class Visitor>
     ABUT_INLINE ABUT_HD void open(bool opens_b, const item& at, const Opened& opened, const Other& other, const Add& add,
                                   const Visitor& visitor) const {
-        const bool is_root = at.other == place_of_root;
-        const std::uint32_t place = is_root ? 0 : at.other;  // node 0 is always there
-        const int side = static_cast<int>(place % Other::width);
-        const auto& parent = other.fetch(place / Other::width);
-        const bvh_child child = is_root ? other.root() : other.child(parent, side);
+        const bool is_root = at.other == link_of_root;
+        const std::uint32_t link = is_root ? 0 : at.other;  // node 0 is always there
+        const int slot = static_cast<int>(link % Other::width);
+        const auto& parent = other.fetch(link / Other::width);
+        const bvh_child child = is_root ? other.root() : other.child(parent, slot);
         if constexpr (by_volume) {
             const box root = is_root ? other.root_bounds() : box{};
             open(opens_b, at.open & ~is_of_b, opened,
-                 closed<typename Other::volume_type>{child, at.other, other.volume(parent, side), root}, add, visitor);
+                 closed<typename Other::volume_type>{child, at.other, other.volume(parent, slot), root}, add, visitor);
         } else {
-            const box bounds = is_root ? other.root_bounds() : other.bounds(parent, side);
+            const box bounds = is_root ? other.root_bounds() : other.bounds(parent, slot);
             open(opens_b, at.open & ~is_of_b, opened, closed<box>{child, at.other, bounds, bounds}, add, visitor);
         }
     }
@@ -128,32 +128,32 @@ private:
         } else {
             const auto& of = opened.fetch(node);
             const int n = opened.children(of);
-            for (int side = 0; side < n; ++side) {
-                compare(static_cast<unsigned>(side), side, opens_b, node, opened, of, stays, add, visitor);
+            for (int slot = 0; slot < n; ++slot) {
+                compare(static_cast<unsigned>(slot), slot, opens_b, node, opened, of, stays, add, visitor);
             }
         }
     }
 
-    /// Child k, which is on `side`, of a node that was opened, which is of b if `is_b`, and the subtree that stayed closed.
+    /// Child k, which is in `slot`, of a node that was opened, which is of b if `is_b`, and the subtree that stayed closed.
     template <class Number, class Opened, class Node, class Volume, class Add, class Visitor>
-    ABUT_INLINE ABUT_HD void compare(Number k, int side, bool is_b, std::uint32_t node, const Opened& opened, const Node& of,
+    ABUT_INLINE ABUT_HD void compare(Number k, int slot, bool is_b, std::uint32_t node, const Opened& opened, const Node& of,
                                      const closed<Volume>& stays, const Add& add, const Visitor& visitor) const {
-        const bvh_child child = opened.child(of, side);
+        const bvh_child child = opened.child(of, slot);
         bool meet, larger;
         if constexpr (by_volume) {
-            const Volume& mine = opened.volume(of, side);
+            const Volume& mine = opened.volume(of, slot);
             meet =
-                stays.is_root() ? in_order(is_b, opened.bounds(of, side), stays.root) : in_order(is_b, mine, stays.volume);
+                stays.is_root() ? in_order(is_b, opened.bounds(of, slot), stays.root) : in_order(is_b, mine, stays.volume);
             larger = !stays.is_root() && surface(mine) >= surface(stays.volume);
         } else {
-            const Volume mine = opened.bounds(of, side);
+            const Volume mine = opened.bounds(of, slot);
             meet = in_order(is_b, mine, stays.volume);
             larger = surface(mine) >= surface(stays.volume);
         }
         const bool leaves = child.is_leaf() && stays.child.is_leaf();
         const bool goes_on = !child.is_leaf() && (stays.child.is_leaf() || is_next(is_b, larger));
-        const std::uint32_t place = Opened::width * node + static_cast<std::uint32_t>(side);
-        add(k, meet & !leaves, goes_on ? item{opening(is_b, child), stays.place} : item{opening(!is_b, stays.child), place});
+        const std::uint32_t link = Opened::width * node + static_cast<std::uint32_t>(slot);
+        add(k, meet & !leaves, goes_on ? item{opening(is_b, child), stays.link} : item{opening(!is_b, stays.child), link});
         visitor(k, meet & leaves, is_b ? stays.child.index() : child.index(), is_b ? child.index() : stays.child.index());
     }
 
