@@ -191,6 +191,12 @@ std::uint64_t for_each_candidate(const Policy& on, std::size_t n, const Walk& wa
 
 namespace detail {
 
+/// One function for all walks: the code that enlarges a vector stands in it once, and not once for each child of a node.
+template <class T>
+[[gnu::noinline]] void append(std::vector<T>& values, const T& value) {
+    values.push_back(value);
+}
+
 /// What the items of a level make.
 template <class Expand>
 struct next_level {
@@ -198,11 +204,11 @@ struct next_level {
     std::vector<typename Expand::candidate> candidates;
     template <class Number>
     void add(Number, bool is, const typename Expand::item& value) {
-        if (is) items.push_back(value);
+        if (is) append(items, value);
     }
     template <class Number>
     void push(Number, bool is, const typename Expand::candidate& value) {
-        if (is) candidates.push_back(value);
+        if (is) append(candidates, value);
     }
 };
 
@@ -253,7 +259,7 @@ void judge_all(const Candidate* candidates, std::size_t n, const Judge& judge, O
 template <class Expand>
 next_level<Expand> first_levels(const Expand& expand, std::size_t enough) {
     next_level<Expand> start;
-    for (std::size_t i = 0; i < expand.seeds(); ++i) start.items.push_back(expand.seed(i));
+    for (std::size_t i = 0; i < expand.seeds(); ++i) append(start.items, expand.seed(i));
     while (!start.items.empty() && start.items.size() < enough) {
         const auto level = std::exchange(start.items, {});
         for (const auto& at : level) expand(at, start);
