@@ -14,7 +14,7 @@
 #   --asan      the address and undefined behaviour sanitizers on all layers
 #   --headers   each header alone with g++, clang and nvcc
 #   --bench     the benchmarks are built too (they are not run)
-#   --full      1,000,000 samples for each family and scalar instead of 5,000; tables go to docs/results
+#   --full      1,000,000 samples for each family and scalar instead of 5,000; tables go to docs/results; all of it at -O3
 #   --all       all of these but --full
 # Environment: ABUT_SAMPLES (samples for each family and scalar), ABUT_RESULTS (folder for tables), ABUT_REQUIRE_CUDA=1
 # (no nvcc is a failure).
@@ -76,15 +76,18 @@ if [ -n "$nvcc" ]; then cuda=ON; fi
 bench_option=OFF
 if [ $bench = yes ]; then bench_option=ON; fi
 layers='execution;traverse;io'
+quick=ON
+if [ $full = yes ]; then quick=OFF; fi
 if [ $asan = all ]; then layers=''; fi
 
-build_tree gcc default -DCMAKE_CXX_COMPILER=g++ -DABUT_CUDA=$cuda -DABUT_HEADER_COMPILERS="$compilers" -DABUT_BENCH=$bench_option
+build_tree gcc default -DCMAKE_CXX_COMPILER=g++ -DABUT_CUDA=$cuda -DABUT_HEADER_COMPILERS="$compilers" -DABUT_BENCH=$bench_option \
+    -DABUT_TEST_QUICK=$quick
 build_tree asan asan -DCMAKE_CXX_COMPILER=g++ -DABUT_EXAMPLES=OFF -DABUT_TEST_PREFIX='asan/' -DABUT_TEST_LAYERS="$layers"
 if [ $clang = yes ]; then
     # --headers has checked them with clang already.
     header_compilers=$(command -v clang++)
     if [ $headers = yes ]; then header_compilers=''; fi
-    build_tree clang clang -DABUT_TEST_PREFIX='clang/' -DABUT_HEADER_COMPILERS="$header_compilers"
+    build_tree clang clang -DABUT_TEST_QUICK=$quick -DABUT_TEST_PREFIX='clang/' -DABUT_HEADER_COMPILERS="$header_compilers"
 fi
 if [ $tsan = yes ]; then
     build_tree tsan tsan -DABUT_EXAMPLES=OFF -DABUT_TEST_PREFIX='tsan/' -DABUT_TEST_LAYERS='execution;shape;index;collide'

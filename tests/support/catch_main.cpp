@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 
-// `main` of every test executable, for both generations of Catch2. With ABUT_TEST_NEEDS_DEVICE it leaves with 77, which
-// ctest reports as skipped, where no CUDA device is present.
+// `main` of every test executable, for both generations of Catch2. It leaves with 77, which ctest reports as skipped, where
+// what the executable needs is not there.
 
 #if __has_include(<catch2/catch_session.hpp>)
 #include <catch2/catch_session.hpp>
@@ -10,11 +10,9 @@
 #include <catch2/catch.hpp>
 #endif
 
-#ifdef ABUT_TEST_NEEDS_DEVICE
-#include <cuda_runtime_api.h>
+#include "support/needs.hpp"
 
 #include <cstdio>
-#endif
 
 #if defined(__has_feature)
 #if __has_feature(thread_sanitizer)
@@ -25,13 +23,9 @@ extern "C" const char* __tsan_default_options() { return "ignore_noninstrumented
 #endif
 
 int main(int argc, char* argv[]) {
-#ifdef ABUT_TEST_NEEDS_DEVICE
-    int devices = 0;
-    const cudaError_t status = cudaGetDeviceCount(&devices);
-    if (status == cudaErrorNoDevice || status == cudaErrorInsufficientDriver) {
-        std::printf("abut skips: no CUDA device (%s)\n", cudaGetErrorString(status));
+    if (const char* missing = abut::test::what_is_missing()) {
+        std::printf("abut skips: %s\n", missing);
         return 77;
     }
-#endif
     return Catch::Session().run(argc, argv);
 }

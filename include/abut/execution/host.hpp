@@ -47,10 +47,8 @@ namespace detail {
 template <class... Queues>
 class thread_sinks {
 public:
-    template <class Policy>
-    thread_sinks(const Policy& on, std::size_t n, std::size_t grain, Queues&... queues)
+    thread_sinks(int threads, std::size_t n, std::size_t grain, Queues&... queues)
         : n_(n), grain_(grain), queues_(queues...) {
-        const int threads = n <= grain ? 1 : concurrency(on);
         all_.reserve(static_cast<std::size_t>(threads));
         for (int t = 0; t < threads; ++t) all_.emplace_back(queues.make_sink()...);
     }
@@ -58,20 +56,7 @@ public:
     template <class Policy, class Loop>
     void each(const Policy& on, const Loop& loop) {
         failure_flag failed;
-        for_each_range(on, n_, grain_, [&](int thread, std::size_t begin, std::size_t end) {
-            sinks mine = std::move(all_[static_cast<std::size_t>(thread)]);
-            try {
-                const auto with_sinks = [&](auto&... sink) {
-                    const auto over = [&] { return failed.raised() || is_over(sink...); };
-                    loop(begin, end, over, sink...);
-                };
-                std::apply(with_sinks, mine);
-            } catch (...) {
-                failed.raise();
-                throw;
-            }
-            all_[static_cast<std::size_t>(thread)] = std::move(mine);
-        });
+        for_each_range(on, n_, grain_, part<Loop>{*this, loop, failed});
     }
 
     template <class Policy>
@@ -82,6 +67,30 @@ public:
 
 private:
     using sinks = std::tuple<sink_of<Queues>...>;
+
+    /// A range of a loop. No part of its type is the policy's: where two policies run one loop, it is compiled once.
+    template <class Loop>
+    struct part {
+        thread_sinks& all;
+        const Loop& loop;
+        failure_flag& failed;
+
+        void operator()(int thread, std::size_t begin, std::size_t end) const {
+            sinks& kept = all.all_[static_cast<std::size_t>(thread)];
+            sinks mine = std::move(kept);
+            try {
+                const auto with_sinks = [&](auto&... sink) {
+                    const auto over = [&] { return failed.raised() || is_over(sink...); };
+                    loop(begin, end, over, sink...);
+                };
+                std::apply(with_sinks, mine);
+            } catch (...) {
+                failed.raise();
+                throw;
+            }
+            kept = std::move(mine);
+        }
+    };
 
     template <std::size_t K, class Policy>
     void merge_one(const Policy& on) {
@@ -98,7 +107,7 @@ private:
 /// Runs loop(begin, end, over, sinks...) over ranges of [0, n), and hands what is gathered to the queues.
 template <class Policy, class Loop, class... Queues>
 void gather(const Policy& on, std::size_t n, std::size_t grain, const Loop& loop, Queues&... queues) {
-    thread_sinks<Queues...> sinks(on, n, grain, queues...);
+    thread_sinks<Queues...> sinks(n <= grain ? 1 : concurrency(on), n, grain, queues...);
     sinks.each(on, loop);
     sinks.merge(on);
 }
@@ -146,13 +155,20 @@ void for_each_index(const Policy& on, std::size_t n, const F& f, Queue& queue, Q
     }
 }
 
-template <range_policy Policy, class Walk, class Judge, class... Queues>
-    requires candidate_walk<Walk, sink_of<Queues>...> && candidate_judge<Judge, typename Walk::candidate, sink_of<Queues>...>
-std::uint64_t for_each_candidate(const Policy& on, std::size_t n, const Walk& walk, const Judge& judge, Queues&... queues) {
-    using candidate = typename Walk::candidate;
-    const auto loop = [&](std::size_t begin, std::size_t end, const auto& over, auto&... sinks) {
-        detail::open_candidates<candidate, std::remove_reference_t<decltype(sinks)>...> open;
-        const detail::push_at_once emitter{[&](const candidate& c) {
+namespace detail {
+
+// The loops over candidates, which are no part of a policy's functions for the same reason.
+
+template <class Walk, class Judge>
+struct candidate_loop {
+    const Walk& walk;
+    const Judge& judge;
+
+    template <class Over, class... Sinks>
+    void operator()(std::size_t begin, std::size_t end, const Over& over, Sinks&... sinks) const {
+        using candidate = typename Walk::candidate;
+        open_candidates<candidate, Sinks...> open;
+        const push_at_once emitter{[&](const candidate& c) {
             if (!judge(c, sinks...)) open.add(c, judge, sinks...);
         }};
         for (std::size_t i = begin; i < end && !over(); ++i) {
@@ -161,12 +177,25 @@ std::uint64_t for_each_candidate(const Policy& on, std::size_t n, const Walk& wa
             walk(i, at, emitter, sinks...);
         }
         open.finish(judge, sinks...);
-    };
-    detail::gather(on, n, range_grain, loop, queues...);
+    }
+};
+
+}  // namespace detail
+
+template <range_policy Policy, class Walk, class Judge, class... Queues>
+    requires candidate_walk<Walk, sink_of<Queues>...> && candidate_judge<Judge, typename Walk::candidate, sink_of<Queues>...>
+std::uint64_t for_each_candidate(const Policy& on, std::size_t n, const Walk& walk, const Judge& judge, Queues&... queues) {
+    detail::gather(on, n, range_grain, detail::candidate_loop<Walk, Judge>{walk, judge}, queues...);
     return 0;
 }
 
 namespace detail {
+
+/// One function for all walks: the code that enlarges a vector stands in it once, and not once for each child of a node.
+template <class T>
+[[gnu::noinline]] void append(std::vector<T>& values, const T& value) {
+    values.push_back(value);
+}
 
 /// What the items of a level make.
 template <class Expand>
@@ -175,11 +204,11 @@ struct next_level {
     std::vector<typename Expand::candidate> candidates;
     template <class Number>
     void add(Number, bool is, const typename Expand::item& value) {
-        if (is) items.push_back(value);
+        if (is) append(items, value);
     }
     template <class Number>
     void push(Number, bool is, const typename Expand::candidate& value) {
-        if (is) candidates.push_back(value);
+        if (is) append(candidates, value);
     }
 };
 
@@ -226,43 +255,46 @@ void judge_all(const Candidate* candidates, std::size_t n, const Judge& judge, O
     }
 }
 
-}  // namespace detail
-
-template <range_policy Policy, expander Expand, class Judge, class... Queues>
-    requires candidate_judge<Judge, typename Expand::candidate, sink_of<Queues>...>
-std::uint64_t for_each_descendant(const Policy& on, const Expand& expand, const Judge& judge, Queues&... queues) {
-    using candidate = typename Expand::candidate;
-    // Level by level until there is enough for threads to share; then each goes depth first. Who only wants to know whether
-    // there is one starts soon.
-    constexpr bool any_will_do = (is_flag<sink_of<Queues>> || ...);
-    const std::size_t threads = static_cast<std::size_t>(concurrency(on));
-    const std::size_t enough = threads == 1 ? 1 : any_will_do ? 4 * threads : 4096;
-    detail::next_level<Expand> start;
-    for (std::size_t i = 0; i < expand.seeds(); ++i) start.items.push_back(expand.seed(i));
+/// Level by level until there are `enough` items for threads to share.
+template <class Expand>
+next_level<Expand> first_levels(const Expand& expand, std::size_t enough) {
+    next_level<Expand> start;
+    for (std::size_t i = 0; i < expand.seeds(); ++i) append(start.items, expand.seed(i));
     while (!start.items.empty() && start.items.size() < enough) {
         const auto level = std::exchange(start.items, {});
         for (const auto& at : level) expand(at, start);
     }
-    const std::size_t early = start.candidates.size();
-    const auto loop = [&](std::size_t begin, std::size_t end, const auto& over, auto&... sinks) {
+    return start;
+}
+
+/// Judges what was found on the first levels, then goes depth first from each of their items.
+template <class Expand, class Judge, bool AnyWillDo>
+struct descent_loop {
+    const Expand& expand;
+    const Judge& judge;
+    next_level<Expand>& start;
+
+    template <class Over, class... Sinks>
+    void operator()(std::size_t begin, std::size_t end, const Over& over, Sinks&... sinks) const {
         const Expand step = expand;
-        detail::open_candidates<candidate, std::remove_reference_t<decltype(sinks)>...> open;
+        const std::size_t early = start.candidates.size();
+        open_candidates<typename Expand::candidate, Sinks...> open;
         // An early end is worth more than a long run of decisions, and than many items whose fetches do not wait for each
         // other; but the longer it does not come, the more items are taken at a time.
-        constexpr std::size_t at_a_time = any_will_do ? 1 : detail::descent<Expand>::at_a_time;
-        constexpr std::size_t most_width = detail::descent<Expand>::most_width, first_width = 4, turns_of_a_width = 16;
+        constexpr std::size_t at_a_time = AnyWillDo ? 1 : descent<Expand>::at_a_time;
+        constexpr std::size_t most_width = descent<Expand>::most_width, first_width = 4, turns_of_a_width = 16;
         std::size_t turns = 0;
         for (std::size_t i = begin; i < end && !over(); ++i) {
             if (i < early) {
-                detail::judge_all<true>(&start.candidates[i], 1, judge, open, sinks...);
+                judge_all<true>(&start.candidates[i], 1, judge, open, sinks...);
                 continue;
             }
-            detail::descent<Expand> mine;
+            descent<Expand> mine;
             mine.items[mine.count++] = start.items[i - early];
             while (mine.count > 0) {
                 typename Expand::item now[most_width];
                 const std::size_t limit =
-                    any_will_do ? std::min(first_width + turns++ / turns_of_a_width, most_width) : most_width;
+                    AnyWillDo ? std::min(first_width + turns++ / turns_of_a_width, most_width) : most_width;
                 const std::size_t width = mine.count < limit ? mine.count : mine.count > mine.many ? 1 : limit;
                 for (std::size_t k = 0; k < width; ++k) {
                     now[k] = mine.items[--mine.count];
@@ -270,25 +302,26 @@ std::uint64_t for_each_descendant(const Policy& on, const Expand& expand, const 
                 }
                 for (std::size_t k = 0; k < width; ++k) step(now[k], mine);
                 if (mine.found >= at_a_time || mine.count == 0) {
-                    detail::judge_all<any_will_do>(mine.candidates, mine.found, judge, open, sinks...);
+                    judge_all<AnyWillDo>(mine.candidates, mine.found, judge, open, sinks...);
                     mine.found = 0;
                 }
                 if (over()) return;
             }
         }
         open.finish(judge, sinks...);
-    };
-    detail::gather(on, early + start.items.size(), any_will_do ? 1 : descent_grain, loop, queues...);
-    return 0;
-}
+    }
+};
 
-template <range_policy Policy, class Tile, class... Queues>
-    requires tile_functor<Tile, sink_of<Queues>...>
-std::uint64_t for_each_tiled(const Policy& on, std::size_t n, std::size_t m, const Tile& tile, Queues&... queues) {
-    constexpr std::size_t columns = 256, pairs_of_a_thread = 16384;
-    const auto loop = [&](std::size_t begin, std::size_t end, const auto& over, auto&... sinks) {
+template <class Tile>
+struct tile_loop {
+    std::size_t m;
+    const Tile& tile;
+
+    template <class Over, class... Sinks>
+    void operator()(std::size_t begin, std::size_t end, const Over& over, Sinks&... sinks) const {
+        constexpr std::size_t columns = 256;
         typename Tile::column staged[columns];
-        detail::open_candidates<typename Tile::candidate, std::remove_reference_t<decltype(sinks)>...> open;
+        open_candidates<typename Tile::candidate, Sinks...> open;
         for (std::size_t first = 0; first < m; first += columns) {
             const std::size_t width = std::min(columns, m - first);
             for (std::size_t j = 0; j < width; ++j) staged[j] = tile.load_column(first + j);
@@ -302,8 +335,31 @@ std::uint64_t for_each_tiled(const Policy& on, std::size_t n, std::size_t m, con
             }
         }
         open.finish(tile, sinks...);
-    };
-    detail::gather(on, n, std::max<std::size_t>(pairs_of_a_thread / (m + 1), 64), loop, queues...);
+    }
+};
+
+}  // namespace detail
+
+template <range_policy Policy, expander Expand, class Judge, class... Queues>
+    requires candidate_judge<Judge, typename Expand::candidate, sink_of<Queues>...>
+std::uint64_t for_each_descendant(const Policy& on, const Expand& expand, const Judge& judge, Queues&... queues) {
+    // Who only wants to know whether there is one starts soon.
+    constexpr bool any_will_do = (is_flag<sink_of<Queues>> || ...);
+    const std::size_t threads = static_cast<std::size_t>(concurrency(on));
+    const std::size_t enough = threads == 1 ? 1 : any_will_do ? 4 * threads : 4096;
+    auto start = detail::first_levels(expand, enough);
+    const std::size_t n = start.candidates.size() + start.items.size();
+    const detail::descent_loop<Expand, Judge, any_will_do> loop{expand, judge, start};
+    detail::gather(on, n, any_will_do ? 1 : descent_grain, loop, queues...);
+    return 0;
+}
+
+template <range_policy Policy, class Tile, class... Queues>
+    requires tile_functor<Tile, sink_of<Queues>...>
+std::uint64_t for_each_tiled(const Policy& on, std::size_t n, std::size_t m, const Tile& tile, Queues&... queues) {
+    constexpr std::size_t pairs_of_a_thread = 16384;
+    const std::size_t grain = std::max<std::size_t>(pairs_of_a_thread / (m + 1), 64);
+    detail::gather(on, n, grain, detail::tile_loop<Tile>{m, tile}, queues...);
     return 0;
 }
 

@@ -56,15 +56,28 @@ void for_each_range(const serial&, std::size_t n, std::size_t, const F& f) {
     if (n > 0) f(0, std::size_t{0}, n);
 }
 
-/// Calls f(thread, begin, end) on ranges of `grain` indices that idle threads fetch; on the calling thread alone there is
-/// one range. The first exception thrown is thrown again when all threads are done. None of them begins another range then.
-template <class F>
-void for_each_range(const openmp& on, std::size_t n, std::size_t grain, const F& f) {
-    const int threads = detail::range_threads(on, n, grain);
+namespace detail {
+
+/// A functor of ranges, whatever its type, so that the loop below is compiled once. It refers to the functor.
+class range_call {
+public:
+    template <class F>
+    explicit range_call(const F& f)
+        : functor_(&f), call_([](const void* functor, int thread, std::size_t begin, std::size_t end) {
+              (*static_cast<const F*>(functor))(thread, begin, end);
+          }) {}
+    void operator()(int thread, std::size_t begin, std::size_t end) const { call_(functor_, thread, begin, end); }
+
+private:
+    const void* functor_;
+    void (*call_)(const void*, int, std::size_t, std::size_t);
+};
+
+[[gnu::noinline]] inline void for_each_range_on(int threads, std::size_t n, std::size_t grain, const range_call& f) {
     if (threads == 1) return for_each_range(serial{}, n, grain, f);
 #if defined(_OPENMP)
     std::exception_ptr failure;
-    detail::failure_flag failed;
+    failure_flag failed;
     const std::size_t ranges = n / grain + (n % grain != 0);
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 1) shared(failure, failed)
     for (std::size_t range = 0; range < ranges; ++range) {
@@ -81,6 +94,15 @@ void for_each_range(const openmp& on, std::size_t n, std::size_t grain, const F&
 #else
     for_each_range(serial{}, n, grain, f);  // concurrency may come from a translation unit with OpenMP
 #endif
+}
+
+}  // namespace detail
+
+/// Calls f(thread, begin, end) on ranges of `grain` indices that idle threads fetch; on the calling thread alone there is
+/// one range. The first exception thrown is thrown again when all threads are done. None of them begins another range then.
+template <class F>
+void for_each_range(const openmp& on, std::size_t n, std::size_t grain, const F& f) {
+    detail::for_each_range_on(detail::range_threads(on, n, grain), n, grain, detail::range_call(f));
 }
 
 /// A policy in host memory whose loops are made of ranges on threads (execution/host.hpp): `serial`, `openmp`, and another
