@@ -15,6 +15,17 @@ TEST_CASE("nearest: cuda") {
     abut::test::check_nearest_scales<double>(abut::cuda{});
 }
 
+TEST_CASE("queries: trees of oriented boxes, cuda") {
+    using namespace abut;
+    test::uniform random(65);
+    const cuda on;
+    const triangle_soup<float> here(test::random_triangles<float>(500, random)), there(test::random_triangles<float>(400, random));
+    const auto a = make_bvh(on, here), b = make_bvh(on, there);
+    const auto expected = count(on, a, b);
+    CHECK(expected > 0);
+    CHECK(count(on, oriented(on, a), oriented(on, b)) == expected);
+}
+
 TEST_CASE("queries: sets of other shapes, cuda") {
     using namespace abut;
     test::check_pair_of_shapes<sphere<float>, sphere<float>>(abut::cuda{}, 61);

@@ -66,17 +66,17 @@ struct waiting_shape {
 };
 
 /// The nearest of some shapes that wait, if it is within the bound. Out of line: what it needs of registers is for few, and
-/// walks need theirs.
+/// walks need theirs. Those that are too far go first, so that threads of a device which measure do so at the same time.
 template <class Shapes, scalar T>
-ABUT_NOINLINE ABUT_HD execution::least_value nearest_of(const Shapes shapes, const waiting_shape<T>* waiting, int n,
+ABUT_NOINLINE ABUT_HD execution::least_value nearest_of(const Shapes shapes, waiting_shape<T>* waiting, int n,
                                                         const vec3<T> p, const length_unit<T> unit, double bound) {
-    execution::least_value best;
-    T limit = square_from(unit, bound);
+    const T limit = square_from(unit, bound);
+    int left = 0;
     for (int k = 0; k < n; ++k) {
-        if (waiting[k].at_least > limit) continue;
-        best.offer(squared_distance(p, shapes[waiting[k].id], unit), waiting[k].id);
-        limit = least(limit, square_from(unit, best.value));
+        if (!(waiting[k].at_least > limit)) waiting[left++] = waiting[k];
     }
+    execution::least_value best;
+    for (int k = 0; k < left; ++k) best.offer(squared_distance(p, shapes[waiting[k].id], unit), waiting[k].id);
     return best;
 }
 
