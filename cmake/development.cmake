@@ -55,7 +55,8 @@ target_compile_options(
     INTERFACE $<$<COMPILE_LANGUAGE:CXX>:${abut_warnings}>
               $<$<COMPILE_LANG_AND_ID:CUDA,NVIDIA>:${abut_cuda_warnings}>
               $<$<AND:$<BOOL:${ABUT_WERROR}>,$<COMPILE_LANGUAGE:CXX>>:-Werror>
-              $<$<AND:$<BOOL:${ABUT_WERROR}>,$<COMPILE_LANG_AND_ID:CUDA,NVIDIA>>:-Werror=all-warnings>)
+              $<$<AND:$<BOOL:${ABUT_WERROR}>,$<COMPILE_LANG_AND_ID:CUDA,NVIDIA>>:-Werror=all-warnings>
+              $<$<AND:$<BOOL:${ABUT_QUICK_DEVICE_CODE}>,$<COMPILE_LANG_AND_ID:CUDA,NVIDIA>>:-Ofc=max>)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     # False alarms inside std::string (GCC bug 105651).
     target_compile_options(abut_development INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-restrict>)

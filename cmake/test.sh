@@ -6,7 +6,8 @@
 # Installs what is missing from the distribution's packages (Debian 12, Ubuntu 24.04 or newer), builds the tests and runs
 # them, all in one run of ctest. With no argument:
 #   g++, Release, warnings as errors: all tests, the examples, each header alone, the include graph, an outside project;
-#   the .cu files, if nvcc 13.0 or newer is there (they run where a device is present, and are reported as skipped else);
+#   the .cu files, if nvcc 13.0 or newer is there (where no device is present they are compiled without optimisation, and
+#   reported as skipped);
 #   the address and undefined behaviour sanitizers on some of the layers.
 # More, each beside what is above:
 #   --clang     the same tests built by clang (no .cu files), its warnings as errors
@@ -78,10 +79,13 @@ if [ $bench = yes ]; then bench_option=ON; fi
 layers='execution;traverse;io'
 quick=ON
 if [ $full = yes ]; then quick=OFF; fi
+# Where no device is present, .cu files are compiled to see that they can be.
+quick_device=OFF
+if [ $quick = ON ] && ! nvidia-smi -L 2>/dev/null | grep -q '^GPU'; then quick_device=ON; fi
 if [ $asan = all ]; then layers=''; fi
 
 build_tree gcc default -DCMAKE_CXX_COMPILER=g++ -DABUT_CUDA=$cuda -DABUT_HEADER_COMPILERS="$compilers" -DABUT_BENCH=$bench_option \
-    -DABUT_TEST_QUICK=$quick
+    -DABUT_TEST_QUICK=$quick -DABUT_QUICK_DEVICE_CODE=$quick_device
 build_tree asan asan -DCMAKE_CXX_COMPILER=g++ -DABUT_EXAMPLES=OFF -DABUT_TEST_PREFIX='asan/' -DABUT_TEST_LAYERS="$layers"
 if [ $clang = yes ]; then
     # --headers has checked them with clang already.
