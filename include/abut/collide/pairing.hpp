@@ -239,7 +239,7 @@ auto box_overlap(const A& a, const B& b) {
 }
 
 /// Two operands that are asked about their pairs.
-template <class A, class B, class Filter, traversal Traversal>
+template <operand A, operand B, class Filter, traversal Traversal>
 struct pairing {
     A a;
     B b;

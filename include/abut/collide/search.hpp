@@ -121,7 +121,8 @@ private:
 template <class Policy, class Pairing, class Judge, class Hits>
 void search(const Policy& on, const Pairing& pairing, const Judge& judge, Hits& hits) {
     using view = typename Pairing::view_type;
-    static_assert(pair_judge<Judge, typename view::shape_type_a, typename view::shape_type_b>);
+    static_assert(pair_judge<Judge, typename view::shape_type_a, typename view::shape_type_b>,
+                  "abut: search: the judge is no pair_judge (collide/judge.hpp) of these shapes");
     pairing.judge_candidates(
         on, judged_loops<Policy, view, Judge, Hits>(on, pairing.view(), judge, pairing.options.most_pairs, hits));
 }

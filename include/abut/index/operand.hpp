@@ -20,6 +20,16 @@ concept is_shape = shape<X>;
 template <class X>
 concept set_like = shape_set<X> || shape_view<X> || shape<X>;
 
+/// An argument of a query in the policy's memory, one side of a pairing: `shapes()` gives its shapes where they are in the
+/// world. An index says how it is walked (collide/operand.hpp).
+template <class X>
+concept operand = requires(const X& x) {
+    { X::is_indexed } -> std::convertible_to<bool>;
+    { X::has_tree } -> std::convertible_to<bool>;
+    { X::is_posed } -> std::convertible_to<bool>;
+    { x.shapes() } -> shape_view;
+} && (!X::is_indexed || requires(const X& x) { x.walk(); }) && (!X::has_tree || requires(const X& x) { x.tree(); });
+
 /// `set` in the policy's memory: an owner that lies there already is shared, one in host memory is copied under cuda; a view
 /// is checked and stays where it is; one shape is checked and becomes a view that carries it.
 template <execution_policy Policy, class Set>
