@@ -18,7 +18,7 @@ TEST_CASE("nearest: cuda") {
 TEST_CASE("queries: trees of oriented boxes, cuda") {
     using namespace abut;
     test::uniform random(65);
-    const cuda on;
+    const abut::cuda on;
     const triangle_soup<float> here(test::random_triangles<float>(500, random)), there(test::random_triangles<float>(400, random));
     const auto a = make_bvh(on, here), b = make_bvh(on, there);
     const auto expected = count(on, a, b);

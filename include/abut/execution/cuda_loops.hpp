@@ -330,8 +330,10 @@ __global__ void __launch_bounds__(block_size)
         if (is_over(sinks...)) break;
         f(i, sinks...);
     }
-    close_all(sinks...);
-    deliver();
+    if constexpr (sizeof...(Sinks) > 0) {
+        close_all(sinks...);
+        deliver();
+    }
 }
 
 inline int multiprocessors(int device) {
