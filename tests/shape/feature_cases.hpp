@@ -61,8 +61,8 @@ std::size_t check_features(const Policy& on, const std::vector<vec3<T>>& corners
     const auto all = vertices(there);
     CHECK(all.size() == corners.size());
     CHECK(all.view().shapes.data == there.view().vertices.data);
-    const auto points_here = copy_to(serial{}, all).view();
-    for (std::size_t i = 0; i < corners.size() && same; ++i) same = points_here[i] == corners[i];
+    const auto points_here = copy_to(serial{}, all);
+    for (std::size_t i = 0; i < corners.size() && same; ++i) same = points_here.view()[i] == corners[i];
     CHECK(same);
 
     struct vertex {
@@ -86,9 +86,10 @@ std::size_t check_features(const Policy& on, const std::vector<vec3<T>>& corners
                                               faces.size(), sizeof(vertex), sizeof(tagged_face));
     const auto of_view = edges(on, view);
     CHECK(ids_of(of_view) == expected);
-    const auto of_view_here = copy_to(serial{}, of_view).view();
+    const auto of_view_here = copy_to(serial{}, of_view);
     for (std::size_t i = 0; i < expected.size() && same; ++i) {
-        same = of_view_here[i].a == corners[expected[i][0]] && of_view_here[i].b == corners[expected[i][1]];
+        const segment<T> s = of_view_here.view()[i];
+        same = s.a == corners[expected[i][0]] && s.b == corners[expected[i][1]];
     }
     CHECK(same);
     CHECK(vertices(view).size() == corners.size());

@@ -65,6 +65,37 @@ private:
     bool clean_ = false;
 };
 
+/// Memory of a device that stays from loop to loop, of each host thread: `use` 0 is for what loops leave open, 1 for what is
+/// then left for the host. A thread waits for a loop before it starts another, on any stream. From the pool, where the rest
+/// of a query's memory comes from, so large pieces would come and go with every call, and split what others need.
+class kept_room {
+public:
+    kept_room() = default;
+    kept_room(const kept_room&) = delete;
+    kept_room& operator=(const kept_room&) = delete;
+    ~kept_room() { cudaFree(memory_); }
+
+    [[nodiscard]] static kept_room& of_this_thread(int device, int use) {
+        thread_local std::map<std::pair<int, int>, kept_room> all;
+        return all[{device, use}];
+    }
+    /// Room for that many bytes, not initialised. What it held before is lost.
+    [[nodiscard]] void* at_least(int device, std::size_t bytes) {
+        if (bytes > bytes_) {
+            const current_device scope(device);
+            cudaFree(std::exchange(memory_, nullptr));
+            bytes_ = 0;
+            check(cudaMalloc(&memory_, bytes), "cudaMalloc");
+            bytes_ = bytes;
+        }
+        return memory_;
+    }
+
+private:
+    void* memory_ = nullptr;
+    std::size_t bytes_ = 0;
+};
+
 inline __device__ unsigned lane_id() {
     unsigned lane;
     asm("mov.u32 %0, %%laneid;" : "=r"(lane));
@@ -208,19 +239,25 @@ class capped_queue<T, device_space> {
 public:
     using sink = typename work_queue<T, device_space>::sink;
 
-    capped_queue(const cuda& on, std::size_t capacity) : items_(on, capacity) {}
+    /// Two queues of one thread and one `use` share their memory (detail::kept_room).
+    capped_queue(const cuda& on, std::size_t capacity, int use = 1) : capacity_(capacity) {
+        const int device = device_of(on);
+        const std::size_t bytes = std::max(capacity * sizeof(T), std::size_t{1} << 20);
+        items_ = static_cast<T*>(detail::kept_room::of_this_thread(device, use).at_least(device, bytes));
+    }
     /// Number of values that were pushed.
     [[nodiscard]] std::uint64_t pushed() const { return pushed_; }
-    [[nodiscard]] std::size_t capacity() const { return items_.size(); }
-    [[nodiscard]] const T* data() const { return items_.data(); }
+    [[nodiscard]] std::size_t capacity() const { return capacity_; }
+    [[nodiscard]] const T* data() const { return items_; }
 
-    [[nodiscard]] sink make_sink(std::uint64_t* count) { return {items_.data(), items_.size(), count}; }
+    [[nodiscard]] sink make_sink(std::uint64_t* count) { return {items_, capacity_, count}; }
     [[nodiscard]] bool has_room(std::uint64_t) const { return true; }
     void take_in(std::uint64_t count) { pushed_ = count; }
     void make_room(const cuda&, std::uint64_t) {}
 
 private:
-    buffer<T, device_space> items_;
+    T* items_;
+    std::size_t capacity_;
     std::uint64_t pushed_ = 0;
 };
 
@@ -237,7 +274,7 @@ public:
     };
 
     /// For a loop over no more than `pairs` candidates.
-    open_queue(const cuda& on, std::uint64_t pairs) : base(on, pairs < most ? pairs : most) {}
+    open_queue(const cuda& on, std::uint64_t pairs) : base(on, pairs < most ? pairs : most, 0) {}
 
     [[nodiscard]] sink make_sink(std::uint64_t* count) {
         return {base::make_sink(count), patient_ ? ~std::uint64_t{0} : enough};
