@@ -229,7 +229,8 @@ void check_nearest_scales(const Policy& on) {
     const int most = std::numeric_limits<T>::max_exponent - 9, least = std::numeric_limits<T>::min_exponent - 8;
     std::vector<triangle<T>> mixed;
     std::vector<vec3<T>> mixed_points;
-    for (const int e : {most, least, most / 2, least / 2, 40, -40}) {
+    // Near most / 4 the squares of squares overflow, which bounds of distances are made of.
+    for (const int e : {most, least, most / 2, least / 2, most / 4, most / 4 + 2, most / 4 + 4, 40, -40}) {
         CAPTURE(e);
         const T s = std::ldexp(T(1), e);
         std::vector<triangle<T>> scaled;

@@ -263,13 +263,14 @@ TEMPLATE_TEST_CASE("nearest_point: scale by powers of two changes no digit, to t
         test::draws d(7, 1, i);
         const triangle<T> t = any_triangle<T>(d);
         const vec3<T> p = draw<T>(d, 2), q = nearest_point(t, p);
-        for (const int e : {most, least, 40, -40}) {
+        for (const int e : {most, least, most / 4, most / 4 + 2, most / 4 + 3, 40, -40}) {
             const T s = std::ldexp(T(1), e);
             const triangle<T> u = times(t, s);
             const vec3<T> far = nearest_point(u, s * p);
             const auto unit = detail::unit_for(bounds(u), s * p);
             const double square = detail::squared_distance(s * p, u, unit);
             CHECK(square <= detail::square_in(unit, detail::distance_bounds<T>(u, s * p).at_most()));
+            CHECK(detail::distance_bounds<T>(u, s * p).at_least() <= detail::square_from(unit, square));
             auto ball = detail::world_frame<T>{unit.length(1)}.ball_around(s * p);
             ball.shrink_to(square);
             CHECK(ball.keeps(ball.least_in(around<obb<T>>(u))));

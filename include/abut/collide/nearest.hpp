@@ -196,8 +196,6 @@ struct write_neighbors {
     }
 };
 
-// --- what operands bring -----------------------------------------------------------------------------------------------
-
 template <class Operand>
 auto ordered_walk_of(const Operand& x) {
     if constexpr (Operand::is_posed) {

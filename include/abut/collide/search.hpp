@@ -61,9 +61,9 @@ void resolve_on_host(const Policy& on, const View& both, const Judge& judge, con
                      std::size_t most_pairs, Hits& hits) {
     for (std::size_t first = 0; first < n && !execution::is_over(hits); first += most_pairs) {
         const std::size_t some = std::min(n - first, most_pairs);
+        std::vector<whole_pair<View>> pairs(some);  // first: nothing may throw while the keys are being read
         execution::buffer_of<Policy, whole_pair<View>> gathered(on, some);
         for_each_index(on, some, fetch_pair<View>{both, keys + first, gathered.data()});
-        std::vector<whole_pair<View>> pairs(some);
         download(on, gathered.data(), some, pairs.data());
         std::vector<std::uint64_t> found;
         for (const auto& pair : pairs) {

@@ -87,7 +87,8 @@ struct some_triangles {
 /// one it was made of may go. Each volume is as small as one made around all triangles in it. Oriented boxes and spheres are
 /// made so, in time proportional to the number of shapes times the depth of the tree: some thirty and seventy linear builds.
 /// kdop and aabb are merged from below, in linear time: some ten. For a device it is made on all threads of the host, of a copy
-/// of the tree, and brought there. Returns when it is done. Throws std::bad_alloc, cuda_error.
+/// of the tree, and brought there. Returns when it is done. Throws error (a tree on
+/// another device), std::bad_alloc, cuda_error.
 ///
 /// Two trees of one kind of volume are told apart by these, but of kdop under a pose by the boxes along the axes. Such boxes
 /// are what a tree of volumes stands for together with anything else, slowly where they have to be made at each look.
@@ -95,8 +96,11 @@ struct some_triangles {
 ///     const auto tree = bounded_by<kdop<float, 18>>(on, make_bvh(on, mesh, {.builder = bvh_builder::sah}));
 template <bounding_volume V, execution_policy Policy, class Set, memory_space Space>
 [[nodiscard]] bvh<Set, Space, bounded_layout<V>> bounded_by(const Policy& on, const bvh<Set, Space>& tree) {
-    static_assert(host_policy<Policy> || std::same_as<Space, space_of<Policy>>,
+    static_assert(std::same_as<Space, space_of<Policy>>,
                   "abut: a tree of volumes is made by a policy of the memory where the tree is");
+    static_assert(host_policy<Policy> || shape_set<Set>,
+                  "abut: on a device a tree of volumes is made of a tree over a set, not over a view");
+    detail::require_same_device(on, tree, "abut::bounded_by");
     using tree_type = bvh<Set, Space, bounded_layout<V>>;
     using T = typename tree_type::scalar_type;
     static_assert(std::same_as<typename detail::volume_scalar<V>::type, T>,

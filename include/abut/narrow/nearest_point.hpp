@@ -185,11 +185,11 @@ struct distance_bounds {
         const T square = product * product, far = T(0x1p-10) * all, near = T(1 + 0x1p-13) * limit;
         return product > 0 && square > tiny && square > of_w * (near > far ? near : far);
     }
-    /// What the square of the way is surely not below.
+    /// What the square of the way is surely not below. The product's square may overflow where this does not.
     [[nodiscard]] ABUT_HD T at_least() const {
         const T square = product * product;
         const bool tells = product > 0 && square > tiny && square > of_w * (T(0x1p-10) * all);
-        return tells ? square / of_w * T(1 - 0x1p-12) : T(0);
+        return tells ? product / of_w * product * T(1 - 0x1p-12) : T(0);
     }
     /// What the square of the way is surely not above: that of the way to the nearest corner, and what the foot may be off,
     /// which is below some 2^-50 of d and of the triangle's size, or its square below 2^-50 of their product. With

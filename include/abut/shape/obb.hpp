@@ -249,7 +249,7 @@ ABUT_HD constexpr T least_squared_distance(const obb<T>& b, const vec3<T>& p) {
     };
     const T square = beyond(b.axes[0], b.half_widths.x) + beyond(b.axes[1], b.half_widths.y) +
                      beyond(b.axes[2], b.half_widths.z);
-    return size < largest_finite<T> / 64 ? square * (1 - 256 * unit_roundoff<T>) : T(0);
+    return size < largest_finite<T> / 64 ? detail::least(square, largest_finite<T>) * (1 - 256 * unit_roundoff<T>) : T(0);
 }
 
 namespace detail {

@@ -226,6 +226,7 @@ struct ordered_grid_walk {
         };
         const auto width = static_cast<T>(1 / frame.cells_per_unit);
         T radius = static_cast<T>(std::sqrt(static_cast<double>(reach.least_in(frame.bounds)))) + width;
+        radius = greatest(radius, smallest_normal<T>);  // or it might stay 0
         for (;; radius += radius) {
             const bool is_last = !(radius < reach.radius());
             const aabb<T> box = is_last ? reach.bounds() : bounds(sphere<T>{reach.center, radius});
