@@ -256,6 +256,31 @@ TEMPLATE_TEST_CASE("nearest_point: triangles, needles and degenerate ones too, a
     check_triangles<TestType>();
 }
 
+/// Bounds that are 0 or infinite would pass all else.
+TEMPLATE_TEST_CASE("nearest_point: from far away bounds of distances are close, and boxes along a slope tell more", "", float,
+                   double) {
+    using T = TestType;
+    for (std::uint64_t i = 0; i < 200; ++i) {
+        test::draws d(11, 1, i);
+        // A triangle of size 1 on the slope x + z = 0, and a point 100 above the middle of it.
+        const T y = static_cast<T>(d.uniform(0, 1)), h = static_cast<T>(100 / std::sqrt(2.0));
+        const triangle<T> t{{0, 0, 0}, {1, y, -1}, {0, 1, 0}};
+        const vec3<T> middle{T(1) / 3, (y + 1) / 3, -T(1) / 3}, p{middle.x + h, middle.y, middle.z + h};
+        const detail::length_unit<T> unit{};
+        const double square = detail::squared_distance(p, t, unit);
+        CHECK(square == Approx(10000).epsilon(1e-5));
+        const detail::distance_bounds<T> around_it(t, p);
+        CHECK(double(around_it.at_least()) > 0.999 * square);
+        CHECK(double(around_it.at_most()) < 1.001 * square);
+        CHECK(around_it.are_beyond(T(0.999 * square)));
+        auto ball = detail::world_frame<T>{}.ball_around(p);
+        CHECK(double(ball.least_in(around<obb<T>>(t))) > 0.9999 * square);
+        CHECK(double(ball.least_in(bounds(t))) < 0.99 * square);
+        ball.shrink_to(0.999 * square);
+        CHECK_FALSE(ball.keeps(ball.least_in(around<obb<T>>(t))));
+    }
+}
+
 TEMPLATE_TEST_CASE("nearest_point: scale by powers of two changes no digit, to the ends of the range", "", float, double) {
     using T = TestType;
     const int most = std::numeric_limits<T>::max_exponent - 8, least = std::numeric_limits<T>::min_exponent + 40;

@@ -93,7 +93,7 @@ __global__ void __launch_bounds__(group_size) for_each_group_kernel(F f) {
 template <class... Sinks>
 __device__ bool block_is_over(const Sinks&... sinks) {
     static_assert(sizeof...(sinks) <= block_size / warp_size);
-    if constexpr ((is_flag<Sinks> || ...)) {
+    if constexpr ((may_stop<Sinks> || ...)) {
         unsigned first = 0;
         bool over = false;
         (..., (over |= threadIdx.x == first && is_over(sinks), first += warp_size));

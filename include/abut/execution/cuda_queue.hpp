@@ -6,6 +6,7 @@
 // make_room, and the loop runs again. And those words.
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -21,9 +22,37 @@ namespace abut::execution {
 
 namespace detail {
 
+/// Memory of a device that stays from loop to loop. From the pool, where the rest of a query's memory comes from, large
+/// pieces would come and go with every call, and split what others need.
+class kept_room {
+public:
+    kept_room() = default;
+    kept_room(const kept_room&) = delete;
+    kept_room& operator=(const kept_room&) = delete;
+    ~kept_room() { cudaFree(memory_); }
+
+    /// Room for that many bytes, not initialised. It grows by powers of two. What it held before is lost.
+    [[nodiscard]] void* at_least(int device, std::size_t bytes) {
+        if (bytes > bytes_) {
+            const current_device scope(device);
+            cudaFree(std::exchange(memory_, nullptr));
+            bytes_ = 0;
+            const std::size_t more = std::bit_ceil(bytes);
+            check(cudaMalloc(&memory_, more), "cudaMalloc");
+            bytes_ = more;
+        }
+        return memory_;
+    }
+
+private:
+    void* memory_ = nullptr;
+    std::size_t bytes_ = 0;
+};
+
 /// Counters of the loops with queues: some words of a device's memory that are 0 between calls, and page-locked words that a
 /// kernel writes them to when it ends. One of each for each host thread, which waits for a loop before it starts another. So
-/// a loop takes no filling and no copy besides its kernels.
+/// a loop takes no filling and no copy besides its kernels. And room for what loops leave open (0), and for what of that is
+/// then left for the host (1).
 class loop_counters {
 public:
     static constexpr unsigned most = 15;  // and one for the kernel's own use
@@ -59,41 +88,12 @@ public:
     }
     [[nodiscard]] std::uint64_t* words() { return words_; }
     [[nodiscard]] std::uint64_t* read() { return read_; }
+    [[nodiscard]] kept_room& room(int use) { return rooms_[use]; }
 
 private:
     std::uint64_t *words_ = nullptr, *read_ = nullptr;
     bool clean_ = false;
-};
-
-/// Memory of a device that stays from loop to loop, of each host thread: `use` 0 is for what loops leave open, 1 for what is
-/// then left for the host. A thread waits for a loop before it starts another, on any stream. From the pool, where the rest
-/// of a query's memory comes from, so large pieces would come and go with every call, and split what others need.
-class kept_room {
-public:
-    kept_room() = default;
-    kept_room(const kept_room&) = delete;
-    kept_room& operator=(const kept_room&) = delete;
-    ~kept_room() { cudaFree(memory_); }
-
-    [[nodiscard]] static kept_room& of_this_thread(int device, int use) {
-        thread_local std::map<std::pair<int, int>, kept_room> all;
-        return all[{device, use}];
-    }
-    /// Room for that many bytes, not initialised. What it held before is lost.
-    [[nodiscard]] void* at_least(int device, std::size_t bytes) {
-        if (bytes > bytes_) {
-            const current_device scope(device);
-            cudaFree(std::exchange(memory_, nullptr));
-            bytes_ = 0;
-            check(cudaMalloc(&memory_, bytes), "cudaMalloc");
-            bytes_ = bytes;
-        }
-        return memory_;
-    }
-
-private:
-    void* memory_ = nullptr;
-    std::size_t bytes_ = 0;
+    kept_room rooms_[2];
 };
 
 inline __device__ unsigned lane_id() {
@@ -243,7 +243,7 @@ public:
     capped_queue(const cuda& on, std::size_t capacity, int use = 1) : capacity_(capacity) {
         const int device = device_of(on);
         const std::size_t bytes = std::max(capacity * sizeof(T), std::size_t{1} << 20);
-        items_ = static_cast<T*>(detail::kept_room::of_this_thread(device, use).at_least(device, bytes));
+        items_ = static_cast<T*>(detail::loop_counters::of_this_thread(device).room(use).at_least(device, bytes));
     }
     /// Number of values that were pushed.
     [[nodiscard]] std::uint64_t pushed() const { return pushed_; }
