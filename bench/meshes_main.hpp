@@ -9,6 +9,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "mesh_file.hpp"
 #include "meshes_scene.hpp"
 
 namespace meshes_scene {
@@ -17,18 +18,7 @@ namespace meshes_scene {
 template <class Add>
 int run(int argc, char** argv, const Add& add) {
     try {
-        const std::string flag = "--mesh=";
-        std::string path;
-        int kept = 1;
-        for (int i = 1; i < argc; ++i) {
-            const std::string argument = argv[i];
-            if (argument.rfind(flag, 0) == 0) {
-                path = argument.substr(flag.size());
-            } else {
-                argv[kept++] = argv[i];
-            }
-        }
-        argc = kept;
+        const std::string path = bench::take_mesh_argument(argc, argv);
         benchmark::Initialize(&argc, argv);
         if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
         const mesh_pair pair = make_pair(path.empty() ? unit_torus() : read_surface(path));

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include <abut/abut.hpp>
-#include <abut/io/read.hpp>
 
 #include "../tests/support/scenes.hpp"
+#include "mesh_file.hpp"
 
 namespace meshes_scene {
 
@@ -22,14 +22,7 @@ struct surface {
 };
 
 /// A mesh from a PLY or OBJ file.
-inline surface read_surface(const std::string& path) {
-    const auto mesh = abut::io::read_mesh<float>(path);
-    const auto view = mesh.view();
-    surface s;
-    for (std::size_t i = 0; i < view.vertices.count; ++i) s.vertices.push_back(view.vertices[i]);
-    for (std::size_t i = 0; i < view.faces.count; ++i) s.faces.push_back(view.faces[i]);
-    return s;
-}
+inline surface read_surface(const std::string& path) { return bench::read_surface<surface>(path); }
 
 struct mesh_pair {
     surface a, b;

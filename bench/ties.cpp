@@ -6,7 +6,8 @@
 // Names:
 //
 //   pair/SCALAR/NAME    pairs decided one by one: families of tests/support/triangle_families.hpp, and the candidates of
-//   scenes count/SCALAR/NAME   whole queries, with two trees, on one thread
+//                       scenes
+//   count/SCALAR/NAME   whole queries, with two trees, on one thread
 //
 // A row runs `fast`, `filtered` and `exact` in turn, so that all three see the same machine. Its counters are the medians of
 // their processor times in ns, of a pair or of the whole query; filtered_over_fast; hits; and, for pairs, filter_leaves: the
@@ -24,8 +25,8 @@
 #include <benchmark/benchmark.h>
 
 #include <abut/abut.hpp>
-#include <abut/io/read.hpp>
 
+#include "mesh_file.hpp"
 #include "ties_scene.hpp"
 
 namespace {
@@ -117,36 +118,16 @@ void add(const scene::surface<float>* mesh) {
     for (const auto& s : scene::scenes<T>(24, onto_itself)) row("count" + of + s.name, count<T>, s);
 }
 
-scene::surface<float> read_surface(const std::string& path) {
-    const auto mesh = abut::io::read_mesh<float>(path);
-    const auto view = mesh.view();
-    scene::surface<float> s;
-    for (std::size_t i = 0; i < view.vertices.count; ++i) s.vertices.push_back(view.vertices[i]);
-    for (std::size_t i = 0; i < view.faces.count; ++i) s.faces.push_back(view.faces[i]);
-    return s;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
     try {
-        const std::string flag = "--mesh=";
-        std::string path;
-        int kept = 1;
-        for (int i = 1; i < argc; ++i) {
-            const std::string argument = argv[i];
-            if (argument.rfind(flag, 0) == 0) {
-                path = argument.substr(flag.size());
-            } else {
-                argv[kept++] = argv[i];
-            }
-        }
-        argc = kept;
+        const std::string path = bench::take_mesh_argument(argc, argv);
         scene::surface<float> mesh;
         if (path.empty()) {
             std::printf("no --mesh: a torus stands in for it\n");
         } else {
-            mesh = read_surface(path);
+            mesh = bench::read_surface<scene::surface<float>>(path);
         }
         const auto* const onto_itself = path.empty() ? nullptr : &mesh;
         add<float>(onto_itself);

@@ -5,8 +5,7 @@
 // bench/ties.cpp on CUDA, with the same scenes; the voxel models are larger, and a torus stands in for the mesh. Names:
 //
 //   pair/ARITHMETIC/SCALAR/NAME    a plain kernel that calls `intersects` for each of a family's pairs; counters registers,
-//   and
-//                                  local_bytes, which is stack and spills of a thread
+//                                  and local_bytes, which is stack and spills of a thread
 //   count/ARITHMETIC/SCALAR/NAME   whole queries, with two trees
 //
 // Behind each row of `filtered` and `exact` stands its time divided by that of `fast`.
@@ -15,49 +14,21 @@
 #include <cstdint>
 #include <string>
 
-#include <cuda_runtime.h>
-
 #include <abut/cuda.hpp>
 
 #include "cuda_table.hpp"
+#include "decide_pairs.hpp"
 #include "ties_scene.hpp"
 
 namespace {
 
-using bench::check;
 using bench::counters;
 using bench::joined;
+using bench::scalar_name;
 using bench::table;
 
 namespace scene = ties_scene;
 namespace test = abut::test;
-
-template <class T>
-constexpr const char* scalar_name = sizeof(T) == 4 ? "float" : "double";
-
-template <abut::arithmetic A, abut::scalar T>
-struct decide_pair {
-    const test::triangle_pair<T>* pairs;
-    std::uint8_t* touches;
-    ABUT_HD void operator()(std::size_t i) const {
-        touches[i] = static_cast<std::uint8_t>(abut::intersects<A>(pairs[i].a, pairs[i].b));
-    }
-};
-
-template <abut::scalar T>
-struct make_pair {
-    test::triangle_family family;
-    test::triangle_pair<T>* out;
-    ABUT_HD void operator()(std::size_t i) const { out[i] = test::make_triangle_pair<T>(scene::seed, family, i); }
-};
-
-struct byte_at {
-    const std::uint8_t* bytes;
-    ABUT_HD std::uint64_t operator()(std::size_t i) const { return bytes[i]; }
-};
-struct sum {
-    ABUT_HD std::uint64_t operator()(std::uint64_t a, std::uint64_t b) const { return a + b; }
-};
 
 /// Rows for the three arithmetics: `ask(A{}, name, fast_milliseconds)` adds one, given the time of `fast` or 0.
 struct outcome {
@@ -86,20 +57,15 @@ void add_families(const abut::cuda& on, table& out) {
     abut::execution::buffer_of<abut::cuda, test::triangle_pair<T>> pairs(on, n);
     abut::execution::buffer_of<abut::cuda, std::uint8_t> touches(on, n);
     for (const auto family : scene::families) {
-        for_each_index(on, n, make_pair<T>{family, pairs.data()});
+        for_each_index(on, n, bench::make_family_pair<T>{scene::seed, family, pairs.data()});
         const auto ask = [&]<class A>(A, const std::string& name, double fast_milliseconds) -> outcome {
-            const decide_pair<A, T> decide{pairs.data(), touches.data()};
-            cudaFuncAttributes kernel{};
-            check(cudaFuncGetAttributes(&kernel, abut::execution::detail::for_each_kernel<decide_pair<A, T>>),
-                  "cudaFuncGetAttributes");
+            const bench::decide_pair<A, T> decide{pairs.data(), touches.data()};
             for_each_index(on, n, decide);
-            const auto hits = static_cast<double>(reduce(on, n, std::uint64_t{0}, sum{}, byte_at{touches.data()}));
+            const double hits = bench::count_hits(on, n, touches.data());
+            const counters says = bench::counters_of_pairs<A, T>(n, hits);
             const double milliseconds = add_row(out, name, fast_milliseconds, [&] {
                 for_each_index(on, n, decide);
-                return counters{{"items", static_cast<double>(n)},
-                                {"hits", hits / static_cast<double>(n)},
-                                {"registers", static_cast<double>(kernel.numRegs)},
-                                {"local_bytes", static_cast<double>(kernel.localSizeBytes)}};
+                return says;
             });
             return {milliseconds, hits};
         };

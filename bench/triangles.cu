@@ -31,6 +31,7 @@
 #include <abut/cuda.hpp>
 
 #include "cuda_table.hpp"
+#include "decide_pairs.hpp"
 #include "triangle_scene.hpp"
 
 namespace {
@@ -38,6 +39,7 @@ namespace {
 using bench::check;
 using bench::counters;
 using bench::joined;
+using bench::scalar_name;
 using bench::table;
 
 namespace test = abut::test;
@@ -46,40 +48,13 @@ namespace scene = triangle_scene;
 template <class T>
 using device_buffer = abut::execution::buffer_of<abut::cuda, T>;
 
-template <class T>
-constexpr const char* scalar_name = sizeof(T) == 4 ? "float" : "double";
-
 // --- one pair for each thread -------------------------------------------------------------------------------------------
-
-template <abut::arithmetic A, abut::scalar T>
-struct decide_pair {
-    const test::triangle_pair<T>* pairs;
-    std::uint8_t* touches;
-    ABUT_HD void operator()(std::size_t i) const {
-        touches[i] = static_cast<std::uint8_t>(abut::intersects<A>(pairs[i].a, pairs[i].b));
-    }
-};
-
-template <abut::scalar T>
-struct make_family_pair {
-    test::triangle_family family;
-    test::triangle_pair<T>* out;
-    ABUT_HD void operator()(std::size_t i) const { out[i] = test::make_triangle_pair<T>(scene::seed, family, i); }
-};
 
 template <abut::scalar T>
 struct make_random_pair {
     double spread;
     test::triangle_pair<T>* out;
     ABUT_HD void operator()(std::size_t i) const { out[i] = scene::random_pair<T>(spread, i); }
-};
-
-struct byte_at {
-    const std::uint8_t* bytes;
-    ABUT_HD std::uint64_t operator()(std::size_t i) const { return bytes[i]; }
-};
-struct sum {
-    ABUT_HD std::uint64_t operator()(std::uint64_t a, std::uint64_t b) const { return a + b; }
 };
 
 template <abut::scalar T>
@@ -105,29 +80,20 @@ private:
     /// Returns the number of hits among the first pairs.
     template <abut::arithmetic A>
     double add_arithmetic(const std::string& name) {
-        const decide_pair<A, T> decide{pairs_.data(), touches_.data()};
-        cudaFuncAttributes kernel{};
-        check(cudaFuncGetAttributes(&kernel, abut::execution::detail::for_each_kernel<decide_pair<A, T>>),
-              "cudaFuncGetAttributes");
+        const bench::decide_pair<A, T> decide{pairs_.data(), touches_.data()};
         // Fewer pairs where each takes long, as the widest integers do.
         const auto decide_some = [&] { for_each_index(on_, least, decide); };
         out_.once(decide_some);
         std::size_t n = most;
         const float milliseconds = out_.once(decide_some);
         while (n > least && milliseconds * static_cast<float>(n / least) > 64) n /= 4;
-        const auto hits_of = [&](std::size_t count) {
-            return static_cast<double>(reduce(on_, count, std::uint64_t{0}, sum{}, byte_at{touches_.data()}));
-        };
         for_each_index(on_, n, decide);
-        const double hits = hits_of(n), first_hits = hits_of(least);
+        const counters says = bench::counters_of_pairs<A, T>(n, bench::count_hits(on_, n, touches_.data()));
         out_.add(name, 0, [&] {
             for_each_index(on_, n, decide);
-            return counters{{"items", static_cast<double>(n)},
-                            {"hits", hits / static_cast<double>(n)},
-                            {"registers", static_cast<double>(kernel.numRegs)},
-                            {"local_bytes", static_cast<double>(kernel.localSizeBytes)}};
+            return says;
         });
-        return first_hits;
+        return bench::count_hits(on_, least, touches_.data());
     }
 
     abut::cuda on_;
@@ -144,7 +110,9 @@ void add_pairs(const abut::cuda& on, table& out) {
     }
     for (int f = 0; f < test::triangle_family_count; ++f) {
         const auto family = static_cast<test::triangle_family>(f);
-        bench.add("family", test::name_of(family), [&](auto* to) { return make_family_pair<T>{family, to}; });
+        bench.add("family", test::name_of(family), [&](auto* to) {
+            return bench::make_family_pair<T>{scene::seed, family, to};
+        });
     }
 }
 

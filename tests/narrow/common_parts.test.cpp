@@ -93,12 +93,59 @@ TEMPLATE_TEST_CASE("a contact's point is the middle of what two triangles share,
     CHECK(tally.moves > 4000);
 }
 
+/// An edge of one lies in the other's plane, which is along no axis, and its ends inside. Near the origin, and small and far
+/// from it.
+TEMPLATE_TEST_CASE("the point of an edge that lies in the other triangle is its middle", "", float, double) {
+    using T = TestType;
+    parts_tally tally;
+    for (std::uint64_t i = 0; i < 4000; ++i) {
+        draws d(parts_seed, 4, i);
+        const bool small = d.below(2) == 1;
+        const auto put = [&](const vec3<double>& p) -> vec3<T> {
+            const double step = small ? 0x1p-16 : 1, shift = small ? 1 : 0;
+            return {static_cast<T>(step * p.x + shift), static_cast<T>(step * p.y + shift),
+                    static_cast<T>(step * p.z + shift)};
+        };
+        const auto corner = [&] {
+            const auto one = [&] { return 4.0 * (d.below(15) - 7); };
+            const double x = one(), y = one(), z = one();
+            return vec3<double>{x, y, z};
+        };
+        const vec3<double> a = corner(), b = corner(), c = corner(), apex = corner();
+        const auto inside = [&] {
+            const int of_b = d.below(5), of_c = d.below(5 - of_b);
+            return a + 0.25 * of_b * (b - a) + 0.25 * of_c * (c - a);
+        };
+        const vec3<double> p = inside(), q = inside();
+        const triangle<T> s{put(a), put(b), put(c)}, t{put(p), put(q), put(apex)};
+        const auto found = contact_of(s, t);
+        if (has_zero_area(s) || has_zero_area(t) || !found) continue;
+        const double off =
+            static_cast<double>(length_of(widest(found->point) - middle_of(common_part(s, t))) / wide(contact_bound(s, t)));
+        ++tally.points;
+        tally.off = std::max(tally.off, off);
+        CHECK(off <= 1);
+    }
+    std::printf("edges in triangles: %d points, off by %.3f bounds\n", tally.points, tally.off);
+    CHECK(tally.points > 3000);
+}
+
+/// How far the corners of s are from the plane of t at most.
+template <scalar T>
+wide height_over(const triangle<T>& s, const triangle<T>& t) {
+    const wide_point n = wide_normal(t);
+    const auto height = [&](const vec3<T>& p) { return wide(abs(dot(n, widest(p) - widest(t.a)))); };
+    return std::max({height(s.a), height(s.b), height(s.c)}) / length_of(n);
+}
+
 /// What lies in one plane hardly does when it has been turned and rounded; the point is still the middle of the polygon.
+/// Near the origin, and small and far from it.
 TEMPLATE_TEST_CASE("the point of triangles in one plane, turned and rounded", "", float, double) {
     using T = TestType;
     parts_tally tally;
     for (std::uint64_t i = 0; i < 4000; ++i) {
         draws d(parts_seed, 3, i);
+        const bool small = i % 2 == 1;
         const auto s = lattice_triangle<double>(d, 4, 1), t = lattice_triangle<double>(d, 4, 1);
         const auto part = common_part(s, t);
         if (part.empty() || has_zero_area(s) || has_zero_area(t)) continue;
@@ -106,7 +153,8 @@ TEMPLATE_TEST_CASE("the point of triangles in one plane, turned and rounded", ""
         const wide angle = d.uniform(-3, 3), c = cos(angle), sine = sin(angle);
         const wide_point k = widest(axis);
         const auto turned = [&](const wide_point& p) -> wide_point {
-            return c * p + sine * cross(k, p) + (1 - c) * dot(k, p) * k;
+            const wide_point there = c * p + sine * cross(k, p) + (1 - c) * dot(k, p) * k;
+            return small ? wide(0x1p-10) * there + widest(vec3<double>{1, 1.5, -1.25}) : there;
         };
         const auto rounded = [&](const vec3<double>& p) -> vec3<T> {
             const wide_point q = turned(widest(p));
@@ -114,8 +162,9 @@ TEMPLATE_TEST_CASE("the point of triangles in one plane, turned and rounded", ""
         };
         const triangle<T> a{rounded(s.a), rounded(s.b), rounded(s.c)}, b{rounded(t.a), rounded(t.b), rounded(t.c)};
         const auto found = contact_of(a, b);
-        if (!found) continue;
         const wide bound = wide(contact_bound(a, b));
+        // Thin triangles may have turned farther than that.
+        if (!found || std::min(height_over(a, b), height_over(b, a)) > bound / 8) continue;
         const double off = static_cast<double>(length_of(widest(found->point) - turned(middle_of(part))) / bound);
         ++tally.points;
         tally.off = std::max(tally.off, off);

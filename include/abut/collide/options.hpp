@@ -10,7 +10,6 @@
 #include <abut/config.hpp>
 #include <abut/execution/buffer.hpp>
 #include <abut/traverse/traversal.hpp>
-#include <abut/traverse/visit.hpp>
 
 namespace abut {
 

@@ -112,9 +112,10 @@ __device__ bool warp_is_over(unsigned lane, const Sinks&... sinks) {
 /// Three steps of very different width: tests, of which one in a hundred may pass; walks, of uneven length; decisions, which
 /// come up at uneven times. Each step hands what it found to the next through shared memory, so that each runs with its
 /// lanes full. Few walkers are spread over all warps, since each waits for memory most of its time. Where candidates have no
-/// room, walks rest until these are judged.
+/// room, walks rest until these are judged. Walks wait for memory: four blocks at a time, of 64 registers a thread, hide
+/// more of that than three.
 template <class Walk, class Judge, class Late, class... Sinks>
-__global__ void __launch_bounds__(block_size)
+__global__ void __launch_bounds__(block_size, 4)
     for_each_candidate_kernel(std::size_t n, Walk walk, Judge judge, Late late, Sinks... sinks) {
     using candidate = typename Walk::candidate;
     using emitter = candidate_sink<candidate>;

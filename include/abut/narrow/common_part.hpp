@@ -55,23 +55,30 @@ ABUT_HD constexpr two_points middle_of_chords(const point (&end_a)[2], const poi
     return middle_of_chords(end_a, end_b, plain_dot(a, a) < plain_dot(b, b) ? b : a);
 }
 
-/// Of triangles in general position, by their normals as stored. False if some corner is so near to the other's plane that
-/// rounding may have put it on the wrong side; where the answer is poor, its gap shows it.
+/// Of triangles in general position, by their normals as stored. False if rounding may have put some corner on the wrong
+/// side of the other's plane, or all corners of one off that plane; where the answer is poor, its gap shows it. Heights are
+/// off by what normals were rounded, times the distance from the plane's origin, and by what doubles round.
 template <scalar T>
 ABUT_HD constexpr bool middle_in_general_position(const corners& a, const point& normal_a, const corners& b,
                                                   const point& normal_b, two_points& out) {
-    constexpr double certain = (std::same_as<T, float> ? 8 : 32) * static_cast<double>(unit_roundoff<T>);
+    constexpr double units = (std::same_as<T, float> ? 8 : 32) * static_cast<double>(unit_roundoff<T>);
     one_double height_a[3]{}, height_b[3]{};
-    double lowest = infinity<double>;
+    double lowest = infinity<double>, highest_a = 0, highest_b = 0, reach = 0;
     int below_a = 0, below_b = 0;
     for (int i = 0; i < 3; ++i) {
-        height_a[i] = {plain_dot(normal_b, plain_difference(a.at[i], b.at[0]))};
-        height_b[i] = {plain_dot(normal_a, plain_difference(b.at[i], a.at[0]))};
-        lowest = least(lowest, absolute(height_a[i].high), absolute(height_b[i].high));
+        const point to_a = plain_difference(a.at[i], b.at[0]), to_b = plain_difference(b.at[i], a.at[0]);
+        height_a[i] = {plain_dot(normal_b, to_a)};
+        height_b[i] = {plain_dot(normal_a, to_b)};
+        const double from_b = absolute(height_a[i].high), from_a = absolute(height_b[i].high);
+        lowest = least(lowest, from_a, from_b);
+        highest_a = greatest(highest_a, from_b);
+        highest_b = greatest(highest_b, from_a);
+        reach = greatest(reach, largest_of(to_a), largest_of(to_b));
         below_a += height_a[i].high < 0 ? 1 : 0;
         below_b += height_b[i].high < 0 ? 1 : 0;
     }
-    if (!(lowest > certain) || below_a % 3 == 0 || below_b % 3 == 0) return false;
+    const double certain = std::same_as<T, float> ? units * reach + 0x1p-48 : units;
+    if (!(lowest > certain && least(highest_a, highest_b) > units) || below_a % 3 == 0 || below_b % 3 == 0) return false;
     point end_a[2]{}, end_b[2]{};
     chord_of(a, height_a, end_a);
     chord_of(b, height_b, end_b);

@@ -182,6 +182,34 @@ ABUT_HD constexpr bool boxes_overlap(const vec3<T>& a, const vec3<T>& b, const v
     return apart == 0;
 }
 
+/// A box in the world around all that the shapes in `around`, posed, reach there: each coordinate by interval arithmetic in
+/// double, and a margin for rounding, in here and by `place`, and for balls: a row shorter than 1 shrinks their box, and
+/// their radius stays. Of all space where it overflows.
+template <scalar T>
+aabb<T> world_box(const rigid<T>& pose, const aabb<T>& around) {
+    const vec3<double> lower = widened(around.lower), upper = widened(around.upper);
+    const double shift[] = {pose.translation.x, pose.translation.y, pose.translation.z};
+    T low[3], high[3];
+    for (int i = 0; i < 3; ++i) {
+        const vec3<double> r = widened(row(pose.rotation, i));
+        const vec3<double> one{r.x * lower.x, r.y * lower.y, r.z * lower.z},
+            other{r.x * upper.x, r.y * upper.y, r.z * upper.z};
+        const vec3<double> low_ends = least(one, other), high_ends = greatest(one, other);
+        const double size = farthest(around) + absolute(shift[i]);
+        // 1 - |r| is less than 1 - |r|^2, and the measuring of it less than 8 units of roundoff off.
+        const double short_by = absolute(dot(r, r) - 1) * farthest(around);
+        const double margin =
+            short_by + 256 * static_cast<double>(unit_roundoff<T>) * size + 256 * static_cast<double>(smallest_normal<T>);
+        low[i] = static_cast<T>(((low_ends.x + low_ends.y) + low_ends.z + shift[i]) - margin);
+        high[i] = static_cast<T>(((high_ends.x + high_ends.y) + high_ends.z + shift[i]) + margin);
+        if (!(size < static_cast<double>(largest_finite<T>) / 4)) {
+            low[i] = -infinity<T>;
+            high[i] = infinity<T>;
+        }
+    }
+    return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
+}
+
 }  // namespace detail
 
 /// Whether two boxes, each in the frame of its object, may hold shapes that meet in the world: triangles, segments, points,

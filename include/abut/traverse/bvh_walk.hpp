@@ -6,8 +6,7 @@
 #include <cstdint>
 
 #include <abut/index/bvh.hpp>
-#include <abut/traverse/reach.hpp>
-#include <abut/traverse/visit.hpp>
+#include <abut/traverse/traversal.hpp>
 
 namespace abut::detail {
 

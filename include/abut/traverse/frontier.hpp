@@ -2,9 +2,9 @@
 #pragma once
 
 // Two trees at once, breadth first: level by level, from all pairs of nodes at a chosen depth on. A step is that of
-// pair_walk.hpp for every item of a level. A first loop counts the items that the level makes; a scan of the counts says
-// where they go; a second loop writes them there, and judges the candidates that the level has. So a level is the same on
-// every policy, and each item has its place before it is made.
+// pair_walk.hpp for every item of a level. A first loop counts what the level makes; a scan of the counts says where its
+// items go; a second loop writes them there, and judges the candidates, if there are any: the upper levels have none. So a
+// level is the same on every policy, and each item has its place before it is made.
 
 #include <algorithm>
 #include <cstddef>
@@ -58,15 +58,17 @@ struct pair_ends {
     ABUT_HD void operator()(std::size_t i) const { out[i] = {a.end(paths_a[i / count_b]), b.end(paths_b[i % count_b])}; }
 };
 
-/// Takes what a step makes, and counts the items.
+/// Takes what a step makes, and counts it.
 struct count_made {
-    std::uint32_t items = 0;
+    std::uint32_t items = 0, candidates = 0;
     template <class Number, class Item>
     ABUT_INLINE ABUT_HD void add(Number, bool is, const Item&) {
         items += static_cast<std::uint32_t>(is);
     }
     template <class Number, class Candidate>
-    ABUT_INLINE ABUT_HD void push(Number, bool, const Candidate&) const {}
+    ABUT_INLINE ABUT_HD void push(Number, bool is, const Candidate&) {
+        candidates += static_cast<std::uint32_t>(is);
+    }
 };
 
 /// Takes what a step makes, writes the items, and hands the candidates to a policy's emitter.
@@ -91,11 +93,20 @@ struct count_items {
     Expand expand;
     const typename Expand::item* items;
     std::uint32_t* counts;
-    ABUT_HD void operator()(std::size_t i) const {
+    ABUT_CALLS_ANY
+    template <class Count>
+    ABUT_HD void operator()(std::size_t i, Count& made_items, Count& candidates) const {
         count_made made;
         expand(items[i], made);
         counts[i] = made.items;
+        made_items.add(made.items);
+        candidates.add(made.candidates);
     }
+};
+
+/// Of a level that has no candidates.
+struct drop_candidates {
+    ABUT_HD void push(const auto&) const {}
 };
 
 /// The second loop: `first` holds where the items that each one makes begin.
@@ -115,6 +126,10 @@ struct write_items {
     ABUT_HD bool operator()(std::size_t i, cursor&, const Emitter& emitter, Sinks&...) const {
         expand(items[i], write_and_push<typename Expand::item, Emitter>{out + first[i], emitter});
         return false;
+    }
+    ABUT_HD void operator()(std::size_t i) const {
+        cursor at;
+        (*this)(i, at, drop_candidates{});
     }
 };
 
@@ -172,13 +187,16 @@ void for_each_on_levels(const Policy& on, const Expand& expand, int start_depth,
         from.left -= n;
         const item* const items = from.items.data() + from.left;
         execution::buffer_of<Policy, std::uint32_t> counts(on, n + 1);
-        for_each_index(on, n, count_items<Expand>{expand, items, counts.data()});
+        execution::work_count<space_of<Policy>> made(on), candidates(on);
+        for_each_index(on, n, count_items<Expand>{expand, items, counts.data()}, made, candidates);
         exclusive_scan(on, counts.data(), n);
-        std::uint32_t total = 0;
-        download(on, counts.data() + n, 1, &total);
-        execution::buffer_of<Policy, item> next(on, total);
+        execution::buffer_of<Policy, item> next(on, made.total());
         const write_items<Expand> write{expand, items, counts.data(), next.data()};
-        run([&](const auto& judge, auto&... sinks) { return for_each_candidate(on, n, write, judge, sinks...); });
+        if (candidates.total() == 0) {
+            for_each_index(on, n, write);
+        } else {
+            run([&](const auto& judge, auto&... sinks) { return for_each_candidate(on, n, write, judge, sinks...); });
+        }
         if (from.left == 0) levels.pop_back();
         add_level(std::move(next));
     }

@@ -6,9 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <abut/arithmetic/align.hpp>
 #include <abut/index/grid.hpp>
-#include <abut/traverse/reach.hpp>
-#include <abut/traverse/visit.hpp>
+#include <abut/traverse/traversal.hpp>
 
 namespace abut::detail {
 
@@ -29,7 +29,7 @@ struct grid_walk {
     struct cursor {
         int level = 0;
         vec3<std::int32_t> cell = {-1, -1, -1};
-        std::uint64_t item = 0;  ///< of the cell; or of all, where the query is larger than the grid
+        std::uint32_t item = 0;  ///< of the cell; or of all, where the query is larger than the grid
     };
 
     /// Calls visitor(shape id) -> visit for every shape whose box the query reaches, until it says stop. Rests where rests()
@@ -40,30 +40,50 @@ struct grid_walk {
         const aabb<scalar_type> box = reach.bounds();
         const vec3<std::int32_t> lower = grid.frame->cell(box.lower), upper = grid.frame->cell(box.upper);
         if (cells_under(lower, upper) > static_cast<double>(grid.size())) {
-            return in_items(0, grid.size(), at, reach, rests, visitor) == outcome::rested;
+            return in_items(0, grid.size(), at.item, reach, rests, visitor) == outcome::rested;
         }
-        for (; at.level < frame::levels; ++at.level, at.cell.x = -1) {
-            if ((grid.frame->levels_in_use >> at.level & 1) == 0) continue;
-            const auto [first, last] = range(at.level, lower, upper);
-            if (at.cell.x < 0) at.cell = first;
-            for (; at.cell.x <= last.x; ++at.cell.x, at.cell.y = first.y) {
-                for (; at.cell.y <= last.y; ++at.cell.y, at.cell.z = first.z) {
-                    for (; at.cell.z <= last.z; ++at.cell.z, at.item = 0) {
-                        const std::uint64_t slot = grid.find(frame::key(at.level, at.cell));
-                        if (slot == grid.slots) continue;
-                        const outcome o = in_items(grid.starts[slot], grid.starts[slot + 1], at, reach, rests, visitor);
-                        if (o != outcome::done) return o == outcome::rested;
-                    }
+        cursor now = at;
+        now.level = level_in_use(now.level);
+        if (now.level == frame::levels) return false;
+        cell_range cells = range(now.level, lower, upper);
+        if (now.cell.x < 0) now.cell = cells.first;
+        // One loop through the cells of all levels: the lanes of a warp, which are at different levels, meet at each cell.
+        for (;;) {
+            const std::uint64_t slot = grid.find(frame::key(now.level, now.cell));
+            if (slot != grid.slots) {
+                const outcome o = in_items(grid.starts[slot], grid.starts[slot + 1], now.item, reach, rests, visitor);
+                if (o != outcome::done) {
+                    at = now;
+                    return o == outcome::rested;
                 }
             }
+            // To the next cell, without a branch where lanes would part.
+            now.item = 0;
+            const bool next_y = ++now.cell.z > cells.last.z;
+            now.cell.z = next_y ? cells.first.z : now.cell.z;
+            now.cell.y += static_cast<int>(next_y);
+            const bool next_x = now.cell.y > cells.last.y;
+            now.cell.y = next_x ? cells.first.y : now.cell.y;
+            now.cell.x += static_cast<int>(next_x);
+            if (now.cell.x > cells.last.x) {
+                now.level = level_in_use(now.level + 1);
+                if (now.level == frame::levels) return false;
+                cells = range(now.level, lower, upper);
+                now.cell = cells.first;
+            }
         }
-        return false;
     }
 
 private:
     struct cell_range {
         vec3<std::int32_t> first, last;
     };
+
+    /// The first level from `level` on in which shapes lie; `levels` if there is none.
+    [[nodiscard]] ABUT_HD int level_in_use(int level) const {
+        const std::uint32_t left = grid.frame->levels_in_use >> level;
+        return left == 0 ? frame::levels : level + lowest_bit(std::int64_t{left});
+    }
 
     /// Cells of a level in which a shape lies that can touch a query over these base cells: the query's own and, since a
     /// shape is kept at its lower corner and spans at most one cell more than that, the next lower ones.
@@ -75,8 +95,7 @@ private:
     /// In double: the number of cells may be larger than any integer.
     ABUT_HD double cells_under(const vec3<std::int32_t>& lower, const vec3<std::int32_t>& upper) const {
         double sum = 0;
-        for (int level = 0; level < frame::levels; ++level) {
-            if ((grid.frame->levels_in_use >> level & 1) == 0) continue;
+        for (int level = level_in_use(0); level < frame::levels; level = level_in_use(level + 1)) {
             const auto [first, last] = range(level, lower, upper);
             sum += (last.x - first.x + 1.0) * (last.y - first.y + 1.0) * (last.z - first.z + 1.0);
         }
@@ -85,16 +104,16 @@ private:
 
     enum class outcome { done, rested, stopped };
 
-    /// Of the items from `begin` on, those that the walk has not seen.
+    /// Of the items from `begin` on, those behind the first `seen`.
     template <class Reach, class Rests, class Visitor>
-    ABUT_HD outcome in_items(std::size_t begin, std::size_t end, cursor& at, Reach& reach, const Rests& rests,
+    ABUT_HD outcome in_items(std::size_t begin, std::size_t end, std::uint32_t& seen, Reach& reach, const Rests& rests,
                              Visitor& visitor) const {
-        for (std::size_t i = begin + at.item; i < end; ++i) {
+        for (std::size_t i = begin + seen; i < end; ++i) {
             const grid_item<scalar_type> item = grid.items[i];
             if (!reach(item.box)) continue;
             if (visitor(item.id) == visit::stop) return outcome::stopped;
             if (rests()) {
-                at.item = i + 1 - begin;
+                seen = static_cast<std::uint32_t>(i + 1 - begin);
                 return outcome::rested;
             }
         }

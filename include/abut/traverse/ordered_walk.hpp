@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <abut/arithmetic/error_free.hpp>
 #include <abut/arithmetic/limits.hpp>
 #include <abut/arithmetic/magnitude.hpp>
 #include <abut/execution/ordered.hpp>

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// In which order two trees are walked down together.
+// How walks go on: what a visitor wants next, and in which order two trees are walked down together.
 
 namespace abut {
+
+/// What a visitor wants next. Stopping is best effort where visitors run concurrently.
+enum class visit : unsigned char { proceed, stop };
 
 /// How a query of two trees comes by its candidates: which of two nodes whose boxes meet is opened, that is, replaced by its
 /// children, and in which order that is done. The choice moves speed, never results; docs/hierarchies.md says which to take.
