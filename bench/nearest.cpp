@@ -2,11 +2,13 @@
 //
 // usage: bench_nearest --benchmark_enable_random_interleaving=true --benchmark_out=nearest.json
 //
-// For each of many points the nearest triangle: the centres of the scene of Lee and Hsieh, 2019, and its torus. Names:
+// For each of many points the nearest triangle, and the nearest vertex: the centres of the scene of Lee and Hsieh, 2019, and
+// its torus. Names:
 //
-//   nearest/INDEX/POLICY/POINTS    the query alone; the index is there
+//   nearest/INDEX/POLICY/POINTS           the query alone; the index is there
+//   nearest_vertex/INDEX/POLICY/POINTS    the same of the torus's vertices
 //
-// The peer (bench/nearest/) is in the same run, where its package is there.
+// The peers (bench/nearest/) are in the same run, where their packages are there.
 
 #include <cstddef>
 #include <string>
@@ -44,6 +46,17 @@ struct wide_sah {
     static auto make(const auto& on) { return abut::wide(on, sah::make(on)); }
 };
 
+struct bvh_of_vertices {
+    static constexpr const char* name = "bvh";
+    static auto make(const auto& on) { return abut::make_bvh(on, abut::vertices(torus())); }
+};
+struct sah_of_vertices {
+    static constexpr const char* name = "sah";
+    static auto make(const auto& on) {
+        return abut::make_bvh(on, abut::vertices(torus()), {.builder = abut::bvh_builder::sah});
+    }
+};
+
 template <class Index, class Policy>
 void nearest(benchmark::State& state, Policy on, std::size_t n) {
     const auto index = Index::make(on);
@@ -61,9 +74,9 @@ void nearest(benchmark::State& state, Policy on, std::size_t n) {
 }
 
 template <class Index, class Policy>
-void add(const char* policy, const Policy& on) {
+void add(const char* policy, const Policy& on, const char* question = "nearest") {
     for (const std::size_t n : {std::size_t{100'000}, scene::sphere_count}) {
-        const std::string name = std::string("nearest/") + Index::name + "/" + policy + "/" + std::to_string(n);
+        const std::string name = std::string(question) + "/" + Index::name + "/" + policy + "/" + std::to_string(n);
         benchmark::RegisterBenchmark(name.c_str(), nearest<Index, Policy>, on, n)
             ->Repetitions(5)
             ->ReportAggregatesOnly(true)
@@ -81,6 +94,8 @@ int main(int argc, char** argv) {
     add<wide_sah>("serial", abut::serial{});
     add<oriented_sah>("serial", abut::serial{});
     add<bvh>("openmp", abut::openmp{});
+    add<bvh_of_vertices>("serial", abut::serial{}, "nearest_vertex");
+    add<sah_of_vertices>("serial", abut::serial{}, "nearest_vertex");
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
     benchmark::RunSpecifiedBenchmarks();

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+//
+// The peer for points: nanoflann's k-d tree over the torus's vertices, in float, on one thread, with the leaves that its
+// documentation names as a good size. Its points come in the order in which they are. Squares are rounded, so of vertices
+// that are nearly as near it may find another one than abut does.
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+#include <nanoflann.hpp>
+
+#include "../../docs/examples/scene.hpp"
+
+namespace {
+
+/// What nanoflann asks of a set of points.
+struct cloud {
+    std::vector<abut::vec3<float>> points;
+
+    [[nodiscard]] std::size_t kdtree_get_point_count() const { return points.size(); }
+    [[nodiscard]] float kdtree_get_pt(std::size_t i, std::size_t axis) const {
+        return axis == 0 ? points[i].x : axis == 1 ? points[i].y : points[i].z;
+    }
+    template <class Box>
+    bool kdtree_get_bbox(Box&) const {
+        return false;
+    }
+};
+
+using kd_tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, cloud>, cloud, 3, std::uint32_t>;
+
+struct answer {
+    std::uint32_t id;
+    float square;
+};
+
+void nearest_vertex(benchmark::State& state, std::size_t n) {
+    const cloud vertices{scene::torus<float>().vertices};
+    const kd_tree index(3, vertices, nanoflann::KDTreeSingleIndexAdaptorParams(10));
+    const auto points = scene::centers<float>(n);
+    std::vector<answer> found(n);
+    double sum = 0;
+    for (auto _ : state) {
+        for (std::size_t i = 0; i < n; ++i) {
+            const float from[3] = {points[i].x, points[i].y, points[i].z};
+            index.knnSearch(from, 1, &found[i].id, &found[i].square);
+        }
+        state.PauseTiming();
+        sum = 0;
+        for (const answer& a : found) sum += std::sqrt(static_cast<double>(a.square));
+        state.ResumeTiming();
+    }
+    state.counters["points"] = static_cast<double>(n);
+    state.counters["mean_distance"] = sum / static_cast<double>(n);
+}
+
+[[maybe_unused]] const bool registered = [] {
+    for (const std::size_t n : {std::size_t{100'000}, scene::sphere_count}) {
+        benchmark::RegisterBenchmark(("nearest_vertex/nanoflann/serial/" + std::to_string(n)).c_str(), nearest_vertex, n)
+            ->Repetitions(5)
+            ->ReportAggregatesOnly(true)
+            ->Unit(benchmark::kMillisecond)
+            ->Iterations(1);
+    }
+    return true;
+}();
+
+}  // namespace
