@@ -138,11 +138,44 @@ wide height_over(const triangle<T>& s, const triangle<T>& t) {
     return std::max({height(s.a), height(s.b), height(s.c)}) / length_of(n);
 }
 
+/// An edge of one crosses the other's plane at a small angle, so that small errors of heights would move the point far along
+/// it. Small and far from the origin, as most triangles of a mesh are.
+TEST_CASE("the point of an edge that hardly crosses the other triangle's plane") {
+    parts_tally tally;
+    for (std::uint64_t i = 0; i < 6000; ++i) {
+        draws d(parts_seed, 5, i);
+        const double size = std::ldexp(1.0, -12 + d.below(10));
+        const auto rounded = [](const vec3<double>& p) -> vec3<float> {
+            return {static_cast<float>(1.25 + p.x), static_cast<float>(1.25 + p.y), static_cast<float>(1.25 + p.z)};
+        };
+        const vec3<double> a = construction::cube(d, size), b = construction::cube(d, size), c = construction::cube(d, size);
+        const vec3<double> up = construction::unit(cross(b - a, c - a));
+        const auto beside = [&] {
+            const double of_b = d.uniform(0.1, 0.4), of_c = d.uniform(0.1, 0.4);
+            return a + of_b * (b - a) + of_c * (c - a);
+        };
+        const double shallow = std::ldexp(size, -2 - d.below(22));
+        const vec3<double> p = beside() + shallow * d.uniform(0.5, 1) * up, q = beside() + -shallow * d.uniform(0.5, 1) * up;
+        const vec3<double> apex = beside() + size * d.uniform(0.2, 1) * up;
+        const triangle<float> s{rounded(a), rounded(b), rounded(c)}, t{rounded(p), rounded(q), rounded(apex)};
+        const auto found = contact_of(s, t);
+        const wide bound = wide(contact_bound(s, t));
+        if (!found || std::min(height_over(s, t), height_over(t, s)) < bound / 2) continue;  // not all in one plane
+        const double off = static_cast<double>(length_of(widest(found->point) - middle_of(common_part(s, t))) / bound);
+        ++tally.points;
+        tally.off = std::max(tally.off, off);
+        CHECK(off <= 1);
+    }
+    std::printf("shallow edges: %d points, off by %.3f bounds\n", tally.points, tally.off);
+    CHECK(tally.points > 3000);
+}
+
 /// What lies in one plane hardly does when it has been turned and rounded; the point is still the middle of the polygon.
 /// Near the origin, and small and far from it.
 TEMPLATE_TEST_CASE("the point of triangles in one plane, turned and rounded", "", float, double) {
     using T = TestType;
     parts_tally tally;
+    int small_ones = 0;
     for (std::uint64_t i = 0; i < 4000; ++i) {
         draws d(parts_seed, 3, i);
         const bool small = i % 2 == 1;
@@ -167,11 +200,13 @@ TEMPLATE_TEST_CASE("the point of triangles in one plane, turned and rounded", ""
         if (!found || std::min(height_over(a, b), height_over(b, a)) > bound / 8) continue;
         const double off = static_cast<double>(length_of(widest(found->point) - turned(middle_of(part))) / bound);
         ++tally.points;
+        small_ones += small ? 1 : 0;
         tally.off = std::max(tally.off, off);
         CHECK(off <= 1);
     }
     std::printf("turned planes: %d points, off by %.3f bounds\n", tally.points, tally.off);
     CHECK(tally.points > 1000);
+    CHECK(small_ones > 400);
 }
 
 /// Two triangles that share the segment from (0, 0, 0) to (1/2, 1/2, 0), and the same a little aside.

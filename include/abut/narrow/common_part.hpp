@@ -55,30 +55,58 @@ ABUT_HD constexpr two_points middle_of_chords(const point (&end_a)[2], const poi
     return middle_of_chords(end_a, end_b, plain_dot(a, a) < plain_dot(b, b) ? b : a);
 }
 
-/// Of triangles in general position, by their normals as stored. False if rounding may have put some corner on the wrong
-/// side of the other's plane, or all corners of one off that plane; where the answer is poor, its gap shows it. Heights are
-/// off by what normals were rounded, times the distance from the plane's origin, and by what doubles round.
+/// A normal to measure heights by, in doubles and of any length, and the product of two edges' largest coordinates, which
+/// bounds it. Of floats it is not the one that is stored: heights over that are off by a unit of roundoff.
+template <scalar T>
+struct height_normal {
+    point n;
+    double size = 1;
+
+    ABUT_HD constexpr height_normal(const corners& t, const point& stored) : n(stored) {
+        if constexpr (std::same_as<T, float>) {
+            const auto ab = between<one_double>(t.at[0], t.at[1]), ac = between<one_double>(t.at[0], t.at[2]);
+            n = rounded_off(cross(ab, ac));
+            size = largest_of(rounded_off(ab)) * largest_of(rounded_off(ac));
+        }
+    }
+    /// Whether a height is that of a distance above this.
+    [[nodiscard]] ABUT_HD constexpr bool tells(double height, double distance) const {
+        return height * height > distance * distance * plain_dot(n, n);
+    }
+};
+
+/// Of triangles in general position. False if rounding may have put some corner on the wrong side of the other's plane, or
+/// moved a chord's end by more than a small part of contact_bound, or if all corners of one are as good as in the other's
+/// plane. Where the chords are poor, their gap shows it.
+///
+/// Of floats, a height is off by less than 2^-47 size r, where r is the largest coordinate of the ways between the
+/// triangles. So an end of a chord, on an edge no longer than 3.5 r between heights of 2^-24 size r^2 at least, is off by
+/// less than 2^-22.
 template <scalar T>
 ABUT_HD constexpr bool middle_in_general_position(const corners& a, const point& normal_a, const corners& b,
                                                   const point& normal_b, two_points& out) {
     constexpr double units = (std::same_as<T, float> ? 8 : 32) * static_cast<double>(unit_roundoff<T>);
+    const height_normal<T> of_a(a, normal_a), of_b(b, normal_b);
     one_double height_a[3]{}, height_b[3]{};
-    double lowest = infinity<double>, highest_a = 0, highest_b = 0, reach = 0;
+    double lowest_a = infinity<double>, lowest_b = infinity<double>, highest_a = 0, highest_b = 0, reach = 0;
     int below_a = 0, below_b = 0;
     for (int i = 0; i < 3; ++i) {
         const point to_a = plain_difference(a.at[i], b.at[0]), to_b = plain_difference(b.at[i], a.at[0]);
-        height_a[i] = {plain_dot(normal_b, to_a)};
-        height_b[i] = {plain_dot(normal_a, to_b)};
-        const double from_b = absolute(height_a[i].high), from_a = absolute(height_b[i].high);
-        lowest = least(lowest, from_a, from_b);
-        highest_a = greatest(highest_a, from_b);
-        highest_b = greatest(highest_b, from_a);
+        height_a[i] = {plain_dot(of_b.n, to_a)};
+        height_b[i] = {plain_dot(of_a.n, to_b)};
+        const double over_b = absolute(height_a[i].high), over_a = absolute(height_b[i].high);
+        lowest_a = least(lowest_a, over_b);
+        lowest_b = least(lowest_b, over_a);
+        highest_a = greatest(highest_a, over_b);
+        highest_b = greatest(highest_b, over_a);
         reach = greatest(reach, largest_of(to_a), largest_of(to_b));
         below_a += height_a[i].high < 0 ? 1 : 0;
         below_b += height_b[i].high < 0 ? 1 : 0;
     }
-    const double certain = std::same_as<T, float> ? units * reach + 0x1p-48 : units;
-    if (!(lowest > certain && least(highest_a, highest_b) > units) || below_a % 3 == 0 || below_b % 3 == 0) return false;
+    const double certain = std::same_as<T, float> ? 0x1p-24 * reach * reach : units;
+    if (!(lowest_a > certain * of_b.size && lowest_b > certain * of_a.size) || below_a % 3 == 0 || below_b % 3 == 0)
+        return false;
+    if (!of_b.tells(highest_a, units) || !of_a.tells(highest_b, units)) return false;
     point end_a[2]{}, end_b[2]{};
     chord_of(a, height_a, end_a);
     chord_of(b, height_b, end_b);
