@@ -12,6 +12,7 @@
 #include <benchmark/benchmark.h>
 
 #include "../embree_scene.hpp"
+#include "peer.hpp"
 
 namespace {
 
@@ -68,19 +69,9 @@ void nearest(benchmark::State& state, std::size_t n) {
         sum = 0;
         for (const answer& a : find_nearest(index, mesh, points)) sum += static_cast<double>(a.distance);
     }
-    state.counters["points"] = static_cast<double>(n);
-    state.counters["mean_distance"] = sum / static_cast<double>(n);
+    nearest_peer::note(state, n, sum);
 }
 
-[[maybe_unused]] const bool registered = [] {
-    for (const std::size_t n : {std::size_t{100'000}, scene::sphere_count}) {
-        benchmark::RegisterBenchmark(("nearest/embree/serial/" + std::to_string(n)).c_str(), nearest, n)
-            ->Repetitions(5)
-            ->ReportAggregatesOnly(true)
-            ->Unit(benchmark::kMillisecond)
-            ->Iterations(1);
-    }
-    return true;
-}();
+[[maybe_unused]] const bool registered = nearest_peer::add("nearest/embree/serial", nearest);
 
 }  // namespace

@@ -7,13 +7,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include <benchmark/benchmark.h>
 #include <nanoflann.hpp>
 
-#include "../../docs/examples/scene.hpp"
+#include "peer.hpp"
 
 namespace {
 
@@ -54,19 +53,9 @@ void nearest_vertex(benchmark::State& state, std::size_t n) {
         for (const answer& a : found) sum += std::sqrt(static_cast<double>(a.square));
         state.ResumeTiming();
     }
-    state.counters["points"] = static_cast<double>(n);
-    state.counters["mean_distance"] = sum / static_cast<double>(n);
+    nearest_peer::note(state, n, sum);
 }
 
-[[maybe_unused]] const bool registered = [] {
-    for (const std::size_t n : {std::size_t{100'000}, scene::sphere_count}) {
-        benchmark::RegisterBenchmark(("nearest_vertex/nanoflann/serial/" + std::to_string(n)).c_str(), nearest_vertex, n)
-            ->Repetitions(5)
-            ->ReportAggregatesOnly(true)
-            ->Unit(benchmark::kMillisecond)
-            ->Iterations(1);
-    }
-    return true;
-}();
+[[maybe_unused]] const bool registered = nearest_peer::add("nearest_vertex/nanoflann/serial", nearest_vertex);
 
 }  // namespace

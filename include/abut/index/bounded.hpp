@@ -87,8 +87,8 @@ struct some_triangles {
 /// one it was made of may go. Each volume is as small as one made around all triangles in it. Oriented boxes and spheres are
 /// made so, in time proportional to the number of shapes times the depth of the tree: some thirty and seventy linear builds.
 /// kdop and aabb are merged from below, in linear time: some ten. For a device it is made on all threads of the host, of a copy
-/// of the tree, and brought there. Returns when it is done. Throws error (a tree on
-/// another device), std::bad_alloc, cuda_error.
+/// of the tree, and brought there. Returns when it is done. Throws error (a tree on another device), std::bad_alloc,
+/// cuda_error.
 ///
 /// Two trees of one kind of volume are told apart by these, but of kdop under a pose by the boxes along the axes. Such boxes
 /// are what a tree of volumes stands for together with anything else, slowly where they have to be made at each look.
