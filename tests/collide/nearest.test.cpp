@@ -8,6 +8,30 @@ using namespace abut;
 
 TEMPLATE_TEST_CASE("nearest: serial", "", float, double) { test::check_all_nearest<TestType>(serial{}); }
 
+namespace {
+
+/// Looks as devices do.
+struct in_groups : execution::policy_base {
+    using memory_space = host_space;
+};
+int concurrency(const in_groups&) { return 1; }
+template <class F>
+void for_each_range(const in_groups&, std::size_t n, std::size_t, const F& f) {
+    f(0, std::size_t{0}, n);
+}
+
+}  // namespace
+
+template <>
+inline constexpr bool abut::detail::looks_in_groups<in_groups> = true;
+
+TEMPLATE_TEST_CASE("nearest: in groups", "", float, double) {
+    test::check_all_nearest<TestType>(in_groups{});
+    test::check_nearest_of<vec3<TestType>>(in_groups{}, 75);
+    test::check_nearest_of<segment<TestType>>(in_groups{}, 76);
+    test::check_nearest_in_tube<TestType>(in_groups{});
+}
+
 TEST_CASE("nearest: points, segments, capsules and boxes") {
     test::check_nearest_of<vec3<float>>(serial{}, 75);
     test::check_nearest_of<segment<double>>(serial{}, 76);

@@ -220,6 +220,27 @@ void check_nearest_in_hole(const Policy& on) {
     }
 }
 
+/// Points in the middle of a tube, which many triangles are as near to as the nearest, and far from where coordinates are
+/// exact.
+template <class T, class Policy>
+void check_nearest_in_tube(const Policy& on) {
+    uniform random(81);
+    for (const double away : {0.0, 1000.0}) {
+        CAPTURE(away);
+        torus<T> shape(96, 64, 8, 1);
+        const auto moved = [&](vec3<T> p) { return vec3<T>{T(p.x + T(away)), p.y, T(p.z - T(2 * away))}; };
+        for (vec3<T>& v : shape.vertices) v = moved(v);
+        std::vector<vec3<T>> points;
+        for (int i = 0; i < 700; ++i) {
+            const double turn = random(0, 6.3), near = random(0, i % 3 == 0 ? 0.001 : 0.2);
+            const vec3<T> off = random.point<T>(-near, near);
+            points.push_back(moved({T(8 * std::cos(turn)) + off.x, T(8 * std::sin(turn)) + off.y, off.z}));
+            points.push_back(moved({off.x, off.y, T(20 * near) * off.z}));
+        }
+        check_nearest(on, mesh<T>(shape.vertices, shape.faces), points);
+    }
+}
+
 /// From the least numbers to the largest; all in one scene too.
 template <class T, class Policy>
 void check_nearest_scales(const Policy& on) {

@@ -252,6 +252,75 @@ struct add_in_groups {
     }
 };
 
+/// Of each group of 32: numbers that are no multiples of 3, in their order; a number for each bit of a member's number; how
+/// many these are, and the least of some values.
+struct append_in_groups {
+    static constexpr unsigned members = execution::subgroup_size;
+    struct shared {
+        std::uint32_t listed[members];
+        std::uint32_t times[members];  ///< how often each member was named
+    };
+    static constexpr std::size_t parts = 5;
+    std::uint64_t* out;
+    std::size_t n;
+
+    ABUT_CALLS_ANY
+    template <class Group>
+    ABUT_HD void operator()(const Group& group) const {
+        shared& with = group.shared;
+        typename Group::template value<std::uint64_t> own;
+        group.each([&](unsigned k) {
+            own[k] = group.first + k;
+            with.times[k] = with.listed[k] = 0;
+        });
+        unsigned listed = 1, bits = 5;
+        group.each([&](unsigned k) {
+            group.append(listed, own[k] % 3 != 0, [&](unsigned to) { with.listed[to - 1] = static_cast<unsigned>(own[k]); });
+        });
+        group.each([&](unsigned k) {
+            group.append_bits(bits, k, [&](unsigned to, unsigned bit) {
+                if (to < 5 || to >= 85 || (k >> bit & 1) == 0) return;  // 80 bits in all
+                with.times[k] += 1u << bit;
+            });
+        });
+        const double least = group.least([&](unsigned k) { return static_cast<double>((own[k] * 7919) % 1009); });
+        group.each([&](unsigned k) {
+            if (own[k] >= n) return;
+            std::uint64_t* const mine = out + parts * own[k];
+            mine[0] = with.listed[k];
+            mine[1] = with.times[k];
+            mine[2] = listed;
+            mine[3] = bits;
+            mine[4] = static_cast<std::uint64_t>(least);
+        });
+    }
+};
+
+template <class Policy>
+void check_small_groups(const Policy& on) {
+    constexpr std::size_t size = execution::subgroup_size, parts = append_in_groups::parts;
+    for (const std::size_t n : {std::size_t{0}, std::size_t{1}, std::size_t{32}, std::size_t{100}, std::size_t{5000}}) {
+        CAPTURE(n);
+        execution::buffer_of<Policy, std::uint64_t> out(on, parts * n);
+        for_each_group(on, n, append_in_groups{out.data(), n});
+        const auto written = on_host(on, out.data(), out.size());
+        std::uint64_t wrong = 0;
+        for (std::size_t i = 0; i < n; ++i) {
+            const std::size_t first = i / size * size;
+            std::vector<std::uint64_t> listed;
+            std::uint64_t least = 1009;
+            for (std::size_t j = first; j < first + size; ++j) {
+                if (j % 3 != 0) listed.push_back(j);
+                least = std::min<std::uint64_t>(least, j * 7919 % 1009);
+            }
+            const std::uint64_t expected[parts] = {i - first < listed.size() ? listed[i - first] : 0, i - first,
+                                                   1 + listed.size(), 85, least};
+            for (std::size_t k = 0; k < parts; ++k) wrong += written[parts * i + k] != expected[k];
+        }
+        CHECK(wrong == 0);
+    }
+}
+
 /// No group, groups that are whole, and a last one with one index or a few.
 inline constexpr std::size_t group_counts[] = {0, 1, 255, 256, 257, 768, 70'001};
 
@@ -559,6 +628,7 @@ void check_verbs(const Policy& on) {
     check_loops(on);
     check_candidates(on);
     check_groups(on);
+    check_small_groups(on);
     check_indirect(on);
     check_descents(on);
     check_tiles(on);

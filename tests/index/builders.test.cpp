@@ -2,11 +2,14 @@
 #include <abut/index/lbvh.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 #include <limits>
 #include <memory>
 #include <vector>
 
 #include <abut/abut.hpp>
+#include <abut/index/curve_order.hpp>
 
 #include "index/tree_cases.hpp"
 #include "support/catch.hpp"
@@ -427,4 +430,25 @@ TEST_CASE("builders: options that there are not") {
     const auto set = triangle_soup<float>(std::vector<triangle<float>>(3));
     CHECK_THROWS_WITH(make_bvh(serial{}, set, {.builder = static_cast<bvh_builder>(4)}),
                       "abut::make_bvh: the builder is none of bvh_builder");
+}
+
+TEST_CASE("curve_order: cells that follow each other are neighbours, and no cell comes twice") {
+    // The curve begins in a corner, and fills the cube of 8 cells a side there before any other.
+    std::vector<std::array<std::uint32_t, 4>> cells;
+    for (std::uint32_t x = 0; x < 16; ++x) {
+        for (std::uint32_t y = 0; y < 16; ++y) {
+            for (std::uint32_t z = 0; z < 16; ++z) cells.push_back({detail::hilbert_code(x, y, z), x, y, z});
+        }
+    }
+    std::sort(cells.begin(), cells.end());
+    std::size_t jumps = 0, out_of_step = 0;
+    for (std::size_t i = 0; i + 1 < 512; ++i) {
+        const auto apart = [&](int k) { return std::abs(int(cells[i][k]) - int(cells[i + 1][k])); };
+        jumps += apart(1) + apart(2) + apart(3) != 1;
+        out_of_step += cells[i][0] != i;
+    }
+    CHECK(jumps == 0);
+    CHECK(out_of_step == 0);
+    // So do they at the far end of 2^10 cells a side.
+    CHECK(detail::hilbert_code(1023, 1023, 1023) < (1u << 30));
 }

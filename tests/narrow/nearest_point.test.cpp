@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <abut/narrow/nearest_point.hpp>
+#include <abut/shape/point_reach.hpp>
 
 #include <cmath>
 #include <cstdint>
@@ -213,6 +214,47 @@ triangle<T> times(const triangle<T>& t, T s) {
     return {s * t.a, s * t.b, s * t.c};
 }
 
+/// Bounds for points near each other, by what is measured: what is left out is farther than what is kept.
+template <class T>
+void check_bounds_from_amid(const triangle<T>& t, const vec3<T>& p, test::draws& d) {
+    const auto unit = detail::unit_for(merge(bounds(t), bounds(p)), p);
+    const double square = detail::squared_distance(p, t, unit), size = std::sqrt(square) + 1e-30;
+    const triangle<T> other = d.below(2) == 0 ? triangle<T>{t.b, t.a, t.c} : any_triangle<T>(d);
+    for (const double spread : {0.0, 1e-3, 0.1, 1.0}) {
+        // Points of the group: p, and one on the other side of its middle c.
+        const double far = spread * unit.length(size);
+        const vec3<T> q = test::construction::round_to<T>(
+            test::construction::along(detail::widened(p), far, test::construction::cube(d, 1)));
+        const aabb<T> box = merge(bounds(p), bounds(q));
+        const vec3<T> c = T(0.5) * box.lower + T(0.5) * box.upper;
+        const vec3<T> half = (1 + 8 * unit_roundoff<T>) * detail::greatest(box.upper - c, c - box.lower);
+        const T far_squared = (1 + 16 * unit_roundoff<T>) * dot(half, half);
+        using seen = detail::seen_corners_of<triangle<T>>;
+        const detail::shape_from_amid<T, 3> shape(seen(t, c), far_squared, 7);
+        const seen corners(other, c);
+        const T other_size = detail::greatest(dot(corners.at[0], corners.at[0]), dot(corners.at[1], corners.at[1]),
+                                              dot(corners.at[2], corners.at[2]));
+        const detail::seen_corner<T> corner(corners.at[0], other_size, far_squared);
+        const detail::group_reach<T> reach(box, other.a, {}, T(0x1p-44) * other_size);
+        const bool may_be = shape.may_be_nearer(half, corner), box_may_be = reach(bounds(t));
+        for (const vec3<T>& x : {p, q}) {
+            const vec3<T> from_c = x - c;
+            const double of_x = unit.length(unit.length(detail::squared_distance(x, t, unit)));
+            const double of_other = unit.length(unit.length(detail::squared_distance(x, other, unit)));
+            const double own = detail::plain_dot(detail::widened(from_c), detail::widened(from_c));
+            CAPTURE(spread, c.x, c.y, c.z, of_x, of_other);
+            CHECK(double(shape.least_from(T(-2) * from_c)) + own <= of_x);
+            CHECK(double(shape.least_from_point(from_c)) + own <= of_x);
+            CHECK(double(shape.most_from(T(-2) * from_c)) + own >= of_x);
+            if (!may_be) CHECK(of_other < of_x);
+            if (!box_may_be) CHECK(of_other < of_x);
+            // A limit from one shape never leaves out another that is nearer.
+            const double limit = double(corner.at_most - dot(from_c + from_c, corner.at)) + own;
+            CHECK(limit >= of_other);
+        }
+    }
+}
+
 template <class T>
 void check_triangles() {
     const family<T> families[] = {{"any", any_triangle<T>},       {"flat", flat_triangle<T>},
@@ -235,8 +277,7 @@ void check_triangles() {
             const double square = detail::plain_dot(way, way);
             const detail::distance_bounds<T> bounds_of(t, p);
             CHECK_FALSE(bounds_of.are_beyond(detail::square_from(unit, square)));
-            CHECK(bounds_of.at_least() <= detail::square_from(unit, square));
-            CHECK(square <= detail::square_in(unit, bounds_of.at_most()));
+            check_bounds_from_amid(t, p, d);
             auto ball = detail::world_frame<T>{unit.length(1)}.ball_around(p);
             ball.shrink_to(square);
             CHECK(ball.keeps(ball.least_in(bounds(t))));
@@ -257,8 +298,8 @@ TEMPLATE_TEST_CASE("nearest_point: triangles, needles and degenerate ones too, a
 }
 
 /// Bounds that are 0 or infinite would pass all else.
-TEMPLATE_TEST_CASE("nearest_point: from far away bounds of distances are close, and boxes along a slope tell more", "", float,
-                   double) {
+TEMPLATE_TEST_CASE("nearest_point: from far away bounds of distances are close, and boxes along a slope tell more", "",
+                   float, double) {
     using T = TestType;
     for (std::uint64_t i = 0; i < 200; ++i) {
         test::draws d(11, 1, i);
@@ -270,8 +311,14 @@ TEMPLATE_TEST_CASE("nearest_point: from far away bounds of distances are close, 
         const double square = detail::squared_distance(p, t, unit);
         CHECK(square == Approx(10000).epsilon(1e-5));
         const detail::distance_bounds<T> around_it(t, p);
-        CHECK(double(around_it.at_least()) > 0.999 * square);
-        CHECK(double(around_it.at_most()) < 1.001 * square);
+        // As seen from 1 beside it, and together with a point 2 away.
+        const vec3<T> c{p.x, p.y + 1, p.z};
+        const detail::shape_from_amid<T, 3> seen(detail::seen_corners_of<triangle<T>>(t, c), T(1), 7);
+        CHECK(double(seen.least_from({0, 2, 0})) + 1 > 0.9997 * square);
+        CHECK(double(seen.least_from_point({0, -1, 0})) + 1 > 0.9999 * square);
+        CHECK(double(seen.most_from({0, 2, 0})) + 1 < 1.0002 * square);
+        const detail::seen_corner<T> nearer(vec3<T>{0, -1, 0} - T(0.69) * vec3<T>{h, 0, h}, T(10000), T(1));
+        CHECK_FALSE(seen.may_be_nearer({0, 1, 0}, nearer));
         CHECK(around_it.are_beyond(T(0.999 * square)));
         auto ball = detail::world_frame<T>{}.ball_around(p);
         CHECK(double(ball.least_in(around<obb<T>>(t))) > 0.9999 * square);
@@ -294,8 +341,13 @@ TEMPLATE_TEST_CASE("nearest_point: scale by powers of two changes no digit, to t
             const vec3<T> far = nearest_point(u, s * p);
             const auto unit = detail::unit_for(bounds(u), s * p);
             const double square = detail::squared_distance(s * p, u, unit);
-            CHECK(square <= detail::square_in(unit, detail::distance_bounds<T>(u, s * p).at_most()));
-            CHECK(detail::distance_bounds<T>(u, s * p).at_least() <= detail::square_from(unit, square));
+            CHECK_FALSE(detail::distance_bounds<T>(u, s * p).are_beyond(detail::square_from(unit, square)));
+            const vec3<T> c = T(0.5) * (s * p), from_c = s * p - c;
+            const detail::shape_from_amid<T, 3> seen(detail::seen_corners_of<triangle<T>>(u, c), dot(c, c), 7);
+            const T own = dot(from_c, from_c), at_most = seen.most_from(T(-2) * from_c) + own;
+            CHECK_FALSE(seen.least_from(T(-2) * from_c) > at_most - own);
+            CHECK_FALSE(seen.least_from_point(from_c) > at_most - own);
+            CHECK_FALSE(square > detail::square_in(unit, at_most));
             auto ball = detail::world_frame<T>{unit.length(1)}.ball_around(s * p);
             ball.shrink_to(square);
             CHECK(ball.keeps(ball.least_in(around<obb<T>>(u))));

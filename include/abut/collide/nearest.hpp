@@ -7,7 +7,6 @@
 // equal ones the one with the least id. Everything else here moves time and no answer: which index there is, in what order
 // the points are taken.
 
-#include <algorithm>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -17,105 +16,18 @@
 #include <vector>
 
 #include <abut/collide/judge.hpp>
+#include <abut/collide/nearest_group.hpp>
 #include <abut/collide/operand.hpp>
 #include <abut/collide/options.hpp>
 #include <abut/execution/host.hpp>
 #include <abut/execution/ordered.hpp>
 #include <abut/index/curve_order.hpp>
-#include <abut/index/lbvh.hpp>
 #include <abut/narrow/nearest_point.hpp>
 #include <abut/traverse/ordered_walk.hpp>
 
 namespace abut {
 
-/// The id of no shape.
-inline constexpr std::uint32_t no_id = static_cast<std::uint32_t>(-1);
-
-/// A shape near a point, where on it, and how far that is. Where there are no shapes: `no_id`, the point asked about and
-/// infinity. A distance that T has no number for is infinite too.
-template <scalar T>
-struct neighbor {
-    std::uint32_t id;
-    vec3<T> point;
-    T distance;
-
-    friend constexpr bool operator==(const neighbor&, const neighbor&) = default;
-};
-
 namespace detail {
-
-/// Measures squared distances.
-template <scalar T>
-struct measure_distance {
-    length_unit<T> unit;
-    /// Where the distance is surely above `bound`, infinity will do.
-    template <approachable S>
-    ABUT_HD double measure(const S& s, const vec3<T>& p, double bound) const {
-        if constexpr (has_distance_bounds<S>) {
-            if (distance_bounds<T>(s, p).are_beyond(square_from(unit, bound))) return infinity<double>;
-        }
-        return squared_distance(p, s, unit);
-    }
-};
-
-/// A shape that waits to be measured, and what the square of its distance is surely not below.
-template <scalar T>
-struct waiting_shape {
-    std::uint32_t id;
-    T at_least;
-};
-
-/// The nearest of some shapes that wait, if it is within the bound. Out of line: what it needs of registers is for few, and
-/// walks need theirs. Those that are too far go first, so that threads of a device which measure do so at the same time.
-template <class Shapes, scalar T>
-ABUT_NOINLINE ABUT_HD execution::least_value nearest_of(const Shapes shapes, waiting_shape<T>* waiting, int n,
-                                                        const vec3<T> p, const length_unit<T> unit, double bound) {
-    const T limit = square_from(unit, bound);
-    int left = 0;
-    for (int k = 0; k < n; ++k) {
-        if (!(waiting[k].at_least > limit)) waiting[left++] = waiting[k];
-    }
-    execution::least_value best;
-    for (int k = 0; k < left; ++k) best.offer(squared_distance(p, shapes[waiting[k].id], unit), waiting[k].id);
-    return best;
-}
-
-/// What a walk from p meets goes to a sink. Shapes that take long to measure wait: meanwhile the nearest corner shrinks the
-/// bound, and some turn out to be farther. From far away 18 triangles of a fine torus wait, and 12 are measured.
-template <shape_view Shapes, scalar T, class Judge, class Best>
-struct near_shapes {
-    static constexpr bool wait = has_distance_bounds<typename Shapes::shape_type>;
-    static constexpr int room = 32;
-    const Shapes& shapes;
-    const vec3<T> p;
-    const Judge& judge;
-    Best& best;
-    double limit = infinity<double>;
-    int count = 0;
-    waiting_shape<T> waiting[wait ? room : 1];  ///< not initialised
-
-    ABUT_HD near_shapes(const Shapes& all, const vec3<T>& from, const Judge& with, Best& to)
-        : shapes(all), p(from), judge(with), best(to) {}
-    [[nodiscard]] ABUT_HD double bound() const { return least(limit, best.bound()); }
-    ABUT_HD void meet(std::uint32_t id) {
-        if constexpr (wait) {
-            const distance_bounds<T> distance(shapes[id], p);
-            if (distance.are_beyond(square_from(judge.unit, bound()))) return;
-            limit = least(limit, square_in(judge.unit, distance.at_most()));
-            waiting[count++] = {id, distance.at_least()};
-            if (count == room) measure();
-        } else {
-            best.offer(judge.measure(shapes[id], p, bound()), id);
-        }
-    }
-    ABUT_HD void measure() {
-        if constexpr (wait) {
-            const auto found = nearest_of(shapes, waiting, count, p, judge.unit, bound());
-            best.offer(found.value, found.key);
-            count = 0;
-        }
-    }
-};
 
 /// A walk through an index from each of many points, in an order of theirs. (To begin each with what is nearest to the one
 /// before was tried. It spares a walk one node in sixty: nearest first, the first shape that it meets is good enough.)
@@ -132,28 +44,12 @@ struct walk_from_points {
     ABUT_CALLS_ANY
     template <class Best>
     ABUT_HD void operator()(std::size_t i, Best& best) const {
-        from(i, true, best);
-    }
-    ABUT_CALLS_ANY
-    template <class Best, class Team>
-        requires Walk::in_teams
-    ABUT_HD void together(std::size_t i, bool is_there, Best& best, Team team) const {
-        from(is_there ? i : 0, is_there, best, team);
+        const auto p = points[order == nullptr ? i : order[i]];
+        auto reach = frame.ball_around(p);
+        walk(reach, best, [&](std::uint32_t id) { best.offer(judge.measure(shapes[id], p, best.bound()), id); });
     }
     ABUT_INLINE void prefetch(std::size_t i) const {
         if (order != nullptr) prefetch_shape(points, order[i], 0);
-    }
-
-private:
-    ABUT_CALLS_ANY
-    template <class Best, class... Team>
-    ABUT_HD void from(std::size_t i, bool is_there, Best& best, Team... team) const {
-        const auto p = points[order == nullptr ? i : order[i]];
-        auto reach = frame.ball_around(p);
-        if (!is_there) reach.close();
-        near_shapes<Shapes, typename Points::scalar_type, Judge, Best> near(shapes, p, judge, best);
-        walk(reach, near, [&](std::uint32_t id) { near.meet(id); }, team...);
-        near.measure();
     }
 };
 
@@ -190,10 +86,7 @@ struct write_neighbors {
             return;
         }
         const auto id = static_cast<std::uint32_t>(found[i].key);
-        const auto shape = shapes[id];
-        const vec3<double> way = way_from(p, shape, unit);
-        const double length = contact_math::root(contact_math::one_double{plain_dot(way, way)}).high;
-        out[k] = {id, end_of_way(shape, p, way, unit), rounded(static_cast<T>(unit.length(length)))};
+        out[k] = neighbor_of(p, shapes[id], id, unit);
     }
 };
 
@@ -264,10 +157,9 @@ auto make_points(const Policy& on, const Points& points, const char* function) {
 
 /// Fewer points than these look at a plain set one at a time, and the shapes are shared out among threads.
 inline constexpr std::size_t few_points = 64;
-/// As many points as these, or more, are taken along a curve: neighbours walk through the same nodes. On a device they walk
-/// together.
+/// As many points as these, or more, are taken along a curve: neighbours walk through the same nodes, or look together.
 template <class Policy>
-inline constexpr std::size_t many_points = host_policy<Policy> ? 4096 : 64;
+inline constexpr std::size_t many_points = looks_in_groups<Policy> ? 64 : 4096;
 
 }  // namespace detail
 
@@ -330,11 +222,15 @@ template <execution_policy Policy, class X, class Points>
     const auto frame = frame_of(x, unit);
     execution::buffer_of<Policy, std::uint32_t> order;
     if (decltype(x)::is_indexed && n >= many_points<Policy> && n < no_id) order = order_on_curve(on, from);
-    execution::best_of_each<space_of<Policy>> best(on, n);
-    using walk_type = walk_from_points<std::remove_const_t<decltype(walk)>, std::remove_const_t<decltype(frame)>,
-                                       shapes_type, points_type, measure_distance<T>>;
-    for_each_ordered(on, n, walk_type{walk, frame, there, from, judge, order.data()}, best);
-    return finish(unit, order.data(), best.data());
+    if constexpr (look_in_groups<Policy, std::remove_const_t<decltype(walk)>, typename shapes_type::shape_type>) {
+        return finish(unit, order.data(), nearest_in_groups(on, walk.tree, frame, there, from, judge, order.data()).data());
+    } else {
+        execution::best_of_each<space_of<Policy>> best(on, n);
+        using walk_type = walk_from_points<std::remove_const_t<decltype(walk)>, std::remove_const_t<decltype(frame)>,
+                                           shapes_type, points_type, measure_distance<T>>;
+        for_each_ordered(on, n, walk_type{walk, frame, there, from, judge, order.data()}, best);
+        return finish(unit, order.data(), best.data());
+    }
 }
 
 }  // namespace abut

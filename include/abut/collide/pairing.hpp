@@ -18,7 +18,7 @@
 #include <abut/collide/options.hpp>
 #include <abut/traverse/frontier.hpp>
 #include <abut/traverse/pair_walk.hpp>
-#include <abut/traverse/reach.hpp>
+#include <abut/shape/reach.hpp>
 #include <abut/traverse/rule_walk.hpp>
 #include <abut/traverse/traversal.hpp>
 

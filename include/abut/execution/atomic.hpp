@@ -56,6 +56,15 @@ inline ABUT_HD std::uint32_t increment_in_group(std::uint32_t* target) {
 #endif
 }
 
+/// Sets bits, as increment_in_group adds.
+inline ABUT_HD void set_bits_in_group(std::uint32_t* target, std::uint32_t bits) {
+#if ABUT_DEVICE_CODE
+    atomicOr(target, bits);
+#else
+    *target |= bits;
+#endif
+}
+
 /// Stores `desired` if the word is `expected`; returns the value before. T as for atomic_add.
 template <class T>
 ABUT_HD T atomic_compare_exchange(T* target, T expected, T desired) {

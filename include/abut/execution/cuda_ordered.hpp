@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// for_each_ordered of `cuda` and what it needs: a thread for each index, warps that walk together, and the least of all
-// indices in device memory.
+// for_each_ordered of `cuda` and what it needs: a thread for each index, and the least of all indices in device
+// memory.
 
 #include <cstddef>
 #include <cstdint>
@@ -27,24 +27,15 @@ struct value_at {
 /// wait for memory, and what needs more registers is called out of line.
 inline constexpr unsigned ordered_block = 128, ordered_blocks_at_a_time = 8;
 
-/// A team of 32.
-struct warp_team {
-    __device__ static bool any(bool is) { return __any_sync(0xffffffff, is); }
-    __device__ static bool most(bool is) { return __popc(__ballot_sync(0xffffffff, is)) > warp_size / 2; }
-};
-
-/// Neighbours in a warp mostly need the same nodes. Where each of its threads walked by itself, a quarter of them were busy.
 template <class Walk, class Sink>
 __global__ void __launch_bounds__(ordered_block, ordered_blocks_at_a_time)
     for_each_ordered_kernel(std::size_t n, Walk walk, Sink sink) {
     const std::size_t i = std::size_t{blockIdx.x} * ordered_block + threadIdx.x;
     if (i < n) sink.begin(i);
-    if constexpr (requires { walk.together(i, true, sink, warp_team{}); }) {
-        walk.together(i, i < n, sink, warp_team{});
-    } else if (i < n) {
+    if (i < n) {
         walk(i, sink);
+        sink.end(i);
     }
-    if (i < n) sink.end(i);
     sink.close();
 }
 

@@ -95,7 +95,7 @@ struct run_group {
     F f;
     void operator()(std::size_t i) const {
         typename F::shared shared;
-        f(group<typename F::shared>(i * group_size, shared));
+        f(group<typename F::shared, group_size_of<F>>(i * group_size_of<F>, shared));
     }
 };
 
@@ -118,7 +118,7 @@ template <host_policy Policy, class F>
 void for_each_group(const Policy& on, std::size_t n, const F& f) {
     static_assert(group_functor<F>, "abut: for_each_group: the functor is no group_functor (execution/roles.hpp)");
     if constexpr (group_functor<F>) {
-        for_each_task(on, n / group_size + (n % group_size != 0), detail::run_group<F>{f});
+        for_each_task(on, n / group_size_of<F> + (n % group_size_of<F> != 0), detail::run_group<F>{f});
     }
 }
 

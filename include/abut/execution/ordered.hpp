@@ -39,14 +39,6 @@ struct lesser_value {
     }
 };
 
-/// Threads that walk together ask each other: whether any of them says so, and whether most of them do. This is a team of
-/// one; that of `cuda` is a warp. A walk that can be taken by a team has `walk.together(i, is_there, sink, team)` too, which
-/// all threads of the team call at once, those without an index with is_there = false.
-struct alone {
-    ABUT_HD static bool any(bool is) { return is; }
-    ABUT_HD static bool most(bool is) { return is; }
-};
-
 template <memory_space Space>
 class best_of_each {
 public:

@@ -23,8 +23,8 @@
 //   device_of(on)                           the CUDA device that the policy works on; -1 for the host
 //   synchronize(on)                         waits for all that was asked of the policy
 //   release_memory(on)                      gives pooled memory back to the system
-//   for_each_group(on, n, f)                f(group) for all groups of group_size neighbouring indices, of which the last
-//                                           may have fewer (execution/group.hpp)
+//   for_each_group(on, n, f)                f(group) for all groups of neighbouring indices, 256 or 32 as f says, of which the
+//                                           last may have fewer (execution/group.hpp)
 //
 // These it gets, made of the ones above (execution/generic.hpp; for_each_ordered in host memory alone), and may supply better
 // ones:

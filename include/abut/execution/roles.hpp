@@ -84,10 +84,11 @@ concept combiner = requires(const C& c, const T& a, const T& b) {
 };
 
 /// f(group): the work of a group of neighbours (execution/group.hpp), in steps between barriers. F::shared is the memory
-/// that the members share; on a device nothing is written to it before the functor runs.
+/// that the members share; on a device nothing is written to it before the functor runs. F::members is how many these are,
+/// subgroup_size or, where it is not said, group_size.
 template <class F>
 concept group_functor = std::default_initializable<typename F::shared> &&
-    requires(const F& f, const group<typename F::shared>& members) {
+    requires(const F& f, const group<typename F::shared, group_size_of<F>>& members) {
     f(members);
 };
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Shapes along a Morton curve, for walks: neighbours need the same nodes.
+// Shapes along a Hilbert curve, for walks: neighbours need the same nodes. Unlike a Morton curve it never jumps, so that the
+// box around some neighbours is small.
 
 #include <algorithm>
 #include <cstddef>
@@ -21,6 +22,28 @@ struct box_of_shape {
     ABUT_HD auto operator()(std::size_t i) const { return bounds(shapes[i]); }
 };
 
+/// How far along the curve a cell comes, of 2^10 cells an axis. Each step from the highest bit down turns and mirrors what
+/// is below as the curve asks; then the bits become a Gray code (Skilling, 2004).
+ABUT_HD constexpr std::uint32_t hilbert_code(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+    std::uint32_t axis[3] = {x, y, z};
+    constexpr std::uint32_t top = std::uint32_t{1} << (morton_axis_bits<std::uint32_t> - 1);
+    for (std::uint32_t bit = top; bit > 1; bit >>= 1) {
+        const std::uint32_t below = bit - 1;
+        for (std::uint32_t& other : axis) {
+            const std::uint32_t changed = (other & bit) != 0 ? 0 : (axis[0] ^ other) & below;
+            axis[0] ^= (other & bit) != 0 ? below : changed;
+            other ^= changed;
+        }
+    }
+    axis[1] ^= axis[0];
+    axis[2] ^= axis[1];
+    std::uint32_t flipped = 0;
+    for (std::uint32_t bit = top; bit > 1; bit >>= 1) {
+        if ((axis[2] & bit) != 0) flipped ^= bit - 1;
+    }
+    return spread_bits(axis[0] ^ flipped) << 2 | spread_bits(axis[1] ^ flipped) << 1 | spread_bits(axis[2] ^ flipped);
+}
+
 template <shape_view Shapes>
 struct write_curve_codes {
     using T = typename Shapes::scalar_type;
@@ -29,7 +52,11 @@ struct write_curve_codes {
     int unused_bits;
     std::uint32_t *codes, *ids;
     ABUT_HD void operator()(std::size_t i) const {
-        codes[i] = morton_code<std::uint32_t>(bounds(shapes[i]), *around) >> unused_bits;
+        const aabb<T> box = bounds(shapes[i]);
+        const auto cell = [&](T vec3<T>::*x) {
+            return morton_cell<std::uint32_t>(sum_of_halves(box.lower.*x, box.upper.*x), around->lower.*x, around->upper.*x);
+        };
+        codes[i] = hilbert_code(cell(&vec3<T>::x), cell(&vec3<T>::y), cell(&vec3<T>::z)) >> unused_bits;
         ids[i] = static_cast<std::uint32_t>(i);
     }
 };

@@ -105,48 +105,41 @@ ABUT_HD constexpr vec3<double> foot_on_segment(const vec3<double>& a, const vec3
     return held(foot, least(a, b), greatest(a, b));
 }
 
-/// Three corners and their squares.
-struct seen_triangle {
-    vec3<double> a, b, c;
-    double aa, bb, cc;
+/// Whether there is a foot on the face. The weight of c is that of a height, and may be poor; that of b makes up for it
+/// along the triangle, whatever it is.
+ABUT_HD constexpr bool has_foot_on_face(const vec3<double>& a, const vec3<double>& ab, const vec3<double>& ac,
+                                        vec3<double>& foot) {
+    const vec3<double> n = plain_cross(ab, ac);
+    const double nn = plain_dot(n, n);
+    if (!(nn > 0)) return false;
+    const double of_c = -plain_dot(plain_cross(n, ab), a) / nn;
+    if (!(of_c > 0 && of_c < 1)) return false;
+    const vec3<double> at_height = plain_step(a, of_c, ac);
+    const double of_b = -plain_dot(at_height, ab) / plain_dot(ab, ab);
+    foot = plain_step(at_height, of_b, ab);
+    return of_b > 0 && plain_sum(of_b, of_c) < 1;
+}
 
-    ABUT_HD constexpr seen_triangle(const vec3<double>& p, const vec3<double>& q, const vec3<double>& r)
-        : a(p), b(q), c(r), aa(plain_dot(p, p)), bb(plain_dot(q, q)), cc(plain_dot(r, r)) {}
-
-    /// Long, and seldom called beside `is_beyond`: out of line.
-    [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr vec3<double> foot() const {
-        return held(foot_of_corners(), least(least(a, b), c), greatest(greatest(a, b), c));
+/// The point of a triangle that is nearest to the origin. Long, and seldom called: out of line.
+ABUT_NOINLINE ABUT_HD constexpr vec3<double> foot_on_triangle(vec3<double> a, vec3<double> b, vec3<double> c) {
+    const vec3<double> lower = least(least(a, b), c), upper = greatest(greatest(a, b), c);
+    double aa = plain_dot(a, a), bb = plain_dot(b, b), cc = plain_dot(c, c);
+    // The corner that is nearest comes first.
+    if (bb < aa && !(cc < bb)) {
+        const vec3<double> first = b;
+        b = a, a = first;
+        const double square = bb;
+        bb = aa, aa = square;
+    } else if (cc < aa) {
+        const vec3<double> first = c;
+        c = b, b = a, a = first;
+        const double square = cc;
+        cc = bb, bb = aa, aa = square;
     }
-
-private:
-    /// The corner that is nearest comes first.
-    [[nodiscard]] ABUT_HD constexpr vec3<double> foot_of_corners() const {
-        if (bb < aa && !(cc < bb)) return foot_from(b, bb, a, aa, c, cc);
-        if (cc < aa) return foot_from(c, cc, a, aa, b, bb);
-        return foot_from(a, aa, b, bb, c, cc);
-    }
-    /// Whether there is a foot on the face. The weight of c is that of a height, and may be poor; that of b makes up for it
-    /// along the triangle, whatever it is.
-    ABUT_HD static constexpr bool has_foot_on_face(const vec3<double>& a, const vec3<double>& ab, const vec3<double>& ac,
-                                                   vec3<double>& foot) {
-        const vec3<double> n = plain_cross(ab, ac);
-        const double nn = plain_dot(n, n);
-        if (!(nn > 0)) return false;
-        const double of_c = -plain_dot(plain_cross(n, ab), a) / nn;
-        if (!(of_c > 0 && of_c < 1)) return false;
-        const vec3<double> at_height = plain_step(a, of_c, ac);
-        const double of_b = -plain_dot(at_height, ab) / plain_dot(ab, ab);
-        foot = plain_step(at_height, of_b, ab);
-        return of_b > 0 && plain_sum(of_b, of_c) < 1;
-    }
-    ABUT_HD static constexpr vec3<double> foot_from(const vec3<double>& a, double aa, const vec3<double>& b, double bb,
-                                                    const vec3<double>& c, double cc) {
-        const vec3<double> ab = plain_difference(b, a), ac = plain_difference(c, a);
-        const double along_ab = -plain_dot(a, ab), along_ac = -plain_dot(a, ac);
-        if (!(along_ab > 0) && !(along_ac > 0)) return a;
-
-        vec3<double> nearest{};
-        if (has_foot_on_face(a, ab, ac, nearest)) return nearest;
+    const vec3<double> ab = plain_difference(b, a), ac = plain_difference(c, a);
+    const double along_ab = -plain_dot(a, ab), along_ac = -plain_dot(a, ac);
+    vec3<double> nearest = a;
+    if ((along_ab > 0 || along_ac > 0) && !has_foot_on_face(a, ab, ac, nearest)) {
         nearest = a;
         double least_square = aa;
         const auto offer = [&](const vec3<double>& foot) {
@@ -155,10 +148,11 @@ private:
         };
         if (along_ab > 0) offer(foot_on_edge(a, b));
         if (along_ac > 0) offer(foot_on_edge(a, c));
-        offer(cc < bb ? foot_on_edge(c, b) : foot_on_edge(b, c));
-        return nearest;
+        const bool c_is_nearer = cc < bb;
+        offer(foot_on_edge(c_is_nearer ? c : b, c_is_nearer ? b : c));
     }
-};
+    return held(nearest, lower, upper);
+}
 
 /// What is known of how far a triangle is from p, before its foot is computed: surely farther than the root of `limit`, if a
 /// plane has p in front of it, that far away, and all three corners behind it. Most of what a walk meets is told so, in a
@@ -170,7 +164,7 @@ private:
 /// beside 2^-100 (or 2^-900), and what overflows says nothing, or is greater than any limit.
 template <scalar T>
 struct distance_bounds {
-    T product, of_w, all, nearest;  ///< the least product; squares: of w, of all corners' ways in sum, of the shortest way
+    T product, of_w, all;  ///< the least product; squares: of w, of all corners' ways in sum
 
     ABUT_HD distance_bounds(const triangle<T>& t, const vec3<T>& p) {
         const vec3<T> a = t.a - p, b = t.b - p, c = t.c - p, w = a + b + c;
@@ -178,25 +172,11 @@ struct distance_bounds {
         product = least(dot(w, a), dot(w, b), dot(w, c));
         of_w = dot(w, w);
         all = aa + bb + cc;
-        nearest = least(aa, bb, cc);
     }
     /// Whether it is surely farther than the root of `limit`.
     [[nodiscard]] ABUT_HD bool are_beyond(T limit) const {
         const T square = product * product, far = T(0x1p-10) * all, near = T(1 + 0x1p-13) * limit;
         return product > 0 && square > tiny && square > of_w * (near > far ? near : far);
-    }
-    /// What the square of the way is surely not below. The product's square may overflow where this does not.
-    [[nodiscard]] ABUT_HD T at_least() const {
-        const T square = product * product;
-        const bool tells = product > 0 && square > tiny && square > of_w * (T(0x1p-10) * all);
-        return tells ? product / of_w * product * T(1 - 0x1p-12) : T(0);
-    }
-    /// What the square of the way is surely not above: that of the way to the nearest corner, and what the foot may be off,
-    /// which is below some 2^-50 of d and of the triangle's size, or its square below 2^-50 of their product. With
-    /// d^2 / 2^18, which covers the roundings here too, and the squares of all corners' ways / 2^50 that is covered many
-    /// times over.
-    [[nodiscard]] ABUT_HD T at_most() const {
-        return nearest + T(0x1p-18) * nearest + T(0x1p-50) * all + 8 * smallest_normal<T>;
     }
 
 private:
@@ -224,7 +204,7 @@ ABUT_HD vec3<double> way_to(const segment<T>& s, const vec3<T>& p, const length_
 }
 template <scalar T>
 ABUT_HD vec3<double> way_to(const triangle<T>& t, const vec3<T>& p, const length_unit<T>& unit) {
-    return seen_triangle(way_between(p, t.a, unit), way_between(p, t.b, unit), way_between(p, t.c, unit)).foot();
+    return foot_on_triangle(way_between(p, t.a, unit), way_between(p, t.b, unit), way_between(p, t.c, unit));
 }
 template <scalar T>
 ABUT_HD vec3<double> way_to(const sphere<T>& s, const vec3<T>& p, const length_unit<T>& unit) {
@@ -298,6 +278,20 @@ concept approachable = shape<S> && requires(const S& s, const vec3<scalar_type_o
     { nearest_point(s, p) } -> std::same_as<vec3<scalar_type_of<S>>>;
 };
 
+/// The id of no shape.
+inline constexpr std::uint32_t no_id = static_cast<std::uint32_t>(-1);
+
+/// A shape near a point, where on it, and how far that is. Where there are no shapes: `no_id`, the point asked about and
+/// infinity. A distance that T has no number for is infinite too.
+template <scalar T>
+struct neighbor {
+    std::uint32_t id;
+    vec3<T> point;
+    T distance;
+
+    friend constexpr bool operator==(const neighbor&, const neighbor&) = default;
+};
+
 namespace detail {
 
 /// The way from p to any shape; to one of the caller's own by the point that it names.
@@ -328,9 +322,34 @@ ABUT_HD T square_from(const length_unit<T>& unit, double square) {
     return static_cast<T>(unit.length(unit.length(square + 4 * smallest_normal<double>)));
 }
 
+template <approachable S, scalar T>
+ABUT_HD neighbor<T> neighbor_of(const vec3<T>& p, const S& s, std::uint32_t id, const length_unit<T>& unit) {
+    const vec3<double> way = way_from(p, s, unit);
+    const double length = contact_math::root(contact_math::one_double{plain_dot(way, way)}).high;
+    return {id, end_of_way(s, p, way, unit), rounded(static_cast<T>(unit.length(length)))};
+}
+
 /// Shapes whose distance takes long to compute, and is bounded in less.
 template <class S>
 concept has_distance_bounds = std::same_as<S, triangle<scalar_type_of<S>>>;
+
+/// Measures squared distances.
+template <scalar T>
+struct measure_distance {
+    length_unit<T> unit;
+    /// Where the distance is surely above `bound`, infinity will do.
+    template <approachable S>
+    ABUT_HD double measure(const S& s, const vec3<T>& p, double bound) const {
+        if constexpr (has_distance_bounds<S>) {
+            if (distance_bounds<T>(s, p).are_beyond(square_from(unit, bound))) return infinity<double>;
+        }
+        return measure(s, p);
+    }
+    template <approachable S>
+    ABUT_HD double measure(const S& s, const vec3<T>& p) const {
+        return squared_distance(p, s, unit);
+    }
+};
 
 }  // namespace detail
 

@@ -104,7 +104,7 @@ struct reach_of_box {
 
 }  // namespace detail
 
-/// How far a shape reaches, as a prune functor (traverse/reach.hpp). A shape that does not say otherwise reaches what
+/// How far a shape reaches, as a prune functor (shape/reach.hpp). A shape that does not say otherwise reaches what
 /// overlaps its box.
 template <shape S>
 ABUT_HD auto reach_of(const S& s) {

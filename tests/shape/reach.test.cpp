@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <abut/traverse/reach.hpp>
+#include <abut/shape/reach.hpp>
 
 #include <algorithm>
 #include <cmath>

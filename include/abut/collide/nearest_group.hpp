@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// `nearest` for many points and a tree: points that lie near each other look together.
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <utility>
+
+#include <abut/arithmetic/lanes.hpp>
+#include <abut/collide/judge.hpp>
+#include <abut/execution/atomic.hpp>
+#include <abut/execution/group.hpp>
+#include <abut/execution/ordered.hpp>
+#include <abut/narrow/nearest_point.hpp>
+#include <abut/shape/point_reach.hpp>
+#include <abut/traverse/group_walk.hpp>
+
+namespace abut::detail {
+
+/// As many points as a subgroup has members look for their nearest shapes. What their box and a corner near its middle leave
+/// over, a node or a shape for each member, comes to a list, which the members share. Each shape of the list is tested with
+/// each point, by a bound that takes little. The pairs that are left are shared out again, and tested by one that takes
+/// more; what is left then is measured, a pair for each member, and its point's limit shrinks.
+///
+/// Some groups lie around what is as near to them on all sides, such as the middle of a tube, and find long lists. Their
+/// points are left for a second run, in which each looks by itself, with all members of a group.
+template <bvh_layout Tree, class Frame, shape_view Shapes, shape_view Points, class Judge>
+struct nearest_to_group {
+    using T = typename Points::scalar_type;
+    using shape_type = typename Shapes::shape_type;
+    static_assert(measuring_judge<Judge, shape_type, typename Points::shape_type>);
+    using walk_type = group_tree_walk<Tree>;
+    using seen_shape = seen_shape_of<shape_type>;
+    /// most_lists: full ones, after which a group is left for the second run.
+    static constexpr unsigned members = execution::subgroup_size, room = 2 * members, most_lists = 24;
+    struct waiting_pair {
+        T at_least;
+        std::uint32_t id, point;
+    };
+    struct measured {
+        double value;
+        std::uint32_t id;
+    };
+    struct shared {
+        typename walk_type::shared walk;
+        group_reach<T> reach;
+        seen_corner<T> corner;           ///< the witness of the reach
+        T corner_square;                 ///< of its way from the middle
+        std::uint32_t next_witness;      ///< a shape that has a better one
+        vec3<T> world[members];          ///< the points
+        seen_corner<T> points[members];  ///< -2 p, where p is the point as seen from the middle, and its limit
+        seen_shape shapes[room];         ///< the list
+        std::uint32_t passing[members];  ///< of each point, bits of shapes on the list
+        std::uint16_t pairs[members * (members + 1)];
+        waiting_pair waiting[2 * members];
+        measured values[members];
+        std::uint32_t mine[members];  ///< of each point, bits of values
+    };
+    using group = execution::group<shared, members>;
+    walk_type walk;
+    Frame frame;
+    Shapes shapes;
+    Points points;
+    Judge judge;
+    const std::uint32_t* order;
+    std::size_t count;
+    execution::least_value* out;
+    std::uint32_t *left, *left_count;  ///< numbers of groups that are left; null in the second run
+    const std::uint32_t* alone;        ///< these, in the second run, and null in the first
+
+    ABUT_HD void operator()(const group& all) const {
+        shared& memory = all.shared;
+        const std::size_t number = all.first / members;
+        const std::size_t first = alone == nullptr ? all.first : std::size_t{members} * alone[number / members] + number % members;
+        if (first >= count) return;
+        const unsigned there = alone != nullptr ? 1 : static_cast<unsigned>(count - first < members ? count - first : members);
+
+        all.each([&](unsigned k) {
+            const std::size_t i = first + (k < there ? k : 0);
+            memory.world[k] = points[order == nullptr ? i : order[i]];
+        });
+        const aabb<T> around = box_around(all, [&](unsigned k) { return memory.world[k]; });
+        const vec3<T> middle = T(0.5) * around.lower + T(0.5) * around.upper;
+        const vec3<T> half = (1 + 8 * unit_roundoff<T>) * greatest(around.upper - middle, middle - around.lower);
+        // What measuring loses to underflow, where lengths have a large unit.
+        const T underflow = 4 * square_from(judge.unit, 0);
+        const T far_squared = (1 + 16 * unit_roundoff<T>) * dot(half, half) + underflow / slack_of_squares<T>;
+        aabb<T> in_frame = around;
+        T lost_in_frame = 0;
+        if constexpr (!std::is_same_v<Frame, world_frame<T>>) {
+            in_frame = box_around(all, [&](unsigned k) { return frame.ball_around(memory.world[k]).center; });
+            lost_in_frame = -all.least([&](unsigned k) { return -T(frame.ball_around(memory.world[k]).map.slack); });
+            lost_in_frame += 4 * unit_roundoff<T> * lost_in_frame;
+        }
+        const auto look_past = [&](std::uint32_t id) {
+            const auto shape = shapes[id];
+            const seen_corners_of<shape_type> corners(shape, {0, 0, 0}), seen(shape, middle);
+            T size = 0, nearest = infinity<T>;
+            vec3<T> witness = corners.at[0], seen_witness = seen.at[0];
+            for (int k = 0; k < corners_of_shape<shape_type>; ++k) {
+                const T square = dot(seen.at[k], seen.at[k]);
+                size = greatest(size, square);
+                if (square < nearest) nearest = square, witness = corners.at[k], seen_witness = seen.at[k];
+            }
+            shrinking_ball<T> to = frame.ball_around(witness);
+            to.map.slack = greatest(to.map.slack, static_cast<double>(lost_in_frame));
+            const seen_corner<T> corner(seen_witness, size, far_squared);
+            const group_reach<T> reach(in_frame, to.center, to.map, T(0x1p-44) * size + underflow);
+            all.each([&](unsigned k) {
+                if (k == 0) memory.reach = reach, memory.corner = corner, memory.corner_square = nearest;
+            });
+        };
+        look_past(walk.shape_near(frame.ball_around(middle).center));
+        all.each([&](unsigned k) {
+            const vec3<T> minus_twice = T(-2) * (memory.world[k] - middle);
+            const T limit = memory.corner.at_most + dot(minus_twice, memory.corner.at);
+            memory.points[k] = {minus_twice, limit};
+            memory.passing[k] = memory.mine[k] = 0;
+            if (k < there) out[first + k] = {};
+        });
+
+        unsigned listed = 0, waiting = 0, lists = 0;
+        const auto measure = [&](unsigned begin, unsigned n) {
+            all.each([&](unsigned k) {
+                if (k >= n) return;
+                const waiting_pair pair = memory.waiting[begin + k];
+                if (pair.at_least > memory.points[pair.point].at_most) return;
+                memory.values[k] = {judge.measure(shapes[pair.id], memory.world[pair.point]), pair.id};
+                execution::set_bits_in_group(&memory.mine[pair.point], 1u << k);
+            });
+            all.each([&](unsigned k) {
+                std::uint32_t bits = memory.mine[k];
+                if (bits == 0) return;
+                memory.mine[k] = 0;
+                execution::least_value best = out[first + k];
+                for (; bits != 0; bits &= bits - 1) {
+                    const measured& one = memory.values[lowest_bit(bits)];
+                    best.offer(one.value, one.id);
+                }
+                out[first + k] = best;
+                seen_corner<T>& p = memory.points[k];
+                const T square = square_from(judge.unit, best.value);
+                const T most = square + slack_of_squares<T> * (square + far_squared) + 16 * smallest_normal<T>;
+                p.at_most = least(most - T(0.25) * dot(p.at, p.at), p.at_most);
+            });
+        };
+        const auto test_pairs = [&](unsigned begin, unsigned n) {
+            all.each([&](unsigned k) {
+                waiting_pair pair{};
+                bool may_be = k < n;
+                if (may_be) {
+                    const seen_shape& shape = memory.shapes[memory.pairs[begin + k] / members];
+                    const unsigned point = memory.pairs[begin + k] % members;
+                    pair = {shape.least_from_point(T(-0.5) * memory.points[point].at), shape.id, point};
+                    may_be = !(pair.at_least > memory.points[point].at_most);
+                }
+                all.append(waiting, may_be, [&](unsigned to) { memory.waiting[to] = pair; });
+            });
+        };
+        const auto test_list = [&](bool is_last) {
+            all.each([&](unsigned k) {
+                seen_corner<T>& p = memory.points[k];
+                for (unsigned i = 0; i < listed; ++i) p.at_most = least(memory.shapes[i].most_from(p.at), p.at_most);
+            });
+            unsigned pairs = 0;
+            for (unsigned begin = 0; begin == 0 || begin < listed; begin += members) {
+                all.each([&](unsigned k) {
+                    if (begin + k >= listed) return;
+                    const seen_shape shape = memory.shapes[begin + k];
+                    for (unsigned i = 0; i < there; ++i) {
+                        const seen_corner<T> p = memory.points[i];
+                        if (!(shape.least_from(p.at) > p.at_most)) execution::set_bits_in_group(&memory.passing[i], 1u << k);
+                    }
+                });
+                all.each([&](unsigned k) {
+                    all.append_bits(pairs, memory.passing[k], [&](unsigned to, unsigned bit) {
+                        memory.pairs[to] = static_cast<std::uint16_t>((begin + bit) * members + k);
+                    });
+                    memory.passing[k] = 0;
+                });
+                const bool is_end = begin + members >= listed;
+                while (pairs >= members || (is_end && pairs > 0) || (is_end && is_last && waiting > 0)) {
+                    const unsigned some = pairs < members ? pairs : members;
+                    pairs -= some;
+                    test_pairs(pairs, some);
+                    if (waiting < members && !(is_end && is_last && pairs == 0)) continue;
+                    const unsigned n = waiting < members ? waiting : members;
+                    waiting -= n;
+                    measure(waiting, n);
+                }
+            }
+            ++lists;
+        };
+        // A corner that is nearer to the middle leaves less over.
+        const auto look_past_nearest_of_list = [&] {
+            typename group::template value<T> nearest;
+            all.each([&](unsigned k) {
+                nearest[k] = infinity<T>;
+                for (unsigned i = k; i < listed; i += members) {
+                    const vec3<T> corner = memory.shapes[i].corners.at[0];
+                    const T square = dot(corner, corner);
+                    if (square < nearest[k]) nearest[k] = square, memory.shapes[k].id = memory.shapes[i].id;
+                }
+            });
+            const T least_of_all = all.least([&](unsigned k) { return nearest[k]; });
+            if (!(least_of_all < memory.corner_square)) return;
+            unsigned n = 0;
+            all.each([&](unsigned k) {
+                all.append(n, nearest[k] == least_of_all, [&](unsigned to) {
+                    if (to == 0) memory.next_witness = memory.shapes[k].id;
+                });
+            });
+            look_past(memory.next_witness);
+        };
+        walk(all, memory.walk, memory.reach, [&](const std::uint32_t* leaves, unsigned n, bool is_last) {
+            all.each([&](unsigned k) {
+                const std::uint32_t id = leaves[k < n ? k : 0];
+                const seen_shape shape(seen_corners_of<shape_type>(shapes[id], middle), far_squared, id);
+                all.append(listed, k < n && shape.may_be_nearer(half, memory.corner),
+                           [&](unsigned to) { memory.shapes[to] = shape; });
+            });
+            if (listed <= room - members && !is_last) return true;
+            test_list(is_last);
+            const bool goes_on = left == nullptr || lists < most_lists || is_last;
+            if (goes_on) {
+                look_past_nearest_of_list();
+            } else {
+                all.each([&](unsigned k) {
+                    if (k == 0) left[execution::atomic_add(left_count, 1u)] = static_cast<std::uint32_t>(number);
+                });
+            }
+            listed = 0;
+            return goes_on;
+        });
+    }
+
+private:
+    template <class F>
+    ABUT_HD static aabb<T> box_around(const group& all, const F& f) {
+        const auto least_of = [&](T vec3<T>::*x, T sign) {
+            return sign * all.least([&](unsigned k) { return sign * (f(k).*x); });
+        };
+        return {{least_of(&vec3<T>::x, 1), least_of(&vec3<T>::y, 1), least_of(&vec3<T>::z, 1)},
+                {least_of(&vec3<T>::x, -1), least_of(&vec3<T>::y, -1), least_of(&vec3<T>::z, -1)}};
+    }
+};
+
+/// Whether a policy looks so. On a host each point finds its way sooner by itself: there none waits for another.
+template <class Policy>
+inline constexpr bool looks_in_groups = !host_policy<Policy>;
+/// Whether it does so by a walk's tree. The box around an oriented one is larger, and takes longer.
+template <class Policy, class Walk, class Shape>
+concept look_in_groups = looks_in_groups<Policy> && has_corners<Shape> && requires(const Walk& walk) { walk.tree; } &&
+    !requires(const Walk& walk) { walk.tree.volume(walk.tree.fetch(0), 0); };
+
+/// For each point in the order of `order`, or in their own if that is null, the nearest shape. There are some points.
+template <class Policy, bvh_layout Tree, class Frame, shape_view Shapes, shape_view Points, class Judge>
+auto nearest_in_groups(const Policy& on, const Tree& tree, const Frame& frame, const Shapes& shapes, const Points& points,
+                       const Judge& judge, const std::uint32_t* order) {
+    using group_type = nearest_to_group<Tree, Frame, Shapes, Points, Judge>;
+    constexpr std::size_t members = group_type::members;
+    const std::size_t n = points.size();
+    execution::buffer_of<Policy, execution::least_value> found(on, n);
+    execution::buffer_of<Policy, std::uint32_t> left(on, n / members + 2);
+    fill(on, left.data(), 1, 0u);
+    group_type look{{tree}, frame, shapes, points, judge, order, n, found.data(), left.data() + 1, left.data(), nullptr};
+    for_each_group(on, n, look);
+    std::uint32_t groups = 0;
+    download(on, left.data(), 1, &groups);
+    look.alone = std::exchange(look.left, nullptr);
+    for_each_group(on, members * members * groups, look);
+    return found;
+}
+
+}  // namespace abut::detail
