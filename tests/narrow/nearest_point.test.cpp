@@ -400,3 +400,23 @@ TEST_CASE("nearest_point: by hand") {
     CHECK(nearest_point(capsule<float>{{{0, 0, 0}, {4, 0, 0}}, 1}, vec{2, 3, 0}) == vec{2, 1, 0});
     static_assert(approachable<triangle<float>> && approachable<capsule<double>> && !approachable<plane<float>>);
 }
+
+TEST_CASE("nearest_point: small triangles where lengths have a large unit") {
+    // Products of four lengths underflow long before squares do.
+    const detail::length_unit<double> own(1), large(0x1p400);
+    double worst = 0;
+    for (std::uint64_t i = 0; i < 2000; ++i) {
+        test::draws d(13, 1, i);
+        const triangle<double> t = any_triangle<double>(d);
+        const vec3<double> p = draw<double>(d, 2);
+        const double square = own.length(own.length(detail::squared_distance(p, t, own)));
+        for (const int e : {-90, -105, -106, -107, -108, -109, -110, -117, -127, -200, -320}) {
+            const double s = std::ldexp(1.0, e);
+            const double small = detail::squared_distance(s * p, times(t, s), large);
+            const double back = std::ldexp(large.length(large.length(small)), -2 * e);
+            if (square > 1e-6) worst = std::max(worst, std::abs(back - square) / square);
+        }
+    }
+    CAPTURE(worst);
+    CHECK(worst < 1e-9);
+}

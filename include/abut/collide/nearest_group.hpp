@@ -84,7 +84,7 @@ struct nearest_to_group {
         const aabb<T> around = box_around(all, [&](unsigned k) { return memory.world[k]; });
         const vec3<T> middle = T(0.5) * around.lower + T(0.5) * around.upper;
         const vec3<T> half = (1 + 8 * unit_roundoff<T>) * greatest(around.upper - middle, middle - around.lower);
-        // What measuring loses to underflow, where lengths have a large unit.
+        // What squares of distances lose to underflow, where lengths have a large unit.
         const T underflow = 4 * square_from(judge.unit, 0);
         const T far_squared = (1 + 16 * unit_roundoff<T>) * dot(half, half) + underflow / slack_of_squares<T>;
         aabb<T> in_frame = around;
@@ -116,7 +116,7 @@ struct nearest_to_group {
         all.each([&](unsigned k) {
             const vec3<T> minus_twice = T(-2) * (memory.world[k] - middle);
             const T limit = memory.corner.at_most + dot(minus_twice, memory.corner.at);
-            memory.points[k] = {minus_twice, limit};
+            memory.points[k] = {minus_twice, least(limit, infinity<T>)};  // not NaN
             memory.passing[k] = memory.mine[k] = 0;
             if (k < there) out[first + k] = {};
         });
@@ -250,7 +250,7 @@ private:
 /// Whether a policy looks so. On a host each point finds its way sooner by itself: there none waits for another.
 template <class Policy>
 inline constexpr bool looks_in_groups = !host_policy<Policy>;
-/// Whether it does so by a walk's tree. The box around an oriented one is larger, and takes longer.
+/// Whether it does so by a walk's tree. In trees of other volumes than boxes (bounded.hpp) each point looks alone.
 template <class Policy, class Walk, class Shape>
 concept look_in_groups = looks_in_groups<Policy> && has_corners<Shape> && requires(const Walk& walk) { walk.tree; } &&
     !requires(const Walk& walk) { walk.tree.volume(walk.tree.fetch(0), 0); };

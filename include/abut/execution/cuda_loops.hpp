@@ -82,8 +82,8 @@ struct candidate_sink {
 };
 
 /// A block is a group, or has some of a warp each, four if their memory has room: each of its threads runs the functor, and
-/// takes its share of each step. Of warps that work by themselves 16 at a time, with 128 registers a thread, were faster than
-/// 24 with 80: these kept in memory what had no room in registers.
+/// takes its share of each step. Of warps that work by themselves each multiprocessor has 16 at a time, with 128 registers a
+/// thread. 24 of them, with 80, were slower: they kept in memory what had no room in registers.
 template <class F>
 inline constexpr unsigned group_block = group_size_of<F> == group_size                        ? group_size
                                         : 4 * sizeof(typename F::shared) <= std::size_t{48} * 1024 ? 4 * subgroup_size

@@ -131,7 +131,8 @@ public:
     }
 
     /// Called by all members in one step: put(number) by those for which `is` is true, with the numbers from `count` on, in
-    /// the order of the members. `count`, which is the same for all, goes on by how many these are.
+    /// the order of the members. `count` goes on by how many these are, and is the same for all when the step ends; within the
+    /// step nothing else may read it.
     ABUT_CALLS_ANY
     template <class Put>
         requires(Size == subgroup_size)
@@ -144,8 +145,8 @@ public:
         if (is) put(count++);
 #endif
     }
-    /// The same for each bit that is set in a member's word: put(number, bit), from the lowest bit up. On a device the first
-    /// of all members come first.
+    /// The same for each bit that is set in a member's word: put(number, bit). A host goes member by member. On a device the
+    /// lowest bits of all members come first, then the second ones, and so on.
     ABUT_CALLS_ANY
     template <class Put>
         requires(Size == subgroup_size)

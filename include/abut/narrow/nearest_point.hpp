@@ -105,14 +105,22 @@ ABUT_HD constexpr vec3<double> foot_on_segment(const vec3<double>& a, const vec3
     return held(foot, least(a, b), greatest(a, b));
 }
 
-/// Whether there is a foot on the face. The weight of c is that of a height, and may be poor; that of b makes up for it
-/// along the triangle, whatever it is.
+/// Whether there is a foot on the face. The weight of c is that of a height, and may be poor; that of b makes up for it along
+/// the triangle, whatever it is. Where the product of four lengths comes near underflow, all lengths are taken 2^300 times.
 ABUT_HD constexpr bool has_foot_on_face(const vec3<double>& a, const vec3<double>& ab, const vec3<double>& ac,
                                         vec3<double>& foot) {
-    const vec3<double> n = plain_cross(ab, ac);
-    const double nn = plain_dot(n, n);
-    if (!(nn > 0)) return false;
-    const double of_c = -plain_dot(plain_cross(n, ab), a) / nn;
+    vec3<double> to_a = a, to_b = ab, n = plain_cross(ab, ac);
+    double nn = plain_dot(n, n);
+    if (!(nn > 0x1p-900)) {
+        const auto larger = [](const vec3<double>& v) {
+            return vec3<double>{plain_product(v.x, 0x1p300), plain_product(v.y, 0x1p300), plain_product(v.z, 0x1p300)};
+        };
+        to_a = larger(a), to_b = larger(ab);
+        n = plain_cross(to_b, larger(ac));
+        nn = plain_dot(n, n);
+        if (!(nn > 0)) return false;
+    }
+    const double of_c = -plain_dot(plain_cross(n, to_b), to_a) / nn;
     if (!(of_c > 0 && of_c < 1)) return false;
     const vec3<double> at_height = plain_step(a, of_c, ac);
     const double of_b = -plain_dot(at_height, ab) / plain_dot(ab, ab);

@@ -16,8 +16,8 @@
 //
 // Rounding. All is computed from x and p, which are differences rounded once, so errors are relative to them and not to
 // where the scene lies. Sums of a few products carry below 16u (|x|^2 + |p|^2), with the roundoff u of T; and the distance
-// as it is measured differs from the true one by less than 2^-48 of it and of the shape's size. `slack` covers both twice
-// over. Underflow, also where denormals are flushed, takes less than 16 of the smallest normal number. Where squares might
+// as it is measured differs from the true one by less than 2^-48 of it and of the shape's size. `slack_of_squares` covers
+// both twice over. Underflow, also where denormals are flushed, takes less than 16 of the smallest normal number. Where squares might
 // overflow there are no bounds.
 
 #include <concepts>
@@ -62,10 +62,10 @@ using seen_corners_of = corners_from<scalar_type_of<S>, corners_of_shape<S>>;
 template <scalar T>
 inline constexpr T slack_of_squares = std::same_as<T, float> ? T(0x1p-17) : T(0x1p-44);
 
-/// The square of the distance from the origin is not below this but for rounding of the corners' squares. No corner is
-/// nearer than the plane across any direction w through the one that comes first along w: min(w.x)^2 / |w|^2, if that is
-/// positive. w is tried where the nearest point is a corner, where it is on an edge, and where it is within. Out of line: on
-/// a device its callers have to fit into the cache of instructions.
+/// The square of the distance from the origin is not below this but for rounding of the corners' squares. For any direction w
+/// all corners lie beyond the plane across w through the corner with the least product w.x, and so does the shape: it is no
+/// nearer than min(w.x) / |w|, if that is positive. Three w are tried: to the nearest corner, to the foot on an edge, and the
+/// normal. Out of line: on a device its callers have to fit into the cache of instructions.
 template <scalar T, int N>
 ABUT_NOINLINE ABUT_HD T least_square_to_hull(const corners_from<T, N> corners) {
     constexpr T tiny = std::same_as<T, float> ? T(0x1p-100) : T(0x1p-900);
@@ -83,12 +83,9 @@ ABUT_NOINLINE ABUT_HD T least_square_to_hull(const corners_from<T, N> corners) {
             other = before;
             aa = square;
         };
-        // The best of them, by a comparison that may be wrong: each of them tells the truth.
-        T most = 0, of_most = 1;
+        T most = 0;
         const auto offer = [&](T along, T square) {
-            if (!(along > tiny && square > tiny && along * along * of_most > most * most * square)) return;
-            most = along;
-            of_most = square;
+            if (along > tiny && square > tiny) most = greatest(along / square * along, most);
         };
         first_if_nearer(b);
         if constexpr (N == 2) {
@@ -99,7 +96,7 @@ ABUT_NOINLINE ABUT_HD T least_square_to_hull(const corners_from<T, N> corners) {
             vec3<T> c = corners.at[2];
             first_if_nearer(c);
             T ab = dot(a, b), ac = dot(a, c);
-            if (ac < ab) {  // what comes first along a, to b
+            if (ac < ab) {  // let b be the one with the lesser product with a
                 const vec3<T> before = b;
                 b = c;
                 c = before;
@@ -113,11 +110,11 @@ ABUT_NOINLINE ABUT_HD T least_square_to_hull(const corners_from<T, N> corners) {
             const T at_a = dot(normal, a), at_b = dot(normal, b), at_c = dot(normal, c);
             offer(greatest(least(at_a, at_b, at_c), -greatest(at_a, at_b, at_c)), dot(normal, normal));
         }
-        return most / of_most * most;
+        return most;
     }
 }
 
-/// A corner, and what the square of the distance to it is not above, both as shape_from_amid says.
+/// A corner, from which c is subtracted, and what the square of the distance to it is not above, without |p|^2.
 template <scalar T>
 struct alignas(4 * sizeof(T)) seen_corner {
     vec3<T> at;

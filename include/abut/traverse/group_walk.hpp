@@ -12,8 +12,8 @@
 
 namespace abut::detail {
 
-/// Nodes wait in memory that the members share. The newest are taken first, as many as there are members for their children;
-/// where room becomes scarce one at a time, so that what waits is bounded by the depth of the tree.
+/// Nodes wait in memory that the members share. The newest are taken first, as many as there are members for their children.
+/// Where this might exceed `room`, one is taken at a time; then no more wait than room + (width - 1) * depth.
 template <bvh_layout Tree>
 struct group_tree_walk {
     using T = typename Tree::scalar_type;
