@@ -258,7 +258,8 @@ struct append_in_groups {
     static constexpr unsigned members = execution::subgroup_size;
     struct shared {
         std::uint32_t listed[members];
-        std::uint32_t times[members];  ///< how often each member was named
+        std::uint32_t named[members];  ///< by which bits each member was
+        std::uint32_t taken[80];       ///< how often each number was, of as many as there are bits
     };
     static constexpr std::size_t parts = 5;
     std::uint64_t* out;
@@ -271,16 +272,18 @@ struct append_in_groups {
         typename Group::template value<std::uint64_t> own;
         group.each([&](unsigned k) {
             own[k] = group.first + k;
-            with.times[k] = with.listed[k] = 0;
+            with.named[k] = with.listed[k] = 0;
         });
+        group.each(0, 80, [&](unsigned k) { with.taken[k] = 0; });
         unsigned listed = 1, bits = 5;
         group.each([&](unsigned k) {
             group.append(listed, own[k] % 3 != 0, [&](unsigned to) { with.listed[to - 1] = static_cast<unsigned>(own[k]); });
         });
         group.each([&](unsigned k) {
             group.append_bits(bits, k, [&](unsigned to, unsigned bit) {
-                if (to < 5 || to >= 85 || (k >> bit & 1) == 0) return;  // 80 bits in all
-                with.times[k] += 1u << bit;
+                if (to < 5 || to >= 85 || bit >= 5) return;
+                with.named[k] += 1u << bit;
+                execution::increment_in_group(&with.taken[to - 5]);
             });
         });
         const double least = group.least([&](unsigned k) { return static_cast<double>((own[k] * 7919) % 1009); });
@@ -288,7 +291,8 @@ struct append_in_groups {
             if (own[k] >= n) return;
             std::uint64_t* const mine = out + parts * own[k];
             mine[0] = with.listed[k];
-            mine[1] = with.times[k];
+            mine[1] = with.named[k];
+            for (const std::uint32_t times : with.taken) mine[1] += times == 1 ? 100 : 0;
             mine[2] = listed;
             mine[3] = bits;
             mine[4] = static_cast<std::uint64_t>(least);
@@ -313,7 +317,7 @@ void check_small_groups(const Policy& on) {
                 if (j % 3 != 0) listed.push_back(j);
                 least = std::min<std::uint64_t>(least, j * 7919 % 1009);
             }
-            const std::uint64_t expected[parts] = {i - first < listed.size() ? listed[i - first] : 0, i - first,
+            const std::uint64_t expected[parts] = {i - first < listed.size() ? listed[i - first] : 0, 8000 + i - first,
                                                    1 + listed.size(), 85, least};
             for (std::size_t k = 0; k < parts; ++k) wrong += written[parts * i + k] != expected[k];
         }

@@ -298,8 +298,8 @@ TEMPLATE_TEST_CASE("nearest_point: triangles, needles and degenerate ones too, a
 }
 
 /// Bounds that are 0 or infinite would pass all else.
-TEMPLATE_TEST_CASE("nearest_point: from far away bounds of distances are close, and boxes along a slope tell more", "",
-                   float, double) {
+TEMPLATE_TEST_CASE("nearest_point: from far away bounds of distances are close, and boxes along a slope tell more", "", float,
+                   double) {
     using T = TestType;
     for (std::uint64_t i = 0; i < 200; ++i) {
         test::draws d(11, 1, i);
@@ -319,6 +319,11 @@ TEMPLATE_TEST_CASE("nearest_point: from far away bounds of distances are close, 
         CHECK(double(seen.most_from({0, 2, 0})) + 1 < 1.0002 * square);
         const detail::seen_corner<T> nearer(vec3<T>{0, -1, 0} - T(0.69) * vec3<T>{h, 0, h}, T(10000), T(1));
         CHECK_FALSE(seen.may_be_nearer({0, 1, 0}, nearer));
+        const aabb<T> two{{p.x, p.y, p.z}, {p.x, p.y + 2, p.z}};
+        const detail::group_reach<T> reach(two, p - T(0.69) * vec3<T>{h, 0, h}, {}, T(0));
+        CHECK_FALSE(reach(bounds(t)));
+        CHECK_FALSE(detail::group_reach<T>(two, p - T(0.69) * vec3<T>{h, 0, h}, {1, T(1), 1}, T(0))(bounds(t)));
+        CHECK(detail::group_reach<T>(two, p - T(0.69) * vec3<T>{h, 0, h}, {1, T(60), 1}, T(0))(bounds(t)));
         CHECK(around_it.are_beyond(T(0.999 * square)));
         auto ball = detail::world_frame<T>{}.ball_around(p);
         CHECK(double(ball.least_in(around<obb<T>>(t))) > 0.9999 * square);
@@ -347,7 +352,7 @@ TEMPLATE_TEST_CASE("nearest_point: scale by powers of two changes no digit, to t
             const T own = dot(from_c, from_c), at_most = seen.most_from(T(-2) * from_c) + own;
             CHECK_FALSE(seen.least_from(T(-2) * from_c) > at_most - own);
             CHECK_FALSE(seen.least_from_point(from_c) > at_most - own);
-            CHECK_FALSE(square > detail::square_in(unit, at_most));
+            CHECK_FALSE(unit.length(unit.length(square)) > double(at_most));
             auto ball = detail::world_frame<T>{unit.length(1)}.ball_around(s * p);
             ball.shrink_to(square);
             CHECK(ball.keeps(ball.least_in(around<obb<T>>(u))));

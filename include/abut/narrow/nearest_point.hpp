@@ -319,12 +319,7 @@ ABUT_HD double squared_distance(const vec3<T>& p, const S& s, const length_unit<
     return plain_dot(way, way);
 }
 
-/// A square of lengths in T as one in its unit.
-template <scalar T>
-ABUT_HD double square_in(const length_unit<T>& unit, T square) {
-    return plain_product(unit.of(square), unit.of(T(1)));
-}
-/// And back, for comparisons: what is lost to underflow is added.
+/// A square in its unit as one of lengths in T, for comparisons: what is lost to underflow is added.
 template <scalar T>
 ABUT_HD T square_from(const length_unit<T>& unit, double square) {
     return static_cast<T>(unit.length(unit.length(square + 4 * smallest_normal<double>)));

@@ -17,8 +17,8 @@
 // Rounding. All is computed from x and p, which are differences rounded once, so errors are relative to them and not to
 // where the scene lies. Sums of a few products carry below 16u (|x|^2 + |p|^2), with the roundoff u of T; and the distance
 // as it is measured differs from the true one by less than 2^-48 of it and of the shape's size. `slack_of_squares` covers
-// both twice over. Underflow, also where denormals are flushed, takes less than 16 of the smallest normal number. Where squares might
-// overflow there are no bounds.
+// both twice over. Underflow, also where denormals are flushed, takes less than 16 of the smallest normal number. Where
+// squares might overflow there are no bounds.
 
 #include <concepts>
 #include <cstdint>
@@ -42,8 +42,7 @@ inline constexpr int corners_of_shape<triangle<T>> = 3;
 
 /// Points whose convex hull a shape is.
 template <class S>
-concept has_corners = corners_of_shape<S> >
-0;
+concept has_corners = (corners_of_shape<S> > 0);
 
 /// The corners as seen from a point.
 template <scalar T, int N>
