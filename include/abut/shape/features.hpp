@@ -37,6 +37,19 @@ struct set_parts {
         made.elements_ = shared_array<edge, Space>(std::move(edges));
         return made;
     }
+    /// The same edges over other vertices.
+    template <scalar T, memory_space Space>
+    static edge_mesh<T, Space> with_points(const edge_mesh<T, Space>& edges, const points<T, Space>& vertices) {
+        edge_mesh<T, Space> made;
+        made.vertices_ = vertices.values_;
+        made.elements_ = edges.elements_;
+        return made;
+    }
+    /// The faces or edges of a set, wherever it lies. Waits for the copy.
+    template <class Set>
+    static auto elements_to_host(const Set& set) {
+        return set.elements_.to_host();
+    }
     template <scalar T, memory_space Space>
     static points<T, Space> points_of(execution::buffer<vec3<T>, Space> values) {
         points<T, Space> made;

@@ -14,9 +14,11 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include <abut/error.hpp>
 #include <abut/execution/buffer.hpp>
 #include <abut/execution/host.hpp>
 #include <abut/shape/check.hpp>
@@ -50,11 +52,15 @@ public:
         if constexpr (std::same_as<space_of<Policy>, Space>) {
             if (size() == 0 || device() == device_of(to)) return *this;
         }
-        std::vector<T> values(size());
-        if (values_) values_->read(values.data());
-        shared_array<T, space_of<Policy>> copy(to, values);
+        shared_array<T, space_of<Policy>> copy(to, to_host());
         synchronize(to);
         return copy;
+    }
+    /// Waits for the copy.
+    [[nodiscard]] std::vector<T> to_host() const {
+        std::vector<T> values(size());
+        if (values_) values_->read(values.data());
+        return values;
     }
 
 private:
@@ -212,6 +218,23 @@ public:
         return {vertices_.data(), vertices_.size(), elements_.data(), elements_.size()};
     }
     [[nodiscard]] int device() const { return elements_.device(); }
+
+    /// A set with the same faces or edges, whose storage it shares, over other vertices, as many: where a mesh is at another
+    /// time. Copies the vertices from host memory to the policy's, checks them there and returns when that is done. Throws
+    /// error for another number of vertices, invalid_geometry, std::bad_alloc, cuda_error.
+    template <execution_policy Policy>
+        requires std::same_as<space_of<Policy>, memory_space>
+    [[nodiscard]] indexed_set with_vertices(const Policy& on, std::span<const vertex> vertices) const {
+        if (vertices.size() != vertices_.size()) {
+            throw error(std::string(kind::name) + ": with_vertices got " + std::to_string(vertices.size()) +
+                        " vertices, expected " + std::to_string(vertices_.size()));
+        }
+        indexed_set moved;
+        moved.vertices_ = detail::shared_array<vertex, memory_space>(on, vertices);
+        moved.elements_ = elements_;
+        detail::check_array(on, moved.view().vertices, kind::name, "vertex");
+        return moved;
+    }
 
     template <execution_policy Policy>
     [[nodiscard]] auto copied_to(const Policy& to) const {

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Does a moving vertex touch a moving triangle, or a moving segment another, at any time of a step? The stages of these two
+// pairs; narrow/time_of_impact.hpp says when. What the last stage needs is more than a device has: it is the host's alone.
+
+#include <cstdint>
+
+#include <abut/arithmetic/arithmetic.hpp>
+#include <abut/arithmetic/exact_stages.hpp>
+#include <abut/predicate/certified_motion.hpp>
+#include <abut/predicate/exact_motion.hpp>
+#include <abut/predicate/exact_triangles.hpp>
+#include <abut/predicate/fast_motion.hpp>
+#include <abut/shape/motion.hpp>
+#include <abut/shape/primitive.hpp>
+
+namespace abut {
+
+namespace detail {
+
+template <scalar T>
+ABUT_HD constexpr moving_points<T> points_of(const motion<vec3<T>>& p, const motion<triangle<T>>& t) {
+    return {{p.t0, t.t0.a, t.t0.b, t.t0.c}, {p.t1, t.t1.a, t.t1.b, t.t1.c}};
+}
+template <scalar T>
+ABUT_HD constexpr moving_points<T> points_of(const motion<segment<T>>& s, const motion<segment<T>>& t) {
+    return {{s.t0.a, s.t0.b, t.t0.a, t.t0.b}, {s.t1.a, s.t1.b, t.t1.a, t.t1.b}};
+}
+
+/// Two features that may meet in motion, in this order; and whether they are edges.
+template <class S, class U>
+inline constexpr bool are_features = false;
+template <scalar T>
+inline constexpr bool are_features<motion<vec3<T>>, motion<triangle<T>>> = true;
+template <scalar T>
+inline constexpr bool are_features<motion<segment<T>>, motion<segment<T>>> = true;
+template <class S>
+inline constexpr bool is_moving_edge = false;
+template <scalar T>
+inline constexpr bool is_moving_edge<motion<segment<T>>> = true;
+
+/// Whether they touch at t = 0, by integers in registers. Not inlined, as decide_in_limbs.
+template <bool Edges, scalar T>
+ABUT_NOINLINE ABUT_HD constexpr verdict touch_at_start(const moving_points<T>& p) {
+    const vec3<T>&a = p.t0[0], &b = p.t0[1], &c = p.t0[2], &d = p.t0[3];
+    if constexpr (Edges) {
+        return decide_in_limbs<triangle_meets_triangle>(in_a_row(a, b, b, c, d, d).value);
+    } else {
+        return decide_in_limbs<triangle_meets_triangle>(in_a_row(a, a, a, b, c, d).value);
+    }
+}
+
+/// The time of impact, a multiple of 2^-40 that is not above it, times 2^40; or -1. On hosts.
+template <bool Edges, scalar T>
+std::int64_t exact_time(const moving_points<T>& p) {
+    T value[24];
+    T* end = value;
+    for (const vec3<T>& at : p.t0) end = append(end, at);
+    for (const vec3<T>& at : p.t1) end = append(end, at);
+    const exact_features features(value);
+    return Edges ? features.edges_meet() : features.vertex_meets_face();
+}
+
+}  // namespace detail
+
+/// One stage of the decision, as of shapes at rest. `exact` knows nothing here: all is left to `resolve`.
+template <arithmetic A, class S, class U>
+    requires detail::are_features<S, U>
+ABUT_HD constexpr verdict decide(const S& s, const U& t) {
+    constexpr bool edges = detail::is_moving_edge<S>;
+    if constexpr (std::same_as<A, exact>) {
+        return verdict::unknown;
+    } else if constexpr (std::same_as<A, filtered>) {
+        return detail::motion_filter<edges>(detail::points_of(s, t)).look_once();
+    } else {
+        return to_verdict(detail::fast_motion<edges, scalar_type_of<S>>(detail::points_of(s, t)).time() >= 0);
+    }
+}
+
+/// What the first stage left: in parts of the step, and at its start in integers.
+template <arithmetic A, class S, class U>
+    requires(std::same_as<A, filtered> && detail::are_features<S, U>)
+ABUT_NOINLINE ABUT_HD constexpr verdict decide_late(const S& s, const U& t) {
+    constexpr bool edges = detail::is_moving_edge<S>;
+    const auto points = detail::points_of(s, t);
+    const detail::motion_filter<edges> filter(points);
+    const verdict v = filter.search(false, detail::shared_coordinates<edges>(points)).touch;
+    if (v != verdict::unknown) return v;
+    return detail::touch_at_start<edges>(points) == verdict::yes ? verdict::yes : verdict::unknown;
+}
+
+/// The last stage: decides every finite input, slowly, on a host.
+template <class S, class U>
+    requires detail::are_features<S, U>
+bool resolve(const S& s, const U& t) {
+    return detail::exact_time<detail::is_moving_edge<S>>(detail::points_of(s, t)) >= 0;
+}
+
+}  // namespace abut
