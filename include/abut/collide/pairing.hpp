@@ -175,6 +175,16 @@ void look(const Policy& on, const Walk& walk, const Rows& rows, const Ids& ids, 
     run([&](const auto& judge, auto&... sinks) { return for_each_candidate(on, rows.size(), each, judge, sinks...); });
 }
 
+/// Judges all pairs of a row and a column, in tiles.
+template <bool RowsAreB, class Policy, class Rows, class Columns, class Ids, class Run>
+void compare(const Policy& on, const Rows& rows, const Columns& columns, const Ids& ids, const Run& run) {
+    run([&](const auto& judge, auto&... sinks) {
+        using judge_type = std::remove_cvref_t<decltype(judge)>;
+        const all_with_all<RowsAreB, Rows, Columns, Ids, judge_type> tile{rows, columns, ids, judge};
+        return for_each_tiled(on, rows.size(), columns.size(), tile, sinks...);
+    });
+}
+
 // What a walk of two trees finds, handed to a policy's emitter. No lambdas: nvcc would warn of emitters of the host.
 
 template <class Emitter>
@@ -216,6 +226,16 @@ struct expand_pair {
         walk.expand(at, add_item<sink>{emitter}, push_pair<RowsAreB, sink, Ids>{emitter, ids});
     }
 };
+
+/// Judges what a walk down trees finds.
+template <traversal Traversal, class Policy, class Expand, class Run>
+void descend(const Policy& on, const Expand& expand, int start_depth, const Run& run) {
+    if constexpr (Traversal == traversal::breadth_first) {
+        for_each_on_levels(on, expand, start_depth, run);
+    } else {
+        run([&](const auto& judge, auto&... sinks) { return for_each_descendant(on, expand, judge, sinks...); });
+    }
+}
 
 /// The walk of two trees for a traversal.
 template <traversal Traversal, class A, class B, class Overlap>
@@ -270,13 +290,7 @@ struct pairing {
             const auto walk = walk_of_both();
             using walk_type = std::remove_const_t<decltype(walk)>;
             if (least > 1 && most <= walk_type::most_shapes) {  // a leaf alone has no place (traverse/pair_walk.hpp)
-                const expand_pair<true, walk_type, view_type> expand{walk, both};
-                if constexpr (Traversal == traversal::breadth_first) {
-                    return for_each_on_levels(on, expand, options.start_depth, run);
-                } else {
-                    return run(
-                        [&](const auto& judge, auto&... sinks) { return for_each_descendant(on, expand, judge, sinks...); });
-                }
+                return descend<Traversal>(on, expand_pair<true, walk_type, view_type>{walk, both}, options.start_depth, run);
             }
         }
         if constexpr (A::is_indexed) {
@@ -302,8 +316,8 @@ private:
     /// Rows of tiles are what runs in parallel, so the larger set provides them; a single shape never does.
     template <class Policy, class Run>
     void compare_all(const Policy& on, const view_type& both, const Run& run) const {
-        const auto rows_a = [&] { compare<false>(on, both.a, both.b, both, run); };
-        const auto rows_b = [&] { compare<true>(on, both.b, both.a, both, run); };
+        const auto rows_a = [&] { detail::compare<false>(on, both.a, both.b, both, run); };
+        const auto rows_b = [&] { detail::compare<true>(on, both.b, both.a, both, run); };
         if constexpr (is_single<view_a>) {
             rows_b();
         } else if constexpr (is_single<view_b>) {
@@ -314,34 +328,36 @@ private:
             a_stays ? rows_b() : rows_a();
         }
     }
-    template <bool RowsAreB, class Policy, class Rows, class Columns, class Run>
-    static void compare(const Policy& on, const Rows& rows, const Columns& columns, const view_type& both, const Run& run) {
-        run([&](const auto& judge, auto&... sinks) {
-            using judge_type = std::remove_cvref_t<decltype(judge)>;
-            const all_with_all<RowsAreB, Rows, Columns, view_type, judge_type> tile{rows, columns, both, judge};
-            return for_each_tiled(on, rows.size(), columns.size(), tile, sinks...);
-        });
-    }
 };
 
-/// Both arguments of a query, ready to be paired; errors are thrown in the name of `function`.
-template <class Policy, class X, class Y, class Filter, traversal Traversal>
-auto pair_up(const Policy& on, const X& x, const Y& y, const query_options<Filter, Traversal>& options,
-             const char* function) {
+/// What is checked before the arguments of a query are: its options.
+template <class Policy, class Filter, traversal Traversal>
+void check_options(const Policy& on, const query_options<Filter, Traversal>& options, const char* function) {
     if (Traversal == traversal::breadth_first && (options.start_depth < 0 || options.start_depth > most_start_depth)) {
         throw error(std::string(function) + ": start_depth is " + std::to_string(options.start_depth) + ", not in 0.." +
                     std::to_string(most_start_depth));
     }
     require_callable(on, options.filter, std::uint32_t{}, std::uint32_t{});
+}
+
+/// Refuses shapes whose functions are the host's, where the policy cannot call them.
+template <class S, class U, class Policy>
+void require_functions_of_shapes(const Policy& on) {
+    if constexpr (decidable<S, U>) {  // or else a pairing says so
+        require_callable(on, functions_of_shapes_have_to_be_marked_ABUT_HD<S, U>{}, static_cast<const S*>(nullptr),
+                         static_cast<const U*>(nullptr));
+    }
+}
+
+/// Both arguments of a query, ready to be paired; errors are thrown in the name of `function`.
+template <class Policy, class X, class Y, class Filter, traversal Traversal>
+auto pair_up(const Policy& on, const X& x, const Y& y, const query_options<Filter, Traversal>& options,
+             const char* function) {
+    check_options(on, options, function);
     auto a = make_operand(on, x, function);
     auto b = make_operand(on, y, function);
     const pair_key key{id_bits(a.shapes().size()), id_bits(b.shapes().size())};
-    using shape_a = typename decltype(a.shapes())::shape_type;
-    using shape_b = typename decltype(b.shapes())::shape_type;
-    if constexpr (decidable<shape_a, shape_b>) {  // or else what follows says so
-        require_callable(on, functions_of_shapes_have_to_be_marked_ABUT_HD<shape_a, shape_b>{},
-                         static_cast<const shape_a*>(nullptr), static_cast<const shape_b*>(nullptr));
-    }
+    require_functions_of_shapes<typename decltype(a.shapes())::shape_type, typename decltype(b.shapes())::shape_type>(on);
     return pairing<decltype(a), decltype(b), Filter, Traversal>{std::move(a), std::move(b), key, options};
 }
 

@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Two trees at once, breadth first: level by level, from all pairs of nodes at a chosen depth on. A step is that of
-// pair_walk.hpp for every item of a level. A first loop counts what the level makes; a scan of the counts says where its
-// items go; a second loop writes them there, and judges the candidates, if there are any: the upper levels have none. So a
-// level is the same on every policy, and each item has its place before it is made.
+// Two trees at once, or one with itself, breadth first: level by level, from all pairs of nodes at a chosen depth on. A step
+// is that of pair_walk.hpp or self_walk.hpp for every item of a level. A first loop counts what the level makes; a scan of
+// the counts says where its items go; a second loop writes them there, and judges the candidates, if there are any: the
+// upper levels have none. So a level is the same on every policy, and each item has its place before it is made.
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include <abut/execution/buffer.hpp>
 #include <abut/execution/work_queue.hpp>
 #include <abut/index/bvh.hpp>
+#include <abut/traverse/self_walk.hpp>
 
 namespace abut::detail {
 
@@ -56,6 +58,20 @@ struct pair_ends {
     std::size_t count_b;
     typename Walk::item* out;
     ABUT_HD void operator()(std::size_t i) const { out[i] = {a.end(paths_a[i / count_b]), b.end(paths_b[i % count_b])}; }
+};
+
+/// All pairs of two ends of paths down one tree, each once, and each end with itself. Seen as hands of a clock, `count` of
+/// them: i with the one that is d ahead, d = 0 ... count / 2, where the last d of an even number has half as many pairs.
+template <class Walk>
+struct pair_own_ends {
+    descent_path<std::remove_cvref_t<decltype(std::declval<Walk>().tree())>> path;
+    const std::uint32_t* paths;
+    std::size_t count;
+    typename Walk::item* out;
+    ABUT_HD void operator()(std::size_t k) const {
+        const std::size_t i = k % count, j = (i + k / count) % count;
+        out[k] = {path.end(paths[i]), path.end(paths[j])};
+    }
 };
 
 /// Takes what a step makes, and counts it.
@@ -143,30 +159,46 @@ descent_path<Tree> path_to_depth(const Tree& tree, int depth) {
     return path;
 }
 
+/// A path to the parents of the nodes at `start_depth`, whose children are compared first.
+template <bvh_layout Tree>
+descent_path<Tree> path_to_start(const Tree& tree, int start_depth) {
+    return path_to_depth(tree, std::max(start_depth - 1, 0));
+}
+
+/// The numbers of the paths that end somewhere.
+template <class Policy, bvh_layout Tree>
+execution::buffer_of<Policy, std::uint32_t> paths_with_ends(const Policy& on, const descent_path<Tree>& path) {
+    std::size_t paths = 1;
+    for (int level = 0; level < path.depth; ++level) paths *= Tree::width;
+    execution::buffer_of<Policy, std::uint32_t> found(on, paths);
+    found.shrink(compact(on, paths, path, found.data()));
+    return found;
+}
+
 /// The pairs of nodes whose children are compared first.
 template <class Policy, class Walk>
 auto begin_at_depth(const Policy& on, const Walk& walk, int start_depth) {
-    using item = typename Walk::item;
-    // Children at start_depth hang at nodes one level up.
-    const int depth = std::max(start_depth - 1, 0);
-    const auto a = path_to_depth(walk.a, depth);
-    const auto b = path_to_depth(walk.b, depth);
-    const auto ends = [&](const auto& path, unsigned width, std::size_t& count) {
-        std::size_t paths = 1;
-        for (int level = 0; level < path.depth; ++level) paths *= width;
-        execution::buffer_of<Policy, std::uint32_t> found(on, paths);
-        count = compact(on, paths, path, found.data());
-        return found;
-    };
-    std::size_t count_a = 0, count_b = 0;
-    const auto paths_a = ends(a, Walk::width_a, count_a), paths_b = ends(b, Walk::width_b, count_b);
-    execution::buffer_of<Policy, item> items(on, count_a * count_b);
-    for_each_index(on, items.size(), pair_ends<Walk>{a, b, paths_a.data(), paths_b.data(), count_b, items.data()});
+    const auto a = path_to_start(walk.a, start_depth);
+    const auto b = path_to_start(walk.b, start_depth);
+    const auto paths_a = paths_with_ends(on, a), paths_b = paths_with_ends(on, b);
+    execution::buffer_of<Policy, typename Walk::item> items(on, paths_a.size() * paths_b.size());
+    for_each_index(on, items.size(), pair_ends<Walk>{a, b, paths_a.data(), paths_b.data(), paths_b.size(), items.data()});
+    return items;
+}
+/// Of one tree with itself.
+template <class Policy, bvh_layout Tree, class Overlap>
+auto begin_at_depth(const Policy& on, const self_walk<Tree, Overlap>& walk, int start_depth) {
+    using walk_type = self_walk<Tree, Overlap>;
+    const auto path = path_to_start(walk.tree(), start_depth);
+    const auto paths = paths_with_ends(on, path);
+    const std::size_t n = paths.size();
+    execution::buffer_of<Policy, typename walk_type::item> items(on, n % 2 == 0 ? n / 2 * (n + 1) : (n + 1) / 2 * n);
+    for_each_index(on, items.size(), pair_own_ends<walk_type>{path, paths.data(), n, items.data()});
     return items;
 }
 
-/// Judges the candidates of two trees: `expand` is a step of pair_walk, and run(loop) runs a loop that judges. Levels of
-/// very many items are taken in parts, the deepest first, so that memory is bounded by the depth of the trees.
+/// Judges the candidates of two trees: `expand` is a step of pair_walk or self_walk, and run(loop) runs a loop that judges.
+/// Levels of very many items are taken in parts, the deepest first, so that memory is bounded by the depth of the trees.
 template <class Policy, class Expand, class Run>
 void for_each_on_levels(const Policy& on, const Expand& expand, int start_depth, const Run& run) {
     using item = typename Expand::item;

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include <abut/traverse/self_walk.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <abut/abut.hpp>
+
+#include "support/catch.hpp"
+#include "support/poses.hpp"
+#include "support/scenes.hpp"
+
+namespace abut::test {
+
+namespace {
+
+using id_pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+/// A walk as a policy takes it.
+template <class Walk>
+struct own_box_pairs {
+    using item = typename Walk::item;
+    using candidate = std::uint64_t;
+    static constexpr unsigned most_children = Walk::most_children, most_depth = Walk::most_depth;
+    Walk walk;
+    std::size_t seeds() const { return walk.seeds(); }
+    void prefetch(const item& at) const { walk.prefetch(at); }
+    item seed(std::size_t i) const { return walk.seed(i); }
+    template <class Emitter>
+    void operator()(const item& at, Emitter&& emitter) const {
+        walk.expand(
+            at, [&](auto k, bool is, const item& next) { emitter.add(k, is, next); },
+            [&](auto k, bool is, std::uint32_t i, std::uint32_t j) {
+                emitter.push(k, is, std::uint64_t{std::min(i, j)} << 32 | std::max(i, j));
+            });
+    }
+};
+struct keep_own {
+    bool operator()(std::uint64_t pair, auto& hits, auto&...) const {
+        hits.push(pair);
+        return true;
+    }
+    void finish(std::uint64_t, auto&...) const { FAIL("nothing is left open"); }
+};
+
+template <class Policy>
+struct run_all {
+    const Policy& on;
+    execution::work_queue<std::uint64_t, host_space>& hits;
+    template <class Loop>
+    void operator()(const Loop& loop) const {
+        loop(keep_own{}, hits);
+    }
+    [[nodiscard]] bool is_over() const { return false; }
+};
+
+template <class Run>
+id_pairs gathered(const Run& run_into) {
+    execution::work_queue<std::uint64_t, host_space> hits(serial{});
+    run_into(hits);
+    id_pairs seen;
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        seen.emplace_back(static_cast<std::uint32_t>(hits.data()[i] >> 32), static_cast<std::uint32_t>(hits.data()[i]));
+    }
+    std::sort(seen.begin(), seen.end());
+    return seen;
+}
+
+/// What a walk finds on each policy, from the root and from every depth, is what a plain loop over all boxes finds, each
+/// pair once.
+template <class T, class Tree, class Overlap>
+std::size_t check_self_walk(const std::vector<triangle<T>>& shapes, const Tree& tree, const Overlap& overlap) {
+    id_pairs expected;
+    for (std::uint32_t i = 0; i < shapes.size(); ++i) {
+        for (std::uint32_t j = i + 1; j < shapes.size(); ++j) {
+            const auto a = bounds(shapes[i]), b = bounds(shapes[j]);
+            if (overlap(a, b) && overlap(b, a)) expected.emplace_back(i, j);
+        }
+    }
+    using walk_type = detail::self_walk<typename Tree::view_type, Overlap>;
+    const own_box_pairs<walk_type> expand{{tree.view(), overlap}};
+    const auto check_on = [&](const auto& on) {
+        CAPTURE(shapes.size());
+        CHECK(gathered([&](auto& hits) { for_each_descendant(on, expand, keep_own{}, hits); }) == expected);
+        for (const int depth : {0, 1, 2, 3, 5, most_start_depth}) {
+            CAPTURE(depth);
+            CHECK(gathered([&](auto& hits) {
+                      detail::for_each_on_levels(on, expand, depth, run_all<std::decay_t<decltype(on)>>{on, hits});
+                  }) == expected);
+        }
+    };
+    check_on(serial{});
+    check_on(openmp{3});
+    return expected.size();
+}
+
+/// Binary trees and wide ones.
+template <class T, class Overlap>
+std::size_t check_self_walk(const std::vector<triangle<T>>& shapes, const Overlap& overlap) {
+    const auto tree = make_bvh(serial{}, triangle_soup<T>(shapes));
+    check_self_walk(shapes, wide(serial{}, tree), overlap);
+    return check_self_walk(shapes, tree, overlap);
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("a tree with itself: each pair of leaves whose boxes overlap, once", "", float, double) {
+    using T = TestType;
+    uniform random(20270114);
+    std::size_t pairs = 0;
+    for (const std::size_t n : {2, 3, 4, 5, 6, 7, 8, 9, 17, 60, 700}) {
+        pairs += check_self_walk(random_triangles<T>(n, random), detail::same_frame{});
+    }
+    CHECK(pairs > 2'500);
+    // All triangles in one place: a tree as deep as one gets, and every pair.
+    const std::vector<triangle<T>> same(200, triangle<T>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+    CHECK(check_self_walk(same, detail::same_frame{}) == 200 * 199 / 2);
+    // Chains: each box overlaps its neighbours alone.
+    std::vector<triangle<T>> chain;
+    for (int i = 0; i < 300; ++i) {
+        const T x = static_cast<T>(i);
+        chain.push_back({{x, 0, 0}, {x + 1, 0, 0}, {x, 1, 0}});
+    }
+    CHECK(check_self_walk(chain, detail::same_frame{}) == 299);
+    // A tree that is a list: far more levels than one of that many leaves needs, so that paths end in leaves.
+    std::vector<triangle<T>> list;
+    for (T x = 1; list.size() < 40; x *= 2) list.push_back({{x, 0, 0}, {2 * x, 0, 0}, {x, x, 0}});
+    CHECK(check_self_walk(list, detail::same_frame{}) == 39);
+}
+
+}  // namespace abut::test
