@@ -4,8 +4,9 @@
 // All of abut for the serial and OpenMP policies. Nothing is needed but a C++20 compiler. <abut/cuda.hpp> adds CUDA.
 
 #include <abut/arithmetic/self_test.hpp>
-#include <abut/collide/list.hpp>
 #include <abut/collide/contacts.hpp>
+#include <abut/collide/impacts.hpp>
+#include <abut/collide/list.hpp>
 #include <abut/collide/nearest.hpp>
 #include <abut/collide/query.hpp>
 #include <abut/collide/reduce_contacts.hpp>
@@ -23,8 +24,10 @@
 #include <abut/index/wide.hpp>
 #include <abut/narrow/contact.hpp>
 #include <abut/narrow/nearest_point.hpp>
+#include <abut/narrow/time_of_impact.hpp>
 #include <abut/predicate/intersects.hpp>
 #include <abut/shape/features.hpp>
+#include <abut/shape/motion.hpp>
 #include <abut/shape/posed.hpp>
 #include <abut/shape/set.hpp>
 #include <abut/shape/volume.hpp>

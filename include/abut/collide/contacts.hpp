@@ -58,25 +58,6 @@ struct is_not_sideways {
     }
 };
 
-template <class Contact>
-struct gather_contacts {
-    const Contact* from;
-    const std::uint64_t* which;
-    Contact* out;
-    ABUT_HD void operator()(std::size_t i) const { out[i] = from[which[i]]; }
-};
-
-/// The contacts with test(i), in their order.
-template <class Policy, class Contact, class Test>
-auto contacts_with(const Policy& on, const result<Contact, space_of<Policy>>& all, const Test& test) {
-    execution::buffer_of<Policy, std::uint64_t> which(on, all.size());
-    const std::size_t n = compact(on, all.size(), test, which.data());
-    execution::buffer_of<Policy, Contact> kept(on, n);
-    for_each_index(on, n, gather_contacts<Contact>{all.data(), which.data(), kept.data()});
-    synchronize(on);
-    return result<Contact, space_of<Policy>>(std::move(kept));
-}
-
 /// The contacts of any pairing, of two arguments or of a list.
 template <arithmetic A, class Policy, class Pairing>
 auto contacts_of(const Policy& on, const Pairing& pairing, bool discard_sideways) {
@@ -87,7 +68,7 @@ auto contacts_of(const Policy& on, const Pairing& pairing, bool discard_sideways
     if constexpr (share_lines<typename view::shape_type_a, typename view::shape_type_b>) {
         using found = typename decltype(all)::value_type;
         if (discard_sideways) {
-            return contacts_with(on, all, is_not_sideways<view, found>{pairing.view(), keys.data(), all.data()});
+            return answers_with(on, all, is_not_sideways<view, found>{pairing.view(), keys.data(), all.data()});
         }
     }
     return all;

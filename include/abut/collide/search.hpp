@@ -160,4 +160,23 @@ auto answers_to(const Policy& on, const Pairing& pairing, const Judge& judge,
     return result<answer, space_of<Policy>>(std::move(answers));
 }
 
+template <class Answer>
+struct gather_answers {
+    const Answer* from;
+    const std::uint64_t* which;
+    Answer* out;
+    ABUT_HD void operator()(std::size_t i) const { out[i] = from[which[i]]; }
+};
+
+/// The answers i with test(i), in their order.
+template <class Policy, class Answer, class Test>
+auto answers_with(const Policy& on, const result<Answer, space_of<Policy>>& all, const Test& test) {
+    execution::buffer_of<Policy, std::uint64_t> which(on, all.size());
+    const std::size_t n = compact(on, all.size(), test, which.data());
+    execution::buffer_of<Policy, Answer> kept(on, n);
+    for_each_index(on, n, gather_answers<Answer>{all.data(), which.data(), kept.data()});
+    synchronize(on);
+    return result<Answer, space_of<Policy>>(std::move(kept));
+}
+
 }  // namespace abut::detail

@@ -1,0 +1,402 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// impacts, self_impacts, first_impact: continuous collision. Which vertices of one mesh in motion meet which faces of another,
+// which edges meet which edges, and when.
+//
+// Features have trees of their own: faces, in which vertices look, and edges. So each pair of features is met once, and nothing
+// has to be left out because another pair of triangles has it too. A search (search.hpp) leaves pairs that touch, and the few
+// that registers cannot decide; what reads both again and writes the time of each pair leaves those out that do not touch.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <abut/collide/query.hpp>
+#include <abut/collide/self_pairing.hpp>
+#include <abut/index/lbvh.hpp>
+#include <abut/index/refit.hpp>
+#include <abut/narrow/time_of_impact.hpp>
+#include <abut/shape/motion.hpp>
+
+namespace abut {
+
+/// Which features meet: a vertex of the first mesh and a face of the second, a face of the first and a vertex of the second,
+/// or two edges.
+enum class feature_pair : unsigned char { vertex_face, face_vertex, edge_edge };
+
+/// Two features that meet. `vertices` are the vertex and the three of the face, in their order; or the two of the first
+/// mesh's edge, the smaller first, and the two of the other. In self queries faces never come first, and the smaller edge
+/// does. `time` is the earliest in [0, 1] at which they touch; it is a double also of meshes in float.
+template <scalar T>
+struct impact {
+    using scalar_type = T;
+    feature_pair kind;
+    std::array<std::uint32_t, 4> vertices;
+    double time;
+
+    friend constexpr bool operator==(const impact&, const impact&) = default;
+};
+
+/// Options of `impacts`, `self_impacts` and `first_impact`.
+struct impact_options {
+    /// By kind, then by the first feature's number, then by the second's: vertices and faces by their ids, edges in the order
+    /// of their vertices. Without it the order is any, and may differ from call to call.
+    bool sorted = true;
+    /// Of `conservative` alone.
+    conservative_bounds bounds = {};
+};
+
+/// A mesh in motion with what `impacts` looks in: its edges, and a tree over the faces and one over the edges, over the whole
+/// step. Made by make_impact_index; `refit` brings it to the next step. Immutable; copies share everything.
+template <scalar T, memory_space Space>
+class impact_index {
+public:
+    using scalar_type = T;
+    using memory_space = Space;
+    using mesh_type = moving_set<abut::mesh<T, Space>>;
+    using edges_type = moving_set<edge_mesh<T, Space>>;
+
+    impact_index(bvh<mesh_type, Space> faces, bvh<edges_type, Space> edges)
+        : faces_(std::move(faces)), edges_(std::move(edges)) {}
+
+    /// Number of faces.
+    [[nodiscard]] std::size_t size() const { return faces_.size(); }
+    [[nodiscard]] int device() const { return faces_.device(); }
+    [[nodiscard]] const mesh_type& mesh() const { return faces_.set(); }
+    [[nodiscard]] const bvh<mesh_type, Space>& faces() const { return faces_; }
+    [[nodiscard]] const bvh<edges_type, Space>& edges() const { return edges_; }
+
+private:
+    bvh<mesh_type, Space> faces_;
+    bvh<edges_type, Space> edges_;
+};
+
+/// An index of a mesh in motion, or of one at rest, in the policy's memory. Returns when it is there. Throws as `edges` and
+/// make_bvh do.
+template <execution_policy Policy, scalar T, memory_space Space>
+[[nodiscard]] impact_index<T, space_of<Policy>> make_impact_index(const Policy& on, const moving_set<mesh<T, Space>>& set,
+                                                                  const bvh_options& options = {}) {
+    const auto resident = detail::make_resident(on, set, "abut::make_impact_index");
+    return {make_bvh(on, resident, options), make_bvh(on, edges(on, resident), options)};
+}
+template <execution_policy Policy, scalar T, memory_space Space>
+[[nodiscard]] auto make_impact_index(const Policy& on, const mesh<T, Space>& at_rest, const bvh_options& options = {}) {
+    return make_impact_index(on, moving_set<mesh<T, Space>>(at_rest, at_rest), options);
+}
+
+/// The index of another step of the same mesh: its trees have the topology of `index`, its boxes are those of `set`, which has
+/// the same faces. Returns when it is there. Results are right however far the mesh has moved; `quality` of the trees tells when
+/// to make a new index. Throws error for other faces, and as `refit` of a tree does.
+template <execution_policy Policy, scalar T, memory_space Space, memory_space From>
+[[nodiscard]] impact_index<T, Space> refit(const Policy& on, const impact_index<T, Space>& index,
+                                           const moving_set<mesh<T, From>>& set) {
+    constexpr const char* function = "abut::refit";
+    const auto resident = detail::make_resident(on, set, function);
+    detail::check_motion_sizes(index.mesh().t0().view(), resident.t0().view(), function);
+    detail::check_elements(on, index.mesh().t0().view(), resident.t0().view(), function);
+    const auto& old = index.edges().set().t0();
+    const auto edges_at = [&](const mesh<T, Space>& at) { return detail::set_parts::with_points(old, vertices(at)); };
+    const moving_set<edge_mesh<T, Space>> edges(edges_at(resident.t0()), edges_at(resident.t1()));
+    return {refit(on, index.faces(), resident), refit(on, index.edges(), edges)};
+}
+
+namespace detail {
+
+/// A judge of two features in motion. It lets pass what registers cannot decide: the time will tell.
+template <motion_arithmetic A>
+struct touch_in_motion {
+    conservative_bounds bounds;
+
+    template <class S, class U>
+    ABUT_HD verdict decide(const S& s, const U& t) const {
+        if constexpr (!are_features<S, U>) {
+            return (*this).decide(t, s);
+        } else if constexpr (arithmetic<A>) {
+            using abut::decide;
+            return decide<A>(s, t);
+        } else {
+            if (bounds.separation > 0) return verdict::unknown;
+            const verdict v = abut::decide<filtered>(s, t);
+            return v == verdict::no ? v : verdict::unknown;
+        }
+    }
+    template <class S, class U>
+    ABUT_HD verdict finish(const S& s, const U& t) const {
+        if constexpr (!are_features<S, U>) {
+            return (*this).finish(t, s);
+        } else if constexpr (std::same_as<A, filtered>) {
+            return decide_late<filtered>(s, t) == verdict::no ? verdict::no : verdict::yes;
+        } else if constexpr (std::same_as<A, conservative>) {
+            return to_verdict(time_in_registers<A, is_moving_edge<S>>(points_of(s, t), bounds) >= 0);
+        } else {
+            return verdict::yes;
+        }
+    }
+    template <class S, class U>
+    bool resolve(const S&, const U&) const {
+        return true;
+    }
+};
+
+/// Pairs of ids that have no vertex in common.
+struct share_no_vertex_with_face {
+    strided<face> faces;
+    ABUT_HD bool operator()(std::uint32_t v, std::uint32_t f) const {
+        const std::uint32_t* const corner = corners_at(faces, f);
+        return v != corner[0] && v != corner[1] && v != corner[2];
+    }
+};
+struct share_no_vertex_with_edge {
+    strided<edge> edges;
+    ABUT_HD bool operator()(std::uint32_t i, std::uint32_t j) const {
+        const std::uint32_t *const a = corners_at(edges, i), *const b = corners_at(edges, j);
+        return a[0] != b[0] && a[0] != b[1] && a[1] != b[0] && a[1] != b[1];
+    }
+};
+
+/// Two features of one kind that are asked about their pairs: a pairing, and how its ids name vertices.
+template <feature_pair Kind, class Pairing>
+struct pairing_of_features {
+    static constexpr feature_pair kind = Kind;
+    Pairing pairing;
+    strided<face> faces;
+    strided<edge> edges_a, edges_b;
+};
+
+/// What a kernel sees of one.
+template <feature_pair Kind, class View>
+struct view_of_features {
+    using T = typename View::shape_type_a::scalar_type;
+    static constexpr bool are_edges = Kind == feature_pair::edge_edge;
+    View both;
+    strided<face> faces;
+    strided<edge> edges_a, edges_b;
+    const std::uint64_t* keys;
+
+    [[nodiscard]] ABUT_HD moving_points<T> points(std::size_t i) const {
+        if constexpr (Kind == feature_pair::face_vertex) {
+            return points_of(both.shape_b(keys[i]), both.shape_a(keys[i]));
+        } else {
+            return points_of(both.shape_a(keys[i]), both.shape_b(keys[i]));
+        }
+    }
+    ABUT_HD void write_names(std::size_t i, impact<T>& made) const {
+        const std::uint32_t a = both.key.a(keys[i]), b = both.key.b(keys[i]);
+        auto* const v = reinterpret_cast<std::uint32_t*>(&made.vertices);
+        made.kind = Kind;
+        if constexpr (are_edges) {
+            const std::uint32_t *const of_a = corners_at(edges_a, a), *const of_b = corners_at(edges_b, b);
+            v[0] = of_a[0], v[1] = of_a[1], v[2] = of_b[0], v[3] = of_b[1];
+        } else {
+            constexpr bool vertex_first = Kind == feature_pair::vertex_face;
+            const std::uint32_t* const corner = corners_at(faces, vertex_first ? b : a);
+            v[0] = vertex_first ? a : b, v[1] = corner[0], v[2] = corner[1], v[3] = corner[2];
+        }
+    }
+};
+
+/// Writes impact i, and hands on i where its time is not known, or where there is none.
+template <motion_arithmetic A, bool OnHost, class View>
+struct write_impact {
+    using T = typename View::T;
+    View features;
+    conservative_bounds bounds;
+    impact<T>* out;
+
+    template <class Sink>
+    ABUT_HD void operator()(std::size_t i, Sink& open) const {
+        features.write_names(i, out[i]);
+        if constexpr (OnHost) {
+            out[i].time = time_on_host<A, View::are_edges>(features.points(i), bounds);
+        } else {
+            out[i].time = time_in_registers<A, View::are_edges>(features.points(i), bounds);
+        }
+        if (out[i].time < 0) open.push(i);
+    }
+};
+
+/// What a device could not decide, on its way to the host; and what the host says.
+template <class View>
+struct fetch_points {
+    View features;
+    const std::uint64_t* which;
+    moving_points<typename View::T>* out;
+    ABUT_HD void operator()(std::size_t i) const { out[i] = features.points(which[i]); }
+};
+template <scalar T>
+struct set_time {
+    const std::uint64_t* which;
+    const double* times;
+    impact<T>* out;
+    ABUT_HD void operator()(std::size_t i) const { out[which[i]].time = times[i]; }
+};
+
+template <scalar T>
+struct is_impact {
+    const impact<T>* all;
+    ABUT_HD bool operator()(std::size_t i) const { return all[i].time >= 0; }
+};
+
+/// Writes the impacts of pairs that were found. Returns whether some of these are none.
+template <motion_arithmetic A, class Policy, class View>
+bool write_impacts(const Policy& on, const View& features, std::size_t count, const conservative_bounds& bounds,
+                   impact<typename View::T>* out) {
+    using T = typename View::T;
+    key_queue<Policy> open(on, 1024);
+    for_each_index(on, count, write_impact<A, host_policy<Policy>, View>{features, bounds, out}, open);
+    const std::size_t n = open.size();
+    if (host_policy<Policy> || n == 0) return n > 0;
+    std::vector<moving_points<T>> points(n);
+    std::vector<double> times(n);
+    execution::buffer_of<Policy, moving_points<T>> gathered(on, n);
+    for_each_index(on, n, fetch_points<View>{features, open.data(), gathered.data()});
+    download(on, gathered.data(), n, points.data());
+    bool some_are_none = false;
+    for (std::size_t i = 0; i < n; ++i) {
+        times[i] = time_on_host<A, View::are_edges>(points[i], bounds);
+        some_are_none |= times[i] < 0;
+    }
+    execution::buffer_of<Policy, double> there(on, n);
+    upload(on, times.data(), n, there.data());
+    for_each_index(on, n, set_time<T>{open.data(), there.data(), out});
+    synchronize(on);  // before what is uploaded is gone
+    return some_are_none;
+}
+
+/// The impacts of pairings of features, one after another.
+template <motion_arithmetic A, scalar T, class Policy, class... Pairings>
+auto impacts_of(const Policy& on, const impact_options& options, const Pairings&... features) {
+    using execution::buffer_of;
+    const touch_in_motion<A> judge{options.bounds};
+    const buffer_of<Policy, std::uint64_t> keys[] = {find_keys(on, features.pairing, judge)...};
+    std::size_t total = 0;
+    for (const auto& some : keys) total += some.size();
+    buffer_of<Policy, impact<T>> all(on, total);
+    bool some_are_none = false;
+    std::size_t first = 0, k = 0;
+    const auto write = [&](const auto& of) {
+        const auto both = of.pairing.view();
+        using view = view_of_features<std::remove_cvref_t<decltype(of)>::kind, std::remove_const_t<decltype(both)>>;
+        const view seen{both, of.faces, of.edges_a, of.edges_b, keys[k].data()};
+        some_are_none |= write_impacts<A>(on, seen, keys[k].size(), options.bounds, all.data() + first);
+        first += keys[k++].size();
+    };
+    (write(features), ...);
+    result<impact<T>, space_of<Policy>> found(std::move(all));
+    return some_are_none ? answers_with(on, found, is_impact<T>{found.data()}) : std::move(found);
+}
+
+/// What `x` is to an impact query: an index, if need be made for the query.
+template <class Policy, class X>
+auto impact_operand(const Policy& on, const X& x, const char* function) {
+    if constexpr (requires {
+                      x.faces();
+                      x.edges();
+                  }) {
+        static_assert(std::same_as<typename X::memory_space, space_of<Policy>>,
+                      "abut: the index lies in other memory than the policy works in; make it with the same policy");
+        require_same_device(on, x, function);
+        return x;
+    } else {
+        return make_impact_index(on, x);
+    }
+}
+
+template <feature_pair Kind, class Pairing>
+pairing_of_features<Kind, Pairing> features_of(Pairing pairing, strided<face> faces, strided<edge> edges_a, strided<edge> edges_b) {
+    return {std::move(pairing), faces, edges_a, edges_b};
+}
+
+/// The earliest impact, and of equal ones the first.
+struct time_and_place {
+    double time;
+    std::size_t place;
+};
+struct earlier_of {
+    ABUT_HD time_and_place operator()(const time_and_place& a, const time_and_place& b) const {
+        return b.time < a.time || (b.time == a.time && b.place < a.place) ? b : a;
+    }
+};
+template <scalar T>
+struct time_of_impact_at {
+    const impact<T>* all;
+    ABUT_HD time_and_place operator()(std::size_t i) const { return {all[i].time, i}; }
+};
+
+template <class Policy, scalar T>
+std::optional<impact<T>> first_of(const Policy& on, const result<impact<T>, space_of<Policy>>& all) {
+    const time_and_place first =
+        reduce(on, all.size(), time_and_place{infinity<double>, all.size()}, earlier_of{}, time_of_impact_at<T>{all.data()});
+    if (first.place == all.size()) return std::nullopt;
+    impact<T> found;
+    download(on, all.data() + first.place, 1, &found);
+    return found;
+}
+
+}  // namespace detail
+
+/// All pairs of a vertex of one mesh and a face of the other, and of two edges, that touch during the step, each once, with
+/// the earliest time at which they do. `a` and `b` are meshes in motion (`moving`), meshes at rest, or indices of either
+/// (make_impact_index). In the policy's memory, 32 bytes each; sorted as impact_options says.
+///
+/// With `filtered`, the default, and `exact` no pair is missed and none is invented, for every finite input, degenerate and
+/// coplanar motion as well; times are never later than the true ones and within 10^-12 of them. The same bits on every
+/// policy. `fast` promises nothing. `conservative` misses none, and tells within its bounds when they come near. Two meshes
+/// that intersect all the time without a contact of such features, as one inside the other, have no impact.
+///
+/// Returns when the answer is there. Throws invalid_geometry, error (an index on another device), capacity_error,
+/// std::bad_alloc and cuda_error.
+///
+///     const auto step = abut::moving(cloth_t0, cloth_t1);
+///     for (const auto& i : to_host(abut::impacts(on, step, ball))) use(i.kind, i.vertices, i.time);
+template <motion_arithmetic A = filtered, execution_policy Policy, class X, class Y>
+[[nodiscard]] auto impacts(const Policy& on, const X& a, const Y& b, const impact_options& options = {}) {
+    using namespace detail;
+    constexpr const char* function = "abut::impacts";
+    const auto x = impact_operand(on, a, function);
+    const auto y = impact_operand(on, b, function);
+    using T = typename decltype(x)::scalar_type;
+    static_assert(std::same_as<T, typename decltype(y)::scalar_type>,
+                  "abut: both sides of a query need the same scalar type, float or double");
+    const auto faces_x = x.mesh().t0().view().faces, faces_y = y.mesh().t0().view().faces;
+    const auto edges_x = x.edges().set().t0().view().edges, edges_y = y.edges().set().t0().view().edges;
+    const query_options<> query{.sorted = options.sorted};
+    return impacts_of<A, T>(
+        on, options,
+        features_of<feature_pair::vertex_face>(pair_up(on, vertices(x.mesh()), y.faces(), query, function), faces_y, {}, {}),
+        features_of<feature_pair::face_vertex>(pair_up(on, x.faces(), vertices(y.mesh()), query, function), faces_x, {}, {}),
+        features_of<feature_pair::edge_edge>(pair_up(on, x.edges(), y.edges(), query, function), {}, edges_x, edges_y));
+}
+
+/// The impacts of one mesh with itself: of all pairs that have no vertex index in common. Vertices that coincide in place but not
+/// by index touch. `x` is a mesh in motion, or an index of one. Otherwise as `impacts`.
+template <motion_arithmetic A = filtered, execution_policy Policy, class X>
+[[nodiscard]] auto self_impacts(const Policy& on, const X& x, const impact_options& options = {}) {
+    using namespace detail;
+    constexpr const char* function = "abut::self_impacts";
+    const auto index = impact_operand(on, x, function);
+    using T = typename decltype(index)::scalar_type;
+    const auto faces = index.mesh().t0().view().faces;
+    const auto edges = index.edges().set().t0().view().edges;
+    const query_options<share_no_vertex_with_face> with_faces{.sorted = options.sorted, .filter = {faces}};
+    const query_options<share_no_vertex_with_edge> with_edges{.sorted = options.sorted, .filter = {edges}};
+    return impacts_of<A, T>(on, options,
+                            features_of<feature_pair::vertex_face>(
+                                pair_up(on, vertices(index.mesh()), index.faces(), with_faces, function), faces, {}, {}),
+                            features_of<feature_pair::edge_edge>(pair_up_self(on, index.edges(), with_edges, function), {}, edges,
+                                                                 edges));
+}
+
+/// The earliest of the impacts, or none: of several at one time, the first in their order.
+template <motion_arithmetic A = filtered, execution_policy Policy, class X, class Y>
+[[nodiscard]] auto first_impact(const Policy& on, const X& a, const Y& b, impact_options options = {}) {
+    options.sorted = true;
+    return detail::first_of(on, impacts<A>(on, a, b, options));
+}
+
+}  // namespace abut
