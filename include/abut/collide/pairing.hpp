@@ -239,12 +239,12 @@ auto box_overlap(const A& a, const B& b) {
 }
 
 /// Two operands that are asked about their pairs.
-template <operand A, operand B, class Filter, traversal Traversal>
+template <operand A, operand B, class Filter, traversal Traversal, schedule Schedule>
 struct pairing {
     A a;
     B b;
     pair_key key;
-    query_options<Filter, Traversal> options;
+    query_options<Filter, Traversal, Schedule> options;
 
     using view_a = decltype(std::declval<const A&>().shapes());
     using view_b = decltype(std::declval<const B&>().shapes());
@@ -274,8 +274,10 @@ struct pairing {
                 if constexpr (Traversal == traversal::breadth_first) {
                     return for_each_on_levels(on, expand, options.start_depth, run);
                 } else {
-                    return run(
-                        [&](const auto& judge, auto&... sinks) { return for_each_descendant(on, expand, judge, sinks...); });
+                    const execution::scheduled<Schedule> how{options.scheduling};
+                    return run([&](const auto& judge, auto&... sinks) {
+                        return for_each_descendant(on, how, expand, judge, sinks...);
+                    });
                 }
             }
         }
@@ -325,8 +327,8 @@ private:
 };
 
 /// Both arguments of a query, ready to be paired; errors are thrown in the name of `function`.
-template <class Policy, class X, class Y, class Filter, traversal Traversal>
-auto pair_up(const Policy& on, const X& x, const Y& y, const query_options<Filter, Traversal>& options,
+template <class Policy, class X, class Y, class Filter, traversal Traversal, schedule Schedule>
+auto pair_up(const Policy& on, const X& x, const Y& y, const query_options<Filter, Traversal, Schedule>& options,
              const char* function) {
     if (Traversal == traversal::breadth_first && (options.start_depth < 0 || options.start_depth > most_start_depth)) {
         throw error(std::string(function) + ": start_depth is " + std::to_string(options.start_depth) + ", not in 0.." +
@@ -342,7 +344,7 @@ auto pair_up(const Policy& on, const X& x, const Y& y, const query_options<Filte
         require_callable(on, functions_of_shapes_have_to_be_marked_ABUT_HD<shape_a, shape_b>{},
                          static_cast<const shape_a*>(nullptr), static_cast<const shape_b*>(nullptr));
     }
-    return pairing<decltype(a), decltype(b), Filter, Traversal>{std::move(a), std::move(b), key, options};
+    return pairing<decltype(a), decltype(b), Filter, Traversal, Schedule>{std::move(a), std::move(b), key, options};
 }
 
 }  // namespace abut::detail
