@@ -84,6 +84,15 @@ struct keep_some {
         hits.push(candidate);
     }
 };
+struct count_always {
+    template <class Count>
+    ABUT_HD bool operator()(std::uint64_t, Count& count) const {
+        count.add(1);
+        return true;
+    }
+    template <class Count>
+    ABUT_HD void finish(std::uint64_t, Count&) const {}
+};
 struct raise_at {
     std::size_t where;
     ABUT_CALLS_ANY

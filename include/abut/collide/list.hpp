@@ -49,8 +49,9 @@ struct keep_all_tagged {
     ABUT_HD constexpr bool operator()(tagged_pair) const { return true; }
 };
 
-/// Options of queries of a list; with a filter write `list_options<my_filter>{.filter = my_filter{...}}`.
-template <class Filter = keep_all_tagged>
+/// Options of queries of a list; with a filter write `list_options<my_filter>{.filter = my_filter{...}}`. The schedule is that of
+/// query_options; entries of a tree of one shape have none.
+template <class Filter = keep_all_tagged, schedule Schedule = schedule::shared_list>
 struct list_options {
     /// Results sorted by pair, then a, then b. Without it the order is any, and may differ from call to call.
     bool sorted = true;
@@ -60,6 +61,8 @@ struct list_options {
     std::uint64_t most_pairs = std::uint64_t{1} << 18;
     /// Of contacts alone; as in contact_options.
     bool discard_sideways = false;
+    /// As in query_options.
+    schedule_options scheduling = {};
 };
 
 namespace detail {
@@ -200,7 +203,7 @@ struct expand_member {
 };
 
 /// A list that is asked about the pairs of its entries; the counterpart of `pairing`.
-template <class Policy, class IndexA, class IndexB, class Filter>
+template <class Policy, class IndexA, class IndexB, class Filter, schedule Schedule>
 struct list_pairing {
     using member = list_member<typename IndexA::view_type, typename IndexB::view_type,
                                decltype(view_of(std::declval<const IndexA&>().set())),
@@ -211,7 +214,7 @@ struct list_pairing {
                   "abut: queries between sets of these two shapes are not supported");
 
     const std::vector<posed_pair<IndexA, IndexB>>& list;
-    list_options<Filter> options;
+    list_options<Filter, Schedule> options;
     list_key key;
     execution::buffer_of<Policy, member> members;
     execution::buffer_of<Policy, std::uint32_t> walked;  ///< entries of which both trees have nodes
@@ -227,7 +230,8 @@ struct list_pairing {
     template <class Run>
     void judge_candidates(const Policy& on, const Run& run) const {
         const expand step{view(), walked.data(), walked.size()};
-        run([&](const auto& judge, auto&... sinks) { return for_each_descendant(on, step, judge, sinks...); });
+        const execution::scheduled<Schedule> how{options.scheduling};
+        run([&](const auto& judge, auto&... sinks) { return for_each_descendant(on, how, step, judge, sinks...); });
         // Trees of one shape have no nodes to walk: what b has looks in a.
         for (const std::uint32_t i : rest) {
             const auto& [a, b] = list[i];
@@ -265,15 +269,15 @@ template <class Set, memory_space Space, class Layout>
 inline constexpr bool is_tree<bvh<Set, Space, Layout>> = true;
 
 /// A list, ready to be asked, as long as it lives; errors are thrown in the name of `function`.
-template <class Policy, class IndexA, class IndexB, class Filter>
-auto pair_up(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list, const list_options<Filter>& options,
-             const char* function) {
+template <class Policy, class IndexA, class IndexB, class Filter, schedule Schedule>
+auto pair_up(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
+             const list_options<Filter, Schedule>& options, const char* function) {
     static_assert(is_tree<IndexA> && is_tree<IndexB>, "abut: a list of pairs holds indices made by make_bvh");
     static_assert(std::same_as<typename IndexA::memory_space, space_of<Policy>> &&
                       std::same_as<typename IndexB::memory_space, space_of<Policy>>,
                   "abut: an index lies in other memory than the policy works in; make it with the same policy");
     require_callable(on, options.filter, tagged_pair{});
-    using pairing = list_pairing<Policy, IndexA, IndexB, Filter>;
+    using pairing = list_pairing<Policy, IndexA, IndexB, Filter, Schedule>;
     using member = typename pairing::member;
     const std::size_t n = list.size();
     std::vector<member> members;
@@ -315,16 +319,18 @@ auto pair_up(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& li
 // 64: split the list), std::bad_alloc and cuda_error. Entries of a tree of one shape are searched one after another.
 
 /// Whether the shapes of any entry touch. Stops at the first pair found.
-template <arithmetic A = filtered, execution_policy Policy, class IndexA, class IndexB, class Filter = keep_all_tagged>
+template <arithmetic A = filtered, execution_policy Policy, class IndexA, class IndexB, class Filter = keep_all_tagged,
+          schedule Schedule = schedule::shared_list>
 [[nodiscard]] bool any(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
-                       const list_options<Filter>& options = {}) {
+                       const list_options<Filter, Schedule>& options = {}) {
     return detail::any_of<A>(on, detail::pair_up(on, list, options, "abut::any"));
 }
 
 /// Number of pairs of shapes that touch, of all entries. Stores none of them.
-template <arithmetic A = filtered, execution_policy Policy, class IndexA, class IndexB, class Filter = keep_all_tagged>
+template <arithmetic A = filtered, execution_policy Policy, class IndexA, class IndexB, class Filter = keep_all_tagged,
+          schedule Schedule = schedule::shared_list>
 [[nodiscard]] std::uint64_t count(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
-                                  const list_options<Filter>& options = {}) {
+                                  const list_options<Filter, Schedule>& options = {}) {
     return detail::count_of<A>(on, detail::pair_up(on, list, options, "abut::count"));
 }
 
@@ -332,25 +338,27 @@ template <arithmetic A = filtered, execution_policy Policy, class IndexA, class 
 ///
 ///     std::vector<abut::posed_pair<decltype(gear)>> list{{posed(gear, here), posed(gear, there)}};
 ///     for (const auto& hit : to_host(abut::pairs(on, list))) use(hit.pair, hit.a, hit.b);
-template <arithmetic A = filtered, execution_policy Policy, class IndexA, class IndexB, class Filter = keep_all_tagged>
+template <arithmetic A = filtered, execution_policy Policy, class IndexA, class IndexB, class Filter = keep_all_tagged,
+          schedule Schedule = schedule::shared_list>
 [[nodiscard]] auto pairs(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
-                         const list_options<Filter>& options = {}) {
+                         const list_options<Filter, Schedule>& options = {}) {
     return detail::pairs_of<A>(on, detail::pair_up(on, list, options, "abut::pairs"));
 }
 
 /// Calls visitor(tagged_pair) -> visit once for every pair of shapes that touches; see for_each_pair of two arguments.
 template <arithmetic A = filtered, execution_policy Policy, class IndexA, class IndexB, class Visitor,
-          class Filter = keep_all_tagged>
+          class Filter = keep_all_tagged, schedule Schedule = schedule::shared_list>
 void for_each_pair(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list, const Visitor& visitor,
-                   const list_options<Filter>& options = {}) {
+                   const list_options<Filter, Schedule>& options = {}) {
     detail::visit_pairs_of<A>(on, detail::pair_up(on, list, options, "abut::for_each_pair"), visitor);
 }
 
 /// The contacts of all pairs of shapes that touch, tagged with the entry's position; see contacts of two arguments. In the
 /// policy's memory, 40 bytes each in float and 72 in double.
-template <arithmetic A = filtered, execution_policy Policy, class IndexA, class IndexB, class Filter = keep_all_tagged>
+template <arithmetic A = filtered, execution_policy Policy, class IndexA, class IndexB, class Filter = keep_all_tagged,
+          schedule Schedule = schedule::shared_list>
 [[nodiscard]] auto contacts(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
-                            const list_options<Filter>& options = {}) {
+                            const list_options<Filter, Schedule>& options = {}) {
     return detail::contacts_of<A>(on, detail::pair_up(on, list, options, "abut::contacts"), options.discard_sideways);
 }
 

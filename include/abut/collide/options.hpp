@@ -9,6 +9,7 @@
 
 #include <abut/config.hpp>
 #include <abut/execution/buffer.hpp>
+#include <abut/execution/schedule.hpp>
 #include <abut/traverse/traversal.hpp>
 
 namespace abut {
@@ -33,8 +34,9 @@ enum class argument : unsigned char { automatic, a, b };
 /// one, write `query_options<my_filter>{.filter = my_filter{...}}`: clang 14 cannot deduce the argument of an aggregate.
 /// How two trees are walked is a template argument, so that a program compiles what it asks for:
 /// `query_options<keep_all, traversal::larger_first>{}`. It is for queries of two indices made by make_bvh, posed or not;
-/// other queries take no notice of it.
-template <class Filter = keep_all, traversal Traversal = traversal::both_at_once>
+/// other queries take no notice of it. Who does what of that walk is another, of all traversals but breadth_first:
+/// `query_options<keep_all, traversal::both_at_once, schedule::work_stealing>{}`.
+template <class Filter = keep_all, traversal Traversal = traversal::both_at_once, schedule Schedule = schedule::shared_list>
 struct query_options {
     /// Pairs sorted by a, then b. Without it their order is any, and may differ from call to call.
     bool sorted = true;
@@ -54,6 +56,8 @@ struct query_options {
     /// of those, and a node of wide_layout is two levels. On a device a deep start saves steps that cannot fill it; on a
     /// host it saves nothing.
     int start_depth = 6;
+    /// Of walks of two trees but breadth_first: the schedule's own options, and where it reports to.
+    schedule_options scheduling = {};
 };
 
 /// The outcome of a query in the policy's memory: contiguous and immutable.

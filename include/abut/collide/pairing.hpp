@@ -228,12 +228,13 @@ struct expand_pair {
 };
 
 /// Judges what a walk down trees finds.
-template <traversal Traversal, class Policy, class Expand, class Run>
-void descend(const Policy& on, const Expand& expand, int start_depth, const Run& run) {
+template <class Policy, class Expand, class Filter, traversal Traversal, schedule Schedule, class Run>
+void descend(const Policy& on, const Expand& expand, const query_options<Filter, Traversal, Schedule>& options, const Run& run) {
     if constexpr (Traversal == traversal::breadth_first) {
-        for_each_on_levels(on, expand, start_depth, run);
+        for_each_on_levels(on, expand, options.start_depth, run);
     } else {
-        run([&](const auto& judge, auto&... sinks) { return for_each_descendant(on, expand, judge, sinks...); });
+        const execution::scheduled<Schedule> how{options.scheduling};
+        run([&](const auto& judge, auto&... sinks) { return for_each_descendant(on, how, expand, judge, sinks...); });
     }
 }
 
@@ -259,12 +260,12 @@ auto box_overlap(const A& a, const B& b) {
 }
 
 /// Two operands that are asked about their pairs.
-template <operand A, operand B, class Filter, traversal Traversal>
+template <operand A, operand B, class Filter, traversal Traversal, schedule Schedule>
 struct pairing {
     A a;
     B b;
     pair_key key;
-    query_options<Filter, Traversal> options;
+    query_options<Filter, Traversal, Schedule> options;
 
     using view_a = decltype(std::declval<const A&>().shapes());
     using view_b = decltype(std::declval<const B&>().shapes());
@@ -290,7 +291,7 @@ struct pairing {
             const auto walk = walk_of_both();
             using walk_type = std::remove_const_t<decltype(walk)>;
             if (least > 1 && most <= walk_type::most_shapes) {  // a leaf alone has no place (traverse/pair_walk.hpp)
-                return descend<Traversal>(on, expand_pair<true, walk_type, view_type>{walk, both}, options.start_depth, run);
+                return descend(on, expand_pair<true, walk_type, view_type>{walk, both}, options, run);
             }
         }
         if constexpr (A::is_indexed) {
@@ -331,8 +332,8 @@ private:
 };
 
 /// What is checked before the arguments of a query are: its options.
-template <class Policy, class Filter, traversal Traversal>
-void check_options(const Policy& on, const query_options<Filter, Traversal>& options, const char* function) {
+template <class Policy, class Filter, traversal Traversal, schedule Schedule>
+void check_options(const Policy& on, const query_options<Filter, Traversal, Schedule>& options, const char* function) {
     if (Traversal == traversal::breadth_first && (options.start_depth < 0 || options.start_depth > most_start_depth)) {
         throw error(std::string(function) + ": start_depth is " + std::to_string(options.start_depth) + ", not in 0.." +
                     std::to_string(most_start_depth));
@@ -350,15 +351,15 @@ void require_functions_of_shapes(const Policy& on) {
 }
 
 /// Both arguments of a query, ready to be paired; errors are thrown in the name of `function`.
-template <class Policy, class X, class Y, class Filter, traversal Traversal>
-auto pair_up(const Policy& on, const X& x, const Y& y, const query_options<Filter, Traversal>& options,
+template <class Policy, class X, class Y, class Filter, traversal Traversal, schedule Schedule>
+auto pair_up(const Policy& on, const X& x, const Y& y, const query_options<Filter, Traversal, Schedule>& options,
              const char* function) {
     check_options(on, options, function);
     auto a = make_operand(on, x, function);
     auto b = make_operand(on, y, function);
     const pair_key key{id_bits(a.shapes().size()), id_bits(b.shapes().size())};
     require_functions_of_shapes<typename decltype(a.shapes())::shape_type, typename decltype(b.shapes())::shape_type>(on);
-    return pairing<decltype(a), decltype(b), Filter, Traversal>{std::move(a), std::move(b), key, options};
+    return pairing<decltype(a), decltype(b), Filter, Traversal, Schedule>{std::move(a), std::move(b), key, options};
 }
 
 }  // namespace abut::detail

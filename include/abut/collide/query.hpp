@@ -70,23 +70,23 @@ void visit_pairs_of(const Policy& on, const Pairing& pairing, const Visitor& vis
 
 /// Whether any shape of `a` touches any shape of `b`. Stops at the first one found.
 template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Filter = keep_all,
-          traversal Traversal = traversal::both_at_once>
-[[nodiscard]] bool any(const Policy& on, const X& a, const Y& b, const query_options<Filter, Traversal>& options = {}) {
+          traversal Traversal = traversal::both_at_once, schedule Schedule = schedule::shared_list>
+[[nodiscard]] bool any(const Policy& on, const X& a, const Y& b, const query_options<Filter, Traversal, Schedule>& options = {}) {
     return detail::any_of<A>(on, detail::pair_up(on, a, b, options, "abut::any"));
 }
 
 /// Number of pairs that touch. Stores none of them.
 template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Filter = keep_all,
-          traversal Traversal = traversal::both_at_once>
+          traversal Traversal = traversal::both_at_once, schedule Schedule = schedule::shared_list>
 [[nodiscard]] std::uint64_t count(const Policy& on, const X& a, const Y& b,
-                                  const query_options<Filter, Traversal>& options = {}) {
+                                  const query_options<Filter, Traversal, Schedule>& options = {}) {
     return detail::count_of<A>(on, detail::pair_up(on, a, b, options, "abut::count"));
 }
 
 /// All pairs that touch, each once, in the policy's memory; sorted by a, then b, unless the options say otherwise.
 template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Filter = keep_all,
-          traversal Traversal = traversal::both_at_once>
-[[nodiscard]] auto pairs(const Policy& on, const X& a, const Y& b, const query_options<Filter, Traversal>& options = {}) {
+          traversal Traversal = traversal::both_at_once, schedule Schedule = schedule::shared_list>
+[[nodiscard]] auto pairs(const Policy& on, const X& a, const Y& b, const query_options<Filter, Traversal, Schedule>& options = {}) {
     return detail::pairs_of<A>(on, detail::pair_up(on, a, b, options, "abut::pairs"));
 }
 
@@ -94,9 +94,9 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Y, cl
 /// in the policy's space (so under cuda it is a trivially copyable functor with an ABUT_HD operator()). `visit::stop` is
 /// best effort: pairs in flight still come. Stores no pairs, so memory does not grow with their number.
 template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Visitor, class Filter = keep_all,
-          traversal Traversal = traversal::both_at_once>
+          traversal Traversal = traversal::both_at_once, schedule Schedule = schedule::shared_list>
 void for_each_pair(const Policy& on, const X& a, const Y& b, const Visitor& visitor,
-                   const query_options<Filter, Traversal>& options = {}) {
+                   const query_options<Filter, Traversal, Schedule>& options = {}) {
     detail::visit_pairs_of<A>(on, detail::pair_up(on, a, b, options, "abut::for_each_pair"), visitor);
 }
 

@@ -51,12 +51,12 @@ struct as_they_are {
 
 /// One operand that is asked about its pairs. `Sight` makes of a view of its shapes the one that is judged: of as many
 /// shapes, with the same boxes.
-template <operand X, class Filter, traversal Traversal, class Sight>
+template <operand X, class Filter, traversal Traversal, schedule Schedule, class Sight>
 struct self_pairing {
     X x;
     Sight sight;
     pair_key key;
-    query_options<Filter, Traversal> options;
+    query_options<Filter, Traversal, Schedule> options;
 
     using view_of_shapes = decltype(std::declval<const Sight&>()(std::declval<const X&>().shapes()));
     using view_type = pair_view<view_of_shapes, view_of_shapes, Filter>;
@@ -81,7 +81,7 @@ struct self_pairing {
             using walk_type = std::remove_const_t<decltype(walk)>;
             if (n <= walk_type::most_shapes) {
                 const expand_pair<false, walk_type, ids_in_order<view_type>> expand{walk, {both}};
-                return descend<Traversal>(on, expand, options.start_depth, run);
+                return descend(on, expand, options, run);
             }
         }
         const ids_that_ascend<view_type> ids{both};
@@ -95,16 +95,16 @@ struct self_pairing {
 
 /// The argument of a self query, ready to be paired with itself; errors are thrown in the name of `function`. Of the
 /// traversals breadth_first is meant as it says, and the others are both_at_once.
-template <class Policy, class X, class Filter, traversal Traversal, class Sight = as_they_are>
-auto pair_up_self(const Policy& on, const X& x, const query_options<Filter, Traversal>& options, const char* function,
-                  const Sight& sight = {}) {
+template <class Policy, class X, class Filter, traversal Traversal, schedule Schedule, class Sight = as_they_are>
+auto pair_up_self(const Policy& on, const X& x, const query_options<Filter, Traversal, Schedule>& options,
+                  const char* function, const Sight& sight = {}) {
     check_options(on, options, function);
     auto operand = make_operand(on, x, function);
     const auto shapes = sight(operand.shapes());
     const int bits = id_bits(shapes.size());
     using shape_type = typename decltype(shapes)::shape_type;
     require_functions_of_shapes<shape_type, shape_type>(on);
-    return self_pairing<decltype(operand), Filter, Traversal, Sight>{std::move(operand), sight, {bits, bits}, options};
+    return self_pairing<decltype(operand), Filter, Traversal, Schedule, Sight>{std::move(operand), sight, {bits, bits}, options};
 }
 
 }  // namespace abut::detail

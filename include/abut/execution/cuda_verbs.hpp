@@ -16,9 +16,9 @@
 #include <thrust/iterator/counting_iterator.h>
 
 #include <abut/execution/cuda.hpp>
-#include <abut/execution/cuda_expand.hpp>
 #include <abut/execution/cuda_loops.hpp>
 #include <abut/execution/cuda_queue.hpp>
+#include <abut/execution/cuda_schedules.hpp>
 #include <abut/execution/generic.hpp>
 
 namespace abut::execution {

@@ -20,6 +20,7 @@
 #include <abut/execution/policy.hpp>
 #include <abut/execution/radix_sort.hpp>
 #include <abut/execution/roles.hpp>
+#include <abut/execution/schedule.hpp>
 #include <abut/execution/work_queue.hpp>
 
 namespace abut::execution {
@@ -286,6 +287,14 @@ std::uint64_t for_each_descendant(const Policy& on, const Expand& expand, const 
         }
     }
     return 0;
+}
+
+/// A policy without schedules has one way.
+template <class Policy, schedule Schedule, class Expand, class Judge, class... Queues>
+std::uint64_t for_each_descendant(const Policy& on, const scheduled<Schedule>& how, const Expand& expand, const Judge& judge,
+                                  Queues&... queues) {
+    if (how.report != nullptr) *how.report = {};
+    return for_each_descendant(on, expand, judge, queues...);
 }
 
 // --- reductions, scans, sorts, selections ------------------------------------------------------------------------------

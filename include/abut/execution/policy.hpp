@@ -37,6 +37,8 @@
 //                                           judges all candidates that the walks of every i < n find
 //   for_each_descendant(on, expand, judge, queue...)
 //                                           judges all candidates that items find, from the seeds down
+//   for_each_descendant(on, scheduled, expand, judge, queue...)
+//                                           the same by a schedule (execution/schedule.hpp), if the policy has that one
 //   for_each_ordered(on, n, walk, best)     walk(i, sink) for every i < n, each by one thread, which decides where it walks:
 //                                           nearest first. The sink takes what it finds by sink.offer(value, key), and
 //                                           sink.bound(), which shrinks meanwhile, tells what is still worth looking at: all
@@ -64,6 +66,7 @@
 #include <type_traits>
 
 #include <abut/execution/roles.hpp>
+#include <abut/execution/schedule.hpp>
 
 namespace abut {
 
@@ -121,6 +124,7 @@ concept has_verbs = requires(const P& on, std::size_t n, const unsigned* from, u
     for_each_group(on, n, archetype::group_functor{});
     for_each_candidate(on, n, archetype::walk{}, archetype::judge{}, queue);
     for_each_descendant(on, archetype::expander{}, archetype::judge{}, queue);
+    for_each_descendant(on, scheduled<schedule::work_stealing>{}, archetype::expander{}, archetype::judge{}, queue);
     for_each_tiled(on, n, n, archetype::tile{}, queue);
     { reduce(on, n, 0u, combine, value) } -> std::same_as<unsigned>;
     reduce_into(on, n, to, 0u, combine, value);
