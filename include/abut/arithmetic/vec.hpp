@@ -16,13 +16,11 @@ struct vec3 {
     friend constexpr bool operator==(const vec3&, const vec3&) = default;
 };
 
-ABUT_CALLS_ANY
 template <class T>
 ABUT_HD constexpr auto operator+(const vec3<T>& a, const vec3<T>& b) {
     return vec3<decltype(a.x + b.x)>{a.x + b.x, a.y + b.y, a.z + b.z};
 }
 
-ABUT_CALLS_ANY
 template <class T>
 ABUT_HD constexpr auto operator-(const vec3<T>& a, const vec3<T>& b) {
     return vec3<decltype(a.x - b.x)>{a.x - b.x, a.y - b.y, a.z - b.z};
@@ -42,13 +40,11 @@ ABUT_HD constexpr auto scale(const S& s, const vec3<T>& v) {
     return vec3<decltype(x)>{x, s * v.y, s * v.z};
 }
 
-ABUT_CALLS_ANY
 template <class A, class B>
 ABUT_HD constexpr auto dot(const vec3<A>& a, const vec3<B>& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-ABUT_CALLS_ANY
 template <class A, class B>
 ABUT_HD constexpr auto cross(const vec3<A>& a, const vec3<B>& b) {
     auto x = a.y * b.z - a.z * b.y;

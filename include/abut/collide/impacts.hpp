@@ -51,8 +51,8 @@ struct impact_options {
     conservative_bounds bounds = {};
 };
 
-/// A mesh in motion with what `impacts` looks in: its edges, and a tree over the faces and one over the edges, over the whole
-/// step. Made by make_impact_index; `refit` brings it to the next step. Immutable; copies share everything.
+/// A mesh in motion with what `impacts` looks in: its edges, and trees over its faces, its edges and its vertices, of boxes around
+/// the whole step. Made by make_impact_index; `refit` brings it to the next step. Immutable; copies share everything.
 template <scalar T, memory_space Space>
 class impact_index {
 public:
@@ -60,9 +60,10 @@ public:
     using memory_space = Space;
     using mesh_type = moving_set<abut::mesh<T, Space>>;
     using edges_type = moving_set<edge_mesh<T, Space>>;
+    using vertices_type = moving_set<points<T, Space>>;
 
-    impact_index(bvh<mesh_type, Space> faces, bvh<edges_type, Space> edges)
-        : faces_(std::move(faces)), edges_(std::move(edges)) {}
+    impact_index(bvh<mesh_type, Space> faces, bvh<edges_type, Space> edges, bvh<vertices_type, Space> vertices)
+        : faces_(std::move(faces)), edges_(std::move(edges)), vertices_(std::move(vertices)) {}
 
     /// Number of faces.
     [[nodiscard]] std::size_t size() const { return faces_.size(); }
@@ -70,10 +71,12 @@ public:
     [[nodiscard]] const mesh_type& mesh() const { return faces_.set(); }
     [[nodiscard]] const bvh<mesh_type, Space>& faces() const { return faces_; }
     [[nodiscard]] const bvh<edges_type, Space>& edges() const { return edges_; }
+    [[nodiscard]] const bvh<vertices_type, Space>& vertices() const { return vertices_; }
 
 private:
     bvh<mesh_type, Space> faces_;
     bvh<edges_type, Space> edges_;
+    bvh<vertices_type, Space> vertices_;
 };
 
 /// An index of a mesh in motion, or of one at rest, in the policy's memory. Returns when it is there. Throws as `edges` and
@@ -82,7 +85,8 @@ template <execution_policy Policy, scalar T, memory_space Space>
 [[nodiscard]] impact_index<T, space_of<Policy>> make_impact_index(const Policy& on, const moving_set<mesh<T, Space>>& set,
                                                                   const bvh_options& options = {}) {
     const auto resident = detail::make_resident(on, set, "abut::make_impact_index");
-    return {make_bvh(on, resident, options), make_bvh(on, edges(on, resident), options)};
+    return {make_bvh(on, resident, options), make_bvh(on, edges(on, resident), options),
+            make_bvh(on, vertices(resident), options)};
 }
 template <execution_policy Policy, scalar T, memory_space Space>
 [[nodiscard]] auto make_impact_index(const Policy& on, const mesh<T, Space>& at_rest, const bvh_options& options = {}) {
@@ -102,7 +106,8 @@ template <execution_policy Policy, scalar T, memory_space Space, memory_space Fr
     const auto& old = index.edges().set().t0();
     const auto edges_at = [&](const mesh<T, Space>& at) { return detail::set_parts::with_points(old, vertices(at)); };
     const moving_set<edge_mesh<T, Space>> edges(edges_at(resident.t0()), edges_at(resident.t1()));
-    return {refit(on, index.faces(), resident), refit(on, index.edges(), edges)};
+    return {refit(on, index.faces(), resident), refit(on, index.edges(), edges),
+            refit(on, index.vertices(), vertices(resident))};
 }
 
 namespace detail {
@@ -110,6 +115,7 @@ namespace detail {
 /// A judge of two features in motion. It lets pass what registers cannot decide: the time will tell.
 template <motion_arithmetic A>
 struct touch_in_motion {
+    static constexpr bool may_report_more = true;
     conservative_bounds bounds;
 
     template <class S, class U>
@@ -159,6 +165,10 @@ struct share_no_vertex_with_edge {
     }
 };
 
+/// Features in motion are crowded in places, and work is dealt out evenly again and again (docs/benchmarks.md).
+template <class Filter>
+using feature_options = query_options<Filter, traversal::both_at_once, schedule::static_partition>;
+
 /// Two features of one kind that are asked about their pairs: a pairing, and how its ids name vertices.
 template <feature_pair Kind, class Pairing>
 struct pairing_of_features {
@@ -201,22 +211,28 @@ struct view_of_features {
 };
 
 /// Writes impact i, and hands on i where its time is not known, or where there is none.
-template <motion_arithmetic A, bool OnHost, class View>
+template <motion_arithmetic A, class View>
 struct write_impact {
-    using T = typename View::T;
     View features;
     conservative_bounds bounds;
-    impact<T>* out;
+    impact<typename View::T>* out;
 
+    ABUT_CALLS_ANY
     template <class Sink>
     ABUT_HD void operator()(std::size_t i, Sink& open) const {
         features.write_names(i, out[i]);
-        if constexpr (OnHost) {
-            out[i].time = time_on_host<A, View::are_edges>(features.points(i), bounds);
-        } else {
-            out[i].time = time_in_registers<A, View::are_edges>(features.points(i), bounds);
-        }
+        out[i].time = time_in_registers<A, View::are_edges>(features.points(i), bounds);
         if (out[i].time < 0) open.push(i);
+    }
+};
+/// The same where all is known at once.
+template <motion_arithmetic A, class View>
+struct write_impact_on_host : write_impact<A, View> {
+    template <class Sink>
+    void operator()(std::size_t i, Sink& open) const {
+        this->features.write_names(i, this->out[i]);
+        this->out[i].time = time_on_host<A, View::are_edges>(this->features.points(i), this->bounds);
+        if (this->out[i].time < 0) open.push(i);
     }
 };
 
@@ -248,7 +264,12 @@ bool write_impacts(const Policy& on, const View& features, std::size_t count, co
                    impact<typename View::T>* out) {
     using T = typename View::T;
     key_queue<Policy> open(on, 1024);
-    for_each_index(on, count, write_impact<A, host_policy<Policy>, View>{features, bounds, out}, open);
+    const write_impact<A, View> write{features, bounds, out};
+    if constexpr (host_policy<Policy>) {
+        for_each_index(on, count, write_impact_on_host<A, View>{write}, open);
+    } else {
+        for_each_index(on, count, write, open);
+    }
     const std::size_t n = open.size();
     if (host_policy<Policy> || n == 0) return n > 0;
     std::vector<moving_points<T>> points(n);
@@ -365,11 +386,11 @@ template <motion_arithmetic A = filtered, execution_policy Policy, class X, clas
                   "abut: both sides of a query need the same scalar type, float or double");
     const auto faces_x = x.mesh().t0().view().faces, faces_y = y.mesh().t0().view().faces;
     const auto edges_x = x.edges().set().t0().view().edges, edges_y = y.edges().set().t0().view().edges;
-    const query_options<> query{.sorted = options.sorted};
+    const feature_options<keep_all> query{.sorted = options.sorted};
     return impacts_of<A, T>(
         on, options,
-        features_of<feature_pair::vertex_face>(pair_up(on, vertices(x.mesh()), y.faces(), query, function), faces_y, {}, {}),
-        features_of<feature_pair::face_vertex>(pair_up(on, x.faces(), vertices(y.mesh()), query, function), faces_x, {}, {}),
+        features_of<feature_pair::vertex_face>(pair_up(on, x.vertices(), y.faces(), query, function), faces_y, {}, {}),
+        features_of<feature_pair::face_vertex>(pair_up(on, x.faces(), y.vertices(), query, function), faces_x, {}, {}),
         features_of<feature_pair::edge_edge>(pair_up(on, x.edges(), y.edges(), query, function), {}, edges_x, edges_y));
 }
 
@@ -383,11 +404,11 @@ template <motion_arithmetic A = filtered, execution_policy Policy, class X>
     using T = typename decltype(index)::scalar_type;
     const auto faces = index.mesh().t0().view().faces;
     const auto edges = index.edges().set().t0().view().edges;
-    const query_options<share_no_vertex_with_face> with_faces{.sorted = options.sorted, .filter = {faces}};
-    const query_options<share_no_vertex_with_edge> with_edges{.sorted = options.sorted, .filter = {edges}};
+    const feature_options<share_no_vertex_with_face> with_faces{.sorted = options.sorted, .filter = {faces}};
+    const feature_options<share_no_vertex_with_edge> with_edges{.sorted = options.sorted, .filter = {edges}};
     return impacts_of<A, T>(on, options,
                             features_of<feature_pair::vertex_face>(
-                                pair_up(on, vertices(index.mesh()), index.faces(), with_faces, function), faces, {}, {}),
+                                pair_up(on, index.vertices(), index.faces(), with_faces, function), faces, {}, {}),
                             features_of<feature_pair::edge_edge>(pair_up_self(on, index.edges(), with_edges, function), {}, edges,
                                                                  edges));
 }

@@ -127,6 +127,53 @@ void search(const Policy& on, const Pairing& pairing, const Judge& judge, Hits& 
         on, judged_loops<Policy, view, Judge, Hits>(on, pairing.view(), judge, pairing.options.most_pairs, hits));
 }
 
+/// A judge that `may_report_more` than there is, since what reads the pairs that were found looks at them again. On a device
+/// candidates are then gathered first, as many as find room, and its first try alone looks at them: a walk that decides holds
+/// the registers of both, and a finish apart would do half of what is done again.
+template <class Judge>
+inline constexpr bool judges_apart = requires { requires Judge::may_report_more; };
+
+struct gather_candidate {
+    ABUT_CALLS_ANY
+    template <class Near>
+    ABUT_HD bool operator()(std::uint64_t key, Near& near, auto&...) const {
+        near.push(key);
+        return true;
+    }
+    ABUT_HD void finish(std::uint64_t, auto&...) const {}
+};
+/// A candidate that the first try does not rule out.
+template <class View, class Judge>
+struct pass_gathered {
+    View both;
+    Judge judge;
+    const std::uint64_t* keys;
+    ABUT_CALLS_ANY
+    template <class Hits>
+    ABUT_HD void operator()(std::size_t i, Hits& hits) const {
+        const std::uint64_t key = keys[i];
+        if (judge.decide(both.shape_a(key), both.shape_b(key)) != verdict::no) hits.push(key);
+    }
+};
+
+/// Candidates that are gathered on a device at a time: 128 for each shape, 512 MiB of them at most.
+inline constexpr std::size_t least_gathered = std::size_t{1} << 22, most_gathered = std::size_t{1} << 26;
+
+/// A search by a judge that may report more. False if there are more candidates than may be gathered; then nothing is found.
+template <class Policy, class Pairing, class Judge>
+bool search_apart(const Policy& on, const Pairing& pairing, const Judge& judge, key_queue<Policy>& hits) {
+    const auto both = pairing.view();
+    const std::size_t shapes = std::max(both.a.size(), both.b.size());
+    execution::buffer_of<Policy, std::uint64_t> room(on, std::clamp(128 * shapes, least_gathered, most_gathered));
+    execution::capped_queue<std::uint64_t, space_of<Policy>> near(room);
+    pairing.judge_candidates(on, [&](const auto& loop) { loop(gather_candidate{}, near); });
+    const auto count = static_cast<std::size_t>(near.pushed());
+    if (count > room.size()) return false;
+    using view = std::remove_const_t<decltype(both)>;
+    for_each_index(on, count, pass_gathered<view, Judge>{both, judge, room.data()}, hits);
+    return true;
+}
+
 /// What a judge says of each pair that was found.
 template <class View, class Judge, class Answer>
 struct answer_key {
@@ -141,7 +188,11 @@ struct answer_key {
 template <class Policy, class Pairing, class Judge>
 auto find_keys(const Policy& on, const Pairing& pairing, const Judge& judge) {
     key_queue<Policy> hits(on, pairing.likely_hits());
-    search(on, pairing, judge, hits);
+    if constexpr (judges_apart<Judge> && !host_policy<Policy>) {
+        if (!search_apart(on, pairing, judge, hits)) search(on, pairing, judge, hits);
+    } else {
+        search(on, pairing, judge, hits);
+    }
     auto keys = hits.take();
     if (pairing.options.sorted) sort_keys(on, keys, pairing.key.bits());
     return keys;

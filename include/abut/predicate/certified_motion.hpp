@@ -228,8 +228,12 @@ private:
         const double error = 0x1p-42 * u_ * v_ * w_;
         if (f.has_no_root(error)) return verdict::no;
 
-        const vec3<double> sum = normal_a + twice + normal_b, size = absolute(sum);
-        const int axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
+        // The axis along which most of the area shows; but where points share a coordinate, not that one's.
+        const vec3<double> sum = normal_a + twice + normal_b;
+        const std::uint32_t hidden = shared | shared >> 3 | shared >> 6 | shared >> 9;
+        const double x = (hidden & 1) != 0 ? 0 : absolute(sum.x), y = (hidden & 2) != 0 ? 0 : absolute(sum.y),
+                     z = (hidden & 4) != 0 ? 0 : absolute(sum.z);
+        const int axis = x > y ? (x > z ? 0 : 2) : (y > z ? 1 : 2);
         const double sign = coordinate_along(sum, axis) < 0 ? -1 : 1;
         const area_in_time n =
             sign * area_in_time(coordinate_along(normal_a, axis), coordinate_along(twice, axis), coordinate_along(normal_b, axis));

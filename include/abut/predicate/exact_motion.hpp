@@ -25,7 +25,6 @@
 #include <abut/arithmetic/algebraic.hpp>
 #include <abut/arithmetic/align.hpp>
 #include <abut/arithmetic/exact_stages.hpp>
-#include <abut/arithmetic/vec.hpp>
 
 namespace abut::detail {
 
@@ -44,8 +43,7 @@ public:
             return big_int(part.mantissa, part.mantissa == 0 ? 0 : part.exponent - all.low);
         };
         for (int i = 0; i < 4; ++i) {
-            const auto coordinate = [&](int k) { return polynomial(number(3 * i + k), number(12 + 3 * i + k)); };
-            point_[i] = {coordinate(0), coordinate(1), coordinate(2)};
+            for (int k = 0; k < 3; ++k) point_[i].along[k] = polynomial(number(3 * i + k), number(12 + 3 * i + k));
         }
     }
 
@@ -53,17 +51,17 @@ public:
     /// it; or -1.
     [[nodiscard]] std::int64_t vertex_meets_face() const {
         const auto &p = point_[0], &a = point_[1], &b = point_[2], &c = point_[3];
-        const vector u = b - a, v = c - a, w = p - a, n = cross(u, v);
+        const vector u = b - a, v = c - a, w = p - a;
         const auto touches = [&](const cell_of_root& t) {
             for (int axis = 0; axis < 3; ++axis) {
-                const int s = t.sign_of(coordinate(n, axis));
+                const int s = t.sign_of(area(u, v, axis));
                 if (s == 0) continue;
                 return s * t.sign_of(area(w, v, axis)) >= 0 && s * t.sign_of(area(u, w, axis)) >= 0 &&
-                       s * t.sign_of(area(v - u, w - u, axis)) >= 0;
+                       s * t.sign_of(area(c - b, p - b, axis)) >= 0;
             }
             return is_on_segment(t, p, a, b) || is_on_segment(t, p, b, c) || is_on_segment(t, p, c, a);
         };
-        const polynomial f = dot(w, n);
+        const polynomial f = volume(w, u, v);
         if (!f.is_zero()) return first_root(f, touches);
         std::int64_t first = touches_at_0(touches);
         add_events(first, touches, p, a, b);
@@ -75,18 +73,18 @@ public:
     /// Likewise of two edges, between the first two points and the last two.
     [[nodiscard]] std::int64_t edges_meet() const {
         const auto &a = point_[0], &b = point_[1], &c = point_[2], &d = point_[3];
-        const vector u = b - a, v = d - c, w = c - a, n = cross(u, v);
+        const vector u = b - a, v = d - c, w = c - a;
         const auto touches = [&](const cell_of_root& t) {
             for (int axis = 0; axis < 3; ++axis) {
-                const int s = t.sign_of(coordinate(n, axis));
+                const int s = t.sign_of(area(u, v, axis));
                 if (s == 0) continue;
-                return s * t.sign_of(area(w, v, axis)) >= 0 && s * t.sign_of(area(w - u, v, axis)) <= 0 &&
-                       s * t.sign_of(area(w, u, axis)) >= 0 && s * t.sign_of(area(w + v, u, axis)) <= 0;
+                return s * t.sign_of(area(w, v, axis)) >= 0 && s * t.sign_of(area(c - b, v, axis)) <= 0 &&
+                       s * t.sign_of(area(w, u, axis)) >= 0 && s * t.sign_of(area(d - a, u, axis)) <= 0;
             }
             return is_on_segment(t, a, c, d) || is_on_segment(t, b, c, d) || is_on_segment(t, c, a, b) ||
                    is_on_segment(t, d, a, b);
         };
-        const polynomial f = dot(w, n);
+        const polynomial f = volume(w, u, v);
         if (!f.is_zero()) return first_root(f, touches);
         std::int64_t first = touches_at_0(touches);
         add_events(first, touches, a, c, d);
@@ -97,19 +95,27 @@ public:
     }
 
 private:
-    using vector = vec3<polynomial>;
+    struct vector {
+        polynomial along[3];
+        friend vector operator-(const vector& p, const vector& q) {
+            return {{p.along[0] - q.along[0], p.along[1] - q.along[1], p.along[2] - q.along[2]}};
+        }
+    };
 
-    static const polynomial& coordinate(const vector& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
     /// The coordinate of p x q along an axis.
     static polynomial area(const vector& p, const vector& q, int axis) {
         const int i = (axis + 1) % 3, j = (axis + 2) % 3;
-        return coordinate(p, i) * coordinate(q, j) - coordinate(p, j) * coordinate(q, i);
+        return p.along[i] * q.along[j] - p.along[j] * q.along[i];
+    }
+    /// p . (q x r)
+    static polynomial volume(const vector& p, const vector& q, const vector& r) {
+        return p.along[0] * area(q, r, 0) + p.along[1] * area(q, r, 1) + p.along[2] * area(q, r, 2);
     }
     /// Whether p is between a and b, or one of them.
     static bool is_on_segment(const cell_of_root& t, const vector& p, const vector& a, const vector& b) {
         const vector of_a = p - a, of_b = p - b;
         for (int axis = 0; axis < 3; ++axis) {
-            if (t.sign_of(coordinate(of_a, axis)) * t.sign_of(coordinate(of_b, axis)) > 0) return false;
+            if (t.sign_of(of_a.along[axis]) * t.sign_of(of_b.along[axis]) > 0) return false;
         }
         for (int axis = 0; axis < 3; ++axis) {
             if (t.sign_of(area(of_a, of_b, axis)) != 0) return false;
@@ -143,10 +149,10 @@ private:
             if (add(area(of_a, of_b, axis))) return;
         }
         for (int axis = 0; axis < 3; ++axis) {
-            if (add(coordinate(of_a, axis))) break;
+            if (add(of_a.along[axis])) break;
         }
         for (int axis = 0; axis < 3; ++axis) {
-            if (add(coordinate(of_b, axis))) break;
+            if (add(of_b.along[axis])) break;
         }
     }
 
