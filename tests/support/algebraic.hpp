@@ -119,8 +119,39 @@ inline division divided(const polynomial& p, const polynomial& q) {
     return r;
 }
 
+/// Whether two polynomials prove to have no common root, complex ones included: modulo a prime that divides no leading
+/// coefficient, a common divisor keeps its degree. If they have none there, they have none. That is quick; the other answer
+/// means nothing.
+inline bool surely_coprime(const polynomial& p, const polynomial& q) {
+    constexpr std::uint64_t prime = (std::uint64_t{1} << 31) - 1;
+    std::vector<std::uint64_t> r[2];
+    for (int i = 0; i < 2; ++i) {
+        for (const integer& x : (i == 0 ? p : q).c) {
+            const auto rest = static_cast<std::int64_t>(integer(x % prime));
+            r[i].push_back(rest < 0 ? static_cast<std::uint64_t>(rest + static_cast<std::int64_t>(prime))
+                                    : static_cast<std::uint64_t>(rest));
+        }
+        if (r[i].empty() || r[i].back() == 0) return false;
+    }
+    while (!r[1].empty()) {
+        if (r[0].size() < r[1].size()) std::swap(r[0], r[1]);
+        // r0 times the leading coefficient of r1, less a multiple of r1
+        const std::uint64_t top = r[0].back(), lead = r[1].back();
+        const std::size_t shift = r[0].size() - r[1].size();
+        for (std::uint64_t& x : r[0]) x = x * lead % prime;
+        for (std::size_t i = 0; i < r[1].size(); ++i) {
+            std::uint64_t& x = r[0][i + shift];
+            x = (x + prime - top * r[1][i] % prime) % prime;
+        }
+        while (!r[0].empty() && r[0].back() == 0) r[0].pop_back();
+        std::swap(r[0], r[1]);
+    }
+    return r[0].size() == 1;
+}
+
 /// Of two polynomials that are not both 0; times some number.
 inline polynomial greatest_common_divisor(polynomial p, polynomial q) {
+    if (surely_coprime(p, q)) return polynomial({1});
     while (!q.is_zero()) {
         polynomial r = reduced(divided(p, q).remainder);
         p = std::move(q);

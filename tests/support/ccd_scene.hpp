@@ -74,7 +74,8 @@ inline std::vector<ccd_truth_row> read_ccd_truth(const std::filesystem::path& fo
         return w;
     };
     const auto fail = [&] { throw std::runtime_error(path.string() + ": not a file of truth"); };
-    if (bytes.size() < 16 || word(0) != 0x54444343 || word(4) != static_cast<int>(kind) || word(8) < 0 || word(12) != 5) fail();
+    if (bytes.size() < 16 || word(0) != 0x54444343 || word(4) != static_cast<int>(kind) || word(8) < 0 || word(12) != 5)
+        fail();
     const auto n = static_cast<std::size_t>(word(8));
     if (bytes.size() != 16 + 28 * n) fail();
     std::vector<ccd_truth_row> rows(n);

@@ -72,8 +72,8 @@ public:
             first = std::move(t);
             return true;
         };
-        const polynomial d =
-            w_[0][0] * minor(w_[1], w_[2], 1, 2) + w_[0][1] * minor(w_[1], w_[2], 2, 0) + w_[0][2] * minor(w_[1], w_[2], 0, 1);
+        const polynomial d = w_[0][0] * minor(w_[1], w_[2], 1, 2) + w_[0][1] * minor(w_[1], w_[2], 2, 0) +
+                             w_[0][2] * minor(w_[1], w_[2], 0, 1);
         if (!d.is_zero()) {
             root_finder(d).visit_roots(offer);
             return first;
@@ -101,7 +101,7 @@ public:
             return s * t.sign(u) >= 0 && s * t.sign(v) >= 0 && s * t.sign(m - u - v) >= 0 &&
                    t.sign(u * e[k] + v * f[k] + m * w_[0][k]) == 0;
         }
-        return segment_holds_origin(t, 0, 1) || segment_holds_origin(t, 1, 2) || segment_holds_origin(t, 2, 0);
+        return segment_holds_origin(t, 0, 1) || segment_holds_origin(t, 1, 2);  // all of it: one of three corners is between
     }
 
 private:
@@ -184,7 +184,8 @@ template <scalar T>
 motion_answer vertex_face(const motion<T>& m) {
     if (always_apart(m, 1)) return {};
     const auto p = in_integers(m);
-    return answered(moving_triangle({difference(p[1], p[0]), difference(p[2], p[0]), difference(p[3], p[0])}).first_contact());
+    return answered(
+        moving_triangle({difference(p[1], p[0]), difference(p[2], p[0]), difference(p[3], p[0])}).first_contact());
 }
 
 /// The first contact of the segment of points 0, 1 with that of points 2, 3.
