@@ -84,7 +84,8 @@ ABUT_HD motion<T> needle_pair(draws& d, motion_kind kind) {
 template <scalar T>
 ABUT_HD motion<T> flat_pair(draws& d, motion_kind kind) {
     const point e = unit(cube(d, 1)), f = unit(cross_product(e, cube(d, 1)));
-    relative r = crossing(d, 1, d.uniform(0, 1), d.below(2) == 0);
+    const double tau = d.uniform(0, 1);
+    relative r = crossing(d, 1, tau, d.below(2) == 0);
     for (int i = 0; i < 6; ++i) {
         point& v = i < 3 ? r.w0[i] : r.w1[i - 3];
         v = along(along({0, 0, 0}, v.x, e), v.y, f);
