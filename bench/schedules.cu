@@ -8,10 +8,10 @@
 //   SCENE/SCHEDULE/half, quarter, eighth
 //                                  that part of them: how a schedule scales. Blocks are spread over all multiprocessors
 //
-// Scenes: `turned`, a mesh (MESH, PLY or OBJ, or a torus of 345,744 triangles) against a turned copy; `near`, the mesh against
-// its copy moved by (.0003, .0002, .0001) of its box, where there is work everywhere; `corner`, two soups of 100,000 triangles
-// that hardly meet and 10,000 in one corner that do; `list`, 1,000 posed pairs of a torus of 2,700 triangles. Beside the time:
-// what the schedule reports of itself in the last run.
+// Scenes: `turned`, a mesh (MESH, PLY or OBJ, or a torus of 345,744 triangles) against a turned copy; `near`, the mesh
+// against its copy moved by (.0003, .0002, .0001) of its box, where there is work everywhere; `corner`, two soups of 100,000
+// triangles that hardly meet and 10,000 in one corner that do; `list`, 1,000 posed pairs of a torus of 2,700 triangles.
+// Beside the time: what the schedule reports of itself in the last run.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Queries by every schedule find what the default one finds, and what a plain loop finds: few shapes and none, sets that make
-// deep trees, posed or not, lists, and scenes nearly all of whose work lies in one corner. With tiny queues, and on one block.
+// Queries by every schedule find what the default one finds, and what a plain loop finds: few shapes and none, sets that
+// make deep trees, posed or not, lists, and scenes nearly all of whose work lies in one corner. With tiny queues, and on one
+// block.
 
 #include <array>
 #include <cstdint>
