@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Every schedule finds what the default one finds, with room and without, on one block and on all; and each is the one that it
-// says it is: what it alone does, it does where all work comes of one item.
+// Every schedule finds what the default one finds, with room and without, on one block and on all; and each is the one that
+// it says it is: what it alone does, it does where all work comes of one item.
 
 #include <algorithm>
 #include <cstdint>
@@ -34,10 +34,11 @@ inline void check_report(const schedule_report& report, schedule asked, bool is_
     CHECK((report.offers > 0) == steals);
     CHECK(report.stolen >= report.steals);
     CHECK((report.transfers > 0) == lazy);
-    CHECK((report.balances > 0) == !steals);
-    CHECK((report.rounds > 1) == !steals);
+    // Of a static partition no block leaves before its queue has room for all that it holds, so it may come to no balance.
+    if (steals || !is_narrow) CHECK((report.balances > 0) == !steals);
+    CHECK((report.rounds > 1) == (report.balances > 0));
     if (lazy) CHECK(report.transferred == report.stolen);
-    if (is_narrow && steals) CHECK(report.overflows > 0);
+    if (is_narrow) CHECK(report.overflows > 0);
 }
 
 template <schedule Schedule, class Policy>
@@ -76,17 +77,21 @@ void check_schedule(const Policy& on) {
     }
 }
 
-/// A million candidates that come of one item. Blocks, or threads, that have nothing to begin with have to get something.
+/// Candidates that all come of one item: blocks, or threads, that have nothing to begin with have to get something. Threads
+/// of a host may begin so late that nothing is left, and may try again.
 template <schedule Schedule, class Policy>
-void check_schedule_is_itself(const Policy& on) {
+void check_schedule_is_itself(const Policy& on, std::uint32_t depth = 10, int tries = 1) {
+    const std::uint64_t candidates = std::uint64_t{1} << 2 * depth;
     for (const std::uint32_t capacity : {0u, 20u}) {
         schedule_report report;
         const execution::scheduled<Schedule> how{{.queue_capacity = capacity, .report = &report}};
-        execution::work_count<space_of<Policy>> count(on);
-        for_each_descendant(on, how, grow{grow::kind::full, 10}, count_always{}, count);
-        CHECK(count.total() == std::uint64_t{1} << 20);
+        for (int k = 0; k < tries && report.steals == 0; ++k) {
+            execution::work_count<space_of<Policy>> count(on);
+            for_each_descendant(on, how, grow{grow::kind::full, depth}, count_always{}, count);
+            CHECK(count.total() == candidates);
+            if (Schedule != schedule::shared_list) CHECK(report.items == (candidates - 1) / 3);
+        }
         check_report(report, Schedule, capacity == 20);
-        if (Schedule != schedule::shared_list) CHECK(report.items == ((std::uint64_t{1} << 20) - 1) / 3);
     }
 }
 

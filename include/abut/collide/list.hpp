@@ -49,8 +49,8 @@ struct keep_all_tagged {
     ABUT_HD constexpr bool operator()(tagged_pair) const { return true; }
 };
 
-/// Options of queries of a list; with a filter write `list_options<my_filter>{.filter = my_filter{...}}`. The schedule is that of
-/// query_options; entries of a tree of one shape have none.
+/// Options of queries of a list; with a filter write `list_options<my_filter>{.filter = my_filter{...}}`. The schedule is
+/// that of query_options; entries of a tree of one shape have none.
 template <class Filter = keep_all_tagged, schedule Schedule = schedule::shared_list>
 struct list_options {
     /// Results sorted by pair, then a, then b. Without it the order is any, and may differ from call to call.

@@ -71,7 +71,8 @@ void visit_pairs_of(const Policy& on, const Pairing& pairing, const Visitor& vis
 /// Whether any shape of `a` touches any shape of `b`. Stops at the first one found.
 template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Filter = keep_all,
           traversal Traversal = traversal::both_at_once, schedule Schedule = schedule::shared_list>
-[[nodiscard]] bool any(const Policy& on, const X& a, const Y& b, const query_options<Filter, Traversal, Schedule>& options = {}) {
+[[nodiscard]] bool any(const Policy& on, const X& a, const Y& b,
+                       const query_options<Filter, Traversal, Schedule>& options = {}) {
     return detail::any_of<A>(on, detail::pair_up(on, a, b, options, "abut::any"));
 }
 
@@ -86,7 +87,8 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Y, cl
 /// All pairs that touch, each once, in the policy's memory; sorted by a, then b, unless the options say otherwise.
 template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Filter = keep_all,
           traversal Traversal = traversal::both_at_once, schedule Schedule = schedule::shared_list>
-[[nodiscard]] auto pairs(const Policy& on, const X& a, const Y& b, const query_options<Filter, Traversal, Schedule>& options = {}) {
+[[nodiscard]] auto pairs(const Policy& on, const X& a, const Y& b,
+                         const query_options<Filter, Traversal, Schedule>& options = {}) {
     return detail::pairs_of<A>(on, detail::pair_up(on, a, b, options, "abut::pairs"));
 }
 

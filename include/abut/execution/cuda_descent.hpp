@@ -2,8 +2,8 @@
 #pragma once
 
 // What the kernels of for_each_descendant of `cuda` share, whatever their schedule (execution/schedule.hpp): a block keeps
-// items in shared memory and takes the newest at a time, one for each thread, so that a step costs one wait for memory however
-// many items are in it, and the items never outgrow their room. Candidates wait until there is one for each thread.
+// items in shared memory and takes the newest at a time, one for each thread, so that a step costs one wait for memory
+// however many items are in it, and the items never outgrow their room. Candidates wait until there is one for each thread.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// for_each_descendant of `cuda` (execution/policy.hpp) by schedule::shared_list: work that makes work, level by level, in blocks
-// (cuda_descent.hpp). Three kernels: one block begins, until there is an item for each block; each block goes on for a few
-// steps; then the blocks fetch what there is as they run out of work, because nobody knows how much an item has below it.
+// for_each_descendant of `cuda` (execution/policy.hpp) by schedule::shared_list: work that makes work, level by level, in
+// blocks (cuda_descent.hpp). Three kernels: one block begins, until there is an item for each block; each block goes on for
+// a few steps; then the blocks fetch what there is as they run out of work, because nobody knows how much an item has below
+// it.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// for_each_descendant of `cuda` by schedule::static_partition: rounds of two kernels. In the first each block works on its own
-// queue in the device's memory, with a stack in shared memory, until it has nothing; when enough blocks have nothing, or as
-// much as they can hold, the others leave as well, and write back what they have. The second deals all of that out evenly. The host
-// waits for each round, to learn whether anything is left. No block waits for another one.
+// for_each_descendant of `cuda` by schedule::static_partition: rounds of two kernels. In the first each block works on its
+// own queue in the device's memory, with a stack in shared memory, until it has nothing; when enough blocks have nothing, or
+// as much as they can hold, the others leave as well, and write back what they have. The second deals all of that out
+// evenly. The host waits for each round, to learn whether anything is left. No block waits for another one.
 
 #include <algorithm>
 #include <cstddef>
@@ -42,8 +42,8 @@ struct round_state {
     unsigned longest;                  ///< steps of the block that did most
 };
 
-/// When a block leaves: `votes` blocks have nothing or are full, and it has done `steps` steps, or holds `items` items, so that
-/// a round is worth its kernels.
+/// When a block leaves: `votes` blocks have nothing or are full, and it has done `steps` steps, or holds `items` items, so
+/// that a round is worth its kernels.
 struct round_limit {
     unsigned votes, steps, items;
 };
@@ -93,8 +93,10 @@ __global__ void __launch_bounds__(block_size)
         const unsigned width = step_width<memory>(count), all = count + left;
         const bool fits = all <= queues.capacity, wants = may_leave && (steps >= limit.steps || all >= limit.items);
         overflows |= wants && !fits;
+        const bool ends = count == 0 || over || (wants && fits);
         __syncthreads();
-        if (count == 0 || over || (wants && fits)) {
+        if (mine.found >= (ends ? 1 : enough_candidates<Sinks...>)) judge_waiting(mine, judge, late, sinks...);
+        if (ends) {
             if (threadIdx.x == 0) {
                 mine.count = over ? 0 : count;
                 mine.left = over ? 0 : left;
@@ -116,10 +118,8 @@ __global__ void __launch_bounds__(block_size)
             const unsigned idle = atomic_load(&state->idle), full = atomic_load(&state->full);
             mine.may_leave = idle > 0 && idle + full >= limit.votes;
         });
-        if (mine.found >= enough_candidates<Sinks...>) judge_waiting(mine, judge, late, sinks...);
     }
     __syncthreads();
-    judge_waiting(mine, judge, late, sinks...);
     const unsigned count = mine.count, left = mine.left;
     for (unsigned k = threadIdx.x; k < count; k += block_size) queue[left + k] = mine.items[k];
     if (threadIdx.x == 0) {
@@ -183,10 +183,11 @@ std::uint64_t descend(const cuda& on, const scheduled<schedule::static_partition
         buffer<item, device_space> items(on, 2 * places);
         buffer<unsigned, device_space> counts(on, std::size_t{2} * blocks);
         buffer<round_state, device_space> state(on, 1);
-        block_queues<item> now{items.data(), counts.data(), capacity}, next{now.items + places, now.counts + blocks, capacity};
+        block_queues<item> now{items.data(), counts.data(), capacity};
+        block_queues<item> next{now.items + places, now.counts + blocks, capacity};
         const round_limit limit{std::max(blocks / 2, 1u), 8, 1024};
-        deal_seeds_kernel<<<blocks_for(std::max(seeds, blocks)), block_size, 0, on.stream>>>(now, blocks, seeds, state.data(),
-                                                                                             expand);
+        const unsigned dealers = blocks_for(std::max(seeds, blocks));
+        deal_seeds_kernel<<<dealers, block_size, 0, on.stream>>>(now, blocks, seeds, state.data(), expand);
         schedule_report report{.ran = schedule::static_partition, .workers = blocks};
         std::uint64_t longest = 0;
         for (;;) {

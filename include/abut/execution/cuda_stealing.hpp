@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// for_each_descendant of `cuda` by schedule::work_stealing and schedule::lazy_work_stealing: one kernel, in which blocks take
-// work from each other. The deques and the count by which blocks learn that there is nothing left are stealing.hpp's, which
-// says why neither needs that all blocks run at a time. A block's threads agree by barriers alone, and lanes of a warp by
-// instructions that say so. What a block writes for others is ordered thus: its threads write, a barrier, one thread
+// for_each_descendant of `cuda` by schedule::work_stealing and schedule::lazy_work_stealing: one kernel, in which blocks
+// take work from each other. The deques and the count by which blocks learn that there is nothing left are stealing.hpp's,
+// which says why neither needs that all blocks run at a time. A block's threads agree by barriers alone, and lanes of a warp
+// by instructions that say so. What a block writes for others is ordered thus: its threads write, a barrier, one thread
 // releases; and one thread of another block acquires, a barrier, its threads read.
 
 #include <cstddef>
@@ -33,9 +33,9 @@ struct stealing_pool {
     [[nodiscard]] __device__ Item* items_of(unsigned block) const { return items + std::size_t{block} * capacity; }
 };
 
-/// How a block keeps and steals. Of plain work stealing all that a block has lies in its deque, and it steals from one deque what
-/// it can take in one step. In the lazy one its newest items stay in shared memory, and it steals from as many deques as a warp
-/// has lanes, a little from each, since what it has stolen nobody can steal from it.
+/// How a block keeps and steals. Of plain work stealing all that a block has lies in its deque, and it steals from one deque
+/// what it can take in one step. In the lazy one its newest items stay in shared memory, and it steals from as many deques
+/// as a warp has lanes, a little from each, since what it has stolen nobody can steal from it.
 template <bool Lazy>
 struct stealing_rule {
     /// With more items than `most`, the oldest go to the deque, all but `keep`.
@@ -173,8 +173,8 @@ __device__ void look_in_deques(Memory& mine, const stealing_pool<Item>& pool, un
     }
 }
 
-/// Fills a stack that is empty with what other blocks have, as soon as one has some. False if there is nothing left anywhere,
-/// or over() says that there is no need to go on.
+/// Fills a stack that is empty with what other blocks have, as soon as one has some. False if there is nothing left
+/// anywhere, or over() says that there is no need to go on.
 template <bool Lazy, class Memory, class Item, class Over>
 __device__ bool steal_some(Memory& mine, const stealing_pool<Item>& pool, const Over& over) {
     const long long since = clock64();
@@ -214,8 +214,8 @@ __device__ bool steal_some(Memory& mine, const stealing_pool<Item>& pool, const 
     return true;
 }
 
-/// Puts the oldest items of the stack into the block's deque if they are more than the rule says, as far as there is room. What
-/// finds none stays: a stack never outgrows its own (cuda_descent.hpp).
+/// Puts the oldest items of the stack into the block's deque if they are more than the rule says, as far as there is room.
+/// What finds none stays: a stack never outgrows its own (cuda_descent.hpp).
 template <bool Lazy, class Memory, class Item>
 __device__ void offer_oldest(Memory& mine, const stealing_pool<Item>& pool) {
     using rule = stealing_rule<Lazy>;
@@ -266,11 +266,11 @@ __global__ void __launch_bounds__(block_size)
     }
     __syncthreads();
     const auto over = [&] { return block_is_over(late, sinks...); };
-    while (!over()) {
-        if (mine.count == 0 && !take_own<Lazy>(mine, pool, expand)) {
-            judge_waiting(mine, judge, late, sinks...);
-            if (!steal_some<Lazy>(mine, pool, over)) break;
-        }
+    for (;;) {
+        const bool ends = over(), has = !ends && (mine.count > 0 || take_own<Lazy>(mine, pool, expand));
+        // Also before the block waits for what others have.
+        if (mine.found >= (has ? enough_candidates<Sinks...> : 1)) judge_waiting(mine, judge, late, sinks...);
+        if (ends || (!has && !steal_some<Lazy>(mine, pool, over))) break;
         const unsigned count = mine.count, width = step_width<memory>(count);
         __syncthreads();
         if (threadIdx.x == 0) {
@@ -278,11 +278,8 @@ __global__ void __launch_bounds__(block_size)
             mine.counts.items += width;
         }
         expand_newest(mine, count, width, expand, [] {});
-        if (mine.found >= enough_candidates<Sinks...>) judge_waiting(mine, judge, late, sinks...);
         offer_oldest<Lazy>(mine, pool);
     }
-    __syncthreads();
-    judge_waiting(mine, judge, late, sinks...);
     if (threadIdx.x == 0 && pool.sum != nullptr) {
         mine.counts.time = static_cast<std::uint64_t>(clock64() - begun);
         mine.counts.add_to(pool.sum);

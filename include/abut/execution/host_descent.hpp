@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// for_each_descendant of `serial` and `openmp`: the first levels make a list, from which threads fetch; each goes depth first.
+// for_each_descendant of `serial` and `openmp`: the first levels make a list, from which threads fetch; each goes depth
+// first.
 
 #include <algorithm>
 #include <cstddef>
@@ -90,7 +91,8 @@ struct descent_width {
     std::size_t next() { return AnyWillDo ? std::min(first + turns++ / turns_of_a_width, most) : most; }
 };
 
-/// Takes the newest items, `limit` of those from `first` on or as many as there is room for, and expands them. Returns how many.
+/// Takes the newest items, `limit` of those from `first` on or as many as there is room for, and expands them. Returns how
+/// many.
 template <class Expand>
 ABUT_INLINE std::size_t expand_newest(const Expand& step, descent<Expand>& mine, std::size_t first, std::size_t limit) {
     typename Expand::item now[descent<Expand>::most_width];

@@ -20,9 +20,9 @@ namespace abut::execution {
 
 namespace detail {
 
-/// Workers that descend, each a range of one index. A worker keeps what it has in an array of its own, and puts the oldest half
-/// of it into its deque whenever that is empty: who steals from there has more below it than of the newest. Who has nothing
-/// takes that back, then seeds, then what another's deque has.
+/// Workers that descend, each a range of one index. A worker keeps what it has in an array of its own, and puts the oldest
+/// half of it into its deque whenever that is empty: who steals from there has more below it than of the newest. Who has
+/// nothing takes that back, then seeds, then what another's deque has.
 template <class Expand, class Judge, bool AnyWillDo>
 struct stealing_loop {
     using item = typename Expand::item;
@@ -57,7 +57,8 @@ private:
     void work(std::uint32_t me, const Over& over, Sinks&... sinks) const {
         constexpr std::size_t at_a_time = AnyWillDo ? 1 : descent<Expand>::at_a_time;
         const Expand step = expand;
-        worker w{me, {words + me, capacity, 0, 0}, {&all, seeds, std::clamp(seeds / (4 * workers), 1u, portion), false, true}};
+        const std::uint32_t some = std::clamp(seeds / (4 * workers), 1u, portion);
+        worker w{me, {words + me, capacity, 0, 0}, {&all, seeds, some, false, true}};
         open_candidates<typename Expand::candidate, Sinks...> open;
         descent_width<Expand, AnyWillDo> width;
         const auto judge_found = [&] {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Who does what of work that makes work (for_each_descendant, execution/policy.hpp): schedules, what they take, and what they
-// report of themselves. They move speed, never results.
+// Who does what of work that makes work (for_each_descendant, execution/policy.hpp): schedules, what they take, and what
+// they report of themselves. They move speed, never results.
 
 #include <cstdint>
 
@@ -17,8 +17,9 @@ enum class schedule : unsigned char {
     /// Each has a queue of its own, and nobody fetches. When enough of them have nothing, a round ends, a kernel deals
     /// everything out evenly, and the next round begins (Lauterbach, Mo and Manocha 2010; cuda_partition.hpp).
     static_partition,
-    /// Each has a deque, in which all lies that it has. It takes from the bottom, and where its own is empty it steals from the
-    /// top of another's (Arora, Blumofe and Plaxton 1998; Cederman and Tsigas 2009; cuda_stealing.hpp, host_stealing.hpp).
+    /// Each has a deque, in which all lies that it has. It takes from the bottom, and where its own is empty it steals from
+    /// the top of another's (Arora, Blumofe and Plaxton 1998; Cederman and Tsigas 2009; cuda_stealing.hpp,
+    /// host_stealing.hpp).
     work_stealing,
     /// The same in three levels: a stack in shared memory, the block's deque for what is too much for that, and what it has
     /// stolen from many deques at once, which stays where it lies until it is needed (da Silva 2013; cuda_stealing.hpp).
@@ -36,13 +37,14 @@ struct schedule_report {
     std::uint64_t failed_steals = 0;       ///< times that it looked in other deques and came back with nothing
     std::uint64_t offers = 0;              ///< times that a worker put items where others could take them
     std::uint64_t transfers = 0;           ///< lazily stolen: times that some of it came to a block's stack
-    std::uint64_t transferred = 0;         ///< items in those; of the shared list, items that went through it
+    /// Items in those; of the shared list and the static partition, items that went from one kernel to the next.
+    std::uint64_t transferred = 0;
     std::uint64_t overflows = 0;           ///< times that a queue had no room, so that a worker kept what it had
     std::uint64_t rounds = 0;              ///< launches of the kernel that expands
     std::uint64_t balances = 0;            ///< launches of the kernel that deals out evenly
-    /// How much of the workers' time went by without work. Of stealing blocks, in cycles, from a worker's beginning to its end;
-    /// of threads, in turns of looking for work; of a static partition, in steps that a block could have done until the busiest
-    /// of the round was done. Of the shared list it is not measured, and negative.
+    /// How much of the workers' time went by without work. Of stealing blocks, in cycles, from a worker's beginning to its
+    /// end; of threads, in turns of looking for work; of a static partition, in steps that a block could have done until the
+    /// busiest of the round was done. Of the shared list it is not measured, and negative.
     double idle_share = -1;
 };
 

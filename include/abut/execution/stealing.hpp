@@ -5,11 +5,11 @@
 // block of a device or a thread of a host, and both run this code. Functions are called by one thread of a worker; it says
 // what to copy, and the worker's threads copy it.
 //
-// The deque is that of Arora, Blumofe and Plaxton (1998): its owner works at the bottom, thieves at the top, and the place of
-// the top stands in one 64-bit word with a tag, which thieves change by compare-and-swap. It differs in three things. Items
-// come and go in runs. The owner, too, takes by a compare-and-swap of that word, each time, and not for the last item alone:
-// of runs the last may be many, and on a device the fence that the original needs costs as much. And items that were stolen
-// may be copied at any time later, since their places are not used again before the thief has said that it is done.
+// The deque is that of Arora, Blumofe and Plaxton (1998): its owner works at the bottom, thieves at the top, and the place
+// of the top stands in one 64-bit word with a tag, which thieves change by compare-and-swap. It differs in three things.
+// Items come and go in runs. The owner, too, takes by a compare-and-swap of that word, each time, and not for the last item
+// alone: of runs the last may be many, and on a device the fence that the original needs costs as much. And items that were
+// stolen may be copied at any time later, since their places are not used again before the thief has said that it is done.
 
 #include <atomic>
 #include <cstdint>
@@ -120,14 +120,14 @@ ABUT_HD inline std::uint32_t deque_size(deque_words* deque) {
     return bottom > top ? bottom - top : 0;
 }
 
-/// Takes the first items of another's deque: half of them, or `most`. None if there are none, or another worker was quicker. When
-/// they have been copied, the thief calls give_back_places.
+/// Takes the first items of another's deque: half of them, or `most`. None if there are none, or another worker was quicker.
+/// When they have been copied, the thief calls give_back_places.
 ///
-/// Why a range is taken once, and has what the owner wrote: `bottom` is read after `age`. If the exchange succeeds, `age` has
-/// not changed since, so nothing was taken from either end since (the owner's take changes it as well). What `bottom` was
-/// read as the owner stored after the last take that this thread's `age` shows, for that take's exchange is what the load of
-/// `age` acquired, and the owner stores `bottom` before it exchanges; so places below it have items, and their writes are
-/// acquired with it.
+/// Why a range is taken once, and has what the owner wrote: `bottom` is read after `age`. If the exchange succeeds, `age`
+/// has not changed since, so nothing was taken from either end since (the owner's take changes it as well). What `bottom`
+/// was read as the owner stored after the last take that this thread's `age` shows, for that take's exchange is what the
+/// load of `age` acquired, and the owner stores `bottom` before it exchanges; so places below it have items, and their
+/// writes are acquired with it.
 ABUT_HD inline item_range steal(deque_words* deque, std::uint32_t most) {
     std::uint64_t age = load_acquire(&deque->age);
     const std::uint32_t bottom = load_acquire(&deque->bottom), top = top_of(age);
@@ -184,8 +184,8 @@ struct deque_owner {
     }
 
 private:
-    /// Of an empty deque. Thieves see it empty all the while: `bottom` falls below the top first. The exchange cannot fail, for no
-    /// thief has seen an item at this top.
+    /// Of an empty deque. Thieves see it empty all the while: `bottom` falls below the top first. The exchange cannot fail,
+    /// for no thief has seen an item at this top.
     ABUT_HD void restart() {
         if (bottom == 0 || load_acquire(&words->copied) != bottom) return;
         store_release(&words->bottom, std::uint32_t{0});
