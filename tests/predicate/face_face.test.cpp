@@ -4,10 +4,12 @@
 #include <array>
 #include <cstdint>
 #include <cstdio>
+#include <vector>
 
 #include <abut/predicate/intersects.hpp>
 
 #include "support/catch.hpp"
+#include "support/modes.hpp"
 #include "support/samples.hpp"
 #include "support/shared_faces.hpp"
 
@@ -104,7 +106,37 @@ void print(const char* family, const char* type, const face_tally& t) {
                 n(t.fast_wrong), n(t.wrong));
 }
 
+/// Pairs whose stages are asked in a mode of the processor, and the truth, which is found outside of it.
+template <class T>
+std::uint64_t wrong_in_modes(places kind) {
+    std::uint64_t wrong = 0;
+    const std::uint64_t count = test::sample_count() / 20;
+    for (std::uint64_t i = 0; i < count; ++i) {
+        const auto [f, g] = test::make_face_pair<T>(kind, i);
+        const bool truth = test::oracle::meet_beyond_shared(f, g);
+        const auto contradicts = [truth](verdict v) { return v == to_verdict(!truth); };
+        for (const test::floating_mode& mode : test::floating_modes()) {
+            test::in_mode(mode, [&, &f = f, &g = g] {
+                bool bad = contradicts(decide<filtered>(f, g)) || contradicts(decide_late<filtered>(f, g)) ||
+                           contradicts(decide<exact>(f, g)) || intersects(f, g) != truth;
+                if (i % 16 == 0) bad = bad || resolve(f, g) != truth;
+                wrong += bad;
+            });
+        }
+    }
+    return wrong;
+}
+
 }  // namespace
+
+TEST_CASE("faces of a mesh: in every mode of the processor") {
+    for (int i = 0; i < test::places_count; ++i) {
+        const auto kind = static_cast<places>(i);
+        CAPTURE(name_of(kind));
+        CHECK(wrong_in_modes<float>(kind) == 0);
+        CHECK(wrong_in_modes<double>(kind) == 0);
+    }
+}
 
 TEST_CASE("faces of a mesh: every stage against vertices of polytopes in integers") {
     std::printf(
@@ -114,7 +146,7 @@ TEST_CASE("faces of a mesh: every stage against vertices of polytopes in integer
     for (int i = 0; i < test::places_count; ++i) {
         const auto kind = static_cast<places>(i);
         for (const bool single : {true, false}) {
-            const std::uint64_t count = test::sample_count() / 2;
+            const std::uint64_t count = test::sample_count() / 4;
             const face_tally t = single ? examine_family<float>(kind, count) : examine_family<double>(kind, count);
             print(name_of(kind), single ? "float" : "double", t);
             CAPTURE(name_of(kind), single);

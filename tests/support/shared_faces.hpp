@@ -193,6 +193,7 @@ enum class places : int {
     denormal,
     mixed_exponents,
     any_span,
+    borders_of_range,
     signed_zeros,
 };
 inline constexpr int places_count = static_cast<int>(places::signed_zeros) + 1;
@@ -200,7 +201,8 @@ inline const char* name_of(places p) {
     constexpr const char* names[places_count] = {
         "lattice 1",    "lattice 2",   "lattice 4", "lattice 100",     "flat lattice", "line lattice",
         "tilted plane", "tilted line", "tenths",    "offset tenths",   "random",       "nearly flat",
-        "tiny",         "huge",        "denormal",  "mixed exponents", "any span",     "signed zeros"};
+        "tiny",         "huge",        "denormal",  "mixed exponents", "any span",     "borders of range",
+        "signed zeros"};
     return names[static_cast<int>(p)];
 }
 
@@ -219,6 +221,9 @@ std::vector<vec3<T>> draw_places(draws& d, places kind, std::size_t count) {
                        round(turn[2] + u * turn[5] + v * turn[8])};
     };
     constexpr bool narrow = std::same_as<T, float>;
+    // Where numbers, their products and products of three leave the normal range.
+    constexpr int borders[] = {narrow ? -126 : -338, narrow ? -120 : -342, narrow ? -126 : -511, narrow ? -123 : -1021};
+    const double border = std::ldexp(1.0, borders[d.below(4)]);
     std::vector<vec3<T>> points;
     for (std::size_t k = 0; k < count; ++k) {
         vec3<T> p{};
@@ -278,6 +283,11 @@ std::vector<vec3<T>> draw_places(draws& d, places kind, std::size_t count) {
             case places::any_span: {
                 T* const x[] = {&p.x, &p.y, &p.z};
                 for (T* const one : x) *one = round(std::ldexp(lattice(2), (narrow ? 60 : 250) * (d.below(4) - 2)));
+                break;
+            }
+            case places::borders_of_range: {
+                T* const x[] = {&p.x, &p.y, &p.z};
+                for (T* const one : x) *one = round((lattice(3) + lattice(2) * (narrow ? 0x1p-20 : 0x1p-40)) * border);
                 break;
             }
             case places::signed_zeros: {

@@ -89,10 +89,10 @@ ABUT_HD constexpr verdict decide_beyond_vertex(const triangle<T>& s, const trian
     return certain ? to_verdict((of_b > 0) != (of_d > 0)) : verdict::unknown;
 }
 
-/// Whether one is certainly positive and the other negative.
+/// Positive if one is certainly positive and the other negative.
 template <scalar F>
-ABUT_HD constexpr bool opposed(F x, F error_of_x, F y, F error_of_y) {
-    return ((x > error_of_x) & (y < -error_of_y)) | ((x < -error_of_x) & (y > error_of_y));
+ABUT_HD constexpr F opposition(F x, F error_of_x, F y, F error_of_y) {
+    return greatest(least(x - error_of_x, -y - error_of_y), least(-x - error_of_x, y - error_of_y));
 }
 
 /// Faces that share their first two corners. They meet in the edge alone where their third corners are on two sides of it,
@@ -112,9 +112,9 @@ ABUT_HD constexpr verdict decide_beyond_edge(const triangle<T>& s, const triangl
         error = determinant_error<F> * (length * (reach_s * reach_t)) + flushed_in_three<T>(reach);
     }
     const vec3<F> m = cross(along, to_s), n = cross(along, to_t);
-    const bool apart = opposed(m.x, error_of_s, n.x, error_of_t) | opposed(m.y, error_of_s, n.y, error_of_t) |
-                       opposed(m.z, error_of_s, n.z, error_of_t);
-    if (apart || absolute(dot(m, to_t)) > error) return verdict::no;
+    const F apart = greatest(opposition(m.x, error_of_s, n.x, error_of_t), opposition(m.y, error_of_s, n.y, error_of_t),
+                             opposition(m.z, error_of_s, n.z, error_of_t));
+    if (apart > 0 || absolute(dot(m, to_t)) > error) return verdict::no;
     return verdict::unknown;
 }
 
