@@ -10,6 +10,7 @@
 #include <abut/collide/nearest.hpp>
 #include <abut/collide/query.hpp>
 #include <abut/collide/reduce_contacts.hpp>
+#include <abut/collide/self_pairs.hpp>
 #include <abut/collide/validate.hpp>
 #include <abut/config.hpp>
 #include <abut/error.hpp>
@@ -31,3 +32,4 @@
 #include <abut/shape/posed.hpp>
 #include <abut/shape/set.hpp>
 #include <abut/shape/volume.hpp>
+#include <abut/shape/welded.hpp>

@@ -13,6 +13,7 @@
 #include <abut/shape/mesh_report.hpp>
 #include <abut/execution/host.hpp>
 #include <abut/shape/half_edges.hpp>
+#include <abut/shape/place_word.hpp>
 #include <abut/shape/shape.hpp>
 #include <abut/shape/view.hpp>
 
@@ -197,14 +198,6 @@ std::vector<duplicate_face> find_duplicates(const Policy& on, const sorted_half_
 
 // --- vertices in one place ------------------------------------------------------------------------------------------------
 
-/// A coordinate's bits, with one zero: by bits, since a processor may be told to take denormals for zero.
-template <scalar T>
-ABUT_HD auto place_word(T x) {
-    using word = typename float_format<T>::word;
-    const auto w = __builtin_bit_cast(word, x);
-    return static_cast<word>(w << 1) == 0 ? word{0} : w;
-}
-
 /// Any 32 bits will do that vertices in one place share and few others do: it costs time where others share them.
 template <scalar T>
 struct hash_of_place {
@@ -236,8 +229,7 @@ struct same_place {
     strided<vec3<T>> vertices;
     ABUT_HD bool operator()(std::uint32_t u, std::uint32_t v) const {
         const vec3<T> p = vertices[u], q = vertices[v];
-        return is_valid(p) && place_word(p.x) == place_word(q.x) && place_word(p.y) == place_word(q.y) &&
-               place_word(p.z) == place_word(q.z);
+        return is_valid(p) && in_one_place(p, q);
     }
 };
 
@@ -266,8 +258,9 @@ struct write_coincident {
     ABUT_HD void operator()(std::size_t k) const { out[k] = {later[k], first[k]}; }
 };
 
+/// The vertices that lie where an earlier one does, each with the first there. What is not finite lies nowhere.
 template <class Policy, scalar T>
-std::vector<coincident_vertex> find_coincident(const Policy& on, const strided<vec3<T>>& vertices) {
+repeats<Policy> find_repeated_places(const Policy& on, const strided<vec3<T>>& vertices) {
     const std::size_t n = vertices.count;
     id_buffer<Policy> ids(on, n);
     for_each_index(on, n, execution::write_index<std::uint32_t>{ids.data()});
@@ -275,7 +268,7 @@ std::vector<coincident_vertex> find_coincident(const Policy& on, const strided<v
     sort_by_key(on, hashes, ids, 32);
     const has_equal_neighbour suspect{hashes.data(), n};
     const std::uint64_t most = reduce(on, n, std::uint64_t{0}, add_up_tallies{}, one_if<has_equal_neighbour>{suspect});
-    if (most == 0) return {};
+    if (most == 0) return {id_buffer<Policy>(on, 0), id_buffer<Policy>(on, 0)};
 
     id_buffer<Policy> at(on, most);
     compact(on, n, suspect, at.data());
@@ -285,7 +278,13 @@ std::vector<coincident_vertex> find_coincident(const Policy& on, const strided<v
         auto words = evaluated(on, coordinate_word<T>{vertices, axis}, suspects.data(), most);
         sort_by_key(on, words, suspects, 8 * static_cast<int>(sizeof(T)));
     }
-    const auto found = find_repeats(on, suspects, same_place<T>{vertices});
+    return find_repeats(on, suspects, same_place<T>{vertices});
+}
+
+template <class Policy, scalar T>
+std::vector<coincident_vertex> find_coincident(const Policy& on, const strided<vec3<T>>& vertices) {
+    const auto found = find_repeated_places(on, vertices);
+    if (found.later.size() == 0) return {};
     execution::buffer_of<Policy, coincident_vertex> coincident(on, found.later.size());
     for_each_index(on, coincident.size(), write_coincident{found.later.data(), found.first.data(), coincident.data()});
     return downloaded<Policy, coincident_vertex>(on, coincident);

@@ -51,6 +51,13 @@ struct set_parts {
         return set.elements_.to_host();
     }
     template <scalar T, memory_space Space>
+    static mesh<T, Space> mesh_of(execution::buffer<vec3<T>, Space> vertices, execution::buffer<face, Space> faces) {
+        mesh<T, Space> made;
+        made.vertices_ = shared_array<vec3<T>, Space>(std::move(vertices));
+        made.elements_ = shared_array<face, Space>(std::move(faces));
+        return made;
+    }
+    template <scalar T, memory_space Space>
     static points<T, Space> points_of(execution::buffer<vec3<T>, Space> values) {
         points<T, Space> made;
         made.values_ = shared_array<vec3<T>, Space>(std::move(values));

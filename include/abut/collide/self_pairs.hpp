@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// self_pairs, count_self_pairs: which shapes of one set touch each other; for a mesh, where it passes through or folds onto
+// itself. The argument is a set (an owner or a view), or an index over one, posed or not; where it is no index, all shapes
+// are compared with all, in tiles.
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include <abut/collide/options.hpp>
+#include <abut/collide/query.hpp>
+#include <abut/collide/self_pairing.hpp>
+#include <abut/predicate/face_face.hpp>
+#include <abut/shape/mesh_face.hpp>
+#include <abut/shape/posed.hpp>
+#include <abut/shape/view.hpp>
+
+namespace abut {
+
+/// Which vertices of two faces are one.
+enum class coincident_vertices : unsigned char {
+    /// Those of one index. Corners of a soup are all different.
+    distinct,
+    /// Those in one place, where the query's pose puts them: for meshes that were never welded, and soups. -0.0 is 0.0.
+    merged
+};
+
+/// Options of `self_pairs` and `count_self_pairs`. See query_options, whose members they are but for the last.
+template <class Filter = keep_all, traversal Traversal = traversal::both_at_once>
+struct self_options {
+    /// Pairs sorted by a, then b. Without it their order is any, and may differ from call to call.
+    bool sorted = true;
+    /// filter(a, b) -> bool, a < b: pairs for which it is false are neither tested nor reported.
+    Filter filter = {};
+    /// On a device, how many pairs that are too much for it wait for the host at a time.
+    std::uint64_t most_pairs = std::uint64_t{1} << 18;
+    /// Of traversal::breadth_first alone: the depth at which it begins, 0 to most_start_depth. The other traversals are
+    /// both_at_once here.
+    int start_depth = 6;
+    /// Of triangles alone.
+    coincident_vertices coincident = coincident_vertices::distinct;
+};
+
+namespace detail {
+
+/// The triangles of a view as faces that know their vertices: of a mesh its own numbers; others share no vertices, and the
+/// number of each shape stands for its three.
+template <shape_view V>
+struct faces_view {
+    using scalar_type = typename V::scalar_type;
+    using shape_type = mesh_face<scalar_type>;
+    using memory_space = typename V::memory_space;
+
+    V triangles;
+    bool by_place;
+
+    [[nodiscard]] ABUT_HD std::size_t size() const { return triangles.size(); }
+    [[nodiscard]] ABUT_HD shape_type operator[](std::size_t i) const {
+        if (by_place) return {triangles[i], {shape_type::by_place, shape_type::by_place, shape_type::by_place}};
+        if constexpr (requires { corners_at(triangles.faces, i); }) {
+            const std::uint32_t* const vertex = corners_at(triangles.faces, i);
+            return {triangles[i], {vertex[0], vertex[1], vertex[2]}};
+        } else {
+            const auto own = static_cast<std::uint32_t>(i);
+            return {triangles[i], {own, own, own}};
+        }
+    }
+    ABUT_INLINE void prefetch(std::size_t i, int step) const { prefetch_shape(triangles, i, step); }
+};
+
+/// Sees triangles as faces, and other shapes as they are.
+struct as_faces {
+    bool by_place;
+
+    template <shape_view V>
+    auto operator()(const V& shapes) const {
+        if constexpr (std::same_as<typename V::shape_type, triangle<typename V::scalar_type>>) {
+            return faces_view<V>{shapes, by_place};
+        } else {
+            return shapes;
+        }
+    }
+    /// Vertices are placed after they are named.
+    template <shape_view V>
+    auto operator()(const posed_view<V>& placed) const {
+        const auto shapes = (*this)(placed.shapes);
+        return posed_view<std::remove_const_t<decltype(shapes)>>{shapes, placed.pose};
+    }
+};
+
+template <class Policy, class X, class Filter, traversal Traversal>
+auto pair_up_faces(const Policy& on, const X& x, const self_options<Filter, Traversal>& options, const char* function) {
+    const query_options<Filter, Traversal> of_query{.sorted = options.sorted,
+                                                    .filter = options.filter,
+                                                    .most_pairs = options.most_pairs,
+                                                    .start_depth = options.start_depth};
+    return pair_up_self(on, x, of_query, function, as_faces{options.coincident == coincident_vertices::merged});
+}
+
+}  // namespace detail
+
+/// All pairs of shapes of `x` that touch, each once with a < b, in the policy's memory; sorted by a, then b, unless the
+/// options say otherwise. A shape is not paired with itself.
+///
+/// Two faces of a mesh (a mesh, a mesh_view, an index over one) that share vertices, by the options' notion of it, are
+/// reported only if they meet in more: in a point that is no vertex that both name, and on no edge between two such
+/// vertices. So faces that fold onto each other in one plane are reported, neighbours are not. Faces of the same three
+/// vertices are reported if they have an area. A face that names a vertex twice, or whose corners lie on a line, is the
+/// segment or the point that it spans. With `filtered` and `exact` that is decided exactly, for every finite input.
+///
+/// Runs on the policy and returns when the answer is there, which does not depend on the policy, the thread count or the
+/// index. Throws as `pairs` does (collide/query.hpp).
+///
+///     for (const auto [f, g] : to_host(abut::self_pairs(on, abut::make_bvh(on, mesh)))) mark(f, g);
+template <arithmetic A = filtered, execution_policy Policy, class X, class Filter = keep_all,
+          traversal Traversal = traversal::both_at_once>
+[[nodiscard]] auto self_pairs(const Policy& on, const X& x, const self_options<Filter, Traversal>& options = {}) {
+    return detail::pairs_of<A>(on, detail::pair_up_faces(on, x, options, "abut::self_pairs"));
+}
+
+/// The number of pairs that self_pairs reports. Stores none of them.
+template <arithmetic A = filtered, execution_policy Policy, class X, class Filter = keep_all,
+          traversal Traversal = traversal::both_at_once>
+[[nodiscard]] std::uint64_t count_self_pairs(const Policy& on, const X& x,
+                                             const self_options<Filter, Traversal>& options = {}) {
+    return detail::count_of<A>(on, detail::pair_up_faces(on, x, options, "abut::count_self_pairs"));
+}
+
+}  // namespace abut
