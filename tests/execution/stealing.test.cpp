@@ -190,7 +190,7 @@ TEST_CASE("schedules: threads that steal find what one thread finds") {
     }
 }
 
-TEST_CASE("schedules: openmp") {
+TEST_CASE("schedules: threads of openmp that steal") {
     const openmp on{.threads = 3};
     test::check_schedule<schedule::work_stealing>(on);
     test::check_schedule_is_itself<schedule::work_stealing>(on, 11, 20);
