@@ -8,6 +8,7 @@
 // Roots are isolated by bisection with Descartes' rule of signs (G. Collins, A. Akritas, Polynomial real root isolation using
 // Descartes' rule of signs, 1976). A root is known by its cell: the interval [j, j + 1) / 2^48 in which it is, or a finer one.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -47,8 +48,13 @@ private:
     static polynomial sum(const polynomial& a, const polynomial& b) {
         std::vector<big_int> r(std::max(a.c.size(), b.c.size()));
         for (std::size_t i = 0; i < r.size(); ++i) {
-            const big_int x = i < a.c.size() ? a.c[i] : big_int(), y = i < b.c.size() ? b.c[i] : big_int();
-            r[i] = Minus ? x - y : x + y;
+            if (i >= b.c.size()) {
+                r[i] = a.c[i];
+            } else if (i >= a.c.size()) {
+                r[i] = Minus ? -b.c[i] : b.c[i];
+            } else {
+                r[i] = Minus ? a.c[i] - b.c[i] : a.c[i] + b.c[i];
+            }
         }
         return polynomial(std::move(r));
     }

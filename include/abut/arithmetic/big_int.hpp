@@ -7,13 +7,69 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <utility>
-#include <vector>
 
 #include <abut/arithmetic/align.hpp>
 #include <abut/arithmetic/wide_int.hpp>
 
 namespace abut::detail {
+
+/// Limbs in a row. Most numbers are short: those do not allocate.
+class limb_row {
+public:
+    limb_row() = default;
+    limb_row(const limb_row& other) { assign(other); }
+    limb_row(limb_row&& other) noexcept { take(other); }
+    limb_row& operator=(const limb_row& other) {
+        if (this != &other) assign(other);
+        return *this;
+    }
+    limb_row& operator=(limb_row&& other) noexcept {
+        if (this != &other) take(other);
+        return *this;
+    }
+    ~limb_row() = default;
+
+    [[nodiscard]] std::size_t size() const { return size_; }
+    [[nodiscard]] bool empty() const { return size_ == 0; }
+    std::uint64_t& operator[](std::size_t i) { return data()[i]; }
+    std::uint64_t operator[](std::size_t i) const { return data()[i]; }
+    [[nodiscard]] std::uint64_t back() const { return data()[size_ - 1]; }
+    void pop_back() { --size_; }
+    /// So many zeros.
+    void set_zero(std::size_t n) {
+        make_room(n);
+        size_ = n;
+        std::fill_n(data(), n, std::uint64_t{0});
+    }
+
+private:
+    static constexpr std::size_t most_near = 10;
+
+    [[nodiscard]] std::uint64_t* data() { return far_ ? far_.get() : near_; }
+    [[nodiscard]] const std::uint64_t* data() const { return far_ ? far_.get() : near_; }
+    void make_room(std::size_t n) {
+        if (n <= room_) return;
+        far_ = std::make_unique<std::uint64_t[]>(n);
+        room_ = n;
+    }
+    void assign(const limb_row& other) {
+        make_room(other.size_);
+        size_ = other.size_;
+        std::copy_n(other.data(), size_, data());
+    }
+    void take(limb_row& other) noexcept {
+        size_ = std::exchange(other.size_, 0);
+        room_ = std::exchange(other.room_, most_near);
+        far_ = std::move(other.far_);
+        if (!far_) std::copy_n(other.near_, size_, near_);
+    }
+
+    std::size_t size_ = 0, room_ = most_near;
+    std::uint64_t near_[most_near];
+    std::unique_ptr<std::uint64_t[]> far_;
+};
 
 /// Sign and magnitude; of the magnitude the least significant limb comes first, and the last one is not 0.
 class big_int {
@@ -23,7 +79,8 @@ public:
     explicit big_int(std::int64_t value, int shift = 0) : negative_(value < 0) {
         if (value == 0) return;
         const auto magnitude = value < 0 ? ~static_cast<std::uint64_t>(value) + 1 : static_cast<std::uint64_t>(value);
-        limbs_.push_back(magnitude);
+        limbs_.set_zero(1);
+        limbs_[0] = magnitude;
         *this = *this << shift;
     }
 
@@ -61,7 +118,7 @@ public:
         big_int r;
         if (a.limbs_.empty() || b.limbs_.empty()) return r;
         r.negative_ = a.negative_ != b.negative_;
-        r.limbs_.resize(a.limbs_.size() + b.limbs_.size());
+        r.limbs_.set_zero(a.limbs_.size() + b.limbs_.size());
         for (std::size_t i = 0; i < a.limbs_.size(); ++i) {
             std::uint64_t carry = 0;
             for (std::size_t j = 0; j < b.limbs_.size(); ++j) {
@@ -80,7 +137,7 @@ public:
         r.negative_ = a.negative_;
         const auto whole = static_cast<std::size_t>(shift / 64);
         const int part = shift % 64;
-        r.limbs_.resize(whole + a.limbs_.size() + 1);
+        r.limbs_.set_zero(whole + a.limbs_.size() + 1);
         for (std::size_t i = 0; i < a.limbs_.size(); ++i) {
             const uint128 moved = static_cast<uint128>(a.limbs_[i]) << part;
             r.limbs_[whole + i] |= lower_limb(moved);
@@ -94,9 +151,11 @@ private:
     void trim() {
         while (!limbs_.empty() && limbs_.back() == 0) limbs_.pop_back();
     }
-    static bool is_less(const std::vector<std::uint64_t>& a, const std::vector<std::uint64_t>& b) {
+    static bool is_less(const limb_row& a, const limb_row& b) {
         if (a.size() != b.size()) return a.size() < b.size();
-        return std::lexicographical_compare(a.rbegin(), a.rend(), b.rbegin(), b.rend());
+        std::size_t i = a.size();
+        while (i > 0 && a[i - 1] == b[i - 1]) --i;
+        return i > 0 && a[i - 1] < b[i - 1];
     }
     /// a + b, where b counts as negative or not.
     static big_int sum(const big_int& a, const big_int& b, bool b_negative) {
@@ -105,7 +164,7 @@ private:
         const auto &more = less ? b.limbs_ : a.limbs_, &fewer = less ? a.limbs_ : b.limbs_;
         r.negative_ = less ? b_negative : a.negative_;
         const bool adds = a.negative_ == b_negative;
-        r.limbs_.resize(more.size() + 1);
+        r.limbs_.set_zero(more.size() + 1);
         std::uint64_t carry = 0;
         for (std::size_t i = 0; i < more.size(); ++i) {
             const std::uint64_t other = i < fewer.size() ? fewer[i] : 0;
@@ -118,7 +177,7 @@ private:
         return r;
     }
 
-    std::vector<std::uint64_t> limbs_;
+    limb_row limbs_;
     bool negative_ = false;
 };
 

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -168,6 +169,21 @@ struct share_no_vertex_with_edge {
 /// Features in motion are crowded in places, and work is dealt out evenly again and again (docs/benchmarks.md).
 template <class Filter>
 using feature_options = query_options<Filter, traversal::both_at_once, schedule::static_partition>;
+
+/// How near boxes of features have to come. Throws where the bounds are no bounds.
+template <motion_arithmetic A, scalar T>
+auto nearness_of(const conservative_bounds& bounds, const char* function) {
+    if constexpr (std::same_as<A, conservative>) {
+        if (!(bounds.separation >= 0 && bounds.separation <= static_cast<double>(largest_finite<T>) && bounds.tolerance >= 0)) {
+            throw error(std::string(function) + ": separation is " + std::to_string(bounds.separation) + ", tolerance " +
+                        std::to_string(bounds.tolerance) + "; expected 0 or more, and finite");
+        }
+        const T rounded = static_cast<T>(bounds.separation);
+        return near_within<T>{static_cast<double>(rounded) < bounds.separation ? next_up(rounded) : rounded};
+    } else {
+        return near_enough_to_touch{};
+    }
+}
 
 /// Two features of one kind that are asked about their pairs: a pairing, and how its ids name vertices.
 template <feature_pair Kind, class Pairing>
@@ -387,11 +403,12 @@ template <motion_arithmetic A = filtered, execution_policy Policy, class X, clas
     const auto faces_x = x.mesh().t0().view().faces, faces_y = y.mesh().t0().view().faces;
     const auto edges_x = x.edges().set().t0().view().edges, edges_y = y.edges().set().t0().view().edges;
     const feature_options<keep_all> query{.sorted = options.sorted};
+    const auto near = nearness_of<A, T>(options.bounds, function);
     return impacts_of<A, T>(
         on, options,
-        features_of<feature_pair::vertex_face>(pair_up(on, x.vertices(), y.faces(), query, function), faces_y, {}, {}),
-        features_of<feature_pair::face_vertex>(pair_up(on, x.faces(), y.vertices(), query, function), faces_x, {}, {}),
-        features_of<feature_pair::edge_edge>(pair_up(on, x.edges(), y.edges(), query, function), {}, edges_x, edges_y));
+        features_of<feature_pair::vertex_face>(pair_up(on, x.vertices(), y.faces(), query, function, near), faces_y, {}, {}),
+        features_of<feature_pair::face_vertex>(pair_up(on, x.faces(), y.vertices(), query, function, near), faces_x, {}, {}),
+        features_of<feature_pair::edge_edge>(pair_up(on, x.edges(), y.edges(), query, function, near), {}, edges_x, edges_y));
 }
 
 /// The impacts of one mesh with itself: of all pairs that have no vertex index in common. Vertices that coincide in place but not
@@ -406,10 +423,11 @@ template <motion_arithmetic A = filtered, execution_policy Policy, class X>
     const auto edges = index.edges().set().t0().view().edges;
     const feature_options<share_no_vertex_with_face> with_faces{.sorted = options.sorted, .filter = {faces}};
     const feature_options<share_no_vertex_with_edge> with_edges{.sorted = options.sorted, .filter = {edges}};
+    const auto near = nearness_of<A, T>(options.bounds, function);
     return impacts_of<A, T>(on, options,
                             features_of<feature_pair::vertex_face>(
-                                pair_up(on, index.vertices(), index.faces(), with_faces, function), faces, {}, {}),
-                            features_of<feature_pair::edge_edge>(pair_up_self(on, index.edges(), with_edges, function), {}, edges,
+                                pair_up(on, index.vertices(), index.faces(), with_faces, function, near), faces, {}, {}),
+                            features_of<feature_pair::edge_edge>(pair_up_self(on, index.edges(), with_edges, function, as_they_are{}, near), {}, edges,
                                                                  edges));
 }
 

@@ -90,18 +90,42 @@ ABUT_HD bool is_wanted_by_row(const Ids& ids, std::uint32_t row, std::uint32_t f
     return RowsAreB ? ids.wanted(found, row) : ids.wanted(row, found);
 }
 
+// How near shapes have to come to be judged: what one reaches from where it is, and which boxes are near each other.
+
+/// So near that their boxes touch.
+struct near_enough_to_touch {
+    template <class S>
+    [[nodiscard]] ABUT_HD auto reach(const S& s) const {
+        return reach_of(s);
+    }
+};
+/// So near that no coordinate of their boxes is farther apart than `distance`. For trees without a pose.
+template <scalar T>
+struct near_within {
+    T distance;
+    template <class S>
+    [[nodiscard]] ABUT_HD auto reach(const S& s) const {
+        const aabb<T> box = bounds(s);
+        const auto down = [this](T x) { return add_down(x, -distance); };
+        const auto up = [this](T x) { return add_up(x, distance); };
+        return box_reach<T>({{down(box.lower.x), down(box.lower.y), down(box.lower.z)},
+                             {up(box.upper.x), up(box.upper.y), up(box.upper.z)}});
+    }
+};
+
 /// Each shape of one operand looks in the index of the other.
-template <bool RowsAreB, class Walk, class Rows, class Ids>
+template <bool RowsAreB, class Walk, class Rows, class Ids, class Nearness>
 struct look_up {
     using candidate = std::uint64_t;
     using cursor = typename Walk::cursor;
     Walk walk;
     Rows rows;
     Ids ids;
+    Nearness near;
 
     /// Whether row i may find anything at all.
     [[nodiscard]] ABUT_HD bool may_find(std::size_t i) const {
-        auto reach = reach_of(rows[i]);
+        auto reach = near.reach(rows[i]);
         return walk.may_touch(reach);
     }
     /// Hands on what row i finds from `at` on. True if there may be more, for which the emitter has no room.
@@ -109,7 +133,7 @@ struct look_up {
     template <class Emitter, class... Sinks>
     ABUT_HD bool operator()(std::size_t i, cursor& at, const Emitter& emitter, Sinks&... sinks) const {
         const auto row = static_cast<std::uint32_t>(i);
-        auto reach = reach_of(rows[i]);
+        auto reach = near.reach(rows[i]);
         return walk.for_each(
             reach, at, [&] { return emitter.is_full(); },
             [&](std::uint32_t found) {
@@ -169,9 +193,9 @@ struct all_with_all {
 };
 
 /// Judges what the rows find.
-template <bool RowsAreB, class Policy, class Walk, class Rows, class Ids, class Run>
-void look(const Policy& on, const Walk& walk, const Rows& rows, const Ids& ids, const Run& run) {
-    const look_up<RowsAreB, Walk, Rows, Ids> each{walk, rows, ids};
+template <bool RowsAreB, class Policy, class Walk, class Rows, class Ids, class Run, class Nearness = near_enough_to_touch>
+void look(const Policy& on, const Walk& walk, const Rows& rows, const Ids& ids, const Run& run, const Nearness& near = {}) {
+    const look_up<RowsAreB, Walk, Rows, Ids, Nearness> each{walk, rows, ids, near};
     run([&](const auto& judge, auto&... sinks) { return for_each_candidate(on, rows.size(), each, judge, sinks...); });
 }
 
@@ -259,13 +283,24 @@ auto box_overlap(const A& a, const B& b) {
     }
 }
 
+template <class A, class B, class Nearness>
+auto box_overlap(const A& a, const B& b, const Nearness& near) {
+    if constexpr (std::same_as<Nearness, near_enough_to_touch>) {
+        return box_overlap(a, b);
+    } else {
+        static_assert(!A::is_posed && !B::is_posed);
+        return near_frame{near.distance};
+    }
+}
+
 /// Two operands that are asked about their pairs.
-template <operand A, operand B, class Filter, traversal Traversal, schedule Schedule>
+template <operand A, operand B, class Filter, traversal Traversal, schedule Schedule, class Nearness = near_enough_to_touch>
 struct pairing {
     A a;
     B b;
     pair_key key;
     query_options<Filter, Traversal, Schedule> options;
+    Nearness near = {};
 
     using view_a = decltype(std::declval<const A&>().shapes());
     using view_b = decltype(std::declval<const B&>().shapes());
@@ -295,9 +330,9 @@ struct pairing {
             }
         }
         if constexpr (A::is_indexed) {
-            look<true>(on, a.walk(), both.b, both, run);
+            look<true>(on, a.walk(), both.b, both, run, near);
         } else if constexpr (B::is_indexed) {
-            look<false>(on, b.walk(), both.a, both, run);
+            look<false>(on, b.walk(), both.a, both, run, near);
         } else {
             compare_all(on, both, run);
         }
@@ -309,7 +344,7 @@ private:
     auto walk_of_both() const {
         const auto rows = b.tree();
         const auto index = a.tree();
-        const auto overlap = box_overlap(b, a);
+        const auto overlap = box_overlap(b, a, near);
         return chosen_walk<Traversal, std::remove_const_t<decltype(rows)>, std::remove_const_t<decltype(index)>,
                            std::remove_const_t<decltype(overlap)>>{rows, index, overlap};
     }
@@ -351,15 +386,17 @@ void require_functions_of_shapes(const Policy& on) {
 }
 
 /// Both arguments of a query, ready to be paired; errors are thrown in the name of `function`.
-template <class Policy, class X, class Y, class Filter, traversal Traversal, schedule Schedule>
+template <class Policy, class X, class Y, class Filter, traversal Traversal, schedule Schedule,
+          class Nearness = near_enough_to_touch>
 auto pair_up(const Policy& on, const X& x, const Y& y, const query_options<Filter, Traversal, Schedule>& options,
-             const char* function) {
+             const char* function, const Nearness& near = {}) {
     check_options(on, options, function);
     auto a = make_operand(on, x, function);
     auto b = make_operand(on, y, function);
     const pair_key key{id_bits(a.shapes().size()), id_bits(b.shapes().size())};
     require_functions_of_shapes<typename decltype(a.shapes())::shape_type, typename decltype(b.shapes())::shape_type>(on);
-    return pairing<decltype(a), decltype(b), Filter, Traversal, Schedule>{std::move(a), std::move(b), key, options};
+    return pairing<decltype(a), decltype(b), Filter, Traversal, Schedule, Nearness>{std::move(a), std::move(b), key, options,
+                                                                                     near};
 }
 
 }  // namespace abut::detail

@@ -51,12 +51,14 @@ struct as_they_are {
 
 /// One operand that is asked about its pairs. `Sight` makes of a view of its shapes the one that is judged: of as many
 /// shapes, with the same boxes.
-template <operand X, class Filter, traversal Traversal, schedule Schedule, class Sight>
+template <operand X, class Filter, traversal Traversal, schedule Schedule, class Sight,
+          class Nearness = near_enough_to_touch>
 struct self_pairing {
     X x;
     Sight sight;
     pair_key key;
     query_options<Filter, Traversal, Schedule> options;
+    Nearness near = {};
 
     using view_of_shapes = decltype(std::declval<const Sight&>()(std::declval<const X&>().shapes()));
     using view_type = pair_view<view_of_shapes, view_of_shapes, Filter>;
@@ -77,7 +79,7 @@ struct self_pairing {
         const std::size_t n = both.a.size();
         if (n < 2) return;  // a leaf alone has no place (traverse/pair_walk.hpp)
         if constexpr (X::has_tree) {
-            const self_walk walk(x.tree(), box_overlap(x, x));
+            const self_walk walk(x.tree(), box_overlap(x, x, near));
             using walk_type = std::remove_const_t<decltype(walk)>;
             if (n <= walk_type::most_shapes) {
                 const expand_pair<false, walk_type, ids_in_order<view_type>> expand{walk, {both}};
@@ -86,7 +88,7 @@ struct self_pairing {
         }
         const ids_that_ascend<view_type> ids{both};
         if constexpr (X::is_indexed) {
-            look<false>(on, x.walk(), both.a, ids, run);
+            look<false>(on, x.walk(), both.a, ids, run, near);
         } else {
             compare<false>(on, both.a, both.b, ids, run);
         }
@@ -95,16 +97,18 @@ struct self_pairing {
 
 /// The argument of a self query, ready to be paired with itself; errors are thrown in the name of `function`. Of the
 /// traversals breadth_first is meant as it says, and the others are both_at_once.
-template <class Policy, class X, class Filter, traversal Traversal, schedule Schedule, class Sight = as_they_are>
+template <class Policy, class X, class Filter, traversal Traversal, schedule Schedule, class Sight = as_they_are,
+          class Nearness = near_enough_to_touch>
 auto pair_up_self(const Policy& on, const X& x, const query_options<Filter, Traversal, Schedule>& options,
-                  const char* function, const Sight& sight = {}) {
+                  const char* function, const Sight& sight = {}, const Nearness& near = {}) {
     check_options(on, options, function);
     auto operand = make_operand(on, x, function);
     const auto shapes = sight(operand.shapes());
     const int bits = id_bits(shapes.size());
     using shape_type = typename decltype(shapes)::shape_type;
     require_functions_of_shapes<shape_type, shape_type>(on);
-    return self_pairing<decltype(operand), Filter, Traversal, Schedule, Sight>{std::move(operand), sight, {bits, bits}, options};
+    return self_pairing<decltype(operand), Filter, Traversal, Schedule, Sight, Nearness>{
+        std::move(operand), sight, {bits, bits}, options, near};
 }
 
 }  // namespace abut::detail

@@ -32,6 +32,20 @@ struct same_frame {
     }
 };
 
+/// Boxes of one frame that may be so far apart, in each coordinate. Rounding is monotone: what is no larger than the distance is
+/// rounded to no more.
+template <scalar T>
+struct near_frame {
+    T distance;
+    ABUT_INLINE ABUT_HD bool operator()(const aabb<T>& a, const aabb<T>& b) const {
+        const auto near = [this](T lower, T upper) { return static_cast<unsigned>(lower - upper <= distance); };
+        return (near(a.lower.x, b.upper.x) & near(b.lower.x, a.upper.x) & near(a.lower.y, b.upper.y) &
+                near(b.lower.y, a.upper.y) & near(a.lower.z, b.upper.z) & near(b.lower.z, a.upper.z)) != 0;
+    }
+};
+template <scalar T>
+near_frame(T) -> near_frame<T>;
+
 /// Volumes of two frames (shape/relative_pose.hpp). Polytopes by their boxes: under a pose a slab takes as long as several
 /// boxes do, and queries that compared them all took two to ten times as long (docs/hierarchies.md).
 template <class Volume, scalar T>
