@@ -226,7 +226,7 @@ struct view_of_features {
     }
 };
 
-/// Writes impact i, and hands on i where its time is not known, or where there is none.
+/// Writes impact i; counts it where there is none, and hands on i where its time is not known.
 template <motion_arithmetic A, class View>
 struct write_impact {
     View features;
@@ -234,21 +234,23 @@ struct write_impact {
     impact<typename View::T>* out;
 
     ABUT_CALLS_ANY
-    template <class Sink>
-    ABUT_HD void operator()(std::size_t i, Sink& open) const {
+    template <class None, class Open>
+    ABUT_HD void operator()(std::size_t i, None& none, Open& open) const {
         features.write_names(i, out[i]);
-        out[i].time = time_in_registers<A, View::are_edges>(features.points(i), bounds);
-        if (out[i].time < 0) open.push(i);
+        const double time = time_in_registers<A, View::are_edges>(features.points(i), bounds);
+        out[i].time = time;
+        if (time == time_in_bits::none) none.add(1);
+        if (time == time_in_bits::unknown) open.push(i);
     }
 };
 /// The same where all is known at once.
 template <motion_arithmetic A, class View>
 struct write_impact_on_host : write_impact<A, View> {
-    template <class Sink>
-    void operator()(std::size_t i, Sink& open) const {
+    template <class None>
+    void operator()(std::size_t i, None& none) const {
         this->features.write_names(i, this->out[i]);
         this->out[i].time = time_on_host<A, View::are_edges>(this->features.points(i), this->bounds);
-        if (this->out[i].time < 0) open.push(i);
+        if (this->out[i].time < 0) none.add(1);
     }
 };
 
@@ -279,21 +281,22 @@ template <motion_arithmetic A, class Policy, class View>
 bool write_impacts(const Policy& on, const View& features, std::size_t count, const conservative_bounds& bounds,
                    impact<typename View::T>* out) {
     using T = typename View::T;
+    execution::work_count<space_of<Policy>> none(on);
     key_queue<Policy> open(on, 1024);
     const write_impact<A, View> write{features, bounds, out};
     if constexpr (host_policy<Policy>) {
-        for_each_index(on, count, write_impact_on_host<A, View>{write}, open);
+        for_each_index(on, count, write_impact_on_host<A, View>{write}, none);
     } else {
-        for_each_index(on, count, write, open);
+        for_each_index(on, count, write, none, open);
     }
     const std::size_t n = open.size();
-    if (host_policy<Policy> || n == 0) return n > 0;
+    bool some_are_none = none.total() > 0;
+    if (n == 0) return some_are_none;
     std::vector<moving_points<T>> points(n);
     std::vector<double> times(n);
     execution::buffer_of<Policy, moving_points<T>> gathered(on, n);
     for_each_index(on, n, fetch_points<View>{features, open.data(), gathered.data()});
     download(on, gathered.data(), n, points.data());
-    bool some_are_none = false;
     for (std::size_t i = 0; i < n; ++i) {
         times[i] = time_on_host<A, View::are_edges>(points[i], bounds);
         some_are_none |= times[i] < 0;

@@ -87,6 +87,10 @@ struct part_of_open {
     [[nodiscard]] ABUT_HD bool holds(std::uint64_t key) const {
         return is_all() || (key * 0x9e3779b97f4a7c15u >> 32) % parts == part;
     }
+    /// Part k of `more` that this is divided into.
+    [[nodiscard]] part_of_open split(std::uint32_t k, std::uint32_t more) const {
+        return is_all() ? part_of_open{k, more} : part_of_open{part + k * parts, more * parts};
+    }
 };
 
 // What to do with a pair that was found, for each kind of sink (execution/work_queue.hpp).

@@ -106,7 +106,7 @@ private:
         }
         const auto more = static_cast<std::uint32_t>(2 * unfinished / execution::most_open + 1);
         for (std::uint32_t k = 0; k < more && !is_over(); ++k) {
-            run(loop, part.is_all() ? part_of_open{k, more} : part_of_open{part.part + k * part.parts, more * part.parts});
+            run(loop, part.split(k, more));
         }
     }
 
@@ -134,10 +134,11 @@ template <class Judge>
 inline constexpr bool judges_apart = requires { requires Judge::may_report_more; };
 
 struct gather_candidate {
+    part_of_open part;
     ABUT_CALLS_ANY
     template <class Near>
     ABUT_HD bool operator()(std::uint64_t key, Near& near, auto&...) const {
-        near.push(key);
+        if (part.holds(key)) near.push(key);
         return true;
     }
     ABUT_HD void finish(std::uint64_t, auto&...) const {}
@@ -159,19 +160,21 @@ struct pass_gathered {
 /// Candidates that are gathered on a device at a time: 128 for each shape, 512 MiB of them at most.
 inline constexpr std::size_t least_gathered = std::size_t{1} << 22, most_gathered = std::size_t{1} << 26;
 
-/// A search by a judge that may report more. False if there are more candidates than may be gathered; then nothing is found.
+/// A search by a judge that may report more. Where there are more candidates than may be gathered, it looks for a part of them
+/// at a time.
 template <class Policy, class Pairing, class Judge>
-bool search_apart(const Policy& on, const Pairing& pairing, const Judge& judge, key_queue<Policy>& hits) {
+void search_apart(const Policy& on, const Pairing& pairing, const Judge& judge, key_queue<Policy>& hits,
+                  execution::buffer_of<Policy, std::uint64_t>& room, part_of_open part = {}) {
     const auto both = pairing.view();
-    const std::size_t shapes = std::max(both.a.size(), both.b.size());
-    execution::buffer_of<Policy, std::uint64_t> room(on, std::clamp(128 * shapes, least_gathered, most_gathered));
-    execution::capped_queue<std::uint64_t, space_of<Policy>> near(room);
-    pairing.judge_candidates(on, [&](const auto& loop) { loop(gather_candidate{}, near); });
-    const auto count = static_cast<std::size_t>(near.pushed());
-    if (count > room.size()) return false;
     using view = std::remove_const_t<decltype(both)>;
-    for_each_index(on, count, pass_gathered<view, Judge>{both, judge, room.data()}, hits);
-    return true;
+    execution::capped_queue<std::uint64_t, space_of<Policy>> near(room);
+    pairing.judge_candidates(on, [&](const auto& loop) { loop(gather_candidate{part}, near); });
+    const auto count = static_cast<std::size_t>(near.pushed());
+    if (count <= room.size()) {
+        return for_each_index(on, count, pass_gathered<view, Judge>{both, judge, room.data()}, hits);
+    }
+    const auto more = static_cast<std::uint32_t>(2 * count / room.size() + 1);
+    for (std::uint32_t k = 0; k < more; ++k) search_apart(on, pairing, judge, hits, room, part.split(k, more));
 }
 
 /// What a judge says of each pair that was found.
@@ -189,7 +192,10 @@ template <class Policy, class Pairing, class Judge>
 auto find_keys(const Policy& on, const Pairing& pairing, const Judge& judge) {
     key_queue<Policy> hits(on, pairing.likely_hits());
     if constexpr (judges_apart<Judge> && !host_policy<Policy>) {
-        if (!search_apart(on, pairing, judge, hits)) search(on, pairing, judge, hits);
+        const auto both = pairing.view();
+        const std::size_t shapes = std::max(both.a.size(), both.b.size());
+        execution::buffer_of<Policy, std::uint64_t> room(on, std::clamp(128 * shapes, least_gathered, most_gathered));
+        search_apart(on, pairing, judge, hits, room);
     } else {
         search(on, pairing, judge, hits);
     }

@@ -34,9 +34,9 @@ struct conservative_bounds {
 
 namespace detail {
 
-/// A time of impact that is a multiple of 2^-40, or what is known of it.
+/// A time of impact as a multiple of 2^-40, or what is known of it.
 struct time_in_bits {
-    static constexpr std::int64_t none = -1, unknown = -2;
+    static constexpr int none = -1, unknown = -2;
     std::int64_t count;
 };
 inline constexpr double last_time_bit = 0x1p-40;
@@ -103,7 +103,7 @@ ABUT_HD constexpr double time_in_registers(const moving_points<T>& p, const cons
     } else if constexpr (std::same_as<A, conservative>) {
         return motion_filter<Edges>(p).conservative_time(bounds.separation, bounds.tolerance);
     } else if constexpr (std::same_as<A, exact>) {
-        return static_cast<double>(time_in_bits::unknown);
+        return time_in_bits::unknown;
     } else {
         const std::int64_t count = filtered_time<Edges>(p).count;
         return count < 0 ? static_cast<double>(count) : static_cast<double>(count) * last_time_bit;
@@ -113,7 +113,7 @@ ABUT_HD constexpr double time_in_registers(const moving_points<T>& p, const cons
 template <motion_arithmetic A, bool Edges, scalar T>
 double time_on_host(const moving_points<T>& p, const conservative_bounds& bounds) {
     const double t = time_in_registers<A, Edges>(p, bounds);
-    if (t != static_cast<double>(time_in_bits::unknown)) return t;
+    if (t != time_in_bits::unknown) return t;
     const std::int64_t count = exact_time<Edges>(p);
     return count < 0 ? -1 : static_cast<double>(count) * last_time_bit;
 }
