@@ -170,7 +170,7 @@ struct finish_gathered {
 };
 
 /// Candidates that are gathered on a device at a time: 128 for each shape, 512 MiB of them at most.
-inline constexpr std::size_t least_gathered = std::size_t{1} << 22, most_gathered = std::size_t{1} << 26;
+inline constexpr std::size_t least_gathered = std::size_t{1} << 23, most_gathered = std::size_t{1} << 26;
 
 /// A search by a judge that may report more. Where there are more candidates than may be gathered, it looks for a part of them
 /// at a time.

@@ -148,6 +148,9 @@ public:
         : t0_(frame_of(p.t0)), t1_(frame_of(p.t1)), u_(size_of<T>(t0_.u, t1_.u)), v_(size_of<T>(t0_.v, t1_.v)),
           w_(size_of<T>(t0_.w, t1_.w)) {}
 
+    /// Whether they are surely apart at t = 0.
+    [[nodiscard]] ABUT_HD constexpr bool start_apart() const { return can_bound() && is_apart(t0_, t0_, 0); }
+
     /// The whole step at once.
     [[nodiscard]] ABUT_HD constexpr verdict look_once() const {
         return can_bound() ? look(t0_, t1_, false, 0) : verdict::unknown;
