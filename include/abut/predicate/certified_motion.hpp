@@ -382,7 +382,7 @@ private:
         const double area = uu * vv - uv * uv;
         double s = area > 0 ? clamped((uw * vv - uv * vw) / area) : 0;
         double r = vv > 0 ? (uv * s - vw) / vv : 0;
-        if (!(r >= 0 && r <= 1)) {
+        if (!(vv > 0 && r >= 0 && r <= 1)) {
             r = clamped(r);
             s = uu > 0 ? clamped((uw + r * uv) / uu) : 0;
         }
