@@ -81,10 +81,10 @@ struct flaws {
     }
 };
 
-#define ABUT_CHECK_NONE(flaws)                   \
-    do {                                         \
-        CAPTURE(#flaws, (flaws).last);           \
-        CHECK((flaws).count == 0);               \
+#define ABUT_CHECK_NONE(flaws)         \
+    do {                               \
+        CAPTURE(#flaws, (flaws).last); \
+        CHECK((flaws).count == 0);     \
     } while (false)
 
 /// Calls body(kind, family, index, tally) for pairs of each family, and check(tally) for each family.
@@ -103,10 +103,12 @@ void for_each_family(std::uint64_t n, const Body& body, const Check& check) {
     }
 }
 
-// --- filtered, exact, fast -------------------------------------------------------------------------------------------------
+// --- filtered, exact, fast
+// -------------------------------------------------------------------------------------------------
 
 struct exact_tally {
-    std::uint64_t pairs = 0, hits = 0, decided_once = 0, decided_late = 0, in_registers = 0, fast_misses = 0, fast_alarms = 0;
+    std::uint64_t pairs = 0, hits = 0, decided_once = 0, decided_late = 0, in_registers = 0, fast_misses = 0,
+                  fast_alarms = 0;
     flaws filtered_time, exact_time, features, order, predicates, fast_answer;
 
     exact_tally& operator+=(const exact_tally& t) {
@@ -169,13 +171,14 @@ TEMPLATE_TEST_CASE("time of impact: filtered and exact are the oracle's, bit for
             ABUT_CHECK_NONE(t.fast_answer);
             all += t;
             if (wordy) {
-                std::printf("%-11s %-20s %6zu pairs %6zu hits; once %5.1f %%, late %5.1f %%, time %5.1f %%; "
-                            "fast: %zu missed, %zu false alarms\n",
-                            name_of(kind), name_of(f), std::size_t{t.pairs}, std::size_t{t.hits},
-                            100.0 * static_cast<double>(t.decided_once) / static_cast<double>(t.pairs),
-                            100.0 * static_cast<double>(t.decided_late) / static_cast<double>(t.pairs),
-                            100.0 * static_cast<double>(t.in_registers) / static_cast<double>(t.pairs),
-                            std::size_t{t.fast_misses}, std::size_t{t.fast_alarms});
+                std::printf(
+                    "%-11s %-20s %6zu pairs %6zu hits; once %5.1f %%, late %5.1f %%, time %5.1f %%; "
+                    "fast: %zu missed, %zu false alarms\n",
+                    name_of(kind), name_of(f), std::size_t{t.pairs}, std::size_t{t.hits},
+                    100.0 * static_cast<double>(t.decided_once) / static_cast<double>(t.pairs),
+                    100.0 * static_cast<double>(t.decided_late) / static_cast<double>(t.pairs),
+                    100.0 * static_cast<double>(t.in_registers) / static_cast<double>(t.pairs), std::size_t{t.fast_misses},
+                    std::size_t{t.fast_alarms});
             }
         });
     CHECK(all.hits * 3 > all.pairs);
@@ -187,7 +190,8 @@ TEMPLATE_TEST_CASE("time of impact: filtered and exact are the oracle's, bit for
     CHECK((all.pairs - all.decided_late) * 20 > all.pairs);
 }
 
-// --- the filter alone ------------------------------------------------------------------------------------------------------
+// --- the filter alone
+// ------------------------------------------------------------------------------------------------------
 
 namespace {
 
@@ -237,7 +241,8 @@ TEMPLATE_TEST_CASE("time of impact: the filter never contradicts the oracle", ""
             const motion<TestType> m = make_motion<TestType>(seed + 3, kind, f, i);
             const motion_answer truth = oracle::first_contact(kind, m);
             ++tally.pairs;
-            kind == motion_kind::edge_edge ? examine_filter<true>(m, truth, i, tally) : examine_filter<false>(m, truth, i, tally);
+            kind == motion_kind::edge_edge ? examine_filter<true>(m, truth, i, tally)
+                                           : examine_filter<false>(m, truth, i, tally);
         },
         [&](motion_kind, motion_family, const filter_tally& t) {
             ABUT_CHECK_NONE(t.once);
@@ -302,7 +307,8 @@ TEMPLATE_TEST_CASE("time of impact: in every mode of the processor", "", float, 
         });
 }
 
-// --- conservative ----------------------------------------------------------------------------------------------------------
+// --- conservative
+// ----------------------------------------------------------------------------------------------------------
 
 namespace {
 
@@ -336,7 +342,8 @@ real distance_of(motion_kind kind, const std::array<real_vec, 4>& p) {
     real least = std::min({to_segment(p[0], p[2], p[3]), to_segment(p[1], p[2], p[3]), to_segment(p[2], p[0], p[1]),
                            to_segment(p[3], p[0], p[1])});
     const real_vec u = minus(p[1], p[0]), v = minus(p[3], p[2]), w = minus(p[2], p[0]);
-    const real uu = inner(u, u), uv = inner(u, v), vv = inner(v, v), wu = inner(w, u), wv = inner(w, v), area = uu * vv - uv * uv;
+    const real uu = inner(u, u), uv = inner(u, v), vv = inner(v, v), wu = inner(w, u), wv = inner(w, v),
+               area = uu * vv - uv * uv;
     if (area > 0) {
         const real s = (wu * vv - wv * uv) / area, r = (wu * uv - wv * uu) / area;
         if (s >= 0 && s <= 1 && r >= 0 && r <= 1) least = std::min(least, length(plus(plus(w, -s, u), r, v)));
@@ -451,19 +458,19 @@ void examine_conservative(motion_kind kind, motion_family f, std::uint64_t i, co
 
 TEMPLATE_TEST_CASE("time of impact: conservative never misses and is never late", "", float, double) {
     conservative_tally all, in_general;
-    for_each_family<TestType, conservative_tally>(
-        sample_count() / 25 + 1, examine_conservative<TestType>,
-        [&](motion_kind, motion_family f, const conservative_tally& t) {
-            ABUT_CHECK_NONE(t.range);
-            ABUT_CHECK_NONE(t.missed);
-            ABUT_CHECK_NONE(t.late);
-            ABUT_CHECK_NONE(t.early);
-            ABUT_CHECK_NONE(t.separation_later);
-            ABUT_CHECK_NONE(t.separation_order);
-            ABUT_CHECK_NONE(t.near_missed);
-            all += t;
-            if (f == motion_family::random || f == motion_family::crossing) in_general += t;
-        });
+    for_each_family<TestType, conservative_tally>(sample_count() / 25 + 1, examine_conservative<TestType>,
+                                                  [&](motion_kind, motion_family f, const conservative_tally& t) {
+                                                      ABUT_CHECK_NONE(t.range);
+                                                      ABUT_CHECK_NONE(t.missed);
+                                                      ABUT_CHECK_NONE(t.late);
+                                                      ABUT_CHECK_NONE(t.early);
+                                                      ABUT_CHECK_NONE(t.separation_later);
+                                                      ABUT_CHECK_NONE(t.separation_order);
+                                                      ABUT_CHECK_NONE(t.near_missed);
+                                                      all += t;
+                                                      if (f == motion_family::random || f == motion_family::crossing)
+                                                          in_general += t;
+                                                  });
     CHECK(all.close > all.pairs / 2);
     CHECK(in_general.near_in_time * 100 >= in_general.hits * 97);
     CHECK(in_general.alarms * 20 <= in_general.pairs);
@@ -486,8 +493,9 @@ struct rest_tally {
 TEMPLATE_TEST_CASE("time of impact: a pair at rest is reported within the separation, and only there", "", float, double) {
     rest_tally all;
     for (const motion_kind kind : both_kinds) {
-        for (const motion_family f : {motion_family::random, motion_family::at_rest, motion_family::lattice_4,
-                                      motion_family::lattice_16, motion_family::at_rest_coplanar, motion_family::offset_1e6}) {
+        for (const motion_family f :
+             {motion_family::random, motion_family::at_rest, motion_family::lattice_4, motion_family::lattice_16,
+              motion_family::at_rest_coplanar, motion_family::offset_1e6}) {
             rest_tally t;
             for (std::uint64_t i = 0; i < sample_count() / 5; ++i) {
                 motion<TestType> m = make_motion<TestType>(seed + 6, kind, f, i);
