@@ -17,7 +17,7 @@ void check_bodies() {
     const auto between = to_host(impacts(serial{}, a, b)), self = to_host(self_impacts(serial{}, a));
     CHECK(between.size() > 2000);
     CHECK(self.size() > 2000);
-    const cuda on;
+    const abut::cuda on;
     const auto of_a = make_impact_index(on, a), of_b = make_impact_index(on, b);
     for (int k = 0; k < 20; ++k) {
         check_same("between", to_host(impacts(on, of_a, of_b)), between);
@@ -30,12 +30,12 @@ void check_bodies() {
 }  // namespace
 
 TEST_CASE("impacts: cuda, float, in all ways") {
-    check_all_impacts<float>(cuda{});
-    check_small_impacts<float>(cuda{});
+    check_all_impacts<float>(abut::cuda{});
+    check_small_impacts<float>(abut::cuda{});
 }
 
 TEST_CASE("impacts: cuda, double") {
-    check_all_impacts<double, false>(cuda{});
+    check_all_impacts<double, false>(abut::cuda{});
     check_bodies<double>();
 }
 
