@@ -344,6 +344,8 @@ auto impact_operand(const Policy& on, const X& x, const char* function) {
         require_same_device(on, x, function);
         return x;
     } else {
+        static_assert(requires { make_impact_index(on, x); },
+                      "abut: impacts are of meshes, at rest or in motion (abut::moving), or of indices of such, without a pose");
         return make_impact_index(on, x);
     }
 }
