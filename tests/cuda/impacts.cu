@@ -29,14 +29,19 @@ void check_bodies() {
 
 }  // namespace
 
-TEST_CASE("impacts: cuda, float, in all ways") {
-    check_all_impacts<float>(abut::cuda{});
-    check_small_impacts<float>(abut::cuda{});
+TEST_CASE("impacts: cuda, float") {
+    check_all_impacts<float, ways::conservative_too>(abut::cuda{});
+    check_small_impacts<float, ways::conservative_too>(abut::cuda{});
+    check_bodies<float>();
 }
 
 TEST_CASE("impacts: cuda, double") {
-    check_all_impacts<double, false>(abut::cuda{});
+    check_all_impacts<double, ways::filtered_alone>(abut::cuda{});
     check_bodies<double>();
 }
 
-TEST_CASE("impacts: cuda, bodies of thousands of faces") { check_bodies<float>(); }
+TEST_CASE("vertices and faces in motion in a query: cuda") {
+    for (const impact_case<float>& c : impact_cases<float>()) {
+        if (!c.follows) check_moving_pairs(abut::cuda{}, c);
+    }
+}
