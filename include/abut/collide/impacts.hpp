@@ -456,11 +456,11 @@ template <scalar T, memory_space Space>
     const auto point = [](const auto& m, std::uint32_t i) {
         return motion<vec3<T>>{m.t0.vertices[i], m.t1.vertices[i]};
     };
-    const auto edge = [&](const auto& m, std::uint32_t i, std::uint32_t j) {
+    const auto edge_of = [&](const auto& m, std::uint32_t i, std::uint32_t j) {
         const auto from = point(m, i), to = point(m, j);
         return motion<segment<T>>{{from.t0, to.t0}, {from.t1, to.t1}};
     };
-    if (found.kind == feature_pair::edge_edge) return weights_at(edge(a, v[0], v[1]), edge(b, v[2], v[3]), found.time);
+    if (found.kind == feature_pair::edge_edge) return weights_at(edge_of(a, v[0], v[1]), edge_of(b, v[2], v[3]), found.time);
     const bool vertex_first = found.kind == feature_pair::vertex_face;
     const auto &of_vertex = vertex_first ? a : b, &of_face = vertex_first ? b : a;
     const auto x = point(of_face, v[1]), y = point(of_face, v[2]), z = point(of_face, v[3]);
