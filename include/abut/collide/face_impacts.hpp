@@ -100,18 +100,18 @@ auto faces_of_one(const X& x, const Nearness& near) {
     const face_view<X> faces{x.mesh().view(), x.parts().parts.data()};
     const feature_keys keys = features_of_two(x, x).keys();
     const auto overlap = box_overlap(operand, operand, near);
-    const auto make = [&](const auto& filter, const auto& rule) {
-        using pairs = self_pairing<face_operand<X>, std::remove_cvref_t<decltype(filter)>, traversal::both_at_once,
-                                   schedule::static_partition, as_they_are, Nearness>;
+    using pairs =
+        self_pairing<face_operand<X>, keep_all, traversal::both_at_once, schedule::static_partition, as_they_are, Nearness>;
+    const auto make = [&](const auto& rule) {
         using expand = expand_faces<true, decltype(faces.faces), std::remove_cvref_t<decltype(rule)>,
                                     std::remove_const_t<decltype(overlap)>>;
-        return std::pair(pairs{operand, {}, {bits, bits}, {.filter = filter}, near},
+        return std::pair(pairs{operand, {}, {bits, bits}, {}, near},
                          expand{faces, faces, {bits, bits}, keys, rule, overlap});
     };
     if constexpr (X::keeps_orphans) {
-        return make(faces_apart{faces.faces.t0.faces}, x.orphans().rule(faces.faces.t0.faces));
+        return make(x.orphans().rule(faces.faces.t0.faces));
     } else {
-        return make(keep_all{}, tell_where_given{});
+        return make(tell_where_given{});
     }
 }
 

@@ -126,7 +126,7 @@ struct take_place {
 /// Feature i is given to the first of its faces.
 struct give_to_face {
     incidence_view of;
-    int feature;  ///< 0 of vertices, side_features of edges
+    std::uint32_t feature;  ///< 0 of vertices, side_features of edges
     face_part* parts;
     ABUT_HD void operator()(std::size_t i) const {
         if (of.begin(i) == of.end(i)) return;

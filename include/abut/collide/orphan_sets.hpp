@@ -13,8 +13,9 @@
 // those of t and f do, and the walk finds {t, f}, once. Two edges d < e likewise, with the least (t, s) of T(d) x T(e), t
 // before s; as faces that share d or e are not apart, a pair of faces has d and e in one order alone.
 //
-// To be the first costs little: the face that a feature has been given to is the first of all, so where a face has been
-// given its features there is nothing to ask, and of others the face that was given them is apart from f as a rule.
+// To be the first costs little: the face that a feature has been given to is the first of all, so a face tells of what it
+// has been given without a question. Of its other features it tells only if the face that has been given them is not apart:
+// each face knows the vertices of those (given_faces), so that few comparisons rule out nearly all others.
 
 #include <cstddef>
 #include <cstdint>
@@ -32,11 +33,30 @@ ABUT_HD inline bool are_apart(const corner_ids& f, const corner_ids& g) {
     return apart;
 }
 
-/// Pairs of faces that lie apart: the filter of the walk.
-struct faces_apart {
+/// Of a face, to whom its features have been given: the other two vertices of the face that has been given corner k, and the
+/// third vertex of the one that has been given side k. Of its own features they are its own vertices.
+struct alignas(16) given_faces {
+    std::uint32_t of_corner[3][2], of_side[3];
+};
+
+struct write_given_faces {
     strided<face> faces;
-    ABUT_HD bool operator()(std::uint32_t f, std::uint32_t g) const {
-        return are_apart(corners_of(faces, f), corners_of(faces, g));
+    const face_part* parts;
+    incidence_view vertices, edges;
+    given_faces* out;
+    ABUT_HD void operator()(std::size_t f) const {
+        const corner_ids c = corners_of(faces, f);
+        given_faces made{};
+        for (int k = 0; k < 3; ++k) {
+            const std::uint32_t corner = vertices.places[vertices.begin(c.of[k])];
+            const corner_ids given = corners_of(faces, corner / 3);
+            made.of_corner[k][0] = given.of[(corner + 1) % 3];
+            made.of_corner[k][1] = given.of[(corner + 2) % 3];
+            if (parts[f].edge[k] == 0xffffffff) continue;
+            const std::uint32_t side = edges.places[edges.begin(parts[f].edge[k])];
+            made.of_side[k] = corners_of(faces, side / 3).of[(side + 2) % 3];
+        }
+        out[f] = made;
     }
 };
 
@@ -49,6 +69,7 @@ struct tell_where_first_apart {
     };
     strided<face> faces;
     incidence_view vertices, edges;
+    const given_faces* given;
 
     /// The first face of v that is apart from f, or none.
     [[nodiscard]] ABUT_HD std::uint32_t first_apart(std::uint32_t v, std::uint32_t f) const {
@@ -69,13 +90,44 @@ struct tell_where_first_apart {
         return {none, none};
     }
 
-    [[nodiscard]] ABUT_HD static bool may_tell(const face_part& part, int feature) { return part.is_new(feature); }
-    [[nodiscard]] ABUT_HD bool tells_vertex(bool given, std::uint32_t v, std::uint32_t t, std::uint32_t f) const {
-        return given || first_apart(v, f) == t;
+    [[nodiscard]] ABUT_HD given_faces look_at(std::uint32_t f) const { return given[f]; }
+    template <class Face>
+    [[nodiscard]] ABUT_HD static bool leaves_out(const Face& t, const Face& s) {
+        return !are_apart(t.corners, s.corners);
     }
-    [[nodiscard]] ABUT_HD bool tells_edges(bool given, std::uint32_t d, std::uint32_t t, std::uint32_t e,
-                                           std::uint32_t s) const {
-        return given || (d < e ? first_two_apart(d, e).are(t, s) : first_two_apart(e, d).are(s, t));
+    template <class Face>
+    [[nodiscard]] ABUT_HD static bool may_tell(const Face& t, int feature) {
+        return t.part.is_new(feature);
+    }
+    /// The face that has been given the corner is t; or it is not apart from s. Of itself the corner is not of s.
+    template <class Face>
+    [[nodiscard]] ABUT_HD static bool may_tell_vertex(const Face& t, int k, const Face& s) {
+        const std::uint32_t* const other = t.looked.of_corner[k];
+        return t.part.has_been_given(k) || (t.part.is_new(k) && (s.has(other[0]) || s.has(other[1])));
+    }
+    /// The faces that have been given the sides are t and s; or they are not apart. Of themselves the sides are.
+    template <class Face>
+    [[nodiscard]] ABUT_HD static bool may_tell_edges(const Face& t, int k, const Face& s, int l) {
+        const std::uint32_t x = t.looked.of_side[k], a = t.from(k), b = t.to(k);
+        const std::uint32_t y = s.looked.of_side[l], c = s.from(l), d = s.to(l);
+        const bool meet = (x == y) | (x == c) | (x == d) | (y == a) | (y == b);
+        return both_given(t, k, s, l) || (t.part.is_new(side_features + k) && s.part.is_new(side_features + l) && meet);
+    }
+    template <class Face>
+    [[nodiscard]] ABUT_HD bool tells_vertex(const Face& t, int k, const Face& s) const {
+        return t.part.has_been_given(k) || first_apart(t.corners.of[k], s.id) == t.id;
+    }
+    template <class Face>
+    [[nodiscard]] ABUT_HD bool tells_edges(const Face& t, int k, const Face& s, int l) const {
+        if (both_given(t, k, s, l)) return true;
+        const std::uint32_t d = t.part.edge[k], e = s.part.edge[l];
+        return d < e ? first_two_apart(d, e).are(t.id, s.id) : first_two_apart(e, d).are(s.id, t.id);
+    }
+
+private:
+    template <class Face>
+    [[nodiscard]] ABUT_HD static bool both_given(const Face& t, int k, const Face& s, int l) {
+        return t.part.has_been_given(side_features + k) && s.part.has_been_given(side_features + l);
     }
 };
 
@@ -84,10 +136,11 @@ struct tell_where_first_apart {
 template <memory_space Space>
 struct orphan_pairs {
     feature_incidences<Space> faces_of;
+    shared_array<given_faces, Space> given;
     shared_array<std::uint64_t, Space> vertex_face, edge_edge;
 
     [[nodiscard]] tell_where_first_apart rule(const strided<face>& faces) const {
-        return {faces, faces_of.vertices.view(), faces_of.edges.view()};
+        return {faces, faces_of.vertices.view(), faces_of.edges.view(), given.data()};
     }
 };
 
@@ -165,7 +218,12 @@ template <class Policy>
 orphan_pairs<space_of<Policy>> make_orphans(const Policy& on, const strided<face>& faces, const strided<edge>& edges,
                                             std::size_t vertex_count, const face_parts<space_of<Policy>>& parts,
                                             feature_incidences<space_of<Policy>> faces_of) {
-    orphan_pairs<space_of<Policy>> made{std::move(faces_of), {}, {}};
+    orphan_pairs<space_of<Policy>> made{std::move(faces_of), {}, {}, {}};
+    execution::buffer_of<Policy, given_faces> given(on, faces.count);
+    for_each_index(on, faces.count,
+                   write_given_faces{faces, parts.parts.data(), made.faces_of.vertices.view(), made.faces_of.edges.view(),
+                                     given.data()});
+    made.given = shared_array<given_faces, space_of<Policy>>(std::move(given));
     const pair_key vertex_face{id_bits(vertex_count), id_bits(faces.count)},
         edge_edge{id_bits(edges.count), id_bits(edges.count)};
     key_queue<Policy> of_vertices(on, faces.count), of_edges(on, faces.count);

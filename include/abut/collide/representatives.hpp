@@ -30,7 +30,6 @@ namespace abut::detail {
 /// A face in motion by the boxes of its features.
 template <scalar T>
 struct swept_face {
-    std::uint32_t corner[3];
     aabb<T> vertex[3], edge[3], face;
 };
 
@@ -41,12 +40,10 @@ struct faces_with_parts {
     V faces;
     const face_part* parts;
 
-    [[nodiscard]] ABUT_HD swept_face<T> swept(std::uint32_t f) const {
+    [[nodiscard]] ABUT_HD swept_face<T> swept(const corner_ids& c) const {
         swept_face<T> made;
-        const std::uint32_t* const corner = corners_at(faces.t0.faces, f);
         for (int k = 0; k < 3; ++k) {
-            made.corner[k] = corner[k];
-            made.vertex[k] = bounds(segment<T>{faces.t0.vertices[corner[k]], faces.t1.vertices[corner[k]]});
+            made.vertex[k] = bounds(segment<T>{faces.t0.vertices[c.of[k]], faces.t1.vertices[c.of[k]]});
         }
         for (int k = 0; k < 3; ++k) made.edge[k] = merge(made.vertex[k], made.vertex[(k + 1) % 3]);
         made.face = merge(made.edge[0], made.vertex[2]);
@@ -59,28 +56,68 @@ struct feature_keys {
     pair_key vertex_face, face_vertex, edge_edge;
 };
 
-/// The rule of representatives. A rule has
-///   may_tell(part, feature)   whether a face may tell of a feature at all; a short test
-///   tells_vertex(v, t, f)     whether faces t and f tell of vertex v of t and face f
-///   tells_edges(d, t, e, s)   and of the edges d of t and e of s
-/// The latter two are asked about features that may be told, whose boxes overlap, and that share no vertex; `given` says of
-/// them that t (and s) have been given them.
+/// The rule of representatives. A rule has, of faces t and s of two meshes or of one:
+///   look_at(f)                     what it wants to know of face f
+///   leaves_out(t, s)               whether it is not for these faces to tell of anything
+///   may_tell(t, feature)           whether t may tell of one of its features at all; a short test, as the next two
+///   may_tell_vertex(t, k, s)       whether both may tell of corner k of t and the face s
+///   may_tell_edges(t, k, s, l)     and of side k of t and side l of s
+///   tells_vertex(t, k, s)          whether they do: asked of those that may, whose boxes overlap, and that share no vertex
+///   tells_edges(t, k, s, l)
 struct tell_where_given {
-    [[nodiscard]] ABUT_HD static bool may_tell(const face_part& part, int feature) { return part.has_been_given(feature); }
-    [[nodiscard]] ABUT_HD static bool tells_vertex(bool, std::uint32_t, std::uint32_t, std::uint32_t) { return true; }
-    [[nodiscard]] ABUT_HD static bool tells_edges(bool, std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t) {
+    struct nothing {};
+    [[nodiscard]] ABUT_HD static nothing look_at(std::uint32_t) { return {}; }
+    template <class Face>
+    [[nodiscard]] ABUT_HD static bool leaves_out(const Face&, const Face&) {
+        return false;
+    }
+    template <class Face>
+    [[nodiscard]] ABUT_HD static bool may_tell(const Face& t, int feature) {
+        return t.part.has_been_given(feature);
+    }
+    template <class Face>
+    [[nodiscard]] ABUT_HD static bool may_tell_vertex(const Face& t, int k, const Face&) {
+        return t.part.has_been_given(k);
+    }
+    template <class Face>
+    [[nodiscard]] ABUT_HD static bool may_tell_edges(const Face& t, int k, const Face& s, int l) {
+        return t.part.has_been_given(side_features + k) && s.part.has_been_given(side_features + l);
+    }
+    template <class Face>
+    [[nodiscard]] ABUT_HD static bool tells_vertex(const Face&, int, const Face&) {
+        return true;
+    }
+    template <class Face>
+    [[nodiscard]] ABUT_HD static bool tells_edges(const Face&, int, const Face&, int) {
         return true;
     }
 };
 
+/// A face as a rule sees it.
+template <class Looked>
+struct seen_face {
+    std::uint32_t id;
+    corner_ids corners;
+    face_part part;
+    Looked looked;
+
+    [[nodiscard]] ABUT_HD bool has(std::uint32_t v) const {
+        return (v == corners.of[0]) | (v == corners.of[1]) | (v == corners.of[2]);
+    }
+    /// The vertices of side k.
+    [[nodiscard]] ABUT_HD std::uint32_t from(int k) const { return corners.of[k]; }
+    [[nodiscard]] ABUT_HD std::uint32_t to(int k) const { return corners.of[(k + 1) % 3]; }
+};
+
 /// Hands on the pairs of features that two faces tell: each(kind, key), of a constant and a number. In self queries (`Self`)
-/// the two are faces of one mesh, and no pair has a vertex in common. `near` compares
-/// their boxes as those of trees are compared.
+/// the two are faces of one mesh, and no pair has a vertex in common. `near` compares their boxes as those of trees are
+/// compared.
 template <bool Self, class V, class Rule, class Overlap>
 struct expand_faces {
     static constexpr bool is_self = Self;
     using T = typename V::scalar_type;
     using swept = swept_face<T>;
+    using seen = seen_face<decltype(std::declval<const Rule&>().look_at(0))>;
     faces_with_parts<V> a, b;
     pair_key faces;
     feature_keys keys;
@@ -90,30 +127,33 @@ struct expand_faces {
     ABUT_CALLS_ANY
     template <class Each>
     ABUT_HD void operator()(std::uint64_t key, const Each& each) const {
-        const std::uint32_t f = faces.a(key), g = faces.b(key);
-        const swept at_f = a.swept(f), at_g = b.swept(g);
-        const face_part of_f = a.parts[f], of_g = b.parts[g];
+        const seen t = look_at(a, faces.a(key)), s = look_at(b, faces.b(key));
+        if (rule.leaves_out(t, s)) return;
+        const swept at_t = a.swept(t.corners), at_s = b.swept(s.corners);
         for (int k = 0; k < 3; ++k) {
-            if (has_vertex(of_f, at_f, f, k, at_g, g)) {
-                each(kind<feature_pair::vertex_face>{}, keys.vertex_face.pack(at_f.corner[k], g));
+            if (has_vertex(t, at_t, k, s, at_s)) {
+                each(kind<feature_pair::vertex_face>{}, keys.vertex_face.pack(t.corners.of[k], s.id));
             }
         }
         for (int k = 0; k < 3; ++k) {
-            if (!has_vertex(of_g, at_g, g, k, at_f, f)) continue;
+            if (!has_vertex(s, at_s, k, t, at_t)) continue;
             if constexpr (Self) {
-                each(kind<feature_pair::vertex_face>{}, keys.vertex_face.pack(at_g.corner[k], f));
+                each(kind<feature_pair::vertex_face>{}, keys.vertex_face.pack(s.corners.of[k], t.id));
             } else {
-                each(kind<feature_pair::face_vertex>{}, keys.face_vertex.pack(f, at_g.corner[k]));
+                each(kind<feature_pair::face_vertex>{}, keys.face_vertex.pack(t.id, s.corners.of[k]));
             }
         }
         for (int k = 0; k < 3; ++k) {
-            if (!rule.may_tell(of_f, side_features + k) || !near(at_f.edge[k], at_g.face)) continue;
+            if (!rule.may_tell(t, side_features + k) || !near(at_t.edge[k], at_s.face)) continue;
             for (int l = 0; l < 3; ++l) {
-                if (!has_edges(of_f, at_f, f, k, of_g, at_g, g, l)) continue;
-                const std::uint32_t d = of_f.edge[k], e = of_g.edge[l];
+                if (!has_edges(t, at_t, k, s, at_s, l)) continue;
+                const std::uint32_t d = t.part.edge[k], e = s.part.edge[l];
                 each(kind<feature_pair::edge_edge>{}, Self && e < d ? keys.edge_edge.pack(e, d) : keys.edge_edge.pack(d, e));
             }
         }
+    }
+    [[nodiscard]] ABUT_HD bool leaves_out(std::uint64_t key) const {
+        return rule.leaves_out(look_at(a, faces.a(key)), look_at(b, faces.b(key)));
     }
     ABUT_INLINE void prefetch(std::uint64_t key, int step) const {
         a.faces.prefetch(faces.a(key), step);
@@ -125,24 +165,21 @@ private:
     template <feature_pair Kind>
     using kind = std::integral_constant<feature_pair, Kind>;
 
-    [[nodiscard]] ABUT_HD static bool is_corner(std::uint32_t v, const swept& s) {
-        return (v == s.corner[0]) | (v == s.corner[1]) | (v == s.corner[2]);
+    [[nodiscard]] ABUT_HD seen look_at(const faces_with_parts<V>& of, std::uint32_t f) const {
+        return {f, corners_of(of.faces.t0.faces, f), of.parts[f], rule.look_at(f)};
     }
-    [[nodiscard]] ABUT_HD bool has_vertex(const face_part& part, const swept& of, std::uint32_t t, int k, const swept& other,
-                                          std::uint32_t f) const {
-        return rule.may_tell(part, k) && near(of.vertex[k], other.face) && !(Self && is_corner(of.corner[k], other)) &&
-               rule.tells_vertex(part.has_been_given(k), of.corner[k], t, f);
+    [[nodiscard]] ABUT_HD bool has_vertex(const seen& t, const swept& at_t, int k, const seen& s, const swept& at_s) const {
+        return rule.may_tell_vertex(t, k, s) && near(at_t.vertex[k], at_s.face) && !(Self && s.has(t.corners.of[k])) &&
+               rule.tells_vertex(t, k, s);
     }
-    [[nodiscard]] ABUT_HD bool has_edges(const face_part& of_f, const swept& at_f, std::uint32_t f, int k,
-                                         const face_part& of_g, const swept& at_g, std::uint32_t g, int l) const {
-        const int i = side_features + k, j = side_features + l;
-        if (!rule.may_tell(of_g, j) || !near(at_f.edge[k], at_g.edge[l])) return false;
+    [[nodiscard]] ABUT_HD bool has_edges(const seen& t, const swept& at_t, int k, const seen& s, const swept& at_s,
+                                         int l) const {
+        if (!rule.may_tell_edges(t, k, s, l) || !near(at_t.edge[k], at_s.edge[l])) return false;
         if constexpr (Self) {
-            const std::uint32_t v = at_f.corner[k], w = at_f.corner[(k + 1) % 3], x = at_g.corner[l],
-                                y = at_g.corner[(l + 1) % 3];
+            const std::uint32_t v = t.from(k), w = t.to(k), x = s.from(l), y = s.to(l);
             if ((v == x) | (v == y) | (w == x) | (w == y)) return false;
         }
-        return rule.tells_edges(of_f.has_been_given(i) && of_g.has_been_given(j), of_f.edge[k], f, of_g.edge[l], g);
+        return rule.tells_edges(t, k, s, l);
     }
 };
 
