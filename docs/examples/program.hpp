@@ -13,6 +13,7 @@
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -25,6 +26,7 @@
 
 #include <abut/arithmetic/arithmetic.hpp>
 #include <abut/execution/policy.hpp>
+#include <abut/narrow/time_of_impact.hpp>
 
 namespace example {
 
@@ -47,6 +49,13 @@ public:
             std::vector<double> sorted = times;
             std::sort(sorted.begin(), sorted.end());
             return (sorted[(sorted.size() - 1) / 2] + sorted[sorted.size() / 2]) / 2;
+        }
+        return std::nullopt;
+    }
+    /// The sum of the stage's runs, in milliseconds; nothing if it has not run.
+    [[nodiscard]] std::optional<double> total(const std::string& stage) const {
+        for (const auto& [name, times] : stages_) {
+            if (name == stage) return std::accumulate(times.begin(), times.end(), 0.0);
         }
         return std::nullopt;
     }
@@ -105,6 +114,7 @@ std::string name_of() {
     if constexpr (std::same_as<X, abut::fast>) return "fast";
     if constexpr (std::same_as<X, abut::filtered>) return "filtered";
     if constexpr (std::same_as<X, abut::exact>) return "exact";
+    if constexpr (std::same_as<X, abut::conservative>) return "conservative";
 }
 
 template <class... X>

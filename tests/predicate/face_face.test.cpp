@@ -110,7 +110,7 @@ void print(const char* family, const char* type, const face_tally& t) {
 template <class T>
 std::uint64_t wrong_in_modes(places kind) {
     std::uint64_t wrong = 0;
-    const std::uint64_t count = test::sample_count() / 20;
+    const std::uint64_t count = test::sample_count() / 10;
     for (std::uint64_t i = 0; i < count; ++i) {
         const auto [f, g] = test::make_face_pair<T>(kind, i);
         const bool truth = test::oracle::meet_beyond_shared(f, g);

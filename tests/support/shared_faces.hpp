@@ -194,15 +194,23 @@ enum class places : int {
     mixed_exponents,
     any_span,
     borders_of_range,
+    turned_lattice,
+    lost_differences,
     signed_zeros,
 };
 inline constexpr int places_count = static_cast<int>(places::signed_zeros) + 1;
 inline const char* name_of(places p) {
-    constexpr const char* names[places_count] = {
-        "lattice 1",    "lattice 2",   "lattice 4", "lattice 100",     "flat lattice", "line lattice",
-        "tilted plane", "tilted line", "tenths",    "offset tenths",   "random",       "nearly flat",
-        "tiny",         "huge",        "denormal",  "mixed exponents", "any span",     "borders of range",
-        "signed zeros"};
+    constexpr const char* names[places_count] = {"lattice 1",      "lattice 2",
+                                                 "lattice 4",      "lattice 100",
+                                                 "flat lattice",   "line lattice",
+                                                 "tilted plane",   "tilted line",
+                                                 "tenths",         "offset tenths",
+                                                 "random",         "nearly flat",
+                                                 "tiny",           "huge",
+                                                 "denormal",       "mixed exponents",
+                                                 "any span",       "borders of range",
+                                                 "turned lattice", "lost differences",
+                                                 "signed zeros"};
     return names[static_cast<int>(p)];
 }
 
@@ -223,6 +231,13 @@ std::vector<vec3<T>> draw_places(draws& d, places kind, std::size_t count) {
     constexpr bool narrow = std::same_as<T, float>;
     // Where numbers, their products and products of three leave the normal range.
     constexpr int borders[] = {narrow ? -126 : -338, narrow ? -120 : -342, narrow ? -126 : -511, narrow ? -123 : -1021};
+    // A rotation times a number, in integers, by a quaternion: right angles at any orientation.
+    const auto whole = [&] { return std::floor(d.uniform(-1, 1) * (narrow ? 0x1p8 : 0x1p20)); };
+    const double q0 = whole(), q1 = whole(), q2 = whole(), q3 = whole();
+    const double frame[3][3] = {{q0 * q0 + q1 * q1 - q2 * q2 - q3 * q3, 2 * (q1 * q2 + q0 * q3), 2 * (q1 * q3 - q0 * q2)},
+                                {2 * (q1 * q2 - q0 * q3), q0 * q0 - q1 * q1 + q2 * q2 - q3 * q3, 2 * (q2 * q3 + q0 * q1)},
+                                {2 * (q1 * q3 + q0 * q2), 2 * (q2 * q3 - q0 * q1), q0 * q0 - q1 * q1 - q2 * q2 + q3 * q3}};
+    const bool is_subnormal = d.below(2) == 0;
     const double border = std::ldexp(1.0, borders[d.below(4)]);
     std::vector<vec3<T>> points;
     for (std::size_t k = 0; k < count; ++k) {
@@ -288,6 +303,21 @@ std::vector<vec3<T>> draw_places(draws& d, places kind, std::size_t count) {
             case places::borders_of_range: {
                 T* const x[] = {&p.x, &p.y, &p.z};
                 for (T* const one : x) *one = round((lattice(3) + lattice(2) * (narrow ? 0x1p-20 : 0x1p-40)) * border);
+                break;
+            }
+            case places::turned_lattice: {
+                const double u = lattice(3), v = lattice(3), w = d.below(3) == 0 ? 1 : 0;
+                p.x = round(u * frame[0][0] + v * frame[1][0] + w * frame[2][0]);
+                p.y = round(u * frame[0][1] + v * frame[1][1] + w * frame[2][1]);
+                p.z = round(u * frame[0][2] + v * frame[1][2] + w * frame[2][2]);
+                break;
+            }
+            case places::lost_differences: {  // in a plane, and seen along x on a line, but for what is rounded or flushed
+                const double unit = narrow && is_subnormal ? 0x1p-126 : 1;
+                const double v = narrow && is_subnormal ? lattice(4) / 4
+                                 : d.below(2) == 0      ? lattice(2)
+                                                        : lattice(7) * 0x1p-54;
+                p = {round(lattice(3) * unit), round(v * unit), round(3 * v * unit)};
                 break;
             }
             case places::signed_zeros: {

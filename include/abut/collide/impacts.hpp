@@ -23,6 +23,7 @@
 #include <abut/collide/self_pairing.hpp>
 #include <abut/index/lbvh.hpp>
 #include <abut/index/refit.hpp>
+#include <abut/narrow/feature_weights.hpp>
 #include <abut/narrow/time_of_impact.hpp>
 #include <abut/shape/motion.hpp>
 
@@ -396,6 +397,8 @@ auto impact_operand(const Policy& on, const X& x, const char* function) {
         require_same_device(on, x, function);
         return x;
     } else {
+        static_assert(requires { make_impact_index<Rule>(on, x); },
+                      "abut: impacts are of meshes, at rest or in motion (abut::moving), or of indices of such, without a pose");
         return make_impact_index<Rule>(on, x);
     }
 }
@@ -538,6 +541,29 @@ template <motion_arithmetic A = filtered, execution_policy Policy, class X, clas
 [[nodiscard]] auto first_impact(const Policy& on, const X& a, const Y& b, impact_options options = {}) {
     options.sorted = true;
     return detail::first_of(on, impacts<A>(on, a, b, options));
+}
+
+/// Where the features of an impact touch (narrow/feature_weights.hpp). `a` and `b` are the meshes of the query as moving views, of
+/// a self query the same one twice; reads their vertices, on hosts and devices.
+///
+///     const auto step = abut::moving(cloth_t0, cloth_t1);
+///     for (const auto& i : abut::self_impacts(on, step)) use(i, abut::weights_of(i, step.view(), step.view()));
+template <scalar T, memory_space Space>
+[[nodiscard]] ABUT_HD feature_weights weights_of(const impact<T>& found, const moving_view<mesh_view<T, Space>>& a,
+                                                 const moving_view<mesh_view<T, Space>>& b) {
+    const auto* const v = reinterpret_cast<const std::uint32_t*>(&found.vertices);
+    const auto point = [](const auto& m, std::uint32_t i) {
+        return motion<vec3<T>>{m.t0.vertices[i], m.t1.vertices[i]};
+    };
+    const auto edge = [&](const auto& m, std::uint32_t i, std::uint32_t j) {
+        const auto from = point(m, i), to = point(m, j);
+        return motion<segment<T>>{{from.t0, to.t0}, {from.t1, to.t1}};
+    };
+    if (found.kind == feature_pair::edge_edge) return weights_at(edge(a, v[0], v[1]), edge(b, v[2], v[3]), found.time);
+    const bool vertex_first = found.kind == feature_pair::vertex_face;
+    const auto &of_vertex = vertex_first ? a : b, &of_face = vertex_first ? b : a;
+    const auto x = point(of_face, v[1]), y = point(of_face, v[2]), z = point(of_face, v[3]);
+    return weights_at(point(of_vertex, v[0]), motion<triangle<T>>{{x.t0, y.t0, z.t0}, {x.t1, y.t1, z.t1}}, found.time);
 }
 
 }  // namespace abut

@@ -240,31 +240,41 @@ orphan_pairs<space_of<Policy>> make_orphans(const Policy& on, const strided<face
     return made;
 }
 
-/// Looks at orphan i: its boxes first.
-template <class View, class Judge, class Overlap>
-struct test_orphan {
-    judge_key<View, Judge> judge;
+/// Hands on orphans whose boxes overlap.
+template <class View, class Overlap>
+struct gather_orphan {
+    View both;
     Overlap near;
     const std::uint64_t* keys;
     ABUT_CALLS_ANY
+    template <class Near>
+    ABUT_HD void operator()(std::size_t i, Near& found) const {
+        if (near(bounds(both.shape_a(keys[i])), bounds(both.shape_b(keys[i])))) found.push(keys[i]);
+    }
+};
+/// Orphans that are judged where they are found, on a host.
+template <class View, class Judge, class Overlap>
+struct judge_orphan {
+    gather_orphan<View, Overlap> orphans;
+    judge_key<View, Judge> judge;
     template <class Hits>
-    ABUT_HD void operator()(std::size_t i, Hits& hits) const {
-        const std::uint64_t key = keys[i];
-        const auto s = judge.both.shape_a(key);
-        const auto t = judge.both.shape_b(key);
-        if (!near(bounds(s), bounds(t))) return;
-#if ABUT_DEVICE_CODE
-        if (judge.judge.decide(s, t) != verdict::no) hits.push(key);
-#else
-        if (!judge.decide(key, s, t, hits)) judge.finish(key, hits);
-#endif
+    void operator()(std::size_t i, Hits& hits) const {
+        const decide_at_once<judge_key<View, Judge>, Hits> decide{judge, hits};
+        orphans(i, decide);
     }
 };
 
 template <class Policy, class View, class Judge, class Overlap>
 void search_orphans(const Policy& on, const View& both, const shared_array<std::uint64_t, space_of<Policy>>& orphans,
                     const Judge& judge, const Overlap& near, key_queue<Policy>& hits) {
-    for_each_index(on, orphans.size(), test_orphan<View, Judge, Overlap>{{both, judge, {}}, near, orphans.data()}, hits);
+    const gather_orphan<View, Overlap> gather{both, near, orphans.data()};
+    if constexpr (host_policy<Policy>) {
+        for_each_index(on, orphans.size(), judge_orphan<View, Judge, Overlap>{gather, {both, judge, {}}}, hits);
+    } else {
+        key_queue<Policy> found(on, orphans.size());
+        for_each_index(on, orphans.size(), gather, found);
+        judge_gathered(on, both, judge, found.data(), found.size(), hits);
+    }
 }
 
 }  // namespace abut::detail

@@ -258,7 +258,14 @@ void descend(const Policy& on, const Expand& expand, const query_options<Filter,
         for_each_on_levels(on, expand, options.start_depth, run);
     } else {
         const execution::scheduled<Schedule> how{options.scheduling};
-        run([&](const auto& judge, auto&... sinks) { return for_each_descendant(on, how, expand, judge, sinks...); });
+        const auto from = [&](const auto& step) {
+            run([&](const auto& judge, auto&... sinks) { return for_each_descendant(on, how, step, judge, sinks...); });
+        };
+        if constexpr (Schedule == schedule::static_partition && !host_policy<Policy>) {
+            from(begin_below<Expand>(expand, options.start_depth));
+        } else {
+            from(expand);
+        }
     }
 }
 
@@ -367,7 +374,8 @@ private:
 /// What is checked before the arguments of a query are: its options.
 template <class Policy, class Filter, traversal Traversal, schedule Schedule>
 void check_options(const Policy& on, const query_options<Filter, Traversal, Schedule>& options, const char* function) {
-    if (Traversal == traversal::breadth_first && (options.start_depth < 0 || options.start_depth > most_start_depth)) {
+    constexpr bool begins_at_depth = Traversal == traversal::breadth_first || Schedule == schedule::static_partition;
+    if (begins_at_depth && (options.start_depth < 0 || options.start_depth > most_start_depth)) {
         throw error(std::string(function) + ": start_depth is " + std::to_string(options.start_depth) + ", not in 0.." +
                     std::to_string(most_start_depth));
     }

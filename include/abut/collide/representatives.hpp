@@ -330,7 +330,7 @@ void find_loose(const Policy& on, const View& both, const shared_array<std::uint
     } else {
         key_queue<Policy> near(on);
         look_all([&](const auto& loop) { loop(gather_candidate{}, near); });
-        for_each_index(on, near.size(), pass_gathered<View, Judge>{both, judge, near.data()}, hits);
+        judge_gathered(on, both, judge, near.data(), near.size(), hits);
     }
 }
 
@@ -389,9 +389,7 @@ void search_features(const Policy& on, const Pairing& pairing, const Expand& exp
                                         key_queue<Policy>(on, count)};
             with_queues<self, Policy>(near, [&](auto&... queues) { for_each_index(on, count, gather, queues...); });
             const auto judge_all = [&](const auto& both, std::size_t kind) {
-                using view = std::remove_cvref_t<decltype(both)>;
-                const pass_gathered<view, Judge> pass{both, judge, near[kind].data()};
-                for_each_index(on, near[kind].size(), pass, hits[kind]);
+                judge_gathered(on, both, judge, near[kind].data(), near[kind].size(), hits[kind]);
             };
             judge_all(views.vertex_face, 0);
             if constexpr (!self) judge_all(views.face_vertex, 1);

@@ -127,9 +127,9 @@ void search(const Policy& on, const Pairing& pairing, const Judge& judge, Hits& 
         on, judged_loops<Policy, view, Judge, Hits>(on, pairing.view(), judge, pairing.options.most_pairs, hits));
 }
 
-/// A judge that `may_report_more` than there is, since what reads the pairs that were found looks at them again. On a device
-/// candidates are then gathered first, as many as find room, and its first try alone looks at them: a walk that decides holds
-/// the registers of both, and a finish apart would do half of what is done again.
+/// A judge that `may_report_more` than there is, since what reads the pairs that were found looks at them again: so nothing is
+/// left to the host here. On a device candidates are gathered first, as many as find room, and then judged, each stage with
+/// full warps: a walk that decides would hold the registers of both.
 template <class Judge>
 inline constexpr bool judges_apart = requires { requires Judge::may_report_more; };
 
@@ -143,36 +143,53 @@ struct gather_candidate {
     }
     ABUT_HD void finish(std::uint64_t, auto&...) const {}
 };
-/// A candidate that the first try does not rule out.
+/// The first try of candidates, and what it leaves.
 template <class View, class Judge>
-struct pass_gathered {
+struct try_gathered {
+    View both;
+    Judge judge;
+    const std::uint64_t* keys;
+    ABUT_CALLS_ANY
+    template <class Hits, class Open>
+    ABUT_HD void operator()(std::size_t i, Hits& hits, Open& open) const {
+        const verdict v = judge.decide(both.shape_a(keys[i]), both.shape_b(keys[i]));
+        if (v == verdict::yes) hits.push(keys[i]);
+        if (v == verdict::unknown) open.push(keys[i]);
+    }
+};
+template <class View, class Judge>
+struct finish_gathered {
     View both;
     Judge judge;
     const std::uint64_t* keys;
     ABUT_CALLS_ANY
     template <class Hits>
     ABUT_HD void operator()(std::size_t i, Hits& hits) const {
-        const std::uint64_t key = keys[i];
-        if (judge.decide(both.shape_a(key), both.shape_b(key)) != verdict::no) hits.push(key);
+        if (judge.finish(both.shape_a(keys[i]), both.shape_b(keys[i])) != verdict::no) hits.push(keys[i]);
     }
 };
 
+/// Judges candidates that have been gathered.
+template <class Policy, class View, class Judge>
+void judge_gathered(const Policy& on, const View& both, const Judge& judge, const std::uint64_t* keys, std::size_t count,
+                    key_queue<Policy>& hits) {
+    key_queue<Policy> open(on, std::max(count / 8, std::size_t{1} << 16));
+    for_each_index(on, count, try_gathered<View, Judge>{both, judge, keys}, hits, open);
+    for_each_index(on, open.size(), finish_gathered<View, Judge>{both, judge, open.data()}, hits);
+}
+
 /// Candidates that are gathered on a device at a time: 128 for each shape, 512 MiB of them at most.
-inline constexpr std::size_t least_gathered = std::size_t{1} << 22, most_gathered = std::size_t{1} << 26;
+inline constexpr std::size_t least_gathered = std::size_t{1} << 23, most_gathered = std::size_t{1} << 26;
 
 /// A search by a judge that may report more. Where there are more candidates than may be gathered, it looks for a part of them
 /// at a time.
 template <class Policy, class Pairing, class Judge>
 void search_apart(const Policy& on, const Pairing& pairing, const Judge& judge, key_queue<Policy>& hits,
                   execution::buffer_of<Policy, std::uint64_t>& room, part_of_open part = {}) {
-    const auto both = pairing.view();
-    using view = std::remove_const_t<decltype(both)>;
     execution::capped_queue<std::uint64_t, space_of<Policy>> near(room);
     pairing.judge_candidates(on, [&](const auto& loop) { loop(gather_candidate{part}, near); });
     const auto count = static_cast<std::size_t>(near.pushed());
-    if (count <= room.size()) {
-        return for_each_index(on, count, pass_gathered<view, Judge>{both, judge, room.data()}, hits);
-    }
+    if (count <= room.size()) return judge_gathered(on, pairing.view(), judge, room.data(), count, hits);
     const auto more = static_cast<std::uint32_t>(2 * count / room.size() + 1);
     for (std::uint32_t k = 0; k < more; ++k) search_apart(on, pairing, judge, hits, room, part.split(k, more));
 }

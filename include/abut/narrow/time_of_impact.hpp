@@ -42,57 +42,95 @@ struct time_in_bits {
 inline constexpr double last_time_bit = 0x1p-40;
 static_assert(time_bits == 40);
 
-/// The sign of f at a time, as far as pairs of doubles tell; 0 where they do not.
+// Signs at a time, as far as pairs of doubles tell; 0 where they do not.
+
+ABUT_HD constexpr int sign_beyond(double x, double error) { return x > error ? 1 : x < -error ? -1 : 0; }
+
+/// From point i to point j at a time.
+template <scalar T>
+ABUT_HD constexpr vec3<contact_math::two_doubles> difference_at(const moving_points<T>& p, int i, int j, double t) {
+    using number = contact_math::two_doubles;
+    const auto at_0 = contact_math::between<number>(widened(p.t0[i]), widened(p.t0[j]));
+    const auto at_1 = contact_math::between<number>(widened(p.t1[i]), widened(p.t1[j]));
+    return at_0 + number::of(t) * (at_1 - at_0);
+}
+/// Of f.
 template <bool Edges, scalar T>
 ABUT_HD constexpr int sign_of_volume(const moving_points<T>& p, double t, double error) {
-    using number = contact_math::two_doubles;
-    constexpr int from[3] = {Edges ? 0 : 1, Edges ? 2 : 1, Edges ? 0 : 1}, to[3] = {Edges ? 1 : 2, 3, Edges ? 2 : 0};
-    vec3<number> x[3]{};
-    for (int i = 0; i < 3; ++i) {
-        const auto at_0 = contact_math::between<number>(widened(p.t0[from[i]]), widened(p.t0[to[i]]));
-        const auto at_1 = contact_math::between<number>(widened(p.t1[from[i]]), widened(p.t1[to[i]]));
-        x[i] = at_0 + number::of(t) * (at_1 - at_0);
+    constexpr int first = Edges ? 0 : 1;
+    const auto u = difference_at(p, first, Edges ? 1 : 2, t), v = difference_at(p, Edges ? 2 : 1, 3, t),
+               w = difference_at(p, first, Edges ? 2 : 0, t);
+    return sign_beyond(dot(cross(u, v), w).high, error);
+}
+/// Of the area of a condition (motion_filter), in one of its senses.
+template <bool Edges, scalar T>
+ABUT_HD constexpr int sign_of_area(const moving_points<T>& p, int condition, int axis, double t, double error) {
+    constexpr int three[4][3] = {{0, Edges ? 2 : 1, 3}, {Edges ? 2 : 0, Edges ? 0 : 1, Edges ? 1 : 2}, {Edges ? 1 : 0, 2, 3}, {3, 0, 1}};
+    const int* const of = three[condition];
+    const auto n = cross(difference_at(p, of[0], of[1], t), difference_at(p, of[0], of[2], t));
+    return sign_beyond(coordinate_along({n.x.high, n.y.high, n.z.high}, axis), error);
+}
+
+/// The only root of c[0] + c[1] x + c[2] x^2 + c[3] x^3 in [0, 1], where it changes its sign, by Newton's iteration in a bracket.
+ABUT_HD constexpr double root_of_cubic(const double (&c)[4], double at_1) {
+    double low = 0, high = 1, x = c[0] / (c[0] - at_1);
+    for (int i = 0; i < 64; ++i) {
+        const double value = c[0] + x * (c[1] + x * (c[2] + x * c[3])), slope = c[1] + x * (2 * c[2] + 3 * x * c[3]);
+        ((value < 0) == (c[0] < 0) ? low : high) = x;
+        const double newton = x - value / slope, next = newton > low && newton < high ? newton : 0.5 * (low + high);
+        if (absolute(next - x) <= 0x1p-52) break;
+        x = next;
     }
-    const double f = dot(cross(x[0], x[1]), x[2]).high;
-    return f > error ? 1 : f < -error ? -1 : 0;
+    return x;
+}
+
+/// The time as a multiple of 2^-40, given in which part of an interval it seems to be, and sign_at(t), which has one sign before
+/// it in the interval and the other after it.
+template <class Sign>
+ABUT_HD constexpr time_in_bits count_of_time(std::uint32_t j, int depth, double part, const Sign& sign_at) {
+    const std::int64_t one = std::int64_t{1} << time_bits, width = one >> depth, least_count = width * j;
+    const int start = sign_at(static_cast<double>(least_count) * last_time_bit);
+    auto count = static_cast<std::int64_t>((static_cast<double>(j) + part) * static_cast<double>(width));
+    for (int step = 0; step < 4 && start != 0 && count >= least_count && count < least_count + width; ++step) {
+        const int before = sign_at(static_cast<double>(count) * last_time_bit);
+        const int after = sign_at(static_cast<double>(count + 1) * last_time_bit);
+        if (before == 0 || after == 0) break;
+        if (before == start && after == -start) return {count};
+        count += before == start ? 1 : -1;
+    }
+    return {time_in_bits::unknown};
 }
 
 /// In registers. Not inlined: it is asked about few pairs, and takes many.
 template <bool Edges, scalar T>
 ABUT_NOINLINE ABUT_HD constexpr time_in_bits filtered_time(const moving_points<T>& p) {
     const motion_filter<Edges> filter(p);
-    const auto found = filter.search(true, shared_coordinates<Edges>(p));
-    if (found.touch == verdict::no) return {time_in_bits::none};
-    if (found.touch == verdict::unknown) {
-        return {touch_at_start<Edges>(p) == verdict::yes ? 0 : time_in_bits::unknown};
+    const std::uint32_t shared = shared_coordinates<Edges>(p);
+    const int axis = axis_of_plane<Edges>(shared);
+    const auto at_start = [&] { return filter.start_apart() ? verdict::no : touch_at_start<Edges>(p); };
+    const auto known = [](verdict v) {
+        return time_in_bits{v == verdict::yes ? 0 : v == verdict::no ? time_in_bits::none : time_in_bits::unknown};
+    };
+    if (axis >= 0) {
+        const verdict start = at_start();
+        if (start != verdict::no) return known(start);
+        const auto found = filter.search_in_plane(axis);
+        if (found.touch != verdict::yes) return known(found.touch);
+        const area_in_time a = filter.area(found, axis);
+        const double part = root_of_cubic({a.first, a.twice_middle - 2 * a.first, a.first - a.twice_middle + a.last, 0}, a.last);
+        const double error = filter.area_error(0x1p-90);
+        return count_of_time(found.j, found.depth, part,
+                             [&](double t) { return sign_of_area<Edges>(p, found.condition, axis, t, error); });
     }
-    // The root within the interval, by Newton's iteration in a bracket.
-    const volume_in_time f = filter.volume(found.j, found.depth);
-    const double c0 = f.k[0], c1 = 3 * (f.k[1] - f.k[0]), c2 = 3 * (f.k[2] - 2 * f.k[1] + f.k[0]),
-                 c3 = f.k[3] - 3 * (f.k[2] - f.k[1]) - f.k[0];
-    double low = 0, high = 1, x = c0 / (c0 - f.k[3]);
-    for (int i = 0; i < 64; ++i) {
-        const double value = c0 + x * (c1 + x * (c2 + x * c3)), slope = c1 + x * (2 * c2 + 3 * x * c3);
-        ((value < 0) == (c0 < 0) ? low : high) = x;
-        const double newton = x - value / slope, next = newton > low && newton < high ? newton : 0.5 * (low + high);
-        if (absolute(next - x) <= 0x1p-52) break;
-        x = next;
-    }
-    const double width = 1 / static_cast<double>(std::uint32_t{1} << found.depth);
-    const std::int64_t one = std::int64_t{1} << time_bits, least_count = (one >> found.depth) * found.j,
-                       most_count = least_count + (one >> found.depth);
-    auto count = static_cast<std::int64_t>((static_cast<double>(found.j) + x) * width * static_cast<double>(one));
+    const auto found = filter.search(true, shared);
+    if (found.touch == verdict::unknown) return known(at_start() == verdict::yes ? verdict::yes : verdict::unknown);
+    if (found.touch == verdict::no) return known(verdict::no);
+    const volume_in_time f = filter.volume(found);
+    const auto& k = f.k;
+    const double part = root_of_cubic(
+        {k[0], 3 * (k[1] - k[0]), 3 * (k[2] - 2 * k[1] + k[0]), k[3] - 3 * (k[2] - k[1]) - k[0]}, k[3]);
     const double error = filter.volume_error(0x1p-90);
-    const int at_start = c0 < 0 ? -1 : 1;
-    for (int step = 0; step < 4; ++step) {
-        if (count < least_count || count >= most_count) break;
-        const int before = sign_of_volume<Edges>(p, static_cast<double>(count) * last_time_bit, error);
-        const int after = sign_of_volume<Edges>(p, static_cast<double>(count + 1) * last_time_bit, error);
-        if (before == 0 || after == 0) break;
-        if (before == at_start && after == -at_start) return {count};
-        count += before == at_start ? 1 : -1;
-    }
-    return {time_in_bits::unknown};
+    return count_of_time(found.j, found.depth, part, [&](double t) { return sign_of_volume<Edges>(p, t, error); });
 }
 
 /// In registers; `unknown` only of filtered and exact.

@@ -33,6 +33,7 @@
 #include <cstdint>
 
 #include <abut/arithmetic/arithmetic.hpp>
+#include <abut/arithmetic/error_free.hpp>
 #include <abut/arithmetic/magnitude.hpp>
 #include <abut/arithmetic/vec.hpp>
 #include <abut/predicate/certified_ball.hpp>
@@ -78,6 +79,14 @@ struct area_in_time {
     }
     [[nodiscard]] ABUT_HD constexpr bool is_above(double bound) const { return least(first, twice_middle, last) > bound; }
     [[nodiscard]] ABUT_HD constexpr bool is_below(double bound) const { return greatest(first, twice_middle, last) < bound; }
+    [[nodiscard]] ABUT_HD constexpr bool changes_sign(double error) const {
+        return (first > error && last < -error) || (first < -error && last > error);
+    }
+    /// Whether it falls all the time, or rises.
+    [[nodiscard]] ABUT_HD constexpr bool is_monotone(double error) const {
+        const double a = twice_middle - 2 * first, b = 2 * last - twice_middle;
+        return least(a, b) > 4 * error || greatest(a, b) < -4 * error;
+    }
 };
 
 /// f by its four Bernstein coefficients, times 3.
@@ -107,6 +116,13 @@ struct moving_points {
     vec3<T> t0[4], t1[4];
 };
 
+/// By their bits: where denormals are read as zero, all of them would equal each other.
+template <scalar T>
+ABUT_HD constexpr bool is_same_number(T a, T b) {
+    using word = typename float_format<T>::word;
+    return __builtin_bit_cast(word, a) == __builtin_bit_cast(word, b) || (is_zero(a) && is_zero(b));
+}
+
 /// Of which sides the area that they span with a point is 0 for all t, whatever the time: a bit for each condition below and
 /// each coordinate that the three points share.
 template <bool Edges, scalar T>
@@ -116,12 +132,19 @@ ABUT_HD constexpr std::uint32_t shared_coordinates(const moving_points<T>& p) {
     for (int i = 0; i < (Edges ? 4 : 3); ++i) {
         const int a = three[i][0], b = three[i][1], c = three[i][2];
         const auto same = [&](T vec3<T>::*x) {
-            return static_cast<std::uint32_t>(p.t0[a].*x == p.t0[b].*x && p.t0[b].*x == p.t0[c].*x && p.t1[a].*x == p.t1[b].*x &&
-                                              p.t1[b].*x == p.t1[c].*x);
+            return static_cast<std::uint32_t>(is_same_number(p.t0[a].*x, p.t0[b].*x) && is_same_number(p.t0[b].*x, p.t0[c].*x) &&
+                                              is_same_number(p.t1[a].*x, p.t1[b].*x) && is_same_number(p.t1[b].*x, p.t1[c].*x));
         };
         bits |= (same(&vec3<T>::x) | same(&vec3<T>::y) << 1 | same(&vec3<T>::z) << 2) << 3 * i;
     }
     return bits;
+}
+
+/// The axis across which a plane has all points all the time, or -1.
+template <bool Edges>
+ABUT_HD constexpr int axis_of_plane(std::uint32_t shared) {
+    const std::uint32_t all = shared & shared >> 3 & shared >> 6 & (Edges ? shared >> 9 : 7u) & 7u;
+    return (all & 1) != 0 ? 0 : (all & 2) != 0 ? 1 : (all & 4) != 0 ? 2 : -1;
 }
 
 /// What double precision knows of two features. Of a vertex and a face, or, of Edges, two edges.
@@ -133,6 +156,9 @@ public:
         : t0_(frame_of(p.t0)), t1_(frame_of(p.t1)), u_(size_of<T>(t0_.u, t1_.u)), v_(size_of<T>(t0_.v, t1_.v)),
           w_(size_of<T>(t0_.w, t1_.w)) {}
 
+    /// Whether they are surely apart at t = 0.
+    [[nodiscard]] ABUT_HD constexpr bool start_apart() const { return can_bound() && is_apart(t0_, t0_, 0); }
+
     /// The whole step at once.
     [[nodiscard]] ABUT_HD constexpr verdict look_once() const {
         return can_bound() ? look(t0_, t1_, false, 0) : verdict::unknown;
@@ -143,26 +169,20 @@ public:
         verdict touch;
         std::uint32_t j;
         int depth;
+        int condition = 0;  ///< of search_in_plane
     };
     /// Halves intervals. If one root is asked for, f has one alone in the interval that is found, and changes its sign there.
     /// `shared` are the shared_coordinates, or 0.
     [[nodiscard]] ABUT_HD constexpr answer search(bool one_root, std::uint32_t shared) const {
-        if (!can_bound()) return {verdict::unknown, 0, 0};
-        std::uint32_t j = 0;
-        int depth = 0;
-        for (;;) {
-            const verdict v = look(at(j, depth), at(j + 1, depth), one_root, shared);
-            if (v == verdict::yes) return {v, j, depth};
-            if (v == verdict::unknown) {
-                if (depth == most_depth) return {v, j, depth};
-                j *= 2;
-                ++depth;
-                continue;
-            }
-            ++j;
-            while (depth > 0 && (j & 1) == 0) j >>= 1, --depth;
-            if (depth == 0) return {verdict::no, 0, 0};
-        }
+        return search_by([&](const feature_frame& a, const feature_frame& b, int&) { return look(a, b, one_root, shared); });
+    }
+
+    /// The same of features in one plane, across an axis, all the time, which do not touch at the start (exact_motion.hpp says
+    /// what happens then). In the interval that is found a point meets an edge, as `condition` says, and no other does.
+    [[nodiscard]] ABUT_HD constexpr answer search_in_plane(int axis) const {
+        return search_by([&](const feature_frame& a, const feature_frame& b, int& condition) {
+            return look_in_plane(a, b, axis, condition);
+        });
     }
 
     /// The earliest time at which they may come within `separation` of each other, off by `tolerance` at most, and never
@@ -187,13 +207,25 @@ public:
         }
     }
 
-    /// f on the interval [j, j + 1] / 2^depth.
-    [[nodiscard]] ABUT_HD constexpr volume_in_time volume(std::uint32_t j, int depth) const {
-        const feature_frame a = at(j, depth), b = at(j + 1, depth);
+    /// f on the interval of an answer.
+    [[nodiscard]] ABUT_HD constexpr volume_in_time volume(const answer& in) const {
+        const feature_frame a = at(in.j, in.depth), b = at(in.j + 1, in.depth);
         return {a, b, cross(a.u, a.v), cross(a.u, b.v) + cross(b.u, a.v), cross(b.u, b.v)};
     }
-    /// Of a value of f that is computed with so many bits more than double has, its error.
+    /// The area of the answer's condition there.
+    [[nodiscard]] ABUT_HD constexpr area_in_time area(const answer& in, int axis) const {
+        const feature_frame a = at(in.j, in.depth), b = at(in.j + 1, in.depth);
+        area_in_time found{0, 0, 0};
+        for_each_condition(a, b, axis, [&](int i, const area_in_time& area, double, const auto&, const auto&, const auto&,
+                                           const auto&) { found = i == in.condition ? area : found; });
+        return found;
+    }
+    /// Errors of values that are computed with more bits than double has.
     [[nodiscard]] ABUT_HD constexpr double volume_error(double precision) const { return precision * u_ * v_ * w_; }
+    [[nodiscard]] ABUT_HD constexpr double area_error(double precision) const {
+        const double size = u_ + v_ + w_;
+        return precision * size * size;
+    }
 
 private:
     static constexpr int most_depth = 20;
@@ -218,6 +250,74 @@ private:
     }
     [[nodiscard]] ABUT_HD constexpr feature_frame at(std::uint32_t j, int depth) const {
         return at(static_cast<double>(j) / static_cast<double>(std::uint32_t{1} << depth));
+    }
+
+    /// The earliest interval of which look(frame at its start, frame at its end, condition) says yes; none, if it says no of all.
+    template <class Look>
+    [[nodiscard]] ABUT_HD constexpr answer search_by(const Look& look) const {
+        if (!can_bound()) return {verdict::unknown, 0, 0};
+        std::uint32_t j = 0;
+        int depth = 0, condition = 0;
+        for (;;) {
+            const verdict v = look(at(j, depth), at(j + 1, depth), condition);
+            if (v == verdict::yes || (v == verdict::unknown && depth == most_depth)) return {v, j, depth, condition};
+            if (v == verdict::unknown) {
+                j *= 2;
+                ++depth;
+                continue;
+            }
+            ++j;
+            while (depth > 0 && (j & 1) == 0) j >>= 1, --depth;
+            if (depth == 0) return {verdict::no, 0, 0};
+        }
+    }
+
+    /// Calls see(i, area, its error, p - a, p - b, and the same at the end) of each point p and edge from a to b of the other
+    /// feature, in the order of the conditions of `look`.
+    template <class See>
+    ABUT_HD constexpr void for_each_condition(const feature_frame& a, const feature_frame& b, int axis, const See& see) const {
+        const area_in_time n(a.u, a.v, b.u, b.v, axis), with_v(a.w, a.v, b.w, b.v, axis), with_u(a.w, a.u, b.w, b.u, axis);
+        const double of_n = 0x1p-45 * u_ * v_, of_v = 0x1p-45 * w_ * v_, of_u = 0x1p-45 * w_ * u_;
+        const vec3<double> zero{0, 0, 0};
+        if constexpr (Edges) {
+            see(0, with_v, of_v, zero - a.w, zero - (a.w + a.v), zero - b.w, zero - (b.w + b.v));
+            see(1, with_u, of_u, a.w, a.w - a.u, b.w, b.w - b.u);
+            see(2, n - with_v, 2 * (of_n + of_v), a.u - a.w, a.u - (a.w + a.v), b.u - b.w, b.u - (b.w + b.v));
+            see(3, n - with_u, 2 * (of_n + of_u), a.w + a.v, (a.w + a.v) - a.u, b.w + b.v, (b.w + b.v) - b.u);
+        } else {
+            see(0, with_v, of_v, a.w, a.w - a.v, b.w, b.w - b.v);
+            see(1, with_u, of_u, a.w, a.w - a.u, b.w, b.w - b.u);
+            see(2, (n - with_v) - (-1.0 * with_u), 2 * (of_n + of_v + of_u), a.w - a.u, a.w - a.v, b.w - b.u, b.w - b.v);
+        }
+    }
+
+    /// An interval at the start of which features do not touch, in one plane: no, if no point meets an edge there. A point is off
+    /// an edge where their area keeps its sign, and where a coordinate of it is on one side of both ends.
+    [[nodiscard]] ABUT_HD constexpr verdict look_in_plane(const feature_frame& a, const feature_frame& b, int axis,
+                                                          int& condition) const {
+        const double lost = 0x1p-48 * (u_ + v_ + w_);
+        int near = 0, met = 0;
+        for_each_condition(a, b, axis, [&](int i, const area_in_time& area, double error, const vec3<double>& of_a,
+                                           const vec3<double>& of_b, const vec3<double>& then_of_a,
+                                           const vec3<double>& then_of_b) {
+            if (area.is_above(error) || area.is_below(-error)) return;
+            bool beside = false, between = false;
+            for (int k = 0; k < 3; ++k) {
+                const double x = coordinate_along(of_a, k), y = coordinate_along(of_b, k), then_x = coordinate_along(then_of_a, k),
+                             then_y = coordinate_along(then_of_b, k);
+                const bool x_above = least(x, then_x) > lost, x_below = greatest(x, then_x) < -lost,
+                           y_above = least(y, then_y) > lost, y_below = greatest(y, then_y) < -lost;
+                beside |= (x_above && y_above) || (x_below && y_below);
+                between |= (x_above && y_below) || (x_below && y_above);
+            }
+            if (beside) return;
+            ++near;
+            const bool meets = between && area.changes_sign(error) && area.is_monotone(error);
+            met += meets ? 1 : 0;
+            condition = meets ? i : condition;
+        });
+        if (near == 0) return verdict::no;
+        return near == 1 && met == 1 ? verdict::yes : verdict::unknown;
     }
 
     /// The interval between two times.
@@ -290,7 +390,7 @@ private:
         const double area = uu * vv - uv * uv;
         double s = area > 0 ? clamped((uw * vv - uv * vw) / area) : 0;
         double r = vv > 0 ? (uv * s - vw) / vv : 0;
-        if (!(r >= 0 && r <= 1)) {
+        if (!(vv > 0 && r >= 0 && r <= 1)) {
             r = clamped(r);
             s = uu > 0 ? clamped((uw + r * uv) / uu) : 0;
         }

@@ -85,9 +85,15 @@ ABUT_NOINLINE ABUT_HD constexpr verdict decide_late(const S& s, const U& t) {
     constexpr bool edges = detail::is_moving_edge<S>;
     const auto points = detail::points_of(s, t);
     const detail::motion_filter<edges> filter(points);
-    const verdict v = filter.search(false, detail::shared_coordinates<edges>(points)).touch;
+    const std::uint32_t shared = detail::shared_coordinates<edges>(points);
+    const int axis = detail::axis_of_plane<edges>(shared);
+    if (axis >= 0) {
+        const verdict start = filter.start_apart() ? verdict::no : detail::touch_at_start<edges>(points);
+        return start == verdict::no ? filter.search_in_plane(axis).touch : start;
+    }
+    const verdict v = filter.search(false, shared).touch;
     if (v != verdict::unknown) return v;
-    return detail::touch_at_start<edges>(points) == verdict::yes ? verdict::yes : verdict::unknown;
+    return !filter.start_apart() && detail::touch_at_start<edges>(points) == verdict::yes ? verdict::yes : verdict::unknown;
 }
 
 /// The last stage: decides every finite input, slowly, on a host.

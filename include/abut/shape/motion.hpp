@@ -47,10 +47,6 @@ ABUT_HD motion<S> place(const rigid<scalar_type_of<S>>& pose, const motion<S>& m
 namespace detail {
 
 template <class S>
-[[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const motion<S>& m) {
-    is_valid(m.t0) ? refuse(function, element + " at t = 1,", i, m.t1) : refuse(function, element + " at t = 0,", i, m.t0);
-}
-template <class S>
 inline constexpr shape_name name_of<motion<S>>{name_of<S>.one, "abut::moving"};
 
 /// Where the faces or edges of a view lie; of shapes as they are, there are none.
@@ -177,8 +173,8 @@ void check_elements(const Set& t0, const Set& t1, const char* function) {
 template <class Policy, shape_view V>
 void check(const Policy& on, const moving_view<V>& view, const char* function) {
     check_motion_sizes(view.t0, view.t1, function);
-    check(on, view.t0, function);
-    check(on, view.t1, function);
+    check(on, view.t0, (std::string(function) + ": at t = 0").c_str());
+    check(on, view.t1, (std::string(function) + ": at t = 1").c_str());
     check_elements(on, view.t0, view.t1, function);
 }
 
