@@ -314,8 +314,6 @@ struct pairing {
     using view_type = pair_view<view_a, view_b, Filter>;
     static_assert(std::same_as<typename view_a::scalar_type, typename view_b::scalar_type>,
                   "abut: both sides of a query need the same scalar type, float or double");
-    static_assert(decidable<typename view_a::shape_type, typename view_b::shape_type>,
-                  "abut: queries between sets of these two shapes are not supported");
 
     [[nodiscard]] view_type view() const { return {a.shapes(), b.shapes(), key, options.filter}; }
     /// Room that results are likely to need.
@@ -401,8 +399,11 @@ auto pair_up(const Policy& on, const X& x, const Y& y, const query_options<Filte
     check_options(on, options, function);
     auto a = make_operand(on, x, function);
     auto b = make_operand(on, y, function);
+    using shape_a = typename decltype(a.shapes())::shape_type;
+    using shape_b = typename decltype(b.shapes())::shape_type;
+    static_assert(decidable<shape_a, shape_b>, "abut: queries between sets of these two shapes are not supported");
     const pair_key key{id_bits(a.shapes().size()), id_bits(b.shapes().size())};
-    require_functions_of_shapes<typename decltype(a.shapes())::shape_type, typename decltype(b.shapes())::shape_type>(on);
+    require_functions_of_shapes<shape_a, shape_b>(on);
     return pairing<decltype(a), decltype(b), Filter, Traversal, Schedule, Nearness>{std::move(a), std::move(b), key, options,
                                                                                      near};
 }

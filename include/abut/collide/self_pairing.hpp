@@ -62,8 +62,6 @@ struct self_pairing {
 
     using view_of_shapes = decltype(std::declval<const Sight&>()(std::declval<const X&>().shapes()));
     using view_type = pair_view<view_of_shapes, view_of_shapes, Filter>;
-    static_assert(decidable<typename view_of_shapes::shape_type, typename view_of_shapes::shape_type>,
-                  "abut: self queries of sets of these shapes are not supported");
 
     [[nodiscard]] view_type view() const {
         const view_of_shapes shapes = sight(x.shapes());
@@ -106,6 +104,7 @@ auto pair_up_self(const Policy& on, const X& x, const query_options<Filter, Trav
     const auto shapes = sight(operand.shapes());
     const int bits = id_bits(shapes.size());
     using shape_type = typename decltype(shapes)::shape_type;
+    static_assert(decidable<shape_type, shape_type>, "abut: self queries of sets of these shapes are not supported");
     require_functions_of_shapes<shape_type, shape_type>(on);
     return self_pairing<decltype(operand), Filter, Traversal, Schedule, Sight, Nearness>{
         std::move(operand), sight, {bits, bits}, options, near};
