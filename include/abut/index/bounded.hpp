@@ -18,7 +18,7 @@
 #include <abut/index/bvh.hpp>
 #include <abut/index/operand.hpp>
 #include <abut/index/walk_order.hpp>
-#include <abut/shape/motion.hpp>
+#include <abut/shape/moving_shape.hpp>
 #include <abut/shape/volume.hpp>
 
 namespace abut {

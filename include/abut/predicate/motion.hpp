@@ -12,7 +12,7 @@
 #include <abut/predicate/exact_motion.hpp>
 #include <abut/predicate/exact_triangles.hpp>
 #include <abut/predicate/fast_motion.hpp>
-#include <abut/shape/motion.hpp>
+#include <abut/shape/moving_shape.hpp>
 #include <abut/shape/primitive.hpp>
 
 namespace abut {
