@@ -344,6 +344,23 @@ TEMPLATE_TEST_CASE("time of impact: in every mode of the processor", "", float, 
 }
 
 // --- conservative
+TEST_CASE("time of impact: denormals that are read as zero are not equal") {
+    // In one plane across y, for those that cannot tell denormal numbers: y has nothing else.
+    const motion<float> m{
+        {{0x1.8p-32f, 0x1p-132f, 0}, {0x1p-32f, 0x1.8p-132f, 0}, {0x1p-33f, 0x1.8p-132f, 0x1p-17f}, {0, 0, 0x1p-17f}},
+        {{0x1p-32f, 0x1p-132f, 0x1p-17f},
+         {0x1p-32f, 0x1p-133f, 0},
+         {0x1p-33f, 0, 0x1p-17f},
+         {0x1.8p-32f, 0x1p-133f, 0x1.8p-17f}}};
+    REQUIRE_FALSE(oracle::first_contact(motion_kind::vertex_face, m).hit);
+    for (const floating_mode& mode : floating_modes()) {
+        double time = 0;
+        in_mode(mode, [&] { time = time_of<filtered>(motion_kind::vertex_face, m); });
+        CAPTURE(mode.name);
+        CHECK(time == -1);
+    }
+}
+
 // ----------------------------------------------------------------------------------------------------------
 
 namespace {
