@@ -62,7 +62,7 @@ struct query_options {
     schedule_options scheduling = {};
     /// Of traversal::from_front alone, which has to have one: where the query begins, and where it leaves its ends. Trees of
     /// two shapes or more in the standard layout have them, and other queries do as both_at_once does and let the front be.
-    /// The query walks to all of its ends, also where `any` or a visitor stops early.
+    /// Where `any` or a visitor stops early, the front stays as it was, or all ends have been looked for before.
     abut::front* front = nullptr;
 };
 

@@ -261,9 +261,10 @@ void descend(const Policy& on, const A& a, const B& b, const Expand& expand,
     } else {
         const execution::scheduled<Schedule> how{options.scheduling};
         if constexpr (Traversal == traversal::from_front && has_topology<A> && has_topology<B>) {
-            if (from_front::walk(*options.front, on, how, expand, a.shape_of_tree(), b.shape_of_tree(), run)) return;
+            from_front::walk(*options.front, on, how, expand, a.shape_of_tree(), b.shape_of_tree(), run);
+        } else {
+            run([&](const auto& judge, auto&... sinks) { return for_each_descendant(on, how, expand, judge, sinks...); });
         }
-        run([&](const auto& judge, auto&... sinks) { return for_each_descendant(on, how, expand, judge, sinks...); });
     }
 }
 

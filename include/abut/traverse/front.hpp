@@ -10,13 +10,13 @@
 // at those of other boxes too. What two nodes' children make is up to four ends that need the same two fetches; they are one
 // item here, with a bit for each. A query that begins at a front
 //
-// 1. tests the children of each item's nodes, where they lie, and marks what is to be opened: ends that are no leaves, and
-//    overlap now;
+// 1. tests the children of each item's nodes, judges the pairs of leaves whose boxes overlap, and marks what is to be opened:
+//    ends that are no leaves, and overlap now;
 // 2. walks down from those, by for_each_descendant, and appends the items that hold their ends;
 // 3. takes the marks away, and with them the ends that are none any more;
-// 4. judges the pairs of leaves whose boxes overlap.
+// 4. judges the pairs of leaves of what was appended.
 //
-// 4 alone knows filters, judges and sinks, so it can run again without harm, and stop early. Items never go up again: that all
+// Loops that judge may run again, or stop early: marks are made from ends, which stay until 3. Items never go up again: that all
 // ends below a pair of nodes could be replaced by the pair is not looked for. It would need to know of each item where the others
 // below its parents are. Instead a front begins at the roots again (front_options).
 
@@ -40,16 +40,15 @@ namespace abut {
 
 /// What a front takes. They move speed and memory, never results.
 struct front_options {
-    /// Pairs of nodes that it may hold, 12 bytes each. Where they would be more, it begins at the roots; where that is too much
-    /// as well, the query goes without, and so do the next `reference_frames`. While it is walked at the roots a device may need
-    /// that much again.
+    /// Pairs of nodes that it may hold, 12 bytes each. Where they would be more, the query goes on without it, and the next one
+    /// begins at the roots; where they are too many then, it goes without, and so do the next `reference_frames`.
     std::size_t most_items = std::size_t{1} << 24;
     /// It begins at the roots when it holds less than rebuild_threshold times as many items as that many queries ago: what does
     /// not grow any more is thought too deep for where the boxes are now. 0: it does not look at that.
     int reference_frames = 16;
     double rebuild_threshold = 1.05;
     /// It also begins there when it holds that many times as many as when it last did.
-    double most_growth = 2;
+    double most_growth = 1.25;
 };
 
 /// What a front has seen.
@@ -125,12 +124,6 @@ struct mark_meeting {
     }
 };
 
-/// Where nobody asks for the items.
-struct drop_items {
-    template <class Number>
-    ABUT_INLINE ABUT_HD void add(Number, bool, const front_item&) const {}
-};
-
 /// A step: what becomes of the item's ends. Those that are opened are handed to the emitter.
 ABUT_CALLS_ANY
 template <class Walk, class Emitter>
@@ -186,26 +179,51 @@ struct write_root_item {
 
 // The loops over the items of a front.
 
-template <class Walk>
-struct mark_items {
-    Walk walk;
-    front_item* items;
-    std::size_t n;
+/// What a step finds in the items of a front: it marks what is to be opened, and pushes the pairs of leaves.
+template <class Emitter>
+struct mark_and_push {
+    std::uint32_t ends;
+    std::uint32_t& opened;
+    const Emitter& emitter;
+    template <class Number, class Item>
+    ABUT_INLINE ABUT_HD void add(Number k, bool is, const Item&) const {
+        opened |= (static_cast<std::uint32_t>(is) << static_cast<unsigned>(k)) & ends;
+    }
     ABUT_CALLS_ANY
-    template <class Opened>
-    ABUT_HD void operator()(std::size_t i, Opened& opened) const {
+    template <class Number, class Candidate>
+    ABUT_INLINE ABUT_HD void push(Number, bool is, const Candidate& c) const {
+        if (is) emitter.push(c);
+    }
+};
+
+/// Items from `first` on, as the verb for_each_candidate takes them: of all, or of those alone that have pairs of leaves whose
+/// boxes overlap.
+template <class Expand>
+struct look_in_front {
+    using candidate = typename Expand::candidate;
+    struct cursor {};
+    Expand expand;
+    front_item* items;
+    std::size_t first, n;
+    bool new_ones;
+
+    [[nodiscard]] ABUT_HD bool may_find(std::size_t i) const {
+        return (items[first + i].marks & (new_ones ? front_item::meeting : front_item::all)) != 0;
+    }
+    /// Four candidates at most. A device has room for those of all walks.
+    ABUT_CALLS_ANY
+    template <class Emitter, class... Sinks>
+    ABUT_HD bool operator()(std::size_t i, cursor&, const Emitter& emitter, Sinks&...) const {
 #if !ABUT_DEVICE_CODE
         constexpr std::size_t ahead = 8;
-        if (i + ahead < n) ask_for(items[i + ahead]);
+        if (i + ahead < n) ask_for(items[first + i + ahead]);
 #endif
-        const front_item at = items[i];
-        if (at.ends() == 0) return;
-        const drop_items nowhere;
-        const front_marks made = step_of_front(walk, at, nowhere);
-        const std::uint32_t marks =
-            at.ends() | made.opened << front_item::opened_at | (made.meeting ? front_item::meeting : 0);
-        if (marks != at.marks) items[i].marks = marks;
-        if (made.opened != 0) opened.push(static_cast<std::uint32_t>(i));
+        const front_item at = items[first + i];
+        std::uint32_t opened = 0;
+        expand({at.a, at.b}, mark_and_push<Emitter>{at.ends(), opened, emitter});
+        const std::uint32_t marks = at.ends() | opened << front_item::opened_at;
+        if (marks != at.marks) items[first + i].marks = marks;
+        return false;
     }
 
 private:
@@ -214,13 +232,22 @@ private:
             const bool is_leaf = (half & bvh_child::leaf_bit) != 0;
             return bvh_child::inner(is_leaf ? (half & ~bvh_child::leaf_bit) / 2 : half);
         };
-        if constexpr (walks_itself<Walk>) {
-            walk.tree().prefetch(node(next.a));
-            walk.tree().prefetch(node(next.b));
+        if constexpr (walks_itself<decltype(expand.walk)>) {
+            expand.walk.tree().prefetch(node(next.a));
+            expand.walk.tree().prefetch(node(next.b));
         } else {
-            walk.a.prefetch(node(next.a));
-            walk.b.prefetch(node(next.b));
+            expand.walk.a.prefetch(node(next.a));
+            expand.walk.b.prefetch(node(next.b));
         }
+    }
+};
+
+struct find_opened {
+    const front_item* items;
+    ABUT_CALLS_ANY
+    template <class Opened>
+    ABUT_HD void operator()(std::size_t i, Opened& opened) const {
+        if (items[i].opened() != 0) opened.push(static_cast<std::uint32_t>(i));
     }
 };
 struct fetch_opened {
@@ -240,37 +267,48 @@ struct close_opened {
     template <class Count>
     ABUT_HD void operator()(std::size_t i, Count& closed) const {
         front_item& at = items[which[i]];
-        at.marks = (at.ends() & ~at.opened()) | (at.marks & front_item::meeting);
+        at.marks = at.ends() & ~at.opened();
         closed.add(1);
     }
 };
 
-/// The pairs of leaves whose boxes overlap, as the verb for_each_candidate takes it.
-template <class Emitter>
-struct push_meeting {
-    const Emitter& emitter;
-    template <class Number, class Item>
-    ABUT_INLINE ABUT_HD void add(Number, bool, const Item&) const {}
+/// The walk down from what is opened, where no front has room for its ends.
+template <class Item, class Walk, class Emitter>
+struct push_marked {
+    std::uint32_t marks;
+    Emitter& emitter;
+    ABUT_CALLS_ANY
+    template <class Number>
+    ABUT_INLINE ABUT_HD void add(Number k, bool is, const Item& next) const {
+        emitter.add(k, is & has(k), whole_item<Walk>(next.a, next.b));
+    }
     ABUT_CALLS_ANY
     template <class Number, class Candidate>
-    ABUT_INLINE ABUT_HD void push(Number, bool is, const Candidate& c) const {
-        if (is) emitter.push(c);
+    ABUT_INLINE ABUT_HD void push(Number k, bool is, const Candidate& c) const {
+        emitter.push(k, is & has(k), c);
     }
+
+private:
+    [[nodiscard]] ABUT_INLINE ABUT_HD bool has(unsigned k) const { return (marks >> k & 1) != 0; }
 };
 template <class Expand>
-struct look_in_front {
+struct expand_marked {
+    using walk_type = decltype(Expand::walk);
+    using item = front_item;
     using candidate = typename Expand::candidate;
-    struct cursor {};
+    static constexpr unsigned most_children = Expand::most_children, most_depth = Expand::most_depth;
     Expand expand;
-    const front_item* items;
+    const front_item* from;
+    std::size_t n;
 
-    [[nodiscard]] ABUT_HD bool may_find(std::size_t i) const { return (items[i].marks & front_item::meeting) != 0; }
-    /// Four candidates at most, for which there is always room.
+    [[nodiscard]] std::size_t seeds() const { return n; }
+    [[nodiscard]] ABUT_HD item seed(std::size_t i) const { return from[i]; }
+    ABUT_INLINE void prefetch(const item& at) const { expand.prefetch({at.a, at.b}); }
     ABUT_CALLS_ANY
-    template <class Emitter, class... Sinks>
-    ABUT_HD bool operator()(std::size_t i, cursor&, const Emitter& emitter, Sinks&...) const {
-        expand({items[i].a, items[i].b}, push_meeting<Emitter>{emitter});
-        return false;
+    template <class Emitter>
+    ABUT_INLINE ABUT_HD void operator()(const item& at, Emitter&& emitter) const {
+        using sink = std::remove_reference_t<Emitter>;
+        expand({at.a, at.b}, push_marked<typename Expand::item, walk_type, sink>{at.marks, emitter});
     }
 };
 
@@ -325,14 +363,11 @@ private:
     friend struct detail::from_front;
 
     template <class Policy, schedule Schedule, class Expand, class Run>
-    bool walk(const Policy& on, const execution::scheduled<Schedule>& how, const Expand& expand,
-                            const detail::topology& a, const detail::topology& b, const Run& run) {
-        if (resting_ > 0 && is_of<Expand>(on, a, b)) {
-            --resting_;
-            ++report_.overflows;
-            return false;
-        }
-        const bool begins_here = memory_ != nullptr && is_of<Expand>(on, a, b) && !is_too_deep();
+    void walk(const Policy& on, const execution::scheduled<Schedule>& how, const Expand& expand, const detail::topology& a,
+              const detail::topology& b, const Run& run) {
+        const bool is_mine = is_of<Expand>(on, a, b);
+        const bool begins_here = is_mine && memory_ != nullptr && !is_too_deep();
+        const bool rests = is_mine && resting_ > 0;
         // Where something is thrown in between, nothing is left that a query could begin at.
         auto memory = std::move(memory_);
         if (memory == nullptr || device_ != device_of(on)) {
@@ -344,28 +379,15 @@ private:
         b_ = b;
         device_ = device_of(on);
         is_of_one_ = detail::walks_itself<decltype(expand.walk)>;
-        resting_ = 0;
-        report_.items = 0;
-        const bool fits = begins_here && advance(on, how, expand.walk, items);
-        if (!fits) {
-            items.clear();
-            sizes_.clear();
-            if (!fill(on, how, expand.walk, items)) {
-                resting_ = std::max(options_.reference_frames, 0);
-                ++report_.overflows;
-                return false;
-            }
-            ++report_.rebuilds;
-            first_size_ = items.size();
+        resting_ = rests ? resting_ - 1 : 0;
+        report_.items = report_.kept = report_.opened = report_.added = 0;
+        if (begins_here ? !advance(on, how, expand, items, run) : !fill(on, how, expand, items, rests, run)) {
+            ++report_.overflows;
+            return;
         }
         ++report_.queries;
         report_.items = items.size();
-        remember(items.size());
-        const detail::look_in_front<Expand> look{expand, items.data()};
-        const std::size_t n = items.size();
-        run([&](const auto& judge, auto&... sinks) { return for_each_candidate(on, n, look, judge, sinks...); });
         memory_ = std::move(memory);
-        return true;
     }
 
     static bool are_one(const detail::topology& x, const detail::topology& y) {
@@ -390,33 +412,75 @@ private:
     /// Items are numbered in 32 bits.
     [[nodiscard]] std::size_t most_items() const { return std::min(options_.most_items, std::size_t{0xffffffff}); }
 
-    /// From the roots. False where there is no room; so is advance's.
-    template <class Policy, schedule Schedule, class Walk, class Items>
-    bool fill(const Policy& on, const execution::scheduled<Schedule>& how, const Walk& walk, Items& items) {
-        execution::buffer_of<Policy, detail::front_item> root(on, 1);
-        for_each_index(on, 1, detail::write_root_item<Walk>{walk, root.data()});
-        for_each_descendant(on, how, detail::expand_front<Walk>{walk, root.data(), 1}, detail::keep_item{}, items);
-        report_.kept = report_.opened = 0;
-        report_.added = items.size();
-        return !items.overflowed();
-    }
-    template <class Policy, schedule Schedule, class Walk, class Items>
-    bool advance(const Policy& on, const execution::scheduled<Schedule>& how, const Walk& walk, Items& items) {
+    // These judge all candidates, and return whether the ends found room.
+
+    template <class Policy, schedule Schedule, class Expand, class Items, class Run>
+    bool advance(const Policy& on, const execution::scheduled<Schedule>& how, const Expand& expand, Items& items,
+                 const Run& run) {
         const std::size_t n = items.size();
+        look(on, expand, items, 0, false, run);
+        if constexpr (requires { run.is_over(); }) {
+            if (run.is_over()) return true;  // not all has been marked, and no end has changed
+        }
         execution::work_queue<std::uint32_t, space_of<Policy>> which(on);
-        for_each_index(on, n, detail::mark_items<Walk>{walk, items.data(), n}, which);
+        for_each_index(on, n, detail::find_opened{items.data()}, which);
         report_.opened = which.size();
         report_.kept = n - which.size();
-        report_.added = 0;
-        if (which.size() == 0) return true;
-        execution::buffer_of<Policy, detail::front_item> opened(on, which.size());
-        for_each_index(on, which.size(), detail::fetch_opened{items.data(), which.data(), opened.data()});
-        for_each_descendant(on, how, detail::expand_front<Walk>{walk, opened.data(), opened.size()}, detail::keep_item{}, items);
-        if (items.overflowed()) return false;
-        report_.added = items.size() - n;
-        execution::work_count<space_of<Policy>> closed(on);
-        for_each_index(on, which.size(), detail::close_opened{items.data(), which.data()}, closed);
+        if (which.size() > 0) {
+            execution::buffer_of<Policy, detail::front_item> opened(on, which.size());
+            for_each_index(on, which.size(), detail::fetch_opened{items.data(), which.data(), opened.data()});
+            if (!add_ends(on, how, expand, opened, items)) {
+                judge_below(on, how, expand, opened, run);
+                return false;
+            }
+            report_.added = items.size() - n;
+            execution::work_count<space_of<Policy>> closed(on);
+            for_each_index(on, which.size(), detail::close_opened{items.data(), which.data()}, closed);
+            look(on, expand, items, n, true, run);
+        }
+        remember(items.size());
         return true;
+    }
+    /// From the roots; if it `rests`, without looking for ends.
+    template <class Policy, schedule Schedule, class Expand, class Items, class Run>
+    bool fill(const Policy& on, const execution::scheduled<Schedule>& how, const Expand& expand, Items& items, bool rests,
+              const Run& run) {
+        execution::buffer_of<Policy, detail::front_item> root(on, 1);
+        for_each_index(on, 1, detail::write_root_item<decltype(expand.walk)>{expand.walk, root.data()});
+        items.clear();
+        sizes_.clear();
+        if (rests || !add_ends(on, how, expand, root, items)) {
+            if (!rests) resting_ = std::max(options_.reference_frames, 0);
+            judge_below(on, how, expand, root, run);
+            return false;
+        }
+        ++report_.rebuilds;
+        first_size_ = report_.added = items.size();
+        remember(items.size());
+        look(on, expand, items, 0, true, run);
+        return true;
+    }
+
+    /// Appends the items that hold the ends below `opened`.
+    template <class Policy, schedule Schedule, class Expand, class Opened, class Items>
+    static bool add_ends(const Policy& on, const execution::scheduled<Schedule>& how, const Expand& expand,
+                         const Opened& opened, Items& items) {
+        const detail::expand_front<decltype(expand.walk)> down{expand.walk, opened.data(), opened.size()};
+        for_each_descendant(on, how, down, detail::keep_item{}, items);
+        return !items.overflowed();
+    }
+    template <class Policy, schedule Schedule, class Expand, class Opened, class Run>
+    static void judge_below(const Policy& on, const execution::scheduled<Schedule>& how, const Expand& expand,
+                            const Opened& opened, const Run& run) {
+        const detail::expand_marked<Expand> down{expand, opened.data(), opened.size()};
+        run([&](const auto& judge, auto&... sinks) { return for_each_descendant(on, how, down, judge, sinks...); });
+    }
+    template <class Policy, class Expand, class Items, class Run>
+    static void look(const Policy& on, const Expand& expand, Items& items, std::size_t first, bool new_ones,
+                     const Run& run) {
+        const std::size_t n = items.size() - first;
+        const detail::look_in_front<Expand> each{expand, items.data(), first, n, new_ones};
+        run([&](const auto& judge, auto&... sinks) { return for_each_candidate(on, n, each, judge, sinks...); });
     }
 
     front_options options_;
@@ -432,13 +496,12 @@ private:
 
 namespace detail {
 
-/// Judges the candidates of a walk whose steps are `expand`, from a front; run(loop) runs a loop that judges. False where the
-/// front finds no room; then nothing has been judged.
+/// Judges the candidates of a walk whose steps are `expand`, from a front; run(loop) runs a loop that judges.
 struct from_front {
     template <class Policy, schedule Schedule, class Expand, class Run>
-    [[nodiscard]] static bool walk(front& ends, const Policy& on, const execution::scheduled<Schedule>& how,
-                                   const Expand& expand, const topology& a, const topology& b, const Run& run) {
-        return ends.walk(on, how, expand, a, b, run);
+    static void walk(front& ends, const Policy& on, const execution::scheduled<Schedule>& how, const Expand& expand,
+                     const topology& a, const topology& b, const Run& run) {
+        ends.walk(on, how, expand, a, b, run);
     }
 };
 
