@@ -94,6 +94,16 @@ ABUT_HD front_item whole_item(std::uint32_t a, std::uint32_t b) {
     return {a, b, marks};
 }
 
+/// The place of a pair of children, a number or a type that names one: a device cannot call what makes a number of the latter.
+template <class Number>
+ABUT_INLINE ABUT_HD unsigned place_of(const Number& k) {
+    if constexpr (requires { Number::value; }) {
+        return Number::value;
+    } else {
+        return k;
+    }
+}
+
 /// What becomes of an item's ends.
 struct front_marks {
     std::uint32_t ends, opened = 0;
@@ -108,7 +118,7 @@ struct mark_opened {
     ABUT_CALLS_ANY
     template <class Number, class Item>
     ABUT_INLINE ABUT_HD void operator()(Number k, bool is, const Item& next) const {
-        const unsigned place = static_cast<unsigned>(k);
+        const unsigned place = place_of(k);
         const bool meant = (made.ends >> place & 1) != 0;
         made.opened |= static_cast<std::uint32_t>(is & meant) << place;
         // A leaf with itself is no end.
@@ -187,7 +197,7 @@ struct mark_and_push {
     const Emitter& emitter;
     template <class Number, class Item>
     ABUT_INLINE ABUT_HD void add(Number k, bool is, const Item&) const {
-        opened |= (static_cast<std::uint32_t>(is) << static_cast<unsigned>(k)) & ends;
+        opened |= (static_cast<std::uint32_t>(is) << place_of(k)) & ends;
     }
     ABUT_CALLS_ANY
     template <class Number, class Candidate>
@@ -263,12 +273,9 @@ struct fetch_opened {
 struct close_opened {
     front_item* items;
     const std::uint32_t* which;
-    ABUT_CALLS_ANY
-    template <class Count>
-    ABUT_HD void operator()(std::size_t i, Count& closed) const {
+    ABUT_HD void operator()(std::size_t i) const {
         front_item& at = items[which[i]];
         at.marks = at.ends() & ~at.opened();
-        closed.add(1);
     }
 };
 
@@ -280,12 +287,12 @@ struct push_marked {
     ABUT_CALLS_ANY
     template <class Number>
     ABUT_INLINE ABUT_HD void add(Number k, bool is, const Item& next) const {
-        emitter.add(k, is & has(k), whole_item<Walk>(next.a, next.b));
+        emitter.add(k, is & has(place_of(k)), whole_item<Walk>(next.a, next.b));
     }
     ABUT_CALLS_ANY
     template <class Number, class Candidate>
     ABUT_INLINE ABUT_HD void push(Number k, bool is, const Candidate& c) const {
-        emitter.push(k, is & has(k), c);
+        emitter.push(k, is & has(place_of(k)), c);
     }
 
 private:
@@ -434,8 +441,7 @@ private:
                 return false;
             }
             report_.added = items.size() - n;
-            execution::work_count<space_of<Policy>> closed(on);
-            for_each_index(on, which.size(), detail::close_opened{items.data(), which.data()}, closed);
+            for_each_index(on, which.size(), detail::close_opened{items.data(), which.data()});
             look(on, expand, items, n, true, run);
         }
         remember(items.size());
