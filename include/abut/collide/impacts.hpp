@@ -26,6 +26,7 @@
 #include <abut/narrow/feature_weights.hpp>
 #include <abut/narrow/time_of_impact.hpp>
 #include <abut/shape/motion.hpp>
+#include <abut/traverse/front.hpp>
 
 namespace abut {
 
@@ -49,6 +50,15 @@ struct impact_options {
     bool sorted = true;
     /// Of `conservative` alone.
     conservative_bounds bounds = {};
+};
+
+/// Where queries of one mesh, or of one pair of them, came to their ends, for each kind of features, for the next step to begin
+/// there (traverse/front.hpp). They belong to the topologies of indices, so they are for indices that are refitted.
+struct impact_fronts {
+    front vertex_face, face_vertex, edge_edge;
+
+    explicit impact_fronts(const front_options& options = {})
+        : vertex_face(options), face_vertex(options), edge_edge(options) {}
 };
 
 /// A mesh in motion with what `impacts` looks in: its edges, and trees over its faces, its edges and its vertices, of boxes around
@@ -194,8 +204,20 @@ struct share_no_vertex_with_edge {
 };
 
 /// Features in motion are crowded in places, and work is dealt out evenly again and again (docs/benchmarks.md).
-template <class Filter>
-using feature_options = query_options<Filter, traversal::both_at_once, schedule::static_partition>;
+template <class Filter, traversal Traversal>
+using feature_options = query_options<Filter, Traversal, schedule::static_partition>;
+
+/// Where the queries of a step begin: at the roots, or at fronts.
+struct no_fronts {
+    static constexpr traversal way = traversal::both_at_once;
+    front *vertex_face = nullptr, *face_vertex = nullptr, *edge_edge = nullptr;
+};
+struct given_fronts {
+    static constexpr traversal way = traversal::from_front;
+    front *vertex_face, *face_vertex, *edge_edge;
+    explicit given_fronts(impact_fronts& all)
+        : vertex_face(&all.vertex_face), face_vertex(&all.face_vertex), edge_edge(&all.edge_edge) {}
+};
 
 /// How near boxes of features have to come. Throws where the bounds are no bounds.
 template <motion_arithmetic A, scalar T>
@@ -470,6 +492,64 @@ std::optional<impact<T>> first_of(const Policy& on, const result<impact<T>, spac
     return found;
 }
 
+/// The impacts of two meshes.
+template <motion_arithmetic A, class Policy, class X, class Y, class Fronts>
+auto impacts_between(const Policy& on, const X& a, const Y& b, const impact_options& options, const Fronts& fronts) {
+    constexpr const char* function = "abut::impacts";
+    constexpr pair_rule rule = rule_of<X, Y>();
+    const auto x = impact_operand<rule>(on, a, function);
+    const auto y = impact_operand<rule>(on, b, function);
+    using T = typename decltype(x)::scalar_type;
+    static_assert(std::same_as<T, typename decltype(y)::scalar_type>,
+                  "abut: both sides of a query need the same scalar type, float or double");
+    const auto near = nearness_of<A, T>(options.bounds, function);
+    if constexpr (rule != pair_rule::feature_trees) {
+        static_assert(std::same_as<Fronts, no_fronts>, "abut: fronts are of trees over features, pair_rule::feature_trees");
+        return impacts_by_faces<A>(on, x, y, options, near);
+    } else {
+        const auto faces_x = x.mesh().t0().view().faces, faces_y = y.mesh().t0().view().faces;
+        const auto edges_x = x.edges().set().t0().view().edges, edges_y = y.edges().set().t0().view().edges;
+        const auto query = [&](front* ends) {
+            return feature_options<keep_all, Fronts::way>{.sorted = options.sorted, .front = ends};
+        };
+        return impacts_of<A, T>(
+            on, options,
+            features_of<feature_pair::vertex_face>(
+                pair_up(on, x.vertices(), y.faces(), query(fronts.vertex_face), function, near), faces_y, {}, {}),
+            features_of<feature_pair::face_vertex>(
+                pair_up(on, x.faces(), y.vertices(), query(fronts.face_vertex), function, near), faces_x, {}, {}),
+            features_of<feature_pair::edge_edge>(pair_up(on, x.edges(), y.edges(), query(fronts.edge_edge), function, near), {},
+                                                 edges_x, edges_y));
+    }
+}
+
+/// The impacts of one mesh with itself.
+template <motion_arithmetic A, class Policy, class X, class Fronts>
+auto impacts_within(const Policy& on, const X& x, const impact_options& options, const Fronts& fronts) {
+    constexpr const char* function = "abut::self_impacts";
+    constexpr pair_rule rule = rule_of<X, X>();
+    const auto index = impact_operand<rule>(on, x, function);
+    using T = typename decltype(index)::scalar_type;
+    const auto near = nearness_of<A, T>(options.bounds, function);
+    if constexpr (rule != pair_rule::feature_trees) {
+        static_assert(std::same_as<Fronts, no_fronts>, "abut: fronts are of trees over features, pair_rule::feature_trees");
+        return self_impacts_by_faces<A>(on, index, options, near);
+    } else {
+        const auto faces = index.mesh().t0().view().faces;
+        const auto edges = index.edges().set().t0().view().edges;
+        const feature_options<share_no_vertex_with_face, Fronts::way> with_faces{
+            .sorted = options.sorted, .filter = {faces}, .front = fronts.vertex_face};
+        const feature_options<share_no_vertex_with_edge, Fronts::way> with_edges{
+            .sorted = options.sorted, .filter = {edges}, .front = fronts.edge_edge};
+        return impacts_of<A, T>(
+            on, options,
+            features_of<feature_pair::vertex_face>(pair_up(on, index.vertices(), index.faces(), with_faces, function, near),
+                                                   faces, {}, {}),
+            features_of<feature_pair::edge_edge>(pair_up_self(on, index.edges(), with_edges, function, as_they_are{}, near), {},
+                                                 edges, edges));
+    }
+}
+
 }  // namespace detail
 
 /// All pairs of a vertex of one mesh and a face of the other, and of two edges, that touch during the step, each once, with
@@ -488,52 +568,23 @@ std::optional<impact<T>> first_of(const Policy& on, const result<impact<T>, spac
 ///     for (const auto& i : to_host(abut::impacts(on, step, ball))) use(i.kind, i.vertices, i.time);
 template <motion_arithmetic A = filtered, execution_policy Policy, class X, class Y>
 [[nodiscard]] auto impacts(const Policy& on, const X& a, const Y& b, const impact_options& options = {}) {
-    using namespace detail;
-    constexpr const char* function = "abut::impacts";
-    constexpr pair_rule rule = rule_of<X, Y>();
-    const auto x = impact_operand<rule>(on, a, function);
-    const auto y = impact_operand<rule>(on, b, function);
-    using T = typename decltype(x)::scalar_type;
-    static_assert(std::same_as<T, typename decltype(y)::scalar_type>,
-                  "abut: both sides of a query need the same scalar type, float or double");
-    const auto near = nearness_of<A, T>(options.bounds, function);
-    if constexpr (rule != pair_rule::feature_trees) {
-        return impacts_by_faces<A>(on, x, y, options, near);
-    } else {
-        const auto faces_x = x.mesh().t0().view().faces, faces_y = y.mesh().t0().view().faces;
-        const auto edges_x = x.edges().set().t0().view().edges, edges_y = y.edges().set().t0().view().edges;
-        const feature_options<keep_all> query{.sorted = options.sorted};
-        return impacts_of<A, T>(
-            on, options,
-            features_of<feature_pair::vertex_face>(pair_up(on, x.vertices(), y.faces(), query, function, near), faces_y, {}, {}),
-            features_of<feature_pair::face_vertex>(pair_up(on, x.faces(), y.vertices(), query, function, near), faces_x, {}, {}),
-            features_of<feature_pair::edge_edge>(pair_up(on, x.edges(), y.edges(), query, function, near), {}, edges_x, edges_y));
-    }
+    return detail::impacts_between<A>(on, a, b, options, detail::no_fronts{});
+}
+/// The same from fronts, which are left at this step's ends.
+template <motion_arithmetic A = filtered, execution_policy Policy, class X, class Y>
+[[nodiscard]] auto impacts(const Policy& on, const X& a, const Y& b, const impact_options& options, impact_fronts& fronts) {
+    return detail::impacts_between<A>(on, a, b, options, detail::given_fronts(fronts));
 }
 
 /// The impacts of one mesh with itself: of all pairs that have no vertex index in common. Vertices that coincide in place but not
 /// by index touch. `x` is a mesh in motion, or an index of one. Otherwise as `impacts`.
 template <motion_arithmetic A = filtered, execution_policy Policy, class X>
 [[nodiscard]] auto self_impacts(const Policy& on, const X& x, const impact_options& options = {}) {
-    using namespace detail;
-    constexpr const char* function = "abut::self_impacts";
-    constexpr pair_rule rule = rule_of<X, X>();
-    const auto index = impact_operand<rule>(on, x, function);
-    using T = typename decltype(index)::scalar_type;
-    const auto near = nearness_of<A, T>(options.bounds, function);
-    if constexpr (rule != pair_rule::feature_trees) {
-        return self_impacts_by_faces<A>(on, index, options, near);
-    } else {
-        const auto faces = index.mesh().t0().view().faces;
-        const auto edges = index.edges().set().t0().view().edges;
-        const feature_options<share_no_vertex_with_face> with_faces{.sorted = options.sorted, .filter = {faces}};
-        const feature_options<share_no_vertex_with_edge> with_edges{.sorted = options.sorted, .filter = {edges}};
-        return impacts_of<A, T>(on, options,
-                                features_of<feature_pair::vertex_face>(
-                                    pair_up(on, index.vertices(), index.faces(), with_faces, function, near), faces, {}, {}),
-                                features_of<feature_pair::edge_edge>(pair_up_self(on, index.edges(), with_edges, function, as_they_are{}, near), {}, edges,
-                                                                     edges));
-    }
+    return detail::impacts_within<A>(on, x, options, detail::no_fronts{});
+}
+template <motion_arithmetic A = filtered, execution_policy Policy, class X>
+[[nodiscard]] auto self_impacts(const Policy& on, const X& x, const impact_options& options, impact_fronts& fronts) {
+    return detail::impacts_within<A>(on, x, options, detail::given_fronts(fronts));
 }
 
 /// The earliest of the impacts, or none: of several at one time, the first in their order.
@@ -541,6 +592,11 @@ template <motion_arithmetic A = filtered, execution_policy Policy, class X, clas
 [[nodiscard]] auto first_impact(const Policy& on, const X& a, const Y& b, impact_options options = {}) {
     options.sorted = true;
     return detail::first_of(on, impacts<A>(on, a, b, options));
+}
+template <motion_arithmetic A = filtered, execution_policy Policy, class X, class Y>
+[[nodiscard]] auto first_impact(const Policy& on, const X& a, const Y& b, impact_options options, impact_fronts& fronts) {
+    options.sorted = true;
+    return detail::first_of(on, impacts<A>(on, a, b, options, fronts));
 }
 
 /// Where the features of an impact touch (narrow/feature_weights.hpp). `a` and `b` are the meshes of the query as moving views, of

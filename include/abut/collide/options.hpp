@@ -14,6 +14,8 @@
 
 namespace abut {
 
+class front;  // traverse/front.hpp
+
 /// Ids of two shapes that touch: `a` in a query's first argument, `b` in its second.
 struct index_pair {
     std::uint32_t a, b;
@@ -58,6 +60,10 @@ struct query_options {
     int start_depth = 6;
     /// Of walks of two trees but breadth_first: the schedule's own options, and where it reports to.
     schedule_options scheduling = {};
+    /// Of traversal::from_front alone, which has to have one: where the query begins, and where it leaves its ends. Trees of
+    /// two shapes or more in the standard layout have them, and other queries do as both_at_once does and let the front be.
+    /// Where `any` or a visitor stops early, the front stays as it was, or all ends have been looked for before.
+    abut::front* front = nullptr;
 };
 
 /// The outcome of a query in the policy's memory: contiguous and immutable.
