@@ -713,4 +713,21 @@ struct large_scene {
     }
 };
 
+/// The same bits as serial's, again and again.
+template <class T, class Policy>
+void check_large_impacts(const Policy& on) {
+    const large_scene<T> s(5, 0.07);
+    const auto a = s.a.as_set(), b = s.b.as_set();
+    const auto between = to_host(impacts(serial{}, a, b)), self = to_host(self_impacts(serial{}, a));
+    CHECK(between.size() > 2000);
+    CHECK(self.size() > 2000);
+    const auto of_a = make_impact_index(on, a), of_b = make_impact_index(on, b);
+    for (int k = 0; k < 20; ++k) {
+        check_same("between", to_host(impacts(on, of_a, of_b)), between);
+        check_same("within", to_host(self_impacts(on, of_a)), self);
+        CHECK(first_impact(on, of_a, of_b) == first_of(between));
+    }
+    check_same("from the host", to_host(impacts(on, a, b)), between);
+}
+
 }  // namespace abut::test
