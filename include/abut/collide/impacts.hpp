@@ -4,9 +4,10 @@
 // impacts, self_impacts, first_impact: continuous collision. Which vertices of one mesh in motion meet which faces of another,
 // which edges meet which edges, and when.
 //
-// Features have trees of their own: faces, in which vertices look, and edges. So each pair of features is met once, and nothing
-// has to be left out because another pair of triangles has it too. A search (search.hpp) leaves pairs that touch, and the few
-// that registers cannot decide; what reads both again and writes the time of each pair leaves those out that do not touch.
+// The rule of an index (pair_rule.hpp) says how pairs of features are found. By the default, feature_trees, features have trees
+// of their own: faces, in which vertices look, and edges. So each pair is met once, and nothing has to be left out because
+// another pair of triangles has it too. A search (search.hpp) leaves pairs that touch, and the few that registers cannot decide;
+// what reads both again and writes the time of each pair leaves those out that do not touch.
 
 #include <array>
 #include <cstddef>

@@ -266,7 +266,7 @@ void descend(const Policy& on, const A& a, const B& b, const Expand& expand,
             const auto from = [&](const auto& step) {
                 run([&](const auto& judge, auto&... sinks) { return for_each_descendant(on, how, step, judge, sinks...); });
             };
-            if constexpr (Schedule == schedule::static_partition && !host_policy<Policy>) {
+            if constexpr (Schedule == schedule::static_partition && Traversal == traversal::both_at_once && !host_policy<Policy>) {
                 from(begin_below<Expand>(expand, options.start_depth));
             } else {
                 from(expand);

@@ -341,9 +341,7 @@ void find_loose(const Policy& on, const View& both, const shared_array<std::uint
 template <class Policy, class Pairing, class Expand, class Pass>
 void expand_gathered(const Policy& on, const Pairing& pairing, const Expand& expand, part_of_open part,
                      execution::buffer_of<Policy, std::uint64_t>& room, const Pass& pass) {
-    execution::capped_queue<std::uint64_t, space_of<Policy>> near(room);
-    pairing.judge_candidates(on, [&](const auto& loop) { loop(gather_candidate{part}, near); });
-    const auto count = static_cast<std::size_t>(near.pushed());
+    const std::size_t count = gather_part(on, pairing, part, room);
     if (count <= room.size()) {
         pass(count, gather_features_of<Expand>{{expand}, room.data()});
         return;

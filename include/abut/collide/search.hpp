@@ -181,14 +181,26 @@ void judge_gathered(const Policy& on, const View& both, const Judge& judge, cons
 /// Candidates that are gathered on a device at a time: 128 for each shape, 512 MiB of them at most.
 inline constexpr std::size_t least_gathered = std::size_t{1} << 23, most_gathered = std::size_t{1} << 26;
 
+/// Gathers a part of a pairing's candidates in `room`, as many as there is room for. Returns how many there are.
+template <class Policy, class Pairing>
+std::size_t gather_part(const Policy& on, const Pairing& pairing, part_of_open part,
+                        execution::buffer_of<Policy, std::uint64_t>& room) {
+    std::size_t count = 0;  // of all loops of a walk
+    pairing.judge_candidates(on, [&](const auto& loop) {
+        const std::size_t taken = std::min(count, room.size());
+        execution::capped_queue<std::uint64_t, space_of<Policy>> near(room.data() + taken, room.size() - taken);
+        loop(gather_candidate{part}, near);
+        count += static_cast<std::size_t>(near.pushed());
+    });
+    return count;
+}
+
 /// A search by a judge that may report more. Where there are more candidates than may be gathered, it looks for a part of them
 /// at a time.
 template <class Policy, class Pairing, class Judge>
 void search_apart(const Policy& on, const Pairing& pairing, const Judge& judge, key_queue<Policy>& hits,
                   execution::buffer_of<Policy, std::uint64_t>& room, part_of_open part = {}) {
-    execution::capped_queue<std::uint64_t, space_of<Policy>> near(room);
-    pairing.judge_candidates(on, [&](const auto& loop) { loop(gather_candidate{part}, near); });
-    const auto count = static_cast<std::size_t>(near.pushed());
+    const std::size_t count = gather_part(on, pairing, part, room);
     if (count <= room.size()) return judge_gathered(on, pairing.view(), judge, room.data(), count, hits);
     const auto more = static_cast<std::uint32_t>(2 * count / room.size() + 1);
     for (std::uint32_t k = 0; k < more; ++k) search_apart(on, pairing, judge, hits, room, part.split(k, more));

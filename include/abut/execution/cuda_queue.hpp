@@ -270,7 +270,7 @@ public:
         items_ = static_cast<T*>(detail::loop_counters::of_this_thread(device).room(use).at_least(device, bytes));
     }
     /// In memory of the caller's, which has to outlive it.
-    explicit capped_queue(buffer<T, device_space>& room) : items_(room.data()), capacity_(room.size()) {}
+    capped_queue(T* room, std::size_t capacity) : items_(room), capacity_(capacity) {}
     /// Number of values that were pushed.
     [[nodiscard]] std::uint64_t pushed() const { return pushed_; }
     [[nodiscard]] std::size_t capacity() const { return capacity_; }
