@@ -24,6 +24,7 @@
 #include <abut/index/refit.hpp>
 #include <abut/index/wide.hpp>
 #include <abut/narrow/contact.hpp>
+#include <abut/narrow/feature_weights.hpp>
 #include <abut/narrow/nearest_point.hpp>
 #include <abut/narrow/time_of_impact.hpp>
 #include <abut/predicate/intersects.hpp>

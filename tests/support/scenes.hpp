@@ -16,7 +16,7 @@ namespace abut::test {
 /// Numbers in [0, 1) from a seed; the same on every standard library.
 class uniform {
 public:
-    explicit uniform(std::uint64_t seed) : engine_(seed) {}
+    explicit uniform(std::uint64_t seed_value) : engine_(seed_value) {}
     double operator()() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
     double operator()(double lower, double upper) { return lower + (upper - lower) * (*this)(); }
     template <class T>

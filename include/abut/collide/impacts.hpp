@@ -17,18 +17,18 @@
 #include <utility>
 #include <vector>
 
+#include <abut/collide/face_impacts.hpp>
+#include <abut/collide/pair_rule.hpp>
 #include <abut/collide/query.hpp>
 #include <abut/collide/self_pairing.hpp>
 #include <abut/index/lbvh.hpp>
 #include <abut/index/refit.hpp>
+#include <abut/narrow/feature_weights.hpp>
 #include <abut/narrow/time_of_impact.hpp>
 #include <abut/shape/motion.hpp>
+#include <abut/traverse/front.hpp>
 
 namespace abut {
-
-/// Which features meet: a vertex of the first mesh and a face of the second, a face of the first and a vertex of the second,
-/// or two edges.
-enum class feature_pair : unsigned char { vertex_face, face_vertex, edge_edge };
 
 /// Two features that meet. `vertices` are the vertex and the three of the face, in their order; or the two of the first
 /// mesh's edge, the smaller first, and the two of the other. In self queries faces never come first, and the smaller edge
@@ -50,6 +50,15 @@ struct impact_options {
     bool sorted = true;
     /// Of `conservative` alone.
     conservative_bounds bounds = {};
+};
+
+/// Where queries of one mesh, or of one pair of them, came to their ends, for each kind of features, for the next step to begin
+/// there (traverse/front.hpp). They belong to the topologies of indices, so they are for indices that are refitted.
+struct impact_fronts {
+    front vertex_face, face_vertex, edge_edge;
+
+    explicit impact_fronts(const front_options& options = {})
+        : vertex_face(options), face_vertex(options), edge_edge(options) {}
 };
 
 /// A mesh in motion with what `impacts` looks in: its edges, and trees over its faces, its edges and its vertices, of boxes around
@@ -80,19 +89,47 @@ private:
     bvh<vertices_type, Space> vertices_;
 };
 
-/// An index of a mesh in motion, or of one at rest, in the policy's memory. Returns when it is there. Throws as `edges` and
-/// make_bvh do.
-template <execution_policy Policy, scalar T, memory_space Space>
-[[nodiscard]] impact_index<T, space_of<Policy>> make_impact_index(const Policy& on, const moving_set<mesh<T, Space>>& set,
-                                                                  const bvh_options& options = {}) {
-    const auto resident = detail::make_resident(on, set, "abut::make_impact_index");
-    return {make_bvh(on, resident, options), make_bvh(on, edges(on, resident), options),
-            make_bvh(on, vertices(resident), options)};
+/// An index of a mesh in motion, or of one at rest, in the policy's memory: an impact_index, or by one of the rules of faces a
+/// face_impact_index. Queries go by the rule of the index that they are given, and by feature_trees where there is none. Returns
+/// when it is there. Throws as `edges` and make_bvh do.
+///
+///     const auto index = abut::make_impact_index<abut::pair_rule::orphan_sets>(on, step);
+///     const auto found = abut::self_impacts(on, index);
+template <pair_rule Rule = pair_rule::feature_trees, execution_policy Policy, scalar T, memory_space Space>
+[[nodiscard]] auto make_impact_index(const Policy& on, const moving_set<mesh<T, Space>>& set, const bvh_options& options = {}) {
+    constexpr const char* function = "abut::make_impact_index";
+    const auto resident = detail::make_resident(on, set, function);
+    if constexpr (Rule == pair_rule::feature_trees) {
+        return impact_index<T, space_of<Policy>>(make_bvh(on, resident, options), make_bvh(on, edges(on, resident), options),
+                                                 make_bvh(on, vertices(resident), options));
+    } else {
+        return detail::make_face_impact_index<Rule>(on, resident, options, function);
+    }
 }
-template <execution_policy Policy, scalar T, memory_space Space>
+template <pair_rule Rule = pair_rule::feature_trees, execution_policy Policy, scalar T, memory_space Space>
 [[nodiscard]] auto make_impact_index(const Policy& on, const mesh<T, Space>& at_rest, const bvh_options& options = {}) {
-    return make_impact_index(on, moving_set<mesh<T, Space>>(at_rest, at_rest), options);
+    return make_impact_index<Rule>(on, moving_set<mesh<T, Space>>(at_rest, at_rest), options);
 }
+
+namespace detail {
+
+/// A mesh in motion in the policy's memory, if it has the faces of an index.
+template <class Policy, class Index, class Set>
+auto resident_of_index(const Policy& on, const Index& index, const Set& set) {
+    constexpr const char* function = "abut::refit";
+    auto resident = make_resident(on, set, function);
+    check_motion_sizes(index.mesh().t0().view(), resident.t0().view(), function);
+    check_elements(on, index.mesh().t0().view(), resident.t0().view(), function);
+    return resident;
+}
+/// The same edges over the vertices of another step.
+template <scalar T, memory_space Space>
+moving_set<edge_mesh<T, Space>> edges_over(const moving_set<edge_mesh<T, Space>>& edges, const moving_set<mesh<T, Space>>& step) {
+    const auto at = [&](const mesh<T, Space>& time) { return set_parts::with_points(edges.t0(), vertices(time)); };
+    return {at(step.t0()), at(step.t1())};
+}
+
+}  // namespace detail
 
 /// The index of another step of the same mesh: its trees have the topology of `index`, its boxes are those of `set`, which has
 /// the same faces. Returns when it is there. Results are right however far the mesh has moved; `quality` of the trees tells when
@@ -100,15 +137,15 @@ template <execution_policy Policy, scalar T, memory_space Space>
 template <execution_policy Policy, scalar T, memory_space Space, memory_space From>
 [[nodiscard]] impact_index<T, Space> refit(const Policy& on, const impact_index<T, Space>& index,
                                            const moving_set<mesh<T, From>>& set) {
-    constexpr const char* function = "abut::refit";
-    const auto resident = detail::make_resident(on, set, function);
-    detail::check_motion_sizes(index.mesh().t0().view(), resident.t0().view(), function);
-    detail::check_elements(on, index.mesh().t0().view(), resident.t0().view(), function);
-    const auto& old = index.edges().set().t0();
-    const auto edges_at = [&](const mesh<T, Space>& at) { return detail::set_parts::with_points(old, vertices(at)); };
-    const moving_set<edge_mesh<T, Space>> edges(edges_at(resident.t0()), edges_at(resident.t1()));
-    return {refit(on, index.faces(), resident), refit(on, index.edges(), edges),
+    const auto resident = detail::resident_of_index(on, index, set);
+    return {refit(on, index.faces(), resident), refit(on, index.edges(), detail::edges_over(index.edges().set(), resident)),
             refit(on, index.vertices(), vertices(resident))};
+}
+template <execution_policy Policy, scalar T, memory_space Space, pair_rule Rule, memory_space From>
+[[nodiscard]] face_impact_index<T, Space, Rule> refit(const Policy& on, const face_impact_index<T, Space, Rule>& index,
+                                                      const moving_set<mesh<T, From>>& set) {
+    const auto resident = detail::resident_of_index(on, index, set);
+    return {refit(on, index.faces(), resident), detail::edges_over(index.edges(), resident), index.parts(), index.orphans()};
 }
 
 namespace detail {
@@ -167,8 +204,20 @@ struct share_no_vertex_with_edge {
 };
 
 /// Features in motion are crowded in places, and work is dealt out evenly again and again (docs/benchmarks.md).
-template <class Filter>
-using feature_options = query_options<Filter, traversal::both_at_once, schedule::static_partition>;
+template <class Filter, traversal Traversal>
+using feature_options = query_options<Filter, Traversal, schedule::static_partition>;
+
+/// Where the queries of a step begin: at the roots, or at fronts.
+struct no_fronts {
+    static constexpr traversal way = traversal::both_at_once;
+    front *vertex_face = nullptr, *face_vertex = nullptr, *edge_edge = nullptr;
+};
+struct given_fronts {
+    static constexpr traversal way = traversal::from_front;
+    front *vertex_face, *face_vertex, *edge_edge;
+    explicit given_fronts(impact_fronts& all)
+        : vertex_face(&all.vertex_face), face_vertex(&all.face_vertex), edge_edge(&all.edge_edge) {}
+};
 
 /// How near boxes of features have to come. Throws where the bounds are no bounds.
 template <motion_arithmetic A, scalar T>
@@ -308,15 +357,14 @@ bool write_impacts(const Policy& on, const View& features, std::size_t count, co
     return some_are_none;
 }
 
-/// The impacts of pairings of features, one after another.
-template <motion_arithmetic A, scalar T, class Policy, class... Pairings>
-auto impacts_of(const Policy& on, const impact_options& options, const Pairings&... features) {
-    using execution::buffer_of;
-    const touch_in_motion<A> judge{options.bounds};
-    const buffer_of<Policy, std::uint64_t> keys[] = {find_keys(on, features.pairing, judge)...};
+/// The impacts of pairs of features that were found, one pairing after another, of which keys[k] are those of the k-th.
+template <motion_arithmetic A, scalar T, class Policy, std::size_t N, class... Pairings>
+auto impacts_at(const Policy& on, const impact_options& options,
+                const std::array<execution::buffer_of<Policy, std::uint64_t>, N>& keys, const Pairings&... features) {
+    static_assert(N == sizeof...(Pairings));
     std::size_t total = 0;
     for (const auto& some : keys) total += some.size();
-    buffer_of<Policy, impact<T>> all(on, total);
+    execution::buffer_of<Policy, impact<T>> all(on, total);
     bool some_are_none = false;
     std::size_t first = 0, k = 0;
     const auto write = [&](const auto& of) {
@@ -331,25 +379,91 @@ auto impacts_of(const Policy& on, const impact_options& options, const Pairings&
     return some_are_none ? answers_with(on, found, is_impact<T>{found.data()}) : std::move(found);
 }
 
+/// The impacts of pairings of features, one after another.
+template <motion_arithmetic A, scalar T, class Policy, class... Pairings>
+auto impacts_of(const Policy& on, const impact_options& options, const Pairings&... features) {
+    const touch_in_motion<A> judge{options.bounds};
+    using keys = std::array<execution::buffer_of<Policy, std::uint64_t>, sizeof...(Pairings)>;
+    return impacts_at<A, T>(on, options, keys{find_keys(on, features.pairing, judge)...}, features...);
+}
+
+/// The rule by which a query of these goes: that of the indices among them.
+template <class X>
+inline constexpr bool is_impact_index = false;
+template <scalar T, memory_space Space>
+inline constexpr bool is_impact_index<impact_index<T, Space>> = true;
+template <scalar T, memory_space Space, pair_rule Rule>
+inline constexpr bool is_impact_index<face_impact_index<T, Space, Rule>> = true;
+template <class X, class Y>
+consteval pair_rule rule_of() {
+    const auto rule = []<class Z>(const Z*) {
+        if constexpr (requires { Z::rule; }) {
+            return Z::rule;
+        } else {
+            return pair_rule::feature_trees;
+        }
+    };
+    constexpr const X* x = nullptr;
+    constexpr const Y* y = nullptr;
+    static_assert(!is_impact_index<X> || !is_impact_index<Y> || rule(x) == rule(y),
+                  "abut: both indices of a query have to be made by the same pair_rule");
+    return is_impact_index<X> ? rule(x) : rule(y);
+}
+
 /// What `x` is to an impact query: an index, if need be made for the query.
-template <class Policy, class X>
+template <pair_rule Rule, class Policy, class X>
 auto impact_operand(const Policy& on, const X& x, const char* function) {
-    if constexpr (requires {
-                      x.faces();
-                      x.edges();
-                  }) {
+    if constexpr (is_impact_index<X>) {
         static_assert(std::same_as<typename X::memory_space, space_of<Policy>>,
                       "abut: the index lies in other memory than the policy works in; make it with the same policy");
         require_same_device(on, x, function);
         return x;
     } else {
-        return make_impact_index(on, x);
+        static_assert(requires { make_impact_index<Rule>(on, x); },
+                      "abut: impacts are of meshes, at rest or in motion (abut::moving), or of indices of such, without a pose");
+        return make_impact_index<Rule>(on, x);
     }
 }
 
 template <feature_pair Kind, class Pairing>
 pairing_of_features<Kind, Pairing> features_of(Pairing pairing, strided<face> faces, strided<edge> edges_a, strided<edge> edges_b) {
     return {std::move(pairing), faces, edges_a, edges_b};
+}
+
+/// What is left of a pairing when its keys are known.
+template <class View>
+struct known_pairs {
+    View both;
+    [[nodiscard]] View view() const { return both; }
+};
+template <feature_pair Kind, class View, class... Elements>
+auto known_features_of(const View& both, const Elements&... elements) {
+    return features_of<Kind>(known_pairs<View>{both}, elements...);
+}
+
+/// Impacts by the rules of faces.
+template <motion_arithmetic A, class Policy, class X, class Nearness>
+auto impacts_by_faces(const Policy& on, const X& x, const X& y, const impact_options& options, const Nearness& near) {
+    const auto faces_x = x.mesh().t0().view().faces, faces_y = y.mesh().t0().view().faces;
+    const auto edges_x = x.edges().t0().view().edges, edges_y = y.edges().t0().view().edges;
+    const auto views = features_of_two(x, y);
+    return impacts_at<A, typename X::scalar_type>(
+        on, options, find_features(on, x, y, touch_in_motion<A>{options.bounds}, near, options.sorted),
+        known_features_of<feature_pair::vertex_face>(views.vertex_face, faces_y, strided<edge>{}, strided<edge>{}),
+        known_features_of<feature_pair::face_vertex>(views.face_vertex, faces_x, strided<edge>{}, strided<edge>{}),
+        known_features_of<feature_pair::edge_edge>(views.edge_edge, strided<face>{}, edges_x, edges_y));
+}
+template <motion_arithmetic A, class Policy, class X, class Nearness>
+auto self_impacts_by_faces(const Policy& on, const X& x, const impact_options& options, const Nearness& near) {
+    const auto faces = x.mesh().t0().view().faces;
+    const auto edges = x.edges().t0().view().edges;
+    const auto views = features_of_two(x, x);
+    auto [of_vertices, none, of_edges] = find_features(on, x, touch_in_motion<A>{options.bounds}, near, options.sorted);
+    const std::array<execution::buffer_of<Policy, std::uint64_t>, 2> keys{std::move(of_vertices), std::move(of_edges)};
+    return impacts_at<A, typename X::scalar_type>(
+        on, options, keys,
+        known_features_of<feature_pair::vertex_face>(views.vertex_face, faces, strided<edge>{}, strided<edge>{}),
+        known_features_of<feature_pair::edge_edge>(views.edge_edge, strided<face>{}, edges, edges));
 }
 
 /// The earliest impact, and of equal ones the first.
@@ -378,6 +492,64 @@ std::optional<impact<T>> first_of(const Policy& on, const result<impact<T>, spac
     return found;
 }
 
+/// The impacts of two meshes.
+template <motion_arithmetic A, class Policy, class X, class Y, class Fronts>
+auto impacts_between(const Policy& on, const X& a, const Y& b, const impact_options& options, const Fronts& fronts) {
+    constexpr const char* function = "abut::impacts";
+    constexpr pair_rule rule = rule_of<X, Y>();
+    const auto x = impact_operand<rule>(on, a, function);
+    const auto y = impact_operand<rule>(on, b, function);
+    using T = typename decltype(x)::scalar_type;
+    static_assert(std::same_as<T, typename decltype(y)::scalar_type>,
+                  "abut: both sides of a query need the same scalar type, float or double");
+    const auto near = nearness_of<A, T>(options.bounds, function);
+    if constexpr (rule != pair_rule::feature_trees) {
+        static_assert(std::same_as<Fronts, no_fronts>, "abut: fronts are of trees over features, pair_rule::feature_trees");
+        return impacts_by_faces<A>(on, x, y, options, near);
+    } else {
+        const auto faces_x = x.mesh().t0().view().faces, faces_y = y.mesh().t0().view().faces;
+        const auto edges_x = x.edges().set().t0().view().edges, edges_y = y.edges().set().t0().view().edges;
+        const auto query = [&](front* ends) {
+            return feature_options<keep_all, Fronts::way>{.sorted = options.sorted, .front = ends};
+        };
+        return impacts_of<A, T>(
+            on, options,
+            features_of<feature_pair::vertex_face>(
+                pair_up(on, x.vertices(), y.faces(), query(fronts.vertex_face), function, near), faces_y, {}, {}),
+            features_of<feature_pair::face_vertex>(
+                pair_up(on, x.faces(), y.vertices(), query(fronts.face_vertex), function, near), faces_x, {}, {}),
+            features_of<feature_pair::edge_edge>(pair_up(on, x.edges(), y.edges(), query(fronts.edge_edge), function, near), {},
+                                                 edges_x, edges_y));
+    }
+}
+
+/// The impacts of one mesh with itself.
+template <motion_arithmetic A, class Policy, class X, class Fronts>
+auto impacts_within(const Policy& on, const X& x, const impact_options& options, const Fronts& fronts) {
+    constexpr const char* function = "abut::self_impacts";
+    constexpr pair_rule rule = rule_of<X, X>();
+    const auto index = impact_operand<rule>(on, x, function);
+    using T = typename decltype(index)::scalar_type;
+    const auto near = nearness_of<A, T>(options.bounds, function);
+    if constexpr (rule != pair_rule::feature_trees) {
+        static_assert(std::same_as<Fronts, no_fronts>, "abut: fronts are of trees over features, pair_rule::feature_trees");
+        return self_impacts_by_faces<A>(on, index, options, near);
+    } else {
+        const auto faces = index.mesh().t0().view().faces;
+        const auto edges = index.edges().set().t0().view().edges;
+        const feature_options<share_no_vertex_with_face, Fronts::way> with_faces{
+            .sorted = options.sorted, .filter = {faces}, .front = fronts.vertex_face};
+        const feature_options<share_no_vertex_with_edge, Fronts::way> with_edges{
+            .sorted = options.sorted, .filter = {edges}, .front = fronts.edge_edge};
+        return impacts_of<A, T>(
+            on, options,
+            features_of<feature_pair::vertex_face>(pair_up(on, index.vertices(), index.faces(), with_faces, function, near),
+                                                   faces, {}, {}),
+            features_of<feature_pair::edge_edge>(pair_up_self(on, index.edges(), with_edges, function, as_they_are{}, near), {},
+                                                 edges, edges));
+    }
+}
+
 }  // namespace detail
 
 /// All pairs of a vertex of one mesh and a face of the other, and of two edges, that touch during the step, each once, with
@@ -396,42 +568,23 @@ std::optional<impact<T>> first_of(const Policy& on, const result<impact<T>, spac
 ///     for (const auto& i : to_host(abut::impacts(on, step, ball))) use(i.kind, i.vertices, i.time);
 template <motion_arithmetic A = filtered, execution_policy Policy, class X, class Y>
 [[nodiscard]] auto impacts(const Policy& on, const X& a, const Y& b, const impact_options& options = {}) {
-    using namespace detail;
-    constexpr const char* function = "abut::impacts";
-    const auto x = impact_operand(on, a, function);
-    const auto y = impact_operand(on, b, function);
-    using T = typename decltype(x)::scalar_type;
-    static_assert(std::same_as<T, typename decltype(y)::scalar_type>,
-                  "abut: both sides of a query need the same scalar type, float or double");
-    const auto faces_x = x.mesh().t0().view().faces, faces_y = y.mesh().t0().view().faces;
-    const auto edges_x = x.edges().set().t0().view().edges, edges_y = y.edges().set().t0().view().edges;
-    const feature_options<keep_all> query{.sorted = options.sorted};
-    const auto near = nearness_of<A, T>(options.bounds, function);
-    return impacts_of<A, T>(
-        on, options,
-        features_of<feature_pair::vertex_face>(pair_up(on, x.vertices(), y.faces(), query, function, near), faces_y, {}, {}),
-        features_of<feature_pair::face_vertex>(pair_up(on, x.faces(), y.vertices(), query, function, near), faces_x, {}, {}),
-        features_of<feature_pair::edge_edge>(pair_up(on, x.edges(), y.edges(), query, function, near), {}, edges_x, edges_y));
+    return detail::impacts_between<A>(on, a, b, options, detail::no_fronts{});
+}
+/// The same from fronts, which are left at this step's ends.
+template <motion_arithmetic A = filtered, execution_policy Policy, class X, class Y>
+[[nodiscard]] auto impacts(const Policy& on, const X& a, const Y& b, const impact_options& options, impact_fronts& fronts) {
+    return detail::impacts_between<A>(on, a, b, options, detail::given_fronts(fronts));
 }
 
 /// The impacts of one mesh with itself: of all pairs that have no vertex index in common. Vertices that coincide in place but not
 /// by index touch. `x` is a mesh in motion, or an index of one. Otherwise as `impacts`.
 template <motion_arithmetic A = filtered, execution_policy Policy, class X>
 [[nodiscard]] auto self_impacts(const Policy& on, const X& x, const impact_options& options = {}) {
-    using namespace detail;
-    constexpr const char* function = "abut::self_impacts";
-    const auto index = impact_operand(on, x, function);
-    using T = typename decltype(index)::scalar_type;
-    const auto faces = index.mesh().t0().view().faces;
-    const auto edges = index.edges().set().t0().view().edges;
-    const feature_options<share_no_vertex_with_face> with_faces{.sorted = options.sorted, .filter = {faces}};
-    const feature_options<share_no_vertex_with_edge> with_edges{.sorted = options.sorted, .filter = {edges}};
-    const auto near = nearness_of<A, T>(options.bounds, function);
-    return impacts_of<A, T>(on, options,
-                            features_of<feature_pair::vertex_face>(
-                                pair_up(on, index.vertices(), index.faces(), with_faces, function, near), faces, {}, {}),
-                            features_of<feature_pair::edge_edge>(pair_up_self(on, index.edges(), with_edges, function, as_they_are{}, near), {}, edges,
-                                                                 edges));
+    return detail::impacts_within<A>(on, x, options, detail::no_fronts{});
+}
+template <motion_arithmetic A = filtered, execution_policy Policy, class X>
+[[nodiscard]] auto self_impacts(const Policy& on, const X& x, const impact_options& options, impact_fronts& fronts) {
+    return detail::impacts_within<A>(on, x, options, detail::given_fronts(fronts));
 }
 
 /// The earliest of the impacts, or none: of several at one time, the first in their order.
@@ -439,6 +592,34 @@ template <motion_arithmetic A = filtered, execution_policy Policy, class X, clas
 [[nodiscard]] auto first_impact(const Policy& on, const X& a, const Y& b, impact_options options = {}) {
     options.sorted = true;
     return detail::first_of(on, impacts<A>(on, a, b, options));
+}
+template <motion_arithmetic A = filtered, execution_policy Policy, class X, class Y>
+[[nodiscard]] auto first_impact(const Policy& on, const X& a, const Y& b, impact_options options, impact_fronts& fronts) {
+    options.sorted = true;
+    return detail::first_of(on, impacts<A>(on, a, b, options, fronts));
+}
+
+/// Where the features of an impact touch (narrow/feature_weights.hpp). `a` and `b` are the meshes of the query as moving views, of
+/// a self query the same one twice; reads their vertices, on hosts and devices.
+///
+///     const auto step = abut::moving(cloth_t0, cloth_t1);
+///     for (const auto& i : abut::self_impacts(on, step)) use(i, abut::weights_of(i, step.view(), step.view()));
+template <scalar T, memory_space Space>
+[[nodiscard]] ABUT_HD feature_weights weights_of(const impact<T>& found, const moving_view<mesh_view<T, Space>>& a,
+                                                 const moving_view<mesh_view<T, Space>>& b) {
+    const auto* const v = reinterpret_cast<const std::uint32_t*>(&found.vertices);
+    const auto point = [](const auto& m, std::uint32_t i) {
+        return motion<vec3<T>>{m.t0.vertices[i], m.t1.vertices[i]};
+    };
+    const auto edge_of = [&](const auto& m, std::uint32_t i, std::uint32_t j) {
+        const auto from = point(m, i), to = point(m, j);
+        return motion<segment<T>>{{from.t0, to.t0}, {from.t1, to.t1}};
+    };
+    if (found.kind == feature_pair::edge_edge) return weights_at(edge_of(a, v[0], v[1]), edge_of(b, v[2], v[3]), found.time);
+    const bool vertex_first = found.kind == feature_pair::vertex_face;
+    const auto &of_vertex = vertex_first ? a : b, &of_face = vertex_first ? b : a;
+    const auto x = point(of_face, v[1]), y = point(of_face, v[2]), z = point(of_face, v[3]);
+    return weights_at(point(of_vertex, v[0]), motion<triangle<T>>{{x.t0, y.t0, z.t0}, {x.t1, y.t1, z.t1}}, found.time);
 }
 
 }  // namespace abut

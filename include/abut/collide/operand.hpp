@@ -14,6 +14,7 @@
 #include <abut/index/operand.hpp>
 #include <abut/shape/posed.hpp>
 #include <abut/traverse/bvh_walk.hpp>
+#include <abut/traverse/front.hpp>
 #include <abut/traverse/grid_walk.hpp>
 #include <abut/traverse/posed_walk.hpp>
 
@@ -41,6 +42,12 @@ struct indexed_operand<bvh<Set, Space, Layout>> {
     [[nodiscard]] auto shapes() const { return view_of(index.set()); }
     [[nodiscard]] auto tree() const { return index.view(); }
     [[nodiscard]] auto walk() const { return bvh_walk<typename bvh<Set, Space, Layout>::view_type>{tree()}; }
+    /// What a refitted tree has in common with the one that it comes of.
+    [[nodiscard]] topology shape_of_tree() const
+        requires std::same_as<Layout, standard_layout>
+    {
+        return index.stored().plan;
+    }
     /// Around all shapes, of which there are some.
     template <class Policy>
     [[nodiscard]] aabb<T> bounds(const Policy&) const {
@@ -64,6 +71,12 @@ struct indexed_operand<grid<Set, Space>> {
     }
 };
 
+/// A tree whose nodes have the same numbers after a refit.
+template <class Operand>
+concept has_topology = requires(const Operand& x) {
+    { x.shape_of_tree() } -> std::same_as<topology>;
+};
+
 /// An operand under a pose. Nothing is copied: shapes are placed as they are read, and an index is looked in in its frame.
 template <class Operand, scalar T>
 struct posed_operand {
@@ -74,6 +87,11 @@ struct posed_operand {
 
     [[nodiscard]] auto shapes() const { return posed_view<decltype(operand.shapes())>{operand.shapes(), pose}; }
     [[nodiscard]] auto tree() const { return operand.tree(); }
+    [[nodiscard]] topology shape_of_tree() const
+        requires has_topology<Operand>
+    {
+        return operand.shape_of_tree();
+    }
     [[nodiscard]] auto walk() const { return posed_walk<decltype(operand.walk())>(operand.walk(), pose, around); }
 };
 

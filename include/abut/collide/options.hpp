@@ -14,6 +14,8 @@
 
 namespace abut {
 
+class front;  // traverse/front.hpp
+
 /// Ids of two shapes that touch: `a` in a query's first argument, `b` in its second.
 struct index_pair {
     std::uint32_t a, b;
@@ -50,14 +52,18 @@ struct query_options {
     /// memory), while the other streams by and is shared out among threads. By itself the smaller one. A single shape is
     /// always the resident side, and an index the one that is looked in. It changes times, not answers.
     argument resident = argument::automatic;
-    /// Of traversal::breadth_first alone: the depth at which it begins, 0 to most_start_depth. All nodes there of one tree
-    /// are compared with all of the other one, whatever lies above them; a leaf above that depth counts as one of them. 0
-    /// and 1 are the roots' children. A tree that is too small to have so many levels if it were balanced begins at the last
-    /// of those, and a node of wide_layout is two levels. On a device a deep start saves steps that cannot fill it; on a
-    /// host it saves nothing.
+    /// Of traversal::breadth_first, and of schedule::static_partition on a device: the depth at which it begins, 0 to
+    /// most_start_depth. All nodes there of one tree are compared with all of the other one, whatever lies above them; a leaf
+    /// above that depth counts as one of them. 0 and 1 are the roots' children. A tree that is too small to have so many levels
+    /// if it were balanced begins at the last of those, and a node of wide_layout is two levels. On a device a deep start saves
+    /// steps that cannot fill it; on a host it saves nothing.
     int start_depth = 6;
     /// Of walks of two trees but breadth_first: the schedule's own options, and where it reports to.
     schedule_options scheduling = {};
+    /// Of traversal::from_front alone, which has to have one: where the query begins, and where it leaves its ends. Trees of
+    /// two shapes or more in the standard layout have them, and other queries do as both_at_once does and let the front be.
+    /// Where `any` or a visitor stops early, the front stays as it was, or all ends have been looked for before.
+    abut::front* front = nullptr;
 };
 
 /// The outcome of a query in the policy's memory: contiguous and immutable.

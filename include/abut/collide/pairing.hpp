@@ -16,6 +16,7 @@
 #include <abut/collide/judge.hpp>
 #include <abut/collide/operand.hpp>
 #include <abut/collide/options.hpp>
+#include <abut/traverse/front.hpp>
 #include <abut/traverse/frontier.hpp>
 #include <abut/traverse/pair_walk.hpp>
 #include <abut/shape/reach.hpp>
@@ -251,21 +252,34 @@ struct expand_pair {
     }
 };
 
-/// Judges what a walk down trees finds.
-template <class Policy, class Expand, class Filter, traversal Traversal, schedule Schedule, class Run>
-void descend(const Policy& on, const Expand& expand, const query_options<Filter, Traversal, Schedule>& options, const Run& run) {
+/// Judges what a walk down the trees of two operands finds, which may be one.
+template <class Policy, class A, class B, class Expand, class Filter, traversal Traversal, schedule Schedule, class Run>
+void descend(const Policy& on, const A& a, const B& b, const Expand& expand,
+             const query_options<Filter, Traversal, Schedule>& options, const Run& run) {
     if constexpr (Traversal == traversal::breadth_first) {
         for_each_on_levels(on, expand, options.start_depth, run);
     } else {
         const execution::scheduled<Schedule> how{options.scheduling};
-        run([&](const auto& judge, auto&... sinks) { return for_each_descendant(on, how, expand, judge, sinks...); });
+        if constexpr (Traversal == traversal::from_front && has_topology<A> && has_topology<B>) {
+            from_front::walk(*options.front, on, how, expand, a.shape_of_tree(), b.shape_of_tree(), run);
+        } else {
+            const auto from = [&](const auto& step) {
+                run([&](const auto& judge, auto&... sinks) { return for_each_descendant(on, how, step, judge, sinks...); });
+            };
+            if constexpr (Schedule == schedule::static_partition && !host_policy<Policy>) {
+                from(begin_below<Expand>(expand, options.start_depth));
+            } else {
+                from(expand);
+            }
+        }
     }
 }
 
 /// The walk of two trees for a traversal.
 template <traversal Traversal, class A, class B, class Overlap>
 using chosen_walk =
-    typename std::conditional_t<Traversal == traversal::both_at_once || Traversal == traversal::breadth_first,
+    typename std::conditional_t<Traversal == traversal::both_at_once || Traversal == traversal::breadth_first ||
+                                    Traversal == traversal::from_front,
                                 std::type_identity<pair_walk<A, B, Overlap>>,
                                 std::type_identity<rule_walk<A, B, Overlap, Traversal>>>::type;
 
@@ -307,8 +321,6 @@ struct pairing {
     using view_type = pair_view<view_a, view_b, Filter>;
     static_assert(std::same_as<typename view_a::scalar_type, typename view_b::scalar_type>,
                   "abut: both sides of a query need the same scalar type, float or double");
-    static_assert(decidable<typename view_a::shape_type, typename view_b::shape_type>,
-                  "abut: queries between sets of these two shapes are not supported");
 
     [[nodiscard]] view_type view() const { return {a.shapes(), b.shapes(), key, options.filter}; }
     /// Room that results are likely to need.
@@ -326,7 +338,7 @@ struct pairing {
             const auto walk = walk_of_both();
             using walk_type = std::remove_const_t<decltype(walk)>;
             if (least > 1 && most <= walk_type::most_shapes) {  // a leaf alone has no place (traverse/pair_walk.hpp)
-                return descend(on, expand_pair<true, walk_type, view_type>{walk, both}, options, run);
+                return descend(on, b, a, expand_pair<true, walk_type, view_type>{walk, both}, options, run);
             }
         }
         if constexpr (A::is_indexed) {
@@ -369,9 +381,13 @@ private:
 /// What is checked before the arguments of a query are: its options.
 template <class Policy, class Filter, traversal Traversal, schedule Schedule>
 void check_options(const Policy& on, const query_options<Filter, Traversal, Schedule>& options, const char* function) {
-    if (Traversal == traversal::breadth_first && (options.start_depth < 0 || options.start_depth > most_start_depth)) {
+    constexpr bool begins_at_depth = Traversal == traversal::breadth_first || Schedule == schedule::static_partition;
+    if (begins_at_depth && (options.start_depth < 0 || options.start_depth > most_start_depth)) {
         throw error(std::string(function) + ": start_depth is " + std::to_string(options.start_depth) + ", not in 0.." +
                     std::to_string(most_start_depth));
+    }
+    if (Traversal == traversal::from_front && options.front == nullptr) {
+        throw error(std::string(function) + ": a query from a front has none");
     }
     require_callable(on, options.filter, std::uint32_t{}, std::uint32_t{});
 }
@@ -393,8 +409,11 @@ auto pair_up(const Policy& on, const X& x, const Y& y, const query_options<Filte
     check_options(on, options, function);
     auto a = make_operand(on, x, function);
     auto b = make_operand(on, y, function);
+    using shape_a = typename decltype(a.shapes())::shape_type;
+    using shape_b = typename decltype(b.shapes())::shape_type;
+    static_assert(decidable<shape_a, shape_b>, "abut: queries between sets of these two shapes are not supported");
     const pair_key key{id_bits(a.shapes().size()), id_bits(b.shapes().size())};
-    require_functions_of_shapes<typename decltype(a.shapes())::shape_type, typename decltype(b.shapes())::shape_type>(on);
+    require_functions_of_shapes<shape_a, shape_b>(on);
     return pairing<decltype(a), decltype(b), Filter, Traversal, Schedule, Nearness>{std::move(a), std::move(b), key, options,
                                                                                      near};
 }

@@ -169,24 +169,27 @@ struct finish_gathered {
     }
 };
 
+/// Judges candidates that have been gathered.
+template <class Policy, class View, class Judge>
+void judge_gathered(const Policy& on, const View& both, const Judge& judge, const std::uint64_t* keys, std::size_t count,
+                    key_queue<Policy>& hits) {
+    key_queue<Policy> open(on, std::max(count / 8, std::size_t{1} << 16));
+    for_each_index(on, count, try_gathered<View, Judge>{both, judge, keys}, hits, open);
+    for_each_index(on, open.size(), finish_gathered<View, Judge>{both, judge, open.data()}, hits);
+}
+
 /// Candidates that are gathered on a device at a time: 128 for each shape, 512 MiB of them at most.
-inline constexpr std::size_t least_gathered = std::size_t{1} << 22, most_gathered = std::size_t{1} << 26;
+inline constexpr std::size_t least_gathered = std::size_t{1} << 23, most_gathered = std::size_t{1} << 26;
 
 /// A search by a judge that may report more. Where there are more candidates than may be gathered, it looks for a part of them
 /// at a time.
 template <class Policy, class Pairing, class Judge>
 void search_apart(const Policy& on, const Pairing& pairing, const Judge& judge, key_queue<Policy>& hits,
                   execution::buffer_of<Policy, std::uint64_t>& room, part_of_open part = {}) {
-    const auto both = pairing.view();
-    using view = std::remove_const_t<decltype(both)>;
     execution::capped_queue<std::uint64_t, space_of<Policy>> near(room);
     pairing.judge_candidates(on, [&](const auto& loop) { loop(gather_candidate{part}, near); });
     const auto count = static_cast<std::size_t>(near.pushed());
-    if (count <= room.size()) {
-        key_queue<Policy> open(on, std::max(count / 8, std::size_t{1} << 16));
-        for_each_index(on, count, try_gathered<view, Judge>{both, judge, room.data()}, hits, open);
-        return for_each_index(on, open.size(), finish_gathered<view, Judge>{both, judge, open.data()}, hits);
-    }
+    if (count <= room.size()) return judge_gathered(on, pairing.view(), judge, room.data(), count, hits);
     const auto more = static_cast<std::uint32_t>(2 * count / room.size() + 1);
     for (std::uint32_t k = 0; k < more; ++k) search_apart(on, pairing, judge, hits, room, part.split(k, more));
 }

@@ -62,8 +62,6 @@ struct self_pairing {
 
     using view_of_shapes = decltype(std::declval<const Sight&>()(std::declval<const X&>().shapes()));
     using view_type = pair_view<view_of_shapes, view_of_shapes, Filter>;
-    static_assert(decidable<typename view_of_shapes::shape_type, typename view_of_shapes::shape_type>,
-                  "abut: self queries of sets of these shapes are not supported");
 
     [[nodiscard]] view_type view() const {
         const view_of_shapes shapes = sight(x.shapes());
@@ -83,7 +81,7 @@ struct self_pairing {
             using walk_type = std::remove_const_t<decltype(walk)>;
             if (n <= walk_type::most_shapes) {
                 const expand_pair<false, walk_type, ids_in_order<view_type>> expand{walk, {both}};
-                return descend(on, expand, options, run);
+                return descend(on, x, x, expand, options, run);
             }
         }
         const ids_that_ascend<view_type> ids{both};
@@ -96,7 +94,7 @@ struct self_pairing {
 };
 
 /// The argument of a self query, ready to be paired with itself; errors are thrown in the name of `function`. Of the
-/// traversals breadth_first is meant as it says, and the others are both_at_once.
+/// traversals breadth_first and from_front are meant as they say, and the others are both_at_once.
 template <class Policy, class X, class Filter, traversal Traversal, schedule Schedule, class Sight = as_they_are,
           class Nearness = near_enough_to_touch>
 auto pair_up_self(const Policy& on, const X& x, const query_options<Filter, Traversal, Schedule>& options,
@@ -106,6 +104,7 @@ auto pair_up_self(const Policy& on, const X& x, const query_options<Filter, Trav
     const auto shapes = sight(operand.shapes());
     const int bits = id_bits(shapes.size());
     using shape_type = typename decltype(shapes)::shape_type;
+    static_assert(decidable<shape_type, shape_type>, "abut: self queries of sets of these shapes are not supported");
     require_functions_of_shapes<shape_type, shape_type>(on);
     return self_pairing<decltype(operand), Filter, Traversal, Schedule, Sight, Nearness>{
         std::move(operand), sight, {bits, bits}, options, near};

@@ -27,7 +27,8 @@ enum class coincident_vertices : unsigned char {
     merged
 };
 
-/// Options of `self_pairs` and `count_self_pairs`. See query_options, whose members they are but for the last.
+/// Options of `self_pairs` and `count_self_pairs`. See query_options, whose members they are but for
+/// `coincident`.
 template <class Filter = keep_all, traversal Traversal = traversal::both_at_once>
 struct self_options {
     /// Pairs sorted by a, then b. Without it their order is any, and may differ from call to call.
@@ -36,11 +37,13 @@ struct self_options {
     Filter filter = {};
     /// On a device, how many pairs that are too much for it wait for the host at a time.
     std::uint64_t most_pairs = std::uint64_t{1} << 18;
-    /// Of traversal::breadth_first alone: the depth at which it begins, 0 to most_start_depth. The other traversals are
-    /// both_at_once here.
+    /// Of traversal::breadth_first alone: the depth at which it begins, 0 to most_start_depth. All other traversals but
+    /// from_front are both_at_once here.
     int start_depth = 6;
     /// Of triangles alone.
     coincident_vertices coincident = coincident_vertices::distinct;
+    /// Of traversal::from_front alone, as in query_options.
+    abut::front* front = nullptr;
 };
 
 namespace detail {
@@ -95,7 +98,8 @@ auto pair_up_faces(const Policy& on, const X& x, const self_options<Filter, Trav
     const query_options<Filter, Traversal> of_query{.sorted = options.sorted,
                                                     .filter = options.filter,
                                                     .most_pairs = options.most_pairs,
-                                                    .start_depth = options.start_depth};
+                                                    .start_depth = options.start_depth,
+                                                    .front = options.front};
     return pair_up_self(on, x, of_query, function, as_faces{options.coincident == coincident_vertices::merged});
 }
 

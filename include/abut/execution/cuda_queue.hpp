@@ -133,6 +133,7 @@ public:
         items_.shrink(std::exchange(size_, 0));
         return std::move(items_);
     }
+    void clear() { size_ = 0; }
 
     [[nodiscard]] sink make_sink(std::uint64_t* count) { return {items_.data() + size_, items_.size() - size_, count}; }
     [[nodiscard]] bool has_room(std::uint64_t count) const { return count <= items_.size() - size_; }
@@ -231,6 +232,29 @@ public:
 private:
     F visitor_;
     bool raised_ = false;
+};
+
+template <class T>
+class bounded_queue<T, device_space> : public work_queue<T, device_space> {
+    using base = work_queue<T, device_space>;
+
+public:
+    bounded_queue(const cuda& on, std::size_t most) : base(on, std::min(most, std::size_t{1} << 16)), most_(most) {}
+
+    /// Of the last loop.
+    [[nodiscard]] bool overflowed() const { return overflowed_; }
+
+    [[nodiscard]] bool has_room(std::uint64_t count) const { return base::has_room(count) || is_too_much(count); }
+    void take_in(std::uint64_t count) {
+        overflowed_ = is_too_much(count);
+        if (!overflowed_) base::take_in(count);
+    }
+
+private:
+    [[nodiscard]] bool is_too_much(std::uint64_t count) const { return count > most_ - base::size(); }
+
+    std::size_t most_;
+    bool overflowed_ = false;
 };
 
 /// The first values of many: those that find room stay, all are counted, and no loop runs again for their sake.

@@ -11,6 +11,11 @@
 //   work_flag<Space>       sink.raise(), sink.raised(): any; lets others stop early
 //   work_visit<F, Space>   sink.push(value): calls f(value) -> bool at once, which says whether to go on; sink.raised()
 //                          tells that a call said no. Calls are concurrent, and each value is handed on once
+//
+// and of work_queue a form that has an end:
+//
+//   bounded_queue<T, Space>  the same up to a number of values. A loop that pushes more leaves the queue as it was and says
+//                          so: queue.overflowed()
 
 #include <cstddef>
 #include <cstdint>
@@ -32,6 +37,8 @@ template <memory_space Space>
 class work_flag;
 template <class F, memory_space Space>
 class work_visit;
+template <class T, memory_space Space>
+class bounded_queue;
 template <class T, memory_space Space>
 class capped_queue;  // of devices alone
 
@@ -101,6 +108,48 @@ public:
 
 private:
     buffer<T, host_space> items_;
+};
+
+/// Grows by doubling: it is for values that stay while others come.
+template <class T>
+class bounded_queue<T, host_space> {
+public:
+    /// A thread stores no more than the bound either.
+    struct sink {
+        std::size_t room;
+        std::vector<T> values;
+        void push(const T& value) {
+            if (values.size() <= room) values.push_back(value);
+        }
+    };
+
+    template <host_policy Policy>
+    bounded_queue(const Policy&, std::size_t most) : most_(most) {}
+
+    [[nodiscard]] std::size_t size() const { return items_.size(); }
+    [[nodiscard]] T* data() { return items_.data(); }
+    [[nodiscard]] const T* data() const { return items_.data(); }
+    /// Of the last loop.
+    [[nodiscard]] bool overflowed() const { return overflowed_; }
+    void clear() { items_.clear(); }
+
+    [[nodiscard]] sink make_sink() { return {most_ - items_.size(), {}}; }
+    template <class Policy>
+    void merge(const Policy&, std::vector<sink*>& sinks) {
+        std::size_t total = 0;
+        for (const sink* s : sinks) total += s->values.size();
+        overflowed_ = total > most_ - items_.size();
+        if (overflowed_) return;
+        for (sink* s : sinks) {
+            items_.insert(items_.end(), s->values.begin(), s->values.end());
+            s->values = {};
+        }
+    }
+
+private:
+    std::vector<T> items_;
+    std::size_t most_;
+    bool overflowed_ = false;
 };
 
 template <>

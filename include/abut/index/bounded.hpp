@@ -18,6 +18,7 @@
 #include <abut/index/bvh.hpp>
 #include <abut/index/operand.hpp>
 #include <abut/index/walk_order.hpp>
+#include <abut/shape/moving_shape.hpp>
 #include <abut/shape/volume.hpp>
 
 namespace abut {
@@ -71,19 +72,50 @@ struct merge_volumes {
     }
 };
 
-/// Triangles by their position in an order. For devices as well, since `around` is, though none gets here.
+/// Shapes that volumes are made around, as the triangles of their corners: segments and points have fewer, and a shape in motion
+/// is between where it begins and where it ends, as convex volumes are that hold both.
+template <class S>
+inline constexpr std::size_t triangles_of = 0;
+template <scalar T>
+inline constexpr std::size_t triangles_of<triangle<T>> = 1;
+template <scalar T>
+inline constexpr std::size_t triangles_of<segment<T>> = 1;
+template <scalar T>
+inline constexpr std::size_t triangles_of<vec3<T>> = 1;
+template <class S>
+inline constexpr std::size_t triangles_of<motion<S>> = 2 * triangles_of<S>;
+
+template <scalar T>
+ABUT_HD constexpr triangle<T> corner_triangle(const triangle<T>& t, std::size_t) {
+    return t;
+}
+template <scalar T>
+ABUT_HD constexpr triangle<T> corner_triangle(const segment<T>& s, std::size_t) {
+    return {s.a, s.b, s.b};
+}
+template <scalar T>
+ABUT_HD constexpr triangle<T> corner_triangle(const vec3<T>& p, std::size_t) {
+    return {p, p, p};
+}
+template <class S>
+ABUT_HD constexpr auto corner_triangle(const motion<S>& m, std::size_t i) {
+    return corner_triangle(i == 0 ? m.t0 : m.t1, 0);
+}
+
+/// The same of shapes by their position in an order. For devices as well, since `around` is, though none gets here.
 template <shape_view Shapes>
 struct some_triangles {
+    static constexpr std::size_t each = triangles_of<typename Shapes::shape_type>;
     const Shapes* shapes;
     const std::uint32_t* ids;
     std::size_t count;
-    [[nodiscard]] ABUT_HD std::size_t size() const { return count; }
-    [[nodiscard]] ABUT_HD auto operator[](std::size_t i) const { return (*shapes)[ids[i]]; }
+    [[nodiscard]] ABUT_HD std::size_t size() const { return each * count; }
+    [[nodiscard]] ABUT_HD auto operator[](std::size_t i) const { return corner_triangle((*shapes)[ids[i / each]], i % each); }
 };
 
 }  // namespace detail
 
-/// A tree of volumes V of the same topology, for triangles. It shares the set and nothing else; the
+/// A tree of volumes V of the same topology, for triangles, segments and points, at rest or in motion. It shares the set and nothing else; the
 /// one it was made of may go. Each volume is as small as one made around all triangles in it. Oriented boxes and spheres are
 /// made so, in time proportional to the number of shapes times the depth of the tree: some thirty and seventy linear builds.
 /// kdop and aabb are merged from below, in linear time: some ten. For a device it is made on all threads of the host, of a copy
@@ -105,7 +137,8 @@ template <bounding_volume V, execution_policy Policy, class Set, memory_space Sp
     using T = typename tree_type::scalar_type;
     static_assert(std::same_as<typename detail::volume_scalar<V>::type, T>,
                   "abut: the volumes and the tree's shapes differ in their scalar type");
-    static_assert(std::same_as<typename Set::shape_type, triangle<T>>, "abut: volumes are made around triangles alone");
+    static_assert(detail::triangles_of<typename Set::shape_type> > 0,
+                  "abut: volumes are made around triangles, segments and points alone, at rest or in motion");
     const std::size_t n = tree.size();
     auto fresh = std::make_shared<typename tree_type::storage>();
     if constexpr (!host_policy<Policy>) {

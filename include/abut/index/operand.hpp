@@ -9,6 +9,7 @@
 #include <abut/error.hpp>
 #include <abut/execution/policy.hpp>
 #include <abut/shape/check.hpp>
+#include <abut/shape/motion.hpp>  // its check has to be known here
 #include <abut/shape/set.hpp>
 
 namespace abut::detail {

@@ -107,7 +107,7 @@ ABUT_NOINLINE ABUT_HD constexpr time_in_bits filtered_time(const moving_points<T
     const motion_filter<Edges> filter(p);
     const std::uint32_t shared = shared_coordinates<Edges>(p);
     const int axis = axis_of_plane<Edges>(shared);
-    const auto at_start = [&p] { return touch_at_start<Edges>(p); };
+    const auto at_start = [&] { return filter.start_apart() ? verdict::no : touch_at_start<Edges>(p); };
     const auto known = [](verdict v) {
         return time_in_bits{v == verdict::yes ? 0 : v == verdict::no ? time_in_bits::none : time_in_bits::unknown};
     };

@@ -33,6 +33,7 @@
 #include <cstdint>
 
 #include <abut/arithmetic/arithmetic.hpp>
+#include <abut/arithmetic/error_free.hpp>
 #include <abut/arithmetic/magnitude.hpp>
 #include <abut/arithmetic/vec.hpp>
 #include <abut/predicate/certified_ball.hpp>
@@ -115,6 +116,13 @@ struct moving_points {
     vec3<T> t0[4], t1[4];
 };
 
+/// By their bits: where denormals are read as zero, all of them would equal each other.
+template <scalar T>
+ABUT_HD constexpr bool is_same_number(T a, T b) {
+    using word = typename float_format<T>::word;
+    return __builtin_bit_cast(word, a) == __builtin_bit_cast(word, b) || (is_zero(a) && is_zero(b));
+}
+
 /// Of which sides the area that they span with a point is 0 for all t, whatever the time: a bit for each condition below and
 /// each coordinate that the three points share.
 template <bool Edges, scalar T>
@@ -124,8 +132,8 @@ ABUT_HD constexpr std::uint32_t shared_coordinates(const moving_points<T>& p) {
     for (int i = 0; i < (Edges ? 4 : 3); ++i) {
         const int a = three[i][0], b = three[i][1], c = three[i][2];
         const auto same = [&](T vec3<T>::*x) {
-            return static_cast<std::uint32_t>(p.t0[a].*x == p.t0[b].*x && p.t0[b].*x == p.t0[c].*x && p.t1[a].*x == p.t1[b].*x &&
-                                              p.t1[b].*x == p.t1[c].*x);
+            return static_cast<std::uint32_t>(is_same_number(p.t0[a].*x, p.t0[b].*x) && is_same_number(p.t0[b].*x, p.t0[c].*x) &&
+                                              is_same_number(p.t1[a].*x, p.t1[b].*x) && is_same_number(p.t1[b].*x, p.t1[c].*x));
         };
         bits |= (same(&vec3<T>::x) | same(&vec3<T>::y) << 1 | same(&vec3<T>::z) << 2) << 3 * i;
     }
@@ -147,6 +155,9 @@ public:
     ABUT_HD constexpr explicit motion_filter(const moving_points<T>& p)
         : t0_(frame_of(p.t0)), t1_(frame_of(p.t1)), u_(size_of<T>(t0_.u, t1_.u)), v_(size_of<T>(t0_.v, t1_.v)),
           w_(size_of<T>(t0_.w, t1_.w)) {}
+
+    /// Whether they are surely apart at t = 0.
+    [[nodiscard]] ABUT_HD constexpr bool start_apart() const { return can_bound() && is_apart(t0_, t0_, 0); }
 
     /// The whole step at once.
     [[nodiscard]] ABUT_HD constexpr verdict look_once() const {
@@ -379,7 +390,7 @@ private:
         const double area = uu * vv - uv * uv;
         double s = area > 0 ? clamped((uw * vv - uv * vw) / area) : 0;
         double r = vv > 0 ? (uv * s - vw) / vv : 0;
-        if (!(r >= 0 && r <= 1)) {
+        if (!(vv > 0 && r >= 0 && r <= 1)) {
             r = clamped(r);
             s = uu > 0 ? clamped((uw + r * uv) / uu) : 0;
         }

@@ -12,7 +12,7 @@
 #include <abut/predicate/exact_motion.hpp>
 #include <abut/predicate/exact_triangles.hpp>
 #include <abut/predicate/fast_motion.hpp>
-#include <abut/shape/motion.hpp>
+#include <abut/shape/moving_shape.hpp>
 #include <abut/shape/primitive.hpp>
 
 namespace abut {
@@ -88,12 +88,12 @@ ABUT_NOINLINE ABUT_HD constexpr verdict decide_late(const S& s, const U& t) {
     const std::uint32_t shared = detail::shared_coordinates<edges>(points);
     const int axis = detail::axis_of_plane<edges>(shared);
     if (axis >= 0) {
-        const verdict start = detail::touch_at_start<edges>(points);
+        const verdict start = filter.start_apart() ? verdict::no : detail::touch_at_start<edges>(points);
         return start == verdict::no ? filter.search_in_plane(axis).touch : start;
     }
     const verdict v = filter.search(false, shared).touch;
     if (v != verdict::unknown) return v;
-    return detail::touch_at_start<edges>(points) == verdict::yes ? verdict::yes : verdict::unknown;
+    return !filter.start_apart() && detail::touch_at_start<edges>(points) == verdict::yes ? verdict::yes : verdict::unknown;
 }
 
 /// The last stage: decides every finite input, slowly, on a host.

@@ -100,12 +100,17 @@ template <scalar T>
     if (!is_valid(s.axis)) refuse(function, element, i, s.axis);
     refuse_radius(function, element, i, s.radius);
 }
-/// Of a shape of the caller's own: what is wrong with its box, or else that its own is_valid says no.
+/// Of a shape in motion: what is wrong at one of its two times. Of a shape of the caller's own: what is wrong with its box, or
+/// else that its own is_valid says no.
 template <shape S>
 [[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const S& s) {
-    const aabb<scalar_type_of<S>> box = bounds(s);
-    if (!is_valid(box)) refuse(function, element, i, box);
-    throw invalid_geometry(function, element, i, "is_valid refuses it; its least x is", static_cast<double>(box.lower.x));
+    if constexpr (requires { s.t0, s.t1; }) {
+        is_valid(s.t0) ? refuse(function + ": at t = 1", element, i, s.t1) : refuse(function + ": at t = 0", element, i, s.t0);
+    } else {
+        const aabb<scalar_type_of<S>> box = bounds(s);
+        if (!is_valid(box)) refuse(function, element, i, box);
+        throw invalid_geometry(function, element, i, "is_valid refuses it; its least x is", static_cast<double>(box.lower.x));
+    }
 }
 
 /// How messages name a shape, and the set that owns such shapes.

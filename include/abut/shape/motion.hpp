@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Shapes in motion: each point of a shape moves in a straight line, at constant speed, from where it is at t = 0 to where it
-// is at t = 1. `moving` makes one of two shapes, or a set of two sets.
+// Sets in motion: `moving` makes one of two sets, of which shapes move from where they are in the first to where they are in
+// the second (shape/moving_shape.hpp).
 
 #include <algorithm>
 #include <cstddef>
@@ -16,40 +16,15 @@
 #include <abut/shape/bounds.hpp>
 #include <abut/shape/check.hpp>
 #include <abut/shape/features.hpp>
-#include <abut/shape/rigid.hpp>
+#include <abut/shape/moving_shape.hpp>
 #include <abut/shape/set.hpp>
 #include <abut/shape/shape.hpp>
 #include <abut/shape/view.hpp>
 
 namespace abut {
 
-/// A shape that moves: point, segment or triangle, by its corners.
-template <shape S>
-struct motion {
-    using scalar_type = scalar_type_of<S>;
-    S t0, t1;
-};
-
-/// Around the shape at all times. Exact: a point in between is between.
-template <shape S>
-ABUT_HD constexpr aabb<scalar_type_of<S>> bounds(const motion<S>& m) {
-    return merge(bounds(m.t0), bounds(m.t1));
-}
-template <shape S>
-ABUT_HD constexpr bool is_valid(const motion<S>& m) {
-    return is_valid(m.t0) && is_valid(m.t1);
-}
-template <placeable S>
-ABUT_HD motion<S> place(const rigid<scalar_type_of<S>>& pose, const motion<S>& m) {
-    return {place(pose, m.t0), place(pose, m.t1)};
-}
-
 namespace detail {
 
-template <class S>
-[[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const motion<S>& m) {
-    is_valid(m.t0) ? refuse(function, element + " at t = 1,", i, m.t1) : refuse(function, element + " at t = 0,", i, m.t0);
-}
 template <class S>
 inline constexpr shape_name name_of<motion<S>>{name_of<S>.one, "abut::moving"};
 
@@ -177,8 +152,8 @@ void check_elements(const Set& t0, const Set& t1, const char* function) {
 template <class Policy, shape_view V>
 void check(const Policy& on, const moving_view<V>& view, const char* function) {
     check_motion_sizes(view.t0, view.t1, function);
-    check(on, view.t0, function);
-    check(on, view.t1, function);
+    check(on, view.t0, (std::string(function) + ": at t = 0").c_str());
+    check(on, view.t1, (std::string(function) + ": at t = 1").c_str());
     check_elements(on, view.t0, view.t1, function);
 }
 
@@ -203,12 +178,6 @@ template <shape_view V>
 [[nodiscard]] moving_view<V> moving(const V& t0, const V& t1) {
     return {t0, t1};
 }
-/// One shape in motion.
-template <shape S>
-[[nodiscard]] ABUT_HD constexpr motion<S> moving(const S& t0, const S& t1) {
-    return {t0, t1};
-}
-
 template <class X>
 inline constexpr bool is_motion = false;
 template <class S>

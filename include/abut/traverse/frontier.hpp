@@ -197,6 +197,50 @@ auto begin_at_depth(const Policy& on, const self_walk<Tree, Overlap>& walk, int 
     return items;
 }
 
+/// All pairs of nodes at a depth, as seeds.
+template <class Walk>
+struct seeds_below {
+    descent_path<decltype(Walk::a)> a;
+    descent_path<decltype(Walk::b)> b;
+    std::size_t count_a, count_b;
+
+    seeds_below(const Walk& walk, int depth)
+        : a(path_to_depth(walk.a, depth)), b(path_to_depth(walk.b, depth)), count_a(std::size_t{1} << a.depth),
+          count_b(std::size_t{1} << b.depth) {}
+    [[nodiscard]] std::size_t count() const { return count_a * count_b; }
+    [[nodiscard]] ABUT_HD typename Walk::item operator()(std::size_t i) const { return {a.end(i / count_b), b.end(i % count_b)}; }
+};
+template <bvh_layout Tree, class Overlap>
+struct seeds_below<self_walk<Tree, Overlap>> {
+    using walk_type = self_walk<Tree, Overlap>;
+    descent_path<Tree> path;
+    std::size_t ends;
+
+    seeds_below(const walk_type& walk, int depth) : path(path_to_depth(walk.tree(), depth)), ends(std::size_t{1} << path.depth) {}
+    [[nodiscard]] std::size_t count() const { return ends > 1 ? ends / 2 * (ends + 1) : 1; }
+    [[nodiscard]] ABUT_HD typename walk_type::item operator()(std::size_t k) const {
+        return {path.end(k % ends), path.end((k + k / ends) % ends)};
+    }
+};
+
+/// The same step, begun at a depth of binary trees: so a device has work for all of its blocks at once.
+template <class Expand>
+struct begin_below : Expand {
+    using item = typename Expand::item;
+    static_assert(Expand::most_children == 4);
+    seeds_below<decltype(Expand::walk)> from;
+
+    begin_below(const Expand& expand, int depth) : Expand(expand), from(expand.walk, depth) {}
+    [[nodiscard]] std::size_t seeds() const { return from.count(); }
+    [[nodiscard]] ABUT_HD item seed(std::size_t i) const { return from(i); }
+    ABUT_CALLS_ANY
+    template <class Emitter>
+    ABUT_INLINE ABUT_HD void operator()(const item& at, Emitter&& emitter) const {
+        constexpr std::uint32_t nowhere = static_cast<std::uint32_t>(-1);
+        if (at.a != nowhere && at.b != nowhere) Expand::operator()(at, emitter);
+    }
+};
+
 /// Judges the candidates of two trees: `expand` is a step of pair_walk or self_walk, and run(loop) runs a loop that judges.
 /// Levels of very many items are taken in parts, the deepest first, so that memory is bounded by the depth of the trees.
 template <class Policy, class Expand, class Run>

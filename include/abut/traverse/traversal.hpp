@@ -23,7 +23,10 @@ enum class traversal : unsigned char {
     alternate,
     /// Both nodes, level by level, from all pairs of nodes at query_options::start_depth on (frontier.hpp). For
     /// comparisons; each level takes memory for its pairs of nodes.
-    breadth_first
+    breadth_first,
+    /// Both nodes, from where the last query with query_options::front came to its ends (front.hpp), or from the roots. For
+    /// scenes that move a little from query to query, of trees that are refitted.
+    from_front
 };
 
 /// The deepest level at which breadth_first begins: it compares 2^20 pairs of boxes there.

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+//
+// usage: bench_fronts [--frames=N] [FOLDER...]
+//
+// Queries from a front (traverse/front.hpp) beside the same from the roots, on one core, for frames one after another (40, or
+// N). Names:
+//
+//   sheet/STEP/QUERY        a rolled-up sheet of 100,352 triangles with a wave that runs along it; in a frame the fastest
+//                           vertex moves by STEP edges
+//   FOLDER/PARTS/QUERY      a step of a simulation (FOLDER/frame0.ply and frame1.ply) in so many equal parts, there and back
+//
+// Queries: self/pairs and two/pairs, where the other mesh is a copy at rest, moved a little; self/boxes and two/boxes, the same
+// with a filter that refuses all, which leaves the walk; and self_impacts of the frame's motion. Columns: medians, their ratio,
+// the longest frame with a front but the first, pairs of nodes in the front at the end, how many were opened in a mean frame, pairs that
+// the last frame found, how often it began at the roots.
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fronts_scene.hpp"
+
+namespace {
+
+struct steady {
+    template <class Work>
+    double operator()(const Work& work) const {
+        using clock = std::chrono::steady_clock;
+        const auto begin = clock::now();
+        work();
+        return std::chrono::duration<double, std::milli>(clock::now() - begin).count();
+    }
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        int frames = 40;
+        std::vector<std::string> folders;
+        for (int i = 1; i < argc; ++i) {
+            const std::string_view argument = argv[i];
+            if (argument.starts_with("--frames=")) {
+                frames = std::max(std::atoi(argv[i] + 9), 2);
+            } else {
+                folders.emplace_back(argument);
+            }
+        }
+        fronts_scene::print_head("serial");
+        fronts_scene::race_scenes(abut::serial{}, steady{}, folders, frames);
+        return 0;
+    } catch (const std::exception& problem) {
+        std::fprintf(stderr, "bench_fronts: %s\n", problem.what());
+        return 1;
+    }
+}

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The steps of simulations and the stages of a query that bench/pair_rules.cpp and .cu measure, for each rule of pairs.
+//
+// A scene is a folder with frame0.ply and frame1.ply, one mesh at two times. Stages add up: each does all that the one
+// before does.
+//
+//   index    the index, with its orphans where the rule has them
+//   refit    the index of the same step from another one
+//   walk     pairs of faces, or of features, whose boxes overlap
+//   boxes    pairs of features whose boxes overlap; of trees over features they are the same
+//   tests    the elementary test of each, as far as it goes before times are computed
+//   impacts  all of self_impacts
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <abut/abut.hpp>
+#include <abut/io/read.hpp>
+
+namespace pair_rules {
+
+using abut::pair_rule;
+using step = abut::moving_set<abut::mesh<double>>;
+
+/// The two share their faces.
+inline step read_step(const std::string& folder) {
+    const auto t0 = abut::io::read_mesh<double>(folder + "/frame0.ply"),
+               t1 = abut::io::read_mesh<double>(folder + "/frame1.ply");
+    (void)abut::moving(t0, t1);  // throws where they do not go together
+    const auto places = t1.view().vertices;
+    return {t0, t0.with_vertices(abut::serial{},
+                                 std::vector<abut::vec3<double>>(places.first(), places.first() + places.count))};
+}
+
+inline constexpr const char* scenes[] = {"cloth-ball", "cloth-funnel", "armadillo-rollers", "n-body-simulation",
+                                         "rod-twist"};
+
+/// The FOLDER of --scenes=FOLDER, which is taken out of the arguments; empty if there is none.
+inline std::string take_folder(int& argc, char** argv) {
+    const std::string option = "--scenes=";
+    std::string folder;
+    int kept = 0;
+    for (int i = 0; i < argc; ++i) {
+        const std::string argument = argv[i];
+        if (argument.starts_with(option)) {
+            folder = argument.substr(option.size());
+        } else {
+            argv[kept++] = argv[i];
+        }
+    }
+    argc = kept;
+    return folder;
+}
+
+/// A judge that lets none pass: what is left of a search is to find what it would judge.
+struct let_none_pass {
+    static constexpr bool may_report_more = true;
+    template <class S, class U>
+    ABUT_HD abut::verdict decide(const S&, const U&) const {
+        return abut::verdict::no;
+    }
+    template <class S, class U>
+    ABUT_HD abut::verdict finish(const S&, const U&) const {
+        return abut::verdict::no;
+    }
+    template <class S, class U>
+    bool resolve(const S&, const U&) const {
+        return false;
+    }
+};
+
+/// Counts candidates.
+struct count_candidate {
+    ABUT_CALLS_ANY
+    template <class Count>
+    ABUT_HD bool operator()(std::uint64_t, Count& count) const {
+        count.add(1);
+        return true;
+    }
+    ABUT_HD void finish(std::uint64_t, auto&...) const {}
+};
+
+/// Counts pairs of faces that a rule does not leave out.
+template <class Expand>
+struct count_looked_at {
+    Expand expand;
+    ABUT_CALLS_ANY
+    template <class Count>
+    ABUT_HD bool operator()(std::uint64_t key, Count& count) const {
+        count.add(expand.leaves_out(key) ? 0 : 1);
+        return true;
+    }
+    ABUT_HD void finish(std::uint64_t, auto&...) const {}
+};
+
+/// All boxes overlap.
+struct no_boxes {
+    template <class T>
+    ABUT_HD bool operator()(const abut::aabb<T>&, const abut::aabb<T>&) const {
+        return true;
+    }
+};
+
+template <class Index>
+inline constexpr bool by_faces = requires(const Index& index) {
+    index.parts();
+};
+
+/// Calls visit(pairing) for each pairing of a query within an index by trees over features.
+template <class Policy, class Index, class Visitor>
+void visit_pairings(const Policy& on, const Index& index, const Visitor& visit) {
+    using namespace abut::detail;
+    const auto faces = index.mesh().t0().view().faces;
+    const auto edges = index.edges().set().t0().view().edges;
+    const feature_options<share_no_vertex_with_face> with_faces{.filter = {faces}};
+    const feature_options<share_no_vertex_with_edge> with_edges{.filter = {edges}};
+    visit(pair_up(on, index.vertices(), index.faces(), with_faces, "walk"));
+    visit(pair_up_self(on, index.edges(), with_edges, "walk"));
+}
+
+/// The walk alone. Returns how many pairs it finds.
+template <class Policy, class Index>
+std::uint64_t walk(const Policy& on, const Index& index) {
+    abut::execution::work_count<abut::space_of<Policy>> count(on);
+    const auto judge = [&](const auto& pairing) {
+        pairing.judge_candidates(on, [&](const auto& loop) { loop(count_candidate{}, count); });
+    };
+    if constexpr (by_faces<Index>) {
+        judge(abut::detail::faces_of_one(index, abut::detail::near_enough_to_touch{}).first);
+    } else {
+        visit_pairings(on, index, judge);
+    }
+    return count.total();
+}
+
+/// The pairs of features that pairs of faces tell.
+template <class Policy, class Pairing, class Expand>
+std::uint64_t count_features(const Policy& on, const Pairing& pairing, const Expand& expand) {
+    abut::execution::work_count<abut::space_of<Policy>> vertices(on), edges(on);
+    pairing.judge_candidates(
+        on, [&](const auto& loop) { loop(abut::detail::gather_features<Expand>{expand}, vertices, edges); });
+    return vertices.total() + edges.total();
+}
+
+/// How many pairs of features pass a judge, and come to be timed.
+template <class Policy, class Index, class Judge>
+std::uint64_t search(const Policy& on, const Index& index, const Judge& judge) {
+    std::uint64_t found = 0;
+    if constexpr (by_faces<Index>) {
+        for (const auto& keys : abut::detail::find_features(on, index, judge, abut::detail::near_enough_to_touch{}, false)) {
+            found += keys.size();
+        }
+    } else {
+        visit_pairings(on, index, [&](auto pairing) {
+            pairing.options.sorted = false;
+            found += abut::detail::find_keys(on, pairing, judge).size();
+        });
+    }
+    return found;
+}
+/// On a host pairs are counted where they are found; on a device they are gathered, as a query does.
+template <class Policy, class Index>
+std::uint64_t boxes(const Policy& on, const Index& index) {
+    if constexpr (!abut::host_policy<Policy>) {
+        return search(on, index, let_none_pass{});
+    } else if constexpr (by_faces<Index>) {
+        const auto [pairing, expand] = abut::detail::faces_of_one(index, abut::detail::near_enough_to_touch{});
+        return count_features(on, pairing, expand);
+    } else {
+        return walk(on, index);
+    }
+}
+template <class Policy, class Index>
+std::uint64_t tests(const Policy& on, const Index& index) {
+    return search(on, index, abut::detail::touch_in_motion<abut::filtered>{});
+}
+
+/// What pairs a rule meets on the way, on a host: pairs of faces, and of features before and after their boxes are compared;
+/// the orphans among these.
+struct pair_counts {
+    std::uint64_t faces = 0, looked_at = 0, features = 0, overlapping = 0, orphans = 0, overlapping_orphans = 0;
+};
+
+template <class Index>
+pair_counts count_pairs(const Index& index) {
+    using namespace abut::detail;
+    const abut::serial on;
+    pair_counts counts;
+    if constexpr (by_faces<Index>) {
+        const auto [pairing, expand] = faces_of_one(index, near_enough_to_touch{});
+        const auto without_boxes = [](const auto& e) {
+            return expand_faces<true, decltype(e.a.faces), std::remove_cvref_t<decltype(e.rule)>, no_boxes>{
+                e.a, e.b, e.faces, e.keys, e.rule, {}};
+        };
+        counts.faces = walk(on, index);
+        abut::execution::work_count<abut::host_space> looked_at(on);
+        pairing.judge_candidates(on, [&, &expand = expand](const auto& loop) {
+            loop(count_looked_at<std::remove_cvref_t<decltype(expand)>>{expand}, looked_at);
+        });
+        counts.looked_at = looked_at.total();
+        counts.features = count_features(on, pairing, without_boxes(expand));
+        counts.overlapping = count_features(on, pairing, expand);
+        if constexpr (Index::keeps_orphans) {
+            const auto views = features_of_two(index, index);
+            const auto look = [&](const auto& both, const auto& orphans) {
+                for (const std::uint64_t key : orphans.to_host()) {
+                    counts.overlapping_orphans += overlaps(bounds(both.shape_a(key)), bounds(both.shape_b(key)));
+                }
+                counts.orphans += orphans.size();
+            };
+            look(views.vertex_face, index.orphans().vertex_face);
+            look(views.edge_edge, index.orphans().edge_edge);
+        }
+    } else {
+        counts.features = counts.overlapping = walk(on, index);
+    }
+    return counts;
+}
+
+inline const char* name_of(pair_rule rule) {
+    return rule == pair_rule::feature_trees              ? "feature_trees"
+           : rule == pair_rule::representative_triangles ? "representatives"
+                                                         : "orphan_sets";
+}
+
+}  // namespace pair_rules

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MIT
+#include <abut/collide/impacts.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "collide/impact_cases.hpp"
+#include "support/catch.hpp"
+#include "support/ccd_scene.hpp"
+
+namespace abut::test {
+
+TEMPLATE_TEST_CASE("impacts: serial and openmp", "", float, double) {
+    check_all_impacts<TestType>(serial{});
+    check_all_impacts<TestType>(openmp{.threads = 3}, 1, 3);
+    check_small_impacts<TestType>(serial{});
+    check_small_impacts<TestType>(openmp{.threads = 3});
+}
+
+TEMPLATE_TEST_CASE("impacts: of bodies of thousands of faces", "", float, double) {
+    const large_scene<TestType> s(4, 0.15);
+    const auto between = in_order(impacts_by_loops(s.a, s.b)), self = in_order(self_impacts_by_loops(s.a));
+    CHECK(between.size() > 500);
+    CHECK(self.size() > 500);
+    check_same("serial", to_host(impacts(serial{}, s.a.as_set(), s.b.as_set())), between);
+    check_same("serial, self", to_host(self_impacts(serial{}, s.a.as_set())), self);
+    const openmp on{.threads = 4};
+    for (int k = 0; k < 3; ++k) {
+        check_same("openmp", to_host(impacts(on, s.a.as_set(), s.b.as_set())), between);
+        check_same("openmp, self", to_host(self_impacts(on, s.a.as_set())), self);
+    }
+}
+
+// --- real scenes
+// -------------------------------------------------------------------------------------------------------------
+
+namespace {
+
+template <class T>
+std::vector<vec3<T>> as(const std::vector<vec3<double>>& points) {
+    std::vector<vec3<T>> r;
+    for (const auto& p : points) r.push_back({static_cast<T>(p.x), static_cast<T>(p.y), static_cast<T>(p.z)});
+    return r;
+}
+
+template <class T>
+moving_set<mesh<T>> set_of(const ccd_scene& scene) {
+    const mesh<T> first(as<T>(scene.t0), scene.faces);
+    return moving(first, first.with_vertices(serial{}, as<T>(scene.t1)));
+}
+
+/// The rows that hit, in the order of impacts, with the times of the truth.
+template <class T>
+std::vector<impact<T>> rows_that_hit(const std::filesystem::path& folder, const ccd_scene& scene, std::size_t& misses) {
+    std::map<face, std::uint32_t> number;
+    for (std::uint32_t f = 0; f < scene.faces.size(); ++f) number.try_emplace(scene.faces[f], f);
+    std::vector<edge> edges;
+    for (const face& f : scene.faces) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t a = f[i], b = f[(i + 1) % 3];
+            edges.push_back({std::min(a, b), std::max(a, b)});
+        }
+    }
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    const auto number_of = [&](edge e) {
+        return static_cast<std::uint32_t>(std::lower_bound(edges.begin(), edges.end(), e) - edges.begin());
+    };
+    impact_list<T> all;
+    for (const motion_kind kind : {motion_kind::vertex_face, motion_kind::edge_edge}) {
+        for (const ccd_truth_row& row : read_ccd_truth(folder, kind)) {
+            misses += !row.hit;
+            if (!row.hit) continue;
+            std::array<std::uint32_t, 4> v = row.vertices;
+            if (kind == motion_kind::vertex_face) {
+                all.push_back({v[0], number.at({v[1], v[2], v[3]}), {feature_pair::vertex_face, v, row.time}});
+                continue;
+            }
+            edge e{std::min(v[0], v[1]), std::max(v[0], v[1])}, f{std::min(v[2], v[3]), std::max(v[2], v[3])};
+            if (f < e) std::swap(e, f);
+            all.push_back({number_of(e), number_of(f), {feature_pair::edge_edge, {e[0], e[1], f[0], f[1]}, row.time}});
+        }
+    }
+    return in_order(all);
+}
+
+/// Exactly the rows, in order, with times no more than 2^-40 below those of the truth, which are good to 2^-60 and rounded.
+template <class T>
+void check_rows(const std::vector<impact<T>>& found, const std::vector<impact<T>>& rows) {
+    REQUIRE(found.size() == rows.size());
+    std::size_t other = 0, late = 0, early = 0, uneven = 0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const double slack = 0x1p-60 + std::nextafter(rows[i].time, 2) - rows[i].time;
+        other += found[i].kind != rows[i].kind || found[i].vertices != rows[i].vertices;
+        late += found[i].time > rows[i].time + slack;
+        early += found[i].time < rows[i].time - 0x1p-40 - slack;
+        const double cells = std::ldexp(found[i].time, 40);
+        uneven += cells != std::floor(cells);
+    }
+    CHECK(other == 0);
+    CHECK(late == 0);
+    CHECK(early == 0);
+    CHECK(uneven == 0);
+}
+
+template <class T>
+void check_scene(const char* name) {
+    const auto folder = ccd_folder(name);
+    REQUIRE(folder);
+    CAPTURE(name);
+    const ccd_scene scene = read_ccd_scene(*folder);
+    std::size_t misses = 0;
+    const auto rows = rows_that_hit<T>(*folder, scene, misses);
+    const auto set = set_of<T>(scene);
+    const auto index = make_impact_index(serial{}, set);
+    const auto found = to_host(self_impacts(serial{}, index));
+    check_rows(found, rows);
+    const auto threads = to_host(self_impacts(openmp{.threads = 3}, set));
+    CHECK(threads == found);
+    CHECK(to_host(self_impacts(serial{}, refit(serial{}, index, set))) == found);
+    const auto careful = to_host(self_impacts<conservative>(openmp{.threads = 3}, set));
+    CHECK(missed_or_late(found, careful) == 0);
+    CHECK(careful.size() >= found.size());
+    CHECK(careful.size() <= found.size() + misses + found.size() / 10);
+}
+
+}  // namespace
+
+TEST_CASE("impacts: the truth of the scenes, cloth-funnel") {
+    if (!ccd_folder("cloth-funnel")) ABUT_SKIP("the folder of real scenes is not there (ABUT_DATA)");
+    check_scene<float>("cloth-funnel");
+    check_scene<double>("cloth-funnel");
+}
+
+TEST_CASE("impacts: the truth of the scenes, cloth-ball") {
+    if (!ccd_folder("cloth-ball")) ABUT_SKIP("the folder of real scenes is not there (ABUT_DATA)");
+    check_scene<float>("cloth-ball");
+    if (sample_count() > 5000) check_scene<double>("cloth-ball");
+}
+
+TEST_CASE("impacts: the truth of the scenes, armadillo-rollers") {
+    if (!ccd_folder("armadillo-rollers")) ABUT_SKIP("the folder of real scenes is not there (ABUT_DATA)");
+    check_scene<double>("armadillo-rollers");
+}
+
+TEST_CASE("impacts: scenes without truth, the same on every policy") {
+    if (!ccd_folder("rod-twist")) ABUT_SKIP("the folder of real scenes is not there (ABUT_DATA)");
+    if (sample_count() <= 5000) ABUT_SKIP("takes long (ABUT_SAMPLES above 5000)");
+    for (const char* name : {"n-body-simulation", "rod-twist"}) {
+        CAPTURE(name);
+        const auto folder = ccd_folder(name);
+        REQUIRE(folder);
+        const auto set = set_of<double>(read_ccd_scene(*folder));
+        const auto found = to_host(self_impacts(serial{}, set));
+        CHECK(found.size() > 1000);
+        CHECK(to_host(self_impacts(openmp{.threads = 4}, set)) == found);
+        CHECK(to_host(self_impacts<exact>(openmp{.threads = 4}, set)) == found);
+    }
+}
+
+// --- what is refused
+// ---------------------------------------------------------------------------------------------------------
+
+namespace {
+
+/// What an error says; nothing if there is none.
+template <class Error, class Call>
+std::string refusal(const Call& call) {
+    try {
+        call();
+    } catch (const Error& e) {
+        return e.what();
+    }
+    return {};
+}
+bool says(const std::string& message, std::initializer_list<const char*> parts) {
+    return std::all_of(parts.begin(), parts.end(), [&](const char* p) { return message.find(p) != std::string::npos; });
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("sets in motion: what is refused", "", float, double) {
+    using T = TestType;
+    const std::vector<vec3<T>> four{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, three(four.begin(), four.begin() + 3);
+    const std::vector<face> faces{{0, 1, 2}, {0, 2, 3}}, others{{0, 1, 2}, {0, 1, 3}}, one{{0, 1, 2}};
+    const mesh<T> m(four, faces);
+    const serial on;
+    const openmp threads{.threads = 2};
+
+    const auto refused = [](const auto& call, std::initializer_list<const char*> parts) {
+        const std::string message = refusal<error>(call);
+        CAPTURE(message);
+        CHECK(says(message, parts));
+    };
+    refused([&] { (void)moving(m, mesh<T>(four, one)); }, {"abut::moving", "2 shapes", "1 at t = 1"});
+    refused([&] { (void)moving(mesh<T>(four, one), mesh<T>(three, one)); }, {"abut::moving", "4 vertices", "3 at t = 1"});
+    refused([&] { (void)moving(m, mesh<T>(four, others)); }, {"abut::moving", "face 1"});
+    refused([&] { (void)moving(edges(on, m), edges(on, mesh<T>(four, others))); }, {"abut::moving", "edge"});
+    refused([&] { (void)moving(points<T>(four), points<T>(three)); }, {"abut::moving", "4", "3"});
+    refused([&] { (void)m.with_vertices(on, three); }, {"with_vertices", "3", "4"});
+    CHECK(to_host(self_impacts(on, moving(m, mesh<T>(four, faces)))) == to_host(self_impacts(on, moving(m, m))));
+
+    // NaN and infinity at t = 1, by their place.
+    for (const T bad : {std::numeric_limits<T>::quiet_NaN(), std::numeric_limits<T>::infinity()}) {
+        std::vector<vec3<T>> spoiled = four;
+        spoiled[2].y = bad;
+        const std::string copied = refusal<invalid_geometry>([&] { (void)m.with_vertices(on, spoiled); });
+        CAPTURE(copied);
+        CHECK(says(copied, {"vertex 2"}));
+        const mesh_view<T> at_0(four.data(), 4, faces.data(), 2), at_1(spoiled.data(), 4, faces.data(), 2);
+        const auto refused_at = [&](const char* when, const auto& call) {
+            const std::string message = refusal<invalid_geometry>(call);
+            CAPTURE(message);
+            CHECK(says(message, {"abut::make_bvh", when, "2", "y is not finite"}));
+        };
+        for (const bool at_the_end : {false, true}) {
+            const char* const when = at_the_end ? "at t = 1" : "at t = 0";
+            const auto view = at_the_end ? moving(at_0, at_1) : moving(at_1, at_0);
+            refused_at(when, [&] { (void)make_bvh(on, view); });
+            refused_at(when, [&] { (void)make_bvh(threads, view); });
+            CHECK_THROWS_AS(pairs(on, view, moving(points<T>(four), points<T>(four))), invalid_geometry);
+            const points_view<T> points_0(four.data(), 4), points_1(spoiled.data(), 4);
+            const auto of_points = at_the_end ? moving(points_0, points_1) : moving(points_1, points_0);
+            refused_at(when, [&] { (void)make_bvh(on, of_points); });
+            // One shape, and a set of such.
+            const triangle<T> good{four[0], four[1], four[3]}, poor{spoiled[0], spoiled[2], spoiled[3]};
+            const auto one_of_all = at_the_end ? moving(good, poor) : moving(poor, good);
+            const std::string message =
+                refusal<invalid_geometry>([&] { (void)pairs(on, one_of_all, moving(points<T>(four), points<T>(four))); });
+            CAPTURE(message);
+            CHECK(says(message, {"abut::pairs", when, "y is not finite"}));
+        }
+    }
+    // Views are checked by what takes them.
+    const mesh_view<T> view(four.data(), 4, faces.data(), 2), of_others(four.data(), 4, others.data(), 2),
+        of_one(four.data(), 4, one.data(), 1);
+    refused([&] { (void)make_bvh(on, moving(view, of_others)); }, {"abut::make_bvh", "face 1"});
+    refused([&] { (void)make_bvh(threads, moving(view, of_one)); }, {"abut::make_bvh", "2 shapes", "1 at t = 1"});
+    refused([&] { (void)make_bvh(on, moving(view, mesh_view<T>(four.data(), 3, one.data(), 1))); }, {"abut::make_bvh"});
+    refused([&] { (void)make_bvh(on, moving(points_view<T>(four.data(), 4), points_view<T>(four.data(), 2))); },
+            {"abut::make_bvh", "4 shapes", "2 at t = 1"});
+
+    const auto index = make_impact_index(on, moving(m, m));
+    refused([&] { (void)refit(on, index, moving(mesh<T>(four, others), mesh<T>(four, others))); },
+            {"abut::refit", "face 1"});
+    refused([&] { (void)refit(on, index, moving(mesh<T>(four, one), mesh<T>(four, one))); }, {"abut::refit", "shapes"});
+    refused([&] { (void)refit(on, index, moving(mesh<T>(three, one), mesh<T>(three, one))); }, {"abut::refit"});
+    CHECK(to_host(self_impacts(on, refit(on, index, moving(mesh<T>(four, faces), mesh<T>(four, faces))))) ==
+          to_host(self_impacts(on, index)));
+
+    // Bounds that are none.
+    const auto with = [&](const conservative_bounds& bounds) {
+        return [&, bounds] { (void)impacts<conservative>(on, m, m, {.bounds = bounds}); };
+    };
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN(), far = std::numeric_limits<double>::infinity();
+    refused(with({.separation = -1}), {"abut::impacts", "separation"});
+    refused(with({.separation = nan}), {"abut::impacts", "separation"});
+    refused(with({.separation = far}), {"abut::impacts", "separation"});
+    refused(with({.tolerance = -1}), {"abut::impacts", "tolerance"});
+    refused(with({.tolerance = nan}), {"abut::impacts", "tolerance"});
+}
+
+}  // namespace abut::test

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include <abut/collide/face_impacts.hpp>
+
+#include "collide/pair_rule_cases.hpp"
+
+#include <cstdio>
+
+#include "support/catch.hpp"
+#include "support/ccd_scene.hpp"
+
+namespace abut::test {
+
+TEMPLATE_TEST_CASE("pair rules: serial and openmp", "", float, double) {
+    check_all_rules<TestType>(serial{});
+    check_all_rules<TestType>(openmp{.threads = 3});
+}
+
+TEST_CASE("pair rules: orphans of known meshes") {
+    const auto count = [](const topology& of) {
+        uniform random(20270304);
+        const auto index = make_impact_index<pair_rule::orphan_sets>(serial{}, drawn_step<double>(of, random));
+        return std::pair(index.orphans().vertex_face.size(), index.orphans().edge_edge.size());
+    };
+    const topology tetrahedron{"tetrahedron", 4, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}};
+    CHECK(count(tetrahedron) ==
+          std::pair<std::size_t, std::size_t>(4, 3));  // each vertex and the opposite face, opposite edges
+    // All pairs without a common vertex: each of the n + 1 vertices of the rim with n - 1 or n - 2 faces; spokes with the
+    // rim's edges, and those with each other.
+    const std::size_t n = 9;
+    CHECK(count(fan(n, false)).first == 2 * (n - 1) + (n - 1) * (n - 2));
+    CHECK(count(fan(n, false)).second == 2 * (n - 1) + (n - 1) * (n - 2) + (n - 1) * (n - 2) / 2);
+    CHECK(count({"two faces", 6, {{0, 1, 2}, {3, 4, 5}}}) == std::pair<std::size_t, std::size_t>(0, 0));
+    CHECK(count({"vertices alone", 6, {}}) == std::pair<std::size_t, std::size_t>(0, 0));
+}
+
+TEST_CASE("pair rules: scenes of simulations") {
+    for (const char* const name : {"cloth-funnel", "cloth-ball", "armadillo-rollers"}) {
+        const auto folder = ccd_folder(name);
+        if (!folder) {
+            std::printf("abut skips: no %s in shared/data/ccd\n", name);
+            continue;
+        }
+        const ccd_scene scene = read_ccd_scene(*folder);
+        const std::vector<face> faces(scene.faces.begin(), scene.faces.end());
+        const mesh<double> first(scene.t0, faces);
+        const auto step = moving(first, first.with_vertices(serial{}, scene.t1));
+        const openmp on{.threads = 2};
+        const auto expected = to_host(self_impacts(on, step));
+        const auto orphans = make_impact_index<pair_rule::orphan_sets>(on, step);
+        CHECK(to_host(self_impacts(on, make_impact_index<pair_rule::representative_triangles>(on, step))) == expected);
+        CHECK(to_host(self_impacts(on, orphans)) == expected);
+        std::printf("pair rules, %s: %zu impacts, orphans %zu + %zu of %zu faces\n", name, expected.size(),
+                    orphans.orphans().vertex_face.size(), orphans.orphans().edge_edge.size(), faces.size());
+        CHECK(expected.size() > 100);
+    }
+}
+
+}  // namespace abut::test

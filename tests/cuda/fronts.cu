@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: MIT
+#include <abut/cuda.hpp>
+
+#include "collide/front_cases.hpp"
+#include "support/catch.hpp"
+
+TEST_CASE("fronts: cuda") { abut::test::check_fronts(abut::cuda{}, 200); }
