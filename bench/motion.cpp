@@ -70,11 +70,12 @@ auto pairing_of(const abut::impact_index<T, abut::host_space>& index, bool sorte
     using namespace abut::detail;
     const abut::serial on;
     if constexpr (Edges) {
-        const feature_options<share_no_vertex_with_edge> query{.sorted = sorted,
-                                                               .filter = {index.edges().set().t0().view().edges}};
+        const feature_options<share_no_vertex_with_edge, abut::traversal::both_at_once> query{
+            .sorted = sorted, .filter = {index.edges().set().t0().view().edges}};
         return pair_up_self(on, index.edges(), query, "bench_motion", as_they_are{}, near_enough_to_touch{});
     } else {
-        const feature_options<share_no_vertex_with_face> query{.sorted = sorted, .filter = {index.mesh().t0().view().faces}};
+        const feature_options<share_no_vertex_with_face, abut::traversal::both_at_once> query{
+            .sorted = sorted, .filter = {index.mesh().t0().view().faces}};
         return pair_up(on, index.vertices(), index.faces(), query, "bench_motion", near_enough_to_touch{});
     }
 }
