@@ -205,7 +205,7 @@ class writer {
 public:
     writer(const settings& s, std::vector<abut::face> faces) : s_(s), faces_(std::move(faces)) {
         for (std::uint32_t f = 0; f < faces_.size(); ++f) {
-            for (int k = 0; k < 3; ++k) faces_of_[edge_of(faces_[f][k], faces_[f][(k + 1) % 3])].push_back(f);
+            for (std::size_t k = 0; k < 3; ++k) faces_of_[edge_of(faces_[f][k], faces_[f][(k + 1) % 3])].push_back(f);
         }
     }
 

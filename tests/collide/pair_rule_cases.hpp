@@ -285,10 +285,11 @@ void check_rule_within(const Policy& on, const moving_set<mesh<T>>& step, const 
 template <pair_rule Rule, motion_arithmetic A, class T, class Policy>
 void check_rule_by(const Policy& on, const moving_set<mesh<T>>& a, const moving_set<mesh<T>>& b,
                    const conservative_bounds& bounds = {}) {
-    if constexpr (!host_policy<Policy>) return;
-    const auto x = make_impact_index<Rule>(on, a), y = make_impact_index<Rule>(on, b);
-    CHECK(to_host(self_impacts<A>(on, x, {.bounds = bounds})) == to_host(self_impacts<A>(serial{}, a, {.bounds = bounds})));
-    CHECK(to_host(impacts<A>(on, x, y, {.bounds = bounds})) == to_host(impacts<A>(serial{}, a, b, {.bounds = bounds})));
+    if constexpr (host_policy<Policy>) {
+        const auto x = make_impact_index<Rule>(on, a), y = make_impact_index<Rule>(on, b);
+        CHECK(to_host(self_impacts<A>(on, x, {.bounds = bounds})) == to_host(self_impacts<A>(serial{}, a, {.bounds = bounds})));
+        CHECK(to_host(impacts<A>(on, x, y, {.bounds = bounds})) == to_host(impacts<A>(serial{}, a, b, {.bounds = bounds})));
+    }
 }
 
 template <pair_rule Rule, class T, class Policy>
