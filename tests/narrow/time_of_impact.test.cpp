@@ -72,11 +72,12 @@ motion<T> aligned_pair(std::uint64_t seed_value, motion_kind kind, std::uint64_t
     };
     motion<T> m;
     constexpr T vec3<T>::*axes[3] = {&vec3<T>::x, &vec3<T>::y, &vec3<T>::z};
-    const int plane = d.below(4);  // all points are in one, across this axis
+    const bool three_of_each = d.below(3) == 0;        // of which no axis shows all areas
+    const int plane = three_of_each ? 3 : d.below(4);  // all points are in one, across this axis
     for (int k = 0; k < 3; ++k) {
         const bool is_still = d.below(4) == 0;
         const T shared_t0 = number(), shared_t1 = is_still ? shared_t0 : number();
-        const int style = d.below(3), left_out = d.below(4);
+        const int style = three_of_each ? 1 : d.below(3), left_out = d.below(4);
         for (int i = 0; i < 4; ++i) {
             const T t0 = number(), t1 = number();
             const bool shares = k == plane || (style == 1 && i != left_out) || (style == 2 && i < 2);
