@@ -77,7 +77,8 @@ inline motion step_of(const std::string& folder) {
                 for (std::size_t i = 0; i < first.vertices.size(); ++i) {
                     const auto &p = first.vertices[i], &q = second.vertices[i];
                     const auto mix = [s](double x, double y) { return static_cast<float>((1 - s) * x + s * y); };
-                    vertices.push_back({mix(double{p.x}, double{q.x}), mix(double{p.y}, double{q.y}), mix(double{p.z}, double{q.z})});
+                    vertices.push_back({mix(double{p.x}, double{q.x}), mix(double{p.y}, double{q.y}),
+                                        mix(double{p.z}, double{q.z})});
                 }
                 return vertices;
             }};
