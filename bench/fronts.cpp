@@ -2,17 +2,16 @@
 //
 // usage: bench_fronts [--frames=N] [FOLDER...]
 //
-// Queries from a front (traverse/front.hpp) beside the same from the roots, on one core, for frames one after another (40, or
-// N). Names:
+// Queries from a front (traverse/front.hpp) beside the same from the roots, on one core, for 40 frames, or N. Names:
 //
 //   sheet/STEP/QUERY        a rolled-up sheet of 100,352 triangles with a wave that runs along it; in a frame the fastest
 //                           vertex moves by STEP edges
 //   FOLDER/PARTS/QUERY      a step of a simulation (FOLDER/frame0.ply and frame1.ply) in so many equal parts, there and back
 //
-// Queries: self/pairs and two/pairs, where the other mesh is a copy at rest, moved a little; self/boxes and two/boxes, the same
-// with a filter that refuses all, which leaves the walk; and self_impacts of the frame's motion. Columns: medians, their ratio,
-// the longest frame with a front but the first, pairs of nodes in the front at the end, how many were opened in a mean frame, pairs that
-// the last frame found, how often it began at the roots.
+// Queries: self/pairs and two/pairs, where the other mesh is a copy at rest, moved a little; self/boxes and two/boxes, the
+// same with a filter that refuses all, which leaves the walk; and self_impacts of the frame's motion. Columns: medians,
+// their ratio, the longest frame with a front but the first, pairs of nodes in the front at the end, how many were opened
+// in a mean frame, pairs that the last frame found, how often it began at the roots.
 
 #include <chrono>
 #include <cstdio>

@@ -2,8 +2,8 @@
 //
 // usage: bench_fronts_cuda [OUT.json [FOLDER...]]
 //
-// bench/fronts.cpp on CUDA: the same scenes, queries and columns, of 40 frames. A time is taken with CUDA events around the whole
-// call. OUT.json holds the floors alone; the rows are printed.
+// bench/fronts.cpp on CUDA: the same scenes, queries and columns, of 40 frames. A time is taken with CUDA events around the
+// whole call. OUT.json holds the floors alone; the rows are printed.
 
 #include <string>
 #include <vector>

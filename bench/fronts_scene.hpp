@@ -4,8 +4,8 @@
 // What bench/fronts.cpp and bench/fronts.cu share: meshes that move from frame to frame, queries with and without a front on
 // each frame, and the rows that are printed.
 //
-// A frame's trees are refitted before the clock starts. Then the query runs without a front and with one, in turns which goes
-// first, so that both find the caches alike. Rows hold medians over the frames and the front as the last frame left it.
+// A frame's trees are refitted before the clock starts. Then the query runs without a front and with one, in turns which
+// goes first, so that both find the caches alike. Rows hold medians over the frames and the front as the last frame left it.
 
 #include <algorithm>
 #include <cmath>
@@ -38,8 +38,8 @@ struct motion {
     std::function<std::vector<vec3<float>>(double)> at;
 };
 
-/// A sheet of 100,352 triangles, rolled up three times, with a wave that runs along it and lets neighbouring turns pass through
-/// each other. Time is how far the fastest vertex has moved, in mean edges.
+/// A sheet of 100,352 triangles, rolled up three times, with a wave that runs along it and lets neighbouring turns pass
+/// through each other. Time is how far the fastest vertex has moved, in mean edges.
 inline motion rolled_sheet() {
     constexpr std::uint32_t n = 224;
     motion m;
@@ -69,14 +69,16 @@ inline motion rolled_sheet() {
 
 /// A step of a simulation, cut into equal parts: there, back, and there again. Time is in whole steps.
 inline motion step_of(const std::string& folder) {
-    const auto first = bench::read_surface<surface>(folder + "/frame0.ply"), second = bench::read_surface<surface>(folder + "/frame1.ply");
+    const auto first = bench::read_surface<surface>(folder + "/frame0.ply");
+    const auto second = bench::read_surface<surface>(folder + "/frame1.ply");
     return {first.faces, [first, second](double time) {
                 const double back = std::fmod(time, 2.0), s = back <= 1 ? back : 2 - back;
                 std::vector<vec3<float>> vertices;
                 for (std::size_t i = 0; i < first.vertices.size(); ++i) {
                     const auto &p = first.vertices[i], &q = second.vertices[i];
-                    const auto mix = [s](float x, float y) { return static_cast<float>((1 - s) * double(x) + s * double(y)); };
-                    vertices.push_back({mix(p.x, q.x), mix(p.y, q.y), mix(p.z, q.z)});
+                    const auto mix = [s](double x, double y) { return static_cast<float>((1 - s) * x + s * y); };
+                    vertices.push_back({mix(double{p.x}, double{q.x}), mix(double{p.y}, double{q.y}),
+                                        mix(double{p.z}, double{q.z})});
                 }
                 return vertices;
             }};

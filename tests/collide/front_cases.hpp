@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Queries that begin at a front find what the same queries find without, on every policy, whatever moves from frame to frame:
-// little, much, trees that are built anew, other trees, poses, fronts with too little room.
+// Queries that begin at a front find what the same queries find without, on every policy, whatever moves from frame to
+// frame: little, much, trees that are built anew, other trees, poses, fronts with too little room.
 
 #include <algorithm>
 #include <cmath>
@@ -80,8 +80,8 @@ std::uint64_t visited_from(const Policy& on, const X& x, const Y& y, front& ends
     return expected.size();
 }
 
-/// Frames of two crowds, of which the first moves. In some all is far away, in some its tree is built anew. The kind of query
-/// changes with the frame; the front stays.
+/// Frames of two crowds, of which the first moves. In some all is far away, in some its tree is built anew. The kind of
+/// query changes with the frame; the front stays.
 template <class T, class Policy>
 front_tally check_two_crowds(const Policy& on, std::size_t n, std::size_t m, int frames, const front_options& options) {
     uniform random(20270401 + n + m);
@@ -121,8 +121,8 @@ front_tally check_two_crowds(const Policy& on, std::size_t n, std::size_t m, int
 
 template <class Policy>
 void check_fronts_of_two(const Policy& on, int frames) {
-    for (const auto& [n, m] : {std::pair(0, 0), std::pair(0, 5), std::pair(1, 7), std::pair(9, 1)}) {
-        const front_tally seen = check_two_crowds<float>(on, static_cast<std::size_t>(n), static_cast<std::size_t>(m), 10, {});
+    for (const auto& [n, m] : {std::pair(0u, 0u), std::pair(0u, 5u), std::pair(1u, 7u), std::pair(9u, 1u)}) {
+        const front_tally seen = check_two_crowds<float>(on, n, m, 10, {});
         CHECK(seen.queries == 0);
     }
     for (const auto& [n, m] : {std::pair(2, 2), std::pair(2, 40), std::pair(33, 3), std::pair(120, 80)}) {
@@ -158,8 +158,8 @@ mesh<T> bent_torus(std::uint32_t around, std::uint32_t across, double time) {
     torus<T> t(around, across, 1, 0.4);
     for (vec3<T>& p : t.vertices) {
         const double x = p.x, y = p.y, z = p.z, s = std::sin(time), turn = 2 * s * y;
-        p = {static_cast<T>(std::cos(turn) * x * (1 - 0.9 * std::abs(s)) - std::sin(turn) * z), static_cast<T>(y + 0.3 * s * x * x),
-             static_cast<T>(std::sin(turn) * x + std::cos(turn) * z)};
+        p = {static_cast<T>(std::cos(turn) * x * (1 - 0.9 * std::abs(s)) - std::sin(turn) * z),
+             static_cast<T>(y + 0.3 * s * x * x), static_cast<T>(std::sin(turn) * x + std::cos(turn) * z)};
     }
     return {t.vertices, t.faces};
 }
@@ -235,7 +235,8 @@ void check_fronts_posed(const Policy& on) {
 template <class Policy>
 void check_fronts_elsewhere(const Policy& on) {
     uniform random(20270402);
-    const auto a = copy_to(on, small_crowd<float>(60, random).soup()), b = copy_to(on, small_crowd<float>(50, random).soup());
+    const auto a = copy_to(on, small_crowd<float>(60, random).soup());
+    const auto b = copy_to(on, small_crowd<float>(50, random).soup());
     const auto tree = make_bvh(on, a), expected = make_bvh(on, b);
     const auto truth = to_host(pairs(on, tree, expected));
     CHECK(truth.size() > 3);

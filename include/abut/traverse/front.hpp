@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Where a walk of two trees, or of one with itself, came to its ends, for the next walk to begin there (Tang, Curtis, Yoon and
-// Manocha 2010). Not for lists, nor for trees that are built anew for each query: a front belongs to two topologies, which
+// Where a walk of two trees, or of one with itself, came to its ends, for the next walk to begin there (Tang, Manocha and
+// Tong 2010). Not for lists, nor for trees that are built anew for each query: a front belongs to two topologies, which
 // `refit` hands on.
 //
-// All pairs of nodes that two trees could be walked to form a tree of pairs. An end is a pair whose boxes do not overlap, or one
-// of leaves. Wherever boxes are, each pair of leaves is or lies below exactly one end, so a walk may begin at any set of ends,
-// at those of other boxes too. What two nodes' children make is up to four ends that need the same two fetches; they are one
-// item here, with a bit for each. A query that begins at a front
+// All pairs of nodes that two trees could be walked to form a tree of pairs. An end is a pair whose boxes do not overlap, or
+// one of leaves. Wherever boxes are, each pair of leaves is or lies below exactly one end, so a walk may begin at any set of
+// ends, at those of other boxes too. What two nodes' children make is up to four ends that need the same two fetches; they
+// are one item here, with a bit for each. A query that begins at a front
 //
-// 1. tests the children of each item's nodes, judges the pairs of leaves whose boxes overlap, and marks what is to be opened:
-//    ends that are no leaves, and overlap now;
+// 1. tests the children of each item's nodes, judges the pairs of leaves whose boxes overlap, and marks what is to be
+//    opened: ends that are no leaves, and overlap now;
 // 2. walks down from those, by for_each_descendant, and appends the items that hold their ends;
 // 3. takes the marks away, and with them the ends that are none any more;
 // 4. judges the pairs of leaves of what was appended.
 //
-// Loops that judge may run again, or stop early: marks are made from ends, which stay until 3. Items never go up again: that all
-// ends below a pair of nodes could be replaced by the pair is not looked for. It would need to know of each item where the others
-// below its parents are. Instead a front begins at the roots again (front_options).
+// Loops that judge may run again, or stop early: marks are made from ends, which stay until 3. Items never go up again: that
+// all ends below a pair of nodes could be replaced by the pair is not looked for. It would need to know of each item where
+// the others below its parents are. Instead a front begins at the roots again (front_options).
 
 #include <algorithm>
 #include <bit>
@@ -40,11 +40,11 @@ namespace abut {
 
 /// What a front takes. They move speed and memory, never results.
 struct front_options {
-    /// Pairs of nodes that it may hold, 12 bytes each. Where they would be more, the query goes on without it, and the next one
-    /// begins at the roots; where they are too many then, it goes without, and so do the next `reference_frames`.
+    /// Pairs of nodes that it may hold, 12 bytes each. Where they would be more, the query goes on without it, and the next
+    /// one begins at the roots; where they are too many then, it goes without, and so do the next `reference_frames`.
     std::size_t most_items = std::size_t{1} << 24;
-    /// It begins at the roots when it holds less than rebuild_threshold times as many items as that many queries ago: what does
-    /// not grow any more is thought too deep for where the boxes are now. 0: it does not look at that.
+    /// It begins at the roots when it holds less than rebuild_threshold times as many items as that many queries ago: what
+    /// does not grow any more is thought too deep for where the boxes are now. 0: it does not look at that.
     int reference_frames = 16;
     double rebuild_threshold = 1.05;
     /// It also begins there when it holds that many times as many as when it last did.
@@ -94,7 +94,8 @@ ABUT_HD front_item whole_item(std::uint32_t a, std::uint32_t b) {
     return {a, b, marks};
 }
 
-/// The place of a pair of children, a number or a type that names one: a device cannot call what makes a number of the latter.
+/// The place of a pair of children, a number or a type that names one: a device cannot call what makes a number of the
+/// latter.
 template <class Number>
 ABUT_INLINE ABUT_HD unsigned place_of(const Number& k) {
     if constexpr (requires { Number::value; }) {
@@ -206,8 +207,8 @@ struct mark_and_push {
     }
 };
 
-/// Items from `first` on, as the verb for_each_candidate takes them: of all, or of those alone that have pairs of leaves whose
-/// boxes overlap.
+/// Items from `first` on, as the verb for_each_candidate takes them: of all, or of those alone that have pairs of leaves
+/// whose boxes overlap.
 template <class Expand>
 struct look_in_front {
     using candidate = typename Expand::candidate;
@@ -349,9 +350,9 @@ struct front_memory_in : front_memory {
 ///     }
 ///
 /// A query that finds it empty, or made for other topologies, in other memory or by another kind of query (of one tree or of
-/// two), begins at the roots and fills it. Two queries share it only one after the other. Answers do not depend on it, and neither
-/// do poses and filters matter to it: they may be others in each query. In device memory it is given back in the order of the
-/// stream of the policy that filled it first, which has to outlive it. Movable, not copyable.
+/// two), begins at the roots and fills it. Two queries share it only one after the other. Answers do not depend on it, and
+/// neither do poses and filters matter to it: they may be others in each query. In device memory it is given back in the
+/// order of the stream of the policy that filled it first, which has to outlive it. Movable, not copyable.
 class front {
 public:
     explicit front(const front_options& options = {}) : options_(options) {}
