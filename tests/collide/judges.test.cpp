@@ -57,7 +57,8 @@ TEST_CASE("search: a judge that leaves all open, and an operand of the caller's"
         CHECK(expected > 100);
         const auto other = detail::make_operand(on, make_bvh(on, soup), "test");
         const detail::pair_key key{detail::id_bits(balls.balls.size()), detail::id_bits(soup.size())};
-        const detail::pairing<few_balls, decltype(other), keep_all, traversal::both_at_once> pairing{balls, other, key, {}};
+        const detail::pairing<few_balls, decltype(other), keep_all, traversal::both_at_once, schedule::shared_list> pairing{
+            balls, other, key, {}};
         execution::work_count<host_space> hits(on);
         detail::search(on, pairing, late_judge{}, hits);
         CHECK(hits.total() == expected);
