@@ -15,8 +15,8 @@
 
 namespace abut {
 
-/// For times of impact alone: never misses a contact, never reports one later than it is, and reports more than there are.
-/// impact_options says how many.
+/// For times of impact alone: never misses a contact, never reports one later than it is, and reports more than there are, as
+/// conservative_bounds says.
 struct conservative {};
 
 /// How features are decided in motion.
@@ -25,8 +25,10 @@ concept motion_arithmetic = arithmetic<A> || std::same_as<A, conservative>;
 
 /// What `conservative` promises.
 struct conservative_bounds {
-    /// A time that is reported is at most this much before features come within `separation`; or before it is known that they do
-    /// not, where they come closer than floating point can tell.
+    /// A time that is reported is at most this much before features come within `separation`. Features that pass each other
+    /// are reported as well if they come nearer than `separation` and half of what they move relative to each other in a
+    /// time of `tolerance`. Less than 2^-50 is taken for 2^-50; and where more than 2^14 parts of the step would have to be
+    /// looked at, the time is that of the first that is not known.
     double tolerance = 1e-6;
     /// Features that come so close are reported, in the unit of the coordinates: 0 for those that touch.
     double separation = 0;
