@@ -99,4 +99,7 @@ TEST_CASE("weights: features without an extent, and touches at corners", "[narro
     const auto w = abut::weights_at(still, falling, abut::time_of_impact(still, falling));
     CHECK(w.of[0] == 1);
     CHECK(w.of[3] == 0.25);
+    const auto turned = abut::weights_at(falling, still, abut::time_of_impact(falling, still));
+    CHECK(turned.of[1] == 0.25);
+    CHECK(turned.of[2] == 1);
 }

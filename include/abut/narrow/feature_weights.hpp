@@ -40,18 +40,6 @@ ABUT_HD constexpr feature_weights weights_in_face(const vec3<double>& u, const v
     return {{1, 0, 1 - on_rest, on_rest}};
 }
 
-/// Of two edges: of their points that are nearest to each other (C. Ericson, Real-Time Collision Detection, 2005, 5.1.9).
-ABUT_HD constexpr feature_weights weights_on_edges(const vec3<double>& u, const vec3<double>& v, const vec3<double>& w) {
-    const double uu = dot(u, u), vv = dot(v, v), uv = dot(u, v), uw = dot(u, w), vw = dot(v, w), area = uu * vv - uv * uv;
-    double r = area > 0 ? clamped_to_1((uw * vv - uv * vw) / area) : 0;
-    double s = vv > 0 ? (uv * r - vw) / vv : 0;
-    if (!(s >= 0 && s <= 1)) {
-        s = clamped_to_1(s);
-        r = uu > 0 ? clamped_to_1((uw + s * uv) / uu) : 0;
-    }
-    return {{1 - r, r, 1 - s, s}};
-}
-
 }  // namespace detail
 
 /// Where two moving features touch at `time`, which is a time of impact of theirs: the vertex is where the face's corners have it
@@ -68,7 +56,8 @@ template <class S, class U>
         return detail::in_between(detail::relative_to(p.t0[i], p.t0[j]), detail::relative_to(p.t1[i], p.t1[j]), time);
     };
     if constexpr (edges) {
-        return detail::weights_on_edges(at(0, 1), at(2, 3), at(0, 2));
+        const detail::parts_of_edges on = detail::nearest_on_edges(at(0, 1), at(2, 3), at(0, 2));
+        return {{1 - on.of_u, on.of_u, 1 - on.of_v, on.of_v}};
     } else {
         return detail::weights_in_face(at(1, 2), at(1, 3), at(1, 0));
     }

@@ -60,6 +60,24 @@ ABUT_HD constexpr vec3<double> in_between(const vec3<double>& a, const vec3<doub
     return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.z + t * (b.z - a.z)};
 }
 
+/// Where on two edges, u from a point and v from another, w farther on, the points are that are nearest to each other, in parts of
+/// the edges: C. Ericson, Real-Time Collision Detection (2005), 5.1.9. Of an edge without length it is anywhere.
+struct parts_of_edges {
+    double of_u, of_v;
+};
+ABUT_HD constexpr parts_of_edges nearest_on_edges(const vec3<double>& u, const vec3<double>& v, const vec3<double>& w) {
+    const double uu = dot(u, u), vv = dot(v, v), uv = dot(u, v), uw = dot(u, w), vw = dot(v, w);
+    const auto clamped = [](double x) { return least(greatest(x, 0.0), 1.0); };
+    const double area = uu * vv - uv * uv;
+    double s = area > 0 ? clamped((uw * vv - uv * vw) / area) : 0;
+    double r = vv > 0 ? (uv * s - vw) / vv : 0;
+    if (!(vv > 0 && r >= 0 && r <= 1)) {
+        r = clamped(r);
+        s = uu > 0 ? clamped((uw + r * uv) / uu) : 0;
+    }
+    return {s, r};
+}
+
 /// A quadratic polynomial by its Bernstein coefficients, of which the middle one is doubled.
 struct area_in_time {
     double first, twice_middle, last;
@@ -364,7 +382,13 @@ private:
     /// Whether a direction shows that the features are farther apart than `separation` at all times between.
     [[nodiscard]] ABUT_HD constexpr bool is_apart(const feature_frame& a, const feature_frame& b, double separation) const {
         const vec3<double> u = a.u + b.u, v = a.v + b.v, w = a.w + b.w;
-        const vec3<double> g = Edges ? between_edges(u, v, w) : nearest_to_origin(w, w - u, w - v);
+        vec3<double> g{};  // from the second feature's point to the first's, where they are nearest; it need not be right
+        if constexpr (Edges) {
+            const parts_of_edges at = nearest_on_edges(u, v, w);
+            g = at.of_u * u - w - at.of_v * v;
+        } else {
+            g = nearest_to_origin(w, w - u, w - v);
+        }
         double lost = 0x1p-46 * magnitudes(g) * (u_ + v_ + w_) + 0x1p-1000;
         if (separation > 0) lost += separation * (1 + 0x1p-40) * length_above(g);
         if constexpr (Edges) {
@@ -379,22 +403,6 @@ private:
             };
             return least(least_along(a), least_along(b)) > lost;
         }
-    }
-
-    /// From the second edge's point to the first's, where they are nearest: C. Ericson, Real-Time Collision Detection (2005),
-    /// 5.1.9. It need not be right.
-    [[nodiscard]] ABUT_HD static constexpr vec3<double> between_edges(const vec3<double>& u, const vec3<double>& v,
-                                                                      const vec3<double>& w) {
-        const double uu = dot(u, u), vv = dot(v, v), uv = dot(u, v), uw = dot(u, w), vw = dot(v, w);
-        const auto clamped = [](double x) { return least(greatest(x, 0.0), 1.0); };
-        const double area = uu * vv - uv * uv;
-        double s = area > 0 ? clamped((uw * vv - uv * vw) / area) : 0;
-        double r = vv > 0 ? (uv * s - vw) / vv : 0;
-        if (!(vv > 0 && r >= 0 && r <= 1)) {
-            r = clamped(r);
-            s = uu > 0 ? clamped((uw + r * uv) / uu) : 0;
-        }
-        return s * u - w - r * v;
     }
 
     feature_frame t0_, t1_;
