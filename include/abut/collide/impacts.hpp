@@ -151,7 +151,8 @@ template <execution_policy Policy, scalar T, memory_space Space, pair_rule Rule,
 
 namespace detail {
 
-/// A judge of two features in motion. It lets pass what registers cannot decide: the time will tell.
+/// A judge of two features in motion. It lets pass what registers cannot decide: the time will tell. But for `exact`, which
+/// decides nothing in registers, a host resolves each pair, so that its candidates are not kept.
 template <motion_arithmetic A>
 struct touch_in_motion {
     static constexpr bool may_report_more = true;
@@ -179,12 +180,16 @@ struct touch_in_motion {
         } else if constexpr (std::same_as<A, conservative>) {
             return to_verdict(time_in_registers<A, is_moving_edge<S>>(points_of(s, t), bounds) >= 0);
         } else {
-            return verdict::yes;
+            return verdict::unknown;
         }
     }
     template <class S, class U>
-    bool resolve(const S&, const U&) const {
-        return true;
+    bool resolve(const S& s, const U& t) const {
+        if constexpr (are_features<S, U>) {
+            return abut::resolve(s, t);
+        } else {
+            return abut::resolve(t, s);
+        }
     }
 };
 

@@ -15,15 +15,13 @@ enum class pair_rule : unsigned char {
     /// Features have trees of their own: vertices, edges and faces.
     feature_trees,
     /// One tree, over faces. Each vertex and each edge is given to one of its faces, and of two faces those features meet
-    /// that
-    /// have been given to them (S. Curtis, R. Tamstorf, D. Manocha, Fast collision detection for deformable models using
-    /// representative-triangles, I3D 2008).
+    /// that have been given to them (S. Curtis, R. Tamstorf, D. Manocha, Fast collision detection for deformable models
+    /// using representative-triangles, I3D 2008).
     representative_triangles,
     /// One tree, over faces. Within one mesh faces that share a vertex are left out, and the pairs of features that only
-    /// such
-    /// faces have, the orphans, are a list that is made with the index (M. Tang, S. Curtis, S.-E. Yoon, D. Manocha,
-    /// Interactive continuous collision detection between deformable models using connectivity-based culling, SPM 2008). Two
-    /// meshes have no vertex in common: between them it is representative_triangles.
+    /// such faces have, the orphans, are a list that is made with the index (M. Tang, S. Curtis, S.-E. Yoon, D. Manocha,
+    /// Interactive continuous collision detection between deformable models using connectivity-based culling, SPM 2008).
+    /// Two meshes have no vertex in common: between them it is representative_triangles.
     orphan_sets
 };
 

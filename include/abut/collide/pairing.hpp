@@ -325,7 +325,7 @@ struct pairing {
     [[nodiscard]] view_type view() const { return {a.shapes(), b.shapes(), key, options.filter}; }
     /// Room that results are likely to need.
     [[nodiscard]] std::size_t likely_hits() const {
-        return std::max({a.shapes().size() / 4, b.shapes().size() / 4, std::size_t{1} << 20});
+        return std::max({a.shapes().size() / 4, b.shapes().size() / 4, std::size_t{1} << 16});
     }
 
     /// Judges all pairs that come near each other, by loops that `run` runs (judged_loops in search.hpp).

@@ -350,7 +350,7 @@ void expand_gathered(const Policy& on, const Pairing& pairing, const Expand& exp
     for (std::uint32_t k = 0; k < more; ++k) expand_gathered(on, pairing, expand, part.split(k, more), room, pass);
 }
 
-/// Pairs of faces that a device gathers at a time: 64 for each face, 512 MiB of them at most.
+/// Pairs of faces that a device gathers at a time: 64 for each face, 64 MiB of them at least and 512 at most.
 template <class Policy>
 auto room_for_faces(const Policy& on, std::size_t faces) {
     return execution::buffer_of<Policy, std::uint64_t>(on, std::clamp(64 * faces, least_gathered, most_gathered));

@@ -178,7 +178,9 @@ void judge_gathered(const Policy& on, const View& both, const Judge& judge, cons
     for_each_index(on, open.size(), finish_gathered<View, Judge>{both, judge, open.data()}, hits);
 }
 
-/// Candidates that are gathered on a device at a time: 128 for each shape, 512 MiB of them at most.
+/// Room for what such a judge finds, 8 MiB.
+inline constexpr std::size_t least_hits_apart = std::size_t{1} << 20;
+/// Candidates that are gathered on a device at a time: 128 for each shape, 64 MiB of them at least and 512 at most.
 inline constexpr std::size_t least_gathered = std::size_t{1} << 23, most_gathered = std::size_t{1} << 26;
 
 /// Gathers a part of a pairing's candidates in `room`, as many as there is room for. Returns how many there are.
@@ -219,7 +221,8 @@ struct answer_key {
 /// The keys of all pairs that a judge finds, ascending if the options say so.
 template <class Policy, class Pairing, class Judge>
 auto find_keys(const Policy& on, const Pairing& pairing, const Judge& judge) {
-    key_queue<Policy> hits(on, pairing.likely_hits());
+    // Where a queue proves too small, its loop runs again.
+    key_queue<Policy> hits(on, std::max(pairing.likely_hits(), judges_apart<Judge> ? least_hits_apart : 0));
     if constexpr (judges_apart<Judge> && !host_policy<Policy>) {
         const auto both = pairing.view();
         const std::size_t shapes = std::max(both.a.size(), both.b.size());

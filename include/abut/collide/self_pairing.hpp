@@ -68,7 +68,7 @@ struct self_pairing {
         return {shapes, shapes, key, options.filter};
     }
     /// Room that results are likely to need.
-    [[nodiscard]] std::size_t likely_hits() const { return std::max(x.shapes().size() / 4, std::size_t{1} << 20); }
+    [[nodiscard]] std::size_t likely_hits() const { return std::max(x.shapes().size() / 4, std::size_t{1} << 16); }
 
     /// Judges all pairs that come near each other, by loops that `run` runs (judged_loops in search.hpp).
     template <class Policy, class Run>
