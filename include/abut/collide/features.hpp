@@ -57,6 +57,7 @@ struct features_of_mesh {
     features_of_mesh(const moving_set<mesh<T, Space>>& of, const moving_set<edge_mesh<T, Space>>& edges_of)
         : vertices(abut::vertices(of).view()), faces(of.view()), edges(edges_of.view()) {}
     [[nodiscard]] std::size_t most() const { return std::max({vertices.size(), faces.size(), edges.size()}); }
+    [[nodiscard]] std::size_t count() const { return vertices.size() + faces.size() + edges.size(); }
 };
 
 /// What a kernel sees of the pairs of features of two meshes; or `within` one, where those that share a vertex are not
@@ -82,15 +83,23 @@ struct feature_pairs {
     ABUT_CALLS_ANY
     template <class F>
     ABUT_INLINE ABUT_HD auto with_shapes(std::uint64_t k, const F& f) const {
+        return key.kind(k) == feature_pair::edge_edge ? with_edges(k, f) : with_vertex(k, f);
+    }
+    /// The same of a pair of edges.
+    ABUT_CALLS_ANY
+    template <class F>
+    ABUT_INLINE ABUT_HD auto with_edges(std::uint64_t k, const F& f) const {
+        return f(a.edges[key.a(k)], b.edges[key.b(k)]);
+    }
+    /// And of a vertex and a face.
+    ABUT_CALLS_ANY
+    template <class F>
+    ABUT_INLINE ABUT_HD auto with_vertex(std::uint64_t k, const F& f) const {
+        const bool vertex_first = key.kind(k) == feature_pair::vertex_face;
         const std::uint32_t i = key.a(k), j = key.b(k);
-        switch (key.kind(k)) {
-            case feature_pair::vertex_face:
-                return f(a.vertices[i], b.faces[j]);
-            case feature_pair::face_vertex:
-                return f(b.vertices[j], a.faces[i]);
-            default:
-                return f(a.edges[i], b.edges[j]);
-        }
+        const auto& of_vertex = vertex_first ? a.vertices : b.vertices;
+        const auto& of_face = vertex_first ? b.faces : a.faces;
+        return f(of_vertex[vertex_first ? i : j], of_face[vertex_first ? j : i]);
     }
     [[nodiscard]] ABUT_HD bool wanted(feature_pair kind, std::uint32_t i, std::uint32_t j) const {
         if (!within) return true;

@@ -237,40 +237,38 @@ struct boxes_are_near {
         return near(bounds(s), bounds(t));
     }
 };
-/// Hands on orphans whose boxes do.
+/// Hands on orphans whose boxes do; times them where they are found, on a host.
 template <class View, class Overlap>
 struct gather_orphan {
     View both;
     boxes_are_near<Overlap> near;
     const std::uint64_t* keys;
     ABUT_CALLS_ANY
-    template <class Near>
-    ABUT_HD void operator()(std::size_t i, Near& found) const {
-        if (both.with_shapes(keys[i], near)) found.push(keys[i]);
+    template <class Vertices, class Edges>
+    ABUT_HD void operator()(std::size_t i, Vertices& vertices, Edges& edges) const {
+        if (both.with_shapes(keys[i], near)) push_by_kind<Vertices, Edges>{both.key, vertices, edges}.push(keys[i]);
     }
 };
-/// Orphans that are timed where they are found, on a host.
 template <class View, class Judge, class Overlap>
 struct time_orphan {
-    gather_orphan<View, Overlap> orphans;
     time_at_once<View, Judge> judge;
+    boxes_are_near<Overlap> near;
+    const std::uint64_t* keys;
     template <class Hits>
     void operator()(std::size_t i, Hits& hits) const {
-        const time_pushed<View, Judge, Hits> found{judge, hits};
-        orphans(i, found);
+        if (judge.both.with_shapes(keys[i], near)) time_pushed<View, Judge, Hits>{judge, hits}.push(keys[i]);
     }
 };
 
 template <class Policy, class View, class Judge, class Overlap>
 void time_orphans(const Policy& on, const View& both, const shared_array<std::uint64_t, space_of<Policy>>& orphans,
                   const Judge& judge, const Overlap& near, timed_queue<Policy>& hits) {
-    const gather_orphan<View, Overlap> gather{both, {near}, orphans.data()};
     if constexpr (host_policy<Policy>) {
-        for_each_index(on, orphans.size(), time_orphan<View, Judge, Overlap>{gather, {both, judge}}, hits);
+        for_each_index(on, orphans.size(), time_orphan<View, Judge, Overlap>{{both, judge}, {near}, orphans.data()}, hits);
     } else {
-        key_queue<Policy> found(on, orphans.size());
-        for_each_index(on, orphans.size(), gather, found);
-        time_candidates(on, both, judge, found.data(), found.size(), hits);
+        key_queue<Policy> vertices(on, orphans.size()), edges(on, orphans.size());
+        for_each_index(on, orphans.size(), gather_orphan<View, Overlap>{both, {near}, orphans.data()}, vertices, edges);
+        time_candidates(on, both, judge, in_two_queues(vertices, edges), hits);
     }
 }
 

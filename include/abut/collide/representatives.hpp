@@ -169,29 +169,16 @@ private:
 
 // --- from features to what is found ------------------------------------------------------------------------------------
 
-/// A judge of pairs of faces that looks at all of their features, and leaves those that it finds in a queue.
-template <class Expand>
-struct gather_features {
-    Expand expand;
-
-    ABUT_CALLS_ANY
-    template <class Near>
-    ABUT_HD bool operator()(std::uint64_t key, Near& near, auto&...) const {
-        expand(key, near);
-        return true;
-    }
-    ABUT_HD void finish(std::uint64_t, auto&...) const {}
-    ABUT_INLINE void prefetch(std::uint64_t key, int step) const { expand.prefetch(key, step); }
-};
-/// The same of pairs of faces that have been gathered.
+/// The features of pairs of faces that have been gathered, by their kinds.
 template <class Expand>
 struct gather_features_of {
     Expand expand;
-    const std::uint64_t* keys;
+    const std::uint64_t* pairs;
     ABUT_CALLS_ANY
-    template <class Near>
-    ABUT_HD void operator()(std::size_t i, Near& near) const {
-        expand(keys[i], near);
+    template <class Vertices, class Edges>
+    ABUT_HD void operator()(std::size_t i, Vertices& vertices, Edges& edges) const {
+        const push_by_kind<Vertices, Edges> found{expand.keys, vertices, edges};
+        expand(pairs[i], found);
     }
 };
 /// A judge of pairs of faces that times their features at once, on a host.
@@ -249,14 +236,9 @@ void time_loose(const Policy& on, const View& both, const shared_array<std::uint
     } else {
         key_queue<Policy> near(on);
         look_all([&](const auto& loop) { loop(gather_candidate{}, near); });
-        time_candidates(on, both, judge, near.data(), near.size(), hits);
+        const gathered_features found{near.data(), nullptr, near.size(), 0};
+        time_candidates(on, both, judge, found, hits);
     }
-}
-
-/// Pairs of faces that a device gathers at a time: 64 for each face, 64 MiB of them at least and 512 at most.
-template <class Policy>
-auto room_for_faces(const Policy& on, std::size_t faces) {
-    return execution::buffer_of<Policy, std::uint64_t>(on, std::clamp(64 * faces, least_gathered, most_gathered));
 }
 
 /// Leaves in `hits` what a judge times of the features of faces that come near each other. On a device pairs of faces are
@@ -268,11 +250,22 @@ void time_faces(const Policy& on, const Pairing& pairing, const Expand& expand, 
         const time_features<Expand, View, Judge> time{expand, {both, judge}};
         pairing.judge_candidates(on, [&](const auto& loop) { loop(time, hits); });
     } else {
-        auto room = room_for_faces(on, std::max(expand.a.faces.size(), expand.b.faces.size()));
-        gather_in_parts(on, pairing, room, [&](std::size_t count) {
-            key_queue<Policy> near(on, 2 * count);
-            for_each_index(on, count, gather_features_of<Expand>{expand, room.data()}, near);
-            time_candidates(on, both, judge, near.data(), near.size(), hits);
+        auto room = room_for_candidates(on, std::max(expand.a.faces.size(), expand.b.faces.size()), 64);
+        std::size_t count = 0;
+        const auto gather_faces = [&](part_of_open part) {
+            count = 0;
+            pairing.judge_candidates(on, [&](const auto& loop) {
+                const std::size_t taken = std::min(count, room.size());
+                execution::capped_queue<std::uint64_t, space_of<Policy>> near(room.data() + taken, room.size() - taken);
+                loop(gather_candidate{part}, near);
+                count += static_cast<std::size_t>(near.pushed());
+            });
+            return count;
+        };
+        gather_in_parts(room.size(), gather_faces, [&] {
+            key_queue<Policy> vertices(on, count), edges(on, count);
+            for_each_index(on, count, gather_features_of<Expand>{expand, room.data()}, vertices, edges);
+            time_candidates(on, both, judge, in_two_queues(vertices, edges), hits);
         });
     }
 }

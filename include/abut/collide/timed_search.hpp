@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <utility>
 
+#include <abut/collide/features.hpp>
 #include <abut/collide/judge.hpp>
 #include <abut/collide/search.hpp>
 #include <abut/execution/buffer.hpp>
@@ -97,8 +98,37 @@ struct time_pushed {
     }
 };
 
-// On a device.
+// On a device. Candidates lie in one room: pairs of a vertex and a face from its beginning on, pairs of edges from its end,
+// so that the lanes of a warp do the same.
 
+template <class Policy>
+using room_of = execution::buffer_of<Policy, std::uint64_t>;
+
+/// What lies in a room, or in two.
+struct gathered_features {
+    const std::uint64_t *begin, *end;
+    std::size_t of_vertices, of_edges;
+    [[nodiscard]] std::size_t count() const { return of_vertices + of_edges; }
+};
+template <class Queue>
+gathered_features in_two_queues(const Queue& vertices, const Queue& edges) {
+    return {vertices.data(), edges.data() + edges.size(), vertices.size(), edges.size()};
+}
+
+/// Hands on candidates to the sink of their kind.
+template <class Vertices, class Edges>
+struct push_by_kind {
+    feature_key key;
+    Vertices& vertices;
+    Edges& edges;
+    ABUT_HD void push(std::uint64_t k) const {
+        if (key.kind(k) == feature_pair::edge_edge) {
+            edges.push(k);
+        } else {
+            vertices.push(k);
+        }
+    }
+};
 struct gather_candidate {
     part_of_open part;
     ABUT_CALLS_ANY
@@ -109,57 +139,93 @@ struct gather_candidate {
     }
     ABUT_HD void finish(std::uint64_t, auto&...) const {}
 };
+struct gather_features {
+    part_of_open part;
+    feature_key key;
+    ABUT_CALLS_ANY
+    template <class Vertices, class Edges>
+    ABUT_HD bool operator()(std::uint64_t k, Vertices& vertices, Edges& edges, auto&...) const {
+        if (part.holds(k)) push_by_kind<Vertices, Edges>{key, vertices, edges}.push(k);
+        return true;
+    }
+    ABUT_HD void finish(std::uint64_t, auto&...) const {}
+};
+
 template <class View, class Judge>
 struct try_gathered {
     View both;
     Judge judge;
-    const std::uint64_t* keys;
+    gathered_features near;
     ABUT_CALLS_ANY
     template <class Open>
     ABUT_HD void operator()(std::size_t i, Open& open) const {
-        if (both.with_shapes(keys[i], first_try<Judge>{judge})) open.push(keys[i]);
+        const first_try<Judge> ask{judge};
+        const bool of_vertex = i < near.of_vertices;
+        const std::uint64_t key = of_vertex ? near.begin[i] : *(near.end - 1 - (i - near.of_vertices));
+        if (of_vertex ? both.with_vertex(key, ask) : both.with_edges(key, ask)) open.push(key);
     }
 };
+/// A lane in `spread` times one.
 template <class View, class Judge>
 struct time_gathered {
     View both;
     Judge judge;
     const std::uint64_t* keys;
+    std::size_t spread;
     ABUT_CALLS_ANY
     template <class Hits>
     ABUT_HD void operator()(std::size_t i, Hits& hits) const {
-        const double time = both.with_shapes(keys[i], time_by<Judge>{judge});
-        if (time != time_in_bits::none) hits.push({keys[i], time});
+        if (i % spread != 0) return;
+        const std::uint64_t key = keys[i / spread];
+        const double time = both.with_shapes(key, time_by<Judge>{judge});
+        if (time != time_in_bits::none) hits.push({key, time});
     }
 };
 
-/// Times candidates that have been gathered.
+/// Times candidates that have been gathered. Lanes of one warp that follow different roots wait for each other: few are
+/// spread over many warps.
 template <class Policy, class View, class Judge>
-void time_candidates(const Policy& on, const View& both, const Judge& judge, const std::uint64_t* keys, std::size_t count,
+void time_candidates(const Policy& on, const View& both, const Judge& judge, const gathered_features& near,
                      timed_queue<Policy>& hits) {
-    key_queue<Policy> open(on, std::max(count / 8, std::size_t{1} << 16));
-    for_each_index(on, count, try_gathered<View, Judge>{both, judge, keys}, open);
-    for_each_index(on, open.size(), time_gathered<View, Judge>{both, judge, open.data()}, hits);
+    key_queue<Policy> open(on, std::max(near.count() / 8, std::size_t{1} << 16));
+    for_each_index(on, near.count(), try_gathered<View, Judge>{both, judge, near}, open);
+    const std::size_t n = open.size();
+    std::size_t spread = 1;
+    while (spread < 32 && n * spread <= std::size_t{1} << 15) spread *= 2;
+    for_each_index(on, n * spread, time_gathered<View, Judge>{both, judge, open.data(), spread}, hits);
 }
 
-/// Candidates that are gathered on a device at a time: 128 for each shape, 64 MiB of them at least and 512 at most.
-inline constexpr std::size_t least_gathered = std::size_t{1} << 23, most_gathered = std::size_t{1} << 26;
+/// Room on a device for candidates of shapes, so many of each: 64 MiB at least and 512 at most.
+template <class Policy>
+room_of<Policy> room_for_candidates(const Policy& on, std::size_t shapes, std::size_t of_each) {
+    return room_of<Policy>(on, std::clamp(of_each * shapes, std::size_t{1} << 23, std::size_t{1} << 26));
+}
 
-/// Gathers candidates in `room`, as many as there is room for, and calls pass(count) when it has a part of them; until that
-/// has been all of them.
-template <class Policy, class Pairing, class Pass>
-void gather_in_parts(const Policy& on, const Pairing& pairing, execution::buffer_of<Policy, std::uint64_t>& room,
-                     const Pass& pass, part_of_open part = {}) {
-    std::size_t count = 0;  // of all loops of a walk
+/// Calls gather(part), which gathers the candidates of a part of all and returns how many these are, and pass() when there
+/// was room for them; with parts of the part where there was none.
+template <class Gather, class Pass>
+void gather_in_parts(std::size_t room, const Gather& gather, const Pass& pass, part_of_open part = {}) {
+    const std::size_t count = gather(part);
+    if (count <= room) return pass();
+    const auto more = static_cast<std::uint32_t>(2 * count / room + 1);
+    for (std::uint32_t k = 0; k < more; ++k) gather_in_parts(room, gather, pass, part.split(k, more));
+}
+
+/// Gathers a part of a pairing's candidates, as many as there is room for; the counts are of all.
+template <class Policy, class Pairing>
+gathered_features gather(const Policy& on, const Pairing& pairing, part_of_open part, room_of<Policy>& room) {
+    using space = space_of<Policy>;
+    gathered_features found{room.data(), room.data() + room.size(), 0, 0};
     pairing.judge_candidates(on, [&](const auto& loop) {
-        const std::size_t taken = std::min(count, room.size());
-        execution::capped_queue<std::uint64_t, space_of<Policy>> near(room.data() + taken, room.size() - taken);
-        loop(gather_candidate{part}, near);
-        count += static_cast<std::size_t>(near.pushed());
+        const std::size_t begin = std::min(found.of_vertices, room.size());
+        const std::size_t left = room.size() - std::min(found.count(), room.size());
+        execution::capped_queue<std::uint64_t, space> vertices(room.data() + begin, left);
+        execution::capped_queue_from_end<std::uint64_t, space> edges(room.data() + begin, left);
+        loop(gather_features{part, pairing.view().key}, vertices, edges);
+        found.of_vertices += static_cast<std::size_t>(vertices.pushed());
+        found.of_edges += static_cast<std::size_t>(edges.pushed());
     });
-    if (count <= room.size()) return pass(count);
-    const auto more = static_cast<std::uint32_t>(2 * count / room.size() + 1);
-    for (std::uint32_t k = 0; k < more; ++k) gather_in_parts(on, pairing, room, pass, part.split(k, more));
+    return found;
 }
 
 /// Leaves in `hits` the pairs of a pairing that touch, with their times.
@@ -171,10 +237,15 @@ void search_times(const Policy& on, const Pairing& pairing, const Judge& judge, 
         const time_at_once<view, Judge> time{both, judge};
         pairing.judge_candidates(on, [&](const auto& loop) { loop(time, hits); });
     } else {
-        const std::size_t most = std::max(both.a.most(), both.b.most());
-        execution::buffer_of<Policy, std::uint64_t> room(on, std::clamp(128 * most, least_gathered, most_gathered));
-        gather_in_parts(on, pairing, room,
-                        [&](std::size_t count) { time_candidates(on, both, judge, room.data(), count, hits); });
+        auto room = room_for_candidates(on, std::max(both.a.count(), both.b.count()), 128);
+        gathered_features near{};
+        gather_in_parts(
+            room.size(),
+            [&](part_of_open part) {
+                near = gather(on, pairing, part, room);
+                return near.count();
+            },
+            [&] { time_candidates(on, both, judge, near, hits); });
     }
 }
 
