@@ -273,6 +273,11 @@ void check_rule_within(const Policy& on, const moving_set<mesh<T>>& step, const 
                        rules_seen& seen) {
     const auto check = [&](const auto& index, const auto& of, const auto& impacts_of) {
         CHECK(to_host(self_impacts(on, index)) == impacts_of);
+        const auto earliest = [](const auto& i, const auto& j) { return i.time < j.time; };
+        const auto first = std::min_element(impacts_of.begin(), impacts_of.end(), earliest);
+        const auto found = first_self_impact(on, index);
+        CHECK(found.has_value() == (first != impacts_of.end()));
+        if (found) CHECK(*found == *first);
         auto any_order = to_host(self_impacts(on, index, {.sorted = false}));
         CHECK(any_order.size() == impacts_of.size());
         CHECK(std::is_permutation(any_order.begin(), any_order.end(), impacts_of.begin(), impacts_of.end()));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// impacts, self_impacts, first_impact: continuous collision. Which vertices of one mesh in motion meet which faces of
+// impacts, self_impacts: continuous collision. Which vertices of one mesh in motion meet which faces of
 // another, which edges meet which edges, and when.
 //
 // The rule of an index (pair_rule.hpp) says how pairs of features are found. By the default, feature_trees, features have
@@ -13,7 +13,6 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -241,49 +240,31 @@ auto impacts_of_indices(const Policy& on, const Index& x, const Index& y, const 
     }
 }
 
+/// Both arguments of an impact query as indices.
+template <class Policy, class X, class Y>
+auto impact_operands(const Policy& on, const X& a, const Y& b, const char* function) {
+    constexpr pair_rule rule = rule_of<X, Y>();
+    auto x = impact_operand<rule>(on, a, function);
+    auto y = impact_operand<rule>(on, b, function);
+    static_assert(std::same_as<typename decltype(x)::scalar_type, typename decltype(y)::scalar_type>,
+                  "abut: both sides of a query need the same scalar type, float or double");
+    return std::pair(std::move(x), std::move(y));
+}
+
 /// The impacts of two meshes, or of one with itself.
 template <motion_arithmetic A, class Policy, class X, class Y, class Fronts>
 auto impacts_between(const Policy& on, const X& a, const Y& b, const impact_options& options, const Fronts& fronts) {
     constexpr const char* function = "abut::impacts";
-    constexpr pair_rule rule = rule_of<X, Y>();
-    const auto x = impact_operand<rule>(on, a, function);
-    const auto y = impact_operand<rule>(on, b, function);
-    static_assert(std::same_as<typename decltype(x)::scalar_type, typename decltype(y)::scalar_type>,
-                  "abut: both sides of a query need the same scalar type, float or double");
+    const auto [x, y] = impact_operands(on, a, b, function);
     return impacts_of_indices<A, false>(on, x, y, options, fronts, function);
 }
 template <motion_arithmetic A, class Policy, class X, class Fronts>
-auto impacts_within(const Policy& on, const X& x, const impact_options& options, const Fronts& fronts) {
+auto impacts_within(const Policy& on, const X& a, const impact_options& options, const Fronts& fronts) {
     constexpr const char* function = "abut::self_impacts";
-    const auto index = impact_operand<rule_of<X, X>()>(on, x, function);
-    return impacts_of_indices<A, true>(on, index, index, options, fronts, function);
+    const auto x = impact_operand<rule_of<X, X>()>(on, a, function);
+    return impacts_of_indices<A, true>(on, x, x, options, fronts, function);
 }
-
-/// The earliest impact, and of equal ones the first.
-struct time_and_place {
-    double time;
-    std::size_t place;
-};
-struct earlier_of {
-    ABUT_HD time_and_place operator()(const time_and_place& a, const time_and_place& b) const {
-        return b.time < a.time || (b.time == a.time && b.place < a.place) ? b : a;
-    }
-};
-template <scalar T>
-struct time_of_impact_at {
-    const impact<T>* all;
-    ABUT_HD time_and_place operator()(std::size_t i) const { return {all[i].time, i}; }
-};
-
-template <class Policy, scalar T>
-std::optional<impact<T>> first_of(const Policy& on, const result<impact<T>, space_of<Policy>>& all) {
-    const time_and_place first =
-        reduce(on, all.size(), time_and_place{infinity<double>, all.size()}, earlier_of{}, time_of_impact_at<T>{all.data()});
-    if (first.place == all.size()) return std::nullopt;
-    impact<T> found;
-    download(on, all.data() + first.place, 1, &found);
-    return found;
-}
+inline given_fronts fronts_of(impact_fronts& all) { return {&all.vertex_face, &all.face_vertex, &all.edge_edge}; }
 
 }  // namespace detail
 
@@ -308,8 +289,7 @@ template <motion_arithmetic A = filtered, execution_policy Policy, class X, clas
 /// The same from fronts, which are left at this step's ends.
 template <motion_arithmetic A = filtered, execution_policy Policy, class X, class Y>
 [[nodiscard]] auto impacts(const Policy& on, const X& a, const Y& b, const impact_options& options, impact_fronts& fronts) {
-    return detail::impacts_between<A>(on, a, b, options,
-                                      detail::given_fronts{&fronts.vertex_face, &fronts.face_vertex, &fronts.edge_edge});
+    return detail::impacts_between<A>(on, a, b, options, detail::fronts_of(fronts));
 }
 
 /// The impacts of one mesh with itself: of all pairs that have no vertex index in common. Vertices that coincide in place
@@ -320,20 +300,7 @@ template <motion_arithmetic A = filtered, execution_policy Policy, class X>
 }
 template <motion_arithmetic A = filtered, execution_policy Policy, class X>
 [[nodiscard]] auto self_impacts(const Policy& on, const X& x, const impact_options& options, impact_fronts& fronts) {
-    return detail::impacts_within<A>(on, x, options,
-                                     detail::given_fronts{&fronts.vertex_face, &fronts.face_vertex, &fronts.edge_edge});
-}
-
-/// The earliest of the impacts, or none: of several at one time, the first in their order.
-template <motion_arithmetic A = filtered, execution_policy Policy, class X, class Y>
-[[nodiscard]] auto first_impact(const Policy& on, const X& a, const Y& b, impact_options options = {}) {
-    options.sorted = true;
-    return detail::first_of(on, impacts<A>(on, a, b, options));
-}
-template <motion_arithmetic A = filtered, execution_policy Policy, class X, class Y>
-[[nodiscard]] auto first_impact(const Policy& on, const X& a, const Y& b, impact_options options, impact_fronts& fronts) {
-    options.sorted = true;
-    return detail::first_of(on, impacts<A>(on, a, b, options, fronts));
+    return detail::impacts_within<A>(on, x, options, detail::fronts_of(fronts));
 }
 
 /// Where the features of an impact touch (narrow/feature_weights.hpp). `a` and `b` are the meshes of the query as moving
