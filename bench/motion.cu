@@ -13,6 +13,9 @@
 //   KIND/walk/part/N              the best schedule on an N-th of the blocks
 //   KIND/ARITHMETIC               one elementary test of each candidate in its first stage, and its second, of what the
 //                                 first left, with the time. Counters: items, left, found
+//   halves/from_roots             self_impacts of the first half of the step, and of the second, with refits
+//   halves/from_fronts            the same, each from the fronts that the other left. Counters: pairs of nodes that they hold,
+//                                 and how many were opened in the last query
 //   same                          1 if 100 runs of impacts gave the same
 //
 // Each figure is the median of 21 runs by CUDA events around the whole call.
@@ -170,6 +173,20 @@ void add_scene(const abut::cuda& on, table& out, const motion_scene::frames& sce
     for (int run = 0; run < 100; ++run) same = same && to_host(self_impacts(on, index)) == known;
     out.add(joined({name, "same"}), 0, [&]() -> counters { return {{"same", same ? 1.0 : 0.0}}; });
 
+    const auto t_half = at_0.with_vertices(on, motion_scene::frames::as<T>(scene.half_way()));
+    const auto first = abut::moving(at_0, t_half), second = abut::moving(t_half, step.t1());
+    out.add(joined({name, "halves/from_roots"}), 0, [&] {
+        return of(self_impacts(on, refit(on, index, first)).size() + self_impacts(on, refit(on, index, second)).size());
+    });
+    abut::impact_fronts fronts;
+    out.add(joined({name, "halves/from_fronts"}), 0, [&] {
+        const auto in_first = self_impacts(on, refit(on, index, first), {}, fronts).size();
+        counters made = of(in_first + self_impacts(on, refit(on, index, second), {}, fronts).size());
+        const auto &of_vertices = fronts.vertex_face.report(), &of_edges = fronts.edge_edge.report();
+        made.emplace_back("nodes", static_cast<double>(of_vertices.items + of_edges.items));
+        made.emplace_back("opened", static_cast<double>(of_vertices.opened + of_edges.opened));
+        return made;
+    });
     using features = feature_pairing<true, abut::impact_index<T, device_space>, near_enough_to_touch, no_fronts>;
     out.add(joined({name, "walk"}), 0, [&]() -> counters {
         return {{"candidates", static_cast<double>(count_candidates(on, features(index, index, {}, {}, "bench")))}};

@@ -47,6 +47,11 @@ struct frames {
         };
         return all_of(t0) && all_of(t1);
     }
+    [[nodiscard]] std::vector<abut::vec3<double>> half_way() const {
+        std::vector<abut::vec3<double>> points;
+        for (std::size_t i = 0; i < t0.size(); ++i) points.push_back(0.5 * (t0[i] + t1[i]));
+        return points;
+    }
     template <abut::scalar T>
     [[nodiscard]] static std::vector<abut::vec3<T>> as(const std::vector<abut::vec3<double>>& points) {
         std::vector<abut::vec3<T>> same;
