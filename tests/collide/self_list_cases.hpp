@@ -26,6 +26,13 @@ struct some_bodies {
     ABUT_HD bool operator()(body_pair p) const { return (p.body_a + 2 * p.body_b + p.a + 3 * p.b) % 5 != 0; }
 };
 
+template <scalar T>
+std::vector<triangle<T>> triangles_of(const std::vector<vec3<T>>& vertices, const std::vector<face>& faces) {
+    std::vector<triangle<T>> all;
+    for (const face& f : faces) all.push_back({vertices[f[0]], vertices[f[1]], vertices[f[2]]});
+    return all;
+}
+
 /// A scene of bodies: sets on the host, the policy's trees over them, and which set each body has.
 template <class Policy, class Set>
 struct scene_of_bodies {
@@ -56,14 +63,13 @@ struct scene_of_bodies {
     }
 };
 
-/// Asks in all ways. Returns the number of pairs.
+/// Asks in all ways, and on a device in some, since each takes nvcc half a minute. Returns the number of pairs.
 template <class Policy, class Set>
 std::size_t check_bodies(const Policy& on, const scene_of_bodies<Policy, Set>& scene) {
     const auto& bodies = scene.bodies;
     const std::vector<body_pair> expected = scene.truth();
     CAPTURE(bodies.size(), expected.size());
     CHECK((to_host(self_pairs(on, bodies)) == expected));
-    CHECK((to_host(self_pairs<exact>(on, bodies)) == expected));
     auto unsorted = to_host(self_pairs(on, bodies, {.sorted = false, .most_pairs = 3}));
     std::sort(unsorted.begin(), unsorted.end());
     CHECK((unsorted == expected));
@@ -74,8 +80,11 @@ std::size_t check_bodies(const Policy& on, const scene_of_bodies<Policy, Set>& s
     auto some = expected;
     std::erase_if(some, [](const body_pair& p) { return !some_bodies{}(p); });
     CHECK((to_host(self_pairs(on, bodies, with_filter)) == some));
-    CHECK(count_self_pairs(on, bodies, with_filter) == some.size());
-    CHECK(any_self_pairs(on, bodies, with_filter) == !some.empty());
+    if constexpr (host_policy<Policy>) {
+        CHECK(count_self_pairs(on, bodies, with_filter) == some.size());
+        CHECK(any_self_pairs(on, bodies, with_filter) == !some.empty());
+        CHECK((to_host(self_pairs<exact>(on, bodies)) == expected));
+    }
     return expected.size();
 }
 
@@ -86,13 +95,11 @@ void check_random_bodies(const Policy& on) {
     std::printf("self pairs of bodies: seed %llu\n", static_cast<unsigned long long>(seed));
     uniform random(seed);
     std::vector<triangle_soup<T>> sets;
-    for (const std::size_t n : {0, 1, 2, 3, 40}) sets.emplace_back(random_triangles<T>(n, random));
+    for (const std::size_t n : {0, 1, 2, 3, 100}) sets.emplace_back(random_triangles<T>(n, random));
     const torus<T> shape(12, 8, T(0.7), T(0.3));
-    std::vector<triangle<T>> ring;
-    for (const face& f : shape.faces) ring.push_back({shape.vertices[f[0]], shape.vertices[f[1]], shape.vertices[f[2]]});
-    sets.emplace_back(ring);
+    sets.emplace_back(triangles_of(shape.vertices, shape.faces));
     for (const std::size_t n : {0, 1, 2, 60}) {
-        for (const double far : {0.5, 5.0, 1e3}) {
+        for (const double far : {0.5, 2.0, 1e3}) {
             scene_of_bodies<Policy, triangle_soup<T>> scene(on, sets);
             draws d(seed, 94, n);
             for (std::size_t i = 0; i < n; ++i) {
@@ -101,7 +108,7 @@ void check_random_bodies(const Policy& on) {
             }
             CAPTURE(n, far);
             const std::size_t hits = check_bodies(on, scene);
-            CHECK((n < 60 || hits > (far == 5 ? 1000u : 100u)));
+            CHECK((n < 60 || hits > (far < 1 ? 3000u : far < 3 ? 300u : 0u)));
         }
     }
 }
@@ -115,7 +122,7 @@ void check_cube_lattice(const Policy& on) {
                                   {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 3, 7}, {1, 7, 5}};
     draws d(20270402, 95, 0);
     for (const bool apart : {false, true}) {
-        scene_of_bodies<Policy, mesh<T>> scene(on, {mesh<T>(vertices, faces)});
+        scene_of_bodies<Policy, triangle_soup<T>> scene(on, {triangle_soup<T>(triangles_of(vertices, faces))});
         std::size_t neighbours = 0;
         for (int k = 0; k < 27; ++k) {
             rigid<T> pose;
@@ -232,7 +239,7 @@ void check_all_bodies(const Policy& on) {
     check_random_bodies<T>(on);
     check_cube_lattice<T>(on);
     check_touching_bodies<T>(on);
-    check_ball_bodies<T>(on);
+    if constexpr (host_policy<Policy>) check_ball_bodies<T>(on);  // for the boxes, which a host makes
     check_body_errors<T>(on);
 }
 

@@ -283,12 +283,13 @@ inline constexpr bool is_tree = false;
 template <class Set, memory_space Space, class Layout>
 inline constexpr bool is_tree<bvh<Set, Space, Layout>> = true;
 
+/// Says what is wrong with an index, where it is instantiated; a function would be too late.
 template <class Policy, class Index>
-constexpr void require_tree() {
+struct require_tree {
     static_assert(is_tree<Index>, "abut: a list of pairs or of bodies holds indices made by make_bvh");
     static_assert(std::same_as<typename Index::memory_space, space_of<Policy>>,
                   "abut: an index lies in other memory than the policy works in; make it with the same policy");
-}
+};
 
 /// Entries that have been checked, ready to be asked.
 template <class Policy, class Entries, class Filter, schedule Schedule>
@@ -329,8 +330,8 @@ auto pair_up_entries(const Policy& on, Entries list, const list_options<Filter, 
 template <class Policy, class IndexA, class IndexB, class Filter, schedule Schedule>
 auto pair_up(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
              const list_options<Filter, Schedule>& options, const char* function) {
-    require_tree<Policy, IndexA>();
-    require_tree<Policy, IndexB>();
+    (void)require_tree<Policy, IndexA>{};
+    (void)require_tree<Policy, IndexB>{};
     require_callable(on, options.filter, tagged_pair{});
     for (std::size_t i = 0; i < list.size(); ++i) {
         const auto name = [i] { return "entry " + std::to_string(i) + " of the list"; };

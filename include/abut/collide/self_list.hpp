@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -150,7 +151,7 @@ std::vector<two_bodies> near_bodies(const Policy& on, const std::vector<posed_ob
 template <class Policy, class Index, class Filter, schedule Schedule>
 auto pair_up_bodies(const Policy& on, const std::vector<posed_object<Index>>& bodies,
                     const body_options<Filter, Schedule>& options, const char* function) {
-    require_tree<Policy, Index>();
+    (void)require_tree<Policy, Index>{};
     require_callable(on, options.filter, body_pair{});
     check_count(bodies.size(), function);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
