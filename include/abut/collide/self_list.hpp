@@ -178,7 +178,7 @@ auto pair_up_bodies(const Policy& on, const std::vector<posed_object<Index>>& bo
 // tree. They throw invalid_geometry, whose message names the body (a rotation that is none, a placed coordinate that
 // overflows), error (an index on another device), capacity_error (2^31 bodies, or where the bits of the number of pairs of
 // bodies whose boxes meet and of two ids are more than 64), std::bad_alloc and cuda_error. Each pair of bodies whose boxes
-// meet takes some hundred bytes in host memory and as many in the policy's. Bodies of one shape are searched one after
+// meet takes a few hundred bytes in host memory and as many in the policy's. Bodies of one shape are searched one after
 // another.
 
 /// All pairs of shapes of two different bodies that touch, each once: a result of body_pair, in the policy's memory.
