@@ -11,6 +11,7 @@
 #include <abut/collide/nearest.hpp>
 #include <abut/collide/query.hpp>
 #include <abut/collide/reduce_contacts.hpp>
+#include <abut/collide/self_list.hpp>
 #include <abut/collide/self_pairs.hpp>
 #include <abut/collide/validate.hpp>
 #include <abut/config.hpp>

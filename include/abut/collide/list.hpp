@@ -202,9 +202,24 @@ struct expand_member {
     }
 };
 
+/// Entries as the caller lists them. The source of entries of a list_pairing has these members.
+template <class IndexA, class IndexB>
+struct listed_entries {
+    using index_a = IndexA;
+    using index_b = IndexB;
+    static constexpr const char* noun = "entries";
+    const std::vector<posed_pair<IndexA, IndexB>>* list;
+
+    [[nodiscard]] std::size_t size() const { return list->size(); }
+    /// Two posed indices, a and b.
+    [[nodiscard]] const posed_pair<IndexA, IndexB>& operator[](std::size_t i) const { return (*list)[i]; }
+};
+
 /// A list that is asked about the pairs of its entries; the counterpart of `pairing`.
-template <class Policy, class IndexA, class IndexB, class Filter, schedule Schedule>
+template <class Policy, class Entries, class Filter, schedule Schedule>
 struct list_pairing {
+    using IndexA = typename Entries::index_a;
+    using IndexB = typename Entries::index_b;
     using member = list_member<typename IndexA::view_type, typename IndexB::view_type,
                                decltype(view_of(std::declval<const IndexA&>().set())),
                                decltype(view_of(std::declval<const IndexB&>().set()))>;
@@ -213,7 +228,7 @@ struct list_pairing {
     static_assert(decidable<typename view_type::shape_type_a, typename view_type::shape_type_b>,
                   "abut: queries between sets of these two shapes are not supported");
 
-    const std::vector<posed_pair<IndexA, IndexB>>& list;
+    Entries list;
     list_options<Filter, Schedule> options;
     list_key key;
     execution::buffer_of<Policy, member> members;
@@ -252,13 +267,13 @@ void check_entry(const Policy& on, const posed_object<Index>& x, const char* fun
     const auto shapes = view_of(x.object.set());
     check(on, posed_view<std::remove_const_t<decltype(shapes)>>{shapes, x.pose}, function);
 }
-/// An error names the entry.
-template <class Policy, class Index>
-void check_entry(const Policy& on, const posed_object<Index>& x, std::size_t i, const char* function) {
+/// An error names the entry: by `name()`.
+template <class Policy, class Index, class Name>
+void check_entry(const Policy& on, const posed_object<Index>& x, const char* function, const Name& name) {
     try {
         check_entry(on, x, function);
     } catch (const error&) {
-        check_entry(on, x, (std::string(function) + ": entry " + std::to_string(i) + " of the list").c_str());
+        check_entry(on, x, (std::string(function) + ": " + name()).c_str());
         throw;
     }
 }
@@ -268,16 +283,18 @@ inline constexpr bool is_tree = false;
 template <class Set, memory_space Space, class Layout>
 inline constexpr bool is_tree<bvh<Set, Space, Layout>> = true;
 
-/// A list, ready to be asked, as long as it lives; errors are thrown in the name of `function`.
-template <class Policy, class IndexA, class IndexB, class Filter, schedule Schedule>
-auto pair_up(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
-             const list_options<Filter, Schedule>& options, const char* function) {
-    static_assert(is_tree<IndexA> && is_tree<IndexB>, "abut: a list of pairs holds indices made by make_bvh");
-    static_assert(std::same_as<typename IndexA::memory_space, space_of<Policy>> &&
-                      std::same_as<typename IndexB::memory_space, space_of<Policy>>,
+/// Says what is wrong with an index, where it is instantiated; a function would be too late.
+template <class Policy, class Index>
+struct require_tree {
+    static_assert(is_tree<Index>, "abut: a list of pairs or of bodies holds indices made by make_bvh");
+    static_assert(std::same_as<typename Index::memory_space, space_of<Policy>>,
                   "abut: an index lies in other memory than the policy works in; make it with the same policy");
-    require_callable(on, options.filter, tagged_pair{});
-    using pairing = list_pairing<Policy, IndexA, IndexB, Filter, Schedule>;
+};
+
+/// Entries that have been checked, ready to be asked.
+template <class Policy, class Entries, class Filter, schedule Schedule>
+auto pair_up_entries(const Policy& on, Entries list, const list_options<Filter, Schedule>& options, const char* function) {
+    using pairing = list_pairing<Policy, Entries, Filter, Schedule>;
     using member = typename pairing::member;
     const std::size_t n = list.size();
     std::vector<member> members;
@@ -286,8 +303,6 @@ auto pair_up(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& li
     std::size_t most_a = 0, most_b = 0;
     for (std::size_t i = 0; i < n; ++i) {
         const auto& [a, b] = list[i];
-        check_entry(on, a, i, function);
-        check_entry(on, b, i, function);
         const std::size_t size_a = a.size(), size_b = b.size();
         most_a = std::max(most_a, size_a);
         most_b = std::max(most_b, size_b);
@@ -298,8 +313,8 @@ auto pair_up(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& li
     }
     const list_key key{id_bits(n), {id_bits(most_a), id_bits(most_b)}};
     if (key.bits() > 64 || n > std::numeric_limits<std::uint32_t>::max()) {
-        throw capacity_error(std::string(function) + ": a list of " + std::to_string(n) + " entries with up to " +
-                             std::to_string(most_a) + " and " + std::to_string(most_b) +
+        throw capacity_error(std::string(function) + ": a list of " + std::to_string(n) + " " + Entries::noun +
+                             " with up to " + std::to_string(most_a) + " and " + std::to_string(most_b) +
                              " shapes; expected positions and ids of 64 bits together");
     }
     execution::buffer_of<Policy, member> there(on, n);
@@ -307,8 +322,23 @@ auto pair_up(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& li
     upload(on, members.data(), n, there.data());
     upload(on, walked.data(), walked.size(), which.data());
     for_each_index(on, walked.size(), relate_frames<member>{there.data(), which.data()});
-    return pairing{
-        list, options, key, std::move(there), std::move(which), std::move(rest), std::move(members), std::move(walked)};
+    return pairing{std::move(list),    options,          key, std::move(there), std::move(which), std::move(rest),
+                   std::move(members), std::move(walked)};
+}
+
+/// A list, ready to be asked, as long as it lives; errors are thrown in the name of `function`.
+template <class Policy, class IndexA, class IndexB, class Filter, schedule Schedule>
+auto pair_up(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
+             const list_options<Filter, Schedule>& options, const char* function) {
+    (void)require_tree<Policy, IndexA>{};
+    (void)require_tree<Policy, IndexB>{};
+    require_callable(on, options.filter, tagged_pair{});
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const auto name = [i] { return "entry " + std::to_string(i) + " of the list"; };
+        check_entry(on, list[i].a, function, name);
+        check_entry(on, list[i].b, function, name);
+    }
+    return pair_up_entries(on, listed_entries<IndexA, IndexB>{&list}, options, function);
 }
 
 }  // namespace detail
