@@ -55,29 +55,28 @@ struct says {
         return opinion;
     }
     template <class S, class U>
-    abut::verdict finish(const S&, const U&) const {
-        return opinion;
+    double time(const S&, const U&) const {
+        return 0;
     }
     template <class S, class U>
-    bool resolve(const S&, const U&) const {
-        return opinion == abut::verdict::yes;
+    double time_on_host(const S&, const U&) const {
+        return 0;
     }
 };
 
-/// The pairings that self_impacts makes.
-template <bool Edges, abut::scalar T>
-auto pairing_of(const abut::impact_index<T, abut::host_space>& index, bool sorted) {
+/// The pairs of features of a query of self_impacts.
+template <abut::scalar T>
+auto features_of(const abut::impact_index<T, abut::host_space>& index) {
     using namespace abut::detail;
-    const abut::serial on;
-    if constexpr (Edges) {
-        const feature_options<share_no_vertex_with_edge, abut::traversal::both_at_once> query{
-            .sorted = sorted, .filter = {index.edges().set().t0().view().edges}};
-        return pair_up_self(on, index.edges(), query, "bench_motion", as_they_are{}, near_enough_to_touch{});
-    } else {
-        const feature_options<share_no_vertex_with_face, abut::traversal::both_at_once> query{
-            .sorted = sorted, .filter = {index.mesh().t0().view().faces}};
-        return pair_up(on, index.vertices(), index.faces(), query, "bench_motion", near_enough_to_touch{});
-    }
+    return feature_pairing<true, abut::impact_index<T, abut::host_space>, near_enough_to_touch, no_fronts>(
+        index, index, {}, {}, "bench_motion");
+}
+/// Those that touch, by a judge.
+template <class Pairing, class Judge>
+auto find_hits(const Pairing& pairing, const Judge& judge) {
+    abut::detail::timed_queue<abut::serial> hits(abut::serial{});
+    abut::detail::search_times(abut::serial{}, pairing, judge, hits);
+    return hits.take();
 }
 
 template <abut::scalar T>
@@ -104,13 +103,18 @@ public:
     [[nodiscard]] const std::vector<abut::detail::moving_points<T>>& pairs() const {
         auto& made = pairs_[Edges ? 1 : 0];
         if (!made.empty()) return made;
-        const auto pairing = pairing_of<Edges>(index(), true);
-        const auto keys = abut::detail::find_keys(abut::serial{}, pairing, says{abut::verdict::yes});
-        const auto both = pairing.view();
+        const auto pairing = features_of(index());
+        const auto& both = pairing.view();
+        std::vector<std::uint64_t> keys;
+        const auto hits = find_hits(pairing, says{abut::verdict::unknown});
+        for (std::size_t i = 0; i < hits.size(); ++i) {
+            const std::uint64_t key = hits.data()[i].key;
+            if ((both.key.kind(key) == abut::feature_pair::edge_edge) == Edges) keys.push_back(key);
+        }
+        std::sort(keys.begin(), keys.end());
         candidates_[Edges ? 1 : 0] = keys.size();
         for (std::size_t i = 0; i < keys.size(); i += keys.size() / most_pairs + 1) {
-            const std::uint64_t key = keys.data()[i];
-            made.push_back(abut::detail::points_of(both.shape_a(key), both.shape_b(key)));
+            made.push_back(both.with_shapes(keys[i], abut::detail::take_points<T>{}));
         }
         return made;
     }
@@ -214,23 +218,17 @@ void refit(benchmark::State& state, const scene<T>& of) {
     benchmark::DoNotOptimize(abut::refit(abut::serial{}, of.index(), of.step()));  // derives the order of boxes
     for (auto _ : state) benchmark::DoNotOptimize(abut::refit(abut::serial{}, of.index(), of.step()));
 }
-/// Both kinds, by a judge; returns how many pairs it finds.
-template <abut::scalar T, class Judge>
-std::size_t find_both(const scene<T>& of, const Judge& judge) {
-    return abut::detail::find_keys(abut::serial{}, pairing_of<false>(of.index(), true), judge).size() +
-           abut::detail::find_keys(abut::serial{}, pairing_of<true>(of.index(), true), judge).size();
-}
 template <abut::scalar T>
 void walk(benchmark::State& state, const scene<T>& of) {
-    for (auto _ : state) benchmark::DoNotOptimize(find_both(of, says{abut::verdict::no}));
+    for (auto _ : state) benchmark::DoNotOptimize(find_hits(features_of(of.index()), says{abut::verdict::no}).size());
     state.counters["candidates"] = static_cast<double>(of.template candidates<false>() + of.template candidates<true>());
 }
 template <abut::scalar T>
 void search(benchmark::State& state, const scene<T>& of) {
     std::size_t found = 0;
-    for (auto _ : state) found = find_both(of, abut::detail::touch_in_motion<abut::filtered>{});
+    for (auto _ : state) found = find_hits(features_of(of.index()), abut::detail::time_in_motion<abut::filtered>{}).size();
     state.counters["found"] = static_cast<double>(found);
-    state.counters["key_bytes"] = static_cast<double>(found * sizeof(std::uint64_t));
+    state.counters["hit_bytes"] = static_cast<double>(found * sizeof(abut::detail::timed_key));
 }
 template <class A, abut::scalar T>
 void self_impacts(benchmark::State& state, const scene<T>& of) {

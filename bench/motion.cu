@@ -2,17 +2,17 @@
 //
 // usage: bench_motion_cuda [OUT.json [FOLDER...]]
 //
-// Continuous collision of a mesh with itself on CUDA, all data resident before the clock starts. Each FOLDER has frame0.ply and
-// frame1.ply, the same mesh at two times; without any, scenes are made: 64 to 4,096 triangles flying about. Per scene:
+// Continuous collision of a mesh with itself on CUDA, all data resident before the clock starts. Each FOLDER has frame0.ply
+// and frame1.ply, the same mesh at two times; without any, scenes are made: 64 to 4,096 triangles flying about. Per scene:
 //
 //   build, refit                  the index of the step: trees over faces, edges and vertices
 //   impacts                       self_impacts of the index, sorted, with times; counters: impacts, of vertices, of edges
 //   frame                         refit and impacts: a step of a simulation
-//   KIND/walk/SCHEDULE            the walk alone: candidates are counted. KIND is vertex_face or edge_edge. Counters: what the
-//                                 schedule reports
+//   walk                          all kinds of features are walked together: candidates are counted
+//   KIND/walk/SCHEDULE            the walk of one kind alone, vertex_face or edge_edge. Counters: what the schedule reports
 //   KIND/walk/part/N              the best schedule on an N-th of the blocks
-//   KIND/ARITHMETIC               one elementary test of each candidate in its first stage, and its second, of those that the
-//                                 first left (conservative: all). Counters: candidates, left, found; items a second
+//   KIND/ARITHMETIC               one elementary test of each candidate in its first stage, and its second, of what the
+//                                 first left, with the time. Counters: items, left, found
 //   same                          1 if 100 runs of impacts gave the same
 //
 // Each figure is the median of 21 runs by CUDA events around the whole call.
@@ -31,11 +31,11 @@
 namespace {
 
 using namespace abut::detail;
+using abut::device_space;
+using abut::schedule;
 using bench::counters;
 using bench::joined;
 using bench::table;
-using abut::device_space;
-using abut::schedule;
 using key_queue = abut::execution::work_queue<std::uint64_t, device_space>;
 
 struct count_candidate {
@@ -47,18 +47,27 @@ struct count_candidate {
     ABUT_HD void finish(std::uint64_t, auto&...) const {}
 };
 
-template <class View, class Judge, bool Finish>
-struct test_candidate {
+/// The first stage of a judge, of candidates.
+template <class View, class Judge>
+struct try_candidate {
     View both;
     Judge judge;
     const std::uint64_t* keys;
-    template <class Hits, class Open>
-    ABUT_HD void operator()(std::size_t i, Hits& hits, Open& open) const {
-        const auto s = both.shape_a(keys[i]);
-        const auto t = both.shape_b(keys[i]);
-        const abut::verdict v = Finish ? judge.finish(s, t) : judge.decide(s, t);
-        if (v == abut::verdict::yes) hits.push(keys[i]);
-        if (v == abut::verdict::unknown) open.push(keys[i]);
+    template <class Open>
+    ABUT_HD void operator()(std::size_t i, Open& open) const {
+        if (judge.decide(both.shape_a(keys[i]), both.shape_b(keys[i])) != abut::verdict::no) open.push(keys[i]);
+    }
+};
+/// The second one, of what it left.
+template <class View, class Judge>
+struct time_candidate {
+    View both;
+    Judge judge;
+    const std::uint64_t* keys;
+    template <class Hits>
+    ABUT_HD void operator()(std::size_t i, Hits& hits) const {
+        const double time = judge.time(both.shape_a(keys[i]), both.shape_b(keys[i]));
+        if (time != time_in_bits::none) hits.push({keys[i], time});
     }
 };
 
@@ -70,10 +79,14 @@ std::uint64_t count_candidates(const abut::cuda& on, const Pairing& pairing) {
 }
 
 counters reported(std::uint64_t candidates, const abut::schedule_report& r) {
-    return {{"candidates", static_cast<double>(candidates)}, {"blocks", static_cast<double>(r.workers)},
-            {"nodes", static_cast<double>(r.items)},         {"steals", static_cast<double>(r.steals)},
-            {"stolen", static_cast<double>(r.stolen)},       {"failed_steals", static_cast<double>(r.failed_steals)},
-            {"transfers", static_cast<double>(r.transfers)}, {"balances", static_cast<double>(r.balances)},
+    return {{"candidates", static_cast<double>(candidates)},
+            {"blocks", static_cast<double>(r.workers)},
+            {"nodes", static_cast<double>(r.items)},
+            {"steals", static_cast<double>(r.steals)},
+            {"stolen", static_cast<double>(r.stolen)},
+            {"failed_steals", static_cast<double>(r.failed_steals)},
+            {"transfers", static_cast<double>(r.transfers)},
+            {"balances", static_cast<double>(r.balances)},
             {"idle_share", r.idle_share}};
 }
 
@@ -82,24 +95,24 @@ void add_tests(const abut::cuda& on, table& out, const std::string& name, const 
                std::size_t count) {
     const auto both = pairing.view();
     using view = std::remove_const_t<decltype(both)>;
-    using judge = touch_in_motion<A>;
-    std::size_t left = 0, found = 0;
-    const auto first = [&](key_queue& hits, key_queue& open) {
-        for_each_index(on, count, test_candidate<view, judge, false>{both, {}, near.data()}, hits, open);
+    using judge = time_in_motion<A>;
+    std::size_t left = 0;
+    const auto first = [&](key_queue& open) {
+        for_each_index(on, count, try_candidate<view, judge>{both, {}, near.data()}, open);
     };
     out.add(joined({name, "first"}), 0, [&]() -> counters {
-        key_queue hits(on, 1 << 20), open(on, count + 1);
-        first(hits, open);
-        left = open.size(), found = hits.size();
-        return {{"items", static_cast<double>(count)}, {"left", static_cast<double>(left)}, {"found", static_cast<double>(found)}};
+        key_queue open(on, count + 1);
+        first(open);
+        left = open.size();
+        return {{"items", static_cast<double>(count)}, {"left", static_cast<double>(left)}};
     });
     if (left == 0) return;
-    key_queue hits(on, 1 << 20), open(on, count + 1);
-    first(hits, open);
+    key_queue open(on, count + 1);
+    first(open);
     out.add(joined({name, "second"}), 0, [&]() -> counters {
-        key_queue more(on, 1 << 20), rest(on, 1 << 16);
-        for_each_index(on, open.size(), test_candidate<view, judge, true>{both, {}, open.data()}, more, rest);
-        return {{"items", static_cast<double>(open.size())}, {"found", static_cast<double>(found + more.size())}};
+        timed_queue<abut::cuda> hits(on, std::size_t{1} << 20);
+        for_each_index(on, open.size(), time_candidate<view, judge>{both, {}, open.data()}, hits);
+        return {{"items", static_cast<double>(open.size())}, {"found", static_cast<double>(hits.size())}};
     });
 }
 
@@ -146,7 +159,9 @@ void add_scene(const abut::cuda& on, table& out, const motion_scene::frames& sce
     out.add(joined({name, "build"}), 0, [&]() -> counters {
         return {{"faces", static_cast<double>(make_impact_index(on, step).size())}};
     });
-    out.add(joined({name, "refit"}), 0, [&]() -> counters { return {{"faces", static_cast<double>(refit(on, index, step).size())}}; });
+    out.add(joined({name, "refit"}), 0, [&]() -> counters {
+        return {{"faces", static_cast<double>(refit(on, index, step).size())}};
+    });
     const auto of = [](std::size_t impacts) { return counters{{"impacts", static_cast<double>(impacts)}}; };
     out.add(joined({name, "impacts"}), 0, [&] { return of(self_impacts(on, index).size()); });
     out.add(joined({name, "frame"}), 0, [&] { return of(self_impacts(on, refit(on, index, step)).size()); });
@@ -155,15 +170,21 @@ void add_scene(const abut::cuda& on, table& out, const motion_scene::frames& sce
     for (int run = 0; run < 100; ++run) same = same && to_host(self_impacts(on, index)) == known;
     out.add(joined({name, "same"}), 0, [&]() -> counters { return {{"same", same ? 1.0 : 0.0}}; });
 
+    using features = feature_pairing<true, abut::impact_index<T, device_space>, near_enough_to_touch, no_fronts>;
+    out.add(joined({name, "walk"}), 0, [&]() -> counters {
+        return {{"candidates", static_cast<double>(count_candidates(on, features(index, index, {}, {}, "bench")))}};
+    });
     const auto faces = step.t0().view().faces;
     const auto edges = index.edges().set().t0().view().edges;
     using abut::traversal;
     add_kind(on, out, joined({name, "vertex_face"}), [&]<schedule S>() {
-        const abut::query_options<share_no_vertex_with_face, traversal::both_at_once, S> options{.filter = {faces}};
+        const abut::query_options<motion_scene::share_no_vertex_with_face, traversal::both_at_once, S> options{
+            .filter = {faces}};
         return pair_up(on, index.vertices(), index.faces(), options, "bench");
     });
     add_kind(on, out, joined({name, "edge_edge"}), [&]<schedule S>() {
-        const abut::query_options<share_no_vertex_with_edge, traversal::both_at_once, S> options{.filter = {edges}};
+        const abut::query_options<motion_scene::share_no_vertex_with_edge, traversal::both_at_once, S> options{
+            .filter = {edges}};
         return pair_up_self(on, index.edges(), options, "bench");
     });
 }

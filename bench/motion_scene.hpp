@@ -11,10 +11,25 @@
 #include <string>
 #include <vector>
 
+#include <abut/collide/features.hpp>
 #include <abut/io/read.hpp>
 #include <abut/shape/motion.hpp>
 
 namespace motion_scene {
+
+/// Filters of queries of one kind of features within a mesh.
+struct share_no_vertex_with_face {
+    abut::detail::strided<abut::face> faces;
+    ABUT_HD bool operator()(std::uint32_t v, std::uint32_t f) const {
+        return abut::detail::share_no_vertex(v, abut::detail::corners_at(faces, f));
+    }
+};
+struct share_no_vertex_with_edge {
+    abut::detail::strided<abut::edge> edges;
+    ABUT_HD bool operator()(std::uint32_t i, std::uint32_t j) const {
+        return abut::detail::share_no_vertex(abut::detail::corners_at(edges, i), abut::detail::corners_at(edges, j));
+    }
+};
 
 struct frames {
     std::string name;
@@ -43,7 +58,8 @@ struct frames {
 inline frames read_frames(const std::string& folder) {
     frames scene;
     scene.name = std::filesystem::path(folder).filename().string();
-    const auto first = abut::io::read_mesh<double>(folder + "/frame0.ply"), second = abut::io::read_mesh<double>(folder + "/frame1.ply");
+    const auto first = abut::io::read_mesh<double>(folder + "/frame0.ply"),
+               second = abut::io::read_mesh<double>(folder + "/frame1.ply");
     const auto a = first.view(), b = second.view();
     for (std::size_t i = 0; i < a.vertices.count; ++i) scene.t0.push_back(a.vertices[i]);
     for (std::size_t i = 0; i < b.vertices.count; ++i) scene.t1.push_back(b.vertices[i]);

@@ -10,8 +10,8 @@
 //   refit    the index of the same step from another one
 //   walk     pairs of faces, or of features, whose boxes overlap
 //   boxes    pairs of features whose boxes overlap; of trees over features they are the same
-//   tests    the elementary test of each, as far as it goes before times are computed
-//   impacts  all of self_impacts
+//   tests    the elementary test of each, with the time of those that touch
+//   impacts  all of self_impacts: they are sorted and written as well
 
 #include <cstdint>
 #include <string>
@@ -55,20 +55,19 @@ inline std::string take_folder(int& argc, char** argv) {
     return folder;
 }
 
-/// A judge that lets none pass: what is left of a search is to find what it would judge.
-struct let_none_pass {
-    static constexpr bool may_report_more = true;
+/// A judge by which none touch: what is left of a search is to find what it would judge.
+struct let_none_touch {
     template <class S, class U>
     ABUT_HD abut::verdict decide(const S&, const U&) const {
         return abut::verdict::no;
     }
     template <class S, class U>
-    ABUT_HD abut::verdict finish(const S&, const U&) const {
-        return abut::verdict::no;
+    ABUT_HD double time(const S&, const U&) const {
+        return -1;
     }
     template <class S, class U>
-    bool resolve(const S&, const U&) const {
-        return false;
+    double time_on_host(const S&, const U&) const {
+        return -1;
     }
 };
 
@@ -109,16 +108,17 @@ inline constexpr bool by_faces = requires(const Index& index) {
     index.parts();
 };
 
-/// Calls visit(pairing) for each pairing of a query within an index by trees over features.
-template <class Policy, class Index, class Visitor>
-void visit_pairings(const Policy& on, const Index& index, const Visitor& visit) {
+/// The pairs of faces of a query within an index, and what tells of their features.
+template <class Index>
+auto faces_of(const Index& index) {
+    const auto both = abut::detail::features_of_two<true>(index, index, "bench");
+    return abut::detail::faces_of_one(index, both.key, abut::detail::near_enough_to_touch{});
+}
+/// The pairs of features of such a query by trees over features.
+template <class Index>
+auto features_of(const Index& index) {
     using namespace abut::detail;
-    const auto faces = index.mesh().t0().view().faces;
-    const auto edges = index.edges().set().t0().view().edges;
-    const feature_options<share_no_vertex_with_face> with_faces{.filter = {faces}};
-    const feature_options<share_no_vertex_with_edge> with_edges{.filter = {edges}};
-    visit(pair_up(on, index.vertices(), index.faces(), with_faces, "walk"));
-    visit(pair_up_self(on, index.edges(), with_edges, "walk"));
+    return feature_pairing<true, Index, near_enough_to_touch, no_fronts>(index, index, {}, {}, "bench");
 }
 
 /// The walk alone. Returns how many pairs it finds.
@@ -129,45 +129,60 @@ std::uint64_t walk(const Policy& on, const Index& index) {
         pairing.judge_candidates(on, [&](const auto& loop) { loop(count_candidate{}, count); });
     };
     if constexpr (by_faces<Index>) {
-        judge(abut::detail::faces_of_one(index, abut::detail::near_enough_to_touch{}).first);
+        judge(faces_of(index).first);
     } else {
-        visit_pairings(on, index, judge);
+        judge(features_of(index));
     }
     return count.total();
 }
 
+/// Takes what is pushed, and counts it.
+template <class Count>
+struct push_to_count {
+    Count& count;
+    ABUT_HD void push(std::uint64_t) const { count.add(1); }
+};
+template <class Expand>
+struct count_features_of {
+    Expand expand;
+    ABUT_CALLS_ANY
+    template <class Count>
+    ABUT_HD bool operator()(std::uint64_t key, Count& count) const {
+        const push_to_count<Count> counted{count};
+        expand(key, counted);
+        return true;
+    }
+    ABUT_HD void finish(std::uint64_t, auto&...) const {}
+    ABUT_INLINE void prefetch(std::uint64_t key, int ahead) const { expand.prefetch(key, ahead); }
+};
 /// The pairs of features that pairs of faces tell.
 template <class Policy, class Pairing, class Expand>
 std::uint64_t count_features(const Policy& on, const Pairing& pairing, const Expand& expand) {
-    abut::execution::work_count<abut::space_of<Policy>> vertices(on), edges(on);
-    pairing.judge_candidates(
-        on, [&](const auto& loop) { loop(abut::detail::gather_features<Expand>{expand}, vertices, edges); });
-    return vertices.total() + edges.total();
+    abut::execution::work_count<abut::space_of<Policy>> count(on);
+    pairing.judge_candidates(on, [&](const auto& loop) { loop(count_features_of<Expand>{expand}, count); });
+    return count.total();
 }
 
-/// How many pairs of features pass a judge, and come to be timed.
+/// How many pairs of features touch by a judge.
 template <class Policy, class Index, class Judge>
 std::uint64_t search(const Policy& on, const Index& index, const Judge& judge) {
-    std::uint64_t found = 0;
+    using namespace abut::detail;
+    timed_queue<Policy> hits(on, std::size_t{1} << 20);
     if constexpr (by_faces<Index>) {
-        for (const auto& keys : abut::detail::find_features(on, index, judge, abut::detail::near_enough_to_touch{}, false)) {
-            found += keys.size();
-        }
+        const auto both = features_of_two<true>(index, index, "bench");
+        time_by_faces<true>(on, index, index, both, judge, near_enough_to_touch{}, hits);
     } else {
-        visit_pairings(on, index, [&](auto pairing) {
-            pairing.options.sorted = false;
-            found += abut::detail::find_keys(on, pairing, judge).size();
-        });
+        search_times(on, features_of(index), judge, hits);
     }
-    return found;
+    return hits.size();
 }
 /// On a host pairs are counted where they are found; on a device they are gathered, as a query does.
 template <class Policy, class Index>
 std::uint64_t boxes(const Policy& on, const Index& index) {
     if constexpr (!abut::host_policy<Policy>) {
-        return search(on, index, let_none_pass{});
+        return search(on, index, let_none_touch{});
     } else if constexpr (by_faces<Index>) {
-        const auto [pairing, expand] = abut::detail::faces_of_one(index, abut::detail::near_enough_to_touch{});
+        const auto [pairing, expand] = faces_of(index);
         return count_features(on, pairing, expand);
     } else {
         return walk(on, index);
@@ -175,7 +190,7 @@ std::uint64_t boxes(const Policy& on, const Index& index) {
 }
 template <class Policy, class Index>
 std::uint64_t tests(const Policy& on, const Index& index) {
-    return search(on, index, abut::detail::touch_in_motion<abut::filtered>{});
+    return search(on, index, abut::detail::time_in_motion<abut::filtered>{});
 }
 
 /// What pairs a rule meets on the way, on a host: pairs of faces, and of features before and after their boxes are compared;
@@ -190,7 +205,7 @@ pair_counts count_pairs(const Index& index) {
     const abut::serial on;
     pair_counts counts;
     if constexpr (by_faces<Index>) {
-        const auto [pairing, expand] = faces_of_one(index, near_enough_to_touch{});
+        const auto [pairing, expand] = faces_of(index);
         const auto without_boxes = [](const auto& e) {
             return expand_faces<true, decltype(e.a.faces), std::remove_cvref_t<decltype(e.rule)>, no_boxes>{
                 e.a, e.b, e.faces, e.keys, e.rule, {}};
@@ -204,15 +219,11 @@ pair_counts count_pairs(const Index& index) {
         counts.features = count_features(on, pairing, without_boxes(expand));
         counts.overlapping = count_features(on, pairing, expand);
         if constexpr (Index::keeps_orphans) {
-            const auto views = features_of_two(index, index);
-            const auto look = [&](const auto& both, const auto& orphans) {
-                for (const std::uint64_t key : orphans.to_host()) {
-                    counts.overlapping_orphans += overlaps(bounds(both.shape_a(key)), bounds(both.shape_b(key)));
-                }
-                counts.orphans += orphans.size();
-            };
-            look(views.vertex_face, index.orphans().vertex_face);
-            look(views.edge_edge, index.orphans().edge_edge);
+            const auto both = features_of_two<true>(index, index, "bench");
+            for (const std::uint64_t key : index.orphans().keys.to_host()) {
+                counts.overlapping_orphans += both.with_shapes(key, boxes_are_near<same_frame>{});
+            }
+            counts.orphans = index.orphans().keys.size();
         }
     } else {
         counts.features = counts.overlapping = walk(on, index);

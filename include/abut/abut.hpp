@@ -5,6 +5,7 @@
 
 #include <abut/arithmetic/self_test.hpp>
 #include <abut/collide/contacts.hpp>
+#include <abut/collide/first_impact.hpp>
 #include <abut/collide/impacts.hpp>
 #include <abut/collide/list.hpp>
 #include <abut/collide/nearest.hpp>

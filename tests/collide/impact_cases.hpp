@@ -532,6 +532,15 @@ void check_all_ways(const Policy& on, const impact_case<T>& c) {
     check_same("unsorted, self", as_set(to_host(self_impacts(on, there, {.sorted = false}))), as_set(self));
     CHECK(first_impact(on, a, b) == first_of(between));
     CHECK(first_impact(on, there, b, {.sorted = false}) == first_of(between));
+    CHECK(first_self_impact(on, a) == first_of(self));
+    CHECK(first_self_impact(on, there, {.sorted = false}) == first_of(self));
+    if constexpr (Ways == ways::all) {
+        CHECK(first_impact<exact>(on, a, b) == first_of(between));
+        CHECK(first_impact<fast>(on, a, b) == first_of(to_host(impacts<fast>(on, a, b))));
+        CHECK(first_self_impact<fast>(on, a) == first_of(to_host(self_impacts<fast>(on, a))));
+        const impact_options apart{.bounds = {.tolerance = 0.01, .separation = 0.1}};
+        CHECK(first_impact<conservative>(on, a, b, apart) == first_of(to_host(impacts<conservative>(on, a, b, apart))));
+    }
     const frame<T> rests{c.b.t0, c.b.t0, c.b.faces};
     const auto with_rest = in_order(impacts_by_loops(c.a, rests));
     check_same("against one at rest", to_host(impacts(on, a, c.b.at_rest())), with_rest);
@@ -673,6 +682,7 @@ void check_small_impacts(const Policy& on) {
             const auto expected = in_order(impacts_by_loops(all[i], all[j]));
             check_same("small", to_host(impacts(on, all[i].as_set(), all[j].as_set())), expected);
             CHECK(first_impact(on, all[i].as_set(), all[j].as_set()) == first_of(expected));
+            CHECK(first_self_impact(on, all[i].as_set()) == first_of(in_order(self_impacts_by_loops(all[i]))));
             if constexpr (Ways != ways::filtered_alone) {
                 CHECK(to_host(impacts<conservative>(on, all[i].as_set(), all[j].as_set(), {.bounds = {.separation = 1}}))
                           .size() == impacts_by_loops<conservative>(all[i], all[j], {.separation = 1}).size());
@@ -728,6 +738,7 @@ void check_large_impacts(const Policy& on) {
         check_same("between", to_host(impacts(on, of_a, of_b)), between);
         check_same("within", to_host(self_impacts(on, of_a)), self);
         CHECK(first_impact(on, of_a, of_b) == first_of(between));
+        CHECK(first_self_impact(on, of_a) == first_of(self));
     }
     check_same("from the host", to_host(impacts(on, a, b)), between);
 }

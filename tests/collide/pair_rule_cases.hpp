@@ -133,20 +133,19 @@ moving_set<mesh<T>> drawn_step(const topology& of, uniform& random, double reach
 /// Two numbers of features.
 using feature_list = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-/// A judge that lets all pass: what it finds is what would be tested.
-struct let_all_pass {
-    static constexpr bool may_report_more = true;
+/// A judge by which all features touch at once: what it finds is what would be tested.
+struct let_all_touch {
     template <class S, class U>
     ABUT_HD verdict decide(const S&, const U&) const {
         return verdict::yes;
     }
     template <class S, class U>
-    ABUT_HD verdict finish(const S&, const U&) const {
-        return verdict::yes;
+    ABUT_HD double time(const S&, const U&) const {
+        return 0;
     }
     template <class S, class U>
-    bool resolve(const S&, const U&) const {
-        return true;
+    double time_on_host(const S&, const U&) const {
+        return 0;
     }
 };
 
@@ -227,20 +226,40 @@ truth_of_pairs orphan_truth(const moving_set<mesh<T>>& m) {
     return found;
 }
 
-template <class Keys>
-feature_list unpacked(const Keys& keys, const detail::pair_key& key) {
-    std::vector<std::uint64_t> values(keys.size());
-    keys.read(values.data());
-    feature_list made;
-    for (const std::uint64_t k : values) made.emplace_back(key.a(k), key.b(k));
+/// By kind, ascending.
+inline truth_of_pairs unpacked(std::vector<std::uint64_t> keys, const detail::feature_key& key) {
+    std::sort(keys.begin(), keys.end());
+    truth_of_pairs made;
+    for (const std::uint64_t k : keys) {
+        const feature_pair kind = key.kind(k);
+        feature_list& list = kind == feature_pair::vertex_face   ? made.vertex_face
+                             : kind == feature_pair::face_vertex ? made.face_vertex
+                                                                 : made.edge_edge;
+        list.emplace_back(key.a(k), key.b(k));
+    }
     return made;
 }
-template <class Keys, class Views>
-void check_tested(const Keys& tested, const Views& views, const truth_of_pairs& expected) {
-    const auto keys = views.keys();
-    CHECK(unpacked(tested[0], keys.vertex_face) == expected.vertex_face);
-    CHECK(unpacked(tested[1], keys.face_vertex) == expected.face_vertex);
-    CHECK(unpacked(tested[2], keys.edge_edge) == expected.edge_edge);
+/// The pairs of features that a query of two indices, or `Within` one, tests.
+template <bool Within, class Policy, class Index>
+truth_of_pairs tested_pairs(const Policy& on, const Index& x, const Index& y) {
+    const auto both = detail::features_of_two<Within>(x, y, "test");
+    detail::timed_queue<Policy> hits(on);
+    detail::time_by_faces<Within>(on, x, y, both, let_all_touch{}, detail::near_enough_to_touch{}, hits);
+    auto buffer = hits.take();
+    std::vector<detail::timed_key> timed(buffer.size());
+    buffer.read(timed.data());
+    std::vector<std::uint64_t> keys;
+    for (const auto& hit : timed) keys.push_back(hit.key);
+    return unpacked(keys, both.key);
+}
+template <class Index>
+truth_of_pairs orphans_of(const Index& index) {
+    return unpacked(index.orphans().keys.to_host(), detail::features_of_two<true>(index, index, "test").key);
+}
+inline void check_tested(const truth_of_pairs& tested, const truth_of_pairs& expected) {
+    CHECK(tested.vertex_face == expected.vertex_face);
+    CHECK(tested.face_vertex == expected.face_vertex);
+    CHECK(tested.edge_edge == expected.edge_edge);
 }
 
 /// What rules were seen to do, so that a test of nothing is noticed.
@@ -254,11 +273,15 @@ void check_rule_within(const Policy& on, const moving_set<mesh<T>>& step, const 
                        rules_seen& seen) {
     const auto check = [&](const auto& index, const auto& of, const auto& impacts_of) {
         CHECK(to_host(self_impacts(on, index)) == impacts_of);
+        const auto earliest = [](const auto& i, const auto& j) { return i.time < j.time; };
+        const auto first = std::min_element(impacts_of.begin(), impacts_of.end(), earliest);
+        const auto found = first_self_impact(on, index);
+        CHECK(found.has_value() == (first != impacts_of.end()));
+        if (found) CHECK(*found == *first);
         auto any_order = to_host(self_impacts(on, index, {.sorted = false}));
         CHECK(any_order.size() == impacts_of.size());
         CHECK(std::is_permutation(any_order.begin(), any_order.end(), impacts_of.begin(), impacts_of.end()));
-        const auto tested = detail::find_features(on, index, let_all_pass{}, detail::near_enough_to_touch{}, true);
-        check_tested(tested, detail::features_of_two(index, index), self_truth_of_pairs(of));
+        check_tested(tested_pairs<true>(on, index, index), self_truth_of_pairs(of));
     };
     const auto index = make_impact_index<Rule>(on, step);
     check(index, step, expected);
@@ -267,27 +290,21 @@ void check_rule_within(const Policy& on, const moving_set<mesh<T>>& step, const 
     CHECK(moved.parts().parts.data() == index.parts().parts.data());
     if constexpr (Rule == pair_rule::orphan_sets) {
         const auto orphans = orphan_truth(step);
-        const auto keys = detail::features_of_two(index, index).keys();
-        const auto check_list = [&](const auto& array, const detail::pair_key& key, const feature_list& list) {
-            feature_list found;
-            for (const std::uint64_t k : array.to_host()) found.emplace_back(key.a(k), key.b(k));
-            CHECK(found == list);
-            seen.orphans += list.size();
-        };
-        check_list(index.orphans().vertex_face, keys.vertex_face, orphans.vertex_face);
-        check_list(index.orphans().edge_edge, keys.edge_edge, orphans.edge_edge);
-        CHECK(moved.orphans().vertex_face.data() == index.orphans().vertex_face.data());
-        CHECK(moved.orphans().edge_edge.data() == index.orphans().edge_edge.data());
+        check_tested(orphans_of(index), orphans);
+        seen.orphans += orphans.vertex_face.size() + orphans.edge_edge.size();
+        CHECK(moved.orphans().keys.data() == index.orphans().keys.data());
     }
 }
 
-/// Of `fast` and `conservative`, which report what they like of what they are asked; on hosts, since a device may round otherwise.
+/// Of `fast` and `conservative`, which report what they like of what they are asked; on hosts, since a device may round
+/// otherwise.
 template <pair_rule Rule, motion_arithmetic A, class T, class Policy>
 void check_rule_by(const Policy& on, const moving_set<mesh<T>>& a, const moving_set<mesh<T>>& b,
                    const conservative_bounds& bounds = {}) {
     if constexpr (host_policy<Policy>) {
         const auto x = make_impact_index<Rule>(on, a), y = make_impact_index<Rule>(on, b);
-        CHECK(to_host(self_impacts<A>(on, x, {.bounds = bounds})) == to_host(self_impacts<A>(serial{}, a, {.bounds = bounds})));
+        CHECK(to_host(self_impacts<A>(on, x, {.bounds = bounds})) ==
+              to_host(self_impacts<A>(serial{}, a, {.bounds = bounds})));
         CHECK(to_host(impacts<A>(on, x, y, {.bounds = bounds})) == to_host(impacts<A>(serial{}, a, b, {.bounds = bounds})));
     }
 }
@@ -302,8 +319,7 @@ void check_rule_between(const Policy& on, const moving_set<mesh<T>>& a, const mo
     const auto first = first_impact(on, x, y);
     CHECK(first.has_value() == !expected.empty());
     CHECK(first == first_impact(serial{}, a, b));
-    const auto tested = detail::find_features(on, x, y, let_all_pass{}, detail::near_enough_to_touch{}, true);
-    check_tested(tested, detail::features_of_two(x, y), truth_of_two(a, b));
+    check_tested(tested_pairs<false>(on, x, y), truth_of_two(a, b));
 }
 
 /// A mesh, the step after, and another mesh.

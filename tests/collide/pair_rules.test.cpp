@@ -19,7 +19,8 @@ TEST_CASE("pair rules: orphans of known meshes") {
     const auto count = [](const topology& of) {
         uniform random(20270304);
         const auto index = make_impact_index<pair_rule::orphan_sets>(serial{}, drawn_step<double>(of, random));
-        return std::pair(index.orphans().vertex_face.size(), index.orphans().edge_edge.size());
+        const truth_of_pairs found = orphans_of(index);
+        return std::pair(found.vertex_face.size(), found.edge_edge.size());
     };
     const topology tetrahedron{"tetrahedron", 4, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}};
     CHECK(count(tetrahedron) ==
@@ -49,8 +50,8 @@ TEST_CASE("pair rules: scenes of simulations") {
         const auto orphans = make_impact_index<pair_rule::orphan_sets>(on, step);
         CHECK(to_host(self_impacts(on, make_impact_index<pair_rule::representative_triangles>(on, step))) == expected);
         CHECK(to_host(self_impacts(on, orphans)) == expected);
-        std::printf("pair rules, %s: %zu impacts, orphans %zu + %zu of %zu faces\n", name, expected.size(),
-                    orphans.orphans().vertex_face.size(), orphans.orphans().edge_edge.size(), faces.size());
+        std::printf("pair rules, %s: %zu impacts, %zu orphans of %zu faces\n", name, expected.size(),
+                    orphans.orphans().keys.size(), faces.size());
         CHECK(expected.size() > 100);
     }
 }

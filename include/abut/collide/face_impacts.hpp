@@ -4,16 +4,17 @@
 // The index of a mesh in motion for the rules that find pairs of features by pairs of faces (pair_rule.hpp), and how queries
 // look in it. make_impact_index (impacts.hpp) makes one.
 
-#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <type_traits>
 #include <utility>
 
+#include <abut/collide/features.hpp>
 #include <abut/collide/options.hpp>
 #include <abut/collide/orphan_sets.hpp>
 #include <abut/collide/pair_rule.hpp>
 #include <abut/collide/representatives.hpp>
+#include <abut/collide/self_pairing.hpp>
+#include <abut/collide/timed_search.hpp>
 #include <abut/index/bvh.hpp>
 #include <abut/shape/motion.hpp>
 
@@ -55,36 +56,28 @@ private:
 
 namespace detail {
 
+/// The views of pairs of features of two indices, which may be one.
+template <bool Within, class X>
+auto features_of_two(const X& x, const X& y, const char* function) {
+    using view = feature_pairs<typename X::scalar_type, typename X::memory_space>;
+    return view({x.mesh(), x.edges()}, {y.mesh(), y.edges()}, Within, function);
+}
+
 /// Of a mesh in the policy's memory.
 template <pair_rule Rule, class Policy, scalar T>
 auto make_face_impact_index(const Policy& on, const moving_set<mesh<T, space_of<Policy>>>& resident,
                             const bvh_options& options, const char* function) {
     using index = face_impact_index<T, space_of<Policy>, Rule>;
     auto edges = abut::edges(on, resident);
-    const auto view = resident.t0().view();
-    const strided<edge> edges_seen = edges.t0().view().edges;
-    auto [parts, faces_of] = make_face_parts(on, view.faces, edges_seen, view.vertices.count, function);
+    const features_of_mesh<T, space_of<Policy>> features(resident, edges);
+    auto [parts, faces_of] =
+        make_face_parts(on, features.faces.t0.faces, features.edges.t0.edges, features.vertices.size(), function);
     typename index::orphans_type orphans{};
     if constexpr (index::keeps_orphans) {
-        orphans = make_orphans(on, view.faces, edges_seen, view.vertices.count, parts, std::move(faces_of));
+        const feature_pairs<T, space_of<Policy>> both(features, features, true, function);
+        orphans = make_orphans(on, both, parts, std::move(faces_of));
     }
     return index(make_bvh(on, resident, options), std::move(edges), std::move(parts), std::move(orphans));
-}
-
-/// The views of pairs of features of two indices, of which both may be the same.
-template <class X>
-auto features_of_two(const X& x, const X& y) {
-    const auto vertices_x = vertices(x.mesh()).view(), vertices_y = vertices(y.mesh()).view();
-    const auto faces_x = x.mesh().view(), faces_y = y.mesh().view();
-    const auto edges_x = x.edges().view(), edges_y = y.edges().view();
-    using points = std::remove_const_t<decltype(vertices_x)>;
-    using faces = std::remove_const_t<decltype(faces_x)>;
-    using edges = std::remove_const_t<decltype(edges_x)>;
-    const auto key = [](const auto& a, const auto& b) { return pair_key{id_bits(a.size()), id_bits(b.size())}; };
-    return views_of_features<pair_view<points, faces, keep_all>, pair_view<faces, points, keep_all>,
-                             pair_view<edges, edges, keep_all>>{{vertices_x, faces_y, key(vertices_x, faces_y), {}},
-                                                                {faces_x, vertices_y, key(faces_x, vertices_y), {}},
-                                                                {edges_x, edges_y, key(edges_x, edges_y), {}}};
 }
 
 template <class X>
@@ -94,11 +87,10 @@ using face_view = faces_with_parts<std::remove_cvref_t<decltype(std::declval<con
 
 /// Pairs of faces of one index, and what tells of their features.
 template <class X, class Nearness>
-auto faces_of_one(const X& x, const Nearness& near) {
+auto faces_of_one(const X& x, const feature_key& keys, const Nearness& near) {
     const face_operand<X> operand{x.faces()};
     const int bits = id_bits(x.size());
     const face_view<X> faces{x.mesh().view(), x.parts().parts.data()};
-    const feature_keys keys = features_of_two(x, x).keys();
     const auto overlap = box_overlap(operand, operand, near);
     using pairs =
         self_pairing<face_operand<X>, keep_all, traversal::both_at_once, schedule::static_partition, as_they_are, Nearness>;
@@ -117,7 +109,7 @@ auto faces_of_one(const X& x, const Nearness& near) {
 
 /// And of two.
 template <class X, class Nearness>
-auto faces_of_two(const X& x, const X& y, const Nearness& near) {
+auto faces_of_two(const X& x, const X& y, const feature_key& keys, const Nearness& near) {
     using operand = face_operand<X>;
     const operand a{x.faces()}, b{y.faces()};
     const face_view<X> faces_x{x.mesh().view(), x.parts().parts.data()}, faces_y{y.mesh().view(), y.parts().parts.data()};
@@ -125,57 +117,23 @@ auto faces_of_two(const X& x, const X& y, const Nearness& near) {
     const auto overlap = box_overlap(a, b, near);
     using both = pairing<operand, operand, keep_all, traversal::both_at_once, schedule::static_partition, Nearness>;
     using expand = expand_faces<false, decltype(faces_x.faces), tell_where_given, std::remove_const_t<decltype(overlap)>>;
-    return std::pair(both{a, b, key, {}, near}, expand{faces_x, faces_y, key, features_of_two(x, y).keys(), {}, overlap});
+    return std::pair(both{a, b, key, {}, near}, expand{faces_x, faces_y, key, keys, {}, overlap});
 }
 
-/// What a judge finds, as keys of pairs of features, by kinds.
-template <class Policy>
-using keys_by_kind = std::array<execution::buffer_of<Policy, std::uint64_t>, 3>;
-
-template <class Policy, class Views>
-keys_by_kind<Policy> take_keys(const Policy& on, feature_queues<Policy>& hits, const Views& views, bool sorted) {
-    const feature_keys keys = views.keys();
-    const int bits[] = {keys.vertex_face.bits(), keys.face_vertex.bits(), keys.edge_edge.bits()};
-    keys_by_kind<Policy> taken;
-    for (std::size_t kind = 0; kind < 3; ++kind) {
-        taken[kind] = hits[kind].take();
-        if (sorted) sort_keys(on, taken[kind], bits[kind]);
+/// Leaves in `hits` the pairs of features of two indices, or `Within` one, that touch, with their times.
+template <bool Within, class Policy, class X, class View, class Judge, class Nearness>
+void time_by_faces(const Policy& on, const X& x, const X& y, const View& both, const Judge& judge, const Nearness& near,
+                   timed_queue<Policy>& hits) {
+    if constexpr (Within) {
+        const auto [pairing, expand] = faces_of_one(x, both.key, near);
+        time_faces(on, pairing, expand, both, judge, hits);
+        if constexpr (X::keeps_orphans) time_orphans(on, both, x.orphans().keys, judge, expand.near, hits);
+    } else {
+        const auto [pairing, expand] = faces_of_two(x, y, both.key, near);
+        time_faces(on, pairing, expand, both, judge, hits);
+        time_loose<true>(on, both, y.parts().loose, x.faces(), judge, near, hits);
     }
-    return taken;
-}
-
-template <class Policy>
-feature_queues<Policy> make_feature_queues(const Policy& on, std::size_t faces) {
-    const std::size_t likely = std::max(faces / 4, std::size_t{1} << 20);
-    return {key_queue<Policy>(on, likely), key_queue<Policy>(on, likely), key_queue<Policy>(on, likely)};
-}
-
-/// The pairs of features of one index.
-template <class Policy, class X, class Judge, class Nearness>
-keys_by_kind<Policy> find_features(const Policy& on, const X& x, const Judge& judge, const Nearness& near, bool sorted) {
-    const auto views = features_of_two(x, x);
-    const auto [pairing, expand] = faces_of_one(x, near);
-    auto hits = make_feature_queues(on, x.size());
-    search_features(on, pairing, expand, views, judge, hits);
-    find_loose<false>(on, views.vertex_face, x.parts().loose, x.faces(), judge, near, hits[0]);
-    if constexpr (X::keeps_orphans) {
-        search_orphans(on, views.vertex_face, x.orphans().vertex_face, judge, expand.near, hits[0]);
-        search_orphans(on, views.edge_edge, x.orphans().edge_edge, judge, expand.near, hits[2]);
-    }
-    return take_keys(on, hits, views, sorted);
-}
-
-/// And of two.
-template <class Policy, class X, class Judge, class Nearness>
-keys_by_kind<Policy> find_features(const Policy& on, const X& x, const X& y, const Judge& judge, const Nearness& near,
-                                   bool sorted) {
-    const auto views = features_of_two(x, y);
-    const auto [pairing, expand] = faces_of_two(x, y, near);
-    auto hits = make_feature_queues(on, std::max(x.size(), y.size()));
-    search_features(on, pairing, expand, views, judge, hits);
-    find_loose<false>(on, views.vertex_face, x.parts().loose, y.faces(), judge, near, hits[0]);
-    find_loose<true>(on, views.face_vertex, y.parts().loose, x.faces(), judge, near, hits[1]);
-    return take_keys(on, hits, views, sorted);
+    time_loose<false>(on, both, x.parts().loose, y.faces(), judge, near, hits);
 }
 
 }  // namespace detail

@@ -131,13 +131,12 @@ private:
     }
 };
 
-/// The pairs of features of one mesh that no two faces apart have, as keys: of a vertex and a face, ascending, and of two
-/// edges.
+/// The pairs of features of one mesh that no two faces apart have, as keys, ascending.
 template <memory_space Space>
 struct orphan_pairs {
     feature_incidences<Space> faces_of;
     shared_array<given_faces, Space> given;
-    shared_array<std::uint64_t, Space> vertex_face, edge_edge;
+    shared_array<std::uint64_t, Space> keys;
 
     [[nodiscard]] tell_where_first_apart rule(const strided<face>& faces) const {
         return {faces, faces_of.vertices.view(), faces_of.edges.view(), given.data()};
@@ -150,11 +149,11 @@ struct find_orphans {
     tell_where_first_apart rule;
     const face_part* parts;
     strided<edge> edges;
-    pair_key vertex_face, edge_edge;
+    feature_key key;
 
     ABUT_CALLS_ANY
-    template <class VertexFace, class EdgeEdge>
-    ABUT_HD void operator()(std::size_t i, VertexFace& of_vertices, EdgeEdge& of_edges) const {
+    template <class Found>
+    ABUT_HD void operator()(std::size_t i, Found& found) const {
         const auto t = static_cast<std::uint32_t>(i);
         const corner_ids of_t = corners_of(rule.faces, t);
         const face_part part = parts[t];
@@ -163,7 +162,7 @@ struct find_orphans {
             const std::uint32_t w = of_t.of[k];
             for (std::uint32_t at = rule.vertices.begin(w); at < rule.vertices.end(w); ++at) {
                 const std::uint32_t s = rule.vertices.face(at);
-                if (s != t && is_met_first(of_t, k, at, s)) look_at(of_t, part, s, of_vertices, of_edges);
+                if (s != t && is_met_first(of_t, k, at, s)) look_at(of_t, part, s, found);
             }
         }
     }
@@ -182,15 +181,14 @@ private:
         return (v == c.of[0]) | (v == c.of[1]) | (v == c.of[2]);
     }
     ABUT_CALLS_ANY
-    template <class VertexFace, class EdgeEdge>
-    ABUT_HD void look_at(const corner_ids& of_t, const face_part& part, std::uint32_t s, VertexFace& of_vertices,
-                         EdgeEdge& of_edges) const {
+    template <class Found>
+    ABUT_HD void look_at(const corner_ids& of_t, const face_part& part, std::uint32_t s, Found& found) const {
         constexpr auto none = tell_where_first_apart::none;
         const corner_ids of_s = corners_of(rule.faces, s);
         for (int k = 0; k < 3; ++k) {
             const std::uint32_t v = of_t.of[k];
             if (part.has_been_given(k) && !has(of_s, v) && rule.first_apart(v, s) == none) {
-                of_vertices.push(vertex_face.pack(v, s));
+                found.push(key.pack(feature_pair::vertex_face, v, s));
             }
         }
         const face_part other = parts[s];
@@ -199,81 +197,78 @@ private:
             const std::uint32_t d = part.edge[k];
             for (int l = 0; l < 3; ++l) {
                 const std::uint32_t e = other.edge[l];
-                if (other.has_been_given(side_features + l) && d < e && share_none(d, e) &&
-                    rule.first_two_apart(d, e).t == none) {
-                    of_edges.push(edge_edge.pack(d, e));
+                if (other.has_been_given(side_features + l) && d < e &&
+                    share_no_vertex(corners_at(edges, d), corners_at(edges, e)) && rule.first_two_apart(d, e).t == none) {
+                    found.push(key.pack(feature_pair::edge_edge, d, e));
                 }
             }
         }
-    }
-    [[nodiscard]] ABUT_HD bool share_none(std::uint32_t d, std::uint32_t e) const {
-        const std::uint32_t *const a = corners_at(edges, d), *const b = corners_at(edges, e);
-        return (a[0] != b[0]) & (a[0] != b[1]) & (a[1] != b[0]) & (a[1] != b[1]);
     }
 };
 
 /// The orphans of faces, in the policy's memory. Time is as the sum of the squares of the numbers of faces that vertices
 /// have, and a fan of n faces has about n^2 orphans.
-template <class Policy>
-orphan_pairs<space_of<Policy>> make_orphans(const Policy& on, const strided<face>& faces, const strided<edge>& edges,
-                                            std::size_t vertex_count, const face_parts<space_of<Policy>>& parts,
+template <class Policy, class View>
+orphan_pairs<space_of<Policy>> make_orphans(const Policy& on, const View& both, const face_parts<space_of<Policy>>& parts,
                                             feature_incidences<space_of<Policy>> faces_of) {
-    orphan_pairs<space_of<Policy>> made{std::move(faces_of), {}, {}, {}};
+    const strided<face> faces = both.a.faces.t0.faces;
+    orphan_pairs<space_of<Policy>> made{std::move(faces_of), {}, {}};
     execution::buffer_of<Policy, given_faces> given(on, faces.count);
     for_each_index(on, faces.count,
                    write_given_faces{faces, parts.parts.data(), made.faces_of.vertices.view(), made.faces_of.edges.view(),
                                      given.data()});
     made.given = shared_array<given_faces, space_of<Policy>>(std::move(given));
-    const pair_key vertex_face{id_bits(vertex_count), id_bits(faces.count)},
-        edge_edge{id_bits(edges.count), id_bits(edges.count)};
-    key_queue<Policy> of_vertices(on, faces.count), of_edges(on, faces.count);
-    for_each_index(on, faces.count, find_orphans{made.rule(faces), parts.parts.data(), edges, vertex_face, edge_edge},
-                   of_vertices, of_edges);
-    const auto sorted = [&](key_queue<Policy>& found, const pair_key& key) {
-        auto keys = found.take();
-        sort_keys(on, keys, key.bits());
-        synchronize(on);
-        return shared_array<std::uint64_t, space_of<Policy>>(std::move(keys));
-    };
-    made.vertex_face = sorted(of_vertices, vertex_face);
-    made.edge_edge = sorted(of_edges, edge_edge);
+    key_queue<Policy> found(on, 2 * faces.count);
+    for_each_index(on, faces.count, find_orphans{made.rule(faces), parts.parts.data(), both.a.edges.t0.edges, both.key},
+                   found);
+    auto keys = found.take();
+    sort_keys(on, keys, both.key.bits());
+    synchronize(on);
+    made.keys = shared_array<std::uint64_t, space_of<Policy>>(std::move(keys));
     return made;
 }
 
-/// Hands on orphans whose boxes overlap.
+/// Whether the boxes of two features come near each other.
+template <class Overlap>
+struct boxes_are_near {
+    Overlap near;
+    template <class S, class U>
+    ABUT_HD bool operator()(const S& s, const U& t) const {
+        return near(bounds(s), bounds(t));
+    }
+};
+/// Hands on orphans whose boxes do; times them where they are found, on a host.
 template <class View, class Overlap>
 struct gather_orphan {
     View both;
-    Overlap near;
+    boxes_are_near<Overlap> near;
     const std::uint64_t* keys;
     ABUT_CALLS_ANY
-    template <class Near>
-    ABUT_HD void operator()(std::size_t i, Near& found) const {
-        if (near(bounds(both.shape_a(keys[i])), bounds(both.shape_b(keys[i])))) found.push(keys[i]);
+    template <class Vertices, class Edges>
+    ABUT_HD void operator()(std::size_t i, Vertices& vertices, Edges& edges) const {
+        if (both.with_shapes(keys[i], near)) push_by_kind<Vertices, Edges>{both.key, vertices, edges}.push(keys[i]);
     }
 };
-/// Orphans that are judged where they are found, on a host.
 template <class View, class Judge, class Overlap>
-struct judge_orphan {
-    gather_orphan<View, Overlap> orphans;
-    judge_key<View, Judge> judge;
+struct time_orphan {
+    time_at_once<View, Judge> judge;
+    boxes_are_near<Overlap> near;
+    const std::uint64_t* keys;
     template <class Hits>
     void operator()(std::size_t i, Hits& hits) const {
-        const decide_at_once<judge_key<View, Judge>, Hits> decide{judge, hits};
-        orphans(i, decide);
+        if (judge.both.with_shapes(keys[i], near)) time_pushed<View, Judge, Hits>{judge, hits}.push(keys[i]);
     }
 };
 
 template <class Policy, class View, class Judge, class Overlap>
-void search_orphans(const Policy& on, const View& both, const shared_array<std::uint64_t, space_of<Policy>>& orphans,
-                    const Judge& judge, const Overlap& near, key_queue<Policy>& hits) {
-    const gather_orphan<View, Overlap> gather{both, near, orphans.data()};
+void time_orphans(const Policy& on, const View& both, const shared_array<std::uint64_t, space_of<Policy>>& orphans,
+                  const Judge& judge, const Overlap& near, timed_queue<Policy>& hits) {
     if constexpr (host_policy<Policy>) {
-        for_each_index(on, orphans.size(), judge_orphan<View, Judge, Overlap>{gather, {both, judge, {}}}, hits);
+        for_each_index(on, orphans.size(), time_orphan<View, Judge, Overlap>{{both, judge}, {near}, orphans.data()}, hits);
     } else {
-        key_queue<Policy> found(on, orphans.size());
-        for_each_index(on, orphans.size(), gather, found);
-        judge_gathered(on, both, judge, found.data(), found.size(), hits);
+        key_queue<Policy> vertices(on, orphans.size()), edges(on, orphans.size());
+        for_each_index(on, orphans.size(), gather_orphan<View, Overlap>{both, {near}, orphans.data()}, vertices, edges);
+        time_candidates(on, both, judge, in_two_queues(vertices, edges), hits);
     }
 }
 

@@ -127,87 +127,6 @@ void search(const Policy& on, const Pairing& pairing, const Judge& judge, Hits& 
         on, judged_loops<Policy, view, Judge, Hits>(on, pairing.view(), judge, pairing.options.most_pairs, hits));
 }
 
-/// A judge that `may_report_more` than there is, since what reads the pairs that were found looks at them again: so nothing is
-/// left to the host here. On a device candidates are gathered first, as many as find room, and then judged, each stage with
-/// full warps: a walk that decides would hold the registers of both.
-template <class Judge>
-inline constexpr bool judges_apart = requires { requires Judge::may_report_more; };
-
-struct gather_candidate {
-    part_of_open part;
-    ABUT_CALLS_ANY
-    template <class Near>
-    ABUT_HD bool operator()(std::uint64_t key, Near& near, auto&...) const {
-        if (part.holds(key)) near.push(key);
-        return true;
-    }
-    ABUT_HD void finish(std::uint64_t, auto&...) const {}
-};
-/// The first try of candidates, and what it leaves.
-template <class View, class Judge>
-struct try_gathered {
-    View both;
-    Judge judge;
-    const std::uint64_t* keys;
-    ABUT_CALLS_ANY
-    template <class Hits, class Open>
-    ABUT_HD void operator()(std::size_t i, Hits& hits, Open& open) const {
-        const verdict v = judge.decide(both.shape_a(keys[i]), both.shape_b(keys[i]));
-        if (v == verdict::yes) hits.push(keys[i]);
-        if (v == verdict::unknown) open.push(keys[i]);
-    }
-};
-template <class View, class Judge>
-struct finish_gathered {
-    View both;
-    Judge judge;
-    const std::uint64_t* keys;
-    ABUT_CALLS_ANY
-    template <class Hits>
-    ABUT_HD void operator()(std::size_t i, Hits& hits) const {
-        if (judge.finish(both.shape_a(keys[i]), both.shape_b(keys[i])) != verdict::no) hits.push(keys[i]);
-    }
-};
-
-/// Judges candidates that have been gathered.
-template <class Policy, class View, class Judge>
-void judge_gathered(const Policy& on, const View& both, const Judge& judge, const std::uint64_t* keys, std::size_t count,
-                    key_queue<Policy>& hits) {
-    key_queue<Policy> open(on, std::max(count / 8, std::size_t{1} << 16));
-    for_each_index(on, count, try_gathered<View, Judge>{both, judge, keys}, hits, open);
-    for_each_index(on, open.size(), finish_gathered<View, Judge>{both, judge, open.data()}, hits);
-}
-
-/// Room for what such a judge finds, 8 MiB.
-inline constexpr std::size_t least_hits_apart = std::size_t{1} << 20;
-/// Candidates that are gathered on a device at a time: 128 for each shape, 64 MiB of them at least and 512 at most.
-inline constexpr std::size_t least_gathered = std::size_t{1} << 23, most_gathered = std::size_t{1} << 26;
-
-/// Gathers a part of a pairing's candidates in `room`, as many as there is room for. Returns how many there are.
-template <class Policy, class Pairing>
-std::size_t gather_part(const Policy& on, const Pairing& pairing, part_of_open part,
-                        execution::buffer_of<Policy, std::uint64_t>& room) {
-    std::size_t count = 0;  // of all loops of a walk
-    pairing.judge_candidates(on, [&](const auto& loop) {
-        const std::size_t taken = std::min(count, room.size());
-        execution::capped_queue<std::uint64_t, space_of<Policy>> near(room.data() + taken, room.size() - taken);
-        loop(gather_candidate{part}, near);
-        count += static_cast<std::size_t>(near.pushed());
-    });
-    return count;
-}
-
-/// A search by a judge that may report more. Where there are more candidates than may be gathered, it looks for a part of them
-/// at a time.
-template <class Policy, class Pairing, class Judge>
-void search_apart(const Policy& on, const Pairing& pairing, const Judge& judge, key_queue<Policy>& hits,
-                  execution::buffer_of<Policy, std::uint64_t>& room, part_of_open part = {}) {
-    const std::size_t count = gather_part(on, pairing, part, room);
-    if (count <= room.size()) return judge_gathered(on, pairing.view(), judge, room.data(), count, hits);
-    const auto more = static_cast<std::uint32_t>(2 * count / room.size() + 1);
-    for (std::uint32_t k = 0; k < more; ++k) search_apart(on, pairing, judge, hits, room, part.split(k, more));
-}
-
 /// What a judge says of each pair that was found.
 template <class View, class Judge, class Answer>
 struct answer_key {
@@ -221,16 +140,8 @@ struct answer_key {
 /// The keys of all pairs that a judge finds, ascending if the options say so.
 template <class Policy, class Pairing, class Judge>
 auto find_keys(const Policy& on, const Pairing& pairing, const Judge& judge) {
-    // Where a queue proves too small, its loop runs again.
-    key_queue<Policy> hits(on, std::max(pairing.likely_hits(), judges_apart<Judge> ? least_hits_apart : 0));
-    if constexpr (judges_apart<Judge> && !host_policy<Policy>) {
-        const auto both = pairing.view();
-        const std::size_t shapes = std::max(both.a.size(), both.b.size());
-        execution::buffer_of<Policy, std::uint64_t> room(on, std::clamp(128 * shapes, least_gathered, most_gathered));
-        search_apart(on, pairing, judge, hits, room);
-    } else {
-        search(on, pairing, judge, hits);
-    }
+    key_queue<Policy> hits(on, pairing.likely_hits());
+    search(on, pairing, judge, hits);
     auto keys = hits.take();
     if (pairing.options.sorted) sort_keys(on, keys, pairing.key.bits());
     return keys;

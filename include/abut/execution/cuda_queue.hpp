@@ -111,14 +111,17 @@ public:
         T* data;
         std::uint64_t capacity;
         std::uint64_t* count;
-        /// The lanes of a warp that push together count together.
-        __device__ void push(const T& value) const {
+        /// A place. The lanes of a warp that ask together count together.
+        [[nodiscard]] __device__ std::uint64_t take_place() const {
             const unsigned lanes = __activemask();
             const int leader = __ffs(static_cast<int>(lanes)) - 1;
             const unsigned lane = detail::lane_id();
             std::uint64_t first = 0;
             if (static_cast<int>(lane) == leader) first = atomic_add(count, static_cast<std::uint64_t>(__popc(lanes)));
-            const std::uint64_t at = __shfl_sync(lanes, first, leader) + __popc(lanes & ((1u << lane) - 1));
+            return __shfl_sync(lanes, first, leader) + __popc(lanes & ((1u << lane) - 1));
+        }
+        __device__ void push(const T& value) const {
+            const std::uint64_t at = take_place();
             if (at < capacity) data[at] = value;
         }
         __device__ void close() const {}
@@ -285,6 +288,22 @@ private:
     T* items_;
     std::size_t capacity_;
     std::uint64_t pushed_ = 0;
+};
+
+/// The same, filled from the end of the caller's memory on: two share one room, of which nobody knows how much each needs.
+template <class T>
+class capped_queue_from_end<T, device_space> : public capped_queue<T, device_space> {
+    using base = capped_queue<T, device_space>;
+
+public:
+    struct sink : base::sink {
+        __device__ void push(const T& value) const {
+            const std::uint64_t at = this->take_place();
+            if (at < this->capacity) this->data[this->capacity - 1 - at] = value;
+        }
+    };
+    using base::base;
+    [[nodiscard]] sink make_sink(std::uint64_t* count) { return {base::make_sink(count)}; }
 };
 
 /// What a loop leaves open. Where one hit will do, the loop rests when there is enough to finish first.

@@ -39,8 +39,11 @@ template <class F, memory_space Space>
 class work_visit;
 template <class T, memory_space Space>
 class bounded_queue;
+// Of devices alone (execution/cuda_queue.hpp).
 template <class T, memory_space Space>
-class capped_queue;  // of devices alone
+class capped_queue;
+template <class T, memory_space Space>
+class capped_queue_from_end;
 
 /// Values that may wait on a device to be finished, 8 bytes each as a rule.
 inline constexpr std::uint64_t most_open = std::uint64_t{1} << 21;

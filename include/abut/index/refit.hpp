@@ -310,6 +310,32 @@ struct refit_single {
     ABUT_HD void operator()(std::size_t) const { *root = {bounds(shapes[0]), bvh_child::leaf(0)}; }
 };
 
+/// A tree of the topology of `old` around other shapes, as many. Waits for it.
+template <class Policy, class Storage, shape_view Shapes>
+std::shared_ptr<const Storage> refit_storage(const Policy& on, const Storage& old, const Shapes& shapes) {
+    using T = typename Shapes::scalar_type;
+    const std::size_t n = shapes.size();
+    auto fresh = std::make_shared<Storage>();
+    fresh->root = execution::buffer_of<Policy, bvh_root<T>>(on, n > 0 ? 1 : 0);
+    fresh->nodes = execution::buffer_of<Policy, bvh_node<T>>(on, n > 0 ? n - 1 : 0);
+    fresh->plan = old.plan;
+    if (n == 1) {
+        for_each_index(on, 1, refit_single<Shapes>{shapes, fresh->root.data()});
+    } else if (n > 1) {
+        using boxes = box_view<T, space_of<Policy>>;
+        if constexpr (host_policy<Policy> && !std::same_as<Shapes, boxes>) {
+            // A processor waits for what it reads out of order: a box is one line of memory, a mesh's triangle up to four.
+            execution::buffer_of<Policy, aabb<T>> made(on, n);
+            for_each_index(on, n, write_box<Shapes>{shapes, made.data()});
+            refit_nodes(on, boxes{made.data(), n}, old, *fresh);
+        } else {
+            refit_nodes(on, shapes, old, *fresh);
+        }
+    }
+    synchronize(on);
+    return fresh;
+}
+
 }  // namespace detail
 
 /// A tree of the topology of `tree` over the shapes of `set`, of which there are as many: shape i takes the place of shape
@@ -333,30 +359,12 @@ template <execution_policy Policy, class OldSet, memory_space Space, bvh_layout_
     using T = typename tree_type::scalar_type;
     static_assert(std::same_as<T, typename OldSet::scalar_type>, "abut: the tree and the set have different scalar types");
     const auto shapes = detail::view_of(resident);
-    using shapes_type = std::remove_const_t<decltype(shapes)>;
     const std::size_t n = shapes.size();
     if (n != tree.size()) {
         throw error("abut::refit: the tree has " + std::to_string(tree.size()) + " shapes, the set " + std::to_string(n));
     }
     detail::require_same_device(on, tree, "abut::refit");
-    auto fresh = std::make_shared<typename tree_type::storage>();
-    fresh->root = execution::buffer_of<Policy, bvh_root<T>>(on, n > 0 ? 1 : 0);
-    fresh->nodes = execution::buffer_of<Policy, bvh_node<T>>(on, n > 0 ? n - 1 : 0);
-    const auto& old = tree.stored();
-    fresh->plan = old.plan;
-    if (n == 1) {
-        for_each_index(on, 1, detail::refit_single<shapes_type>{shapes, fresh->root.data()});
-    } else if (n > 1) {
-        if constexpr (host_policy<Policy>) {
-            // A processor waits for what it reads out of order: a box is one line of memory, a mesh's triangle up to four.
-            execution::buffer_of<Policy, aabb<T>> boxes(on, n);
-            for_each_index(on, n, detail::write_box<shapes_type>{shapes, boxes.data()});
-            detail::refit_nodes(on, detail::box_view<T, Space>{boxes.data(), n}, old, *fresh);
-        } else {
-            detail::refit_nodes(on, shapes, old, *fresh);
-        }
-    }
-    synchronize(on);
+    auto fresh = detail::refit_storage(on, tree.stored(), shapes);
     return tree_type(std::move(resident), std::move(fresh));
 }
 

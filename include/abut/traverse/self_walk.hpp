@@ -36,7 +36,11 @@ struct self_walk {
     /// As pair_walk's; the visitor's two ids differ.
     template <class Add, class Visitor>
     ABUT_INLINE ABUT_HD void expand(const item& at, const Add& add, const Visitor& visitor) const {
-        const bool two = at.a != at.b;
+        expand(both, at, at.a != at.b, add, visitor);
+    }
+    /// The same for a walk of any two trees, of which the item may be a node with itself, or `two`.
+    template <class Add, class Visitor>
+    ABUT_INLINE ABUT_HD static void expand(const pairs& both, const item& at, bool two, const Add& add, const Visitor& visitor) {
         both.expand(at, add_once<Add>{add, two}, visit_once<Visitor>{visitor, two});
     }
 

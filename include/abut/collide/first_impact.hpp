@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// first_impact, first_self_impact: the earliest of the impacts. A time up to which it is looked for prunes the walk: boxes
+// are made around that part of the step alone. The walk finds all pairs that touch in it, and others whose boxes are near
+// already. So what is found is the first, or tells how far to look; where nothing is found, the part grows.
+
+#include <algorithm>
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include <abut/arithmetic/limits.hpp>
+#include <abut/collide/face_impacts.hpp>
+#include <abut/collide/impact_index.hpp>
+#include <abut/collide/impacts.hpp>
+#include <abut/index/refit.hpp>
+#include <abut/shape/bounds.hpp>
+#include <abut/shape/features.hpp>
+
+namespace abut {
+
+namespace detail {
+
+/// Where a coordinate is, from the start of a step on until `time`.
+template <scalar T>
+struct coordinate_until {
+    T lower, upper;
+
+    ABUT_HD coordinate_until(T at_t0, T at_t1, double time) : lower(least(at_t0, at_t1)), upper(greatest(at_t0, at_t1)) {
+        const double a = static_cast<double>(at_t0), b = static_cast<double>(at_t1), then = a + time * (b - a);
+        const double error = 0x1p-50 * (absolute(a) + absolute(b)) + 0x1p-1000;
+        const double below = then - error, above = then + error;
+        // Written so that what is no number, where b - a is too large, leaves all of the step.
+        if (a <= b && above < b) upper = no_less(above);
+        if (a >= b && below > b) lower = -no_less(-below);
+    }
+
+private:
+    /// A scalar that is not less than a number between two scalars.
+    ABUT_HD static T no_less(double x) {
+        const T rounded = static_cast<T>(x);
+        return static_cast<double>(rounded) < x ? next_up(rounded) : rounded;
+    }
+};
+
+/// The boxes of vertices until a time.
+template <scalar T>
+struct write_vertex_until {
+    strided<vec3<T>> t0, t1;
+    double time;
+    aabb<T>* out;
+    ABUT_HD void operator()(std::size_t i) const {
+        const vec3<T> p = t0[i], q = t1[i];
+        const coordinate_until<T> x(p.x, q.x, time), y(p.y, q.y, time), z(p.z, q.z, time);
+        out[i] = {{x.lower, y.lower, z.lower}, {x.upper, y.upper, z.upper}};
+    }
+};
+/// And of faces or edges, around those of their vertices.
+template <scalar T, class Element>
+struct write_element_until {
+    strided<Element> elements;
+    const aabb<T>* vertices;
+    aabb<T>* out;
+    ABUT_HD void operator()(std::size_t i) const {
+        const std::uint32_t* const corner = corners_at(elements, i);
+        aabb<T> box = merge(vertices[corner[0]], vertices[corner[1]]);
+        if constexpr (std::tuple_size_v<Element> == 3) box = merge(box, vertices[corner[2]]);
+        out[i] = box;
+    }
+};
+
+/// The trees of an index with boxes around a part of the step, from its start on until a time.
+template <class Policy, scalar T>
+class trees_until {
+    using space = space_of<Policy>;
+    using boxes = box_view<T, space>;
+
+public:
+    trees_until(const Policy& on, const moving_set<mesh<T, space>>& step, double time)
+        : on_(on), count_(step.t0().view().vertices.count), vertices_(on, count_) {
+        const auto t0 = step.t0().view().vertices, t1 = step.t1().view().vertices;
+        for_each_index(on_, count_, write_vertex_until<T>{t0, t1, time, vertices_.data()});
+    }
+    template <class Set>
+    [[nodiscard]] bvh<Set, space> of_vertices(const bvh<Set, space>& tree) const {
+        return {tree.set(), refit_storage(on_, tree.stored(), boxes{vertices_.data(), count_})};
+    }
+    template <class Set, class Element>
+    [[nodiscard]] bvh<Set, space> of_elements(const bvh<Set, space>& tree, const strided<Element>& elements) const {
+        execution::buffer_of<Policy, aabb<T>> made(on_, elements.count);
+        for_each_index(on_, elements.count, write_element_until<T, Element>{elements, vertices_.data(), made.data()});
+        return {tree.set(), refit_storage(on_, tree.stored(), boxes{made.data(), elements.count})};
+    }
+
+private:
+    const Policy& on_;
+    std::size_t count_;
+    execution::buffer_of<Policy, aabb<T>> vertices_;
+};
+
+template <class Policy, scalar T, memory_space Space>
+impact_index<T, Space> until(const Policy& on, const impact_index<T, Space>& index, double time) {
+    const trees_until<Policy, T> trees(on, index.mesh(), time);
+    return {trees.of_elements(index.faces(), index.mesh().t0().view().faces),
+            trees.of_elements(index.edges(), index.edges().set().t0().view().edges), trees.of_vertices(index.vertices())};
+}
+template <class Policy, scalar T, memory_space Space, pair_rule Rule>
+face_impact_index<T, Space, Rule> until(const Policy& on, const face_impact_index<T, Space, Rule>& index, double time) {
+    const trees_until<Policy, T> trees(on, index.mesh(), time);
+    return {trees.of_elements(index.faces(), index.mesh().t0().view().faces), index.edges(), index.parts(), index.orphans()};
+}
+
+/// The earliest impact, and of equal ones the first.
+struct time_and_place {
+    double time;
+    std::size_t place;
+};
+struct earlier_of {
+    ABUT_HD time_and_place operator()(const time_and_place& a, const time_and_place& b) const {
+        return b.time < a.time || (b.time == a.time && b.place < a.place) ? b : a;
+    }
+};
+template <scalar T>
+struct time_of_impact_at {
+    const impact<T>* all;
+    ABUT_HD time_and_place operator()(std::size_t i) const { return {all[i].time, i}; }
+};
+template <class Policy, scalar T>
+std::optional<impact<T>> first_of(const Policy& on, const result<impact<T>, space_of<Policy>>& all) {
+    const time_and_place first =
+        reduce(on, all.size(), time_and_place{infinity<double>, all.size()}, earlier_of{}, time_of_impact_at<T>{all.data()});
+    if (first.place == all.size()) return std::nullopt;
+    impact<T> found;
+    download(on, all.data() + first.place, 1, &found);
+    return found;
+}
+
+/// How much of the step is looked at first, and how much more where nothing touches in it. Where nothing touches at all, the
+/// step is looked at twice.
+inline constexpr double first_part_of_step = 0x1p-4, growth_of_part = 16;
+
+/// The first impact of two indices, or `Within` one. `fast` and `conservative` may tell times at which boxes do not meet
+/// yet: they look at the whole step.
+template <motion_arithmetic A, bool Within, class Policy, class Index, class Fronts>
+auto first_of_indices(const Policy& on, const Index& x, const Index& y, impact_options options, const Fronts& fronts,
+                      const char* function) {
+    options.sorted = true;
+    constexpr bool is_exact = std::same_as<A, filtered> || std::same_as<A, exact>;
+    for (double time = is_exact ? first_part_of_step : 1;;) {
+        const bool whole = time >= 1;
+        const Index part = whole ? x : until(on, x, time);
+        const auto all = [&] {
+            if constexpr (Within) {
+                return impacts_of_indices<A, true>(on, part, part, options, fronts, function);
+            } else {
+                return impacts_of_indices<A, false>(on, part, whole ? y : until(on, y, time), options, fronts, function);
+            }
+        }();
+        const auto first = first_of(on, all);
+        // A time is the true one rounded down. None that is as early by it is missing.
+        const double enough = first ? first->time + last_time_bit : growth_of_part * time;
+        if (whole || (first && enough <= time)) return first;
+        time = std::min(enough, 1.0);
+    }
+}
+
+}  // namespace detail
+
+/// The earliest of the impacts of two meshes, or none: of several at one time, the first in the order of `impacts`. What is
+/// found so far prunes the search: it looks at a first part of the step, and at more where nothing touches in it. Arguments,
+/// answers and errors are those of `impacts`.
+template <motion_arithmetic A = filtered, execution_policy Policy, class X, class Y>
+[[nodiscard]] auto first_impact(const Policy& on, const X& a, const Y& b, const impact_options& options = {}) {
+    constexpr const char* function = "abut::first_impact";
+    const auto [x, y] = detail::impact_operands(on, a, b, function);
+    return detail::first_of_indices<A, false>(on, x, y, options, detail::no_fronts{}, function);
+}
+template <motion_arithmetic A = filtered, execution_policy Policy, class X, class Y>
+[[nodiscard]] auto first_impact(const Policy& on, const X& a, const Y& b, const impact_options& options,
+                                impact_fronts& fronts) {
+    constexpr const char* function = "abut::first_impact";
+    const auto [x, y] = detail::impact_operands(on, a, b, function);
+    return detail::first_of_indices<A, false>(on, x, y, options, detail::fronts_of(fronts), function);
+}
+
+/// The earliest of the impacts of a mesh with itself, as `self_impacts` has them.
+template <motion_arithmetic A = filtered, execution_policy Policy, class X>
+[[nodiscard]] auto first_self_impact(const Policy& on, const X& a, const impact_options& options = {}) {
+    constexpr const char* function = "abut::first_self_impact";
+    const auto x = detail::impact_operand<detail::rule_of<X, X>()>(on, a, function);
+    return detail::first_of_indices<A, true>(on, x, x, options, detail::no_fronts{}, function);
+}
+template <motion_arithmetic A = filtered, execution_policy Policy, class X>
+[[nodiscard]] auto first_self_impact(const Policy& on, const X& a, const impact_options& options, impact_fronts& fronts) {
+    constexpr const char* function = "abut::first_self_impact";
+    const auto x = detail::impact_operand<detail::rule_of<X, X>()>(on, a, function);
+    return detail::first_of_indices<A, true>(on, x, x, options, detail::fronts_of(fronts), function);
+}
+
+}  // namespace abut

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The search for pairs of features that touch, with their times. A judge's first try leaves few pairs, and of these the time
+// says whether they touch at all: so nothing is decided twice.
+//
+// A thread of the host does both where a pair is found. On a device there are three stages, each with full warps: candidates
+// are gathered, as many as find room; the first try reads these; and what it leaves is timed. A walk that does all of it
+// would hold the registers of all three. What a device cannot time it leaves to the host, which comes when all is found
+// (impacts.hpp).
+
+#include <algorithm>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include <abut/collide/features.hpp>
+#include <abut/collide/judge.hpp>
+#include <abut/collide/search.hpp>
+#include <abut/execution/buffer.hpp>
+#include <abut/execution/work_queue.hpp>
+#include <abut/narrow/time_of_impact.hpp>
+
+namespace abut::detail {
+
+/// A judge that tells when two features in motion first touch. Times are 0 or more, time_in_bits::none of features that do
+/// not touch, and time_in_bits::unknown where a host has to be asked.
+///   decide(s, t)        the first try: `no` of those that do not touch
+///   time(s, t)          in registers
+///   time_on_host(s, t)  known
+template <class J, class S, class U>
+concept timing_judge = requires(const J& judge, const S& s, const U& u) {
+    { judge.decide(s, u) } -> std::same_as<verdict>;
+    { judge.time(s, u) } -> std::same_as<double>;
+    { judge.time_on_host(s, u) } -> std::same_as<double>;
+};
+
+// What such a judge says of the shapes of a pair.
+
+template <class Judge>
+struct first_try {
+    const Judge& judge;
+    template <class S, class U>
+    ABUT_INLINE ABUT_HD bool operator()(const S& s, const U& t) const {
+        return judge.decide(s, t) != verdict::no;
+    }
+};
+template <class Judge>
+struct time_by {
+    const Judge& judge;
+    template <class S, class U>
+    ABUT_HD double operator()(const S& s, const U& t) const {
+        return judge.time(s, t);
+    }
+};
+template <class Judge>
+struct time_on_host_by {
+    const Judge& judge;
+    template <class S, class U>
+    double operator()(const S& s, const U& t) const {
+        return judge.time_on_host(s, t);
+    }
+};
+
+/// A pair that touches, or whose time is not known yet.
+struct timed_key {
+    std::uint64_t key;
+    double time;
+};
+template <class Policy>
+using timed_queue = execution::work_queue<timed_key, space_of<Policy>>;
+
+/// On a host: judges candidates by their keys, as the verbs of a policy take a judge.
+template <class View, class Judge>
+struct time_at_once {
+    View both;
+    Judge judge;
+
+    template <class Hits>
+    bool operator()(std::uint64_t key, Hits&) const {
+        return !both.with_shapes(key, first_try<Judge>{judge});
+    }
+    template <class Hits>
+    void finish(std::uint64_t key, Hits& hits) const {
+        const double time = both.with_shapes(key, time_on_host_by<Judge>{judge});
+        if (time >= 0) hits.push({key, time});
+    }
+    ABUT_INLINE void prefetch(std::uint64_t key, int step) const { both.prefetch(key, step); }
+};
+/// The same of a loop whose sink takes candidates.
+template <class View, class Judge, class Hits>
+struct time_pushed {
+    const time_at_once<View, Judge>& judge;
+    Hits& hits;
+    void push(std::uint64_t key) const {
+        if (!judge(key, hits)) judge.finish(key, hits);
+    }
+};
+
+// On a device. Candidates lie in one room: pairs of a vertex and a face from its beginning on, pairs of edges from its end,
+// so that the lanes of a warp do the same.
+
+template <class Policy>
+using room_of = execution::buffer_of<Policy, std::uint64_t>;
+
+/// What lies in a room, or in two.
+struct gathered_features {
+    const std::uint64_t *begin, *end;
+    std::size_t of_vertices, of_edges;
+    [[nodiscard]] std::size_t count() const { return of_vertices + of_edges; }
+};
+template <class Queue>
+gathered_features in_two_queues(const Queue& vertices, const Queue& edges) {
+    return {vertices.data(), edges.data() + edges.size(), vertices.size(), edges.size()};
+}
+
+/// Hands on candidates to the sink of their kind.
+template <class Vertices, class Edges>
+struct push_by_kind {
+    feature_key key;
+    Vertices& vertices;
+    Edges& edges;
+    ABUT_HD void push(std::uint64_t k) const {
+        if (key.kind(k) == feature_pair::edge_edge) {
+            edges.push(k);
+        } else {
+            vertices.push(k);
+        }
+    }
+};
+struct gather_candidate {
+    part_of_open part;
+    ABUT_CALLS_ANY
+    template <class Near>
+    ABUT_HD bool operator()(std::uint64_t key, Near& near, auto&...) const {
+        if (part.holds(key)) near.push(key);
+        return true;
+    }
+    ABUT_HD void finish(std::uint64_t, auto&...) const {}
+};
+struct gather_features {
+    part_of_open part;
+    feature_key key;
+    ABUT_CALLS_ANY
+    template <class Vertices, class Edges>
+    ABUT_HD bool operator()(std::uint64_t k, Vertices& vertices, Edges& edges, auto&...) const {
+        if (part.holds(k)) push_by_kind<Vertices, Edges>{key, vertices, edges}.push(k);
+        return true;
+    }
+    ABUT_HD void finish(std::uint64_t, auto&...) const {}
+};
+
+template <class View, class Judge>
+struct try_gathered {
+    View both;
+    Judge judge;
+    gathered_features near;
+    ABUT_CALLS_ANY
+    template <class Open>
+    ABUT_HD void operator()(std::size_t i, Open& open) const {
+        const first_try<Judge> ask{judge};
+        const bool of_vertex = i < near.of_vertices;
+        const std::uint64_t key = of_vertex ? near.begin[i] : *(near.end - 1 - (i - near.of_vertices));
+        if (of_vertex ? both.with_vertex(key, ask) : both.with_edges(key, ask)) open.push(key);
+    }
+};
+/// A lane in `spread` times one.
+template <class View, class Judge>
+struct time_gathered {
+    View both;
+    Judge judge;
+    const std::uint64_t* keys;
+    std::size_t spread;
+    ABUT_CALLS_ANY
+    template <class Hits>
+    ABUT_HD void operator()(std::size_t i, Hits& hits) const {
+        if (i % spread != 0) return;
+        const std::uint64_t key = keys[i / spread];
+        const double time = both.with_shapes(key, time_by<Judge>{judge});
+        if (time != time_in_bits::none) hits.push({key, time});
+    }
+};
+
+/// Times candidates that have been gathered. Lanes of one warp that follow different roots wait for each other: few are
+/// spread over many warps.
+template <class Policy, class View, class Judge>
+void time_candidates(const Policy& on, const View& both, const Judge& judge, const gathered_features& near,
+                     timed_queue<Policy>& hits) {
+    key_queue<Policy> open(on, std::max(near.count() / 8, std::size_t{1} << 16));
+    for_each_index(on, near.count(), try_gathered<View, Judge>{both, judge, near}, open);
+    const std::size_t n = open.size();
+    std::size_t spread = 1;
+    while (spread < 32 && n * spread <= std::size_t{1} << 15) spread *= 2;
+    for_each_index(on, n * spread, time_gathered<View, Judge>{both, judge, open.data(), spread}, hits);
+}
+
+/// Room on a device for candidates of shapes, so many of each: 64 MiB at least and 512 at most.
+template <class Policy>
+room_of<Policy> room_for_candidates(const Policy& on, std::size_t shapes, std::size_t of_each) {
+    return room_of<Policy>(on, std::clamp(of_each * shapes, std::size_t{1} << 23, std::size_t{1} << 26));
+}
+
+/// Calls gather(part), which gathers the candidates of a part of all and returns how many these are, and pass() when there
+/// was room for them; with parts of the part where there was none.
+template <class Gather, class Pass>
+void gather_in_parts(std::size_t room, const Gather& gather, const Pass& pass, part_of_open part = {}) {
+    const std::size_t count = gather(part);
+    if (count <= room) return pass();
+    const auto more = static_cast<std::uint32_t>(2 * count / room + 1);
+    for (std::uint32_t k = 0; k < more; ++k) gather_in_parts(room, gather, pass, part.split(k, more));
+}
+
+/// Gathers a part of a pairing's candidates, as many as there is room for; the counts are of all.
+template <class Policy, class Pairing>
+gathered_features gather(const Policy& on, const Pairing& pairing, part_of_open part, room_of<Policy>& room) {
+    using space = space_of<Policy>;
+    gathered_features found{room.data(), room.data() + room.size(), 0, 0};
+    pairing.judge_candidates(on, [&](const auto& loop) {
+        const std::size_t begin = std::min(found.of_vertices, room.size());
+        const std::size_t left = room.size() - std::min(found.count(), room.size());
+        execution::capped_queue<std::uint64_t, space> vertices(room.data() + begin, left);
+        execution::capped_queue_from_end<std::uint64_t, space> edges(room.data() + begin, left);
+        loop(gather_features{part, pairing.view().key}, vertices, edges);
+        found.of_vertices += static_cast<std::size_t>(vertices.pushed());
+        found.of_edges += static_cast<std::size_t>(edges.pushed());
+    });
+    return found;
+}
+
+/// Leaves in `hits` the pairs of a pairing that touch, with their times.
+template <class Policy, class Pairing, class Judge>
+void search_times(const Policy& on, const Pairing& pairing, const Judge& judge, timed_queue<Policy>& hits) {
+    const auto both = pairing.view();
+    using view = std::remove_const_t<decltype(both)>;
+    if constexpr (host_policy<Policy>) {
+        const time_at_once<view, Judge> time{both, judge};
+        pairing.judge_candidates(on, [&](const auto& loop) { loop(time, hits); });
+    } else {
+        auto room = room_for_candidates(on, std::max(both.a.count(), both.b.count()), 128);
+        gathered_features near{};
+        gather_in_parts(
+            room.size(),
+            [&](part_of_open part) {
+                near = gather(on, pairing, part, room);
+                return near.count();
+            },
+            [&] { time_candidates(on, both, judge, near, hits); });
+    }
+}
+
+}  // namespace abut::detail

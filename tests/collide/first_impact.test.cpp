@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+//
+// The boxes around a part of a step, by which first_impact prunes. What it answers is compared with all impacts where those
+// are tested (impact_cases.hpp).
+
+#include <abut/abut.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include <boost/multiprecision/cpp_int.hpp>
+
+#include "collide/impact_cases.hpp"
+#include "support/catch.hpp"
+#include "support/draws.hpp"
+#include "support/samples.hpp"
+
+namespace abut::test {
+
+TEMPLATE_TEST_CASE("first_impact: a coordinate stays within its bounds until a time", "", float, double) {
+    using T = TestType;
+    using rational = boost::multiprecision::cpp_rational;
+    constexpr double largest = static_cast<double>(largest_finite<T>);
+    std::size_t narrower = 0;
+    for (std::uint64_t i = 0; i < sample_count(); ++i) {
+        draws d(seed, sizeof(T), i);
+        const int family = d.below(6);
+        double from = d.uniform(-1, 1), to = d.uniform(-1, 1);
+        if (family == 1) to = from + d.uniform(-1, 1) * d.power_of_ten(-16, -4);
+        if (family == 2) from *= largest, to *= largest;
+        if (family == 3) from *= d.power_of_ten(-30, 30), to *= d.power_of_ten(-30, 30);
+        if (family == 4) from *= 0x1p-1040, to *= 0x1p-1040;
+        if (family == 5) to = from;
+        const T a = static_cast<T>(from), b = static_cast<T>(to);
+        const int shift = d.below(41);
+        const double time = std::ceil(d.uniform(0, 1) * std::ldexp(1.0, shift)) / std::ldexp(1.0, shift);
+        const detail::coordinate_until<T> in(a, b, time);
+        CAPTURE(i, a, b, time, in.lower, in.upper);
+        const rational p(a), q(b), t(time);
+        bool inside = true;
+        for (const rational& part : {rational(0), rational(1) / 3, rational(1)}) {
+            const rational then = p + t * part * (q - p);
+            inside &= rational(in.lower) <= then && then <= rational(in.upper);
+        }
+        if (!inside) FAIL_CHECK("a coordinate leaves its bounds");
+        if (in.lower < std::min(a, b) || in.upper > std::max(a, b)) FAIL_CHECK("bounds outside of the whole step's");
+        if (family != 0) continue;
+        const double width = static_cast<double>(in.upper) - static_cast<double>(in.lower);
+        const double way = time * std::abs(static_cast<double>(b) - static_cast<double>(a));
+        const double lost = sizeof(T) == 4 ? 0x1p-22 : 0x1p-48;
+        if (width > way + lost) FAIL_CHECK("bounds wider than the way");
+        narrower += width < 0.75 * std::abs(static_cast<double>(b) - static_cast<double>(a));
+    }
+    CHECK(narrower > sample_count() / 60);
+}
+
+TEST_CASE("first_impact: boxes of a part of the step are in those of the whole") {
+    const large_scene<double> s(7, 0.07);
+    const serial on;
+    const auto index = make_impact_index(on, s.a.as_set());
+    const auto part = detail::until(on, index, 0.25);
+    const auto check_inside = [&on](const auto& tree, const auto& of_whole) {
+        CHECK(contains(of_whole.bounds(), tree.bounds()));
+        CHECK(quality(on, tree).sah_cost < 0.9 * quality(on, of_whole).sah_cost);
+    };
+    check_inside(part.faces(), index.faces());
+    check_inside(part.edges(), index.edges());
+    check_inside(part.vertices(), index.vertices());
+}
+
+}  // namespace abut::test
