@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -304,8 +305,29 @@ void check_fronts_by_schedule(const Policy& on) {
     CHECK(ends.report().rebuilds < 12);
 }
 
+/// More pairs than a device's queue has room for at first: it is enlarged, and the loops run again.
+template <class Policy>
+void check_fronts_of_many_pairs(const Policy& on) {
+    const auto balls = [&](double x) {
+        std::vector<vec3<float>> centers;
+        for (int i = 0; i < 500; ++i) centers.push_back({static_cast<float>(x + 0.001 * i), 0, 0});
+        return make_bvh(on, equal_spheres<float>(on, std::span<const vec3<float>>(centers), 1));
+    };
+    const auto a = balls(0), b = balls(0.25);
+    constexpr std::size_t all = 500 * 500;
+    front between, within;
+    for (int time = 0; time < 2; ++time) {
+        CAPTURE(time);
+        CHECK(pairs(on, a, b, begun_at<>{.front = &between}).size() == all);
+        CHECK(self_pairs(on, a, self_begun_at{.front = &within}).size() == 500 * 499 / 2);
+    }
+    CHECK(between.report().rebuilds == 1);
+    CHECK(within.report().rebuilds == 1);
+}
+
 template <class Policy>
 void check_fronts(const Policy& on, int frames) {
+    check_fronts_of_many_pairs(on);
     check_fronts_of_two(on, frames);
     check_fronts_of_one(on, frames / 2);
     check_fronts_posed(on);

@@ -232,7 +232,9 @@ struct look_in_front {
         const front_item at = items[first + i];
         std::uint32_t opened = 0;
         expand({at.a, at.b}, mark_and_push<Emitter>{at.ends(), opened, emitter});
-        const std::uint32_t marks = at.ends() | opened << front_item::opened_at;
+        // A loop that runs again, for want of room in a queue, has to find the new ones again.
+        const std::uint32_t is_new = new_ones ? at.marks & front_item::meeting : 0;
+        const std::uint32_t marks = at.ends() | opened << front_item::opened_at | is_new;
         if (marks != at.marks) items[first + i].marks = marks;
         return false;
     }
