@@ -311,7 +311,7 @@ void check_fronts_of_many_pairs(const Policy& on) {
     const auto balls = [&](double x) {
         std::vector<vec3<float>> centers;
         for (int i = 0; i < 500; ++i) centers.push_back({static_cast<float>(x + 0.001 * i), 0, 0});
-        return make_bvh(on, equal_spheres<float>(on, std::span<const vec3<float>>(centers), 1));
+        return make_bvh(on, equal_spheres<float, space_of<Policy>>(on, std::span<const vec3<float>>(centers), 1));
     };
     const auto a = balls(0), b = balls(0.25);
     constexpr std::size_t all = 500 * 500;
