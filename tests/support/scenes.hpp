@@ -65,12 +65,6 @@ std::vector<triangle<T>> random_triangles(std::size_t n, uniform& random) {
     return triangles;
 }
 
-template <class T>
-std::vector<triangle<T>> moved_by(const vec3<T>& way, std::vector<triangle<T>> triangles) {
-    for (triangle<T>& t : triangles) t = {t.a + way, t.b + way, t.c + way};
-    return triangles;
-}
-
 /// Side by side along x. Of their boxes neighbours alone overlap.
 template <class T>
 std::vector<triangle<T>> chain_of_triangles(int n) {
@@ -91,7 +85,10 @@ struct near_and_away {
 template <class T>
 near_and_away<T> random_near_and_away(uniform& random) {
     const std::vector<triangle<T>> a = random_triangles<T>(250, random), b = random_triangles<T>(180, random);
-    return {triangle_soup<T>(a), triangle_soup<T>(b), triangle_soup<T>(moved_by({100, 0, 0}, b))};
+    const vec3<T> far{100, 0, 0};
+    std::vector<triangle<T>> away;
+    for (const triangle<T>& t : b) away.push_back({t.a + far, t.b + far, t.c + far});
+    return {triangle_soup<T>(a), triangle_soup<T>(b), triangle_soup<T>(away)};
 }
 
 template <class T>
