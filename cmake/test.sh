@@ -5,7 +5,8 @@
 #
 # Installs what is missing from the distribution's packages (Debian 12, Ubuntu 24.04 or newer), builds the tests and runs
 # them, all in one run of ctest. With no argument:
-#   g++, Release, warnings as errors: all tests, the examples, each header alone, the include graph, an outside project;
+#   g++, Release, warnings as errors: all tests, the examples, each header alone, the syntax of bench/*.cpp, the
+#   include graph, an outside project;
 #   the .cu files, if nvcc 13.0 or newer is there (where no device is present they are compiled without optimisation, and
 #   reported as skipped);
 #   the address and undefined behaviour sanitizers on some of the layers.
@@ -13,7 +14,7 @@
 #   --clang     the same tests built by clang (no .cu files), its warnings as errors
 #   --tsan      the OpenMP paths under clang's thread sanitizer
 #   --asan      the address and undefined behaviour sanitizers on all layers
-#   --headers   each header alone with g++, clang and nvcc
+#   --headers   each header alone with g++, clang and nvcc; the syntax of bench/*.cpp with g++ and clang
 #   --bench     the benchmarks are built too (they are not run)
 #   --full      1,000,000 samples for each family and scalar instead of 5,000; tables go to docs/results; all of it at -O3
 #   --all       all of these but --full
@@ -44,8 +45,9 @@ cd "$(dirname "$0")/.."
 # --- packages ----------------------------------------------------------------------------------------------------------
 
 need_packages g++ cmake ninja-build python3 catch2 librapidcheck-dev libboost-dev
-want_packages libgmp-dev libmpfr-dev libcgal-dev libfcl-dev libtinyobjloader-dev libcli11-dev nlohmann-json3-dev ccache
-if [ $bench = yes ]; then want_packages libbenchmark-dev libembree-dev libbullet-dev libnanoflann-dev; fi
+want_packages libgmp-dev libmpfr-dev libcgal-dev libfcl-dev libtinyobjloader-dev libcli11-dev nlohmann-json3-dev ccache \
+    libbenchmark-dev
+if [ $bench = yes ]; then want_packages libembree-dev libbullet-dev libnanoflann-dev; fi
 if [ $clang = yes ] || [ $tsan = yes ] || [ $headers = yes ]; then
     need_packages clang
     major=$(clang++ -dumpversion | cut -d. -f1)

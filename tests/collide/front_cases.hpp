@@ -71,13 +71,7 @@ struct front_tally {
 template <class Policy, class X, class Y>
 std::uint64_t visited_from(const Policy& on, const X& x, const Y& y, front& ends, std::size_t n, std::size_t m,
                            const pair_list& expected) {
-    execution::buffer_of<Policy, std::uint32_t> visits(on, n * m);
-    fill(on, visits.data(), visits.size(), std::uint32_t{0});
-    for_each_pair(on, x, y, visit_counter{visits.data(), static_cast<std::uint32_t>(m)}, begun_at<>{.front = &ends});
-    std::vector<std::uint32_t> counts(visits.size()), once(visits.size(), 0);
-    visits.read(counts.data());
-    for (const index_pair& p : expected) once[std::size_t{p.a} * m + p.b] = 1;
-    CHECK(counts == once);
+    check_each_visited(on, x, y, n, m, expected, begun_at<>{.front = &ends});
     return expected.size();
 }
 

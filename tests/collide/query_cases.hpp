@@ -58,20 +58,25 @@ struct stop_at_once {
     }
 };
 
+/// for_each_pair visits each pair that is expected once, and no other.
+template <class Policy, class X, class Y, class Options>
+void check_each_visited(const Policy& on, const X& a, const Y& b, std::size_t a_size, std::size_t b_size,
+                        const pair_list& expected, const Options& options) {
+    execution::buffer_of<Policy, std::uint32_t> visits(on, a_size * b_size + 1);
+    fill(on, visits.data(), visits.size(), std::uint32_t{0});
+    for_each_pair(on, a, b, visit_counter{visits.data(), static_cast<std::uint32_t>(b_size)}, options);
+    std::vector<std::uint32_t> counts(visits.size()), once(visits.size(), 0);
+    visits.read(counts.data());
+    for (const index_pair& p : expected) once[std::size_t{p.a} * b_size + p.b] = 1;
+    CHECK(counts == once);
+}
+
 template <class Policy, class X, class Y>
 void check_visits(const Policy& on, const X& a, const Y& b, std::size_t a_size, std::size_t b_size,
                   const pair_list& expected) {
     for (const std::uint64_t most : {std::uint64_t{1}, std::uint64_t{100}, std::uint64_t{1} << 24}) {
         CAPTURE(most);
-        execution::buffer_of<Policy, std::uint32_t> visits(on, a_size * b_size + 1);
-        fill(on, visits.data(), a_size * b_size + 1, std::uint32_t{0});
-        const visit_counter counter{visits.data(), static_cast<std::uint32_t>(b_size)};
-        for_each_pair(on, a, b, counter, query_options<>{.most_pairs = most});
-        std::vector<std::uint32_t> counts(a_size * b_size + 1);
-        visits.read(counts.data());
-        std::vector<std::uint32_t> once(a_size * b_size + 1, 0);
-        for (const index_pair& p : expected) once[std::size_t{p.a} * b_size + p.b] = 1;
-        CHECK(counts == once);
+        check_each_visited(on, a, b, a_size, b_size, expected, query_options<>{.most_pairs = most});
     }
     execution::buffer_of<Policy, std::uint32_t> visits(on, 1);
     fill(on, visits.data(), 1, std::uint32_t{0});
@@ -90,6 +95,17 @@ void check_query(const Policy& on, const X& a, const Y& b, const pair_list& expe
     CHECK(unsorted == expected);
     CHECK(count<A>(on, a, b) == expected.size());
     CHECK(any<A>(on, a, b) == !expected.empty());
+}
+
+/// All forms that have options, with options that leave no pair out. `b` touches `a`, and `away` does not.
+template <class Policy, class X, class Y, class Options>
+void check_forms(const Policy& on, const X& a, const Y& b, const Y& away, const pair_list& expected,
+                 const Options& options) {
+    CHECK(count(on, a, b, options) == expected.size());
+    CHECK(count(on, a, away, options) == 0);
+    CHECK(any(on, a, b, options));
+    CHECK_FALSE(any(on, a, away, options));
+    check_each_visited(on, a, b, a.size(), b.size(), expected, options);
 }
 
 template <class Policy, class X, class Y>

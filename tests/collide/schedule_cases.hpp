@@ -79,16 +79,10 @@ void check_scheduled_sets(const Policy& on) {
 template <class T, schedule Schedule, class Policy>
 void check_scheduled_forms(const Policy& on) {
     uniform random(20270101);
-    const triangle_soup<T> a = random_soup<T>(250, random), b = random_soup<T>(180, random);
-    std::vector<triangle<T>> moved;
-    for (std::size_t i = 0; i < b.size(); ++i) {
-        const triangle<T> t = b.view()[i];
-        const vec3<T> far{100, 0, 0};
-        moved.push_back({t.a + far, t.b + far, t.c + far});
-    }
-    const auto x = make_bvh(on, copy_to(on, a)), y = make_bvh(on, copy_to(on, b));
-    const auto away = make_bvh(on, copy_to(on, triangle_soup<T>(moved)));
-    const pair_list expected = placed_truth(a.view(), b.view());
+    const near_and_away<T> sets = random_near_and_away<T>(random);
+    const auto x = make_bvh(on, copy_to(on, sets.a)), y = make_bvh(on, copy_to(on, sets.b));
+    const auto away = make_bvh(on, copy_to(on, sets.away));
+    const pair_list expected = placed_truth(sets.a.view(), sets.b.view());
     CHECK(to_host(pairs(on, x, y)) == expected);
     const query_options<id_filter> filtered_default{};
     using walked_filtered = by_schedule<Schedule, id_filter, traversal::larger_first>;
@@ -96,17 +90,7 @@ void check_scheduled_forms(const Policy& on) {
     for (const schedule_options& scheduling : tight_options) {
         CAPTURE(static_cast<int>(Schedule), scheduling.queue_capacity, scheduling.most_blocks);
         const by_schedule<Schedule> options{.scheduling = scheduling};
-        CHECK(count(on, x, y, options) == expected.size());
-        CHECK(count(on, x, away, options) == 0);
-        CHECK(any(on, x, y, options));
-        CHECK_FALSE(any(on, x, away, options));
-        execution::buffer_of<Policy, std::uint32_t> visits(on, a.size() * b.size());
-        fill(on, visits.data(), visits.size(), std::uint32_t{0});
-        for_each_pair(on, x, y, visit_counter{visits.data(), static_cast<std::uint32_t>(b.size())}, options);
-        std::vector<std::uint32_t> counts(visits.size()), once(visits.size(), 0);
-        visits.read(counts.data());
-        for (const index_pair& p : expected) once[std::size_t{p.a} * b.size() + p.b] = 1;
-        CHECK(counts == once);
+        check_forms(on, x, y, away, expected, options);
     }
 }
 

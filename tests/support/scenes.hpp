@@ -65,6 +65,32 @@ std::vector<triangle<T>> random_triangles(std::size_t n, uniform& random) {
     return triangles;
 }
 
+/// Side by side along x. Of their boxes neighbours alone overlap.
+template <class T>
+std::vector<triangle<T>> chain_of_triangles(int n) {
+    std::vector<triangle<T>> chain;
+    for (int i = 0; i < n; ++i) {
+        const T x = static_cast<T>(i);
+        chain.push_back({{x, 0, 0}, {x + 1, 0, 0}, {x, 1, 0}});
+    }
+    return chain;
+}
+
+/// Two sets, and the second once more where it is far from the first.
+template <class T>
+struct near_and_away {
+    triangle_soup<T> a, b, away;
+};
+
+template <class T>
+near_and_away<T> random_near_and_away(uniform& random) {
+    const std::vector<triangle<T>> a = random_triangles<T>(250, random), b = random_triangles<T>(180, random);
+    const vec3<T> far{100, 0, 0};
+    std::vector<triangle<T>> away;
+    for (const triangle<T>& t : b) away.push_back({t.a + far, t.b + far, t.c + far});
+    return {triangle_soup<T>(a), triangle_soup<T>(b), triangle_soup<T>(away)};
+}
+
 template <class T>
 std::vector<sphere<T>> random_spheres(std::size_t n, uniform& random) {
     std::vector<sphere<T>> spheres;

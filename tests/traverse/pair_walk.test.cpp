@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 
-#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -10,35 +9,9 @@
 #include "support/catch.hpp"
 #include "support/poses.hpp"
 #include "support/scenes.hpp"
+#include "support/walked_pairs.hpp"
 
 namespace abut::test {
-
-using id_pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
-
-/// A walk as a policy takes it.
-template <class Walk>
-struct box_pairs {
-    using item = typename Walk::item;
-    using candidate = std::uint64_t;
-    static constexpr unsigned most_children = Walk::most_children, most_depth = Walk::most_depth;
-    Walk walk;
-    std::size_t seeds() const { return walk.seeds(); }
-    void prefetch(const item& at) const { walk.prefetch(at); }
-    item seed(std::size_t i) const { return walk.seed(i); }
-    template <class Emitter>
-    void operator()(const item& at, Emitter& emitter) const {
-        walk.expand(
-            at, [&](auto k, bool is, const item& next) { emitter.add(k, is, next); },
-            [&](auto k, bool is, std::uint32_t i, std::uint32_t j) { emitter.push(k, is, std::uint64_t{i} << 32 | j); });
-    }
-};
-struct keep {
-    bool operator()(std::uint64_t pair, auto& hits) const {
-        hits.push(pair);
-        return true;
-    }
-    void finish(std::uint64_t, auto&) const { FAIL("nothing is left open"); }
-};
 
 /// What a walk finds on each policy is what a plain loop over all boxes finds, each pair once.
 template <class T, class TreeA, class TreeB, class Overlap>
@@ -52,15 +25,9 @@ std::size_t check_walk(const triangle_soup<T>& a, const TreeA& tree_a, const tri
     }
     using walk_type = detail::pair_walk<typename TreeA::view_type, typename TreeB::view_type, Overlap>;
     const auto check_on = [&](const auto& on) {
-        execution::work_queue<std::uint64_t, host_space> hits(on);
-        for_each_descendant(on, box_pairs<walk_type>{{tree_a.view(), tree_b.view(), overlap}}, keep{}, hits);
-        id_pairs seen;
-        for (std::size_t i = 0; i < hits.size(); ++i) {
-            seen.emplace_back(static_cast<std::uint32_t>(hits.data()[i] >> 32), static_cast<std::uint32_t>(hits.data()[i]));
-        }
-        std::sort(seen.begin(), seen.end());
         CAPTURE(a.size(), b.size());
-        CHECK(seen == expected);
+        const walked_pairs<walk_type> expand{{tree_a.view(), tree_b.view(), overlap}};
+        CHECK(gathered(on, [&](auto& hits) { for_each_descendant(on, expand, keep_each{}, hits); }) == expected);
     };
     check_on(serial{});
     check_on(openmp{3});
@@ -98,12 +65,8 @@ TEMPLATE_TEST_CASE("two trees at once: each pair of leaves whose boxes overlap, 
     const triangle_soup<T> same(std::vector<triangle<T>>(300, triangle<T>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
     CHECK(check_walk(same, same, detail::same_frame{}) == 90'000);
     // Chains: each box overlaps its neighbours alone.
-    std::vector<triangle<T>> chain;
-    for (int i = 0; i < 500; ++i) {
-        const T x = static_cast<T>(i);
-        chain.push_back({{x, 0, 0}, {x + 1, 0, 0}, {x, 1, 0}});
-    }
-    CHECK(check_walk(triangle_soup<T>(chain), triangle_soup<T>(chain), detail::same_frame{}) == 500 + 2 * 499);
+    const triangle_soup<T> chain(chain_of_triangles<T>(500));
+    CHECK(check_walk(chain, chain, detail::same_frame{}) == 500 + 2 * 499);
 }
 
 }  // namespace abut::test

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <abut/traverse/self_walk.hpp>
 
-#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -9,41 +8,12 @@
 #include <abut/abut.hpp>
 
 #include "support/catch.hpp"
-#include "support/poses.hpp"
 #include "support/scenes.hpp"
+#include "support/walked_pairs.hpp"
 
 namespace abut::test {
 
 namespace {
-
-using id_pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
-
-/// A walk as a policy takes it.
-template <class Walk>
-struct own_box_pairs {
-    using item = typename Walk::item;
-    using candidate = std::uint64_t;
-    static constexpr unsigned most_children = Walk::most_children, most_depth = Walk::most_depth;
-    Walk walk;
-    std::size_t seeds() const { return walk.seeds(); }
-    void prefetch(const item& at) const { walk.prefetch(at); }
-    item seed(std::size_t i) const { return walk.seed(i); }
-    template <class Emitter>
-    void operator()(const item& at, Emitter&& emitter) const {
-        walk.expand(
-            at, [&](auto k, bool is, const item& next) { emitter.add(k, is, next); },
-            [&](auto k, bool is, std::uint32_t i, std::uint32_t j) {
-                emitter.push(k, is, std::uint64_t{std::min(i, j)} << 32 | std::max(i, j));
-            });
-    }
-};
-struct keep_own {
-    bool operator()(std::uint64_t pair, auto& hits, auto&...) const {
-        hits.push(pair);
-        return true;
-    }
-    void finish(std::uint64_t, auto&...) const { FAIL("nothing is left open"); }
-};
 
 template <class Policy>
 struct run_all {
@@ -51,22 +21,10 @@ struct run_all {
     execution::work_queue<std::uint64_t, host_space>& hits;
     template <class Loop>
     void operator()(const Loop& loop) const {
-        loop(keep_own{}, hits);
+        loop(keep_each{}, hits);
     }
     [[nodiscard]] bool is_over() const { return false; }
 };
-
-template <class Run>
-id_pairs gathered(const Run& run_into) {
-    execution::work_queue<std::uint64_t, host_space> hits(serial{});
-    run_into(hits);
-    id_pairs seen;
-    for (std::size_t i = 0; i < hits.size(); ++i) {
-        seen.emplace_back(static_cast<std::uint32_t>(hits.data()[i] >> 32), static_cast<std::uint32_t>(hits.data()[i]));
-    }
-    std::sort(seen.begin(), seen.end());
-    return seen;
-}
 
 /// What a walk finds on each policy, from the root and from every depth, is what a plain loop over all boxes finds, each
 /// pair once.
@@ -80,13 +38,13 @@ std::size_t check_self_walk(const std::vector<triangle<T>>& shapes, const Tree& 
         }
     }
     using walk_type = detail::self_walk<typename Tree::view_type, Overlap>;
-    const own_box_pairs<walk_type> expand{{tree.view(), overlap}};
+    const walked_pairs<walk_type, true> expand{{tree.view(), overlap}};
     const auto check_on = [&](const auto& on) {
         CAPTURE(shapes.size());
-        CHECK(gathered([&](auto& hits) { for_each_descendant(on, expand, keep_own{}, hits); }) == expected);
+        CHECK(gathered(on, [&](auto& hits) { for_each_descendant(on, expand, keep_each{}, hits); }) == expected);
         for (const int depth : {0, 1, 2, 3, 5, most_start_depth}) {
             CAPTURE(depth);
-            CHECK(gathered([&](auto& hits) {
+            CHECK(gathered(on, [&](auto& hits) {
                       detail::for_each_on_levels(on, expand, depth, run_all<std::decay_t<decltype(on)>>{on, hits});
                   }) == expected);
         }
@@ -118,12 +76,7 @@ TEMPLATE_TEST_CASE("a tree with itself: each pair of leaves whose boxes overlap,
     const std::vector<triangle<T>> same(200, triangle<T>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
     CHECK(check_self_walk(same, detail::same_frame{}) == 200 * 199 / 2);
     // Chains: each box overlaps its neighbours alone.
-    std::vector<triangle<T>> chain;
-    for (int i = 0; i < 300; ++i) {
-        const T x = static_cast<T>(i);
-        chain.push_back({{x, 0, 0}, {x + 1, 0, 0}, {x, 1, 0}});
-    }
-    CHECK(check_self_walk(chain, detail::same_frame{}) == 299);
+    CHECK(check_self_walk(chain_of_triangles<T>(300), detail::same_frame{}) == 299);
     // A tree that is a list: far more levels than one of that many leaves needs, so that paths end in leaves.
     std::vector<triangle<T>> list;
     for (T x = 1; list.size() < 40; x *= 2) list.push_back({{x, 0, 0}, {2 * x, 0, 0}, {x, x, 0}});

@@ -28,7 +28,8 @@ struct conservative_bounds {
     /// A time that is reported is at most this much before features come within `separation`. Features that pass each other
     /// are reported as well if they come nearer than `separation` and half of what they move relative to each other in a
     /// time of `tolerance`. Less than 2^-50 is taken for 2^-50; and where more than 2^14 parts of the step would have to be
-    /// looked at, the time is that of the first that is not known.
+    /// looked at, the time is that of the first that is not known. Features whose corners differ by 2^200 or more in a
+    /// coordinate may be reported at time 0, however far apart they are.
     double tolerance = 1e-6;
     /// Features that come so close are reported, in the unit of the coordinates: 0 for those that touch.
     double separation = 0;
