@@ -246,6 +246,7 @@ void time_loose(const Policy& on, const View& both, const shared_array<std::uint
 template <class Policy, class Pairing, class Expand, class View, class Judge>
 void time_faces(const Policy& on, const Pairing& pairing, const Expand& expand, const View& both, const Judge& judge,
                 timed_queue<Policy>& hits) {
+    static_assert(feature_judge<Judge, View>, "abut: time_faces: the judge is no timing_judge of pairs of features");
     if constexpr (host_policy<Policy>) {
         const time_features<Expand, View, Judge> time{expand, {both, judge}};
         pairing.judge_candidates(on, [&](const auto& loop) { loop(time, hits); });

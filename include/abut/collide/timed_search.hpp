@@ -13,6 +13,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 
 #include <abut/collide/features.hpp>
@@ -35,6 +36,12 @@ concept timing_judge = requires(const J& judge, const S& s, const U& u) {
     { judge.time(s, u) } -> std::same_as<double>;
     { judge.time_on_host(s, u) } -> std::same_as<double>;
 };
+
+/// Of all pairs of features of a view (features.hpp).
+template <class J, class View>
+concept feature_judge =
+    timing_judge<J, typename decltype(View::a.vertices)::shape_type, typename decltype(View::a.faces)::shape_type> &&
+    timing_judge<J, typename decltype(View::a.edges)::shape_type, typename decltype(View::a.edges)::shape_type>;
 
 // What such a judge says of the shapes of a pair.
 
@@ -233,6 +240,7 @@ template <class Policy, class Pairing, class Judge>
 void search_times(const Policy& on, const Pairing& pairing, const Judge& judge, timed_queue<Policy>& hits) {
     const auto both = pairing.view();
     using view = std::remove_const_t<decltype(both)>;
+    static_assert(feature_judge<Judge, view>, "abut: search_times: the judge is no timing_judge of pairs of features");
     if constexpr (host_policy<Policy>) {
         const time_at_once<view, Judge> time{both, judge};
         pairing.judge_candidates(on, [&](const auto& loop) { loop(time, hits); });
