@@ -218,6 +218,19 @@ void gather_in_parts(std::size_t room, const Gather& gather, const Pass& pass, p
     for (std::uint32_t k = 0; k < more; ++k) gather_in_parts(room, gather, pass, part.split(k, more));
 }
 
+/// Gathers a part of what loops find, as much as there is room for; run_all(run) runs them. Returns how much there is.
+template <class Policy, class Loops>
+std::size_t gather_one_kind(const Policy& on, const Loops& run_all, part_of_open part, room_of<Policy>& room) {
+    std::size_t count = 0;
+    run_all([&](const auto& loop) {
+        const std::size_t taken = std::min(count, room.size());
+        execution::capped_queue<std::uint64_t, space_of<Policy>> near(room.data() + taken, room.size() - taken);
+        loop(gather_candidate{part}, near);
+        count += static_cast<std::size_t>(near.pushed());
+    });
+    return count;
+}
+
 /// Gathers a part of a pairing's candidates, as many as there is room for; the counts are of all.
 template <class Policy, class Pairing>
 gathered_features gather(const Policy& on, const Pairing& pairing, part_of_open part, room_of<Policy>& room) {
