@@ -743,4 +743,32 @@ void check_large_impacts(const Policy& on) {
     check_same("from the host", to_host(impacts(on, a, b)), between);
 }
 
+/// All boxes overlap: 9.6 million candidates, more than a device gathers of meshes so small at a time. It looks for parts of
+/// them.
+template <class T, class Policy>
+void check_many_candidates(const Policy& on) {
+    draws d(20270307, 98, sizeof(T));
+    const auto crossing = [&] {
+        frame<T> f;
+        for (std::uint32_t i = 0; i < 800; ++i) {
+            const vec3<double> from{d.uniform(-1, 0), d.uniform(-1, 0), d.uniform(-1, 0)};
+            const vec3<double> to{d.uniform(0, 1), d.uniform(0, 1), d.uniform(0, 1)};
+            for (int k = 0; k < 3; ++k) {
+                const auto near = [&](double x, double way) { return static_cast<T>(x + way * d.uniform(0, 0.01)); };
+                f.t0.push_back({near(from.x, -1), near(from.y, -1), near(from.z, -1)});
+                f.t1.push_back({near(to.x, 1), near(to.y, 1), near(to.z, 1)});
+            }
+            f.faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+        }
+        return f;
+    };
+    const frame<T> a = crossing(), b = crossing();
+    const auto of_a = make_impact_index(on, a.as_set()), of_b = make_impact_index(on, b.as_set());
+    const auto expected = to_host(impacts(openmp{}, a.as_set(), b.as_set()));
+    CHECK(expected.size() > 10);
+    check_same("from the roots", to_host(impacts(on, of_a, of_b)), expected);
+    impact_fronts fronts;
+    for (int k = 0; k < 2; ++k) check_same("from fronts", to_host(impacts(on, of_a, of_b, {}, fronts)), expected);
+}
+
 }  // namespace abut::test

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <abut/abut.hpp>
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
 #include <vector>
 
 #include "support/catch.hpp"
+#include "support/draws.hpp"
 #include "support/scenes.hpp"
 
 // The engine with roles from outside: an operand that is a list of balls and nothing else, and a judge that leaves all open.
@@ -65,4 +70,32 @@ TEST_CASE("search: a judge that leaves all open, and an operand of the caller's"
     };
     check(serial{});
     check(openmp{3});
+}
+
+// What a device does where it has no room for all candidates.
+TEST_CASE("what finds no room is gathered in parts, each once") {
+    test::draws d(20270306, 97, 0);
+    for (const std::uint64_t n : {0, 100, 101, 5000}) {
+        std::vector<std::uint64_t> keys, found, all;
+        for (std::uint64_t i = 0; i < n; ++i) keys.push_back(i << d.below(2) * 31 | i);
+        std::sort(keys.begin(), keys.end());
+        keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+        constexpr std::size_t room = 100;
+        const auto gather = [&](detail::part_of_open part) {
+            found.clear();
+            std::copy_if(keys.begin(), keys.end(), std::back_inserter(found), [&](std::uint64_t k) { return part.holds(k); });
+            return found.size();
+        };
+        std::size_t most = 0, passes = 0;
+        detail::gather_in_parts(room, gather, [&] {
+            most = std::max(most, found.size());
+            ++passes;
+            all.insert(all.end(), found.begin(), found.end());
+        });
+        std::sort(all.begin(), all.end());
+        CAPTURE(n, passes);
+        CHECK(all == keys);
+        CHECK(most <= room);
+        CHECK((passes > 1) == (keys.size() > room));
+    }
 }

@@ -3,7 +3,9 @@
 
 #include "collide/pair_rule_cases.hpp"
 
+#include <cstddef>
 #include <cstdio>
+#include <vector>
 
 #include "support/catch.hpp"
 #include "support/ccd_scene.hpp"
@@ -13,6 +15,32 @@ namespace abut::test {
 TEMPLATE_TEST_CASE("pair rules: serial and openmp", "", float, double) {
     check_all_rules<TestType>(serial{});
     check_all_rules<TestType>(openmp{.threads = 3});
+}
+
+// Vertices of no face look for faces, where the other rule has a tree of vertices: boxes that are as far apart as the
+// separation, but for rounding, have to be near by both or by neither.
+TEMPLATE_TEST_CASE("pair rules: boxes at the distance that is asked for", "", float, double) {
+    using T = TestType;
+    const serial on;
+    uniform random(20270305);
+    const impact_options options{.bounds = {.tolerance = 0.01, .separation = 0.1}};
+    std::size_t found = 0;
+    for (int k = 0; k < 200; ++k) {
+        const auto tenth = [&] { return static_cast<T>(random.below(8)) * static_cast<T>(0.1); };
+        std::vector<vec3<T>> t0(12), t1(12);
+        for (auto* const all : {&t0, &t1}) {
+            for (vec3<T>& p : *all) p = {tenth(), tenth(), tenth()};
+        }
+        const mesh<T> first(t0, {{0, 1, 2}, {3, 4, 5}});
+        const auto step = moving(first, first.with_vertices(on, t1));
+        const auto expected = to_host(self_impacts<conservative>(on, step, options));
+        const auto same = [&](const auto& index) { return to_host(self_impacts<conservative>(on, index, options)) == expected; };
+        CAPTURE(k);
+        CHECK(same(make_impact_index<pair_rule::representative_triangles>(on, step)));
+        CHECK(same(make_impact_index<pair_rule::orphan_sets>(on, step)));
+        found += expected.size();
+    }
+    CHECK(found > 1000);
 }
 
 TEST_CASE("pair rules: orphans of known meshes") {

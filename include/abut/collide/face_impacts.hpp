@@ -2,7 +2,7 @@
 #pragma once
 
 // The index of a mesh in motion for the rules that find pairs of features by pairs of faces (pair_rule.hpp), and how queries
-// look in it. make_impact_index (impacts.hpp) makes one.
+// look in it. make_impact_index (impact_index.hpp) makes one.
 
 #include <cstddef>
 #include <type_traits>

@@ -6,6 +6,7 @@
 // as it is, and one walk after another would wait for the end of each.
 
 #include <algorithm>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -16,6 +17,7 @@
 #include <abut/collide/options.hpp>
 #include <abut/collide/pairing.hpp>
 #include <abut/collide/self_pairing.hpp>
+#include <abut/traverse/front.hpp>
 #include <abut/traverse/frontier.hpp>
 #include <abut/traverse/pair_walk.hpp>
 #include <abut/traverse/self_walk.hpp>

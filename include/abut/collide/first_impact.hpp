@@ -170,15 +170,20 @@ auto first_of_indices(const Policy& on, const Index& x, const Index& y, impact_o
 
 }  // namespace detail
 
-/// The earliest of the impacts of two meshes, or none: of several at one time, the first in the order of `impacts`. What is
-/// found so far prunes the search: it looks at a first part of the step, and at more where nothing touches in it. Arguments,
-/// answers and errors are those of `impacts`.
+/// The earliest of the impacts of two meshes as a std::optional<impact<T>>, which is empty if there are none: of several at
+/// one time, the first in the order of `impacts`. What is found so far prunes the search: it looks at a first part of the
+/// step, and at more where nothing touches in it. For that the trees are refitted, except with `fast` and `conservative`; so
+/// under cuda the stream of an index's first such query has to outlive the index (see `refit`). Arguments, times and errors
+/// are those of `impacts`. Returns when the answer is there.
+///
+///     if (const auto first = abut::first_impact(on, step, ball)) stop_at(first->time);
 template <motion_arithmetic A = filtered, execution_policy Policy, class X, class Y>
 [[nodiscard]] auto first_impact(const Policy& on, const X& a, const Y& b, const impact_options& options = {}) {
     constexpr const char* function = "abut::first_impact";
     const auto [x, y] = detail::impact_operands(on, a, b, function);
     return detail::first_of_indices<A, false>(on, x, y, options, detail::no_fronts{}, function);
 }
+/// The same from fronts, which are left at the ends of the part of the step that was looked at last.
 template <motion_arithmetic A = filtered, execution_policy Policy, class X, class Y>
 [[nodiscard]] auto first_impact(const Policy& on, const X& a, const Y& b, const impact_options& options,
                                 impact_fronts& fronts) {
@@ -187,13 +192,14 @@ template <motion_arithmetic A = filtered, execution_policy Policy, class X, clas
     return detail::first_of_indices<A, false>(on, x, y, options, detail::fronts_of(fronts), function);
 }
 
-/// The earliest of the impacts of a mesh with itself, as `self_impacts` has them.
+/// The earliest of the impacts of a mesh with itself, as `self_impacts` has them. Otherwise as `first_impact`.
 template <motion_arithmetic A = filtered, execution_policy Policy, class X>
 [[nodiscard]] auto first_self_impact(const Policy& on, const X& a, const impact_options& options = {}) {
     constexpr const char* function = "abut::first_self_impact";
     const auto x = detail::impact_operand<detail::rule_of<X, X>()>(on, a, function);
     return detail::first_of_indices<A, true>(on, x, x, options, detail::no_fronts{}, function);
 }
+/// The same from fronts, as of `first_impact`.
 template <motion_arithmetic A = filtered, execution_policy Policy, class X>
 [[nodiscard]] auto first_self_impact(const Policy& on, const X& a, const impact_options& options, impact_fronts& fronts) {
     constexpr const char* function = "abut::first_self_impact";

@@ -46,10 +46,11 @@ struct impact {
     friend constexpr bool operator==(const impact&, const impact&) = default;
 };
 
-/// Options of `impacts`, `self_impacts` and `first_impact`.
+/// Options of `impacts`, `self_impacts`, `first_impact` and `first_self_impact`.
 struct impact_options {
     /// By kind, then by the first feature's number, then by the second's: vertices and faces by their ids, edges in the
-    /// order of their vertices. Without it the order is any, and may differ from call to call.
+    /// order of their vertices. Without it the order is any, and may differ from call to call. The first impact is the same
+    /// with and without it.
     bool sorted = true;
     /// Of `conservative` alone.
     conservative_bounds bounds = {};
@@ -298,6 +299,7 @@ template <motion_arithmetic A = filtered, execution_policy Policy, class X>
 [[nodiscard]] auto self_impacts(const Policy& on, const X& x, const impact_options& options = {}) {
     return detail::impacts_within<A>(on, x, options, detail::no_fronts{});
 }
+/// The same from fronts, which are left at this step's ends.
 template <motion_arithmetic A = filtered, execution_policy Policy, class X>
 [[nodiscard]] auto self_impacts(const Policy& on, const X& x, const impact_options& options, impact_fronts& fronts) {
     return detail::impacts_within<A>(on, x, options, detail::fronts_of(fronts));

@@ -6,6 +6,7 @@
 // together, down from all pairs of roots.
 
 #include <algorithm>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <limits>

@@ -100,17 +100,26 @@ struct near_enough_to_touch {
         return reach_of(s);
     }
 };
+/// All boxes that come so near to one, as near_frame tells: so it is the same pairs that a walk of two trees finds.
+template <scalar T>
+struct near_reach {
+    aabb<T> query;
+    T distance;
+    [[nodiscard]] ABUT_HD aabb<T> bounds() const {
+        const auto down = [this](T x) { return add_down(x, -distance); };
+        const auto up = [this](T x) { return add_up(x, distance); };
+        return {{down(query.lower.x), down(query.lower.y), down(query.lower.z)},
+                {up(query.upper.x), up(query.upper.y), up(query.upper.z)}};
+    }
+    ABUT_HD bool operator()(const aabb<T>& box) const { return near_frame<T>{distance}(query, box); }
+};
 /// So near that no coordinate of their boxes is farther apart than `distance`. For trees without a pose.
 template <scalar T>
 struct near_within {
     T distance;
     template <class S>
     [[nodiscard]] ABUT_HD auto reach(const S& s) const {
-        const aabb<T> box = bounds(s);
-        const auto down = [this](T x) { return add_down(x, -distance); };
-        const auto up = [this](T x) { return add_up(x, distance); };
-        return box_reach<T>({{down(box.lower.x), down(box.lower.y), down(box.lower.z)},
-                             {up(box.upper.x), up(box.upper.y), up(box.upper.z)}});
+        return near_reach<T>{bounds(s), distance};
     }
 };
 

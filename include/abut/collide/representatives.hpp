@@ -234,10 +234,11 @@ void time_loose(const Policy& on, const View& both, const shared_array<std::uint
         const time_at_once<View, Judge> time{both, judge};
         look_all([&](const auto& loop) { loop(time, hits); });
     } else {
-        key_queue<Policy> near(on);
-        look_all([&](const auto& loop) { loop(gather_candidate{}, near); });
-        const gathered_features found{near.data(), nullptr, near.size(), 0};
-        time_candidates(on, both, judge, found, hits);
+        auto room = room_for_candidates(on, std::max(loose.size(), faces.size()), 64);
+        std::size_t count = 0;
+        gather_in_parts(
+            room.size(), [&](part_of_open part) { return count = gather_one_kind(on, look_all, part, room); },
+            [&] { time_candidates(on, both, judge, {room.data(), nullptr, count, 0}, hits); });
     }
 }
 
@@ -246,22 +247,15 @@ void time_loose(const Policy& on, const View& both, const shared_array<std::uint
 template <class Policy, class Pairing, class Expand, class View, class Judge>
 void time_faces(const Policy& on, const Pairing& pairing, const Expand& expand, const View& both, const Judge& judge,
                 timed_queue<Policy>& hits) {
+    static_assert(feature_judge<Judge, View>, "abut: time_faces: the judge is no timing_judge of pairs of features");
     if constexpr (host_policy<Policy>) {
         const time_features<Expand, View, Judge> time{expand, {both, judge}};
         pairing.judge_candidates(on, [&](const auto& loop) { loop(time, hits); });
     } else {
         auto room = room_for_candidates(on, std::max(expand.a.faces.size(), expand.b.faces.size()), 64);
         std::size_t count = 0;
-        const auto gather_faces = [&](part_of_open part) {
-            count = 0;
-            pairing.judge_candidates(on, [&](const auto& loop) {
-                const std::size_t taken = std::min(count, room.size());
-                execution::capped_queue<std::uint64_t, space_of<Policy>> near(room.data() + taken, room.size() - taken);
-                loop(gather_candidate{part}, near);
-                count += static_cast<std::size_t>(near.pushed());
-            });
-            return count;
-        };
+        const auto find_faces = [&](const auto& run) { pairing.judge_candidates(on, run); };
+        const auto gather_faces = [&](part_of_open part) { return count = gather_one_kind(on, find_faces, part, room); };
         gather_in_parts(room.size(), gather_faces, [&] {
             key_queue<Policy> vertices(on, count), edges(on, count);
             for_each_index(on, count, gather_features_of<Expand>{expand, room.data()}, vertices, edges);

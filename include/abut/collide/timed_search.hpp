@@ -13,6 +13,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 
 #include <abut/collide/features.hpp>
@@ -35,6 +36,12 @@ concept timing_judge = requires(const J& judge, const S& s, const U& u) {
     { judge.time(s, u) } -> std::same_as<double>;
     { judge.time_on_host(s, u) } -> std::same_as<double>;
 };
+
+/// Of all pairs of features of a view (features.hpp).
+template <class J, class View>
+concept feature_judge =
+    timing_judge<J, typename decltype(View::a.vertices)::shape_type, typename decltype(View::a.faces)::shape_type> &&
+    timing_judge<J, typename decltype(View::a.edges)::shape_type, typename decltype(View::a.edges)::shape_type>;
 
 // What such a judge says of the shapes of a pair.
 
@@ -211,6 +218,19 @@ void gather_in_parts(std::size_t room, const Gather& gather, const Pass& pass, p
     for (std::uint32_t k = 0; k < more; ++k) gather_in_parts(room, gather, pass, part.split(k, more));
 }
 
+/// Gathers a part of what loops find, as much as there is room for; run_all(run) runs them. Returns how much there is.
+template <class Policy, class Loops>
+std::size_t gather_one_kind(const Policy& on, const Loops& run_all, part_of_open part, room_of<Policy>& room) {
+    std::size_t count = 0;
+    run_all([&](const auto& loop) {
+        const std::size_t taken = std::min(count, room.size());
+        execution::capped_queue<std::uint64_t, space_of<Policy>> near(room.data() + taken, room.size() - taken);
+        loop(gather_candidate{part}, near);
+        count += static_cast<std::size_t>(near.pushed());
+    });
+    return count;
+}
+
 /// Gathers a part of a pairing's candidates, as many as there is room for; the counts are of all.
 template <class Policy, class Pairing>
 gathered_features gather(const Policy& on, const Pairing& pairing, part_of_open part, room_of<Policy>& room) {
@@ -233,6 +253,7 @@ template <class Policy, class Pairing, class Judge>
 void search_times(const Policy& on, const Pairing& pairing, const Judge& judge, timed_queue<Policy>& hits) {
     const auto both = pairing.view();
     using view = std::remove_const_t<decltype(both)>;
+    static_assert(feature_judge<Judge, view>, "abut: search_times: the judge is no timing_judge of pairs of features");
     if constexpr (host_policy<Policy>) {
         const time_at_once<view, Judge> time{both, judge};
         pairing.judge_candidates(on, [&](const auto& loop) { loop(time, hits); });
