@@ -32,13 +32,21 @@ struct keep_all {
 /// An argument of a query, the first or the second one.
 enum class argument : unsigned char { automatic, a, b };
 
+/// The schedule of a traversal where none is asked for. On a device the shared list takes up to an eighth less time where there
+/// is work everywhere, and 40 times as much where most of it lies below a few pairs of nodes (docs/benchmarks.md); of the
+/// traversals that open one node at a time it is faster throughout. A host has no lazy stealing, and shares a list.
+template <traversal Traversal>
+inline constexpr schedule default_schedule = Traversal == traversal::both_at_once || Traversal == traversal::from_front
+                                                 ? schedule::lazy_work_stealing
+                                                 : schedule::shared_list;
+
 /// Options of `any`, `count`, `pairs` and `for_each_pair`. Without a filter, `{.sorted = false}` will do in a call; with
 /// one, write `query_options<my_filter>{.filter = my_filter{...}}`: clang 14 cannot deduce the argument of an aggregate.
 /// How two trees are walked is a template argument, so that a program compiles what it asks for:
 /// `query_options<keep_all, traversal::larger_first>{}`. It is for queries of two indices made by make_bvh, posed or not;
 /// other queries take no notice of it. Who does what of that walk is another, of all traversals but breadth_first:
 /// `query_options<keep_all, traversal::both_at_once, schedule::work_stealing>{}`.
-template <class Filter = keep_all, traversal Traversal = traversal::both_at_once, schedule Schedule = schedule::shared_list>
+template <class Filter = keep_all, traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
 struct query_options {
     /// Pairs sorted by a, then b. Without it their order is any, and may differ from call to call.
     bool sorted = true;
@@ -52,11 +60,11 @@ struct query_options {
     /// memory), while the other streams by and is shared out among threads. By itself the smaller one. A single shape is
     /// always the resident side, and an index the one that is looked in. It changes times, not answers.
     argument resident = argument::automatic;
-    /// Of traversal::breadth_first, and of schedule::static_partition on a device: the depth at which it begins, 0 to
-    /// most_start_depth. All nodes there of one tree are compared with all of the other one, whatever lies above them; a leaf
-    /// above that depth counts as one of them. 0 and 1 are the roots' children. A tree that is too small to have so many levels
-    /// if it were balanced begins at the last of those, and a node of wide_layout is two levels. On a device a deep start saves
-    /// steps that cannot fill it; on a host it saves nothing.
+    /// Of traversal::breadth_first, and on a device of both_at_once by all schedules but the shared list: the depth at which
+    /// it begins, 0 to most_start_depth. All nodes there of one tree are compared with all of the other one, whatever lies
+    /// above them; a leaf above that depth counts as one of them. 0 and 1 are the roots' children. A tree that is too small to
+    /// have so many levels if it were balanced begins at the last of those, and a node of wide_layout is two levels. On a
+    /// device a deep start saves steps that cannot fill it; on a host it saves nothing.
     int start_depth = 6;
     /// Of walks of two trees but breadth_first: the schedule's own options, and where it reports to.
     schedule_options scheduling = {};

@@ -275,7 +275,7 @@ void descend(const Policy& on, const A& a, const B& b, const Expand& expand,
             const auto from = [&](const auto& step) {
                 run([&](const auto& judge, auto&... sinks) { return for_each_descendant(on, how, step, judge, sinks...); });
             };
-            if constexpr (Schedule == schedule::static_partition && Traversal == traversal::both_at_once && !host_policy<Policy>) {
+            if constexpr (Schedule != schedule::shared_list && Traversal == traversal::both_at_once && !host_policy<Policy>) {
                 from(begin_below<Expand>(expand, options.start_depth));
             } else {
                 from(expand);
@@ -390,7 +390,7 @@ private:
 /// What is checked before the arguments of a query are: its options.
 template <class Policy, class Filter, traversal Traversal, schedule Schedule>
 void check_options(const Policy& on, const query_options<Filter, Traversal, Schedule>& options, const char* function) {
-    constexpr bool begins_at_depth = Traversal == traversal::breadth_first || Schedule == schedule::static_partition;
+    constexpr bool begins_at_depth = Traversal == traversal::breadth_first || Schedule != schedule::shared_list;
     if (begins_at_depth && (options.start_depth < 0 || options.start_depth > most_start_depth)) {
         throw error(std::string(function) + ": start_depth is " + std::to_string(options.start_depth) + ", not in 0.." +
                     std::to_string(most_start_depth));

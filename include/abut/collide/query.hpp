@@ -70,7 +70,7 @@ void visit_pairs_of(const Policy& on, const Pairing& pairing, const Visitor& vis
 
 /// Whether any shape of `a` touches any shape of `b`. Stops at the first one found.
 template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Filter = keep_all,
-          traversal Traversal = traversal::both_at_once, schedule Schedule = schedule::shared_list>
+          traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
 [[nodiscard]] bool any(const Policy& on, const X& a, const Y& b,
                        const query_options<Filter, Traversal, Schedule>& options = {}) {
     return detail::any_of<A>(on, detail::pair_up(on, a, b, options, "abut::any"));
@@ -78,7 +78,7 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Y, cl
 
 /// Number of pairs that touch. Stores none of them.
 template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Filter = keep_all,
-          traversal Traversal = traversal::both_at_once, schedule Schedule = schedule::shared_list>
+          traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
 [[nodiscard]] std::uint64_t count(const Policy& on, const X& a, const Y& b,
                                   const query_options<Filter, Traversal, Schedule>& options = {}) {
     return detail::count_of<A>(on, detail::pair_up(on, a, b, options, "abut::count"));
@@ -86,7 +86,7 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Y, cl
 
 /// All pairs that touch, each once, in the policy's memory; sorted by a, then b, unless the options say otherwise.
 template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Filter = keep_all,
-          traversal Traversal = traversal::both_at_once, schedule Schedule = schedule::shared_list>
+          traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
 [[nodiscard]] auto pairs(const Policy& on, const X& a, const Y& b,
                          const query_options<Filter, Traversal, Schedule>& options = {}) {
     return detail::pairs_of<A>(on, detail::pair_up(on, a, b, options, "abut::pairs"));
@@ -96,7 +96,7 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Y, cl
 /// in the policy's space (so under cuda it is a trivially copyable functor with an ABUT_HD operator()). `visit::stop` is
 /// best effort: pairs in flight still come. Stores no pairs, so memory does not grow with their number.
 template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Visitor, class Filter = keep_all,
-          traversal Traversal = traversal::both_at_once, schedule Schedule = schedule::shared_list>
+          traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
 void for_each_pair(const Policy& on, const X& a, const Y& b, const Visitor& visitor,
                    const query_options<Filter, Traversal, Schedule>& options = {}) {
     detail::visit_pairs_of<A>(on, detail::pair_up(on, a, b, options, "abut::for_each_pair"), visitor);

@@ -136,7 +136,7 @@ std::vector<two_bodies> near_bodies(const Policy& on, const std::vector<posed_ob
     const auto tree = make_bvh(on, boxes<T, space_of<Policy>>(on, std::span<const aabb<T>>(around)));
     using operand = indexed_operand<std::remove_const_t<decltype(tree)>>;
     const int bits = id_bits(ids.size());
-    const self_pairing<operand, keep_all, traversal::both_at_once, schedule::shared_list, as_they_are> pairing{
+    const self_pairing<operand, keep_all, traversal::both_at_once, default_schedule<traversal::both_at_once>, as_they_are> pairing{
         {tree}, {}, {bits, bits}, {}};
     const auto keys = find_keys(on, pairing, boxes_meet{});
     std::vector<std::uint64_t> found(keys.size());

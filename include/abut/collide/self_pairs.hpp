@@ -38,8 +38,8 @@ struct self_options {
     Filter filter = {};
     /// On a device, how many pairs that are too much for it wait for the host at a time.
     std::uint64_t most_pairs = std::uint64_t{1} << 18;
-    /// Of traversal::breadth_first alone: the depth at which it begins, 0 to most_start_depth. All other traversals but
-    /// from_front are both_at_once here.
+    /// As in query_options, of traversal::breadth_first and both_at_once. All other traversals but from_front are
+    /// both_at_once here.
     int start_depth = 6;
     /// Of triangles alone.
     coincident_vertices coincident = coincident_vertices::distinct;
