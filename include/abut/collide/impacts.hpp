@@ -9,6 +9,7 @@
 // because another pair of triangles has it too. A search (timed_search.hpp) leaves the pairs that touch, with their times,
 // and on a device the few that registers cannot decide. The host decides these, and those that do not touch are left out.
 
+#include <algorithm>
 #include <array>
 #include <concepts>
 #include <cstddef>
@@ -177,26 +178,30 @@ struct is_impact {
     ABUT_HD bool operator()(std::size_t i) const { return all[i].time >= 0; }
 };
 
-/// Sets the times of the impacts `which`. Returns whether some of them are none.
+/// Sets the times of the impacts `which`, some at a time. Returns whether some of them are none.
 template <motion_arithmetic A, class Policy, class View, scalar T>
 bool time_on_host(const Policy& on, const View& both, const std::uint64_t* keys, const key_queue<Policy>& which,
                   const conservative_bounds& bounds, impact<T>* out) {
-    const std::size_t n = which.size();
-    std::vector<untimed_pair<T>> pairs(n);
-    std::vector<double> times(n);
-    execution::buffer_of<Policy, untimed_pair<T>> gathered(on, n);
-    for_each_index(on, n, fetch_untimed<View>{both, keys, which.data(), gathered.data()});
-    download(on, gathered.data(), n, pairs.data());
+    constexpr std::size_t most_at_a_time = std::size_t{1} << 18;
+    const std::size_t most = std::min(which.size(), most_at_a_time);
+    std::vector<untimed_pair<T>> pairs(most);
+    std::vector<double> times(most);
+    execution::buffer_of<Policy, untimed_pair<T>> gathered(on, most);
+    execution::buffer_of<Policy, double> there(on, most);
     bool some_are_none = false;
-    for (std::size_t i = 0; i < n; ++i) {
-        times[i] = pairs[i].kind == feature_pair::edge_edge ? time_on_host<A, true>(pairs[i].points, bounds)
-                                                            : time_on_host<A, false>(pairs[i].points, bounds);
-        some_are_none |= times[i] < 0;
+    for (std::size_t first = 0; first < which.size(); first += most) {
+        const std::size_t n = std::min(which.size() - first, most);
+        for_each_index(on, n, fetch_untimed<View>{both, keys, which.data() + first, gathered.data()});
+        download(on, gathered.data(), n, pairs.data());
+        for (std::size_t i = 0; i < n; ++i) {
+            times[i] = pairs[i].kind == feature_pair::edge_edge ? time_on_host<A, true>(pairs[i].points, bounds)
+                                                                : time_on_host<A, false>(pairs[i].points, bounds);
+            some_are_none |= times[i] < 0;
+        }
+        upload(on, times.data(), n, there.data());
+        for_each_index(on, n, set_time<T>{which.data() + first, there.data(), out});
+        synchronize(on);  // before what is uploaded is changed, or gone
     }
-    execution::buffer_of<Policy, double> there(on, n);
-    upload(on, times.data(), n, there.data());
-    for_each_index(on, n, set_time<T>{which.data(), there.data(), out});
-    synchronize(on);  // before what is uploaded is gone
     return some_are_none;
 }
 
@@ -210,6 +215,7 @@ auto impacts_of(const Policy& on, const impact_options& options, const View& bot
     execution::buffer_of<Policy, std::uint64_t> keys(on, n);
     execution::buffer_of<Policy, double> times(on, n);
     for_each_index(on, n, split_hits{hits.data(), keys.data(), times.data()});
+    (void)hits.take();  // gives its memory back
     if (options.sorted) sort_by_key(on, keys, times, both.key.bits());
     execution::buffer_of<Policy, impact<T>> all(on, n);
     key_queue<Policy> open(on, 1024);

@@ -234,16 +234,19 @@ void time_loose(const Policy& on, const View& both, const shared_array<std::uint
         const time_at_once<View, Judge> time{both, judge};
         look_all([&](const auto& loop) { loop(time, hits); });
     } else {
-        auto room = room_for_candidates(on, std::max(loose.size(), faces.size()), 64);
+        auto room = room_for_candidates(on, std::max(loose.size(), faces.size()), std::size_t{1} << 24);
         std::size_t count = 0;
         gather_in_parts(
             room.size(), [&](part_of_open part) { return count = gather_one_kind(on, look_all, part, room); },
-            [&] { time_candidates(on, both, judge, {room.data(), nullptr, count, 0}, hits); });
+            [&] {
+                time_candidates(on, both, judge, {room.data(), nullptr, count, 0}, hits);
+            });
     }
 }
 
 /// Leaves in `hits` what a judge times of the features of faces that come near each other. On a device pairs of faces are
-/// gathered by a walk; then come their features whose boxes overlap; and then, with full warps, these are judged.
+/// gathered by a walk, 2^24 at most at a time; then come their features whose boxes overlap, 15 of each at most, and two as
+/// a rule; and then, with full warps, these are judged.
 template <class Policy, class Pairing, class Expand, class View, class Judge>
 void time_faces(const Policy& on, const Pairing& pairing, const Expand& expand, const View& both, const Judge& judge,
                 timed_queue<Policy>& hits) {
@@ -252,7 +255,7 @@ void time_faces(const Policy& on, const Pairing& pairing, const Expand& expand, 
         const time_features<Expand, View, Judge> time{expand, {both, judge}};
         pairing.judge_candidates(on, [&](const auto& loop) { loop(time, hits); });
     } else {
-        auto room = room_for_candidates(on, std::max(expand.a.faces.size(), expand.b.faces.size()), 64);
+        auto room = room_for_candidates(on, std::max(expand.a.faces.size(), expand.b.faces.size()), std::size_t{1} << 24);
         std::size_t count = 0;
         const auto find_faces = [&](const auto& run) { pairing.judge_candidates(on, run); };
         const auto gather_faces = [&](part_of_open part) { return count = gather_one_kind(on, find_faces, part, room); };

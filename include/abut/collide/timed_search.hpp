@@ -202,10 +202,10 @@ void time_candidates(const Policy& on, const View& both, const Judge& judge, con
     for_each_index(on, n * spread, time_gathered<View, Judge>{both, judge, open.data(), spread}, hits);
 }
 
-/// Room on a device for candidates of shapes, so many of each: 64 MiB at least and 512 at most.
+/// Room on a device for candidates of shapes: 128 of each, 2^23 at least and `most` at most.
 template <class Policy>
-room_of<Policy> room_for_candidates(const Policy& on, std::size_t shapes, std::size_t of_each) {
-    return room_of<Policy>(on, std::clamp(of_each * shapes, std::size_t{1} << 23, std::size_t{1} << 26));
+room_of<Policy> room_for_candidates(const Policy& on, std::size_t shapes, std::size_t most) {
+    return room_of<Policy>(on, std::clamp(128 * shapes, std::size_t{1} << 23, most));
 }
 
 /// Calls gather(part), which gathers the candidates of a part of all and returns how many these are, and pass() when there
@@ -258,7 +258,7 @@ void search_times(const Policy& on, const Pairing& pairing, const Judge& judge, 
         const time_at_once<view, Judge> time{both, judge};
         pairing.judge_candidates(on, [&](const auto& loop) { loop(time, hits); });
     } else {
-        auto room = room_for_candidates(on, std::max(both.a.count(), both.b.count()), 128);
+        auto room = room_for_candidates(on, std::max(both.a.count(), both.b.count()), std::size_t{1} << 26);
         gathered_features near{};
         gather_in_parts(
             room.size(),
