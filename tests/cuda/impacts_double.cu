@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <abut/cuda.hpp>
 
-#include "collide/impact_cases.hpp"
+#include "collide/impact_scenes.hpp"
 #include "support/catch.hpp"
 
 // Apart from impacts.cu, so that two processes compile them.
@@ -9,4 +9,12 @@
 TEST_CASE("impacts: cuda, double") {
     abut::test::check_all_impacts<double, abut::test::ways::filtered_alone>(abut::cuda{});
     abut::test::check_large_impacts<double>(abut::cuda{});
+}
+
+TEST_CASE("impacts: the truth of the scenes: cuda") {
+    using abut::test::ccd_folder, abut::test::check_scene;
+    for (const char* name : {"cloth-funnel", "cloth-ball", "armadillo-rollers"}) {
+        if (!ccd_folder(name)) ABUT_SKIP("the folder of real scenes is not there (ABUT_DATA)");
+        check_scene<double>(abut::cuda{}, name);
+    }
 }
