@@ -6,9 +6,9 @@
 //
 //   time/SCENE/SCALAR/KIND/ARITHMETIC   time_of_impact of pairs one by one; KIND is vertex_face or edge_edge
 //   look/SCENE/SCALAR/KIND              the first look of `filtered` at the same pairs, and who decides them
-//   stage/SCENE/SCALAR/STAGE            of a whole query: build and refit of the index; walk, which finds pairs of boxes
-//   that
-//                                       meet; search, which walks and decides; self_impacts, which writes times as well
+//   stage/SCENE/SCALAR/STAGE            of a whole query: build and refit of the index; walk, which finds pairs whose boxes
+//                                       meet; search, which walks, decides and times; self_impacts, which sorts and writes
+//                                       as well; first_self_impact
 //
 // The pairs are those whose boxes meet, as the library's own walk finds them: every so many, a million at most (`exact`: two
 // thousand). Counters of `look` are shares of all of these pairs:
@@ -239,6 +239,11 @@ void self_impacts(benchmark::State& state, const scene<T>& of) {
 }
 
 template <abut::scalar T>
+void first(benchmark::State& state, const scene<T>& of) {
+    for (auto _ : state) benchmark::DoNotOptimize(abut::first_self_impact(abut::serial{}, of.index()));
+}
+
+template <abut::scalar T>
 void add(const std::filesystem::path& folder) {
     const auto of = std::make_shared<const scene<T>>(folder);
     const auto row = [&](const std::string& what, const std::string& name, auto* run, int iterations) {
@@ -264,6 +269,7 @@ void add(const std::filesystem::path& folder) {
     row("stage", "walk", walk<T>, 1);
     row("stage", "search", search<T>, 1);
     row("stage", "self_impacts", self_impacts<abut::filtered, T>, 1);
+    row("stage", "first_self_impact", first<T>, 1);
     row("stage", "self_impacts_fast", self_impacts<abut::fast, T>, 1);
     row("stage", "self_impacts_conservative", self_impacts<abut::conservative, T>, 1);
 }
