@@ -18,7 +18,7 @@
 #include <abut/io/ply.hpp>
 
 #include "io/support.hpp"
-#include "motion_oracle.hpp"
+#include "motion.hpp"
 
 namespace abut::test {
 

@@ -166,7 +166,8 @@ bool always_apart(const motion<T>& m, std::size_t n) {
     constexpr T vec3<T>::*axes[3] = {&vec3<T>::x, &vec3<T>::y, &vec3<T>::z};
     for (T vec3<T>::*const axis : axes) {
         bool before = true, behind = true;
-        for (const vec3<T>* points : {m.t0, m.t1}) {
+        const vec3<T>* const times[] = {m.t0, m.t1};  // nvcc takes no list of arrays
+        for (const vec3<T>* const points : times) {
             for (std::size_t i = 0; i < n; ++i) {
                 for (std::size_t j = n; j < 4; ++j) {
                     before = before && points[i].*axis < points[j].*axis;
