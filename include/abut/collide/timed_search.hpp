@@ -220,7 +220,7 @@ void gather_in_parts(std::size_t room, const Gather& gather, const Pass& pass, p
 
 /// Gathers a part of what loops find, as much as there is room for; run_all(run) runs them. Returns how much there is.
 template <class Policy, class Loops>
-std::size_t gather_one_kind(const Policy& on, const Loops& run_all, part_of_open part, room_of<Policy>& room) {
+std::size_t gather_one_kind(const Policy&, const Loops& run_all, part_of_open part, room_of<Policy>& room) {
     std::size_t count = 0;
     run_all([&](const auto& loop) {
         const std::size_t taken = std::min(count, room.size());
