@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// impacts, self_impacts: continuous collision. Which vertices of one mesh in motion meet which faces of
-// another, which edges meet which edges, and when.
+// impacts, self_impacts: continuous collision. Which vertices of one mesh in motion meet which faces of another, which edges
+// meet which edges, and when.
 //
 // The rule of an index (pair_rule.hpp) says how pairs of features are found. By the default, feature_trees, features have
 // trees of their own: faces, in which vertices look, and edges. So each pair is met once, and nothing has to be left out
