@@ -137,4 +137,4 @@ void add_all() {
 
 }  // namespace
 
-int main(int argc, char** argv) { return meshes_scene::run(argc, argv, add_all); }
+int main(int argc, char** argv) { return meshes_scene::run("bench_builders", argc, argv, add_all); }

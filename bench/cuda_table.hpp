@@ -2,22 +2,22 @@
 #pragma once
 
 // What the benchmarks on CUDA share: a clock of CUDA events, a table of medians that is printed as it fills and written as
-// JSON in the form of Google Benchmark, and the floor of the machine. A median is of 21 runs after two that are not counted;
-// of 11 where one takes more than 20 ms, and of 3 where it takes more than 200 ms.
+// bench/results.hpp says, and the floor of the machine. A median is of 21 runs after two that are not counted; of 11 where
+// one takes more than 20 ms, and of 3 where it takes more than 200 ms.
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
-#include <initializer_list>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <cuda_runtime_api.h>
 
 #include <abut/cuda.hpp>
+
+#include "results.hpp"
 
 namespace bench {
 
@@ -53,17 +53,20 @@ private:
     cudaEvent_t start_ = nullptr, stop_ = nullptr;
 };
 
-using counters = std::vector<std::pair<std::string, double>>;
-
-struct row {
-    std::string name;
-    double median, best;  // ms
-    bench::counters counters;
-};
-
 class table {
 public:
-    explicit table(const abut::cuda& on) : on_(on) {}
+    table(const char* program, const abut::cuda& on) : on_(on), results_(program) {
+        cudaDeviceProp device{};
+        check(cudaGetDeviceProperties(&device, abut::execution::device_of(on)), "cudaGetDeviceProperties");
+        int driver = 0;
+        check(cudaDriverGetVersion(&driver), "cudaDriverGetVersion");
+        const auto dotted = [](int version) {
+            return std::to_string(version / 1000) + "." + std::to_string(version % 1000 / 10);
+        };
+        results_.describe("device", device.name);
+        results_.describe("cuda", dotted(CUDART_VERSION));
+        results_.describe("cuda_of_driver", dotted(driver));
+    }
 
     /// Bytes a millisecond; 0 until it has been measured.
     double bandwidth = 0;
@@ -91,57 +94,26 @@ public:
         for (std::size_t i = 0; i < found.size(); ++i) {
             if (found[i].first == "items") found.emplace_back("items_per_second", found[i].second / median * 1e3);
         }
-        rows_.push_back({name, median, times[0], found});
-        print(rows_.back());
+        found.insert(found.begin(), {{"ms", median}, {"best_ms", times[0]}});
+        results_.add(name, found);
         return median;
     }
+    /// A row that was measured elsewhere.
+    void note(const std::string& name, const counters& values) { results_.add(name, values); }
 
-    void write(const char* path) const {
-        cudaDeviceProp device{};
-        check(cudaGetDeviceProperties(&device, abut::execution::device_of(on_)), "cudaGetDeviceProperties");
+    /// Adds what the library's pool of memory holds, and writes all rows.
+    void write(const char* path) {
         const auto memory = memory_in_use(on_);
-        std::FILE* const file = std::fopen(path, "w");
-        if (file == nullptr) throw abut::error(std::string(path) + ": cannot be written");
-        std::fprintf(file,
-                     "{\"context\": {\"device\": \"%s\", \"cuda\": %d, \"pool_reserved\": %llu, \"pool_peak\": %llu},\n",
-                     device.name, CUDART_VERSION, static_cast<unsigned long long>(memory.reserved),
-                     static_cast<unsigned long long>(memory.used_peak));
-        std::fprintf(file, " \"benchmarks\": [");
-        for (std::size_t i = 0; i < rows_.size(); ++i) {
-            const row& r = rows_[i];
-            std::fprintf(file, "%s\n  {\"name\": \"%s_median\", \"run_name\": \"%s\", \"aggregate_name\": \"median\", ",
-                         i == 0 ? "" : ",", r.name.c_str(), r.name.c_str());
-            std::fprintf(file, "\"real_time\": %.9g, \"cpu_time\": %.9g, \"time_unit\": \"ms\", \"best_ms\": %.9g", r.median,
-                         r.median, r.best);
-            for (const auto& [key, value] : r.counters) std::fprintf(file, ", \"%s\": %.17g", key.c_str(), value);
-            std::fprintf(file, "}");
-        }
-        std::fprintf(file, "\n]}\n");
-        if (std::fclose(file) != 0) throw abut::error(std::string(path) + ": cannot be written");
+        note("pool", {{"reserved_bytes", static_cast<double>(memory.reserved)},
+                      {"peak_bytes", static_cast<double>(memory.used_peak)}});
+        if (path != nullptr) results_.write(path);
     }
 
 private:
-    static void print(const row& r) {
-        std::printf("%-38s %11.4f ms  (best %.4f)", r.name.c_str(), r.median, r.best);
-        for (const auto& [key, value] : r.counters) std::printf("  %s %.9g", key.c_str(), value);
-        std::printf("\n");
-        std::fflush(stdout);
-    }
-
     abut::cuda on_;
     stopwatch watch_;
-    std::vector<row> rows_;
+    results results_;
 };
-
-/// Parts of a benchmark's name with slashes between them.
-inline std::string joined(std::initializer_list<std::string> parts) {
-    std::string name;
-    for (const auto& part : parts) {
-        if (!name.empty()) name += '/';
-        name += part;
-    }
-    return name;
-}
 
 struct word_at {
     const std::uint64_t* words;
@@ -163,13 +135,12 @@ inline void measure_floor(const abut::cuda& on, table& out) {
         });
         return moved / milliseconds;
     };
-    const double copied = rate("floor/copy", 2.0 * bytes, [&] { copy(on, from.data(), words, to.data()); });
+    rate("floor/copy", 2.0 * bytes, [&] { copy(on, from.data(), words, to.data()); });
     const double read = rate("floor/read", bytes, [&] {
         if (reduce(on, words, std::uint64_t{0}, either{}, word_at{from.data()}) != 1) throw abut::error("floor: wrong sum");
     });
     rate("floor/call", 8, [&] { (void)reduce(on, std::size_t{1}, std::uint64_t{0}, either{}, word_at{from.data()}); });
     out.bandwidth = read;
-    std::printf("copy %.0f GB/s, read %.0f GB/s\n", copied * 1e-6, read * 1e-6);
 }
 
 /// The main of a benchmark: measures the floor and calls body(on, out) on a stream of its own, then writes the table to the
@@ -181,13 +152,10 @@ int run(const char* program, int argc, char** argv, const Body& body) {
         check(cudaStreamCreate(&stream), "cudaStreamCreate");
         {
             const abut::cuda on{stream};
-            table out(on);
+            table out(program, on);
             measure_floor(on, out);
             body(on, out);
-            const auto memory = memory_in_use(on);
-            std::printf("pool: %llu bytes reserved, at most %llu in use\n", static_cast<unsigned long long>(memory.reserved),
-                        static_cast<unsigned long long>(memory.used_peak));
-            if (argc > 1) out.write(argv[1]);
+            out.write(argc > 1 ? argv[1] : nullptr);
         }
         check(cudaStreamDestroy(stream), "cudaStreamDestroy");
         return 0;

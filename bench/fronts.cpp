@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// usage: bench_fronts [--frames=N] [FOLDER...]
+// usage: bench_fronts [--frames=N] [--json=OUT.json] [FOLDER...]
 //
 // Queries from a front (traverse/front.hpp) beside the same from the roots, on one core, for 40 frames, or N. Names:
 //
@@ -9,16 +9,15 @@
 //   FOLDER/PARTS/QUERY      a step of a simulation (FOLDER/frame0.ply and frame1.ply) in so many equal parts, there and back
 //
 // Queries: self/pairs and two/pairs, where the other mesh is a copy at rest, moved a little; self/boxes and two/boxes, the
-// same with a filter that refuses all, which leaves the walk; and self_impacts of the frame's motion. Columns: medians,
-// their ratio, the longest frame with a front but the first, pairs of nodes in the front at the end, how many were opened
-// in a mean frame, pairs that the last frame found, how often it began at the roots.
+// same with a filter that refuses all, which leaves the walk; and self_impacts of the frame's motion. A row has medians with
+// a front and without, the longest frame with a front but the first, pairs of nodes in the front at the end, how many were
+// opened in a mean frame, pairs that the last frame found, and how often it began at the roots.
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "fronts_scene.hpp"
@@ -39,18 +38,12 @@ struct steady {
 
 int main(int argc, char** argv) {
     try {
-        int frames = 40;
-        std::vector<std::string> folders;
-        for (int i = 1; i < argc; ++i) {
-            const std::string_view argument = argv[i];
-            if (argument.starts_with("--frames=")) {
-                frames = std::max(std::atoi(argv[i] + 9), 2);
-            } else {
-                folders.emplace_back(argument);
-            }
-        }
-        fronts_scene::print_head("serial");
-        fronts_scene::race_scenes(abut::serial{}, steady{}, folders, frames);
+        const int frames = std::max(std::stoi(bench::take_argument(argc, argv, "--frames", "40")), 2);
+        const std::string path = bench::take_argument(argc, argv, "--json");
+        bench::results out("bench_fronts");
+        const auto note = [&](const std::string& name, const bench::counters& row) { out.add(name, row); };
+        fronts_scene::race_scenes(abut::serial{}, steady{}, note, {argv + 1, argv + argc}, frames);
+        if (!path.empty()) out.write(path);
         return 0;
     } catch (const std::exception& problem) {
         std::fprintf(stderr, "bench_fronts: %s\n", problem.what());

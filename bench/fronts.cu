@@ -2,9 +2,10 @@
 //
 // usage: bench_fronts_cuda [OUT.json [FOLDER...]]
 //
-// bench/fronts.cpp on CUDA: the same scenes, queries and columns, of 40 frames. A time is taken with CUDA events around the
-// whole call. OUT.json holds the floors alone; the rows are printed.
+// bench/fronts.cpp on CUDA: the same scenes, queries and rows, of 40 frames. A time is taken with CUDA events around the
+// whole call.
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -15,10 +16,9 @@
 
 int main(int argc, char** argv) {
     return bench::run("bench_fronts_cuda", argc, argv, [&](const abut::cuda& on, bench::table& out) {
-        std::vector<std::string> folders;
-        for (int i = 2; i < argc; ++i) folders.emplace_back(argv[i]);
+        const std::vector<std::string> folders(argv + std::min(argc, 2), argv + argc);
         const auto time = [&](const auto& work) { return static_cast<double>(out.once(work)); };
-        fronts_scene::print_head("cuda");
-        fronts_scene::race_scenes(on, time, folders, 40);
+        const auto note = [&](const std::string& name, const bench::counters& row) { out.note(name, row); };
+        fronts_scene::race_scenes(on, time, note, folders, 40);
     });
 }

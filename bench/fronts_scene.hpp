@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What bench/fronts.cpp and bench/fronts.cu share: meshes that move from frame to frame, queries with and without a front on
-// each frame, and the rows that are printed.
+// What bench/fronts.cpp and bench/fronts.cu share: meshes that move from frame to frame, and queries with and without a
+// front on each frame.
 //
 // A frame's trees are refitted before the clock starts. Then the query runs without a front and with one, in turns which
 // goes first, so that both find the caches alike. Rows hold medians over the frames and the front as the last frame left it.
@@ -22,6 +22,7 @@
 
 #include "../tests/support/scenes.hpp"
 #include "mesh_file.hpp"
+#include "results.hpp"
 
 namespace fronts_scene {
 
@@ -58,8 +59,8 @@ inline motion rolled_sheet() {
             for (std::uint32_t j = 0; j <= n; ++j) {
                 const double u = static_cast<double>(i) / n, v = static_cast<double>(j) / n, turn = 18.8495559 * u;
                 const double r = 0.05 + 0.05 * u + amplitude * std::sin(20 * v + 31 * u + phase);
-                vertices.push_back({static_cast<float>(r * std::cos(turn)), static_cast<float>(r * std::sin(turn)),
-                                    static_cast<float>(v)});
+                vertices.push_back(
+                    {static_cast<float>(r * std::cos(turn)), static_cast<float>(r * std::sin(turn)), static_cast<float>(v)});
             }
         }
         return vertices;
@@ -77,8 +78,8 @@ inline motion step_of(const std::string& folder) {
                 for (std::size_t i = 0; i < first.vertices.size(); ++i) {
                     const auto &p = first.vertices[i], &q = second.vertices[i];
                     const auto mix = [s](double x, double y) { return static_cast<float>((1 - s) * x + s * y); };
-                    vertices.push_back({mix(double{p.x}, double{q.x}), mix(double{p.y}, double{q.y}),
-                                        mix(double{p.z}, double{q.z})});
+                    vertices.push_back(
+                        {mix(double{p.x}, double{q.x}), mix(double{p.y}, double{q.y}), mix(double{p.z}, double{q.z})});
                 }
                 return vertices;
             }};
@@ -112,26 +113,22 @@ struct race {
         if (a != b) throw abut::error("fronts: " + std::to_string(a) + " without, " + std::to_string(b) + " with");
         found = a;
     }
-    /// `items` of all fronts of the query.
-    void print(const std::string& name, const std::vector<const abut::front*>& fronts) const {
+    /// The row of the query; `items` are of all its fronts.
+    [[nodiscard]] bench::counters row(const std::vector<const abut::front*>& fronts) const {
         abut::front_report all;
         for (const abut::front* f : fronts) {
             all.items += f->report().items;
             all.rebuilds += f->report().rebuilds;
         }
-        const double a = median(without), b = median(with);
-        std::printf("%-44s %10.3f %10.3f %6.2f %10.3f %10llu %9llu %9llu %8llu\n", name.c_str(), a, b, a / b,
-                    *std::max_element(with.begin() + 1, with.end()), static_cast<unsigned long long>(all.items),
-                    static_cast<unsigned long long>(opened / with.size()), static_cast<unsigned long long>(found),
-                    static_cast<unsigned long long>(all.rebuilds));
-        std::fflush(stdout);
+        return {{"ms", median(with)},
+                {"without_ms", median(without)},
+                {"worst_ms", *std::max_element(with.begin() + 1, with.end())},
+                {"items", static_cast<double>(all.items)},
+                {"opened", static_cast<double>(opened / with.size())},
+                {"found", static_cast<double>(found)},
+                {"rebuilds", static_cast<double>(all.rebuilds)}};
     }
 };
-
-inline void print_head(const char* policy) {
-    std::printf("%-44s %10s %10s %6s %10s %10s %9s %9s %8s\n", policy, "without ms", "with ms", "ratio", "worst", "items",
-                "opened", "found", "rebuilds");
-}
 
 template <class Filter>
 using begun_at = abut::query_options<Filter, abut::traversal::from_front>;
@@ -139,8 +136,9 @@ template <class Filter>
 using self_begun_at = abut::self_options<Filter, abut::traversal::from_front>;
 
 /// One motion, of `frames` frames that are `step` apart: the mesh with itself, with a still copy, and in continuous motion.
-template <class Policy, class Time>
-void race_all(const Policy& on, const Time& time, const std::string& name, const motion& moving, double step, int frames) {
+template <class Policy, class Time, class Note>
+void race_all(const Policy& on, const Time& time, const Note& note, const std::string& name, const motion& moving,
+              double step, int frames) {
     using mesh = abut::mesh<float, abut::space_of<Policy>>;
     const auto mesh_at = [&](double t) { return mesh(on, moving.at(t), moving.faces); };
     auto still_vertices = moving.at(0);
@@ -179,28 +177,28 @@ void race_all(const Policy& on, const Time& time, const std::string& name, const
         opened(race_impacts, impacts.edge_edge);
         opened(race_impacts, impacts.vertex_face);
     }
-    race_boxes_self.print(name + "/self/boxes", {&boxes_self});
-    race_self.print(name + "/self/pairs", {&self});
-    race_boxes_two.print(name + "/two/boxes", {&boxes_two});
-    race_two.print(name + "/two/pairs", {&two});
-    race_impacts.print(name + "/self_impacts", {&impacts.vertex_face, &impacts.edge_edge});
+    note(name + "/self/boxes", race_boxes_self.row({&boxes_self}));
+    note(name + "/self/pairs", race_self.row({&self}));
+    note(name + "/two/boxes", race_boxes_two.row({&boxes_two}));
+    note(name + "/two/pairs", race_two.row({&two}));
+    note(name + "/self_impacts", race_impacts.row({&impacts.vertex_face, &impacts.edge_edge}));
 }
 
 /// The generated sheet, then the simulations in `folders`.
-template <class Policy, class Time>
-void race_scenes(const Policy& on, const Time& time, const std::vector<std::string>& folders, int frames) {
+template <class Policy, class Time, class Note>
+void race_scenes(const Policy& on, const Time& time, const Note& note, const std::vector<std::string>& folders, int frames) {
     const motion sheet = rolled_sheet();
     for (const double step : {0.01, 0.1, 1.0}) {
         char text[32];
         std::snprintf(text, sizeof(text), "sheet/%g", step);
-        race_all(on, time, text, sheet, step, frames);
+        race_all(on, time, note, text, sheet, step, frames);
     }
     for (const std::string& folder : folders) {
         const motion simulated = step_of(folder);
         const std::size_t slash = folder.find_last_of('/');
         const std::string name = slash == std::string::npos ? folder : folder.substr(slash + 1);
         for (const int parts : {100, 10, 2}) {
-            race_all(on, time, name + "/" + std::to_string(parts), simulated, 1.0 / parts, frames);
+            race_all(on, time, note, name + "/" + std::to_string(parts), simulated, 1.0 / parts, frames);
         }
     }
 }

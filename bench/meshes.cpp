@@ -126,7 +126,7 @@ void add_any() {
 }  // namespace
 
 int main(int argc, char** argv) {
-    return meshes_scene::run(argc, argv, [] {
+    return meshes_scene::run("bench_meshes", argc, argv, [] {
         add_policy(abut::serial{});
         add_policy(abut::openmp{});
         add_traversals();

@@ -7,8 +7,7 @@
 #include <exception>
 #include <string>
 
-#include <benchmark/benchmark.h>
-
+#include "google.hpp"
 #include "mesh_file.hpp"
 #include "meshes_scene.hpp"
 
@@ -16,19 +15,15 @@ namespace meshes_scene {
 
 /// Makes the pair, lets `add` and the peers register their benchmarks, and runs them. Returns the exit status.
 template <class Add>
-int run(int argc, char** argv, const Add& add) {
+int run(const char* program, int argc, char** argv, const Add& add) {
     try {
-        const std::string path = bench::take_mesh_argument(argc, argv);
-        benchmark::Initialize(&argc, argv);
-        if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+        const std::string path = bench::take_argument(argc, argv, "--mesh");
         const mesh_pair pair = make_pair(path.empty() ? unit_torus() : read_surface(path));
         the_pair = &pair;
-        benchmark::AddCustomContext("mesh", path.empty() ? "torus" : path);
+        benchmark::AddCustomContext("mesh", path.empty() ? "torus" : path.substr(path.find_last_of('/') + 1));
         add();
         for (const auto register_peer : peers()) register_peer();
-        benchmark::RunSpecifiedBenchmarks();
-        benchmark::Shutdown();
-        return 0;
+        return bench::run_registered(program, argc, argv);
     } catch (const std::exception& problem) {
         std::fprintf(stderr, "%s\n", problem.what());
         return 1;

@@ -14,7 +14,8 @@
 //   KIND/ARITHMETIC               one elementary test of each candidate in its first stage, and its second, of what the
 //                                 first left, with the time. Counters: items, left, found
 //   halves/from_roots             self_impacts of the first half of the step, and of the second, with refits
-//   halves/from_fronts            the same, each from the fronts that the other left. Counters: pairs of nodes that they hold,
+//   halves/from_fronts            the same, each from the fronts that the other left. Counters: pairs of nodes that they
+//   hold,
 //                                 and how many were opened in the last query
 //   same                          1 if 100 runs of impacts gave the same
 //

@@ -18,6 +18,7 @@
 #include <abut/abut.hpp>
 
 #include "../docs/examples/scene.hpp"
+#include "google.hpp"
 
 namespace {
 
@@ -96,9 +97,5 @@ int main(int argc, char** argv) {
     add<bvh>("openmp", abut::openmp{});
     add<bvh_of_vertices>("serial", abut::serial{}, "nearest_vertex");
     add<sah_of_vertices>("serial", abut::serial{}, "nearest_vertex");
-    benchmark::Initialize(&argc, argv);
-    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
-    benchmark::RunSpecifiedBenchmarks();
-    benchmark::Shutdown();
-    return 0;
+    return bench::run_registered("bench_nearest", argc, argv);
 }

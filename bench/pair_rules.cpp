@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// usage: bench_pair_rules --scenes=FOLDER --benchmark_enable_random_interleaving=true
+// usage: bench_pair_rules --scenes=FOLDER --benchmark_enable_random_interleaving=true --benchmark_out=cpu.json
 //
 // Impacts within meshes, on one core, by each rule of pairs (bench/pair_rules_scene.hpp). Names are SCENE/RULE/STAGE; times
-// are of the processor, and `least` is the one that other programs disturb least. Prints how many pairs each rule meets
-// first.
+// are of the processor. The counters of the stage impacts tell how many pairs each rule meets.
 
-#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
@@ -15,10 +13,9 @@
 #include <string>
 #include <vector>
 
-#include <benchmark/benchmark.h>
-
 #include <abut/abut.hpp>
 
+#include "google.hpp"
 #include "pair_rules_scene.hpp"
 
 namespace {
@@ -26,16 +23,16 @@ namespace {
 using abut::pair_rule;
 
 template <class Work>
-void add(const std::string& name, const Work& work) {
+void add(const std::string& name, const bench::counters& says, const Work& work) {
     benchmark::RegisterBenchmark(name.c_str(),
-                                 [work](benchmark::State& state) {
+                                 [work, says](benchmark::State& state) {
                                      for (auto _ : state) benchmark::DoNotOptimize(work());
+                                     for (const auto& [key, value] : says) state.counters[key] = value;
                                  })
         ->Unit(benchmark::kMillisecond)
         ->Repetitions(5)
         ->ReportAggregatesOnly(true)
-        ->MinTime(0.01)
-        ->ComputeStatistics("least", [](const std::vector<double>& t) { return *std::min_element(t.begin(), t.end()); });
+        ->MinTime(0.01);
 }
 
 template <pair_rule Rule>
@@ -43,37 +40,27 @@ void add_rule(const std::string& scene, const pair_rules::step& step) {
     const abut::serial on;
     const auto index = abut::make_impact_index<Rule>(on, step);
     const auto counts = pair_rules::count_pairs(index);
-    const auto print = [](const char* what, std::uint64_t n) {
-        std::printf("  %llu %s", static_cast<unsigned long long>(n), what);
-    };
-    std::printf("%s/%s:", scene.c_str(), pair_rules::name_of(Rule));
-    if (counts.faces > 0) {
-        print("pairs of faces,", counts.faces);
-        print("looked at;", counts.looked_at);
-    }
-    print("pairs of features,", counts.features);
-    print("overlap;", counts.overlapping);
-    print("orphans,", counts.orphans);
-    print("overlap;", counts.overlapping_orphans);
-    print("pass the tests,", pair_rules::tests(on, index));
-    print("impacts\n", self_impacts(on, index).size());
-    std::fflush(stdout);
     const std::string name = scene + "/" + pair_rules::name_of(Rule) + "/";
-    add(name + "index", [=] { return abut::make_impact_index<Rule>(on, step).size(); });
-    add(name + "refit", [=] { return refit(on, index, step).size(); });
-    add(name + "walk", [=] { return pair_rules::walk(on, index); });
-    add(name + "boxes", [=] { return pair_rules::boxes(on, index); });
-    add(name + "tests", [=] { return pair_rules::tests(on, index); });
-    add(name + "impacts", [=] { return self_impacts(on, index).size(); });
+    add(name + "index", {}, [=] { return abut::make_impact_index<Rule>(on, step).size(); });
+    add(name + "refit", {}, [=] { return refit(on, index, step).size(); });
+    add(name + "walk", {}, [=] { return pair_rules::walk(on, index); });
+    add(name + "boxes", {}, [=] { return pair_rules::boxes(on, index); });
+    add(name + "tests", {}, [=] { return pair_rules::tests(on, index); });
+    const auto number = [](std::uint64_t n) { return static_cast<double>(n); };
+    const bench::counters met{{"pairs_of_faces", number(counts.faces)},
+                              {"looked_at", number(counts.looked_at)},
+                              {"pairs_of_features", number(counts.features)},
+                              {"overlap", number(counts.overlapping)},
+                              {"orphans", number(counts.orphans)},
+                              {"orphans_overlap", number(counts.overlapping_orphans)}};
+    add(name + "impacts", met, [=] { return self_impacts(on, index).size(); });
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
     try {
-        const std::string folder = pair_rules::take_folder(argc, argv);
-        benchmark::Initialize(&argc, argv);
-        if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+        const std::string folder = bench::take_argument(argc, argv, "--scenes");
         for (const std::string scene : pair_rules::scenes) {
             if (!std::filesystem::exists(folder + "/" + scene)) {
                 std::printf("%s: not in --scenes=%s\n", scene.c_str(), folder.c_str());
@@ -84,9 +71,7 @@ int main(int argc, char** argv) {
             add_rule<pair_rule::representative_triangles>(scene, step);
             add_rule<pair_rule::orphan_sets>(scene, step);
         }
-        benchmark::RunSpecifiedBenchmarks();
-        benchmark::Shutdown();
-        return 0;
+        return bench::run_registered("bench_pair_rules", argc, argv);
     } catch (const std::exception& problem) {
         std::fprintf(stderr, "%s\n", problem.what());
         return 1;

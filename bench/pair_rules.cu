@@ -34,7 +34,7 @@ void add_rule(const abut::cuda& on, bench::table& out, const std::string& scene,
 }  // namespace
 
 int main(int argc, char** argv) {
-    const std::string folder = pair_rules::take_folder(argc, argv);
+    const std::string folder = bench::take_argument(argc, argv, "--scenes");
     return bench::run("bench_pair_rules_cuda", argc, argv, [&](const abut::cuda& on, bench::table& out) {
         for (const std::string scene : pair_rules::scenes) {
             if (!std::filesystem::exists(folder + "/" + scene)) {

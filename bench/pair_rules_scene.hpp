@@ -38,23 +38,6 @@ inline step read_step(const std::string& folder) {
 inline constexpr const char* scenes[] = {"cloth-ball", "cloth-funnel", "armadillo-rollers", "n-body-simulation",
                                          "rod-twist"};
 
-/// The FOLDER of --scenes=FOLDER, which is taken out of the arguments; empty if there is none.
-inline std::string take_folder(int& argc, char** argv) {
-    const std::string option = "--scenes=";
-    std::string folder;
-    int kept = 0;
-    for (int i = 0; i < argc; ++i) {
-        const std::string argument = argv[i];
-        if (argument.starts_with(option)) {
-            folder = argument.substr(option.size());
-        } else {
-            argv[kept++] = argv[i];
-        }
-    }
-    argc = kept;
-    return folder;
-}
-
 /// A judge by which none touch: what is left of a search is to find what it would judge.
 struct let_none_touch {
     template <class S, class U>

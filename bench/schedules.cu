@@ -34,10 +34,18 @@ using device_soup = abut::triangle_soup<float, abut::device_space>;
 
 counters counters_of(std::uint64_t pairs, const abut::schedule_report& r) {
     const auto number = [](std::uint64_t n) { return static_cast<double>(n); };
-    return {{"pairs", number(pairs)},       {"workers", number(r.workers)},   {"steps", number(r.steps)},
-            {"items", number(r.items)},     {"steals", number(r.steals)},     {"stolen", number(r.stolen)},
-            {"failed", number(r.failed_steals)}, {"offers", number(r.offers)}, {"transfers", number(r.transfers)},
-            {"overflows", number(r.overflows)}, {"rounds", number(r.rounds)}, {"balances", number(r.balances)},
+    return {{"pairs", number(pairs)},
+            {"workers", number(r.workers)},
+            {"steps", number(r.steps)},
+            {"items", number(r.items)},
+            {"steals", number(r.steals)},
+            {"stolen", number(r.stolen)},
+            {"failed", number(r.failed_steals)},
+            {"offers", number(r.offers)},
+            {"transfers", number(r.transfers)},
+            {"overflows", number(r.overflows)},
+            {"rounds", number(r.rounds)},
+            {"balances", number(r.balances)},
             {"idle_share", r.idle_share}};
 }
 
@@ -53,14 +61,12 @@ void add_scaling(table& out, const std::string& name, const Ask& ask) {
     } parts[] = {{"all", 1}, {"half", 2}, {"quarter", 4}, {"eighth", 8}};
     for (const auto& p : parts) {
         const std::uint32_t blocks = all / p.part > 0 ? all / p.part : 1;
-        std::uint64_t found = 0;
+        const std::uint64_t found = ask(abut::schedule_options{.most_blocks = blocks, .report = &report});
+        const counters says = counters_of(found, report);
         out.add(joined({name, p.name}), 0, [&] {  // without a report, which costs a wait of its own
-            found = ask(abut::schedule_options{.most_blocks = blocks});
-            return counters{};
+            (void)ask(abut::schedule_options{.most_blocks = blocks});
+            return says;
         });
-        (void)ask(abut::schedule_options{.most_blocks = blocks, .report = &report});
-        for (const auto& [key, value] : counters_of(found, report)) std::printf("    %s %.9g", key.c_str(), value);
-        std::printf("\n");
     }
 }
 

@@ -29,6 +29,7 @@
 #include <abut/abut.hpp>
 
 #include "../docs/examples/scene.hpp"
+#include "google.hpp"
 
 namespace {
 
@@ -241,9 +242,5 @@ void add_all() {
 
 int main(int argc, char** argv) {
     add_all();
-    benchmark::Initialize(&argc, argv);
-    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
-    benchmark::RunSpecifiedBenchmarks();
-    benchmark::Shutdown();
-    return 0;
+    return bench::run_registered("bench_spheres_mesh", argc, argv);
 }

@@ -22,10 +22,9 @@
 #include <string>
 #include <vector>
 
-#include <benchmark/benchmark.h>
-
 #include <abut/abut.hpp>
 
+#include "google.hpp"
 #include "mesh_file.hpp"
 #include "ties_scene.hpp"
 
@@ -122,7 +121,7 @@ void add(const scene::surface<float>* mesh) {
 
 int main(int argc, char** argv) {
     try {
-        const std::string path = bench::take_mesh_argument(argc, argv);
+        const std::string path = bench::take_argument(argc, argv, "--mesh");
         scene::surface<float> mesh;
         if (path.empty()) {
             std::printf("no --mesh: a torus stands in for it\n");
@@ -132,11 +131,7 @@ int main(int argc, char** argv) {
         const auto* const onto_itself = path.empty() ? nullptr : &mesh;
         add<float>(onto_itself);
         add<double>(onto_itself);
-        benchmark::Initialize(&argc, argv);
-        if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
-        benchmark::RunSpecifiedBenchmarks();
-        benchmark::Shutdown();
-        return 0;
+        return bench::run_registered("bench_ties", argc, argv);
     } catch (const std::exception& problem) {
         std::fprintf(stderr, "bench_ties: %s\n", problem.what());
         return 1;

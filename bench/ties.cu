@@ -8,8 +8,6 @@
 //                                  and local_bytes, which is stack and spills of a thread
 //   count/ARITHMETIC/SCALAR/NAME   whole queries, with two trees
 //
-// Behind each row of `filtered` and `exact` stands its time divided by that of `fast`.
-
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -30,25 +28,13 @@ using bench::table;
 namespace scene = ties_scene;
 namespace test = abut::test;
 
-/// Rows for the three arithmetics: `ask(A{}, name, fast_milliseconds)` adds one, given the time of `fast` or 0.
-struct outcome {
-    double milliseconds, hits;
-};
+/// Rows for the three arithmetics: `ask(A{}, name)` adds one and returns the number of hits.
 template <class Ask>
 void add_arithmetics(const char* kind, const char* scalar, const std::string& name, const Ask& ask) {
     const auto row = [&](const char* arithmetic) { return joined({kind, arithmetic, scalar, name}); };
-    const outcome fast = ask(abut::fast{}, row("fast"), 0.0);
-    const outcome filtered = ask(abut::filtered{}, row("filtered"), fast.milliseconds);
-    const outcome exact = ask(abut::exact{}, row("exact"), fast.milliseconds);
-    if (filtered.hits != exact.hits) throw abut::error(name + ": filtered and exact disagree");
-}
-
-/// Adds the row, and a line with the ratio.
-template <class Work>
-double add_row(table& out, const std::string& name, double fast_milliseconds, const Work& work) {
-    const double milliseconds = out.add(name, 0, work);
-    if (fast_milliseconds > 0) std::printf("%-38s %11.2f times fast\n", "", milliseconds / fast_milliseconds);
-    return milliseconds;
+    (void)ask(abut::fast{}, row("fast"));
+    if (ask(abut::filtered{}, row("filtered")) != ask(abut::exact{}, row("exact")))
+        throw abut::error(name + ": filtered and exact disagree");
 }
 
 template <abut::scalar T>
@@ -58,16 +44,16 @@ void add_families(const abut::cuda& on, table& out) {
     abut::execution::buffer_of<abut::cuda, std::uint8_t> touches(on, n);
     for (const auto family : scene::families) {
         for_each_index(on, n, bench::make_family_pair<T>{scene::seed, family, pairs.data()});
-        const auto ask = [&]<class A>(A, const std::string& name, double fast_milliseconds) -> outcome {
+        const auto ask = [&]<class A>(A, const std::string& name) -> double {
             const bench::decide_pair<A, T> decide{pairs.data(), touches.data()};
             for_each_index(on, n, decide);
             const double hits = bench::count_hits(on, n, touches.data());
             const counters says = bench::counters_of_pairs<A, T>(n, hits);
-            const double milliseconds = add_row(out, name, fast_milliseconds, [&] {
+            out.add(name, 0, [&] {
                 for_each_index(on, n, decide);
                 return says;
             });
-            return {milliseconds, hits};
+            return hits;
         };
         add_arithmetics("pair", scalar_name<T>, test::name_of(family), ask);
     }
@@ -78,13 +64,13 @@ void add_queries(const abut::cuda& on, table& out) {
     for (const auto& s : scene::scenes<T>(64, nullptr)) {
         const auto a = abut::make_bvh(on, copy_to(on, abut::mesh<T>(s.a.vertices, s.a.faces)));
         const auto b = abut::make_bvh(on, copy_to(on, abut::mesh<T>(s.b.vertices, s.b.faces)));
-        const auto ask = [&]<class A>(A, const std::string& name, double fast_milliseconds) -> outcome {
+        const auto ask = [&]<class A>(A, const std::string& name) -> double {
             double found = 0;
-            const double milliseconds = add_row(out, name, fast_milliseconds, [&] {
+            out.add(name, 0, [&] {
                 found = static_cast<double>(abut::count<A>(on, a, b));
                 return counters{{"found", found}};
             });
-            return {milliseconds, found};
+            return found;
         };
         add_arithmetics("count", scalar_name<T>, s.name, ask);
     }

@@ -19,9 +19,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
-#include <initializer_list>
 #include <map>
 #include <string>
 #include <type_traits>
@@ -32,12 +30,14 @@
 
 #include <abut/abut.hpp>
 
+#include "google.hpp"
 #include "triangle_scene.hpp"
 
 namespace {
 
 namespace test = abut::test;
 namespace scene = triangle_scene;
+using bench::joined;
 
 template <class T>
 constexpr const char* scalar_name = sizeof(T) == 4 ? "float" : "double";
@@ -48,16 +48,6 @@ const char* name_of(A) {
 }
 const char* name_of(const abut::serial&) { return "serial"; }
 const char* name_of(const abut::openmp&) { return "openmp"; }
-
-/// Parts of a benchmark's name with slashes between them.
-std::string joined(std::initializer_list<std::string> parts) {
-    std::string name;
-    for (const auto& part : parts) {
-        if (!name.empty()) name += '/';
-        name += part;
-    }
-    return name;
-}
 
 // --- pairs, one by one ----------------------------------------------------------------------------------------------------
 
@@ -324,34 +314,13 @@ void add_scalar() {
     add_families<abut::filtered, T>();
 }
 
-/// Takes --triangles=N out of the arguments; 0 where it is not a number.
-std::size_t largest_size(int& argc, char** argv) {
-    std::size_t most = 10'000'000;
-    const std::string flag = "--triangles=";
-    int kept = 1;
-    for (int i = 1; i < argc; ++i) {
-        const std::string argument = argv[i];
-        if (argument.rfind(flag, 0) == 0) {
-            most = std::strtoull(argument.c_str() + flag.size(), nullptr, 10);
-        } else {
-            argv[kept++] = argv[i];
-        }
-    }
-    argc = kept;
-    return most;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-    const std::size_t most = largest_size(argc, argv);
+    const std::size_t most = std::stoull(bench::take_argument(argc, argv, "--triangles", "10000000"));
     add_scalar<float>();
     add_scalar<double>();
     add_policy(abut::serial{}, most);
     add_policy(abut::openmp{}, most);
-    benchmark::Initialize(&argc, argv);
-    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
-    benchmark::RunSpecifiedBenchmarks();
-    benchmark::Shutdown();
-    return 0;
+    return bench::run_registered("bench_triangles", argc, argv);
 }

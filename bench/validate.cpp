@@ -19,6 +19,7 @@
 
 #include <abut/abut.hpp>
 
+#include "google.hpp"
 #include "validate_meshes.hpp"
 
 namespace {
@@ -108,9 +109,5 @@ void add_policy(const Policy& on) {
 int main(int argc, char** argv) {
     add_policy(abut::serial{});
     add_policy(abut::openmp{});
-    benchmark::Initialize(&argc, argv);
-    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
-    benchmark::RunSpecifiedBenchmarks();
-    benchmark::Shutdown();
-    return 0;
+    return bench::run_registered("bench_validate", argc, argv);
 }
