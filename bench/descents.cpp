@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// usage: bench_descents [MESH...]
+// usage: bench_descents [--json=OUT.json] [--mesh=FILE]
 //
-// Which of two trees to descend first: boxes compared, and the time that the walk takes on one core, for each traversal,
-// over the pair of bench/meshes_scene.hpp made of each mesh (PLY or OBJ; without one a torus). A plain recursion counts, the
-// library walks, with a filter that refuses every pair, so that nothing is decided. Then the boxes that both at once
-// compares by depth, and walks of small patches against the whole, as tables of Markdown.
+// Which of two trees to descend first: over the pair of bench/meshes_scene.hpp made of FILE (PLY or OBJ; without it a
+// torus), on one core. Names:
+//
+//   walk/BUILDER/TRAVERSAL     the library's walk with a filter that refuses every pair, so that nothing is decided;
+//   counters
+//                              boxes and leaves: pairs that are compared and met, which a plain recursion counts
+//   depth/BUILDER/N            boxes that both_at_once compares at depth N
+//   patch/N/TRAVERSAL          a patch of N triangles of the second mesh, first argument, against the first mesh, `sah`
 
 #include <algorithm>
 #include <array>
@@ -19,13 +23,14 @@
 #include <abut/abut.hpp>
 
 #include "meshes_scene.hpp"
+#include "results.hpp"
 
 namespace {
 
 using tree = abut::bvh<abut::mesh<float>, abut::host_space>;
 using abut::traversal;
 
-constexpr const char* names[] = {"both at once", "one first", "larger first", "alternate", "breadth first"};
+constexpr const char* names[] = {"both_at_once", "one_first", "larger_first", "alternate", "breadth_first"};
 
 /// Refuses every pair, but no compiler knows.
 struct refuse_all {
@@ -92,43 +97,39 @@ double ms_of(const tree& a, const tree& b) {
 }
 
 template <traversal Traversal>
-void print_row(const tree& a, const tree& b, const tally& seen) {
-    std::printf("| %s | %llu | %.2f | %llu |\n", names[static_cast<int>(Traversal)],
-                static_cast<unsigned long long>(seen.tests), ms_of<Traversal>(a, b),
-                static_cast<unsigned long long>(seen.leaves));
+void add_walk(bench::results& out, const std::string& builder, const tree& a, const tree& b, const tally& seen) {
+    out.add(bench::joined({"walk", builder, names[static_cast<int>(Traversal)]}),
+            {{"ms", ms_of<Traversal>(a, b)},
+             {"boxes", static_cast<double>(seen.tests)},
+             {"leaves", static_cast<double>(seen.leaves)}});
 }
 
 template <traversal Traversal>
-tally print_row(const tree& a, const tree& b) {
+tally add_walk(bench::results& out, const std::string& builder, const tree& a, const tree& b) {
     tally seen;
     const auto x = a.view(), y = b.view();
     descent<Traversal>{x, y, seen}.meet(x.root(), x.root_bounds(), y.root(), y.root_bounds(), 0,
                                         true);  // alternate: b first
-    print_row<Traversal>(a, b, seen);
+    add_walk<Traversal>(out, builder, a, b, seen);
     return seen;
 }
 
-void print_tables(const std::string& path) {
-    const auto pair = meshes_scene::make_pair(path.empty() ? meshes_scene::unit_torus() : meshes_scene::read_surface(path));
+void add_walks(bench::results& out, const meshes_scene::mesh_pair& pair) {
     const abut::serial on;
     for (const auto& [name, builder] :
          {std::pair("linear", abut::bvh_builder::linear), std::pair("mean_split", abut::bvh_builder::mean_split),
           std::pair("sah", abut::bvh_builder::sah)}) {
         const auto a = make_bvh(on, abut::mesh<float>(pair.a.vertices, pair.a.faces), {.builder = builder});
         const auto b = make_bvh(on, abut::mesh<float>(pair.b.vertices, pair.b.faces), {.builder = builder});
-        std::printf(
-            "%s, %zu triangles, `%s`\n\n| descend | boxes compared | ms | pairs of leaves |\n| --- | ---: | ---: | ---: |\n",
-            path.empty() ? "torus" : path.c_str(), a.size(), name);
-        print_row<traversal::one_first>(a, b);
-        print_row<traversal::larger_first>(a, b);
-        print_row<traversal::alternate>(a, b);
-        const tally seen = print_row<traversal::both_at_once>(a, b);
-        print_row<traversal::breadth_first>(a, b, seen);  // from the roots, it compares the same boxes
-        std::printf("\nBoth at once, boxes compared by depth:");
+        add_walk<traversal::one_first>(out, name, a, b);
+        add_walk<traversal::larger_first>(out, name, a, b);
+        add_walk<traversal::alternate>(out, name, a, b);
+        const tally seen = add_walk<traversal::both_at_once>(out, name, a, b);
+        add_walk<traversal::breadth_first>(out, name, a, b, seen);  // from the roots, it compares the same boxes
         for (std::size_t depth = 0; depth < seen.by_depth.size() && seen.by_depth[depth] > 0; ++depth) {
-            std::printf(" %llu", static_cast<unsigned long long>(seen.by_depth[depth]));
+            out.add(bench::joined({"depth", name, std::to_string(depth)}),
+                    {{"boxes", static_cast<double>(seen.by_depth[depth])}});
         }
-        std::printf("\n\n");
     }
 }
 
@@ -149,33 +150,36 @@ abut::mesh<float> patch(const meshes_scene::surface& from, const tree& whole, co
 }
 
 /// A small set beside a large one.
-void print_patches(const std::string& path) {
-    const auto pair = meshes_scene::make_pair(path.empty() ? meshes_scene::unit_torus() : meshes_scene::read_surface(path));
+void add_patches(bench::results& out, const meshes_scene::mesh_pair& pair) {
     const abut::serial on;
     const abut::bvh_options by_sah{.builder = abut::bvh_builder::sah};
     const auto a = make_bvh(on, abut::mesh<float>(pair.a.vertices, pair.a.faces), by_sah);
     const auto b = make_bvh(on, abut::mesh<float>(pair.b.vertices, pair.b.faces), by_sah);
-    std::printf("A patch of the second mesh, first argument, against the first mesh, `sah`, us\n\n| triangles |");
-    for (const char* name : {"both at once", "larger first", "alternate", "one first"}) std::printf(" %s |", name);
-    std::printf("\n| ---: | ---: | ---: | ---: | ---: |\n");
     for (const std::size_t n : {70u, 700u, 7000u, 70000u}) {
         const auto small = make_bvh(on, patch(pair.b, b, a, n), by_sah);
-        std::printf("| %zu | %.1f | %.1f | %.1f | %.1f |\n", small.size(), 1000 * ms_of<traversal::both_at_once>(small, a),
-                    1000 * ms_of<traversal::larger_first>(small, a), 1000 * ms_of<traversal::alternate>(small, a),
-                    1000 * ms_of<traversal::one_first>(small, a));
+        const auto add = [&]<traversal T>() {
+            out.add(bench::joined({"patch", std::to_string(n), names[static_cast<int>(T)]}), {{"ms", ms_of<T>(small, a)}});
+        };
+        add.template operator()<traversal::both_at_once>();
+        add.template operator()<traversal::larger_first>();
+        add.template operator()<traversal::alternate>();
+        add.template operator()<traversal::one_first>();
     }
-    std::printf("\n");
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
     try {
-        for (int i = argc < 2 ? 0 : 1; i < argc; ++i) {
-            const std::string path = i == 0 ? "" : argv[i];
-            print_tables(path);
-            print_patches(path);
-        }
+        const std::string path = bench::take_argument(argc, argv, "--json");
+        const std::string mesh = bench::take_argument(argc, argv, "--mesh");
+        const auto pair =
+            meshes_scene::make_pair(mesh.empty() ? meshes_scene::unit_torus() : meshes_scene::read_surface(mesh));
+        bench::results out("bench_descents");
+        out.describe("mesh", mesh.empty() ? "torus" : mesh.substr(mesh.find_last_of('/') + 1));
+        add_walks(out, pair);
+        add_patches(out, pair);
+        if (!path.empty()) out.write(path);
         return 0;
     } catch (const std::exception& problem) {
         std::fprintf(stderr, "bench_descents: %s\n", problem.what());

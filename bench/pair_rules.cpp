@@ -30,7 +30,7 @@ void add(const std::string& name, const bench::counters& says, const Work& work)
                                      for (const auto& [key, value] : says) state.counters[key] = value;
                                  })
         ->Unit(benchmark::kMillisecond)
-        ->Repetitions(5)
+        ->Repetitions(3)
         ->ReportAggregatesOnly(true)
         ->MinTime(0.01);
 }

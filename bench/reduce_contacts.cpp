@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// usage: bench_reduce_contacts [--mesh=FILE]
+// usage: bench_reduce_contacts [--json=OUT.json] [--mesh=FILE]
 //
-// How much of the cone of contacts is left by the two methods of reduce_contacts at 4, 8, 16 and 32 contacts. Scenes: a mesh
-// (FILE, or a torus) against a turned copy of itself (bench/meshes_scene.hpp), a box of 12 x 12 squares a side that has sunk
-// into a plane of such squares, and a sphere in a bowl. Prints a table in Markdown.
+// How much of the cone of contacts is left by the two methods of reduce_contacts. Scenes: mesh_on_mesh, FILE or a torus
+// against a turned copy of itself (bench/meshes_scene.hpp); box_on_plane, a box of 12 x 12 squares a side that has sunk into
+// a plane of such squares; and sphere_in_ring. Names: SCENE/METHOD/N, at most N contacts, METHOD binning or extremes;
+// SCENE/bins/N, binning alone with N cells an axis. Counters share and worst:
 //
 // The measure. Each contact is a point of six dimensions: its normal, and the normal's torque about the middle of all
 // contacts, by half the longest side of the box around them. In 1,000 random directions of that space, the support of a set
@@ -16,14 +17,15 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <exception>
 #include <random>
 #include <string>
 #include <vector>
 
 #include <abut/abut.hpp>
-#include <abut/io/read.hpp>
 
 #include "meshes_scene.hpp"
+#include "results.hpp"
 
 namespace {
 
@@ -117,46 +119,44 @@ std::vector<contact> sphere_in_bowl() {
     return to_host(contacts(abut::openmp{}, abut::sphere<float>{{0, 0, 0.3F}, 0.8F}, bowl));
 }
 
-void report(const std::string& name, const std::vector<contact>& all) {
+void add(bench::results& out, const std::string& name, const std::vector<contact>& all) {
     abut::execution::buffer<contact, abut::host_space> copy(abut::serial{}, all.size());
     std::memcpy(static_cast<void*>(copy.data()), all.data(), all.size() * sizeof(contact));
     const abut::result<contact, abut::host_space> found(std::move(copy));
-    for (const auto method : {abut::contact_reduction::binning, abut::contact_reduction::extremes}) {
-        const bool binning = method == abut::contact_reduction::binning;
-        std::printf("| %s, %zu contacts | %s |", name.c_str(), all.size(), binning ? "binning" : "extremes");
-        for (const std::size_t most : {std::size_t{4}, std::size_t{8}, std::size_t{16}, std::size_t{32}}) {
-            const auto few = to_host(reduce_contacts(abut::openmp{}, found, {.most = most, .method = method}));
-            const kept_share k = measure(all, few);
-            std::printf(" %.3f (%.3f) |", k.share, k.worst);
-        }
-        std::printf("\n");
-    }
-    for (const int bins : {2, 3, 4, 8}) {
-        const auto few = to_host(reduce_contacts(abut::openmp{}, found, {.bins = bins}));
+    const auto row = [&](const std::string& method, std::size_t n, const abut::reduce_options& options) {
+        const auto few = to_host(reduce_contacts(abut::openmp{}, found, options));
         const kept_share k = measure(all, few);
-        std::printf("%s: %d bins keep %zu contacts, %.3f (%.3f)\n", name.c_str(), bins, few.size(), k.share, k.worst);
+        out.add(bench::joined({name, method, std::to_string(n)}), {{"contacts", static_cast<double>(all.size())},
+                                                                   {"kept", static_cast<double>(few.size())},
+                                                                   {"share", k.share},
+                                                                   {"worst", k.worst}});
+    };
+    for (const std::size_t most : {4u, 8u, 16u, 32u}) {
+        row("binning", most, {.most = most, .method = abut::contact_reduction::binning});
+        row("extremes", most, {.most = most, .method = abut::contact_reduction::extremes});
     }
+    for (const int bins : {2, 3, 4, 8}) row("bins", static_cast<std::size_t>(bins), {.bins = bins});
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    meshes_scene::surface surface = meshes_scene::unit_torus();
-    std::string name = "torus on torus";
-    if (argc > 1 && std::strncmp(argv[1], "--mesh=", 7) == 0) {
-        const auto read = abut::io::read_mesh<float>(argv[1] + 7);
-        surface = {{}, {}};
-        const auto view = read.view();
-        for (std::size_t i = 0; i < view.vertices.count; ++i) surface.vertices.push_back(view.vertices[i]);
-        for (std::size_t i = 0; i < view.faces.count; ++i) surface.faces.push_back(view.faces[i]);
-        name = "mesh on mesh";
+    try {
+        const std::string path = bench::take_argument(argc, argv, "--json");
+        const std::string mesh = bench::take_argument(argc, argv, "--mesh");
+        const auto pair =
+            meshes_scene::make_pair(mesh.empty() ? meshes_scene::unit_torus() : meshes_scene::read_surface(mesh));
+        bench::results out("bench_reduce_contacts");
+        out.describe("mesh", mesh.empty() ? "torus" : mesh.substr(mesh.find_last_of('/') + 1));
+        const abut::openmp on;
+        const auto tree = make_bvh(on, abut::mesh<float>(pair.a.vertices, pair.a.faces));
+        add(out, "mesh_on_mesh", to_host(contacts(on, tree, posed(tree, pair.pose))));
+        add(out, "box_on_plane", box_on_plane());
+        add(out, "sphere_in_ring", sphere_in_bowl());
+        if (!path.empty()) out.write(path);
+        return 0;
+    } catch (const std::exception& problem) {
+        std::fprintf(stderr, "bench_reduce_contacts: %s\n", problem.what());
+        return 1;
     }
-    const auto pair = meshes_scene::make_pair(std::move(surface));
-    const abut::openmp on;
-    const auto tree = make_bvh(on, abut::mesh<float>(pair.a.vertices, pair.a.faces));
-    std::printf("| scene | method | 4 | 8 | 16 | 32 |\n| --- | --- | --- | --- | --- | --- |\n");
-    report(name, to_host(contacts(on, tree, posed(tree, pair.pose))));
-    report("box on plane", box_on_plane());
-    report("sphere in ring", sphere_in_bowl());
-    return 0;
 }

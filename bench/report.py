@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: MIT
-"""Turns the JSON of bench_spheres_mesh and bench_triangles, and of the same on CUDA, into the tables of docs/benchmarks.md.
+"""Writes the figures of README.md and docs/*.md from bench/results/*/*.json, and checks that they are the ones.
 
-usage: report.py [--into PAGE.md] NAME=RESULTS.json...
+usage: report.py [--check]                  compares the pages with the results; fails where they differ
+       report.py --write                    writes the pages and docs/figures
+       report.py --take FOLDER [--write]    first takes the files FOLDER/cpu/NAME.json and FOLDER/cuda/NAME.json that benchmarks left
+       report.py --page OUT.md FOLDER       writes a page of its own, with plots beside it, from such a folder alone
 
-Without --into it prints the tables. With it, each replaces what stands in the page between the lines
-`<!-- NAME: begin -->` and `<!-- NAME: end -->`; the rest of the page stays.
+In a page, lines between `<!-- NAME: begin -->` and `<!-- NAME: end -->` are a table of bench/report_tables.py, and what is
+between `<!-- v: NAME -->` and `<!-- /v -->` is a value. A table of figures that stands elsewhere is an error, unless it is of
+constants, which no program measures: then the line `<!-- constants -->` is before it. cmake/report.sh runs the benchmarks.
 """
 
 import argparse
@@ -13,315 +17,233 @@ import re
 import sys
 from pathlib import Path
 
-SPHERES, TRIANGLES, VERTICES = 1703244, 62976, 31488
-LABELS = {"none": "brute force", "grid": "buckets (`make_grid`)", "bvh": "BVH (`make_bvh`)", "embree": "Embree"}
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+import report_tables  # noqa: E402
+
+ROOT = Path(__file__).resolve().parent.parent
+BLOCK = re.compile(r"<!-- (?P<name>[\w-]+): begin -->\n(?P<text>.*?)<!-- (?P=name): end -->\n", re.S)
+VALUE = re.compile(r"<!-- v: (?P<name>[\w-]+) -->(?P<text>.*?)<!-- /v -->", re.S)
+MARK = re.compile(r"<!-- (?:[\w-]+: (?:begin|end)|v: [\w-]+|/v) -->")
+
+
+class Missing(Exception):
+    """A table asks for results that are not there."""
 
 
 class Results:
-    """Medians by name, as milliseconds with counters. One thread is measured by its processor time, which other jobs on
-    the machine disturb less; threads and devices by the clock."""
+    """Rows by name, each a dict of `ms` and counters; `context` says of which machine, compiler and commit."""
 
-    def __init__(self, path):
-        try:
-            data = json.loads(Path(path).read_text(encoding="utf-8"))
-        except (OSError, ValueError) as problem:
-            sys.exit(f"{path}: not the results of a finished run: {problem}")
-        self.context = data["context"]
-        self.rows = {}
-        # Interleaved runs come in any order; family_index is the order in which the program lists them.
-        for row in sorted(data["benchmarks"], key=lambda r: r.get("family_index", 0)):
-            if row.get("aggregate_name") != "median":
-                continue
-            name = re.split(r"/(?:iterations|min_time|repeats|real_time)\b", row["run_name"])[0]
-            unit = {"ns": 1e-6, "us": 1e-3, "ms": 1.0, "s": 1e3}[row["time_unit"]]
-            clock = "real_time" if "/openmp" in name or "/cuda" in name else "cpu_time"
-            self.rows[name] = dict(row, ms=row[clock] * unit)
+    def __init__(self, source, data):
+        self.source, self.context, self.rows = source, data["context"], data["rows"]
 
-    def ms(self, name):
-        return self.rows[name]["ms"] if name in self.rows else None
-
-    def counter(self, name, key):
+    def get(self, name, key="ms"):
         return self.rows.get(name, {}).get(key)
 
-    def policies(self):
-        found = {name.split("/")[2] for name in self.rows if name.startswith("all/")}
-        return [policy for policy in ("serial", "openmp", "cuda") if policy in found]
+    def names(self, start):
+        return [name for name in self.rows if name.startswith(start)]
+
+    def parts(self, start, position):
+        """What stands at a position of the names that start so, in the order of the program."""
+        return list(dict.fromkeys(name.split("/")[position] for name in self.names(start)))
 
 
-def shown(ms):
-    if ms is None:
-        return ""
-    digits = 0 if ms >= 100 else 1 if ms >= 10 else 2 if ms >= 1 else 3 if ms >= 0.1 else 4
-    return f"{ms:,.{digits}f}"
+class Folder:
+    """results["cpu/triangles"] are those of FOLDER/cpu/triangles.json."""
+
+    def __init__(self, path):
+        self.path, self.known = Path(path), {}
+
+    def __contains__(self, name):
+        return (self.path / f"{name}.json").exists()
+
+    def __getitem__(self, name):
+        if name not in self.known:
+            if name not in self:
+                raise Missing(f"{self.path / name}.json is not there")
+            self.known[name] = Results(name, read(self.path / f"{name}.json"))
+        return self.known[name]
 
 
-def table(head, rows):
-    lines = ["| " + " | ".join(head) + " |", "|" + " --- |" + " ---: |" * (len(head) - 1)]
-    return lines + ["| " + " | ".join(row) + " |" for row in rows] + [""]
+def rounded(value):
+    """Numbers as they are kept: whole ones as they are, others with five digits."""
+    if not isinstance(value, float) or value.is_integer():
+        return int(value) if isinstance(value, float) and abs(value) < 2**53 else value
+    return float(f"{value:.5g}")
 
 
-def whole_scene(r):
-    rows = []
-    for policy in r.policies():
-        for index in ("grid", "bvh", "embree"):
-            if r.ms(f"all/{index}/{policy}") is None:
-                continue
-            size = r.counter(f"build/{index}/{policy}", "bytes")
-            asked = [r.ms(f"{answer}/{index}/{policy}/{SPHERES}") for answer in ("pairs", "unsorted", "count")]
-            pairs = r.counter(f"all/{index}/{policy}", "pairs")
-            rows.append([f"{LABELS[index]}, {policy}", shown(r.ms(f"build/{index}/{policy}"))] + [shown(t) for t in asked] +
-                        [shown(r.ms(f"all/{index}/{policy}")), f"{size:,.0f}" if size else "", f"{pairs:,.0f}"])
-    lines = [f"The whole scene ({SPHERES:,} spheres, {TRIANGLES:,} triangles), in ms:", ""]
-    return lines + table(["", "build", "query: sorted pairs", "unsorted", "count", "build and sorted pairs",
-                          "bytes of the index", "pairs"], rows)
+def read(path):
+    """Results in the form of bench/results.hpp, also of a file of Google Benchmark: its medians and counters. One thread is
+    measured by its processor time, which other jobs of the machine disturb less; threads by the clock."""
+    try:
+        data = json.loads(path.read_text(encoding="utf-8"))
+        context = data["context"]
+        if "rows" in data:
+            rows = data["rows"]
+        else:
+            rows = {}
+            # Interleaved runs come in any order; family_index is the order in which the program lists them.
+            for row in sorted(data["benchmarks"], key=lambda r: r.get("family_index", 0)):
+                if row.get("error_occurred") or row.get("aggregate_name", "median") != "median":
+                    continue
+                name = re.split(r"/(?:iterations|min_time|repeats|real_time)\b", row["run_name"])[0]
+                clock = "real_time" if "openmp" in name else "cpu_time"
+                values = {"ms": row[clock] * {"ns": 1e-6, "us": 1e-3, "ms": 1.0, "s": 1e3}[row["time_unit"]]}
+                known = {"cpu_time", "real_time", "threads", "iterations", "repetitions", "family_index", "repetition_index",
+                         "per_family_instance_index"}
+                values.update({k: v for k, v in row.items() if isinstance(v, (int, float)) and k not in known})
+                rows[name] = values
+            kept = ("program", "machine", "cores", "threads", "compiler", "flags", "commit", "date", "mesh")
+            context = {k: context[k][:10] if k == "date" else context[k] for k in kept if k in context}
+        rows = {name: {k: rounded(float(v)) for k, v in row.items()} for name, row in rows.items()}
+        return {"context": context, "rows": rows}
+    except (OSError, ValueError, KeyError, TypeError) as problem:
+        sys.exit(f"{path}: not the results of a finished run: {problem!r}")
 
 
-def floor(r):
-    pairs = r.counter(f"pairs/bvh/{r.policies()[0]}/{SPHERES}", "pairs")
-    least = 12 * (SPHERES + TRIANGLES + VERTICES) + 8 * pairs
-    reading = r.rows["floor/read"]
-    if "bytes_per_second" in reading:
-        # Google Benchmark divides by the clock; here the same bytes over the processor's time.
-        rate = reading["bytes_per_second"] * reading["real_time"] / reading["cpu_time"]
-    else:
-        rate = reading["bytes"] / reading["ms"] * 1e3
-    line = (f"Floor of the query: the spheres and the mesh read once and the pairs written once are {least / 1e6:.1f} MB; "
-            f"at the {rate / 1e9:,.1f} GB/s that a read loop reached in the same run, {shown(least / rate * 1e3)} ms.")
-    call = r.ms("floor/call")
-    if call is not None:
-        line += f" A call that does next to nothing and waits for a number takes {shown(call)} ms."
-    return [line, ""]
+def take(folder, into):
+    """Brings what benchmarks left to where it is committed, small."""
+    found = sorted(p for kind in ("cpu", "cuda") for p in (folder / kind).glob("*.json"))
+    if not found:
+        sys.exit(f"{folder}: expected files cpu/NAME.json or cuda/NAME.json")
+    for path in found:
+        data = read(path)
+        to = into / path.parent.name / path.name
+        to.parent.mkdir(parents=True, exist_ok=True)
+        lines = ",\n".join(f"  {json.dumps(name)}: {json.dumps(row)}" for name, row in data["rows"].items())
+        to.write_text(f'{{"context": {json.dumps(data["context"])},\n "rows": {{\n{lines}\n}}}}\n', encoding="utf-8")
+        print(f"results of {data['context'].get('program', path.stem)}: {to}")
 
 
-def peers(r):
-    ours, theirs = r.ms("all/bvh/serial"), r.ms("all/embree/serial")
-    if ours is None:
+def pages():
+    return [ROOT / "README.md"] + sorted((ROOT / "docs").glob("*.md"))
+
+
+def expected(text, results, problems):
+    """The page as the results would have it."""
+    def made(match, known, kind):
+        name = match["name"]
+        if name not in known:
+            problems.append(f"{kind} {name}: no program makes it")
+            return match["text"]
+        try:
+            return known[name](results)
+        except Missing as problem:
+            problems.append(f"{kind} {name}: {problem}")
+        except (KeyError, TypeError, ZeroDivisionError, IndexError, StopIteration) as problem:
+            problems.append(f"{kind} {name}: the results lack what it shows ({problem!r})")
+        return match["text"]
+
+    def block(match):
+        return f"<!-- {match['name']}: begin -->\n{made(match, report_tables.TABLES, 'table')}<!-- {match['name']}: end -->\n"
+
+    def value(match):
+        return f"<!-- v: {match['name']} -->{made(match, report_tables.VALUES, 'value')}<!-- /v -->"
+
+    return VALUE.sub(value, BLOCK.sub(block, text))
+
+
+def loose_tables(text):
+    """The numbers of lines at which a table of figures begins that no program writes."""
+    text = BLOCK.sub(lambda m: "\n" * m[0].count("\n"), text)
+    lines, found, code = text.split("\n"), [], False
+    start = None
+    for number, line in enumerate(lines + [""]):
+        if line.lstrip().startswith("```"):
+            code = not code
+        if not code and line.startswith("|"):
+            start = number if start is None else start
+            continue
+        if start is not None:
+            cells = [c.strip() for row in lines[start + 2:number] for c in row.strip("|").split("|")]
+            # A figure: digits, and nothing else but what stands between figures, and a unit.
+            figure = re.compile(r"[-+~*]*\d[\d.,/%x^e+\s()-]*(?:ns|us|ms|s|kB|MB|GB|B|%|to \d[\d.,]*)?\**")
+            if any(figure.fullmatch(c) for c in cells) and (start == 0 or lines[start - 1] != "<!-- constants -->"):
+                found.append(start + 1)
+            start = None
+    return found
+
+
+def check(results):
+    problems = []
+    for path in pages():
+        text, here = path.read_text(encoding="utf-8"), []
+        made = expected(text, results, here)
+        if made != text:
+            for old, new in zip(text.split("\n"), made.split("\n")):
+                if old != new:
+                    here.append(f"differs from the results: {old!r} should be {new!r}")
+                    break
+        marks = MARK.findall(VALUE.sub("", BLOCK.sub("", text)))
+        here += [f"{mark} has no partner" for mark in marks]
+        here += [f"line {n}: a table of figures that no program writes" for n in loose_tables(text)]
+        problems += [f"{path.relative_to(ROOT)}: {problem}" for problem in here]
+    for source in report_tables.programs(results):
+        if not any((ROOT / "bench" / name).exists() for name in source):
+            problems.append(f"bench/{source[0]}: the program of some results is not there")
+    return problems
+
+
+def write(results):
+    problems = []
+    for path in pages():
+        text = path.read_text(encoding="utf-8")
+        made = expected(text, results, problems)
+        if made != text:
+            path.write_text(made, encoding="utf-8")
+            print(f"written: {path.relative_to(ROOT)}")
+    for problem in problems:
+        print(f"left as it was: {problem}")
+
+
+def draw(results, folder):
+    """The names of the plots that were written."""
+    try:
+        import plots
+    except ImportError as problem:
+        print(f"no plots: {problem} (python3-matplotlib)")
         return []
-    if theirs is None:
-        return ["Embree was not there in this run, so its row is left out.", ""]
-    unsorted = r.ms("all_unsorted/embree/serial")
-    query = r.ms(f"unsorted/bvh/serial/{SPHERES}") / r.ms(f"unsorted/embree/serial/{SPHERES}")
-    built = r.ms("build/bvh/serial") / r.ms("build/embree/serial")
-    return [f"abut over Embree, one core, same run: build and sorted pairs **{ours / theirs:.2f}** ({ours / unsorted:.2f} if "
-            f"Embree need not sort); build {built:.2f}, unsorted query {query:.2f}.", ""]
+    return plots.draw(results, folder)
 
 
-def by_size(r):
-    names = [(index, policy) for index in ("none", "grid", "bvh") for policy in r.policies()
-             if any(n.startswith(f"pairs/{index}/{policy}/") for n in r.rows)]
-    sizes = sorted({int(n.split("/")[3]) for n in r.rows if n.startswith("pairs/") and "embree" not in n})
-    rows = []
-    for size in sizes:
-        counts = [r.counter(f"pairs/{index}/{policy}/{size}", "pairs") for index, policy in names]
-        pairs = next(c for c in counts if c is not None)
-        rows.append([f"{size:,}", f"{pairs:,.0f}"] + [shown(r.ms(f"pairs/{i}/{p}/{size}")) for i, p in names])
-    heads = [f"{LABELS[index].split(' (')[0]}, {policy}" for index, policy in names]
-    return ["Query alone, sorted pairs, in ms, by the number of spheres:", ""] + table(["spheres", "pairs"] + heads, rows)
-
-
-def arithmetic(r):
-    rows = []
-    kinds = sorted({tuple(n.split("/")[1:3]) for n in r.rows if n.startswith("arithmetic/")}, key=lambda k: (k[0], k[1] != "float"))
-    for index, scalar in kinds:
-        times = {a: r.ms(f"arithmetic/{index}/{scalar}/{a}") for a in ("fast", "filtered", "exact")}
-        ratio = times["filtered"] / times["fast"] if times["fast"] and times["filtered"] else None
-        rows.append([f"{LABELS[index].split(' (')[0]}, {scalar}"] + [shown(t) for t in times.values()] +
-                    [f"{ratio:.2f}" if ratio else ""])
-    policy = "cuda" if "cuda" in r.policies() else "serial"
-    return [f"What certainty costs: query of the whole scene, sorted pairs, {policy}, in ms:", ""] + \
-        table(["", "`fast`", "`filtered`", "`exact`", "`filtered` / `fast`"], rows)
-
-
-def break_even(r):
-    keys = sorted({tuple(map(int, n.split("/")[2:4])) for n in r.rows if n.startswith("break_even/")}, key=lambda k: (k[1], k[0]))
-    rows = []
-    for spheres, triangles in keys:
-        times = {i: r.ms(f"break_even/{i}/{spheres}/{triangles}") for i in ("none", "grid", "bvh")}
-        best = min(times, key=times.get)
-        cells = [f"**{shown(t * 1e3)}**" if i == best else shown(t * 1e3) for i, t in times.items()]
-        rows.append([f"{triangles:,}", f"{spheres:,}"] + cells)
-    policy = "cuda" if "cuda" in r.policies() else "serial"
-    return [f"Small scenes, build and sorted pairs, {policy}, in us (the fastest in bold):", ""] + \
-        table(["triangles", "spheres", "brute force", "buckets", "BVH"], rows)
-
-
-# --- triangles against triangles ---------------------------------------------------------------------------------------
-
-ARITHMETICS = ("fast", "filtered", "exact")
-STAGES = {"first": "filter", "late": "late", "word": "64 bits", "one_limb": "1 limb", "two_limbs": "2 limbs",
-          "any_span": "any span"}
-QUERIES = (("0", "any"), ("1", "count"), ("50", "count"), ("1", "any"), ("1", "pairs"), ("50", "pairs"), ("1", "unsorted"),
-           ("50", "unsorted"))
-
-
-def parts_of(r, kind, position):
-    """What stands at a position of the names of a kind, in the order of the program."""
-    return list(dict.fromkeys(n.split("/")[position] for n in r.rows if n.startswith(kind + "/")))
-
-
-def rate(r, name):
-    per_second = r.counter(name, "items_per_second")
-    return per_second / 1e6 if per_second else None
-
-
-def quotient(a, b, digits=2):
-    return f"{a / b:.{digits}f}" if a and b else ""
-
-
-def share(part):
-    """Per cent, with more digits where it is nearly all."""
-    if part is None:
-        return ""
-    return f"{100 * part:.3f}" if 0.99 < part < 1 else f"{100 * part:.3g}"
-
-
-def pairs_one_by_one(r):
-    peers = [p for p in ("cgal", "fcl") if f"pair/{p}/double/1" in r.rows]
-    names = {"cgal": "CGAL", "fcl": "FCL"}
-    rows = []
-    for scalar in ("float", "double"):
-        for percent in sorted(parts_of(r, "pair", 3), key=float):
-            rates = {a: rate(r, f"pair/{a}/{scalar}/{percent}") for a in ARITHMETICS}
-            # A peer's name says double: that is what it works in, on the same numbers as float.
-            theirs = [rate(r, f"pair/{p}/double/{percent}") if scalar == "float" else None for p in peers]
-            hits = r.counter(f"pair/filtered/{scalar}/{percent}", "hits")
-            rows.append([scalar, f"{100 * hits:.1f}"] + [shown(v) for v in rates.values()] +
-                        [quotient(rates["fast"], rates["filtered"])] + [shown(v) for v in theirs] +
-                        [quotient(rates["filtered"], v) for v in theirs])
-    head = ["", "hits, %"] + [f"`{a}`" for a in ARITHMETICS] + ["time of `filtered` / `fast`"]
-    head += [names[p] for p in peers] + [f"`filtered` over {names[p]}" for p in peers]
-    lines = ["Pairs decided one by one, in million a second:", ""] + table(head, rows)
-    if r.counter("pair/filtered/float/1", "registers") is None:
-        return lines
-    rows = []
-    for scalar in ("float", "double"):
-        for a in ARITHMETICS:
-            taken = [r.counter(f"pair/{a}/{scalar}/1", key) for key in ("registers", "local_bytes")]
-            rows.append([f"`{a}`, {scalar}"] + [f"{v:,.0f}" for v in taken])
-    return lines + ["What a thread of these kernels takes:", ""] + \
-        table(["", "registers", "bytes of local memory (stack and spills)"], rows)
-
-
-def one_against_many(r):
-    lines = []
-    for policy in ("serial", "openmp", "cuda"):
-        for scalar in ("float", "double"):
-            sizes = [n.split("/")[3] for n in r.rows if n.startswith(f"read/{scalar}/{policy}/")]
-            if not sizes:
-                continue
-
-            def name(q, a, percent, n):
-                return f"one/{q}/{a}/{scalar}/{percent}/{policy}/{n}"
-
-            asked = [(q, a, p) for p, q in QUERIES for a in ARITHMETICS if name(q, a, p, sizes[0]) in r.rows]
-            rows = []
-            for n in sizes:
-                read = r.ms(f"read/{scalar}/{policy}/{n}")
-                rows.append([f"{int(n):,}", shown(read)] + [shown(r.ms(name(*what, n))) for what in asked] +
-                            [quotient(r.ms(name(q, "filtered", p, n)), read) for q, p in (("any", "0"), ("count", "1"))])
-            head = ["triangles", "read"] + [f"`{q}`, {p} % hits, `{a}`" for q, a, p in asked]
-            lines += [f"One triangle against many, {policy}, {scalar}, in ms; the last two columns are `filtered`, with no "
-                      "hit and with 1 %, over a loop that only reads the same bytes:", ""]
-            lines += table(head + ["`any` / read", "`count` / read"], rows)
-    return lines
-
-
-def call_floor(r):
-    call, reading = r.ms("floor/call"), r.rows.get("floor/read")
-    if call is None:
-        return []
-    speed = reading["bytes"] / reading["ms"] / 1e6
-    return [f"In the same run a GiB was read at {speed:,.0f} GB/s, and a call that does next to nothing and waits for a "
-            f"number took {shown(call)} ms: no query is faster.", ""]
-
-
-def with_copy(r):
-    rows = []
-    for name in r.rows:
-        if name.startswith("one/copied/"):
-            _, _, _, scalar, _, policy, n = name.split("/")
-            times = [r.ms(name.replace("copied", "count", 1)), r.ms(f"copy/{scalar}/{policy}/{n}"), r.ms(name)]
-            rows.append([f"{int(n):,}", scalar] + [shown(t) for t in times] + [quotient(times[2], times[1])])
-    if not rows:
-        return []
-    head = ["triangles", "", "`count`, resident", "copy alone", "copy, check and `count`", "all / copy"]
-    return ["With the copy from page-locked host memory, and the check of every coordinate, before each `count` (1 % hits, "
-            "`filtered`), in ms:", ""] + table(head, rows)
-
-
-def many_against_many(r):
-    rows = []
-    for policy in ("serial", "openmp", "cuda"):
-        names = [name for name in r.rows if name.startswith("many/") and f"/{policy}/" in name]
-        for n in dict.fromkeys(name.split("/")[5] for name in names):
-            counted = f"many/count/filtered/float/{policy}/{n}"
-            times = [r.ms(f"many/{what}/float/{policy}/{n}") for what in ("count/fast", "count/filtered", "pairs/filtered")]
-            rows.append([f"{int(n):,} x {int(n):,}, {policy}", f"{r.counter(counted, 'found'):,.0f}"] +
-                        [shown(t) for t in times] + [shown(int(n) ** 2 / r.ms(counted) / 1e6)])
-    head = ["", "hits", "`count`, `fast`", "`count`, `filtered`", "`pairs`, `filtered`", "10^9 pairs/s"]
-    return ["Many against many, all pairs in tiles, float, in ms, and 10^9 pairs a second of `count`, `filtered`:", ""] + \
-        table(head, rows)
-
-
-def families(r):
-    lines = []
-    for scalar in ("float", "double"):
-        def name(a, family):
-            return f"family/{a}/{scalar}/{family}"
-
-        # `late` is a stage of float alone.
-        stages = [s for s in STAGES if (s, scalar) != ("late", "double")]
-        stages = [s for s in stages if r.counter(name("filtered", "random"), s) is not None]
-        arithmetics = [a for a in ARITHMETICS if name(a, "random") in r.rows]
-        rows = []
-        for family in parts_of(r, "family", 3):
-            rates = [rate(r, name(a, family)) for a in arithmetics]
-            rows.append([family, f"{100 * r.counter(name('filtered', family), 'hits'):.1f}"] + [shown(v) for v in rates] +
-                        [quotient(rates[0], rates[1])] + [share(r.counter(name("filtered", family), s)) for s in stages])
-        which = ", and which stage of `filtered` decides them, in %:" if stages else ":"
-        lines += [f"The families of `tests/support/triangle_families.hpp`, {scalar}, in million pairs a second{which}", ""]
-        lines += table(["family", "hits, %"] + [f"`{a}`" for a in arithmetics] + ["time of `filtered` / `fast`"] +
-                       [STAGES[s] for s in stages], rows)
-    return lines
-
-
-SPHERE_PARTS = (whole_scene, peers, floor, by_size, arithmetic, break_even)
-TRIANGLE_PARTS = (one_against_many, call_floor, with_copy, many_against_many, pairs_one_by_one, families)
-
-
-def report(r):
-    machine = r.context.get("device")
-    lines = []
-    if machine:
-        lines += [f"{machine}, CUDA {r.context['cuda'] // 1000}.{r.context['cuda'] % 1000 // 10}; pool at the end of the run: "
-                  f"{r.context['pool_reserved']:,} bytes reserved, at most {r.context['pool_peak']:,} in use.", ""]
-    is_triangles = any(name.startswith("family/") for name in r.rows)
-    for part in TRIANGLE_PARTS if is_triangles else SPHERE_PARTS:
-        lines += part(r)
-    return "\n".join(lines).rstrip() + "\n"
+def page(out, results):
+    """What there are results for, one after another."""
+    lines = ["# What was measured here", ""]
+    out.parent.mkdir(parents=True, exist_ok=True)
+    for name in draw(results, out.parent):
+        print(f"written: {out.parent / name}")
+        lines += [f"![{name}]({name})", ""]
+    for name, make in report_tables.TABLES.items():
+        try:
+            lines += [f"## {name}", "", make(results)]
+        except (Missing, KeyError, TypeError, ZeroDivisionError, IndexError, StopIteration):
+            del lines[-2:]
+    out.write_text("\n".join(lines), encoding="utf-8")
+    print(f"written: {out}")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--into", type=Path, metavar="PAGE.md")
-    parser.add_argument("results", nargs="+", metavar="NAME=RESULTS.json")
+    parser.add_argument("--check", action="store_true")
+    parser.add_argument("--write", action="store_true")
+    parser.add_argument("--take", type=Path, metavar="FOLDER")
+    parser.add_argument("--page", type=Path, nargs=2, metavar=("OUT.md", "FOLDER"))
     arguments = parser.parse_args()
-    page = arguments.into.read_text(encoding="utf-8") if arguments.into else None
-    for argument in arguments.results:
-        name, _, path = argument.partition("=")
-        if not path:
-            parser.error(f"expected NAME=RESULTS.json, found {argument}")
-        text = report(Results(path))
-        if page is None:
-            print(f"## {name}\n\n{text}")
-            continue
-        begin, end = f"<!-- {name}: begin -->\n", f"<!-- {name}: end -->"
-        if begin not in page or end not in page:
-            sys.exit(f"{arguments.into}: no lines {begin.strip()} and {end}")
-        before, rest = page.split(begin, 1)
-        page = before + begin + text + end + rest.split(end, 1)[1]
-    if page is not None:
-        arguments.into.write_text(page, encoding="utf-8")
+    committed = ROOT / "bench" / "results"
+    if arguments.page:
+        page(arguments.page[0], Folder(arguments.page[1]))
+        return
+    if arguments.take:
+        take(arguments.take, committed)
+    if arguments.write:
+        write(Folder(committed))
+        for name in draw(Folder(committed), ROOT / "docs" / "figures"):
+            print(f"written: docs/figures/{name}")
+    if arguments.check or not (arguments.take or arguments.write):
+        problems = check(Folder(committed))
+        for problem in problems:
+            print(problem)
+        sys.exit(1 if problems else 0)
 
 
 if __name__ == "__main__":

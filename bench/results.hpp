@@ -41,10 +41,11 @@ inline std::string joined(std::initializer_list<std::string> parts) {
 /// What the results of a program need to be read years later. The environment says what a program cannot know of itself:
 /// ABUT_COMMIT and ABUT_FLAGS (of the compiler).
 inline description context(const std::string& program) {
-    const auto from_environment = [](const char* name) {
+    const auto from_environment = [](const char* name, std::string otherwise = "unknown") {
         const char* const value = std::getenv(name);
-        return std::string(value == nullptr ? "unknown" : value);
+        return value == nullptr ? otherwise : std::string(value);
     };
+    const std::string cores = std::to_string(std::thread::hardware_concurrency());
     std::string machine = "unknown", line;
     for (std::ifstream cpu("/proc/cpuinfo"); std::getline(cpu, line);) {
         if (line.rfind("model name", 0) != 0) continue;
@@ -61,7 +62,8 @@ inline description context(const std::string& program) {
     std::strftime(date, sizeof(date), "%Y-%m-%d", std::gmtime(&now));
     return {{"program", program},
             {"machine", machine},
-            {"cores", std::to_string(std::thread::hardware_concurrency())},
+            {"cores", cores},
+            {"threads", from_environment("OMP_NUM_THREADS", cores)},
             {"compiler", compiler},
             {"flags", from_environment("ABUT_FLAGS")},
             {"commit", from_environment("ABUT_COMMIT")},

@@ -1,0 +1,370 @@
+# SPDX-License-Identifier: MIT
+"""The plots of docs/figures, from the same results as the tables (bench/report.py). PLOTS holds functions by file name.
+
+Text is text, the background is transparent and colours are of middle lightness, so that a plot can be read on white and on
+black. The same results give the same bytes.
+"""
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+from matplotlib.lines import Line2D  # noqa: E402
+
+from report_tables import ANY_SCENES, ARITHMETICS, BUILDERS, INPUTS, LITERATURE, PREDICATES, SCALARS, SIZES, SPHERES, motion_scenes, \
+    of_size, policies  # noqa: E402
+
+GREY = "#888888"
+COLOURS = {"fast": "#d9773f", "filtered": "#3f8fd9", "exact": "#3fa66b", "resolve": "#b05fc7", "conservative": "#c7a52e"}
+SERIES = ("#3f8fd9", "#d9773f", "#3fa66b", "#b05fc7", "#c7a52e", "#d9587f", "#5fb8b8")
+MARKS = {"random": "o", "touching": "X", "lattice": "s"}
+PLOTS = {}
+
+matplotlib.rcParams.update({
+    "svg.fonttype": "none", "svg.hashsalt": "abut", "font.size": 10, "font.family": "sans-serif", "text.color": GREY,
+    "axes.edgecolor": GREY, "axes.labelcolor": GREY, "axes.titlecolor": GREY, "axes.titlesize": 10.5, "xtick.color": GREY,
+    "ytick.color": GREY, "legend.frameon": False, "axes.grid": True, "grid.color": GREY, "grid.alpha": 0.25,
+    "axes.facecolor": "none", "figure.facecolor": "none", "savefig.facecolor": "none", "axes.spines.top": False,
+    "axes.spines.right": False, "legend.fontsize": 9})
+
+
+def plot(name):
+    def add(make):
+        PLOTS[name] = make
+        return make
+    return add
+
+
+def draw(results, folder, also_png=None):
+    """Writes those plots that there are results for, and returns their names."""
+    folder.mkdir(parents=True, exist_ok=True)
+    drawn = []
+    for name, make in PLOTS.items():
+        try:
+            figure = make(results)
+        except Exception as problem:  # a plot less is no reason to have none
+            print(f"no {name}.svg: {problem}")
+            continue
+        finally:
+            plt.close("all")
+        figure.savefig(folder / f"{name}.svg", bbox_inches="tight", metadata={"Date": None, "Creator": None})
+        if also_png:
+            figure.savefig(also_png / f"{name}.png", dpi=80, bbox_inches="tight")
+        drawn.append(f"{name}.svg")
+    return drawn
+
+
+def of_machine(r):
+    c = r.context
+    return c["device"] if "device" in c else f"one core, {c['machine']}"
+
+
+def grid(count, columns=3, width=9.6, height=2.7, **more):
+    rows = -(-count // columns)
+    figure, axes = plt.subplots(rows, columns, figsize=(width, height * rows), squeeze=False, constrained_layout=True, **more)
+    for spare in axes.flat[count:]:
+        spare.set_visible(False)
+    return figure, list(axes.flat[:count])
+
+
+def below(figure, handles, columns):
+    figure.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0), ncol=columns)
+
+
+def beside(figure, handles):
+    figure.legend(handles=handles, loc="upper left", bbox_to_anchor=(1, 0.95))
+
+
+# --- speed against wrong answers --------------------------------------------------------------------------------------------
+
+def trade(r, million_a_second):
+    figure, axes = grid(len(PREDICATES), sharey=True)
+    for axis, (predicate, name) in zip(axes, PREDICATES.items()):
+        for scalar in SCALARS:
+            for kind in INPUTS:
+                for a in ARITHMETICS:
+                    at = f"{predicate}/{kind}/{scalar}/{a}"
+                    if at not in r.rows:
+                        continue
+                    wrong = r.get(at, "wrong_per_million")
+                    axis.plot(million_a_second(r, at), max(wrong, 0.3), MARKS[kind], color=COLOURS[a], markersize=8 if scalar == "double" else 6,
+                              fillstyle="full" if scalar == "float" else "none", clip_on=False)
+        axis.set_title(name)
+        axis.set_xscale("log")
+        axis.set_yscale("log")
+        axis.set_ylim(0.2, 1e6)
+        axis.set_yticks([0.3, 10, 1e3, 1e5], ["0", "10", "1,000", "100,000"])
+        axis.minorticks_off()
+        low, high = axis.get_xlim()
+        axis.set_xlim(low, high)
+        axis.xaxis.set_major_locator(matplotlib.ticker.LogLocator(10, (1, 3), numticks=20))
+        axis.xaxis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda v, _: f"{v:,g}"))
+        axis.set_xlabel("million pairs a second")
+    for axis in axes[::3]:
+        axis.set_ylabel("wrong answers per million")
+    handles = [Line2D([], [], marker="o", linestyle="", color=COLOURS[a], label=a) for a in ARITHMETICS]
+    handles += [Line2D([], [], marker=m, linestyle="", color=GREY, label=k) for k, m in MARKS.items()]
+    handles += [Line2D([], [], marker="o", linestyle="", color=GREY, fillstyle=f, label=s) for s, f in (("float", "full"), ("double", "none"))]
+    below(figure, handles, 8)
+    figure.suptitle(f"Throughput against wrong answers: {of_machine(r)}", color=GREY)
+    return figure
+
+
+@plot("trade-cpu")
+def trade_cpu(results):
+    return trade(results["cpu/trade"], lambda r, name: 1e3 / r.get(name, "ns"))
+
+
+@plot("trade-cuda")
+def trade_cuda(results):
+    return trade(results["cuda/trade"], lambda r, name: r.get(name, "pairs") / r.get(name) / 1e3)
+
+
+def cost(r, time):
+    figure, axes = grid(2, 2, height=3.4, sharey=True)
+    for axis, scalar in zip(axes, SCALARS):
+        labels, at = [], 0
+        for predicate, name in PREDICATES.items():
+            for kind in INPUTS:
+                base = time(r, f"{predicate}/{kind}/{scalar}/fast")
+                for a in ("filtered", "exact"):
+                    axis.plot(time(r, f"{predicate}/{kind}/{scalar}/{a}") / base, at, MARKS[kind], color=COLOURS[a], markersize=6)
+            labels.append(name)
+            at += 1
+        axis.axvline(1, color=COLOURS["fast"], linewidth=1.2)
+        axis.set_yticks(range(len(labels)), labels)
+        axis.set_xscale("log")
+        axis.xaxis.set_major_locator(matplotlib.ticker.LogLocator(10, (1, 2, 5), numticks=20))
+        axis.xaxis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda v, _: f"{v:,g}"))
+        axis.minorticks_off()
+        axis.set_xlabel("time over that of fast")
+        axis.set_title(scalar)
+    axes[0].invert_yaxis()
+    handles = [Line2D([], [], marker="o", linestyle="", color=COLOURS[a], label=a) for a in ("filtered", "exact")]
+    handles += [Line2D([], [], marker=m, linestyle="", color=GREY, label=k) for k, m in MARKS.items()]
+    below(figure, handles, 5)
+    figure.suptitle(f"What certainty costs: {of_machine(r)}", color=GREY)
+    return figure
+
+
+@plot("cost-cpu")
+def cost_cpu(results):
+    return cost(results["cpu/trade"], lambda r, name: r.get(name, "ns"))
+
+
+@plot("cost-cuda")
+def cost_cuda(results):
+    return cost(results["cuda/trade"], lambda r, name: r.get(name))
+
+
+def family_cost(r):
+    figure, axes = grid(1, 1, height=7.5)
+    axis, names = axes[0], r.parts("family/", 3)
+    for scalar, fill in zip(SCALARS, ("full", "none")):
+        for a in ("filtered", "exact"):
+            ratio = [r.get(f"family/fast/{scalar}/{f}", "items_per_second") / v if (v := r.get(f"family/{a}/{scalar}/{f}", "items_per_second"))
+                     else None for f in names]
+            if any(ratio):
+                axis.plot(ratio, range(len(names)), "o", color=COLOURS[a], fillstyle=fill, label=f"{a}, {scalar}")
+    axis.axvline(1, color=COLOURS["fast"], linewidth=1.2)
+    axis.set_yticks(range(len(names)), names)
+    axis.invert_yaxis()
+    axis.set_xscale("log")
+    axis.xaxis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda v, _: f"{v:,g}"))
+    axis.set_xlabel("time over that of fast")
+    axis.legend()
+    axis.set_title(f"Two triangles, families of the tests: {of_machine(r)}")
+    return figure
+
+
+@plot("families-cpu")
+def families_cpu(results):
+    return family_cost(results["cpu/triangles"])
+
+
+@plot("families-cuda")
+def families_cuda(results):
+    return family_cost(results["cuda/triangles"])
+
+
+# --- scaling ----------------------------------------------------------------------------------------------------------------
+
+def log_log(axis, x, y):
+    axis.set_xscale("log")
+    axis.set_yscale("log")
+    axis.set_xlabel(x)
+    axis.set_ylabel(y)
+    axis.minorticks_off()
+
+
+def there(results, *names):
+    return [results[name] for name in names if name in results]
+
+
+@plot("scaling-spheres")
+def scaling_spheres(results):
+    figure, axes = grid(1, 1, height=4.2)
+    axis, colour = axes[0], iter(SERIES)
+    for r in there(results, "cpu/spheres_mesh", "cuda/spheres_mesh"):
+        for policy in policies(r):
+            if policy == "openmp":
+                continue
+            for index, style in (("none", ":"), ("grid", "--"), ("bvh", "-")):
+                points = sorted((int(n.split("/")[3]), r.get(n)) for n in r.names(f"pairs/{index}/{policy}/"))
+                label = {"none": "brute force", "grid": "buckets", "bvh": "BVH"}[index]
+                axis.plot(*zip(*points), style, color=next(colour), marker=".", label=f"abut, {label}, {policy}")
+    theirs = LITERATURE["lee_hsieh_2019"]
+    for (name, ms), mark in zip(theirs["whole_scene_ms"].items(), "Pv"):
+        axis.plot(SPHERES, ms, mark, color=GREY, markersize=8, label=f"Lee and Hsieh: {name}")
+    for (name, ms), mark in zip(theirs["spheres_2_20_ms"].items(), "s^dD"):
+        axis.plot(2**20, ms, mark, color=GREY, markersize=6, fillstyle="none", label=f"Lee and Hsieh: {name}")
+    log_log(axis, "spheres, against 62,976 triangles", "query, sorted pairs, ms")
+    beside(figure, figure.axes[0].get_legend_handles_labels()[0])
+    return figure
+
+
+@plot("scaling-triangles")
+def scaling_triangles(results):
+    figure, axes = grid(1, 1, height=4.2)
+    axis, colour = axes[0], iter(SERIES)
+    for r, policy in zip(there(results, "cpu/triangles", "cuda/triangles"), ("serial", "cuda")):
+        for what, label, style in ((f"read/float/{policy}", "a loop that only reads", ":"), (f"one/count/fast/float/1/{policy}", "fast", "--"),
+                                   (f"one/count/filtered/float/1/{policy}", "filtered", "-"), (f"one/copied/filtered/float/1/{policy}", "filtered, with the copy", "-.")):
+            points = sorted((int(n.split("/")[-1]), r.get(n)) for n in r.names(what + "/"))
+            if points:
+                axis.plot(*zip(*points), style, color=next(colour), marker=".", label=f"{label}, {policy}")
+    theirs = LITERATURE["maffina_2012"]
+    for key, label, mark in (("one_core_ms", "Maffina 2012, one core", "o"), ("gpu_ms", "Maffina 2012, GTX 590", "s")):
+        axis.plot([int(n) for n in theirs[key]], list(theirs[key].values()), mark, color=GREY, markersize=8, fillstyle="none", label=label)
+    log_log(axis, "triangles, against one", "count, 1 % hits, ms")
+    beside(figure, figure.axes[0].get_legend_handles_labels()[0])
+    return figure
+
+
+@plot("scaling-meshes")
+def scaling_meshes(results):
+    figure, axes = grid(2, 2, height=3.8)
+    n = [int(s) for s in SIZES]
+    theirs = [LITERATURE["backman_2011"]["sizes"][s] for s in SIZES]
+    for key, label, mark in (("cpu", "Bäckman 2011, processor", "o"), ("gpu", "Bäckman 2011, 8800 GTS", "s")):
+        axes[0].plot(n, [t[f"middle_{key}_ms"] + t[f"near_{key}_ms"] for t in theirs], mark, color=GREY, fillstyle="none", markersize=7, label=label)
+    cpu, cuda = [of_size(results, "cpu", s) for s in SIZES], [of_size(results, "cuda", s) for s in SIZES]
+    for index, (label, rows, name) in enumerate((("pairs, one core", cpu, "pairs/posed/serial"), ("pairs, device", cuda, "pairs/posed/cuda"),
+                                                 ("contacts, device", cuda, "contacts/posed/cuda"), ("build, one core", cpu, "build/bvh/serial"))):
+        axes[0].plot(n, [r.get(name) for r in rows], color=SERIES[index], marker=".", label=f"abut: {label}")
+    log_log(axes[0], "triangles of each of two meshes", "ms")
+    axes[0].legend(fontsize=7.5)
+    axes[0].set_title("Both phases, meshes under a pose")
+    depths = LITERATURE["backman_2011"]["box_tests_per_depth_345944"]
+    axes[1].plot([int(d) for d in depths], list(depths.values()), "o", color=GREY, fillstyle="none", label="Bäckman 2011")
+    r = results["cpu/descents"]
+    for index, builder in enumerate(r.parts("walk/", 1)):
+        points = sorted((int(name.split("/")[2]), r.get(name, "boxes")) for name in r.names(f"depth/{builder}/"))
+        axes[1].plot(*zip(*points), color=SERIES[index], marker=".", label=f"abut, {builder}")
+    axes[1].set_yscale("log")
+    axes[1].set_xlabel("depth")
+    axes[1].set_ylabel("tests of boxes")
+    axes[1].legend(fontsize=8)
+    axes[1].set_title("345,944 triangles: tests of boxes per depth")
+    return figure
+
+
+@plot("scaling-motion")
+def scaling_motion(results):
+    figure, axes = grid(1, 1, height=4.2)
+    axis, theirs = axes[0], LITERATURE["dasilva_2013"]["models"]
+    for key, label, mark in (("stealing_gts450_ms", "lazy work stealing, GTS 450", "o"), ("stealing_gt520_ms", "lazy work stealing, GT 520", "s"),
+                             ("gproximity_gts450_ms", "gProximity, GTS 450", "^"), ("gproximity_gt520_ms", "gProximity, GT 520", "v")):
+        points = [(m["triangles"], m[key]) for m in theirs.values() if key in m]
+        axis.plot(*zip(*points), mark, color=GREY, fillstyle="none", label=f"da Silva 2013: {label}")
+    for index, (r, label) in enumerate(zip(there(results, "cuda/motion_flying", "cuda/motion"), ("small things flying about", "simulations"))):
+        points = [(r.get(f"{s}/build", "faces"), r.get(f"{s}/frame"), s) for s in motion_scenes(r)]
+        axis.plot([p[0] for p in points], [p[1] for p in points], "." if label == "simulations" else ".-", markersize=10, color=SERIES[index],
+                  label=f"abut: {label}")
+        for x, y, s in points if label == "simulations" else ():
+            axis.annotate(s.split("/")[0], (x, y), xytext=(0, 6), textcoords="offset points", ha="center", fontsize=7.5, color=SERIES[index])
+    log_log(axis, "triangles", "a frame: refit and impacts, ms")
+    beside(figure, figure.axes[0].get_legend_handles_labels()[0])
+    return figure
+
+
+# --- stages and memory ------------------------------------------------------------------------------------------------------
+
+@plot("stages-triangles")
+def stages_triangles(results):
+    r = results["cpu/triangles"]
+    stages = {"first": "filter", "late": "late", "word": "64 bits", "one_limb": "1 limb", "two_limbs": "2 limbs", "any_span": "any span"}
+    names = r.parts("family/", 3)
+    figure, axes = grid(2, 2, height=7.5, sharey=True)
+    for axis, scalar in zip(axes, SCALARS):
+        left = [0.0] * len(names)
+        for index, (key, label) in enumerate(stages.items()):
+            part = [100 * (r.get(f"family/filtered/{scalar}/{f}", key) or 0) for f in names]
+            axis.barh(range(len(names)), part, left=left, color=SERIES[index], label=label)
+            left = [a + b for a, b in zip(left, part)]
+        axis.set_title(scalar)
+        axis.set_xlabel("pairs decided, %")
+        axis.grid(False)
+    axes[0].set_yticks(range(len(names)), names)
+    axes[0].invert_yaxis()
+    handles = axes[0].get_legend_handles_labels()[0]
+    below(figure, handles, 6)
+    figure.suptitle("Which stage of filtered decides two triangles, by family", color=GREY)
+    return figure
+
+
+@plot("stages-motion")
+def stages_motion(results):
+    r = results["cpu/motion"]
+    kinds = [n for n in r.names("look/")]
+    keys = {"no_by_volume": "no: volume", "no_by_direction": "no: direction", "no_by_areas": "no: areas", "yes": "yes", "open": "left to later stages"}
+    figure, axes = grid(1, 1, height=0.6 + 0.34 * len(kinds))
+    axis, left = axes[0], [0.0] * len(kinds)
+    for index, (key, label) in enumerate(keys.items()):
+        part = [100 * (r.get(n, key) or 0) for n in kinds]
+        axis.barh(range(len(kinds)), part, left=left, color=SERIES[index], label=label)
+        left = [a + b for a, b in zip(left, part)]
+    axis.set_yticks(range(len(kinds)), [n.removeprefix("look/").replace("/", ", ").replace("_", "-") for n in kinds])
+    axis.invert_yaxis()
+    axis.grid(False)
+    axis.set_xlabel("candidates, by what the first look says, %")
+    below(figure, axis.get_legend_handles_labels()[0], 5)
+    return figure
+
+
+@plot("memory")
+def memory(results):
+    r = results["cpu/builders"]
+    figure, axes = grid(1, 1, height=3.8)
+    axis = axes[0]
+    for index, builder in enumerate(BUILDERS):
+        for layout, mark in (("standard", "o"), ("quantised", "s"), ("leafless", "^"), ("wide", "D")):
+            at = f"pairs/baked/{builder}/{layout}"
+            if at in r.rows:
+                axis.plot(r.get(at, "bytes_per_shape"), r.get(at), mark, color=SERIES[index], markersize=8)
+    axis.set_xlabel("bytes of the tree for a triangle")
+    axis.set_ylabel("sorted pairs of two meshes, ms")
+    axis.set_ylim(0)
+    axis.set_xlim(0)
+    handles = [Line2D([], [], marker="o", linestyle="", color=SERIES[i], label=b) for i, b in enumerate(BUILDERS)]
+    handles += [Line2D([], [], marker=m, linestyle="", color=GREY, label=n) for n, m in (("standard", "o"), ("quantised", "s"), ("leafless", "^"), ("wide", "D"))]
+    beside(figure, handles)
+    axis.set_title(f"Memory against time, 345,944 triangles: {of_machine(r)}")
+    return figure
+
+
+@plot("any")
+def any_scenes(results):
+    r = results["cpu/any"]
+    trees = {"linear": "linear BVH", "sah_wide": "SAH, wide", "sah_oriented": "SAH, oriented", "embree_low": "Embree, low", "fcl_obb": "FCL"}
+    figure, axes = grid(1, 1, height=3.4)
+    for index, (tree, name) in enumerate(trees.items()):
+        times = [r.get(f"any/{s}/baked/{tree}") for s in ANY_SCENES]
+        if all(times):
+            axes[0].plot(range(len(times)), [1e3 * t for t in times], "o", color=SERIES[index], label=name)
+    axes[0].set_xticks(range(len(ANY_SCENES)), list(ANY_SCENES.values()))
+    axes[0].set_yscale("log")
+    axes[0].set_ylabel("any, us")
+    beside(figure, figure.axes[0].get_legend_handles_labels()[0])
+    axes[0].set_title(f"Whether two meshes touch: {of_machine(r)}")
+    return figure

@@ -1,0 +1,207 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+#
+# usage: sh cmake/report.sh [--quick] [--into-docs] [--cpu] [--cuda] [--only NAME]... [--data DIR] [--jobs N] [--bin DIR]
+#                           [--from DIR] [--no-install]
+#
+# Measures, and makes tables and plots of it. Installs what is missing (Debian 12, Ubuntu 24.04 or newer), builds the
+# benchmarks in build/report, runs them, and writes build/report/report.md with plots beside it, of this machine.
+#
+#   --quick       few benchmarks, small sizes: a few minutes, most of them for the compiler
+#   --into-docs   all tables and plots of README.md and docs/ are rewritten from what was measured; what was not measured here
+#                 (a device, say) stays. The results are kept in bench/results
+#   --cpu --cuda  only the benchmarks of the processor, or of the device. Without either: both, where nvcc and a device are
+#   --only NAME   only the benchmarks of that name in the table below
+#   --data DIR    folder with meshes/ and ccd/ (../shared/data); what needs it is left out where it is not there
+#   --jobs N      so many benchmarks of the processor run at once (1); those of a device run one after another
+#   --bin DIR     programs are there already: nothing is installed or built. For a machine without compilers or network: bring
+#                 the programs and this script there, and build/report/results back
+#   --from DIR    nothing is run: the results are those in DIR, with folders cpu and cuda
+#   --no-install  fails where a package is missing
+set -eu
+cd "$(dirname "$0")/.."
+# shellcheck source=cmake/common.sh
+. cmake/common.sh
+
+usage() { sed -n '/^# usage/,/^set/s/^# \{0,1\}//p' "$0" | sed '$d'; }
+
+# --- the table: results, program, arguments ----------------------------------------------------------------------------
+#
+# NAME goes to build/report/results/KIND/NAME.json, and from there to bench/results. $D is the folder of data, $I
+# interleaves runs at random. Google Benchmark is told where to write by --benchmark_out, a few programs by --json, those of a
+# device by their first argument: {} stands for the file.
+table() {
+    I=--benchmark_enable_random_interleaving=true
+    G='--benchmark_out={} --benchmark_format=console'
+    if [ $quick = yes ]; then
+        cat <<END
+cpu trade bench_trade --json={} --pairs=8192 --runs=5
+cpu spheres_mesh bench_spheres_mesh $G $I
+cpu triangles bench_triangles $G $I --triangles=1000000 --benchmark_filter=^(pair|one|read)/.*
+cpu descents bench_descents --json={}
+cuda trade bench_trade_cuda {}
+cuda spheres_mesh bench_spheres_mesh_cuda {}
+END
+    else
+        cat <<END
+cpu trade bench_trade --json={}
+cpu spheres_mesh bench_spheres_mesh $G $I
+cpu triangles bench_triangles $G $I --triangles=20000000
+cpu ties bench_ties $G --mesh=$D/meshes/armadillo_27674.ply
+cpu nearest bench_nearest $G $I --benchmark_filter=/100000$
+cpu validate bench_validate $G
+cpu meshes bench_meshes $G $I --mesh=$D/meshes/armadillo_345944.ply --benchmark_filter=-any/[a-z_]*/.*/
+cpu meshes_138376 bench_meshes $G $I --mesh=$D/meshes/armadillo_138376.ply --benchmark_filter=^(build/bvh|pairs)/
+cpu meshes_27674 bench_meshes $G $I --mesh=$D/meshes/armadillo_27674.ply --benchmark_filter=^(build/bvh|pairs)/
+cpu meshes_2766 bench_meshes $G $I --mesh=$D/meshes/armadillo_2766.ply --benchmark_filter=^(build/bvh|pairs)/
+cpu any bench_meshes $G $I --mesh=$D/meshes/stanford-bunny.ply --benchmark_filter=any/[a-z_]*/.*/
+cpu builders bench_builders $G $I --mesh=$D/meshes/armadillo_345944.ply
+cpu descents bench_descents --json={} --mesh=$D/meshes/armadillo_345944.ply
+cpu fronts bench_fronts --json={} --frames=20
+cpu motion bench_motion $G --scene=$D/ccd/cloth-ball --scene=$D/ccd/cloth-funnel --scene=$D/ccd/armadillo-rollers
+cpu pair_rules bench_pair_rules $G $I --scenes=$D/ccd --benchmark_filter=-n-body
+cpu reduce_contacts bench_reduce_contacts --json={} --mesh=$D/meshes/armadillo_345944.ply
+cuda trade bench_trade_cuda {}
+cuda spheres_mesh bench_spheres_mesh_cuda {}
+cuda triangles bench_triangles_cuda {}
+cuda ties bench_ties_cuda {}
+cuda nearest bench_nearest_cuda {}
+cuda validate bench_validate_cuda {}
+cuda meshes bench_meshes_cuda {} $D/meshes/armadillo_345944.ply $D/meshes/armadillo_2766.ply
+cuda meshes_138376 bench_meshes_cuda {} $D/meshes/armadillo_138376.ply $D/meshes/armadillo_2766.ply
+cuda meshes_27674 bench_meshes_cuda {} $D/meshes/armadillo_27674.ply $D/meshes/armadillo_2766.ply
+cuda meshes_2766 bench_meshes_cuda {} $D/meshes/armadillo_2766.ply $D/meshes/armadillo_2766.ply
+cuda builders bench_builders_cuda {} $D/meshes/armadillo_345944.ply
+cuda schedules bench_schedules_cuda {} $D/meshes/armadillo_345944.ply
+cuda motion bench_motion_cuda {} $D/ccd/cloth-ball $D/ccd/cloth-funnel $D/ccd/n-body-simulation $D/ccd/armadillo-rollers $D/ccd/rod-twist
+cuda motion_flying bench_motion_cuda {}
+cuda pair_rules bench_pair_rules_cuda --scenes=$D/ccd {}
+cuda fronts bench_fronts_cuda {} $D/ccd/cloth-ball $D/ccd/cloth-funnel $D/ccd/n-body-simulation
+END
+    fi
+}
+
+# --- arguments ---------------------------------------------------------------------------------------------------------
+
+quick=no docs=no kinds='' only='' D=../shared/data at_once=1 bin='' from='' install=yes
+while [ $# -gt 0 ]; do
+    case $1 in
+        --quick) quick=yes ;;
+        --into-docs) docs=yes ;;
+        --cpu | --cuda) kinds="$kinds ${1#--}" ;;
+        --only | --data | --jobs | --bin | --from)
+            [ $# -gt 1 ] || fail "$1 wants a value"
+            case $1 in
+                --only) only="$only $2" ;;
+                --data) D=$2 ;;
+                --jobs) at_once=$2 ;;
+                --bin) bin=$2 ;;
+                --from) from=$2 ;;
+            esac
+            shift
+            ;;
+        --no-install) install=no ;;
+        --help | -h) usage; exit 0 ;;
+        *) printf 'report.sh: no such argument: %s\n' "$1" >&2; usage >&2; exit 2 ;;
+    esac
+    shift
+done
+
+asked_for() { [ -z "$2" ] || case " $2 " in *" $1 "*) ;; *) return 1 ;; esac; }
+
+# --- packages and programs ---------------------------------------------------------------------------------------------
+
+results=${from:-build/report/results}
+if [ -z "$from" ]; then
+    if [ -z "$bin" ]; then
+        if [ $install = yes ]; then
+            need_packages g++ cmake ninja-build python3 libbenchmark-dev libtinyobjloader-dev libboost-dev
+            want_packages libembree-dev libnanoflann-dev libcgal-dev libfcl-dev libgmp-dev libmpfr-dev libbullet-dev \
+                python3-matplotlib
+        fi
+        find_nvcc
+        cuda=OFF
+        if cuda_device_present && asked_for cuda "$kinds"; then cuda=ON; fi
+        say 'building the benchmarks in build/report'
+        mkdir -p build
+        cmake --preset default -B build/report -DABUT_TESTS=OFF -DABUT_EXAMPLES=OFF -DABUT_BENCH=ON -DABUT_WERROR=OFF \
+            -DABUT_CUDA=$cuda >build/report.log 2>&1 || { cat build/report.log; fail 'configuring failed'; }
+        grep '^-- abut: ' build/report.log || true
+        targets=$(table | while read -r kind name program rest; do
+            if asked_for "$name" "$only" && asked_for "$kind" "$kinds" && { [ "$kind" = cpu ] || [ $cuda = ON ]; }; then
+                printf '%s\n' "$program"
+            fi
+        done | sort -u)
+        # shellcheck disable=SC2086
+        cmake --build build/report --parallel "$jobs" --target $targets
+        bin=build/report/bench
+    fi
+    if [ -z "${ABUT_COMMIT:-}" ]; then
+        ABUT_COMMIT=$(git rev-parse --short=9 HEAD 2>/dev/null || echo unknown)
+        if [ -n "$(git status --porcelain -- include bench 2>/dev/null)" ]; then ABUT_COMMIT=$ABUT_COMMIT+; fi
+    fi
+    : "${ABUT_FLAGS:=-O3 -DNDEBUG}"
+    export ABUT_COMMIT ABUT_FLAGS
+
+    # --- runs ----------------------------------------------------------------------------------------------------------
+
+    # run_one KIND NAME PROGRAM ARGUMENT...: leaves KIND/NAME.json and .log, and says how long it took.
+    run_one() {
+        kind=$1 name=$2 program=$3
+        shift 3
+        if [ ! -x "$bin/$program" ]; then
+            [ "$kind" = cuda ] || printf '%s/%s: left out, there is no %s\n' "$kind" "$name" "$bin/$program"
+            return 0
+        fi
+        for argument in "$@"; do
+            path=${argument#*=}
+            case $path in "$D"/*) [ -e "$path" ] || { printf '%s/%s: left out, there is no %s\n' "$kind" "$name" "$path"; return 0; } ;; esac
+        done
+        started=$(date +%s)
+        file=$results/$kind/$name.json
+        rm -f "$file"
+        status=0
+        "$bin/$program" "$@" >"$results/$kind/$name.log" 2>&1 || status=$?
+        if [ $status = 0 ] && [ -s "$file" ]; then
+            printf '%s/%s: %s s\n' "$kind" "$name" $(($(date +%s) - started))
+        else
+            rm -f "$file"
+            printf '%s/%s: FAILED (%s), see %s\n' "$kind" "$name" $status "$results/$kind/$name.log"
+        fi
+    }
+
+    say "running, results go to $results"
+    mkdir -p "$results/cpu" "$results/cuda"
+    running=0
+    table >"$results/table"
+    set -f
+    while read -r kind name program arguments; do
+        if ! asked_for "$kind" "$kinds" || ! asked_for "$name" "$only"; then continue; fi
+        file=$results/$kind/$name.json
+        # shellcheck disable=SC2046
+        set -- $(printf '%s\n' "$arguments" | sed "s#{}#$file#g")
+        if [ "$at_once" -gt 1 ] && [ "$kind" = cpu ]; then
+            if [ $running -ge "$at_once" ]; then wait; running=0; fi
+            run_one "$kind" "$name" "$program" "$@" </dev/null &
+            running=$((running + 1))
+        else
+            if [ $running -gt 0 ]; then wait; running=0; fi
+            run_one "$kind" "$name" "$program" "$@" </dev/null
+        fi
+    done <"$results/table"
+    wait
+    set +f
+fi
+
+# --- tables and plots --------------------------------------------------------------------------------------------------
+
+command -v python3 >/dev/null 2>&1 || { say "no python3 here: take $results to where it is, and run with --from"; exit 0; }
+python=python3
+# The package's, where another Python comes first.
+python3 -c 'import matplotlib' 2>/dev/null || [ ! -x /usr/bin/python3 ] || python=/usr/bin/python3
+if [ $docs = yes ]; then
+    $python -B bench/report.py --take "$results" --write
+else
+    $python -B bench/report.py --page build/report/report.md "$results"
+fi
+say "done; results are in $results"
