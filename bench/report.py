@@ -155,7 +155,8 @@ def loose_tables(text):
             start = number if start is None else start
             continue
         if start is not None:
-            cells = [c.strip() for row in lines[start + 2:number] for c in row.strip("|").split("|")]
+            # The first column says what a row is of.
+            cells = [c.strip() for row in lines[start + 2:number] for c in row.strip("|").split("|")[1:]]
             # A figure: digits, and nothing else but what stands between figures, and a unit.
             figure = re.compile(r"[-+~*]*\d[\d.,/%x^e+\s()-]*(?:ns|us|ms|s|kB|MB|GB|B|%|to \d[\d.,]*)?\**")
             if any(figure.fullmatch(c) for c in cells) and (start == 0 or lines[start - 1] != "<!-- constants -->"):
@@ -177,6 +178,7 @@ def check(results):
         marks = MARK.findall(VALUE.sub("", BLOCK.sub("", text)))
         here += [f"{mark} has no partner" for mark in marks]
         here += [f"line {n}: a table of figures that no program writes" for n in loose_tables(text)]
+        here += [f"{plot} is not there" for plot in re.findall(r"\]\(((?:docs/)?figures/[^)]*)\)", text) if not (path.parent / plot).exists()]
         problems += [f"{path.relative_to(ROOT)}: {problem}" for problem in here]
     for source in report_tables.programs(results):
         if not any((ROOT / "bench" / name).exists() for name in source):

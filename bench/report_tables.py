@@ -744,6 +744,17 @@ def motion_cpu(results):
                   "`first_self_impact`", "candidates", "impacts", "by `conservative`", "by `fast`"], rows, 2) + made_on(r)
 
 
+@in_table("motion-arithmetics")
+def motion_arithmetics(results):
+    r = results["cpu/motion"]
+    rows = []
+    for scene in r.parts("stage/", 1):
+        for scalar in SCALARS:
+            at = [f"stage/{scene}/{scalar}/self_impacts{a}" for a in ("", "_conservative", "_fast")]
+            rows.append([scene, scalar] + [whole(r.get(n, "impacts")) for n in at] + [shown(r.get(n)) for n in at])
+    return table(["scene", "", "found by `filtered`", "`conservative`", "`fast`", "`filtered`, ms", "`conservative`", "`fast`"], rows, 2) + made_on(r)
+
+
 @in_table("motion-tests")
 def motion_tests(results):
     r = results["cpu/motion"]

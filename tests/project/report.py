@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: MIT
+"""Runs bench/report.py --check, and sees that it notices what it is there for: on copies with a digit changed, a table that no
+program writes, results that are gone, a block without an end, README at odds with them.
+
+usage: report.py REPOSITORY
+"""
+
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+
+def check(root):
+    done = subprocess.run([sys.executable, "-B", str(root / "bench" / "report.py"), "--check"], capture_output=True, text=True)
+    return done.returncode, done.stdout + done.stderr
+
+
+def change_digit(page, block):
+    """Changes the last digit of a block."""
+    text = page.read_text(encoding="utf-8")
+    begin, end = text.index(f"<!-- {block}: begin -->"), text.index(f"<!-- {block}: end -->")
+    at = max(m.start() for m in re.finditer(r"\d(?= \|)", text[begin:end])) + begin
+    page.write_text(text[:at] + str((int(text[at]) + 1) % 10) + text[at + 1:], encoding="utf-8")
+
+
+def replace(page, old, new):
+    text = page.read_text(encoding="utf-8")
+    if old not in text:
+        raise SystemExit(f"{page}: no {old!r} to change")
+    page.write_text(text.replace(old, new, 1), encoding="utf-8")
+
+
+def append(page, lines):
+    page.write_text(page.read_text(encoding="utf-8") + lines, encoding="utf-8")
+
+
+MUTATIONS = {
+    "a digit of a table": lambda r: change_digit(r / "docs" / "benchmarks.md", "trade-cpu"),
+    "a digit of README": lambda r: change_digit(r / "README.md", "cost-spheres"),
+    "a table that no program writes": lambda r: append(r / "docs" / "building.md", "\n| what | ms |\n| --- | ---: |\n| a query | 1.25 |\n"),
+    "a block of an unknown name": lambda r: append(r / "docs" / "building.md", "<!-- nobody: begin -->\n<!-- nobody: end -->\n"),
+    "a block without an end": lambda r: replace(r / "docs" / "benchmarks.md", "<!-- trade-cpu: end -->\n", ""),
+    "results that are gone": lambda r: (r / "bench" / "results" / "cpu" / "trade.json").unlink(),
+    "other results": lambda r: replace(r / "bench" / "results" / "cpu" / "trade.json", '"ns": ', '"ns": 7'),
+    "a program that is gone": lambda r: (r / "bench" / "trade.cpp").unlink(),
+    "a plot that is gone": lambda r: (r / "docs" / "figures" / "trade-cpu.svg").unlink(),
+}
+
+
+def main():
+    root = Path(sys.argv[1]).resolve()
+    status, says = check(root)
+    print(says, end="")
+    failed = status != 0
+    for name, mutate in MUTATIONS.items():
+        with tempfile.TemporaryDirectory() as folder:
+            copy = Path(folder)
+            shutil.copy(root / "README.md", copy)
+            for part in ("docs", "bench"):
+                shutil.copytree(root / part, copy / part)
+            mutate(copy)
+            if check(copy)[1] == says:
+                print(f"the check does not notice: {name}")
+                failed = True
+    sys.exit(1 if failed else 0)
+
+
+if __name__ == "__main__":
+    main()
