@@ -35,7 +35,7 @@ def plot(name):
     return add
 
 
-def draw(results, folder, also_png=None):
+def draw(results, folder, verbose=False, also_png=None):
     """Writes those plots that there are results for, and returns their names."""
     folder.mkdir(parents=True, exist_ok=True)
     drawn = []
@@ -43,7 +43,8 @@ def draw(results, folder, also_png=None):
         try:
             figure = make(results)
         except Exception as problem:  # a plot less is no reason to have none
-            print(f"no {name}.svg: {problem}")
+            if verbose:
+                print(f"no {name}.svg: {problem}")
             continue
         finally:
             plt.close("all")
@@ -198,7 +199,10 @@ def log_log(axis, x, y):
 
 
 def there(results, *names):
-    return [results[name] for name in names if name in results]
+    found = [results[name] for name in names if name in results]
+    if not found:
+        raise LookupError(f"none of {', '.join(names)}")
+    return found
 
 
 @plot("scaling-spheres")

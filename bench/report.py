@@ -198,14 +198,14 @@ def write(results):
         print(f"left as it was: {problem}")
 
 
-def draw(results, folder):
+def draw(results, folder, verbose=False):
     """The names of the plots that were written."""
     try:
         import plots
     except ImportError as problem:
         print(f"no plots: {problem} (python3-matplotlib)")
         return []
-    return plots.draw(results, folder)
+    return plots.draw(results, folder, verbose)
 
 
 def page(out, results):
@@ -219,7 +219,7 @@ def page(out, results):
         try:
             lines += [f"## {name}", "", make(results)]
         except (Missing, KeyError, TypeError, ZeroDivisionError, IndexError, StopIteration):
-            del lines[-2:]
+            pass  # it shows what was not measured
     out.write_text("\n".join(lines), encoding="utf-8")
     print(f"written: {out}")
 
@@ -239,7 +239,7 @@ def main():
         take(arguments.take, committed)
     if arguments.write:
         write(Folder(committed))
-        for name in draw(Folder(committed), ROOT / "docs" / "figures"):
+        for name in draw(Folder(committed), ROOT / "docs" / "figures", verbose=True):
             print(f"written: docs/figures/{name}")
     if arguments.check or not (arguments.take or arguments.write):
         problems = check(Folder(committed))

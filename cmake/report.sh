@@ -45,21 +45,21 @@ END
     else
         cat <<END
 cpu trade bench_trade --json={}
-cpu spheres_mesh bench_spheres_mesh $G $I
+cpu motion bench_motion $G --scene=$D/ccd/cloth-ball --scene=$D/ccd/cloth-funnel --scene=$D/ccd/armadillo-rollers
+cpu pair_rules bench_pair_rules $G $I --scenes=$D/ccd --benchmark_filter=-n-body
 cpu triangles bench_triangles $G $I --triangles=20000000
-cpu ties bench_ties $G --mesh=$D/meshes/armadillo_27674.ply
-cpu nearest bench_nearest $G $I --benchmark_filter=/100000$
+cpu builders bench_builders $G $I --mesh=$D/meshes/armadillo_345944.ply
 cpu validate bench_validate $G
+cpu ties bench_ties $G --mesh=$D/meshes/armadillo_27674.ply
+cpu fronts bench_fronts --json={} --frames=20
+cpu spheres_mesh bench_spheres_mesh $G $I
 cpu meshes bench_meshes $G $I --mesh=$D/meshes/armadillo_345944.ply --benchmark_filter=-any/[a-z_]*/.*/
+cpu any bench_meshes $G $I --mesh=$D/meshes/stanford-bunny.ply --benchmark_filter=any/[a-z_]*/.*/
+cpu nearest bench_nearest $G $I --benchmark_filter=/100000/
+cpu descents bench_descents --json={} --mesh=$D/meshes/armadillo_345944.ply
 cpu meshes_138376 bench_meshes $G $I --mesh=$D/meshes/armadillo_138376.ply --benchmark_filter=^(build/bvh|pairs)/
 cpu meshes_27674 bench_meshes $G $I --mesh=$D/meshes/armadillo_27674.ply --benchmark_filter=^(build/bvh|pairs)/
 cpu meshes_2766 bench_meshes $G $I --mesh=$D/meshes/armadillo_2766.ply --benchmark_filter=^(build/bvh|pairs)/
-cpu any bench_meshes $G $I --mesh=$D/meshes/stanford-bunny.ply --benchmark_filter=any/[a-z_]*/.*/
-cpu builders bench_builders $G $I --mesh=$D/meshes/armadillo_345944.ply
-cpu descents bench_descents --json={} --mesh=$D/meshes/armadillo_345944.ply
-cpu fronts bench_fronts --json={} --frames=20
-cpu motion bench_motion $G --scene=$D/ccd/cloth-ball --scene=$D/ccd/cloth-funnel --scene=$D/ccd/armadillo-rollers
-cpu pair_rules bench_pair_rules $G $I --scenes=$D/ccd --benchmark_filter=-n-body
 cpu reduce_contacts bench_reduce_contacts --json={} --mesh=$D/meshes/armadillo_345944.ply
 cuda trade bench_trade_cuda {}
 cuda spheres_mesh bench_spheres_mesh_cuda {}
@@ -76,7 +76,7 @@ cuda schedules bench_schedules_cuda {} $D/meshes/armadillo_345944.ply
 cuda motion bench_motion_cuda {} $D/ccd/cloth-ball $D/ccd/cloth-funnel $D/ccd/n-body-simulation $D/ccd/armadillo-rollers $D/ccd/rod-twist
 cuda motion_flying bench_motion_cuda {}
 cuda pair_rules bench_pair_rules_cuda --scenes=$D/ccd {}
-cuda fronts bench_fronts_cuda {} $D/ccd/cloth-ball $D/ccd/cloth-funnel $D/ccd/n-body-simulation
+cuda fronts bench_fronts_cuda {} $D/ccd/cloth-ball $D/ccd/cloth-funnel
 END
     fi
 }
