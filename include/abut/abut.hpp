@@ -4,6 +4,7 @@
 // All of abut for the serial and OpenMP policies. Nothing is needed but a C++20 compiler. <abut/cuda.hpp> adds CUDA.
 
 #include <abut/arithmetic/self_test.hpp>
+#include <abut/collide/advise.hpp>
 #include <abut/collide/contacts.hpp>
 #include <abut/collide/first_impact.hpp>
 #include <abut/collide/impacts.hpp>

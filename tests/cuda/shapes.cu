@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "../../docs/examples/cylinder.hpp"
+#include "collide/advise_cases.hpp"
 #include "collide/nearest_cases.hpp"
 #include "collide/set_cases.hpp"
 #include "shape/feature_cases.hpp"
@@ -15,11 +16,18 @@ TEST_CASE("nearest: cuda") {
     abut::test::check_nearest_scales<double>(abut::cuda{});
 }
 
+TEST_CASE("advise: cuda") {
+    abut::test::check_advice_of_floats(abut::cuda{});
+    abut::test::check_same_advice<float>(abut::cuda{});
+    abut::test::check_same_advice<double>(abut::cuda{});
+}
+
 TEST_CASE("queries: trees of oriented boxes, cuda") {
     using namespace abut;
     test::uniform random(65);
     const abut::cuda on;
-    const triangle_soup<float> here(test::random_triangles<float>(500, random)), there(test::random_triangles<float>(400, random));
+    const triangle_soup<float> here(test::random_triangles<float>(500, random)),
+        there(test::random_triangles<float>(400, random));
     const auto a = make_bvh(on, here), b = make_bvh(on, there);
     const auto expected = count(on, a, b);
     CHECK(expected > 0);
