@@ -48,9 +48,11 @@ struct posed_walk {
     posed_walk(const Walk& in_frame, const rigid<T>& pose, const aabb<T>& around)
         : walk(in_frame), world(world_box(pose, around)), to_world(make_relative_pose(rigid<T>{}, world, pose, around)) {}
 
-    /// False if the query touches nothing in the object.
+    /// False if the query touches nothing in the object. Most queries are far away, which the world's box tells at less cost
+    /// than the query's own bounds.
     template <class Reach>
     ABUT_HD bool may_touch(Reach& reach) const {
+        if (!reach(world)) return false;
         posed_reach<T> posed{clipped(reach), &to_world};
         return !is_empty(posed.query) && walk.may_touch(posed);
     }

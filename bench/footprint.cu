@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+//
+// usage: bench_footprint_cuda [OUT.json]
+//
+// The scenes of bench/footprint.cpp on CUDA, all data resident.
+
+#include <abut/cuda.hpp>
+
+#include "cuda_table.hpp"
+#include "footprint_scene.hpp"
+
+int main(int argc, char** argv) {
+    return bench::run("bench_footprint_cuda", argc, argv, [&](const abut::cuda& on, bench::table& out) {
+        footprint::for_each_scene(on, [&](const char* name, const footprint::prepared& made) {
+            out.add(name, 0, [&] {
+                return bench::counters{{"answer", made.ask()},
+                                       {"elements", made.of.elements},
+                                       {"set_bytes", made.of.set_bytes},
+                                       {"index_bytes", made.of.index_bytes}};
+            });
+        });
+    });
+}

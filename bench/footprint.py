@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: MIT
+"""Compiles each scene of bench/footprint_scene.hpp alone, and says what that costs.
+
+usage: footprint.py [--json=OUT.json] [--jobs=N] [--no-cuda]
+
+Of bench/footprint.cpp (g++ -O2) and bench/footprint.cu (nvcc -O2, sm_90), each with one scene: processor seconds and memory of the
+compilers, bytes of machine code, and of the device's code the registers and the stack of the kernel that takes most, the number of
+instructions in that kernel, and the number of kernels that are the library's own.
+"""
+
+import argparse
+import datetime
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+BENCH = Path(__file__).resolve().parent
+INCLUDE = BENCH.parent / "include"
+
+
+def scene_names():
+    text = (BENCH / "footprint_scene.hpp").read_text(encoding="utf-8")
+    return re.findall(r'"([^"]+)"', re.search(r"name_of\[scenes\] = \{(.*?)\};", text, re.S).group(1))
+
+
+def output_of(*command):
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
+def compiled(command):
+    """Processor seconds and the largest process in MB, with all that it starts."""
+    script = ("import resource, subprocess, sys; code = subprocess.run(sys.argv[1:]).returncode; "
+              "u = resource.getrusage(resource.RUSAGE_CHILDREN); print(u.ru_utime + u.ru_stime, u.ru_maxrss / 1024); sys.exit(code)")
+    done = subprocess.run([sys.executable, "-c", script, *command], capture_output=True, text=True)
+    if done.returncode != 0:
+        sys.exit(f"footprint.py: {' '.join(command)}\n{done.stderr}")
+    seconds, memory = map(float, done.stdout.split()[-2:])
+    return {"seconds": round(seconds, 2), "megabytes": round(memory)}
+
+
+def machine_code(path):
+    """Bytes of instructions and constants."""
+    return int(output_of("size", path).splitlines()[1].split()[0])
+
+
+def device_code(path):
+    kernels, name = {}, None
+    for line in output_of("cuobjdump", "--dump-resource-usage", path).splitlines():
+        if match := re.match(r"\s*Function (\S+):", line):
+            name = match.group(1)
+        elif match := re.search(r"REG:(\d+) STACK:(\d+)", line):
+            kernels[name] = (int(match.group(1)), int(match.group(2)))
+    instructions, name = {}, None
+    for line in output_of("cuobjdump", "-sass", path).splitlines():
+        if match := re.match(r"\s*Function : (\S+)", line):
+            name = match.group(1)
+        elif re.match(r"\s*/\*[0-9a-f]{4,}\*/\s+(?!NOP)", line):
+            instructions[name] = instructions.get(name, 0) + 1
+    own = [k for k in kernels if "4abut" in k and "3cub" not in k.split("4abut")[0]]
+    most = max(own, key=lambda k: (kernels[k][0], instructions.get(k, 0)))
+    return {"registers": kernels[most][0], "stack": kernels[most][1], "instructions": instructions[most], "kernels": len(own)}
+
+
+def measure(scene, folder, cuda):
+    row = {}
+    made = str(Path(folder) / f"{scene}.o")
+    options = ["-std=c++20", "-O2", f"-DFOOTPRINT_SCENE={scene}", f"-I{INCLUDE}", "-c"]
+    row["gcc"] = compiled(["g++", *options, str(BENCH / "footprint.cpp"), "-o", made])
+    row["gcc"]["code"] = machine_code(made)
+    if cuda:
+        row["nvcc"] = compiled(["nvcc", "-arch=sm_90", *options, str(BENCH / "footprint.cu"), "-o", made + ".cu.o"])
+        row["nvcc"] |= device_code(made + ".cu.o")
+    return {f"{compiler}_{key}": value for compiler, values in row.items() for key, value in values.items()}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--json")
+    parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--no-cuda", action="store_true")
+    asked = parser.parse_args()
+    cuda = not asked.no_cuda and shutil.which("nvcc") is not None
+    names = scene_names()
+    with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(asked.jobs) as pool:
+        rows = dict(zip(names, pool.map(lambda i: measure(i, folder, cuda), range(len(names)))))
+    for name, row in rows.items():
+        print(f"{name:40}", *(f"{key} {value}" for key, value in row.items()))
+    if asked.json:
+        nvcc = ", nvcc " + re.search(r"release ([\d.]+)", output_of("nvcc", "--version")).group(1) if cuda else ""
+        context = {"program": "footprint.py", "machine": os.uname().machine, "cores": str(os.cpu_count()),
+                   "compiler": "g++ " + output_of("g++", "-dumpfullversion").strip() + nvcc, "flags": "-O2",
+                   "commit": os.environ.get("ABUT_COMMIT", "unknown"), "date": datetime.date.today().isoformat()}
+        Path(asked.json).write_text(json.dumps({"context": context, "rows": rows}, indent=1) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
