@@ -34,14 +34,14 @@ def output_of(*command):
 
 
 def compiled(command):
-    """Processor seconds and the largest process in MB, with all that it starts."""
+    """Processor seconds and the largest process in MB, with all that it starts, and what the compiler said."""
     script = ("import resource, subprocess, sys; code = subprocess.run(sys.argv[1:]).returncode; "
               "u = resource.getrusage(resource.RUSAGE_CHILDREN); print(u.ru_utime + u.ru_stime, u.ru_maxrss / 1024); sys.exit(code)")
     done = subprocess.run([sys.executable, "-c", script, *command], capture_output=True, text=True)
     if done.returncode != 0:
         sys.exit(f"footprint.py: {' '.join(command)}\n{done.stderr}")
     seconds, memory = map(float, done.stdout.split()[-2:])
-    return {"seconds": round(seconds, 2), "megabytes": round(memory)}
+    return {"seconds": round(seconds, 2), "megabytes": round(memory)}, done.stderr
 
 
 def machine_code(path):
@@ -49,33 +49,35 @@ def machine_code(path):
     return int(output_of("size", path).splitlines()[1].split()[0])
 
 
-def device_code(path):
-    kernels, name = {}, None
-    for line in output_of("cuobjdump", "--dump-resource-usage", path).splitlines():
-        if match := re.match(r"\s*Function (\S+):", line):
+def device_code(said, path):
+    """Of the kernel of ours that takes most registers; `said` is what ptxas says of all."""
+    kernels, name, stack = {}, None, 0
+    for line in said.splitlines():
+        if match := re.search(r"Compiling entry function '(\w+)'", line):
             name = match.group(1)
-        elif match := re.search(r"REG:(\d+) STACK:(\d+)", line):
-            kernels[name] = (int(match.group(1)), int(match.group(2)))
-    instructions, name = {}, None
-    for line in output_of("cuobjdump", "-sass", path).splitlines():
-        if match := re.match(r"\s*Function : (\S+)", line):
-            name = match.group(1)
-        elif re.match(r"\s*/\*[0-9a-f]{4,}\*/\s+(?!NOP)", line):
-            instructions[name] = instructions.get(name, 0) + 1
+        elif match := re.search(r"(\d+) bytes stack frame", line):
+            stack = int(match.group(1))
+        elif match := re.search(r"Used (\d+) registers", line):
+            kernels[name] = (int(match.group(1)), stack)
     own = [k for k in kernels if "4abut" in k and "3cub" not in k.split("4abut")[0]]
-    most = max(own, key=lambda k: (kernels[k][0], instructions.get(k, 0)))
-    return {"registers": kernels[most][0], "stack": kernels[most][1], "instructions": instructions[most], "kernels": len(own)}
+    most = max(own, key=kernels.get)
+    found = {"registers": kernels[most][0], "stack": kernels[most][1], "kernels": len(own)}
+    if shutil.which("cuobjdump"):  # a part of the toolkit that is not always there
+        sass = output_of("cuobjdump", "-sass", "-fun", most, path)
+        found["instructions"] = len(re.findall(r"^\s*/\*[0-9a-f]{4,}\*/\s+(?!NOP)", sass, re.M))
+    return found
 
 
 def measure(scene, folder, cuda):
     row = {}
     made = str(Path(folder) / f"{scene}.o")
     options = ["-std=c++20", "-O2", f"-DFOOTPRINT_SCENE={scene}", f"-I{INCLUDE}", "-c"]
-    row["gcc"] = compiled(["g++", *options, str(BENCH / "footprint.cpp"), "-o", made])
+    row["gcc"], _ = compiled(["g++", *options, str(BENCH / "footprint.cpp"), "-o", made])
     row["gcc"]["code"] = machine_code(made)
     if cuda:
-        row["nvcc"] = compiled(["nvcc", "-arch=sm_90", *options, str(BENCH / "footprint.cu"), "-o", made + ".cu.o"])
-        row["nvcc"] |= device_code(made + ".cu.o")
+        row["nvcc"], said = compiled(
+            ["nvcc", "-arch=sm_90", "-Xptxas=-v", *options, str(BENCH / "footprint.cu"), "-o", made + ".cu.o"])
+        row["nvcc"] |= device_code(said, made + ".cu.o")
     return {f"{compiler}_{key}": value for compiler, values in row.items() for key, value in values.items()}
 
 
