@@ -15,14 +15,21 @@ How a block ```cpp is compiled, the HTML comment on the line before it says. Its
   cuda             for nvcc, in a .cu file; other blocks are compiled by the host's compiler
   a path           also: the block is that file, or a part of it, but for indentation. Blocks ```cmake may say so too.
 
-A block ``` without a language, right after a block of code, is what that code prints.
+A block ``` without a language, right after a block of code, is what that code prints. Programs run in a folder of their own,
+in which FILES lie.
 """
 
 import pathlib
 import re
 import subprocess
 import sys
+import tempfile
 
+FILES = {
+    "part.obj": "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\n",
+    "grains.csv": "x,y,z,r\n1,1,0,1\n9,9,9,1\n",
+    "drops.csv": "x,y,z\n1,1,0\n",
+}
 LANGUAGES = {"cpp", "cmake", "sh", "text", ""}
 PRINTS_NEXT = "\x1e"
 
@@ -210,7 +217,10 @@ def write(root, kind, out, pages):
 
 
 def run(root, kind, program, pages):
-    done = subprocess.run([program], capture_output=True, text=True)
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in FILES.items():
+            (pathlib.Path(folder) / name).write_text(text, encoding="utf-8")
+        done = subprocess.run([pathlib.Path(program).resolve()], capture_output=True, text=True, cwd=folder)
     printed = iter(done.stdout.split(PRINTS_NEXT))
     before = next(printed)
     if before.startswith("abut skips: "):
