@@ -19,6 +19,11 @@
 #include <stdexcept>
 #include <vector>
 
+// A page names what it shows, used or not, and a fragment may have its own `on`.
+#pragma GCC diagnostic ignored "-Wunused-variable"
+#pragma GCC diagnostic ignored "-Wunused-but-set-variable"
+#pragma GCC diagnostic ignored "-Wshadow"
+
 namespace manual {
 
 /// Whether the policy of this unit can run here.
