@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 #
-# Builds and runs the consumer beside this file against an install tree of `build`, or against `build` itself. It starts
-# from nothing each time.
+# Builds and runs the consumer beside this file against an install tree of `build`, against `build` itself, or with the
+# sources as a subdirectory or fetched. It starts from nothing each time.
 
 function(step)
     cmake_parse_arguments(PARSE_ARGV 0 arg "FAILS" "MUST_SAY" "")
@@ -25,10 +25,28 @@ if(tree STREQUAL "install")
     step(${CMAKE_COMMAND} --install ${build} --prefix ${prefix})
 endif()
 
-set(configure ${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -G ${generator} -D CMAKE_CXX_COMPILER=${compiler}
-    -D CMAKE_PREFIX_PATH=${prefix} -D CMAKE_FIND_USE_PACKAGE_REGISTRY=OFF)
+set(configure ${CMAKE_COMMAND} -G ${generator} -D CMAKE_CXX_COMPILER=${compiler} -D CMAKE_FIND_USE_PACKAGE_REGISTRY=OFF)
+if(tree STREQUAL "subdirectory")
+    file(COPY ${CMAKE_CURRENT_LIST_DIR}/ DESTINATION ${work}/source)
+    file(CREATE_LINK ${source} ${work}/source/abut SYMBOLIC)
+    list(APPEND configure -S ${work}/source -D CONSUMER_WAY=subdirectory)
+elseif(tree STREQUAL "fetch")
+    list(APPEND configure -S ${CMAKE_CURRENT_LIST_DIR} -D CONSUMER_WAY=fetch -D FETCHCONTENT_SOURCE_DIR_ABUT=${source})
+else()
+    list(APPEND configure -S ${CMAKE_CURRENT_LIST_DIR} -D CMAKE_PREFIX_PATH=${prefix})
+endif()
 
-if(form STREQUAL "cpu")
+if(tree MATCHES "subdirectory|fetch")
+    step(${configure} -B ${work}/build -D CMAKE_BUILD_TYPE=Release)
+    step(${CMAKE_COMMAND} --build ${work}/build)
+    step(${work}/build/touch MUST_SAY "touching: 0 1")
+    file(GLOB_RECURSE built ${work}/build/*test_* ${work}/build/*first)
+    if(built)
+        message(FATAL_ERROR "consumer: abut built more than was asked for: ${built}")
+    endif()
+elseif(form STREQUAL "cpu")
+    list(APPEND configure -D CONSUMER_WAY=package)
+    step(${configure} -B ${work}/plain -D CONSUMER_WAY=plain)
     step(${configure} -B ${work}/wrong-version -D CONSUMER_VERSION=99 FAILS MUST_SAY "version: ${version}")
     step(${configure} -B ${work}/no-such-component -D CONSUMER_COMPONENTS=no_such_component FAILS)
     set(components "")

@@ -1,0 +1,262 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Keeps README.md and docs/ true: their links, and the code that they show.
+
+pages.py check ROOT               links and anchors exist; docs/README.md names every page; no block of code is left untested
+pages.py write ROOT KIND OUT PAGE...    writes the blocks of these pages into one source; KIND is cpp or cu
+pages.py run ROOT KIND PROGRAM PAGE...  runs that program, and compares what it prints with what the pages say
+
+How a block ```cpp is compiled, the HTML comment on the line before it says. Its words, with commas between, are:
+
+  (nothing)        with a function main: a program. Otherwise the body of a function that sees the members of
+                   docs/snippets/context.hpp (`on`, `mesh`, ...).
+  continues        goes on in the same function as the block before it
+  file scope       declarations that all later blocks of the page see
+  cuda             for nvcc, in a .cu file; other blocks are compiled by the host's compiler
+  a path           also: the block is that file, or a part of it, but for indentation. Blocks ```cmake may say so too.
+
+A block ``` without a language, right after a block of code, is what that code prints. Programs run in a folder of their own,
+in which FILES lie.
+"""
+
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+FILES = {
+    "part.obj": "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\n",
+    "grains.csv": "x,y,z,r\n1,1,0,1\n9,9,9,1\n",
+    "drops.csv": "x,y,z\n1,1,0\n",
+}
+LANGUAGES = {"cpp", "cmake", "sh", "text", ""}
+PRINTS_NEXT = "\x1e"
+
+
+def fail(message):
+    sys.exit(f"pages.py: {message}")
+
+
+class Block:
+    def __init__(self, page, line, language, words, text, number):
+        self.page, self.line, self.language, self.text, self.number = page, line, language, text, number
+        self.paths = [w for w in words if "/" in w]
+        self.words = [w for w in words if "/" not in w]
+        self.prints = None
+
+    @property
+    def where(self):
+        return f"{self.page}:{self.line}"
+
+    @property
+    def kind(self):
+        return "cu" if "cuda" in self.words else "cpp"
+
+    @property
+    def is_program(self):
+        return re.search(r"^int main\(", self.text, re.MULTILINE) is not None
+
+
+def blocks_of(root, page):
+    """The fenced blocks of a page, indentation taken off."""
+    lines = (root / page).read_text(encoding="utf-8").split("\n")
+    blocks, at, directive, last_fence = [], 0, None, -1
+    while at < len(lines):
+        fence = re.fullmatch(r"( *)```(\S*)", lines[at].rstrip())
+        if fence is None:
+            comment = re.fullmatch(r"<!-- (.*?) -->", lines[at].strip())
+            if comment:
+                directive = comment[1]
+            elif lines[at].strip():
+                directive, last_fence = None, -1
+            at += 1
+            continue
+        indent, language = fence.groups()
+        first = at + 1
+        at = first
+        while at < len(lines) and lines[at].strip() != "```":
+            at += 1
+        if at == len(lines):
+            fail(f"{page}:{first}: this block does not end")
+        text = "".join(line.removeprefix(indent) + "\n" for line in lines[first:at])
+        words = [w.strip() for w in directive.split(",")] if directive else []
+        block = Block(page, first + 1, language, words, text, len(blocks))
+        if language not in LANGUAGES:
+            fail(f"{block.where}: a block of '{language}'; expected one of {sorted(LANGUAGES)}")
+        unknown = set(block.words) - {"continues", "file scope", "cuda"}
+        if language == "cpp" and unknown:
+            fail(f"{block.where}: the comment says {sorted(unknown)}; expected what is at the head of pages.py")
+        if language == "":
+            if last_fence < 0 or blocks[last_fence].language != "cpp":
+                fail(f"{block.where}: a block without a language is what the code right before it prints; "
+                     "if it is something else, call it text")
+            blocks[last_fence].prints = text
+        blocks.append(block)
+        last_fence, directive, at = len(blocks) - 1, None, at + 1
+    return blocks
+
+
+def pages_of(root):
+    return ["README.md"] + sorted(str(p.relative_to(root)) for p in (root / "docs").rglob("*.md"))
+
+
+def code_of(root, pages, kind):
+    return {page: [b for b in blocks_of(root, page) if b.language == "cpp" and b.kind == kind] for page in pages}
+
+
+# --- check --------------------------------------------------------------------------------------------------------------
+
+
+def unindented(text):
+    return [line.strip() for line in text.split("\n") if line.strip()]
+
+
+def check_paths(root, block):
+    for path in block.paths:
+        source = root / path
+        if not source.is_file():
+            fail(f"{block.where}: there is no {path}")
+        whole, part = unindented(source.read_text(encoding="utf-8")), unindented(block.text)
+        if not any(whole[i:i + len(part)] == part for i in range(len(whole))):
+            fail(f"{block.where}: this is no part of {path}")
+
+
+def without_code(text):
+    text = re.sub(r"^ *```.*?^ *```", "", text, flags=re.MULTILINE | re.DOTALL)
+    return re.sub(r"(`+).+?\1", lambda m: m[0].replace("[", " "), text)
+
+
+def anchors_of(root, page):
+    """As GitHub makes them of headings."""
+    anchors, seen = set(), {}
+    text = re.sub(r"^ *```.*?^ *```", "", (root / page).read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+    for heading in re.findall(r"^#+ (.*?)\s*$", text, re.MULTILINE):
+        heading = re.sub(r"\[(.*?)\]\(.*?\)", r"\1", heading).replace("`", "")
+        slug = re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-")
+        count = seen.get(slug, 0)
+        seen[slug] = count + 1
+        anchors.add(f"{slug}-{count}" if count else slug)
+    return anchors | set(re.findall(r"<a (?:id|name)=\"(.*?)\"", text))
+
+
+def check(root):
+    links = blocks = 0
+    broken = []
+    for page in pages_of(root):
+        for block in blocks_of(root, page):
+            check_paths(root, block)
+            blocks += block.language == "cpp"
+        text = without_code((root / page).read_text(encoding="utf-8"))
+        for target in re.findall(r"\]\(([^)\s]+)\)", text):
+            if re.match(r"[a-z]+:", target):
+                continue
+            links += 1
+            path, _, anchor = target.partition("#")
+            file = ((root / page).parent / path).resolve() if path else root / page
+            if not file.exists():
+                broken.append(f"{page}: there is no {target}")
+            elif anchor and anchor not in anchors_of(root, file.relative_to(root.resolve()) if path else page):
+                broken.append(f"{page}: {path or page} has no heading #{anchor}")
+    index = (root / "docs/README.md").read_text(encoding="utf-8")
+    for page in pages_of(root):
+        name = page.removeprefix("docs/")
+        if page.startswith("docs/") and name != "README.md" and f"]({name}" not in index:
+            broken.append(f"docs/README.md: does not name {page}")
+    if broken:
+        fail("\n".join(broken))
+    if not links or not blocks:
+        fail("expected links and code")
+    print(f"{len(pages_of(root))} pages, {links} links, {blocks} blocks of code")
+
+
+# --- write --------------------------------------------------------------------------------------------------------------
+
+
+def write(root, kind, out, pages):
+    includes, body, calls = [], [], []
+    for page, blocks in code_of(root, pages, kind).items():
+        space = re.sub(r"\W", "_", page)
+        body.append(f"namespace {space} {{")
+        open_function = False
+        for block in blocks:
+            lines = block.text.split("\n")
+            includes += [line for line in lines if line.startswith("#include")]
+            code = "\n".join("" if line.startswith("#include") else line for line in lines)
+            name = f"block_{block.number}"
+            if open_function and "continues" not in block.words:
+                body.append("} };")
+                open_function = False
+            start = f'#line {block.line} "{page}"'
+            mark = f"manual::mark({block.number});"
+            if "file scope" in block.words:
+                body += [start, code]
+            elif "continues" in block.words:
+                if not open_function:
+                    fail(f"{block.where}: continues what?")
+                body += [mark, start, code]
+            elif block.is_program:
+                end = code.rindex("}")
+                code = re.sub(r"^int main\(", "int program(", code[:end] + "return 0;\n}", flags=re.MULTILINE)
+                body += [f"namespace {name} {{", start, code, "}"]
+                calls += [mark, f"if ({space}::{name}::program() != 0) return 1;"]
+            else:
+                body += [f"struct {name} : manual::context {{ void run() {{", mark, start, code]
+                calls += [f"{space}::{name}().run();"]
+                open_function = True
+        if open_function:
+            body.append("} };")
+        body.append(f"}}  // namespace {space}")
+    seen = dict.fromkeys(includes)
+    text = ['#include "context.hpp"', *seen, *body, "int main() {", "if (!manual::can_run()) return 0;"]
+    text += [*calls, "}", ""]
+    pathlib.Path(out).write_text("\n".join(text), encoding="utf-8")
+
+
+# --- run ----------------------------------------------------------------------------------------------------------------
+
+
+def run(root, kind, program, pages):
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in FILES.items():
+            (pathlib.Path(folder) / name).write_text(text, encoding="utf-8")
+        done = subprocess.run([pathlib.Path(program).resolve()], capture_output=True, text=True, cwd=folder)
+    printed = iter(done.stdout.split(PRINTS_NEXT))
+    before = next(printed)
+    if before.startswith("abut skips: "):
+        print(before)
+        return
+    compared, wrong = 0, []
+    for page, blocks in code_of(root, pages, kind).items():
+        for block in blocks:
+            if "file scope" in block.words:
+                continue
+            number, _, text = next(printed, "").partition("\n")
+            if number != str(block.number):
+                fail(f"{block.where}: this was not run; the program ended with {done.returncode}\n{done.stderr}")
+            if block.prints is not None:
+                compared += 1
+                if text != block.prints:
+                    wrong.append(f"{block.where}: the page says that it prints\n{block.prints}but it prints\n{text}")
+            elif text:
+                wrong.append(f"{block.where}: it prints what the page does not show\n{text}")
+    if wrong:
+        fail("\n".join(wrong))
+    if done.returncode != 0:
+        fail(f"the program ended with {done.returncode}\n{done.stderr}")
+    print(f"{compared} blocks print what the pages say")
+
+
+def main():
+    command, root = sys.argv[1], pathlib.Path(sys.argv[2])
+    if command == "check":
+        check(root)
+    elif command == "write":
+        write(root, sys.argv[3], sys.argv[4], sys.argv[5:])
+    elif command == "run":
+        run(root, sys.argv[3], sys.argv[4], sys.argv[5:])
+    else:
+        fail(f"unknown command {command}")
+
+
+main()
