@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// What queries hold beside their input and their result is bounded, also where no pair is decided by the first try. Here all
-// memory of the program is counted.
+// What queries hold beside their input and their result is bounded, also where no pair is decided by the first try; and
+// where memory ends in the middle of a call, nothing is lost. Here all memory of the program is counted, and the n-th
+// request may fail.
 
 #include <malloc.h>
 
@@ -17,6 +18,11 @@
 namespace {
 
 std::atomic<long> held{0}, most{0};
+std::atomic<long> requests_left{-1};  // 0: the next one fails, once; less: none does
+
+void may_fail() {
+    if (requests_left >= 0 && requests_left-- == 0) throw std::bad_alloc();
+}
 
 void* counted(void* p) {
     if (p == nullptr) throw std::bad_alloc();
@@ -32,8 +38,12 @@ void give_back(void* p) noexcept {
 
 }  // namespace
 
-void* operator new(std::size_t n) { return counted(std::malloc(n == 0 ? 1 : n)); }
+void* operator new(std::size_t n) {
+    may_fail();
+    return counted(std::malloc(n == 0 ? 1 : n));
+}
 void* operator new(std::size_t n, std::align_val_t align) {
+    may_fail();
     const auto a = static_cast<std::size_t>(align);
     return counted(std::aligned_alloc(a, (n + a) / a * a));
 }
@@ -84,6 +94,115 @@ TEST_CASE("queries: what waits to be decided takes no memory that grows with the
     CHECK(expected > 500'000);
     check_memory(flat, flat, expected);
     check_memory(make_bvh(serial{}, flat), flat, expected);
+}
+
+/// Runs `work`, whose answers are equal, with each of its requests for memory failing in turn. Each time it is
+/// std::bad_alloc, all memory is given back, and afterwards the work succeeds.
+template <class Work>
+void check_out_of_memory(const char* what, const Work& work) {
+    const auto expected = work();
+    (void)work();  // threads keep some memory from the first call on
+    long failures = 0, other_errors = 0, leaks = 0, wrong = 0;
+    for (long n = 0;; n += 1 + n / 64) {
+        const long before = held;
+        bool failed = false;
+        requests_left = n;
+        try {
+            wrong += work() != expected;
+        } catch (const std::bad_alloc&) {
+            failed = true;
+        } catch (...) {
+            ++other_errors;
+        }
+        const bool was_used_up = requests_left.exchange(-1) < 0;
+        leaks += held != before;
+        failures += failed;
+        // An exception in the last request means that no later one is made.
+        if (!was_used_up || n > 100'000) break;
+        if (failed && n % 7 == 0) wrong += work() != expected;
+    }
+    INFO(what << ": " << failures << " requests");
+    CHECK(failures > 0);
+    CHECK(other_errors == 0);
+    CHECK(leaks == 0);
+    CHECK(wrong == 0);
+    CHECK(work() == expected);
+}
+
+template <class Policy>
+void check_calls_out_of_memory(const Policy& on) {
+    uniform random(20270101);
+    const triangle_soup<float> soup(random_triangles<float>(300, random)), other(random_triangles<float>(300, random));
+    const spheres<float> balls(random_spheres<float>(300, random));
+    std::vector<vec3<float>> places;
+    for (int i = 0; i < 200; ++i) places.push_back(random.point<float>(-1, 1));
+    const points<float> some(places);
+    const torus<float> surface(6, 4, 1, 0.4);
+    const mesh<float> ring(surface.vertices, surface.faces);
+    const auto tree = make_bvh(on, soup), other_tree = make_bvh(on, other);
+    const auto ring_tree = make_bvh(on, ring);
+    const auto grid = make_grid(on, soup);
+
+    const auto built = [&](const auto& make) {
+        return [&on, make, &other_tree] { return to_host(pairs(on, make(), other_tree)).size(); };
+    };
+    check_out_of_memory("soup", [&] { return triangle_soup<float>(random_triangles<float>(50, random)).size(); });
+    check_out_of_memory("linear", built([&] { return make_bvh(on, soup); }));
+    check_out_of_memory("ploc", built([&] { return make_bvh(on, soup, {.builder = bvh_builder::ploc}); }));
+    check_out_of_memory("mean_split", built([&] { return make_bvh(on, soup, {.builder = bvh_builder::mean_split}); }));
+    check_out_of_memory("sah", built([&] { return make_bvh(on, soup, {.builder = bvh_builder::sah}); }));
+    check_out_of_memory("grid", built([&] { return make_grid(on, soup); }));
+    check_out_of_memory("quantised", built([&] { return quantised(on, make_bvh(on, soup)); }));
+    check_out_of_memory("leafless", built([&] { return leafless(on, make_bvh(on, soup)); }));
+    check_out_of_memory("wide", built([&] { return wide(on, make_bvh(on, soup)); }));
+    check_out_of_memory("refit", built([&] { return refit(on, make_bvh(on, soup), soup); }));
+
+    check_out_of_memory("any", [&] { return any(on, tree, other_tree); });
+    check_out_of_memory("count", [&] { return count(on, soup, other); });
+    check_out_of_memory("pairs of trees", [&] { return to_host(pairs(on, tree, other_tree)); });
+    check_out_of_memory("pairs of a tree and balls", [&] { return to_host(pairs(on, tree, balls)); });
+    check_out_of_memory("pairs of a grid and balls", [&] { return to_host(pairs(on, grid, balls)); });
+    check_out_of_memory("breadth_first", [&] {
+        return to_host(pairs(on, tree, other_tree, query_options<keep_all, traversal::breadth_first>{}));
+    });
+    check_out_of_memory("a front", [&] {
+        front kept;
+        using options = query_options<keep_all, traversal::from_front>;
+        const auto first = count(on, tree, other_tree, options{.front = &kept});
+        return first + count(on, tree, other_tree, options{.front = &kept});
+    });
+    check_out_of_memory("for_each_pair", [&] {
+        std::uint64_t visits = 0;
+        for_each_pair(on, tree, other_tree, count_visits{&visits});
+        return visits;
+    });
+    check_out_of_memory("contacts", [&] { return to_host(contacts(on, tree, other_tree)); });
+    check_out_of_memory("reduce_contacts",
+                        [&] { return to_host(reduce_contacts(on, contacts(on, tree, other_tree))).size(); });
+    check_out_of_memory("self_pairs", [&] { return to_host(self_pairs(on, ring_tree)); });
+    check_out_of_memory("a list", [&] {
+        using entry = posed_pair<decltype(make_bvh(on, soup)), decltype(make_bvh(on, soup))>;
+        return to_host(pairs(on, std::vector<entry>(5, entry{posed(tree, {}), posed(other_tree, {})})));
+    });
+    check_out_of_memory("bodies", [&] {
+        const rigid<float> aside{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {0.1f, 0, 0}};
+        const std::vector<posed_object<decltype(make_bvh(on, ring))>> bodies{posed(ring_tree, {}), posed(ring_tree, aside)};
+        return count_self_pairs(on, bodies);
+    });
+    check_out_of_memory("nearest", [&] { return to_host(nearest(on, tree, some)).size(); });
+    check_out_of_memory("validate", [&] { return validate(on, ring).edges; });
+    check_out_of_memory("edges", [&] { return edges(on, ring).size(); });
+    auto moved = surface.vertices;
+    for (auto& v : moved) v.x = -v.x;
+    const auto step = moving(ring, ring.with_vertices(on, moved));
+    check_out_of_memory("self_impacts", [&] { return to_host(self_impacts(on, step)).size(); });
+    check_out_of_memory("first_self_impact", [&] { return first_self_impact(on, step).has_value(); });
+    check_out_of_memory("make_impact_index", [&] { return to_host(self_impacts(on, make_impact_index(on, step))).size(); });
+}
+
+TEST_CASE("memory: a call that runs out of it throws std::bad_alloc, gives all back, and leaves the library usable") {
+    SECTION("serial") { check_calls_out_of_memory(serial{}); }
+    SECTION("openmp") { check_calls_out_of_memory(openmp{.threads = 2}); }
 }
 
 }  // namespace abut::test

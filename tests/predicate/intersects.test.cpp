@@ -3,7 +3,6 @@
 
 #include <cfenv>
 #include <cmath>
-#include <cstdio>
 
 #include <rapidcheck.h>
 
@@ -16,6 +15,7 @@
 #include "support/hulls.hpp"
 #include "support/rational.hpp"
 #include "support/samples.hpp"
+#include "support/stages.hpp"
 #include "support/triangle_families.hpp"
 
 // The other pairs of shapes against the oracle, and what must not change an answer: the order of arguments and of corners,
@@ -47,110 +47,102 @@ static_assert(!decidable_pair<sphere<float>, triangle<double>>);  // mixed scala
 static_assert(!decidable_pair<triangle<float>, triangle<double>> && !decidable_pair<segment<float>, triangle<double>>);
 static_assert(!decidable_pair<triangle<double>, sphere<float>>);
 
-struct tally {
-    std::uint64_t pairs = 0, hits = 0, wrong = 0;
-    tally& operator+=(const tally& o) {
-        pairs += o.pairs, hits += o.hits, wrong += o.wrong;
-        return *this;
-    }
-};
-
-template <class S, class U>
-void examine(const S& s, const U& t, bool truth, std::uint64_t index, tally& sum) {
-    ++sum.pairs;
-    sum.hits += truth;
-    bool wrong = intersects(s, t) != truth || intersects(t, s) != truth || intersects<exact>(s, t) != truth;
-    wrong = wrong || decide<filtered>(s, t) == to_verdict(!truth) || decide<exact>(s, t) == to_verdict(!truth);
-    if (index % 16 == 0) wrong = wrong || resolve(s, t) != truth;
-    sum.wrong += wrong;
+/// The point of a ball farthest along x, rounded: within a step of its surface. Its centre where that overflows.
+template <scalar T>
+vec3<T> end_along_x(const sphere<T>& s) {
+    const volatile T x = s.center.x + s.radius;
+    return x - x == 0 ? vec3<T>{x, s.center.y, s.center.z} : s.center;
 }
 
-template <class Family, class MakePair, class Examine>
-void check_all(const char* what, int family_count, MakePair make_pair, Examine check_pair, double least_share) {
-    tally all;
-    for (int i = 0; i < family_count; ++i) {
-        const auto f = static_cast<Family>(i);
-        const tally t =
-            test::in_threads<tally>(test::sample_count(), [&](std::uint64_t first, std::uint64_t last, tally& sum) {
-                for (std::uint64_t k = first; k < last; ++k) check_pair(make_pair(f, k), k, sum);
-            });
-        INFO(what << ", " << test::name_of(f));
-        CHECK(t.pairs >= test::sample_count());
-        CHECK(t.wrong == 0);
-        all += t;
-    }
-    const double share = static_cast<double>(all.hits) / static_cast<double>(all.pairs);
-    std::printf("%s: %llu pairs of %d families, seed %llu, hits %.1f %%\n", what, static_cast<unsigned long long>(all.pairs),
-                family_count, static_cast<unsigned long long>(test::seed), 100 * share);
-    CHECK(share > least_share);
-    CHECK(share < 0.95);
+/// Each family of spheres and triangles, read as pairs of other shapes.
+template <class Examine>
+void check_families(const char* title, const char* file_name, const Examine& examine) {
+    test::check_every_family<family>(
+        title, file_name, false, test::family_count, [](family f) { return test::name_of(f); },
+        [&]<class T>(T, family f, std::uint64_t k, test::stage_tally& sum) {
+            examine(test::make_pair<T>(test::seed, f, k), k, sum);
+        });
 }
 
-/// Every family, read as pairs of other shapes.
-template <scalar T, class Examine>
-void check_families(const char* what, Examine check_pair) {
-    const auto make_pair = [](family f, std::uint64_t k) { return test::make_pair<T>(test::seed, f, k); };
-    check_all<family>(what, test::family_count, make_pair, check_pair, 0.05);
+/// Each family of pairs of triangles, alike.
+template <class Examine>
+void check_triangle_families(const char* title, const char* file_name, bool late, const Examine& examine) {
+    test::check_every_family<triangle_family>(
+        title, file_name, late, test::triangle_family_count, [](triangle_family f) { return test::name_of(f); },
+        [&]<class T>(T, triangle_family f, std::uint64_t k, test::stage_tally& sum) {
+            examine(test::make_triangle_pair<T>(test::seed, f, k), k, sum);
+        });
 }
 
-template <scalar T, class Examine>
-void check_triangle_families(const char* what, Examine check_pair, double least_share) {
-    const auto make_pair = [](triangle_family f, std::uint64_t k) { return test::make_triangle_pair<T>(test::seed, f, k); };
-    check_all<triangle_family>(what, test::triangle_family_count, make_pair, check_pair, least_share);
+template <scalar T>
+void examine_point(const vec3<T>& p, const triangle<T>& t, std::uint64_t k, test::stage_tally& sum) {
+    test::examine_stages<detail::ball_meets_triangle>(p, t, detail::values_of(sphere<T>{p, 0}, t).value,
+                                                      test::oracle::intersects(p, t), k, sum);
 }
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("sphere and segment: every stage is right in every family", "", float, double) {
-    check_families<TestType>("sphere and segment", [](const auto& p, std::uint64_t k, tally& sum) {
-        const segment<TestType> e{p.t.a, p.t.b};
-        examine(p.s, e, test::oracle::intersects(p.s, e), k, sum);
-    });
+TEST_CASE("sphere and segment: every stage is right in every family") {
+    check_families("Sphere against segment", "sphere-segment.md",
+                   []<class T>(const test::sphere_triangle_pair<T>& p, std::uint64_t k, test::stage_tally& sum) {
+                       // An edge of the triangle; of some, one end is within a step of the ball's surface.
+                       const segment<T> e{k % 4 == 0 ? end_along_x(p.s) : p.t.a, p.t.b};
+                       test::examine_stages<detail::ball_meets_segment>(p.s, e, detail::values_of(p.s, e).value,
+                                                                        test::oracle::intersects(p.s, e), k, sum);
+                   });
 }
 
-TEMPLATE_TEST_CASE("sphere and sphere: every stage is right in every family", "", float, double) {
-    check_families<TestType>("sphere and sphere", [](const auto& p, std::uint64_t k, tally& sum) {
-        // The other ball's radius is 0, or a share of the first one's, which it then lacks.
-        const TestType share = k % 2 == 0 ? TestType(0) : p.s.radius / 4;
-        const sphere<TestType> s{p.s.center, p.s.radius - share}, o{p.t.a, share};
-        examine(s, o, test::oracle::intersects(s, o), k, sum);
-    });
+TEST_CASE("sphere and sphere: every stage is right in every family") {
+    check_families("Sphere against sphere", "sphere-sphere.md",
+                   []<class T>(const test::sphere_triangle_pair<T>& p, std::uint64_t k, test::stage_tally& sum) {
+                       // The other ball's radius is 0, or a share of the first one's, which it then lacks. Some touch from
+                       // outside, within a step.
+                       const T share = k % 2 == 0 ? T(0) : p.s.radius / 4;
+                       const sphere<T> s{p.s.center, p.s.radius - share}, o{k % 8 < 2 ? end_along_x(p.s) : p.t.a, share};
+                       test::examine_stages<detail::ball_meets_ball>(s, o, detail::values_of(s, o).value,
+                                                                     test::oracle::intersects(s, o), k, sum);
+                   });
 }
 
-TEMPLATE_TEST_CASE("point and triangle: a sphere of radius 0", "", float, double) {
-    tally all;
+TEST_CASE("point and triangle: a sphere of radius 0") {
+    std::uint64_t wrong = 0;
     for (const family f : {family::radius_zero, family::lattice_4, family::degenerate, family::all_bit_patterns}) {
         for (std::uint64_t k = 0; k < test::sample_count(); ++k) {
-            const auto p = test::make_pair<TestType>(test::seed, f, k);
-            const sphere<TestType> point{p.s.center, 0};
-            examine(p.s.center, p.t, test::oracle::intersects(point, p.t), k, all);
+            const auto p = test::make_pair<double>(test::seed, f, k);
+            const auto q = test::make_pair<float>(test::seed, f, k);
+            wrong += intersects(p.s.center, p.t) != intersects(sphere<double>{p.s.center, 0}, p.t);
+            wrong += intersects(q.s.center, q.t) != intersects(sphere<float>{q.s.center, 0}, q.t);
         }
     }
-    CHECK(all.wrong == 0);
-    CHECK(all.hits * 20 > all.pairs);
+    CHECK(wrong == 0);
 }
 
 // Of triangle pairs: the first one's corners in turn, and the edges between them.
 
-TEMPLATE_TEST_CASE("segment and triangle: every stage is right in every family of triangles", "", float, double) {
-    check_triangle_families<TestType>(
-        "segment and triangle",
-        [](const auto& p, std::uint64_t k, tally& sum) {
-            const triangle<TestType> turned = test::reordered(p.a, static_cast<int>(k % 6));
-            const segment<TestType> e{turned.a, turned.b};
-            examine(e, p.b, test::oracle::intersects(e, p.b), k, sum);
-        },
-        0.1);
+TEST_CASE("segment and triangle: every stage is right in every family of triangles") {
+    check_triangle_families("Segment against triangle", "segment-triangle.md", true,
+                            []<class T>(const test::triangle_pair<T>& p, std::uint64_t k, test::stage_tally& sum) {
+                                const triangle<T> turned = test::reordered(p.a, static_cast<int>(k % 6));
+                                const segment<T> e{turned.a, turned.b};
+                                const auto values = detail::values_of(detail::as_triangle(e), p.b);
+                                test::examine_stages<detail::triangle_meets_triangle>(
+                                    e, p.b, values.value, test::oracle::intersects(e, p.b), k, sum);
+                            });
 }
 
-TEMPLATE_TEST_CASE("point and triangle: every stage is right in every family of triangles", "", float, double) {
-    check_triangle_families<TestType>(
-        "point and triangle",
-        [](const auto& p, std::uint64_t k, tally& sum) {
-            const vec3<TestType> vertex = test::reordered(p.a, static_cast<int>(k % 3)).a;
-            examine(vertex, p.b, test::oracle::intersects(vertex, p.b), k, sum);
-        },
-        0.02);
+TEST_CASE("point and triangle: every stage is right in every family of triangles") {
+    check_triangle_families("Point against triangle", "point-triangle.md", false,
+                            []<class T>(const test::triangle_pair<T>& p, std::uint64_t k, test::stage_tally& sum) {
+                                // A corner of the other triangle; or one of its own, there or a step away along x; or the
+                                // middle of an edge, rounded.
+                                const triangle<T> own = test::reordered(p.b, static_cast<int>(k / 4 % 3));
+                                vec3<T> point = test::reordered(p.a, static_cast<int>(k / 4 % 3)).a;
+                                if (k % 4 == 1) point = own.a;
+                                if (k % 4 == 2) point = {test::construction::moved(own.a.x, 1), own.a.y, own.a.z};
+                                if (k % 4 == 3) point = T(0.5) * own.a + T(0.5) * own.b;
+                                const bool finite = point.x - point.x == 0;
+                                examine_point(finite ? point : own.a, p.b, k, sum);
+                            });
 }
 
 TEMPLATE_TEST_CASE("answers do not depend on the order of corners, on powers of two, or on mirrors", "", float, double) {

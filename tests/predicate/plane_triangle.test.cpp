@@ -25,7 +25,7 @@ static_assert(!decidable_pair<plane<double>, triangle<float>>);
 
 TEST_CASE("plane and triangle: every stage is right in every family") {
     test::check_every_stage<plane>(
-        "Plane", ".plane",
+        "Plane against triangle", "plane-triangle.md",
         {{"touching: corner", "touching: edge", "touching: face", "touching: along axes", "touching: corner, far off"}});
 }
 

@@ -87,31 +87,12 @@ inline const char* name_of(shape_family f, const touching_names& touching) {
 /// Every stage against the oracle, family by family; the table goes where stages.hpp says.
 template <template <class> class Shape>
 void check_every_stage(const char* title, const char* file_name, const touching_names& touching) {
-    stage_table table(title, file_name, false);
-    const auto check = [&]<class T>(T, const char* type) {
-        stage_tally all;
-        for (int i = 0; i < shape_family_count; ++i) {
-            const auto f = static_cast<shape_family>(i);
-            const auto t =
-                in_threads<stage_tally>(sample_count(), [f](std::uint64_t first, std::uint64_t last, stage_tally& sum) {
-                    for (std::uint64_t k = first; k < last; ++k) {
-                        const auto p = make_shape_pair<Shape, T>(seed, f, k);
-                        examine_shapes(p.s, p.t, k, sum);
-                    }
-                });
-            const char* const name = name_of(f, touching);
-            table.add(name, type, t);
-            INFO(name << ", " << type);
-            CHECK(t.pairs >= sample_count());
-            CHECK(t.wrong == 0);
-            all += t;
-        }
-        // Tests in which everything touches, or nothing, test nothing.
-        CHECK(all.hits * 20 > all.pairs);
-        CHECK(all.hits * 20 < all.pairs * 19);
-    };
-    check(float{}, "float");
-    check(double{}, "double");
+    check_every_family<shape_family>(
+        title, file_name, false, shape_family_count, [&](shape_family f) { return name_of(f, touching); },
+        []<class T>(T, shape_family f, std::uint64_t k, stage_tally& sum) {
+            const auto p = make_shape_pair<Shape, T>(seed, f, k);
+            examine_shapes(p.s, p.t, k, sum);
+        });
 }
 
 /// `change` sets a mode of the arithmetic, `restore` sets it back.

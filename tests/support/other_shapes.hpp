@@ -5,6 +5,7 @@
 // of (seed, family, index), as in families.hpp.
 
 #include <cstdint>
+#include <type_traits>
 
 #include "box_pairs.hpp"
 #include "capsule_pairs.hpp"
@@ -23,11 +24,12 @@ ABUT_HD shape_triangle_pair<Shape, T> make_shape_pair(std::uint64_t seed, shape_
         case shape_family::small_triangle:
         case shape_family::large_triangle: {
             // `at` is the middle of the triangle's face, at a distance of up to three sizes or shapes from the shape's
-            // surface.
+            // surface. A plane has no size of its own.
+            constexpr bool is_plane = std::is_same_v<Shape<T>, plane<T>>;
             const double size = f == shape_family::small_triangle ? d.power_of_ten(-6, -1) : d.power_of_ten(1, 6);
             make::general(d, 1, {0, 0, 0}, p);
             const point near_by = make::surface_point(d, p), aside = make::cube(d, 0.5);
-            const point at = make::along(near_by, 3 * (size < 1 ? size : 1), aside);
+            const point at = make::along(near_by, 3 * (size < 1 || is_plane ? size : 1), aside);
             const point u = make::cube(d, 1), v = make::cube(d, 1);
             p.t = {make::round_to<T>(make::along(at, size, u)), make::round_to<T>(make::along(at, size, v)),
                    make::round_to<T>(make::along(make::along(at, -size, u), -size, v))};

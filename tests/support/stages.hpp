@@ -128,18 +128,24 @@ private:
     std::FILE* file_ = nullptr;
 };
 
-/// Every stage against the oracle in each family, float and double: examine(f) -> stage_tally.
-template <class Family, class Float, class Double>
-void check_every_family(const char* title, const char* file_name, bool late, int count, const Float& examine_float,
-                        const Double& examine_double) {
+/// Every stage against the oracle in each of `count` families, float and double. `name(f)` is a family's name, and
+/// `examine(T{}, f, index, tally)` tries every stage on one pair of it.
+template <class Family, class Name, class Examine>
+void check_every_family(const char* title, const char* file_name, bool late, int count, const Name& name,
+                        const Examine& examine) {
     stage_table table(title, file_name, late);
+    const auto all_pairs = [&]<class T>(T, Family f) {
+        return in_threads<stage_tally>(sample_count(), [&](std::uint64_t first, std::uint64_t last, stage_tally& sum) {
+            for (std::uint64_t k = first; k < last; ++k) examine(T{}, f, k, sum);
+        });
+    };
     for (int i = 0; i < count; ++i) {
         const auto f = static_cast<Family>(i);
         for (const bool single : {true, false}) {
-            const stage_tally t = single ? examine_float(f) : examine_double(f);
+            const stage_tally t = single ? all_pairs(float{}, f) : all_pairs(double{}, f);
             const char* const type = single ? "float" : "double";
-            table.add(name_of(f), type, t);
-            INFO(name_of(f) << ", " << type);
+            table.add(name(f), type, t);
+            INFO(name(f) << ", " << type);
             CHECK(t.pairs >= sample_count());
             CHECK(t.wrong == 0);
             // A family in which everything touches, or nothing, tests nothing.

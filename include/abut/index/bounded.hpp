@@ -39,7 +39,10 @@ struct bounded_view : bvh_view_base<typename detail::volume_scalar<V>::type, Spa
 
     [[nodiscard]] ABUT_HD const node_type& fetch(std::uint32_t node) const { return this->nodes[node]; }
     [[nodiscard]] ABUT_HD static const V& volume(const node_type& n, int slot) { return n.volume[slot]; }
-    [[nodiscard]] ABUT_HD static auto bounds(const node_type& n, int slot) { return abut::bounds(n.volume[slot]); }
+    [[nodiscard]] ABUT_HD static auto bounds(const node_type& n, int slot) {
+        using abut::bounds;  // beside it, that of a volume of the caller's own
+        return bounds(n.volume[slot]);
+    }
     [[nodiscard]] ABUT_HD static bvh_child child(const node_type& n, int slot) { return n.child[slot]; }
 };
 
