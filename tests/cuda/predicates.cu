@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "support/catch.hpp"
+#include "support/extremes.hpp"
 #include "support/families.hpp"
 #include "support/other_shapes.hpp"
 #include "support/samples.hpp"
@@ -44,6 +45,13 @@ struct shape_pairs {
     }
 };
 
+template <class T, class Kind>
+struct extreme_pairs {
+    test::extreme_step step;
+    [[nodiscard]] std::string name() const { return test::name_of(step.what) + (' ' + std::to_string(step.value)); }
+    ABUT_HD auto make(std::size_t i) const { return test::make_extreme_pair<Kind, T>(test::seed, step, i); }
+};
+
 /// Every stage's answer for pair first + i of a family, in one byte, and a checksum of the generated input: a device may
 /// neither decide nor generate differently from the host, bit for bit.
 template <class T, class Pairs>
@@ -71,8 +79,9 @@ struct answers {
     }
 };
 
+/// The number of hits.
 template <class T, class Pairs>
-void check_family(const Pairs& pairs, std::size_t n) {
+std::size_t check_family(const Pairs& pairs, std::size_t n) {
     constexpr std::size_t most = 10'000'000;  // at a time
     const abut::cuda on;
     std::size_t other_inputs = 0, other_decisions = 0, hits = 0, split = 0;
@@ -101,14 +110,31 @@ void check_family(const Pairs& pairs, std::size_t n) {
     CHECK(other_inputs == 0);
     CHECK(other_decisions == 0);
     CHECK(split == 0);
-    CHECK(hits > n / 1000);
-    CHECK(hits < n);
+    return hits;
 }
 
 template <class T, class Pairs>
 void check_families() {
+    const auto n = static_cast<std::size_t>(test::sample_count());
     for (int f = 0; f < Pairs::families; ++f) {
-        check_family<T>(Pairs{static_cast<decltype(Pairs::family)>(f)}, static_cast<std::size_t>(test::sample_count()));
+        const std::size_t hits = check_family<T>(Pairs{static_cast<decltype(Pairs::family)>(f)}, n);
+        CHECK(hits > n / 1000);
+        CHECK(hits < n);
+    }
+}
+
+/// tests/collide/extremes.test.cpp says that the host is right.
+template <class T, class Kind>
+void check_extremes() {
+    const std::size_t n = static_cast<std::size_t>(test::sample_count()) / 5 + 1;
+    for (const test::extreme what : test::extremes) {
+        std::size_t hits = 0, total = 0;
+        for (const test::extreme_step& step : test::steps_of<T>(what)) {
+            hits += check_family<T>(extreme_pairs<T, Kind>{step}, n);
+            total += n;
+        }
+        CHECK(hits > total / 20);
+        CHECK(hits < total);
     }
 }
 
@@ -131,6 +157,11 @@ TEMPLATE_TEST_CASE("other shapes and triangles: cuda decides every family as the
     check_families<TestType, shape_pairs<TestType, aabb>>();
     check_families<TestType, shape_pairs<TestType, plane>>();
     check_families<TestType, shape_pairs<TestType, capsule>>();
+}
+
+TEMPLATE_TEST_CASE("pairs at extremes: cuda decides every step as the host does", "", float, double) {
+    check_extremes<TestType, test::extreme_triangles>();
+    check_extremes<TestType, test::extreme_balls>();
 }
 
 TEST_CASE("arithmetic: the self-test passes on the device") {

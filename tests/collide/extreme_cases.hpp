@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Pairs and queries at the extremes of support/extremes.hpp: each step gives the answers of unbounded integers.
+
+#include <cstdint>
+#include <cstdio>
+#include <vector>
+
+#include "collide/query_cases.hpp"
+#include "support/extreme_truth.hpp"
+#include "support/samples.hpp"
+
+namespace abut::test {
+
+/// A step's pairs as two sets, and which pairs touch in truth: of all, or of each with its own alone.
+template <class Kind, class T>
+struct extreme_sets {
+    using pair = decltype(make_extreme_pair<Kind, T>(0, {}, 0));
+    std::vector<decltype(pair::a)> a;
+    std::vector<decltype(pair::b)> b;
+    pair_list touching;
+
+    extreme_sets(const extreme_step& step, std::uint32_t n) {
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const pair p = make_extreme_pair<Kind, T>(seed, step, i);
+            a.push_back(p.a);
+            b.push_back(p.b);
+        }
+        for (std::uint32_t i = 0; i < n; ++i) {
+            for (std::uint32_t j = 0; j < n; ++j) {
+                if (touch_in_truth<T>({a[i], b[j]})) touching.push_back({i, j});
+            }
+        }
+    }
+};
+
+/// All against all in both arithmetics: plain sets, and indices on one side and on both.
+template <class Kind, class T, class Policy>
+void check_extreme_queries(const Policy& on, std::uint32_t n) {
+    std::size_t hits = 0, steps = 0;
+    for (const extreme what : extremes) {
+        for (const extreme_step& step : steps_of<T>(what)) {
+            CAPTURE(Kind::name, name_of(what), step.value);
+            const extreme_sets<Kind, T> sets(step, n);
+            const auto a = copy_to(on, shapes(sets.a));
+            const auto b = copy_to(on, shapes(sets.b));
+            CHECK(to_host(pairs<filtered>(on, a, b)) == sets.touching);
+            CHECK(to_host(pairs<exact>(on, a, b)) == sets.touching);
+            CHECK(to_host(pairs<filtered>(on, make_bvh(on, a), b)) == sets.touching);
+            CHECK(count<filtered>(on, make_bvh(on, a), make_bvh(on, b)) == sets.touching.size());
+            if constexpr (requires { make_grid(on, a); }) {
+                CHECK(to_host(pairs<filtered>(on, make_grid(on, a), b)) == sets.touching);
+            }
+            CHECK(any<filtered>(on, a, make_bvh(on, b)) == !sets.touching.empty());
+            hits += sets.touching.size();
+            ++steps;
+        }
+    }
+    std::printf("%s, %zu steps of %u against %u: %zu hits\n", Kind::name, steps, n, n, hits);
+    CHECK(hits > steps * n / 4);
+}
+
+}  // namespace abut::test

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include <abut/collide/query.hpp>
+
+#include "collide/extreme_cases.hpp"
+#include "support/catch.hpp"
+
+using namespace abut;
+
+namespace {
+
+/// Each pair by itself. `many` is how many pairs make up for one of those that take long to decide in truth.
+template <class Kind, class T>
+void check_extreme_pairs(std::uint64_t many) {
+    const std::uint64_t n = many * test::sample_count() / 250;
+    std::size_t wrong_fast = 0;
+    for (const test::extreme what : test::extremes) {
+        std::size_t hits = 0, undecided = 0, unresolved = 0, total = 0;
+        for (const test::extreme_step& step : test::steps_of<T>(what)) {
+            CAPTURE(Kind::name, name_of(what), step.value);
+            std::size_t wrong_filtered = 0, wrong_exact = 0;
+            for (std::uint64_t i = 0; i < n; ++i) {
+                const auto p = test::make_extreme_pair<Kind, T>(test::seed, step, i);
+                const bool touches = test::touch_in_truth<T>(p);
+                wrong_filtered += intersects<filtered>(p.a, p.b) != touches;
+                wrong_exact += intersects<exact>(p.b, p.a) != touches;
+                wrong_fast += intersects<fast>(p.a, p.b) != touches;
+                hits += touches;
+                undecided += decide<filtered>(p.a, p.b) == verdict::unknown;
+                unresolved += decide<exact>(p.a, p.b) == verdict::unknown;
+                ++total;
+            }
+            CHECK(wrong_filtered == 0);
+            CHECK(wrong_exact == 0);
+        }
+        std::printf("%-17s %-6s %-10s n %zu, hits %.1f %%, left by the filter %.1f %%, by integers in registers %.1f %%\n",
+                    Kind::name, sizeof(T) == 4 ? "float" : "double", name_of(what), total,
+                    100.0 * static_cast<double>(hits) / static_cast<double>(total),
+                    100.0 * static_cast<double>(undecided) / static_cast<double>(total),
+                    100.0 * static_cast<double>(unresolved) / static_cast<double>(total));
+        CHECK(hits > total / 20);
+        CHECK(hits < total);
+        if (what == test::extreme::undecided) CHECK(undecided > total / 4);
+        if (what == test::extreme::unresolved) CHECK(unresolved > total / 4);
+    }
+    CHECK(wrong_fast > n);  // the steps are as hard as they are meant to be
+}
+
+template <class T, class Policy>
+void check_all_queries(const Policy& on) {
+    test::check_extreme_queries<test::extreme_triangles, T>(on, 20);
+    test::check_extreme_queries<test::extreme_balls, T>(on, 20);
+    test::check_extreme_queries<test::extreme_vertex_face, T>(on, 6);
+    test::check_extreme_queries<test::extreme_edges, T>(on, 6);
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("pairs at extremes", "", float, double) {
+    check_extreme_pairs<test::extreme_triangles, TestType>(10);
+    check_extreme_pairs<test::extreme_balls, TestType>(10);
+    check_extreme_pairs<test::extreme_vertex_face, TestType>(1);
+    check_extreme_pairs<test::extreme_edges, TestType>(1);
+}
+
+TEMPLATE_TEST_CASE("queries at extremes: serial", "", float, double) { check_all_queries<TestType>(serial{}); }
+
+TEMPLATE_TEST_CASE("queries at extremes: openmp", "", float, double) { check_all_queries<TestType>(openmp{.threads = 3}); }

@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Pairs of shapes at the extremes of what floating point can hold, in steps: the same pairs scaled, moved away, flattened,
+// snapped to a lattice, spread over many exponents, or mixed with pairs that the first stages leave open. Most pairs of
+// the first five are close to touching, so that no step is easy. A pair is a pure function of (seed, step, index), on hosts
+// and devices alike and bit for bit; draws.hpp says how.
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <abut/arithmetic/arithmetic.hpp>
+#include <abut/config.hpp>
+#include <abut/shape/moving_shape.hpp>
+#include <abut/shape/primitive.hpp>
+
+#include "draws.hpp"
+#include "triangle_families.hpp"
+
+namespace abut::test {
+
+/// What is taken to an extreme, and what the value of a step stands for.
+enum class extreme : int {
+    scaled,      // the size of the cube that all is in; what is too large for the scalar becomes its largest number
+    moved,       // how many of its sizes the cube is from the origin
+    flattened,   // how thin all is in one direction, which no axis has
+    snapped,     // into how many cells the cube is divided
+    spread,      // how many binary exponents coordinates are spread over
+    undecided,   // the share of ties: in contact, by integers below 2^21
+    unresolved,  // the share of near ties: 2^-140 from contact, where the size is 1
+};
+
+inline constexpr extreme extremes[] = {extreme::scaled, extreme::moved,     extreme::flattened, extreme::snapped,
+                                       extreme::spread, extreme::undecided, extreme::unresolved};
+
+/// On the host only.
+inline const char* name_of(extreme e) {
+    constexpr const char* names[] = {"scaled", "moved", "flattened", "snapped", "spread", "undecided", "unresolved"};
+    return names[static_cast<int>(e)];
+}
+
+struct extreme_step {
+    extreme what;
+    double value;
+};
+
+/// The values of an extreme, from one end of the scalar's range to the other where it is the range that counts.
+template <scalar T>
+std::vector<extreme_step> steps_of(extreme what) {
+    constexpr bool is_float = sizeof(T) == 4;
+    std::vector<double> values;
+    switch (what) {
+        case extreme::scaled:
+            if (is_float) {
+                values = {1e-45, 1e-40, 1e-37, 1e-31, 1e-25, 1e-19, 1e-13, 1e-7, 1e-3, 1,
+                          1e3,   1e7,   1e10,  1e13,  1e17,  1e19,  1e25,  1e31, 1e36, 1e38};
+            } else {
+                values = {1e-323, 1e-320, 1e-307, 1e-280, 1e-240, 1e-200, 1e-160, 1e-120, 1e-80, 1e-40, 1,
+                          1e40,   1e80,   1e100,  1e120,  1e153,  1e160,  1e200,  1e240,  1e280, 1e307, 1e308};
+            }
+            break;
+        case extreme::moved:
+            values = {0, 1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
+            break;
+        case extreme::flattened:
+            values = {1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12};
+            break;
+        case extreme::snapped:
+            values = {2, 4, 16, 256, 0x1p12, 0x1p16, 0x1p20, 0x1p30};
+            break;
+        case extreme::spread:
+            values = {0, 8, 16, 32, 64, 96, 124, 160, 200, 250};
+            if (!is_float) values.insert(values.end(), {300, 400, 600, 1000, 1500, 2000});
+            break;
+        case extreme::undecided:
+        case extreme::unresolved:
+            values = {0, 0.01, 0.1, 0.25, 0.5, 0.75, 1};
+            break;
+    }
+    std::vector<extreme_step> steps;
+    for (const double value : values) steps.push_back({what, value});
+    return steps;
+}
+
+/// A question about two shapes.
+template <class S, class U>
+struct pair_of {
+    S a;
+    U b;
+};
+
+namespace construction {
+
+/// p, q, or what is between.
+ABUT_HD inline point between(const point& p, const point& q, double t) { return along(p, t, along(q, -1, p)); }
+
+/// 2^k for |k| up to 1022.
+ABUT_HD inline double power_of_two(int k) { return from_bits(static_cast<std::uint64_t>(1023 + k) << 52); }
+
+/// Where a step puts what was made in the cube from -1 to 1: `formed` first, then `placed`, which rounds once.
+class extreme_frame {
+public:
+    ABUT_HD extreme_frame(draws& d, const extreme_step& step) : step_(step) {
+        by_axes_ = d.below(2) == 0;
+        for (int& k : of_axis_) k = exponent(d);
+    }
+
+    /// Still in the cube.
+    [[nodiscard]] ABUT_HD point formed(const point& p) const {
+        if (step_.what == extreme::flattened) {
+            const point n{0.36, -0.48, 0.8};  // of length 1, but for rounding
+            return along(p, product(p, n) * (1 / step_.value - 1), n);
+        }
+        return {snapped(p.x), snapped(p.y), snapped(p.z)};
+    }
+    [[nodiscard]] ABUT_HD double formed(double length) const { return snapped(length); }
+
+    template <scalar T>
+    [[nodiscard]] ABUT_HD vec3<T> placed(draws& d, const point& p) const {
+        if (step_.what == extreme::moved) return round_to<T>(along(p, step_.value, {2, -2, 1}));
+        const double x = scaled(d, p.x, 0), y = scaled(d, p.y, 1), z = scaled(d, p.z, 2);
+        return {limited<T>(x), limited<T>(y), limited<T>(z)};
+    }
+    /// Not negative.
+    template <scalar T>
+    [[nodiscard]] ABUT_HD T placed(draws& d, double length) const {
+        return limited<T>(scaled(d, length, 0));
+    }
+
+private:
+    [[nodiscard]] ABUT_HD int exponent(draws& d) const {
+        if (step_.what != extreme::spread) return 0;
+        const int most = static_cast<int>(step_.value);
+        return most / 2 - d.below(most + 1);
+    }
+    [[nodiscard]] ABUT_HD double snapped(double x) const {
+        return step_.what == extreme::snapped ? std::floor(std::fma(x, step_.value, 0.5)) / step_.value : x;
+    }
+    template <scalar T>
+    [[nodiscard]] ABUT_HD static T limited(double x) {
+        constexpr auto most = static_cast<double>(largest_number<T>);
+        return rounded_to<T>(x < -most ? -most : x > most ? most : x);
+    }
+    [[nodiscard]] ABUT_HD double scaled(draws& d, double x, int axis) const {
+        if (step_.what == extreme::scaled) return x * step_.value;
+        if (step_.what == extreme::spread) return x * power_of_two(by_axes_ ? of_axis_[axis] : exponent(d));
+        return x;
+    }
+
+    extreme_step step_;
+    bool by_axes_;  ///< one exponent for each axis, which keeps contacts; else one for each coordinate
+    int of_axis_[3] = {0, 0, 0};
+};
+
+/// Whether the next pair is one of the step's ties.
+ABUT_HD inline bool is_tie(draws& d, const extreme_step& step) {
+    const double drawn = d.uniform(0, 1);
+    return step.what >= extreme::undecided && drawn < step.value;
+}
+
+/// Which of four constructions is next: 0 is of points anywhere, which is all that is beside ties.
+ABUT_HD inline int kind_of(draws& d, const extreme_step& step) {
+    const int drawn = d.below(4);
+    return step.what >= extreme::undecided ? 0 : drawn;
+}
+
+/// Points of a tie, by two coordinates in a plane and the height over it, all relative to the place of contact.
+template <scalar T>
+class tie_frame {
+public:
+    ABUT_HD tie_frame(draws& d, const extreme_step& step)
+        : near_(step.what == extreme::unresolved),
+          axis_(d.below(3)),
+          at_{d.below(1 << 18), d.below(1 << 18), d.below(1 << 18)} {
+        gap_ = near_ ? (d.below(2) == 0 ? -0x1p-140 : 0x1p-140) : 0.0;
+    }
+
+    /// With one unit in 2^20; where the gap is, the plane is at height 0 and all else in that unit as well.
+    [[nodiscard]] ABUT_HD vec3<T> at(int u, int v, int height) const {
+        const double x = (at_[0] + u) * 0x1p-20, y = (at_[1] + v) * 0x1p-20, z = ((near_ ? 0 : at_[2]) + height) * 0x1p-20;
+        return turned(x, y, z);
+    }
+    /// In the plane, but for the gap: below, or above.
+    [[nodiscard]] ABUT_HD vec3<T> near(int u, int v) const {
+        const vec3<T> p = at(u, v, 0);
+        if (!near_) return p;
+        const double x = (at_[0] + u) * 0x1p-20, y = (at_[1] + v) * 0x1p-20;
+        return turned(x, y, gap_);
+    }
+    [[nodiscard]] ABUT_HD static T length(int units) { return static_cast<T>(units * 0x1p-20); }
+
+private:
+    [[nodiscard]] ABUT_HD vec3<T> turned(double x, double y, double z) const {
+        const T a = static_cast<T>(x), b = static_cast<T>(y), c = static_cast<T>(z);
+        return axis_ == 0 ? vec3<T>{a, b, c} : axis_ == 1 ? vec3<T>{c, a, b} : vec3<T>{b, c, a};
+    }
+
+    bool near_;
+    int axis_, at_[3];
+    double gap_;
+};
+
+/// A triangle in the plane of the tie, around the place of contact.
+template <scalar T>
+ABUT_HD triangle<T> around_tie(draws& d, const tie_frame<T>& f) {
+    constexpr int quarter = 1 << 16;
+    const int m = 4 * quarter + d.below(4 * quarter), p = d.below(quarter), q = d.below(quarter), r = d.below(quarter);
+    return {f.at(m, p, 0), f.at(-m, q, 0), f.at(r, -m, 0)};
+}
+
+}  // namespace construction
+
+/// The kinds of pairs: `make` draws one.
+struct extreme_triangles {
+    static constexpr const char* name = "triangle_triangle";
+
+    template <scalar T>
+    ABUT_HD static pair_of<triangle<T>, triangle<T>> make(draws& d, const extreme_step& step) {
+        using namespace construction;
+        if (is_tie(d, step)) {
+            const tie_frame<T> f(d, step);
+            const triangle<T> flat = around_tie(d, f);
+            const vec3<T> tip = f.near(0, 0);
+            const int u = d.below(1 << 19), v = d.below(1 << 19), h = 1 + d.below(1 << 19), k = 1 + d.below(1 << 19);
+            return {{f.at(u, -v, h), tip, f.at(-v, u, k)}, flat};
+        }
+        const int kind = kind_of(d, step);
+        const auto unit_pair = kind == 0   ? triangles::random_pair<double>(d, 1, 0)
+                               : kind == 1 ? triangles::edge_edge_pair<double>(d)
+                                           : triangles::vertex_face_pair<double>(d);
+        const extreme_frame f(d, step);
+        const point* const from[] = {&unit_pair.a.a, &unit_pair.a.b, &unit_pair.a.c,
+                                     &unit_pair.b.a, &unit_pair.b.b, &unit_pair.b.c};
+        vec3<T> p[6];
+        for (int i = 0; i < 6; ++i) p[i] = f.placed<T>(d, f.formed(*from[i]));
+        return {{p[0], p[1], p[2]}, {p[3], p[4], p[5]}};
+    }
+};
+
+struct extreme_balls {
+    static constexpr const char* name = "sphere_triangle";
+
+    template <scalar T>
+    ABUT_HD static pair_of<sphere<T>, triangle<T>> make(draws& d, const extreme_step& step) {
+        using namespace construction;
+        if (is_tie(d, step)) {
+            const tie_frame<T> f(d, step);
+            const triangle<T> flat = around_tie(d, f);
+            const int h = 1 + d.below(1 << 15);
+            if (step.what == extreme::undecided) return {{f.at(0, 0, h), f.length(h)}, flat};
+            // One corner tells the planes apart: a ball around it touches, or not quite.
+            const vec3<T> tip = f.near(0, 0);
+            return {{f.at(0, 0, h), f.length(h)}, {tip, f.at(2 * h, h, -h), f.at(-h, 2 * h, -h)}};
+        }
+        const extreme_frame f(d, step);
+        const point a = f.formed(cube(d, 1)), b = f.formed(cube(d, 1)), c = f.formed(cube(d, 1));
+        const int kind = kind_of(d, step);
+        const double u = kind == 1 ? 0.0 : d.uniform(0, 1), v = kind == 1 ? 0.0 : d.uniform(0, 1 - u);
+        const point foot = along(along(a, u, along(b, -1, a)), v, along(c, -1, a));
+        const point normal = cross_product(along(b, -1, a), along(c, -1, a));
+        const double size = length(normal), distance = d.uniform(0.01, 0.5);
+        point direction = cube(d, 1);
+        if (kind > 1 && size > 0) direction = {normal.x / size, normal.y / size, normal.z / size};
+        const point center = f.formed(kind == 0 ? direction : along(foot, distance, direction));
+        const double away = kind == 0 ? distance : length(along(center, -1, foot));
+        const T radius = f.placed<T>(d, f.formed(away));
+        const int steps = d.below(3) - 1;
+        const T near = radius > T(0) && radius < largest_number<T> ? stepped(radius, steps) : radius;
+        const auto at = f.placed<T>(d, center), p = f.placed<T>(d, a), q = f.placed<T>(d, b), r = f.placed<T>(d, c);
+        return {{at, near}, {p, q, r}};
+    }
+};
+
+struct extreme_vertex_face {
+    static constexpr const char* name = "vertex_face";
+
+    template <scalar T>
+    ABUT_HD static pair_of<abut::motion<vec3<T>>, abut::motion<triangle<T>>> make(draws& d, const extreme_step& step) {
+        using namespace construction;
+        if (is_tie(d, step)) {
+            const tie_frame<T> f(d, step);
+            const triangle<T> flat = around_tie(d, f);
+            const vec3<T> tip = f.near(0, 0), away = f.at(d.below(1 << 18), d.below(1 << 18), 1 + d.below(1 << 19));
+            return step.what == extreme::undecided
+                       ? pair_of<abut::motion<vec3<T>>, abut::motion<triangle<T>>>{{tip, away}, {flat, flat}}
+                       : pair_of<abut::motion<vec3<T>>, abut::motion<triangle<T>>>{{away, tip}, {flat, flat}};
+        }
+        point p[8];
+        for (point& x : p) x = cube(d, 1);
+        const int kind = kind_of(d, step);
+        const double time = d.uniform(0, 1), tau = kind == 1 ? 0.0 : kind == 2 ? 1.0 : time;
+        const double u = d.uniform(0, 1), v = d.uniform(0, 1 - u);
+        if (kind != 0) {  // the vertex comes by a point of the face at tau
+            const point a = between(p[1], p[5], tau), b = between(p[2], p[6], tau), c = between(p[3], p[7], tau);
+            const point met = along(along(a, u, along(b, -1, a)), v, along(c, -1, a)), velocity = p[0];
+            p[0] = along(met, -tau, velocity);
+            p[4] = along(met, 1 - tau, velocity);
+        }
+        const extreme_frame f(d, step);
+        vec3<T> q[8];
+        for (int i = 0; i < 8; ++i) q[i] = f.placed<T>(d, f.formed(p[i]));
+        return {{q[0], q[4]}, {{q[1], q[2], q[3]}, {q[5], q[6], q[7]}}};
+    }
+};
+
+struct extreme_edges {
+    static constexpr const char* name = "edge_edge";
+
+    template <scalar T>
+    ABUT_HD static pair_of<abut::motion<segment<T>>, abut::motion<segment<T>>> make(draws& d, const extreme_step& step) {
+        using namespace construction;
+        if (is_tie(d, step)) {
+            const tie_frame<T> f(d, step);
+            const int u = 1 + d.below(1 << 18), v = d.below(1 << 17), w = 1 + d.below(1 << 18), h = 1 + d.below(1 << 19);
+            const segment<T> rest{f.at(u, v, 0), f.at(-u, -v, 0)};
+            const segment<T> near{f.near(v, -w), f.near(-v, w)}, away{f.at(v, -w, h), f.at(-v, w, h)};
+            if (step.what == extreme::undecided) return {{near, away}, {rest, rest}};
+            return {{away, near}, {rest, rest}};
+        }
+        point p[8];
+        for (point& x : p) x = cube(d, 1);
+        const int kind = kind_of(d, step);
+        const double time = d.uniform(0, 1), tau = kind == 1 ? 0.0 : kind == 2 ? 1.0 : time;
+        const double u = d.uniform(0, 1), v = d.uniform(0, 1);
+        if (kind != 0) {  // the first edge is moved so that the two cross at tau
+            const point from = between(between(p[0], p[1], u), between(p[4], p[5], u), tau);
+            const point to = between(between(p[2], p[3], v), between(p[6], p[7], v), tau);
+            const point shift = along(to, -1, from);
+            for (const int i : {0, 1, 4, 5}) p[i] = along(p[i], 1, shift);
+        }
+        const extreme_frame f(d, step);
+        vec3<T> q[8];
+        for (int i = 0; i < 8; ++i) q[i] = f.placed<T>(d, f.formed(p[i]));
+        return {{{q[0], q[1]}, {q[4], q[5]}}, {{q[2], q[3]}, {q[6], q[7]}}};
+    }
+};
+
+/// Pair `index` of a step.
+template <class Kind, scalar T>
+ABUT_HD auto make_extreme_pair(std::uint64_t seed_value, const extreme_step& step, std::uint64_t index) {
+    draws d(seed_value, static_cast<std::uint64_t>(step.what) << 32 | static_cast<std::uint64_t>(sizeof(T)), index);
+    return Kind::template make<T>(d, step);
+}
+
+}  // namespace abut::test
