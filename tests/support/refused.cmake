@@ -22,6 +22,7 @@ endforeach()
 
 file(STRINGS ${source} expect REGEX "^// expect: ")
 string(REPLACE "// expect: " "" expect "${expect}")
+string(REPLACE "\\;" "," expect "${expect}")  # as in what is said, below
 file(STRINGS ${source} options REGEX "^// options: ")
 string(REPLACE "// options: " "" options "${options}")
 separate_arguments(options)

@@ -48,8 +48,11 @@ struct strided {
     template <class P>
     ABUT_HD strided(const P* first, std::size_t n, std::size_t step)
         : data(reinterpret_cast<const std::byte*>(first)), count(n), stride(step) {}
-    [[nodiscard]] ABUT_HD const T* first() const { return reinterpret_cast<const T*>(data); }
-    ABUT_HD const T& operator[](std::size_t i) const { return *reinterpret_cast<const T*>(data + i * stride); }
+    // By way of const void*: a reinterpret_cast would be warned of under -Wcast-align=strict.
+    [[nodiscard]] ABUT_HD const T* first() const { return static_cast<const T*>(static_cast<const void*>(data)); }
+    ABUT_HD const T& operator[](std::size_t i) const {
+        return *static_cast<const T*>(static_cast<const void*>(data + i * stride));
+    }
     /// From the first to the last byte, which may lie on two cache lines.
     ABUT_INLINE void prefetch(std::size_t i) const {
         __builtin_prefetch(data + i * stride);
@@ -60,7 +63,7 @@ struct strided {
 /// The vertices of face or edge i. Not by std::array's operator[]: that is a host function, and this also runs on devices.
 template <std::size_t N>
 ABUT_HD const std::uint32_t* corners_at(const strided<std::array<std::uint32_t, N>>& elements, std::size_t i) {
-    return reinterpret_cast<const std::uint32_t*>(elements.data + i * elements.stride);
+    return static_cast<const std::uint32_t*>(static_cast<const void*>(elements.data + i * elements.stride));
 }
 
 }  // namespace detail
