@@ -8,6 +8,13 @@
 #define ABUT_VERSION_MINOR 1
 #define ABUT_VERSION_PATCH 0
 
+// Every header includes this one before it needs C++20. There is no file of the name below: its absence stops the compiler
+// right here. It would go on after the #error alone, and print thousands of lines.
+#if __cplusplus < 202002L
+#error abut needs C++20 or newer: compile with -std=c++20 (in CMake, linking abut::abut asks for it)
+#include <abut/stopped_by_the_error_above>
+#endif
+
 // ABUT_HD marks a function that may run on the host and on a CUDA device. Such functions call no `constexpr` function of
 // the standard library, so that nobody's build needs `--expt-relaxed-constexpr`.
 // ABUT_DEVICE marks one that nvcc compiles for a device alone.

@@ -1,7 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Adds the abut::cuda policy. For .cu files compiled by nvcc 13 or newer with -std=c++20; needs no other flag.
+// Adds the abut::cuda policy. For .cu files compiled by nvcc 13.0 or newer with -std=c++20; needs no other flag.
+
+#include <abut/config.hpp>
+
+// Why not nvcc 12: answers are exact if the compiler keeps the arithmetic as it is written, and ptxas has been seen to make
+// wrong code of these headers (docs/numerics.md). All tests on devices were made with nvcc 13; older ones were never tried.
+#if !defined(__CUDACC__) || !defined(__CUDACC_VER_MAJOR__)
+#error abut/cuda.hpp is for .cu files that nvcc compiles: include abut/abut.hpp in files for other compilers
+#include <abut/stopped_by_the_error_above>
+#elif __CUDACC_VER_MAJOR__ < 13
+#error abut/cuda.hpp needs nvcc 13.0 or newer: exact answers on a device were tested with no older compiler
+#include <abut/stopped_by_the_error_above>
+#endif
 
 #include <abut/abut.hpp>
 #include <abut/execution/cuda_ordered.hpp>

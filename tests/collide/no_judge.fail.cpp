@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // expect: the judge is no pair_judge
+// errors: 3
 #include <abut/abut.hpp>
 
 struct half_a_judge {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // expect: abut: this policy lacks a verb
+// errors: 3
 #include <abut/abut.hpp>
 
 // It names its memory, waits and gives memory back, and has no loop.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // expect: abut: the volumes and the tree's shapes differ in their scalar type
+// errors: 5
 #include <abut/abut.hpp>
 
 int main() {

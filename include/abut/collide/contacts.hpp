@@ -58,6 +58,20 @@ struct is_not_sideways {
     }
 };
 
+/// Whether `contacts` takes both arguments and the filter.
+template <class Policy, class X, class Y, class Filter>
+consteval bool can_touch() {
+    if constexpr (can_pair<Policy, X, Y, Filter>()) {
+        using a = typename shape_of_argument<X>::type;
+        using b = typename shape_of_argument<Y>::type;
+        constexpr bool can = contact_pair<a, b> || contact_pair<b, a>;
+        static_assert(can, "abut: there are no contacts of this pair of shapes");
+        return can;
+    } else {
+        return false;
+    }
+}
+
 /// The contacts of any pairing, of two arguments or of a list.
 template <arithmetic A, class Policy, class Pairing>
 auto contacts_of(const Policy& on, const Pairing& pairing, bool discard_sideways) {
@@ -93,8 +107,12 @@ auto contacts_of(const Policy& on, const Pairing& pairing, bool discard_sideways
 ///     }
 template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Filter = keep_all>
 [[nodiscard]] auto contacts(const Policy& on, const X& a, const Y& b, const contact_options<Filter>& options = {}) {
-    const query_options<Filter> query{.sorted = options.sorted, .filter = options.filter, .resident = options.resident};
-    return detail::contacts_of<A>(on, detail::pair_up(on, a, b, query, "abut::contacts"), options.discard_sideways);
+    if constexpr (detail::can_touch<Policy, X, Y, Filter>()) {
+        const query_options<Filter> query{.sorted = options.sorted, .filter = options.filter, .resident = options.resident};
+        return detail::contacts_of<A>(on, detail::pair_up(on, a, b, query, "abut::contacts"), options.discard_sideways);
+    } else {
+        return result<contact<float>, space_of<Policy>>();
+    }
 }
 
 }  // namespace abut

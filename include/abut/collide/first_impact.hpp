@@ -168,6 +168,27 @@ auto first_of_indices(const Policy& on, const Index& x, const Index& y, impact_o
     }
 }
 
+/// Of two arguments, and of one with itself.
+template <motion_arithmetic A, class Policy, class X, class Y, class Fronts>
+auto first_between(const Policy& on, const X& a, const Y& b, const impact_options& options, const Fronts& fronts,
+                   const char* function) {
+    if constexpr (can_meet<Policy, X, Y>()) {
+        const auto [x, y] = impact_operands(on, a, b, function);
+        return first_of_indices<A, false>(on, x, y, options, fronts, function);
+    } else {
+        return std::optional<impact<float>>();
+    }
+}
+template <motion_arithmetic A, class Policy, class X, class Fronts>
+auto first_within(const Policy& on, const X& a, const impact_options& options, const Fronts& fronts, const char* function) {
+    if constexpr (can_move<Policy, X>()) {
+        const auto x = impact_operand<rule_of<X, X>()>(on, a, function);
+        return first_of_indices<A, true>(on, x, x, options, fronts, function);
+    } else {
+        return std::optional<impact<float>>();
+    }
+}
+
 }  // namespace detail
 
 /// The earliest of the impacts of two meshes as a std::optional<impact<T>>, which is empty if there are none: of several at
@@ -180,31 +201,27 @@ auto first_of_indices(const Policy& on, const Index& x, const Index& y, impact_o
 template <motion_arithmetic A = filtered, execution_policy Policy, class X, class Y>
 [[nodiscard]] auto first_impact(const Policy& on, const X& a, const Y& b, const impact_options& options = {}) {
     constexpr const char* function = "abut::first_impact";
-    const auto [x, y] = detail::impact_operands(on, a, b, function);
-    return detail::first_of_indices<A, false>(on, x, y, options, detail::no_fronts{}, function);
+    return detail::first_between<A>(on, a, b, options, detail::no_fronts{}, function);
 }
 /// The same from fronts, which are left at the ends of the part of the step that was looked at last.
 template <motion_arithmetic A = filtered, execution_policy Policy, class X, class Y>
 [[nodiscard]] auto first_impact(const Policy& on, const X& a, const Y& b, const impact_options& options,
                                 impact_fronts& fronts) {
     constexpr const char* function = "abut::first_impact";
-    const auto [x, y] = detail::impact_operands(on, a, b, function);
-    return detail::first_of_indices<A, false>(on, x, y, options, detail::fronts_of(fronts), function);
+    return detail::first_between<A>(on, a, b, options, detail::fronts_of(fronts), function);
 }
 
 /// The earliest of the impacts of a mesh with itself, as `self_impacts` has them. Otherwise as `first_impact`.
 template <motion_arithmetic A = filtered, execution_policy Policy, class X>
 [[nodiscard]] auto first_self_impact(const Policy& on, const X& a, const impact_options& options = {}) {
     constexpr const char* function = "abut::first_self_impact";
-    const auto x = detail::impact_operand<detail::rule_of<X, X>()>(on, a, function);
-    return detail::first_of_indices<A, true>(on, x, x, options, detail::no_fronts{}, function);
+    return detail::first_within<A>(on, a, options, detail::no_fronts{}, function);
 }
 /// The same from fronts, as of `first_impact`.
 template <motion_arithmetic A = filtered, execution_policy Policy, class X>
 [[nodiscard]] auto first_self_impact(const Policy& on, const X& a, const impact_options& options, impact_fronts& fronts) {
     constexpr const char* function = "abut::first_self_impact";
-    const auto x = detail::impact_operand<detail::rule_of<X, X>()>(on, a, function);
-    return detail::first_of_indices<A, true>(on, x, x, options, detail::fronts_of(fronts), function);
+    return detail::first_within<A>(on, a, options, detail::fronts_of(fronts), function);
 }
 
 }  // namespace abut

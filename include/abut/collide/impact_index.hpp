@@ -119,9 +119,6 @@ template <scalar T, memory_space Space, pair_rule Rule>
 inline constexpr bool is_impact_index<face_impact_index<T, Space, Rule>> = true;
 template <class X, class Y>
 consteval pair_rule rule_of() {
-    if constexpr (is_impact_index<X> && is_impact_index<Y>) {
-        static_assert(X::rule == Y::rule, "abut: both indices of a query have to be made by the same pair_rule");
-    }
     if constexpr (is_impact_index<X>) {
         return X::rule;
     } else if constexpr (is_impact_index<Y>) {
@@ -131,18 +128,46 @@ consteval pair_rule rule_of() {
     }
 }
 
-/// What `x` is to an impact query: an index, if need be made for the query.
+/// Whether impact_operand takes it.
+template <class Policy, class X>
+consteval bool can_move() {
+    if constexpr (std::same_as<X, refused>) {
+        return false;
+    } else if constexpr (is_impact_index<X>) {
+        return lies_there<Policy, X>();
+    } else {
+        constexpr bool is = requires(const Policy& on, const X& x) { make_impact_index(on, x); };
+        static_assert(
+            is, "abut: impacts are of meshes, at rest or in motion (abut::moving), or of indices of such, without a pose");
+        return is;
+    }
+}
+/// Whether an impact query takes both.
+template <class Policy, class X, class Y>
+consteval bool can_meet() {
+    if constexpr (!can_move<Policy, X>()) {
+        return false;
+    } else if constexpr (!can_move<Policy, Y>()) {
+        return false;
+    } else {
+        constexpr bool one_scalar = std::same_as<typename X::scalar_type, typename Y::scalar_type>;
+        static_assert(one_scalar, "abut: both sides of a query need the same scalar type, float or double");
+        if constexpr (is_impact_index<X> && is_impact_index<Y>) {
+            constexpr bool one_rule = X::rule == Y::rule;
+            static_assert(one_rule, "abut: both indices of a query have to be made by the same pair_rule");
+            return one_scalar && one_rule;
+        }
+        return one_scalar;
+    }
+}
+
+/// What `x` is to an impact query, which it can be: an index, if need be made for the query.
 template <pair_rule Rule, class Policy, class X>
 auto impact_operand(const Policy& on, const X& x, const char* function) {
     if constexpr (is_impact_index<X>) {
-        static_assert(std::same_as<typename X::memory_space, space_of<Policy>>,
-                      "abut: the index lies in other memory than the policy works in; make it with the same policy");
         require_same_device(on, x, function);
         return x;
     } else {
-        static_assert(
-            requires { make_impact_index<Rule>(on, x); },
-            "abut: impacts are of meshes, at rest or in motion (abut::moving), or of indices of such, without a pose");
         return make_impact_index<Rule>(on, x);
     }
 }

@@ -253,8 +253,6 @@ auto impact_operands(const Policy& on, const X& a, const Y& b, const char* funct
     constexpr pair_rule rule = rule_of<X, Y>();
     auto x = impact_operand<rule>(on, a, function);
     auto y = impact_operand<rule>(on, b, function);
-    static_assert(std::same_as<typename decltype(x)::scalar_type, typename decltype(y)::scalar_type>,
-                  "abut: both sides of a query need the same scalar type, float or double");
     return std::pair(std::move(x), std::move(y));
 }
 
@@ -262,14 +260,22 @@ auto impact_operands(const Policy& on, const X& a, const Y& b, const char* funct
 template <motion_arithmetic A, class Policy, class X, class Y, class Fronts>
 auto impacts_between(const Policy& on, const X& a, const Y& b, const impact_options& options, const Fronts& fronts) {
     constexpr const char* function = "abut::impacts";
-    const auto [x, y] = impact_operands(on, a, b, function);
-    return impacts_of_indices<A, false>(on, x, y, options, fronts, function);
+    if constexpr (can_meet<Policy, X, Y>()) {
+        const auto [x, y] = impact_operands(on, a, b, function);
+        return impacts_of_indices<A, false>(on, x, y, options, fronts, function);
+    } else {
+        return result<impact<float>, space_of<Policy>>();
+    }
 }
 template <motion_arithmetic A, class Policy, class X, class Fronts>
 auto impacts_within(const Policy& on, const X& a, const impact_options& options, const Fronts& fronts) {
     constexpr const char* function = "abut::self_impacts";
-    const auto x = impact_operand<rule_of<X, X>()>(on, a, function);
-    return impacts_of_indices<A, true>(on, x, x, options, fronts, function);
+    if constexpr (can_move<Policy, X>()) {
+        const auto x = impact_operand<rule_of<X, X>()>(on, a, function);
+        return impacts_of_indices<A, true>(on, x, x, options, fronts, function);
+    } else {
+        return result<impact<float>, space_of<Policy>>();
+    }
 }
 inline given_fronts fronts_of(impact_fronts& all) { return {&all.vertex_face, &all.face_vertex, &all.edge_edge}; }
 

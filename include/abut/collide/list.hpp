@@ -284,13 +284,20 @@ inline constexpr bool is_tree = false;
 template <class Set, memory_space Space, class Layout>
 inline constexpr bool is_tree<bvh<Set, Space, Layout>> = true;
 
-/// Says what is wrong with an index, where it is instantiated; a function would be too late.
-template <class Policy, class Index>
-struct require_tree {
+/// Whether all can be in a list.
+template <class Policy, class Index, class... More>
+consteval bool can_be_listed() {
     static_assert(is_tree<Index>, "abut: a list of pairs or of bodies holds indices made by make_bvh");
-    static_assert(std::same_as<typename Index::memory_space, space_of<Policy>>,
-                  "abut: an index lies in other memory than the policy works in; make it with the same policy");
-};
+    if constexpr (!is_tree<Index>) {
+        return false;
+    } else if constexpr (!lies_there<Policy, Index>()) {
+        return false;
+    } else if constexpr (sizeof...(More) > 0) {
+        return can_be_listed<Policy, More...>();
+    } else {
+        return true;
+    }
+}
 
 /// Entries that have been checked, ready to be asked.
 template <class Policy, class Entries, class Filter, schedule Schedule>
@@ -331,8 +338,6 @@ auto pair_up_entries(const Policy& on, Entries list, const list_options<Filter, 
 template <class Policy, class IndexA, class IndexB, class Filter, schedule Schedule>
 auto pair_up(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
              const list_options<Filter, Schedule>& options, const char* function) {
-    (void)require_tree<Policy, IndexA>{};
-    (void)require_tree<Policy, IndexB>{};
     require_callable(on, options.filter, tagged_pair{});
     for (std::size_t i = 0; i < list.size(); ++i) {
         const auto name = [i] { return "entry " + std::to_string(i) + " of the list"; };
@@ -354,7 +359,11 @@ template <arithmetic A = filtered, execution_policy Policy, class IndexA, class 
           schedule Schedule = schedule::shared_list>
 [[nodiscard]] bool any(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
                        const list_options<Filter, Schedule>& options = {}) {
-    return detail::any_of<A>(on, detail::pair_up(on, list, options, "abut::any"));
+    if constexpr (detail::can_be_listed<Policy, IndexA, IndexB>()) {
+        return detail::any_of<A>(on, detail::pair_up(on, list, options, "abut::any"));
+    } else {
+        return false;
+    }
 }
 
 /// Number of pairs of shapes that touch, of all entries. Stores none of them.
@@ -362,7 +371,11 @@ template <arithmetic A = filtered, execution_policy Policy, class IndexA, class 
           schedule Schedule = schedule::shared_list>
 [[nodiscard]] std::uint64_t count(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
                                   const list_options<Filter, Schedule>& options = {}) {
-    return detail::count_of<A>(on, detail::pair_up(on, list, options, "abut::count"));
+    if constexpr (detail::can_be_listed<Policy, IndexA, IndexB>()) {
+        return detail::count_of<A>(on, detail::pair_up(on, list, options, "abut::count"));
+    } else {
+        return 0;
+    }
 }
 
 /// All pairs of shapes that touch, tagged with the entry's position. In the policy's memory, 12 bytes each.
@@ -373,7 +386,11 @@ template <arithmetic A = filtered, execution_policy Policy, class IndexA, class 
           schedule Schedule = schedule::shared_list>
 [[nodiscard]] auto pairs(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
                          const list_options<Filter, Schedule>& options = {}) {
-    return detail::pairs_of<A>(on, detail::pair_up(on, list, options, "abut::pairs"));
+    if constexpr (detail::can_be_listed<Policy, IndexA, IndexB>()) {
+        return detail::pairs_of<A>(on, detail::pair_up(on, list, options, "abut::pairs"));
+    } else {
+        return result<tagged_pair, space_of<Policy>>();
+    }
 }
 
 /// Calls visitor(tagged_pair) -> visit once for every pair of shapes that touches; see for_each_pair of two arguments.
@@ -381,7 +398,9 @@ template <arithmetic A = filtered, execution_policy Policy, class IndexA, class 
           class Filter = keep_all_tagged, schedule Schedule = schedule::shared_list>
 void for_each_pair(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list, const Visitor& visitor,
                    const list_options<Filter, Schedule>& options = {}) {
-    detail::visit_pairs_of<A>(on, detail::pair_up(on, list, options, "abut::for_each_pair"), visitor);
+    if constexpr (detail::can_be_listed<Policy, IndexA, IndexB>() && detail::is_visitor<Policy, Visitor, tagged_pair>()) {
+        detail::visit_pairs_of<A>(on, detail::pair_up(on, list, options, "abut::for_each_pair"), visitor);
+    }
 }
 
 /// The contacts of all pairs of shapes that touch, tagged with the entry's position; see contacts of two arguments. In the
@@ -390,7 +409,11 @@ template <arithmetic A = filtered, execution_policy Policy, class IndexA, class 
           schedule Schedule = schedule::shared_list>
 [[nodiscard]] auto contacts(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
                             const list_options<Filter, Schedule>& options = {}) {
-    return detail::contacts_of<A>(on, detail::pair_up(on, list, options, "abut::contacts"), options.discard_sideways);
+    if constexpr (detail::can_be_listed<Policy, IndexA, IndexB>()) {
+        return detail::contacts_of<A>(on, detail::pair_up(on, list, options, "abut::contacts"), options.discard_sideways);
+    } else {
+        return result<tagged_contact<float>, space_of<Policy>>();
+    }
 }
 
 }  // namespace abut

@@ -138,17 +138,43 @@ auto common_unit(const Policy& on, [[maybe_unused]] const Operand& x, [[maybe_un
     }
 }
 
-/// Points as an operand: a set of points, a view of one, one point, or a row of them in host memory.
-template <class Policy, class Points>
-auto make_points(const Policy& on, const Points& points, const char* function) {
-    if constexpr (
-        requires { std::span(points.data(), points.size()); } && !requires { points.view(); } && !shape_view<Points>) {
-        const std::span row(points.data(), points.size());
-        using point = std::remove_cv_t<typename decltype(row)::element_type>;
-        if constexpr (host_policy<Policy>) {
-            return make_operand(on, shapes_view<point>(row.data(), row.size()), function);
+template <class X>
+inline constexpr bool is_row_of_points = array_like<X> && !shape_view<X>;
+
+/// Whether `nearest` takes both arguments.
+template <class Policy, class X, class Points>
+consteval bool can_be_near() {
+    if constexpr (!can_be_asked<Policy, X>()) {
+        return false;
+    } else {
+        using shape_type = typename shape_of_argument<X>::type;
+        constexpr bool is = approachable<shape_type>;
+        static_assert(
+            is, "abut: nearest needs nearest_point(shape, p) in the namespace of the shape, as docs/extending.md says");
+        if constexpr (is_row_of_points<Points>) {
+            return is_row<vec3<scalar_type_of<shape_type>>, element_of<Points>>() && is;
+        } else if constexpr (!can_be_asked<Policy, Points>()) {
+            return false;
         } else {
-            return make_operand(on, shapes<point, space_of<Policy>>(on, row), function);
+            using point = typename shape_of_argument<Points>::type;
+            constexpr bool are = std::same_as<point, vec3<scalar_type_of<point>>>;
+            static_assert(are, "abut: nearest looks from points: a set or a row of vec3, or one");
+            if constexpr (are) return have_one_scalar<X, Points>() && is;
+            return false;
+        }
+    }
+}
+
+/// Points as an operand: a set of points, a view of one, one point, or a row of them in host memory, which may be another
+/// library's (shape/rows.hpp).
+template <scalar T, class Policy, class Points>
+auto make_points(const Policy& on, const Points& points, const char* function) {
+    if constexpr (is_row_of_points<Points>) {
+        const auto row = rows_as<vec3<T>>(points, function);
+        if constexpr (host_policy<Policy>) {
+            return make_operand(on, shapes_view<vec3<T>>(row.data(), row.size()), function);
+        } else {
+            return make_operand(on, shapes<vec3<T>, space_of<Policy>>(on, row), function);
         }
     } else {
         return make_operand(on, points, function);
@@ -161,37 +187,16 @@ inline constexpr std::size_t few_points = 64;
 template <class Policy>
 inline constexpr std::size_t many_points = looks_in_groups<Policy> ? 64 : 4096;
 
-}  // namespace detail
-
-/// For each of `points` the nearest shape of `index`, in the order of the points, in the policy's memory: the shape's id,
-/// the point on it and the distance. Of equal distances the least id. `index` is a bvh of any layout, a grid, a set, a view
-/// or one shape, posed or not, of any shapes with `nearest_point` (triangles, segments, points, and solid spheres, capsules
-/// and boxes, in which the distance is 0). `points` is a set of points, a view, one point (vec3), or a vector or span of
-/// points in host memory.
-///
-/// The same bits on every policy, for every index and any number of threads. Distances are computed in double; those that
-/// differ by less than docs/numerics.md says may be taken for each other. Without an index every point looks at every shape;
-/// in a grid, points that are far from all shapes look at many. Returns when the answers are there. Throws invalid_geometry
-/// (views, single shapes, rows of points), error (a set on another device), std::bad_alloc, cuda_error.
-///
-///     const auto near = abut::to_host(abut::nearest(on, abut::make_bvh(on, mesh), abut::vertices(other)));
-template <execution_policy Policy, class X, class Points>
-[[nodiscard]] auto nearest(const Policy& on, const X& index, const Points& points) {
-    using namespace detail;
-    constexpr const char* function = "abut::nearest";
+/// `nearest` of arguments that have been looked at.
+template <class Policy, class X, class Points>
+auto nearest_of(const Policy& on, const X& index, const Points& points, const char* function) {
     const auto x = make_operand(on, index, function);
-    const auto queries = make_points(on, points, function);
+    const auto queries = make_points<scalar_type_of<typename shape_of_argument<X>::type>>(on, points, function);
     const auto there = x.shapes();
     const auto from = queries.shapes();
     using shapes_type = std::remove_const_t<decltype(there)>;
     using points_type = std::remove_const_t<decltype(from)>;
     using T = typename points_type::scalar_type;
-    static_assert(std::same_as<typename points_type::shape_type, vec3<T>>,
-                  "abut: nearest looks from points: a set or a row of vec3, or one");
-    static_assert(std::same_as<typename shapes_type::scalar_type, T>,
-                  "abut: both sides of a query need the same scalar type, float or double");
-    static_assert(approachable<typename shapes_type::shape_type>,
-                  "abut: nearest needs nearest_point(shape, p) in the namespace of the shape, as docs/extending.md says");
 
     const std::size_t n = from.size(), m = there.size();
     execution::buffer_of<Policy, neighbor<T>> out(on, n);
@@ -230,6 +235,29 @@ template <execution_policy Policy, class X, class Points>
                                            shapes_type, points_type, measure_distance<T>>;
         for_each_ordered(on, n, walk_type{walk, frame, there, from, judge, order.data()}, best);
         return finish(unit, order.data(), best.data());
+    }
+}
+
+}  // namespace detail
+
+/// For each of `points` the nearest shape of `index`, in the order of the points, in the policy's memory: the shape's id,
+/// the point on it and the distance. Of equal distances the least id. `index` is a bvh of any layout, a grid, a set, a view
+/// or one shape, posed or not, of any shapes with `nearest_point` (triangles, segments, points, and solid spheres, capsules
+/// and boxes, in which the distance is 0). `points` is a set of points, a view, one point (vec3), or a vector or span of
+/// points in host memory (of another library's type as well: shape/rows.hpp).
+///
+/// The same bits on every policy, for every index and any number of threads. Distances are computed in double; those that
+/// differ by less than docs/numerics.md says may be taken for each other. Without an index every point looks at every shape;
+/// in a grid, points that are far from all shapes look at many. Returns when the answers are there. Throws invalid_geometry
+/// (views, single shapes, rows of points), error (a set on another device), std::bad_alloc, cuda_error.
+///
+///     const auto near = abut::to_host(abut::nearest(on, abut::make_bvh(on, mesh), abut::vertices(other)));
+template <execution_policy Policy, class X, class Points>
+[[nodiscard]] auto nearest(const Policy& on, const X& index, const Points& points) {
+    if constexpr (detail::can_be_near<Policy, X, Points>()) {
+        return detail::nearest_of(on, index, points, "abut::nearest");
+    } else {
+        return result<neighbor<float>, space_of<Policy>>();
     }
 }
 

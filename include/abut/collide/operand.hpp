@@ -43,9 +43,7 @@ struct indexed_operand<bvh<Set, Space, Layout>> {
     [[nodiscard]] auto tree() const { return index.view(); }
     [[nodiscard]] auto walk() const { return bvh_walk<typename bvh<Set, Space, Layout>::view_type>{tree()}; }
     /// What a refitted tree has in common with the one that it comes of.
-    [[nodiscard]] topology shape_of_tree() const
-        requires std::same_as<Layout, standard_layout>
-    {
+    [[nodiscard]] topology shape_of_tree() const requires std::same_as<Layout, standard_layout> {
         return index.stored().plan;
     }
     /// Around all shapes, of which there are some.
@@ -87,11 +85,7 @@ struct posed_operand {
 
     [[nodiscard]] auto shapes() const { return posed_view<decltype(operand.shapes())>{operand.shapes(), pose}; }
     [[nodiscard]] auto tree() const { return operand.tree(); }
-    [[nodiscard]] topology shape_of_tree() const
-        requires has_topology<Operand>
-    {
-        return operand.shape_of_tree();
-    }
+    [[nodiscard]] topology shape_of_tree() const requires has_topology<Operand> { return operand.shape_of_tree(); }
     [[nodiscard]] auto walk() const { return posed_walk<decltype(operand.walk())>(operand.walk(), pose, around); }
 };
 
@@ -100,7 +94,34 @@ inline constexpr bool is_index = requires {
     sizeof(indexed_operand<X>);
 };
 
-/// `x` for the policy; errors are thrown in the name of `function`.
+/// The shape of an argument.
+template <class X>
+struct shape_of_argument : shape_of_object<X> {};
+template <class Object>
+struct shape_of_argument<posed_object<Object>> : shape_of_object<Object> {};
+
+/// Whether make_operand takes it.
+template <class Policy, class X>
+consteval bool can_be_asked() {
+    if constexpr (is_posed<X>) {
+        return can_be_asked<Policy, decltype(X::object)>();
+    } else if constexpr (is_index<X>) {
+        return lies_there<Policy, X>();
+    } else {
+        return can_reside<Policy, X>();
+    }
+}
+
+/// Whether two arguments, which can be asked, have one scalar type.
+template <class X, class Y>
+consteval bool have_one_scalar() {
+    using scalar_x = scalar_type_of<typename shape_of_argument<X>::type>;
+    constexpr bool one = std::same_as<scalar_x, scalar_type_of<typename shape_of_argument<Y>::type>>;
+    static_assert(one, "abut: both sides of a query need the same scalar type, float or double");
+    return one;
+}
+
+/// `x` for the policy, which can be asked; errors are thrown in the name of `function`.
 template <class Policy, class X>
 auto make_operand(const Policy& on, const X& x, const char* function) {
     if constexpr (is_posed<X>) {
@@ -117,8 +138,6 @@ auto make_operand(const Policy& on, const X& x, const char* function) {
         if (!surely_finite) check(on, placed.shapes(), function);
         return placed;
     } else if constexpr (is_index<X>) {
-        static_assert(std::same_as<typename X::memory_space, space_of<Policy>>,
-                      "abut: the index lies in other memory than the policy works in; make it with the same policy");
         require_same_device(on, x, function);
         return indexed_operand<X>{x};
     } else {

@@ -275,7 +275,8 @@ void descend(const Policy& on, const A& a, const B& b, const Expand& expand,
             const auto from = [&](const auto& step) {
                 run([&](const auto& judge, auto&... sinks) { return for_each_descendant(on, how, step, judge, sinks...); });
             };
-            if constexpr (Schedule != schedule::shared_list && Traversal == traversal::both_at_once && !host_policy<Policy>) {
+            if constexpr (Schedule != schedule::shared_list && Traversal == traversal::both_at_once &&
+                          !host_policy<Policy>) {
                 from(begin_below<Expand>(expand, options.start_depth));
             } else {
                 from(expand);
@@ -286,11 +287,9 @@ void descend(const Policy& on, const A& a, const B& b, const Expand& expand,
 
 /// The walk of two trees for a traversal.
 template <traversal Traversal, class A, class B, class Overlap>
-using chosen_walk =
-    typename std::conditional_t<Traversal == traversal::both_at_once || Traversal == traversal::breadth_first ||
-                                    Traversal == traversal::from_front,
-                                std::type_identity<pair_walk<A, B, Overlap>>,
-                                std::type_identity<rule_walk<A, B, Overlap, Traversal>>>::type;
+using chosen_walk = typename std::conditional_t<
+    Traversal == traversal::both_at_once || Traversal == traversal::breadth_first || Traversal == traversal::from_front,
+    std::type_identity<pair_walk<A, B, Overlap>>, std::type_identity<rule_walk<A, B, Overlap, Traversal>>>::type;
 
 /// How boxes of two operands' trees are compared.
 template <class A, class B>
@@ -328,8 +327,6 @@ struct pairing {
     using view_a = decltype(std::declval<const A&>().shapes());
     using view_b = decltype(std::declval<const B&>().shapes());
     using view_type = pair_view<view_a, view_b, Filter>;
-    static_assert(std::same_as<typename view_a::scalar_type, typename view_b::scalar_type>,
-                  "abut: both sides of a query need the same scalar type, float or double");
 
     [[nodiscard]] view_type view() const { return {a.shapes(), b.shapes(), key, options.filter}; }
     /// Room that results are likely to need.
@@ -410,6 +407,40 @@ void require_functions_of_shapes(const Policy& on) {
     }
 }
 
+/// Whether a filter, or on the host a visitor, can be called as it is. What a device calls, require_callable looks at.
+template <class Policy, class F, class Answer, class... Arguments>
+consteval bool answers() {
+    if constexpr (host_policy<Policy>) {
+        return requires(const F& f, Arguments... arguments) {
+            { f(arguments...) } -> std::convertible_to<Answer>;
+        };
+    } else {
+        return true;
+    }
+}
+template <class Policy, class Filter>
+consteval bool is_filter() {
+    constexpr bool is = answers<Policy, Filter, bool, std::uint32_t, std::uint32_t>();
+    static_assert(is, "abut: a filter is called as filter(id in a, id in b) const, two std::uint32_t, and returns bool");
+    return is;
+}
+
+/// Whether pair_up takes both arguments and the filter.
+template <class Policy, class X, class Y, class Filter>
+consteval bool can_pair() {
+    if constexpr (!can_be_asked<Policy, X>()) {
+        return false;
+    } else if constexpr (!can_be_asked<Policy, Y>()) {
+        return false;
+    } else if constexpr (!have_one_scalar<X, Y>()) {
+        return false;
+    } else {
+        constexpr bool is = decidable<typename shape_of_argument<X>::type, typename shape_of_argument<Y>::type>;
+        static_assert(is, "abut: queries between sets of these two shapes are not supported");
+        return is && is_filter<Policy, Filter>();
+    }
+}
+
 /// Both arguments of a query, ready to be paired; errors are thrown in the name of `function`.
 template <class Policy, class X, class Y, class Filter, traversal Traversal, schedule Schedule,
           class Nearness = near_enough_to_touch>
@@ -420,11 +451,10 @@ auto pair_up(const Policy& on, const X& x, const Y& y, const query_options<Filte
     auto b = make_operand(on, y, function);
     using shape_a = typename decltype(a.shapes())::shape_type;
     using shape_b = typename decltype(b.shapes())::shape_type;
-    static_assert(decidable<shape_a, shape_b>, "abut: queries between sets of these two shapes are not supported");
     const pair_key key{id_bits(a.shapes().size()), id_bits(b.shapes().size())};
     require_functions_of_shapes<shape_a, shape_b>(on);
     return pairing<decltype(a), decltype(b), Filter, Traversal, Schedule, Nearness>{std::move(a), std::move(b), key, options,
-                                                                                     near};
+                                                                                    near};
 }
 
 }  // namespace abut::detail

@@ -35,6 +35,17 @@ struct visit_pair {
     ABUT_HD bool operator()(std::uint64_t key) const { return visitor(both.ids(key)) != visit::stop; }
 };
 
+/// Whether for_each_pair takes the visitor.
+template <class Policy, class Visitor, class Pair>
+consteval bool is_visitor() {
+    constexpr bool is = answers<Policy, Visitor, visit, Pair>();
+    static_assert(
+        is,
+        "abut: a visitor is called as visitor(pair) const, and returns abut::visit::proceed or abut::visit::stop; the "
+        "pair is an index_pair, or a tagged_pair where the query is of a list");
+    return is;
+}
+
 // The queries, of any pairing: two arguments (below) or a list of them (list.hpp).
 
 template <arithmetic A, class Policy, class Pairing>
@@ -73,7 +84,11 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Y, cl
           traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
 [[nodiscard]] bool any(const Policy& on, const X& a, const Y& b,
                        const query_options<Filter, Traversal, Schedule>& options = {}) {
-    return detail::any_of<A>(on, detail::pair_up(on, a, b, options, "abut::any"));
+    if constexpr (detail::can_pair<Policy, X, Y, Filter>()) {
+        return detail::any_of<A>(on, detail::pair_up(on, a, b, options, "abut::any"));
+    } else {
+        return false;
+    }
 }
 
 /// Number of pairs that touch. Stores none of them.
@@ -81,7 +96,11 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Y, cl
           traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
 [[nodiscard]] std::uint64_t count(const Policy& on, const X& a, const Y& b,
                                   const query_options<Filter, Traversal, Schedule>& options = {}) {
-    return detail::count_of<A>(on, detail::pair_up(on, a, b, options, "abut::count"));
+    if constexpr (detail::can_pair<Policy, X, Y, Filter>()) {
+        return detail::count_of<A>(on, detail::pair_up(on, a, b, options, "abut::count"));
+    } else {
+        return 0;
+    }
 }
 
 /// All pairs that touch, each once, in the policy's memory; sorted by a, then b, unless the options say otherwise.
@@ -89,7 +108,11 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Y, cl
           traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
 [[nodiscard]] auto pairs(const Policy& on, const X& a, const Y& b,
                          const query_options<Filter, Traversal, Schedule>& options = {}) {
-    return detail::pairs_of<A>(on, detail::pair_up(on, a, b, options, "abut::pairs"));
+    if constexpr (detail::can_pair<Policy, X, Y, Filter>()) {
+        return detail::pairs_of<A>(on, detail::pair_up(on, a, b, options, "abut::pairs"));
+    } else {
+        return result<index_pair, space_of<Policy>>();
+    }
 }
 
 /// Calls visitor(index_pair) -> visit once for every pair that touches, as soon as it is known, in no order, concurrently,
@@ -99,7 +122,9 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Y, cl
           traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
 void for_each_pair(const Policy& on, const X& a, const Y& b, const Visitor& visitor,
                    const query_options<Filter, Traversal, Schedule>& options = {}) {
-    detail::visit_pairs_of<A>(on, detail::pair_up(on, a, b, options, "abut::for_each_pair"), visitor);
+    if constexpr (detail::can_pair<Policy, X, Y, Filter>() && detail::is_visitor<Policy, Visitor, index_pair>()) {
+        detail::visit_pairs_of<A>(on, detail::pair_up(on, a, b, options, "abut::for_each_pair"), visitor);
+    }
 }
 
 }  // namespace abut

@@ -151,7 +151,6 @@ std::vector<two_bodies> near_bodies(const Policy& on, const std::vector<posed_ob
 template <class Policy, class Index, class Filter, schedule Schedule>
 auto pair_up_bodies(const Policy& on, const std::vector<posed_object<Index>>& bodies,
                     const body_options<Filter, Schedule>& options, const char* function) {
-    (void)require_tree<Policy, Index>{};
     require_callable(on, options.filter, body_pair{});
     check_count(bodies.size(), function);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -189,9 +188,13 @@ template <arithmetic A = filtered, execution_policy Policy, class Index, class F
           schedule Schedule = schedule::shared_list>
 [[nodiscard]] auto self_pairs(const Policy& on, const std::vector<posed_object<Index>>& bodies,
                               const body_options<Filter, Schedule>& options = {}) {
-    const auto pairing = detail::pair_up_bodies(on, bodies, options, "abut::self_pairs");
-    const detail::touch_and_name_bodies<A> judge{{}, pairing.list.there.data()};
-    return detail::answers_to(on, pairing, judge, detail::find_keys(on, pairing, judge));
+    if constexpr (detail::can_be_listed<Policy, Index>()) {
+        const auto pairing = detail::pair_up_bodies(on, bodies, options, "abut::self_pairs");
+        const detail::touch_and_name_bodies<A> judge{{}, pairing.list.there.data()};
+        return detail::answers_to(on, pairing, judge, detail::find_keys(on, pairing, judge));
+    } else {
+        return result<body_pair, space_of<Policy>>();
+    }
 }
 
 /// The number of pairs that self_pairs reports. Stores none of them.
@@ -199,7 +202,11 @@ template <arithmetic A = filtered, execution_policy Policy, class Index, class F
           schedule Schedule = schedule::shared_list>
 [[nodiscard]] std::uint64_t count_self_pairs(const Policy& on, const std::vector<posed_object<Index>>& bodies,
                                              const body_options<Filter, Schedule>& options = {}) {
-    return detail::count_of<A>(on, detail::pair_up_bodies(on, bodies, options, "abut::count_self_pairs"));
+    if constexpr (detail::can_be_listed<Policy, Index>()) {
+        return detail::count_of<A>(on, detail::pair_up_bodies(on, bodies, options, "abut::count_self_pairs"));
+    } else {
+        return 0;
+    }
 }
 
 /// Whether there is such a pair. Stops at the first one found.
@@ -207,7 +214,11 @@ template <arithmetic A = filtered, execution_policy Policy, class Index, class F
           schedule Schedule = schedule::shared_list>
 [[nodiscard]] bool any_self_pairs(const Policy& on, const std::vector<posed_object<Index>>& bodies,
                                   const body_options<Filter, Schedule>& options = {}) {
-    return detail::any_of<A>(on, detail::pair_up_bodies(on, bodies, options, "abut::any_self_pairs"));
+    if constexpr (detail::can_be_listed<Policy, Index>()) {
+        return detail::any_of<A>(on, detail::pair_up_bodies(on, bodies, options, "abut::any_self_pairs"));
+    } else {
+        return false;
+    }
 }
 
 }  // namespace abut

@@ -93,6 +93,19 @@ struct self_pairing {
     }
 };
 
+/// Whether pair_up_self takes the argument, as it is, and the filter.
+template <class Policy, class X, class Filter>
+consteval bool can_pair_itself() {
+    if constexpr (can_be_asked<Policy, X>()) {
+        using shape_type = typename shape_of_argument<X>::type;
+        constexpr bool is = decidable<shape_type, shape_type>;
+        static_assert(is, "abut: self queries of sets of these shapes are not supported");
+        return is && is_filter<Policy, Filter>();
+    } else {
+        return false;
+    }
+}
+
 /// The argument of a self query, ready to be paired with itself; errors are thrown in the name of `function`. Of the
 /// traversals breadth_first and from_front are meant as they say, and the others are both_at_once.
 template <class Policy, class X, class Filter, traversal Traversal, schedule Schedule, class Sight = as_they_are,
@@ -104,7 +117,6 @@ auto pair_up_self(const Policy& on, const X& x, const query_options<Filter, Trav
     const auto shapes = sight(operand.shapes());
     const int bits = id_bits(shapes.size());
     using shape_type = typename decltype(shapes)::shape_type;
-    static_assert(decidable<shape_type, shape_type>, "abut: self queries of sets of these shapes are not supported");
     require_functions_of_shapes<shape_type, shape_type>(on);
     return self_pairing<decltype(operand), Filter, Traversal, Schedule, Sight, Nearness>{
         std::move(operand), sight, {bits, bits}, options, near};

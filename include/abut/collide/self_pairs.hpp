@@ -129,7 +129,11 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Filte
           traversal Traversal = traversal::both_at_once>
     requires(!detail::is_list_of_bodies<X>)
 [[nodiscard]] auto self_pairs(const Policy& on, const X& x, const self_options<Filter, Traversal>& options = {}) {
-    return detail::pairs_of<A>(on, detail::pair_up_faces(on, x, options, "abut::self_pairs"));
+    if constexpr (detail::can_pair_itself<Policy, X, Filter>()) {
+        return detail::pairs_of<A>(on, detail::pair_up_faces(on, x, options, "abut::self_pairs"));
+    } else {
+        return result<index_pair, space_of<Policy>>();
+    }
 }
 
 /// The number of pairs that self_pairs reports. Stores none of them.
@@ -138,7 +142,11 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Filte
     requires(!detail::is_list_of_bodies<X>)
 [[nodiscard]] std::uint64_t count_self_pairs(const Policy& on, const X& x,
                                              const self_options<Filter, Traversal>& options = {}) {
-    return detail::count_of<A>(on, detail::pair_up_faces(on, x, options, "abut::count_self_pairs"));
+    if constexpr (detail::can_pair_itself<Policy, X, Filter>()) {
+        return detail::count_of<A>(on, detail::pair_up_faces(on, x, options, "abut::count_self_pairs"));
+    } else {
+        return 0;
+    }
 }
 
 }  // namespace abut

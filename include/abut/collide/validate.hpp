@@ -315,8 +315,12 @@ auto mesh_to_validate(const Policy& on, const Mesh& mesh) {
 template <execution_policy Policy, class Mesh>
 [[nodiscard]] mesh_report validate(const Policy& on, const Mesh& mesh) {
     static_assert(detail::is_mesh<Mesh>, "abut::validate: expected a mesh or a mesh_view, of float or double");
-    const auto resident = detail::mesh_to_validate(on, mesh);
-    return detail::validate_view(on, detail::view_of(resident));
+    if constexpr (detail::is_mesh<Mesh>) {
+        const auto resident = detail::mesh_to_validate(on, mesh);
+        return detail::validate_view(on, detail::view_of(resident));
+    } else {
+        return {};
+    }
 }
 
 }  // namespace abut

@@ -236,37 +236,42 @@ template <execution_policy Policy, class Set>
     if (!(options.cell_width >= 0)) {
         throw error("abut::make_grid: cell_width is " + detail::shortest(options.cell_width) + "; expected 0 or more");
     }
-    auto resident = detail::make_resident(on, set, "abut::make_grid");
-    using grid_type = grid<decltype(resident), space_of<Policy>>;
-    using T = typename grid_type::scalar_type;
-    const auto shapes = detail::view_of(resident);
-    using shapes_type = std::remove_const_t<decltype(shapes)>;
-    const std::size_t n = shapes.size();
-    auto cells = std::make_shared<typename grid_type::storage>();
-    if (n > 0) {
-        std::size_t slots = 2;
-        while (slots < 2 * n) slots *= 2;
-        cells->frame = execution::buffer_of<Policy, grid_frame<T>>(on, 1);
-        cells->keys = execution::buffer_of<Policy, std::uint64_t>(on, slots);
-        cells->starts = execution::buffer_of<Policy, std::uint32_t>(on, slots + 1);
-        cells->items = execution::buffer_of<Policy, grid_item<T>>(on, n);
-        execution::buffer_of<Policy, detail::extent_sum<T>> sum(on, 1);
-        execution::buffer_of<Policy, std::uint64_t> position(on, n);
-        reduce_into(on, n, sum.data(), detail::extent_sum<T>{empty_box<T>(), 0.0}, detail::add_extents{},
-                    detail::measure_shape<shapes_type>{shapes});
-        for_each_index(on, 1,
-                       detail::set_frame<T>{sum.data(), cells->frame.data(), static_cast<double>(n), options.cell_width});
-        fill(on, cells->keys.data(), slots, grid_type::view_type::no_key);
-        fill(on, cells->starts.data(), slots, std::uint32_t{0});
-        for_each_index(on, n,
-                       detail::count_in_cells<shapes_type>{shapes, cells->frame.data(), cells->keys.data(), slots,
-                                                           cells->starts.data(), position.data()});
-        exclusive_scan(on, cells->starts.data(), slots);
-        for_each_index(
-            on, n, detail::put_in_cells<shapes_type>{shapes, cells->starts.data(), position.data(), cells->items.data()});
-        synchronize(on);
+    if constexpr (detail::can_reside<Policy, Set>()) {
+        auto resident = detail::make_resident(on, set, "abut::make_grid");
+        using grid_type = grid<decltype(resident), space_of<Policy>>;
+        using T = typename grid_type::scalar_type;
+        const auto shapes = detail::view_of(resident);
+        using shapes_type = std::remove_const_t<decltype(shapes)>;
+        const std::size_t n = shapes.size();
+        auto cells = std::make_shared<typename grid_type::storage>();
+        if (n > 0) {
+            std::size_t slots = 2;
+            while (slots < 2 * n) slots *= 2;
+            cells->frame = execution::buffer_of<Policy, grid_frame<T>>(on, 1);
+            cells->keys = execution::buffer_of<Policy, std::uint64_t>(on, slots);
+            cells->starts = execution::buffer_of<Policy, std::uint32_t>(on, slots + 1);
+            cells->items = execution::buffer_of<Policy, grid_item<T>>(on, n);
+            execution::buffer_of<Policy, detail::extent_sum<T>> sum(on, 1);
+            execution::buffer_of<Policy, std::uint64_t> position(on, n);
+            reduce_into(on, n, sum.data(), detail::extent_sum<T>{empty_box<T>(), 0.0}, detail::add_extents{},
+                        detail::measure_shape<shapes_type>{shapes});
+            for_each_index(
+                on, 1, detail::set_frame<T>{sum.data(), cells->frame.data(), static_cast<double>(n), options.cell_width});
+            fill(on, cells->keys.data(), slots, grid_type::view_type::no_key);
+            fill(on, cells->starts.data(), slots, std::uint32_t{0});
+            for_each_index(on, n,
+                           detail::count_in_cells<shapes_type>{shapes, cells->frame.data(), cells->keys.data(), slots,
+                                                               cells->starts.data(), position.data()});
+            exclusive_scan(on, cells->starts.data(), slots);
+            for_each_index(
+                on, n,
+                detail::put_in_cells<shapes_type>{shapes, cells->starts.data(), position.data(), cells->items.data()});
+            synchronize(on);
+        }
+        return grid_type(std::move(resident), std::move(cells));
+    } else {
+        return detail::refused();
     }
-    return grid_type(std::move(resident), std::move(cells));
 }
 
 /// The same with a cell width alone.

@@ -96,7 +96,11 @@ auto build_bvh(const Policy& on, const Set& set, const bvh_options& options) {
 /// std::bad_alloc, cuda_error.
 template <execution_policy Policy, class Set>
 [[nodiscard]] auto make_bvh(const Policy& on, const Set& set) {
-    return detail::build_bvh<false>(on, set, {});
+    if constexpr (detail::can_reside<Policy, Set>()) {
+        return detail::build_bvh<false>(on, set, {});
+    } else {
+        return detail::refused();
+    }
 }
 
 /// The same with options, of which `{}` are the defaults. All builders are compiled, which takes a compiler a second.
@@ -111,7 +115,11 @@ template <execution_policy Policy, class Set>
             "abut::make_bvh: on a device the builder is bvh_builder::linear or ploc; serial and openmp have mean_split and "
             "sah");
     }
-    return detail::build_bvh<true>(on, set, options);
+    if constexpr (detail::can_reside<Policy, Set>()) {
+        return detail::build_bvh<true>(on, set, options);
+    } else {
+        return detail::refused();
+    }
 }
 
 }  // namespace abut

@@ -22,6 +22,7 @@
 #include <abut/index/node_part.hpp>
 #include <abut/index/operand.hpp>
 #include <abut/index/refit_plan.hpp>
+#include <abut/shape/posed.hpp>
 
 namespace abut {
 
@@ -336,6 +337,38 @@ std::shared_ptr<const Storage> refit_storage(const Policy& on, const Storage& ol
     return fresh;
 }
 
+/// Whether `refit` takes the tree and the set.
+template <class Policy, class Tree, class Set>
+consteval bool can_refit() {
+    if constexpr (!can_reside<Policy, Set>()) {
+        return false;
+    } else if constexpr (!lies_there<Policy, Tree>()) {
+        return false;
+    } else {
+        constexpr bool is_standard = std::same_as<typename Tree::layout_type, standard_layout>;
+        static_assert(is_standard, "abut: refit takes a tree in the standard layout; refit that one and convert the result");
+        constexpr bool one_scalar =
+            std::same_as<typename Tree::scalar_type, scalar_type_of<typename shape_of_object<Set>::type>>;
+        static_assert(one_scalar, "abut: the tree and the set have different scalar types");
+        return is_standard && one_scalar;
+    }
+}
+
+/// `refit` of arguments that have been looked at.
+template <class Policy, class Tree, class Set>
+auto refit_tree(const Policy& on, const Tree& tree, const Set& set) {
+    auto resident = make_resident(on, set, "abut::refit");
+    using tree_type = bvh<decltype(resident), space_of<Policy>>;
+    const auto shapes = view_of(resident);
+    const std::size_t n = shapes.size();
+    if (n != tree.size()) {
+        throw error("abut::refit: the tree has " + std::to_string(tree.size()) + " shapes, the set " + std::to_string(n));
+    }
+    require_same_device(on, tree, "abut::refit");
+    auto fresh = refit_storage(on, tree.stored(), shapes);
+    return tree_type(std::move(resident), std::move(fresh));
+}
+
 }  // namespace detail
 
 /// A tree of the topology of `tree` over the shapes of `set`, of which there are as many: shape i takes the place of shape
@@ -350,22 +383,11 @@ std::shared_ptr<const Storage> refit_storage(const Policy& on, const Storage& ol
 /// cuda_error.
 template <execution_policy Policy, class OldSet, memory_space Space, bvh_layout_kind Layout, class Set>
 [[nodiscard]] auto refit(const Policy& on, const bvh<OldSet, Space, Layout>& tree, const Set& set) {
-    static_assert(std::same_as<Layout, standard_layout>,
-                  "abut: refit takes a tree in the standard layout; refit that one and convert the result");
-    static_assert(std::same_as<Space, space_of<Policy>>,
-                  "abut: the index lies in other memory than the policy works in; make it with the same policy");
-    auto resident = detail::make_resident(on, set, "abut::refit");
-    using tree_type = bvh<decltype(resident), Space>;
-    using T = typename tree_type::scalar_type;
-    static_assert(std::same_as<T, typename OldSet::scalar_type>, "abut: the tree and the set have different scalar types");
-    const auto shapes = detail::view_of(resident);
-    const std::size_t n = shapes.size();
-    if (n != tree.size()) {
-        throw error("abut::refit: the tree has " + std::to_string(tree.size()) + " shapes, the set " + std::to_string(n));
+    if constexpr (detail::can_refit<Policy, bvh<OldSet, Space, Layout>, Set>()) {
+        return detail::refit_tree(on, tree, set);
+    } else {
+        return detail::refused();
     }
-    detail::require_same_device(on, tree, "abut::refit");
-    auto fresh = detail::refit_storage(on, tree.stored(), shapes);
-    return tree_type(std::move(resident), std::move(fresh));
 }
 
 }  // namespace abut

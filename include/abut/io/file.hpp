@@ -17,6 +17,7 @@
 #include <system_error>
 #include <vector>
 
+#include <abut/config.hpp>
 #include <abut/io/error.hpp>
 
 namespace abut::io::detail {

@@ -139,7 +139,7 @@ public:
     std::int64_t integer(ply_type type, const char*) { return load_integer(type); }
     void skip(ply_type type, std::uint64_t count, const std::string&) {
         check_list(count, type);
-        at_ += static_cast<std::size_t>(count) * size_of(type);
+        at_ += std::size_t{count} * size_of(type);
     }
     [[noreturn]] void fail(const std::string& expected, std::int64_t found) const {
         fail_at(last_, "expected " + expected + ", found " + std::to_string(found));

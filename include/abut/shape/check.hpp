@@ -100,16 +100,18 @@ template <scalar T>
     if (!is_valid(s.axis)) refuse(function, element, i, s.axis);
     refuse_radius(function, element, i, s.radius);
 }
-/// Of a shape in motion: what is wrong at one of its two times. Of a shape of the caller's own: what is wrong with its box, or
-/// else that its own is_valid says no.
+/// Of a shape in motion: what is wrong at one of its two times. Of a shape of the caller's own: what is wrong with its box,
+/// or else that its own is_valid says no.
 template <shape S>
 [[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const S& s) {
     if constexpr (requires { s.t0, s.t1; }) {
-        is_valid(s.t0) ? refuse(function + ": at t = 1", element, i, s.t1) : refuse(function + ": at t = 0", element, i, s.t0);
+        is_valid(s.t0) ? refuse(function + ": at t = 1", element, i, s.t1)
+                       : refuse(function + ": at t = 0", element, i, s.t0);
     } else {
         const aabb<scalar_type_of<S>> box = bounds(s);
         if (!is_valid(box)) refuse(function, element, i, box);
-        throw invalid_geometry(function, element, i, "is_valid refuses it; its least x is", static_cast<double>(box.lower.x));
+        throw invalid_geometry(function, element, i, "is_valid refuses it; its least x is",
+                               static_cast<double>(box.lower.x));
     }
 }
 
@@ -148,6 +150,7 @@ void check_shapes(const Policy& on, const V& view, const char* function, const c
 template <class Policy, shape S>
 void check_array(const Policy& on, const strided<S>& array, const char* function, const char* element) {
     require_access(on, array.data, function);
+    see_writes_to(array.data);
     check_shapes(on, shapes_view<S, space_of<Policy>>(array.first(), array.count, array.stride), function, element);
 }
 
@@ -168,14 +171,17 @@ void check_indexed(const Policy& on, const strided<vec3<T>>& vertices, const str
     check_array(on, vertices, function, "vertex");
     const auto vertex_count = static_cast<std::uint32_t>(vertices.count);
     require_access(on, elements.data, function);
+    see_writes_to(elements.data);
     const std::size_t bad = reduce(on, elements.count, none_is_bad, minimum{}, bad_corners<N>{elements, vertex_count});
     if (bad == none_is_bad) return;
     std::array<std::uint32_t, N> corners;
     download(on, &elements[bad], 1, &corners);
     std::size_t k = 0;
     while (corners[k] < vertex_count) ++k;
-    throw invalid_geometry(function, element, bad,
-                           "vertex index out of range, there are " + std::to_string(vertex_count) + " vertices", corners[k]);
+    std::string problem = "vertex index out of range, there are " + std::to_string(vertex_count) + " vertices";
+    const auto as_signed = static_cast<std::int32_t>(corners[k]);
+    if (as_signed < 0) problem += "; as a signed number it is " + std::to_string(as_signed);
+    throw invalid_geometry(function, element, bad, problem, corners[k]);
 }
 
 // What a view has to hold: each throws in the name of `function`.

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <abut/config.hpp>
+
 namespace abut {
 
 /// An edge and the faces that have it.

@@ -15,6 +15,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -22,6 +23,7 @@
 #include <abut/execution/buffer.hpp>
 #include <abut/execution/host.hpp>
 #include <abut/shape/check.hpp>
+#include <abut/shape/rows.hpp>
 #include <abut/shape/view.hpp>
 
 namespace abut {
@@ -90,6 +92,18 @@ public:
     shapes(const Policy& on, std::span<const Shape> values) : values_(on, values) {
         detail::check(on, view(), detail::name_of<Shape>.set);
     }
+    /// Of another library's array: a container or a span of elements that hold the shape's numbers in the order of its
+    /// members (std::array<T, 4> for a sphere: center and radius), or of the numbers themselves (shape/rows.hpp).
+    template <detail::array_like R>
+        requires std::same_as<Space, host_space>
+    explicit shapes(const R& values) : shapes(serial{}, values) {}
+    template <execution_policy Policy, detail::array_like R>
+        requires(std::same_as<space_of<Policy>, Space> && !std::convertible_to<const R&, std::span<const Shape>>)
+    shapes(const Policy& on, const R& values) {
+        if constexpr (detail::is_row<Shape, detail::element_of<R>>()) {
+            *this = shapes(on, detail::rows_as<Shape>(values, detail::name_of<Shape>.set));
+        }
+    }
 
     [[nodiscard]] std::size_t size() const { return values_.size(); }
     [[nodiscard]] view_type view() const { return {values_.data(), values_.size()}; }
@@ -145,6 +159,17 @@ public:
     equal_spheres(const Policy& on, std::span<const vec3<T>> centers, T radius) : centers_(on, centers), radius_(radius) {
         detail::check(on, view(), "abut::equal_spheres");
     }
+    /// Of another library's array of centers: of elements that hold three T, or of T itself.
+    template <detail::array_like R>
+        requires std::same_as<Space, host_space>
+    equal_spheres(const R& centers, T radius) : equal_spheres(serial{}, centers, radius) {}
+    template <execution_policy Policy, detail::array_like R>
+        requires(std::same_as<space_of<Policy>, Space> && !std::convertible_to<const R&, std::span<const vec3<T>>>)
+    equal_spheres(const Policy& on, const R& centers, T radius) {
+        if constexpr (detail::is_row<vec3<T>, detail::element_of<R>>()) {
+            *this = equal_spheres(on, detail::rows_as<vec3<T>>(centers, "abut::equal_spheres"), radius);
+        }
+    }
 
     [[nodiscard]] std::size_t size() const { return centers_.size(); }
     [[nodiscard]] view_type view() const { return {centers_.data(), centers_.size(), radius_}; }
@@ -174,6 +199,7 @@ struct indexed_kind;
 template <scalar T, memory_space Space>
 struct indexed_kind<mesh_view<T, Space>> {
     using element = face;
+    static constexpr const char* noun = "face";
     template <memory_space Other>
     using in = mesh_view<T, Other>;
     static constexpr const char* name = "abut::mesh";
@@ -181,6 +207,7 @@ struct indexed_kind<mesh_view<T, Space>> {
 template <scalar T, memory_space Space>
 struct indexed_kind<edge_mesh_view<T, Space>> {
     using element = edge;
+    static constexpr const char* noun = "edge";
     template <memory_space Other>
     using in = edge_mesh_view<T, Other>;
     static constexpr const char* name = "abut::edge_mesh";
@@ -211,6 +238,28 @@ public:
         : vertices_(on, vertices), elements_(on, elements) {
         detail::check(on, view(), kind::name);
     }
+    /// Of other libraries' arrays, containers or spans: of vertices that hold three T, or of T itself; of faces that hold
+    /// three integers of any type (edges: two), or of integers. Negative indices are refused like those that are too large.
+    template <detail::array_like V, detail::array_like E>
+        requires std::same_as<memory_space, host_space>
+    indexed_set(const V& vertices, const E& elements) : indexed_set(serial{}, vertices, elements) {}
+    template <execution_policy Policy, detail::array_like V, detail::array_like E>
+        requires(std::same_as<space_of<Policy>, memory_space> &&
+                 !(std::convertible_to<const V&, std::span<const vertex>> &&
+                   std::convertible_to<const E&, std::span<const element>>))
+    indexed_set(const Policy& on, const V& vertices, const E& elements) {
+        constexpr std::size_t corners = std::tuple_size_v<element>;
+        if constexpr (detail::is_row<vertex, detail::element_of<V>>() &&
+                      detail::holds_indices<corners, detail::element_of<E>>()) {
+            const auto points = detail::rows_as<vertex>(vertices, kind::name);
+            if constexpr (std::same_as<detail::number_in<detail::element_of<E>>, std::uint32_t>) {
+                *this = indexed_set(on, points, detail::rows_as<element>(elements, kind::name));
+            } else {
+                const auto indices = detail::indices_of<corners>(elements, points.size(), kind::name, kind::noun);
+                *this = indexed_set(on, points, std::span<const element>(indices));
+            }
+        }
+    }
 
     /// Number of faces or edges.
     [[nodiscard]] std::size_t size() const { return elements_.size(); }
@@ -234,6 +283,16 @@ public:
         moved.elements_ = elements_;
         detail::check_array(on, moved.view().vertices, kind::name, "vertex");
         return moved;
+    }
+    /// Of another library's array.
+    template <execution_policy Policy, detail::array_like V>
+        requires(std::same_as<space_of<Policy>, memory_space> && !std::convertible_to<const V&, std::span<const vertex>>)
+    [[nodiscard]] indexed_set with_vertices(const Policy& on, const V& vertices) const {
+        if constexpr (detail::is_row<vertex, detail::element_of<V>>()) {
+            return with_vertices(on, detail::rows_as<vertex>(vertices, kind::name));
+        } else {
+            return *this;
+        }
     }
 
     template <execution_policy Policy>

@@ -13,6 +13,7 @@
 
 #include <abut/execution/policy.hpp>
 #include <abut/shape/primitive.hpp>
+#include <abut/shape/rows.hpp>
 #include <abut/shape/shape.hpp>
 
 namespace abut {
@@ -28,11 +29,11 @@ using edge = std::array<std::uint32_t, 2>;
 /// may read what step 0 asks for.
 template <class V>
 concept shape_view = std::is_trivially_copyable_v<V> && memory_space<typename V::memory_space> &&
-                     shape<typename V::shape_type> &&
-                     std::same_as<typename V::scalar_type, scalar_type_of<typename V::shape_type>> && requires(const V& v) {
-                         { v.size() } -> std::convertible_to<std::size_t>;
-                         { v[std::size_t{}] } -> std::same_as<typename V::shape_type>;
-                     };
+    shape<typename V::shape_type> && std::same_as<typename V::scalar_type, scalar_type_of<typename V::shape_type>> &&
+    requires(const V& v) {
+    { v.size() } -> std::convertible_to<std::size_t>;
+    { v[std::size_t{}] } -> std::same_as<typename V::shape_type>;
+};
 
 namespace detail {
 
@@ -44,10 +45,14 @@ struct strided {
     std::size_t stride = sizeof(T);
 
     strided() = default;
-    ABUT_HD strided(const T* first, std::size_t n, std::size_t step = sizeof(T))
+    template <class P>
+    ABUT_HD strided(const P* first, std::size_t n, std::size_t step)
         : data(reinterpret_cast<const std::byte*>(first)), count(n), stride(step) {}
-    [[nodiscard]] ABUT_HD const T* first() const { return reinterpret_cast<const T*>(data); }
-    ABUT_HD const T& operator[](std::size_t i) const { return *reinterpret_cast<const T*>(data + i * stride); }
+    // By way of const void*: a reinterpret_cast would be warned of under -Wcast-align=strict.
+    [[nodiscard]] ABUT_HD const T* first() const { return static_cast<const T*>(static_cast<const void*>(data)); }
+    ABUT_HD const T& operator[](std::size_t i) const {
+        return *static_cast<const T*>(static_cast<const void*>(data + i * stride));
+    }
     /// From the first to the last byte, which may lie on two cache lines.
     ABUT_INLINE void prefetch(std::size_t i) const {
         __builtin_prefetch(data + i * stride);
@@ -58,7 +63,7 @@ struct strided {
 /// The vertices of face or edge i. Not by std::array's operator[]: that is a host function, and this also runs on devices.
 template <std::size_t N>
 ABUT_HD const std::uint32_t* corners_at(const strided<std::array<std::uint32_t, N>>& elements, std::size_t i) {
-    return reinterpret_cast<const std::uint32_t*>(elements.data + i * elements.stride);
+    return static_cast<const std::uint32_t*>(static_cast<const void*>(elements.data + i * elements.stride));
 }
 
 }  // namespace detail
@@ -77,6 +82,13 @@ struct shapes_view {
     /// aligned.
     ABUT_HD shapes_view(const Shape* first, std::size_t count, std::size_t stride = sizeof(Shape))
         : shapes(first, count, stride) {}
+    /// Over an array of another type that holds the same numbers in the same order (shape/rows.hpp), as std::array<T, 3> for
+    /// points, or T itself; `count` is that of the shapes.
+    template <class P>
+    ABUT_HD shapes_view(const P* first, std::size_t count, std::size_t stride = detail::row_stride<Shape, P>)
+        : shapes(first, count, stride) {
+        (void)detail::is_row<Shape, P>();
+    }
 
     [[nodiscard]] ABUT_HD std::size_t size() const { return shapes.count; }
     [[nodiscard]] ABUT_HD Shape operator[](std::size_t i) const { return shapes[i]; }
@@ -113,6 +125,15 @@ struct mesh_view {
     ABUT_HD mesh_view(const vec3<T>* first_vertex, std::size_t vertex_count, const face* first_face, std::size_t face_count,
                       std::size_t vertex_stride = sizeof(vec3<T>), std::size_t face_stride = sizeof(face))
         : vertices(first_vertex, vertex_count, vertex_stride), faces(first_face, face_count, face_stride) {}
+    /// Over arrays of other types that hold three T and three integers of 32 bits (shape/rows.hpp), or one by one; the
+    /// counts are those of vertices and faces. A negative index is refused as one that is out of range.
+    template <class P, class F>
+    ABUT_HD mesh_view(const P* first_vertex, std::size_t vertex_count, const F* first_face, std::size_t face_count,
+                      std::size_t vertex_stride = detail::row_stride<vec3<T>, P>,
+                      std::size_t face_stride = detail::row_stride<face, F>)
+        : vertices(first_vertex, vertex_count, vertex_stride), faces(first_face, face_count, face_stride) {
+        (void)(detail::is_row<vec3<T>, P>() && detail::is_index_row<3, F>());
+    }
 
     [[nodiscard]] ABUT_HD std::size_t size() const { return faces.count; }
     [[nodiscard]] ABUT_HD triangle<T> operator[](std::size_t i) const {
@@ -141,6 +162,14 @@ struct edge_mesh_view {
                            std::size_t edge_count, std::size_t vertex_stride = sizeof(vec3<T>),
                            std::size_t edge_stride = sizeof(edge))
         : vertices(first_vertex, vertex_count, vertex_stride), edges(first_edge, edge_count, edge_stride) {}
+    /// Over arrays of other types, as of mesh_view.
+    template <class P, class E>
+    ABUT_HD edge_mesh_view(const P* first_vertex, std::size_t vertex_count, const E* first_edge, std::size_t edge_count,
+                           std::size_t vertex_stride = detail::row_stride<vec3<T>, P>,
+                           std::size_t edge_stride = detail::row_stride<edge, E>)
+        : vertices(first_vertex, vertex_count, vertex_stride), edges(first_edge, edge_count, edge_stride) {
+        (void)(detail::is_row<vec3<T>, P>() && detail::is_index_row<2, E>());
+    }
 
     [[nodiscard]] ABUT_HD std::size_t size() const { return edges.count; }
     [[nodiscard]] ABUT_HD segment<T> operator[](std::size_t i) const {
@@ -167,6 +196,13 @@ struct equal_spheres_view {
     ABUT_HD equal_spheres_view(const vec3<T>* first_center, std::size_t count, T radius_of_all,
                                std::size_t stride = sizeof(vec3<T>))
         : centers(first_center, count, stride), radius(radius_of_all) {}
+    /// Over an array of another type, as of shapes_view.
+    template <class P>
+    ABUT_HD equal_spheres_view(const P* first_center, std::size_t count, T radius_of_all,
+                               std::size_t stride = detail::row_stride<vec3<T>, P>)
+        : centers(first_center, count, stride), radius(radius_of_all) {
+        (void)detail::is_row<vec3<T>, P>();
+    }
 
     [[nodiscard]] ABUT_HD std::size_t size() const { return centers.count; }
     [[nodiscard]] ABUT_HD sphere<T> operator[](std::size_t i) const { return {centers[i], radius}; }
