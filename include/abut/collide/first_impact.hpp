@@ -170,11 +170,14 @@ auto first_of_indices(const Policy& on, const Index& x, const Index& y, impact_o
 
 }  // namespace detail
 
+/// @addtogroup motion
+///@{
+
 /// The earliest of the impacts of two meshes as a std::optional<impact<T>>, which is empty if there are none: of several at
 /// one time, the first in the order of `impacts`. What is found so far prunes the search: it looks at a first part of the
 /// step, and at more where nothing touches in it. For that the trees are refitted, except with `fast` and `conservative`; so
 /// under cuda the stream of an index's first such query has to outlive the index (see `refit`). Arguments, times and errors
-/// are those of `impacts`. Returns when the answer is there.
+/// are those of `impacts`.
 ///
 ///     if (const auto first = abut::first_impact(on, step, ball)) stop_at(first->time);
 template <motion_arithmetic A = filtered, execution_policy Policy, class X, class Y>
@@ -206,5 +209,7 @@ template <motion_arithmetic A = filtered, execution_policy Policy, class X>
     const auto x = detail::impact_operand<detail::rule_of<X, X>()>(on, a, function);
     return detail::first_of_indices<A, true>(on, x, x, options, detail::fronts_of(fronts), function);
 }
+
+///@}
 
 }  // namespace abut
