@@ -137,7 +137,8 @@ struct some_triangles {
 /// Two trees of one kind of volume are told apart by these, but of kdop under a pose by the boxes along the axes. Such boxes
 /// are what a tree of volumes stands for together with anything else, slowly where they have to be made at each look.
 ///
-///     const auto tree = bounded_by<kdop<float, 18>>(on, make_bvh(on, mesh, {.builder = bvh_builder::sah}));
+///     const auto better = abut::make_bvh(on, mesh, {.builder = abut::bvh_builder::sah});
+///     const auto tree = abut::bounded_by<abut::kdop<float, 18>>(on, better);
 template <bounding_volume V, execution_policy Policy, class Set, memory_space Space>
 [[nodiscard]] bvh<Set, Space, bounded_layout<V>> bounded_by(const Policy& on, const bvh<Set, Space>& tree) {
     static_assert(std::same_as<Space, space_of<Policy>>,
@@ -202,7 +203,7 @@ template <bounding_volume V, execution_policy Policy, class Set, memory_space Sp
 /// A tree of oriented boxes, fitted along the principal axes of the corners in them; two are told apart by fifteen axes. It
 /// pays for queries that come close and touch little, again and again: nested or neighbouring surfaces, `any`.
 ///
-///     const auto tree = oriented(on, make_bvh(on, mesh, {.builder = bvh_builder::sah}));
+///     const auto tree = abut::oriented(on, abut::make_bvh(on, mesh, {.builder = abut::bvh_builder::sah}));
 template <execution_policy Policy, class Set, memory_space Space>
 [[nodiscard]] bvh<Set, Space, bounded_layout<obb<typename Set::scalar_type>>> oriented(const Policy& on,
                                                                                        const bvh<Set, Space>& tree) {

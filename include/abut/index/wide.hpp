@@ -194,7 +194,7 @@ execution::buffer<wide_node<T>, host_space> widen(const Policy& on, const bvh_no
 /// the same for any number of threads. Linear time; needs up to twice as much memory again while it works. Returns when it
 /// is done. Throws std::bad_alloc.
 ///
-///     const auto tree = wide(on, make_bvh(on, mesh, {.builder = bvh_builder::sah}));
+///     const auto tree = abut::wide(on, abut::make_bvh(on, mesh, {.builder = abut::bvh_builder::sah}));
 template <execution_policy Policy, class Set, memory_space Space>
 [[nodiscard]] bvh<Set, Space, wide_layout> wide(const Policy& on, const bvh<Set, Space>& tree) {
     static_assert(host_policy<Policy> && std::same_as<Space, host_space>,

@@ -349,7 +349,7 @@ struct front_memory_in : front_memory {
 ///
 ///     abut::front ends;
 ///     const abut::query_options<abut::keep_all, abut::traversal::from_front> options{.front = &ends};
-///     for (...) {
+///     while (next_frame()) {
 ///         tree = refit(on, tree, moved);
 ///         use(pairs(on, tree, ground, options));
 ///     }
