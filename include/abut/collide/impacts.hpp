@@ -47,10 +47,10 @@ namespace abut {
 /// `std::optional` on the host.
 ///
 /// @par Errors
-/// `error` for a set or an index on another device, where two meshes of one step do not go together, and for a separation or
-/// a tolerance of `conservative` that is negative, not a number or too large. `capacity_error` where features need more than
-/// 64 bits to be numbered in pairs, and as of `edges`. `std::bad_alloc`; `cuda_error`. Poses are not taken: that does not
-/// compile.
+/// `error` for a set or an index on another device, and where two meshes of one step do not go together. With `conservative`
+/// also for a separation that is negative or not finite, and for a tolerance that is negative or not a number.
+/// `capacity_error` for more than 2^31 features of a kind, and as of `edges`. `std::bad_alloc`; `cuda_error`. Poses are not
+/// taken: that does not compile.
 ///
 /// @par Synchronisation
 /// Each call returns when its answer is complete; under `cuda` it waits for the policy's stream, several times.
