@@ -21,7 +21,7 @@ as_root() {
 have_package() {
     # A program of that name will do, whoever installed it.
     case $1 in
-        cmake | g++ | clang | ccache | python3) command -v "$1" >/dev/null 2>&1 && return 0 ;;
+        cmake | g++ | clang | ccache | doxygen | python3) command -v "$1" >/dev/null 2>&1 && return 0 ;;
         ninja-build) command -v ninja >/dev/null 2>&1 && return 0 ;;
     esac
     dpkg-query -W -f='${Status}' "$1" 2>/dev/null | grep -q 'ok installed'

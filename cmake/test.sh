@@ -46,7 +46,7 @@ cd "$(dirname "$0")/.."
 
 need_packages g++ cmake ninja-build python3 catch2 librapidcheck-dev libboost-dev
 want_packages libgmp-dev libmpfr-dev libcgal-dev libfcl-dev libeigen3-dev libtinyobjloader-dev libcli11-dev nlohmann-json3-dev ccache \
-    libbenchmark-dev
+    libbenchmark-dev doxygen
 if [ $bench = yes ]; then want_packages libembree-dev libbullet-dev libnanoflann-dev; fi
 if [ $clang = yes ] || [ $tsan = yes ] || [ $headers = yes ]; then
     need_packages clang

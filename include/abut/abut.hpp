@@ -3,6 +3,9 @@
 
 // All of abut for the serial and OpenMP policies. Nothing is needed but a C++20 compiler. <abut/cuda.hpp> adds CUDA.
 
+/// @namespace abut
+/// Everything that a program names, but for files.
+
 #include <abut/arithmetic/self_test.hpp>
 #include <abut/collide/advise.hpp>
 #include <abut/collide/contacts.hpp>

@@ -11,6 +11,11 @@
 
 namespace abut {
 
+/// @defgroup errors Errors
+///
+/// What the library throws, all derived from `abut::error`, beside `std::bad_alloc`.
+///@{
+
 /// Base of all exceptions of the library.
 class error : public std::runtime_error {
 public:
@@ -21,6 +26,7 @@ public:
 /// The message reads `function: element index: problem (value)`, as in `abut::mesh: vertex 17: z is not finite (nan)`.
 class invalid_geometry : public error {
 public:
+    /// The message is made of these, as above.
     invalid_geometry(const std::string& function, const std::string& element, std::size_t index, const std::string& problem,
                      double value);
 
@@ -59,5 +65,7 @@ inline invalid_geometry::invalid_geometry(const std::string& function, const std
       function_(function),
       index_(index),
       value_(value) {}
+
+///@}
 
 }  // namespace abut

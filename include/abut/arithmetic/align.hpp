@@ -14,9 +14,9 @@ namespace abut {
 
 /// A finite number as mantissa * 2^exponent with an odd mantissa; zero has mantissa 0 and exponent 0.
 struct binary_parts {
-    std::int64_t mantissa;
-    int exponent;
-    int bits;  ///< an upper bound on the mantissa's width
+    std::int64_t mantissa;  ///< odd, or 0
+    int exponent;           ///< of the power of two
+    int bits;               ///< an upper bound on the mantissa's width
 };
 
 namespace detail {
@@ -54,6 +54,7 @@ struct float_format<double> {
 
 }  // namespace detail
 
+/// A number as its parts, by its bits. It has to be finite: of an infinity or a NaN the answer means nothing.
 template <scalar T>
 ABUT_HD constexpr binary_parts take_apart(T x) {
     using format = detail::float_format<T>;
@@ -79,6 +80,7 @@ ABUT_HD constexpr bool is_subnormal(T x) {
     return static_cast<word>(magnitude - 1) < (word{1} << format::digits) - 1;  // 0 wraps around, and is none
 }
 
+/// Whether any of the numbers is neither zero nor normal.
 template <scalar T, int V>
 ABUT_HD constexpr bool any_subnormal(const T (&value)[V]) {
     bool any = false;
@@ -89,9 +91,11 @@ ABUT_HD constexpr bool any_subnormal(const T (&value)[V]) {
 /// `V` finite numbers and the power of two, 2^low, that all are multiples of.
 template <int V>
 struct aligned {
-    binary_parts part[V];
-    int low, high;
+    binary_parts part[V];  ///< of each number
+    int low;               ///< the largest power of two that divides all numbers
+    int high;              ///< all magnitudes are below 2^high
 
+    /// Takes the numbers apart and finds the span of their bits.
     template <scalar T>
     ABUT_HD explicit constexpr aligned(const T (&value)[V]) : part{}, low{1 << 20}, high{-(1 << 20)} {
         for (int i = 0; i < V; ++i) {
@@ -106,6 +110,7 @@ struct aligned {
     /// All magnitudes are below 2^width() units of 2^low; negative where all numbers are zero.
     ABUT_HD constexpr int width() const { return high - low; }
 
+    /// Number i in units of 2^low. The caller sees to it that width() bits and a sign fit into `L` limbs.
     template <int L>
     ABUT_HD constexpr wide_int<L> integer(int i) const {
         return wide_int<L>::shifted(part[i].mantissa, part[i].mantissa == 0 ? 0 : part[i].exponent - low);

@@ -103,7 +103,8 @@ ABUT_HD constexpr T next_up(T x) {
 /// `value + error` is the exact result; `value` is it rounded to nearest.
 template <scalar T>
 struct error_free {
-    T value, error;
+    T value;  ///< the rounded result
+    T error;  ///< what rounding took off
 };
 
 /// Knuth's sum: exact unless `value` overflows.
@@ -116,6 +117,7 @@ ABUT_HD constexpr error_free<T> two_sum(T a, T b) {
     return {s, plain_sum(plain_sum(a, -from_a), plain_sum(b, -from_b))};
 }
 
+/// The same for a - b.
 template <scalar T>
 ABUT_HD constexpr error_free<T> two_diff(T a, T b) {
     return two_sum(a, -b);

@@ -11,10 +11,13 @@
 
 namespace abut {
 
+/// The largest finite number.
 template <scalar T>
 inline constexpr T largest_finite = std::numeric_limits<T>::max();
+/// The smallest positive normal number; what is nearer to 0 is denormal.
 template <scalar T>
 inline constexpr T smallest_normal = std::numeric_limits<T>::min();
+/// Positive infinity.
 template <scalar T>
 inline constexpr T infinity = std::numeric_limits<T>::infinity();
 /// Half a unit in the last place of 1: the largest relative error of one rounded operation.

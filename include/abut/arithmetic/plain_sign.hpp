@@ -26,6 +26,7 @@ ABUT_HD constexpr int sign_of_dot(const vec3<N>& a, const vec3<N>& b) {
 
 // Words whose products need two: differences of coordinates and what is computed of them.
 
+/// The product of two words, exactly.
 ABUT_HD constexpr int128 product(std::int64_t a, std::int64_t b) { return static_cast<int128>(a) * b; }
 
 /// The sign of a . b
@@ -34,9 +35,14 @@ ABUT_HD constexpr int sign_of_dot(const vec3<std::int64_t>& a, const vec3<std::i
     return (sum > 0) - (sum < 0);
 }
 
+/// a^2 or |a|^2 of words. Components below 2^62 in magnitude leave room for the sum.
+///@{
 ABUT_HD constexpr int128 square(std::int64_t a) { return product(a, a); }
 ABUT_HD constexpr int128 square(const vec3<std::int64_t>& a) { return square(a.x) + square(a.y) + square(a.z); }
+///@}
 
+/// a^2 or |a|^2 in floating point, rounded.
+///@{
 template <class N>
     requires std::is_floating_point_v<N>
 ABUT_HD constexpr N square(N a) {
@@ -47,6 +53,7 @@ template <class N>
 ABUT_HD constexpr N square(const vec3<N>& a) {
     return dot(a, a);
 }
+///@}
 
 /// |a|^2 <= |b|^2, where a and b are numbers or vectors.
 template <class A, class B>

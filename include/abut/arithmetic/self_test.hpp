@@ -19,6 +19,7 @@ struct arithmetic_report {
     bool round_to_nearest;   ///< ties to even
     bool error_free;         ///< transforms return exact errors although their inputs could be contracted
 
+    /// Whether all of it is.
     [[nodiscard]] ABUT_HD constexpr bool passed() const {
         return gradual_underflow && denormal_inputs && round_to_nearest && error_free;
     }
@@ -53,7 +54,8 @@ ABUT_HD inline arithmetic_report self_test_of(T smallest_normal, T ulp) {
 
 }  // namespace detail
 
-/// Runs the checks for float and double; some nanoseconds, on the host or in a kernel.
+/// Runs the checks for float and double, on the calling thread of the host or of a kernel. Takes some nanoseconds, allocates
+/// nothing, and throws nothing.
 ABUT_HD inline arithmetic_report self_test() {
     const arithmetic_report f = detail::self_test_of<float>(0x1p-126f, 0x1p-23f);
     const arithmetic_report d = detail::self_test_of<double>(0x1p-1022, 0x1p-52);

@@ -17,14 +17,14 @@ namespace abut {
 /// mantissa * 2^exponent, exponent >= 0, a product of `Degree` coordinates.
 template <int Degree>
 struct sparse_term {
-    wide_int<Degree> mantissa;
-    int exponent;
+    wide_int<Degree> mantissa;  ///< with its sign
+    int exponent;               ///< of the power of two, 0 or more
 };
 
 /// The exact sum of `Terms` terms whose coordinates had type `T`.
 template <scalar T, int Terms, int Degree>
 struct sparse_sum {
-    sparse_term<Degree> term[Terms];
+    sparse_term<Degree> term[Terms];  ///< in any order; equal powers are not joined
 };
 
 namespace detail {
@@ -46,6 +46,8 @@ ABUT_NOINLINE ABUT_HD constexpr void multiply_terms(const sparse_term<D>* a, int
 
 }  // namespace detail
 
+/// Sum and difference of one degree: the terms of both.
+///@{
 template <scalar T, int K, int M, int D>
 ABUT_HD constexpr sparse_sum<T, K + M, D> operator+(const sparse_sum<T, K, D>& a, const sparse_sum<T, M, D>& b) {
     sparse_sum<T, K + M, D> r;
@@ -61,7 +63,9 @@ ABUT_HD constexpr sparse_sum<T, K + M, D> operator-(const sparse_sum<T, K, D>& a
     detail::copy_terms(b.term, M, true, r.term + K);
     return r;
 }
+///@}
 
+/// The product: each term of one times each of the other.
 template <scalar T, int K, int D, int M, int E>
 ABUT_HD constexpr sparse_sum<T, K * M, D + E> operator*(const sparse_sum<T, K, D>& a, const sparse_sum<T, M, E>& b) {
     sparse_sum<T, K * M, D + E> r;
@@ -71,6 +75,7 @@ ABUT_HD constexpr sparse_sum<T, K * M, D + E> operator*(const sparse_sum<T, K, D
 
 // The general `dot` and `cross` of vec.hpp would do; these write their terms in place, without temporaries on the stack.
 
+/// a . b
 template <scalar T, int K, int D, int M, int E>
 ABUT_HD constexpr auto dot(const vec3<sparse_sum<T, K, D>>& a, const vec3<sparse_sum<T, M, E>>& b) {
     sparse_sum<T, 3 * K * M, D + E> r;
@@ -80,6 +85,7 @@ ABUT_HD constexpr auto dot(const vec3<sparse_sum<T, K, D>>& a, const vec3<sparse
     return r;
 }
 
+/// a x b
 template <scalar T, int K, int D, int M, int E>
 ABUT_HD constexpr auto cross(const vec3<sparse_sum<T, K, D>>& a, const vec3<sparse_sum<T, M, E>>& b) {
     vec3<sparse_sum<T, 2 * K * M, D + E>> r;
@@ -104,12 +110,15 @@ public:
         add_products(a.term, K, b.term, M, weight);
     }
 
+    /// Adds the terms of a sum.
     template <int K, int D>
     ABUT_HD constexpr void add_sum(const sparse_sum<T, K, D>& a) {
         static_assert(D <= Degree);
         for (int i = 0; i < K; ++i) add(a.term[i].mantissa, a.term[i].exponent, 1);
     }
 
+    /// Adds `weight` (1 or -1) times a^2 or |a|^2.
+    ///@{
     template <int K, int D>
     ABUT_HD constexpr void add_square(const sparse_sum<T, K, D>& a, int weight) {
         add_product(a, a, weight);
@@ -121,7 +130,9 @@ public:
         add_square(a.y, weight);
         add_square(a.z, weight);
     }
+    ///@}
 
+    /// The sign of what has been added: -1, 0 or 1.
     ABUT_HD constexpr int sign() const {
         std::int64_t carry = 0;
         bool any = false;
@@ -195,6 +206,7 @@ ABUT_NOINLINE ABUT_HD constexpr bool sparse_squares_at_most(const A& a, const B&
 }  // namespace detail
 
 /// |a|^2 <= |b|^2, where a and b are numbers or vectors of one degree.
+///@{
 template <scalar T, int K, int M, int D>
 ABUT_HD constexpr bool squares_at_most(const vec3<sparse_sum<T, K, D>>& a, const sparse_sum<T, M, D>& b) {
     return detail::sparse_squares_at_most<T, D>(a, b);
@@ -209,5 +221,6 @@ template <scalar T, int K, int M, int D>
 ABUT_HD constexpr bool squares_at_most(const vec3<sparse_sum<T, K, D>>& a, const vec3<sparse_sum<T, M, D>>& b) {
     return detail::sparse_squares_at_most<T, D>(a, b);
 }
+///@}
 
 }  // namespace abut

@@ -11,11 +11,15 @@ namespace abut {
 /// A point or a vector. An aggregate of three numbers without padding, so arrays of it are arrays of coordinates.
 template <class T>
 struct vec3 {
-    T x, y, z;
+    T x;  ///< first coordinate
+    T y;  ///< second
+    T z;  ///< third
 
     friend constexpr bool operator==(const vec3&, const vec3&) = default;
 };
 
+/// Sum and difference, coordinate by coordinate.
+///@{
 template <class T>
 ABUT_HD constexpr auto operator+(const vec3<T>& a, const vec3<T>& b) {
     return vec3<decltype(a.x + b.x)>{a.x + b.x, a.y + b.y, a.z + b.z};
@@ -25,7 +29,9 @@ template <class T>
 ABUT_HD constexpr auto operator-(const vec3<T>& a, const vec3<T>& b) {
     return vec3<decltype(a.x - b.x)>{a.x - b.x, a.y - b.y, a.z - b.z};
 }
+///@}
 
+/// s v, for a number of the vector's own type.
 template <class T>
 ABUT_HD constexpr vec3<T> operator*(const T& s, const vec3<T>& v) {
     return {s * v.x, s * v.y, s * v.z};
@@ -34,17 +40,20 @@ ABUT_HD constexpr vec3<T> operator*(const T& s, const vec3<T>& v) {
 // The operands of these may be numbers of different widths (exact integers grow with the degree); the result is as wide as
 // needed.
 
+/// s v
 template <class S, class T>
 ABUT_HD constexpr auto scale(const S& s, const vec3<T>& v) {
     auto x = s * v.x;
     return vec3<decltype(x)>{x, s * v.y, s * v.z};
 }
 
+/// a . b
 template <class A, class B>
 ABUT_HD constexpr auto dot(const vec3<A>& a, const vec3<B>& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
+/// a x b
 template <class A, class B>
 ABUT_HD constexpr auto cross(const vec3<A>& a, const vec3<B>& b) {
     auto x = a.y * b.z - a.z * b.y;

@@ -13,8 +13,11 @@
 
 namespace abut {
 
+/// Integers of 128 bits, an extension of g++, clang and nvcc.
+///@{
 __extension__ typedef __int128 int128;
 __extension__ typedef unsigned __int128 uint128;
+///@}
 
 namespace detail {
 
@@ -28,7 +31,7 @@ ABUT_HD constexpr std::uint64_t mask_if(bool wanted) { return wanted ? ~std::uin
 template <int N>
 struct wide_int {
     static_assert(N > 0);
-    std::uint64_t limb[N];
+    std::uint64_t limb[N];  ///< least significant first
 
     /// value * 2^shift, for shift >= 0; the caller guarantees that it fits.
     ABUT_HD static constexpr wide_int shifted(std::int64_t value, int shift) {
@@ -48,6 +51,7 @@ struct wide_int {
         return r;
     }
 
+    /// Whether it is below 0.
     ABUT_HD constexpr bool negative() const { return static_cast<std::int64_t>(limb[N - 1]) < 0; }
 };
 
@@ -79,6 +83,8 @@ ABUT_HD constexpr void subtract_if(bool wanted, wide_int<N>& r, const wide_int<M
 
 }  // namespace detail
 
+/// Sum and difference modulo 2^(64 N).
+///@{
 template <int N>
 ABUT_HD constexpr wide_int<N> operator+(const wide_int<N>& a, const wide_int<N>& b) {
     return detail::add_limbs<false>(a, b, 0);
@@ -88,12 +94,15 @@ template <int N>
 ABUT_HD constexpr wide_int<N> operator-(const wide_int<N>& a, const wide_int<N>& b) {
     return detail::add_limbs<true>(a, b, 1);
 }
+///@}
 
+/// -a, modulo 2^(64 N).
 template <int N>
 ABUT_HD constexpr wide_int<N> operator-(const wide_int<N>& a) {
     return wide_int<N>{} - a;
 }
 
+/// The product, which always fits.
 template <int N, int M>
 ABUT_HD constexpr wide_int<N + M> operator*(const wide_int<N>& a, const wide_int<M>& b) {
     wide_int<N + M> r{};
@@ -142,6 +151,8 @@ ABUT_HD constexpr int sign_of_dot(const vec3<wide_int<N>>& a, const vec3<wide_in
     return sign(dot(a, b));
 }
 
+/// a^2 or |a|^2
+///@{
 template <int N>
 ABUT_HD constexpr wide_int<2 * N> square(const wide_int<N>& a) {
     return a * a;
@@ -151,6 +162,7 @@ template <int N>
 ABUT_HD constexpr wide_int<2 * N> square(const vec3<wide_int<N>>& a) {
     return dot(a, a);
 }
+///@}
 
 /// |a|^2 <= |b|^2, where a and b are numbers or vectors of one degree.
 template <class A, class B>

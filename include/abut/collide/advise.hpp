@@ -215,12 +215,12 @@ advice advice_for(const facts_of_set<T>& a, const facts_of_set<T>& b) {
 }  // namespace detail
 
 /// Which cheaper choice cannot be wrong in queries of a with b: sets, views, indices or single shapes at rest, of triangles,
-/// segments, points, spheres, capsules or boxes, in the policy's memory or, if they are sets in host memory, copied there.
-/// Reads each number once, and returns when the advice is there. Throws invalid_geometry (views and single shapes),
-/// error (a set on another device), std::bad_alloc, cuda_error.
+/// segments, points, spheres, capsules or boxes. Reads each number once.
 ///
 ///     const auto said = abut::advise(on, voxels, tool);
 ///     const auto n = said.fast_is_exact ? abut::count<abut::fast>(on, voxels, tool) : abut::count(on, voxels, tool);
+///
+/// @ingroup queries
 template <execution_policy Policy, class A, class B>
 [[nodiscard]] advice advise(const Policy& on, const A& a, const B& b) {
     constexpr const char* function = "abut::advise";
@@ -234,6 +234,8 @@ template <execution_policy Policy, class A, class B>
 }
 
 /// The same of a set with itself.
+///
+/// @ingroup queries
 template <execution_policy Policy, class A>
 [[nodiscard]] advice advise(const Policy& on, const A& a) {
     const auto x = detail::make_operand(on, a, "abut::advise");

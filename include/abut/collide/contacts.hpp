@@ -13,6 +13,25 @@
 
 namespace abut {
 
+/// @defgroup contacts Contacts of many pairs
+///
+/// `contacts` of two arguments: where, in which direction and how deep their shapes touch. `reduce_contacts` keeps a few of
+/// them that hold two bodies apart nearly as well as all do. docs/contacts.md says what the numbers mean.
+///
+/// @par Memory
+/// Arguments as in @ref queries. Contacts lie in the policy's memory, 36 bytes each in float and 64 in double.
+///
+/// @par Errors
+/// Of `contacts` those of @ref queries. Of `reduce_contacts` `error` where `bins` is not in 1..1024 or `most` is 0,
+/// `capacity_error` for 2^32 contacts or more, `std::bad_alloc` and `cuda_error`.
+///
+/// @par Synchronisation
+/// Each call returns when its contacts are complete; under `cuda` it waits for the policy's stream.
+///
+/// @par Example
+/// @snippet queries.cpp contacts
+///@{
+
 /// Options of `contacts`; the first ones are those of `query_options`.
 template <class Filter = keep_all>
 struct contact_options {
@@ -99,8 +118,7 @@ auto contacts_of(const Policy& on, const Pairing& pairing, bool discard_sideways
 /// are bit for bit the same on each policy, whatever the threads, the indices and the sides that look; those of `fast` are
 /// numbers of the same kind for pairs that may not touch.
 ///
-/// Arguments are those of `pairs`: sets, views, single shapes and indices, posed or not. So are the errors:
-/// invalid_geometry, error, capacity_error, std::bad_alloc and cuda_error. Returns when the contacts are there.
+/// Arguments are those of `pairs`: sets, views, single shapes and indices, posed or not.
 ///
 ///     for (const auto& c : abut::contacts(abut::openmp{}, part, abut::posed(tool, pose))) {
 ///         std::printf("%u meets %u, %g deep\n", c.a, c.b, c.depth);
@@ -114,5 +132,7 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Y, cl
         return result<contact<float>, space_of<Policy>>();
     }
 }
+
+///@}
 
 }  // namespace abut

@@ -20,32 +20,48 @@
 
 namespace abut {
 
+/// @addtogroup motion
+///@{
+
 /// A mesh in motion with one tree, over its faces, of boxes around the whole step, and what `Rule` knows of its faces. Made
 /// by make_impact_index<Rule>; `refit` brings it to the next step. Immutable; copies share everything, and steps of one mesh
 /// share what is known of faces.
 template <scalar T, memory_space Space, pair_rule Rule>
 class face_impact_index {
 public:
-    static constexpr pair_rule rule = Rule;
-    static constexpr bool keeps_orphans = Rule == pair_rule::orphan_sets;
+    static constexpr pair_rule rule = Rule;                                ///< how pairs of features are found
+    static constexpr bool keeps_orphans = Rule == pair_rule::orphan_sets;  ///< whether it has a list of orphans
+    /// float or double, where the index lies, and the sets of its faces and edges.
+    ///@{
     using scalar_type = T;
     using memory_space = Space;
     using mesh_type = moving_set<abut::mesh<T, Space>>;
     using edges_type = moving_set<edge_mesh<T, Space>>;
+    ///@}
+    /// In the place of orphans, for rules without them.
     struct no_orphans {};
+    /// The list of orphans.
     using orphans_type = std::conditional_t<keeps_orphans, detail::orphan_pairs<Space>, no_orphans>;
 
+    /// For make_impact_index: of parts that go together, which is not checked.
     face_impact_index(bvh<mesh_type, Space> faces, edges_type edges, detail::face_parts<Space> parts, orphans_type orphans)
         : faces_(std::move(faces)), edges_(std::move(edges)), parts_(std::move(parts)), orphans_(std::move(orphans)) {}
 
     /// Number of faces.
     [[nodiscard]] std::size_t size() const { return faces_.size(); }
+    /// The CUDA device that the index lies on; -1 for the host.
     [[nodiscard]] int device() const { return faces_.device(); }
+    /// The mesh in motion.
     [[nodiscard]] const mesh_type& mesh() const { return faces_.set(); }
+    /// The tree over its faces.
     [[nodiscard]] const bvh<mesh_type, Space>& faces() const { return faces_; }
+    /// Its edges, without a tree.
     [[nodiscard]] const edges_type& edges() const { return edges_; }
+    /// For queries: which features have been given to which faces, and the orphans.
+    ///@{
     [[nodiscard]] const detail::face_parts<Space>& parts() const { return parts_; }
     [[nodiscard]] const orphans_type& orphans() const { return orphans_; }
+    ///@}
 
 private:
     bvh<mesh_type, Space> faces_;
@@ -53,6 +69,8 @@ private:
     detail::face_parts<Space> parts_;
     orphans_type orphans_;
 };
+
+///@}
 
 namespace detail {
 

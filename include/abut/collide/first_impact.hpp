@@ -191,11 +191,14 @@ auto first_within(const Policy& on, const X& a, const impact_options& options, c
 
 }  // namespace detail
 
+/// @addtogroup motion
+///@{
+
 /// The earliest of the impacts of two meshes as a std::optional<impact<T>>, which is empty if there are none: of several at
 /// one time, the first in the order of `impacts`. What is found so far prunes the search: it looks at a first part of the
 /// step, and at more where nothing touches in it. For that the trees are refitted, except with `fast` and `conservative`; so
 /// under cuda the stream of an index's first such query has to outlive the index (see `refit`). Arguments, times and errors
-/// are those of `impacts`. Returns when the answer is there.
+/// are those of `impacts`.
 ///
 ///     if (const auto first = abut::first_impact(on, step, ball)) stop_at(first->time);
 template <motion_arithmetic A = filtered, execution_policy Policy, class X, class Y>
@@ -223,5 +226,7 @@ template <motion_arithmetic A = filtered, execution_policy Policy, class X>
     constexpr const char* function = "abut::first_self_impact";
     return detail::first_within<A>(on, a, options, detail::fronts_of(fronts), function);
 }
+
+///@}
 
 }  // namespace abut

@@ -18,28 +18,40 @@
 
 namespace abut {
 
+/// @addtogroup motion
+///@{
+
 /// A mesh in motion with what `impacts` looks in: its edges, and trees over its faces, its edges and its vertices, of boxes
 /// around the whole step. Made by make_impact_index; `refit` brings it to the next step. Immutable; copies share everything.
 template <scalar T, memory_space Space>
 class impact_index {
 public:
-    static constexpr pair_rule rule = pair_rule::feature_trees;
+    static constexpr pair_rule rule = pair_rule::feature_trees;  ///< how pairs of features are found
+    /// float or double, where the index lies, and the sets of its faces, edges and vertices.
+    ///@{
     using scalar_type = T;
     using memory_space = Space;
     using mesh_type = moving_set<abut::mesh<T, Space>>;
     using edges_type = moving_set<edge_mesh<T, Space>>;
     using vertices_type = moving_set<points<T, Space>>;
+    ///@}
 
+    /// For make_impact_index: of trees over the features of one mesh, which is not checked.
     impact_index(bvh<mesh_type, Space> faces, bvh<edges_type, Space> edges, bvh<vertices_type, Space> vertices)
         : faces_(std::move(faces)), edges_(std::move(edges)), vertices_(std::move(vertices)) {}
 
     /// Number of faces.
     [[nodiscard]] std::size_t size() const { return faces_.size(); }
+    /// The CUDA device that the index lies on; -1 for the host.
     [[nodiscard]] int device() const { return faces_.device(); }
+    /// The mesh in motion.
     [[nodiscard]] const mesh_type& mesh() const { return faces_.set(); }
+    /// The trees over faces, edges and vertices.
+    ///@{
     [[nodiscard]] const bvh<mesh_type, Space>& faces() const { return faces_; }
     [[nodiscard]] const bvh<edges_type, Space>& edges() const { return edges_; }
     [[nodiscard]] const bvh<vertices_type, Space>& vertices() const { return vertices_; }
+    ///@}
 
 private:
     bvh<mesh_type, Space> faces_;
@@ -49,7 +61,7 @@ private:
 
 /// An index of a mesh in motion, or of one at rest, in the policy's memory: an impact_index, or by one of the rules of faces
 /// a face_impact_index. Queries go by the rule of the index that they are given, and by feature_trees where there is none.
-/// Returns when it is there. Throws as `edges` and make_bvh do.
+/// Throws as `edges` and make_bvh do.
 ///
 ///     const auto index = abut::make_impact_index<abut::pair_rule::orphan_sets>(on, step);
 ///     const auto found = abut::self_impacts(on, index);
@@ -65,6 +77,7 @@ template <pair_rule Rule = pair_rule::feature_trees, execution_policy Policy, sc
         return detail::make_face_impact_index<Rule>(on, resident, options, function);
     }
 }
+/// Of a mesh at rest, which is at t = 1 where it is at t = 0.
 template <pair_rule Rule = pair_rule::feature_trees, execution_policy Policy, scalar T, memory_space Space>
 [[nodiscard]] auto make_impact_index(const Policy& on, const mesh<T, Space>& at_rest, const bvh_options& options = {}) {
     return make_impact_index<Rule>(on, moving_set<mesh<T, Space>>(at_rest, at_rest), options);
@@ -92,8 +105,9 @@ moving_set<edge_mesh<T, Space>> edges_over(const moving_set<edge_mesh<T, Space>>
 }  // namespace detail
 
 /// The index of another step of the same mesh: its trees have the topology of `index`, its boxes are those of `set`, which
-/// has the same faces. Returns when it is there. Results are right however far the mesh has moved; `quality` of the trees
+/// has the same faces. Results are right however far the mesh has moved; `quality` of the trees
 /// tells when to make a new index. Throws error for other faces, and as `refit` of a tree does.
+///@{
 template <execution_policy Policy, scalar T, memory_space Space, memory_space From>
 [[nodiscard]] impact_index<T, Space> refit(const Policy& on, const impact_index<T, Space>& index,
                                            const moving_set<mesh<T, From>>& set) {
@@ -107,6 +121,9 @@ template <execution_policy Policy, scalar T, memory_space Space, pair_rule Rule,
     const auto resident = detail::resident_of_index(on, index, set);
     return {refit(on, index.faces(), resident), detail::edges_over(index.edges(), resident), index.parts(), index.orphans()};
 }
+///@}
+
+///@}
 
 namespace detail {
 

@@ -34,15 +34,40 @@
 
 namespace abut {
 
-/// Two features that meet. `vertices` are the vertex and the three of the face, in their order; or the two of the first
-/// mesh's edge, the smaller first, and the two of the other. In self queries faces never come first, and the smaller edge
-/// does. `time` is the earliest in [0, 1] at which they touch; it is a double also of meshes in float.
+/// @defgroup motion Meshes in motion: what meets, and when
+///
+/// Continuous collision: `impacts` finds the vertices of one mesh that meet faces of another during a step, the edges that
+/// meet edges, and when. `self_impacts` does so within one mesh. `first_impact` and `first_self_impact` find the earliest
+/// alone. A mesh in motion is `moving(at_t0, at_t1)`. For steps one after another `make_impact_index` makes what the queries
+/// look in, and `refit` brings it to the next step. docs/motion.md says what answers mean.
+///
+/// @par Memory
+/// Sets and indices lie in the policy's memory; a set in host memory is copied for the call under `cuda`. Without an index a
+/// query makes one for itself. A `result` of `impact` lies in the policy's memory, 32 bytes each; the first impact is a
+/// `std::optional` on the host.
+///
+/// @par Errors
+/// `error` for a set or an index on another device, and where two meshes of one step do not go together. With `conservative`
+/// also for a separation that is negative or not finite, and for a tolerance that is negative or not a number.
+/// `capacity_error` for more than 2^31 features of a kind, and as of `edges`. `std::bad_alloc`; `cuda_error`. Poses are not
+/// taken: that does not compile.
+///
+/// @par Synchronisation
+/// Each call returns when its answer is complete; under `cuda` it waits for the policy's stream, several times.
+///
+/// @par Example
+/// @snippet motion.cpp motion
+///@{
+
+/// Two features that meet. In self queries faces never come first, and the smaller edge does.
 template <scalar T>
 struct impact {
-    using scalar_type = T;
-    feature_pair kind;
+    using scalar_type = T;  ///< of the meshes
+    feature_pair kind;      ///< which features
+    /// The vertex and the three of the face, in their order; or the two of the first mesh's edge, the smaller first, and the
+    /// two of the other's.
     std::array<std::uint32_t, 4> vertices;
-    double time;
+    double time;  ///< the earliest in [0, 1] at which they touch; a double also of meshes in float
 
     friend constexpr bool operator==(const impact&, const impact&) = default;
 };
@@ -60,8 +85,11 @@ struct impact_options {
 /// Where queries of one mesh, or of one pair of them, came to their ends, for each kind of features, for the next step to
 /// begin there (traverse/front.hpp). They belong to the topologies of indices, so they are for indices that are refitted.
 struct impact_fronts {
-    front vertex_face, face_vertex, edge_edge;
+    front vertex_face;  ///< of vertices of the first mesh and faces of the second
+    front face_vertex;  ///< of faces of the first mesh and vertices of the second
+    front edge_edge;    ///< of edges
 
+    /// Empty, each with these options.
     explicit impact_fronts(const front_options& options = {})
         : vertex_face(options), face_vertex(options), edge_edge(options) {}
 };
@@ -290,9 +318,6 @@ inline given_fronts fronts_of(impact_fronts& all) { return {&all.vertex_face, &a
 /// policy. `fast` promises nothing. `conservative` misses none, and tells within its bounds when they come near. Two meshes
 /// that intersect all the time without a contact of such features, as one inside the other, have no impact.
 ///
-/// Returns when the answer is there. Throws invalid_geometry, error (an index on another device), capacity_error,
-/// std::bad_alloc and cuda_error.
-///
 ///     const auto step = abut::moving(cloth_t0, cloth_t1);
 ///     for (const auto& i : to_host(abut::impacts(on, step, ball))) use(i.kind, i.vertices, i.time);
 template <motion_arithmetic A = filtered, execution_policy Policy, class X, class Y>
@@ -337,5 +362,7 @@ template <scalar T, memory_space Space>
     const auto x = point(of_face, v[1]), y = point(of_face, v[2]), z = point(of_face, v[3]);
     return weights_at(point(of_vertex, v[0]), motion<triangle<T>>{{x.t0, y.t0, z.t0}, {x.t1, y.t1, z.t1}}, found.time);
 }
+
+///@}
 
 }  // namespace abut

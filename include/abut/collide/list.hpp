@@ -20,16 +20,40 @@
 
 namespace abut {
 
+/// @defgroup lists Queries of a list of posed pairs
+///
+/// `any`, `count`, `pairs`, `for_each_pair` and `contacts` of many pairs of posed indices in one call. Each says of an entry
+/// what it would say of the entry's two indices alone. For scenes of many bodies, of which each pair alone is too little
+/// work for a device. Entries in which a tree has one shape are searched one after another.
+///
+/// @par Memory
+/// Indices lie in the policy's memory, and the list itself in host memory. A `result` lies in the policy's memory, sorted by
+/// entry, then a, then b, unless the options say otherwise. The call takes a few hundred bytes an entry.
+///
+/// @par Errors
+/// `invalid_geometry`, whose message names the entry, for a pose that is no rotation or whose placed coordinates overflow.
+/// `error` for an index on another device. `capacity_error` where the bits of a position and of two ids are more than 64:
+/// split the list then. `std::bad_alloc`; `cuda_error`.
+///
+/// @par Synchronisation
+/// Each call returns when its answer is complete; under `cuda` it waits for the policy's stream.
+///
+/// @par Example
+/// @snippet queries.cpp lists
+///@{
+
 /// Two indices over sets (make_bvh), each under a pose: posed(index, pose). Any number of entries may share an index.
 template <class IndexA, class IndexB = IndexA>
 struct posed_pair {
-    posed_object<IndexA> a;
-    posed_object<IndexB> b;
+    posed_object<IndexA> a;  ///< the first one
+    posed_object<IndexB> b;  ///< the second one
 };
 
 /// Two shapes that touch: `pair` is the position in the list, `a` and `b` are ids in its sets.
 struct tagged_pair {
-    std::uint32_t pair, a, b;
+    std::uint32_t pair;  ///< position in the list
+    std::uint32_t a;     ///< id in the entry's first set
+    std::uint32_t b;     ///< id in its second one
 
     friend constexpr bool operator==(const tagged_pair&, const tagged_pair&) = default;
     friend constexpr auto operator<=>(const tagged_pair&, const tagged_pair&) = default;
@@ -38,15 +62,19 @@ struct tagged_pair {
 /// A contact of an entry: `pair` is the position in the list, the rest is as in contact<T>.
 template <scalar T>
 struct tagged_contact {
-    std::uint32_t pair, a, b;
-    vec3<T> point, normal;
-    T depth;
+    std::uint32_t pair;  ///< position in the list
+    std::uint32_t a;     ///< id in the entry's first set
+    std::uint32_t b;     ///< id in its second one
+    vec3<T> point;       ///< of both shapes, in the world
+    vec3<T> normal;      ///< of length 1, from b to a
+    T depth;             ///< 0 or more, in units of length
 
     friend constexpr bool operator==(const tagged_contact&, const tagged_contact&) = default;
 };
 
 /// The filter that keeps every pair of every entry.
 struct keep_all_tagged {
+    /// true
     ABUT_HD constexpr bool operator()(tagged_pair) const { return true; }
 };
 
@@ -349,11 +377,6 @@ auto pair_up(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& li
 
 }  // namespace detail
 
-// The queries of a list: `list` holds pairs of posed indices, which may be over empty sets. All return when the answer is
-// there. They throw invalid_geometry, whose message names the entry (a rotation that is none, a placed coordinate that
-// overflows), error (an index on another device), capacity_error (where the bits of a position and of two ids are more than
-// 64: split the list), std::bad_alloc and cuda_error. Entries of a tree of one shape are searched one after another.
-
 /// Whether the shapes of any entry touch. Stops at the first pair found.
 template <arithmetic A = filtered, execution_policy Policy, class IndexA, class IndexB, class Filter = keep_all_tagged,
           schedule Schedule = schedule::shared_list>
@@ -415,5 +438,7 @@ template <arithmetic A = filtered, execution_policy Policy, class IndexA, class 
         return result<tagged_contact<float>, space_of<Policy>>();
     }
 }
+
+///@}
 
 }  // namespace abut

@@ -16,9 +16,13 @@ namespace abut {
 
 class front;  // traverse/front.hpp
 
+/// @addtogroup queries
+///@{
+
 /// Ids of two shapes that touch: `a` in a query's first argument, `b` in its second.
 struct index_pair {
-    std::uint32_t a, b;
+    std::uint32_t a;  ///< id in the first argument's set
+    std::uint32_t b;  ///< id in the second one's; of self queries the higher id
 
     friend constexpr bool operator==(const index_pair&, const index_pair&) = default;
     friend constexpr auto operator<=>(const index_pair&, const index_pair&) = default;
@@ -26,11 +30,16 @@ struct index_pair {
 
 /// The filter that keeps every pair.
 struct keep_all {
+    /// true
     ABUT_HD constexpr bool operator()(std::uint32_t, std::uint32_t) const { return true; }
 };
 
 /// An argument of a query, the first or the second one.
-enum class argument : unsigned char { automatic, a, b };
+enum class argument : unsigned char {
+    automatic,  ///< whichever is thought better
+    a,          ///< the first one
+    b           ///< the second one
+};
 
 /// The schedule of a traversal where none is asked for. On a device the shared list takes up to an eighth less time where there
 /// is work everywhere, and 40 times as much where most of it lies below a few pairs of nodes (docs/benchmarks.md); of the
@@ -78,16 +87,22 @@ struct query_options {
 template <class T, memory_space Space>
 class result {
 public:
-    using value_type = T;
-    using memory_space = Space;
+    using value_type = T;        ///< what it consists of
+    using memory_space = Space;  ///< where that lies
 
+    /// Empty.
     result() = default;
+    /// For queries: takes what they found.
     explicit result(execution::buffer<T, Space> values) : values_(std::move(values)) {}
 
+    /// Number of elements.
     [[nodiscard]] std::size_t size() const { return values_.size(); }
+    /// Whether there are none.
     [[nodiscard]] bool empty() const { return size() == 0; }
-    /// In the memory space of the policy that ran the query.
+    /// The first of size() elements in a row, in the memory space of the policy that ran the query.
     [[nodiscard]] const T* data() const { return values_.data(); }
+    /// Elements as those of an array, of results in host memory.
+    ///@{
     [[nodiscard]] const T* begin() const
         requires std::same_as<Space, host_space>
     {
@@ -103,8 +118,9 @@ public:
     {
         return data()[i];
     }
+    ///@}
 
-    /// Copies to the host and waits for the copy.
+    /// The elements in host memory. Waits for the copy. Throws std::bad_alloc, cuda_error.
     [[nodiscard]] std::vector<T> to_host() const {
         std::vector<T> copy(size());
         values_.read(copy.data());
@@ -120,5 +136,7 @@ template <class T, memory_space Space>
 [[nodiscard]] std::vector<T> to_host(const result<T, Space>& values) {
     return values.to_host();
 }
+
+///@}
 
 }  // namespace abut

@@ -6,9 +6,15 @@
 
 namespace abut {
 
-/// Which features meet: a vertex of the first mesh and a face of the second, a face of the first and a vertex of the second,
-/// or two edges.
-enum class feature_pair : unsigned char { vertex_face, face_vertex, edge_edge };
+/// @addtogroup motion
+///@{
+
+/// Which features of two meshes meet.
+enum class feature_pair : unsigned char {
+    vertex_face,  ///< a vertex of the first mesh and a face of the second
+    face_vertex,  ///< a face of the first mesh and a vertex of the second
+    edge_edge     ///< two edges
+};
 
 /// How pairs of features are found, each once: a template argument of make_impact_index.
 enum class pair_rule : unsigned char {
@@ -24,5 +30,7 @@ enum class pair_rule : unsigned char {
     /// Two meshes have no vertex in common: between them it is representative_triangles.
     orphan_sets
 };
+
+///@}
 
 }  // namespace abut

@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// any, count, pairs, for_each_pair: which shapes of one set touch which of another. Each argument is a set (an owner, a view
-// or one shape) or an index over a set, either of them posed or not; where neither is an index, all are compared with all in
-// tiles.
-//
-// All four run on the policy and return when the answer is there. Their answers do not depend on the policy, the thread
-// count or the index. They throw invalid_geometry (views and single shapes, which are checked at each call), error (a set on
-// another device, a start_depth out of range), capacity_error, std::bad_alloc and cuda_error.
+// any, count, pairs, for_each_pair: which shapes of one set touch which of another.
 
 #include <cstdint>
 
@@ -79,7 +73,34 @@ void visit_pairs_of(const Policy& on, const Pairing& pairing, const Visitor& vis
 
 }  // namespace detail
 
-/// Whether any shape of `a` touches any shape of `b`. Stops at the first one found.
+/// @defgroup queries Which shapes of two sets touch
+///
+/// `any`, `count`, `pairs` and `for_each_pair` of two arguments. Each is a set, a view, one shape, or an index over a set
+/// (`make_bvh`, `make_grid`), posed or not. Where neither is an index, all shapes are compared with all, in tiles. Touching
+/// counts. `filtered`, the default, and `exact` decide it exactly, for every finite input; `fast` is approximate. Ids are
+/// positions in the sets. Answers do not depend on the policy, the number of threads or the index.
+///
+/// @par Memory
+/// A set or a view lies in the policy's memory, an index as well. A set in host memory is copied to the device for the call
+/// under `cuda`; a view is not, and does not compile. A `result` lies in the policy's memory, sorted by a, then b, unless
+/// the options say otherwise; `to_host` copies it. `any`, `count` and `for_each_pair` store no pairs.
+///
+/// @par Errors
+/// `invalid_geometry` for a view or a single shape with a number that is none, which are checked at each call, and for a
+/// pose that is no rotation or whose placed coordinates overflow. `error` for a set, a view or an index on another device,
+/// for a `start_depth` out of range, and for `traversal::from_front` without a front. `capacity_error` for a view of 2^31
+/// elements or more; `std::bad_alloc`; `cuda_error`. Two kinds of shapes that cannot be decided, and scalars that differ, do
+/// not compile.
+///
+/// @par Synchronisation
+/// Each call returns when its answer is complete. Under `cuda` it waits for the policy's stream, and for no other. Any
+/// number of threads of the host may query the same sets and indices at a time.
+///
+/// @par Example
+/// @snippet queries.cpp queries
+///@{
+
+/// Whether any shape of `a` touches any shape of `b`. Stops soon after the first pair found.
 template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Filter = keep_all,
           traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
 [[nodiscard]] bool any(const Policy& on, const X& a, const Y& b,
@@ -91,7 +112,7 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Y, cl
     }
 }
 
-/// Number of pairs that touch. Stores none of them.
+/// Number of pairs that touch and that the filter wants. Stores none of them.
 template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Filter = keep_all,
           traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
 [[nodiscard]] std::uint64_t count(const Policy& on, const X& a, const Y& b,
@@ -103,7 +124,8 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Y, cl
     }
 }
 
-/// All pairs that touch, each once, in the policy's memory; sorted by a, then b, unless the options say otherwise.
+/// All pairs that touch, each once: a `result` of `index_pair`, 8 bytes each, in the policy's memory; sorted by a, then b,
+/// unless the options say otherwise. Empty where none touch.
 template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Filter = keep_all,
           traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
 [[nodiscard]] auto pairs(const Policy& on, const X& a, const Y& b,
@@ -126,5 +148,7 @@ void for_each_pair(const Policy& on, const X& a, const Y& b, const Visitor& visi
         detail::visit_pairs_of<A>(on, detail::pair_up(on, a, b, options, "abut::for_each_pair"), visitor);
     }
 }
+
+///@}
 
 }  // namespace abut

@@ -20,6 +20,9 @@
 
 namespace abut {
 
+/// @addtogroup contacts
+///@{
+
 /// How contacts are chosen.
 enum class contact_reduction : unsigned char {
     /// N. Backman's (Collision Detection of Triangle Meshes using GPU, 2011, section 5.3.5): of all contacts whose position
@@ -37,6 +40,7 @@ struct reduce_options {
     /// No more contacts than this, but at least 1. Where this is less than all, binning takes the coarsest grid, of at most
     /// `bins` cells an axis, that keeps as many, and of those the ones that are farthest from the middle.
     std::size_t most = static_cast<std::size_t>(-1);
+    /// How they are chosen.
     contact_reduction method = contact_reduction::binning;
 };
 
@@ -308,7 +312,7 @@ auto extremes(const Policy& on, const contact<T>* all, std::size_t n, const cont
 /// from 0. `extremes` keeps contacts whose wrench (normal, and its torque about that middle) reaches farthest.
 /// docs/contacts.md says how much of the cone of wrenches either keeps.
 ///
-/// Throws error where bins is not in 1..1024 or most is 0, std::bad_alloc, cuda_error. Returns when the contacts are there.
+/// Throws error where bins is not in 1..1024 or most is 0, and capacity_error for 2^32 contacts or more.
 ///
 ///     const auto few = abut::reduce_contacts(on, abut::contacts(on, a, b), {.bins = 3});
 template <execution_policy Policy, scalar T>
@@ -330,5 +334,7 @@ template <execution_policy Policy, scalar T>
     synchronize(on);
     return outcome(std::move(few));
 }
+
+///@}
 
 }  // namespace abut

@@ -22,10 +22,40 @@
 
 namespace abut {
 
+/// @defgroup body_lists Which bodies of a scene touch
+///
+/// `self_pairs`, `count_self_pairs` and `any_self_pairs` of a list of bodies: which shapes of one body touch which of
+/// another. A body is `posed(index, pose)`, of an index made by `make_bvh`. Any number of bodies may share an index, and
+/// they may be over empty sets.
+///
+/// A body is not paired with itself. Its own pairs are the same under every pose, but for the rounding of placed
+/// coordinates: `self_pairs(on, index)` gives them once for all bodies of that index. Two bodies share no vertices, also if
+/// they share a mesh: whatever touches is reported. Bodies of one shape are searched one after another.
+///
+/// @par Memory
+/// Indices lie in the policy's memory, and the list itself in host memory. A `result` lies in the policy's memory, 16 bytes
+/// a pair. Each pair of bodies whose boxes meet takes a few hundred bytes in host memory and as many in the policy's. Bodies
+/// that are far apart cost one box each in a tree.
+///
+/// @par Errors
+/// `invalid_geometry`, whose message names the body, for a pose that is no rotation or whose placed coordinates overflow.
+/// `error` for an index on another device. `capacity_error` for 2^31 bodies, or where the bits of the number of pairs of
+/// bodies whose boxes meet and of two ids are more than 64. `std::bad_alloc`; `cuda_error`.
+///
+/// @par Synchronisation
+/// Each call returns when its answer is complete; under `cuda` it waits for the policy's stream, several times.
+///
+/// @par Example
+/// @snippet queries.cpp body_lists
+///@{
+
 /// Two shapes of two bodies that touch: shape `a` of body `body_a`, and shape `b` of body `body_b`; body_a < body_b. Bodies
 /// go by their positions in the list, shapes by their ids in the bodies' sets.
 struct body_pair {
-    std::uint32_t body_a, body_b, a, b;
+    std::uint32_t body_a;  ///< position of the first body
+    std::uint32_t body_b;  ///< position of the second one, which is higher
+    std::uint32_t a;       ///< id in the first body's set
+    std::uint32_t b;       ///< id in the second one's
 
     friend constexpr bool operator==(const body_pair&, const body_pair&) = default;
     friend constexpr auto operator<=>(const body_pair&, const body_pair&) = default;
@@ -33,6 +63,7 @@ struct body_pair {
 
 /// The filter that keeps every pair of shapes of two bodies.
 struct keep_all_bodies {
+    /// true
     ABUT_HD constexpr bool operator()(body_pair) const { return true; }
 };
 
@@ -168,18 +199,6 @@ auto pair_up_bodies(const Policy& on, const std::vector<posed_object<Index>>& bo
 
 }  // namespace detail
 
-// Self queries of a list of bodies, posed(index, pose), of indices made by make_bvh: any number of bodies may share an
-// index, and they may be over empty sets. A body is not paired with itself. Its own pairs are the same under every pose, but
-// for the rounding of placed coordinates: self_pairs(on, index) gives them, once for all bodies of that index. Two bodies
-// share no vertices, also if they share a mesh; whatever touches is reported.
-//
-// All return when the answer is there, and what is not reported because two bodies are far apart costs one box each in a
-// tree. They throw invalid_geometry, whose message names the body (a rotation that is none, a placed coordinate that
-// overflows), error (an index on another device), capacity_error (2^31 bodies, or where the bits of the number of pairs of
-// bodies whose boxes meet and of two ids are more than 64), std::bad_alloc and cuda_error. Each pair of bodies whose boxes
-// meet takes a few hundred bytes in host memory and as many in the policy's. Bodies of one shape are searched one after
-// another.
-
 /// All pairs of shapes of two different bodies that touch, each once: a result of body_pair, in the policy's memory.
 ///
 ///     std::vector<abut::posed_object<decltype(gear)>> bodies{posed(gear, here), posed(gear, there)};
@@ -220,5 +239,7 @@ template <arithmetic A = filtered, execution_policy Policy, class Index, class F
         return false;
     }
 }
+
+///@}
 
 }  // namespace abut

@@ -20,6 +20,25 @@
 
 namespace abut {
 
+/// @defgroup self_collision Which shapes of one set touch each other
+///
+/// `self_pairs` and `count_self_pairs` of a set, a view, or an index over a set, posed or not. For a mesh: where it passes
+/// through itself or folds onto itself.
+///
+/// @par Memory
+/// As in @ref queries : sets and indices lie in the policy's memory, a set in host memory is copied for the call under
+/// `cuda`, and the result lies in the policy's memory, 8 bytes a pair.
+///
+/// @par Errors
+/// Those of @ref queries.
+///
+/// @par Synchronisation
+/// Each call returns when its answer is complete; under `cuda` it waits for the policy's stream.
+///
+/// @par Example
+/// @snippet queries.cpp self_collision
+///@{
+
 /// Which vertices of two faces are one.
 enum class coincident_vertices : unsigned char {
     /// Those of one index. Corners of a soup are all different.
@@ -121,8 +140,7 @@ auto pair_up_faces(const Policy& on, const X& x, const self_options<Filter, Trav
 /// vertices are reported if they have an area. A face that names a vertex twice, or whose corners lie on a line, is the
 /// segment or the point that it spans. With `filtered` and `exact` that is decided exactly, for every finite input.
 ///
-/// Runs on the policy and returns when the answer is there, which does not depend on the policy, the thread count or the
-/// index. Throws as `pairs` does (collide/query.hpp).
+/// The answer does not depend on the policy, the thread count or the index.
 ///
 ///     for (const auto [f, g] : to_host(abut::self_pairs(on, abut::make_bvh(on, mesh)))) mark(f, g);
 template <arithmetic A = filtered, execution_policy Policy, class X, class Filter = keep_all,
@@ -148,5 +166,7 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Filte
         return 0;
     }
 }
+
+///@}
 
 }  // namespace abut

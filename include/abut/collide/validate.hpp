@@ -297,21 +297,31 @@ auto mesh_to_validate(const Policy& on, const Mesh& mesh) {
 
 }  // namespace detail
 
+/// @defgroup mesh_checks What is wrong with a mesh
+///
+/// `validate` and what it reports: edges, fans, components, and faces and vertices that are not as they should be.
+///@{
+
 /// What there is of a mesh and what is wrong with it (shape/mesh_report.hpp): edges, boundary, edges of more than two
 /// faces, orientation, fans, components, Euler characteristic; faces that repeat an index, have no area or occur twice;
 /// vertices that are unused or in one place. All of it exact, and bit for bit the same on each policy and number of threads.
 ///
-/// `mesh` is a mesh or a mesh_view. A mesh in host memory is uploaded for the call under cuda. Sets have been checked when
-/// they were made, and hold neither indices out of range nor numbers that are not finite; a view is not checked as other
-/// queries do, but both are listed. The report lies in host memory, and the call returns when it is complete.
+/// `mesh` is a mesh or a mesh_view. Sets have been checked when they were made, and hold neither indices out of range nor
+/// numbers that are not finite. A view is not checked as other queries do, but both are listed.
 ///
-/// Takes memory for scratch: 84 bytes a face and 16 a vertex. Throws capacity_error for 2^31 vertices or for more than
-/// 1,431,655,765 faces (whose 3F half-edges have 32 bits for their numbers), error for a set or view on another device,
-/// std::bad_alloc and cuda_error.
+/// @par Memory
+/// The mesh lies in the policy's memory; one in host memory is uploaded for the call under `cuda`. The report lies in host
+/// memory. Scratch takes 84 bytes a face and 16 a vertex.
 ///
-///     const auto report = abut::validate(abut::openmp{}, abut::io::read_mesh<float>("part.obj"));
-///     if (!report.closed()) std::printf("%zu open edges\n", report.boundary_edges.size());
-///     for (const auto& edge : report.nonmanifold_edges) std::printf("%u-%u: %u faces\n", edge.a, edge.b, edge.faces);
+/// @par Errors
+/// `capacity_error` for 2^31 vertices or for more than 1,431,655,765 faces, whose 3F half-edges have 32 bits for their
+/// numbers; `error` for a set or a view on another device; `std::bad_alloc`; `cuda_error`.
+///
+/// @par Synchronisation
+/// Returns when the report is complete; under `cuda` it waits for the policy's stream.
+///
+/// @par Example
+/// @snippet queries.cpp validate
 template <execution_policy Policy, class Mesh>
 [[nodiscard]] mesh_report validate(const Policy& on, const Mesh& mesh) {
     static_assert(detail::is_mesh<Mesh>, "abut::validate: expected a mesh or a mesh_view, of float or double");
@@ -322,5 +332,7 @@ template <execution_policy Policy, class Mesh>
         return {};
     }
 }
+
+///@}
 
 }  // namespace abut

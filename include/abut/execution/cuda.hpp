@@ -21,10 +21,13 @@
 namespace abut {
 
 /// A CUDA call that failed. The message names the call and carries CUDA's own text.
+/// @ingroup errors
 class cuda_error : public error {
 public:
+    /// Of a call, by its name, and what it returned.
     cuda_error(const char* call, cudaError_t code)
         : error(std::string(call) + ": " + cudaGetErrorString(code) + " (" + cudaGetErrorName(code) + ")"), code_(code) {}
+    /// What the call returned.
     [[nodiscard]] cudaError_t code() const noexcept { return code_; }
 
 private:
@@ -34,16 +37,21 @@ private:
 namespace execution {
 
 /// Runs on one CUDA device, in the order of one stream. The stream belongs to the caller and has to outlive the sets,
-/// indices and results made on it. `cuda{}` is the default stream of the current device.
+/// indices and results made on it. `cuda{}` is the default stream of the current device. Its name for programs is
+/// `abut::cuda`.
+/// @ingroup policies
 struct cuda {
-    using memory_space = device_space;
+    using memory_space = device_space;  ///< memory of the device
     cudaStream_t stream = nullptr;  ///< a stream of `device`
     int device = -1;                ///< -1: the device that is current when a call is made
 };
 
-/// Memory taken from the system for one device, and what of it is in use, in bytes.
+/// Memory of the library's pool on one device, in bytes.
+/// @ingroup policies
 struct memory_use {
-    std::uint64_t reserved, used, used_peak;
+    std::uint64_t reserved;   ///< taken from the system
+    std::uint64_t used;       ///< of these, in use
+    std::uint64_t used_peak;  ///< the most that has been in use
 };
 
 namespace detail {
@@ -127,9 +135,12 @@ private:
 
 }  // namespace detail
 
+/// Memory of a device, from the library's pool and in the order of a policy's stream.
 template <>
 struct allocator<device_space> {
+    /// Of the default stream.
     allocator() = default;
+    /// Of the policy's stream and device.
     explicit allocator(const cuda& on) : on_{on.stream, device_of(on)} {}
 
     /// Throws std::bad_alloc when the device has not enough memory. Rows are aligned to 256 bytes.
@@ -140,6 +151,7 @@ struct allocator<device_space> {
                       "cudaMallocFromPoolAsync");
         return p;
     }
+    /// Gives memory back when the stream gets there. Does not wait.
     void deallocate(void* p) const noexcept {
         // The default stream is the current device's: the memory goes back in the order of the stream that it came from.
         int before = on_.device;
@@ -148,11 +160,13 @@ struct allocator<device_space> {
         cudaFreeAsync(p, on_.stream);
         if (before != on_.device) cudaSetDevice(before);
     }
+    /// Copies to the host and waits for the stream. Throws cuda_error.
     void read(const void* from, std::size_t bytes, void* to) const {
         const detail::current_device scope(on_);
         detail::check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToHost, on_.stream), "cudaMemcpyAsync");
         detail::check(cudaStreamSynchronize(on_.stream), "cudaStreamSynchronize");
     }
+    /// The device.
     [[nodiscard]] int device() const { return on_.device; }
 
 private:
@@ -190,7 +204,9 @@ void require_callable(const cuda&, const F&, const Args&...) {
     (void)&functors_for_the_policy_cuda_have_to_be_marked_ABUT_HD<F, Args...>;
 }
 
-/// Waits until everything put into the policy's stream is done. Throws cuda_error.
+/// Waits until everything put into the policy's stream is done. Throws cuda_error, also for what went wrong in the stream
+/// before.
+/// @ingroup policies
 inline void synchronize(const cuda& on) {
     const detail::current_device scope(on);
     detail::check(cudaStreamSynchronize(on.stream), "cudaStreamSynchronize");
@@ -224,13 +240,15 @@ void download(const cuda& on, const T* from, std::size_t n, T* to) {
 
 /// Waits for the stream and gives the memory that the library's pool keeps for this device, and does not use, back to the
 /// system. Throws cuda_error.
+/// @ingroup policies
 inline void release_memory(const cuda& on) {
     synchronize(on);
     detail::check(cudaMemPoolTrimTo(detail::pool_of(device_of(on)), 0), "cudaMemPoolTrimTo");
 }
 
 /// What the library's pool holds on the policy's device. Does not synchronise. Beside the pool each host thread that
-/// runs queries keeps up to 32 MiB for what they leave open.
+/// runs queries keeps up to 32 MiB for what they leave open. Throws cuda_error.
+/// @ingroup policies
 inline memory_use memory_in_use(const cuda& on) {
     const cudaMemPool_t pool = detail::pool_of(device_of(on));
     memory_use use{};

@@ -55,11 +55,13 @@ int device_of(const Policy&) {
     return -1;
 }
 
-/// Loops on the host end before they return.
+/// Loops on the host end before they return, so there is nothing to wait for.
+/// @ingroup policies
 template <host_policy Policy>
 void synchronize(const Policy&) {}
 
-/// Host memory is not pooled.
+/// Host memory is not pooled, so there is nothing to give back.
+/// @ingroup policies
 template <host_policy Policy>
 void release_memory(const Policy&) {}
 
@@ -78,7 +80,8 @@ void for_each_task(const Policy& on, std::size_t n, const F& f) {
 /// 0, 1, 2, ...
 template <class T>
 struct write_index {
-    T* out;
+    T* out;  ///< as many as indices
+    /// Writes one.
     ABUT_HD void operator()(std::size_t i) const { out[i] = static_cast<T>(i); }
 };
 

@@ -70,17 +70,48 @@
 
 namespace abut {
 
+/// @defgroup policies Policies and memory
+///
+/// Who runs a call, and where its memory lies. A policy is the first argument of every call that loops over shapes:
+/// `abut::serial`, `abut::openmp`, or `abut::cuda` from `<abut/cuda.hpp>`. It is a small value: copy it, and share it among
+/// threads of the host. Results do not depend on it.
+///
+/// @par Memory
+/// `serial` and `openmp` work in host memory, `cuda` in that of its device. What a call returns lies in the policy's memory,
+/// unless its type is one of the host's (a number, a vector, a report). Device memory comes from a pool of the library's
+/// own, one for each device. It is given back in the order of the stream that it was taken in, so that stream has to outlive
+/// the sets, indices and results made in it.
+///
+/// @par Errors
+/// `cuda_error` for a CUDA call that fails, and `std::bad_alloc` where memory runs out, on the host or on a device. An error
+/// that a kernel of an earlier call caused may be reported by a later one. `serial` and `openmp` add no errors of their own.
+///
+/// @par Synchronisation
+/// A call that returns a result returns when that is complete: under `cuda` the calling thread waits for the policy's
+/// stream, and not for the device. Functions of this group say what they wait for. Streams of different policies are not
+/// ordered by the library.
+///
+/// @par Example
+/// @snippet policies.cpp policies
+///
+/// In a `.cu` file compiled by nvcc:
+/// @snippet policies.cu policies
+///@{
+
 /// Memory that the host reads and writes.
 struct host_space {};
 /// Memory of a CUDA device.
 struct device_space {};
 
+/// Where memory lies: `host_space` or `device_space`.
 template <class S>
 concept memory_space = std::same_as<S, host_space> || std::same_as<S, device_space>;
 
+/// The memory in which a policy works.
 template <class P>
 using space_of = typename std::remove_cvref_t<P>::memory_space;
 
+/// Whether a policy works in this memory.
 template <class P, class Space>
 concept works_in = std::same_as<space_of<P>, Space>;
 
@@ -88,20 +119,25 @@ concept works_in = std::same_as<space_of<P>, Space>;
 template <class P>
 concept host_policy = works_in<P, host_space>;
 
+///@}
+
 namespace execution {
 
 /// A base for policies outside of this namespace. It is empty: through it calls find the verbs that the policy does not
 /// supply itself.
 struct policy_base {};
 
-/// Runs on the calling thread.
+/// Runs on the calling thread. Its name for programs is `abut::serial`.
+/// @ingroup policies
 struct serial {
-    using memory_space = host_space;
+    using memory_space = host_space;  ///< host memory
 };
 
-/// Runs on OpenMP threads. Compiled without OpenMP it runs on the calling thread, as OpenMP programs do.
+/// Runs on OpenMP threads. Compiled without OpenMP it runs on the calling thread, as OpenMP programs do. Its name for
+/// programs is `abut::openmp`.
+/// @ingroup policies
 struct openmp {
-    using memory_space = host_space;
+    using memory_space = host_space;  ///< host memory
     /// Number of threads; 0 leaves it to the OpenMP runtime. A loop takes no more of them than it has ranges of work, nor
     /// more than eight for each processor.
     int threads = 0;
@@ -164,6 +200,7 @@ using execution::serial;
 
 /// A policy names the memory it works in and has the verbs above; it is cheap to copy, and any number of host threads may
 /// use one policy at a time.
+/// @ingroup policies
 template <class P>
 concept execution_policy = std::copyable<P> && memory_space<typename P::memory_space> &&
     (execution::has_verbs<P> || execution::detail::refuse_policy<P>());

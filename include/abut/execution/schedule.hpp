@@ -8,6 +8,9 @@
 
 namespace abut {
 
+/// @addtogroup queries
+///@{
+
 /// How blocks of a device, or threads of a host, share out work of which nobody knows how much will come of it: pairs of
 /// nodes of two trees that are walked down together. docs/hierarchies.md says which policy has which.
 enum class schedule : unsigned char {
@@ -59,6 +62,8 @@ struct schedule_options {
     /// Where to put what the last loop did; null: nowhere. In the host's memory, written before the query returns.
     schedule_report* report = nullptr;
 };
+
+///@}
 
 namespace execution {
 

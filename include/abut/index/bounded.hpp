@@ -26,17 +26,22 @@ namespace abut {
 /// An inner node: its two children with their volumes, in whole cache lines in single precision.
 template <bounding_volume V>
 struct alignas(sizeof(typename detail::volume_scalar<V>::type) == 4 ? 64 : 16) bounded_node {
-    V volume[2];
-    bvh_child child[2];
+    V volume[2];         ///< around the children's shapes
+    bvh_child child[2];  ///< the children
 };
 
 /// A view of a tree of volumes. `bounds` is of the box along the axes around a volume, which is made anew each time.
 template <bounding_volume V, memory_space Space>
 struct bounded_view : bvh_view_base<typename detail::volume_scalar<V>::type, Space, bounded_node<V>> {
+    /// A volume, and a node as walks read it.
+    ///@{
     using volume_type = V;
     using node_type = bounded_node<V>;
-    static constexpr bool nested = false;
+    ///@}
+    static constexpr bool nested = false;  ///< a volume need not hold those of the children
 
+    /// Node, volume, box and child by number, as bvh_layout says. On hosts and devices.
+    ///@{
     [[nodiscard]] ABUT_HD const node_type& fetch(std::uint32_t node) const { return this->nodes[node]; }
     [[nodiscard]] ABUT_HD static const V& volume(const node_type& n, int slot) { return n.volume[slot]; }
     [[nodiscard]] ABUT_HD static auto bounds(const node_type& n, int slot) {
@@ -44,17 +49,21 @@ struct bounded_view : bvh_view_base<typename detail::volume_scalar<V>::type, Spa
         return bounds(n.volume[slot]);
     }
     [[nodiscard]] ABUT_HD static bvh_child child(const node_type& n, int slot) { return n.child[slot]; }
+    ///@}
 };
 
 /// Both children's volumes in their parent. Bytes a node in single and double precision: 64 and 80 for spheres, 128 and 256
 /// for oriented boxes, 128 and 240, 192 and 304, 256 and 432 for kdop of 14, 18 and 26 planes.
 template <bounding_volume V>
 struct bounded_layout {
+    /// What kernels see, and what owns a tree of this layout.
+    ///@{
     template <scalar T, memory_space Space>
     using view = bounded_view<typename detail::volume_scalar<V>::template rebound<T>, Space>;
 
     template <scalar T, memory_space Space>
     using storage = bvh_storage<bounded_layout, T, Space>;
+    ///@}
 };
 
 namespace detail {
@@ -118,17 +127,21 @@ struct some_triangles {
 
 }  // namespace detail
 
-/// A tree of volumes V of the same topology, for triangles, segments and points, at rest or in motion. It shares the set and nothing else; the
-/// one it was made of may go. Each volume is as small as one made around all triangles in it. Oriented boxes and spheres are
-/// made so, in time proportional to the number of shapes times the depth of the tree: some thirty and seventy linear builds.
-/// kdop and aabb are merged from below, in linear time: some ten. For a device it is made on all threads of the host, of a copy
-/// of the tree, and brought there. Returns when it is done. Throws error (a tree on another device), std::bad_alloc,
-/// cuda_error.
+/// @addtogroup indices
+///@{
+
+/// A tree of volumes V of the same topology, for triangles, segments and points, at rest or in motion. It shares the set and
+/// nothing else; the one it was made of may go. Each volume is as small as one made around all triangles in it. Oriented
+/// boxes and spheres are made so, in time proportional to the number of shapes times the depth of the tree: some thirty and
+/// seventy linear builds. kdop and aabb are merged from below, in linear time: some ten. For a device it is made on all
+/// threads of the host, of a copy of the tree, and brought there. Returns when it is done. Throws error (a tree on another
+/// device), std::bad_alloc, cuda_error.
 ///
 /// Two trees of one kind of volume are told apart by these, but of kdop under a pose by the boxes along the axes. Such boxes
 /// are what a tree of volumes stands for together with anything else, slowly where they have to be made at each look.
 ///
-///     const auto tree = bounded_by<kdop<float, 18>>(on, make_bvh(on, mesh, {.builder = bvh_builder::sah}));
+///     const auto better = abut::make_bvh(on, mesh, {.builder = abut::bvh_builder::sah});
+///     const auto tree = abut::bounded_by<abut::kdop<float, 18>>(on, better);
 template <bounding_volume V, execution_policy Policy, class Set, memory_space Space>
 [[nodiscard]] bvh<Set, Space, bounded_layout<V>> bounded_by(const Policy& on, const bvh<Set, Space>& tree) {
     static_assert(std::same_as<Space, space_of<Policy>>,
@@ -193,11 +206,13 @@ template <bounding_volume V, execution_policy Policy, class Set, memory_space Sp
 /// A tree of oriented boxes, fitted along the principal axes of the corners in them; two are told apart by fifteen axes. It
 /// pays for queries that come close and touch little, again and again: nested or neighbouring surfaces, `any`.
 ///
-///     const auto tree = oriented(on, make_bvh(on, mesh, {.builder = bvh_builder::sah}));
+///     const auto tree = abut::oriented(on, abut::make_bvh(on, mesh, {.builder = abut::bvh_builder::sah}));
 template <execution_policy Policy, class Set, memory_space Space>
 [[nodiscard]] bvh<Set, Space, bounded_layout<obb<typename Set::scalar_type>>> oriented(const Policy& on,
                                                                                        const bvh<Set, Space>& tree) {
     return bounded_by<obb<typename Set::scalar_type>>(on, tree);
 }
+
+///@}
 
 }  // namespace abut

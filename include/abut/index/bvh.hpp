@@ -23,11 +23,14 @@ namespace abut {
 
 /// Reference to a child: a leaf with one shape, or an inner node.
 struct bvh_child {
-    static constexpr std::uint32_t leaf_bit = std::uint32_t{1} << 31;
-    std::uint32_t bits;
+    static constexpr std::uint32_t leaf_bit = std::uint32_t{1} << 31;  ///< set in leaves
+    std::uint32_t bits;                                                ///< the bit and the number, as they lie in memory
 
+    /// The leaf of a shape, by its id, which is below 2^31.
     ABUT_HD static constexpr bvh_child leaf(std::uint32_t shape) { return {shape | leaf_bit}; }
+    /// An inner node, by its number, which is below 2^31.
     ABUT_HD static constexpr bvh_child inner(std::uint32_t node) { return {node}; }
+    /// Whether it is a leaf.
     [[nodiscard]] ABUT_HD constexpr bool is_leaf() const { return (bits & leaf_bit) != 0; }
     /// Id of the leaf's shape, or number of the inner node.
     [[nodiscard]] ABUT_HD constexpr std::uint32_t index() const { return bits & ~leaf_bit; }
@@ -38,8 +41,8 @@ struct bvh_child {
 /// An inner node: its two children with their boxes, one cache line in single precision. Both boxes come with one fetch.
 template <scalar T>
 struct alignas(sizeof(T) == 4 ? 64 : 16) bvh_node {
-    aabb<T> bounds[2];
-    bvh_child child[2];
+    aabb<T> bounds[2];   ///< boxes around the children
+    bvh_child child[2];  ///< the children
     /// So that nodes are written whole: memory has to read what it is to write a part of.
     std::uint32_t unused[sizeof(T) == 4 ? 2 : 1] = {};
 };
@@ -70,28 +73,33 @@ concept bvh_layout = std::is_trivially_copyable_v<L> && memory_space<typename L:
 /// Root of a tree; lies with the nodes, where walks read it.
 template <scalar T>
 struct bvh_root {
-    aabb<T> bounds;
-    bvh_child child;
+    aabb<T> bounds;   ///< around all shapes
+    bvh_child child;  ///< the root, or the leaf of a tree of one shape
 };
 
 /// What views of all layouts have in common: where the nodes and the root lie, and the number of shapes. `Node` is what lies
 /// in memory, `Width` the number of its children; a layout whose nodes may have fewer says so itself.
 template <scalar T, memory_space Space, class Node, int Width = 2>
 struct bvh_view_base {
-    using scalar_type = T;
-    using memory_space = Space;
-    using stored_node = Node;
-    static constexpr int width = Width;
-    static constexpr bool nested = true;
+    using scalar_type = T;                ///< float or double
+    using memory_space = Space;           ///< where the nodes lie
+    using stored_node = Node;             ///< a node as it lies there
+    static constexpr int width = Width;   ///< the most children that a node has
+    static constexpr bool nested = true;  ///< a node's box holds those of its children
 
-    const Node* nodes = nullptr;
-    const bvh_root<T>* top = nullptr;
-    std::size_t count = 0;
+    const Node* nodes = nullptr;       ///< in the tree's memory
+    const bvh_root<T>* top = nullptr;  ///< likewise
+    std::size_t count = 0;             ///< number of shapes
 
+    /// Number of shapes.
     [[nodiscard]] ABUT_HD std::size_t size() const { return count; }
+    /// The root of a tree that has shapes.
     [[nodiscard]] ABUT_HD bvh_child root() const { return top->child; }
+    /// The box around all shapes of a tree that has some.
     [[nodiscard]] ABUT_HD aabb<T> root_bounds() const { return top->bounds; }
+    /// How many children a node has.
     [[nodiscard]] ABUT_HD static int children(const auto&) { return Width; }
+    /// A hint on the host that a child will be fetched soon; nothing on a device.
     ABUT_INLINE ABUT_HD void prefetch([[maybe_unused]] bvh_child c) const {
 #if !ABUT_DEVICE_CODE
         if (c.is_leaf()) return;
@@ -107,23 +115,31 @@ struct bvh_view_base {
 /// What owns a tree of a layout that has nodes and a root and nothing else.
 template <class Layout, scalar T, memory_space Space>
 struct bvh_storage {
+    /// What a kernel sees.
     using view = typename Layout::template view<T, Space>;
-    execution::buffer<typename view::stored_node, Space> nodes;
-    execution::buffer<bvh_root<T>, Space> root;
+    execution::buffer<typename view::stored_node, Space> nodes;  ///< one fewer than shapes where nodes have two children
+    execution::buffer<bvh_root<T>, Space> root;                  ///< one; none where there are no shapes
 
+    /// The view of a tree of so many shapes.
     [[nodiscard]] view view_of(std::size_t shapes) const { return {{nodes.data(), root.data(), shapes}}; }
+    /// Its memory.
     [[nodiscard]] std::size_t bytes() const { return nodes.capacity_bytes() + root.capacity_bytes(); }
+    /// A copy in host memory. Waits for it.
     [[nodiscard]] bvh_storage<Layout, T, host_space> to_host() const { return {nodes.to_host(), root.to_host()}; }
 };
 
 /// The standard layout: full precision, both children's boxes in their parent.
 template <scalar T, memory_space Space>
 struct bvh_view : bvh_view_base<T, Space, bvh_node<T>> {
+    /// A node as walks read it.
     using node_type = bvh_node<T>;
 
+    /// Node, box and child by number, as bvh_layout says. On hosts and devices.
+    ///@{
     [[nodiscard]] ABUT_HD const node_type& fetch(std::uint32_t node) const { return this->nodes[node]; }
     [[nodiscard]] ABUT_HD static const aabb<T>& bounds(const node_type& n, int slot) { return n.bounds[slot]; }
     [[nodiscard]] ABUT_HD static bvh_child child(const node_type& n, int slot) { return n.child[slot]; }
+    ///@}
 };
 
 /// What refit derives of a topology (index/refit_plan.hpp).
@@ -133,24 +149,29 @@ struct refit_plan;
 /// Where the first refit of a tree leaves its plan, for all trees of that topology.
 template <memory_space Space>
 struct shared_refit_plan {
-    std::mutex making;
-    std::shared_ptr<const refit_plan<Space>> made;
+    std::mutex making;                              ///< held by who looks or makes
+    std::shared_ptr<const refit_plan<Space>> made;  ///< null before the first refit
 };
 
 /// The layout that trees are built in.
 struct standard_layout {
+    /// What kernels see.
     template <scalar T, memory_space Space>
     using view = bvh_view<T, Space>;
 
     /// A finished tree: one node fewer than it has shapes (none for none), and one root.
     template <scalar T, memory_space Space>
     struct storage {
-        execution::buffer<bvh_node<T>, Space> nodes;
-        execution::buffer<bvh_root<T>, Space> root;
+        execution::buffer<bvh_node<T>, Space> nodes;  ///< one fewer than shapes
+        execution::buffer<bvh_root<T>, Space> root;   ///< one; none where there are no shapes
+        /// Shared by all trees that refit makes of one.
         std::shared_ptr<shared_refit_plan<Space>> plan = std::make_shared<shared_refit_plan<Space>>();
 
+        /// The view of a tree of so many shapes.
         [[nodiscard]] view<T, Space> view_of(std::size_t shapes) const { return {{nodes.data(), root.data(), shapes}}; }
+        /// Its memory, without the plan.
         [[nodiscard]] std::size_t bytes() const { return nodes.capacity_bytes() + root.capacity_bytes(); }
+        /// A copy in host memory, without the plan. Waits for it.
         [[nodiscard]] storage<T, host_space> to_host() const { return {nodes.to_host(), root.to_host()}; }
     };
 };
@@ -167,6 +188,30 @@ concept bvh_layout_kind = requires(const typename L::template storage<float, hos
     { tree.root.data() } -> std::same_as<const bvh_root<float>*>;
 };
 
+/// @defgroup indices Trees and grids
+///
+/// What queries look in. `make_bvh` builds a tree and `make_grid` a grid over the shapes of a set, a view or one shape.
+/// `refit` brings a tree to shapes that have moved. `quantised`, `leafless`, `wide` and `bounded_by` convert a tree to
+/// another layout, and `quality` measures one. docs/hierarchies.md says which to take.
+///
+/// @par Memory
+/// An index lies in the memory of the policy that made it, and keeps its set there: a set in the policy's memory is shared,
+/// a set in host memory is copied to the device under `cuda`. Of a view it keeps the view alone, whose arrays have to
+/// outlive it. Indices are immutable, and copies share their storage. Under `cuda` the policy's stream has to outlive them.
+///
+/// @par Errors
+/// `invalid_geometry` for views and single shapes that hold no geometry; sets were checked when they were made. `error` for
+/// options that are none, for a set, a view or an index on another device, and as each function says. `capacity_error` for a
+/// view of 2^31 elements or more; `std::bad_alloc`; `cuda_error`.
+///
+/// @par Synchronisation
+/// Each call returns when its index is complete; under `cuda` it waits for the policy's stream. Then any stream of that
+/// device may read it.
+///
+/// @par Example
+/// @snippet trees.cpp indices
+///@{
+
 /// How make_bvh builds. The choice moves speed, never results.
 enum class bvh_builder : unsigned char {
     linear,      ///< sorted along a Morton curve (lbvh.hpp): fast to build, on every policy
@@ -181,6 +226,7 @@ struct bvh_options {
     /// shapes apart, at most 30, and 63 where these turn out to leave an eighth of the shapes in crowds of one code, as in
     /// small clusters far apart. The choice moves speed, never results. Of linear and ploc.
     int morton_bits = 0;
+    /// By which rule shapes are joined or divided.
     bvh_builder builder = bvh_builder::linear;
 };
 
@@ -189,6 +235,8 @@ struct bvh_options {
 template <class Set, memory_space Space, bvh_layout_kind Layout = standard_layout>
 class bvh {
 public:
+    /// The set, float or double, a shape, where the tree lies, how it lies there, its view, and what owns its nodes.
+    ///@{
     using set_type = Set;
     using scalar_type = typename Set::scalar_type;
     using shape_type = typename Set::shape_type;
@@ -196,13 +244,18 @@ public:
     using layout_type = Layout;
     using view_type = typename Layout::template view<scalar_type, Space>;
     using storage = typename Layout::template storage<scalar_type, Space>;
+    ///@}
 
+    /// For builders: of a set and the nodes over it, which are not checked.
     bvh(Set set, std::shared_ptr<const storage> tree) : set_(std::move(set)), tree_(std::move(tree)) {}
 
+    /// The set, in the memory of the tree.
     [[nodiscard]] const Set& set() const { return set_; }
     /// Number of shapes.
     [[nodiscard]] std::size_t size() const { return set_.size(); }
+    /// What kernels and walks read; for as long as the tree lives.
     [[nodiscard]] view_type view() const { return tree_->view_of(set_.size()); }
+    /// The CUDA device that the tree lies on; -1 for the host.
     [[nodiscard]] int device() const { return tree_->root.device(); }
     /// Memory of the tree itself, in bytes, without what refit keeps.
     [[nodiscard]] std::size_t bytes() const { return tree_->bytes(); }
@@ -230,5 +283,7 @@ private:
     std::shared_ptr<const storage> tree_;
     std::shared_ptr<known> known_ = std::make_shared<known>();
 };
+
+///@}
 
 }  // namespace abut

@@ -25,6 +25,7 @@
 namespace abut {
 
 /// Options of make_grid.
+/// @ingroup indices
 struct grid_options {
     /// Width of the base cells. 0 chooses twice the mean of the shapes' longest box sides: four radii for equal spheres. A
     /// width under 2^-19 of the scene's extent is raised to that.
@@ -34,12 +35,12 @@ struct grid_options {
 /// How space is cut. Lies with the cells: a build does not wait for it, and walks read it where they run.
 template <scalar T>
 struct grid_frame {
-    static constexpr int axis_bits = 19;
-    static constexpr int levels = axis_bits + 1;
+    static constexpr int axis_bits = 19;          ///< of the number of a base cell along an axis
+    static constexpr int levels = axis_bits + 1;  ///< sizes of cells that there may be
 
-    aabb<T> bounds;
-    double cells_per_unit;  ///< base cells in a unit of length
-    std::uint32_t levels_in_use;
+    aabb<T> bounds;               ///< around all shapes
+    double cells_per_unit;        ///< base cells in a unit of length
+    std::uint32_t levels_in_use;  ///< bit l is set where level l has shapes
 
     /// Base cell of a coordinate. Monotone, and 0 at the scene's lower end. There is no product to be contracted into a sum,
     /// so it is the same function wherever it is compiled; but not in another rounding mode, or with other denormals. A
@@ -49,6 +50,7 @@ struct grid_frame {
         constexpr double last = (1 << axis_bits) - 1;
         return at > 0 ? (at < last ? static_cast<std::int32_t>(at) : (1 << axis_bits) - 1) : 0;
     }
+    /// Base cell of a point, by its three coordinates.
     [[nodiscard]] ABUT_HD vec3<std::int32_t> cell(const vec3<T>& p) const {
         return {cell(p.x, bounds.lower.x), cell(p.y, bounds.lower.y), cell(p.z, bounds.lower.z)};
     }
@@ -59,6 +61,7 @@ struct grid_frame {
         while ((1 << level) < span) ++level;
         return level;
     }
+    /// The key of a cell of a level, which is at `at` among the cells of that level.
     [[nodiscard]] ABUT_HD static std::uint64_t key(int level, const vec3<std::int32_t>& at) {
         return ((static_cast<std::uint64_t>(level) << axis_bits | static_cast<std::uint64_t>(at.x)) << axis_bits |
                 static_cast<std::uint64_t>(at.y))
@@ -70,25 +73,30 @@ struct grid_frame {
 /// A shape in its cell.
 template <scalar T>
 struct grid_item {
-    aabb<T> box;
-    std::uint32_t id;
+    aabb<T> box;       ///< around it
+    std::uint32_t id;  ///< its place in the set
 };
 
 /// A trivially copyable view of a grid.
 template <scalar T, memory_space Space>
 struct grid_view {
+    /// float or double, and where the cells lie.
+    ///@{
     using scalar_type = T;
     using memory_space = Space;
-    static constexpr std::uint64_t no_key = static_cast<std::uint64_t>(-1);
+    ///@}
+    static constexpr std::uint64_t no_key = static_cast<std::uint64_t>(-1);  ///< the key of a free slot
 
-    const grid_frame<T>* frame = nullptr;
-    const std::uint64_t* keys = nullptr;    // open addressing; no_key marks a free slot
-    const std::uint32_t* starts = nullptr;  // slots + 1: items of slot s are [starts[s], starts[s + 1])
-    const grid_item<T>* items = nullptr;
-    std::uint64_t slots = 0;  // a power of two
-    std::size_t count = 0;
+    const grid_frame<T>* frame = nullptr;   ///< one
+    const std::uint64_t* keys = nullptr;    ///< of each slot, by open addressing
+    const std::uint32_t* starts = nullptr;  ///< slots + 1: items of slot s are [starts[s], starts[s + 1])
+    const grid_item<T>* items = nullptr;    ///< as many as shapes, by slots
+    std::uint64_t slots = 0;                ///< a power of two
+    std::size_t count = 0;                  ///< number of shapes
 
+    /// Number of shapes.
     [[nodiscard]] ABUT_HD std::size_t size() const { return count; }
+    /// The slot at which the search for a key begins.
     [[nodiscard]] ABUT_HD static std::uint64_t first_slot(std::uint64_t key, std::uint64_t slots) {
         key = (key ^ (key >> 31)) * 0x9e3779b97f4a7c15u;  // Fibonacci hashing
         return (key >> 20) & (slots - 1);
@@ -103,31 +111,40 @@ struct grid_view {
 };
 
 /// A grid over the shapes of a set, which it keeps alive. Immutable; any number of threads may query it.
+/// @ingroup indices
 template <class Set, memory_space Space>
 class grid {
 public:
+    /// The set, float or double, a shape, where the grid lies, and its view.
+    ///@{
     using set_type = Set;
     using scalar_type = typename Set::scalar_type;
     using shape_type = typename Set::shape_type;
     using memory_space = Space;
     using view_type = grid_view<scalar_type, Space>;
+    ///@}
 
+    /// What owns the cells, as grid_view reads them; all empty where there are no shapes.
     struct storage {
-        execution::buffer<grid_frame<scalar_type>, Space> frame;
-        execution::buffer<std::uint64_t, Space> keys;
-        execution::buffer<std::uint32_t, Space> starts;
-        execution::buffer<grid_item<scalar_type>, Space> items;
+        execution::buffer<grid_frame<scalar_type>, Space> frame;  ///< one
+        execution::buffer<std::uint64_t, Space> keys;             ///< of each slot
+        execution::buffer<std::uint32_t, Space> starts;           ///< of each slot, and the end
+        execution::buffer<grid_item<scalar_type>, Space> items;   ///< as many as shapes
     };
 
+    /// For make_grid: of a set and the cells over it, which are not checked.
     grid(Set set, std::shared_ptr<const storage> cells) : set_(std::move(set)), cells_(std::move(cells)) {}
 
+    /// The set, in the memory of the grid.
     [[nodiscard]] const Set& set() const { return set_; }
     /// Number of shapes.
     [[nodiscard]] std::size_t size() const { return set_.size(); }
+    /// What kernels and walks read; for as long as the grid lives.
     [[nodiscard]] view_type view() const {
         return {cells_->frame.data(), cells_->keys.data(), cells_->starts.data(),
                 cells_->items.data(), cells_->keys.size(), set_.size()};
     }
+    /// The CUDA device that the grid lies on; -1 for the host.
     [[nodiscard]] int device() const { return cells_->frame.device(); }
     /// Memory of the grid itself, in bytes.
     [[nodiscard]] std::size_t bytes() const {
@@ -227,10 +244,11 @@ struct put_in_cells {
 
 }  // namespace detail
 
-/// Builds a grid over the shapes of `set` in the policy's memory: a set in host memory is copied there first under cuda. A
-/// view over the caller's arrays is checked and has to outlive the grid. Returns when the grid is built. Memory: 24 to 48
-/// bytes a shape for the table, and a box and an id.
-/// Throws invalid_geometry (views only), error (a cell width that is negative or not a number), std::bad_alloc, cuda_error.
+/// @addtogroup indices
+///@{
+
+/// Builds a grid over the shapes of `set` in the policy's memory. A grid takes 24 to 48 bytes a shape for the table, and a
+/// box and an id a shape. Throws error where the cell width is negative or not a number, and else as the group says.
 template <execution_policy Policy, class Set>
 [[nodiscard]] auto make_grid(const Policy& on, const Set& set, const grid_options& options = {}) {
     if (!(options.cell_width >= 0)) {
@@ -279,5 +297,7 @@ template <execution_policy Policy, class Set>
 [[nodiscard]] auto make_grid(const Policy& on, const Set& set, double cell_width) {
     return make_grid(on, set, grid_options{cell_width});
 }
+
+///@}
 
 }  // namespace abut

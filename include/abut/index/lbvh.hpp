@@ -89,11 +89,11 @@ auto build_bvh(const Policy& on, const Set& set, const bvh_options& options) {
 
 }  // namespace detail
 
-/// Builds a tree over the shapes of `set` in the policy's memory: a set in host memory is copied there first under cuda. A
-/// view over the caller's arrays is checked and has to outlive the tree. Returns when the tree is built.
-/// The same shapes give the same tree on every policy that has the builder, and for any number of threads.
-/// Throws invalid_geometry (views only), error (bits that are not an option, a builder that the policy does not have),
-/// std::bad_alloc, cuda_error.
+/// @addtogroup indices
+///@{
+
+/// Builds a tree over the shapes of `set` in the policy's memory, by the linear builder. The same shapes give the same tree
+/// on every policy, and for any number of threads.
 template <execution_policy Policy, class Set>
 [[nodiscard]] auto make_bvh(const Policy& on, const Set& set) {
     if constexpr (detail::can_reside<Policy, Set>()) {
@@ -103,7 +103,9 @@ template <execution_policy Policy, class Set>
     }
 }
 
-/// The same with options, of which `{}` are the defaults. All builders are compiled, which takes a compiler a second.
+/// The same with options, of which `{}` are the defaults. All builders are compiled, which takes a compiler a second. The
+/// same shapes give the same tree on every policy that has the builder. Throws error for bits that are not an option, and
+/// for a builder that the policy does not have; else as the group says.
 template <execution_policy Policy, class Set>
 [[nodiscard]] auto make_bvh(const Policy& on, const Set& set, const bvh_options& options) {
     if (options.morton_bits != 0 && options.morton_bits != 30 && options.morton_bits != 63) {
@@ -121,5 +123,7 @@ template <execution_policy Policy, class Set>
         return detail::refused();
     }
 }
+
+///@}
 
 }  // namespace abut

@@ -18,15 +18,18 @@ namespace abut {
 /// An inner node: its own box and its children, half a cache line in single precision.
 template <scalar T>
 struct alignas(sizeof(T) == 4 ? 32 : 8) leafless_node {
-    aabb<T> box;
-    bvh_child child[2];
+    aabb<T> box;         ///< around both children
+    bvh_child child[2];  ///< the children
 };
 
 /// A view of a leafless tree. To fetch a node is to read its children's boxes too, where these lie.
 template <scalar T, memory_space Space>
 struct leafless_view : bvh_view_base<T, Space, leafless_node<T>> {
+    /// A node with its children's boxes: of an inner child its own, of a leaf the node's.
     using node_type = bvh_node<T>;
 
+    /// Node, box and child by number, as bvh_layout says. On hosts and devices.
+    ///@{
     [[nodiscard]] ABUT_HD node_type fetch(std::uint32_t node) const {
         const leafless_node<T> n = this->nodes[node];
         const auto box_of = [&](bvh_child child) { return child.is_leaf() ? n.box : this->nodes[child.index()].box; };
@@ -34,15 +37,19 @@ struct leafless_view : bvh_view_base<T, Space, leafless_node<T>> {
     }
     [[nodiscard]] ABUT_HD static const aabb<T>& bounds(const node_type& n, int slot) { return n.bounds[slot]; }
     [[nodiscard]] ABUT_HD static bvh_child child(const node_type& n, int slot) { return n.child[slot]; }
+    ///@}
 };
 
 /// 32 bytes a node in single precision, 56 in double.
 struct leafless_layout {
+    /// What kernels see, and what owns a tree of this layout.
+    ///@{
     template <scalar T, memory_space Space>
     using view = leafless_view<T, Space>;
 
     template <scalar T, memory_space Space>
     using storage = bvh_storage<leafless_layout, T, Space>;
+    ///@}
 };
 
 namespace detail {
@@ -59,8 +66,11 @@ struct drop_leaves {
 
 }  // namespace detail
 
+/// @addtogroup indices
+///@{
+
 /// The same tree without boxes of leaves. It shares the set and nothing else; the one it was made of may go.
-/// Linear time; returns when it is done. Throws error (a tree on another device), std::bad_alloc, cuda_error.
+/// Linear time. Throws error (a tree on another device), std::bad_alloc, cuda_error.
 template <execution_policy Policy, class Set, memory_space Space>
 [[nodiscard]] bvh<Set, Space, leafless_layout> leafless(const Policy& on, const bvh<Set, Space>& tree) {
     static_assert(std::same_as<Space, space_of<Policy>>,
@@ -79,5 +89,7 @@ template <execution_policy Policy, class Set, memory_space Space>
     }
     return tree_type(tree.set(), std::move(fresh));
 }
+
+///@}
 
 }  // namespace abut

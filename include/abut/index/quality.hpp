@@ -17,13 +17,16 @@ namespace abut {
 /// What `quality` measures of a tree. Surfaces are those of the boxes that a walk sees, so a layout whose boxes are larger
 /// than they were built shows it here; of other volumes, which this is not for, those of the boxes around them. Where the
 /// root's box has no surface, every box counts as large as the root's.
+/// @ingroup indices
 struct bvh_quality {
+    /// Number of shapes.
     std::size_t shapes = 0;
     /// Nodes and leaves whose boxes a random line meets, if it meets the root's: the sum of all boxes' surfaces over that of
     /// the root's (the surface area heuristic with unit costs; Goldsmith and Salmon, 1987). 2 n - 1 at most.
     double sah_cost = 0;
     /// Depth of leaves; a tree of one shape has depth 0. At most bvh_max_depth.
     int greatest_depth = 0;
+    /// The same, averaged over all leaves.
     double mean_depth = 0;
     /// Surface of what pairs of siblings' boxes have in common, over that of all nodes with children: 0 for siblings that
     /// are apart, 1 for two siblings in one place. A node of four children has six pairs.
@@ -90,6 +93,9 @@ bvh_quality measure(const Layout& tree) {
 
 }  // namespace detail
 
+/// @addtogroup indices
+///@{
+
 /// Measures a tree, of any layout and in any memory: a tree in device memory is copied to the host first. Linear time on the
 /// calling thread; all numbers are 0 for a tree without shapes. Throws std::bad_alloc, cuda_error.
 template <class Set, memory_space Space, bvh_layout_kind Layout>
@@ -112,5 +118,7 @@ template <execution_policy Policy, class Set, memory_space Space, bvh_layout_kin
     synchronize(on);
     return quality(tree);
 }
+
+///@}
 
 }  // namespace abut

@@ -30,53 +30,68 @@ namespace abut {
 /// Cells that coordinates are rounded to: cell k of an axis lies at (first + k) * step.
 template <scalar T>
 struct quantised_frame {
-    static constexpr int last_cell = 65535;
-    vec3<T> first, step;
+    static constexpr int last_cell = 65535;  ///< along each axis
+    vec3<T> first;                           ///< of each axis, in steps: an integer
+    vec3<T> step;                            ///< of each axis: a power of two
 
+    /// Where a cell lies along an axis, or three along three axes.
+    ///@{
     [[nodiscard]] ABUT_HD static T at(T first, T step, std::uint16_t cell) { return (first + static_cast<T>(cell)) * step; }
     [[nodiscard]] ABUT_HD vec3<T> at(const vec3<std::uint16_t>& cell) const {
         return {at(first.x, step.x, cell.x), at(first.y, step.y, cell.y), at(first.z, step.z, cell.z)};
     }
+    ///@}
 };
 
 /// An inner node: its two children with their boxes, half a cache line.
 struct alignas(32) quantised_node {
+    /// A box in cells.
     struct box {
-        vec3<std::uint16_t> lower, upper;
+        vec3<std::uint16_t> lower;  ///< the cell of the least coordinate along each axis
+        vec3<std::uint16_t> upper;  ///< that of the greatest
     };
-    box bounds[2];
-    bvh_child child[2];
+    box bounds[2];       ///< around the children
+    bvh_child child[2];  ///< the children
 };
 
 /// A view of a quantised tree.
 template <scalar T, memory_space Space>
 struct quantised_view : bvh_view_base<T, Space, quantised_node> {
+    /// A node as walks read it.
     using node_type = quantised_node;
 
-    quantised_frame<T> frame{};
+    quantised_frame<T> frame{};  ///< where cells lie
 
+    /// Node, box and child by number, as bvh_layout says. On hosts and devices.
+    ///@{
     [[nodiscard]] ABUT_HD const node_type& fetch(std::uint32_t node) const { return this->nodes[node]; }
     [[nodiscard]] ABUT_HD aabb<T> bounds(const node_type& n, int slot) const {
         return {frame.at(n.bounds[slot].lower), frame.at(n.bounds[slot].upper)};
     }
     [[nodiscard]] ABUT_HD static bvh_child child(const node_type& n, int slot) { return n.child[slot]; }
+    ///@}
 };
 
 /// 32 bytes a node.
 struct quantised_layout {
+    /// What kernels see.
     template <scalar T, memory_space Space>
     using view = quantised_view<T, Space>;
 
+    /// What owns a tree of this layout.
     template <scalar T, memory_space Space>
     struct storage {
-        execution::buffer<quantised_node, Space> nodes;
-        execution::buffer<bvh_root<T>, Space> root;
-        quantised_frame<T> frame{};
+        execution::buffer<quantised_node, Space> nodes;  ///< one fewer than shapes
+        execution::buffer<bvh_root<T>, Space> root;      ///< one; none where there are no shapes
+        quantised_frame<T> frame{};                      ///< where cells lie
 
+        /// The view of a tree of so many shapes.
         [[nodiscard]] view<T, Space> view_of(std::size_t shapes) const {
             return {{nodes.data(), root.data(), shapes}, frame};
         }
+        /// Its memory.
         [[nodiscard]] std::size_t bytes() const { return nodes.capacity_bytes() + root.capacity_bytes(); }
+        /// A copy in host memory. Waits for it.
         [[nodiscard]] storage<T, host_space> to_host() const { return {nodes.to_host(), root.to_host(), frame}; }
     };
 };
@@ -157,10 +172,13 @@ struct quantise_node {
 
 }  // namespace detail
 
+/// @addtogroup indices
+///@{
+
 /// The same tree in 16 bits a coordinate: 32 bytes a shape. It shares the set and nothing else; the one it was made of may
 /// go. Boxes grow by less than a step on each side, and a step is at most the extent of the root's box along the axis over
 /// 2^15 - 2, or the smallest normal number of T. So a tree of very many small shapes, or of one far from all others, loses.
-/// Linear time; returns when it is done. Throws error (a tree on another device), std::bad_alloc, cuda_error.
+/// Linear time. Throws error (a tree on another device), std::bad_alloc, cuda_error.
 template <execution_policy Policy, class Set, memory_space Space>
 [[nodiscard]] bvh<Set, Space, quantised_layout> quantised(const Policy& on, const bvh<Set, Space>& tree) {
     static_assert(std::same_as<Space, space_of<Policy>>,
@@ -189,5 +207,7 @@ template <execution_policy Policy, class Set, memory_space Space>
     }
     return tree_type(tree.set(), std::move(fresh));
 }
+
+///@}
 
 }  // namespace abut

@@ -371,16 +371,19 @@ auto refit_tree(const Policy& on, const Tree& tree, const Set& set) {
 
 }  // namespace detail
 
+/// @addtogroup indices
+///@{
+
 /// A tree of the topology of `tree` over the shapes of `set`, of which there are as many: shape i takes the place of shape
 /// i. `tree` stays as it is, and the two share nothing that either could change. Results of queries are right however far
 /// shapes have moved; only speed suffers, and `quality` shows how much.
 ///
-/// The set may be of another kind than the tree's. It is brought to the policy's memory and checked as by make_bvh; a tree
-/// in another layout than the standard one is refitted before it is converted. Returns when the boxes are there. The first
-/// refit of a topology also derives in what order boxes are made, which takes longer than the refit itself: some 21 bytes a
-/// shape, which all trees that come of it share, `tree` too: under cuda the stream of that first refit has to outlive them
-/// all. Throws invalid_geometry (views only), error (another number of shapes, a tree on another device), std::bad_alloc,
-/// cuda_error.
+/// The set may be of another kind than the tree's. It is brought to the policy's memory and checked as by make_bvh. A tree
+/// in another layout than the standard one is refitted before it is converted.
+///
+/// The first refit of a topology also derives in what order boxes are made, which takes longer than the refit itself. That
+/// takes some 21 bytes a shape, which all trees that come of it share, `tree` too: under cuda the stream of that first refit
+/// has to outlive them all. Throws error for another number of shapes, and else as the group says.
 template <execution_policy Policy, class OldSet, memory_space Space, bvh_layout_kind Layout, class Set>
 [[nodiscard]] auto refit(const Policy& on, const bvh<OldSet, Space, Layout>& tree, const Set& set) {
     if constexpr (detail::can_refit<Policy, bvh<OldSet, Space, Layout>, Set>()) {
@@ -389,5 +392,7 @@ template <execution_policy Policy, class OldSet, memory_space Space, bvh_layout_
         return detail::refused();
     }
 }
+
+///@}
 
 }  // namespace abut

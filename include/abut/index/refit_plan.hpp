@@ -25,27 +25,32 @@ namespace abut {
 /// How refit makes a node among the shapes of a group, and where a shape's box goes. While a group is made, step k has the
 /// entries k and 256 + k of a table for the boxes of its two children.
 struct alignas(16) refit_step {
-    static constexpr std::uint32_t spans = std::uint32_t{1} << 31, no_entry = 511;
+    static constexpr std::uint32_t spans = std::uint32_t{1} << 31;  ///< a bit of `node`
+    static constexpr std::uint32_t no_entry = 511;                  ///< where a box goes nowhere
     std::uint32_t node;  ///< its number; or `spans` and its number among those that have shapes of several groups below them
-    bvh_child child[2];
+    bvh_child child[2];  ///< the node's children
     std::uint32_t box_to : 9;  ///< the entry of the node's own box, in a later turn; the last step of a group has none
-    std::uint32_t turn : 7;
+    std::uint32_t turn : 7;    ///< the node's height in the tree of its group
     std::uint32_t shape_to : 9;  ///< the entry of the shape at this position in the order; none if it is the only one
 };
 
 /// A node with shapes of several groups below it, from `first` to `last` in their order.
 struct alignas(16) spanning_node {
-    std::uint32_t node;
-    bvh_child child[2];
-    std::uint32_t border, first, last;
-    std::uint32_t before, after;  ///< the numbers of such nodes at the borders before `first` and after `last`, if there are
+    std::uint32_t node;    ///< its number
+    bvh_child child[2];    ///< its children
+    std::uint32_t border;  ///< between the shapes of its left side and those of its right side
+    std::uint32_t first;   ///< position of its first shape
+    std::uint32_t last;    ///< position of its last one
+    std::uint32_t before;  ///< the number of such a node at the border before `first`, if there is
+    std::uint32_t after;   ///< likewise after `last`
 };
 
+/// In which order refit makes the boxes of a topology.
 template <memory_space Space>
 struct refit_plan {
     execution::buffer<std::uint32_t, Space> leaves;  ///< ids of shapes in the order in which a walk meets them
     execution::buffer<refit_step, Space> steps;      ///< as many, by groups, in each by turns; its last is none
-    execution::buffer<spanning_node, Space> spanning;
+    execution::buffer<spanning_node, Space> spanning;  ///< nodes with shapes of several groups, by borders
 };
 
 namespace detail {

@@ -28,16 +28,20 @@ namespace abut {
 /// all of whose children are leaves has fewer than four. Slots without a child hold the empty box.
 template <scalar T>
 struct alignas(sizeof(T) == 4 ? 64 : 32) wide_node {
-    T lower[3][4], upper[3][4];
-    bvh_child child[4];
-    std::uint32_t count;
+    T lower[3][4];        ///< by axis, then by child
+    T upper[3][4];        ///< likewise
+    bvh_child child[4];   ///< the children
+    std::uint32_t count;  ///< of children
 };
 
 /// A view of a wide tree.
 template <scalar T, memory_space Space>
 struct wide_view : bvh_view_base<T, Space, wide_node<T>, 4> {
+    /// A node as walks read it.
     using node_type = wide_node<T>;
 
+    /// Node, number of children, box and child by number, as bvh_layout says. On hosts and devices.
+    ///@{
     [[nodiscard]] ABUT_HD const node_type& fetch(std::uint32_t node) const { return this->nodes[node]; }
     [[nodiscard]] ABUT_HD static int children(const node_type& n) { return static_cast<int>(n.count); }
     [[nodiscard]] ABUT_HD static aabb<T> bounds(const node_type& n, int slot) {
@@ -45,17 +49,21 @@ struct wide_view : bvh_view_base<T, Space, wide_node<T>, 4> {
                 {n.upper[0][slot], n.upper[1][slot], n.upper[2][slot]}};
     }
     [[nodiscard]] ABUT_HD static bvh_child child(const node_type& n, int slot) { return n.child[slot]; }
-    /// Of all four slots.
+    ///@}
+    /// The boxes of all four slots, as lanes of four numbers.
     [[nodiscard]] ABUT_HD static auto all_bounds(const node_type& n) { return detail::box_lanes<T>::load(n.lower, n.upper); }
 };
 
 /// 128 bytes a node in single precision, 224 in double, for two to three shapes.
 struct wide_layout {
+    /// What kernels see, and what owns a tree of this layout.
+    ///@{
     template <scalar T, memory_space Space>
     using view = wide_view<T, Space>;
 
     template <scalar T, memory_space Space>
     using storage = bvh_storage<wide_layout, T, Space>;
+    ///@}
 };
 
 namespace detail {
@@ -178,12 +186,15 @@ execution::buffer<wide_node<T>, host_space> widen(const Policy& on, const bvh_no
 
 }  // namespace detail
 
+/// @addtogroup indices
+///@{
+
 /// The same tree with two to four children a node, for the host's policies. It shares the set and nothing else; the one it
 /// was made of may go. Some 62 bytes a shape in single precision, 108 in double, and never more than 86 and 150. The tree is
 /// the same for any number of threads. Linear time; needs up to twice as much memory again while it works. Returns when it
 /// is done. Throws std::bad_alloc.
 ///
-///     const auto tree = wide(on, make_bvh(on, mesh, {.builder = bvh_builder::sah}));
+///     const auto tree = abut::wide(on, abut::make_bvh(on, mesh, {.builder = abut::bvh_builder::sah}));
 template <execution_policy Policy, class Set, memory_space Space>
 [[nodiscard]] bvh<Set, Space, wide_layout> wide(const Policy& on, const bvh<Set, Space>& tree) {
     static_assert(host_policy<Policy> && std::same_as<Space, host_space>,
@@ -202,5 +213,7 @@ template <execution_policy Policy, class Set, memory_space Space>
     }
     return tree_type(tree.set(), std::move(fresh));
 }
+
+///@}
 
 }  // namespace abut

@@ -130,6 +130,9 @@ private:
 
 }  // namespace detail
 
+/// @addtogroup files
+///@{
+
 /// Reads the text of a CSV file of spheres, x,y,z,r in each line; `file` is its name in messages. Numbers are the decimal
 /// text rounded once to T. Throws io_error with the line for text that is malformed, a number that is not finite, or a
 /// negative radius. No rows give no spheres.
@@ -150,5 +153,7 @@ std::vector<vec3<T>> parse_centers(std::string_view text, const std::string& fil
     detail::csv_reader<T, 3>(text, file).run([&](const auto& v) { centers.push_back({v[0], v[1], v[2]}); });
     return centers;
 }
+
+///@}
 
 }  // namespace abut::io

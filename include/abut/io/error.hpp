@@ -14,8 +14,10 @@ namespace abut {
 
 /// A file that cannot be read or written, or whose content is malformed or truncated. The message reads
 /// `file: what` (the file as a whole), `file:12: what` (a line of text) or `file: byte 123: what` (binary data).
+/// @ingroup errors
 class io_error : public error {
 public:
+    /// Of the file as a whole.
     explicit io_error(const std::string& file, const std::string& what) : error(file + ": " + what), file_(file) {}
 
     /// Of a line of a text file (or of a PLY header); lines count from 1.

@@ -18,10 +18,11 @@ namespace abut::io {
 
 /// Vertices in the file's order, coordinates finite; triangles in the file's order, all indices below the number of
 /// vertices.
+/// @ingroup files
 template <scalar T>
 struct mesh_data {
-    std::vector<vec3<T>> vertices;
-    std::vector<std::array<std::uint32_t, 3>> faces;
+    std::vector<vec3<T>> vertices;                    ///< in units of the file
+    std::vector<std::array<std::uint32_t, 3>> faces;  ///< three vertex indices each, from 0
 };
 
 namespace detail {

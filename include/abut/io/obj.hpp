@@ -217,6 +217,9 @@ struct obj_faces {
 
 }  // namespace detail
 
+/// @addtogroup files
+///@{
+
 /// Reads the text of an OBJ file; `file` is its name in messages. Polygons are cut into triangles as docs/files.md says.
 /// Positions are the decimal text rounded once to T. Throws io_error with the line for text that is malformed.
 ///
@@ -242,5 +245,7 @@ mesh_data<T> parse_obj(std::string_view text, const std::string& file) {
     collector.finish();
     return mesh;
 }
+
+///@}
 
 }  // namespace abut::io

@@ -286,6 +286,9 @@ mesh_data<T> read_body(Source from, const ply_header& header, const std::string&
 
 }  // namespace detail
 
+/// @addtogroup files
+///@{
+
 /// Reads the bytes of a PLY file; `file` is its name in messages. Polygons are cut into triangles as docs/files.md says.
 /// In ASCII, positions are the decimal text rounded once to T; in binary, the value rounded to T. Memory is allocated
 /// only for what the bytes can hold. Throws io_error with the line (header and ASCII) or byte (binary) of what is
@@ -300,5 +303,7 @@ mesh_data<T> parse_ply(std::string_view data, const std::string& file) {
     }
     return detail::read_body<T>(detail::ply_bytes(data, header, file), header, file);
 }
+
+///@}
 
 }  // namespace abut::io

@@ -24,14 +24,20 @@
 
 namespace abut::io {
 
+/// @addtogroup files
+///@{
+
 /// A named value for each face, vertex or point. The values are the caller's, and have to live until the file is written.
 /// Their type in a file is uchar, int, uint, float or double (VTP: UInt8, Int32, UInt32, Float32, Float64).
 struct property {
+    /// As programs that read the file show it: printable ASCII without blanks, and not one of the format's own.
     std::string name;
+    /// One for each element, in its order.
     std::variant<std::span<const std::uint8_t>, std::span<const std::int32_t>, std::span<const std::uint32_t>,
                  std::span<const float>, std::span<const double>>
         values;
 };
+/// The name by which properties of faces went before there were others.
 using face_property = property;
 
 /// What goes into a file of a mesh besides the mesh; by default nothing.
@@ -46,6 +52,7 @@ struct mesh_options {
     /// Values for each vertex.
     std::vector<property> vertex_properties{};
 };
+/// The name by which mesh_options went before there was VTP.
 using ply_options = mesh_options;
 
 /// What goes into a file of points besides their positions; by default nothing.
@@ -56,6 +63,8 @@ struct point_options {
     /// Values for each point.
     std::vector<property> properties{};
 };
+
+///@}
 
 namespace detail {
 

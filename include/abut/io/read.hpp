@@ -18,7 +18,31 @@
 #include <abut/io/ply.hpp>
 #include <abut/shape/set.hpp>
 
+/// Readers and writers of files; see @ref files.
 namespace abut::io {
+
+/// @defgroup files Files
+///
+/// Readers of meshes from OBJ and PLY and of spheres from CSV, and writers of meshes and points as PLY or VTP and of pairs
+/// as CSV. They are the CMake target `abut::io`, and are included one by one: `<abut/io/read.hpp>`, `<abut/io/write.hpp>`.
+/// docs/files.md has the exact rules. The parsers beneath take text and bytes in memory.
+///
+/// @par Memory
+/// Everything lies in host memory: `copy_to` brings a set to a device. A file is read as a whole before it is parsed, and a
+/// reader allocates no more than its content can fill. Writers take the caller's arrays as they are, through a buffer.
+///
+/// @par Errors
+/// `io_error` names the file, the line or the byte, what was expected and what was found: a file that cannot be opened, read
+/// or written in full, an extension that is none of these, content that is malformed or truncated. Readers that return a set
+/// also throw `capacity_error` for 2^31 elements or more. `std::bad_alloc`.
+///
+/// @par Synchronisation
+/// All run on the calling thread and return when they are done; a writer has closed its file then. Threads may read and
+/// write different files at a time.
+///
+/// @par Example
+/// @snippet files.cpp files
+///@{
 
 /// Vertices and faces of the file, by its extension (.obj or .ply, in any case), as plain vectors: for those who want to
 /// change them before they make a set. Throws io_error for another extension, for a file that cannot be read, and for one
@@ -67,5 +91,7 @@ equal_spheres<T> read_equal_spheres(const std::filesystem::path& path, std::type
     const std::vector<char> text = detail::read_file(path);
     return equal_spheres<T>{parse_centers<T>({text.data(), text.size()}, path.string()), radius};
 }
+
+///@}
 
 }  // namespace abut::io

@@ -21,6 +21,9 @@
 
 namespace abut::io {
 
+/// @addtogroup files
+///@{
+
 /// A pair of ids: `index_pair`, or any type with two integers `a` and `b`.
 template <class P>
 concept id_pair = requires(const P& pair) {
@@ -92,5 +95,7 @@ void write_pairs(const std::filesystem::path& path, const Pairs& pairs,
     }
     file.close();
 }
+
+///@}
 
 }  // namespace abut::io

@@ -103,6 +103,9 @@ void write_ply_header(output_file& to, std::size_t vertices, std::size_t faces, 
 
 }  // namespace detail
 
+/// @addtogroup files
+///@{
+
 /// Writes a mesh as binary little-endian PLY: positions in T, all vertices and triangles in order, and what the options
 /// add. An existing file is replaced. Throws io_error if the file cannot be written in full (what is there of it then is
 /// not removed), if a property has not one value for each face or vertex or no usable name, and for 2^31 vertices or faces
@@ -180,5 +183,7 @@ void write_points_ply(const std::filesystem::path& path, const std::vector<vec3<
     }
     file.close();
 }
+
+///@}
 
 }  // namespace abut::io

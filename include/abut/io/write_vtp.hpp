@@ -198,6 +198,9 @@ private:
 
 }  // namespace detail
 
+/// @addtogroup files
+///@{
+
 /// Writes a mesh as VTP: positions in T, all vertices and triangles in order, and what the options add, as arrays of points
 /// and cells of the same names as in PLY (but no colours, and `hit` for cells alone: programs that read VTP show values of
 /// cells). An existing file is replaced. Throws as `write_ply` does.
@@ -258,5 +261,7 @@ void write_points_vtp(const std::filesystem::path& path, const std::vector<vec3<
     file.cells("Verts", points.size(), 1, [](std::size_t i) { return i; });
     file.finish();
 }
+
+///@}
 
 }  // namespace abut::io

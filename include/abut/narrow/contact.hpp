@@ -15,20 +15,28 @@
 namespace abut {
 
 /// A contact, or none. std::optional is not for kernels.
+/// @ingroup one_pair
 template <scalar T>
 class optional_contact {
 public:
-    using value_type = contact<T>;
+    using value_type = contact<T>;  ///< what it may hold
 
+    /// None.
     constexpr optional_contact() = default;
+    /// One.
     ABUT_HD constexpr optional_contact(const contact<T>& value) : value_(value), has_value_(true) {}
 
+    /// Whether there is one.
+    ///@{
     [[nodiscard]] ABUT_HD constexpr bool has_value() const { return has_value_; }
     ABUT_HD constexpr explicit operator bool() const { return has_value_; }
-    /// Only where there is one.
+    ///@}
+    /// The contact, only where there is one: that is not checked.
+    ///@{
     [[nodiscard]] ABUT_HD constexpr const contact<T>& value() const { return value_; }
     [[nodiscard]] ABUT_HD constexpr const contact<T>& operator*() const { return value_; }
     [[nodiscard]] ABUT_HD constexpr const contact<T>* operator->() const { return &value_; }
+    ///@}
 
     friend constexpr bool operator==(const optional_contact&, const optional_contact&) = default;
 
@@ -68,6 +76,7 @@ ABUT_HD constexpr auto contact_in_any_order(const S& s, const U& t) {
 ///     constexpr auto c = abut::contact_of(abut::sphere<float>{{0, 0, 4}, 5},
 ///                                         abut::triangle<float>{{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}});
 ///     static_assert(c && c->depth == 1 && c->normal == abut::vec3<float>{0, 0, 1});
+/// @ingroup one_pair
 template <arithmetic A = filtered, class S, class U>
 [[nodiscard]] ABUT_HD constexpr auto contact_of(const S& s, const U& t) {
     using found = decltype(detail::contact_in_any_order(s, t));

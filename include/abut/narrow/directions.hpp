@@ -21,9 +21,11 @@ namespace abut {
 /// docs/contacts.md bounds.
 template <scalar T>
 struct contact {
-    std::uint32_t a, b;
-    vec3<T> point, normal;
-    T depth;
+    std::uint32_t a;  ///< id of the first shape; 0 of a single pair
+    std::uint32_t b;  ///< id of the second one; 0 of a single pair
+    vec3<T> point;    ///< of both shapes, in the world
+    vec3<T> normal;   ///< of length 1, from b to a
+    T depth;          ///< 0 or more, in units of length
 
     friend constexpr bool operator==(const contact&, const contact&) = default;
 };

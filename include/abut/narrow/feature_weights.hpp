@@ -12,7 +12,7 @@ namespace abut {
 /// Weights of four points, in the order of impact::vertices. Of a vertex and a face: 1 for the vertex, and three that add up to 1
 /// for the corners. Of two edges: two that add up to 1 for the ends of each. None is negative.
 struct feature_weights {
-    double of[4];
+    double of[4];  ///< 0 to 1 each
 };
 
 namespace detail {
@@ -42,11 +42,12 @@ ABUT_HD constexpr feature_weights weights_in_face(const vec3<double>& u, const v
 
 }  // namespace detail
 
-/// Where two moving features touch at `time`, which is a time of impact of theirs: the vertex is where the face's corners have it
-/// with these weights, and the two edges' points are one, as far as the time and double precision tell. At another time, or
-/// of features that do not touch, weights of points that are near each other. On hosts and devices.
+/// Where two moving features touch at `time`, which is a time of impact of theirs: the vertex is where the face's corners
+/// have it with these weights, and the two edges' points are one, as far as the time and double precision tell. At another
+/// time, or of features that do not touch, weights of points that are near each other. On hosts and devices.
 ///
 ///     const auto w = abut::weights_at(vertex, face, abut::time_of_impact(vertex, face));
+/// @ingroup one_pair
 template <class S, class U>
     requires detail::are_features<S, U>
 [[nodiscard]] ABUT_HD constexpr feature_weights weights_at(const S& s, const U& t, double time) {

@@ -273,6 +273,7 @@ ABUT_HD length_unit<T> unit_for(const aabb<T>& box, const vec3<T>& p) {
 /// accurate it is. p and the shape are finite.
 ///
 ///     const auto q = abut::nearest_point(abut::segment<float>{{0, 0, 0}, {4, 0, 0}}, {1, 2, 0});   // (1, 0, 0)
+/// @ingroup one_pair
 template <detail::has_way_to S>
 [[nodiscard]] ABUT_HD vec3<scalar_type_of<S>> nearest_point(const S& s, const vec3<scalar_type_of<S>>& p) {
     const auto unit = detail::unit_for(bounds(s), p);
@@ -293,9 +294,9 @@ inline constexpr std::uint32_t no_id = static_cast<std::uint32_t>(-1);
 /// infinity. A distance that T has no number for is infinite too.
 template <scalar T>
 struct neighbor {
-    std::uint32_t id;
-    vec3<T> point;
-    T distance;
+    std::uint32_t id;  ///< of the shape in its set
+    vec3<T> point;     ///< on the shape, in the world
+    T distance;        ///< from the point asked about, rounded to T
 
     friend constexpr bool operator==(const neighbor&, const neighbor&) = default;
 };

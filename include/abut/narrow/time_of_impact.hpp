@@ -15,6 +15,9 @@
 
 namespace abut {
 
+/// @addtogroup motion
+///@{
+
 /// For times of impact alone: never misses a contact, never reports one later than it is, and reports more than there are, as
 /// conservative_bounds says.
 struct conservative {};
@@ -34,6 +37,8 @@ struct conservative_bounds {
     /// Features that come so close are reported, in the unit of the coordinates: 0 for those that touch.
     double separation = 0;
 };
+
+///@}
 
 namespace detail {
 
@@ -170,6 +175,7 @@ double time_on_host(const moving_points<T>& p, const conservative_bounds& bounds
 ///     const auto falls = abut::moving(abut::vec3<double>{0.2, 0.2, 1}, abut::vec3<double>{0.2, 0.2, -3});
 ///     const auto floor = abut::triangle<double>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
 ///     const double t = abut::time_of_impact(falls, abut::moving(floor, floor));  // 0.25
+/// @ingroup one_pair
 template <motion_arithmetic A = filtered, class S, class U>
     requires detail::are_features<S, U>
 [[nodiscard]] double time_of_impact(const S& s, const U& t, const conservative_bounds& bounds = {}) {

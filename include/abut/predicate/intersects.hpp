@@ -17,6 +17,24 @@
 
 namespace abut {
 
+/// @defgroup one_pair One pair of shapes
+///
+/// `intersects`, `contact_of`, `nearest_point`, `time_of_impact` and `weights_at`: of two shapes, or a shape and a point,
+/// without a set or a policy.
+///
+/// @par Memory
+/// Arguments and results are values. Nothing is allocated, but by `time_of_impact`, which may.
+///
+/// @par Errors
+/// None are thrown, but `std::bad_alloc` by `time_of_impact`. Numbers have to be finite and radii not negative: that is not
+/// checked here.
+///
+/// @par Synchronisation
+/// Pure functions, on hosts and devices; `time_of_impact` on hosts alone. Any number of threads may call them.
+///
+/// @par Example
+/// @snippet queries.cpp one_pair
+
 /// A pair of shapes, in this order, that has the stages `decide<A>` for each arithmetic A and `resolve`, which answers
 /// whatever input they leave; between them a pair may have `decide_late<A>` for `fast` and `filtered`. All are pure, and run
 /// on hosts and devices. For `fast` the last of them never says `unknown`.
@@ -84,6 +102,7 @@ ABUT_HD constexpr bool intersects_exactly(const S& s, const U& t) {
 ///
 ///     static_assert(abut::intersects(abut::sphere<float>{{0, 0, 5}, 5},
 ///                                    abut::triangle<float>{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}));
+/// @ingroup one_pair
 template <arithmetic A = filtered, class S, class U>
 [[nodiscard]] ABUT_HD constexpr bool intersects(const S& s, const U& t) {
     if constexpr (decidable_pair<S, U>) {

@@ -31,6 +31,7 @@ ABUT_HD constexpr verdict decide(const segment<T>& s, const triangle<T>& t) {
 }
 
 /// What the first stage left, as for two triangles.
+///@{
 template <arithmetic A, scalar T>
     requires std::same_as<A, fast>
 ABUT_HD constexpr verdict decide_late(const segment<T>& s, const triangle<T>& t) {
@@ -46,6 +47,7 @@ ABUT_NOINLINE ABUT_HD constexpr verdict decide_late(const segment<T>& s, const t
     }
     return v;
 }
+///@}
 
 /// The last stage: decides every finite input.
 template <scalar T>

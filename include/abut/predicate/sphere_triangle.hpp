@@ -40,6 +40,7 @@ ABUT_NOINLINE ABUT_HD constexpr bool resolve(const sphere<T>& s, const triangle<
 }
 
 /// A point is a sphere of radius 0.
+///@{
 template <arithmetic A, scalar T>
 ABUT_HD constexpr verdict decide(const vec3<T>& p, const triangle<T>& t) {
     return decide<A>(sphere<T>{p, T(0)}, t);
@@ -49,5 +50,6 @@ template <scalar T>
 ABUT_HD constexpr bool resolve(const vec3<T>& p, const triangle<T>& t) {
     return resolve(sphere<T>{p, T(0)}, t);
 }
+///@}
 
 }  // namespace abut

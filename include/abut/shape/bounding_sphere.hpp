@@ -22,6 +22,9 @@
 
 namespace abut {
 
+/// @addtogroup volumes
+///@{
+
 namespace detail {
 
 /// Not less than the distance between two points, in T.
@@ -108,5 +111,7 @@ ABUT_HD constexpr bool overlaps(const sphere<T>& a, const relative_pose<T>& pose
     const double reach = static_cast<double>(a.radius) + (r + stretch * r) + static_cast<double>(pose.slack);
     return within_reach(way, reach, magnitudes(from) + magnitudes(to) + magnitudes(t));
 }
+
+///@}
 
 }  // namespace abut

@@ -16,6 +16,9 @@
 
 namespace abut {
 
+/// @addtogroup shapes
+///@{
+
 /// The box that every box contains: merging it in changes nothing, and nothing overlaps it.
 template <scalar T>
 ABUT_HD constexpr aabb<T> empty_box() {
@@ -52,6 +55,7 @@ ABUT_HD constexpr aabb<T> bounds(const triangle<T>& t) {
 }
 
 /// A point, a segment and a box are as large as their boxes. Exact.
+///@{
 template <scalar T>
 ABUT_HD constexpr aabb<T> bounds(const vec3<T>& p) {
     return {p, p};
@@ -64,6 +68,7 @@ template <scalar T>
 ABUT_HD constexpr aabb<T> bounds(const aabb<T>& box) {
     return box;
 }
+///@}
 
 /// The smallest representable box around a sphere.
 template <scalar T>
@@ -85,5 +90,7 @@ ABUT_HD constexpr aabb<T> bounds(const plane<T>&) {
     constexpr T far = infinity<T>;
     return {{-far, -far, -far}, {far, far, far}};
 }
+
+///@}
 
 }  // namespace abut

@@ -125,7 +125,10 @@ struct copy_vertex {
 
 }  // namespace detail
 
-/// All vertices of a mesh, those of no face too. Shares the mesh's storage.
+/// @addtogroup sets
+///@{
+
+/// All vertices of a mesh, those of no face too. Shares the mesh's storage: nothing is copied, checked or thrown.
 template <scalar T, memory_space Space>
 [[nodiscard]] points<T, Space> vertices(const mesh<T, Space>& mesh) {
     return detail::set_parts::vertices_of(mesh);
@@ -167,6 +170,7 @@ template <execution_policy Policy, scalar T, memory_space Space>
     return detail::set_parts::edge_mesh_of(detail::set_parts::points_of(std::move(copy)), detail::unique_edges(on, mesh));
 }
 /// Of a mesh or a view in host memory, on the calling thread.
+///@{
 template <scalar T>
 [[nodiscard]] edge_mesh<T> edges(const mesh<T>& mesh) {
     return edges(serial{}, mesh);
@@ -175,5 +179,8 @@ template <scalar T>
 [[nodiscard]] edge_mesh<T> edges(const mesh_view<T>& mesh) {
     return edges(serial{}, mesh);
 }
+///@}
+
+///@}
 
 }  // namespace abut

@@ -31,13 +31,17 @@
 
 namespace abut {
 
+/// @addtogroup volumes
+///@{
+
 /// All x with lower[i] <= n_i . x <= upper[i]. The normals n_i, in order: x, y, z; for K = 14 and 26 the diagonals (1, 1,
 /// 1), (1, 1, -1), (1, -1, 1), (1, -1, -1); for K = 18 and 26 (1, 1, 0), (1, -1, 0), (1, 0, 1), (1, 0, -1), (0, 1, 1), (0,
 /// 1, -1).
 template <scalar T, int K>
     requires(K == 14 || K == 18 || K == 26)
 struct kdop {
-    T lower[K / 2], upper[K / 2];
+    T lower[K / 2];  ///< of n_i . x, for each normal in that order
+    T upper[K / 2];  ///< likewise
 };
 
 namespace detail {
@@ -221,5 +225,7 @@ ABUT_HD constexpr bool overlaps(const kdop<T, K>& a, const relative_pose<T>& pos
     }
     return true;
 }
+
+///@}
 
 }  // namespace abut

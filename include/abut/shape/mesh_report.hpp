@@ -10,11 +10,16 @@
 
 namespace abut {
 
+/// @addtogroup mesh_checks
+///@{
+
 /// An edge and the faces that have it.
 struct mesh_edge {
-    std::uint32_t a, b;                   ///< its vertices, a < b
-    std::uint32_t faces;                  ///< how many faces have it
-    std::uint32_t first_face, last_face;  ///< the lowest and the highest of them: both, if there are two
+    std::uint32_t a;           ///< its lower vertex
+    std::uint32_t b;           ///< its higher one
+    std::uint32_t faces;       ///< how many faces have it
+    std::uint32_t first_face;  ///< the lowest of them
+    std::uint32_t last_face;   ///< the highest: of two, the other one
 
     friend bool operator==(const mesh_edge&, const mesh_edge&) = default;
     friend auto operator<=>(const mesh_edge&, const mesh_edge&) = default;
@@ -22,9 +27,9 @@ struct mesh_edge {
 
 /// A face with the vertices of an earlier one.
 struct duplicate_face {
-    std::uint32_t face;
-    std::uint32_t of;  ///< the lowest face with these vertices
-    bool reversed;     ///< it has its sides the other way round than `of`
+    std::uint32_t face;  ///< the later one
+    std::uint32_t of;    ///< the lowest face with these vertices
+    bool reversed;       ///< it has its sides the other way round than `of`
 
     friend bool operator==(const duplicate_face&, const duplicate_face&) = default;
     friend auto operator<=>(const duplicate_face&, const duplicate_face&) = default;
@@ -32,8 +37,8 @@ struct duplicate_face {
 
 /// A vertex in the place of an earlier one.
 struct coincident_vertex {
-    std::uint32_t vertex;
-    std::uint32_t of;  ///< the lowest vertex in this place
+    std::uint32_t vertex;  ///< the later one
+    std::uint32_t of;      ///< the lowest vertex in this place
 
     friend bool operator==(const coincident_vertex&, const coincident_vertex&) = default;
     friend auto operator<=>(const coincident_vertex&, const coincident_vertex&) = default;
@@ -91,5 +96,7 @@ struct mesh_report {
 private:
     [[nodiscard]] bool every_face_counts() const { return faces_out_of_range.empty() && faces_with_repeated_index.empty(); }
 };
+
+///@}
 
 }  // namespace abut

@@ -43,16 +43,24 @@ auto elements_of(const V& v) {
 }  // namespace detail
 
 /// Two views of as many shapes, over the same faces or edges: where shapes are at t = 0 and where at t = 1.
+/// @ingroup motion
 template <shape_view V>
 struct moving_view {
+    /// float or double, the type of a shape in motion, and where the views' memory lies.
+    ///@{
     using scalar_type = typename V::scalar_type;
     using shape_type = motion<typename V::shape_type>;
     using memory_space = typename V::memory_space;
+    ///@}
 
-    V t0, t1;
+    V t0;  ///< where shapes are at t = 0
+    V t1;  ///< where they are at t = 1
 
+    /// Number of shapes.
     [[nodiscard]] ABUT_HD std::size_t size() const { return t0.size(); }
+    /// Shape i in motion, by value.
     [[nodiscard]] ABUT_HD shape_type operator[](std::size_t i) const { return {t0[i], t1[i]}; }
+    /// A hint on the host, as of any shape_view.
     ABUT_INLINE void prefetch(std::size_t i, int step) const {
         detail::prefetch_shape(t0, i, step);
         detail::prefetch_shape(t1, i, step);
@@ -60,24 +68,36 @@ struct moving_view {
 };
 
 /// Two sets as one in motion, which shares their storage.
+/// @ingroup motion
 template <shape_set Set>
 class moving_set {
 public:
+    /// float or double, the type of a shape in motion, where the set's memory lies, and its view.
+    ///@{
     using scalar_type = typename Set::scalar_type;
     using shape_type = motion<typename Set::shape_type>;
     using memory_space = typename Set::memory_space;
     using view_type = moving_view<typename Set::view_type>;
+    ///@}
 
+    /// A set without shapes.
     moving_set() = default;
     /// Without a check, of sets that are known to go together; see `moving`.
     moving_set(Set t0, Set t1) : t0_(std::move(t0)), t1_(std::move(t1)) {}
 
+    /// Where shapes are at t = 0, and where at t = 1.
+    ///@{
     [[nodiscard]] const Set& t0() const { return t0_; }
     [[nodiscard]] const Set& t1() const { return t1_; }
+    ///@}
+    /// Number of shapes.
     [[nodiscard]] std::size_t size() const { return t0_.size(); }
+    /// What algorithms read; for as long as the set lives.
     [[nodiscard]] view_type view() const { return {t0_.view(), t1_.view()}; }
+    /// The CUDA device that the memory lies on; -1 for the host.
     [[nodiscard]] int device() const { return t0_.device(); }
 
+    /// The same in the memory of `to`; see `copy_to`.
     template <execution_policy Policy>
     [[nodiscard]] auto copied_to(const Policy& to) const {
         return moving_set<decltype(t0_.copied_to(to))>(t0_.copied_to(to), t1_.copied_to(to));
@@ -159,12 +179,15 @@ void check(const Policy& on, const moving_view<V>& view, const char* function) {
 
 }  // namespace detail
 
+/// @addtogroup motion
+///@{
+
 /// A set in motion: shape i moves from where it is in `t0` to where it is in `t1`, each of its points in a straight line at
 /// constant speed, t from 0 to 1. An argument of queries and of make_bvh and refit like any set. The two sets have as many
 /// shapes, and meshes and edge meshes the same faces or edges, in the same order; nothing is copied.
 ///
-/// Throws error where they do not go together. Faces that the two sets do not share (`with_vertices` shares them) are compared,
-/// which reads both to the host. Returns when that is done.
+/// Throws error where they do not go together. Faces that the two sets do not share (`with_vertices` shares them) are
+/// compared, which reads both to the host, and then std::bad_alloc and cuda_error as well. Returns when that is done.
 ///
 ///     const auto step = abut::moving(cloth, cloth.with_vertices(abut::serial{}, positions_at_t1));
 template <shape_set Set>
@@ -178,6 +201,9 @@ template <shape_view V>
 [[nodiscard]] moving_view<V> moving(const V& t0, const V& t1) {
     return {t0, t1};
 }
+
+/// Whether a type is a shape, a view or a set in motion.
+///@{
 template <class X>
 inline constexpr bool is_motion = false;
 template <class S>
@@ -186,6 +212,7 @@ template <class V>
 inline constexpr bool is_motion<moving_view<V>> = true;
 template <class Set>
 inline constexpr bool is_motion<moving_set<Set>> = true;
+///@}
 
 /// The vertices of a mesh in motion; shares its storage.
 template <scalar T, memory_space Space>
@@ -199,5 +226,7 @@ template <execution_policy Policy, scalar T, memory_space Space>
     auto at_t1 = detail::set_parts::with_points(at_t0, vertices(mesh.t1().copied_to(on)));
     return moving_set<decltype(at_t0)>(std::move(at_t0), std::move(at_t1));
 }
+
+///@}
 
 }  // namespace abut

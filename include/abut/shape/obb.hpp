@@ -33,13 +33,16 @@
 
 namespace abut {
 
+/// @addtogroup volumes
+///@{
+
 /// All x with |axes[i] . (x - center)| <= half_widths[i]. The axes are orthonormal within 16 units in the last place. A half
 /// width may be infinite.
 template <scalar T>
 struct obb {
-    vec3<T> center;
-    vec3<T> axes[3];
-    vec3<T> half_widths;
+    vec3<T> center;       ///< in the frame of the triangles
+    vec3<T> axes[3];      ///< unit vectors, but for rounding
+    vec3<T> half_widths;  ///< from the centre to each face, in units of length
 };
 
 namespace detail {
@@ -302,5 +305,7 @@ ABUT_HD constexpr bool overlaps(const obb<T>& a, const relative_pose<T>& pose, c
                                       magnitudes(a.center) + magnitudes(pose.translation) + magnitudes(b.center),
                                       detail::turned_off(pose.deviation), pose.slack);
 }
+
+///@}
 
 }  // namespace abut

@@ -15,26 +15,35 @@
 
 namespace abut {
 
+/// @addtogroup sets
+///@{
+
 /// A set or an index, and its pose. Shares the object's storage, as a copy of it does.
 template <class Object>
 struct posed_object {
+    /// float or double, and where the object's memory lies.
+    ///@{
     using scalar_type = typename Object::scalar_type;
     using memory_space = typename Object::memory_space;
+    ///@}
 
-    Object object;
-    rigid<scalar_type> pose;
+    Object object;            ///< in its own frame
+    rigid<scalar_type> pose;  ///< from that frame to the world's
 
+    /// Number of shapes.
     [[nodiscard]] std::size_t size() const { return object.size(); }
 };
 
 /// One shape and its pose.
 template <shape Shape>
 struct posed_object<Shape> {
+    /// float or double
     using scalar_type = scalar_type_of<Shape>;
 
-    Shape object;
-    rigid<scalar_type> pose;
+    Shape object;             ///< in its own frame
+    rigid<scalar_type> pose;  ///< from that frame to the world's
 
+    /// Number of shapes: 1.
     [[nodiscard]] std::size_t size() const { return 1; }
 };
 
@@ -51,10 +60,13 @@ struct shape_of_object<Shape> {
 
 }  // namespace detail
 
+/// Whether a type is a posed object.
+///@{
 template <class X>
 inline constexpr bool is_posed = false;
 template <class Object>
 inline constexpr bool is_posed<posed_object<Object>> = true;
+///@}
 
 /// `object` (a set, a view of one, a bvh, a grid, or one shape) moved by `pose`, as an argument of queries. What touches is
 /// decided exactly, about shapes whose points `place` has rounded to the world's coordinates: the pose's numbers as they are
@@ -74,15 +86,21 @@ template <class Object>
 /// The placed shapes of a view.
 template <shape_view V>
 struct posed_view {
+    /// float or double, the type of a shape, and where the view's memory lies.
+    ///@{
     using scalar_type = typename V::scalar_type;
     using shape_type = typename V::shape_type;
     using memory_space = typename V::memory_space;
+    ///@}
 
-    V shapes;
-    rigid<scalar_type> pose;
+    V shapes;                 ///< in the frame of their object
+    rigid<scalar_type> pose;  ///< from that frame to the world's
 
+    /// Number of shapes.
     [[nodiscard]] ABUT_HD std::size_t size() const { return shapes.size(); }
+    /// Shape i in the world, by value.
     [[nodiscard]] ABUT_HD shape_type operator[](std::size_t i) const { return place(pose, shapes[i]); }
+    /// A hint on the host, as of any shape_view.
     ABUT_INLINE void prefetch(std::size_t i, int step) const { detail::prefetch_shape(shapes, i, step); }
 };
 
@@ -95,5 +113,7 @@ void check(const Policy& on, const posed_view<V>& placed, const char* function) 
 }
 
 }  // namespace detail
+
+///@}
 
 }  // namespace abut

@@ -119,6 +119,9 @@ struct plane_reach {
 
 }  // namespace detail
 
+/// How far a shape of the library reaches: a ball by its distance from the box, a segment and a capsule by the line of their
+/// axis, a plane by the sides of its corners, all with a slack for rounding; the others by their box, exactly.
+///@{
 template <scalar T>
 ABUT_HD auto reach_of(const sphere<T>& s) {
     return detail::ball_reach<T>(s);
@@ -147,5 +150,6 @@ template <scalar T>
 ABUT_HD auto reach_of(const plane<T>& p) {
     return detail::plane_reach<T>(p);
 }
+///@}
 
 }  // namespace abut

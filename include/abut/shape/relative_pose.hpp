@@ -57,9 +57,9 @@ template <scalar T>
 struct relative_pose {
     vec3<T> rotation[3];   ///< its rows
     vec3<T> magnitude[3];  ///< their magnitudes
-    vec3<T> translation;
-    T deviation;  ///< of the rotation's columns from orthonormal, measured; below 0.01
-    T slack;      ///< in length; infinite where coordinates are too large to tell anything apart
+    vec3<T> translation;   ///< of b's origin in a's frame
+    T deviation;           ///< of the rotation's columns from orthonormal, measured; below 0.01
+    T slack;               ///< in length; infinite where coordinates are too large to tell anything apart
 };
 
 /// Which axes the test of two boxes tries. More of them keep fewer boxes in vain, and cost more: on the boxes that a walk

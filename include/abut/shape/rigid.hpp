@@ -21,14 +21,17 @@
 
 namespace abut {
 
+/// @addtogroup shapes
+///@{
+
 /// x -> rotation x + translation, with the rotation's nine numbers row by row. `rigid<T>{}` moves nothing.
 ///
 /// Queries take rotations whose rows are orthonormal within `rotation_tolerance`, and no reflections: products of many
 /// rotations, and ones printed with three digits or more. They are not mended: points go where these nine numbers put them.
 template <scalar T>
 struct rigid {
-    T rotation[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-    vec3<T> translation = {0, 0, 0};
+    T rotation[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< row by row
+    vec3<T> translation = {0, 0, 0};              ///< in units of length
 
     friend constexpr bool operator==(const rigid&, const rigid&) = default;
 };
@@ -85,6 +88,7 @@ ABUT_HD constexpr vec3<T> place(const rigid<T>& pose, const vec3<T>& p) {
 }
 
 /// Shapes are placed by their points. A radius stays: the world sees the ball of that radius around the placed centre.
+///@{
 template <scalar T>
 ABUT_HD constexpr segment<T> place(const rigid<T>& pose, const segment<T>& s) {
     return {place(pose, s.a), place(pose, s.b)};
@@ -101,6 +105,7 @@ template <scalar T>
 ABUT_HD constexpr capsule<T> place(const rigid<T>& pose, const capsule<T>& s) {
     return {place(pose, s.axis), s.radius};
 }
+///@}
 
 /// Whether no point of the box can overflow where it is placed. False also where that is not certain: then look at each.
 template <scalar T>
@@ -234,7 +239,10 @@ template <scalar T>
 }
 
 /// Which numbers of a matrix lie side by side: those of a row, or those of a column (OpenGL, Eigen and GLM by default).
-enum class matrix_order { row_major, column_major };
+enum class matrix_order {
+    row_major,    ///< those of a row
+    column_major  ///< those of a column
+};
 
 namespace detail {
 
@@ -277,5 +285,7 @@ template <scalar T>
     }
     return detail::rigid_from_entries(m, order);
 }
+
+///@}
 
 }  // namespace abut

@@ -1,14 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Sets of shapes that own their memory. `shapes<Shape>` holds shapes as they are: triangle_soup, spheres, points, segments,
-// capsules and boxes are its names for the library's own. `equal_spheres` shares a radius, `mesh` and `edge_mesh` share
-// vertices. A set is checked when it is made and never changes after that; copies share the storage, which lives as long as
-// a set or an index uses it.
-//
-// Every constructor copies its input into the memory of a policy (the host's, where none is given), checks it there and
-// returns when that is done. It throws invalid_geometry with the first bad element's index and value, capacity_error for
-// 2^31 elements or more, and std::bad_alloc. Empty sets are legal.
+// Sets of shapes that own their memory. Views of the caller's arrays are in view.hpp.
 
 #include <concepts>
 #include <cstddef>
@@ -74,19 +67,50 @@ struct set_parts;
 
 }  // namespace detail
 
+/// @defgroup sets Sets
+///
+/// What queries ask about. `shapes<Shape>` holds shapes as they are: `triangle_soup`, `spheres`, `points`, `segments`,
+/// `capsules` and `boxes` are its names for the library's own. `equal_spheres` shares a radius, `mesh` and `edge_mesh` share
+/// vertices. `vertices`, `edges` and `welded` make sets of a mesh. A shape's id is its position in the set, from 0. A set is
+/// checked when it is made and never changes after that. Empty sets are legal.
+///
+/// @par Memory
+/// A constructor copies its input from host memory to that of the policy, or to the host's where no policy is given. Copies
+/// of a set share the storage, which lives as long as a set or an index uses it. `copy_to` brings a set to another memory.
+/// Under `cuda` the stream that it was made in has to outlive it.
+///
+/// @par Errors
+/// `invalid_geometry` with the first bad element's index and value: a coordinate that is not finite, a radius that is
+/// negative, a vertex index out of range, a box inside out. `capacity_error` for 2^31 elements or more; `std::bad_alloc`;
+/// `cuda_error`.
+///
+/// @par Synchronisation
+/// Each constructor and function returns when its set is complete and checked; under `cuda` it waits for the policy's
+/// stream. Then any stream of that device may read it.
+///
+/// @par Example
+/// @snippet sets.cpp sets
+///@{
+
 /// Shapes as they are, each with all its numbers: the library's own, or the caller's (docs/extending.md).
 template <shape Shape, memory_space Space = host_space>
 class shapes {
 public:
+    /// float or double, the type of a shape, where the memory lies, and the view.
+    ///@{
     using scalar_type = scalar_type_of<Shape>;
     using shape_type = Shape;
     using memory_space = Space;
     using view_type = shapes_view<Shape, Space>;
+    ///@}
 
+    /// Without shapes.
     shapes() = default;
+    /// Of these shapes, in host memory.
     shapes(const std::vector<Shape>& values)
         requires std::same_as<Space, host_space>
         : shapes(serial{}, values) {}
+    /// Of these shapes, which lie in host memory, in the policy's.
     template <execution_policy Policy>
         requires std::same_as<space_of<Policy>, Space>
     shapes(const Policy& on, std::span<const Shape> values) : values_(on, values) {
@@ -105,10 +129,14 @@ public:
         }
     }
 
+    /// Number of shapes.
     [[nodiscard]] std::size_t size() const { return values_.size(); }
+    /// What algorithms read; for as long as the set or a copy of it lives.
     [[nodiscard]] view_type view() const { return {values_.data(), values_.size()}; }
+    /// The CUDA device that the memory lies on; -1 for the host, and of a default set.
     [[nodiscard]] int device() const { return values_.device(); }
 
+    /// See `copy_to`.
     template <execution_policy Policy>
     [[nodiscard]] auto copied_to(const Policy& to) const {
         shapes<Shape, space_of<Policy>> copy;
@@ -130,8 +158,10 @@ using triangle_soup = shapes<triangle<T>, Space>;
 /// Solid spheres, each with its own radius.
 template <scalar T, memory_space Space = host_space>
 using spheres = shapes<sphere<T>, Space>;
+/// Points, each a vec3.
 template <scalar T, memory_space Space = host_space>
 using points = shapes<vec3<T>, Space>;
+/// Segments that share nothing, two ends each.
 template <scalar T, memory_space Space = host_space>
 using segments = shapes<segment<T>, Space>;
 /// Solid capsules, each with its own radius.
@@ -145,15 +175,21 @@ using boxes = shapes<aabb<T>, Space>;
 template <scalar T, memory_space Space = host_space>
 class equal_spheres {
 public:
+    /// float or double, the type of a shape, where the memory lies, and the view.
+    ///@{
     using scalar_type = T;
     using shape_type = sphere<T>;
     using memory_space = Space;
     using view_type = equal_spheres_view<T, Space>;
+    ///@}
 
+    /// Without spheres.
     equal_spheres() = default;
+    /// Of these centers and a radius of 0 or more, in host memory.
     equal_spheres(const std::vector<vec3<T>>& centers, T radius)
         requires std::same_as<Space, host_space>
         : equal_spheres(serial{}, centers, radius) {}
+    /// Of these centers, which lie in host memory, in the policy's.
     template <execution_policy Policy>
         requires std::same_as<space_of<Policy>, Space>
     equal_spheres(const Policy& on, std::span<const vec3<T>> centers, T radius) : centers_(on, centers), radius_(radius) {
@@ -171,10 +207,14 @@ public:
         }
     }
 
+    /// Number of spheres.
     [[nodiscard]] std::size_t size() const { return centers_.size(); }
+    /// What algorithms read; for as long as the set or a copy of it lives.
     [[nodiscard]] view_type view() const { return {centers_.data(), centers_.size(), radius_}; }
+    /// The CUDA device that the memory lies on; -1 for the host, and of a default set.
     [[nodiscard]] int device() const { return centers_.device(); }
 
+    /// See `copy_to`.
     template <execution_policy Policy>
     [[nodiscard]] auto copied_to(const Policy& to) const {
         equal_spheres<T, space_of<Policy>> copy;
@@ -223,15 +263,21 @@ class indexed_set {
     using vertex = vec3<typename View::scalar_type>;
 
 public:
+    /// float or double, the type of a shape, where the memory lies, and the view.
+    ///@{
     using scalar_type = typename View::scalar_type;
     using shape_type = typename View::shape_type;
     using memory_space = typename View::memory_space;
     using view_type = View;
+    ///@}
 
+    /// Without vertices and without faces or edges.
     indexed_set() = default;
+    /// Of vertices, and of faces or edges that name them from 0, in host memory.
     indexed_set(const std::vector<vertex>& vertices, const std::vector<element>& elements)
         requires std::same_as<memory_space, host_space>
         : indexed_set(serial{}, vertices, elements) {}
+    /// Of vertices, and of faces or edges, which lie in host memory, in the policy's.
     template <execution_policy Policy>
         requires std::same_as<space_of<Policy>, memory_space>
     indexed_set(const Policy& on, std::span<const vertex> vertices, std::span<const element> elements)
@@ -263,9 +309,11 @@ public:
 
     /// Number of faces or edges.
     [[nodiscard]] std::size_t size() const { return elements_.size(); }
+    /// What algorithms read; for as long as the set or a copy of it lives.
     [[nodiscard]] view_type view() const {
         return {vertices_.data(), vertices_.size(), elements_.data(), elements_.size()};
     }
+    /// The CUDA device that the memory lies on; -1 for the host, and of a default set.
     [[nodiscard]] int device() const { return elements_.device(); }
 
     /// A set with the same faces or edges, whose storage it shares, over other vertices, as many: where a mesh is at another
@@ -295,6 +343,7 @@ public:
         }
     }
 
+    /// See `copy_to`.
     template <execution_policy Policy>
     [[nodiscard]] auto copied_to(const Policy& to) const {
         indexed_set<typename kind::template in<space_of<Policy>>> copy;
@@ -328,10 +377,12 @@ concept shape_set = shape_view<typename S::view_type> && std::copyable<S> && req
 };
 
 /// The same set in the memory of `to`: sharing its storage if it lies there already, otherwise a copy. Returns when the copy
-/// is done. Throws std::bad_alloc, cuda_error.
+/// is done. A copy from one device to another, or from a device to the host, goes through host memory.
 template <execution_policy Policy, shape_set Set>
 [[nodiscard]] auto copy_to(const Policy& to, const Set& set) {
     return set.copied_to(to);
 }
+
+///@}
 
 }  // namespace abut

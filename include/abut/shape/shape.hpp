@@ -16,6 +16,9 @@
 
 namespace abut {
 
+/// @addtogroup shapes
+///@{
+
 namespace detail {
 
 template <class S>
@@ -58,6 +61,7 @@ concept placeable = shape<S> && requires(const rigid<scalar_type_of<S>>& pose, c
 
 /// Whether the numbers make a shape: they are finite, radii are not negative, boxes not inside out. What is not valid is
 /// refused when a set or an index is made of it, and where it is posed.
+///@{
 template <scalar T>
 ABUT_HD constexpr bool is_valid(const vec3<T>& p) {
     return detail::is_finite(p.x) && detail::is_finite(p.y) && detail::is_finite(p.z);
@@ -87,6 +91,7 @@ template <scalar T>
 ABUT_HD constexpr bool is_valid(const capsule<T>& s) {
     return is_valid(s.axis) && detail::is_finite(s.radius) && s.radius >= 0;
 }
+///@}
 /// A shape that does not say otherwise is valid if its box is.
 template <shape S>
 ABUT_HD constexpr bool is_valid(const S& s) {
@@ -110,5 +115,7 @@ template <shape S>
 ABUT_HD auto reach_of(const S& s) {
     return detail::reach_of_box<scalar_type_of<S>>{bounds(s)};
 }
+
+///@}
 
 }  // namespace abut

@@ -18,6 +18,9 @@
 
 namespace abut {
 
+/// @addtogroup sets
+///@{
+
 /// Three vertex indices.
 using face = std::array<std::uint32_t, 3>;
 
@@ -71,12 +74,16 @@ ABUT_HD const std::uint32_t* corners_at(const strided<std::array<std::uint32_t, 
 /// Shapes as they are, each with all its numbers: triangles that share nothing, spheres each with its own radius, any shape.
 template <shape Shape, memory_space Space = host_space>
 struct shapes_view {
+    /// float or double, the type of a shape, and where the memory lies.
+    ///@{
     using scalar_type = scalar_type_of<Shape>;
     using shape_type = Shape;
     using memory_space = Space;
+    ///@}
 
-    detail::strided<Shape> shapes;
+    detail::strided<Shape> shapes;  ///< first one, number and stride
 
+    /// Of no shape.
     shapes_view() = default;
     /// Over the caller's array, which has to outlive every use of the view; the stride is in bytes and keeps the shapes
     /// aligned.
@@ -90,13 +97,18 @@ struct shapes_view {
         (void)detail::is_row<Shape, P>();
     }
 
+    /// Number of shapes.
     [[nodiscard]] ABUT_HD std::size_t size() const { return shapes.count; }
+    /// Shape i, by value.
     [[nodiscard]] ABUT_HD Shape operator[](std::size_t i) const { return shapes[i]; }
+    /// A hint on the host, as of any shape_view.
     ABUT_INLINE void prefetch(std::size_t i, int step) const {
         if (step == 0) shapes.prefetch(i);
     }
 };
 
+/// Views of triangles, balls, points, segments, capsules or boxes, each with all its numbers.
+///@{
 template <scalar T, memory_space Space = host_space>
 using triangle_soup_view = shapes_view<triangle<T>, Space>;
 template <scalar T, memory_space Space = host_space>
@@ -109,19 +121,24 @@ template <scalar T, memory_space Space = host_space>
 using capsules_view = shapes_view<capsule<T>, Space>;
 template <scalar T, memory_space Space = host_space>
 using boxes_view = shapes_view<aabb<T>, Space>;
+///@}
 
 /// Triangles as faces over shared vertices.
 template <scalar T, memory_space Space = host_space>
 struct mesh_view {
+    /// float or double, the type of a shape, and where the memory lies.
+    ///@{
     using scalar_type = T;
     using shape_type = triangle<T>;
     using memory_space = Space;
+    ///@}
 
-    detail::strided<vec3<T>> vertices;
-    detail::strided<face> faces;
+    detail::strided<vec3<T>> vertices;  ///< first one, number and stride
+    detail::strided<face> faces;        ///< likewise
 
+    /// Of no face.
     mesh_view() = default;
-    /// Over the caller's arrays, as above.
+    /// Over the caller's arrays, which have to outlive every use of the view; strides are in bytes.
     ABUT_HD mesh_view(const vec3<T>* first_vertex, std::size_t vertex_count, const face* first_face, std::size_t face_count,
                       std::size_t vertex_stride = sizeof(vec3<T>), std::size_t face_stride = sizeof(face))
         : vertices(first_vertex, vertex_count, vertex_stride), faces(first_face, face_count, face_stride) {}
@@ -135,11 +152,14 @@ struct mesh_view {
         (void)(detail::is_row<vec3<T>, P>() && detail::is_index_row<3, F>());
     }
 
+    /// Number of faces.
     [[nodiscard]] ABUT_HD std::size_t size() const { return faces.count; }
+    /// Face i as a triangle, by value.
     [[nodiscard]] ABUT_HD triangle<T> operator[](std::size_t i) const {
         const std::uint32_t* const corner = detail::corners_at(faces, i);
         return {vertices[corner[0]], vertices[corner[1]], vertices[corner[2]]};
     }
+    /// A hint on the host, as of any shape_view.
     ABUT_INLINE void prefetch(std::size_t i, int step) const {
         if (step == 0) return faces.prefetch(i);
         for (const std::uint32_t k : faces[i]) vertices.prefetch(k);
@@ -149,15 +169,19 @@ struct mesh_view {
 /// Segments as edges over shared vertices.
 template <scalar T, memory_space Space = host_space>
 struct edge_mesh_view {
+    /// float or double, the type of a shape, and where the memory lies.
+    ///@{
     using scalar_type = T;
     using shape_type = segment<T>;
     using memory_space = Space;
+    ///@}
 
-    detail::strided<vec3<T>> vertices;
-    detail::strided<edge> edges;
+    detail::strided<vec3<T>> vertices;  ///< first one, number and stride
+    detail::strided<edge> edges;        ///< likewise
 
+    /// Of no edge.
     edge_mesh_view() = default;
-    /// Over the caller's arrays, as above.
+    /// Over the caller's arrays, which have to outlive every use of the view; strides are in bytes.
     ABUT_HD edge_mesh_view(const vec3<T>* first_vertex, std::size_t vertex_count, const edge* first_edge,
                            std::size_t edge_count, std::size_t vertex_stride = sizeof(vec3<T>),
                            std::size_t edge_stride = sizeof(edge))
@@ -171,11 +195,14 @@ struct edge_mesh_view {
         (void)(detail::is_row<vec3<T>, P>() && detail::is_index_row<2, E>());
     }
 
+    /// Number of edges.
     [[nodiscard]] ABUT_HD std::size_t size() const { return edges.count; }
+    /// Edge i as a segment, by value.
     [[nodiscard]] ABUT_HD segment<T> operator[](std::size_t i) const {
         const std::uint32_t* const end = detail::corners_at(edges, i);
         return {vertices[end[0]], vertices[end[1]]};
     }
+    /// A hint on the host, as of any shape_view.
     ABUT_INLINE void prefetch(std::size_t i, int step) const {
         if (step == 0) return edges.prefetch(i);
         for (const std::uint32_t k : edges[i]) vertices.prefetch(k);
@@ -185,14 +212,19 @@ struct edge_mesh_view {
 /// Spheres of one radius, which is stored once.
 template <scalar T, memory_space Space = host_space>
 struct equal_spheres_view {
+    /// float or double, the type of a shape, and where the memory lies.
+    ///@{
     using scalar_type = T;
     using shape_type = sphere<T>;
     using memory_space = Space;
+    ///@}
 
-    detail::strided<vec3<T>> centers;
-    T radius = 0;
+    detail::strided<vec3<T>> centers;  ///< first one, number and stride
+    T radius = 0;                      ///< of all, 0 or more
 
+    /// Of no sphere.
     equal_spheres_view() = default;
+    /// Over the caller's array, which has to outlive every use of the view; the stride is in bytes.
     ABUT_HD equal_spheres_view(const vec3<T>* first_center, std::size_t count, T radius_of_all,
                                std::size_t stride = sizeof(vec3<T>))
         : centers(first_center, count, stride), radius(radius_of_all) {}
@@ -204,8 +236,11 @@ struct equal_spheres_view {
         (void)detail::is_row<vec3<T>, P>();
     }
 
+    /// Number of spheres.
     [[nodiscard]] ABUT_HD std::size_t size() const { return centers.count; }
+    /// Sphere i, by value.
     [[nodiscard]] ABUT_HD sphere<T> operator[](std::size_t i) const { return {centers[i], radius}; }
+    /// A hint on the host, as of any shape_view.
     ABUT_INLINE void prefetch(std::size_t i, int step) const {
         if (step == 0) centers.prefetch(i);
     }
@@ -214,13 +249,18 @@ struct equal_spheres_view {
 /// One shape, which the view carries: a set of one in any memory.
 template <shape Shape, memory_space Space = host_space>
 struct single_view {
+    /// float or double, the type of a shape, and where the memory lies.
+    ///@{
     using scalar_type = scalar_type_of<Shape>;
     using shape_type = Shape;
     using memory_space = Space;
+    ///@}
 
-    Shape shape;
+    Shape shape;  ///< the one
 
+    /// Number of shapes: 1.
     [[nodiscard]] ABUT_HD std::size_t size() const { return 1; }
+    /// The shape, by value.
     [[nodiscard]] ABUT_HD Shape operator[](std::size_t) const { return shape; }
 };
 
@@ -244,5 +284,7 @@ const Shape* shapes_in_memory(const shapes_view<Shape, Space>& v) {
 }
 
 }  // namespace detail
+
+///@}
 
 }  // namespace abut

@@ -19,6 +19,13 @@
 
 namespace abut {
 
+/// @defgroup volumes Bounding volumes
+///
+/// `sphere`, `aabb`, `obb` and `kdop` around triangles: made by `around`, joined by `merge`, and compared by `overlaps` in
+/// one frame or under a pose. A volume encloses what it was made around, exactly. All are plain values, on hosts and
+/// devices.
+///@{
+
 /// Triangles by number: a view of a mesh or a soup, a span, a vector. On a device, one whose members may run there.
 template <class R, class T>
 concept triangle_range = requires(const R& triangles, std::size_t i) {
@@ -94,5 +101,7 @@ template <bounding_volume V>
 ABUT_HD constexpr V around(const triangle<typename detail::volume_scalar<V>::type>& t) {
     return around_all(std::type_identity<V>{}, detail::one_triangle<typename detail::volume_scalar<V>::type>{t});
 }
+
+///@}
 
 }  // namespace abut

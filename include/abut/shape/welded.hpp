@@ -75,6 +75,9 @@ mesh<T, Space> weld(const Policy& on, const mesh_view<T, Space>& mesh) {
 
 }  // namespace detail
 
+/// @addtogroup sets
+///@{
+
 /// The same mesh with one vertex for each place, in the policy's memory: of vertices with equal coordinates (-0.0 equals
 /// 0.0) the one with the least index stays, and vertices keep their order, those of no face too. Faces keep theirs and name
 /// the vertices that stayed; a face whose corners were in one place names one twice, and is kept, so that ids of faces mean
@@ -98,5 +101,7 @@ template <execution_policy Policy, scalar T, memory_space Space>
     detail::check(on, mesh, "abut::welded");
     return detail::weld(on, mesh);
 }
+
+///@}
 
 }  // namespace abut

@@ -39,6 +39,7 @@
 namespace abut {
 
 /// What a front takes. They move speed and memory, never results.
+/// @ingroup queries
 struct front_options {
     /// Pairs of nodes that it may hold, 12 bytes each. Where they would be more, the query goes on without it, and the next
     /// one begins at the roots; where they are too many then, it goes without, and so do the next `reference_frames`.
@@ -46,12 +47,14 @@ struct front_options {
     /// It begins at the roots when it holds less than rebuild_threshold times as many items as that many queries ago: what
     /// does not grow any more is thought too deep for where the boxes are now. 0: it does not look at that.
     int reference_frames = 16;
+    /// By what factor it has to have grown since then, or it begins at the roots.
     double rebuild_threshold = 1.05;
     /// It also begins there when it holds that many times as many as when it last did.
     double most_growth = 1.25;
 };
 
 /// What a front has seen.
+/// @ingroup queries
 struct front_report {
     std::uint64_t queries = 0;    ///< that began at it, or filled it
     std::uint64_t rebuilds = 0;   ///< of these, such that began at the roots
@@ -346,20 +349,24 @@ struct front_memory_in : front_memory {
 ///
 ///     abut::front ends;
 ///     const abut::query_options<abut::keep_all, abut::traversal::from_front> options{.front = &ends};
-///     for (...) {
+///     while (next_frame()) {
 ///         tree = refit(on, tree, moved);
 ///         use(pairs(on, tree, ground, options));
 ///     }
 ///
 /// A query that finds it empty, or made for other topologies, in other memory or by another kind of query (of one tree or of
-/// two), begins at the roots and fills it. Two queries share it only one after the other. Answers do not depend on it, and
-/// neither do poses and filters matter to it: they may be others in each query. In device memory it is given back in the
+/// two), begins at the roots and fills it. Two queries share it only one after the other. Answers do not depend on it. Poses
+/// and filters do not matter to it: they may be others in each query. In device memory it is given back in the
 /// order of the stream of the policy that filled it first, which has to outlive it. Movable, not copyable.
+/// @ingroup queries
 class front {
 public:
+    /// Empty: the first query begins at the roots. Takes no memory yet.
     explicit front(const front_options& options = {}) : options_(options) {}
 
+    /// What it was made with.
     [[nodiscard]] const front_options& options() const { return options_; }
+    /// What its queries did so far.
     [[nodiscard]] const front_report& report() const { return report_; }
     /// Forgets the ends and gives their memory back. The report stays.
     void clear() {

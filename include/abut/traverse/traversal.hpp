@@ -5,8 +5,14 @@
 
 namespace abut {
 
+/// @addtogroup queries
+///@{
+
 /// What a visitor wants next. Stopping is best effort where visitors run concurrently.
-enum class visit : unsigned char { proceed, stop };
+enum class visit : unsigned char {
+    proceed,  ///< go on
+    stop      ///< call it no more, as soon as that is known everywhere
+};
 
 /// How a query of two trees comes by its candidates: which of two nodes whose boxes meet is opened, that is, replaced by its
 /// children, and in which order that is done. The choice moves speed, never results; docs/hierarchies.md says which to take.
@@ -31,5 +37,7 @@ enum class traversal : unsigned char {
 
 /// The deepest level at which breadth_first begins: it compares 2^20 pairs of boxes there.
 inline constexpr int most_start_depth = 10;
+
+///@}
 
 }  // namespace abut

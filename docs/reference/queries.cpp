@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+
+#include <abut/abut.hpp>
+#include <cstdio>
+#include <vector>
+
+#include "expect.hpp"
+
+namespace {
+
+const abut::mesh<float> tetrahedron{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}},
+                                    {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+const abut::spheres<float> balls{{{{1, 1, -2}, 2}, {{9, 9, 9}, 1}, {{4, 0, 0}, 0}}};
+
+//! [queries]
+// A filter and a visitor are functors. For cuda they are trivially copyable and marked ABUT_HD.
+struct not_ball_0 {
+    ABUT_HD bool operator()(std::uint32_t, std::uint32_t ball) const { return ball != 0; }
+};
+struct mark_ball {
+    bool* marked;
+    ABUT_HD abut::visit operator()(abut::index_pair pair) const {
+        marked[pair.b] = true;
+        return abut::visit::proceed;
+    }
+};
+
+void query() {
+    const abut::serial on;
+    const auto index = abut::make_bvh(on, tetrahedron);
+    for (const auto [face, ball] : abut::to_host(abut::pairs(on, index, balls))) {
+        std::printf("face %u touches ball %u\n", face, ball);
+    }
+    expect(abut::any(on, index, balls));
+    expect(abut::count(on, index, balls) == 4);
+    expect(abut::count<abut::exact>(on, tetrahedron, balls) == 4);  // without an index, integers at once
+
+    const abut::query_options<not_ball_0> some{.sorted = false, .filter = {}};
+    expect(abut::count(on, index, balls, some) == 3);
+
+    bool marked[3] = {};
+    abut::for_each_pair(on, index, balls, mark_ball{marked});
+    expect(marked[0] && !marked[1] && marked[2]);
+
+    abut::rigid<float> up;  // moves by 5 along z, turns nothing
+    up.translation = {0, 0, 5};
+    expect(!abut::any(on, abut::posed(index, up), balls));
+}
+//! [queries]
+
+void query_lists() {
+    abut::rigid<float> here, near, far;
+    near.translation = {2, 0, 0};
+    far.translation = {9, 0, 0};
+    //! [lists]
+    const abut::serial on;
+    auto part = abut::make_bvh(on, tetrahedron);  // not const: its type is that of the list's elements
+    const std::vector<abut::posed_pair<decltype(part)>> list{{abut::posed(part, here), abut::posed(part, near)},
+                                                             {abut::posed(part, here), abut::posed(part, far)}};
+    expect(abut::any(on, list));
+    for (const auto& hit : abut::to_host(abut::pairs(on, list))) {
+        expect(hit.pair == 0);  // the entry; hit.a and hit.b are faces
+    }
+    //! [lists]
+    expect(abut::count(on, list) == abut::contacts(on, list).size());
+}
+
+void query_bodies() {
+    abut::rigid<float> here, near, far;
+    near.translation = {2, 0, 0};
+    far.translation = {9, 0, 0};
+    //! [body_lists]
+    const abut::serial on;
+    auto part = abut::make_bvh(on, tetrahedron);  // not const, as for a list of pairs
+    const std::vector<abut::posed_object<decltype(part)>> bodies{abut::posed(part, here), abut::posed(part, near),
+                                                                 abut::posed(part, far)};
+    expect(abut::any_self_pairs(on, bodies));
+    for (const auto& hit : abut::to_host(abut::self_pairs(on, bodies))) {
+        expect(hit.body_a == 0 && hit.body_b == 1);  // hit.a and hit.b are faces of theirs
+    }
+    //! [body_lists]
+    expect(abut::count_self_pairs(on, bodies) > 0);
+}
+
+void query_itself() {
+    //! [self_collision]
+    // Faces 0 and 1 share an edge, and face 2 pierces face 0.
+    const abut::mesh<float> folded{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {4, 4, 0}, {1, 1, -1}, {1, 1, 1}, {1, 2, 1}},
+                                   {{0, 1, 2}, {1, 3, 2}, {4, 5, 6}}};
+    const auto found = abut::to_host(abut::self_pairs(abut::serial{}, folded));
+    expect(found.size() == 1 && found[0] == abut::index_pair{0, 2});  // neighbours are not reported
+    //! [self_collision]
+}
+
+void query_contacts() {
+    const abut::serial on;
+    //! [contacts]
+    for (const auto& c : abut::to_host(abut::contacts(on, tetrahedron, balls))) {
+        std::printf("face %u, ball %u: %g deep at %g %g %g\n", c.a, c.b, c.depth, c.point.x, c.point.y, c.point.z);
+    }
+    const auto few = abut::reduce_contacts(on, abut::contacts(on, tetrahedron, balls), {.most = 2});
+    expect(few.size() == 2);
+    //! [contacts]
+}
+
+void query_nearest() {
+    //! [nearest]
+    const std::vector<abut::vec3<float>> points{{1, 1, -3}, {9, 0, 0}};
+    const auto near = abut::to_host(abut::nearest(abut::serial{}, tetrahedron, points));
+    expect(near[0].id == 0 && near[0].distance == 3);                              // below face 0
+    expect(near[1].point == abut::vec3<float>{4, 0, 0} && near[1].distance == 5);  // from a corner
+    //! [nearest]
+}
+
+void query_mesh() {
+    //! [validate]
+    const auto report = abut::validate(abut::serial{}, tetrahedron);
+    expect(report.closed() && report.manifold() && report.oriented());
+    expect(report.edges == 6 && report.euler_characteristic == 2);
+    for (const auto& edge : report.boundary_edges) std::printf("open: %u-%u\n", edge.a, edge.b);
+    //! [validate]
+}
+
+void query_one_pair() {
+    //! [one_pair]
+    constexpr abut::triangle<float> floor{{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}};
+    constexpr abut::sphere<float> ball{{0, 0, 4}, 5};
+    static_assert(abut::intersects(ball, floor));  // also at run time, on hosts and devices
+
+    const auto c = abut::contact_of(ball, floor);
+    expect(c && c->depth == 1 && c->normal == abut::vec3<float>{0, 0, 1});
+
+    const auto q = abut::nearest_point(floor, {0, 0, 7});
+    expect(q == abut::vec3<float>{0, 0, 0});
+
+    const auto falls = abut::moving(abut::vec3<float>{0, 0, 1}, abut::vec3<float>{0, 0, -3});
+    expect(abut::time_of_impact(falls, abut::moving(floor, floor)) == 0.25);
+    //! [one_pair]
+}
+
+}  // namespace
+
+int main() {
+    query();
+    query_lists();
+    query_bodies();
+    query_itself();
+    query_contacts();
+    query_nearest();
+    query_mesh();
+    query_one_pair();
+}

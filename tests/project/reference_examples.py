@@ -1,0 +1,88 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The examples within comments of the headers compile: those indented by four columns after `///`.
+
+usage: reference_examples.py ROOT SOURCE.cpp COMPILER ARGUMENT...
+
+Writes a program with a function for each example, in which the names that it does not define mean what is said below, and
+compiles it. `use`, `mark` and `stop_at` take anything.
+"""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+EXAMPLE = re.compile(r"^ *///     (.*)$")
+
+HEAD = """#include <abut/abut.hpp>
+#include <abut/io/read.hpp>
+#include <abut/io/write.hpp>
+#include <cstdio>
+
+namespace {
+void use(auto&&...) {}
+void mark(auto&&...) {}
+void stop_at(auto&&...) {}
+bool next_frame() { return false; }
+const abut::serial on;
+const abut::mesh<float> mesh, other, part, a, b, cloth, cloth_t0, cloth_t1, ball;
+const std::vector<char> bytes;
+const std::vector<abut::vec3<float>> points, normals, positions_at_t1;
+const std::vector<float> depths;
+const std::vector<std::uint8_t> hit;
+const abut::rigid<float> here, there;
+"""
+
+STEP = "const auto step = abut::moving(cloth_t0, cloth_t1);"
+GEAR = "auto gear = abut::make_bvh(on, mesh);"
+NAMES = {
+    "shape/rigid.hpp": "abut::rigid<float> step, pose; int steps = 0;",
+    "narrow/feature_weights.hpp": "const abut::motion<abut::vec3<float>> vertex{}; const abut::motion<abut::triangle<float>> face{};",
+    "traverse/front.hpp": "auto tree = abut::make_bvh(on, mesh); const auto ground = tree; const auto& moved = mesh;",
+    "io/write.hpp": "const abut::result<abut::index_pair, abut::host_space> pairs;",
+    "collide/impact_index.hpp": STEP,
+    "collide/first_impact.hpp": STEP,
+    "collide/list.hpp": GEAR,
+    "collide/self_list.hpp": GEAR,
+    "collide/contacts.hpp": "const auto& tool = other; const abut::rigid<float> pose;",
+}
+
+
+def examples(include):
+    """Each as its place and its lines."""
+    for file in sorted((include / "abut").rglob("*.hpp")):
+        place = file.relative_to(include / "abut").as_posix()
+        lines, first = [], 0
+        for number, line in enumerate(file.read_text(encoding="utf-8").splitlines(), 1):
+            found = EXAMPLE.match(line)
+            if found:
+                first = first if lines else number
+                lines.append(found.group(1))
+            elif lines:
+                yield file, place, first, lines
+                lines = []
+
+
+def main():
+    include, source = Path(sys.argv[1]) / "include", Path(sys.argv[2])
+    text, count, unused = HEAD, 0, set(NAMES)
+    for file, place, first, lines in examples(include):
+        count += 1
+        unused.discard(place)
+        text += f"void example_{count}() {{\n{NAMES.get(place, '')}\n{{\n#line {first} \"{file}\"\n"
+        text += "\n".join(lines) + "\n}\n}\n"
+    text += "}\n\nint main() {" + "".join(f" example_{k + 1}();" for k in range(count)) + " }\n"
+    source.parent.mkdir(parents=True, exist_ok=True)
+    source.write_text(text, encoding="utf-8")
+    if unused:
+        sys.exit(f"names are given for examples that are not there: {', '.join(sorted(unused))}")
+    if count < 20:
+        sys.exit(f"only {count} examples were found in {include}")
+    status = subprocess.run([*sys.argv[3:], "-I", include, source]).returncode
+    print(f"{count} examples, compiler's status {status}")
+    return status
+
+
+if __name__ == "__main__":
+    sys.exit(main())
