@@ -61,6 +61,8 @@ cpu meshes_138376 bench_meshes $G $I --mesh=$D/meshes/armadillo_138376.ply --ben
 cpu meshes_27674 bench_meshes $G $I --mesh=$D/meshes/armadillo_27674.ply --benchmark_filter=^(build/bvh|pairs)/
 cpu meshes_2766 bench_meshes $G $I --mesh=$D/meshes/armadillo_2766.ply --benchmark_filter=^(build/bvh|pairs)/
 cpu reduce_contacts bench_reduce_contacts --json={} --mesh=$D/meshes/armadillo_345944.ply
+cpu footprint bench_footprint --json={}
+cuda footprint bench_footprint_cuda {}
 cuda trade bench_trade_cuda {}
 cuda spheres_mesh bench_spheres_mesh_cuda {}
 cuda triangles bench_triangles_cuda {}

@@ -121,6 +121,7 @@ public:
     template <detail::array_like R>
         requires std::same_as<Space, host_space>
     explicit shapes(const R& values) : shapes(serial{}, values) {}
+    /// The same in the policy's memory. The array lies in host memory.
     template <execution_policy Policy, detail::array_like R>
         requires(std::same_as<space_of<Policy>, Space> && !std::convertible_to<const R&, std::span<const Shape>>)
     shapes(const Policy& on, const R& values) {
@@ -199,6 +200,7 @@ public:
     template <detail::array_like R>
         requires std::same_as<Space, host_space>
     equal_spheres(const R& centers, T radius) : equal_spheres(serial{}, centers, radius) {}
+    /// The same in the policy's memory. The array lies in host memory.
     template <execution_policy Policy, detail::array_like R>
         requires(std::same_as<space_of<Policy>, Space> && !std::convertible_to<const R&, std::span<const vec3<T>>>)
     equal_spheres(const Policy& on, const R& centers, T radius) {
@@ -289,6 +291,7 @@ public:
     template <detail::array_like V, detail::array_like E>
         requires std::same_as<memory_space, host_space>
     indexed_set(const V& vertices, const E& elements) : indexed_set(serial{}, vertices, elements) {}
+    /// The same in the policy's memory. The arrays lie in host memory.
     template <execution_policy Policy, detail::array_like V, detail::array_like E>
         requires(std::same_as<space_of<Policy>, memory_space> &&
                  !(std::convertible_to<const V&, std::span<const vertex>> &&
