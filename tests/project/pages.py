@@ -13,7 +13,7 @@ How a block ```cpp is compiled, the HTML comment on the line before it says. Its
   continues        goes on in the same function as the block before it
   file scope       declarations that all later blocks of the page see
   cuda             for nvcc, in a .cu file; other blocks are compiled by the host's compiler
-  a path           also: the block is that file, or a part of it, but for indentation. Blocks ```cmake may say so too.
+  a path           also: the block is that file, or a part of it, but for indentation. Blocks ```cmake have to say so.
 
 A block ``` without a language, right after a block of code, is what that code prints. Programs run in a folder of their own,
 in which FILES lie.
@@ -146,6 +146,8 @@ def check(root):
     for page in pages_of(root):
         for block in blocks_of(root, page):
             check_paths(root, block)
+            if block.language == "cmake" and not block.paths:
+                broken.append(f"{block.where}: no file is named that a test builds with these lines")
             blocks += block.language == "cpp"
         text = without_code((root / page).read_text(encoding="utf-8"))
         for target in re.findall(r"\]\(([^)\s]+)\)", text):

@@ -28,6 +28,7 @@ CHECKED = {
     "a comment that says nothing known": ("```cpp", "<!-- continued -->\n```cpp", "the comment says"),
     "a file that is not there": ("```cpp", "<!-- docs/none.cpp -->\n```cpp", "there is no docs/none.cpp"),
     "a file that holds something else": ("```cpp", "<!-- docs/README.md -->\n```cpp", "no part of docs/README.md"),
+    "lines for CMake of no file": ("```cpp", "```cmake\n```\n\n```cpp", "no file is named"),
     "a block without an end": ("\n1\n```\n", "\n1\n", "does not end"),
 }
 MARK = "\\036%d\\n"  # as docs/snippets/context.hpp prints it
