@@ -49,8 +49,18 @@ inline abut::mesh<float> box(abut::vec3<float> center, float half) {
         vertices.push_back({center.x + side(0), center.y + side(1), center.z + side(2)});
     }
     return {vertices,
-            {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6},
-             {1, 3, 5}, {3, 7, 5}}};
+            {{0, 2, 1},
+             {1, 2, 3},
+             {4, 5, 6},
+             {5, 7, 6},
+             {0, 1, 4},
+             {1, 5, 4},
+             {2, 6, 3},
+             {3, 6, 7},
+             {0, 4, 2},
+             {2, 4, 6},
+             {1, 3, 5},
+             {3, 7, 5}}};
 }
 
 /// A level sheet of 2 n n triangles over [-1, 1] x [-1, 1].
