@@ -33,11 +33,8 @@ struct alignas(sizeof(typename detail::volume_scalar<V>::type) == 4 ? 64 : 16) b
 /// A view of a tree of volumes. `bounds` is of the box along the axes around a volume, which is made anew each time.
 template <bounding_volume V, memory_space Space>
 struct bounded_view : bvh_view_base<typename detail::volume_scalar<V>::type, Space, bounded_node<V>> {
-    /// A volume, and a node as walks read it.
-    ///@{
-    using volume_type = V;
-    using node_type = bounded_node<V>;
-    ///@}
+    using volume_type = V;                 ///< a volume
+    using node_type = bounded_node<V>;     ///< a node, as walks read it
     static constexpr bool nested = false;  ///< a volume need not hold those of the children
 
     /// Node, volume, box and child by number, as bvh_layout says. On hosts and devices.

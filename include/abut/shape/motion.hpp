@@ -46,12 +46,9 @@ auto elements_of(const V& v) {
 /// @ingroup motion
 template <shape_view V>
 struct moving_view {
-    /// float or double, the type of a shape in motion, and where the views' memory lies.
-    ///@{
-    using scalar_type = typename V::scalar_type;
-    using shape_type = motion<typename V::shape_type>;
-    using memory_space = typename V::memory_space;
-    ///@}
+    using scalar_type = typename V::scalar_type;        ///< float or double
+    using shape_type = motion<typename V::shape_type>;  ///< what a shape is
+    using memory_space = typename V::memory_space;      ///< where the memory lies
 
     V t0;  ///< where shapes are at t = 0
     V t1;  ///< where they are at t = 1
@@ -72,13 +69,10 @@ struct moving_view {
 template <shape_set Set>
 class moving_set {
 public:
-    /// float or double, the type of a shape in motion, where the set's memory lies, and its view.
-    ///@{
-    using scalar_type = typename Set::scalar_type;
-    using shape_type = motion<typename Set::shape_type>;
-    using memory_space = typename Set::memory_space;
-    using view_type = moving_view<typename Set::view_type>;
-    ///@}
+    using scalar_type = typename Set::scalar_type;           ///< float or double
+    using shape_type = motion<typename Set::shape_type>;     ///< what a shape is
+    using memory_space = typename Set::memory_space;         ///< where the memory lies
+    using view_type = moving_view<typename Set::view_type>;  ///< what algorithms read
 
     /// A set without shapes.
     moving_set() = default;

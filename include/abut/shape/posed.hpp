@@ -21,11 +21,8 @@ namespace abut {
 /// A set or an index, and its pose. Shares the object's storage, as a copy of it does.
 template <class Object>
 struct posed_object {
-    /// float or double, and where the object's memory lies.
-    ///@{
-    using scalar_type = typename Object::scalar_type;
-    using memory_space = typename Object::memory_space;
-    ///@}
+    using scalar_type = typename Object::scalar_type;    ///< float or double
+    using memory_space = typename Object::memory_space;  ///< where the memory lies
 
     Object object;            ///< in its own frame
     rigid<scalar_type> pose;  ///< from that frame to the world's
@@ -86,12 +83,9 @@ template <class Object>
 /// The placed shapes of a view.
 template <shape_view V>
 struct posed_view {
-    /// float or double, the type of a shape, and where the view's memory lies.
-    ///@{
-    using scalar_type = typename V::scalar_type;
-    using shape_type = typename V::shape_type;
-    using memory_space = typename V::memory_space;
-    ///@}
+    using scalar_type = typename V::scalar_type;    ///< float or double
+    using shape_type = typename V::shape_type;      ///< what a shape is
+    using memory_space = typename V::memory_space;  ///< where the memory lies
 
     V shapes;                 ///< in the frame of their object
     rigid<scalar_type> pose;  ///< from that frame to the world's

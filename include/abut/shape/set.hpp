@@ -96,13 +96,10 @@ struct set_parts;
 template <shape Shape, memory_space Space = host_space>
 class shapes {
 public:
-    /// float or double, the type of a shape, where the memory lies, and the view.
-    ///@{
-    using scalar_type = scalar_type_of<Shape>;
-    using shape_type = Shape;
-    using memory_space = Space;
-    using view_type = shapes_view<Shape, Space>;
-    ///@}
+    using scalar_type = scalar_type_of<Shape>;    ///< float or double
+    using shape_type = Shape;                     ///< what a shape is
+    using memory_space = Space;                   ///< where the memory lies
+    using view_type = shapes_view<Shape, Space>;  ///< what algorithms read
 
     /// Without shapes.
     shapes() = default;
@@ -176,13 +173,10 @@ using boxes = shapes<aabb<T>, Space>;
 template <scalar T, memory_space Space = host_space>
 class equal_spheres {
 public:
-    /// float or double, the type of a shape, where the memory lies, and the view.
-    ///@{
-    using scalar_type = T;
-    using shape_type = sphere<T>;
-    using memory_space = Space;
-    using view_type = equal_spheres_view<T, Space>;
-    ///@}
+    using scalar_type = T;                           ///< float or double
+    using shape_type = sphere<T>;                    ///< what a shape is
+    using memory_space = Space;                      ///< where the memory lies
+    using view_type = equal_spheres_view<T, Space>;  ///< what algorithms read
 
     /// Without spheres.
     equal_spheres() = default;
@@ -265,13 +259,10 @@ class indexed_set {
     using vertex = vec3<typename View::scalar_type>;
 
 public:
-    /// float or double, the type of a shape, where the memory lies, and the view.
-    ///@{
-    using scalar_type = typename View::scalar_type;
-    using shape_type = typename View::shape_type;
-    using memory_space = typename View::memory_space;
-    using view_type = View;
-    ///@}
+    using scalar_type = typename View::scalar_type;    ///< float or double
+    using shape_type = typename View::shape_type;      ///< what a shape is
+    using memory_space = typename View::memory_space;  ///< where the memory lies
+    using view_type = View;                            ///< what algorithms read
 
     /// Without vertices and without faces or edges.
     indexed_set() = default;
