@@ -200,9 +200,10 @@ concept bvh_layout_kind = requires(const typename L::template storage<float, hos
 /// outlive it. Indices are immutable, and copies share their storage. Under `cuda` the policy's stream has to outlive them.
 ///
 /// @par Errors
-/// `invalid_geometry` for views and single shapes that hold no geometry; sets were checked when they were made. `error` for
-/// options that are none, for a set, a view or an index on another device, and as each function says. `capacity_error` for a
-/// view of 2^31 elements or more; `std::bad_alloc`; `cuda_error`.
+/// - `invalid_geometry`: a view or a single shape holds no geometry. Sets were checked when they were made.
+/// - `error`: an option is none; a set, a view or an index lies on another device; and as each function says.
+/// - `capacity_error`: a view has 2^31 elements or more.
+/// - `std::bad_alloc`, `cuda_error`.
 ///
 /// @par Synchronisation
 /// Each call returns when its index is complete; under `cuda` it waits for the policy's stream. Then any stream of that

@@ -80,9 +80,10 @@ struct set_parts;
 /// Under `cuda` the stream that it was made in has to outlive it.
 ///
 /// @par Errors
-/// `invalid_geometry` with the first bad element's index and value: a coordinate that is not finite, a radius that is
-/// negative, a vertex index out of range, a box inside out. `capacity_error` for 2^31 elements or more; `std::bad_alloc`;
-/// `cuda_error`.
+/// - `invalid_geometry`, with the index and the value of the first bad element: a coordinate is not finite, a radius is
+///   negative, a vertex index is out of range, a box is inside out.
+/// - `capacity_error`: there are 2^31 elements or more.
+/// - `std::bad_alloc`, `cuda_error`.
 ///
 /// @par Synchronisation
 /// Each constructor and function returns when its set is complete and checked; under `cuda` it waits for the policy's
