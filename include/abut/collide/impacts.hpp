@@ -48,8 +48,7 @@ namespace abut {
 ///
 /// @par Errors
 /// - `error`: a set or an index lies on another device, or two meshes of one step do not go together. With `conservative`
-/// also
-///   a separation that is negative or not finite, and a tolerance that is negative or not a number.
+///   also a separation that is negative or not finite, and a tolerance that is negative or not a number.
 /// - `capacity_error`: more than 2^31 features of a kind, and as of `edges`.
 /// - `std::bad_alloc`, `cuda_error`.
 ///

@@ -88,9 +88,7 @@ void visit_pairs_of(const Policy& on, const Pairing& pairing, const Visitor& vis
 /// @par Errors
 /// - `invalid_geometry`: a view or a single shape holds a number that is none, which is looked at in each call; a pose is no
 ///   rotation; or placed coordinates overflow.
-/// - `error`: a set, a view or an index lies on another device; a `start_depth` is out of range; or `traversal::from_front`
-/// has
-///   no front.
+/// - `error`: a set, a view or an index lies on another device; a `start_depth` is out of range; or `from_front` has none.
 /// - `capacity_error`: a view has 2^31 elements or more.
 /// - `std::bad_alloc`, `cuda_error`, and on a host what a filter or a visitor throws.
 ///

@@ -41,8 +41,7 @@ namespace abut {
 /// - `invalid_geometry`, whose message names the body: a pose is no rotation, or placed coordinates overflow.
 /// - `error`: an index lies on another device.
 /// - `capacity_error`: there are 2^31 bodies or more, or the bits of two ids and of the number of pairs of bodies whose
-/// boxes
-///   meet are more than 64.
+///   boxes meet are more than 64.
 /// - `std::bad_alloc`, `cuda_error`.
 ///
 /// @par Synchronisation

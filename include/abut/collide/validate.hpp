@@ -315,7 +315,7 @@ auto mesh_to_validate(const Policy& on, const Mesh& mesh) {
 ///
 /// @par Errors
 /// - `capacity_error`: 2^31 vertices or more, or more than 1,431,655,765 faces, whose half-edges have 32 bits for their
-/// numbers.
+///   numbers.
 /// - `error`: a set or a view lies on another device.
 /// - `std::bad_alloc`, `cuda_error`.
 ///

@@ -33,8 +33,7 @@ namespace abut::io {
 ///
 /// @par Errors
 /// - `io_error`: a file cannot be opened, read or written in full; its extension is none of these; or its content is
-/// malformed
-///   or truncated. The message names the file, the line or the byte, what was expected and what was found.
+///   malformed or truncated. The message names the file, the line or the byte, what was expected and what was found.
 /// - `capacity_error`: a reader that returns a set found 2^31 elements or more.
 /// - `std::bad_alloc`.
 ///
