@@ -24,8 +24,7 @@ namespace abut {
 /// @par Errors
 /// - Of `contacts`: those of @ref queries.
 /// - Of `reduce_contacts`: `error` where `bins` is not in 1..1024 or `most` is 0; `capacity_error` for 2^32 contacts or
-/// more;
-///   `std::bad_alloc`; `cuda_error`.
+///   more; `std::bad_alloc`; `cuda_error`.
 ///
 /// @par Synchronisation
 /// Each call returns when its contacts are complete; under `cuda` it waits for the policy's stream.
