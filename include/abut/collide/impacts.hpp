@@ -48,7 +48,7 @@ namespace abut {
 ///
 /// @par Errors
 /// - `error`: a set or an index lies on another device, or two meshes of one step do not go together. With `conservative`
-///   also a separation that is negative or not finite, and a tolerance that is negative or not a number.
+///   also a separation that is negative or above the largest number of the scalar, and a tolerance that is negative or NaN.
 /// - `capacity_error`: more than 2^31 features of a kind, and as of `edges`.
 /// - `std::bad_alloc`, `cuda_error`.
 ///
