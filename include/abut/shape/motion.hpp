@@ -178,7 +178,8 @@ void check(const Policy& on, const moving_view<V>& view, const char* function) {
 
 /// A set in motion: shape i moves from where it is in `t0` to where it is in `t1`, each of its points in a straight line at
 /// constant speed, t from 0 to 1. An argument of queries and of make_bvh and refit like any set. The two sets have as many
-/// shapes, and meshes and edge meshes the same faces or edges, in the same order; nothing is copied.
+/// shapes, and meshes and edge meshes the same faces or edges, in the same order; nothing is copied. They lie on one device:
+/// that is not checked.
 ///
 /// Throws error where they do not go together. Faces that the two sets do not share (`with_vertices` shares them) are
 /// compared, which reads both to the host, and then std::bad_alloc and cuda_error as well. Returns when that is done.

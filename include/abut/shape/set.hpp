@@ -75,13 +75,16 @@ struct set_parts;
 /// checked when it is made and never changes after that. Empty sets are legal.
 ///
 /// @par Memory
-/// A constructor copies its input from host memory to that of the policy, or to the host's where no policy is given. Copies
-/// of a set share the storage, which lives as long as a set or an index uses it. `copy_to` brings a set to another memory.
-/// Under `cuda` the stream that it was made in has to outlive it.
+/// A constructor copies its input from host memory to that of the policy, or to the host's where no policy is given. Input
+/// is vectors and spans of the library's types, or another library's array of the same numbers (shape/rows.hpp). Copies of a
+/// set share the storage, which lives as long as a set or an index uses it. `copy_to` brings a set to another memory. Under
+/// `cuda` the stream that it was made in has to outlive it.
 ///
 /// @par Errors
 /// - `invalid_geometry`, with the index and the value of the first bad element: a coordinate is not finite, a radius is
 ///   negative, a vertex index is out of range, a box is inside out.
+/// - `error`: plain numbers of another library's array are no multiple of what a shape takes, or its elements only point to
+///   their numbers; `with_vertices` got another number of vertices.
 /// - `capacity_error`: there are 2^31 elements or more.
 /// - `std::bad_alloc`, `cuda_error`.
 ///
@@ -313,7 +316,8 @@ public:
 
     /// A set with the same faces or edges, whose storage it shares, over other vertices, as many: where a mesh is at another
     /// time. Copies the vertices from host memory to the policy's, checks them there and returns when that is done. Throws
-    /// error for another number of vertices, invalid_geometry, std::bad_alloc, cuda_error.
+    /// error for another number of vertices, invalid_geometry, std::bad_alloc, cuda_error. The policy works on the device
+    /// that the set lies on: that is not checked.
     template <execution_policy Policy>
         requires std::same_as<space_of<Policy>, memory_space>
     [[nodiscard]] indexed_set with_vertices(const Policy& on, std::span<const vertex> vertices) const {
