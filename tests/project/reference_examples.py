@@ -39,7 +39,8 @@ GEAR = "auto gear = abut::make_bvh(on, mesh);"
 NAMES = {
     "collide/advise.hpp": "const auto &voxels = mesh, &tool = other;",
     "shape/rigid.hpp": "abut::rigid<float> step, pose; int steps = 0;",
-    "narrow/feature_weights.hpp": "const abut::motion<abut::vec3<float>> vertex{}; const abut::motion<abut::triangle<float>> face{};",
+    "narrow/feature_weights.hpp": "const abut::motion<abut::vec3<float>> vertex{};"
+                                  "const abut::motion<abut::triangle<float>> face{};",
     "traverse/front.hpp": "auto tree = abut::make_bvh(on, mesh); const auto ground = tree; const auto& moved = mesh;",
     "io/write.hpp": "const abut::result<abut::index_pair, abut::host_space> pairs;",
     "collide/impact_index.hpp": STEP,
