@@ -15,7 +15,7 @@ cd "$(dirname "$0")/.."
 need_packages doxygen
 : "${folder:=$(pwd)/build/reference}"
 mkdir -p "$folder"
-version=$(sed -n 's/^#define ABUT_VERSION_[A-Z]* \([0-9]*\)$/\1/p' include/abut/config.hpp | paste -sd.)
+version=$(sed -n 's/^#define ABUT_VERSION_[A-Z]* \([0-9]*\)$/\1/p' include/abut/config.hpp | paste -sd. -)
 {
     cat docs/reference/Doxyfile
     printf 'PROJECT_NUMBER = %s\nOUTPUT_DIRECTORY = "%s"\n' "$version" "$folder"

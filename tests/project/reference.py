@@ -4,10 +4,10 @@
 
 usage: reference.py ROOT WORK
 
-Doxygen complains of names without a comment. What it does not see is checked here: concepts, enumerators, names that namespace
-abut takes over from another one, and that what is said of each function that takes a policy, or that reads or writes files, has
-the headings below. They may stand in the function's own comment, in that of its class, or in that of its group. Before it reads the
-real tree, it plants one violation of each kind in a copy, and fails if one of them goes unnoticed.
+Doxygen complains of names without a comment. What it does not see is checked here: concepts, enumerators, and names that
+namespace abut takes over from another one. And what is said of each function that takes a policy, or that reads or writes files,
+has the headings below: in the function's own comment, in that of its class, or in that of its topic. Before it reads the real
+tree, it plants one violation of each kind in a copy, and fails if one of them goes unnoticed.
 """
 
 import functools
@@ -31,7 +31,8 @@ PLANTS = [
     ("error.hpp", "int planted_function();", "planted_function"),
     ("error.hpp", "/// Documented.\nstruct planted_options { int planted_member; };", "planted_member"),
     ("error.hpp", "struct planted_struct { int planted; };", "planted_struct"),
-    ("shape/shape.hpp", "template <class T>\nconcept planted_concept = true;", "planted_concept: this concept has no comment"),
+    ("shape/shape.hpp", "template <class T>\nconcept planted_concept = true;",
+     "planted_concept: this concept has no comment"),
     ("collide/query.hpp", "/// Counts.\ntemplate <execution_policy Policy> int planted_query(const Policy& on);",
      "planted_query: nothing is said under Memory, Errors, Synchronisation, Example"),
     ("collide/query.hpp", "/// Counts.\n/// @par Memory\n/// The host's.\n/// @par Example\n/// count(on)\n"
@@ -152,7 +153,8 @@ def concepts(include):
 
 def make_and_check(root, folder):
     shutil.rmtree(folder, ignore_errors=True)
-    made = subprocess.run(["sh", root / "cmake/reference.sh", folder], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    made = subprocess.run(["sh", root / "cmake/reference.sh", folder], text=True, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT)
     problems = made.stdout.splitlines() if made.returncode != 0 else []
     if not (folder / "xml").is_dir():
         return 0, 0, problems or ["cmake/reference.sh wrote no XML"]

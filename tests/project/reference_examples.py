@@ -37,8 +37,10 @@ const abut::rigid<float> here, there;
 STEP = "const auto step = abut::moving(cloth_t0, cloth_t1);"
 GEAR = "auto gear = abut::make_bvh(on, mesh);"
 NAMES = {
+    "collide/advise.hpp": "const auto &voxels = mesh, &tool = other;",
     "shape/rigid.hpp": "abut::rigid<float> step, pose; int steps = 0;",
-    "narrow/feature_weights.hpp": "const abut::motion<abut::vec3<float>> vertex{}; const abut::motion<abut::triangle<float>> face{};",
+    "narrow/feature_weights.hpp": "const abut::motion<abut::vec3<float>> vertex{};"
+                                  "const abut::motion<abut::triangle<float>> face{};",
     "traverse/front.hpp": "auto tree = abut::make_bvh(on, mesh); const auto ground = tree; const auto& moved = mesh;",
     "io/write.hpp": "const abut::result<abut::index_pair, abut::host_space> pairs;",
     "collide/impact_index.hpp": STEP,
@@ -79,7 +81,10 @@ def main():
         sys.exit(f"names are given for examples that are not there: {', '.join(sorted(unused))}")
     if count < 20:
         sys.exit(f"only {count} examples were found in {include}")
+    sys.stdout.flush()
     status = subprocess.run([*sys.argv[3:], "-I", include, source]).returncode
+    if status:
+        print("reference_examples.py: an example does not compile, or names what NAMES in this script does not declare")
     print(f"{count} examples, compiler's status {status}")
     return status
 

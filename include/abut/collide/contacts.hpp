@@ -22,8 +22,9 @@ namespace abut {
 /// Arguments as in @ref queries. Contacts lie in the policy's memory, 36 bytes each in float and 64 in double.
 ///
 /// @par Errors
-/// Of `contacts` those of @ref queries. Of `reduce_contacts` `error` where `bins` is not in 1..1024 or `most` is 0,
-/// `capacity_error` for 2^32 contacts or more, `std::bad_alloc` and `cuda_error`.
+/// - Of `contacts`: those of @ref queries.
+/// - Of `reduce_contacts`: `error` where `bins` is not in 1..1024 or `most` is 0; `capacity_error` for 2^32 contacts or
+///   more; `std::bad_alloc`; `cuda_error`.
 ///
 /// @par Synchronisation
 /// Each call returns when its contacts are complete; under `cuda` it waits for the policy's stream.
@@ -109,14 +110,13 @@ auto contacts_of(const Policy& on, const Pairing& pairing, bool discard_sideways
 
 }  // namespace detail
 
-/// The contacts of all pairs of a shape of `a` and a shape of `b` that touch: exactly one for each pair that `pairs` reports
-/// of the same arguments, sorted by a, then b, unless the options say otherwise; fewer with `discard_sideways`. In the
-/// policy's memory, 36 bytes each in float and 64 in double. Under a pose all numbers are the world's.
+/// The contacts of all pairs of a shape of `a` and a shape of `b` that touch: a `result` of `contact`. There is one for each
+/// pair that `pairs` reports of the same arguments, or fewer with `discard_sideways`. They are sorted by a, then b, unless
+/// the options say otherwise. Under a pose all numbers are the world's.
 ///
-/// A contact's point is one of both shapes, its normal has length 1 and points from b to a, and a moved by its depth along
-/// it is apart from b, all within `contact_bound` of the two shapes; docs/contacts.md says what depth is least of. Contacts
-/// are bit for bit the same on each policy, whatever the threads, the indices and the sides that look; those of `fast` are
-/// numbers of the same kind for pairs that may not touch.
+/// A contact's point is one of both shapes. Its normal has length 1 and points from b to a. Moved by its depth along it, a
+/// is apart from b. All of that holds within `contact_bound` of the two shapes. Contacts are bit for bit the same on each
+/// policy, whatever the threads and the indices. Those of `fast` are numbers of the same kind for pairs that may not touch.
 ///
 /// Arguments are those of `pairs`: sets, views, single shapes and indices, posed or not.
 ///

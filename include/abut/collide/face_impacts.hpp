@@ -31,13 +31,10 @@ class face_impact_index {
 public:
     static constexpr pair_rule rule = Rule;                                ///< how pairs of features are found
     static constexpr bool keeps_orphans = Rule == pair_rule::orphan_sets;  ///< whether it has a list of orphans
-    /// float or double, where the index lies, and the sets of its faces and edges.
-    ///@{
-    using scalar_type = T;
-    using memory_space = Space;
-    using mesh_type = moving_set<abut::mesh<T, Space>>;
-    using edges_type = moving_set<edge_mesh<T, Space>>;
-    ///@}
+    using scalar_type = T;                                                 ///< float or double
+    using memory_space = Space;                                            ///< where the memory lies
+    using mesh_type = moving_set<abut::mesh<T, Space>>;                    ///< the mesh in motion
+    using edges_type = moving_set<edge_mesh<T, Space>>;                    ///< its edges
     /// In the place of orphans, for rules without them.
     struct no_orphans {};
     /// The list of orphans.

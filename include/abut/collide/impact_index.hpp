@@ -27,14 +27,11 @@ template <scalar T, memory_space Space>
 class impact_index {
 public:
     static constexpr pair_rule rule = pair_rule::feature_trees;  ///< how pairs of features are found
-    /// float or double, where the index lies, and the sets of its faces, edges and vertices.
-    ///@{
-    using scalar_type = T;
-    using memory_space = Space;
-    using mesh_type = moving_set<abut::mesh<T, Space>>;
-    using edges_type = moving_set<edge_mesh<T, Space>>;
-    using vertices_type = moving_set<points<T, Space>>;
-    ///@}
+    using scalar_type = T;                                       ///< float or double
+    using memory_space = Space;                                  ///< where the memory lies
+    using mesh_type = moving_set<abut::mesh<T, Space>>;          ///< the mesh in motion
+    using edges_type = moving_set<edge_mesh<T, Space>>;          ///< its edges
+    using vertices_type = moving_set<points<T, Space>>;          ///< its vertices
 
     /// For make_impact_index: of trees over the features of one mesh, which is not checked.
     impact_index(bvh<mesh_type, Space> faces, bvh<edges_type, Space> edges, bvh<vertices_type, Space> vertices)

@@ -47,10 +47,12 @@ namespace abut {
 /// `std::optional` on the host.
 ///
 /// @par Errors
-/// `error` for a set or an index on another device, and where two meshes of one step do not go together. With `conservative`
-/// also for a separation that is negative or not finite, and for a tolerance that is negative or not a number.
-/// `capacity_error` for more than 2^31 features of a kind, and as of `edges`. `std::bad_alloc`; `cuda_error`. Poses are not
-/// taken: that does not compile.
+/// - `error`: a set or an index lies on another device, or two meshes of one step do not go together. With `conservative`
+///   also a separation that is negative or above the largest number of the scalar, and a tolerance that is negative or NaN.
+/// - `capacity_error`: more than 2^31 features of a kind, and as of `edges`.
+/// - `std::bad_alloc`, `cuda_error`.
+///
+/// Poses are not taken: that does not compile.
 ///
 /// @par Synchronisation
 /// Each call returns when its answer is complete; under `cuda` it waits for the policy's stream, several times.

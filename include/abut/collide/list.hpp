@@ -31,9 +31,10 @@ namespace abut {
 /// entry, then a, then b, unless the options say otherwise. The call takes a few hundred bytes an entry.
 ///
 /// @par Errors
-/// `invalid_geometry`, whose message names the entry, for a pose that is no rotation or whose placed coordinates overflow.
-/// `error` for an index on another device. `capacity_error` where the bits of a position and of two ids are more than 64:
-/// split the list then. `std::bad_alloc`; `cuda_error`.
+/// - `invalid_geometry`, whose message names the entry: a pose is no rotation, or placed coordinates overflow.
+/// - `error`: an index lies on another device.
+/// - `capacity_error`: the bits of a position and of two ids are more than 64. Split the list then.
+/// - `std::bad_alloc`, `cuda_error`.
 ///
 /// @par Synchronisation
 /// Each call returns when its answer is complete; under `cuda` it waits for the policy's stream.

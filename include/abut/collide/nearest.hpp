@@ -240,12 +240,14 @@ auto nearest_of(const Policy& on, const X& index, const Points& points, const ch
 
 }  // namespace detail
 
-/// For each of `points` the nearest shape of `index`, in the order of the points: a `result` of `neighbor`, which has the
-/// shape's id, the point on it and the distance. Of equal distances the least id. Where there are no shapes, `no_id`, the
-/// point asked about and infinity. `index` is a bvh of any layout, a grid, a set, a view
-/// or one shape, posed or not, of any shapes with `nearest_point` (triangles, segments, points, and solid spheres, capsules
-/// and boxes, in which the distance is 0). `points` is a set of points, a view, one point (vec3), or a vector or span of
-/// points in host memory (of another library's type as well: shape/rows.hpp).
+/// For each of `points` the nearest shape of `index`: a `result` of `neighbor`, in the order of the points. A neighbor has
+/// the shape's id, the point on it, and the distance. Of equal distances it has the least id. Where there are no shapes it
+/// has `no_id`, the point asked about, and infinity.
+///
+/// `index` is a bvh of any layout, a grid, a set, a view or one shape, posed or not. Its shapes have `nearest_point`:
+/// triangles, segments, points, and spheres, capsules and boxes, which are solid, so that the distance inside is 0. `points`
+/// is a set of points, a view, one point (vec3), or a vector or span of points in host memory, of another library's type as
+/// well (shape/rows.hpp).
 ///
 /// The same bits on every policy, for every index and any number of threads. Distances are computed in double; those that
 /// differ by less than docs/numerics.md says may be taken for each other. Without an index every point looks at every shape;
@@ -256,9 +258,10 @@ auto nearest_of(const Policy& on, const X& index, const Points& points, const ch
 /// policy's memory, 20 bytes a point in float and 40 in double.
 ///
 /// @par Errors
-/// `invalid_geometry` for views, single shapes and rows of points that hold no geometry, and for a pose that is no rotation;
-/// `error` for a set or an index on another device; `capacity_error` for 2^31 points or more in a view or a row;
-/// `std::bad_alloc`; `cuda_error`.
+/// - `invalid_geometry`: a view, a single shape or a row of points holds no geometry, or a pose is no rotation.
+/// - `error`: a set or an index lies on another device.
+/// - `capacity_error`: a view or a row has 2^31 elements or more.
+/// - `std::bad_alloc`, `cuda_error`.
 ///
 /// @par Synchronisation
 /// Returns when the answers are complete; under `cuda` it waits for the policy's stream.

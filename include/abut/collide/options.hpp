@@ -41,20 +41,22 @@ enum class argument : unsigned char {
     b           ///< the second one
 };
 
-/// The schedule of a traversal where none is asked for. On a device the shared list takes up to an eighth less time where there
-/// is work everywhere, and 40 times as much where most of it lies below a few pairs of nodes (docs/benchmarks.md); of the
-/// traversals that open one node at a time it is faster throughout. A host has no lazy stealing, and shares a list.
+/// The schedule of a traversal where none is asked for. A host has no lazy stealing, and shares a list instead. On a device
+/// the shared list takes up to an eighth less time where there is work everywhere, and 40 times as much where most of it
+/// lies below a few pairs of nodes (docs/benchmarks.md). For traversals that open one node at a time it is faster
+/// throughout.
 template <traversal Traversal>
 inline constexpr schedule default_schedule = Traversal == traversal::both_at_once || Traversal == traversal::from_front
                                                  ? schedule::lazy_work_stealing
                                                  : schedule::shared_list;
 
-/// Options of `any`, `count`, `pairs` and `for_each_pair`. Without a filter, `{.sorted = false}` will do in a call; with
+/// Options of `any`, `count`, `pairs` and `for_each_pair`. Without a filter, `{.sorted = false}` will do in a call. With
 /// one, write `query_options<my_filter>{.filter = my_filter{...}}`: clang 14 cannot deduce the argument of an aggregate.
+///
 /// How two trees are walked is a template argument, so that a program compiles what it asks for:
 /// `query_options<keep_all, traversal::larger_first>{}`. It is for queries of two indices made by make_bvh, posed or not;
-/// other queries take no notice of it. Who does what of that walk is another, of all traversals but breadth_first:
-/// `query_options<keep_all, traversal::both_at_once, schedule::work_stealing>{}`.
+/// other queries take no notice of it. Who does what of that walk is another template argument, of all traversals but
+/// breadth_first: `query_options<keep_all, traversal::both_at_once, schedule::work_stealing>{}`.
 template <class Filter = keep_all, traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
 struct query_options {
     /// Pairs sorted by a, then b. Without it their order is any, and may differ from call to call.

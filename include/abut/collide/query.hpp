@@ -86,11 +86,13 @@ void visit_pairs_of(const Policy& on, const Pairing& pairing, const Visitor& vis
 /// the options say otherwise; `to_host` copies it. `any`, `count` and `for_each_pair` store no pairs.
 ///
 /// @par Errors
-/// `invalid_geometry` for a view or a single shape with a number that is none, which are checked at each call, and for a
-/// pose that is no rotation or whose placed coordinates overflow. `error` for a set, a view or an index on another device,
-/// for a `start_depth` out of range, and for `traversal::from_front` without a front. `capacity_error` for a view of 2^31
-/// elements or more; `std::bad_alloc`; `cuda_error`. Two kinds of shapes that cannot be decided, and scalars that differ, do
-/// not compile.
+/// - `invalid_geometry`: a view or a single shape holds a number that is none, which is looked at in each call; a pose is no
+///   rotation; or placed coordinates overflow.
+/// - `error`: a set, a view or an index lies on another device; a `start_depth` is out of range; or `from_front` has none.
+/// - `capacity_error`: a view has 2^31 elements or more.
+/// - `std::bad_alloc`, `cuda_error`, and on a host what a filter or a visitor throws.
+///
+/// Two kinds of shapes that cannot be decided, and scalars that differ, do not compile.
 ///
 /// @par Synchronisation
 /// Each call returns when its answer is complete. Under `cuda` it waits for the policy's stream, and for no other. Any

@@ -302,13 +302,13 @@ auto extremes(const Policy& on, const contact<T>* all, std::size_t n, const cont
 
 }  // namespace detail
 
-/// A few of the contacts `all`, in the policy's memory and sorted by a, then b; none of none. Which ones does not depend on
-/// the policy, on threads or on the order of `all`: of contacts that are as good as each other the one with the smallest ids
-/// stays. They should be the contacts of one pair of bodies: positions and normals are all that is looked at, and depths
-/// play no part.
+/// A few of the contacts `all`, in the policy's memory and sorted by a, then b; none of none. They should be the contacts of
+/// one pair of bodies: positions and normals are looked at, and depths play no part. Which ones stay does not depend on the
+/// policy, on threads or on the order of `all`. Of contacts that are as good as each other the one with the smallest ids
+/// stays.
 ///
-/// `binning` brings positions to [-1, 1] about the middle of the box around them, by half its longest side, and cuts
-/// [-1, 1]^6 of positions and normals into `bins` cells an axis; of a cell stays the contact whose six numbers are farthest
+/// `binning` brings positions to [-1, 1], about the middle of the box around them and by half its longest side. It cuts
+/// [-1, 1]^6 of positions and normals into `bins` cells an axis. Of a cell the contact stays whose six numbers are farthest
 /// from 0. `extremes` keeps contacts whose wrench (normal, and its torque about that middle) reaches farthest.
 /// docs/contacts.md says how much of the cone of wrenches either keeps.
 ///

@@ -38,9 +38,11 @@ namespace abut {
 /// that are far apart cost one box each in a tree.
 ///
 /// @par Errors
-/// `invalid_geometry`, whose message names the body, for a pose that is no rotation or whose placed coordinates overflow.
-/// `error` for an index on another device. `capacity_error` for 2^31 bodies, or where the bits of the number of pairs of
-/// bodies whose boxes meet and of two ids are more than 64. `std::bad_alloc`; `cuda_error`.
+/// - `invalid_geometry`, whose message names the body: a pose is no rotation, or placed coordinates overflow.
+/// - `error`: an index lies on another device.
+/// - `capacity_error`: there are 2^31 bodies or more, or the bits of two ids and of the number of pairs of bodies whose
+///   boxes meet are more than 64.
+/// - `std::bad_alloc`, `cuda_error`.
 ///
 /// @par Synchronisation
 /// Each call returns when its answer is complete; under `cuda` it waits for the policy's stream, several times.

@@ -134,11 +134,11 @@ auto pair_up_faces(const Policy& on, const X& x, const self_options<Filter, Trav
 /// All pairs of shapes of `x` that touch, each once with a < b, in the policy's memory; sorted by a, then b, unless the
 /// options say otherwise. A shape is not paired with itself.
 ///
-/// Two faces of a mesh (a mesh, a mesh_view, an index over one) that share vertices, by the options' notion of it, are
-/// reported only if they meet in more: in a point that is no vertex that both name, and on no edge between two such
-/// vertices. So faces that fold onto each other in one plane are reported, neighbours are not. Faces of the same three
-/// vertices are reported if they have an area. A face that names a vertex twice, or whose corners lie on a line, is the
-/// segment or the point that it spans. With `filtered` and `exact` that is decided exactly, for every finite input.
+/// Two faces of a mesh that share vertices are reported only if they meet in more: in a point that is no vertex that both
+/// name, and on no edge between two such vertices. So faces that fold onto each other in one plane are reported, and
+/// neighbours are not. The options say which vertices are one. Faces of the same three vertices are reported if they have an
+/// area. A face that names a vertex twice, or whose corners lie on a line, is the segment or the point that it spans. With
+/// `filtered` and `exact` all of that is decided exactly, for every finite input.
 ///
 /// The answer does not depend on the policy, the thread count or the index.
 ///

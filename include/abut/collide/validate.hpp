@@ -314,8 +314,10 @@ auto mesh_to_validate(const Policy& on, const Mesh& mesh) {
 /// memory. Scratch takes 84 bytes a face and 16 a vertex.
 ///
 /// @par Errors
-/// `capacity_error` for 2^31 vertices or for more than 1,431,655,765 faces, whose 3F half-edges have 32 bits for their
-/// numbers; `error` for a set or a view on another device; `std::bad_alloc`; `cuda_error`.
+/// - `capacity_error`: 2^31 vertices or more, or more than 1,431,655,765 faces, whose half-edges have 32 bits for their
+///   numbers.
+/// - `error`: a set or a view lies on another device.
+/// - `std::bad_alloc`, `cuda_error`.
 ///
 /// @par Synchronisation
 /// Returns when the report is complete; under `cuda` it waits for the policy's stream.

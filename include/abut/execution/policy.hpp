@@ -83,8 +83,10 @@ namespace abut {
 /// the sets, indices and results made in it.
 ///
 /// @par Errors
-/// `cuda_error` for a CUDA call that fails, and `std::bad_alloc` where memory runs out, on the host or on a device. An error
-/// that a kernel of an earlier call caused may be reported by a later one. `serial` and `openmp` add no errors of their own.
+/// - `cuda_error`: a CUDA call failed. What went wrong in a kernel may be reported by a later call.
+/// - `std::bad_alloc`: memory ran out, on the host or on a device.
+///
+/// `serial` and `openmp` add no errors of their own.
 ///
 /// @par Synchronisation
 /// A call that returns a result returns when that is complete: under `cuda` the calling thread waits for the policy's

@@ -33,11 +33,8 @@ struct alignas(sizeof(typename detail::volume_scalar<V>::type) == 4 ? 64 : 16) b
 /// A view of a tree of volumes. `bounds` is of the box along the axes around a volume, which is made anew each time.
 template <bounding_volume V, memory_space Space>
 struct bounded_view : bvh_view_base<typename detail::volume_scalar<V>::type, Space, bounded_node<V>> {
-    /// A volume, and a node as walks read it.
-    ///@{
-    using volume_type = V;
-    using node_type = bounded_node<V>;
-    ///@}
+    using volume_type = V;                 ///< a volume
+    using node_type = bounded_node<V>;     ///< a node, as walks read it
     static constexpr bool nested = false;  ///< a volume need not hold those of the children
 
     /// Node, volume, box and child by number, as bvh_layout says. On hosts and devices.
@@ -131,14 +128,15 @@ struct some_triangles {
 ///@{
 
 /// A tree of volumes V of the same topology, for triangles, segments and points, at rest or in motion. It shares the set and
-/// nothing else; the one it was made of may go. Each volume is as small as one made around all triangles in it. Oriented
-/// boxes and spheres are made so, in time proportional to the number of shapes times the depth of the tree: some thirty and
-/// seventy linear builds. kdop and aabb are merged from below, in linear time: some ten. For a device it is made on all
-/// threads of the host, of a copy of the tree, and brought there. Returns when it is done. Throws error (a tree on another
-/// device), std::bad_alloc, cuda_error.
+/// nothing else; the one it was made of may go. Each volume is as small as one made around all triangles in it.
 ///
-/// Two trees of one kind of volume are told apart by these, but of kdop under a pose by the boxes along the axes. Such boxes
-/// are what a tree of volumes stands for together with anything else, slowly where they have to be made at each look.
+/// Oriented boxes and spheres are made so, in time proportional to the number of shapes times the depth of the tree: some
+/// thirty and seventy linear builds. kdop and aabb are merged from below, in linear time: some ten. For a device the tree is
+/// made on all threads of the host, of a copy, and brought there. Throws error (a tree on another device), std::bad_alloc,
+/// cuda_error.
+///
+/// Two trees of one kind of volume are told apart by these, but of kdop under a pose by the boxes along the axes. Together
+/// with anything else a tree of volumes stands for such boxes. Where they have to be made at each look, that is slow.
 ///
 ///     const auto better = abut::make_bvh(on, mesh, {.builder = abut::bvh_builder::sah});
 ///     const auto tree = abut::bounded_by<abut::kdop<float, 18>>(on, better);

@@ -200,9 +200,10 @@ concept bvh_layout_kind = requires(const typename L::template storage<float, hos
 /// outlive it. Indices are immutable, and copies share their storage. Under `cuda` the policy's stream has to outlive them.
 ///
 /// @par Errors
-/// `invalid_geometry` for views and single shapes that hold no geometry; sets were checked when they were made. `error` for
-/// options that are none, for a set, a view or an index on another device, and as each function says. `capacity_error` for a
-/// view of 2^31 elements or more; `std::bad_alloc`; `cuda_error`.
+/// - `invalid_geometry`: a view or a single shape holds no geometry. Sets were checked when they were made.
+/// - `error`: an option is none; a set, a view or an index lies on another device; and as each function says.
+/// - `capacity_error`: a view has 2^31 elements or more.
+/// - `std::bad_alloc`, `cuda_error`.
 ///
 /// @par Synchronisation
 /// Each call returns when its index is complete; under `cuda` it waits for the policy's stream. Then any stream of that
@@ -235,16 +236,13 @@ struct bvh_options {
 template <class Set, memory_space Space, bvh_layout_kind Layout = standard_layout>
 class bvh {
 public:
-    /// The set, float or double, a shape, where the tree lies, how it lies there, its view, and what owns its nodes.
-    ///@{
-    using set_type = Set;
-    using scalar_type = typename Set::scalar_type;
-    using shape_type = typename Set::shape_type;
-    using memory_space = Space;
-    using layout_type = Layout;
-    using view_type = typename Layout::template view<scalar_type, Space>;
-    using storage = typename Layout::template storage<scalar_type, Space>;
-    ///@}
+    using set_type = Set;                                                   ///< the set
+    using scalar_type = typename Set::scalar_type;                          ///< float or double
+    using shape_type = typename Set::shape_type;                            ///< what a shape is
+    using memory_space = Space;                                             ///< where the memory lies
+    using layout_type = Layout;                                             ///< how the tree lies in memory
+    using view_type = typename Layout::template view<scalar_type, Space>;   ///< what algorithms read
+    using storage = typename Layout::template storage<scalar_type, Space>;  ///< what owns the nodes
 
     /// For builders: of a set and the nodes over it, which are not checked.
     bvh(Set set, std::shared_ptr<const storage> tree) : set_(std::move(set)), tree_(std::move(tree)) {}

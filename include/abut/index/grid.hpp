@@ -80,11 +80,8 @@ struct grid_item {
 /// A trivially copyable view of a grid.
 template <scalar T, memory_space Space>
 struct grid_view {
-    /// float or double, and where the cells lie.
-    ///@{
-    using scalar_type = T;
-    using memory_space = Space;
-    ///@}
+    using scalar_type = T;                                                   ///< float or double
+    using memory_space = Space;                                              ///< where the memory lies
     static constexpr std::uint64_t no_key = static_cast<std::uint64_t>(-1);  ///< the key of a free slot
 
     const grid_frame<T>* frame = nullptr;   ///< one
@@ -115,14 +112,11 @@ struct grid_view {
 template <class Set, memory_space Space>
 class grid {
 public:
-    /// The set, float or double, a shape, where the grid lies, and its view.
-    ///@{
-    using set_type = Set;
-    using scalar_type = typename Set::scalar_type;
-    using shape_type = typename Set::shape_type;
-    using memory_space = Space;
-    using view_type = grid_view<scalar_type, Space>;
-    ///@}
+    using set_type = Set;                             ///< the set
+    using scalar_type = typename Set::scalar_type;    ///< float or double
+    using shape_type = typename Set::shape_type;      ///< what a shape is
+    using memory_space = Space;                       ///< where the memory lies
+    using view_type = grid_view<scalar_type, Space>;  ///< what algorithms read
 
     /// What owns the cells, as grid_view reads them; all empty where there are no shapes.
     struct storage {

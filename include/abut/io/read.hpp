@@ -32,9 +32,10 @@ namespace abut::io {
 /// reader allocates no more than its content can fill. Writers take the caller's arrays as they are, through a buffer.
 ///
 /// @par Errors
-/// `io_error` names the file, the line or the byte, what was expected and what was found: a file that cannot be opened, read
-/// or written in full, an extension that is none of these, content that is malformed or truncated. Readers that return a set
-/// also throw `capacity_error` for 2^31 elements or more. `std::bad_alloc`.
+/// - `io_error`: a file cannot be opened, read or written in full; its extension is none of these; or its content is
+///   malformed or truncated. The message names the file, the line or the byte, what was expected and what was found.
+/// - `capacity_error`: a reader that returns a set found 2^31 elements or more.
+/// - `std::bad_alloc`.
 ///
 /// @par Synchronisation
 /// All run on the calling thread and return when they are done; a writer has closed its file then. Threads may read and

@@ -245,10 +245,10 @@ ABUT_HD constexpr point middle_of(const two_points& p) {
 
 }  // namespace detail::contact_math
 
-/// The rounding that is left in a contact of these two shapes, as a distance: its point is no farther than this from either
-/// shape; its depth is no farther than this from what it stands for; and a moved by depth + bound along the normal, each
-/// coordinate rounded, is apart from b. 32 units of roundoff (float: 2^-19, double: 2^-48) of the largest magnitude among
-/// the shapes' coordinates and radii, and 16 times the least positive number.
+/// The rounding that is left in a contact of these two shapes, as a distance. The contact's point is no farther than this
+/// from either shape. Its depth is no farther than this from what it stands for. Moved by depth + bound along the normal,
+/// each coordinate rounded, a is apart from b. It is 32 units of roundoff (float: 2^-19, double: 2^-48) of the largest
+/// magnitude among the shapes' coordinates and radii, and 16 times the least positive number.
 template <class S, class U>
 [[nodiscard]] ABUT_HD constexpr auto contact_bound(const S& s, const U& t) {
     auto largest = detail::greatest(detail::contact_math::magnitude_of(s), detail::contact_math::magnitude_of(t));

@@ -42,9 +42,9 @@ ABUT_HD constexpr feature_weights weights_in_face(const vec3<double>& u, const v
 
 }  // namespace detail
 
-/// Where two moving features touch at `time`, which is a time of impact of theirs: the vertex is where the face's corners
-/// have it with these weights, and the two edges' points are one, as far as the time and double precision tell. At another
-/// time, or of features that do not touch, weights of points that are near each other. On hosts and devices.
+/// Where two moving features touch at `time`, which is a time of impact of theirs. The vertex is where the face's corners
+/// have it with these weights, or the points of the two edges are one, as far as the time and double precision tell. At
+/// another time, or of features that do not touch, the weights are of points that are near each other. On hosts and devices.
 ///
 ///     const auto w = abut::weights_at(vertex, face, abut::time_of_impact(vertex, face));
 /// @ingroup one_pair

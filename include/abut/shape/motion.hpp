@@ -46,12 +46,9 @@ auto elements_of(const V& v) {
 /// @ingroup motion
 template <shape_view V>
 struct moving_view {
-    /// float or double, the type of a shape in motion, and where the views' memory lies.
-    ///@{
-    using scalar_type = typename V::scalar_type;
-    using shape_type = motion<typename V::shape_type>;
-    using memory_space = typename V::memory_space;
-    ///@}
+    using scalar_type = typename V::scalar_type;        ///< float or double
+    using shape_type = motion<typename V::shape_type>;  ///< what a shape is
+    using memory_space = typename V::memory_space;      ///< where the memory lies
 
     V t0;  ///< where shapes are at t = 0
     V t1;  ///< where they are at t = 1
@@ -72,13 +69,10 @@ struct moving_view {
 template <shape_set Set>
 class moving_set {
 public:
-    /// float or double, the type of a shape in motion, where the set's memory lies, and its view.
-    ///@{
-    using scalar_type = typename Set::scalar_type;
-    using shape_type = motion<typename Set::shape_type>;
-    using memory_space = typename Set::memory_space;
-    using view_type = moving_view<typename Set::view_type>;
-    ///@}
+    using scalar_type = typename Set::scalar_type;           ///< float or double
+    using shape_type = motion<typename Set::shape_type>;     ///< what a shape is
+    using memory_space = typename Set::memory_space;         ///< where the memory lies
+    using view_type = moving_view<typename Set::view_type>;  ///< what algorithms read
 
     /// A set without shapes.
     moving_set() = default;
@@ -184,7 +178,8 @@ void check(const Policy& on, const moving_view<V>& view, const char* function) {
 
 /// A set in motion: shape i moves from where it is in `t0` to where it is in `t1`, each of its points in a straight line at
 /// constant speed, t from 0 to 1. An argument of queries and of make_bvh and refit like any set. The two sets have as many
-/// shapes, and meshes and edge meshes the same faces or edges, in the same order; nothing is copied.
+/// shapes, and meshes and edge meshes the same faces or edges, in the same order; nothing is copied. They lie on one device:
+/// that is not checked.
 ///
 /// Throws error where they do not go together. Faces that the two sets do not share (`with_vertices` shares them) are
 /// compared, which reads both to the host, and then std::bad_alloc and cuda_error as well. Returns when that is done.

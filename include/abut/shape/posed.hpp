@@ -21,11 +21,8 @@ namespace abut {
 /// A set or an index, and its pose. Shares the object's storage, as a copy of it does.
 template <class Object>
 struct posed_object {
-    /// float or double, and where the object's memory lies.
-    ///@{
-    using scalar_type = typename Object::scalar_type;
-    using memory_space = typename Object::memory_space;
-    ///@}
+    using scalar_type = typename Object::scalar_type;    ///< float or double
+    using memory_space = typename Object::memory_space;  ///< where the memory lies
 
     Object object;            ///< in its own frame
     rigid<scalar_type> pose;  ///< from that frame to the world's
@@ -68,13 +65,16 @@ template <class Object>
 inline constexpr bool is_posed<posed_object<Object>> = true;
 ///@}
 
-/// `object` (a set, a view of one, a bvh, a grid, or one shape) moved by `pose`, as an argument of queries. What touches is
-/// decided exactly, about shapes whose points `place` has rounded to the world's coordinates: the pose's numbers as they are
-/// define where these lie, also of a rotation that is not quite orthonormal, which stretches or shears a mesh as much as it
-/// is off. Radii stay. Queries throw invalid_geometry where two rows' product is off from 0, or from 1 of a row with itself,
-/// by more than `rotation_tolerance` (2^-10), where the rotation reflects, and where a placed coordinate overflows;
-/// `orthonormalised` makes a rotation of a matrix that is refused, and queries cull best with one that is orthonormal to the
-/// last places. Of a posed object make one with the composed pose: `compose`.
+/// `object`, moved by `pose`, as an argument of queries: a set, a view of one, a bvh, a grid, or one shape. Nothing is
+/// copied but what a copy of the object copies.
+///
+/// What touches is decided exactly, about shapes whose points `place` has rounded to the world's coordinates. The pose's
+/// numbers as they are define where these lie. A rotation that is not quite orthonormal stretches or shears a mesh as much
+/// as it is off. Radii stay. Of a posed object make one with the composed pose: `compose`.
+///
+/// Nothing is thrown here. Queries throw invalid_geometry where the product of two rows is off from 0, or that of a row with
+/// itself from 1, by more than `rotation_tolerance` (2^-10). They also do so where the rotation reflects, and where a placed
+/// coordinate overflows. `orthonormalised` makes a rotation of a matrix that is refused.
 template <class Object>
     requires(!is_posed<Object>)
 [[nodiscard]] posed_object<Object> posed(Object object, const rigid<scalar_type_of<Object>>& pose) {
@@ -86,12 +86,9 @@ template <class Object>
 /// The placed shapes of a view.
 template <shape_view V>
 struct posed_view {
-    /// float or double, the type of a shape, and where the view's memory lies.
-    ///@{
-    using scalar_type = typename V::scalar_type;
-    using shape_type = typename V::shape_type;
-    using memory_space = typename V::memory_space;
-    ///@}
+    using scalar_type = typename V::scalar_type;    ///< float or double
+    using shape_type = typename V::shape_type;      ///< what a shape is
+    using memory_space = typename V::memory_space;  ///< where the memory lies
 
     V shapes;                 ///< in the frame of their object
     rigid<scalar_type> pose;  ///< from that frame to the world's

@@ -75,14 +75,18 @@ struct set_parts;
 /// checked when it is made and never changes after that. Empty sets are legal.
 ///
 /// @par Memory
-/// A constructor copies its input from host memory to that of the policy, or to the host's where no policy is given. Copies
-/// of a set share the storage, which lives as long as a set or an index uses it. `copy_to` brings a set to another memory.
-/// Under `cuda` the stream that it was made in has to outlive it.
+/// A constructor copies its input from host memory to that of the policy, or to the host's where no policy is given. Input
+/// is vectors and spans of the library's types, or another library's array of the same numbers (shape/rows.hpp). Copies of a
+/// set share the storage, which lives as long as a set or an index uses it. `copy_to` brings a set to another memory. Under
+/// `cuda` the stream that it was made in has to outlive it.
 ///
 /// @par Errors
-/// `invalid_geometry` with the first bad element's index and value: a coordinate that is not finite, a radius that is
-/// negative, a vertex index out of range, a box inside out. `capacity_error` for 2^31 elements or more; `std::bad_alloc`;
-/// `cuda_error`.
+/// - `invalid_geometry`, with the index and the value of the first bad element: a coordinate is not finite, a radius is
+///   negative, a vertex index is out of range, a box is inside out.
+/// - `error`: plain numbers of another library's array are no multiple of what a shape takes, or its elements only point to
+///   their numbers; `with_vertices` got another number of vertices.
+/// - `capacity_error`: there are 2^31 elements or more.
+/// - `std::bad_alloc`, `cuda_error`.
 ///
 /// @par Synchronisation
 /// Each constructor and function returns when its set is complete and checked; under `cuda` it waits for the policy's
@@ -96,13 +100,10 @@ struct set_parts;
 template <shape Shape, memory_space Space = host_space>
 class shapes {
 public:
-    /// float or double, the type of a shape, where the memory lies, and the view.
-    ///@{
-    using scalar_type = scalar_type_of<Shape>;
-    using shape_type = Shape;
-    using memory_space = Space;
-    using view_type = shapes_view<Shape, Space>;
-    ///@}
+    using scalar_type = scalar_type_of<Shape>;    ///< float or double
+    using shape_type = Shape;                     ///< what a shape is
+    using memory_space = Space;                   ///< where the memory lies
+    using view_type = shapes_view<Shape, Space>;  ///< what algorithms read
 
     /// Without shapes.
     shapes() = default;
@@ -176,13 +177,10 @@ using boxes = shapes<aabb<T>, Space>;
 template <scalar T, memory_space Space = host_space>
 class equal_spheres {
 public:
-    /// float or double, the type of a shape, where the memory lies, and the view.
-    ///@{
-    using scalar_type = T;
-    using shape_type = sphere<T>;
-    using memory_space = Space;
-    using view_type = equal_spheres_view<T, Space>;
-    ///@}
+    using scalar_type = T;                           ///< float or double
+    using shape_type = sphere<T>;                    ///< what a shape is
+    using memory_space = Space;                      ///< where the memory lies
+    using view_type = equal_spheres_view<T, Space>;  ///< what algorithms read
 
     /// Without spheres.
     equal_spheres() = default;
@@ -265,13 +263,10 @@ class indexed_set {
     using vertex = vec3<typename View::scalar_type>;
 
 public:
-    /// float or double, the type of a shape, where the memory lies, and the view.
-    ///@{
-    using scalar_type = typename View::scalar_type;
-    using shape_type = typename View::shape_type;
-    using memory_space = typename View::memory_space;
-    using view_type = View;
-    ///@}
+    using scalar_type = typename View::scalar_type;    ///< float or double
+    using shape_type = typename View::shape_type;      ///< what a shape is
+    using memory_space = typename View::memory_space;  ///< where the memory lies
+    using view_type = View;                            ///< what algorithms read
 
     /// Without vertices and without faces or edges.
     indexed_set() = default;
@@ -321,7 +316,8 @@ public:
 
     /// A set with the same faces or edges, whose storage it shares, over other vertices, as many: where a mesh is at another
     /// time. Copies the vertices from host memory to the policy's, checks them there and returns when that is done. Throws
-    /// error for another number of vertices, invalid_geometry, std::bad_alloc, cuda_error.
+    /// error for another number of vertices, invalid_geometry, std::bad_alloc, cuda_error. The policy works on the device
+    /// that the set lies on: that is not checked.
     template <execution_policy Policy>
         requires std::same_as<space_of<Policy>, memory_space>
     [[nodiscard]] indexed_set with_vertices(const Policy& on, std::span<const vertex> vertices) const {

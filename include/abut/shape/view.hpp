@@ -74,12 +74,9 @@ ABUT_HD const std::uint32_t* corners_at(const strided<std::array<std::uint32_t, 
 /// Shapes as they are, each with all its numbers: triangles that share nothing, spheres each with its own radius, any shape.
 template <shape Shape, memory_space Space = host_space>
 struct shapes_view {
-    /// float or double, the type of a shape, and where the memory lies.
-    ///@{
-    using scalar_type = scalar_type_of<Shape>;
-    using shape_type = Shape;
-    using memory_space = Space;
-    ///@}
+    using scalar_type = scalar_type_of<Shape>;  ///< float or double
+    using shape_type = Shape;                   ///< what a shape is
+    using memory_space = Space;                 ///< where the memory lies
 
     detail::strided<Shape> shapes;  ///< first one, number and stride
 
@@ -126,12 +123,9 @@ using boxes_view = shapes_view<aabb<T>, Space>;
 /// Triangles as faces over shared vertices.
 template <scalar T, memory_space Space = host_space>
 struct mesh_view {
-    /// float or double, the type of a shape, and where the memory lies.
-    ///@{
-    using scalar_type = T;
-    using shape_type = triangle<T>;
-    using memory_space = Space;
-    ///@}
+    using scalar_type = T;           ///< float or double
+    using shape_type = triangle<T>;  ///< what a shape is
+    using memory_space = Space;      ///< where the memory lies
 
     detail::strided<vec3<T>> vertices;  ///< first one, number and stride
     detail::strided<face> faces;        ///< likewise
@@ -169,12 +163,9 @@ struct mesh_view {
 /// Segments as edges over shared vertices.
 template <scalar T, memory_space Space = host_space>
 struct edge_mesh_view {
-    /// float or double, the type of a shape, and where the memory lies.
-    ///@{
-    using scalar_type = T;
-    using shape_type = segment<T>;
-    using memory_space = Space;
-    ///@}
+    using scalar_type = T;          ///< float or double
+    using shape_type = segment<T>;  ///< what a shape is
+    using memory_space = Space;     ///< where the memory lies
 
     detail::strided<vec3<T>> vertices;  ///< first one, number and stride
     detail::strided<edge> edges;        ///< likewise
@@ -212,12 +203,9 @@ struct edge_mesh_view {
 /// Spheres of one radius, which is stored once.
 template <scalar T, memory_space Space = host_space>
 struct equal_spheres_view {
-    /// float or double, the type of a shape, and where the memory lies.
-    ///@{
-    using scalar_type = T;
-    using shape_type = sphere<T>;
-    using memory_space = Space;
-    ///@}
+    using scalar_type = T;         ///< float or double
+    using shape_type = sphere<T>;  ///< what a shape is
+    using memory_space = Space;    ///< where the memory lies
 
     detail::strided<vec3<T>> centers;  ///< first one, number and stride
     T radius = 0;                      ///< of all, 0 or more
@@ -249,12 +237,9 @@ struct equal_spheres_view {
 /// One shape, which the view carries: a set of one in any memory.
 template <shape Shape, memory_space Space = host_space>
 struct single_view {
-    /// float or double, the type of a shape, and where the memory lies.
-    ///@{
-    using scalar_type = scalar_type_of<Shape>;
-    using shape_type = Shape;
-    using memory_space = Space;
-    ///@}
+    using scalar_type = scalar_type_of<Shape>;  ///< float or double
+    using shape_type = Shape;                   ///< what a shape is
+    using memory_space = Space;                 ///< where the memory lies
 
     Shape shape;  ///< the one
 

@@ -78,12 +78,12 @@ mesh<T, Space> weld(const Policy& on, const mesh_view<T, Space>& mesh) {
 /// @addtogroup sets
 ///@{
 
-/// The same mesh with one vertex for each place, in the policy's memory: of vertices with equal coordinates (-0.0 equals
-/// 0.0) the one with the least index stays, and vertices keep their order, those of no face too. Faces keep theirs and name
-/// the vertices that stayed; a face whose corners were in one place names one twice, and is kept, so that ids of faces mean
-/// what they meant. The same on every policy.
+/// The same mesh with one vertex for each place, in the policy's memory. Of vertices with equal coordinates (-0.0 equals
+/// 0.0) the one with the least index stays. Vertices keep their order, those of no face too. Faces keep theirs and name the
+/// vertices that stayed. A face whose corners were in one place names one twice, and is kept, so that ids of faces mean what
+/// they meant. The same on every policy.
 ///
-/// Returns when the mesh is there; scratch takes up to 60 bytes a vertex. Throws std::bad_alloc and cuda_error.
+/// Scratch takes up to 60 bytes a vertex. Throws std::bad_alloc and cuda_error.
 ///
 ///     const auto pairs = abut::self_pairs(on, abut::make_bvh(on, abut::welded(on, mesh)));
 template <execution_policy Policy, scalar T, memory_space Space>
