@@ -16,7 +16,7 @@ from report_tables import ANY_SCENES, ARITHMETICS, BUILDERS, INPUTS, LITERATURE,
 
 GREY = "#888888"
 COLOURS = {"fast": "#d9773f", "filtered": "#3f8fd9", "exact": "#3fa66b", "resolve": "#b05fc7", "conservative": "#c7a52e"}
-SERIES = ("#3f8fd9", "#d9773f", "#3fa66b", "#b05fc7", "#c7a52e", "#d9587f", "#5fb8b8")
+SERIES = ("#3f8fd9", "#d9773f", "#3fa66b", "#b05fc7", "#c7a52e", "#d9587f", "#5fb8b8", "#8f7ee0")
 MARKS = {"random": "o", "touching": "X", "lattice": "s"}
 PLOTS = {}
 

@@ -17,13 +17,6 @@ def in_table(name):
     return add
 
 
-def in_value(name):
-    def add(make):
-        VALUES[name] = make
-        return make
-    return add
-
-
 def programs(results):
     """The sources that can have made each of the committed results."""
     found = []
@@ -635,6 +628,27 @@ def sizes(results):
         made_on(results["cpu/meshes"]) + made_on(results["cuda/meshes"])
 
 
+# --- reduction of contacts --------------------------------------------------------------------------------------------------
+
+def kept(r, name):
+    return f"{r.get(name, 'share'):.3f} ({r.get(name, 'worst'):.3f})"
+
+
+@in_table("reduction")
+def reduction(results):
+    r = results["cpu/reduce_contacts"]
+    rows = [[f"{scene.replace('_', ' ')}, {whole(r.get(f'{scene}/binning/4', 'contacts'))} contacts", method] +
+            [kept(r, f"{scene}/{method}/{n}") for n in (4, 8, 16, 32)] for scene in r.parts("", 0) for method in ("binning", "extremes")]
+    return table(["scene", "method", "4", "8", "16", "32"], rows, 2) + made_on(r)
+
+
+@in_table("reduction-bins")
+def reduction_bins(results):
+    r = results["cpu/reduce_contacts"]
+    rows = [[name.split("/")[0].replace("_", " "), name.split("/")[2], whole(r.get(name, "kept")), kept(r, name)] for name in r.rows if "/bins/" in name]
+    return table(["scene", "bins", "contacts", "share kept (worst loss)"], rows) + made_on(r)
+
+
 # --- builders and layouts ---------------------------------------------------------------------------------------------------
 
 BUILDERS = ("linear", "mean_split", "sah", "ploc")
@@ -1043,3 +1057,35 @@ def cost_motion(results):
     return paragraph(f"""In motion: a cloth of {whole(cuda.get(f'{at}/build', 'faces'))} triangles that folds over a ball, one step of a
         simulation against itself, {whole(cuda.get(f'{at}/impacts', 'impacts'))} impacts with exact times: {shown(cpu.get('stage/cloth-ball/float/self_impacts'))}
         ms on one core, {shown(cuda.get(f'{at}/frame'))} ms with the refit on the {cuda.context['device']}.""")
+
+
+# --- docs/choosing.md -------------------------------------------------------------------------------------------------------
+
+def choosing():
+    """Values that are times of single rows."""
+    rows = {"openmp": ("cpu/meshes", "pairs/posed/openmp"), "serial": ("cpu/meshes", "pairs/posed/serial"),
+            "cuda": ("cuda/meshes", "pairs/posed/cuda"), "cuda-small": ("cuda/meshes_2766", "pairs/posed/cuda"),
+            "two-trees": ("cpu/builders", "pairs/posed/linear/standard"), "one-tree": ("cpu/builders", "one_sided/linear/standard"),
+            "both-at-once": ("cpu/descents", "walk/linear/both_at_once"), "larger-first": ("cpu/descents", "walk/linear/larger_first")}
+    for builder in BUILDERS:
+        name = builder.replace("_", "-")
+        rows[f"{name}-build"] = ("cpu/builders", f"build/{builder}/serial")
+        rows[name] = ("cpu/builders", f"pairs/posed/{builder}/standard")
+    for layout in ("standard", "wide", "oriented", "quantised", "leafless"):
+        rows[layout] = ("cpu/builders", f"pairs/posed/sah/{layout}")
+    for name, (source, row) in rows.items():
+        VALUES[f"choosing-{name}"] = lambda results, s=source, n=row: needed(results[s].get(n))
+    for a in ARITHMETICS:
+        for kind in ("random", "touching"):
+            VALUES[f"choosing-{a}-{kind}"] = lambda results, n=f"triangle_triangle/{kind}/float/{a}": needed(results["cpu/trade"].get(n, "ns"))
+        VALUES[f"choosing-{a}-wrong"] = lambda results, n=f"triangle_triangle/touching/float/{a}": whole(
+            results["cpu/trade"].get(n, "wrong_per_million"))
+
+
+def needed(value):
+    if value is None:
+        raise KeyError("a row")
+    return shown(value)
+
+
+choosing()
