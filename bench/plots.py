@@ -247,29 +247,37 @@ def scaling_triangles(results):
 
 @plot("scaling-meshes")
 def scaling_meshes(results):
-    figure, axes = grid(2, 2, height=3.8)
-    n = [int(s) for s in SIZES]
-    theirs = [LITERATURE["backman_2011"]["sizes"][s] for s in SIZES]
-    for key, label, mark in (("cpu", "Bäckman 2011, processor", "o"), ("gpu", "Bäckman 2011, 8800 GTS", "s")):
-        axes[0].plot(n, [t[f"middle_{key}_ms"] + t[f"near_{key}_ms"] for t in theirs], mark, color=GREY, fillstyle="none", markersize=7, label=label)
-    cpu, cuda = [of_size(results, "cpu", s) for s in SIZES], [of_size(results, "cuda", s) for s in SIZES]
-    for index, (label, rows, name) in enumerate((("pairs, one core", cpu, "pairs/posed/serial"), ("pairs, device", cuda, "pairs/posed/cuda"),
-                                                 ("contacts, device", cuda, "contacts/posed/cuda"), ("build, one core", cpu, "build/bvh/serial"))):
-        axes[0].plot(n, [r.get(name) for r in rows], color=SERIES[index], marker=".", label=f"abut: {label}")
-    log_log(axes[0], "triangles of each of two meshes", "ms")
-    axes[0].legend(fontsize=7.5)
-    axes[0].set_title("Both phases, meshes under a pose")
+    figure, axes = grid(3, 3, height=3.6)
+    n, theirs = [int(s) for s in SIZES], [LITERATURE["backman_2011"]["sizes"][s] for s in SIZES]
+    for axis, phase, title in zip(axes, ("middle", "near"), ("Middle phase, posed", "Near phase, posed")):
+        for key, label, mark in (("cpu", "Bäckman 2011, processor", "o"), ("gpu", "Bäckman 2011, 8800 GTS", "s")):
+            axis.plot(n, [t[f"{phase}_{key}_ms"] for t in theirs], mark, color=GREY, fillstyle="none", markersize=6, label=label)
+        index = 0
+        for kind, policy, where in (("cpu", "serial", "one core"), ("cuda", "cuda", "device")):
+            rows = [of_size(results, kind, s) for s in SIZES]
+            walk = [r.get(f"boxes/posed/{policy}") for r in rows]
+            if phase == "middle":
+                axis.plot(n, walk, color=SERIES[index], marker=".", label=f"abut: walk, {where}")
+                index += 1
+                continue
+            for query in ("pairs", "contacts"):  # what is beyond the walk
+                axis.plot(n, [max(r.get(f"{query}/posed/{policy}") - w, 1e-3) for r, w in zip(rows, walk)], color=SERIES[index], marker=".",
+                          label=f"abut: {query}, {where}")
+                index += 1
+        log_log(axis, "triangles of each mesh", "ms")
+        axis.set_title(title)
+        axis.legend(fontsize=6.5)
     depths = LITERATURE["backman_2011"]["box_tests_per_depth_345944"]
-    axes[1].plot([int(d) for d in depths], list(depths.values()), "o", color=GREY, fillstyle="none", label="Bäckman 2011")
+    axes[2].plot([int(d) for d in depths], list(depths.values()), "o", color=GREY, fillstyle="none", label="Bäckman 2011")
     r = results["cpu/descents"]
     for index, builder in enumerate(r.parts("walk/", 1)):
         points = sorted((int(name.split("/")[2]), r.get(name, "boxes")) for name in r.names(f"depth/{builder}/"))
-        axes[1].plot(*zip(*points), color=SERIES[index], marker=".", label=f"abut, {builder}")
-    axes[1].set_yscale("log")
-    axes[1].set_xlabel("depth")
-    axes[1].set_ylabel("tests of boxes")
-    axes[1].legend(fontsize=8)
-    axes[1].set_title("345,944 triangles: tests of boxes per depth")
+        axes[2].plot(*zip(*points), color=SERIES[index], marker=".", label=f"abut, {builder}")
+    axes[2].set_yscale("log")
+    axes[2].set_xlabel("depth")
+    axes[2].set_ylabel("tests of boxes")
+    axes[2].legend(fontsize=6.5)
+    axes[2].set_title("Tests per depth, 345,944 triangles")
     return figure
 
 

@@ -614,18 +614,21 @@ def of_size(results, kind, n):
 
 @in_table("sizes")
 def sizes(results):
-    rows = []
-    for n in SIZES:
-        theirs = LITERATURE["backman_2011"]["sizes"][n]
-        cpu, cuda = of_size(results, "cpu", n), of_size(results, "cuda", n)
-        rows.append([f"{int(n):,}", shown(theirs["middle_cpu_ms"] + theirs["near_cpu_ms"]),
-                     shown(theirs["middle_gpu_ms"] + theirs["near_gpu_ms"])] +
-                    [shown(v) for v in (cpu.get("build/bvh/serial"), cuda.get(f"build/bvh/cuda/{n}"), cpu.get("pairs/baked/serial"),
-                                        cuda.get("pairs/baked/cuda"), cpu.get("pairs/posed/serial"), cuda.get("pairs/posed/cuda"),
-                                        cuda.get("contacts/posed/cuda"))])
-    return table(["triangles, ms", "source, processor", "source, GPU", "build: one core", "device", "pairs, baked: one core", "device",
-                  "posed: one core", "device", "contacts, posed: device"], rows) + \
-        made_on(results["cpu/meshes"]) + made_on(results["cuda/meshes"])
+    lines = []
+    for title, phase, rows_of in (
+            ("Middle phase, the walk of two trees, and the build of one, in ms", "middle", (
+                ("walk: one core", "cpu", "boxes/posed/serial"), ("device", "cuda", "boxes/posed/cuda"),
+                ("build: one core", "cpu", "build/bvh/serial"), ("device", "cuda", "build/bvh/cuda/{}"))),
+            ("Near phase, in ms; of ours both phases together", "near", (
+                ("pairs: one core", "cpu", "pairs/posed/serial"), ("device", "cuda", "pairs/posed/cuda"),
+                ("contacts: one core", "cpu", "contacts/posed/serial"), ("device", "cuda", "contacts/posed/cuda")))):
+        rows = []
+        for n in SIZES:
+            theirs = LITERATURE["backman_2011"]["sizes"][n]
+            rows.append([f"{int(n):,}", shown(theirs[f"{phase}_cpu_ms"]), shown(theirs[f"{phase}_gpu_ms"])] +
+                        [shown(of_size(results, kind, n).get(name.format(n))) for _, kind, name in rows_of])
+        lines += [f"{title}:", ""] + table(["triangles", "source: processor", "GPU"] + [head for head, _, _ in rows_of], rows)
+    return lines + made_on(results["cpu/meshes"]) + made_on(results["cuda/meshes"])
 
 
 # --- reduction of contacts --------------------------------------------------------------------------------------------------

@@ -57,9 +57,9 @@ cpu meshes bench_meshes $G $I --mesh=$D/meshes/armadillo_345944.ply --benchmark_
 cpu any bench_meshes $G $I --mesh=$D/meshes/stanford-bunny.ply --benchmark_filter=any/[a-z_]*/.*/
 cpu nearest bench_nearest $G $I --benchmark_filter=/100000/
 cpu descents bench_descents --json={} --mesh=$D/meshes/armadillo_345944.ply
-cpu meshes_138376 bench_meshes $G $I --mesh=$D/meshes/armadillo_138376.ply --benchmark_filter=^(build/bvh|pairs)/
-cpu meshes_27674 bench_meshes $G $I --mesh=$D/meshes/armadillo_27674.ply --benchmark_filter=^(build/bvh|pairs)/
-cpu meshes_2766 bench_meshes $G $I --mesh=$D/meshes/armadillo_2766.ply --benchmark_filter=^(build/bvh|pairs)/
+cpu meshes_138376 bench_meshes $G $I --mesh=$D/meshes/armadillo_138376.ply --benchmark_filter=^(build/bvh|pairs|boxes|contacts)/
+cpu meshes_27674 bench_meshes $G $I --mesh=$D/meshes/armadillo_27674.ply --benchmark_filter=^(build/bvh|pairs|boxes|contacts)/
+cpu meshes_2766 bench_meshes $G $I --mesh=$D/meshes/armadillo_2766.ply --benchmark_filter=^(build/bvh|pairs|boxes|contacts)/
 cpu reduce_contacts bench_reduce_contacts --json={} --mesh=$D/meshes/armadillo_345944.ply
 cpu footprint bench_footprint --json={}
 cuda footprint bench_footprint_cuda {}
