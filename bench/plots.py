@@ -159,8 +159,10 @@ def cost_cuda(results):
 
 
 def family_cost(r):
-    figure, axes = grid(1, 1, height=7.5)
-    axis, names = axes[0], r.parts("family/", 3)
+    names = r.parts("family/", 3)
+    if not names:
+        raise LookupError("no families")
+    figure, (axis,) = grid(1, 1, height=7.5)
     for scalar, fill in zip(SCALARS, ("full", "none")):
         for a in ("filtered", "exact"):
             ratio = [r.get(f"family/fast/{scalar}/{f}", "items_per_second") / v if (v := r.get(f"family/{a}/{scalar}/{f}", "items_per_second"))
@@ -307,6 +309,8 @@ def stages_triangles(results):
     r = results["cpu/triangles"]
     stages = {"first": "filter", "late": "late", "word": "64 bits", "one_limb": "1 limb", "two_limbs": "2 limbs", "any_span": "any span"}
     names = r.parts("family/", 3)
+    if not names:
+        raise LookupError("no families")
     figure, axes = grid(2, 2, height=7.5, sharey=True)
     for axis, scalar in zip(axes, SCALARS):
         left = [0.0] * len(names)

@@ -36,8 +36,8 @@ table() {
     if [ $quick = yes ]; then
         cat <<END
 cpu trade bench_trade --json={} --pairs=8192 --runs=5
-cpu spheres_mesh bench_spheres_mesh $G $I
-cpu triangles bench_triangles $G $I --triangles=1000000 --benchmark_filter=^(pair|one|read)/.*
+cpu spheres_mesh bench_spheres_mesh $G $I --benchmark_filter=-openmp|break_even|none
+cpu triangles bench_triangles $G $I --triangles=1000000 --benchmark_filter=^(pair|family)/|/serial/
 cpu descents bench_descents --json={}
 cuda trade bench_trade_cuda {}
 cuda spheres_mesh bench_spheres_mesh_cuda {}
