@@ -182,8 +182,8 @@ def check(results):
         here += [f"{plot} is not there" for plot in re.findall(r"\]\(((?:docs/)?figures/[^)]*)\)", text) if not (path.parent / plot).exists()]
         problems += [f"{path.relative_to(ROOT)}: {problem}" for problem in here]
     for source in report_tables.programs(results):
-        if not any((ROOT / "bench" / name).exists() for name in source):
-            problems.append(f"bench/{source[0]}: the program of some results is not there")
+        if not (ROOT / "bench" / source).exists():
+            problems.append(f"bench/{source}: the program of some results is not there")
     return problems
 
 

@@ -22,7 +22,7 @@ def programs(results):
     found = []
     for path in sorted(results.path.glob("*/*.json")):
         program = results[f"{path.parent.name}/{path.stem}"].context["program"].removeprefix("bench_")
-        found.append((program.removesuffix("_cuda") + (".cu" if program.endswith("_cuda") else ".cpp"),))
+        found.append(program if program.endswith(".py") else program.removesuffix("_cuda") + (".cu" if program.endswith("_cuda") else ".cpp"))
     return found
 
 
@@ -974,6 +974,23 @@ def sphere_families(results):
 @in_table("triangle-families")
 def triangle_families(results):
     return family_errors("triangle-triangle.md", True)
+
+
+# --- from the least scene to the richest ------------------------------------------------------------------------------------
+
+@in_table("footprint")
+def footprint(results):
+    r, cuda, compiled = results["cpu/footprint"], results["cuda/footprint"], results["cpu/footprint_compiled"]
+    rows = []
+    for name in r.rows:
+        each = r.get(name, "elements")
+        rows.append([name.replace("/", ": ", 1), whole(each), f"{r.get(name, 'set_bytes') / each:.0f}", whole(r.get(name, "index_bytes") / 1024),
+                     shown(r.get(name)), shown(cuda.get(name)), shown(compiled.get(name, "gcc_seconds")), whole(compiled.get(name, "gcc_megabytes")),
+                     whole((compiled.get(name, "gcc_code") or 0) / 1024)] + [whole(compiled.get(name, f"nvcc_{k}")) for k in ("seconds", "registers", "stack")])
+    head = ["scene: question", "elements", "bytes of each", "trees, KiB", "one core, ms", "device, ms", "g++, s", "g++, MB", "code, KiB",
+            "nvcc, s", "registers", "stack"]
+    keep = [i for i in range(len(head)) if any(row[i] for row in rows)]
+    return table([head[i] for i in keep], [[row[i] for i in keep] for row in rows]) + made_on(r) + made_on(cuda) + made_on(compiled)
 
 
 # --- README -----------------------------------------------------------------------------------------------------------------
