@@ -993,6 +993,16 @@ def footprint(results):
     return table([head[i] for i in keep], [[row[i] for i in keep] for row in rows]) + made_on(r) + made_on(cuda) + made_on(compiled)
 
 
+@in_table("compile-cost")
+def compile_cost(results):
+    r = results["cpu/footprint_compiled"]
+    rows = [[name.replace("/", ": ", 1)] + [shown(r.get(name, f"{c}_seconds")) for c in ("gcc", "nvcc")] +
+            [whole(r.get(name, f"{c}_megabytes")) for c in ("gcc", "nvcc")] for name in r.rows]
+    head = ["program", "g++: seconds of a processor", "nvcc", "g++: MB of memory", "nvcc"]
+    keep = [i for i in range(len(head)) if any(row[i] for row in rows)]
+    return table([head[i] for i in keep], [[row[i] for i in keep] for row in rows]) + made_on(r)
+
+
 # --- README -----------------------------------------------------------------------------------------------------------------
 
 def paragraph(text):
