@@ -121,6 +121,34 @@ def trade_cuda(results):
     return trade(results["cuda/trade"], lambda r, name: r.get(name, "pairs") / r.get(name) / 1e3)
 
 
+@plot("trade-motion")
+def trade_motion(results):
+    r = results["cpu/motion"]
+    figure, axes = grid(2, 2, height=3.2, sharey=True)
+    marks = dict(zip(r.parts("time/", 1), "oXs^D"))
+    for axis, kind, title in zip(axes, ("vertex_face", "edge_edge"), ("vertex, face", "edge, edge")):
+        for name in r.names("time/"):
+            _, scene, scalar, what, a = name.split("/")
+            missed, phantom = (r.get(name, f"{key}_per_million") for key in ("missed", "phantom"))
+            if what == kind and missed is not None:
+                axis.plot(r.get(name, "items_per_second") / 1e6, max(missed + phantom, 0.3), marks[scene], color=COLOURS[a], clip_on=False,
+                          fillstyle="full" if scalar == "float" else "none", markersize=7)
+        axis.set_title(title)
+        axis.set_yscale("log")
+        axis.set_ylim(0.2, 1e6)
+        axis.set_yticks([0.3, 10, 1e3, 1e5], ["0", "10", "1,000", "100,000"])
+        axis.minorticks_off()
+        axis.set_xlim(0)
+        axis.set_xlabel("million candidates a second")
+    axes[0].set_ylabel("wrong answers per million")
+    handles = [Line2D([], [], marker="o", linestyle="", color=COLOURS[a], label=a) for a in ("fast", "conservative", "filtered")]
+    handles += [Line2D([], [], marker=m, linestyle="", color=GREY, label=s) for s, m in marks.items()]
+    handles += [Line2D([], [], marker="o", linestyle="", color=GREY, fillstyle=f, label=s) for s, f in (("float", "full"), ("double", "none"))]
+    below(figure, handles, 8)
+    figure.suptitle(f"Features in motion, candidates of scenes: {of_machine(r)}", color=GREY)
+    return figure
+
+
 def cost(r, time):
     figure, axes = grid(2, 2, height=3.4, sharey=True)
     for axis, scalar in zip(axes, SCALARS):
