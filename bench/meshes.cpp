@@ -6,7 +6,9 @@
 // Names:
 //
 //   build/bvh/POLICY            a linear BVH over one of them; the peers build trees of their own (bench/meshes/)
-//   QUERY/baked/POLICY          pairs, unsorted, count or any between two trees, the second over the turned copy
+//   QUERY/baked/POLICY          between two trees, the second over the turned copy: pairs, unsorted, count, any, contacts;
+//   and
+//                               boxes, the walk with a filter that refuses every pair
 //   QUERY/posed/POLICY          the same, the second being the first tree under a pose
 //   traversal/NAME              unsorted/baked on one core by each traversal but the default; breadth first with its depth
 //   one_sided/pairs/POLICY      one tree, and the shapes of the other mesh
@@ -15,6 +17,7 @@
 //                               Each of these, and of their peers, asks once before the clock starts, for the caches' sake
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <utility>
 
@@ -41,6 +44,12 @@ void add(const std::string& name, bool threads, const Work& work) {
 
 abut::mesh<float> mesh_of(const scene::surface& s) { return {s.vertices, s.faces}; }
 
+/// Refuses every pair, but no compiler knows.
+struct refuse_all {
+    std::uint32_t wanted;
+    bool operator()(std::uint32_t a, std::uint32_t) const { return a == wanted; }
+};
+
 template <class Policy>
 void add_policy(const Policy& on) {
     const bool threads = std::same_as<Policy, abut::openmp>;
@@ -65,6 +74,13 @@ void add_policy(const Policy& on) {
         });
         add("any/" + kind + "/" + policy, threads, [on, tree_a, other](benchmark::State& state) {
             for (auto _ : state) benchmark::DoNotOptimize(any(on, tree_a, other));
+        });
+        add("boxes/" + kind + "/" + policy, threads, [on, tree_a, other](benchmark::State& state) {
+            const abut::query_options<refuse_all> none{.filter = {0xffffffff}};
+            for (auto _ : state) benchmark::DoNotOptimize(count(on, tree_a, other, none));
+        });
+        add("contacts/" + kind + "/" + policy, threads, [on, tree_a, other](benchmark::State& state) {
+            for (auto _ : state) benchmark::DoNotOptimize(contacts(on, tree_a, other).size());
         });
     };
     add_queries("baked", tree_b);

@@ -16,7 +16,7 @@ from report_tables import ANY_SCENES, ARITHMETICS, BUILDERS, INPUTS, LITERATURE,
 
 GREY = "#888888"
 COLOURS = {"fast": "#d9773f", "filtered": "#3f8fd9", "exact": "#3fa66b", "resolve": "#b05fc7", "conservative": "#c7a52e"}
-SERIES = ("#3f8fd9", "#d9773f", "#3fa66b", "#b05fc7", "#c7a52e", "#d9587f", "#5fb8b8")
+SERIES = ("#3f8fd9", "#d9773f", "#3fa66b", "#b05fc7", "#c7a52e", "#d9587f", "#5fb8b8", "#8f7ee0")
 MARKS = {"random": "o", "touching": "X", "lattice": "s"}
 PLOTS = {}
 
@@ -121,6 +121,34 @@ def trade_cuda(results):
     return trade(results["cuda/trade"], lambda r, name: r.get(name, "pairs") / r.get(name) / 1e3)
 
 
+@plot("trade-motion")
+def trade_motion(results):
+    r = results["cpu/motion"]
+    figure, axes = grid(2, 2, height=3.2, sharey=True)
+    marks = dict(zip(r.parts("time/", 1), "oXs^D"))
+    for axis, kind, title in zip(axes, ("vertex_face", "edge_edge"), ("vertex, face", "edge, edge")):
+        for name in r.names("time/"):
+            _, scene, scalar, what, a = name.split("/")
+            missed, phantom = (r.get(name, f"{key}_per_million") for key in ("missed", "phantom"))
+            if what == kind and missed is not None:
+                axis.plot(r.get(name, "items_per_second") / 1e6, max(missed + phantom, 0.3), marks[scene], color=COLOURS[a], clip_on=False,
+                          fillstyle="full" if scalar == "float" else "none", markersize=7)
+        axis.set_title(title)
+        axis.set_yscale("log")
+        axis.set_ylim(0.2, 1e6)
+        axis.set_yticks([0.3, 10, 1e3, 1e5], ["0", "10", "1,000", "100,000"])
+        axis.minorticks_off()
+        axis.set_xlim(0)
+        axis.set_xlabel("million candidates a second")
+    axes[0].set_ylabel("wrong answers per million")
+    handles = [Line2D([], [], marker="o", linestyle="", color=COLOURS[a], label=a) for a in ("fast", "conservative", "filtered")]
+    handles += [Line2D([], [], marker=m, linestyle="", color=GREY, label=s) for s, m in marks.items()]
+    handles += [Line2D([], [], marker="o", linestyle="", color=GREY, fillstyle=f, label=s) for s, f in (("float", "full"), ("double", "none"))]
+    below(figure, handles, 8)
+    figure.suptitle(f"Features in motion, candidates of scenes: {of_machine(r)}", color=GREY)
+    return figure
+
+
 def cost(r, time):
     figure, axes = grid(2, 2, height=3.4, sharey=True)
     for axis, scalar in zip(axes, SCALARS):
@@ -159,8 +187,10 @@ def cost_cuda(results):
 
 
 def family_cost(r):
-    figure, axes = grid(1, 1, height=7.5)
-    axis, names = axes[0], r.parts("family/", 3)
+    names = r.parts("family/", 3)
+    if not names:
+        raise LookupError("no families")
+    figure, (axis,) = grid(1, 1, height=7.5)
     for scalar, fill in zip(SCALARS, ("full", "none")):
         for a in ("filtered", "exact"):
             ratio = [r.get(f"family/fast/{scalar}/{f}", "items_per_second") / v if (v := r.get(f"family/{a}/{scalar}/{f}", "items_per_second"))
@@ -247,29 +277,37 @@ def scaling_triangles(results):
 
 @plot("scaling-meshes")
 def scaling_meshes(results):
-    figure, axes = grid(2, 2, height=3.8)
-    n = [int(s) for s in SIZES]
-    theirs = [LITERATURE["backman_2011"]["sizes"][s] for s in SIZES]
-    for key, label, mark in (("cpu", "Bäckman 2011, processor", "o"), ("gpu", "Bäckman 2011, 8800 GTS", "s")):
-        axes[0].plot(n, [t[f"middle_{key}_ms"] + t[f"near_{key}_ms"] for t in theirs], mark, color=GREY, fillstyle="none", markersize=7, label=label)
-    cpu, cuda = [of_size(results, "cpu", s) for s in SIZES], [of_size(results, "cuda", s) for s in SIZES]
-    for index, (label, rows, name) in enumerate((("pairs, one core", cpu, "pairs/posed/serial"), ("pairs, device", cuda, "pairs/posed/cuda"),
-                                                 ("contacts, device", cuda, "contacts/posed/cuda"), ("build, one core", cpu, "build/bvh/serial"))):
-        axes[0].plot(n, [r.get(name) for r in rows], color=SERIES[index], marker=".", label=f"abut: {label}")
-    log_log(axes[0], "triangles of each of two meshes", "ms")
-    axes[0].legend(fontsize=7.5)
-    axes[0].set_title("Both phases, meshes under a pose")
+    figure, axes = grid(3, 3, height=3.6)
+    n, theirs = [int(s) for s in SIZES], [LITERATURE["backman_2011"]["sizes"][s] for s in SIZES]
+    for axis, phase, title in zip(axes, ("middle", "near"), ("Middle phase, posed", "Near phase, posed")):
+        for key, label, mark in (("cpu", "Bäckman 2011, processor", "o"), ("gpu", "Bäckman 2011, 8800 GTS", "s")):
+            axis.plot(n, [t[f"{phase}_{key}_ms"] for t in theirs], mark, color=GREY, fillstyle="none", markersize=6, label=label)
+        index = 0
+        for kind, policy, where in (("cpu", "serial", "one core"), ("cuda", "cuda", "device")):
+            rows = [of_size(results, kind, s) for s in SIZES]
+            walk = [r.get(f"boxes/posed/{policy}") for r in rows]
+            if phase == "middle":
+                axis.plot(n, walk, color=SERIES[index], marker=".", label=f"abut: walk, {where}")
+                index += 1
+                continue
+            for query in ("pairs", "contacts"):  # what is beyond the walk
+                axis.plot(n, [max(r.get(f"{query}/posed/{policy}") - w, 1e-3) for r, w in zip(rows, walk)], color=SERIES[index], marker=".",
+                          label=f"abut: {query}, {where}")
+                index += 1
+        log_log(axis, "triangles of each mesh", "ms")
+        axis.set_title(title)
+        axis.legend(fontsize=6.5)
     depths = LITERATURE["backman_2011"]["box_tests_per_depth_345944"]
-    axes[1].plot([int(d) for d in depths], list(depths.values()), "o", color=GREY, fillstyle="none", label="Bäckman 2011")
+    axes[2].plot([int(d) for d in depths], list(depths.values()), "o", color=GREY, fillstyle="none", label="Bäckman 2011")
     r = results["cpu/descents"]
     for index, builder in enumerate(r.parts("walk/", 1)):
         points = sorted((int(name.split("/")[2]), r.get(name, "boxes")) for name in r.names(f"depth/{builder}/"))
-        axes[1].plot(*zip(*points), color=SERIES[index], marker=".", label=f"abut, {builder}")
-    axes[1].set_yscale("log")
-    axes[1].set_xlabel("depth")
-    axes[1].set_ylabel("tests of boxes")
-    axes[1].legend(fontsize=8)
-    axes[1].set_title("345,944 triangles: tests of boxes per depth")
+        axes[2].plot(*zip(*points), color=SERIES[index], marker=".", label=f"abut, {builder}")
+    axes[2].set_yscale("log")
+    axes[2].set_xlabel("depth")
+    axes[2].set_ylabel("tests of boxes")
+    axes[2].legend(fontsize=6.5)
+    axes[2].set_title("Tests per depth, 345,944 triangles")
     return figure
 
 
@@ -299,6 +337,8 @@ def stages_triangles(results):
     r = results["cpu/triangles"]
     stages = {"first": "filter", "late": "late", "word": "64 bits", "one_limb": "1 limb", "two_limbs": "2 limbs", "any_span": "any span"}
     names = r.parts("family/", 3)
+    if not names:
+        raise LookupError("no families")
     figure, axes = grid(2, 2, height=7.5, sharey=True)
     for axis, scalar in zip(axes, SCALARS):
         left = [0.0] * len(names)

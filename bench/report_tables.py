@@ -17,19 +17,12 @@ def in_table(name):
     return add
 
 
-def in_value(name):
-    def add(make):
-        VALUES[name] = make
-        return make
-    return add
-
-
 def programs(results):
     """The sources that can have made each of the committed results."""
     found = []
     for path in sorted(results.path.glob("*/*.json")):
         program = results[f"{path.parent.name}/{path.stem}"].context["program"].removeprefix("bench_")
-        found.append((program.removesuffix("_cuda") + (".cu" if program.endswith("_cuda") else ".cpp"),))
+        found.append(program if program.endswith(".py") else program.removesuffix("_cuda") + (".cu" if program.endswith("_cuda") else ".cpp"))
     return found
 
 
@@ -621,18 +614,42 @@ def of_size(results, kind, n):
 
 @in_table("sizes")
 def sizes(results):
-    rows = []
-    for n in SIZES:
-        theirs = LITERATURE["backman_2011"]["sizes"][n]
-        cpu, cuda = of_size(results, "cpu", n), of_size(results, "cuda", n)
-        rows.append([f"{int(n):,}", shown(theirs["middle_cpu_ms"] + theirs["near_cpu_ms"]),
-                     shown(theirs["middle_gpu_ms"] + theirs["near_gpu_ms"])] +
-                    [shown(v) for v in (cpu.get("build/bvh/serial"), cuda.get(f"build/bvh/cuda/{n}"), cpu.get("pairs/baked/serial"),
-                                        cuda.get("pairs/baked/cuda"), cpu.get("pairs/posed/serial"), cuda.get("pairs/posed/cuda"),
-                                        cuda.get("contacts/posed/cuda"))])
-    return table(["triangles, ms", "source, processor", "source, GPU", "build: one core", "device", "pairs, baked: one core", "device",
-                  "posed: one core", "device", "contacts, posed: device"], rows) + \
-        made_on(results["cpu/meshes"]) + made_on(results["cuda/meshes"])
+    lines = []
+    for title, phase, rows_of in (
+            ("Middle phase, the walk of two trees, and the build of one, in ms", "middle", (
+                ("walk: one core", "cpu", "boxes/posed/serial"), ("device", "cuda", "boxes/posed/cuda"),
+                ("build: one core", "cpu", "build/bvh/serial"), ("device", "cuda", "build/bvh/cuda/{}"))),
+            ("Near phase, in ms; of ours both phases together", "near", (
+                ("pairs: one core", "cpu", "pairs/posed/serial"), ("device", "cuda", "pairs/posed/cuda"),
+                ("contacts: one core", "cpu", "contacts/posed/serial"), ("device", "cuda", "contacts/posed/cuda")))):
+        rows = []
+        for n in SIZES:
+            theirs = LITERATURE["backman_2011"]["sizes"][n]
+            rows.append([f"{int(n):,}", shown(theirs[f"{phase}_cpu_ms"]), shown(theirs[f"{phase}_gpu_ms"])] +
+                        [shown(of_size(results, kind, n).get(name.format(n))) for _, kind, name in rows_of])
+        lines += [f"{title}:", ""] + table(["triangles", "source: processor", "GPU"] + [head for head, _, _ in rows_of], rows)
+    return lines + made_on(results["cpu/meshes"]) + made_on(results["cuda/meshes"])
+
+
+# --- reduction of contacts --------------------------------------------------------------------------------------------------
+
+def kept(r, name):
+    return f"{r.get(name, 'share'):.3f} ({r.get(name, 'worst'):.3f})"
+
+
+@in_table("reduction")
+def reduction(results):
+    r = results["cpu/reduce_contacts"]
+    rows = [[f"{scene.replace('_', ' ')}, {whole(r.get(f'{scene}/binning/4', 'contacts'))} contacts", method] +
+            [kept(r, f"{scene}/{method}/{n}") for n in (4, 8, 16, 32)] for scene in r.parts("", 0) for method in ("binning", "extremes")]
+    return table(["scene", "method", "4", "8", "16", "32"], rows, 2) + made_on(r)
+
+
+@in_table("reduction-bins")
+def reduction_bins(results):
+    r = results["cpu/reduce_contacts"]
+    rows = [[name.split("/")[0].replace("_", " "), name.split("/")[2], whole(r.get(name, "kept")), kept(r, name)] for name in r.rows if "/bins/" in name]
+    return table(["scene", "bins", "contacts", "share kept (worst loss)"], rows) + made_on(r)
 
 
 # --- builders and layouts ---------------------------------------------------------------------------------------------------
@@ -959,6 +976,33 @@ def triangle_families(results):
     return family_errors("triangle-triangle.md", True)
 
 
+# --- from the least scene to the richest ------------------------------------------------------------------------------------
+
+@in_table("footprint")
+def footprint(results):
+    r, cuda, compiled = results["cpu/footprint"], results["cuda/footprint"], results["cpu/footprint_compiled"]
+    rows = []
+    for name in r.rows:
+        each = r.get(name, "elements")
+        rows.append([name.replace("/", ": ", 1), whole(each), f"{r.get(name, 'set_bytes') / each:.0f}", whole(r.get(name, "index_bytes") / 1024),
+                     shown(r.get(name)), shown(cuda.get(name)), shown(compiled.get(name, "gcc_seconds")), whole(compiled.get(name, "gcc_megabytes")),
+                     whole((compiled.get(name, "gcc_code") or 0) / 1024)] + [whole(compiled.get(name, f"nvcc_{k}")) for k in ("seconds", "registers", "stack")])
+    head = ["scene: question", "elements", "bytes of each", "trees, KiB", "one core, ms", "device, ms", "g++, s", "g++, MB", "code, KiB",
+            "nvcc, s", "registers", "stack"]
+    keep = [i for i in range(len(head)) if any(row[i] for row in rows)]
+    return table([head[i] for i in keep], [[row[i] for i in keep] for row in rows]) + made_on(r) + made_on(cuda) + made_on(compiled)
+
+
+@in_table("compile-cost")
+def compile_cost(results):
+    r = results["cpu/footprint_compiled"]
+    rows = [[name.replace("/", ": ", 1)] + [shown(r.get(name, f"{c}_seconds")) for c in ("gcc", "nvcc")] +
+            [whole(r.get(name, f"{c}_megabytes")) for c in ("gcc", "nvcc")] for name in r.rows]
+    head = ["program", "g++: seconds of a processor", "nvcc", "g++: MB of memory", "nvcc"]
+    keep = [i for i in range(len(head)) if any(row[i] for row in rows)]
+    return table([head[i] for i in keep], [[row[i] for i in keep] for row in rows]) + made_on(r)
+
+
 # --- README -----------------------------------------------------------------------------------------------------------------
 
 def paragraph(text):
@@ -1043,3 +1087,35 @@ def cost_motion(results):
     return paragraph(f"""In motion: a cloth of {whole(cuda.get(f'{at}/build', 'faces'))} triangles that folds over a ball, one step of a
         simulation against itself, {whole(cuda.get(f'{at}/impacts', 'impacts'))} impacts with exact times: {shown(cpu.get('stage/cloth-ball/float/self_impacts'))}
         ms on one core, {shown(cuda.get(f'{at}/frame'))} ms with the refit on the {cuda.context['device']}.""")
+
+
+# --- docs/choosing.md -------------------------------------------------------------------------------------------------------
+
+def choosing():
+    """Values that are times of single rows."""
+    rows = {"openmp": ("cpu/meshes", "pairs/posed/openmp"), "serial": ("cpu/meshes", "pairs/posed/serial"),
+            "cuda": ("cuda/meshes", "pairs/posed/cuda"), "cuda-small": ("cuda/meshes_2766", "pairs/posed/cuda"),
+            "two-trees": ("cpu/builders", "pairs/posed/linear/standard"), "one-tree": ("cpu/builders", "one_sided/linear/standard"),
+            "both-at-once": ("cpu/descents", "walk/linear/both_at_once"), "larger-first": ("cpu/descents", "walk/linear/larger_first")}
+    for builder in BUILDERS:
+        name = builder.replace("_", "-")
+        rows[f"{name}-build"] = ("cpu/builders", f"build/{builder}/serial")
+        rows[name] = ("cpu/builders", f"pairs/posed/{builder}/standard")
+    for layout in ("standard", "wide", "oriented", "quantised", "leafless"):
+        rows[layout] = ("cpu/builders", f"pairs/posed/sah/{layout}")
+    for name, (source, row) in rows.items():
+        VALUES[f"choosing-{name}"] = lambda results, s=source, n=row: needed(results[s].get(n))
+    for a in ARITHMETICS:
+        for kind in ("random", "touching"):
+            VALUES[f"choosing-{a}-{kind}"] = lambda results, n=f"triangle_triangle/{kind}/float/{a}": needed(results["cpu/trade"].get(n, "ns"))
+        VALUES[f"choosing-{a}-wrong"] = lambda results, n=f"triangle_triangle/touching/float/{a}": whole(
+            results["cpu/trade"].get(n, "wrong_per_million"))
+
+
+def needed(value):
+    if value is None:
+        raise KeyError("a row")
+    return shown(value)
+
+
+choosing()

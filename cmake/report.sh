@@ -36,8 +36,8 @@ table() {
     if [ $quick = yes ]; then
         cat <<END
 cpu trade bench_trade --json={} --pairs=8192 --runs=5
-cpu spheres_mesh bench_spheres_mesh $G $I
-cpu triangles bench_triangles $G $I --triangles=1000000 --benchmark_filter=^(pair|one|read)/.*
+cpu spheres_mesh bench_spheres_mesh $G $I --benchmark_filter=-openmp|break_even|none
+cpu triangles bench_triangles $G $I --triangles=1000000 --benchmark_filter=^(pair|family)/|/serial/
 cpu descents bench_descents --json={}
 cuda trade bench_trade_cuda {}
 cuda spheres_mesh bench_spheres_mesh_cuda {}
@@ -57,9 +57,9 @@ cpu meshes bench_meshes $G $I --mesh=$D/meshes/armadillo_345944.ply --benchmark_
 cpu any bench_meshes $G $I --mesh=$D/meshes/stanford-bunny.ply --benchmark_filter=any/[a-z_]*/.*/
 cpu nearest bench_nearest $G $I --benchmark_filter=/100000/
 cpu descents bench_descents --json={} --mesh=$D/meshes/armadillo_345944.ply
-cpu meshes_138376 bench_meshes $G $I --mesh=$D/meshes/armadillo_138376.ply --benchmark_filter=^(build/bvh|pairs)/
-cpu meshes_27674 bench_meshes $G $I --mesh=$D/meshes/armadillo_27674.ply --benchmark_filter=^(build/bvh|pairs)/
-cpu meshes_2766 bench_meshes $G $I --mesh=$D/meshes/armadillo_2766.ply --benchmark_filter=^(build/bvh|pairs)/
+cpu meshes_138376 bench_meshes $G $I --mesh=$D/meshes/armadillo_138376.ply --benchmark_filter=^(build/bvh|pairs|boxes|contacts)/
+cpu meshes_27674 bench_meshes $G $I --mesh=$D/meshes/armadillo_27674.ply --benchmark_filter=^(build/bvh|pairs|boxes|contacts)/
+cpu meshes_2766 bench_meshes $G $I --mesh=$D/meshes/armadillo_2766.ply --benchmark_filter=^(build/bvh|pairs|boxes|contacts)/
 cpu reduce_contacts bench_reduce_contacts --json={} --mesh=$D/meshes/armadillo_345944.ply
 cpu footprint bench_footprint --json={}
 cuda footprint bench_footprint_cuda {}
