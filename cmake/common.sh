@@ -62,6 +62,15 @@ want_packages() {
     [ -z "$known" ] || need_packages $known
 }
 
+# installed_of PACKAGE...: those that are installed as packages, with semicolons between.
+installed_of() {
+    installed=''
+    for package in "$@"; do
+        if dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed'; then installed="$installed;$package"; fi
+    done
+    printf '%s' "${installed#;}"
+}
+
 # Sets nvcc to the compiler's path if it is 13.0 or newer, else to nothing. Fails instead if ABUT_REQUIRE_CUDA=1.
 find_nvcc() {
     nvcc=$(command -v nvcc 2>/dev/null || true)

@@ -178,7 +178,9 @@ function(abut_packages_of source result)
     set(${result} "${used}" PARENT_SCOPE)
 endfunction()
 
-# The packages that a source includes; it is `here` if all of them are, and a line says so if not.
+# The packages that a source includes; it is `here` if all of them are, and a line says so if not. A package that is said to be
+# installed, and is not found, is an error: what needs it would be left out unseen.
+set(ABUT_INSTALLED_PACKAGES "" CACHE STRING "Debian packages that are installed, so that nothing may be left out for want of them")
 function(abut_is_here source here packages)
     abut_packages_of(${source} used)
     set(missing "")
@@ -191,6 +193,11 @@ function(abut_is_here source here packages)
     set(${here} TRUE PARENT_SCOPE)
     if(missing)
         cmake_path(RELATIVE_PATH source BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE shown)
+        foreach(package IN LISTS missing)
+            if(package IN_LIST ABUT_INSTALLED_PACKAGES)
+                message(SEND_ERROR "abut: ${shown} would be left out: ${package} is installed, but CMake does not find it")
+            endif()
+        endforeach()
         list(JOIN missing ", " missing)
         message(STATUS "abut: ${shown} is left out: not there: ${missing}")
         set(${here} FALSE PARENT_SCOPE)

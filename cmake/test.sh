@@ -19,7 +19,7 @@
 #   --full      1,000,000 samples for each family and scalar instead of 5,000; tables go to docs/results; all of it at -O3
 #   --all       all of these but --full
 # Environment: ABUT_SAMPLES (samples for each family and scalar), ABUT_RESULTS (folder for tables), ABUT_REQUIRE_CUDA=1
-# (no nvcc is a failure).
+# (no nvcc is a failure), ABUT_REQUIRE (what no test may be skipped for want of: data, device; test.sh adds what is there).
 set -eu
 
 usage() { sed -n '/^# usage/,/^set/s/^# \{0,1\}//p' "$0"; }
@@ -45,9 +45,11 @@ cd "$(dirname "$0")/.."
 # --- packages ----------------------------------------------------------------------------------------------------------
 
 need_packages g++ cmake ninja-build python3 catch2 librapidcheck-dev libboost-dev
-want_packages libgmp-dev libmpfr-dev libcgal-dev libfcl-dev libeigen3-dev libtinyobjloader-dev libcli11-dev nlohmann-json3-dev ccache \
-    libbenchmark-dev doxygen
-if [ $bench = yes ]; then want_packages libembree-dev libbullet-dev libnanoflann-dev; fi
+wanted='libgmp-dev libmpfr-dev libcgal-dev libfcl-dev libeigen3-dev libtinyobjloader-dev libcli11-dev nlohmann-json3-dev
+    libbenchmark-dev doxygen'
+if [ $bench = yes ]; then wanted="$wanted libembree-dev libbullet-dev libnanoflann-dev"; fi
+# shellcheck disable=SC2086
+want_packages $wanted ccache
 if [ $clang = yes ] || [ $tsan = yes ] || [ $headers = yes ]; then
     need_packages clang
     major=$(clang++ -dumpversion | cut -d. -f1)
@@ -55,6 +57,14 @@ if [ $clang = yes ] || [ $tsan = yes ] || [ $headers = yes ]; then
     want_packages "libclang-rt-$major-dev"
 fi
 find_nvcc
+
+# What is here may not be missing for a test (docs/building.md).
+# shellcheck disable=SC2086
+installed=$(installed_of $wanted)
+require=${ABUT_REQUIRE:-}
+if [ -d ../shared/data ]; then require="$require data"; fi
+if cuda_device_present; then require="$require device"; fi
+export ABUT_REQUIRE="$require"
 
 # --- build trees -------------------------------------------------------------------------------------------------------
 
@@ -64,7 +74,7 @@ build_tree() {
     name=$1 preset=$2
     shift 2
     say "building build/test/$name (preset $preset)"
-    cmake --preset "$preset" -B "build/test/$name" "$@" >"build/test/$name.log" 2>&1 ||
+    cmake --preset "$preset" -B "build/test/$name" -DABUT_INSTALLED_PACKAGES="$installed" "$@" >"build/test/$name.log" 2>&1 ||
         { cat "build/test/$name.log"; fail "configuring build/test/$name failed"; }
     grep '^-- abut: ' "build/test/$name.log" || true
     cmake --build "build/test/$name" --parallel "$jobs"

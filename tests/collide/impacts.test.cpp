@@ -37,25 +37,25 @@ TEMPLATE_TEST_CASE("impacts: of bodies of thousands of faces", "", float, double
 // -------------------------------------------------------------------------------------------------------------
 
 TEST_CASE("impacts: the truth of the scenes, cloth-funnel") {
-    if (!ccd_folder("cloth-funnel")) ABUT_SKIP("the folder of real scenes is not there (ABUT_DATA)");
+    if (!ccd_folder("cloth-funnel")) ABUT_SKIP("data", "the folder of real scenes is not there (ABUT_DATA)");
     check_scene<float>(serial{}, "cloth-funnel");
     check_scene<double>(openmp{.threads = 3}, "cloth-funnel");
 }
 
 TEST_CASE("impacts: the truth of the scenes, cloth-ball") {
-    if (!ccd_folder("cloth-ball")) ABUT_SKIP("the folder of real scenes is not there (ABUT_DATA)");
+    if (!ccd_folder("cloth-ball")) ABUT_SKIP("data", "the folder of real scenes is not there (ABUT_DATA)");
     check_scene<float>(openmp{.threads = 3}, "cloth-ball");
     if (sample_count() > 5000) check_scene<double>(serial{}, "cloth-ball");
 }
 
 TEST_CASE("impacts: the truth of the scenes, armadillo-rollers") {
-    if (!ccd_folder("armadillo-rollers")) ABUT_SKIP("the folder of real scenes is not there (ABUT_DATA)");
+    if (!ccd_folder("armadillo-rollers")) ABUT_SKIP("data", "the folder of real scenes is not there (ABUT_DATA)");
     check_scene<double>(serial{}, "armadillo-rollers");
 }
 
 TEST_CASE("impacts: scenes without truth, the same on every policy") {
-    if (!ccd_folder("rod-twist")) ABUT_SKIP("the folder of real scenes is not there (ABUT_DATA)");
-    if (sample_count() <= 5000) ABUT_SKIP("takes long (ABUT_SAMPLES above 5000)");
+    if (!ccd_folder("rod-twist")) ABUT_SKIP("data", "the folder of real scenes is not there (ABUT_DATA)");
+    if (sample_count() <= 5000) ABUT_SKIP("time", "takes long (ABUT_SAMPLES above 5000)");
     for (const char* name : {"n-body-simulation", "rod-twist"}) {
         CAPTURE(name);
         const auto folder = ccd_folder(name);

@@ -89,7 +89,7 @@ TEST_CASE("meshes against meshes: FCL finds the same pairs in general position")
 
 TEST_CASE("meshes against meshes: FCL finds the same pairs of its own robot and room") {
     const auto folder = io_test::meshes();
-    if (!folder) ABUT_SKIP("the folder of real meshes is not there (ABUT_DATA)");
+    if (!folder) ABUT_SKIP("data", "the folder of real meshes is not there (ABUT_DATA)");
     const auto env = io::read_mesh<double>(*folder / "env.obj"), rob = io::read_mesh<double>(*folder / "rob.obj");
     const comparison all = compare_under({20261202, 400, {-3000, -3000, 0}, {3000, 3000, 3000}, 1e-6, 100, 5000},
                                          "env.obj and rob.obj", env, rob);
@@ -98,7 +98,7 @@ TEST_CASE("meshes against meshes: FCL finds the same pairs of its own robot and 
 
 TEST_CASE("meshes against meshes: FCL finds the same pairs of two scans") {
     const auto folder = io_test::meshes();
-    if (!folder) ABUT_SKIP("the folder of real meshes is not there (ABUT_DATA)");
+    if (!folder) ABUT_SKIP("data", "the folder of real meshes is not there (ABUT_DATA)");
     const auto scan = io::read_mesh<double>(*folder / "armadillo_2766.ply");
     compare_under({20261203, 40, {-0.4, -0.4, -0.4}, {0.4, 0.4, 0.4}, 1e-9, 20, 5000}, "armadillo_2766.ply", scan, scan);
 }

@@ -34,7 +34,9 @@ TEMPLATE_TEST_CASE("pair rules: boxes at the distance that is asked for", "", fl
         const mesh<T> first(t0, {{0, 1, 2}, {3, 4, 5}});
         const auto step = moving(first, first.with_vertices(on, t1));
         const auto expected = to_host(self_impacts<conservative>(on, step, options));
-        const auto same = [&](const auto& index) { return to_host(self_impacts<conservative>(on, index, options)) == expected; };
+        const auto same = [&](const auto& index) {
+            return to_host(self_impacts<conservative>(on, index, options)) == expected;
+        };
         CAPTURE(k);
         CHECK(same(make_impact_index<pair_rule::representative_triangles>(on, step)));
         CHECK(same(make_impact_index<pair_rule::orphan_sets>(on, step)));
@@ -63,13 +65,12 @@ TEST_CASE("pair rules: orphans of known meshes") {
 }
 
 TEST_CASE("pair rules: scenes of simulations") {
-    for (const char* const name : {"cloth-funnel", "cloth-ball", "armadillo-rollers"}) {
-        const auto folder = ccd_folder(name);
-        if (!folder) {
-            std::printf("abut skips: no %s in shared/data/ccd\n", name);
-            continue;
-        }
-        const ccd_scene scene = read_ccd_scene(*folder);
+    const char* const names[] = {"cloth-funnel", "cloth-ball", "armadillo-rollers"};
+    for (const char* const name : names) {
+        if (!ccd_folder(name)) ABUT_SKIP("data", "the folder of real scenes is not there (ABUT_DATA)");
+    }
+    for (const char* const name : names) {
+        const ccd_scene scene = read_ccd_scene(*ccd_folder(name));
         const std::vector<face> faces(scene.faces.begin(), scene.faces.end());
         const mesh<double> first(scene.t0, faces);
         const auto step = moving(first, first.with_vertices(serial{}, scene.t1));

@@ -88,7 +88,7 @@ bool compare_with_cgal(const char* name, const mesh<T>& m) {
 
 TEST_CASE("pairs within real meshes, and CGAL's") {
     const auto folder = io_test::meshes();
-    if (!folder) ABUT_SKIP("the folder of real meshes is not there (ABUT_DATA)");
+    if (!folder) ABUT_SKIP("data", "the folder of real meshes is not there (ABUT_DATA)");
     int compared = 0;
     for (const char* const name : {"armadillo_2766.ply", "armadillo_27674.ply", "armadillo_99994.ply",
                                    "armadillo_rollers326.ply", "stanford-bunny.ply", "fandisk.ply", "ogre.ply", "spot.obj",

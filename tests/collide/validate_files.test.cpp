@@ -74,7 +74,7 @@ mesh<double> welded(const char* file) {
 }  // namespace
 
 TEMPLATE_TEST_CASE("validate: what is known of the real meshes", "", float, double) {
-    if (!io_test::meshes()) ABUT_SKIP("the folder of real meshes is not there (ABUT_DATA)");
+    if (!io_test::meshes()) ABUT_SKIP("data", "the folder of real meshes is not there (ABUT_DATA)");
     for (const truth& known : truths) {
         // Rounding their doubles to float may move vertices onto one another, and onto lines.
         const bool of_doubles = std::string_view(known.file).starts_with("ccd/");
@@ -102,7 +102,7 @@ TEMPLATE_TEST_CASE("validate: what is known of the real meshes", "", float, doub
 }
 
 TEST_CASE("validate: the numbers that shared/data/README.md gives beside the tables") {
-    if (!io_test::meshes()) ABUT_SKIP("the folder of real meshes is not there (ABUT_DATA)");
+    if (!io_test::meshes()) ABUT_SKIP("data", "the folder of real meshes is not there (ABUT_DATA)");
     const auto report = [](const char* file) { return validate(openmp{}, read<double>(file)); };
     CHECK(report("meshes/armadillo_345944.ply").euler_characteristic == 2);
     const mesh_report cow = report("meshes/cow.obj");
@@ -123,7 +123,7 @@ TEST_CASE("validate: the numbers that shared/data/README.md gives beside the tab
 }
 
 TEST_CASE("validate: welded where its report says that vertices coincide") {
-    if (!io_test::meshes()) ABUT_SKIP("the folder of real meshes is not there (ABUT_DATA)");
+    if (!io_test::meshes()) ABUT_SKIP("data", "the folder of real meshes is not there (ABUT_DATA)");
     const struct {
         const char* file;
         std::size_t vertices, open, bad;
@@ -139,7 +139,7 @@ TEST_CASE("validate: welded where its report says that vertices coincide") {
 }
 
 TEST_CASE("features: edges and vertices of the real meshes") {
-    if (!io_test::meshes()) ABUT_SKIP("the folder of real meshes is not there (ABUT_DATA)");
+    if (!io_test::meshes()) ABUT_SKIP("data", "the folder of real meshes is not there (ABUT_DATA)");
     std::size_t read = 0;
     for (const char* file : {"meshes/fandisk.ply", "meshes/stanford-bunny.ply", "meshes/ogre.ply", "meshes/teapot.obj",
                              "meshes/suzanne.obj", "meshes/env.obj"}) {

@@ -71,14 +71,114 @@ TEST_CASE("memory: running out is std::bad_alloc, and nothing leaks") {
     CHECK(reduce(on, 10, std::uint64_t{0}, test::sum{}, test::identity{}) == 45);  // all is well after
 }
 
+namespace {
+
+/// Takes all memory of the device but some bytes, until the end of the scope.
+class hog {
+public:
+    explicit hog(std::size_t but) {
+        std::size_t free = 0, total = 0;
+        REQUIRE(cudaMemGetInfo(&free, &total) == cudaSuccess);
+        // The system gives memory in pages of 2 MiB, and may keep some of what it calls free.
+        for (std::size_t take = free > but ? free - but : 0; take > std::size_t{1} << 21; take -= std::size_t{1} << 21) {
+            if (cudaMalloc(&taken_, take) == cudaSuccess) break;
+            cudaGetLastError();
+        }
+    }
+    hog(const hog&) = delete;
+    hog& operator=(const hog&) = delete;
+    ~hog() { cudaFree(taken_); }
+
+private:
+    void* taken_ = nullptr;
+};
+
+}  // namespace
+
+TEST_CASE("memory: running out in the middle of a build, a refit and a query is std::bad_alloc, and all is well after") {
+    const abut::cuda on;
+    test::uniform random(33);
+    const triangle_soup<float> host(test::random_triangles<float>(400'000, random)),
+        other(test::random_triangles<float>(2000, random));
+    const auto work = [&] {
+        const auto tree = refit(on, make_bvh(on, host), host);
+        return to_host(pairs(on, tree, make_bvh(on, other))).size();
+    };
+    const std::size_t expected = work();
+    CHECK(expected > 0);
+    release_memory(on);
+    const memory_use before = memory_in_use(on);
+    std::size_t failures = 0, successes = 0;
+    for (std::size_t left = 0; successes < 2 && left < std::size_t{1} << 30; left += std::size_t{8} << 20) {
+        CAPTURE(left);
+        {
+            const hog taken(left);
+            try {
+                CHECK(work() == expected);
+                ++successes;
+            } catch (const std::bad_alloc&) {
+                ++failures;
+            }
+            synchronize(on);
+            CHECK(cudaGetLastError() == cudaSuccess);
+            CHECK(memory_in_use(on).used == before.used);
+            release_memory(on);
+        }
+        CHECK(work() == expected);
+        release_memory(on);
+    }
+    std::printf("out of memory: %zu times\n", failures);
+    CHECK(failures > 3);
+    CHECK(successes == 2);
+}
+
 TEST_CASE("errors: cuda_error names the call and carries CUDA's text") {
+    const std::string expected = "cudaSetDevice(99): invalid device ordinal (cudaErrorInvalidDevice)";
+    const abut::cuda nowhere{.device = 99};
     try {
-        synchronize(abut::cuda{.device = 12345});
-        FAIL("no device 12345, and no error");
+        synchronize(nowhere);
+        FAIL("no device 99, and no error");
     } catch (const cuda_error& e) {
-        CHECK(std::string(e.what()) == "cudaSetDevice: invalid device ordinal (cudaErrorInvalidDevice)");
+        CHECK(std::string(e.what()) == expected);
         CHECK(e.code() == cudaErrorInvalidDevice);
     }
+    // Whatever comes first: an upload, a build, a query.
+    const auto host = some_triangles();
+    CHECK_THROWS_WITH(copy_to(nowhere, host), expected);
+    CHECK_THROWS_WITH(make_bvh(nowhere, host), expected);
+    CHECK_THROWS_WITH(make_grid(nowhere, host), expected);
+    CHECK_THROWS_WITH(pairs(nowhere, host, host), expected);
+    CHECK_THROWS_WITH(release_memory(nowhere), expected);
+    int current = -1;
+    CHECK(cudaGetDevice(&current) == cudaSuccess);
+    CHECK(current == 0);
+    CHECK(cudaGetLastError() == cudaSuccess);
+    CHECK(to_host(pairs(abut::cuda{}, host, triangle<float>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}})).size() > 0);
+}
+
+TEST_CASE("errors: data of another device is refused, in one line") {
+    int devices = 0;
+    REQUIRE(cudaGetDeviceCount(&devices) == cudaSuccess);
+    if (devices < 2) {
+        std::printf("this takes two devices, and there is one\n");
+        return;
+    }
+    const abut::cuda here{.device = 0}, there{.device = 1};
+    const triangle_soup<float> host = some_triangles();
+    const auto set = copy_to(here, host);
+    const auto tree = make_bvh(here, set);
+    const auto expected = to_host(pairs(here, tree, set));
+    CHECK(to_host(pairs(there, copy_to(there, set), copy_to(there, set))) == expected);
+    const std::string owner = ": the set lies on device 0, the policy works on device 1";
+    CHECK_THROWS_WITH(make_bvh(there, set), "abut::make_bvh" + owner);
+    CHECK_THROWS_WITH(pairs(there, host, set), "abut::pairs" + owner);
+    const std::string index = ": the index lies on device 0, the policy works on device 1";
+    CHECK_THROWS_WITH(pairs(there, tree, host), "abut::pairs" + index);
+    CHECK_THROWS_WITH(refit(there, tree, host), "abut::refit" + index);
+    const std::string view = ": the view is over memory of device 0, the policy works on device 1";
+    CHECK_THROWS_WITH(make_bvh(there, set.view()), "abut::make_bvh" + view);
+    CHECK_THROWS_WITH(pairs(there, host, set.view()), "abut::pairs" + view);
+    CHECK(to_host(pairs(here, tree, set)) == expected);
 }
 
 TEST_CASE("sets: on a device they are checked there") {

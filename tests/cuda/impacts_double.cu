@@ -14,7 +14,7 @@ TEST_CASE("impacts: cuda, double") {
 TEST_CASE("impacts: the truth of the scenes: cuda") {
     using abut::test::ccd_folder, abut::test::check_scene;
     for (const char* name : {"cloth-funnel", "cloth-ball", "armadillo-rollers"}) {
-        if (!ccd_folder(name)) ABUT_SKIP("the folder of real scenes is not there (ABUT_DATA)");
+        if (!ccd_folder(name)) ABUT_SKIP("data", "the folder of real scenes is not there (ABUT_DATA)");
         check_scene<double>(abut::cuda{}, name);
     }
 }

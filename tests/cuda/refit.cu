@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <abut/cuda.hpp>
 
+#include <memory>
+#include <thread>
+#include <vector>
+
 #include "index/layout_cases.hpp"
 #include "index/refit_cases.hpp"
 
@@ -21,6 +25,43 @@ TEST_CASE("refit: the same bits on the device as on the host") {
     for (int i = 0; i < 5; ++i) {
         CHECK(test::same_bits(expected.stored(), refit(abut::cuda{}, tree, second).stored().to_host()));
     }
+}
+
+TEST_CASE("refit: a plan that is made in one stream is used in another") {
+    test::uniform random(72);
+    const triangle_soup<float> first(test::random_triangles<float>(1'000'000, random)),
+        second(test::random_triangles<float>(1'000'000, random));
+    cudaStream_t streams[2] = {};
+    for (auto& stream : streams) REQUIRE(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking) == cudaSuccess);
+    {
+        const abut::cuda on[2] = {{.stream = streams[0]}, {.stream = streams[1]}};
+        const auto moved = copy_to(on[0], second);
+        const auto build = [&] { return make_bvh(on[0], first); };
+        const auto expected = refit(on[0], build(), moved).stored().to_host();
+        // One after the other.
+        const auto tree = build();
+        CHECK(test::same_bits(expected, refit(on[0], tree, moved).stored().to_host()));
+        CHECK(test::same_bits(expected, refit(on[1], tree, moved).stored().to_host()));
+        // At once: one of two makes the plan, and the other takes it as soon as it is there.
+        for (int i = 0; i < 10; ++i) {
+            const auto fresh = build();
+            int same[2] = {0, 0};
+            std::vector<std::thread> threads;
+            for (const int k : {0, 1}) {
+                threads.emplace_back(
+                    [&, k] { same[k] = test::same_bits(expected, refit(on[k], fresh, moved).stored().to_host()); });
+            }
+            for (std::thread& t : threads) t.join();
+            CHECK(same[0] + same[1] == 2);
+        }
+        // The tree and its plan go while nothing is waited for but the refit itself.
+        auto gone = std::make_unique<decltype(build())>(build());
+        (void)refit(on[0], *gone, moved);
+        const auto last = refit(on[1], *gone, moved);
+        gone.reset();
+        CHECK(test::same_bits(expected, last.stored().to_host()));
+    }
+    for (auto& stream : streams) cudaStreamDestroy(stream);
 }
 
 TEMPLATE_TEST_CASE("builders: ploc makes the same tree on the device as on the host", "", float, double) {

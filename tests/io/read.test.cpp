@@ -77,7 +77,7 @@ std::array<std::size_t, 2> open_and_bad(const std::vector<std::array<std::uint32
 
 TEMPLATE_TEST_CASE("read_mesh: real files have the counts and boxes that are known of them", "", float, double) {
     const auto folder = io_test::meshes();
-    if (!folder) ABUT_SKIP("the folder of real meshes is not there (ABUT_DATA)");
+    if (!folder) ABUT_SKIP("data", "the folder of real meshes is not there (ABUT_DATA)");
     for (const truth& known : truths) {
         INFO(known.file);
         const auto data = abut::io::read_mesh_data<TestType>(*folder / known.file);

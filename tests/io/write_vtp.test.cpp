@@ -109,7 +109,7 @@ const std::vector<abut::face> halves{{0, 1, 2}, {0, 2, 3}};
 }  // namespace
 
 TEMPLATE_TEST_CASE("write_vtp: what is written is there bit for bit", "", float, double) {
-    if (std::endian::native == std::endian::big) ABUT_SKIP("the test reads little-endian numbers");
+    if (std::endian::native == std::endian::big) ABUT_SKIP("order of bytes", "the test reads little-endian numbers");
     using T = TestType;
     const io_test::scratch folder;
     using limits = std::numeric_limits<T>;
@@ -179,7 +179,7 @@ TEMPLATE_TEST_CASE("write_vtp: what is written is there bit for bit", "", float,
 
 TEMPLATE_TEST_CASE("write_points_vtp: points are cells of their own, with normals", "", float, double) {
     using T = TestType;
-    if (std::endian::native == std::endian::big) ABUT_SKIP("the test reads little-endian numbers");
+    if (std::endian::native == std::endian::big) ABUT_SKIP("order of bytes", "the test reads little-endian numbers");
     const io_test::scratch folder;
     const std::vector<abut::vec3<T>> points{{1, 2, 3}, {4, 5, T(0.1)}}, normals{{0, 0, 1}, {0, T(-0.6), T(0.8)}};
     const std::vector<T> depth{0, T(1e-30)};
@@ -222,7 +222,7 @@ TEST_CASE("write_vtp: nothing in it, and nothing but the mesh") {
 }
 
 TEST_CASE("write_vtp: base64, and across the ends of the buffer") {
-    if (std::endian::native == std::endian::big) ABUT_SKIP("the test reads little-endian numbers");
+    if (std::endian::native == std::endian::big) ABUT_SKIP("order of bytes", "the test reads little-endian numbers");
     const io_test::scratch folder;
     {
         // RFC 4648, section 10

@@ -312,7 +312,7 @@ TEST_CASE("motion oracle: numbers") {
 }
 
 TEST_CASE("motion oracle: the truth of the scenes") {
-    if (!ccd_folder("cloth-funnel")) ABUT_SKIP("the folder of real scenes is not there (ABUT_DATA)");
+    if (!ccd_folder("cloth-funnel")) ABUT_SKIP("data", "the folder of real scenes is not there (ABUT_DATA)");
     for (const char* name : {"cloth-funnel", "cloth-ball", "armadillo-rollers"}) {
         const auto folder = ccd_folder(name);
         REQUIRE(folder);

@@ -17,10 +17,15 @@ using Catch::Approx;
 
 #include <cstdio>
 
-/// Leaves a test case (at its top level, before any assertion); ctest reports it as skipped, with the reason in its log.
-#define ABUT_SKIP(reason)                        \
-    do {                                         \
-        std::printf("abut skips: %s\n", reason); \
-        std::fflush(stdout);                     \
-        return;                                  \
+#include "needs.hpp"
+
+/// Leaves a test case (at its top level, before any assertion) for want of something: "data", "device", or what nobody may
+/// require, "time" or "order of bytes". ctest reports it as skipped, with the reason in its log. Where ABUT_REQUIRE names
+/// what is missing, it is a failure.
+#define ABUT_SKIP(missing, reason)                                         \
+    do {                                                                   \
+        if (abut::test::is_required(missing)) FAIL("missing: " << reason); \
+        std::printf("abut skips: %s\n", reason);                           \
+        std::fflush(stdout);                                               \
+        return;                                                            \
     } while (false)

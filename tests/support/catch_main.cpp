@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 
 // `main` of every test executable, for both generations of Catch2. It leaves with 77, which ctest reports as skipped, where
-// what the executable needs is not there.
+// what the executable needs is not there and ABUT_REQUIRE does not ask for it.
 
 #if __has_include(<catch2/catch_session.hpp>)
 #include <catch2/catch_session.hpp>
@@ -24,6 +24,10 @@ extern "C" const char* __tsan_default_options() { return "ignore_noninstrumented
 
 int main(int argc, char* argv[]) {
     if (const char* missing = abut::test::what_is_missing()) {
+        if (abut::test::is_required("device")) {
+            std::printf("ABUT_REQUIRE asks for a device: %s\n", missing);
+            return 1;
+        }
         std::printf("abut skips: %s\n", missing);
         return 77;
     }

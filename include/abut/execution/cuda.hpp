@@ -79,8 +79,10 @@ class current_device {
 public:
     explicit current_device(int device) {
         check(cudaGetDevice(&before_), "cudaGetDevice");
-        if (before_ != device) check(cudaSetDevice(device), "cudaSetDevice");
-        changed_ = before_ != device;
+        if (before_ == device) return;
+        const cudaError_t code = cudaSetDevice(device);
+        if (code != cudaSuccess) check(code, ("cudaSetDevice(" + std::to_string(device) + ")").c_str());
+        changed_ = true;
     }
     explicit current_device(const cuda& on) : current_device(device_of(on)) {}
     current_device(const current_device&) = delete;
