@@ -142,7 +142,7 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Y, cl
 /// with their number. Under cuda the visitor is a trivially copyable functor with an ABUT_HD operator(), or with nvcc's
 /// `--extended-lambda` a lambda that is marked so and captures by value (see query_options).
 ///
-///     abut::for_each_pair(on, mesh, balls, [=] ABUT_HD(abut::index_pair pair) {
+///     abut::for_each_pair(on, mesh, ball, [=] ABUT_HD(abut::index_pair pair) {
 ///         touched[pair.b] = 1;  // on a device, device memory
 ///         return abut::visit::proceed;
 ///     });

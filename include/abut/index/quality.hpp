@@ -132,10 +132,10 @@ template <execution_policy Policy, class Set, memory_space Space, bvh_layout_kin
 /// nearly all shapes with all. 10,000 spheres in a plane, shuffled, took 120 times as long as with a new tree, and that
 /// grows with their number. A scene that grows as a whole is said to need it too, which costs one build.
 ///
-///     const auto when_built = quality(tree);
-///     ...
-///     tree = refit(on, tree, moved);
-///     if (needs_rebuild(when_built, quality(tree))) tree = make_bvh(on, moved);  // and when_built = quality(tree)
+///     auto tree = abut::make_bvh(on, cloth_t0);
+///     const auto when_built = abut::quality(tree);
+///     tree = abut::refit(on, tree, cloth_t1);
+///     if (abut::needs_rebuild(when_built, abut::quality(tree))) tree = abut::make_bvh(on, cloth_t1);
 [[nodiscard]] inline bool needs_rebuild(const bvh_quality& when_built, const bvh_quality& now, double growth = 1.5) {
     return now.sah_cost > growth * when_built.sah_cost || now.surface > growth * when_built.surface;
 }
