@@ -3,45 +3,73 @@
 #
 # usage: sh cmake/demo.sh [arguments of spheres_vs_mesh]
 #
-# Installs what is missing from the distribution's packages (Debian 12, Ubuntu 24.04 or newer), builds
-# docs/examples/spheres_vs_mesh, and runs it: on its embedded scene if no arguments are given, with OpenMP, and with CUDA
-# too where nvcc 13.0 or newer and a device are present. Without arguments it runs docs/examples/triangle_vs_many as well.
-# ABUT_REQUIRE_CUDA=1 fails where nvcc is not.
+# Installs what is missing from the distribution's packages (Debian 12, Ubuntu 24.04 or newer), builds the programs of
+# docs/examples and runs them on their embedded scenes: spheres against a mesh, one triangle against many, mesh against
+# mesh, a cloth that falls on a ball. Where nvcc 13.0 or newer and a device are present it runs them there too. At last it
+# lists the files to look at.
+# With arguments it builds and runs spheres_vs_mesh alone. ABUT_REQUIRE_CUDA=1 fails where nvcc is not.
 set -eu
 cd "$(dirname "$0")/.."
 . cmake/common.sh
 
 need_packages g++ cmake ninja-build libtinyobjloader-dev libcli11-dev
 find_nvcc
-
-say 'building docs/examples/spheres_vs_mesh and triangle_vs_many in build/demo'
-mkdir -p build
+programs='spheres_vs_mesh triangle_vs_many mesh_vs_mesh cloth_ccd'
+if [ $# -gt 0 ]; then programs=spheres_vs_mesh; fi
+targets=$programs
 cuda=OFF
-targets='spheres_vs_mesh triangle_vs_many'
-if [ -n "$nvcc" ]; then
+if cuda_device_present; then
     cuda=ON
-    targets="$targets spheres_vs_mesh_cuda triangle_vs_many_cuda"
+    for program in $programs; do targets="$targets ${program}_cuda"; done
+elif [ -n "$nvcc" ]; then
+    say 'CUDA: left out, there is no device'
 fi
+
+say "building in build/demo: $targets"
+mkdir -p build/demo/out
 cmake --preset default -B build/demo -DABUT_TESTS=OFF -DABUT_BENCH=OFF -DABUT_WERROR=OFF -DABUT_CUDA=$cuda >build/demo.log 2>&1 ||
     { cat build/demo.log; fail 'configuring failed'; }
 # shellcheck disable=SC2086
 cmake --build build/demo --parallel "$jobs" --target $targets
+cd build/demo/out
 
 run() {
-    say "running $*"
-    "$@"
+    program=$1
+    shift
+    say "$program $*"
+    "../docs/examples/$program" "$@"
 }
-mkdir -p build/demo/out
-cd build/demo/out
-run ../docs/examples/spheres_vs_mesh --policy openmp "$@"
-if cuda_device_present && [ -x ../docs/examples/spheres_vs_mesh_cuda ]; then
-    run ../docs/examples/spheres_vs_mesh_cuda --policy cuda "$@"
+# The same job on the device, whose answers are the same: its files would be too.
+run_cuda() {
+    if [ $cuda = ON ]; then run "$@" --no-output; fi
+}
+
+if [ $# -gt 0 ]; then
+    run spheres_vs_mesh "$@"
+    run_cuda spheres_vs_mesh_cuda "$@"
+    exit 0
 fi
-if [ $# = 0 ]; then
-    if cuda_device_present; then
-        run ../docs/examples/triangle_vs_many_cuda
-    else
-        run ../docs/examples/triangle_vs_many
-    fi
-fi
-say "done; files written are in $(pwd)"
+
+run spheres_vs_mesh
+run_cuda spheres_vs_mesh_cuda
+if [ $cuda = ON ]; then run triangle_vs_many_cuda; else run triangle_vs_many; fi
+run mesh_vs_mesh
+run_cuda mesh_vs_mesh_cuda
+run cloth_ccd --write-every 20
+run_cuda cloth_ccd_cuda
+
+say 'done; what to look at, in ParaView (.vtp, .ply), MeshLab or Blender (.ply):'
+show() { # show WHAT FILE...
+    printf '%s\n' "$1"
+    shift
+    for file in "$@"; do
+        [ -s "$file" ] || fail "$file was not written"
+        printf '  %s/%s\n' "$(pwd)" "$file"
+    done
+}
+show 'spheres against a torus: the triangles that are hit, and all pairs' spheres_vs_mesh_hits.ply spheres_vs_mesh_pairs.csv
+show 'one triangle against a million: those that are hit' triangle_vs_many.ply
+show 'two tori: the triangles that are hit; the contacts as points with normals; the few that stand for them' \
+    mesh_vs_mesh_a.vtp mesh_vs_mesh_b.vtp mesh_vs_mesh_contacts.vtp mesh_vs_mesh_reduced.vtp
+show 'a cloth on a ball, three frames of it: what was in an impact, and when' \
+    cloth_ccd_ball.vtp cloth_ccd_0020.vtp cloth_ccd_0040.vtp cloth_ccd_0060.vtp

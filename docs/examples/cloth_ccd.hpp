@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <exception>
 #include <map>
 #include <optional>
 #include <span>
@@ -90,7 +91,6 @@ public:
             index_ = watch.time("refit", [&] { return abut::refit(on_, *index_, step); });
         } else {
             index_ = watch.time("build", [&] { return abut::make_impact_index(on_, step); });
-            cost_when_new_ = 0;
             age_ = 0;
             is_worn_ = false;
         }
@@ -111,9 +111,9 @@ public:
             is_worn_ = age_ >= rebuild_;
             return;
         }
-        const double cost = watch.time("quality", [&] { return abut::quality(on_, index_->faces()).sah_cost; });
-        if (cost_when_new_ == 0) cost_when_new_ = cost;
-        is_worn_ = cost > 1.5 * cost_when_new_;
+        const auto now = watch.time("quality", [&] { return abut::quality(on_, index_->faces()); });
+        if (age_ == 1) when_built_ = now;
+        is_worn_ = abut::needs_rebuild(when_built_, now);
     }
 
 private:
@@ -122,7 +122,7 @@ private:
     Policy on_;
     abut::mesh<T, space> at_t0_, at_t1_;
     std::optional<abut::impact_index<T, space>> index_, ball_;
-    double cost_when_new_ = 0;
+    abut::bvh_quality when_built_;
     int rebuild_, age_ = 0;
     bool is_worn_ = false;
     abut::impact_options options_;
@@ -231,12 +231,22 @@ public:
     void write_both(const std::string& part, const std::vector<abut::vec3<T>>& positions,
                     const std::vector<abut::face>& faces, const abut::io::mesh_options& options) {
         for (const char* extension : {".ply", ".vtp"}) {
+            if (failure_) return;
             last_ = s_.out + "_" + part + extension;
             if (written_++ == 0) first_ = last_;
-            abut::io::write_mesh(last_, positions, faces, options);
+            try {
+                abut::io::write_mesh(last_, positions, faces, options);
+            } catch (...) {
+                failure_ = std::current_exception();  // steps go on, and their figures are printed
+            }
         }
     }
-    void print() const { std::printf("written: %s to %s, %d files\n", first_.c_str(), last_.c_str(), written_); }
+    /// Says what was written, or throws what went wrong.
+    void print() const {
+        std::fflush(stdout);
+        if (failure_) std::rethrow_exception(failure_);
+        std::printf("written: %s to %s, %d files\n", first_.c_str(), last_.c_str(), written_);
+    }
 
 private:
     static std::pair<std::uint32_t, std::uint32_t> edge_of(std::uint32_t a, std::uint32_t b) { return std::minmax(a, b); }
@@ -246,6 +256,7 @@ private:
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> faces_of_;
     std::string first_, last_;
     int written_ = 0;
+    std::exception_ptr failure_;
 };
 
 inline void print_settings(const settings& s) {
@@ -299,10 +310,10 @@ void run_frames(const Policy& on, const settings& s) {
     detector<A, Policy, T> detect(on, abut::mesh<T>(at_t0, faces), std::nullopt, s);
     outcome<T> found;
     table rows(false);
-    for (int run = 1; run <= s.repeat; ++run) {
+    for (example::series runs(s.repeat); runs.more();) {
         example::stopwatch watch;
         found = detect.look(at_t1, watch);
-        rows.add(run, 1, found, watch);
+        rows.add(runs.number(), 1, found, watch);
     }
     if (const auto* const i = found.first()) {
         const auto [a, b] = features_of(*i);
@@ -366,7 +377,8 @@ void run_scene(const Policy& on, const settings& s) {
     writer out(s, cloth.faces());
     if (!s.no_output) out.write_both("ball", sphere.vertices, sphere.faces, {});
     table rows(true);
-    for (int step = 1; step <= s.steps; ++step) {
+    for (example::series steps(s.steps); steps.more();) {
+        const int step = steps.number();
         example::stopwatch watch;
         std::vector<double> part(cloth.positions().size(), 1);
         watch.time("simulate", [&] { cloth.propose(); });
@@ -378,7 +390,7 @@ void run_scene(const Policy& on, const settings& s) {
         detect.advance(watch);
         cloth.go(part);
         rows.add(step, queries, wanted, watch);
-        if (!s.no_output && (step % s.write_every == 0 || step == s.steps)) {
+        if (!s.no_output && (step % s.write_every == 0 || steps.is_last())) {
             char number[16];
             std::snprintf(number, sizeof number, "%04d", step);
             out.write(number, cloth.positions(), wanted);
@@ -462,7 +474,10 @@ inline void check(const CLI::App& app, const settings& s) {
                                    ", a quarter of an edge of the cloth, whose neighbours would come too near otherwise");
     }
     example::check_threads(s);
-    if (!s.no_output) example::require_folder(s.out + "_t0.ply");
+    if (s.no_output) return;
+    for (const char* part : {"_t0", "_t1", "_ball"}) {
+        for (const char* extension : {".ply", ".vtp"}) example::require_writable(s.out + part + extension);
+    }
 }
 
 /// `Program` names itself, its policies, and the types that it is compiled for. Returns the exit status.
@@ -485,7 +500,11 @@ int main(int argc, char** argv) {
             described = &app;
             describe<Program>(app, s);
         },
-        [&] { check(*described, s); }, work);
+        [&] {
+            check(*described, s);
+            s.is_series = true;
+        },
+        work);
 }
 
 }  // namespace cloth_ccd

@@ -50,8 +50,8 @@ struct input {
     abut::rigid<T> pose;
 };
 
-/// The pose of an axis, an angle in degrees and a translation. Its matrix is made in long double and rounded once: trees cull
-/// best where a rotation is one to the last places.
+/// The pose of an axis, an angle in degrees and a translation. Its matrix is made in long double and rounded once: trees
+/// cull best where a rotation is one to the last places.
 template <abut::scalar T>
 abut::rigid<T> pose_of(const std::vector<double>& numbers) {
     if (numbers.empty()) return {};
@@ -105,7 +105,7 @@ outcome<T> solve(const Policy& on, const input<T>& in, const settings& s, exampl
         found.report_a = abut::validate(on, mesh_a);
         found.report_b = abut::validate(on, mesh_b);
     });
-    for (int run = 0; run < s.repeat; ++run) {
+    for (example::series runs(s.repeat); runs.more();) {
         const auto [a, b] = watch.time("build both trees", [&, &mesh_a = mesh_a, &mesh_b = mesh_b] {
             const std::pair trees(abut::make_bvh(on, mesh_a), abut::make_bvh(on, mesh_b));
             synchronize(on);
@@ -117,7 +117,7 @@ outcome<T> solve(const Policy& on, const input<T>& in, const settings& s, exampl
         const auto contacts = watch.time("contacts", [&] { return abut::contacts<A>(on, tree, moved); });
         const auto reduce = [&] { return abut::reduce_contacts(on, contacts, {.bins = s.bins}); };
         if (s.bins > 0) found.reduced = abut::to_host(watch.time("reduce", reduce));
-        if (run + 1 < s.repeat) continue;
+        if (!runs.is_last()) continue;
         const auto fetch = [&] {
             found.pairs = abut::to_host(hits);
             found.contacts = abut::to_host(contacts);
@@ -213,7 +213,7 @@ void run_as(const settings& s) {
     const auto hits_a = count_hits(found.pairs, in.a.size(), &abut::index_pair::a);
     const auto hits_b = count_hits(found.pairs, in.b.size(), &abut::index_pair::b);
     std::vector<std::string> written;
-    if (!s.no_output) {
+    const auto write = [&] {
         watch.time("write", [&] {
             write_both(s, "a", written, [&](const auto& path) { write_mesh(path, in.a, abut::rigid<T>{}, hits_a); });
             write_both(s, "b", written, [&](const auto& path) { write_mesh(path, in.b, in.pose, hits_b); });
@@ -221,30 +221,33 @@ void run_as(const settings& s) {
             if (s.bins == 0) return;
             write_both(s, "reduced", written, [&](const auto& path) { write_contacts(path, found.reduced); });
         });
-    }
-
-    const auto line = [](const char* what, std::size_t n) { std::printf("%-20s %12zu\n", what, n); };
-    const auto hit = [](const auto& hits) { return hits.size() - static_cast<std::size_t>(std::ranges::count(hits, 0u)); };
-    std::printf("%s, %s arithmetic on %s\n", s.policy().c_str(), s.arithmetic.c_str(), s.scalar.c_str());
-    print_report("a", in.name_a, found.report_a);
-    print_report("b", in.name_b, found.report_b);
-    line("pairs", found.pairs.size());
-    line("triangles of a hit", hit(hits_a));
-    line("triangles of b hit", hit(hits_b));
-    line("contacts", found.contacts.size());
-    if (!found.contacts.empty()) {
-        const auto deeper = [](const auto& c, const auto& d) { return c.depth < d.depth; };
-        const auto& deepest = *std::ranges::max_element(found.contacts, deeper);
-        std::printf("%-20s %12g   (triangles %u and %u)\n", "greatest depth", static_cast<double>(deepest.depth), deepest.a,
-                    deepest.b);
-    }
-    if (s.bins > 0) line("reduced contacts", found.reduced.size());
-    std::printf("time in ms%s\n", s.repeat > 1 ? " (from the trees on: medians)" : "");
-    watch.print();
-    if (written.empty()) return;
-    std::printf("written:");
-    for (std::size_t i = 0; i < written.size(); ++i) std::printf("%s %s", i == 0 ? "" : ",", written[i].c_str());
-    std::printf("\n");
+    };
+    example::write_and_print(!s.no_output, write, [&](bool all_written) {
+        const auto line = [](const char* what, std::size_t n) { std::printf("%-20s %12zu\n", what, n); };
+        const auto hit = [](const auto& hits) {
+            return hits.size() - static_cast<std::size_t>(std::ranges::count(hits, 0u));
+        };
+        std::printf("%s, %s arithmetic on %s\n", s.policy().c_str(), s.arithmetic.c_str(), s.scalar.c_str());
+        print_report("a", in.name_a, found.report_a);
+        print_report("b", in.name_b, found.report_b);
+        line("pairs", found.pairs.size());
+        line("triangles of a hit", hit(hits_a));
+        line("triangles of b hit", hit(hits_b));
+        line("contacts", found.contacts.size());
+        if (!found.contacts.empty()) {
+            const auto deeper = [](const auto& c, const auto& d) { return c.depth < d.depth; };
+            const auto& deepest = *std::ranges::max_element(found.contacts, deeper);
+            std::printf("%-20s %12g   (triangles %u and %u)\n", "greatest depth", static_cast<double>(deepest.depth),
+                        deepest.a, deepest.b);
+        }
+        if (s.bins > 0) line("reduced contacts", found.reduced.size());
+        std::printf("time in ms%s\n", s.repeat > 1 ? " (from the trees on: medians)" : "");
+        watch.print();
+        if (!all_written) return;
+        std::printf("written:");
+        for (std::size_t i = 0; i < written.size(); ++i) std::printf("%s %s", i == 0 ? "" : ",", written[i].c_str());
+        std::printf("\n");
+    });
 }
 
 // --- the command line --------------------------------------------------------------------------------------------------
@@ -266,7 +269,7 @@ void describe(CLI::App& app, settings& s) {
     example::add_types<Program>(app, s, "pairs");
     app.add_option("--reduce", s.bins, "Reduce contacts with N bins (0: do not)")
         ->type_name("N")
-        ->check(CLI::Range(0, 1 << 20))
+        ->check(CLI::Range(0, 1024))
         ->capture_default_str();
     example::add_repeat(app, s, "Build and query");
     app.add_flag("--progress", s.progress, "Say on stderr when a stage is done");
@@ -286,7 +289,10 @@ inline void check(const settings& s) {
         throw example::usage_error("--pose: expected an axis with a length");
     }
     example::check_threads(s);
-    if (!s.no_output) example::require_folder(s.out + "_a.ply");
+    if (s.no_output) return;
+    for (const char* part : {"_a", "_b", "_contacts", "_reduced"}) {
+        for (const char* extension : {".ply", ".vtp"}) example::require_writable(s.out + part + extension);
+    }
 }
 
 /// `Program` names itself, its policies, and the types that it is compiled for. Returns the exit status.

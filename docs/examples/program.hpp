@@ -5,11 +5,14 @@
 // line is read and a failure told. None of it is about collisions.
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <concepts>
+#include <csignal>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <new>
@@ -101,6 +104,48 @@ inline std::size_t count_set(const std::vector<std::uint8_t>& flags) {
     return static_cast<std::size_t>(std::count(flags.begin(), flags.end(), std::uint8_t{1}));
 }
 
+// --- Ctrl-C ------------------------------------------------------------------------------------------------------------
+
+/// While it lives, the first Ctrl-C ends a series of runs after the one that is going on, so that what was measured is
+/// printed. The second one ends the program.
+class interruption {
+public:
+    explicit interruption(bool is_series) {
+        if (!is_series) return;
+        struct sigaction action {};
+        action.sa_handler = note;
+        action.sa_flags = SA_RESETHAND;
+        sigaction(SIGINT, &action, nullptr);
+    }
+    interruption(const interruption&) = delete;
+    interruption& operator=(const interruption&) = delete;
+    ~interruption() { std::signal(SIGINT, SIG_DFL); }
+    static bool came() { return came_ != 0; }
+
+private:
+    static void note(int) {
+        came_ = 1;
+        constexpr char text[] = "\nstopping after this run; Ctrl-C again stops at once\n";
+        if (write(STDERR_FILENO, text, sizeof text - 1) < 0) return;
+    }
+    static inline volatile std::sig_atomic_t came_ = 0;
+};
+
+/// A series of runs, of which there is at least one: for (series runs(n); runs.more();) { ...; if (runs.is_last()) ... }
+class series {
+public:
+    explicit series(int wanted) : wanted_(wanted) {}
+    bool more() { return done_ == 0 || !is_last() ? (++done_, true) : false; }
+    /// Once it is the last one it stays so, whatever comes during what is done then.
+    bool is_last() { return last_ = last_ || done_ >= wanted_ || interruption::came(); }
+    /// Counts from 1.
+    [[nodiscard]] int number() const { return done_; }
+
+private:
+    int wanted_, done_ = 0;
+    bool last_ = false;
+};
+
 // --- types by name -----------------------------------------------------------------------------------------------------
 
 /// A list of types.
@@ -155,6 +200,7 @@ struct common_settings {
     int threads = 0;
     int repeat = 1;
     bool no_output = false;
+    bool is_series = false;  ///< Ctrl-C ends it between two runs also where nothing is repeated
 
     /// Where a program takes but one.
     [[nodiscard]] const std::string& policy() const { return policies.front(); }
@@ -201,10 +247,41 @@ struct usage_error : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Refuses a file that could not be written: before the work, not after minutes of it.
-inline void require_folder(const std::string& file) {
-    const auto folder = std::filesystem::path(file).parent_path();
+/// Refuses a file that cannot be written: before the work, not after minutes of it. One that is there stays as it is.
+inline void require_writable(const std::string& file) {
+    const std::filesystem::path path(file), folder = path.parent_path();
     if (!folder.empty() && !std::filesystem::is_directory(folder)) throw usage_error(file + ": no such folder");
+    const bool is_there = std::filesystem::exists(path);
+    if (is_there && std::filesystem::is_directory(path)) throw usage_error(file + ": is a folder");
+    if (is_there && !std::filesystem::is_regular_file(path)) return;
+    std::FILE* const opened = std::fopen(file.c_str(), "ab");
+    if (opened == nullptr) throw usage_error(file + ": cannot be written: " + std::strerror(errno));
+    std::fclose(opened);
+    if (!is_there) std::filesystem::remove(path);
+}
+
+/// Refuses a mesh's file of a format that is not written, by its extension, as abut::io::write_mesh does.
+inline void require_mesh_format(const std::string& option, const std::string& file) {
+    std::string extension = std::filesystem::path(file).extension().string();
+    for (char& c : extension) c = 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    if (extension != ".ply" && extension != ".vtp") {
+        throw usage_error(option + ": " + file + ": expected a name that ends with .ply or .vtp");
+    }
+}
+
+/// Writes files with `write`, if anything is to be written, then calls print(written), and only then says what could not be
+/// written: results are shown all the same.
+template <class Write, class Print>
+void write_and_print(bool writes, const Write& write, const Print& print) {
+    std::exception_ptr failure;
+    try {
+        if (writes) write();
+    } catch (...) {
+        failure = std::current_exception();
+    }
+    print(writes && !failure);
+    std::fflush(stdout);
+    if (failure) std::rethrow_exception(failure);
 }
 
 inline void check_threads(const common_settings& s) {
@@ -228,9 +305,12 @@ int run(int argc, char** argv, const common_settings& s, const Describe& describ
         app.parse(argc, argv);
         check();
         for (const auto& policy : s.policies) Program::require_device(policy);
+        const interruption in_runs(s.repeat > 1 || s.is_series);
         int status = 0;
         choose(typename Program::scalars{}, s.scalar, [&]<class T>() { status = work.template operator()<T>(); });
-        return status;
+        if (!interruption::came()) return status;
+        std::fflush(stdout);
+        return fail("stopped by Ctrl-C: the figures are those of the runs until then", 130);
     } catch (const CLI::Success& help) {
         return app.exit(help);
     } catch (const CLI::ParseError& e) {

@@ -150,14 +150,14 @@ outcome solve(const Policy& on, const Mesh& host_mesh, const Spheres& host_spher
     const auto [mesh, spheres] = elsewhere ? watch.time("upload", bring) : bring();
 
     outcome found;
-    for (int run = 0; run < repeat; ++run) {
+    for (example::series runs(repeat); runs.more();) {
         const auto index = watch.time("build", [&, &mesh = mesh] {
             auto made = make_index(on, mesh);
             synchronize(on);
             return made;
         });
         const auto hits = watch.time("query", [&, &spheres = spheres] { return abut::pairs<A>(on, index, spheres); });
-        if (run + 1 < repeat) continue;
+        if (!runs.is_last()) continue;
         if constexpr (requires { index.bytes(); }) found.index_bytes = index.bytes();
         const auto fetch = [&] { return abut::to_host(hits); };
         found.pairs = elsewhere ? watch.time("download", fetch) : fetch();
@@ -202,30 +202,31 @@ void run_as(const settings& s) {
 
     std::vector<std::uint8_t> triangle_hit(triangles, 0), sphere_hit(spheres, 0);
     for (const auto& pair : found.pairs) triangle_hit[pair.a] = sphere_hit[pair.b] = 1;
-    if (!s.no_output) {
+    const auto write = [&] {
         watch.time("write", [&] {
             abut::io::write_pairs(s.out_pairs, found.pairs, {"triangle", "sphere"});
-            abut::io::write_ply(s.out_mesh, in.mesh, {.hit = triangle_hit});
+            abut::io::write_mesh(s.out_mesh, in.mesh, {.hit = triangle_hit});
         });
-    }
-    const std::chrono::duration<double, std::milli> whole = std::chrono::steady_clock::now() - begin;
-
-    const auto line = [](const char* what, std::size_t n) { std::printf("%-18s %12zu\n", what, n); };
-    std::printf("%s, %s, %s arithmetic on %s, index %s\n", s.mesh_file.empty() ? "embedded torus" : s.mesh_file.c_str(),
-                s.policy().c_str(), s.arithmetic.c_str(), s.scalar.c_str(), index.c_str());
-    line("spheres", spheres);
-    if (const auto* const equal = std::get_if<abut::equal_spheres<T>>(&in.spheres)) {
-        std::printf("%-18s %12g\n", "radius", static_cast<double>(equal->view().radius));
-    }
-    line("triangles", triangles);
-    line("pairs", found.pairs.size());
-    line("triangles hit", example::count_set(triangle_hit));
-    line("spheres hit", example::count_set(sphere_hit));
-    line("bytes of the index", found.index_bytes);
-    std::printf("time in ms%s\n", s.repeat > 1 ? " (build and query: median of the runs)" : "");
-    watch.print();
-    std::printf("  %-16s %12.3f\n", "all of it", whole.count());
-    if (!s.no_output) std::printf("written: %s, %s\n", s.out_pairs.c_str(), s.out_mesh.c_str());
+    };
+    example::write_and_print(!s.no_output, write, [&](bool written) {
+        const std::chrono::duration<double, std::milli> whole = std::chrono::steady_clock::now() - begin;
+        const auto line = [](const char* what, std::size_t n) { std::printf("%-18s %12zu\n", what, n); };
+        std::printf("%s, %s, %s arithmetic on %s, index %s\n", s.mesh_file.empty() ? "embedded torus" : s.mesh_file.c_str(),
+                    s.policy().c_str(), s.arithmetic.c_str(), s.scalar.c_str(), index.c_str());
+        line("spheres", spheres);
+        if (const auto* const equal = std::get_if<abut::equal_spheres<T>>(&in.spheres)) {
+            std::printf("%-18s %12g\n", "radius", static_cast<double>(equal->view().radius));
+        }
+        line("triangles", triangles);
+        line("pairs", found.pairs.size());
+        line("triangles hit", example::count_set(triangle_hit));
+        line("spheres hit", example::count_set(sphere_hit));
+        line("bytes of the index", found.index_bytes);
+        std::printf("time in ms%s\n", s.repeat > 1 ? " (build and query: median of the runs)" : "");
+        watch.print();
+        std::printf("  %-16s %12.3f\n", "all of it", whole.count());
+        if (written) std::printf("written: %s, %s\n", s.out_pairs.c_str(), s.out_mesh.c_str());
+    });
 }
 
 // --- the command line --------------------------------------------------------------------------------------------------
@@ -257,8 +258,8 @@ void describe(CLI::App& app, settings& s) {
     app.add_option("--out-pairs", s.out_pairs, "Write the pairs (triangle,sphere; both count from 0) here")
         ->type_name("FILE.csv")
         ->capture_default_str();
-    app.add_option("--out-mesh", s.out_mesh, "Write the mesh here, its triangles marked where hit")
-        ->type_name("FILE.ply")
+    app.add_option("--out-mesh", s.out_mesh, "Write the mesh here, as .ply or .vtp, its triangles marked where hit")
+        ->type_name("FILE")
         ->capture_default_str();
     app.add_flag("--no-output", s.no_output, "Write no files");
 }
@@ -273,7 +274,8 @@ inline void check(const settings& s) {
         if (!file.empty() && !std::filesystem::exists(file)) throw example::usage_error(file + ": no such file");
     }
     if (s.no_output) return;
-    for (const auto& file : {s.out_pairs, s.out_mesh}) example::require_folder(file);
+    example::require_mesh_format("--out-mesh", s.out_mesh);
+    for (const auto& file : {s.out_pairs, s.out_mesh}) example::require_writable(file);
 }
 
 /// `Program` names itself, its policies, and the types that it is compiled for. Returns the exit status.

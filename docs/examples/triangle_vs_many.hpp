@@ -96,7 +96,7 @@ void solve(const Policy& on, const std::vector<abut::triangle<T>>& triangles, co
         example::stopwatch unseen;
         ask(soup(on, few), unseen);
     });
-    for (int run = 0; run < s.repeat; ++run) {
+    for (example::series runs(s.repeat); runs.more();) {
         const soup many = found.watch.time("upload and check", [&] { return soup(on, triangles); });
         ask(many, found.watch);
     }
@@ -177,8 +177,8 @@ void write_scene(const std::string& file, std::vector<abut::triangle<T>> triangl
         faces.push_back({first, first + 1, first + 2});
         vertices.insert(vertices.end(), {t.a, t.b, t.c});
     }
-    abut::io::write_ply(file, vertices, faces,
-                        {.hit = hit, .face_properties = {{"reference", std::span<const std::uint8_t>(is_reference)}}});
+    abut::io::write_mesh(file, vertices, faces,
+                         {.hit = hit, .face_properties = {{"reference", std::span<const std::uint8_t>(is_reference)}}});
 }
 
 /// A column for each policy, a row for each stage.
@@ -208,21 +208,24 @@ int run_as(const settings& s) {
         });
     }
     const bool writes = !s.no_output && s.asks_all();
-    if (writes) watch.time("write", [&] { write_scene(s.out, triangles, found.front().hit); });
-
-    std::printf("one triangle against %zu of size %g, seed %llu, %s arithmetic on %s\n", s.triangles, s.size,
-                static_cast<unsigned long long>(s.seed), s.arithmetic.c_str(), s.scalar.c_str());
-    if (found.front().any) std::printf("%-18s %12s\n", "any is hit", *found.front().any ? "yes" : "no");
-    if (s.asks_all()) {
-        const std::size_t hits = example::count_set(found.front().hit);
-        std::printf("%-18s %12zu   (%.3f %%)\n", "triangles hit", hits,
-                    100 * static_cast<double>(hits) / static_cast<double>(s.triangles));
-    }
-    print_times(s, found);
-    std::printf("outside of the policies\n");
-    watch.print();
-    if (writes) std::printf("written: %s\n", s.out.c_str());
-    return compare(found, triangles) ? 0 : 1;
+    const auto write = [&] { watch.time("write", [&] { write_scene(s.out, triangles, found.front().hit); }); };
+    bool same = true;
+    example::write_and_print(writes, write, [&](bool written) {
+        std::printf("one triangle against %zu of size %g, seed %llu, %s arithmetic on %s\n", s.triangles, s.size,
+                    static_cast<unsigned long long>(s.seed), s.arithmetic.c_str(), s.scalar.c_str());
+        if (found.front().any) std::printf("%-18s %12s\n", "any is hit", *found.front().any ? "yes" : "no");
+        if (s.asks_all()) {
+            const std::size_t hits = example::count_set(found.front().hit);
+            std::printf("%-18s %12zu   (%.3f %%)\n", "triangles hit", hits,
+                        100 * static_cast<double>(hits) / static_cast<double>(s.triangles));
+        }
+        print_times(s, found);
+        std::printf("outside of the policies\n");
+        watch.print();
+        if (written) std::printf("written: %s\n", s.out.c_str());
+        same = compare(found, triangles);
+    });
+    return same ? 0 : 1;
 }
 
 // --- the command line --------------------------------------------------------------------------------------------------
@@ -255,8 +258,9 @@ CLI::Option* describe(CLI::App& app, settings& s) {
     example::add_types<Program>(app, s, "triangles");
     example::add_repeat(app, s, "Upload and ask");
     const auto out =
-        app.add_option("--out", s.out, "Write the scene here, its triangles marked where hit; not with --any alone")
-            ->type_name("FILE.ply")
+        app.add_option("--out", s.out,
+                       "Write the scene here, as .ply or .vtp, its triangles marked where hit; not with --any alone")
+            ->type_name("FILE")
             ->capture_default_str();
     app.add_flag("--no-output", s.no_output, "Write no file");
     return out;
@@ -273,7 +277,9 @@ inline void check(const settings& s, bool names_a_file) {
     example::check_threads(s);
     if (names_a_file && !s.asks_all())
         throw example::usage_error("--out: --any does not find which triangles are hit; add --all");
-    if (!s.no_output && s.asks_all()) example::require_folder(s.out);
+    if (s.no_output || !s.asks_all()) return;
+    example::require_mesh_format("--out", s.out);
+    example::require_writable(s.out);
 }
 
 /// `Program` names itself, its policies, and the types that it is compiled for. Returns the exit status.

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <abut/index/quality.hpp>
 
+#include <cstddef>
+#include <utility>
 #include <vector>
 
 #include <abut/index/lbvh.hpp>
+#include <abut/index/refit.hpp>
 
 #include "support/catch.hpp"
 
@@ -50,4 +53,38 @@ TEST_CASE("quality: of trees that can be counted by hand") {
         };
         CHECK(quality(make_bvh(serial{}, triangle_soup<double>({scaled(0), scaled(1)}))).sah_cost == Approx(2.2));
     }
+}
+
+TEST_CASE("needs_rebuild: where shapes have changed places, and not where they have moved a little") {
+    const serial on;
+    constexpr std::size_t side = 32;
+    const auto row = [](float scale, float jitter) {
+        std::vector<sphere<float>> made;
+        for (std::size_t i = 0; i < side * side; ++i) {
+            const auto x = static_cast<float>(i % side), y = static_cast<float>(i / side);
+            made.push_back({{scale * (x + jitter * y / side), scale * y, 0}, 0.4f * scale});
+        }
+        return made;
+    };
+    const auto shuffled = [](std::vector<sphere<float>> made) {
+        for (std::size_t i = 0; i < made.size(); ++i) std::swap(made[i], made[(i * 7919 + 13) % made.size()]);
+        return made;
+    };
+    const auto tree = make_bvh(on, spheres<float>(row(1, 0)));
+    const auto when_built = quality(tree);
+    CHECK(when_built.surface == Approx(when_built.sah_cost * 2 * (31.8 * 31.8 + 2 * 31.8 * 0.8)));
+    const auto after = [&](const std::vector<sphere<float>>& now) { return quality(refit(on, tree, spheres<float>(now))); };
+    CHECK_FALSE(needs_rebuild(when_built, when_built));
+    CHECK_FALSE(needs_rebuild(when_built, after(row(1, 0.5f))));
+    CHECK(needs_rebuild(when_built, after(shuffled(row(1, 0)))));
+    CHECK(needs_rebuild(when_built, after(shuffled(row(0.01f, 0)))));
+    // One shape far away makes the root so large that beside it all other boxes are small.
+    auto far = shuffled(row(1, 0));
+    far[0].center.z = 1e4f;
+    const auto now = after(far);
+    CHECK(now.sah_cost < when_built.sah_cost);
+    CHECK(needs_rebuild(when_built, now));
+    CHECK(needs_rebuild(when_built, after(row(1, 0.5f)), 1.0));
+    const auto again = quality(make_bvh(on, spheres<float>(shuffled(row(1, 0)))));
+    CHECK_FALSE(needs_rebuild(when_built, again));
 }

@@ -6,8 +6,12 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <string>
+#include <system_error>
 #include <vector>
+
+#include <unistd.h>
 
 #include "io/support.hpp"
 #include "support/catch.hpp"
@@ -115,6 +119,20 @@ TEST_CASE("readers: a file that cannot be read is an error that names it") {
     std::filesystem::create_directory(folder / "folder.csv");
     CHECK(io_test::refusal([&] { abut::io::read_spheres<float>(folder / "folder.csv"); }) ==
           (folder / "folder.csv").string() + ": cannot be read: Is a directory");
+}
+
+TEST_CASE("readers: a file that says it is larger than all memory is an error that names it") {
+    // Sparse: it takes no room. Few file systems have files so large; tmpfs does.
+    const std::filesystem::path path = "/dev/shm/abut_test_sparse_" + std::to_string(getpid()) + ".obj";
+    std::ofstream{path};
+    std::error_code failed;
+    std::filesystem::resize_file(path, 9'223'372'036'854'775'807, failed);
+    if (failed) {
+        std::filesystem::remove(path, failed);
+        ABUT_SKIP("no file system for it");
+    }
+    CHECK(io_test::refusal([&] { abut::io::read_mesh<float>(path); }) == path.string() + ": cannot be read: File too large");
+    std::filesystem::remove(path);
 }
 
 TEST_CASE("readers: messages carry the path as it was given") {

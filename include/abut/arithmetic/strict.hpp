@@ -9,3 +9,7 @@
     (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ == 1) || defined(_M_FP_FAST)
 #error "abut: exact decisions need IEEE arithmetic: compile without -ffast-math, -Ofast, -ffinite-math-only and the like"
 #endif
+// 2 and -1: intermediate results may have more digits than their type, as under -mfpmath=387.
+#if defined(__FLT_EVAL_METHOD__) && (__FLT_EVAL_METHOD__ == 2 || __FLT_EVAL_METHOD__ < 0)
+#error "abut: results need the precision of their types: compile without -mfpmath=387 and -mfpmath=both"
+#endif

@@ -75,11 +75,18 @@ struct tagged_contact {
 
 /// The filter that keeps every pair of every entry.
 struct keep_all_tagged {
+    /// For every pair.
+    keep_all_tagged() = default;
+    /// No other filter becomes this one: does not compile.
+    template <class F>
+    ABUT_HD constexpr keep_all_tagged(const F&) {
+        detail::refuse_unnamed_options<F>();
+    }
     /// true
     ABUT_HD constexpr bool operator()(tagged_pair) const { return true; }
 };
 
-/// Options of queries of a list; with a filter write `list_options<my_filter>{.filter = my_filter{...}}`. The schedule is
+/// Options of queries of a list; with a filter write `list_options{.filter = f}` (see query_options). The schedule is
 /// that of query_options; entries of a tree of one shape have none.
 template <class Filter = keep_all_tagged, schedule Schedule = schedule::shared_list>
 struct list_options {

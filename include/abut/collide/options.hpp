@@ -28,8 +28,28 @@ struct index_pair {
     friend constexpr auto operator<=>(const index_pair&, const index_pair&) = default;
 };
 
+namespace detail {
+
+/// What is said of braces in a call that hold a filter: their type is that of options without one.
+template <class F>
+consteval void refuse_unnamed_options() {
+    static_assert(sizeof(F) == 0,
+                  "abut: braces in a call do not tell the type of a filter: write abut::query_options{.filter = f} (or "
+                  "contact_options, self_options, list_options, body_options); for clang before 17 "
+                  "abut::query_options<decltype(f)>{.filter = f}");
+}
+
+}  // namespace detail
+
 /// The filter that keeps every pair.
 struct keep_all {
+    /// For every pair.
+    keep_all() = default;
+    /// No other filter becomes this one: does not compile.
+    template <class F>
+    ABUT_HD constexpr keep_all(const F&) {
+        detail::refuse_unnamed_options<F>();
+    }
     /// true
     ABUT_HD constexpr bool operator()(std::uint32_t, std::uint32_t) const { return true; }
 };
@@ -50,8 +70,17 @@ inline constexpr schedule default_schedule = Traversal == traversal::both_at_onc
                                                  ? schedule::lazy_work_stealing
                                                  : schedule::shared_list;
 
-/// Options of `any`, `count`, `pairs` and `for_each_pair`. Without a filter, `{.sorted = false}` will do in a call. With
-/// one, write `query_options<my_filter>{.filter = my_filter{...}}`: clang 14 cannot deduce the argument of an aggregate.
+/// Options of `any`, `count`, `pairs` and `for_each_pair`. Without a filter, `{.sorted = false}` will do in a call; with
+/// one, write the type's name: `query_options{.filter = f}` where f is a lambda or a functor. (clang before 17 cannot deduce
+/// the argument of an aggregate: `query_options<decltype(f)>{.filter = f}`.)
+///
+///     const auto later = [](std::uint32_t a, std::uint32_t b) { return a < b; };
+///     const auto hits = abut::pairs(on, mesh, other, abut::query_options{.filter = later});
+///
+/// Under cuda a filter runs on the device. A functor marked ABUT_HD needs no flag of nvcc's; a lambda needs
+/// `--extended-lambda` and the mark, as in `[=] ABUT_HD(std::uint32_t a, std::uint32_t b) { return first[a] < b; }`, which
+/// captures by value: pointers to device memory, no references. With other compilers ABUT_HD is nothing, so the same lambda
+/// serves all policies.
 ///
 /// How two trees are walked is a template argument, so that a program compiles what it asks for:
 /// `query_options<keep_all, traversal::larger_first>{}`. It is for queries of two indices made by make_bvh, posed or not;

@@ -140,8 +140,14 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Y, cl
 }
 
 /// Calls visitor(index_pair) -> visit once for every pair that touches, as soon as it is known, in no order, concurrently,
-/// in the policy's space (so under cuda it is a trivially copyable functor with an ABUT_HD operator()). `visit::stop` is
-/// best effort: pairs in flight still come. Stores no pairs, so memory does not grow with their number.
+/// in the policy's space. `visit::stop` is best effort: pairs in flight still come. Stores no pairs, so memory does not grow
+/// with their number. Under cuda the visitor is a trivially copyable functor with an ABUT_HD operator(), or with nvcc's
+/// `--extended-lambda` a lambda that is marked so and captures by value (see query_options).
+///
+///     abut::for_each_pair(on, mesh, ball, [=] ABUT_HD(abut::index_pair pair) {
+///         touched[pair.b] = 1;  // on a device, device memory
+///         return abut::visit::proceed;
+///     });
 template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Visitor, class Filter = keep_all,
           traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
 void for_each_pair(const Policy& on, const X& a, const Y& b, const Visitor& visitor,

@@ -65,11 +65,18 @@ struct body_pair {
 
 /// The filter that keeps every pair of shapes of two bodies.
 struct keep_all_bodies {
+    /// For every pair.
+    keep_all_bodies() = default;
+    /// No other filter becomes this one: does not compile.
+    template <class F>
+    ABUT_HD constexpr keep_all_bodies(const F&) {
+        detail::refuse_unnamed_options<F>();
+    }
     /// true
     ABUT_HD constexpr bool operator()(body_pair) const { return true; }
 };
 
-/// Options of self queries of a list of bodies; with a filter write `body_options<my_filter>{.filter = my_filter{...}}`. See
+/// Options of self queries of a list of bodies; with a filter write `body_options{.filter = f}` (see query_options). See
 /// list_options.
 template <class Filter = keep_all_bodies, schedule Schedule = schedule::shared_list>
 struct body_options {

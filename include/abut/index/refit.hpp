@@ -376,7 +376,8 @@ auto refit_tree(const Policy& on, const Tree& tree, const Set& set) {
 
 /// A tree of the topology of `tree` over the shapes of `set`, of which there are as many: shape i takes the place of shape
 /// i. `tree` stays as it is, and the two share nothing that either could change. Results of queries are right however far
-/// shapes have moved; only speed suffers, and `quality` shows how much.
+/// shapes have moved; only speed suffers. How much, `quality` shows, and needs_rebuild says when to call make_bvh instead
+/// (index/quality.hpp): soon where shapes change places, hardly ever where they keep their neighbours.
 ///
 /// The set may be of another kind than the tree's. It is brought to the policy's memory and checked as by make_bvh. A tree
 /// in another layout than the standard one is refitted before it is converted.

@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -40,6 +41,7 @@ inline std::vector<char> read_file(const std::filesystem::path& path) {
     std::error_code ignored;
     const auto known = std::filesystem::file_size(path, ignored);
     constexpr std::size_t least = 1 << 16;
+    if (!ignored && known >= std::numeric_limits<std::ptrdiff_t>::max()) fail_with_errno(name, "cannot be read", EFBIG);
     // The size is a hint. One byte more than it, so that the end of the file shows at the first read.
     std::vector<char> bytes(ignored ? least : static_cast<std::size_t>(known) + 1);
     std::size_t used = 0;

@@ -6,7 +6,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -129,9 +131,8 @@ private:
     void element() {
         const std::string_view name = word();
         if (name.empty()) fail("the name of an element", name);
-        for (const auto& other : elements_) {
-            if (other.name == name) fail("elements of different names", name);
-        }
+        if (!names_of_elements_.emplace(name).second) fail("elements of different names", name);
+        names_of_fields_.clear();
         const std::string_view text = word();
         std::uint64_t count = 0;
         if (to_number(text, count) != number::ok) fail("the number of elements", text);
@@ -151,9 +152,8 @@ private:
         field.type = type(first);
         field.name = word();
         if (field.name.empty()) fail("the name of a property", {});
-        auto& element = elements_.back();
-        if (element.find(field.name) != element.fields.size()) fail("properties of different names", field.name);
-        element.fields.push_back(std::move(field));
+        if (!names_of_fields_.insert(field.name).second) fail("properties of different names", field.name);
+        elements_.back().fields.push_back(std::move(field));
     }
 
     ply_type type(std::string_view name) const {
@@ -218,6 +218,7 @@ private:
     std::string_view found_;  // all of it, for messages
     std::optional<ply_form> form_;
     std::vector<ply_element> elements_;
+    std::set<std::string, std::less<>> names_of_elements_, names_of_fields_;  // the latter of the last element
 };
 
 }  // namespace abut::io::detail
