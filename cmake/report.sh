@@ -61,6 +61,7 @@ cpu meshes_138376 bench_meshes $G $I --mesh=$D/meshes/armadillo_138376.ply --ben
 cpu meshes_27674 bench_meshes $G $I --mesh=$D/meshes/armadillo_27674.ply --benchmark_filter=^(build/bvh|pairs|boxes|contacts)/
 cpu meshes_2766 bench_meshes $G $I --mesh=$D/meshes/armadillo_2766.ply --benchmark_filter=^(build/bvh|pairs|boxes|contacts)/
 cpu reduce_contacts bench_reduce_contacts --json={} --mesh=$D/meshes/armadillo_345944.ply
+cpu extremes bench_extremes --json={}
 cpu footprint bench_footprint --json={}
 cuda footprint bench_footprint_cuda {}
 cuda trade bench_trade_cuda {}
@@ -78,6 +79,7 @@ cuda schedules bench_schedules_cuda {} $D/meshes/armadillo_345944.ply
 cuda motion bench_motion_cuda {} $D/ccd/cloth-ball $D/ccd/cloth-funnel $D/ccd/n-body-simulation $D/ccd/armadillo-rollers $D/ccd/rod-twist
 cuda motion_flying bench_motion_cuda {}
 cuda pair_rules bench_pair_rules_cuda --scenes=$D/ccd {}
+cuda extremes bench_extremes_cuda --json={}
 cuda fronts bench_fronts_cuda {} $D/ccd/cloth-ball $D/ccd/cloth-funnel
 END
     fi

@@ -11,12 +11,17 @@ namespace {
 using namespace abut;
 using test::integer;
 
-/// Any finite numbers; half of the time such that the scalar product of the first three and the last three cancels, exactly
-/// or but for little.
+/// Any finite numbers, or such as are few bits apart, where terms become one; half of the time such that the scalar product
+/// of the first three and the last three cancels, exactly or but for little.
 template <scalar T>
 void draw(test::draws& d, T (&x)[6]) {
     namespace make = test::construction;
-    for (T& e : x) e = make::any_finite<T>(d);
+    const int bits_apart = d.below(80);
+    const bool any = d.below(2) == 0;
+    for (T& e : x) {
+        e = any ? make::any_finite<T>(d)
+                : static_cast<T>(d.uniform(-1, 1) * static_cast<double>(std::uint64_t{1} << d.below(bits_apart / 2 + 1)));
+    }
     if (d.below(2) == 0) {
         x[3] = x[1];
         x[4] = -x[0];
@@ -39,8 +44,7 @@ void check_signs() {
         const aligned<6> a(x);
         sparse_sum<T, 1, 1> n[6];
         for (int k = 0; k < 6; ++k) {
-            const binary_parts& p = a.part[k];
-            n[k].term[0] = {wide_int<1>::shifted(p.mantissa, 0), p.mantissa == 0 ? 0 : p.exponent - a.low};
+            n[k] = sparse_number<T>(a, k);
         }
         const auto z = test::to_integers(std::vector<T>(x, x + 6));
         const auto sign_of = [](const integer& v) { return v.sign(); };

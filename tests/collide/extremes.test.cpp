@@ -17,12 +17,13 @@ void check_extreme_pairs(std::uint64_t many) {
         std::size_t hits = 0, undecided = 0, unresolved = 0, total = 0;
         for (const test::extreme_step& step : test::steps_of<T>(what)) {
             CAPTURE(Kind::name, name_of(what), step.value);
-            std::size_t wrong_filtered = 0, wrong_exact = 0;
+            std::size_t wrong_filtered = 0, wrong_exact = 0, wrong_last = 0;
             for (std::uint64_t i = 0; i < n; ++i) {
                 const auto p = test::make_extreme_pair<Kind, T>(test::seed, step, i);
                 const bool touches = test::touch_in_truth<T>(p);
                 wrong_filtered += intersects<filtered>(p.a, p.b) != touches;
                 wrong_exact += intersects<exact>(p.b, p.a) != touches;
+                wrong_last += resolve(p.a, p.b) != touches;
                 wrong_fast += intersects<fast>(p.a, p.b) != touches;
                 hits += touches;
                 undecided += decide<filtered>(p.a, p.b) == verdict::unknown;
@@ -31,6 +32,7 @@ void check_extreme_pairs(std::uint64_t many) {
             }
             CHECK(wrong_filtered == 0);
             CHECK(wrong_exact == 0);
+            CHECK(wrong_last == 0);
         }
         std::printf("%-17s %-6s %-10s n %zu, hits %.1f %%, left by the filter %.1f %%, by integers in registers %.1f %%\n",
                     Kind::name, sizeof(T) == 4 ? "float" : "double", name_of(what), total,

@@ -3,8 +3,9 @@
 
 // The exact stages of any predicate whose polynomials have degree 6 or less. A predicate is a type with one function,
 // `holds(const N (&value)[V]) -> bool`, written over a number type N with +, -, *, `sign_of_dot` and `squares_at_most`; the
-// values are the coordinates (and radii) that it depends on, all of one unit. It may state the `degree` of its polynomials, and
-// how many of the values' first triples are `points`, which may all be moved by one vector: then it is also asked in words.
+// values are the coordinates (and radii) that it depends on, all of one unit. It may state the `degree` of its polynomials,
+// and how many of the values' first triples are `points`, which may all be moved by one vector: then it is also asked in
+// words.
 
 #include <cstdint>
 
@@ -150,10 +151,7 @@ template <class Predicate, scalar T, int V>
 ABUT_HD constexpr bool decide_at_any_span(const T (&value)[V]) {
     const aligned<V> x(value);
     sparse_sum<T, 1, 1> sum[V]{};
-    for (int i = 0; i < V; ++i) {
-        const binary_parts& p = x.part[i];
-        sum[i].term[0] = {wide_int<1>::shifted(p.mantissa, 0), p.mantissa == 0 ? 0 : p.exponent - x.low};
-    }
+    for (int i = 0; i < V; ++i) sum[i] = sparse_number<T>(x, i);
     return Predicate::holds(sum);
 }
 

@@ -2,10 +2,11 @@
 #pragma once
 
 // Exact numbers for spans of exponents that no fixed width in registers covers: denormals beside the largest floats, up to
-// 2098 bits in double. A value is kept as its terms, each a small integer times a power of two, and never added up;
-// products multiply term by term. Only where a sign is asked for do the terms, of degree 2, 4 or 6 by then, go one after
-// another into one long accumulator (Kulisch's). So a thread's stack holds one accumulator and not a dozen long integers.
-// The loops are kept out of line: this is the rare path, and unrolled it would cost every caller registers and compile time.
+// 2098 bits in double. A value is kept as its terms, each an integer times a power of two; products multiply term by term.
+// Terms that are few bits apart become one as they are written, so that a number has as many terms as its size and the
+// spread of its exponents ask for. The long sum over all of them is made only where a sign is asked for, of degree 2, 4 or 6
+// by then: in one accumulator (Kulisch's), so that a thread's stack holds one and not a dozen long integers. The loops are
+// kept out of line: this is the rare path, and unrolled it would cost every caller registers and compile time.
 
 #include <cstdint>
 
@@ -14,34 +15,99 @@
 
 namespace abut {
 
-/// mantissa * 2^exponent, exponent >= 0, a product of `Degree` coordinates.
+/// mantissa * 2^exponent, exponent >= 0, a product of `Degree` coordinates; |mantissa| <= 2^(64 Degree - 2).
 template <int Degree>
 struct sparse_term {
     wide_int<Degree> mantissa;  ///< with its sign
     int exponent;               ///< of the power of two, 0 or more
 };
 
-/// The exact sum of `Terms` terms whose coordinates had type `T`.
+/// The exact sum of at most `Terms` terms, none of them 0, whose coordinates had type `T`.
 template <scalar T, int Terms, int Degree>
 struct sparse_sum {
-    sparse_term<Degree> term[Terms];  ///< in any order; equal powers are not joined
+    sparse_term<Degree> term[Terms];  ///< in any order
+    int count;                        ///< how many of them there are
 };
+
+/// Number i, in the unit of all.
+template <scalar T, int V>
+ABUT_HD constexpr sparse_sum<T, 1, 1> sparse_number(const aligned<V>& x, int i) {
+    const binary_parts& p = x.part[i];
+    if (p.mantissa == 0) return {};
+    return {{{wide_int<1>::shifted(p.mantissa, 0), p.exponent - x.low}}, 1};
+}
 
 namespace detail {
 
+/// How far x may be shifted: x * 2^room(x) is at most 2^(64 D - 3) in magnitude, half of a term's limit.
 template <int D>
-ABUT_NOINLINE ABUT_HD constexpr void copy_terms(const sparse_term<D>* a, int count, bool negated, sparse_term<D>* r) {
-    for (int i = 0; i < count; ++i) r[i] = {negated ? -a[i].mantissa : a[i].mantissa, a[i].exponent};
+ABUT_HD constexpr int room(const wide_int<D>& x) {
+    const auto top = static_cast<std::int64_t>(x.limb[D - 1]), size = (top < 0 ? ~top : top) | 1;
+    // The conversion may round up: then there is room for one bit less, and one less is said.
+    return 61 - (static_cast<int>(__builtin_bit_cast(std::uint64_t, static_cast<double>(size)) >> 52) - 1022);
 }
 
-/// Writes the terms of the product, with its sign changed where `negated`.
+/// x * 2^shift, for 0 <= shift < 64.
+template <int D>
+ABUT_HD constexpr wide_int<D> moved_up(const wide_int<D>& x, int shift) {
+    wide_int<D> r{};
+    for (int i = 0; i < D; ++i) r.limb[i] = x.limb[i] << shift | (i > 0 && shift > 0 ? x.limb[i - 1] >> (64 - shift) : 0);
+    return r;
+}
+
+/// Terms that come one after another. A term is added to one before it where both are few bits apart, so that numbers of
+/// like size stay one term.
+template <int D>
+struct term_writer {
+    sparse_term<D>* term;
+    int count;
+
+    ABUT_NOINLINE ABUT_HD constexpr void append(const wide_int<D>& mantissa, int exponent) {
+        int k = 0;
+        while (k < count && k < looked_at && !fits(term[k], mantissa, exponent)) ++k;
+        if (k == count || k == looked_at) {
+            term[count++] = {mantissa, exponent};
+            return;
+        }
+        const int up = exponent - term[k].exponent;
+        const wide_int<D> sum = moved_up(mantissa, up > 0 ? up : 0) + moved_up(term[k].mantissa, up < 0 ? -up : 0);
+        term[k] = {sum, up < 0 ? exponent : term[k].exponent};
+        if (abut::sign(sum) == 0) term[k] = term[--count];
+    }
+
+    /// Whether a number and a term, in the unit of the lesser exponent, are both at most half of a term's limit.
+    ABUT_HD static constexpr bool fits(const sparse_term<D>& before, const wide_int<D>& mantissa, int exponent) {
+        const int up = exponent - before.exponent, spare = room(mantissa), spare_before = room(before.mantissa);
+        return up <= spare && -up <= spare_before && spare >= 0 && spare_before >= 0;
+    }
+    static constexpr int looked_at = 4;
+};
+
+/// Writes terms, with their signs changed where `negated`, behind `count` others. Returns how many there are then.
+template <int D>
+ABUT_NOINLINE ABUT_HD constexpr int copy_terms(const sparse_term<D>* a, int count_a, bool negated, sparse_term<D>* r,
+                                               int count) {
+    term_writer<D> out{r, count};
+    for (int i = 0; i < count_a; ++i) out.append(negated ? -a[i].mantissa : a[i].mantissa, a[i].exponent);
+    return out.count;
+}
+
+/// The same with the terms of a product.
 template <int D, int E>
-ABUT_NOINLINE ABUT_HD constexpr void multiply_terms(const sparse_term<D>* a, int count_a, const sparse_term<E>* b,
-                                                    int count_b, bool negated, sparse_term<D + E>* r) {
+ABUT_NOINLINE ABUT_HD constexpr int multiply_terms(const sparse_term<D>* a, int count_a, const sparse_term<E>* b,
+                                                   int count_b, bool negated, sparse_term<D + E>* r, int count) {
+    term_writer<D + E> out{r, count};
     for (int i = 0; i < count_a; ++i) {
         const wide_int<D> x = negated ? -a[i].mantissa : a[i].mantissa;
-        for (int j = 0; j < count_b; ++j) *r++ = {x * b[j].mantissa, a[i].exponent + b[j].exponent};
+        for (int j = 0; j < count_b; ++j) out.append(x * b[j].mantissa, a[i].exponent + b[j].exponent);
     }
+    return out.count;
+}
+
+template <scalar T, int K, int D, int M, int E, int R>
+ABUT_HD constexpr void add_product(sparse_sum<T, R, D + E>& r, const sparse_sum<T, K, D>& a, const sparse_sum<T, M, E>& b,
+                                   bool negated) {
+    r.count = multiply_terms(a.term, a.count, b.term, b.count, negated, r.term, r.count);
 }
 
 }  // namespace detail
@@ -49,18 +115,20 @@ ABUT_NOINLINE ABUT_HD constexpr void multiply_terms(const sparse_term<D>* a, int
 /// Sum and difference of one degree: the terms of both.
 ///@{
 template <scalar T, int K, int M, int D>
-ABUT_HD constexpr sparse_sum<T, K + M, D> operator+(const sparse_sum<T, K, D>& a, const sparse_sum<T, M, D>& b) {
+ABUT_NOINLINE ABUT_HD constexpr sparse_sum<T, K + M, D> operator+(const sparse_sum<T, K, D>& a,
+                                                                  const sparse_sum<T, M, D>& b) {
     sparse_sum<T, K + M, D> r;
-    detail::copy_terms(a.term, K, false, r.term);
-    detail::copy_terms(b.term, M, false, r.term + K);
+    r.count = detail::copy_terms(a.term, a.count, false, r.term, 0);
+    r.count = detail::copy_terms(b.term, b.count, false, r.term, r.count);
     return r;
 }
 
 template <scalar T, int K, int M, int D>
-ABUT_HD constexpr sparse_sum<T, K + M, D> operator-(const sparse_sum<T, K, D>& a, const sparse_sum<T, M, D>& b) {
+ABUT_NOINLINE ABUT_HD constexpr sparse_sum<T, K + M, D> operator-(const sparse_sum<T, K, D>& a,
+                                                                  const sparse_sum<T, M, D>& b) {
     sparse_sum<T, K + M, D> r;
-    detail::copy_terms(a.term, K, false, r.term);
-    detail::copy_terms(b.term, M, true, r.term + K);
+    r.count = detail::copy_terms(a.term, a.count, false, r.term, 0);
+    r.count = detail::copy_terms(b.term, b.count, true, r.term, r.count);
     return r;
 }
 ///@}
@@ -69,7 +137,8 @@ ABUT_HD constexpr sparse_sum<T, K + M, D> operator-(const sparse_sum<T, K, D>& a
 template <scalar T, int K, int D, int M, int E>
 ABUT_HD constexpr sparse_sum<T, K * M, D + E> operator*(const sparse_sum<T, K, D>& a, const sparse_sum<T, M, E>& b) {
     sparse_sum<T, K * M, D + E> r;
-    detail::multiply_terms(a.term, K, b.term, M, false, r.term);
+    r.count = 0;
+    detail::add_product(r, a, b, false);
     return r;
 }
 
@@ -77,29 +146,32 @@ ABUT_HD constexpr sparse_sum<T, K * M, D + E> operator*(const sparse_sum<T, K, D
 
 /// a . b
 template <scalar T, int K, int D, int M, int E>
-ABUT_HD constexpr auto dot(const vec3<sparse_sum<T, K, D>>& a, const vec3<sparse_sum<T, M, E>>& b) {
+ABUT_NOINLINE ABUT_HD constexpr auto dot(const vec3<sparse_sum<T, K, D>>& a, const vec3<sparse_sum<T, M, E>>& b) {
     sparse_sum<T, 3 * K * M, D + E> r;
-    detail::multiply_terms(a.x.term, K, b.x.term, M, false, r.term);
-    detail::multiply_terms(a.y.term, K, b.y.term, M, false, r.term + K * M);
-    detail::multiply_terms(a.z.term, K, b.z.term, M, false, r.term + 2 * K * M);
+    r.count = 0;
+    detail::add_product(r, a.x, b.x, false);
+    detail::add_product(r, a.y, b.y, false);
+    detail::add_product(r, a.z, b.z, false);
     return r;
 }
 
 /// a x b
 template <scalar T, int K, int D, int M, int E>
-ABUT_HD constexpr auto cross(const vec3<sparse_sum<T, K, D>>& a, const vec3<sparse_sum<T, M, E>>& b) {
+ABUT_NOINLINE ABUT_HD constexpr auto cross(const vec3<sparse_sum<T, K, D>>& a, const vec3<sparse_sum<T, M, E>>& b) {
     vec3<sparse_sum<T, 2 * K * M, D + E>> r;
-    detail::multiply_terms(a.y.term, K, b.z.term, M, false, r.x.term);
-    detail::multiply_terms(a.z.term, K, b.y.term, M, true, r.x.term + K * M);
-    detail::multiply_terms(a.z.term, K, b.x.term, M, false, r.y.term);
-    detail::multiply_terms(a.x.term, K, b.z.term, M, true, r.y.term + K * M);
-    detail::multiply_terms(a.x.term, K, b.y.term, M, false, r.z.term);
-    detail::multiply_terms(a.y.term, K, b.x.term, M, true, r.z.term + K * M);
+    r.x.count = r.y.count = r.z.count = 0;
+    detail::add_product(r.x, a.y, b.z, false);
+    detail::add_product(r.x, a.z, b.y, true);
+    detail::add_product(r.y, a.z, b.x, false);
+    detail::add_product(r.y, a.x, b.z, true);
+    detail::add_product(r.z, a.x, b.y, false);
+    detail::add_product(r.z, a.y, b.x, true);
     return r;
 }
 
 /// A fixed-point sum of products of up to `Degree` coordinates of type `T`. Digits of 32 bits lie in 64-bit slots, so that
-/// carries wait until the sign is asked for; 2^30 additions fit, and predicates make some thousands.
+/// carries wait until the sign is asked for. A term adds less than 2^34 to a slot, so that 2^27 terms stay below 2^61;
+/// predicates add some thousands.
 template <scalar T, int Degree>
 class accumulator {
 public:
@@ -107,21 +179,21 @@ public:
     template <int K, int D, int M, int E>
     ABUT_HD constexpr void add_product(const sparse_sum<T, K, D>& a, const sparse_sum<T, M, E>& b, int weight) {
         static_assert(D + E <= Degree);
-        add_products(a.term, K, b.term, M, weight);
+        add_products(a.term, a.count, b.term, b.count, weight);
     }
 
     /// Adds the terms of a sum.
     template <int K, int D>
     ABUT_HD constexpr void add_sum(const sparse_sum<T, K, D>& a) {
         static_assert(D <= Degree);
-        for (int i = 0; i < K; ++i) add(a.term[i].mantissa, a.term[i].exponent, 1);
+        for (int i = 0; i < a.count; ++i) add(a.term[i].mantissa, a.term[i].exponent, 1);
     }
 
     /// Adds `weight` (1 or -1) times a^2 or |a|^2.
     ///@{
     template <int K, int D>
     ABUT_HD constexpr void add_square(const sparse_sum<T, K, D>& a, int weight) {
-        add_product(a, a, weight);
+        add_squares(a.term, a.count, weight);
     }
 
     template <class N>
@@ -132,16 +204,14 @@ public:
     }
     ///@}
 
-    /// The sign of what has been added: -1, 0 or 1.
+    /// The sign of what has been added: -1, 0 or 1. From the top: all digits below one add up to less than 2^30 of its
+    /// units, since none exceeds 2^61.
     ABUT_HD constexpr int sign() const {
-        std::int64_t carry = 0;
-        bool any = false;
-        for (int k = 0; k < used_; ++k) {
-            carry += digit_[k];
-            any = any || (carry & 0xffffffff) != 0;
-            carry >>= 32;
-        }
-        return carry < 0 ? -1 : carry > 0 || any;
+        constexpr std::int64_t enough = std::int64_t{1} << 30;
+        std::int64_t sum = 0;
+        for (int k = used_ - 1; k >= 0 && sum < enough && sum > -enough; --k)
+            sum = sum * (std::int64_t{1} << 32) + digit_[k];
+        return (sum > 0) - (sum < 0);
     }
 
 private:
@@ -155,6 +225,15 @@ private:
                                                       int count_b, int weight) {
         for (int i = 0; i < count_a; ++i) {
             for (int j = 0; j < count_b; ++j) add(a[i].mantissa * b[j].mantissa, a[i].exponent + b[j].exponent, weight);
+        }
+    }
+
+    template <int D>
+    ABUT_NOINLINE ABUT_HD constexpr void add_squares(const sparse_term<D>* a, int count, int weight) {
+        for (int i = 0; i < count; ++i) {
+            for (int j = 0; j <= i; ++j) {
+                add(a[i].mantissa * a[j].mantissa, a[i].exponent + a[j].exponent, j < i ? 2 * weight : weight);
+            }
         }
     }
 
