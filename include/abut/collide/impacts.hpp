@@ -27,6 +27,7 @@
 #include <abut/collide/pair_rule.hpp>
 #include <abut/collide/search.hpp>
 #include <abut/collide/timed_search.hpp>
+#include <abut/execution/host.hpp>
 #include <abut/narrow/feature_weights.hpp>
 #include <abut/narrow/time_of_impact.hpp>
 #include <abut/shape/motion.hpp>
@@ -208,7 +209,23 @@ struct is_impact {
     ABUT_HD bool operator()(std::size_t i) const { return all[i].time >= 0; }
 };
 
-/// Sets the times of the impacts `which`, some at a time. Returns whether some of them are none.
+template <motion_arithmetic A, scalar T>
+struct time_untimed {
+    const untimed_pair<T>* pairs;
+    const conservative_bounds& bounds;
+    double* times;
+    void operator()(std::size_t i) const {
+        const untimed_pair<T>& pair = pairs[i];
+        times[i] = pair.kind == feature_pair::edge_edge ? time_on_host<A, true>(pair.points, bounds)
+                                                        : time_on_host<A, false>(pair.points, bounds);
+    }
+};
+struct is_no_time {
+    bool operator()(double time) const { return time < 0; }
+};
+
+/// Sets the times of the impacts `which`, some at a time, on all threads of the host: one may take 100 us. Returns whether
+/// some of them are none.
 template <motion_arithmetic A, class Policy, class View, scalar T>
 bool time_on_host(const Policy& on, const View& both, const std::uint64_t* keys, const key_queue<Policy>& which,
                   const conservative_bounds& bounds, impact<T>* out) {
@@ -223,11 +240,8 @@ bool time_on_host(const Policy& on, const View& both, const std::uint64_t* keys,
         const std::size_t n = std::min(which.size() - first, most);
         for_each_index(on, n, fetch_untimed<View>{both, keys, which.data() + first, gathered.data()});
         download(on, gathered.data(), n, pairs.data());
-        for (std::size_t i = 0; i < n; ++i) {
-            times[i] = pairs[i].kind == feature_pair::edge_edge ? time_on_host<A, true>(pairs[i].points, bounds)
-                                                                : time_on_host<A, false>(pairs[i].points, bounds);
-            some_are_none |= times[i] < 0;
-        }
+        for_each_task(openmp{}, n, time_untimed<A, T>{pairs.data(), bounds, times.data()});
+        some_are_none |= std::any_of(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(n), is_no_time{});
         upload(on, times.data(), n, there.data());
         for_each_index(on, n, set_time<T>{which.data() + first, there.data(), out});
         synchronize(on);  // before what is uploaded is changed, or gone

@@ -55,7 +55,16 @@ struct report_key {
     }
 };
 
-/// Resolves on the host what a device left there, most_pairs at a time, and reports what was found from the device.
+template <class View, class Judge>
+struct resolve_whole {
+    const whole_pair<View>* pairs;
+    const Judge& judge;
+    unsigned char* touch;
+    void operator()(std::size_t i) const { touch[i] = judge.resolve(pairs[i].a, pairs[i].b); }
+};
+
+/// Resolves on all threads of the host what a device left there, most_pairs at a time, and reports what was found from the
+/// device.
 template <class Policy, class View, class Judge, class Hits>
 void resolve_on_host(const Policy& on, const View& both, const Judge& judge, const std::uint64_t* keys, std::size_t n,
                      std::size_t most_pairs, Hits& hits) {
@@ -65,9 +74,11 @@ void resolve_on_host(const Policy& on, const View& both, const Judge& judge, con
         execution::buffer_of<Policy, whole_pair<View>> gathered(on, some);
         for_each_index(on, some, fetch_pair<View>{both, keys + first, gathered.data()});
         download(on, gathered.data(), some, pairs.data());
+        std::vector<unsigned char> touch(some);
+        for_each_task(openmp{}, some, resolve_whole<View, Judge>{pairs.data(), judge, touch.data()});
         std::vector<std::uint64_t> found;
-        for (const auto& pair : pairs) {
-            if (judge.resolve(pair.a, pair.b)) found.push_back(pair.key);
+        for (std::size_t i = 0; i < some; ++i) {
+            if (touch[i] != 0) found.push_back(pairs[i].key);
         }
         execution::buffer_of<Policy, std::uint64_t> there(on, found.size());
         upload(on, found.data(), found.size(), there.data());
