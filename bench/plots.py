@@ -286,6 +286,8 @@ def scaling_meshes(results):
         for kind, policy, where in (("cpu", "serial", "one core"), ("cuda", "cuda", "device")):
             rows = [of_size(results, kind, s) for s in SIZES]
             walk = [r.get(f"boxes/posed/{policy}") for r in rows]
+            if None in walk:
+                continue
             if phase == "middle":
                 axis.plot(n, walk, color=SERIES[index], marker=".", label=f"abut: walk, {where}")
                 index += 1

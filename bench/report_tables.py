@@ -56,8 +56,10 @@ def table(head, rows, left=1):
     return lines + ["| " + " | ".join(row) + " |" for row in rows] + [""]
 
 
-def per_second(ns):
-    return None if ns is None else 1e3 / ns
+def filled(head, rows):
+    """A table of those columns that hold something."""
+    keep = [i for i in range(len(head)) if any(row[i] for row in rows)]
+    return table([head[i] for i in keep], [[row[i] for i in keep] for row in rows])
 
 
 def made_on(r, more=""):
@@ -617,17 +619,17 @@ def sizes(results):
     lines = []
     for title, phase, rows_of in (
             ("Middle phase, the walk of two trees, and the build of one, in ms", "middle", (
-                ("walk: one core", "cpu", "boxes/posed/serial"), ("device", "cuda", "boxes/posed/cuda"),
-                ("build: one core", "cpu", "build/bvh/serial"), ("device", "cuda", "build/bvh/cuda/{}"))),
+                ("walk: one core", "cpu", "boxes/posed/serial"), ("walk: device", "cuda", "boxes/posed/cuda"),
+                ("build: one core", "cpu", "build/bvh/serial"), ("build: device", "cuda", "build/bvh/cuda/{}"))),
             ("Near phase, in ms; of ours both phases together", "near", (
-                ("pairs: one core", "cpu", "pairs/posed/serial"), ("device", "cuda", "pairs/posed/cuda"),
-                ("contacts: one core", "cpu", "contacts/posed/serial"), ("device", "cuda", "contacts/posed/cuda")))):
+                ("pairs: one core", "cpu", "pairs/posed/serial"), ("pairs: device", "cuda", "pairs/posed/cuda"),
+                ("contacts: one core", "cpu", "contacts/posed/serial"), ("contacts: device", "cuda", "contacts/posed/cuda")))):
         rows = []
         for n in SIZES:
             theirs = LITERATURE["backman_2011"]["sizes"][n]
             rows.append([f"{int(n):,}", shown(theirs[f"{phase}_cpu_ms"]), shown(theirs[f"{phase}_gpu_ms"])] +
                         [shown(of_size(results, kind, n).get(name.format(n))) for _, kind, name in rows_of])
-        lines += [f"{title}:", ""] + table(["triangles", "source: processor", "GPU"] + [head for head, _, _ in rows_of], rows)
+        lines += [f"{title}:", ""] + filled(["triangles", "source: processor", "source: GPU"] + [head for head, _, _ in rows_of], rows)
     return lines + made_on(results["cpu/meshes"]) + made_on(results["cuda/meshes"])
 
 
@@ -980,7 +982,7 @@ def triangle_families(results):
 
 @in_table("footprint")
 def footprint(results):
-    r, cuda, compiled = results["cpu/footprint"], results["cuda/footprint"], results["cpu/footprint_compiled"]
+    r, cuda, compiled = results["cpu/footprint"], results["cuda/footprint"], results["cpu/footprint_build"]
     rows = []
     for name in r.rows:
         each = r.get(name, "elements")
@@ -989,18 +991,16 @@ def footprint(results):
                      whole((compiled.get(name, "gcc_code") or 0) / 1024)] + [whole(compiled.get(name, f"nvcc_{k}")) for k in ("seconds", "registers", "stack")])
     head = ["scene: question", "elements", "bytes of each", "trees, KiB", "one core, ms", "device, ms", "g++, s", "g++, MB", "code, KiB",
             "nvcc, s", "registers", "stack"]
-    keep = [i for i in range(len(head)) if any(row[i] for row in rows)]
-    return table([head[i] for i in keep], [[row[i] for i in keep] for row in rows]) + made_on(r) + made_on(cuda) + made_on(compiled)
+    return filled(head, rows) + made_on(r) + made_on(cuda) + made_on(compiled)
 
 
 @in_table("compile-cost")
 def compile_cost(results):
-    r = results["cpu/footprint_compiled"]
+    r = results["cpu/footprint_build"]
     rows = [[name.replace("/", ": ", 1)] + [shown(r.get(name, f"{c}_seconds")) for c in ("gcc", "nvcc")] +
             [whole(r.get(name, f"{c}_megabytes")) for c in ("gcc", "nvcc")] for name in r.rows]
     head = ["program", "g++: seconds of a processor", "nvcc", "g++: MB of memory", "nvcc"]
-    keep = [i for i in range(len(head)) if any(row[i] for row in rows)]
-    return table([head[i] for i in keep], [[row[i] for i in keep] for row in rows]) + made_on(r)
+    return filled(head, rows) + made_on(r)
 
 
 # --- README -----------------------------------------------------------------------------------------------------------------
