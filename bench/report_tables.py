@@ -429,7 +429,7 @@ def ties_cpu(results):
         head = ["pairs"] + (["filter leaves, %"] if what == "pair" else [])
         head += [f"{s}: {a}" for s in SCALARS for a in ("`fast`", "`filtered`", "`exact`", "`filtered` / `fast`")]
         lines += [f"{title}:", ""] + table(head, rows)
-    return lines + made_on(r, f"; the mesh is `{r.context.get('mesh', 'a torus')}`")
+    return lines + made_on(r)
 
 
 @in_table("ties-cuda")
@@ -518,12 +518,12 @@ def validate_cuda(results):
 def meshes_cpu(results):
     r, layouts = results["cpu/meshes"], results["cpu/builders"]
     rows = []
-    for policy in ("serial", "openmp"):
-        for answer in ("pairs", "unsorted", "count"):
-            build = shown(r.get(f"build/bvh/{policy}")) if answer == "pairs" else ""
-            rows.append([f"BVH, {policy}, {answer}", build, shown(r.get(f"{answer}/baked/{policy}")),
-                         shown(r.get(f"{answer}/posed/{policy}")), whole(r.get(f"{answer}/baked/{policy}", "pairs"))])
-    rows.append(["SAH, wide, serial, pairs", f"{shown(layouts.get('build/sah/serial'))} + {shown(layouts.get('convert/wide/sah/serial'))}",
+    for answer in ("pairs", "unsorted", "count", "boxes", "contacts"):
+        build = shown(r.get("build/bvh/serial")) if answer == "pairs" else ""
+        name = "the walk alone" if answer == "boxes" else answer
+        rows.append([f"BVH, {name}", build, shown(r.get(f"{answer}/baked/serial")), shown(r.get(f"{answer}/posed/serial")),
+                     whole(r.get(f"{answer}/baked/serial", "pairs"))])
+    rows.append(["SAH, wide, pairs", f"{shown(layouts.get('build/sah/serial'))} + {shown(layouts.get('convert/wide/sah/serial'))}",
                  shown(layouts.get("pairs/baked/sah/wide")), shown(layouts.get("pairs/posed/sah/wide")),
                  whole(layouts.get("pairs/baked/sah/wide", "pairs"))])
     for peer, name in (("embree_low", "Embree, low quality"), ("embree_medium", "Embree, medium quality"),
@@ -531,8 +531,7 @@ def meshes_cpu(results):
         at = f"unsorted/{peer}/serial"
         if r.get(at) is not None:
             rows.append([f"{name}, unsorted", shown(r.get(f"build/{peer}/serial")), shown(r.get(at)), "", whole(r.get(at, "pairs"))])
-    return table(["ms", "build of one tree", "baked", "posed", "pairs"], rows) + made_on(r, f"; {r.context.get('threads')} threads "
-                                                                                       "for `openmp`")
+    return table(["ms", "build of one tree", "baked", "posed", "pairs"], rows) + made_on(r)
 
 
 ANY_SCENES = {"hit": "hit", "graze": "graze", "near_miss": "near miss", "shells": "shells"}
@@ -817,10 +816,8 @@ def motion_cuda(results):
                     [whole(r.get(f"{s}/{k}/walk/static_partition", "candidates")) for k in KINDS] +
                     [whole(r.get(f"{s}/impacts", "impacts"))] + [shown(r.get(f"{s}/{q}")) for q in ("build", "refit", "walk", "impacts", "frame",
                     "halves/from_roots", "halves/from_fronts")] + [whole(r.get(f"{s}/same", "same"))])
-    pool = r.get("pool", "peak_bytes")
     return table(["scene, ms", "faces", "vertex-face candidates", "edge-edge", "impacts", "build", "refit", "walk", "`self_impacts`", "frame",
-                  "two halves, from roots", "from fronts", "100 runs: same bits"], rows) + \
-        [f"The library's pool held {pool / 1e6:,.0f} MB at most.", ""] + made_on(r)
+                  "two halves, from roots", "from fronts", "100 runs: same bits"], rows) + made_on(r)
 
 
 @in_table("motion-cuda-tests")
@@ -1093,7 +1090,7 @@ def cost_motion(results):
 
 def choosing():
     """Values that are times of single rows."""
-    rows = {"openmp": ("cpu/meshes", "pairs/posed/openmp"), "serial": ("cpu/meshes", "pairs/posed/serial"),
+    rows = {"serial": ("cpu/meshes", "pairs/posed/serial"),
             "cuda": ("cuda/meshes", "pairs/posed/cuda"), "cuda-small": ("cuda/meshes_2766", "pairs/posed/cuda"),
             "two-trees": ("cpu/builders", "pairs/posed/linear/standard"), "one-tree": ("cpu/builders", "one_sided/linear/standard"),
             "both-at-once": ("cpu/descents", "walk/linear/both_at_once"), "larger-first": ("cpu/descents", "walk/linear/larger_first")}
