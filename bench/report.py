@@ -147,7 +147,8 @@ def expected(text, results, problems):
 def is_figure(cell):
     """Whether a cell holds numbers, with their units and what stands between them, and nothing else."""
     words = [w for w in re.split(r"[\s,;:/()*~x+-]+", cell) if w]
-    units = {"ns", "us", "ms", "s", "B", "kB", "KiB", "MB", "MiB", "GB", "%", "to", "and", "of", "about", "under", "million", "times"}
+    units = {"ns", "us", "ms", "s", "B", "kB", "KiB", "MB", "MiB", "GB", "%", "to", "and", "of", "about", "under", "million",
+             "times"}
     numbers = [w for w in words if re.fullmatch(r"\d[\d.^e]*%?", w)]
     return bool(numbers) and all(w in units or w in numbers for w in words)
 
@@ -185,7 +186,8 @@ def check(results):
         marks = MARK.findall(VALUE.sub("", BLOCK.sub("", text)))
         here += [f"{mark} has no partner" for mark in marks]
         here += [f"line {n}: a table of figures that no program writes" for n in loose_tables(text)]
-        here += [f"{plot} is not there" for plot in re.findall(r"\]\(((?:docs/)?figures/[^)]*)\)", text) if not (path.parent / plot).exists()]
+        here += [f"{plot} is not there" for plot in re.findall(r"\]\(((?:docs/)?figures/[^)]*)\)",
+                                                               text) if not (path.parent / plot).exists()]
         problems += [f"{path.relative_to(ROOT)}: {problem}" for problem in here]
     for source in report_tables.programs(results):
         if not (ROOT / "bench" / source).exists():

@@ -22,7 +22,8 @@ def programs(results):
     found = []
     for path in sorted(results.path.glob("*/*.json")):
         program = results[f"{path.parent.name}/{path.stem}"].context["program"].removeprefix("bench_")
-        found.append(program if program.endswith(".py") else program.removesuffix("_cuda") + (".cu" if program.endswith("_cuda") else ".cpp"))
+        found.append(program if program.endswith(".py")
+                     else program.removesuffix("_cuda") + (".cu" if program.endswith("_cuda") else ".cpp"))
     return found
 
 
@@ -97,7 +98,8 @@ def trade(r, ns):
                 wrong = [r.get(at + a, "wrong_per_million") for a in ARITHMETICS]
                 rows.append([f"{name}, {kind}", scalar] + [shown(t) for t in times] + [quotient(times[1], times[0])] +
                             [whole(w) for w in wrong])
-    head = ["pairs", "", "`fast`, ns", "`filtered`, ns", "`exact`, ns", "`filtered` / `fast`", "`fast` wrong", "`filtered` wrong",
+    head = ["pairs", "", "`fast`, ns", "`filtered`, ns", "`exact`, ns", "`filtered` / `fast`", "`fast` wrong",
+            "`filtered` wrong",
             "`exact` wrong"]
     return table(head, rows, 2)
 
@@ -170,7 +172,8 @@ def whole_scene(r):
                         [shown(r.get(f"all/{index}/{policy}")), whole(r.get(f"build/{index}/{policy}", "bytes")),
                          whole(r.get(f"all/{index}/{policy}", "pairs"))])
     return [f"The whole scene ({SPHERES:,} spheres, {TRIANGLES:,} triangles), in ms:", ""] + \
-        table(["", "build", "query: sorted pairs", "unsorted", "count", "build and sorted pairs", "bytes of the index", "pairs"],
+        table(["", "build", "query: sorted pairs", "unsorted", "count", "build and sorted pairs", "bytes of the index",
+               "pairs"],
               rows)
 
 
@@ -214,7 +217,8 @@ def arithmetic(r):
     kinds = sorted({tuple(n.split("/")[1:3]) for n in r.names("arithmetic/")}, key=lambda k: (k[0], k[1] != "float"))
     for index, scalar in kinds:
         times = [r.get(f"arithmetic/{index}/{scalar}/{a}") for a in ARITHMETICS]
-        rows.append([f"{LABELS[index].split(' (')[0]}, {scalar}"] + [shown(t) for t in times] + [quotient(times[1], times[0])])
+        rows.append([f"{LABELS[index].split(' (')[0]}, {scalar}"] + [shown(t) for t in times] + [quotient(times[1],
+                                                                                                          times[0])])
     policy = "cuda" if "cuda" in policies(r) else "serial"
     return [f"What certainty costs: query of the whole scene, sorted pairs, {policy}, in ms:", ""] + \
         table(["", "`fast`", "`filtered`", "`exact`", "`filtered` / `fast`"], rows)
@@ -259,7 +263,8 @@ def spheres_sources(results):
         for policy in policies(r):
             for index in ("grid", "bvh"):
                 rows.append([f"abut: {LABELS[index]}, {policy}, with its build", shown(r.get(f"all/{index}/{policy}")), ""])
-                rows.append([f"abut: {LABELS[index]}, {policy}, query alone", shown(r.get(f"pairs/{index}/{policy}/{SPHERES}")),
+                rows.append([f"abut: {LABELS[index]}, {policy}, query alone",
+                             shown(r.get(f"pairs/{index}/{policy}/{SPHERES}")),
                              shown(r.get(f"pairs/{index}/{policy}/{n}"))])
     return [f"The figures of the source, of its own machine ({theirs['machine']}), and ours, in ms:", ""] + \
         table(["", "whole scene", "2^20 spheres"], rows)
@@ -404,10 +409,12 @@ def triangles_sources(results):
     rows = []
     for n in theirs["one_core_ms"]:
         rows.append([f"{int(n):,}", shown(theirs["one_core_ms"][n]), shown(theirs["gpu_ms"][n]),
-                     shown(cpu.get(f"one/count/filtered/float/1/serial/{n}")), shown(cuda.get(f"one/count/filtered/float/1/cuda/{n}")),
+                     shown(cpu.get(f"one/count/filtered/float/1/serial/{n}")),
+                     shown(cuda.get(f"one/count/filtered/float/1/cuda/{n}")),
                      shown(cuda.get(f"one/copied/filtered/float/1/cuda/{n}"))])
     return [f"One triangle against many, of the source ({theirs['machine']}) and here, float, `filtered`, in ms:", ""] + \
-        table(["triangles", "source, one core", "source, GPU", "here, one core", "here, device", "here, with the copy"], rows)
+        table(["triangles", "source, one core", "source, GPU", "here, one core", "here, device", "here, with the copy"],
+              rows)
 
 
 # --- ties -------------------------------------------------------------------------------------------------------------------
@@ -423,7 +430,8 @@ def ties_cpu(results):
             cells = []
             for scalar in SCALARS:
                 at = f"{what}/{scalar}/{name}"
-                cells += [shown(r.get(at, a) * unit) for a in ARITHMETICS] + [quotient(r.get(at, "filtered"), r.get(at, "fast"))]
+                cells += [shown(r.get(at, a) * unit) for a in ARITHMETICS] + [quotient(r.get(at, "filtered"),
+                                                                                       r.get(at, "fast"))]
             left = [share(r.get(f"{what}/float/{name}", "filter_leaves"))] if what == "pair" else []
             rows.append([name] + left + cells)
         head = ["pairs"] + (["filter leaves, %"] if what == "pair" else [])
@@ -444,7 +452,8 @@ def ties_cuda(results):
             for scalar in SCALARS:
                 times = [r.get(f"{what}/{a}/{scalar}/{name}") for a in ARITHMETICS]
                 cells += [shown(t) for t in times] + [quotient(times[1], times[0])]
-            rows.append([name, whole(r.get(f"{what}/filtered/float/{name}", "found" if what == "count" else "items"))] + cells)
+            rows.append([name, whole(r.get(f"{what}/filtered/float/{name}",
+                                           "found" if what == "count" else "items"))] + cells)
         head = ["scene", "pairs that touch"] if what == "count" else ["family", "pairs"]
         head += [f"{s}: {a}" for s in SCALARS for a in ("`fast`", "`filtered`", "`exact`", "`filtered` / `fast`")]
         lines += [f"{title}:", ""] + table(head, rows)
@@ -458,8 +467,10 @@ def nearest_cpu(results):
     r = results["cpu/nearest"]
     lines = []
     for question, title, names in (
-            ("nearest", "the nearest triangle", {"embree": "Embree, point queries", "bvh": "`make_bvh`", "sah": "`make_bvh`, `sah`",
-                                                 "wide_sah": "`wide`, of a `sah` tree", "oriented_sah": "`oriented`, of a `sah` tree"}),
+            ("nearest", "the nearest triangle", {"embree": "Embree, point queries", "bvh": "`make_bvh`",
+                                                 "sah": "`make_bvh`, `sah`",
+                                                 "wide_sah": "`wide`, of a `sah` tree",
+                                                 "oriented_sah": "`oriented`, of a `sah` tree"}),
             ("nearest_vertex", "the nearest vertex", {"nanoflann": "nanoflann", "bvh": "`make_bvh` of `vertices(mesh)`",
                                                       "sah": "the same, `sah`"})):
         points = min(int(n) for n in r.parts(f"{question}/", 3))
@@ -509,7 +520,8 @@ def validate_cuda(results):
             rows.append([f"{int(n):,}", name] + [shown(r.get(f"{at}/cuda/{n}")) for at in (
                 f"half_edges/{order}", f"validate/{order}/float", f"validate/{order}/double", f"uploaded/{order}")])
     return ["Data resident, ms; in the last column the mesh is uploaded first, from pageable memory:", ""] + \
-        table(["triangles", "order", "half-edges", "`validate`, float", "double", "float, with the upload"], rows, 2) + made_on(r)
+        table(["triangles", "order", "half-edges", "`validate`, float", "double", "float, with the upload"], rows,
+              2) + made_on(r)
 
 
 # --- mesh against mesh ------------------------------------------------------------------------------------------------------
@@ -523,14 +535,17 @@ def meshes_cpu(results):
         name = "the walk alone" if answer == "boxes" else answer
         rows.append([f"BVH, {name}", build, shown(r.get(f"{answer}/baked/serial")), shown(r.get(f"{answer}/posed/serial")),
                      whole(r.get(f"{answer}/baked/serial", "pairs"))])
-    rows.append(["SAH, wide, pairs", f"{shown(layouts.get('build/sah/serial'))} + {shown(layouts.get('convert/wide/sah/serial'))}",
+    rows.append(["SAH, wide, pairs",
+                 f"{shown(layouts.get('build/sah/serial'))} + {shown(layouts.get('convert/wide/sah/serial'))}",
                  shown(layouts.get("pairs/baked/sah/wide")), shown(layouts.get("pairs/posed/sah/wide")),
                  whole(layouts.get("pairs/baked/sah/wide", "pairs"))])
     for peer, name in (("embree_low", "Embree, low quality"), ("embree_medium", "Embree, medium quality"),
-                       ("fcl_obb", "FCL, oriented boxes"), ("bullet_gimpact", "Bullet, GImpact"), ("cgal", "CGAL, AABB tree")):
+                       ("fcl_obb", "FCL, oriented boxes"), ("bullet_gimpact", "Bullet, GImpact"),
+                       ("cgal", "CGAL, AABB tree")):
         at = f"unsorted/{peer}/serial"
         if r.get(at) is not None:
-            rows.append([f"{name}, unsorted", shown(r.get(f"build/{peer}/serial")), shown(r.get(at)), "", whole(r.get(at, "pairs"))])
+            rows.append([f"{name}, unsorted", shown(r.get(f"build/{peer}/serial")), shown(r.get(at)), "",
+                         whole(r.get(at, "pairs"))])
     return table(["ms", "build of one tree", "baked", "posed", "pairs"], rows) + made_on(r)
 
 
@@ -541,7 +556,8 @@ ANY_SCENES = {"hit": "hit", "graze": "graze", "near_miss": "near miss", "shells"
 def any_scenes(results):
     r = results["cpu/any"]
     rows = []
-    for tree, name in (("linear", "linear BVH"), ("sah", "SAH"), ("sah_wide", "SAH, wide"), ("sah_oriented", "SAH, oriented"),
+    for tree, name in (("linear", "linear BVH"), ("sah", "SAH"), ("sah_wide", "SAH, wide"),
+                       ("sah_oriented", "SAH, oriented"),
                        ("sah_kdop18", "SAH, 18 planes"), ("embree_low", "Embree, low quality"),
                        ("embree_medium", "Embree, medium quality"), ("fcl_obb", "FCL, oriented boxes")):
         for kind in ("baked", "posed"):
@@ -552,7 +568,8 @@ def any_scenes(results):
     return table(["us"] + list(ANY_SCENES.values()), [["pairs that touch"] + pairs] + rows) + made_on(r)
 
 
-TRAVERSALS = {"one_first": "one first", "larger_first": "larger first", "alternate": "alternate", "both_at_once": "both at once",
+TRAVERSALS = {"one_first": "one first", "larger_first": "larger first", "alternate": "alternate",
+              "both_at_once": "both at once",
               "breadth_first": "breadth first, from the roots"}
 
 
@@ -578,7 +595,8 @@ def patches(results):
 def depths(results):
     r, theirs = results["cpu/descents"], LITERATURE["backman_2011"]["box_tests_per_depth_345944"]
     at = r.parts("depth/linear/", 2)
-    rows = [[d, whole(theirs.get(d) and float(theirs[d])), whole(r.get(f"depth/linear/{d}", "boxes")), whole(r.get(f"depth/sah/{d}", "boxes"))]
+    rows = [[d, whole(theirs.get(d) and float(theirs[d])), whole(r.get(f"depth/linear/{d}", "boxes")),
+             whole(r.get(f"depth/sah/{d}", "boxes"))]
             for d in at]
     rows.append(["all", whole(float(sum(theirs.values()))), whole(r.get("walk/linear/both_at_once", "boxes")),
                  whole(r.get("walk/sah/both_at_once", "boxes"))])
@@ -588,20 +606,25 @@ def depths(results):
 @in_table("meshes-cuda")
 def meshes_cuda(results):
     r = results["cuda/meshes"]
-    asked = {"pairs": "pairs, sorted", "unsorted": "unsorted", "fast_unsorted": "`fast`, unsorted", "count": "count", "any": "any",
+    asked = {"pairs": "pairs, sorted", "unsorted": "unsorted", "fast_unsorted": "`fast`, unsorted", "count": "count",
+             "any": "any",
              "boxes": "box pairs alone", "contacts": "contacts"}
     rows = [[kind] + [shown(r.get(f"{q}/{kind}/cuda")) for q in asked] for kind in ("baked", "posed")]
     near = ["pairs", "unsorted", "fast", "count", None, "boxes", None]
-    rows.append([f"nearly on itself, {whole(r.get('near/pairs/cuda', 'pairs'))} pairs"] + [q and shown(r.get(f"near/{q}/cuda")) or "" for q in near])
+    beside = [shown(r.get(f"near/{q}/cuda")) if q else "" for q in near]
+    rows.append([f"nearly on itself, {whole(r.get('near/pairs/cuda', 'pairs'))} pairs"] + beside)
     lines = table(["ms"] + list(asked.values()), rows)
     lines += [f"An empty call takes {shown(r.get('floor/call'))} ms; sorted pairs with one of the trees built in the call "
               f"{shown(r.get('pairs/baked_with_build/cuda'))} ms.", ""]
-    rows = [[n.split("/", 1)[1].removesuffix("/cuda").replace("_", " ").replace("/", ", from depth "), shown(r.get(n))] for n in r.names("traversal/")]
+    rows = [[n.split("/", 1)[1].removesuffix("/cuda").replace("_", " ").replace("/", ", from depth "),
+             shown(r.get(n))] for n in r.names("traversal/")]
     lines += ["By other traversals, baked and unsorted:", ""] + table(["traversal", "ms"], rows)
     rows = [[n.split("/")[1], shown(r.get(n)), whole(r.get(n, "pairs"))] for n in r.names("batch/") if "one_by_one" not in n]
-    rows.append([f"{rows[-1][0]}, one by one", shown(r.get("batch/1000/one_by_one/cuda")), whole(r.get("batch/1000/one_by_one/cuda", "pairs"))])
+    rows.append([f"{rows[-1][0]}, one by one", shown(r.get("batch/1000/one_by_one/cuda")),
+                 whole(r.get("batch/1000/one_by_one/cuda", "pairs"))])
     lines += ["Posed pairs of a small mesh in one call:", ""] + table(["pairs of meshes", "ms", "pairs of triangles"], rows)
-    rows = [[f"{int(n):,}", shown(r.get(f"build/bvh/cuda/{n}")), shown(r.get(f"sort/cuda/{n}"))] for n in r.parts("build/bvh/cuda/", 3)]
+    rows = [[f"{int(n):,}", shown(r.get(f"build/bvh/cuda/{n}")),
+             shown(r.get(f"sort/cuda/{n}"))] for n in r.parts("build/bvh/cuda/", 3)]
     return lines + ["Build of a linear BVH:", ""] + table(["triangles", "build, ms", "sort of its codes alone"], rows) + \
         made_on(r, f"; {r.context.get('mesh', 'the mesh above')}" if "mesh" in r.context else "")
 
@@ -628,7 +651,8 @@ def sizes(results):
             theirs = LITERATURE["backman_2011"]["sizes"][n]
             rows.append([f"{int(n):,}", shown(theirs[f"{phase}_cpu_ms"]), shown(theirs[f"{phase}_gpu_ms"])] +
                         [shown(of_size(results, kind, n).get(name.format(n))) for _, kind, name in rows_of])
-        lines += [f"{title}:", ""] + filled(["triangles", "source: processor", "source: GPU"] + [head for head, _, _ in rows_of], rows)
+        lines += [f"{title}:", ""] + filled(["triangles", "source: processor", "source: GPU"] + [head for head, _,
+                                                                                                 _ in rows_of], rows)
     return lines + made_on(results["cpu/meshes"]) + made_on(results["cuda/meshes"])
 
 
@@ -642,14 +666,16 @@ def kept(r, name):
 def reduction(results):
     r = results["cpu/reduce_contacts"]
     rows = [[f"{scene.replace('_', ' ')}, {whole(r.get(f'{scene}/binning/4', 'contacts'))} contacts", method] +
-            [kept(r, f"{scene}/{method}/{n}") for n in (4, 8, 16, 32)] for scene in r.parts("", 0) for method in ("binning", "extremes")]
+            [kept(r, f"{scene}/{method}/{n}") for n in (4, 8, 16, 32)] for scene in r.parts("", 0) for method in ("binning",
+                                                                                                                  "extremes")]
     return table(["scene", "method", "4", "8", "16", "32"], rows, 2) + made_on(r)
 
 
 @in_table("reduction-bins")
 def reduction_bins(results):
     r = results["cpu/reduce_contacts"]
-    rows = [[name.split("/")[0].replace("_", " "), name.split("/")[2], whole(r.get(name, "kept")), kept(r, name)] for name in r.rows if "/bins/" in name]
+    rows = [[name.split("/")[0].replace("_", " "), name.split("/")[2], whole(r.get(name, "kept")),
+             kept(r, name)] for name in r.rows if "/bins/" in name]
     return table(["scene", "bins", "contacts", "share kept (worst loss)"], rows) + made_on(r)
 
 
@@ -664,9 +690,11 @@ def builders(results):
     rows = []
     for b in BUILDERS:
         at, wide = f"pairs/baked/{b}/standard", f"pairs/baked/{b}/wide"
-        rows.append([f"`{b}`", shown(r.get(f"build/{b}/serial")), shown(r.get(f"build/{b}/openmp")), shown(r.get(f"refit/{b}/serial")),
+        rows.append([f"`{b}`", shown(r.get(f"build/{b}/serial")), shown(r.get(f"build/{b}/openmp")),
+                     shown(r.get(f"refit/{b}/serial")),
                      shown(r.get(f"convert/wide/{b}/serial"))] +
-                    [f"{r.get(at, key):.1f} / {r.get(wide, key):.1f}" for key in ("sah_cost", "mean_depth", "greatest_depth")])
+                    [f"{r.get(at, key):.1f} / {r.get(wide, key):.1f}" for key in ("sah_cost", "mean_depth",
+                                                                                  "greatest_depth")])
     for quality in ("low", "medium"):
         if r.get(f"build/embree_{quality}/serial") is not None:
             rows.append([f"Embree, {quality} quality", shown(r.get(f"build/embree_{quality}/serial"))] + [""] * 6)
@@ -682,7 +710,8 @@ def layouts_queries(results):
         for layout in ("standard", "quantised", "leafless", "wide"):
             at = f"{b}/{layout}"
             if r.get(f"pairs/baked/{at}") is not None:
-                rows.append([f"`{b}`, `{layout}`"] + [shown(r.get(f"{q}/{at}")) for q in ("unsorted/baked", "pairs/baked", "pairs/posed",
+                rows.append([f"`{b}`, `{layout}`"] + [shown(r.get(f"{q}/{at}")) for q in ("unsorted/baked", "pairs/baked",
+                                                                                          "pairs/posed",
                                                                                          "one_sided")] +
                             [f"{r.get(f'pairs/baked/{at}', 'bytes_per_shape'):.0f}"])
     for quality in ("low", "medium"):
@@ -695,8 +724,10 @@ def layouts_queries(results):
 def volumes(results):
     r, any_r = results["cpu/builders"], results["cpu/any"]
     rows = []
-    for name, in_any in (("standard", "sah"), ("wide", "sah_wide"), ("oriented", "sah_oriented"), ("kdop18", "sah_kdop18"), ("sphere", None)):
-        cells = [shown(r.get(f"convert/{name}/sah/serial")), shown(r.get(f"unsorted/baked/sah/{name}")), shown(r.get(f"pairs/posed/sah/{name}"))]
+    for name, in_any in (("standard", "sah"), ("wide", "sah_wide"), ("oriented", "sah_oriented"), ("kdop18", "sah_kdop18"),
+                         ("sphere", None)):
+        cells = [shown(r.get(f"convert/{name}/sah/serial")), shown(r.get(f"unsorted/baked/sah/{name}")),
+                 shown(r.get(f"pairs/posed/sah/{name}"))]
         for s in ANY_SCENES:
             pair = [in_any and any_r.get(f"any/{s}/{kind}/{in_any}") for kind in ("baked", "posed")]
             cells.append(" / ".join(shown(1e3 * t) for t in pair) if all(pair) else "")
@@ -708,13 +739,17 @@ def volumes(results):
 @in_table("builders-cuda")
 def builders_cuda(results):
     r = results["cuda/builders"]
-    scenes = (("mesh", f"{whole(r.get('build/mesh', 'items'))} triangles"), ("random", f"{whole(r.get('build/random', 'items'))}"))
+    scenes = (("mesh", f"{whole(r.get('build/mesh', 'items'))} triangles"),
+              ("random", f"{whole(r.get('build/random', 'items'))}"))
     rows = []
-    for at, name in (("build/{}", "build, `linear`"), ("build/ploc/{}", "build, `ploc`"), ("build_and_refit_first/{}", "build, and the first refit"),
-                     ("refit/{}", "any later refit"), ("convert/quantised/{}", "conversion, `quantised`"), ("convert/leafless/{}", "conversion, `leafless`")):
+    for at, name in (("build/{}", "build, `linear`"), ("build/ploc/{}", "build, `ploc`"),
+                     ("build_and_refit_first/{}", "build, and the first refit"),
+                     ("refit/{}", "any later refit"), ("convert/quantised/{}", "conversion, `quantised`"),
+                     ("convert/leafless/{}", "conversion, `leafless`")):
         rows.append([name] + [shown(r.get(at.format(s))) for s, _ in scenes])
     lines = table(["ms"] + [name for _, name in scenes], rows)
-    rows = [[f"`{n.split('/')[1]}`", shown(r.get(n)), f"{r.get(n, 'sah_cost'):.1f}", whole(r.get(n, "bytes_per_shape"))] for n in r.names("pairs/")]
+    rows = [[f"`{n.split('/')[1]}`", shown(r.get(n)), f"{r.get(n, 'sah_cost'):.1f}",
+             whole(r.get(n, "bytes_per_shape"))] for n in r.names("pairs/")]
     return lines + ["Sorted pairs of the mesh and its turned copy, ms:", ""] + \
         table(["", "ms", "`sah_cost`", "bytes a triangle"], rows) + made_on(r)
 
@@ -726,9 +761,11 @@ def fronts(r):
     for name, row in r.rows.items():
         if "without_ms" in row:
             scene, step, query = name.split("/", 2)
-            rows.append([scene, step, query, shown(row["without_ms"]), shown(row["ms"]), quotient(row["ms"], row["without_ms"]),
+            rows.append([scene, step, query, shown(row["without_ms"]), shown(row["ms"]),
+                         quotient(row["ms"], row["without_ms"]),
                          whole(row["items"]), whole(row["opened"])])
-    return table(["scene", "step", "query", "without, ms", "with, ms", "with / without", "items", "opened in a frame"], rows, 3) + made_on(r)
+    return table(["scene", "step", "query", "without, ms", "with, ms", "with / without", "items", "opened in a frame"], rows,
+                 3) + made_on(r)
 
 
 @in_table("fronts-cpu")
@@ -757,8 +794,10 @@ def motion_cpu(results):
             rows.append([scene, scalar] + [shown(r.get(at(s))) for s in ("build", "refit", "walk", "search", "self_impacts",
                         "self_impacts_conservative", "self_impacts_fast", "first_self_impact")] +
                         [whole(r.get(at("walk"), "candidates"))] +
-                        [whole(r.get(at(s), "impacts")) for s in ("self_impacts", "self_impacts_conservative", "self_impacts_fast")])
-    return table(["scene", "ms", "build", "refit", "walk", "walk, decide and time", "`self_impacts`", "with `conservative`", "with `fast`",
+                        [whole(r.get(at(s), "impacts")) for s in ("self_impacts", "self_impacts_conservative",
+                                                                  "self_impacts_fast")])
+    return table(["scene", "ms", "build", "refit", "walk", "walk, decide and time", "`self_impacts`", "with `conservative`",
+                  "with `fast`",
                   "`first_self_impact`", "candidates", "impacts", "by `conservative`", "by `fast`"], rows, 2) + made_on(r)
 
 
@@ -770,7 +809,8 @@ def motion_arithmetics(results):
         for scalar in SCALARS:
             at = [f"stage/{scene}/{scalar}/self_impacts{a}" for a in ("", "_conservative", "_fast")]
             rows.append([scene, scalar] + [whole(r.get(n, "impacts")) for n in at] + [shown(r.get(n)) for n in at])
-    return table(["scene", "", "found by `filtered`", "`conservative`", "`fast`", "`filtered`, ms", "`conservative`", "`fast`"], rows, 2) + made_on(r)
+    return table(["scene", "", "found by `filtered`", "`conservative`", "`fast`", "`filtered`, ms", "`conservative`",
+                  "`fast`"], rows, 2) + made_on(r)
 
 
 @in_table("motion-tests")
@@ -784,7 +824,8 @@ def motion_tests(results):
                 if r.get(at + "filtered") is None:
                     continue
                 cells = [shown(rate(r, at + a)) for a in ("fast", "conservative", "filtered", "exact")]
-                cells += [whole(r.get(at + a, key)) for a in ("fast", "conservative") for key in ("missed_per_million", "phantom_per_million")]
+                cells += [whole(r.get(at + a, key)) for a in ("fast", "conservative") for key in ("missed_per_million",
+                                                                                                  "phantom_per_million")]
                 rows.append([scene, scalar, name] + cells)
     return table(["scene", "", "", "`fast`", "`conservative`", "`filtered`", "`exact`", "`fast`: missed", "invented",
                   "`conservative`: missed", "invented"], rows, 3) + made_on(r, "; the right half is per million candidates")
@@ -793,7 +834,8 @@ def motion_tests(results):
 @in_table("motion-looks")
 def motion_looks(results):
     r = results["cpu/motion"]
-    keys = {"no_by_volume": "no by volume", "no_by_direction": "no by direction", "no_by_areas": "no by areas", "yes": "yes", "open": "open",
+    keys = {"no_by_volume": "no by volume", "no_by_direction": "no by direction", "no_by_areas": "no by areas", "yes": "yes",
+            "open": "open",
             "open_late": "open after halves", "no_time": "time not found in registers"}
     rows = []
     for name in r.names("look/"):
@@ -804,7 +846,8 @@ def motion_looks(results):
 
 def motion_scenes(r):
     """SCENE/SCALAR of the real scenes, in the order of the program."""
-    return [f"{a}/{b}" for a, b in dict.fromkeys(tuple(n.split("/")[:2]) for n in r.rows if "/" in n and n.endswith("/frame"))]
+    return [f"{a}/{b}" for a,
+            b in dict.fromkeys(tuple(n.split("/")[:2]) for n in r.rows if "/" in n and n.endswith("/frame"))]
 
 
 @in_table("motion-cuda")
@@ -814,9 +857,11 @@ def motion_cuda(results):
     for s in motion_scenes(r):
         rows.append([s, whole(r.get(f"{s}/build", "faces"))] +
                     [whole(r.get(f"{s}/{k}/walk/static_partition", "candidates")) for k in KINDS] +
-                    [whole(r.get(f"{s}/impacts", "impacts"))] + [shown(r.get(f"{s}/{q}")) for q in ("build", "refit", "walk", "impacts", "frame",
+                    [whole(r.get(f"{s}/impacts", "impacts"))] + [shown(r.get(f"{s}/{q}")) for q in ("build", "refit", "walk",
+                                                                                                    "impacts", "frame",
                     "halves/from_roots", "halves/from_fronts")] + [whole(r.get(f"{s}/same", "same"))])
-    return table(["scene, ms", "faces", "vertex-face candidates", "edge-edge", "impacts", "build", "refit", "walk", "`self_impacts`", "frame",
+    return table(["scene, ms", "faces", "vertex-face candidates", "edge-edge", "impacts", "build", "refit", "walk",
+                  "`self_impacts`", "frame",
                   "two halves, from roots", "from fronts", "100 runs: same bits"], rows) + made_on(r)
 
 
@@ -830,10 +875,12 @@ def motion_cuda_tests(results):
             for a in ("fast", "filtered", "conservative"):
                 at = f"{s}/{kind}/{a}/"
                 second = shown(r.get(at + "second"))
-                cells += [shown(r.get(at + "first")) + (f" + {second}" if second else ""), whole(r.get(at + "first", "left")),
+                cells += [shown(r.get(at + "first")) + (f" + {second}" if second else ""),
+                          whole(r.get(at + "first", "left")),
                           whole(r.get(at + "second", "found"))]
             rows.append([s, name] + cells)
-    head = [f"`{a}`: {what}" for a in ("fast", "filtered", "conservative") for what in ("first + second, ms", "left", "found")]
+    head = [f"`{a}`: {what}" for a in ("fast", "filtered", "conservative") for what in ("first + second, ms", "left",
+                                                                                        "found")]
     return table(["scene", ""] + head, rows, 2) + made_on(r)
 
 
@@ -849,9 +896,11 @@ def motion_schedules(results):
             at = f"{s}/{kind}/walk/"
             lazy, steal, dealt = (r.rows[at + k] for k in ("lazy_work_stealing", "work_stealing", "static_partition"))
             rows.append([s, name] + [shown(r.get(at + k)) for k in SCHEDULES] +
-                        [f"{whole(dealt['balances'])} / {dealt['idle_share']:.2f}", f"{whole(steal['steals'])} / {steal['idle_share']:.2f}",
+                        [f"{whole(dealt['balances'])} / {dealt['idle_share']:.2f}",
+                         f"{whole(steal['steals'])} / {steal['idle_share']:.2f}",
                          f"{whole(lazy['steals'])} / {whole(lazy['transfers'])} / {lazy['idle_share']:.2f}"])
-    return table(["scene", "ms"] + [k.replace("_", " ") for k in SCHEDULES] + ["static: balances / idle", "stealing: steals / idle",
+    return table(["scene", "ms"] + [k.replace("_", " ") for k in SCHEDULES] + ["static: balances / idle",
+                                                                               "stealing: steals / idle",
                  "lazy: steals / transfers / idle"], rows, 2) + made_on(r)
 
 
@@ -875,11 +924,16 @@ def motion_sources(results):
         theirs = LITERATURE["dasilva_2013"]["models"].get(scene)
         if theirs:
             ccd = LITERATURE["scalable_ccd"]["models"].get(scene, {})
-            both = [" / ".join(shown(theirs.get(f"{w}_{g}_ms")) or "-" for g in ("gts450", "gt520")) for w in ("stealing", "gproximity")]
-            rows.append([scene] + both + [whole(theirs["front_nodes"]), shown(ccd.get("best_broad_phase_ms")), shown(ccd.get("earliest_time_ms")),
-                                          shown(r.get(f"{s}/walk")), shown(r.get(f"{s}/frame")), whole(r.get(f"{s}/halves/from_fronts", "nodes"))])
-    return table(["scene, ms", "da Silva 2013, lazy work stealing, GTS 450 / GT 520", "its gProximity, the same", "its front nodes",
-                  "Scalable-CCD: best broad phase", "earliest time alone", "walk here", "frame here", "front nodes here"], rows) + made_on(r)
+            both = [" / ".join(shown(theirs.get(f"{w}_{g}_ms")) or "-" for g in ("gts450", "gt520")) for w in ("stealing",
+                                                                                                               "gproximity")]
+            rows.append([scene] + both + [whole(theirs["front_nodes"]), shown(ccd.get("best_broad_phase_ms")),
+                                          shown(ccd.get("earliest_time_ms")),
+                                          shown(r.get(f"{s}/walk")), shown(r.get(f"{s}/frame")),
+                                          whole(r.get(f"{s}/halves/from_fronts", "nodes"))])
+    return table(["scene, ms", "da Silva 2013, lazy work stealing, GTS 450 / GT 520", "its gProximity, the same",
+                  "its front nodes",
+                  "Scalable-CCD: best broad phase", "earliest time alone", "walk here", "frame here", "front nodes here"],
+                 rows) + made_on(r)
 
 
 @in_table("flying")
@@ -889,10 +943,12 @@ def flying(results):
     rows = []
     for s in motion_scenes(r):
         source = LITERATURE["dasilva_2013"]["models"].get(theirs.get(s.split("/")[0].rsplit("_", 1)[1]), {})
-        rows.append([whole(r.get(f"{s}/build", "faces"))] + [shown(r.get(f"{s}/{q}")) for q in ("refit", "walk", "impacts", "frame")] +
+        rows.append([whole(r.get(f"{s}/build", "faces"))] + [shown(r.get(f"{s}/{q}")) for q in ("refit", "walk", "impacts",
+                                                                                                "frame")] +
                     [whole(r.get(f"{s}/impacts", "impacts")), whole(r.get(f"{s}/halves/from_fronts", "nodes")),
                      shown(source.get("stealing_gts450_ms")), whole(source.get("front_nodes"))])
-    return table(["faces, ms", "refit", "walk", "`self_impacts`", "frame", "impacts", "front nodes", "da Silva 2013, GTS 450, its own scene",
+    return table(["faces, ms", "refit", "walk", "`self_impacts`", "frame", "impacts", "front nodes",
+                  "da Silva 2013, GTS 450, its own scene",
                   "its front nodes"], rows) + made_on(r)
 
 
@@ -906,7 +962,8 @@ def pair_rules(r):
             continue
         for rule, name in RULES.items():
             rows.append([scene if rule == "feature_trees" else "", f"`{name}`"] +
-                        [shown(r.get(f"{scene}/{rule}/{s}")) for s in ("index", "refit", "walk", "boxes", "tests", "impacts")])
+                        [shown(r.get(f"{scene}/{rule}/{s}")) for s in ("index", "refit", "walk", "boxes", "tests",
+                                                                       "impacts")])
     return table(["scene, ms", "rule", "index", "refit", "walk", "boxes", "tests", "impacts"], rows, 2) + made_on(r)
 
 
@@ -926,7 +983,8 @@ def pair_rules_counts(results):
     rows = []
     for scene in r.parts("", 0):
         one, orphans = f"{scene}/representatives/impacts", f"{scene}/orphan_sets/impacts"
-        rows.append([scene, whole(r.get(one, "pairs_of_faces")), whole(r.get(orphans, "looked_at")), whole(r.get(one, "pairs_of_features")),
+        rows.append([scene, whole(r.get(one, "pairs_of_faces")), whole(r.get(orphans, "looked_at")),
+                     whole(r.get(one, "pairs_of_features")),
                      whole(r.get(orphans, "pairs_of_features")), whole(r.get(f"{scene}/feature_trees/impacts", "overlap")),
                      whole(r.get(orphans, "orphans")), whole(r.get(orphans, "orphans_overlap"))])
     return table(["scene", "pairs of faces", "that share no vertex", "pairs of features, representatives", "orphan sets",
@@ -947,7 +1005,8 @@ def schedules(results):
 
 def from_tests(page):
     """The rows of the first table of a page of docs/results, as dicts by the head, of float and double side by side."""
-    lines = [line for line in (ROOT / "docs" / "results" / page).read_text(encoding="utf-8").split("\n") if line.startswith("|")]
+    lines = [line for line in (ROOT / "docs" / "results" / page).read_text(encoding="utf-8").split("\n")
+             if line.startswith("|")]
     cells = [[c.strip() for c in line.strip("|").split("|")] for line in lines]
     rows = [dict(zip(cells[0], row)) for row in cells[2:]]
     return {f: {r["scalar"]: r for r in rows if r["family"] == f} for f in dict.fromkeys(r["family"] for r in rows)}
@@ -961,7 +1020,8 @@ def family_errors(page, late):
 
     rows = [[family] + cells(both["float"]) + cells(both["double"]) for family, both in from_tests(page).items()]
     what = "filter and late stage" if late else "filter"
-    return table(["family"] + [f"{s}: {c}" for s in SCALARS for c in ("`fast`, missed / phantom", f"{what}, %", "`filtered` and `exact`, wrong")],
+    return table(["family"] + [f"{s}: {c}" for s in SCALARS for c in ("`fast`, missed / phantom", f"{what}, %",
+                                                                      "`filtered` and `exact`, wrong")],
                  rows)
 
 
@@ -983,10 +1043,15 @@ def footprint(results):
     rows = []
     for name in r.rows:
         each = r.get(name, "elements")
-        rows.append([name.replace("/", ": ", 1), whole(each), f"{r.get(name, 'set_bytes') / each:.0f}", whole(r.get(name, "index_bytes") / 1024),
-                     shown(r.get(name)), shown(cuda.get(name)), shown(compiled.get(name, "gcc_seconds")), whole(compiled.get(name, "gcc_megabytes")),
-                     whole((compiled.get(name, "gcc_code") or 0) / 1024)] + [whole(compiled.get(name, f"nvcc_{k}")) for k in ("seconds", "registers", "stack")])
-    head = ["scene: question", "elements", "bytes of each", "trees, KiB", "one core, ms", "device, ms", "g++, s", "g++, MB", "code, KiB",
+        rows.append([name.replace("/", ": ", 1), whole(each), f"{r.get(name, 'set_bytes') / each:.0f}",
+                     whole(r.get(name, "index_bytes") / 1024),
+                     shown(r.get(name)), shown(cuda.get(name)), shown(compiled.get(name, "gcc_seconds")),
+                     whole(compiled.get(name, "gcc_megabytes")),
+                     whole((compiled.get(name, "gcc_code") or 0) / 1024)] + [whole(compiled.get(name,
+                                                                                                f"nvcc_{k}"))
+                                                                             for k in ("seconds", "registers", "stack")])
+    head = ["scene: question", "elements", "bytes of each", "trees, KiB", "one core, ms", "device, ms", "g++, s", "g++, MB",
+            "code, KiB",
             "nvcc, s", "registers", "stack"]
     return filled(head, rows) + made_on(r) + made_on(cuda) + made_on(compiled)
 
@@ -1022,7 +1087,8 @@ def cost_spheres(results):
             name = "Embree point queries, not exact" if index == "embree" else LABELS[index]
             both = [r.get(f"arithmetic/{index}/float/{a}") for a in ("filtered", "fast")]
             rows.append([machine(r) if index == "bvh" else "", name, shown(r.get(f"build/{index}/{policy}")),
-                         shown(r.get(f"pairs/{index}/{policy}/{SPHERES}")), shown(r.get(f"all/{index}/{policy}")), quotient(*both)])
+                         shown(r.get(f"pairs/{index}/{policy}/{SPHERES}")), shown(r.get(f"all/{index}/{policy}")),
+                         quotient(*both)])
     return paragraph(f"""The scene of Lee and Hsieh 2019, who took {whole(quick)} ms on a GPU and {slow / 60000:.1f} minutes by brute
         force on one core: a torus of {TRIANGLES:,} triangles and {SPHERES:,} spheres of radius 3, of which
         {whole(cpu.get('all/bvh/serial', 'pairs'))} pairs touch. Float, `filtered` (so exact), sorted pairs.""") + \
@@ -1039,7 +1105,8 @@ def cost_triangles(results):
     def both(a, peer=False):
         return " (".join(shown(rate(cpu, f"pair/{a}/{'double' if peer else 'float'}/{p}")) for p in ("1.7", "20")) + ")"
 
-    others = "".join(f", {name} {both(p, True)}" for p, name in (("cgal", "CGAL's exact predicates"), ("fcl", "FCL")) if f"pair/{p}/double/20" in cpu.rows)
+    others = "".join(f", {name} {both(p, True)}" for p, name in (("cgal", "CGAL's exact predicates"),
+                                                                 ("fcl", "FCL")) if f"pair/{p}/double/20" in cpu.rows)
     return paragraph(f"""One triangle against 20 million (Maffina 2012: {whole(theirs['one_core_ms'][n])} ms on one core,
         {whole(theirs['gpu_ms'][n])} ms on a GTX 590), float, 1 % hits, exact: `count` takes {shown(count)} ms on the
         {cuda.context['device']}, where reading the same bytes takes {shown(cuda.get(f'read/float/cuda/{n}'))} ms, and `filtered`
@@ -1092,8 +1159,10 @@ def choosing():
     """Values that are times of single rows."""
     rows = {"serial": ("cpu/meshes", "pairs/posed/serial"),
             "cuda": ("cuda/meshes", "pairs/posed/cuda"), "cuda-small": ("cuda/meshes_2766", "pairs/posed/cuda"),
-            "two-trees": ("cpu/builders", "pairs/posed/linear/standard"), "one-tree": ("cpu/builders", "one_sided/linear/standard"),
-            "both-at-once": ("cpu/descents", "walk/linear/both_at_once"), "larger-first": ("cpu/descents", "walk/linear/larger_first")}
+            "two-trees": ("cpu/builders", "pairs/posed/linear/standard"),
+            "one-tree": ("cpu/builders", "one_sided/linear/standard"),
+            "both-at-once": ("cpu/descents", "walk/linear/both_at_once"),
+            "larger-first": ("cpu/descents", "walk/linear/larger_first")}
     for builder in BUILDERS:
         name = builder.replace("_", "-")
         rows[f"{name}-build"] = ("cpu/builders", f"build/{builder}/serial")
