@@ -11,8 +11,10 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.lines import Line2D  # noqa: E402
 
-from report_tables import ANY_SCENES, ARITHMETICS, BUILDERS, INPUTS, LITERATURE, PREDICATES, SCALARS, SIZES, SPHERES, motion_scenes, \
-    of_size, policies  # noqa: E402
+from report_core import ARITHMETICS, LITERATURE, SCALARS  # noqa: E402
+from report_motion import motion_scenes  # noqa: E402
+from report_predicates import INPUTS, PREDICATES  # noqa: E402
+from report_queries import ANY_SCENES, BUILDERS, SIZES, SPHERES, of_size, policies  # noqa: E402
 
 GREY = "#888888"
 COLOURS = {"fast": "#d9773f", "filtered": "#3f8fd9", "exact": "#3fa66b", "resolve": "#b05fc7", "conservative": "#c7a52e"}

@@ -6,7 +6,7 @@ usage: report.py [--check]                  compares the pages with the results;
        report.py --take FOLDER [--write]    first takes the files FOLDER/cpu/NAME.json and FOLDER/cuda/NAME.json that benchmarks left
        report.py --page OUT.md FOLDER       writes a page of its own, with plots beside it, from such a folder alone
 
-In a page, lines between `<!-- NAME: begin -->` and `<!-- NAME: end -->` are a table of bench/report_tables.py, and what is
+In a page, lines between `<!-- NAME: begin -->` and `<!-- NAME: end -->` are a table of bench/report_*.py, and what is
 between `<!-- v: NAME -->` and `<!-- /v -->` is a value. A table of figures that stands elsewhere is an error, unless it is of
 constants, which no program measures: then the line `<!-- constants -->` is before it. cmake/report.sh runs the benchmarks.
 """
