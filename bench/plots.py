@@ -5,6 +5,8 @@ Text is text, the background is transparent and colours are of middle lightness,
 black. The same results give the same bytes.
 """
 
+import math
+
 import matplotlib
 
 matplotlib.use("Agg")
@@ -12,6 +14,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.lines import Line2D  # noqa: E402
 
 from report_core import ARITHMETICS, LITERATURE, SCALARS  # noqa: E402
+from report_extremes import EXTREMES, PAIR_KINDS  # noqa: E402
 from report_motion import motion_scenes  # noqa: E402
 from report_predicates import INPUTS, PREDICATES  # noqa: E402
 from report_queries import ANY_SCENES, BUILDERS, SIZES, SPHERES, of_size, policies  # noqa: E402
@@ -226,6 +229,42 @@ def families_cpu(results):
 @plot("families-cuda")
 def families_cuda(results):
     return family_cost(results["cuda/triangles"])
+
+
+def extremes(r):
+    figure, axes = grid(len(EXTREMES), 3, height=2.6)
+    by_power = ("scaled", "moved", "flattened", "snapped")
+    for axis, (what, title) in zip(axes, EXTREMES.items()):
+        for index, kind in enumerate(PAIR_KINDS):
+            for scalar, style in zip(SCALARS, ("-", "--")):
+                points = [(float(n.split("/")[-1]), r.get(n, "filtered_ns")) for n in r.names(f"pair/{kind}/{scalar}/{what}/")]
+                # The range of double is more than an axis can hold; its powers of ten are not.
+                if what in by_power:
+                    points = [(math.log10(x), y) for x, y in points if x > 0]
+                points = sorted((x, y) for x, y in points if y)
+                if points:
+                    axis.plot(*zip(*points), style, marker=".", color=SERIES[index])
+        axis.set_title(title)
+        axis.set_yscale("log")
+        axis.set_xscale("log" if what == "spread" else "linear")
+        axis.set_xlabel("power of ten" if what in by_power else "powers of two" if what == "spread" else "share")
+        axis.minorticks_off()
+        axis.set_ylabel("filtered, ns a pair")
+    handles = [Line2D([], [], color=SERIES[i], label=name) for i, name in enumerate(PAIR_KINDS.values())]
+    handles += [Line2D([], [], color=GREY, linestyle=s, label=t) for s, t in zip(("-", "--"), SCALARS)]
+    below(figure, handles, 6)
+    figure.suptitle(f"What filtered takes at the extremes: {of_machine(r)}", color=GREY)
+    return figure
+
+
+@plot("extremes-cpu")
+def extremes_cpu(results):
+    return extremes(results["cpu/extremes"])
+
+
+@plot("extremes-cuda")
+def extremes_cuda(results):
+    return extremes(results["cuda/extremes"])
 
 
 # --- scaling ----------------------------------------------------------------------------------------------------------------
