@@ -5,14 +5,19 @@ Text is text, the background is transparent and colours are of middle lightness,
 black. The same results give the same bytes.
 """
 
+import math
+
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.lines import Line2D  # noqa: E402
 
-from report_tables import ANY_SCENES, ARITHMETICS, BUILDERS, INPUTS, LITERATURE, PREDICATES, SCALARS, SIZES, SPHERES, motion_scenes, \
-    of_size, policies  # noqa: E402
+from report_core import ARITHMETICS, LITERATURE, SCALARS  # noqa: E402
+from report_extremes import EXTREMES, PAIR_KINDS  # noqa: E402
+from report_motion import motion_scenes  # noqa: E402
+from report_predicates import INPUTS, PREDICATES  # noqa: E402
+from report_queries import ANY_SCENES, BUILDERS, SIZES, SPHERES, of_size, policies  # noqa: E402
 
 GREY = "#888888"
 COLOURS = {"fast": "#d9773f", "filtered": "#3f8fd9", "exact": "#3fa66b", "resolve": "#b05fc7", "conservative": "#c7a52e"}
@@ -62,7 +67,8 @@ def of_machine(r):
 
 def grid(count, columns=3, width=9.6, height=2.7, **more):
     rows = -(-count // columns)
-    figure, axes = plt.subplots(rows, columns, figsize=(width, height * rows), squeeze=False, constrained_layout=True, **more)
+    figure, axes = plt.subplots(rows, columns, figsize=(width, height * rows), squeeze=False, constrained_layout=True,
+                                **more)
     for spare in axes.flat[count:]:
         spare.set_visible(False)
     return figure, list(axes.flat[:count])
@@ -88,7 +94,8 @@ def trade(r, million_a_second):
                     if at not in r.rows:
                         continue
                     wrong = r.get(at, "wrong_per_million")
-                    axis.plot(million_a_second(r, at), max(wrong, 0.3), MARKS[kind], color=COLOURS[a], markersize=8 if scalar == "double" else 6,
+                    axis.plot(million_a_second(r, at), max(wrong, 0.3), MARKS[kind], color=COLOURS[a],
+                              markersize=8 if scalar == "double" else 6,
                               fillstyle="full" if scalar == "float" else "none", clip_on=False)
         axis.set_title(name)
         axis.set_xscale("log")
@@ -105,7 +112,8 @@ def trade(r, million_a_second):
         axis.set_ylabel("wrong answers per million")
     handles = [Line2D([], [], marker="o", linestyle="", color=COLOURS[a], label=a) for a in ARITHMETICS]
     handles += [Line2D([], [], marker=m, linestyle="", color=GREY, label=k) for k, m in MARKS.items()]
-    handles += [Line2D([], [], marker="o", linestyle="", color=GREY, fillstyle=f, label=s) for s, f in (("float", "full"), ("double", "none"))]
+    handles += [Line2D([], [], marker="o", linestyle="", color=GREY, fillstyle=f, label=s) for s,
+                f in (("float", "full"), ("double", "none"))]
     below(figure, handles, 8)
     figure.suptitle(f"Throughput against wrong answers: {of_machine(r)}", color=GREY)
     return figure
@@ -131,7 +139,8 @@ def trade_motion(results):
             _, scene, scalar, what, a = name.split("/")
             missed, phantom = (r.get(name, f"{key}_per_million") for key in ("missed", "phantom"))
             if what == kind and missed is not None:
-                axis.plot(r.get(name, "items_per_second") / 1e6, max(missed + phantom, 0.3), marks[scene], color=COLOURS[a], clip_on=False,
+                axis.plot(r.get(name, "items_per_second") / 1e6, max(missed + phantom, 0.3), marks[scene], color=COLOURS[a],
+                          clip_on=False,
                           fillstyle="full" if scalar == "float" else "none", markersize=7)
         axis.set_title(title)
         axis.set_yscale("log")
@@ -141,9 +150,11 @@ def trade_motion(results):
         axis.set_xlim(0)
         axis.set_xlabel("million candidates a second")
     axes[0].set_ylabel("wrong answers per million")
-    handles = [Line2D([], [], marker="o", linestyle="", color=COLOURS[a], label=a) for a in ("fast", "conservative", "filtered")]
+    handles = [Line2D([], [], marker="o", linestyle="", color=COLOURS[a], label=a) for a in ("fast", "conservative",
+                                                                                             "filtered")]
     handles += [Line2D([], [], marker=m, linestyle="", color=GREY, label=s) for s, m in marks.items()]
-    handles += [Line2D([], [], marker="o", linestyle="", color=GREY, fillstyle=f, label=s) for s, f in (("float", "full"), ("double", "none"))]
+    handles += [Line2D([], [], marker="o", linestyle="", color=GREY, fillstyle=f, label=s) for s,
+                f in (("float", "full"), ("double", "none"))]
     below(figure, handles, 8)
     figure.suptitle(f"Features in motion, candidates of scenes: {of_machine(r)}", color=GREY)
     return figure
@@ -157,7 +168,8 @@ def cost(r, time):
             for kind in INPUTS:
                 base = time(r, f"{predicate}/{kind}/{scalar}/fast")
                 for a in ("filtered", "exact"):
-                    axis.plot(time(r, f"{predicate}/{kind}/{scalar}/{a}") / base, at, MARKS[kind], color=COLOURS[a], markersize=6)
+                    axis.plot(time(r, f"{predicate}/{kind}/{scalar}/{a}") / base, at, MARKS[kind], color=COLOURS[a],
+                              markersize=6)
             labels.append(name)
             at += 1
         axis.axvline(1, color=COLOURS["fast"], linewidth=1.2)
@@ -193,7 +205,8 @@ def family_cost(r):
     figure, (axis,) = grid(1, 1, height=7.5)
     for scalar, fill in zip(SCALARS, ("full", "none")):
         for a in ("filtered", "exact"):
-            ratio = [r.get(f"family/fast/{scalar}/{f}", "items_per_second") / v if (v := r.get(f"family/{a}/{scalar}/{f}", "items_per_second"))
+            ratio = [r.get(f"family/fast/{scalar}/{f}", "items_per_second") / v if (v := r.get(f"family/{a}/{scalar}/{f}",
+                                                                                               "items_per_second"))
                      else None for f in names]
             if any(ratio):
                 axis.plot(ratio, range(len(names)), "o", color=COLOURS[a], fillstyle=fill, label=f"{a}, {scalar}")
@@ -216,6 +229,42 @@ def families_cpu(results):
 @plot("families-cuda")
 def families_cuda(results):
     return family_cost(results["cuda/triangles"])
+
+
+def extremes(r):
+    figure, axes = grid(len(EXTREMES), 3, height=2.6)
+    by_power = ("scaled", "moved", "flattened", "snapped")
+    for axis, (what, title) in zip(axes, EXTREMES.items()):
+        for index, kind in enumerate(PAIR_KINDS):
+            for scalar, style in zip(SCALARS, ("-", "--")):
+                points = [(float(n.split("/")[-1]), r.get(n, "filtered_ns")) for n in r.names(f"pair/{kind}/{scalar}/{what}/")]
+                # The range of double is more than an axis can hold; its powers of ten are not.
+                if what in by_power:
+                    points = [(math.log10(x), y) for x, y in points if x > 0]
+                points = sorted((x, y) for x, y in points if y)
+                if points:
+                    axis.plot(*zip(*points), style, marker=".", color=SERIES[index])
+        axis.set_title(title)
+        axis.set_yscale("log")
+        axis.set_xscale("log" if what == "spread" else "linear")
+        axis.set_xlabel("power of ten" if what in by_power else "powers of two" if what == "spread" else "share")
+        axis.minorticks_off()
+        axis.set_ylabel("filtered, ns a pair")
+    handles = [Line2D([], [], color=SERIES[i], label=name) for i, name in enumerate(PAIR_KINDS.values())]
+    handles += [Line2D([], [], color=GREY, linestyle=s, label=t) for s, t in zip(("-", "--"), SCALARS)]
+    below(figure, handles, 6)
+    figure.suptitle(f"What filtered takes at the extremes: {of_machine(r)}", color=GREY)
+    return figure
+
+
+@plot("extremes-cpu")
+def extremes_cpu(results):
+    return extremes(results["cpu/extremes"])
+
+
+@plot("extremes-cuda")
+def extremes_cuda(results):
+    return extremes(results["cuda/extremes"])
 
 
 # --- scaling ----------------------------------------------------------------------------------------------------------------
@@ -262,14 +311,17 @@ def scaling_triangles(results):
     figure, axes = grid(1, 1, height=4.2)
     axis, colour = axes[0], iter(SERIES)
     for r, policy in zip(there(results, "cpu/triangles", "cuda/triangles"), ("serial", "cuda")):
-        for what, label, style in ((f"read/float/{policy}", "a loop that only reads", ":"), (f"one/count/fast/float/1/{policy}", "fast", "--"),
-                                   (f"one/count/filtered/float/1/{policy}", "filtered", "-"), (f"one/copied/filtered/float/1/{policy}", "filtered, with the copy", "-.")):
+        for what, label, style in ((f"read/float/{policy}", "a loop that only reads", ":"),
+                                   (f"one/count/fast/float/1/{policy}", "fast", "--"),
+                                   (f"one/count/filtered/float/1/{policy}", "filtered", "-"),
+                                   (f"one/copied/filtered/float/1/{policy}", "filtered, with the copy", "-.")):
             points = sorted((int(n.split("/")[-1]), r.get(n)) for n in r.names(what + "/"))
             if points:
                 axis.plot(*zip(*points), style, color=next(colour), marker=".", label=f"{label}, {policy}")
     theirs = LITERATURE["maffina_2012"]
     for key, label, mark in (("one_core_ms", "Maffina 2012, one core", "o"), ("gpu_ms", "Maffina 2012, GTX 590", "s")):
-        axis.plot([int(n) for n in theirs[key]], list(theirs[key].values()), mark, color=GREY, markersize=8, fillstyle="none", label=label)
+        axis.plot([int(n) for n in theirs[key]], list(theirs[key].values()), mark, color=GREY, markersize=8,
+                  fillstyle="none", label=label)
     log_log(axis, "triangles, against one", "count, 1 % hits, ms")
     beside(figure, figure.axes[0].get_legend_handles_labels()[0])
     return figure
@@ -281,17 +333,21 @@ def scaling_meshes(results):
     n, theirs = [int(s) for s in SIZES], [LITERATURE["backman_2011"]["sizes"][s] for s in SIZES]
     for axis, phase, title in zip(axes, ("middle", "near"), ("Middle phase, posed", "Near phase, posed")):
         for key, label, mark in (("cpu", "Bäckman 2011, processor", "o"), ("gpu", "Bäckman 2011, 8800 GTS", "s")):
-            axis.plot(n, [t[f"{phase}_{key}_ms"] for t in theirs], mark, color=GREY, fillstyle="none", markersize=6, label=label)
+            axis.plot(n, [t[f"{phase}_{key}_ms"] for t in theirs], mark, color=GREY, fillstyle="none", markersize=6,
+                      label=label)
         index = 0
         for kind, policy, where in (("cpu", "serial", "one core"), ("cuda", "cuda", "device")):
             rows = [of_size(results, kind, s) for s in SIZES]
             walk = [r.get(f"boxes/posed/{policy}") for r in rows]
+            if None in walk:
+                continue
             if phase == "middle":
                 axis.plot(n, walk, color=SERIES[index], marker=".", label=f"abut: walk, {where}")
                 index += 1
                 continue
             for query in ("pairs", "contacts"):  # what is beyond the walk
-                axis.plot(n, [max(r.get(f"{query}/posed/{policy}") - w, 1e-3) for r, w in zip(rows, walk)], color=SERIES[index], marker=".",
+                axis.plot(n, [max(r.get(f"{query}/posed/{policy}") - w, 1e-3) for r, w in zip(rows, walk)],
+                          color=SERIES[index], marker=".",
                           label=f"abut: {query}, {where}")
                 index += 1
         log_log(axis, "triangles of each mesh", "ms")
@@ -315,16 +371,21 @@ def scaling_meshes(results):
 def scaling_motion(results):
     figure, axes = grid(1, 1, height=4.2)
     axis, theirs = axes[0], LITERATURE["dasilva_2013"]["models"]
-    for key, label, mark in (("stealing_gts450_ms", "lazy work stealing, GTS 450", "o"), ("stealing_gt520_ms", "lazy work stealing, GT 520", "s"),
-                             ("gproximity_gts450_ms", "gProximity, GTS 450", "^"), ("gproximity_gt520_ms", "gProximity, GT 520", "v")):
+    for key, label, mark in (("stealing_gts450_ms", "lazy work stealing, GTS 450", "o"),
+                             ("stealing_gt520_ms", "lazy work stealing, GT 520", "s"),
+                             ("gproximity_gts450_ms", "gProximity, GTS 450", "^"),
+                             ("gproximity_gt520_ms", "gProximity, GT 520", "v")):
         points = [(m["triangles"], m[key]) for m in theirs.values() if key in m]
         axis.plot(*zip(*points), mark, color=GREY, fillstyle="none", label=f"da Silva 2013: {label}")
-    for index, (r, label) in enumerate(zip(there(results, "cuda/motion_flying", "cuda/motion"), ("small things flying about", "simulations"))):
+    for index, (r, label) in enumerate(zip(there(results, "cuda/motion_flying", "cuda/motion"),
+                                           ("small things flying about", "simulations"))):
         points = [(r.get(f"{s}/build", "faces"), r.get(f"{s}/frame"), s) for s in motion_scenes(r)]
-        axis.plot([p[0] for p in points], [p[1] for p in points], "." if label == "simulations" else ".-", markersize=10, color=SERIES[index],
+        axis.plot([p[0] for p in points], [p[1] for p in points], "." if label == "simulations" else ".-", markersize=10,
+                  color=SERIES[index],
                   label=f"abut: {label}")
         for x, y, s in points if label == "simulations" else ():
-            axis.annotate(s.split("/")[0], (x, y), xytext=(0, 6), textcoords="offset points", ha="center", fontsize=7.5, color=SERIES[index])
+            axis.annotate(s.split("/")[0], (x, y), xytext=(0, 6), textcoords="offset points", ha="center", fontsize=7.5,
+                          color=SERIES[index])
     log_log(axis, "triangles", "a frame: refit and impacts, ms")
     beside(figure, figure.axes[0].get_legend_handles_labels()[0])
     return figure
@@ -335,7 +396,8 @@ def scaling_motion(results):
 @plot("stages-triangles")
 def stages_triangles(results):
     r = results["cpu/triangles"]
-    stages = {"first": "filter", "late": "late", "word": "64 bits", "one_limb": "1 limb", "two_limbs": "2 limbs", "any_span": "any span"}
+    stages = {"first": "filter", "late": "late", "word": "64 bits", "one_limb": "1 limb", "two_limbs": "2 limbs",
+              "any_span": "any span"}
     names = r.parts("family/", 3)
     if not names:
         raise LookupError("no families")
@@ -361,7 +423,8 @@ def stages_triangles(results):
 def stages_motion(results):
     r = results["cpu/motion"]
     kinds = [n for n in r.names("look/")]
-    keys = {"no_by_volume": "no: volume", "no_by_direction": "no: direction", "no_by_areas": "no: areas", "yes": "yes", "open": "left to later stages"}
+    keys = {"no_by_volume": "no: volume", "no_by_direction": "no: direction", "no_by_areas": "no: areas", "yes": "yes",
+            "open": "left to later stages"}
     figure, axes = grid(1, 1, height=0.6 + 0.34 * len(kinds))
     axis, left = axes[0], [0.0] * len(kinds)
     for index, (key, label) in enumerate(keys.items()):
@@ -391,7 +454,8 @@ def memory(results):
     axis.set_ylim(0)
     axis.set_xlim(0)
     handles = [Line2D([], [], marker="o", linestyle="", color=SERIES[i], label=b) for i, b in enumerate(BUILDERS)]
-    handles += [Line2D([], [], marker=m, linestyle="", color=GREY, label=n) for n, m in (("standard", "o"), ("quantised", "s"), ("leafless", "^"), ("wide", "D"))]
+    handles += [Line2D([], [], marker=m, linestyle="", color=GREY, label=n) for n,
+                m in (("standard", "o"), ("quantised", "s"), ("leafless", "^"), ("wide", "D"))]
     beside(figure, handles)
     axis.set_title(f"Memory against time, 345,944 triangles: {of_machine(r)}")
     return figure
@@ -400,7 +464,8 @@ def memory(results):
 @plot("any")
 def any_scenes(results):
     r = results["cpu/any"]
-    trees = {"linear": "linear BVH", "sah_wide": "SAH, wide", "sah_oriented": "SAH, oriented", "embree_low": "Embree, low", "fcl_obb": "FCL"}
+    trees = {"linear": "linear BVH", "sah_wide": "SAH, wide", "sah_oriented": "SAH, oriented", "embree_low": "Embree, low",
+             "fcl_obb": "FCL"}
     figure, axes = grid(1, 1, height=3.4)
     for index, (tree, name) in enumerate(trees.items()):
         times = [r.get(f"any/{s}/baked/{tree}") for s in ANY_SCENES]

@@ -6,7 +6,7 @@ usage: report.py [--check]                  compares the pages with the results;
        report.py --take FOLDER [--write]    first takes the files FOLDER/cpu/NAME.json and FOLDER/cuda/NAME.json that benchmarks left
        report.py --page OUT.md FOLDER       writes a page of its own, with plots beside it, from such a folder alone
 
-In a page, lines between `<!-- NAME: begin -->` and `<!-- NAME: end -->` are a table of bench/report_tables.py, and what is
+In a page, lines between `<!-- NAME: begin -->` and `<!-- NAME: end -->` are a table of bench/report_*.py, and what is
 between `<!-- v: NAME -->` and `<!-- /v -->` is a value. A table of figures that stands elsewhere is an error, unless it is of
 constants, which no program measures: then the line `<!-- constants -->` is before it. cmake/report.sh runs the benchmarks.
 """
@@ -147,7 +147,8 @@ def expected(text, results, problems):
 def is_figure(cell):
     """Whether a cell holds numbers, with their units and what stands between them, and nothing else."""
     words = [w for w in re.split(r"[\s,;:/()*~x+-]+", cell) if w]
-    units = {"ns", "us", "ms", "s", "B", "kB", "KiB", "MB", "MiB", "GB", "%", "to", "and", "of", "about", "under", "million", "times"}
+    units = {"ns", "us", "ms", "s", "B", "kB", "KiB", "MB", "MiB", "GB", "%", "to", "and", "of", "about", "under", "million",
+             "times"}
     numbers = [w for w in words if re.fullmatch(r"\d[\d.^e]*%?", w)]
     return bool(numbers) and all(w in units or w in numbers for w in words)
 
@@ -185,7 +186,8 @@ def check(results):
         marks = MARK.findall(VALUE.sub("", BLOCK.sub("", text)))
         here += [f"{mark} has no partner" for mark in marks]
         here += [f"line {n}: a table of figures that no program writes" for n in loose_tables(text)]
-        here += [f"{plot} is not there" for plot in re.findall(r"\]\(((?:docs/)?figures/[^)]*)\)", text) if not (path.parent / plot).exists()]
+        here += [f"{plot} is not there" for plot in re.findall(r"\]\(((?:docs/)?figures/[^)]*)\)",
+                                                               text) if not (path.parent / plot).exists()]
         problems += [f"{path.relative_to(ROOT)}: {problem}" for problem in here]
     for source in report_tables.programs(results):
         if not (ROOT / "bench" / source).exists():

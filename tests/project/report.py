@@ -14,7 +14,8 @@ from pathlib import Path
 
 
 def check(root):
-    done = subprocess.run([sys.executable, "-B", str(root / "bench" / "report.py"), "--check"], capture_output=True, text=True)
+    done = subprocess.run([sys.executable, "-B", str(root / "bench" / "report.py"), "--check"], capture_output=True,
+                          text=True)
     return done.returncode, done.stdout + done.stderr
 
 
@@ -40,8 +41,10 @@ def append(page, lines):
 MUTATIONS = {
     "a digit of a table": lambda r: change_digit(r / "docs" / "benchmarks.md", "trade-cpu"),
     "a digit of README": lambda r: change_digit(r / "README.md", "cost-spheres"),
-    "a table that no program writes": lambda r: append(r / "docs" / "building.md", "\n| what | ms |\n| --- | ---: |\n| a query | 1.25 |\n"),
-    "a block of an unknown name": lambda r: append(r / "docs" / "building.md", "<!-- nobody: begin -->\n<!-- nobody: end -->\n"),
+    "a table that no program writes": lambda r: append(r / "docs" / "building.md",
+                                                       "\n| what | ms |\n| --- | ---: |\n| a query | 1.25 |\n"),
+    "a block of an unknown name": lambda r: append(r / "docs" / "building.md",
+                                                   "<!-- nobody: begin -->\n<!-- nobody: end -->\n"),
     "a block without an end": lambda r: replace(r / "docs" / "benchmarks.md", "<!-- trade-cpu: end -->\n", ""),
     "results that are gone": lambda r: (r / "bench" / "results" / "cpu" / "trade.json").unlink(),
     "other results": lambda r: replace(r / "bench" / "results" / "cpu" / "trade.json", '"ns": ', '"ns": 7'),

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: MIT
+"""The tables of bench/extremes.cpp and bench/extremes.cu: answers and worst costs over the number range."""
+
+from report_core import *  # noqa: F403
+
+PAIR_KINDS = {"triangle_triangle": "triangle, triangle", "sphere_triangle": "sphere, triangle", "vertex_face": "vertex, face in motion",
+              "edge_edge": "edge, edge in motion"}
+EXTREMES = {"scaled": "scaled", "moved": "moved from the origin", "flattened": "flattened", "snapped": "snapped to a lattice",
+            "spread": "spread of exponents", "undecided": "share undecided by the filter",
+            "unresolved": "share left to the last stage"}
+
+
+def worst(r, rows, key):
+    """The greatest value and the step at which it is."""
+    found = [(r.get(n, key), n) for n in rows if r.get(n, key) is not None]
+    return max(found) if found else (None, "")
+
+
+def pairs_at_extremes(r):
+    rows = []
+    for kind, name in PAIR_KINDS.items():
+        for scalar in SCALARS:
+            steps = r.names(f"pair/{kind}/{scalar}/")
+            if not steps:
+                continue
+            compared = sum(r.get(n, "sample") or 0 for n in steps)
+            wrong = [sum(r.get(n, f"{a}_wrong") or 0 for n in steps) for a in ARITHMETICS]
+            ns, at = worst(r, steps, "filtered_ns")
+            fast = [r.get(n, "fast_ns") for n in steps]
+            rows.append([name, scalar, whole(len(steps)), whole(compared)] + [whole(w) for w in wrong] +
+                        [shown(sorted(fast)[len(fast) // 2]), shown(ns), at.split("/", 3)[-1].replace("/", " "),
+                         shown((worst(r, steps, "filtered_worst_ns")[0] or 0) / 1e3)])
+    head = ["pairs", "", "steps", "compared", "`fast` wrong", "`filtered` wrong", "`exact` wrong", "`fast`, median of steps, ns",
+            "`filtered`, worst step, ns", "where", "slowest single pair, us"]
+    return table(head, rows, 2)
+
+
+def scenes_at_extremes(r):
+    rows = []
+    for kind in r.parts("scene/", 1):
+        for scalar in SCALARS:
+            steps = r.names(f"scene/{kind}/{scalar}/")
+            if steps:
+                sums = [sum(r.get(n, key) or 0 for n in steps) for key in
+                        ["truth"] + [f"{a}_{how}" for a in ARITHMETICS for how in ("lost", "invented")]]
+                ratio = max((r.get(n, "filtered_ms") / r.get(n, "fast_ms"), n) for n in steps if r.get(n, "fast_ms"))
+                rows.append([kind, scalar, whole(len(steps))] + [whole(s) for s in sums] +
+                            [f"{ratio[0]:.2f}", ratio[1].split("/", 3)[-1].replace("/", " ")])
+    head = ["scene", "", "steps", "pairs"] + [f"`{a}` {how}" for a in ARITHMETICS for how in ("lost", "invented")]
+    return table(head + ["`filtered` / `fast`, worst", "where"], rows, 2)
+
+
+@in_table("extremes-cpu")
+def extremes_cpu(results):
+    r = results["cpu/extremes"]
+    return ["Single pairs:", ""] + pairs_at_extremes(r) + ["Whole queries:", ""] + scenes_at_extremes(r) + made_on(r)
+
+
+@in_table("extremes-cuda")
+def extremes_cuda(results):
+    r = results["cuda/extremes"]
+    return ["Single pairs:", ""] + pairs_at_extremes(r) + ["Whole queries:", ""] + scenes_at_extremes(r) + made_on(r)

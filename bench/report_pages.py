@@ -1,0 +1,129 @@
+# SPDX-License-Identifier: MIT
+"""The paragraphs of README, and the values of docs/choosing.md."""
+
+from report_core import *  # noqa: F403
+from report_motion import motion_scenes
+from report_predicates import from_tests
+from report_queries import BUILDERS, LABELS, SPHERES, TRIANGLES
+
+
+# --- README -----------------------------------------------------------------------------------------------------------------
+
+def paragraph(text):
+    return textwrap.wrap(" ".join(text.split()), 125, break_long_words=False, break_on_hyphens=False) + [""]
+
+
+def machine(r):
+    return r.context["device"] if "device" in r.context else f"{r.context['machine']}, one core, {r.context['compiler'].split(' (')[0]}"
+
+
+@in_table("cost-spheres")
+def cost_spheres(results):
+    cpu, cuda, theirs = results["cpu/spheres_mesh"], results["cuda/spheres_mesh"], LITERATURE["lee_hsieh_2019"]["whole_scene_ms"]
+    slow, quick = theirs.values()
+    rows = []
+    for r, policy in ((cpu, "serial"), (cuda, "cuda")):
+        for index in ("bvh", "grid", "embree"):
+            if r.get(f"all/{index}/{policy}") is None:
+                continue
+            name = "Embree point queries, not exact" if index == "embree" else LABELS[index]
+            both = [r.get(f"arithmetic/{index}/float/{a}") for a in ("filtered", "fast")]
+            rows.append([machine(r) if index == "bvh" else "", name, shown(r.get(f"build/{index}/{policy}")),
+                         shown(r.get(f"pairs/{index}/{policy}/{SPHERES}")), shown(r.get(f"all/{index}/{policy}")),
+                         quotient(*both)])
+    return paragraph(f"""The scene of Lee and Hsieh 2019, who took {whole(quick)} ms on a GPU and {slow / 60000:.1f} minutes by brute
+        force on one core: a torus of {TRIANGLES:,} triangles and {SPHERES:,} spheres of radius 3, of which
+        {whole(cpu.get('all/bvh/serial', 'pairs'))} pairs touch. Float, `filtered` (so exact), sorted pairs.""") + \
+        table(["machine", "index", "build, ms", "query, ms", "both, ms", "`filtered` over `fast`"], rows, 2)
+
+
+@in_table("cost-triangles")
+def cost_triangles(results):
+    cpu, cuda, theirs = results["cpu/triangles"], results["cuda/triangles"], LITERATURE["maffina_2012"]
+    n = "20000000"
+    count = cuda.get(f"one/count/filtered/float/1/cuda/{n}")
+    times = f"{quotient(count, cuda.get(f'one/count/fast/float/1/cuda/{n}'))}"
+
+    def both(a, peer=False):
+        return " (".join(shown(rate(cpu, f"pair/{a}/{'double' if peer else 'float'}/{p}")) for p in ("1.7", "20")) + ")"
+
+    others = "".join(f", {name} {both(p, True)}" for p, name in (("cgal", "CGAL's exact predicates"),
+                                                                 ("fcl", "FCL")) if f"pair/{p}/double/20" in cpu.rows)
+    return paragraph(f"""One triangle against 20 million (Maffina 2012: {whole(theirs['one_core_ms'][n])} ms on one core,
+        {whole(theirs['gpu_ms'][n])} ms on a GTX 590), float, 1 % hits, exact: `count` takes {shown(count)} ms on the
+        {cuda.context['device']}, where reading the same bytes takes {shown(cuda.get(f'read/float/cuda/{n}'))} ms, and `filtered`
+        costs {times} times `fast`. One core decides {both('filtered')} million distinct pairs a second with 1.7 % hits (20 %),
+        `fast` {both('fast')}{others}, in one run.""")
+
+
+@in_table("cost-meshes")
+def cost_meshes(results):
+    cpu, layouts, cuda = results["cpu/meshes"], results["cpu/builders"], results["cuda/meshes"]
+    batch = "batch/1000/cuda"
+    embree = [cpu.get(f"unsorted/embree_{q}/serial") for q in ("low", "medium")]
+    peers_say = f"Embree with the same test at its leaves {shown(min(embree))}, unsorted; " if all(embree) else ""
+    if cpu.get("unsorted/fcl_obb/serial"):
+        peers_say += f"FCL {shown(cpu.get('unsorted/fcl_obb/serial'))}; "
+    return paragraph(f"""Two meshes of 345,944 triangles with a BVH each: {whole(cpu.get('pairs/baked/serial', 'pairs'))} pairs, sorted and
+        exact, take {shown(cpu.get('pairs/baked/serial'))} ms on one core, {shown(layouts.get('pairs/baked/sah/wide'))} with wide
+        trees ({peers_say[:-2]}), and {shown(cuda.get('pairs/baked/cuda'))} ms on the {cuda.context['device']}. A tree takes
+        {shown(cpu.get('build/bvh/serial'))} and {shown(cuda.get('build/bvh/cuda/345944'))} ms to build. 1,000 posed pairs of meshes of
+        2,766 triangles, in one call on the device, take {shown(cuda.get(batch))} ms and have {whole(cuda.get(batch, 'pairs'))} pairs of
+        triangles.""")
+
+
+@in_table("cost-wrong")
+def cost_wrong(results):
+    parts = []
+    for page, what in (("sphere-triangle.md", "spheres and triangles"), ("triangle-triangle.md", "two triangles")):
+        rows = [row for both in from_tests(page).values() for row in both.values()]
+        wrong, pairs = sum(int(r["wrong"]) for r in rows), sum(int(r["pairs"]) for r in rows)
+        parts.append(f"of {pairs / 1e6:,.0f} million pairs of {what} ({len(rows) // 2} families, [table](docs/results/{page})) {wrong}")
+    r = results["cpu/trade"]
+    at = [r.get(f"triangle_triangle/touching/{s}/fast", "wrong_per_million") for s in SCALARS]
+    return paragraph(f"""Pairs that were built to break it, in float and double, were each decided by rational arithmetic as well.
+        `filtered` and `exact` got wrong: {'; '.join(parts)}. `fast` errs where shapes nearly touch: for two triangles one rounding
+        step from contact in {at[0] / 1e4:.0f} % (float) and {at[1] / 1e4:.0f} % (double) of pairs.""")
+
+
+@in_table("cost-motion")
+def cost_motion(results):
+    cpu, cuda = results["cpu/motion"], results["cuda/motion"]
+    at = next(s for s in motion_scenes(cuda) if s.startswith("cloth-ball/"))
+    return paragraph(f"""In motion: a cloth of {whole(cuda.get(f'{at}/build', 'faces'))} triangles that folds over a ball, one step of a
+        simulation against itself, {whole(cuda.get(f'{at}/impacts', 'impacts'))} impacts with exact times: {shown(cpu.get('stage/cloth-ball/float/self_impacts'))}
+        ms on one core, {shown(cuda.get(f'{at}/frame'))} ms with the refit on the {cuda.context['device']}.""")
+
+
+# --- docs/choosing.md -------------------------------------------------------------------------------------------------------
+
+def choosing():
+    """Values that are times of single rows."""
+    rows = {"serial": ("cpu/meshes", "pairs/posed/serial"),
+            "cuda": ("cuda/meshes", "pairs/posed/cuda"), "cuda-small": ("cuda/meshes_2766", "pairs/posed/cuda"),
+            "two-trees": ("cpu/builders", "pairs/posed/linear/standard"),
+            "one-tree": ("cpu/builders", "one_sided/linear/standard"),
+            "both-at-once": ("cpu/descents", "walk/linear/both_at_once"),
+            "larger-first": ("cpu/descents", "walk/linear/larger_first")}
+    for builder in BUILDERS:
+        name = builder.replace("_", "-")
+        rows[f"{name}-build"] = ("cpu/builders", f"build/{builder}/serial")
+        rows[name] = ("cpu/builders", f"pairs/posed/{builder}/standard")
+    for layout in ("standard", "wide", "oriented", "quantised", "leafless"):
+        rows[layout] = ("cpu/builders", f"pairs/posed/sah/{layout}")
+    for name, (source, row) in rows.items():
+        VALUES[f"choosing-{name}"] = lambda results, s=source, n=row: needed(results[s].get(n))
+    for a in ARITHMETICS:
+        for kind in ("random", "touching"):
+            VALUES[f"choosing-{a}-{kind}"] = lambda results, n=f"triangle_triangle/{kind}/float/{a}": needed(results["cpu/trade"].get(n, "ns"))
+        VALUES[f"choosing-{a}-wrong"] = lambda results, n=f"triangle_triangle/touching/float/{a}": whole(
+            results["cpu/trade"].get(n, "wrong_per_million"))
+
+
+def needed(value):
+    if value is None:
+        raise KeyError("a row")
+    return shown(value)
+
+
+choosing()

@@ -1,0 +1,472 @@
+# SPDX-License-Identifier: MIT
+"""The tables of queries of sets at rest, of their trees, and of memory."""
+
+from report_core import *  # noqa: F403
+
+
+# --- spheres against a mesh -------------------------------------------------------------------------------------------------
+
+SPHERES, TRIANGLES, VERTICES = 1703244, 62976, 31488
+LABELS = {"none": "brute force", "grid": "buckets (`make_grid`)", "bvh": "BVH (`make_bvh`)", "embree": "Embree"}
+
+
+def policies(r):
+    found = {name.split("/")[2] for name in r.names("all/")}
+    return [policy for policy in ("serial", "openmp", "cuda") if policy in found]
+
+
+def whole_scene(r):
+    rows = []
+    for policy in policies(r):
+        for index in ("grid", "bvh", "embree"):
+            if r.get(f"all/{index}/{policy}") is None:
+                continue
+            asked = [r.get(f"{answer}/{index}/{policy}/{SPHERES}") for answer in ("pairs", "unsorted", "count")]
+            rows.append([f"{LABELS[index]}, {policy}", shown(r.get(f"build/{index}/{policy}"))] + [shown(t) for t in asked] +
+                        [shown(r.get(f"all/{index}/{policy}")), whole(r.get(f"build/{index}/{policy}", "bytes")),
+                         whole(r.get(f"all/{index}/{policy}", "pairs"))])
+    return [f"The whole scene ({SPHERES:,} spheres, {TRIANGLES:,} triangles), in ms:", ""] + \
+        table(["", "build", "query: sorted pairs", "unsorted", "count", "build and sorted pairs", "bytes of the index",
+               "pairs"],
+              rows)
+
+
+def floor(r):
+    pairs = r.get(f"pairs/bvh/{policies(r)[0]}/{SPHERES}", "pairs")
+    least = 12 * (SPHERES + TRIANGLES + VERTICES) + 8 * pairs
+    rate = r.get("floor/read", "bytes_per_second")
+    rate = rate if rate else r.get("floor/read", "bytes") / r.get("floor/read") * 1e3
+    line = (f"The floor of the query: spheres and mesh read once and pairs written once are {least / 1e6:.1f} MB. At the "
+            f"{rate / 1e9:,.1f} GB/s that a read loop reached in the same run that takes {shown(least / rate * 1e3)} ms.")
+    if r.get("floor/call") is not None:
+        line += f" A call that does next to nothing and waits for a number takes {shown(r.get('floor/call'))} ms."
+    return [line, ""]
+
+
+def peers(r):
+    ours, theirs = r.get("all/bvh/serial"), r.get("all/embree/serial")
+    if ours is None or theirs is None:
+        return []
+    query = r.get(f"unsorted/bvh/serial/{SPHERES}") / r.get(f"unsorted/embree/serial/{SPHERES}")
+    built = r.get("build/bvh/serial") / r.get("build/embree/serial")
+    return [f"abut over Embree, one core, same run: build and sorted pairs **{ours / theirs:.2f}** "
+            f"({ours / r.get('all_unsorted/embree/serial'):.2f} if Embree need not sort); build {built:.2f}, unsorted query "
+            f"{query:.2f}.", ""]
+
+
+def by_size(r):
+    names = [(i, p) for i in ("none", "grid", "bvh") for p in policies(r) if r.names(f"pairs/{i}/{p}/")]
+    sizes = sorted({int(n.split("/")[3]) for n in r.names("pairs/") if "embree" not in n})
+    rows = []
+    for size in sizes:
+        counts = [r.get(f"pairs/{i}/{p}/{size}", "pairs") for i, p in names]
+        rows.append([f"{size:,}", whole(next(c for c in counts if c is not None))] +
+                    [shown(r.get(f"pairs/{i}/{p}/{size}")) for i, p in names])
+    heads = [f"{LABELS[i].split(' (')[0]}, {p}" for i, p in names]
+    return ["Query alone, sorted pairs, in ms, by the number of spheres:", ""] + table(["spheres", "pairs"] + heads, rows)
+
+
+def arithmetic(r):
+    rows = []
+    kinds = sorted({tuple(n.split("/")[1:3]) for n in r.names("arithmetic/")}, key=lambda k: (k[0], k[1] != "float"))
+    for index, scalar in kinds:
+        times = [r.get(f"arithmetic/{index}/{scalar}/{a}") for a in ARITHMETICS]
+        rows.append([f"{LABELS[index].split(' (')[0]}, {scalar}"] + [shown(t) for t in times] + [quotient(times[1],
+                                                                                                          times[0])])
+    policy = "cuda" if "cuda" in policies(r) else "serial"
+    return [f"What certainty costs: query of the whole scene, sorted pairs, {policy}, in ms:", ""] + \
+        table(["", "`fast`", "`filtered`", "`exact`", "`filtered` / `fast`"], rows)
+
+
+def break_even(r):
+    keys = sorted({tuple(map(int, n.split("/")[2:4])) for n in r.names("break_even/")}, key=lambda k: (k[1], k[0]))
+    rows = []
+    for spheres, triangles in keys:
+        times = {i: r.get(f"break_even/{i}/{spheres}/{triangles}") for i in ("none", "grid", "bvh")}
+        best = min(times, key=times.get)
+        cells = [f"**{shown(t * 1e3)}**" if i == best else shown(t * 1e3) for i, t in times.items()]
+        rows.append([f"{triangles:,}", f"{spheres:,}"] + cells)
+    if not rows:
+        return []
+    policy = "cuda" if "cuda" in policies(r) else "serial"
+    return [f"Small scenes, build and sorted pairs, {policy}, in us (the fastest in bold):", ""] + \
+        table(["triangles", "spheres", "brute force", "buckets", "BVH"], rows, 2)
+
+
+def spheres_mesh(r):
+    return made_on(r) + whole_scene(r) + peers(r) + floor(r) + by_size(r) + arithmetic(r) + break_even(r)
+
+
+@in_table("spheres-cpu")
+def spheres_cpu(results):
+    return spheres_mesh(results["cpu/spheres_mesh"])
+
+
+@in_table("spheres-cuda")
+def spheres_cuda(results):
+    return spheres_mesh(results["cuda/spheres_mesh"])
+
+
+@in_table("spheres-sources")
+def spheres_sources(results):
+    cpu, cuda, theirs = results["cpu/spheres_mesh"], results["cuda/spheres_mesh"], LITERATURE["lee_hsieh_2019"]
+    n = 2**20
+    rows = [[f"Lee and Hsieh: {name}", shown(ms), ""] for name, ms in theirs["whole_scene_ms"].items()]
+    rows += [[f"Lee and Hsieh: {name}", "", shown(ms)] for name, ms in theirs["spheres_2_20_ms"].items()]
+    for r in (cpu, cuda):
+        for policy in policies(r):
+            for index in ("grid", "bvh"):
+                rows.append([f"abut: {LABELS[index]}, {policy}, with its build", shown(r.get(f"all/{index}/{policy}")), ""])
+                rows.append([f"abut: {LABELS[index]}, {policy}, query alone",
+                             shown(r.get(f"pairs/{index}/{policy}/{SPHERES}")),
+                             shown(r.get(f"pairs/{index}/{policy}/{n}"))])
+    return [f"The figures of the source, of its own machine ({theirs['machine']}), and ours, in ms:", ""] + \
+        table(["", "whole scene", "2^20 spheres"], rows)
+
+
+# --- nearest points and validation ------------------------------------------------------------------------------------------
+
+@in_table("nearest-cpu")
+def nearest_cpu(results):
+    r = results["cpu/nearest"]
+    lines = []
+    for question, title, names in (
+            ("nearest", "the nearest triangle", {"embree": "Embree, point queries", "bvh": "`make_bvh`",
+                                                 "sah": "`make_bvh`, `sah`",
+                                                 "wide_sah": "`wide`, of a `sah` tree",
+                                                 "oriented_sah": "`oriented`, of a `sah` tree"}),
+            ("nearest_vertex", "the nearest vertex", {"nanoflann": "nanoflann", "bvh": "`make_bvh` of `vertices(mesh)`",
+                                                      "sah": "the same, `sah`"})):
+        points = min(int(n) for n in r.parts(f"{question}/", 3))
+        peer = r.get(f"{question}/{next(iter(names))}/serial/{points}")
+        rows = []
+        for index, name in names.items():
+            ms = r.get(f"{question}/{index}/serial/{points}")
+            if ms is not None:
+                rows.append([name, shown(ms), shown(points / ms / 1e3), quotient(ms, peer)])
+        lines += [f"For {points:,} points {title}, one core, ms:", ""] + \
+            table(["", "ms", "million points a second", "over the peer"], rows)
+    return lines + made_on(r)
+
+
+@in_table("nearest-cuda")
+def nearest_cuda(results):
+    r = results["cuda/nearest"]
+    names = {"bvh": "`make_bvh`", "ploc": "`ploc`", "quantised": "`quantised`", "oriented": "`oriented`, of `ploc`"}
+    rows = [[f"{int(n):,}"] + [shown(r.get(f"nearest/{i}/cuda/{n}")) for i in names] for n in r.parts("nearest/", 3)]
+    floor_ms = r.get(f"nearest/bvh/cuda/{SPHERES}", "floor_ms")
+    return ["For so many points the nearest triangle, ms:", ""] + table(["points"] + list(names.values()), rows) + \
+        [f"To read the scene and to write the answers once takes {shown(floor_ms)} ms at the speed of a read loop.", ""] + \
+        made_on(r)
+
+
+@in_table("validate-cpu")
+def validate_cpu(results):
+    r = results["cpu/validate"]
+    rows = []
+    for n in r.parts("validate/in_order/float/serial/", 4):
+        for order, name in (("in_order", "of the torus"), ("random", "random")):
+            sort, one = r.get(f"sort/{order}/serial/{n}"), r.get(f"validate/{order}/float/serial/{n}")
+            rows.append([f"{int(n):,}", name, shown(sort), shown(r.get(f"half_edges/{order}/serial/{n}")), shown(one),
+                         quotient(one, sort, 1), shown(r.get(f"validate/{order}/double/serial/{n}")),
+                         shown(r.get(f"validate/{order}/float/openmp/{n}"))])
+    return ["ms; one core, and in the last column threads:", ""] + \
+        table(["triangles", "order", "sort alone", "half-edges", "`validate`, float", "`validate` / sort", "double",
+               "float, `openmp`"], rows, 2) + made_on(r, f"; {r.context.get('threads', 'all')} threads")
+
+
+@in_table("validate-cuda")
+def validate_cuda(results):
+    r = results["cuda/validate"]
+    rows = []
+    for n in r.parts("validate/in_order/float/cuda/", 4):
+        for order, name in (("in_order", "of the torus"), ("random", "random")):
+            rows.append([f"{int(n):,}", name] + [shown(r.get(f"{at}/cuda/{n}")) for at in (
+                f"half_edges/{order}", f"validate/{order}/float", f"validate/{order}/double", f"uploaded/{order}")])
+    return ["Data resident, ms; in the last column the mesh is uploaded first, from pageable memory:", ""] + \
+        table(["triangles", "order", "half-edges", "`validate`, float", "double", "float, with the upload"], rows,
+              2) + made_on(r)
+
+
+# --- mesh against mesh ------------------------------------------------------------------------------------------------------
+
+@in_table("meshes-cpu")
+def meshes_cpu(results):
+    r, layouts = results["cpu/meshes"], results["cpu/builders"]
+    rows = []
+    for answer in ("pairs", "unsorted", "count", "boxes", "contacts"):
+        build = shown(r.get("build/bvh/serial")) if answer == "pairs" else ""
+        name = "the walk alone" if answer == "boxes" else answer
+        rows.append([f"BVH, {name}", build, shown(r.get(f"{answer}/baked/serial")), shown(r.get(f"{answer}/posed/serial")),
+                     whole(r.get(f"{answer}/baked/serial", "pairs"))])
+    rows.append(["SAH, wide, pairs",
+                 f"{shown(layouts.get('build/sah/serial'))} + {shown(layouts.get('convert/wide/sah/serial'))}",
+                 shown(layouts.get("pairs/baked/sah/wide")), shown(layouts.get("pairs/posed/sah/wide")),
+                 whole(layouts.get("pairs/baked/sah/wide", "pairs"))])
+    for peer, name in (("embree_low", "Embree, low quality"), ("embree_medium", "Embree, medium quality"),
+                       ("fcl_obb", "FCL, oriented boxes"), ("bullet_gimpact", "Bullet, GImpact"),
+                       ("cgal", "CGAL, AABB tree")):
+        at = f"unsorted/{peer}/serial"
+        if r.get(at) is not None:
+            rows.append([f"{name}, unsorted", shown(r.get(f"build/{peer}/serial")), shown(r.get(at)), "",
+                         whole(r.get(at, "pairs"))])
+    return table(["ms", "build of one tree", "baked", "posed", "pairs"], rows) + made_on(r)
+
+
+ANY_SCENES = {"hit": "hit", "graze": "graze", "near_miss": "near miss", "shells": "shells"}
+
+
+@in_table("any")
+def any_scenes(results):
+    r = results["cpu/any"]
+    rows = []
+    for tree, name in (("linear", "linear BVH"), ("sah", "SAH"), ("sah_wide", "SAH, wide"),
+                       ("sah_oriented", "SAH, oriented"),
+                       ("sah_kdop18", "SAH, 18 planes"), ("embree_low", "Embree, low quality"),
+                       ("embree_medium", "Embree, medium quality"), ("fcl_obb", "FCL, oriented boxes")):
+        for kind in ("baked", "posed"):
+            times = [r.get(f"any/{s}/{kind}/{tree}") for s in ANY_SCENES]
+            if times[0] is not None:
+                rows.append([f"{name}, {kind}"] + [shown(None if t is None else 1e3 * t) for t in times])
+    pairs = [whole(r.get(f"any/{s}/baked/linear", "pairs")) for s in ANY_SCENES]
+    return table(["us"] + list(ANY_SCENES.values()), [["pairs that touch"] + pairs] + rows) + made_on(r)
+
+
+TRAVERSALS = {"one_first": "one first", "larger_first": "larger first", "alternate": "alternate",
+              "both_at_once": "both at once",
+              "breadth_first": "breadth first, from the roots"}
+
+
+@in_table("descents")
+def descents(results):
+    r = results["cpu/descents"]
+    builders = r.parts("walk/", 1)
+    rows = [[name] + [c for b in builders for c in (whole(r.get(f"walk/{b}/{t}", "boxes")), shown(r.get(f"walk/{b}/{t}")))]
+            for t, name in TRAVERSALS.items()]
+    head = ["descend"] + [c for b in builders for c in (f"`{b}`: boxes", "ms")]
+    return table(head, rows) + made_on(r, f"; {whole(r.get('walk/sah/both_at_once', 'leaves'))} pairs of leaves from each")
+
+
+@in_table("patches")
+def patches(results):
+    r = results["cpu/descents"]
+    names = [t for t in TRAVERSALS if t != "breadth_first"]
+    rows = [[f"{int(n):,}"] + [shown(1e3 * r.get(f"patch/{n}/{t}")) for t in names] for n in r.parts("patch/", 1)]
+    return table(["triangles of the patch, us"] + [TRAVERSALS[t] for t in names], rows) + made_on(r)
+
+
+@in_table("depths")
+def depths(results):
+    r, theirs = results["cpu/descents"], LITERATURE["backman_2011"]["box_tests_per_depth_345944"]
+    at = r.parts("depth/linear/", 2)
+    rows = [[d, whole(theirs.get(d) and float(theirs[d])), whole(r.get(f"depth/linear/{d}", "boxes")),
+             whole(r.get(f"depth/sah/{d}", "boxes"))]
+            for d in at]
+    rows.append(["all", whole(float(sum(theirs.values()))), whole(r.get("walk/linear/both_at_once", "boxes")),
+                 whole(r.get("walk/sah/both_at_once", "boxes"))])
+    return table(["depth", "source, from depth 6", "here, `linear`", "here, `sah`"], rows) + made_on(r)
+
+
+@in_table("meshes-cuda")
+def meshes_cuda(results):
+    r = results["cuda/meshes"]
+    asked = {"pairs": "pairs, sorted", "unsorted": "unsorted", "fast_unsorted": "`fast`, unsorted", "count": "count",
+             "any": "any",
+             "boxes": "box pairs alone", "contacts": "contacts"}
+    rows = [[kind] + [shown(r.get(f"{q}/{kind}/cuda")) for q in asked] for kind in ("baked", "posed")]
+    near = ["pairs", "unsorted", "fast", "count", None, "boxes", None]
+    beside = [shown(r.get(f"near/{q}/cuda")) if q else "" for q in near]
+    rows.append([f"nearly on itself, {whole(r.get('near/pairs/cuda', 'pairs'))} pairs"] + beside)
+    lines = table(["ms"] + list(asked.values()), rows)
+    lines += [f"An empty call takes {shown(r.get('floor/call'))} ms; sorted pairs with one of the trees built in the call "
+              f"{shown(r.get('pairs/baked_with_build/cuda'))} ms.", ""]
+    rows = [[n.split("/", 1)[1].removesuffix("/cuda").replace("_", " ").replace("/", ", from depth "),
+             shown(r.get(n))] for n in r.names("traversal/")]
+    lines += ["By other traversals, baked and unsorted:", ""] + table(["traversal", "ms"], rows)
+    rows = [[n.split("/")[1], shown(r.get(n)), whole(r.get(n, "pairs"))] for n in r.names("batch/") if "one_by_one" not in n]
+    rows.append([f"{rows[-1][0]}, one by one", shown(r.get("batch/1000/one_by_one/cuda")),
+                 whole(r.get("batch/1000/one_by_one/cuda", "pairs"))])
+    lines += ["Posed pairs of a small mesh in one call:", ""] + table(["pairs of meshes", "ms", "pairs of triangles"], rows)
+    rows = [[f"{int(n):,}", shown(r.get(f"build/bvh/cuda/{n}")),
+             shown(r.get(f"sort/cuda/{n}"))] for n in r.parts("build/bvh/cuda/", 3)]
+    return lines + ["Build of a linear BVH:", ""] + table(["triangles", "build, ms", "sort of its codes alone"], rows) + \
+        made_on(r, f"; {r.context.get('mesh', 'the mesh above')}" if "mesh" in r.context else "")
+
+
+SIZES = ("2766", "27674", "138376", "345944")
+
+
+def of_size(results, kind, n):
+    return results[f"{kind}/meshes" if n == SIZES[-1] else f"{kind}/meshes_{n}"]
+
+
+@in_table("sizes")
+def sizes(results):
+    lines = []
+    for title, phase, rows_of in (
+            ("Middle phase, the walk of two trees, and the build of one, in ms", "middle", (
+                ("walk: one core", "cpu", "boxes/posed/serial"), ("walk: device", "cuda", "boxes/posed/cuda"),
+                ("build: one core", "cpu", "build/bvh/serial"), ("build: device", "cuda", "build/bvh/cuda/{}"))),
+            ("Near phase, in ms; of ours both phases together", "near", (
+                ("pairs: one core", "cpu", "pairs/posed/serial"), ("pairs: device", "cuda", "pairs/posed/cuda"),
+                ("contacts: one core", "cpu", "contacts/posed/serial"), ("contacts: device", "cuda", "contacts/posed/cuda")))):
+        rows = []
+        for n in SIZES:
+            theirs = LITERATURE["backman_2011"]["sizes"][n]
+            rows.append([f"{int(n):,}", shown(theirs[f"{phase}_cpu_ms"]), shown(theirs[f"{phase}_gpu_ms"])] +
+                        [shown(of_size(results, kind, n).get(name.format(n))) for _, kind, name in rows_of])
+        lines += [f"{title}:", ""] + filled(["triangles", "source: processor", "source: GPU"] + [head for head, _,
+                                                                                                 _ in rows_of], rows)
+    return lines + made_on(results["cpu/meshes"]) + made_on(results["cuda/meshes"])
+
+
+# --- reduction of contacts --------------------------------------------------------------------------------------------------
+
+def kept(r, name):
+    return f"{r.get(name, 'share'):.3f} ({r.get(name, 'worst'):.3f})"
+
+
+@in_table("reduction")
+def reduction(results):
+    r = results["cpu/reduce_contacts"]
+    rows = [[f"{scene.replace('_', ' ')}, {whole(r.get(f'{scene}/binning/4', 'contacts'))} contacts", method] +
+            [kept(r, f"{scene}/{method}/{n}") for n in (4, 8, 16, 32)] for scene in r.parts("", 0) for method in ("binning",
+                                                                                                                  "extremes")]
+    return table(["scene", "method", "4", "8", "16", "32"], rows, 2) + made_on(r)
+
+
+@in_table("reduction-bins")
+def reduction_bins(results):
+    r = results["cpu/reduce_contacts"]
+    rows = [[name.split("/")[0].replace("_", " "), name.split("/")[2], whole(r.get(name, "kept")),
+             kept(r, name)] for name in r.rows if "/bins/" in name]
+    return table(["scene", "bins", "contacts", "share kept (worst loss)"], rows) + made_on(r)
+
+
+# --- builders and layouts ---------------------------------------------------------------------------------------------------
+
+BUILDERS = ("linear", "mean_split", "sah", "ploc")
+
+
+@in_table("builders")
+def builders(results):
+    r = results["cpu/builders"]
+    rows = []
+    for b in BUILDERS:
+        at, wide = f"pairs/baked/{b}/standard", f"pairs/baked/{b}/wide"
+        rows.append([f"`{b}`", shown(r.get(f"build/{b}/serial")), shown(r.get(f"build/{b}/openmp")),
+                     shown(r.get(f"refit/{b}/serial")),
+                     shown(r.get(f"convert/wide/{b}/serial"))] +
+                    [f"{r.get(at, key):.1f} / {r.get(wide, key):.1f}" for key in ("sah_cost", "mean_depth",
+                                                                                  "greatest_depth")])
+    for quality in ("low", "medium"):
+        if r.get(f"build/embree_{quality}/serial") is not None:
+            rows.append([f"Embree, {quality} quality", shown(r.get(f"build/embree_{quality}/serial"))] + [""] * 6)
+    return table(["ms", "build", "`openmp`", "refit", "conversion to `wide`", "`sah_cost`: as built / `wide`", "mean depth",
+                  "greatest depth"], rows) + made_on(r, f"; {r.context.get('threads')} threads for `openmp`")
+
+
+@in_table("layouts")
+def layouts_queries(results):
+    r = results["cpu/builders"]
+    rows = []
+    for b in BUILDERS:
+        for layout in ("standard", "quantised", "leafless", "wide"):
+            at = f"{b}/{layout}"
+            if r.get(f"pairs/baked/{at}") is not None:
+                rows.append([f"`{b}`, `{layout}`"] + [shown(r.get(f"{q}/{at}")) for q in ("unsorted/baked", "pairs/baked",
+                                                                                          "pairs/posed",
+                                                                                         "one_sided")] +
+                            [f"{r.get(f'pairs/baked/{at}', 'bytes_per_shape'):.0f}"])
+    for quality in ("low", "medium"):
+        if r.get(f"unsorted/embree_{quality}/serial") is not None:
+            rows.append([f"Embree, {quality} quality", shown(r.get(f"unsorted/embree_{quality}/serial"))] + [""] * 4)
+    return table(["ms", "baked, unsorted", "baked", "posed", "bare", "bytes a triangle"], rows) + made_on(r)
+
+
+@in_table("volumes")
+def volumes(results):
+    r, any_r = results["cpu/builders"], results["cpu/any"]
+    rows = []
+    for name, in_any in (("standard", "sah"), ("wide", "sah_wide"), ("oriented", "sah_oriented"), ("kdop18", "sah_kdop18"),
+                         ("sphere", None)):
+        cells = [shown(r.get(f"convert/{name}/sah/serial")), shown(r.get(f"unsorted/baked/sah/{name}")),
+                 shown(r.get(f"pairs/posed/sah/{name}"))]
+        for s in ANY_SCENES:
+            pair = [in_any and any_r.get(f"any/{s}/{kind}/{in_any}") for kind in ("baked", "posed")]
+            cells.append(" / ".join(shown(1e3 * t) for t in pair) if all(pair) else "")
+        rows.append([f"`{name}`"] + cells)
+    return table(["", "conversion, ms", "pairs, baked, unsorted, ms", "posed, ms"] + [f"any, {s}, baked / posed, us" for s in
+                                                                                    ANY_SCENES.values()], rows) + made_on(r)
+
+
+@in_table("builders-cuda")
+def builders_cuda(results):
+    r = results["cuda/builders"]
+    scenes = (("mesh", f"{whole(r.get('build/mesh', 'items'))} triangles"),
+              ("random", f"{whole(r.get('build/random', 'items'))}"))
+    rows = []
+    for at, name in (("build/{}", "build, `linear`"), ("build/ploc/{}", "build, `ploc`"),
+                     ("build_and_refit_first/{}", "build, and the first refit"),
+                     ("refit/{}", "any later refit"), ("convert/quantised/{}", "conversion, `quantised`"),
+                     ("convert/leafless/{}", "conversion, `leafless`")):
+        rows.append([name] + [shown(r.get(at.format(s))) for s, _ in scenes])
+    lines = table(["ms"] + [name for _, name in scenes], rows)
+    rows = [[f"`{n.split('/')[1]}`", shown(r.get(n)), f"{r.get(n, 'sah_cost'):.1f}",
+             whole(r.get(n, "bytes_per_shape"))] for n in r.names("pairs/")]
+    return lines + ["Sorted pairs of the mesh and its turned copy, ms:", ""] + \
+        table(["", "ms", "`sah_cost`", "bytes a triangle"], rows) + made_on(r)
+
+
+# --- fronts -----------------------------------------------------------------------------------------------------------------
+
+def fronts(r):
+    rows = []
+    for name, row in r.rows.items():
+        if "without_ms" in row:
+            scene, step, query = name.split("/", 2)
+            rows.append([scene, step, query, shown(row["without_ms"]), shown(row["ms"]),
+                         quotient(row["ms"], row["without_ms"]),
+                         whole(row["items"]), whole(row["opened"])])
+    return table(["scene", "step", "query", "without, ms", "with, ms", "with / without", "items", "opened in a frame"], rows,
+                 3) + made_on(r)
+
+
+@in_table("fronts-cpu")
+def fronts_cpu(results):
+    return fronts(results["cpu/fronts"])
+
+
+@in_table("fronts-cuda")
+def fronts_cuda(results):
+    return fronts(results["cuda/fronts"])
+
+
+# --- from the least scene to the richest ------------------------------------------------------------------------------------
+
+@in_table("footprint")
+def footprint(results):
+    r, cuda, compiled = results["cpu/footprint"], results["cuda/footprint"], results["cpu/footprint_build"]
+    rows = []
+    for name in r.rows:
+        each = r.get(name, "elements")
+        rows.append([name.replace("/", ": ", 1), whole(each), f"{r.get(name, 'set_bytes') / each:.0f}",
+                     whole(r.get(name, "index_bytes") / 1024),
+                     shown(r.get(name)), shown(cuda.get(name)), shown(compiled.get(name, "gcc_seconds")),
+                     whole(compiled.get(name, "gcc_megabytes")),
+                     whole((compiled.get(name, "gcc_code") or 0) / 1024)] + [whole(compiled.get(name,
+                                                                                                f"nvcc_{k}"))
+                                                                             for k in ("seconds", "registers", "stack")])
+    head = ["scene: question", "elements", "bytes of each", "trees, KiB", "one core, ms", "device, ms", "g++, s", "g++, MB",
+            "code, KiB",
+            "nvcc, s", "registers", "stack"]
+    return filled(head, rows) + made_on(r) + made_on(cuda) + made_on(compiled)
+
+
+@in_table("compile-cost")
+def compile_cost(results):
+    r = results["cpu/footprint_build"]
+    rows = [[name.replace("/", ": ", 1)] + [shown(r.get(name, f"{c}_seconds")) for c in ("gcc", "nvcc")] +
+            [whole(r.get(name, f"{c}_megabytes")) for c in ("gcc", "nvcc")] for name in r.rows]
+    head = ["program", "g++: seconds of a processor", "nvcc", "g++: MB of memory", "nvcc"]
+    return filled(head, rows) + made_on(r)
