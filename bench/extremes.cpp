@@ -26,7 +26,7 @@ struct processor_time {
 
 int main(int argc, char** argv) {
     try {
-        return extremes_bench::run("bench_extremes", argc, argv, abut::serial{}, processor_time{}, {}, true);
+        return extremes_bench::run("bench_extremes", argc, argv, abut::serial{}, processor_time{}, {});
     } catch (const std::exception& problem) {
         std::fprintf(stderr, "bench_extremes: %s\n", problem.what());
         return 1;

@@ -39,7 +39,7 @@ int main(int argc, char** argv) {
         if (cudaGetDeviceProperties(&device, abut::execution::device_of(on)) != cudaSuccess) {
             throw std::runtime_error("no CUDA device");
         }
-        return extremes_bench::run("bench_extremes_cuda", argc, argv, on, elapsed_time{}, of, false,
+        return extremes_bench::run("bench_extremes_cuda", argc, argv, on, elapsed_time{}, of,
                                    {{"device", device.name}, {"cuda", std::to_string(CUDART_VERSION)}});
     } catch (const std::exception& problem) {
         std::fprintf(stderr, "bench_extremes_cuda: %s\n", problem.what());

@@ -131,9 +131,11 @@ double worst_ns(const std::vector<P>& pairs, std::size_t count) {
 /// `time(on, work)` is what one run of `work` takes, in ms.
 template <class Policy, class Time>
 class bench_of {
+    static constexpr bool on_host = std::same_as<abut::space_of<Policy>, abut::host_space>;
+
 public:
-    bench_of(const Policy& on, const Time& time, const sizes& of, bool times_worst, bench::results& out)
-        : on_(on), time_(time), of_(of), times_worst_(times_worst), out_(out) {}
+    bench_of(const Policy& on, const Time& time, const sizes& of, bench::results& out)
+        : on_(on), time_(time), of_(of), out_(out) {}
 
     /// Whether `filtered` and `exact` were right throughout.
     [[nodiscard]] bool all_right() const { return all_right_; }
@@ -214,11 +216,11 @@ private:
         row.emplace_back("filtered_ns", ask_all<abut::filtered>(all, n, answers));
         const double filtered_wrong = wrong();
         double exact_wrong = 0;
-        if (!moving || times_worst_) {
+        if (!moving || on_host) {
             row.emplace_back("exact_ns", ask_all<abut::exact>(all, moving ? sample : n, answers));
             exact_wrong = wrong();
         }
-        if (times_worst_) {
+        if constexpr (on_host) {
             row.emplace_back("filtered_worst_ns", worst_ns<abut::filtered>(all.on_host, sample));
             row.emplace_back("exact_worst_ns", worst_ns<abut::exact>(all.on_host, sample));
         }
@@ -239,7 +241,7 @@ private:
         row.emplace_back("hits", static_cast<double>(std::count(truth.begin(), truth.end(), true)));
         row.emplace_back("fast_wrong", fast_wrong);
         row.emplace_back("filtered_wrong", filtered_wrong);
-        if (!moving || times_worst_) row.emplace_back("exact_wrong", exact_wrong);
+        if (!moving || on_host) row.emplace_back("exact_wrong", exact_wrong);
         row.emplace_back("last_stage_wrong", last_stage_wrong);
         row.emplace_back("undecided", share(1));
         row.emplace_back("unresolved", share(2));
@@ -321,14 +323,13 @@ private:
     Policy on_;
     Time time_;
     sizes of_;
-    bool times_worst_;
     bench::results& out_;
     bool all_right_ = true;
 };
 
 /// The main of both programs. Returns the exit status: 1 where an answer that is to be right was wrong.
 template <class Policy, class Time>
-int run(const char* program, int argc, char** argv, const Policy& on, const Time& time, sizes of, bool times_worst,
+int run(const char* program, int argc, char** argv, const Policy& on, const Time& time, sizes of,
         const bench::description& machine = {}) {
     const std::string json = bench::take_argument(argc, argv, "--json"), pairs = bench::take_argument(argc, argv, "--pairs"),
                       sample = bench::take_argument(argc, argv, "--sample");
@@ -337,7 +338,7 @@ int run(const char* program, int argc, char** argv, const Policy& on, const Time
     if (!sample.empty()) of.sample = std::stoul(sample), of.moving_sample = of.sample / 16 + 1;
     bench::results out(program);
     for (const auto& [key, value] : machine) out.describe(key, value);
-    bench_of<Policy, Time> all(on, time, of, times_worst, out);
+    bench_of<Policy, Time> all(on, time, of, out);
     all.template run<float>();
     all.template run<double>();
     if (!json.empty()) out.write(json);

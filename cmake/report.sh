@@ -62,6 +62,7 @@ cpu meshes_27674 bench_meshes $G $I --mesh=$D/meshes/armadillo_27674.ply --bench
 cpu meshes_2766 bench_meshes $G $I --mesh=$D/meshes/armadillo_2766.ply --benchmark_filter=^(build/bvh|pairs|boxes|contacts)/
 cpu reduce_contacts bench_reduce_contacts --json={} --mesh=$D/meshes/armadillo_345944.ply
 cpu extremes bench_extremes --json={}
+cpu trade_scenes bench_trade_scenes --json={} --data=$D
 cpu footprint bench_footprint --json={}
 cuda footprint bench_footprint_cuda {}
 cuda trade bench_trade_cuda {}
