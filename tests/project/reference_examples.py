@@ -47,6 +47,7 @@ NAMES = {
     "collide/first_impact.hpp": STEP,
     "collide/list.hpp": GEAR,
     "collide/self_list.hpp": GEAR,
+    "collide/advise.hpp": "const auto& voxels = mesh; const auto& tool = other;",
     "collide/query.hpp": "std::vector<int> flags(9); int* const touched = flags.data();",
     "collide/contacts.hpp": "const auto& tool = other; const abut::rigid<float> pose;",
 }
