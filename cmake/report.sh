@@ -196,6 +196,12 @@ if [ -z "$from" ]; then
     done <"$results/table"
     wait
     set +f
+    # What compiling costs is measured where there are compilers.
+    if [ $quick = no ] && asked_for footprint_build "$only" && asked_for cpu "$kinds" && command -v g++ >/dev/null 2>&1 &&
+        command -v python3 >/dev/null 2>&1; then
+        python3 -B bench/footprint.py --json="$results/cpu/footprint_build.json" >"$results/cpu/footprint_build.log" 2>&1 ||
+            printf 'cpu/footprint_build: FAILED, see %s\n' "$results/cpu/footprint_build.log"
+    fi
 fi
 
 # --- tables and plots --------------------------------------------------------------------------------------------------
