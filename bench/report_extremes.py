@@ -28,10 +28,9 @@ def pairs_at_extremes(r):
             ns, at = worst(r, steps, "filtered_ns")
             fast = [r.get(n, "fast_ns") for n in steps]
             rows.append([name, scalar, whole(len(steps)), whole(compared)] + [whole(w) for w in wrong] +
-                        [shown(sorted(fast)[len(fast) // 2]), shown(ns), at.split("/", 3)[-1].replace("/", " "),
-                         shown((worst(r, steps, "filtered_worst_ns")[0] or 0) / 1e3)])
+                        [shown(sorted(fast)[len(fast) // 2]), shown(ns), at.split("/", 3)[-1].replace("/", " ")])
     head = ["pairs", "", "steps", "compared", "`fast` wrong", "`filtered` wrong", "`exact` wrong", "`fast`, median of steps, ns",
-            "`filtered`, worst step, ns", "where", "slowest single pair, us"]
+            "`filtered`, worst step, ns", "where"]
     return table(head, rows, 2)
 
 
