@@ -11,21 +11,19 @@
 //                         turned and moved, or onto_itself/MESH.
 //   ccd/NAME/SCALAR       a step of a real scene with itself: impacts, lost, invented, and time_error, the most by which the
 //                         times of impacts that both find differ, of the step.
-//   frames/turning/SCALAR N frames of a torus that turns through a copy of it, and its contacts. frames/sliding/SCALAR: a
-//   sheet
-//                         that slides on its own plane, so that all of it is within rounding of contact. frames_that_differ
-//                         and first_that_differs (-1: none); pairs, lost and invented over all frames, and most_in_a_frame
-//                         of both. Depths are in thousandths of the mesh's extent: deepest, deepest_lost, and
-//                         deepest_invented, what contacts says of pairs that do not touch. changed are contacts that both
-//                         find and that differ in a bit. normal_degrees is the most by which the sum of a frame's normals,
-//                         weighted by depth, turns.
-//   frames/cloth/SCALAR   N steps of a cloth that falls on a ball (docs/examples/falling_cloth.hpp), asked both ways:
-//   impacts,
-//                         lost, invented, time_error and frames as above; first_time_differs counts steps whose earliest
-//                         impact has another time. A second cloth obeys fast alone: apart_after is the first step in which
-//                         the cloths are not the same, apart their largest distance at the end, of the cloth's side.
-//                         touch_at_end are the pairs of faces of that cloth and the ball that touch then, of which the other
-//                         cloth (filtered_touch_at_end) is to have none.
+//   frames/NAME/SCALAR    contacts of a mesh with one that moves, N frames of it. NAME is turning, a torus that
+//                         turns through a copy of it, or sliding, a sheet that slides on its own plane, so that all of it
+//                         is within rounding of contact. frames_that_differ and first_that_differs (-1: none); pairs, lost and
+//                         invented over all frames, and most_in_a_frame of both. Depths are in thousandths of the mesh's
+//                         extent: deepest, deepest_lost, and deepest_invented, what contacts says of pairs that do not
+//                         touch. changed are contacts that both find and that differ in a bit. normal_degrees is the most by
+//                         which the sum of a frame's normals, weighted by depth, turns.
+//   frames/cloth/SCALAR   N steps of a cloth that falls on a ball (docs/examples/falling_cloth.hpp), each asked both ways:
+//                         impacts, lost, invented, time_error and frames as above; first_time_differs counts steps whose
+//                         earliest impact has another time. A second cloth obeys fast alone: apart_after is the first step
+//                         in which the cloths are not the same, apart their largest distance at the end, of the cloth's
+//                         side. touch_at_end are the pairs of faces of that cloth and the ball that touch then, of which the
+//                         other cloth (filtered_touch_at_end) is to have none.
 
 #include <algorithm>
 #include <array>
