@@ -11,18 +11,19 @@
 //                         turned and moved, or onto_itself/MESH.
 //   ccd/NAME/SCALAR       a step of a real scene with itself: impacts, lost, invented, and time_error, the most by which the
 //                         times of impacts that both find differ, of the step.
-//   frames/turning/SCALAR N frames of a mesh that turns within a copy of it, and its contacts. frames_that_differ and
-//                         first_that_differs (-1: none); pairs, lost and invented over all frames, and most_in_a_frame of
-//                         both. Depths are in thousandths of the mesh's extent: deepest_lost, deepest_invented (what
-//                         contacts says of pairs that do not touch) and deepest. changed are contacts that both find and
-//                         that differ in a bit. normal_degrees is the most by which the sum of a frame's normals, weighted
-//                         by depth, turns.
-//   frames/cloth/SCALAR   N steps of a cloth that falls on a ball (docs/examples/falling_cloth.hpp). Each step is asked both
-//   ways:
+//   frames/NAME/SCALAR    contacts of a mesh with one that moves, N frames of it. NAME is turning, a torus that
+//                         turns through a copy of it, or sliding, a sheet that slides on its own plane, so that all of it
+//                         is within rounding of contact. frames_that_differ and first_that_differs (-1: none); pairs, lost and
+//                         invented over all frames, and most_in_a_frame of both. Depths are in thousandths of the mesh's
+//                         extent: deepest, deepest_lost, and deepest_invented, what contacts says of pairs that do not
+//                         touch. changed are contacts that both find and that differ in a bit. normal_degrees is the most by
+//                         which the sum of a frame's normals, weighted by depth, turns.
+//   frames/cloth/SCALAR   N steps of a cloth that falls on a ball (docs/examples/falling_cloth.hpp), each asked both ways:
 //                         impacts, lost, invented, time_error and frames as above; first_time_differs counts steps whose
-//                         earliest impact has another time. A second cloth obeys `fast` alone: apart_after is the first step
+//                         earliest impact has another time. A second cloth obeys fast alone: apart_after is the first step
 //                         in which the cloths are not the same, apart their largest distance at the end, of the cloth's
-//                         side, and passed_through the pairs of faces of that cloth and the ball that touch at the end.
+//                         side. touch_at_end are the pairs of faces of that cloth and the ball that touch then, of which the
+//                         other cloth (filtered_touch_at_end) is to have none.
 
 #include <algorithm>
 #include <array>
@@ -125,6 +126,28 @@ struct surface {
     }
 };
 
+/// A square of 24 x 24 cells in a plane that no axis has, moved within that plane by a part of its side.
+template <abut::scalar T>
+surface<T> sheet(double part) {
+    constexpr int n = 24;
+    scene::surface<T> made;
+    for (int i = 0; i <= n; ++i) {
+        for (int j = 0; j <= n; ++j) {
+            const double u = static_cast<double>(i) / n + part, v = static_cast<double>(j) / n + 0.3 * part;
+            made.vertices.push_back(
+                {static_cast<T>(0.8 * u - 0.36 * v), static_cast<T>(0.6 * u + 0.48 * v), static_cast<T>(0.8 * v)});
+        }
+    }
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < n; ++j) {
+            const auto at = [&](int k, int l) { return static_cast<std::uint32_t>(k * (n + 1) + l); };
+            made.faces.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+            made.faces.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+        }
+    }
+    return surface<T>(made);
+}
+
 // --- features in motion --------------------------------------------------------------------------------------------------
 
 template <abut::scalar T>
@@ -200,8 +223,9 @@ struct frame_counter {
     }
 };
 
-template <abut::scalar T>
-void turning(bench::results& out, const surface<T>& mesh, int frames) {
+/// `place(frame)` is where a second mesh is, whose contacts with `mesh` are asked for.
+template <abut::scalar T, class Place>
+void moving_mesh(bench::results& out, const char* name, const surface<T>& mesh, int frames, const Place& place) {
     using contact_list = std::vector<abut::contact<T>>;
     const auto by_ids = [](const auto& a, const auto& b) { return std::pair(a.a, a.b) < std::pair(b.a, b.b); };
     const auto deepest_of = [](const contact_list& all) {
@@ -223,8 +247,7 @@ void turning(bench::results& out, const surface<T>& mesh, int frames) {
     frame_counter differing;
     double pairs = 0, lost = 0, invented = 0, changed = 0, deepest = 0, deepest_lost = 0, deepest_invented = 0, degrees = 0;
     for (int frame = 0; frame < frames; ++frame) {
-        const auto moved = mesh.turned(6.283185307179586 * frame / frames, 0.1);
-        const auto other = abut::make_bvh(on, moved.as_mesh());
+        const auto other = abut::make_bvh(on, place(frame).as_mesh());
         contact_list right = to_host(abut::contacts<abut::filtered>(on, other, at_rest)),
                      fast = to_host(abut::contacts<abut::fast>(on, other, at_rest));
         std::sort(right.begin(), right.end(), by_ids);
@@ -245,19 +268,19 @@ void turning(bench::results& out, const surface<T>& mesh, int frames) {
         const auto across = cross(p, q);
         degrees = std::max(degrees, std::atan2(std::sqrt(dot(across, across)), dot(p, q)) * 360 / 6.283185307179586);
     }
-    out.add(bench::joined({"frames", "turning", scalar_name<T>}), {{"frames", static_cast<double>(frames)},
-                                                                   {"faces", static_cast<double>(mesh.faces.size())},
-                                                                   {"frames_that_differ", differing.differ},
-                                                                   {"first_that_differs", differing.first},
-                                                                   {"pairs", pairs},
-                                                                   {"lost", lost},
-                                                                   {"invented", invented},
-                                                                   {"most_in_a_frame", differing.most},
-                                                                   {"deepest", per_mille * deepest},
-                                                                   {"deepest_lost", per_mille * deepest_lost},
-                                                                   {"deepest_invented", per_mille * deepest_invented},
-                                                                   {"changed", changed},
-                                                                   {"normal_degrees", degrees}});
+    out.add(bench::joined({"frames", name, scalar_name<T>}), {{"frames", static_cast<double>(frames)},
+                                                              {"faces", static_cast<double>(mesh.faces.size())},
+                                                              {"frames_that_differ", differing.differ},
+                                                              {"first_that_differs", differing.first},
+                                                              {"pairs", pairs},
+                                                              {"lost", lost},
+                                                              {"invented", invented},
+                                                              {"most_in_a_frame", differing.most},
+                                                              {"deepest", per_mille * deepest},
+                                                              {"deepest_lost", per_mille * deepest_lost},
+                                                              {"deepest_invented", per_mille * deepest_invented},
+                                                              {"changed", changed},
+                                                              {"normal_degrees", degrees}});
 }
 
 /// The features of the cloth in an impact with itself or, first, with the ball.
@@ -346,8 +369,8 @@ void falling(bench::results& out, int frames) {
              {"first_time_differs", first_times},
              {"apart_after", apart_after},
              {"apart", apart},
-             {"passed_through", static_cast<double>(abut::count(on, fast.now(), fast.ball))},
-             {"passed_through_filtered", static_cast<double>(abut::count(on, right.now(), right.ball))}});
+             {"touch_at_end", static_cast<double>(abut::count(on, fast.now(), fast.ball))},
+             {"filtered_touch_at_end", static_cast<double>(abut::count(on, right.now(), right.ball))}});
 }
 
 // --- all of it -----------------------------------------------------------------------------------------------------------
@@ -387,7 +410,10 @@ void measure(bench::results& out, const arguments& of) {
             std::printf("skipped: %s is not there\n", folder.c_str());
         }
     }
-    turning(out, surface<T>(scene::torus<T>(64, 48)), of.frames);
+    const surface<T> ring(scene::torus<T>(64, 48));
+    moving_mesh(out, "turning", ring, of.frames,
+                [&](int frame) { return ring.turned(6.283185307179586 * frame / of.frames, 0.1); });
+    moving_mesh(out, "sliding", sheet<T>(0), of.frames, [&](int frame) { return sheet<T>(1.5 * frame / of.frames); });
     falling<T>(out, of.frames);
 }
 

@@ -140,7 +140,8 @@ private:
 template <scalar T>
 std::array<moving_vector, 4> in_integers(const motion<T>& m) {
     std::array<moving_vector, 4> r;
-    constexpr T vec3<T>::*axes[3] = {&vec3<T>::x, &vec3<T>::y, &vec3<T>::z};
+    using axis_of = T vec3<T>::*;  // nvcc writes such a declaration with parentheses, which g++ warns of
+    constexpr axis_of axes[3] = {&vec3<T>::x, &vec3<T>::y, &vec3<T>::z};
     for (std::size_t i = 0; i < 3; ++i) {
         std::vector<T> values;
         for (std::size_t v = 0; v < 4; ++v) values.insert(values.end(), {m.t0[v].*axes[i], m.t1[v].*axes[i]});
@@ -163,8 +164,9 @@ inline motion_answer answered(std::optional<algebraic_number> t) {
 /// Whether one coordinate orders the first `n` points before or behind all others at both times. Needs no integers.
 template <scalar T>
 bool always_apart(const motion<T>& m, std::size_t n) {
-    constexpr T vec3<T>::*axes[3] = {&vec3<T>::x, &vec3<T>::y, &vec3<T>::z};
-    for (T vec3<T>::*const axis : axes) {
+    using axis_of = T vec3<T>::*;  // nvcc writes such a declaration with parentheses, which g++ warns of
+    constexpr axis_of axes[3] = {&vec3<T>::x, &vec3<T>::y, &vec3<T>::z};
+    for (const axis_of axis : axes) {
         bool before = true, behind = true;
         const vec3<T>* const times[] = {m.t0, m.t1};  // nvcc takes no list of arrays
         for (const vec3<T>* const points : times) {
