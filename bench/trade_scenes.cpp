@@ -13,8 +13,8 @@
 //                         times of impacts that both find differ, of the step.
 //   frames/NAME/SCALAR    contacts of a mesh with one that moves, N frames of it. NAME is turning, a torus that
 //                         turns through a copy of it, or sliding, a sheet that slides on its own plane, so that all of it
-//                         is within rounding of contact. frames_that_differ and first_that_differs (-1: none); pairs, lost and
-//                         invented over all frames, and most_in_a_frame of both. Depths are in thousandths of the mesh's
+//                         is within rounding of contact. frames_that_differ and first_that_differs (-1: none); pairs, lost
+//                         and invented over all frames, and most_in_a_frame of both. Depths are in thousandths of the mesh's
 //                         extent: deepest, deepest_lost, and deepest_invented, what contacts says of pairs that do not
 //                         touch. changed are contacts that both find and that differ in a bit. normal_degrees is the most by
 //                         which the sum of a frame's normals, weighted by depth, turns.

@@ -40,6 +40,12 @@ static_assert(intersects(unit_ball, sphere<double>{{2, 0, 0}, 1}) &&
               !intersects(unit_ball, sphere<double>{{2, 0x1p-1074, 0}, 1}));
 static_assert(intersects(segment<double>{{1, -5, 0}, {1, 5, 0}}, unit_ball));
 static_assert(!intersects(segment<double>{{0x1.0000000000001p0, -5, 0}, {0x1.0000000000001p0, 5, 0}}, unit_ball));
+// The last stage: a corner in a plane, or just above it; a corner on a ball, or just below it.
+constexpr triangle<double> floor_at_1e_300{{-1, -1, 1e-300}, {1, -1, 1e-300}, {0, 1, 1e-300}};
+static_assert(intersects(triangle<double>{{0, 0, 1e-300}, {1, 0, 1}, {0, 1, 1}}, floor_at_1e_300));
+static_assert(!intersects(triangle<double>{{0, 0, 2e-300}, {1, 0, 1}, {0, 1, 1}}, floor_at_1e_300));
+static_assert(intersects(sphere<float>{{0, 0, 1}, 1}, triangle<float>{{0, 0, 1e-40f}, {1, 0, -3}, {0, 1, -3}}));
+static_assert(!intersects(sphere<float>{{0, 0, 1}, 1}, triangle<float>{{0, 0, -1e-40f}, {1, 0, -3}, {0, 1, -3}}));
 
 static_assert(decidable_pair<sphere<float>, triangle<float>> && decidable_pair<vec3<double>, triangle<double>>);
 static_assert(decidable_pair<triangle<float>, triangle<float>> && decidable_pair<segment<double>, triangle<double>>);

@@ -104,6 +104,13 @@ ABUT_NOINLINE ABUT_HD constexpr int multiply_terms(const sparse_term<D>* a, int 
     return out.count;
 }
 
+/// No terms. What is behind them is left as it is, but for constant expressions, which copy nothing that has no value.
+template <scalar T, int K, int D>
+ABUT_HD constexpr void clear(sparse_sum<T, K, D>& r) {
+    if (__builtin_is_constant_evaluated()) r = {};
+    r.count = 0;
+}
+
 template <scalar T, int K, int D, int M, int E, int R>
 ABUT_HD constexpr void add_product(sparse_sum<T, R, D + E>& r, const sparse_sum<T, K, D>& a, const sparse_sum<T, M, E>& b,
                                    bool negated) {
@@ -118,6 +125,7 @@ template <scalar T, int K, int M, int D>
 ABUT_NOINLINE ABUT_HD constexpr sparse_sum<T, K + M, D> operator+(const sparse_sum<T, K, D>& a,
                                                                   const sparse_sum<T, M, D>& b) {
     sparse_sum<T, K + M, D> r;
+    detail::clear(r);
     r.count = detail::copy_terms(a.term, a.count, false, r.term, 0);
     r.count = detail::copy_terms(b.term, b.count, false, r.term, r.count);
     return r;
@@ -127,6 +135,7 @@ template <scalar T, int K, int M, int D>
 ABUT_NOINLINE ABUT_HD constexpr sparse_sum<T, K + M, D> operator-(const sparse_sum<T, K, D>& a,
                                                                   const sparse_sum<T, M, D>& b) {
     sparse_sum<T, K + M, D> r;
+    detail::clear(r);
     r.count = detail::copy_terms(a.term, a.count, false, r.term, 0);
     r.count = detail::copy_terms(b.term, b.count, true, r.term, r.count);
     return r;
@@ -137,7 +146,7 @@ ABUT_NOINLINE ABUT_HD constexpr sparse_sum<T, K + M, D> operator-(const sparse_s
 template <scalar T, int K, int D, int M, int E>
 ABUT_HD constexpr sparse_sum<T, K * M, D + E> operator*(const sparse_sum<T, K, D>& a, const sparse_sum<T, M, E>& b) {
     sparse_sum<T, K * M, D + E> r;
-    r.count = 0;
+    detail::clear(r);
     detail::add_product(r, a, b, false);
     return r;
 }
@@ -148,7 +157,7 @@ ABUT_HD constexpr sparse_sum<T, K * M, D + E> operator*(const sparse_sum<T, K, D
 template <scalar T, int K, int D, int M, int E>
 ABUT_NOINLINE ABUT_HD constexpr auto dot(const vec3<sparse_sum<T, K, D>>& a, const vec3<sparse_sum<T, M, E>>& b) {
     sparse_sum<T, 3 * K * M, D + E> r;
-    r.count = 0;
+    detail::clear(r);
     detail::add_product(r, a.x, b.x, false);
     detail::add_product(r, a.y, b.y, false);
     detail::add_product(r, a.z, b.z, false);
@@ -159,7 +168,7 @@ ABUT_NOINLINE ABUT_HD constexpr auto dot(const vec3<sparse_sum<T, K, D>>& a, con
 template <scalar T, int K, int D, int M, int E>
 ABUT_NOINLINE ABUT_HD constexpr auto cross(const vec3<sparse_sum<T, K, D>>& a, const vec3<sparse_sum<T, M, E>>& b) {
     vec3<sparse_sum<T, 2 * K * M, D + E>> r;
-    r.x.count = r.y.count = r.z.count = 0;
+    detail::clear(r.x), detail::clear(r.y), detail::clear(r.z);
     detail::add_product(r.x, a.y, b.z, false);
     detail::add_product(r.x, a.z, b.y, true);
     detail::add_product(r.y, a.z, b.x, false);
