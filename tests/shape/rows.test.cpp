@@ -61,6 +61,12 @@ struct far_away {
     const float& operator[](int i) const { return at[i]; }
 };
 
+#pragma pack(push, 1)
+struct packed {
+    float x, y, z;
+};
+#pragma pack(pop)
+
 using abut::detail::index_row;
 using abut::detail::readable_as;
 
@@ -73,6 +79,7 @@ static_assert(!readable_as<zyx, abut::vec3<float>> && !readable_as<padded, abut:
 static_assert(readable_as<xyzw, abut::sphere<float>> && readable_as<std::array<column<float, 3>, 3>, abut::triangle<float>>);
 static_assert(!readable_as<std::vector<float>, abut::segment<float>> && !readable_as<std::span<float>, abut::sphere<float>>);
 static_assert(!readable_as<handle, abut::sphere<float>>);
+static_assert(!readable_as<packed, abut::vec3<float>>);  // may lie where no float may
 static_assert(index_row<column<int, 3>, 3> && index_row<std::array<unsigned, 3>, 3> && index_row<int, 3>);
 static_assert(!index_row<std::array<int, 4>, 3> && !index_row<std::array<long, 3>, 3> && !index_row<xyz, 3>);
 
@@ -125,6 +132,15 @@ void check_mesh() {
     }
 }
 
+/// The numbers of a point that is written twice, each time read through a view that is made then. `q` is `p`, which
+/// compilers are not told.
+[[gnu::noinline]] std::array<float, 2> read_through_views(std::array<float, 3>* p, const std::array<float, 3>* q) {
+    p[0] = {1, 1, 1};
+    const float first = abut::points_view<float>(q, 1)[0].x;
+    p[0] = {2, 2, 2};
+    return {first, abut::points_view<float>(q, 1)[0].x};
+}
+
 }  // namespace
 
 TEST_CASE("Meshes and views of meshes are made of other libraries' arrays") {
@@ -134,6 +150,7 @@ TEST_CASE("Meshes and views of meshes are made of other libraries' arrays") {
     check_mesh<abut::vec3<float>, std::array<std::int64_t, 3>>();
     check_mesh<column<float, 3>, std::array<std::uint16_t, 3>>();
     check_mesh<std::array<float, 3>, abut::face>();
+    check_mesh<std::array<float, 3>, std::array<char, 3>>();
 }
 
 TEST_CASE("Flat arrays of numbers are vertices and faces, three by three") {
@@ -165,6 +182,11 @@ TEST_CASE("What is written between two queries is seen by the second") {
     CHECK(abut::count(abut::serial{}, view, balls) == 4);
     for (auto& p : v) p = {p[0] + 100, p[1], p[2]};
     CHECK(abut::count(abut::serial{}, view, balls) == 0);
+}
+
+TEST_CASE("A view reads what was written before it was made") {
+    std::vector<std::array<float, 3>> v(1);
+    CHECK(read_through_views(v.data(), v.data()) == std::array<float, 2>{1, 2});
 }
 
 TEST_CASE("Other sets are made of other libraries' arrays") {

@@ -91,8 +91,7 @@ inline constexpr std::size_t numbers_of_shape<std::array<T, n>> = n;
 
 /// An array of P holds numbers of type T, `n` of them for each element, or one by one.
 template <class P, class T, std::size_t n>
-concept holds_numbers = numbers_in<P, T>()
-== n || std::same_as<P, T>;
+concept holds_numbers = (numbers_in<P, T>() == n && alignof(P) >= alignof(T)) || std::same_as<P, T>;
 
 /// The type of a shape's coordinates; void where a shape is more than numbers.
 template <class S>
@@ -165,7 +164,11 @@ inline std::size_t count_rows(std::size_t numbers, std::size_t each, const char*
 
 /// What was written through other types before this is read through ours after it: compilers may take types for a proof that
 /// memory differs, and this asks them not to.
-inline void see_writes_to(const void* memory) { asm volatile("" : : "g"(memory) : "memory"); }
+ABUT_HD inline void see_writes_to([[maybe_unused]] const void* memory) {
+#if !ABUT_DEVICE_CODE
+    asm volatile("" : : "g"(memory) : "memory");
+#endif
+}
 
 /// The caller's array in host memory, as one of S. Throws error, in the name of `function`, where numbers are left over, and
 /// where elements hold a pointer to their numbers.
@@ -201,7 +204,7 @@ std::vector<std::array<std::uint32_t, n>> indices_of(const R& rows, std::size_t 
     std::vector<std::array<std::uint32_t, n>> made(all.size());
     for (std::size_t i = 0; i < made.size(); ++i) {
         for (std::size_t k = 0; k < n; ++k) {
-            const number v = all[i][k];
+            const auto v = +all[i][k];  // of a character, the number
             if (std::cmp_less(v, 0) || std::cmp_greater_equal(v, vertices)) {
                 throw invalid_geometry(function, element, i,
                                        "vertex index out of range, there are " + std::to_string(vertices) + " vertices",

@@ -30,6 +30,9 @@ using edge = std::array<std::uint32_t, 2>;
 /// A view: `size()` shapes, `view[i]` returns shape i by value; both may run wherever its memory can be read. It may have
 /// `prefetch(i, step)`, a hint on the host that shape i will be read soon: step 0 first, and some time later step 1, which
 /// may read what step 0 asks for.
+///
+/// Of an array of another library's type, queries see all that was written before they are called. `view[i]` by itself sees
+/// what was written before the view was made; compilers take types for a proof that memory differs, and may miss the rest.
 template <class V>
 concept shape_view = std::is_trivially_copyable_v<V> && memory_space<typename V::memory_space> &&
     shape<typename V::shape_type> && std::same_as<typename V::scalar_type, scalar_type_of<typename V::shape_type>> &&
@@ -50,7 +53,9 @@ struct strided {
     strided() = default;
     template <class P>
     ABUT_HD strided(const P* first, std::size_t n, std::size_t step)
-        : data(reinterpret_cast<const std::byte*>(first)), count(n), stride(step) {}
+        : data(reinterpret_cast<const std::byte*>(first)), count(n), stride(step) {
+        if constexpr (!std::same_as<P, T>) see_writes_to(first);
+    }
     // By way of const void*: a reinterpret_cast would be warned of under -Wcast-align=strict.
     [[nodiscard]] ABUT_HD const T* first() const { return static_cast<const T*>(static_cast<const void*>(data)); }
     ABUT_HD const T& operator[](std::size_t i) const {
