@@ -184,16 +184,31 @@ struct facts_of_set {
     [[nodiscard]] bool has_one_radius() const { return facts.least_radius == facts.greatest_radius; }
 };
 
+/// Whether `advise` takes it.
+template <class Policy, class X>
+consteval bool can_be_read() {
+    if constexpr (!can_be_asked<Policy, X>()) {
+        return false;
+    } else if constexpr (is_posed<X>) {
+        static_assert(
+            !is_posed<X>,
+            "abut::advise: posed coordinates are rounded, and nothing is proven of them; ask about the set at rest");
+        return false;
+    } else {
+        using shape_type = typename shape_of_argument<X>::type;
+        constexpr bool is = requires(number_facts<scalar_type_of<shape_type>> & facts, const shape_type& s) {
+            add_shape(facts, s);
+        };
+        static_assert(is, "abut::advise: knows triangles, segments, points, spheres, capsules and boxes that do not move");
+        return is;
+    }
+}
+
 template <class Policy, class Operand>
 auto facts_of(const Policy& on, const Operand& x) {
-    static_assert(!Operand::is_posed,
-                  "abut::advise: posed coordinates are rounded, and nothing is proven of them; ask about the set at rest");
     const auto shapes = x.shapes();
     using shapes_type = std::remove_const_t<decltype(shapes)>;
     using T = typename shapes_type::scalar_type;
-    static_assert(
-        requires(number_facts<T> & facts) { add_shape(facts, shapes[0]); },
-        "abut::advise: knows triangles, segments, points, spheres, capsules and boxes that do not move");
     return facts_of_set<T>{reduce(on, shapes.size(), number_facts<T>{}, join_facts{}, facts_of_shape<shapes_type>{shapes}),
                            std::same_as<typename shapes_type::shape_type, sphere<T>>};
 }
@@ -223,14 +238,20 @@ advice advice_for(const facts_of_set<T>& a, const facts_of_set<T>& b) {
 /// @ingroup queries
 template <execution_policy Policy, class A, class B>
 [[nodiscard]] advice advise(const Policy& on, const A& a, const B& b) {
-    constexpr const char* function = "abut::advise";
-    const auto x = detail::make_operand(on, a, function);
-    const auto y = detail::make_operand(on, b, function);
-    using S = typename decltype(x.shapes())::shape_type;
-    using U = typename decltype(y.shapes())::shape_type;
-    static_assert(std::same_as<scalar_type_of<S>, scalar_type_of<U>>,
-                  "abut::advise: one set is of float, the other of double");
-    return detail::advice_for<detail::proven_degree<S, U>>(detail::facts_of(on, x), detail::facts_of(on, y));
+    if constexpr (!detail::can_be_read<Policy, A>()) {
+        return {};
+    } else if constexpr (!detail::can_be_read<Policy, B>()) {
+        return {};
+    } else if constexpr (detail::have_one_scalar<A, B>()) {
+        constexpr const char* function = "abut::advise";
+        const auto x = detail::make_operand(on, a, function);
+        const auto y = detail::make_operand(on, b, function);
+        using S = typename decltype(x.shapes())::shape_type;
+        using U = typename decltype(y.shapes())::shape_type;
+        return detail::advice_for<detail::proven_degree<S, U>>(detail::facts_of(on, x), detail::facts_of(on, y));
+    } else {
+        return {};
+    }
 }
 
 /// The same of a set with itself.
@@ -238,10 +259,14 @@ template <execution_policy Policy, class A, class B>
 /// @ingroup queries
 template <execution_policy Policy, class A>
 [[nodiscard]] advice advise(const Policy& on, const A& a) {
-    const auto x = detail::make_operand(on, a, "abut::advise");
-    using S = typename decltype(x.shapes())::shape_type;
-    const auto facts = detail::facts_of(on, x);
-    return detail::advice_for<detail::proven_degree<S, S>>(facts, facts);
+    if constexpr (detail::can_be_read<Policy, A>()) {
+        const auto x = detail::make_operand(on, a, "abut::advise");
+        using S = typename decltype(x.shapes())::shape_type;
+        const auto facts = detail::facts_of(on, x);
+        return detail::advice_for<detail::proven_degree<S, S>>(facts, facts);
+    } else {
+        return {};
+    }
 }
 
 }  // namespace abut
