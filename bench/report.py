@@ -52,12 +52,13 @@ class Folder:
     """results["cpu/triangles"] are those of FOLDER/cpu/triangles.json."""
 
     def __init__(self, path):
-        self.path, self.known = Path(path), {}
+        self.path, self.known, self.asked = Path(path), {}, 0
 
     def __contains__(self, name):
         return (self.path / f"{name}.json").exists()
 
     def __getitem__(self, name):
+        self.asked += 1
         if name not in self.known:
             if name not in self:
                 raise Missing(f"{self.path / name}.json is not there")
@@ -131,7 +132,7 @@ def expected(text, results, problems):
             return known[name](results)
         except Missing as problem:
             problems.append(f"{kind} {name}: {problem}")
-        except (KeyError, TypeError, ZeroDivisionError, IndexError, StopIteration) as problem:
+        except (KeyError, TypeError, ValueError, ZeroDivisionError, IndexError, StopIteration) as problem:
             problems.append(f"{kind} {name}: the results lack what it shows ({problem!r})")
         return match["text"]
 
@@ -219,16 +220,21 @@ def draw(results, folder, verbose=False):
 
 def page(out, results):
     """What there are results for, one after another."""
+    if not any(results.path.glob("*/*.json")):
+        sys.exit(f"{results.path}: expected files cpu/NAME.json or cuda/NAME.json")
     lines = ["# What was measured here", ""]
     out.parent.mkdir(parents=True, exist_ok=True)
     for name in draw(results, out.parent):
         print(f"written: {out.parent / name}")
         lines += [f"![{name}]({name})", ""]
     for name, make in report_tables.TABLES.items():
+        before = results.asked
         try:
-            lines += [f"## {name}", "", make(results)]
-        except (Missing, KeyError, TypeError, ZeroDivisionError, IndexError, StopIteration):
-            pass  # it shows what was not measured
+            text = make(results)
+        except (Missing, KeyError, TypeError, ValueError, ZeroDivisionError, IndexError, StopIteration):
+            continue  # it shows what was not measured
+        if results.asked > before:  # else it is of files of the tests, and not of this machine
+            lines += [f"## {name}", "", text]
     out.write_text("\n".join(lines), encoding="utf-8")
     print(f"written: {out}")
 

@@ -19,6 +19,7 @@
 #   --from DIR    nothing is run: the results are those in DIR, with folders cpu and cuda
 #   --no-install  fails where a package is missing
 set -eu
+here=$(pwd)
 cd "$(dirname "$0")/.."
 # shellcheck source=cmake/common.sh
 . cmake/common.sh
@@ -27,7 +28,7 @@ usage() { sed -n '/^# usage/,/^set/s/^# \{0,1\}//p' "$0" | sed '$d'; }
 
 # --- the table: results, program, arguments ----------------------------------------------------------------------------
 #
-# NAME goes to build/report/results/KIND/NAME.json, and from there to bench/results. $D is the folder of data, $I
+# NAME goes to build/report/results/KIND/NAME.json, and from there to bench/results. @D@ stands for the folder of data, $I
 # interleaves runs at random. Google Benchmark is told where to write by --benchmark_out, a few programs by --json, those of a
 # device by their first argument: {} stands for the file.
 table() {
@@ -45,24 +46,24 @@ END
     else
         cat <<END
 cpu trade bench_trade --json={}
-cpu motion bench_motion $G --scene=$D/ccd/cloth-ball --scene=$D/ccd/cloth-funnel --scene=$D/ccd/armadillo-rollers
-cpu pair_rules bench_pair_rules $G $I --scenes=$D/ccd --benchmark_filter=-n-body
+cpu motion bench_motion $G --scene=@D@/ccd/cloth-ball --scene=@D@/ccd/cloth-funnel --scene=@D@/ccd/armadillo-rollers
+cpu pair_rules bench_pair_rules $G $I --scenes=@D@/ccd --benchmark_filter=-n-body
 cpu triangles bench_triangles $G $I --triangles=20000000
-cpu builders bench_builders $G $I --mesh=$D/meshes/armadillo_345944.ply
+cpu builders bench_builders $G $I --mesh=@D@/meshes/armadillo_345944.ply
 cpu validate bench_validate $G
-cpu ties bench_ties $G --mesh=$D/meshes/armadillo_27674.ply
+cpu ties bench_ties $G --mesh=@D@/meshes/armadillo_27674.ply
 cpu fronts bench_fronts --json={} --frames=20
 cpu spheres_mesh bench_spheres_mesh $G $I
-cpu meshes bench_meshes $G $I --mesh=$D/meshes/armadillo_345944.ply --benchmark_filter=-any/[a-z_]*/.*/
-cpu any bench_meshes $G $I --mesh=$D/meshes/stanford-bunny.ply --benchmark_filter=any/[a-z_]*/.*/
+cpu meshes bench_meshes $G $I --mesh=@D@/meshes/armadillo_345944.ply --benchmark_filter=-any/[a-z_]*/.*/
+cpu any bench_meshes $G $I --mesh=@D@/meshes/stanford-bunny.ply --benchmark_filter=any/[a-z_]*/.*/
 cpu nearest bench_nearest $G $I --benchmark_filter=/100000/
-cpu descents bench_descents --json={} --mesh=$D/meshes/armadillo_345944.ply
-cpu meshes_138376 bench_meshes $G $I --mesh=$D/meshes/armadillo_138376.ply --benchmark_filter=^(build/bvh|pairs|boxes|contacts)/
-cpu meshes_27674 bench_meshes $G $I --mesh=$D/meshes/armadillo_27674.ply --benchmark_filter=^(build/bvh|pairs|boxes|contacts)/
-cpu meshes_2766 bench_meshes $G $I --mesh=$D/meshes/armadillo_2766.ply --benchmark_filter=^(build/bvh|pairs|boxes|contacts)/
-cpu reduce_contacts bench_reduce_contacts --json={} --mesh=$D/meshes/armadillo_345944.ply
+cpu descents bench_descents --json={} --mesh=@D@/meshes/armadillo_345944.ply
+cpu meshes_138376 bench_meshes $G $I --mesh=@D@/meshes/armadillo_138376.ply --benchmark_filter=^(build/bvh|pairs|boxes|contacts)/
+cpu meshes_27674 bench_meshes $G $I --mesh=@D@/meshes/armadillo_27674.ply --benchmark_filter=^(build/bvh|pairs|boxes|contacts)/
+cpu meshes_2766 bench_meshes $G $I --mesh=@D@/meshes/armadillo_2766.ply --benchmark_filter=^(build/bvh|pairs|boxes|contacts)/
+cpu reduce_contacts bench_reduce_contacts --json={} --mesh=@D@/meshes/armadillo_345944.ply
 cpu extremes bench_extremes --json={}
-cpu trade_scenes bench_trade_scenes --json={} --data=$D
+cpu trade_scenes bench_trade_scenes --json={} --data=@D@
 cpu footprint bench_footprint --json={}
 cuda footprint bench_footprint_cuda {}
 cuda trade bench_trade_cuda {}
@@ -71,23 +72,25 @@ cuda triangles bench_triangles_cuda {}
 cuda ties bench_ties_cuda {}
 cuda nearest bench_nearest_cuda {}
 cuda validate bench_validate_cuda {}
-cuda meshes bench_meshes_cuda {} $D/meshes/armadillo_345944.ply $D/meshes/armadillo_2766.ply
-cuda meshes_138376 bench_meshes_cuda {} $D/meshes/armadillo_138376.ply $D/meshes/armadillo_2766.ply
-cuda meshes_27674 bench_meshes_cuda {} $D/meshes/armadillo_27674.ply $D/meshes/armadillo_2766.ply
-cuda meshes_2766 bench_meshes_cuda {} $D/meshes/armadillo_2766.ply $D/meshes/armadillo_2766.ply
-cuda builders bench_builders_cuda {} $D/meshes/armadillo_345944.ply
-cuda schedules bench_schedules_cuda {} $D/meshes/armadillo_345944.ply
-cuda motion bench_motion_cuda {} $D/ccd/cloth-ball $D/ccd/cloth-funnel $D/ccd/n-body-simulation $D/ccd/armadillo-rollers $D/ccd/rod-twist
+cuda meshes bench_meshes_cuda {} @D@/meshes/armadillo_345944.ply @D@/meshes/armadillo_2766.ply
+cuda meshes_138376 bench_meshes_cuda {} @D@/meshes/armadillo_138376.ply @D@/meshes/armadillo_2766.ply
+cuda meshes_27674 bench_meshes_cuda {} @D@/meshes/armadillo_27674.ply @D@/meshes/armadillo_2766.ply
+cuda meshes_2766 bench_meshes_cuda {} @D@/meshes/armadillo_2766.ply @D@/meshes/armadillo_2766.ply
+cuda builders bench_builders_cuda {} @D@/meshes/armadillo_345944.ply
+cuda schedules bench_schedules_cuda {} @D@/meshes/armadillo_345944.ply
+cuda motion bench_motion_cuda {} @D@/ccd/cloth-ball @D@/ccd/cloth-funnel @D@/ccd/n-body-simulation @D@/ccd/armadillo-rollers @D@/ccd/rod-twist
 cuda motion_flying bench_motion_cuda {}
-cuda pair_rules bench_pair_rules_cuda --scenes=$D/ccd {}
+cuda pair_rules bench_pair_rules_cuda --scenes=@D@/ccd {}
 cuda extremes bench_extremes_cuda --json={}
-cuda fronts bench_fronts_cuda {} $D/ccd/cloth-ball $D/ccd/cloth-funnel
+cuda fronts bench_fronts_cuda {} @D@/ccd/cloth-ball @D@/ccd/cloth-funnel
 END
     fi
 }
 
 # --- arguments ---------------------------------------------------------------------------------------------------------
 
+# in_full PATH: one of the caller's folder, in full.
+in_full() { case $1 in /*) printf '%s' "$1" ;; *) printf '%s/%s' "$here" "$1" ;; esac; }
 quick=no docs=no kinds='' only='' D=../shared/data at_once=1 bin='' from='' install=yes
 while [ $# -gt 0 ]; do
     case $1 in
@@ -98,10 +101,10 @@ while [ $# -gt 0 ]; do
             [ $# -gt 1 ] || fail "$1 wants a value"
             case $1 in
                 --only) only="$only $2" ;;
-                --data) D=$2 ;;
+                --data) D=$(in_full "$2") ;;
                 --jobs) at_once=$2 ;;
-                --bin) bin=$2 ;;
-                --from) from=$2 ;;
+                --bin) bin=$(in_full "$2") ;;
+                --from) from=$(in_full "$2") ;;
             esac
             shift
             ;;
@@ -113,6 +116,11 @@ while [ $# -gt 0 ]; do
 done
 
 asked_for() { [ -z "$2" ] || case " $2 " in *" $1 "*) ;; *) return 1 ;; esac; }
+
+for name in $only; do
+    [ "$name" = footprint_build ] || table | cut -d' ' -f2 | grep -qxF -e "$name" ||
+        fail "--only $name: there are $(table | cut -d' ' -f2 | sort -u | tr '\n' ' ')"
+done
 
 # --- packages and programs ---------------------------------------------------------------------------------------------
 
@@ -138,7 +146,7 @@ if [ -z "$from" ]; then
             fi
         done | sort -u)
         # shellcheck disable=SC2086
-        cmake --build build/report --parallel "$jobs" --target $targets
+        [ -z "$targets" ] || cmake --build build/report --parallel "$jobs" --target $targets
         bin=build/report/bench
     fi
     if [ -z "${ABUT_COMMIT:-}" ]; then
@@ -171,20 +179,27 @@ if [ -z "$from" ]; then
             printf '%s/%s: %s s\n' "$kind" "$name" $(($(date +%s) - started))
         else
             rm -f "$file"
-            printf '%s/%s: FAILED (%s), see %s\n' "$kind" "$name" $status "$results/$kind/$name.log"
+            printf '%s/%s: FAILED (%s), see %s\n' "$kind" "$name" $status "$results/$kind/$name.log" | tee -a "$results/failed"
         fi
     }
 
     say "running, results go to $results"
     mkdir -p "$results/cpu" "$results/cuda"
     running=0
+    rm -f "$results/failed"
     table >"$results/table"
     set -f
     while read -r kind name program arguments; do
         if ! asked_for "$kind" "$kinds" || ! asked_for "$name" "$only"; then continue; fi
         file=$results/$kind/$name.json
-        # shellcheck disable=SC2046
-        set -- $(printf '%s\n' "$arguments" | sed "s#{}#$file#g")
+        # shellcheck disable=SC2086
+        set -- $arguments
+        for argument in "$@"; do  # the paths are put in after words are split: they may hold spaces
+            shift
+            case $argument in *@D@*) argument=${argument%%@D@*}$D${argument#*@D@} ;; esac
+            case $argument in *'{}'*) argument=${argument%%'{}'*}$file${argument#*'{}'} ;; esac
+            set -- "$@" "$argument"
+        done
         if [ "$at_once" -gt 1 ] && [ "$kind" = cpu ]; then
             if [ $running -ge "$at_once" ]; then wait; running=0; fi
             run_one "$kind" "$name" "$program" "$@" </dev/null &
@@ -200,7 +215,7 @@ if [ -z "$from" ]; then
     if [ $quick = no ] && asked_for footprint_build "$only" && asked_for cpu "$kinds" && command -v g++ >/dev/null 2>&1 &&
         command -v python3 >/dev/null 2>&1; then
         python3 -B bench/footprint.py --json="$results/cpu/footprint_build.json" >"$results/cpu/footprint_build.log" 2>&1 ||
-            printf 'cpu/footprint_build: FAILED, see %s\n' "$results/cpu/footprint_build.log"
+            printf 'cpu/footprint_build: FAILED, see %s\n' "$results/cpu/footprint_build.log" | tee -a "$results/failed"
     fi
 fi
 
@@ -215,4 +230,5 @@ if [ $docs = yes ]; then
 else
     $python -B bench/report.py --page build/report/report.md "$results"
 fi
+[ -n "$from" ] || [ ! -s "$results/failed" ] || fail "not all was measured: $(cat "$results/failed")"
 say "done; results are in $results"

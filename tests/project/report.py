@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Runs bench/report.py --check, and sees that it notices what it is there for: on copies with a digit changed, a table that no
-program writes, results that are gone, a block without an end, README at odds with them.
+program writes, results that are gone, a block without an end, README at odds with them. And runs cmake/report.sh with programs
+that measure nothing.
 
 usage: report.py REPOSITORY
 """
@@ -53,11 +54,60 @@ MUTATIONS = {
 }
 
 
+# A program that brings some results, if it finds its data; else it fails.
+PROGRAM = """#!/bin/sh
+for argument in "$@"; do
+    case $argument in
+        --json=*) out=${{argument#*=}} ;;
+        --data=*) [ -f "${{argument#*=}}/mine" ] || exit 3 ;;
+    esac
+done
+cp '{results}' "$out"
+"""
+
+
+def try_script(root):
+    """What is wrong with cmake/report.sh."""
+    wrong = []
+    with tempfile.TemporaryDirectory() as folder:
+        copy, programs, data = Path(folder) / "copy", Path(folder) / "all programs", Path(folder) / "my data"
+        for part in ("docs", "bench", "cmake"):
+            shutil.copytree(root / part, copy / part)
+        for made in (programs, data):
+            made.mkdir()
+        (data / "mine").touch()
+        for name in ("trade", "trade_scenes"):
+            program = programs / f"bench_{name}"
+            program.write_text(PROGRAM.format(results=root / "bench" / "results" / "cpu" / "trade.json"), encoding="utf-8")
+            program.chmod(0o755)
+
+        def run(what, status, expected, *arguments):
+            done = subprocess.run(["sh", copy / "cmake" / "report.sh", *arguments], capture_output=True, text=True, cwd=folder)
+            if done.returncode != status or expected not in done.stdout + done.stderr:
+                wrong.append(f"report.sh, {what}: expected {status} and {expected!r}, found {done.returncode}: "
+                             f"{done.stdout}{done.stderr}")
+
+        some = ("--bin", "all programs", "--only", "trade")
+        some = (*some, "--only", "trade_scenes", "--data")
+        run("names with spaces, of the caller's folder", 0, "cpu/trade_scenes: ", *some, "my data")
+        report = copy / "build" / "report" / "report.md"
+        page = report.read_text(encoding="utf-8") if report.exists() else ""
+        if "## trade-cpu" not in page or "## sphere-families" in page:
+            wrong.append("report.sh: the page has not what was measured here, or more")
+        run("a program that fails", 1, "cpu/trade_scenes: FAILED (3)", *some, "all programs")
+        run("a benchmark that is not there", 1, "--only tarde: there are ", "--bin", "all programs", "--only", "tarde")
+        run("results that are not there", 1, "expected files cpu/NAME.json", "--from", "nowhere")
+    return wrong
+
+
 def main():
     root = Path(sys.argv[1]).resolve()
     status, says = check(root)
     print(says, end="")
-    failed = status != 0
+    wrong = try_script(root)
+    for line in wrong:
+        print(line)
+    failed = status != 0 or bool(wrong)
     for name, mutate in MUTATIONS.items():
         with tempfile.TemporaryDirectory() as folder:
             copy = Path(folder)
@@ -65,7 +115,8 @@ def main():
             for part in ("docs", "bench"):
                 shutil.copytree(root / part, copy / part)
             mutate(copy)
-            if check(copy)[1] == says:
+            status, found = check(copy)
+            if status != 1 or found == says or "Traceback" in found:
                 print(f"the check does not notice: {name}")
                 failed = True
     sys.exit(1 if failed else 0)
