@@ -28,8 +28,8 @@ struct advice {
     /// value that they compute is a floating-point number, and nothing is rounded. Holds while the sets rest and are not
     /// posed. For triangles against triangles or segments, and spheres against spheres; no for all other shapes.
     bool fast_is_exact = false;
-    /// All numbers are floats: sets of float hold the same shapes in half of the memory, and have the same answers. Yes for
-    /// sets of float.
+    /// All numbers are floats: sets of float hold the same shapes in half of the memory, and `filtered` and `exact` find the
+    /// same pairs. `fast_is_exact` speaks of the sets as they are: ask again about those of float. Yes for sets of float.
     bool floats_suffice = false;
     /// All spheres of each set have one radius: `equal_spheres` holds the same. No for other shapes and for empty sets.
     bool equal_radii = false;
