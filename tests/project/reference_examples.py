@@ -37,7 +37,6 @@ const abut::rigid<float> here, there;
 STEP = "const auto step = abut::moving(cloth_t0, cloth_t1);"
 GEAR = "auto gear = abut::make_bvh(on, mesh);"
 NAMES = {
-    "collide/advise.hpp": "const auto &voxels = mesh, &tool = other;",
     "shape/rigid.hpp": "abut::rigid<float> step, pose; int steps = 0;",
     "narrow/feature_weights.hpp": "const abut::motion<abut::vec3<float>> vertex{};"
                                   "const abut::motion<abut::triangle<float>> face{};",
