@@ -225,6 +225,7 @@ __global__ void __launch_bounds__(block_size, 2)
     using candidate = typename Tile::candidate;
     using memory = tile_memory<Tile>;
     constexpr unsigned all = 0xffffffff;
+    constexpr bool may_end = may_stop<Late> || (may_stop<Sinks> || ...);
     extern __shared__ __align__(16) unsigned char shared_memory[];
     __shared__ waiting_pairs waiting_of_warp[memory::warps];
     constexpr unsigned rows = memory::rows;
@@ -256,7 +257,8 @@ __global__ void __launch_bounds__(block_size, 2)
         if (threadIdx.x < columns) staged[threadIdx.x] = tile.load_column(first + threadIdx.x);
         __syncthreads();
 
-        unsigned count = 0, unasked = 0;  // the same in all lanes
+        unsigned count = 0, unasked = 0, decisions = 0;  // the same in all lanes
+        bool over = false;
         const auto decide = [&](unsigned place) {
             const std::size_t i = waiting.row[place], j = waiting.column[place];
             unasked = 0;
@@ -267,7 +269,7 @@ __global__ void __launch_bounds__(block_size, 2)
         std::size_t base = (std::size_t{blockIdx.x} * memory::warps + warp) * memory::batch;
         const unsigned look_up = stream ? 4 : 1;  // a batch of a stream is soon done, and asking takes its time
         fetch(base, 0);
-        for (unsigned slot = 0; base < n; base += step, slot ^= 1) {
+        for (unsigned slot = 0; base < n && !over; base += step, slot ^= 1) {
             const bool ask = unasked++ % look_up == 0, stop = ask && warp_is_over(lane, late, sinks...);
             __syncwarp();  // all lanes have read what is overwritten now
             fetch(base + step, slot ^ 1);
@@ -282,8 +284,8 @@ __global__ void __launch_bounds__(block_size, 2)
             decltype(tile.reach_of(load(0))) reach[rows];
 #pragma unroll
             for (unsigned k = 0; k < rows; ++k) reach[k] = tile.reach_of(load(k));
-            if (__any_sync(all, stop)) break;
-            for (unsigned j = 0; j < columns; ++j) {
+            if constexpr (may_end) over = __any_sync(all, stop) != 0;
+            for (unsigned j = 0; j < columns && !over; ++j) {
                 unsigned passed = 0;
 #pragma unroll
                 for (unsigned k = 0; k < rows; ++k) {
@@ -303,10 +305,13 @@ __global__ void __launch_bounds__(block_size, 2)
                     }
                     count += static_cast<unsigned>(__popc(lanes));
                     if (count < warp_size) continue;
+                    // Where most pairs touch, a batch has hundreds of decisions. The answer comes while one is made.
+                    const bool asks = may_end && ++decisions % 4 == 0, stops = asks && warp_is_over(lane, late, sinks...);
                     __syncwarp();
                     count -= warp_size;
                     decide(count + lane);
                     __syncwarp();
+                    if constexpr (may_end) over |= __any_sync(all, stops) != 0;
                 }
             }
         }
