@@ -46,7 +46,7 @@ cd "$(dirname "$0")/.."
 
 need_packages g++ cmake ninja-build python3 catch2 librapidcheck-dev libboost-dev
 wanted='libgmp-dev libmpfr-dev libcgal-dev libfcl-dev libeigen3-dev libtinyobjloader-dev libcli11-dev nlohmann-json3-dev
-    libbenchmark-dev doxygen'
+    libbenchmark-dev doxygen libopenmpi-dev openmpi-bin'
 if [ $bench = yes ]; then wanted="$wanted libembree-dev libbullet-dev libnanoflann-dev"; fi
 # shellcheck disable=SC2086
 want_packages $wanted ccache

@@ -113,29 +113,45 @@ auto frame_of(const Operand& x, const length_unit<T>& unit) {
     }
 }
 
-/// A unit for all points and all shapes, of which there are some.
+/// The largest coordinate of all points and all shapes, of those that there are.
 template <class Policy, class Operand, shape_view Points>
-auto common_unit(const Policy& on, [[maybe_unused]] const Operand& x, [[maybe_unused]] const Points& points) {
+double largest_coordinate(const Policy& on, const Operand& x, const Points& points) {
     using T = typename Points::scalar_type;
-    if constexpr (std::same_as<T, float>) {
-        return length_unit<T>{};
+    const auto box_of = [&](const auto& shapes) {
+        using shapes_type = std::remove_cvref_t<decltype(shapes)>;
+        return reduce(on, shapes.size(), empty_box<T>(), merge_boxes{}, box_of_shape<shapes_type>{shapes});
+    };
+    const auto of_box = [](const aabb<T>& box) {
+        const vec3<T> most = greatest(absolute(box.lower), absolute(box.upper));
+        return static_cast<double>(greatest(most.x, most.y, most.z));
+    };
+    double largest = 0;
+    if (points.size() > 0) largest = of_box(box_of(points));
+    if (x.shapes().size() == 0) return largest;
+    if constexpr (Operand::is_posed && Operand::is_indexed) {
+        return greatest(largest, 2 * farthest(x.around) + magnitudes(x.pose.translation));
+    } else if constexpr (Operand::is_indexed) {
+        return greatest(largest, of_box(x.bounds(on)));
     } else {
-        const auto box_of = [&](const auto& shapes) {
-            using shapes_type = std::remove_cvref_t<decltype(shapes)>;
-            return reduce(on, shapes.size(), empty_box<T>(), merge_boxes{}, box_of_shape<shapes_type>{shapes});
-        };
-        aabb<T> box;
-        if constexpr (Operand::is_posed && Operand::is_indexed) {
-            const double most = 2 * farthest(x.around) + magnitudes(x.pose.translation);
-            box = {{-most, -most, -most}, {most, most, most}};
-        } else if constexpr (Operand::is_indexed) {
-            box = x.bounds(on);
-        } else {
-            box = box_of(x.shapes());
-        }
-        box = merge(box, box_of(points));
-        return unit_for(box, box.lower);
+        return greatest(largest, of_box(box_of(x.shapes())));
     }
+}
+
+/// A unit for coordinates of that magnitude and below.
+template <scalar T>
+length_unit<T> unit_of_magnitude([[maybe_unused]] double largest) {
+    if constexpr (std::same_as<T, float>) {
+        return {};
+    } else {
+        return length_unit<double>(least(largest, largest_finite<double>));
+    }
+}
+
+/// A unit for all points and all shapes.
+template <class Policy, class Operand, shape_view Points>
+auto common_unit([[maybe_unused]] const Policy& on, [[maybe_unused]] const Operand& x, [[maybe_unused]] const Points& points) {
+    using T = typename Points::scalar_type;
+    return unit_of_magnitude<T>(std::same_as<T, float> ? 0 : largest_coordinate(on, x, points));
 }
 
 template <class X>
@@ -187,29 +203,20 @@ inline constexpr std::size_t few_points = 64;
 template <class Policy>
 inline constexpr std::size_t many_points = looks_in_groups<Policy> ? 64 : 4096;
 
-/// `nearest` of arguments that have been looked at.
-template <class Policy, class X, class Points>
-auto nearest_of(const Policy& on, const X& index, const Points& points, const char* function) {
-    const auto x = make_operand(on, index, function);
-    const auto queries = make_points<scalar_type_of<typename shape_of_argument<X>::type>>(on, points, function);
+/// Finds the nearest shape of each point. finish(order, found) takes what was found: found[i] is the least squared distance of
+/// point order[i], or i where `order` is null; with no shapes or no points `found` is null.
+template <class Policy, class Operand, class Queries, scalar T, class Finish>
+auto look_for_nearest(const Policy& on, const Operand& x, const Queries& queries, const length_unit<T>& unit,
+                  const Finish& finish) {
     const auto there = x.shapes();
     const auto from = queries.shapes();
     using shapes_type = std::remove_const_t<decltype(there)>;
     using points_type = std::remove_const_t<decltype(from)>;
-    using T = typename points_type::scalar_type;
-
     const std::size_t n = from.size(), m = there.size();
-    execution::buffer_of<Policy, neighbor<T>> out(on, n);
-    const auto finish = [&](const length_unit<T>& unit, const std::uint32_t* order, const execution::least_value* found) {
-        for_each_index(on, n, write_neighbors<shapes_type, points_type>{there, from, unit, order, found, out.data()});
-        synchronize(on);
-        return result<neighbor<T>, space_of<Policy>>(std::move(out));
-    };
-    if (n == 0 || m == 0) return finish({}, nullptr, nullptr);
+    if (n == 0 || m == 0) return finish(nullptr, nullptr);
 
-    const auto unit = common_unit(on, x, from);
     const measure_distance<T> judge{unit};
-    if constexpr (!decltype(x)::is_indexed) {
+    if constexpr (!Operand::is_indexed) {
         if (n < few_points) {
             std::vector<execution::least_value> found;
             for (std::size_t k = 0; k < n; ++k) {
@@ -220,22 +227,42 @@ auto nearest_of(const Policy& on, const X& index, const Points& points, const ch
             }
             execution::buffer_of<Policy, execution::least_value> values(on, n);
             upload(on, found.data(), n, values.data());
-            return finish(unit, nullptr, values.data());
+            return finish(nullptr, values.data());
         }
     }
     const auto walk = ordered_walk_of(x);
     const auto frame = frame_of(x, unit);
     execution::buffer_of<Policy, std::uint32_t> order;
-    if (decltype(x)::is_indexed && n >= many_points<Policy> && n < no_id) order = order_on_curve(on, from);
+    if (Operand::is_indexed && n >= many_points<Policy> && n < no_id) order = order_on_curve(on, from);
     if constexpr (look_in_groups<Policy, std::remove_const_t<decltype(walk)>, typename shapes_type::shape_type>) {
-        return finish(unit, order.data(), nearest_in_groups(on, walk.tree, frame, there, from, judge, order.data()).data());
+        return finish(order.data(), nearest_in_groups(on, walk.tree, frame, there, from, judge, order.data()).data());
     } else {
         execution::best_of_each<space_of<Policy>> best(on, n);
         using walk_type = walk_from_points<std::remove_const_t<decltype(walk)>, std::remove_const_t<decltype(frame)>,
                                            shapes_type, points_type, measure_distance<T>>;
         for_each_ordered(on, n, walk_type{walk, frame, there, from, judge, order.data()}, best);
-        return finish(unit, order.data(), best.data());
+        return finish(order.data(), best.data());
     }
+}
+
+/// `nearest` of arguments that have been looked at.
+template <class Policy, class X, class Points>
+auto nearest_of(const Policy& on, const X& index, const Points& points, const char* function) {
+    using T = scalar_type_of<typename shape_of_argument<X>::type>;
+    const auto x = make_operand(on, index, function);
+    const auto queries = make_points<T>(on, points, function);
+    const auto there = x.shapes();
+    const auto from = queries.shapes();
+    const auto unit = common_unit(on, x, from);
+    return look_for_nearest(on, x, queries, unit, [&](const std::uint32_t* order, const execution::least_value* found) {
+        execution::buffer_of<Policy, neighbor<T>> out(on, from.size());
+        using shapes_type = std::remove_const_t<decltype(there)>;
+        using points_type = std::remove_const_t<decltype(from)>;
+        for_each_index(on, from.size(),
+                       write_neighbors<shapes_type, points_type>{there, from, unit, order, found, out.data()});
+        synchronize(on);
+        return result<neighbor<T>, space_of<Policy>>(std::move(out));
+    });
 }
 
 }  // namespace detail

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The processes (ranks) that work on one query, and what they say to each other beside shapes: how much each has, and
+// whether one of them has failed. MPI stays in distributed/.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <exception>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <mpi.h>
+
+#include <abut/error.hpp>
+#include <abut/execution/policy.hpp>
+
+namespace abut {
+
+/// @addtogroup distributed
+///@{
+
+/// Another rank failed, so that no rank has an answer. The rank that failed throws what was thrown there.
+class distributed_error : public error {
+public:
+    /// Of rank `rank`, which said `message`.
+    distributed_error(int rank, const std::string& message)
+        : error("rank " + std::to_string(rank) + ": " + message), rank_(rank) {}
+    /// The rank that failed; of several the least.
+    [[nodiscard]] int rank() const noexcept { return rank_; }
+
+private:
+    int rank_;
+};
+
+///@}
+
+namespace detail {
+
+/// Throws error if an MPI call failed.
+inline void check_mpi(int code, const char* call) {
+    if (code == MPI_SUCCESS) return;
+    char text[MPI_MAX_ERROR_STRING] = "";
+    int length = 0;
+    MPI_Error_string(code, text, &length);
+    throw error(std::string("abut::distributed: ") + call + ": " + text);
+}
+
+/// A communicator of the library's own, shared by its copies: messages of the caller's and of the library never meet.
+class own_communicator {
+public:
+    /// A duplicate of the caller's: all its ranks have to call this.
+    explicit own_communicator(MPI_Comm callers) {
+        int initialized = 0, finalized = 0;
+        MPI_Initialized(&initialized);
+        MPI_Finalized(&finalized);
+        if (initialized == 0 || finalized != 0) throw error("abut::distributed: MPI is not initialised");
+        if (callers == MPI_COMM_NULL) throw error("abut::distributed: the communicator is MPI_COMM_NULL");
+        int between = 0;
+        check_mpi(MPI_Comm_test_inter(callers, &between), "MPI_Comm_test_inter");
+        if (between != 0) throw error("abut::distributed: an intercommunicator has two groups of ranks; expected one");
+        MPI_Comm own = MPI_COMM_NULL;
+        check_mpi(MPI_Comm_dup(callers, &own), "MPI_Comm_dup");
+        comm_ = std::shared_ptr<MPI_Comm>(new MPI_Comm(own), [](MPI_Comm* comm) {
+            int gone = 0;
+            MPI_Finalized(&gone);
+            if (gone == 0) MPI_Comm_free(comm);
+            delete comm;
+        });
+        check_mpi(MPI_Comm_set_errhandler(own, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
+        check_mpi(MPI_Comm_rank(own, &rank_), "MPI_Comm_rank");
+        check_mpi(MPI_Comm_size(own, &size_), "MPI_Comm_size");
+    }
+
+    [[nodiscard]] MPI_Comm get() const { return *comm_; }
+    [[nodiscard]] int rank() const { return rank_; }
+    [[nodiscard]] int size() const { return size_; }
+
+private:
+    std::shared_ptr<MPI_Comm> comm_;
+    int rank_ = 0, size_ = 1;
+};
+
+/// Values of a type as MPI counts them, so that an int counts values and not bytes.
+template <class T>
+class message_type {
+public:
+    message_type() {
+        check_mpi(MPI_Type_contiguous(int{sizeof(T)}, MPI_BYTE, &type_), "MPI_Type_contiguous");
+        check_mpi(MPI_Type_commit(&type_), "MPI_Type_commit");
+    }
+    message_type(const message_type&) = delete;
+    message_type& operator=(const message_type&) = delete;
+    ~message_type() { MPI_Type_free(&type_); }
+    [[nodiscard]] MPI_Datatype get() const { return type_; }
+
+private:
+    MPI_Datatype type_ = MPI_DATATYPE_NULL;
+};
+
+/// What each rank has, in the order of the ranks. All ranks call it.
+template <class T>
+std::vector<T> gathered(const own_communicator& ranks, const T& mine) {
+    std::vector<T> all(static_cast<std::size_t>(ranks.size()));
+    const message_type<T> type;
+    check_mpi(MPI_Allgather(&mine, 1, type.get(), all.data(), 1, type.get(), ranks.get()), "MPI_Allgather");
+    return all;
+}
+
+/// Tells the ranks of each other's failures: all call it, each with what it caught, or null. It returns on all of them, or
+/// throws on all of them.
+inline void agree(const own_communicator& ranks, const std::exception_ptr& failure) {
+    const int mine = failure ? ranks.rank() : ranks.size();
+    int first = 0;
+    check_mpi(MPI_Allreduce(&mine, &first, 1, MPI_INT, MPI_MIN, ranks.get()), "MPI_Allreduce");
+    if (first == ranks.size()) return;
+    char message[512] = "";
+    if (first == ranks.rank()) {
+        try {
+            std::rethrow_exception(failure);
+        } catch (const std::exception& e) {
+            std::strncpy(message, e.what(), sizeof message - 1);
+        } catch (...) {
+            std::strncpy(message, "an exception that is no std::exception", sizeof message - 1);
+        }
+    }
+    check_mpi(MPI_Bcast(message, int{sizeof message}, MPI_CHAR, first, ranks.get()), "MPI_Bcast");
+    if (failure) std::rethrow_exception(failure);
+    throw distributed_error(first, message);
+}
+
+/// Work that may fail between messages that all have to send: the first failure is kept, and what comes after it is left
+/// out.
+class attempts {
+public:
+    template <class Work>
+    void operator()(const Work& work) {
+        if (failure_) return;
+        try {
+            work();
+        } catch (...) {
+            failure_ = std::current_exception();
+        }
+    }
+    /// As `agree`.
+    void settle(const own_communicator& ranks) const { agree(ranks, failure_); }
+
+private:
+    std::exception_ptr failure_;
+};
+
+}  // namespace detail
+
+/// @defgroup distributed Many processes
+///
+/// `abut::distributed` runs a query on the ranks of an MPI communicator: on cores and devices of many machines. Each rank has
+/// a part of each set, and gives that part as the argument, as a set, a view or an index. The set that is asked about is all
+/// parts one after another, in the order of the ranks. So ids are 64 bits wide: those of a rank begin where those of the rank
+/// before end. Answers are those of one machine that has the whole sets.
+///
+/// `any`, `count`, `pairs`, `for_each_pair` and `contacts` are here. They come with `<abut/mpi.hpp>` and the target
+/// `abut::mpi`. docs/distributed.md says how to use them.
+///
+/// @par Collective
+/// All ranks make each call, in the same order, with arguments of the same types and the same options. A part may be empty.
+/// Calls through one `distributed` and its copies come from one thread at a time. Where threads of one process use MPI at a
+/// time, MPI_THREAD_MULTIPLE is needed, as MPI says.
+///
+/// @par Memory
+/// Parts lie in the memory of the local policy. Besides its own parts a rank holds one message in and one out: shapes of b
+/// that one other rank has and that come near its own a-shapes, at most that rank's part, and 4 bytes of id for each. Under
+/// `cuda` messages lie on the host as well. Results are as large as those of the same query on one machine, of a rank's own
+/// a-shapes.
+///
+/// @par Errors
+/// What one rank throws is thrown there, as by the same query under the local policy; all others throw `distributed_error`.
+/// No rank waits for one that failed, and the next call works. An MPI call that fails is an `error`, on the rank that made
+/// it; then nothing is known of the others.
+///
+/// @par Synchronisation
+/// Calls return when the rank's answer is complete and all ranks know of each other's failures.
+///
+/// @par Example
+/// @snippet distributed.cpp distributed
+
+/// @ingroup distributed
+/// The ranks of a communicator, each of which works by a policy of its own.
+///
+///     const abut::distributed on(MPI_COMM_WORLD, abut::openmp{});
+///     const auto touching = abut::pairs(on, my_triangles, my_spheres);
+template <execution_policy Local = openmp>
+class distributed {
+public:
+    using local_policy = Local;              ///< by which a rank works
+    using memory_space = space_of<Local>;    ///< where parts and results lie
+
+    /// Duplicates the communicator, so all its ranks call this, between MPI_Init and MPI_Finalize; copies share the
+    /// duplicate, and the last one frees it. Throws error if MPI is not initialised, if the communicator is null or has two
+    /// groups, or if MPI fails.
+    explicit distributed(MPI_Comm communicator, Local local = {}) : ranks_(communicator), local_(std::move(local)) {}
+
+    /// The number of this rank, from 0.
+    [[nodiscard]] int rank() const { return ranks_.rank(); }
+    /// Number of ranks, 1 or more.
+    [[nodiscard]] int size() const { return ranks_.size(); }
+    /// By which this rank works.
+    [[nodiscard]] const Local& local() const { return local_; }
+    /// The library's duplicate of the communicator.
+    [[nodiscard]] const detail::own_communicator& ranks() const { return ranks_; }
+
+private:
+    detail::own_communicator ranks_;
+    Local local_;
+};
+
+}  // namespace abut

@@ -1,0 +1,405 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// any, count, pairs, for_each_pair and contacts of sets whose parts lie on many ranks. The shapes of b come to the ranks
+// whose a-shapes they come near (parts.hpp), and each rank asks the query of its local policy: of its own parts first, and
+// then of what came from each other rank.
+
+#include <algorithm>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <mpi.h>
+
+#include <abut/collide/contacts.hpp>
+#include <abut/collide/query.hpp>
+#include <abut/distributed/communicator.hpp>
+#include <abut/distributed/parts.hpp>
+#include <abut/execution/atomic.hpp>
+#include <abut/index/bvh.hpp>
+
+namespace abut {
+
+/// @addtogroup distributed
+///@{
+
+/// Ids of two shapes that touch, in sets of many parts: `a` in a query's first argument, `b` in its second.
+struct global_pair {
+    std::uint64_t a;  ///< id in the first argument's set
+    std::uint64_t b;  ///< id in the second one's
+
+    friend constexpr bool operator==(const global_pair&, const global_pair&) = default;
+    friend constexpr auto operator<=>(const global_pair&, const global_pair&) = default;
+};
+
+/// A `contact` with ids in sets of many parts.
+template <scalar T>
+struct global_contact {
+    std::uint64_t a;  ///< id of the first shape
+    std::uint64_t b;  ///< id of the second one
+    vec3<T> point;    ///< of both shapes, in the world
+    vec3<T> normal;   ///< of length 1, from b to a
+    T depth;          ///< 0 or more, in units of length
+
+    friend constexpr bool operator==(const global_contact&, const global_contact&) = default;
+};
+
+///@}
+
+namespace detail {
+
+/// Ids of a rank's own a-shapes and of the b-shapes of one rank, in the whole sets.
+struct global_ids {
+    std::uint64_t first_a, first_b;
+    const std::uint32_t* ids_b;  ///< of those b-shapes that came; null if all are here
+
+    [[nodiscard]] ABUT_HD global_pair operator()(std::uint32_t a, std::uint32_t b) const {
+        return {first_a + a, first_b + (ids_b == nullptr ? b : ids_b[b])};
+    }
+};
+
+template <class Filter>
+struct global_filter {
+    Filter filter;
+    global_ids ids;
+    ABUT_CALLS_ANY
+    ABUT_HD bool operator()(std::uint32_t a, std::uint32_t b) const {
+        const global_pair pair = ids(a, b);
+        return filter(pair.a, pair.b);
+    }
+};
+
+/// The visitor of pairs here, and of none after it has said to stop.
+template <class Visitor>
+struct global_visitor {
+    Visitor visitor;
+    global_ids ids;
+    std::uint32_t* stopped;
+    ABUT_CALLS_ANY
+    ABUT_HD visit operator()(index_pair pair) const {
+        if (execution::atomic_load(stopped) != 0) return visit::stop;
+        const visit next = visitor(ids(pair.a, pair.b));
+        if (next == visit::stop) execution::atomic_store(stopped, 1);
+        return next;
+    }
+};
+
+/// What was found here, with the ids of the whole sets.
+///@{
+ABUT_HD inline global_pair named_globally(const index_pair& pair, const global_ids& ids) { return ids(pair.a, pair.b); }
+template <scalar T>
+ABUT_HD global_contact<T> named_globally(const contact<T>& c, const global_ids& ids) {
+    const global_pair pair = ids(c.a, c.b);
+    return {pair.a, pair.b, c.point, c.normal, c.depth};
+}
+///@}
+template <class Found, class Global>
+struct name_all_globally {
+    const Found* found;
+    global_ids ids;
+    Global* out;
+    ABUT_HD void operator()(std::size_t i) const { out[i] = named_globally(found[i], ids); }
+};
+
+template <class Global>
+struct keys_of_first {
+    const Global* found;
+    std::uint64_t first_a;
+    std::uint32_t* keys;
+    std::uint64_t* places;
+    ABUT_HD void operator()(std::size_t i) const {
+        keys[i] = static_cast<std::uint32_t>(found[i].a - first_a);
+        places[i] = i;
+    }
+};
+template <class Global>
+struct gather_places {
+    const Global* found;
+    const std::uint64_t* places;
+    Global* out;
+    ABUT_HD void operator()(std::size_t i) const { out[i] = found[places[i]]; }
+};
+
+/// What a rank's a-shapes touch, as it comes from one rank after another.
+template <class Local, class Global>
+class found_by_rank {
+public:
+    template <class Found>
+    void add(const Local& local, int rank, const global_ids& ids, const result<Found, space_of<Local>>& found) {
+        if (found.empty()) return;
+        execution::buffer_of<Local, Global> named(local, found.size());
+        for_each_index(local, found.size(), name_all_globally<Found, Global>{found.data(), ids, named.data()});
+        synchronize(local);
+        parts_.emplace_back(rank, std::move(named));
+    }
+
+    /// All of it; sorted by a, then b, if each part is. b ascends with the ranks, and the sort by a is stable.
+    result<Global, space_of<Local>> join(const Local& local, bool sorted, const std::uint64_t first_a, std::size_t size_a) {
+        std::sort(parts_.begin(), parts_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+        if (parts_.size() == 1) return result<Global, space_of<Local>>(std::move(parts_.front().second));
+        std::size_t total = 0;
+        for (const auto& [rank, part] : parts_) total += part.size();
+        execution::buffer_of<Local, Global> all(local, total);
+        std::size_t first = 0;
+        for (auto& [rank, part] : parts_) {
+            copy(local, part.data(), part.size(), all.data() + first);
+            first += part.size();
+            part = {};
+        }
+        if (sorted && total > 0) {
+            execution::buffer_of<Local, std::uint32_t> keys(local, total);
+            execution::buffer_of<Local, std::uint64_t> places(local, total);
+            for_each_index(local, total, keys_of_first<Global>{all.data(), first_a, keys.data(), places.data()});
+            sort_by_key(local, keys, places, id_bits(size_a));
+            execution::buffer_of<Local, Global> in_order(local, total);
+            for_each_index(local, total, gather_places<Global>{all.data(), places.data(), in_order.data()});
+            synchronize(local);
+            all = std::move(in_order);
+        }
+        synchronize(local);
+        return result<Global, space_of<Local>>(std::move(all));
+    }
+
+private:
+    std::vector<std::pair<int, execution::buffer_of<Local, Global>>> parts_;
+};
+
+/// The same options of the local query, with a filter of local ids.
+template <class Filter>
+auto filter_here(const Filter& filter, const global_ids& ids) {
+    if constexpr (std::same_as<Filter, keep_all>) {
+        return filter;
+    } else {
+        return global_filter<Filter>{filter, ids};
+    }
+}
+template <class Filter, traversal Traversal, schedule Schedule>
+auto options_here(const query_options<Filter, Traversal, Schedule>& options, const global_ids& ids) {
+    auto filter = filter_here(options.filter, ids);
+    return query_options<decltype(filter), Traversal, Schedule>{options.sorted,      filter,
+                                                                options.most_pairs,  options.resident,
+                                                                options.start_depth, options.scheduling,
+                                                                options.front};
+}
+template <class Filter>
+auto options_here(const contact_options<Filter>& options, const global_ids& ids) {
+    auto filter = filter_here(options.filter, ids);
+    return contact_options<decltype(filter)>{options.sorted, filter, options.resident, options.discard_sideways};
+}
+
+/// Whether a query of ranks takes its arguments.
+template <class Local, class X, class Y, class Filter>
+consteval bool can_pair_globally() {
+    if constexpr (can_pair<Local, X, Y, keep_all>()) {
+        constexpr bool is = std::same_as<Filter, keep_all> || answers<Local, Filter, bool, std::uint64_t, std::uint64_t>();
+        static_assert(is, "abut: a filter of a distributed query is called as filter(a, b) const with two std::uint64_t, and "
+                          "returns bool");
+        return is;
+    } else {
+        return false;
+    }
+}
+
+/// An argument in the policy's memory, for several queries: copied under cuda once, if it is a set of the host's.
+template <class Policy, class X>
+auto brought_to(const Policy& on, const X& x) {
+    if constexpr (is_posed<X>) {
+        return posed(brought_to(on, x.object), x.pose);
+    } else if constexpr (shape_set<X> && !is_index<X>) {
+        return x.copied_to(on);
+    } else {
+        return x;
+    }
+}
+
+/// What shapes from elsewhere look in: a, or where b has an index and a has none, an index of a. As on one machine, plain
+/// sets are compared all with all.
+template <class Policy, class X, class Y>
+auto looked_in(const Policy& on, const X& a, std::type_identity<Y>) {
+    constexpr bool makes_one = [] {
+        if constexpr (is_posed<Y>) {
+            return is_index<decltype(Y::object)>;
+        } else {
+            return is_index<Y>;
+        }
+    }();
+    if constexpr (is_posed<X>) {
+        return posed(looked_in(on, a.object, std::type_identity<Y>{}), a.pose);
+    } else if constexpr (makes_one && shape_set<X> && !is_index<X>) {
+        return make_bvh(on, a);
+    } else {
+        return a;
+    }
+}
+
+/// Runs ask(rank, a, b, ids) of a rank's own parts, and then of what comes from each other rank: all pairs of its a-shapes
+/// with b-shapes that they may touch, each once. Returns the parts of a. All ranks call it; it throws on all or on none.
+template <class Local, class X, class Y, class Ask>
+auto ask_all_parts(const distributed<Local>& on, const X& x, const Y& y, const char* function, const Ask& ask) {
+    using T = scalar_type_of<typename shape_of_argument<X>::type>;
+    const own_communicator& ranks = on.ranks();
+    const Local& local = on.local();
+    attempts attempt;
+    const auto bring = [&] {
+        auto a = brought_to(local, x);
+        auto b = brought_to(local, y);
+        auto operand_a = make_operand(local, a, function);
+        auto operand_b = make_operand(local, b, function);
+        return std::tuple(std::move(a), std::move(b), std::move(operand_a), std::move(operand_b));
+    };
+    std::optional<decltype(bring())> here;
+    part_bounds<T> part_a, part_b;
+    attempt([&] {
+        here.emplace(bring());
+        part_a = bounds_of_part(local, std::get<2>(*here).shapes());
+        part_b = bounds_of_part(local, std::get<3>(*here).shapes());
+    });
+    attempt.settle(ranks);
+    const auto& [a, b, operand_a, operand_b] = *here;
+    const auto parts_a = gathered_parts(ranks, part_a), parts_b = gathered_parts(ranks, part_b);
+    const std::uint64_t first_a = parts_a.first_of(ranks.rank());
+
+    attempt([&] { ask(ranks.rank(), a, b, global_ids{first_a, parts_b.first_of(ranks.rank()), nullptr}); });
+    std::optional<decltype(looked_in(local, a, std::type_identity<Y>{}))> looks;
+    exchange_near(on, parts_a, parts_b, operand_b.shapes(), attempt, [&](int rank, const auto& came, const std::uint32_t* ids) {
+        if (!looks) looks.emplace(looked_in(local, a, std::type_identity<Y>{}));
+        ask(rank, *looks, came, global_ids{first_a, parts_b.first_of(rank), ids});
+    });
+    return parts_a;
+}
+
+/// The sum over all ranks.
+inline std::uint64_t sum_of_ranks(const own_communicator& ranks, std::uint64_t mine) {
+    std::uint64_t sum = 0;
+    check_mpi(MPI_Allreduce(&mine, &sum, 1, MPI_UINT64_T, MPI_SUM, ranks.get()), "MPI_Allreduce");
+    return sum;
+}
+
+/// What ask(a, b, options) finds of all parts, in this rank's order.
+template <class Global, class Local, class X, class Y, class Options, class Ask>
+auto found_in_all_parts(const distributed<Local>& on, const X& a, const Y& b, const Options& options, const char* function,
+                        const Ask& ask) {
+    found_by_rank<Local, Global> all;
+    const auto parts = ask_all_parts(on, a, b, function, [&](int rank, const auto& x, const auto& y, const global_ids& ids) {
+        all.add(on.local(), rank, ids, ask(x, y, options_here(options, ids)));
+    });
+    attempts attempt;
+    result<Global, space_of<Local>> found;
+    attempt([&] {
+        const std::size_t mine = static_cast<std::size_t>(parts[on.rank()].size);
+        found = all.join(on.local(), options.sorted, parts.first_of(on.rank()), mine);
+    });
+    attempt.settle(on.ranks());
+    return found;
+}
+
+template <arithmetic A, class Local, class X, class Y, class Visitor, class Options>
+void visit_all_parts(const distributed<Local>& on, const X& a, const Y& b, const Visitor& visitor, const Options& options) {
+    const Local& local = on.local();
+    attempts attempt;
+    execution::buffer_of<Local, std::uint32_t> stopped;
+    attempt([&] {
+        stopped = execution::buffer_of<Local, std::uint32_t>(local, 1);
+        fill(local, stopped.data(), 1, std::uint32_t{0});
+    });
+    attempt.settle(on.ranks());
+    ask_all_parts(on, a, b, "abut::for_each_pair", [&](int, const auto& x, const auto& y, const global_ids& ids) {
+        std::uint32_t has_stopped = 0;
+        download(local, stopped.data(), 1, &has_stopped);
+        if (has_stopped != 0) return;
+        for_each_pair<A>(local, x, y, global_visitor<Visitor>{visitor, ids, stopped.data()}, options_here(options, ids));
+    });
+}
+
+}  // namespace detail
+
+/// @addtogroup distributed
+///@{
+
+/// Whether any shape of `a` touches any shape of `b`: the same answer on all ranks. Arguments are this rank's parts, as those
+/// of `any` under the local policy; a filter is called with two std::uint64_t. A rank that has found a pair looks for no
+/// other; the others learn of it at the end.
+template <arithmetic A = filtered, execution_policy Local, class X, class Y, class Filter = keep_all,
+          traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
+[[nodiscard]] bool any(const distributed<Local>& on, const X& a, const Y& b,
+                       const query_options<Filter, Traversal, Schedule>& options = {}) {
+    bool found = false;
+    if constexpr (detail::can_pair_globally<Local, X, Y, Filter>()) {
+        detail::ask_all_parts(on, a, b, "abut::any", [&](int, const auto& x, const auto& y, const detail::global_ids& ids) {
+            found = found || any<A>(on.local(), x, y, detail::options_here(options, ids));
+        });
+        found = detail::sum_of_ranks(on.ranks(), found ? 1 : 0) > 0;
+    }
+    return found;
+}
+
+/// Number of pairs that touch and that the filter wants, of all ranks: the same answer on each. As `any` otherwise.
+template <arithmetic A = filtered, execution_policy Local, class X, class Y, class Filter = keep_all,
+          traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
+[[nodiscard]] std::uint64_t count(const distributed<Local>& on, const X& a, const Y& b,
+                                  const query_options<Filter, Traversal, Schedule>& options = {}) {
+    std::uint64_t found = 0;
+    if constexpr (detail::can_pair_globally<Local, X, Y, Filter>()) {
+        detail::ask_all_parts(on, a, b, "abut::count", [&](int, const auto& x, const auto& y, const detail::global_ids& ids) {
+            found += count<A>(on.local(), x, y, detail::options_here(options, ids));
+        });
+        found = detail::sum_of_ranks(on.ranks(), found);
+    }
+    return found;
+}
+
+/// All pairs of this rank's a-shapes that touch, each once: a `result` of `global_pair`, 16 bytes each, in the local policy's
+/// memory; sorted by a, then b, unless the options say otherwise. Then the lists of all ranks, one after another, are the
+/// list of one machine. Arguments as of `any`.
+template <arithmetic A = filtered, execution_policy Local, class X, class Y, class Filter = keep_all,
+          traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
+[[nodiscard]] auto pairs(const distributed<Local>& on, const X& a, const Y& b,
+                         const query_options<Filter, Traversal, Schedule>& options = {}) {
+    if constexpr (detail::can_pair_globally<Local, X, Y, Filter>()) {
+        return detail::found_in_all_parts<global_pair>(
+            on, a, b, options, "abut::pairs",
+            [&](const auto& x, const auto& y, const auto& here) { return pairs<A>(on.local(), x, y, here); });
+    } else {
+        return result<global_pair, space_of<Local>>();
+    }
+}
+
+/// Calls visitor(global_pair) -> visit once for every pair of this rank's a-shapes that touches, as `for_each_pair` under the
+/// local policy does. `visit::stop` ends the visits of this rank; other ranks go on. Arguments as of `any`.
+template <arithmetic A = filtered, execution_policy Local, class X, class Y, class Visitor, class Filter = keep_all,
+          traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
+void for_each_pair(const distributed<Local>& on, const X& a, const Y& b, const Visitor& visitor,
+                   const query_options<Filter, Traversal, Schedule>& options = {}) {
+    if constexpr (detail::can_pair_globally<Local, X, Y, Filter>()) {
+        constexpr bool is = detail::answers<Local, Visitor, visit, global_pair>();
+        static_assert(is, "abut: a visitor of a distributed query is called as visitor(global_pair) const, and returns "
+                          "abut::visit::proceed or abut::visit::stop");
+        if constexpr (is) detail::visit_all_parts<A>(on, a, b, visitor, options);
+    }
+}
+
+/// The contacts of all pairs of this rank's a-shapes that touch: a `result` of `global_contact`, 40 bytes each in float and
+/// 72 in double, in the local policy's memory and in the order of `pairs`. The numbers are those of `contacts`, bit for bit.
+/// Arguments as of `contacts`, and a filter as of `any`.
+template <arithmetic A = filtered, execution_policy Local, class X, class Y, class Filter = keep_all>
+[[nodiscard]] auto contacts(const distributed<Local>& on, const X& a, const Y& b,
+                            const contact_options<Filter>& options = {}) {
+    if constexpr (detail::can_pair_globally<Local, X, Y, Filter>() && detail::can_touch<Local, X, Y, keep_all>()) {
+        using T = scalar_type_of<typename detail::shape_of_argument<X>::type>;
+        return detail::found_in_all_parts<global_contact<T>>(
+            on, a, b, options, "abut::contacts",
+            [&](const auto& x, const auto& y, const auto& here) { return contacts<A>(on.local(), x, y, here); });
+    } else {
+        return result<global_contact<float>, space_of<Local>>();
+    }
+}
+
+///@}
+
+}  // namespace abut

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Adds abut::distributed, queries on many processes. Needs MPI: link abut::mpi. In .cu files include <abut/cuda.hpp> as well.
+
+#include <abut/abut.hpp>
+#include <abut/distributed/communicator.hpp>
+#include <abut/distributed/nearest.hpp>
+#include <abut/distributed/parts.hpp>
+#include <abut/distributed/query.hpp>
