@@ -5,6 +5,7 @@
 
 #include <abut/abut.hpp>
 #include <abut/distributed/communicator.hpp>
+#include <abut/distributed/impacts.hpp>
 #include <abut/distributed/nearest.hpp>
 #include <abut/distributed/parts.hpp>
 #include <abut/distributed/query.hpp>

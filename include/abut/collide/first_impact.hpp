@@ -155,9 +155,9 @@ auto first_of_indices(const Policy& on, const Index& x, const Index& y, impact_o
         const Index part = whole ? x : until(on, x, time);
         const auto all = [&] {
             if constexpr (Within) {
-                return impacts_of_indices<A, true>(on, part, part, options, fronts, function);
+                return impacts_of_indices<A, true>(on, part, part, options, fronts, function).found;
             } else {
-                return impacts_of_indices<A, false>(on, part, whole ? y : until(on, y, time), options, fronts, function);
+                return impacts_of_indices<A, false>(on, part, whole ? y : until(on, y, time), options, fronts, function).found;
             }
         }();
         const auto first = first_of(on, all);

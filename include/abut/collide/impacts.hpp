@@ -249,10 +249,19 @@ bool time_on_host(const Policy& on, const View& both, const std::uint64_t* keys,
     return some_are_none;
 }
 
+/// Impacts, and the keys of their pairs.
+template <scalar T, memory_space Space>
+struct keyed_impacts {
+    result<impact<T>, Space> found;
+    result<std::uint64_t, Space> keys;
+    feature_key key;
+};
+
 /// The impacts that search(judge, hits) finds.
 template <motion_arithmetic A, class Policy, class View, class Search>
 auto impacts_of(const Policy& on, const impact_options& options, const View& both, const Search& search) {
     using T = typename View::scalar_type;
+    using space = space_of<Policy>;
     timed_queue<Policy> hits(on, std::size_t{1} << 20);  // where it proves too small, a loop runs again
     search(time_in_motion<A>{options.bounds}, hits);
     const std::size_t n = hits.size();
@@ -268,8 +277,14 @@ auto impacts_of(const Policy& on, const impact_options& options, const View& bot
     if constexpr (!host_policy<Policy>) {
         if (open.size() > 0) some_are_none = time_on_host<A>(on, both, keys.data(), open, options.bounds, all.data());
     }
-    result<impact<T>, space_of<Policy>> found(std::move(all));
-    return some_are_none ? answers_with(on, found, is_impact<T>{found.data()}) : std::move(found);
+    keyed_impacts<T, space> of_all{result<impact<T>, space>(std::move(all)), result<std::uint64_t, space>(std::move(keys)),
+                                   both.key};
+    if (some_are_none) {
+        const is_impact<T> is{of_all.found.data()};
+        of_all.keys = answers_with(on, of_all.keys, is);
+        of_all.found = answers_with(on, of_all.found, is);
+    }
+    return of_all;
 }
 
 /// The impacts of two indices, or `Within` one.
@@ -306,7 +321,7 @@ auto impacts_between(const Policy& on, const X& a, const Y& b, const impact_opti
     constexpr const char* function = "abut::impacts";
     if constexpr (can_meet<Policy, X, Y>()) {
         const auto [x, y] = impact_operands(on, a, b, function);
-        return impacts_of_indices<A, false>(on, x, y, options, fronts, function);
+        return impacts_of_indices<A, false>(on, x, y, options, fronts, function).found;
     } else {
         return result<impact<float>, space_of<Policy>>();
     }
@@ -316,7 +331,7 @@ auto impacts_within(const Policy& on, const X& a, const impact_options& options,
     constexpr const char* function = "abut::self_impacts";
     if constexpr (can_move<Policy, X>()) {
         const auto x = impact_operand<rule_of<X, X>()>(on, a, function);
-        return impacts_of_indices<A, true>(on, x, x, options, fronts, function);
+        return impacts_of_indices<A, true>(on, x, x, options, fronts, function).found;
     } else {
         return result<impact<float>, space_of<Policy>>();
     }

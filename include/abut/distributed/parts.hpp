@@ -4,9 +4,11 @@
 // Parts of sets on ranks: where they are, and how shapes of one rank come to the ranks whose shapes they come near.
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
+#include <optional>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -130,101 +132,142 @@ private:
     execution::buffer<T, host_space> here_;
 };
 
-/// Hands shapes of each rank to the ranks whose parts they come near. All ranks call it.
+/// Hands parcels of each rank to other ranks. All ranks call it; it throws on all of them or on none.
 ///
 /// It goes in rounds: in round k each rank sends to the k-th rank behind it and receives from the k-th before it. Both know
-/// from the boxes of all parts whether there is a message, so ranks that are far apart exchange nothing. use(rank, shapes,
-/// ids) is called for each message with shapes, in memory of the policy's that is used again after it: shapes of `rank`, and
-/// their ids there. What it throws ends the call on all ranks.
-template <execution_policy Local, scalar T, shape_view Shapes, class Use>
-void exchange_near(const distributed<Local>& on, const parts_of_set<T>& looking, const parts_of_set<T>& sent,
-                   const Shapes& shapes, attempts& attempt, const Use& use) {
-    using shape_type = typename Shapes::shape_type;
+/// from the boxes of all parts whether there is a parcel, so ranks that are far apart exchange nothing: goes(from, to) is the
+/// same on both. A parcel is some arrays. `parcels` says how long they are, makes room for the longest once, and then packs
+/// and unpacks them in that room:
+///   measure(to) -> sizes             how long the arrays for a rank are, std::array<std::uint64_t, N>; all 0 for no parcel
+///   make_room(out, in)               for arrays of that many elements at most
+///   pack(to, sizes)                  writes the arrays for a rank
+///   send(sizes, f), receive(sizes, f)  f(address on the host, number, MPI type) for each array
+///   unpack(from, sizes)              uses what has come
+template <class Local, class Goes, class Parcels>
+void exchange_parcels(const distributed<Local>& on, attempts& attempt, const Goes& goes, Parcels& parcels) {
+    using sizes = typename Parcels::sizes;
+    constexpr int arrays = int{std::tuple_size_v<sizes>};
     const own_communicator& ranks = on.ranks();
-    const Local& local = on.local();
     const int me = ranks.rank(), all = ranks.size();
     const auto rank_in = [&](int round) { return (me + round + all) % all; };
+    enum tag { tag_sizes, tag_arrays };
 
     // How much goes where.
-    enum tag { tag_count, tag_shapes, tag_ids };
-    const auto count_type = MPI_UINT64_T;
-    std::vector<std::uint64_t> to(static_cast<std::size_t>(all)), from(static_cast<std::size_t>(all));
-    for (int round = 1; round < all; ++round) {
-        const int target = rank_in(round);
-        if (!looking[target].is_near(sent[me])) continue;
-        attempt([&] {
-            const one_if<comes_near<Shapes>> near{{shapes, looking[target]}};
-            to[static_cast<std::size_t>(target)] = reduce(local, shapes.size(), std::uint64_t{0}, add_up_tallies{}, near);
-        });
-    }
+    std::vector<sizes> to(static_cast<std::size_t>(all)), from(static_cast<std::size_t>(all));
     std::vector<MPI_Request> open;
-    for (int rank = 0; rank < all; ++rank) {
-        const auto k = static_cast<std::size_t>(rank);
-        if (rank == me) continue;
-        if (looking[me].is_near(sent[rank])) {
+    for (int round = 1; round < all; ++round) {
+        const int target = rank_in(round), source = rank_in(-round);
+        if (goes(source, me)) {
+            auto& coming = from[static_cast<std::size_t>(source)];
             open.emplace_back();
-            check_mpi(MPI_Irecv(&from[k], 1, count_type, rank, tag_count, ranks.get(), &open.back()), "MPI_Irecv");
+            check_mpi(MPI_Irecv(coming.data(), arrays, MPI_UINT64_T, source, tag_sizes, ranks.get(), &open.back()), "MPI_Irecv");
         }
-        if (looking[rank].is_near(sent[me])) {
+        if (goes(me, target)) {
+            auto& going = to[static_cast<std::size_t>(target)];
+            attempt([&] { going = parcels.measure(target); });
             open.emplace_back();
-            check_mpi(MPI_Isend(&to[k], 1, count_type, rank, tag_count, ranks.get(), &open.back()), "MPI_Isend");
+            check_mpi(MPI_Isend(going.data(), arrays, MPI_UINT64_T, target, tag_sizes, ranks.get(), &open.back()), "MPI_Isend");
         }
     }
     check_mpi(MPI_Waitall(static_cast<int>(open.size()), open.data(), MPI_STATUSES_IGNORE), "MPI_Waitall");
 
-    // Room for the largest messages: from here on messages are sent whatever fails.
-    using shape_room = message_room<Local, shape_type>;
-    using id_room = message_room<Local, std::uint32_t>;
-    std::vector<shape_room> shape_rooms;
-    std::vector<id_room> id_rooms;
+    // From here on parcels are sent whatever fails.
     attempt([&] {
-        const std::uint64_t out = *std::max_element(to.begin(), to.end()), in = *std::max_element(from.begin(), from.end());
-        shape_rooms.reserve(2);
-        id_rooms.reserve(2);
-        for (const std::uint64_t n : {out, in}) {
-            shape_rooms.emplace_back(local, static_cast<std::size_t>(n));
-            id_rooms.emplace_back(local, static_cast<std::size_t>(n));
+        sizes most_out{}, most_in{};
+        for (int rank = 0; rank < all; ++rank) {
+            for (std::size_t k = 0; k < std::size_t{arrays}; ++k) {
+                most_out[k] = std::max(most_out[k], to[static_cast<std::size_t>(rank)][k]);
+                most_in[k] = std::max(most_in[k], from[static_cast<std::size_t>(rank)][k]);
+            }
         }
+        parcels.make_room(most_out, most_in);
+        open.reserve(std::size_t{2} * arrays);
     });
     attempt.settle(ranks);
 
-    const message_type<shape_type> shape_message;
     for (int round = 1; round < all; ++round) {
         const int target = rank_in(round), source = rank_in(-round);
-        const std::uint64_t out = to[static_cast<std::size_t>(target)], in = from[static_cast<std::size_t>(source)];
-        MPI_Request requests[4];
-        int count = 0;
-        const auto receive = [&](void* data, MPI_Datatype type, tag which) {
-            check_mpi(MPI_Irecv(data, static_cast<int>(in), type, source, which, ranks.get(), &requests[count++]), "MPI_Irecv");
-        };
-        const auto send = [&](const void* data, MPI_Datatype type, tag which) {
-            check_mpi(MPI_Isend(data, static_cast<int>(out), type, target, which, ranks.get(), &requests[count++]), "MPI_Isend");
-        };
-        if (in > 0) {
-            receive(shape_rooms[1].here(), shape_message.get(), tag_shapes);
-            receive(id_rooms[1].here(), MPI_UINT32_T, tag_ids);
-        }
-        if (out > 0) {
-            attempt([&] {
-                const auto n = static_cast<std::size_t>(out);
-                compact(local, shapes.size(), comes_near<Shapes>{shapes, looking[target]}, id_rooms[0].there());
-                for_each_index(local, n, pack_shape<Shapes>{shapes, id_rooms[0].there(), shape_rooms[0].there()});
-                id_rooms[0].bring_here(local, n);
-                shape_rooms[0].bring_here(local, n);
+        const sizes out = to[static_cast<std::size_t>(target)], in = from[static_cast<std::size_t>(source)];
+        open.clear();
+        int which = tag_arrays;
+        if (in != sizes{}) {
+            parcels.receive(in, [&](void* data, std::uint64_t n, MPI_Datatype type) {
+                open.emplace_back();
+                const int count = static_cast<int>(n);
+                check_mpi(MPI_Irecv(data, count, type, source, which++, ranks.get(), &open.back()), "MPI_Irecv");
             });
-            send(shape_rooms[0].here(), shape_message.get(), tag_shapes);
-            send(id_rooms[0].here(), MPI_UINT32_T, tag_ids);
         }
-        check_mpi(MPI_Waitall(count, requests, MPI_STATUSES_IGNORE), "MPI_Waitall");
-        if (in == 0) continue;
-        attempt([&] {
-            const auto n = static_cast<std::size_t>(in);
-            shape_rooms[1].bring_there(local, n);
-            id_rooms[1].bring_there(local, n);
-            use(source, shapes_view<shape_type, space_of<Local>>(shape_rooms[1].there(), n), id_rooms[1].there());
-        });
+        which = tag_arrays;
+        if (out != sizes{}) {
+            attempt([&] { parcels.pack(target, out); });
+            parcels.send(out, [&](const void* data, std::uint64_t n, MPI_Datatype type) {
+                open.emplace_back();
+                const int count = static_cast<int>(n);
+                check_mpi(MPI_Isend(data, count, type, target, which++, ranks.get(), &open.back()), "MPI_Isend");
+            });
+        }
+        check_mpi(MPI_Waitall(static_cast<int>(open.size()), open.data(), MPI_STATUSES_IGNORE), "MPI_Waitall");
+        if (in != sizes{}) attempt([&] { parcels.unpack(source, in); });
     }
     attempt.settle(ranks);
 }
+
+/// Shapes that come near the parts of other ranks, with their ids. use(rank, shapes, ids) is called for what comes from a
+/// rank, in memory of the policy's that is used again after it.
+template <class Local, shape_view Shapes, class Use>
+class shape_parcels {
+public:
+    using T = typename Shapes::scalar_type;
+    using shape_type = typename Shapes::shape_type;
+    using sizes = std::array<std::uint64_t, 1>;
+
+    shape_parcels(const Local& local, const Shapes& shapes, const parts_of_set<T>& looking, const Use& use)
+        : local_(local), shapes_(shapes), looking_(looking), use_(use) {}
+
+    [[nodiscard]] sizes measure(int to) const {
+        const one_if<comes_near<Shapes>> near{{shapes_, looking_[to]}};
+        return {reduce(local_, shapes_.size(), std::uint64_t{0}, add_up_tallies{}, near)};
+    }
+    void make_room(const sizes& out, const sizes& in) {
+        out_.emplace(local_, static_cast<std::size_t>(out[0]));
+        in_.emplace(local_, static_cast<std::size_t>(in[0]));
+    }
+    void pack(int to, const sizes& size) {
+        const auto n = static_cast<std::size_t>(size[0]);
+        compact(local_, shapes_.size(), comes_near<Shapes>{shapes_, looking_[to]}, out_->ids.there());
+        for_each_index(local_, n, pack_shape<Shapes>{shapes_, out_->ids.there(), out_->shapes.there()});
+        out_->ids.bring_here(local_, n);
+        out_->shapes.bring_here(local_, n);
+    }
+    template <class F>
+    void send(const sizes& size, const F& f) {
+        f(out_->shapes.here(), size[0], type_.get());
+        f(out_->ids.here(), size[0], MPI_UINT32_T);
+    }
+    template <class F>
+    void receive(const sizes& size, const F& f) {
+        f(in_->shapes.here(), size[0], type_.get());
+        f(in_->ids.here(), size[0], MPI_UINT32_T);
+    }
+    void unpack(int from, const sizes& size) {
+        const auto n = static_cast<std::size_t>(size[0]);
+        in_->shapes.bring_there(local_, n);
+        in_->ids.bring_there(local_, n);
+        use_(from, shapes_view<shape_type, space_of<Local>>(in_->shapes.there(), n), in_->ids.there());
+    }
+
+private:
+    struct room {
+        message_room<Local, shape_type> shapes;
+        message_room<Local, std::uint32_t> ids;
+        room(const Local& local, std::size_t n) : shapes(local, n), ids(local, n) {}
+    };
+    const Local& local_;
+    Shapes shapes_;
+    const parts_of_set<T>& looking_;
+    const Use& use_;
+    message_type<shape_type> type_;
+    std::optional<room> out_, in_;
+};
 
 }  // namespace abut::detail

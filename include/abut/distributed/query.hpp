@@ -99,25 +99,26 @@ ABUT_HD global_contact<T> named_globally(const contact<T>& c, const global_ids& 
     return {pair.a, pair.b, c.point, c.normal, c.depth};
 }
 ///@}
+/// By what results are sorted that come from different ranks: the a-shape. Results of one rank are in order.
+///@{
+ABUT_HD inline std::uint64_t key_of_first(const index_pair& pair) { return pair.a; }
+template <scalar T>
+ABUT_HD std::uint64_t key_of_first(const contact<T>& c) {
+    return c.a;
+}
+///@}
 template <class Found, class Global>
 struct name_all_globally {
     const Found* found;
     global_ids ids;
     Global* out;
-    ABUT_HD void operator()(std::size_t i) const { out[i] = named_globally(found[i], ids); }
-};
-
-template <class Global>
-struct keys_of_first {
-    const Global* found;
-    std::uint64_t first_a;
-    std::uint32_t* keys;
-    std::uint64_t* places;
+    std::uint64_t* keys;
     ABUT_HD void operator()(std::size_t i) const {
-        keys[i] = static_cast<std::uint32_t>(found[i].a - first_a);
-        places[i] = i;
+        out[i] = named_globally(found[i], ids);
+        keys[i] = key_of_first(found[i]);
     }
 };
+
 template <class Global>
 struct gather_places {
     const Global* found;
@@ -130,33 +131,36 @@ struct gather_places {
 template <class Local, class Global>
 class found_by_rank {
 public:
-    template <class Found>
-    void add(const Local& local, int rank, const global_ids& ids, const result<Found, space_of<Local>>& found) {
-        if (found.empty()) return;
-        execution::buffer_of<Local, Global> named(local, found.size());
-        for_each_index(local, found.size(), name_all_globally<Found, Global>{found.data(), ids, named.data()});
+    /// With room for `n` values of `rank` and for the keys of their a-shapes, write(values, keys) writes them.
+    template <class Write>
+    void add(const Local& local, int rank, std::size_t n, const Write& write) {
+        if (n == 0) return;
+        part found{rank, execution::buffer_of<Local, Global>(local, n), execution::buffer_of<Local, std::uint64_t>(local, n)};
+        write(found.values.data(), found.keys.data());
         synchronize(local);
-        parts_.emplace_back(rank, std::move(named));
+        parts_.push_back(std::move(found));
     }
 
-    /// All of it; sorted by a, then b, if each part is. b ascends with the ranks, and the sort by a is stable.
-    result<Global, space_of<Local>> join(const Local& local, bool sorted, const std::uint64_t first_a, std::size_t size_a) {
-        std::sort(parts_.begin(), parts_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-        if (parts_.size() == 1) return result<Global, space_of<Local>>(std::move(parts_.front().second));
+    /// All of it; sorted by a, then b, if each part is and `sorted` is. b ascends with the ranks, and the sort by the keys, of
+    /// `bits` bits, is stable.
+    result<Global, space_of<Local>> join(const Local& local, bool sorted, int bits) {
+        std::sort(parts_.begin(), parts_.end(), [](const part& a, const part& b) { return a.rank < b.rank; });
+        if (parts_.size() == 1) return result<Global, space_of<Local>>(std::move(parts_.front().values));
         std::size_t total = 0;
-        for (const auto& [rank, part] : parts_) total += part.size();
+        for (const part& found : parts_) total += found.values.size();
         execution::buffer_of<Local, Global> all(local, total);
+        execution::buffer_of<Local, std::uint64_t> keys(local, sorted ? total : 0), places(local, keys.size());
         std::size_t first = 0;
-        for (auto& [rank, part] : parts_) {
-            copy(local, part.data(), part.size(), all.data() + first);
-            first += part.size();
-            part = {};
+        for (part& found : parts_) {
+            const std::size_t n = found.values.size();
+            copy(local, found.values.data(), n, all.data() + first);
+            if (sorted) copy(local, found.keys.data(), n, keys.data() + first);
+            first += n;
+            found = {};
         }
         if (sorted && total > 0) {
-            execution::buffer_of<Local, std::uint32_t> keys(local, total);
-            execution::buffer_of<Local, std::uint64_t> places(local, total);
-            for_each_index(local, total, keys_of_first<Global>{all.data(), first_a, keys.data(), places.data()});
-            sort_by_key(local, keys, places, id_bits(size_a));
+            for_each_index(local, total, execution::write_index<std::uint64_t>{places.data()});
+            sort_by_key(local, keys, places, bits);
             execution::buffer_of<Local, Global> in_order(local, total);
             for_each_index(local, total, gather_places<Global>{all.data(), places.data(), in_order.data()});
             synchronize(local);
@@ -167,7 +171,12 @@ public:
     }
 
 private:
-    std::vector<std::pair<int, execution::buffer_of<Local, Global>>> parts_;
+    struct part {
+        int rank = 0;
+        execution::buffer_of<Local, Global> values;
+        execution::buffer_of<Local, std::uint64_t> keys;
+    };
+    std::vector<part> parts_;
 };
 
 /// The same options of the local query, with a filter of local ids.
@@ -267,10 +276,13 @@ auto ask_all_parts(const distributed<Local>& on, const X& x, const Y& y, const c
 
     attempt([&] { ask(ranks.rank(), a, b, global_ids{first_a, parts_b.first_of(ranks.rank()), nullptr}); });
     std::optional<decltype(looked_in(local, a, std::type_identity<Y>{}))> looks;
-    exchange_near(on, parts_a, parts_b, operand_b.shapes(), attempt, [&](int rank, const auto& came, const std::uint32_t* ids) {
+    const auto use = [&](int rank, const auto& came, const std::uint32_t* ids) {
         if (!looks) looks.emplace(looked_in(local, a, std::type_identity<Y>{}));
         ask(rank, *looks, came, global_ids{first_a, parts_b.first_of(rank), ids});
-    });
+    };
+    const auto goes = [&](int from, int to) { return parts_a[to].is_near(parts_b[from]); };
+    shape_parcels parcels(local, operand_b.shapes(), parts_a, use);
+    exchange_parcels(on, attempt, goes, parcels);
     return parts_a;
 }
 
@@ -281,22 +293,30 @@ inline std::uint64_t sum_of_ranks(const own_communicator& ranks, std::uint64_t m
     return sum;
 }
 
+/// What was found of all ranks. All of them call it.
+template <class Local, class Global>
+auto joined(const distributed<Local>& on, found_by_rank<Local, Global>& all, bool sorted, int bits) {
+    attempts attempt;
+    result<Global, space_of<Local>> found;
+    attempt([&] { found = all.join(on.local(), sorted, bits); });
+    attempt.settle(on.ranks());
+    return found;
+}
+
 /// What ask(a, b, options) finds of all parts, in this rank's order.
 template <class Global, class Local, class X, class Y, class Options, class Ask>
 auto found_in_all_parts(const distributed<Local>& on, const X& a, const Y& b, const Options& options, const char* function,
                         const Ask& ask) {
     found_by_rank<Local, Global> all;
+    const Local& local = on.local();
     const auto parts = ask_all_parts(on, a, b, function, [&](int rank, const auto& x, const auto& y, const global_ids& ids) {
-        all.add(on.local(), rank, ids, ask(x, y, options_here(options, ids)));
+        const auto found = ask(x, y, options_here(options, ids));
+        using value = typename std::remove_cvref_t<decltype(found)>::value_type;
+        all.add(local, rank, found.size(), [&](Global* out, std::uint64_t* keys) {
+            for_each_index(local, found.size(), name_all_globally<value, Global>{found.data(), ids, out, keys});
+        });
     });
-    attempts attempt;
-    result<Global, space_of<Local>> found;
-    attempt([&] {
-        const std::size_t mine = static_cast<std::size_t>(parts[on.rank()].size);
-        found = all.join(on.local(), options.sorted, parts.first_of(on.rank()), mine);
-    });
-    attempt.settle(on.ranks());
-    return found;
+    return joined(on, all, options.sorted, id_bits(static_cast<std::size_t>(parts[on.rank()].size)));
 }
 
 template <arithmetic A, class Local, class X, class Y, class Visitor, class Options>
