@@ -9,3 +9,4 @@
 #include <abut/distributed/nearest.hpp>
 #include <abut/distributed/parts.hpp>
 #include <abut/distributed/query.hpp>
+#include <abut/distributed/redistribute.hpp>

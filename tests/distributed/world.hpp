@@ -57,7 +57,8 @@ std::vector<T> part_of(const std::vector<T>& all, division how, int rank, int ra
 /// The ranks' lists one after another, on all ranks.
 template <class T>
 std::vector<T> lists_of_all(const detail::own_communicator& ranks, const std::vector<T>& mine) {
-    const auto sizes = detail::gathered(ranks, static_cast<int>(mine.size() * sizeof(T)));
+    std::vector<int> sizes(static_cast<std::size_t>(ranks.size()));
+    detail::gather(ranks, static_cast<int>(mine.size() * sizeof(T)), sizes);
     std::vector<int> first;
     int total = 0;
     for (const int size : sizes) {

@@ -100,13 +100,11 @@ private:
     MPI_Datatype type_ = MPI_DATATYPE_NULL;
 };
 
-/// What each rank has, in the order of the ranks. All ranks call it.
+/// What each rank has, in the order of the ranks, into room for one of each. All ranks call it.
 template <class T>
-std::vector<T> gathered(const own_communicator& ranks, const T& mine) {
-    std::vector<T> all(static_cast<std::size_t>(ranks.size()));
+void gather(const own_communicator& ranks, const T& mine, std::vector<T>& all) {
     const message_type<T> type;
     check_mpi(MPI_Allgather(&mine, 1, type.get(), all.data(), 1, type.get(), ranks.get()), "MPI_Allgather");
-    return all;
 }
 
 /// Tells the ranks of each other's failures: all call it, each with what it caught, or null. It returns on all of them, or
@@ -132,7 +130,7 @@ inline void agree(const own_communicator& ranks, const std::exception_ptr& failu
 }
 
 /// Work that may fail between messages that all have to send: the first failure is kept, and what comes after it is left
-/// out.
+/// out. All memory is asked for in such work, so that none is lacking in between.
 class attempts {
 public:
     template <class Work>
@@ -144,6 +142,7 @@ public:
             failure_ = std::current_exception();
         }
     }
+    [[nodiscard]] bool failed() const { return failure_ != nullptr; }
     /// As `agree`.
     void settle(const own_communicator& ranks) const { agree(ranks, failure_); }
 

@@ -245,7 +245,12 @@ auto impacts_of_parts(const distributed<Local>& on, const X& x, const Y& y, cons
     };
     std::optional<decltype(bring())> here;
     part_bounds<T> part_a, part_b;
+    parts_of_set<T> parts_a, parts_b;
+    parcel_room<std::array<std::uint64_t, 2>> room;
     attempt([&] {
+        parts_a.make_room(ranks.size());
+        parts_b.make_room(ranks.size());
+        room.make_room(ranks.size());
         const auto near = nearness_of<A, T>(options.bounds, function);
         here.emplace(bring());
         part_a = grown(bounds_of_mesh_part(local, here->first.mesh()), near);
@@ -253,7 +258,8 @@ auto impacts_of_parts(const distributed<Local>& on, const X& x, const Y& y, cons
     });
     attempt.settle(ranks);
     const auto& a = here->first;
-    const auto parts_a = gathered_parts(ranks, part_a), parts_b = gathered_parts(ranks, part_b);
+    parts_a.gather(ranks, part_a);
+    parts_b.gather(ranks, part_b);
     const std::uint64_t first_a = parts_a.first_of(ranks.rank());
 
     found_by_rank<Local, global_impact<T>> all;
@@ -271,7 +277,7 @@ auto impacts_of_parts(const distributed<Local>& on, const X& x, const Y& y, cons
     };
     const auto goes = [&](int from, int to) { return parts_a[to].is_near(parts_b[from]); };
     mesh_parcels<Local, T, decltype(use)> parcels(local, here->second.mesh(), parts_a, use);
-    exchange_parcels(on, attempt, goes, parcels);
+    exchange_parcels(on, attempt, room, goes, parcels);
     return joined(on, all, options.sorted, 34);
 }
 

@@ -227,6 +227,7 @@ private:
                     for_each_index(local_, asked, pack);
                     rooms_->asked.bring_here(local_, asked);
                 });
+                if (attempt.failed()) std::fill_n(rooms_->asked.here(), asked, vec3<T>{});  // points of any kind
                 send(rooms_->asked.here(), asked, point_type_.get(), target, tag_points);
             }
             wait();
@@ -282,14 +283,18 @@ auto nearest_of_parts(const distributed<Local>& on, const X& index, const Points
     std::optional<decltype(bring())> here;
     part_bounds<T> mine;
     double largest = 0;
+    parts_of_set<T> parts;
+    std::vector<std::uint64_t> points_of_rank;
     attempt([&] {
+        parts.make_room(on.size());
+        points_of_rank.resize(static_cast<std::size_t>(on.size()));
         here.emplace(bring());
         mine = bounds_of_part(local, here->first.shapes());
         largest = largest_coordinate(local, here->first, here->second.shapes());
     });
     attempt.settle(on.ranks());
-    const auto parts = gathered_parts(on.ranks(), mine);
-    const auto points_of_rank = gathered(on.ranks(), std::uint64_t{here->second.shapes().size()});
+    parts.gather(on.ranks(), mine);
+    gather(on.ranks(), std::uint64_t{here->second.shapes().size()}, points_of_rank);
     const auto unit = unit_of_magnitude<T>(largest_of_ranks(on.ranks(), largest));
     return nearest_of_ranks(on, here->first, here->second, parts, points_of_rank, unit).find();
 }

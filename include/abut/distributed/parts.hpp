@@ -73,24 +73,30 @@ auto bounds_of_part(const Policy& on, const Shapes& shapes) {
 
 /// All parts of a set.
 template <scalar T>
-struct parts_of_set {
-    std::vector<part_bounds<T>> of_rank;
-    std::vector<std::uint64_t> first_id;  ///< of each rank's shapes
-
-    [[nodiscard]] const part_bounds<T>& operator[](int rank) const { return of_rank[static_cast<std::size_t>(rank)]; }
-    [[nodiscard]] std::uint64_t first_of(int rank) const { return first_id[static_cast<std::size_t>(rank)]; }
-};
-
-template <scalar T>
-parts_of_set<T> gathered_parts(const own_communicator& ranks, const part_bounds<T>& mine) {
-    parts_of_set<T> all{gathered(ranks, mine), {}};
-    std::uint64_t first = 0;
-    for (const part_bounds<T>& part : all.of_rank) {
-        all.first_id.push_back(first);
-        first += part.size;
+class parts_of_set {
+public:
+    /// Room for the parts of so many ranks.
+    void make_room(int ranks) {
+        of_rank_.resize(static_cast<std::size_t>(ranks));
+        first_id_.resize(of_rank_.size());
     }
-    return all;
-}
+    /// After make_room on all ranks.
+    void gather(const own_communicator& ranks, const part_bounds<T>& mine) {
+        detail::gather(ranks, mine, of_rank_);
+        std::uint64_t first = 0;
+        for (std::size_t k = 0; k < of_rank_.size(); ++k) {
+            first_id_[k] = first;
+            first += of_rank_[k].size;
+        }
+    }
+    [[nodiscard]] const part_bounds<T>& operator[](int rank) const { return of_rank_[static_cast<std::size_t>(rank)]; }
+    /// The id of a rank's first shape.
+    [[nodiscard]] std::uint64_t first_of(int rank) const { return first_id_[static_cast<std::size_t>(rank)]; }
+
+private:
+    std::vector<part_bounds<T>> of_rank_;
+    std::vector<std::uint64_t> first_id_;
+};
 
 // --- what goes where ---------------------------------------------------------------------------------------------------
 
@@ -132,7 +138,21 @@ private:
     execution::buffer<T, host_space> here_;
 };
 
-/// Hands parcels of each rank to other ranks. All ranks call it; it throws on all of them or on none.
+/// What exchange_parcels keeps of each rank: the sizes of parcels to it and from it, and what is under way.
+template <class Sizes>
+struct parcel_room {
+    std::vector<Sizes> to, from;
+    std::vector<MPI_Request> open;
+
+    void make_room(int ranks) {
+        to.resize(static_cast<std::size_t>(ranks));
+        from.resize(to.size());
+        open.reserve(2 * to.size() + 16);
+    }
+};
+
+/// Hands parcels of each rank to other ranks. All ranks call it, each with a room that it has made; it throws on all of them
+/// or on none.
 ///
 /// It goes in rounds: in round k each rank sends to the k-th rank behind it and receives from the k-th before it. Both know
 /// from the boxes of all parts whether there is a parcel, so ranks that are far apart exchange nothing: goes(from, to) is the
@@ -144,17 +164,17 @@ private:
 ///   send(sizes, f), receive(sizes, f)  f(address on the host, number, MPI type) for each array
 ///   unpack(from, sizes)              uses what has come
 template <class Local, class Goes, class Parcels>
-void exchange_parcels(const distributed<Local>& on, attempts& attempt, const Goes& goes, Parcels& parcels) {
+void exchange_parcels(const distributed<Local>& on, attempts& attempt, parcel_room<typename Parcels::sizes>& room,
+                      const Goes& goes, Parcels& parcels) {
     using sizes = typename Parcels::sizes;
+    auto& [to, from, open] = room;
     constexpr int arrays = int{std::tuple_size_v<sizes>};
     const own_communicator& ranks = on.ranks();
     const int me = ranks.rank(), all = ranks.size();
     const auto rank_in = [&](int round) { return (me + round + all) % all; };
-    enum tag { tag_sizes, tag_arrays };
+    enum tag { tag_sizes, tag_is_whole, tag_arrays };
 
     // How much goes where.
-    std::vector<sizes> to(static_cast<std::size_t>(all)), from(static_cast<std::size_t>(all));
-    std::vector<MPI_Request> open;
     for (int round = 1; round < all; ++round) {
         const int target = rank_in(round), source = rank_in(-round);
         if (goes(source, me)) {
@@ -181,7 +201,6 @@ void exchange_parcels(const distributed<Local>& on, attempts& attempt, const Goe
             }
         }
         parcels.make_room(most_out, most_in);
-        open.reserve(std::size_t{2} * arrays);
     });
     attempt.settle(ranks);
 
@@ -189,8 +208,11 @@ void exchange_parcels(const distributed<Local>& on, attempts& attempt, const Goe
         const int target = rank_in(round), source = rank_in(-round);
         const sizes out = to[static_cast<std::size_t>(target)], in = from[static_cast<std::size_t>(source)];
         open.clear();
+        int is_whole_in = 0, is_whole_out = 0;  // what was not packed is not unpacked
         int which = tag_arrays;
         if (in != sizes{}) {
+            open.emplace_back();
+            check_mpi(MPI_Irecv(&is_whole_in, 1, MPI_INT, source, tag_is_whole, ranks.get(), &open.back()), "MPI_Irecv");
             parcels.receive(in, [&](void* data, std::uint64_t n, MPI_Datatype type) {
                 open.emplace_back();
                 const int count = static_cast<int>(n);
@@ -200,6 +222,9 @@ void exchange_parcels(const distributed<Local>& on, attempts& attempt, const Goe
         which = tag_arrays;
         if (out != sizes{}) {
             attempt([&] { parcels.pack(target, out); });
+            is_whole_out = attempt.failed() ? 0 : 1;
+            open.emplace_back();
+            check_mpi(MPI_Isend(&is_whole_out, 1, MPI_INT, target, tag_is_whole, ranks.get(), &open.back()), "MPI_Isend");
             parcels.send(out, [&](const void* data, std::uint64_t n, MPI_Datatype type) {
                 open.emplace_back();
                 const int count = static_cast<int>(n);
@@ -207,7 +232,7 @@ void exchange_parcels(const distributed<Local>& on, attempts& attempt, const Goe
             });
         }
         check_mpi(MPI_Waitall(static_cast<int>(open.size()), open.data(), MPI_STATUSES_IGNORE), "MPI_Waitall");
-        if (in != sizes{}) attempt([&] { parcels.unpack(source, in); });
+        if (is_whole_in != 0) attempt([&] { parcels.unpack(source, in); });
     }
     attempt.settle(ranks);
 }

@@ -6,6 +6,7 @@
 // then of what came from each other rank.
 
 #include <algorithm>
+#include <array>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -264,14 +265,20 @@ auto ask_all_parts(const distributed<Local>& on, const X& x, const Y& y, const c
     };
     std::optional<decltype(bring())> here;
     part_bounds<T> part_a, part_b;
+    parts_of_set<T> parts_a, parts_b;
+    parcel_room<std::array<std::uint64_t, 1>> room;
     attempt([&] {
+        parts_a.make_room(ranks.size());
+        parts_b.make_room(ranks.size());
+        room.make_room(ranks.size());
         here.emplace(bring());
         part_a = bounds_of_part(local, std::get<2>(*here).shapes());
         part_b = bounds_of_part(local, std::get<3>(*here).shapes());
     });
     attempt.settle(ranks);
     const auto& [a, b, operand_a, operand_b] = *here;
-    const auto parts_a = gathered_parts(ranks, part_a), parts_b = gathered_parts(ranks, part_b);
+    parts_a.gather(ranks, part_a);
+    parts_b.gather(ranks, part_b);
     const std::uint64_t first_a = parts_a.first_of(ranks.rank());
 
     attempt([&] { ask(ranks.rank(), a, b, global_ids{first_a, parts_b.first_of(ranks.rank()), nullptr}); });
@@ -282,7 +289,7 @@ auto ask_all_parts(const distributed<Local>& on, const X& x, const Y& y, const c
     };
     const auto goes = [&](int from, int to) { return parts_a[to].is_near(parts_b[from]); };
     shape_parcels parcels(local, operand_b.shapes(), parts_a, use);
-    exchange_parcels(on, attempt, goes, parcels);
+    exchange_parcels(on, attempt, room, goes, parcels);
     return parts_a;
 }
 

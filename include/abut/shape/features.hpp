@@ -57,10 +57,10 @@ struct set_parts {
         made.elements_ = shared_array<face, Space>(std::move(faces));
         return made;
     }
-    template <scalar T, memory_space Space>
-    static points<T, Space> points_of(execution::buffer<vec3<T>, Space> values) {
-        points<T, Space> made;
-        made.values_ = shared_array<vec3<T>, Space>(std::move(values));
+    template <shape Shape, memory_space Space>
+    static shapes<Shape, Space> shapes_of(execution::buffer<Shape, Space> values) {
+        shapes<Shape, Space> made;
+        made.values_ = shared_array<Shape, Space>(std::move(values));
         return made;
     }
 };
@@ -167,7 +167,7 @@ template <execution_policy Policy, scalar T, memory_space Space>
     detail::check(on, mesh, "abut::edges");
     execution::buffer_of<Policy, vec3<T>> copy(on, mesh.vertices.count);
     for_each_index(on, copy.size(), detail::copy_vertex<T>{mesh.vertices, copy.data()});
-    return detail::set_parts::edge_mesh_of(detail::set_parts::points_of(std::move(copy)), detail::unique_edges(on, mesh));
+    return detail::set_parts::edge_mesh_of(detail::set_parts::shapes_of(std::move(copy)), detail::unique_edges(on, mesh));
 }
 /// Of a mesh or a view in host memory, on the calling thread.
 ///@{

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Sets that are divided anew among ranks, along a Morton curve: each rank gets as many shapes, and neighbours in space. Parts
+// are then far from each other, and little has to be sent.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <mpi.h>
+
+#include <abut/distributed/communicator.hpp>
+#include <abut/distributed/parts.hpp>
+#include <abut/index/morton.hpp>
+#include <abut/index/operand.hpp>
+#include <abut/shape/features.hpp>
+#include <abut/shape/set.hpp>
+
+namespace abut {
+
+/// A rank's part of a set that was divided anew.
+/// @ingroup distributed
+template <shape Shape, memory_space Space>
+struct redistributed_part {
+    shapes<Shape, Space> set;           ///< its shapes, along the curve
+    result<std::uint64_t, Space> ids;   ///< of each, its id in the set as it was
+};
+
+namespace detail {
+
+template <shape_view Shapes>
+struct write_codes_and_ids {
+    using T = typename Shapes::scalar_type;
+    Shapes shapes;
+    aabb<T> around;
+    std::uint64_t* codes;
+    std::uint32_t* ids;
+    ABUT_HD void operator()(std::size_t i) const {
+        codes[i] = morton_code<std::uint64_t>(bounds(shapes[i]), around);
+        ids[i] = static_cast<std::uint32_t>(i);
+    }
+};
+struct write_global_ids {
+    const std::uint32_t* ids;
+    std::uint64_t first;
+    std::uint64_t* out;
+    ABUT_HD void operator()(std::size_t i) const { out[i] = first + ids[i]; }
+};
+struct gather_global_ids {
+    const std::uint64_t* ids;
+    const std::uint32_t* places;
+    std::uint64_t* out;
+    ABUT_HD void operator()(std::size_t i) const { out[i] = ids[places[i]]; }
+};
+
+/// Shapes along the curve: their codes and places.
+template <class Policy>
+struct curve_of_part {
+    execution::buffer_of<Policy, std::uint64_t> codes;
+    execution::buffer_of<Policy, std::uint32_t> order;
+
+    template <shape_view Shapes, scalar T>
+    curve_of_part(const Policy& on, const Shapes& shapes, const aabb<T>& around)
+        : codes(on, shapes.size()), order(on, shapes.size()) {
+        for_each_index(on, shapes.size(), write_codes_and_ids<Shapes>{shapes, around, codes.data(), order.data()});
+        sort_by_key(on, codes, order, morton_bits<std::uint64_t>);
+    }
+};
+
+/// Where the parts of all ranks begin among a rank's own codes, which ascend: each rank gets as many of all codes, and of
+/// equal ones those of the first ranks come first.
+class division_of_codes {
+public:
+    /// Room for so many ranks.
+    void make_room(int ranks) {
+        inner_ = ranks - 1;
+        const auto parts = static_cast<std::size_t>(ranks);
+        for (auto* values : {&code_, &tried_, &counts_, &all_, &equal_, &equal_before_}) values->assign(parts, 0);
+        first_.assign(parts + 1, 0);
+    }
+    /// The first of each rank's part, and the number of codes.
+    [[nodiscard]] const std::vector<std::uint64_t>& first() const { return first_; }
+
+    /// Bisects the codes, the beginnings of all parts at a time. All ranks call it.
+    void divide(const own_communicator& ranks, const std::vector<std::uint64_t>& codes) {
+        const auto parts = static_cast<std::size_t>(ranks.size()), inner = static_cast<std::size_t>(inner_);
+        const auto below = [&](std::uint64_t code) {
+            return static_cast<std::uint64_t>(std::lower_bound(codes.begin(), codes.end(), code) - codes.begin());
+        };
+        const std::uint64_t here = codes.size();
+        std::uint64_t total = 0;
+        check_mpi(MPI_Allreduce(&here, &total, 1, MPI_UINT64_T, MPI_SUM, ranks.get()), "MPI_Allreduce");
+        const auto wanted = [&](std::size_t k) { return total / parts * (k + 1) + total % parts * (k + 1) / parts; };
+
+        // The code of the first shape of each part but the first: the largest with no more than wanted below it.
+        for (std::uint64_t bit = std::uint64_t{1} << (morton_bits<std::uint64_t> - 1); bit > 0; bit >>= 1) {
+            for (std::size_t k = 0; k < inner; ++k) counts_[k] = below(tried_[k] = code_[k] | bit);
+            sum_counts(ranks);
+            for (std::size_t k = 0; k < inner; ++k) {
+                if (all_[k] <= wanted(k)) code_[k] = tried_[k];
+            }
+        }
+        for (std::size_t k = 0; k < inner; ++k) {
+            counts_[k] = below(code_[k]);
+            equal_[k] = below(code_[k] + 1) - counts_[k];
+        }
+        sum_counts(ranks);
+        check_mpi(MPI_Exscan(equal_.data(), equal_before_.data(), inner_, MPI_UINT64_T, MPI_SUM, ranks.get()), "MPI_Exscan");
+        for (std::size_t k = 0; k < inner; ++k) {
+            const std::uint64_t before = ranks.rank() == 0 ? 0 : equal_before_[k], missing = wanted(k) - all_[k];
+            first_[k + 1] = counts_[k] + std::min(equal_[k], missing > before ? missing - before : 0);
+        }
+        first_[parts] = here;
+    }
+
+private:
+    void sum_counts(const own_communicator& ranks) {
+        check_mpi(MPI_Allreduce(counts_.data(), all_.data(), inner_, MPI_UINT64_T, MPI_SUM, ranks.get()), "MPI_Allreduce");
+    }
+    int inner_ = 0;  ///< parts but the first
+    std::vector<std::uint64_t> code_, tried_, counts_, all_, equal_, equal_before_, first_;
+};
+
+/// Shapes that go to other ranks for good, along the curve, and their ids.
+template <class Local, shape_view Shapes>
+class part_parcels {
+public:
+    using shape_type = typename Shapes::shape_type;
+    using sizes = std::array<std::uint64_t, 1>;
+
+    part_parcels(const Local& local, const Shapes& shapes, const std::uint32_t* order, std::uint64_t first_id,
+                 const std::vector<std::uint64_t>& first)
+        : local_(local), shapes_(shapes), order_(order), first_id_(first_id), first_(first), from_(first.size() - 1) {}
+
+    [[nodiscard]] sizes measure(int to) const {
+        const auto k = static_cast<std::size_t>(to);
+        return {first_[k + 1] - first_[k]};
+    }
+    void make_room(const sizes& out, const sizes& in) {
+        out_.emplace(local_, static_cast<std::size_t>(out[0]));
+        in_.emplace(local_, static_cast<std::size_t>(in[0]));
+    }
+    void pack(int to, const sizes& size) {
+        const auto n = static_cast<std::size_t>(size[0]);
+        write(to, *out_);
+        out_->shapes.bring_here(local_, n);
+        out_->ids.bring_here(local_, n);
+    }
+    template <class F>
+    void send(const sizes& size, const F& f) {
+        f(out_->shapes.here(), size[0], type_.get());
+        f(out_->ids.here(), size[0], MPI_UINT64_T);
+    }
+    template <class F>
+    void receive(const sizes& size, const F& f) {
+        f(in_->shapes.here(), size[0], type_.get());
+        f(in_->ids.here(), size[0], MPI_UINT64_T);
+    }
+    void unpack(int from, const sizes& size) {
+        const auto n = static_cast<std::size_t>(size[0]);
+        in_->shapes.bring_there(local_, n);
+        in_->ids.bring_there(local_, n);
+        part came{buffer_of_shapes(local_, n), buffer_of_ids(local_, n)};
+        copy(local_, in_->shapes.there(), n, came.shapes.data());
+        copy(local_, in_->ids.there(), n, came.ids.data());
+        synchronize(local_);
+        from_[static_cast<std::size_t>(from)] = std::move(came);
+    }
+
+    /// All that came, in the order of the ranks, with what stays here.
+    auto all(int me) {
+        const auto stays = static_cast<std::size_t>(measure(me)[0]);
+        room mine(local_, stays);
+        write(me, mine);
+        std::size_t total = stays;
+        for (const part& p : from_) total += p.ids.size();
+        part whole{buffer_of_shapes(local_, total), buffer_of_ids(local_, total)};
+        std::size_t at = 0;
+        for (std::size_t rank = 0; rank < from_.size(); ++rank) {
+            const bool is_me = rank == static_cast<std::size_t>(me);
+            const std::size_t n = is_me ? stays : from_[rank].ids.size();
+            copy(local_, is_me ? mine.shapes.there() : from_[rank].shapes.data(), n, whole.shapes.data() + at);
+            copy(local_, is_me ? mine.ids.there() : from_[rank].ids.data(), n, whole.ids.data() + at);
+            at += n;
+        }
+        synchronize(local_);
+        from_.clear();
+        return std::pair(std::move(whole.shapes), std::move(whole.ids));
+    }
+
+private:
+    using buffer_of_shapes = execution::buffer_of<Local, shape_type>;
+    using buffer_of_ids = execution::buffer_of<Local, std::uint64_t>;
+    struct part {
+        buffer_of_shapes shapes;
+        buffer_of_ids ids;
+    };
+    struct room {
+        message_room<Local, shape_type> shapes;
+        message_room<Local, std::uint64_t> ids;
+        room(const Local& local, std::size_t n) : shapes(local, n), ids(local, n) {}
+    };
+
+    void write(int to, room& out) {
+        const std::uint32_t* const order = order_ + first_[static_cast<std::size_t>(to)];
+        const auto n = static_cast<std::size_t>(measure(to)[0]);
+        for_each_index(local_, n, pack_shape<Shapes>{shapes_, order, out.shapes.there()});
+        for_each_index(local_, n, write_global_ids{order, first_id_, out.ids.there()});
+    }
+
+    const Local& local_;
+    Shapes shapes_;
+    const std::uint32_t* order_;
+    std::uint64_t first_id_;
+    const std::vector<std::uint64_t>& first_;
+    std::vector<part> from_;
+    message_type<shape_type> type_;
+    std::optional<room> out_, in_;
+};
+
+template <class Local, class Set>
+auto redistributed(const distributed<Local>& on, const Set& set, const char* function) {
+    const own_communicator& ranks = on.ranks();
+    const Local& local = on.local();
+    attempts attempt;
+    const auto bring = [&] { return make_resident(local, set, function); };
+    std::optional<decltype(bring())> here;
+    using view_type = decltype(view_of(*here));
+    using shape_type = typename view_type::shape_type;
+    using T = typename view_type::scalar_type;
+    part_bounds<T> mine;
+    parts_of_set<T> parts;
+    parcel_room<std::array<std::uint64_t, 1>> room;
+    division_of_codes division;
+    attempt([&] {
+        parts.make_room(ranks.size());
+        room.make_room(ranks.size());
+        division.make_room(ranks.size());
+        here.emplace(bring());
+        mine = bounds_of_part(local, view_of(*here));
+    });
+    attempt.settle(ranks);
+    const view_type view = view_of(*here);
+    parts.gather(ranks, mine);
+    aabb<T> around = empty_box<T>();
+    for (int rank = 0; rank < ranks.size(); ++rank) around = merge(around, parts[rank].around);
+
+    std::optional<curve_of_part<Local>> curve;
+    std::optional<part_parcels<Local, view_type>> parcels;
+    std::vector<std::uint64_t> codes;
+    attempt([&] {
+        curve.emplace(local, view, around);
+        codes.resize(view.size());
+        download(local, curve->codes.data(), codes.size(), codes.data());
+        parcels.emplace(local, view, curve->order.data(), parts.first_of(ranks.rank()), division.first());
+    });
+    attempt.settle(ranks);
+    division.divide(ranks, codes);
+    exchange_parcels(on, attempt, room, [](int, int) { return true; }, *parcels);
+
+    redistributed_part<shape_type, space_of<Local>> part;
+    attempt([&] {
+        const auto [came, ids] = parcels->all(ranks.rank());
+        const std::size_t n = ids.size();
+        using came_view = shapes_view<shape_type, space_of<Local>>;
+        const curve_of_part<Local> order(local, came_view(came.data(), n), around);
+        execution::buffer_of<Local, shape_type> sorted(local, n);
+        execution::buffer_of<Local, std::uint64_t> sorted_ids(local, n);
+        for_each_index(local, n, pack_shape<came_view>{came_view(came.data(), n), order.order.data(), sorted.data()});
+        for_each_index(local, n, gather_global_ids{ids.data(), order.order.data(), sorted_ids.data()});
+        synchronize(local);
+        part = {set_parts::shapes_of(std::move(sorted)), result<std::uint64_t, space_of<Local>>(std::move(sorted_ids))};
+    });
+    attempt.settle(ranks);
+    return part;
+}
+
+}  // namespace detail
+
+/// Divides a set anew: each rank gets as many shapes as the others, or one more, and they are neighbours along a Morton curve
+/// (63 bits) through the middles of their boxes. `set` is this rank's part: a set or a view. Returns a `redistributed_part`:
+/// its new part, shapes as they are (faces become triangles, spheres of one radius spheres), and for each the id that it had,
+/// 8 bytes each, in the local policy's memory. Equal places keep the order of their ids. Other shapes, as queries need less
+/// to be sent then; it does not change answers but for the ids, which are positions in the new parts.
+///
+/// Besides the result a rank holds its codes twice, 8 bytes each, and its shapes three times while they come.
+///
+///     const auto part = abut::redistribute(on, my_triangles);
+///     const auto hits = abut::pairs(on, part.set, my_spheres);
+/// @ingroup distributed
+template <execution_policy Local, class Set>
+[[nodiscard]] auto redistribute(const distributed<Local>& on, const Set& set) {
+    if constexpr (detail::can_reside<Local, Set>()) {
+        return detail::redistributed(on, set, "abut::redistribute");
+    } else {
+        return detail::refused{};
+    }
+}
+
+}  // namespace abut
