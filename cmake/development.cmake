@@ -101,6 +101,11 @@ function(abut_plain_library target library)
     endif()
 endfunction()
 
+# How programs are started on some ranks, whose number comes next. More ranks than cores, and also by root: Open MPI wants to be
+# told, and others take no notice. Ranks that wait leave the core to others.
+set(abut_mpiexec ${CMAKE_COMMAND} -E env OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1 OMPI_ALLOW_RUN_AS_ROOT=1
+                 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_WAIT_POLICY=passive ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG})
+
 find_package(Boost QUIET)
 find_package(CLI11 QUIET)
 find_package(nlohmann_json QUIET)

@@ -7,9 +7,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <random>
+#include <thread>
 #include <vector>
 
 #include "distributed/world.hpp"
@@ -249,6 +251,42 @@ TEST_CASE("distributed: a failure of one rank reaches all") {
         // The next call works.
         CHECK(count(on, a, b) == count(serial{}, triangle_soup<float>(all.triangles), spheres<float>(all.spheres)));
     }
+}
+
+TEST_CASE("distributed: a rank that comes late") {
+    const distributed on(world(), serial{});
+    const auto all = random_scene<float>(300, true, 7);
+    const triangle_soup<float> a(part_of(all.triangles, division::even, on.rank(), on.size()));
+    const spheres<float> b(part_of(all.spheres, division::even, on.rank(), on.size()));
+    const auto expected = as_global(pairs(serial{}, triangle_soup<float>(all.triangles), spheres<float>(all.spheres)).to_host());
+    for (int late = 0; late < on.size(); ++late) {
+        // Once before the call and once in the middle of it, while others are rounds ahead.
+        if (on.rank() == late) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        std::atomic<int> calls{0};
+        const auto dawdles = [&](std::uint64_t, std::uint64_t) {
+            if (on.rank() == late && calls++ == 0) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+            return true;
+        };
+        CHECK(lists_of_all(on.ranks(), pairs(on, a, b, query_options{.filter = dawdles}).to_host()) == expected);
+        CHECK(count(on, a, b) == expected.size());
+    }
+}
+
+TEST_CASE("distributed: ids above 2^32") {
+    // Parts so large take too much memory for a test: here they say that they are.
+    const distributed on(world(), serial{});
+    constexpr std::uint64_t size = (std::uint64_t{1} << 31) - 1;
+    detail::part_bounds<float> part;
+    part.size = size;
+    detail::parts_of_set<float> parts;
+    parts.make_room(on.size());
+    parts.gather(on.ranks(), part);
+    const auto rank = static_cast<std::uint64_t>(on.rank());
+    CHECK(on_all(on.ranks(), parts.first_of(on.rank()) == rank * size));
+    const std::uint32_t came[] = {7, 0x7ffffffe};
+    const detail::global_ids ids{3 * size, 5 * size, came};
+    CHECK(ids(0x7ffffffe, 1) == global_pair{4 * size - 1, 6 * size - 1});
+    CHECK(detail::global_ids{3 * size, 5 * size, nullptr}(1, 2) == global_pair{3 * size + 1, 5 * size + 2});
 }
 
 TEST_CASE("distributed: what is no communicator") {

@@ -123,8 +123,10 @@ public:
         mark(to);
         const one_if<is_marked> vertex{{marks_.data()}};
         const one_if<comes_near<faces_view>> near_face{{mesh_.view(), looking_[to]}};
-        return {reduce(local_, vertex_count(), std::uint64_t{0}, add_up_tallies{}, vertex),
-                reduce(local_, mesh_.size(), std::uint64_t{0}, add_up_tallies{}, near_face)};
+        sizes size{};
+        size[0] = reduce(local_, vertex_count(), std::uint64_t{0}, add_up_tallies{}, vertex);
+        size[1] = reduce(local_, mesh_.size(), std::uint64_t{0}, add_up_tallies{}, near_face);
+        return size;
     }
     void make_room(const sizes& out, const sizes& in) {
         out_.emplace(local_, out);

@@ -251,7 +251,9 @@ public:
 
     [[nodiscard]] sizes measure(int to) const {
         const one_if<comes_near<Shapes>> near{{shapes_, looking_[to]}};
-        return {reduce(local_, shapes_.size(), std::uint64_t{0}, add_up_tallies{}, near)};
+        sizes size{};
+        size[0] = reduce(local_, shapes_.size(), std::uint64_t{0}, add_up_tallies{}, near);
+        return size;
     }
     void make_room(const sizes& out, const sizes& in) {
         out_.emplace(local_, static_cast<std::size_t>(out[0]));

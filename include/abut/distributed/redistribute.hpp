@@ -15,6 +15,7 @@
 
 #include <mpi.h>
 
+#include <abut/collide/options.hpp>
 #include <abut/distributed/communicator.hpp>
 #include <abut/distributed/parts.hpp>
 #include <abut/index/morton.hpp>
@@ -140,7 +141,9 @@ public:
 
     [[nodiscard]] sizes measure(int to) const {
         const auto k = static_cast<std::size_t>(to);
-        return {first_[k + 1] - first_[k]};
+        sizes size{};
+        size[0] = first_[k + 1] - first_[k];
+        return size;
     }
     void make_room(const sizes& out, const sizes& in) {
         out_.emplace(local_, static_cast<std::size_t>(out[0]));
