@@ -9,7 +9,8 @@
 int main(int argc, char* argv[]) {
     MPI_Init(&argc, &argv);
     {
-        const std::vector<abut::triangle<float>> triangles{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{9, 9, 9}, {9, 8, 9}, {8, 9, 9}}};
+        const std::vector<abut::triangle<float>> triangles{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}},
+                                                           {{9, 9, 9}, {9, 8, 9}, {8, 9, 9}}};
         const abut::triangle_soup<float> my_triangles(triangles);
         const abut::spheres<float> my_spheres(std::vector<abut::sphere<float>>{{{1, 1, 1}, 1}});
         //! [distributed]

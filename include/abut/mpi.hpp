@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Adds abut::distributed, queries on many processes. Needs MPI: link abut::mpi. In .cu files include <abut/cuda.hpp> as well.
+// Adds abut::distributed, queries on many processes. Needs MPI: link abut::mpi. In .cu files include <abut/cuda.hpp> as
+// well.
 
 #include <abut/abut.hpp>
 #include <abut/distributed/communicator.hpp>

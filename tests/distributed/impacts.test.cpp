@@ -135,7 +135,8 @@ TEST_CASE("distributed: impacts by a rule of faces") {
     const auto whole_x = joined_parts(all_x, division::even, on.size()).set();
     const auto whole_y = joined_parts(all_y, division::even, on.size()).set();
     constexpr pair_rule rule = pair_rule::representative_triangles;
-    check_impacts<filtered>(on, make_impact_index<rule>(on.local(), x), y, make_impact_index<rule>(serial{}, whole_x), whole_y);
+    check_impacts<filtered>(on, make_impact_index<rule>(on.local(), x), y, make_impact_index<rule>(serial{}, whole_x),
+                            whole_y);
 }
 
 TEST_CASE("distributed: impacts where a rank fails, and then again") {

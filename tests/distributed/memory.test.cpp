@@ -44,7 +44,8 @@ namespace {
 template <class Call>
 long fail_each_request(const distributed<serial>& on, int bad, const Call& call) {
     for (long k = 0;; ++k) {
-        int outcome = 0;  // what the call threw: 0 nothing, 1 bad_alloc, 2 distributed_error of the bad rank, 3 anything else
+        int outcome =
+            0;  // what the call threw: 0 nothing, 1 bad_alloc, 2 distributed_error of the bad rank, 3 anything else
         if (on.rank() == bad) requests_left = k;
         try {
             call();
@@ -73,7 +74,8 @@ TEST_CASE("distributed: memory that ends on one rank") {
     std::vector<sphere<float>> balls;
     for (std::uint32_t i = 0; i < 60; ++i) {
         const float x = place(random), y = place(random), z = place(random);
-        for (const vec3<float>& v : {vec3<float>{x, y, z}, vec3<float>{x + 0.5f, y, z}, vec3<float>{x, y + 0.5f, z + 0.5f}}) {
+        for (const vec3<float>& v :
+             {vec3<float>{x, y, z}, vec3<float>{x + 0.5f, y, z}, vec3<float>{x, y + 0.5f, z + 0.5f}}) {
             vertices.push_back(v);
             moved.push_back({v.x + 1, v.y, v.z});
         }

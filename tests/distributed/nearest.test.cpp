@@ -24,7 +24,8 @@ std::vector<global_neighbor<T>> as_global(const std::vector<neighbor<T>>& all) {
 
 /// This rank's points and shapes, against one machine with all of them.
 template <class Local, class X, class Whole, class Points, class AllPoints>
-void check_nearest(const distributed<Local>& on, const X& x, const Whole& whole, const Points& points, const AllPoints& all) {
+void check_nearest(const distributed<Local>& on, const X& x, const Whole& whole, const Points& points,
+                   const AllPoints& all) {
     const auto expected = as_global(nearest(serial{}, whole, all).to_host());
     CHECK(lists_of_all(on.ranks(), nearest(on, x, points).to_host()) == expected);
 }
@@ -111,7 +112,8 @@ TEST_CASE("distributed: nearest where there is nothing, and where a rank fails")
         thrown = 1;
     }
     CHECK(on_all(on.ranks(), thrown == (on.rank() == bad ? 1 : 2)));
-    CHECK(on_all(on.ranks(), nearest(on, ball, points).to_host()[0].id == std::min<std::uint64_t>(1, static_cast<std::uint64_t>(bad))));
+    CHECK(on_all(on.ranks(),
+                 nearest(on, ball, points).to_host()[0].id == std::min<std::uint64_t>(1, static_cast<std::uint64_t>(bad))));
 }
 
 }  // namespace abut::test

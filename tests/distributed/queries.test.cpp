@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Queries of ranks answer as one machine does that has the whole sets: the same pairs, the same contacts, bit for bit, in the
-// same order, however the sets are divided.
+// Queries of ranks answer as one machine does that has the whole sets: the same pairs, the same contacts, bit for bit, in
+// the same order, however the sets are divided.
 
 #include <abut/mpi.hpp>
 
@@ -241,7 +241,8 @@ TEST_CASE("distributed: a failure of one rank reaches all") {
             const std::uint64_t first = cut(division::even, 300, on.rank(), on.size());
             const std::uint64_t last = cut(division::even, 300, on.rank() + 1, on.size());
             const auto fails = [&](std::uint64_t, std::uint64_t id) -> bool {
-                if (on.rank() == bad && (on.size() == 1 || id < first || id >= last)) throw std::range_error("a pair too many");
+                if (on.rank() == bad && (on.size() == 1 || id < first || id >= last))
+                    throw std::range_error("a pair too many");
                 return true;
             };
             const query_options options{.filter = fails};
@@ -258,7 +259,8 @@ TEST_CASE("distributed: a rank that comes late") {
     const auto all = random_scene<float>(300, true, 7);
     const triangle_soup<float> a(part_of(all.triangles, division::even, on.rank(), on.size()));
     const spheres<float> b(part_of(all.spheres, division::even, on.rank(), on.size()));
-    const auto expected = as_global(pairs(serial{}, triangle_soup<float>(all.triangles), spheres<float>(all.spheres)).to_host());
+    const auto expected =
+        as_global(pairs(serial{}, triangle_soup<float>(all.triangles), spheres<float>(all.spheres)).to_host());
     for (int late = 0; late < on.size(); ++late) {
         // Once before the call and once in the middle of it, while others are rounds ahead.
         if (on.rank() == late) std::this_thread::sleep_for(std::chrono::milliseconds(20));

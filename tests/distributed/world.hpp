@@ -39,10 +39,14 @@ inline std::size_t cut(division how, std::size_t n, int rank, int ranks) {
     if (r == 0) return 0;
     if (r == p) return n;
     switch (how) {
-        case division::even: return n * r / p;
-        case division::all_on_first: return n;
-        case division::all_on_last: return 0;
-        case division::uneven: return n * r * r / (p * p) / 2;
+        case division::even:
+            return n * r / p;
+        case division::all_on_first:
+            return n;
+        case division::all_on_last:
+            return 0;
+        case division::uneven:
+            return n * r * r / (p * p) / 2;
     }
     return 0;
 }

@@ -154,10 +154,10 @@ private:
 
 /// @defgroup distributed Many processes
 ///
-/// `abut::distributed` runs a query on the ranks of an MPI communicator: on cores and devices of many machines. Each rank has
-/// a part of each set, and gives that part as the argument, as a set, a view or an index. The set that is asked about is all
-/// parts one after another, in the order of the ranks. So ids are 64 bits wide: those of a rank begin where those of the rank
-/// before end. Answers are those of one machine that has the whole sets.
+/// `abut::distributed` runs a query on the ranks of an MPI communicator: on cores and devices of many machines. Each rank
+/// has a part of each set, and gives that part as the argument, as a set, a view or an index. The set that is asked about is
+/// all parts one after another, in the order of the ranks. So ids are 64 bits wide: those of a rank begin where those of the
+/// rank before end. Answers are those of one machine that has the whole sets.
 ///
 /// `any`, `count`, `pairs`, `for_each_pair` and `contacts` are here. They come with `<abut/mpi.hpp>` and the target
 /// `abut::mpi`. docs/distributed.md says how to use them.
@@ -192,8 +192,8 @@ private:
 template <execution_policy Local = openmp>
 class distributed {
 public:
-    using local_policy = Local;              ///< by which a rank works
-    using memory_space = space_of<Local>;    ///< where parts and results lie
+    using local_policy = Local;            ///< by which a rank works
+    using memory_space = space_of<Local>;  ///< where parts and results lie
 
     /// Duplicates the communicator, so all its ranks call this, between MPI_Init and MPI_Finalize; copies share the
     /// duplicate, and the last one frees it. Throws error if MPI is not initialised, if the communicator is null or has two

@@ -2,8 +2,8 @@
 #pragma once
 
 // impacts of two meshes in motion whose parts lie on many ranks. What comes to a rank are pieces of b: the faces that come
-// near its part of a during the step, with their vertices. The features of a piece have the order of those of the whole part,
-// and are all that a piece adds, so each pair is met once and has the same bits.
+// near its part of a during the step, with their vertices. The features of a piece have the order of those of the whole
+// part, and are all that a piece adds, so each pair is met once and has the same bits.
 
 #include <array>
 #include <cstddef>
@@ -48,9 +48,7 @@ moving_set<mesh<T, Space>> mesh_in_motion(const moving_set<mesh<T, Space>>& set)
 }
 template <class Index>
     requires is_impact_index<Index>
-auto mesh_in_motion(const Index& index) {
-    return index.mesh();
-}
+auto mesh_in_motion(const Index& index) { return index.mesh(); }
 
 /// The boxes of a part during the step, `size` being that of its vertices, which faces may have or not.
 template <class Policy, scalar T, memory_space Space>
@@ -269,8 +267,8 @@ auto impacts_of_parts(const distributed<Local>& on, const X& x, const Y& y, cons
         const auto some = impacts_of_indices<A, false>(local, a, b, options, no_fronts{}, function);
         const global_ids vertices{first_a, parts_b.first_of(rank), ids};
         all.add(local, rank, some.found.size(), [&](global_impact<T>* out, std::uint64_t* keys) {
-            for_each_index(local, some.found.size(), name_impacts_globally<T>{some.found.data(), some.keys.data(), some.key,
-                                                                              vertices, out, keys});
+            for_each_index(local, some.found.size(),
+                           name_impacts_globally<T>{some.found.data(), some.keys.data(), some.key, vertices, out, keys});
         });
     };
     attempt([&] { ask(ranks.rank(), here->second, nullptr); });
@@ -285,11 +283,11 @@ auto impacts_of_parts(const distributed<Local>& on, const X& x, const Y& y, cons
 
 }  // namespace detail
 
-/// All pairs of a vertex and a face, and of two edges, of which the first is in this rank's part of `a` and the second in any
-/// part of `b`, that touch during the step, each once, with the earliest time: a `result` of `global_impact`, 48 bytes each,
-/// in the local policy's memory. Arguments are this rank's parts, as those of `impacts` under the local policy. The mesh that
-/// is asked about is all parts one after another: each has vertices of its own, and vertex numbers begin where those of the
-/// rank before end. Vertices on the border of two parts are in both, and so are edges between them.
+/// All pairs of a vertex and a face, and of two edges, of which the first is in this rank's part of `a` and the second in
+/// any part of `b`, that touch during the step, each once, with the earliest time: a `result` of `global_impact`, 48 bytes
+/// each, in the local policy's memory. Arguments are this rank's parts, as those of `impacts` under the local policy. The
+/// mesh that is asked about is all parts one after another: each has vertices of its own, and vertex numbers begin where
+/// those of the rank before end. Vertices on the border of two parts are in both, and so are edges between them.
 ///
 /// Each rank's list is sorted as `impacts` sorts, unless the options say otherwise. Since it is sorted by kind first, the
 /// lists of all ranks are those of one machine kind by kind. Times are the same bits.

@@ -30,8 +30,8 @@ namespace abut {
 /// The id of no shape in a set of many parts.
 inline constexpr std::uint64_t no_global_id = static_cast<std::uint64_t>(-1);
 
-/// A `neighbor` with an id in a set of many parts. Where there are no shapes at all: `no_global_id`, the point asked about and
-/// infinity.
+/// A `neighbor` with an id in a set of many parts. Where there are no shapes at all: `no_global_id`, the point asked about
+/// and infinity.
 template <scalar T>
 struct global_neighbor {
     std::uint64_t id;  ///< of the shape
@@ -125,7 +125,13 @@ class nearest_of_ranks {
 public:
     nearest_of_ranks(const distributed<Local>& on, const Operand& x, const Queries& queries, const parts_of_set<T>& parts,
                      const std::vector<std::uint64_t>& points_of_rank, const length_unit<T>& unit)
-        : on_(on), local_(on.local()), x_(x), queries_(queries), parts_(parts), points_of_rank_(points_of_rank), unit_(unit) {}
+        : on_(on),
+          local_(on.local()),
+          x_(x),
+          queries_(queries),
+          parts_(parts),
+          points_of_rank_(points_of_rank),
+          unit_(unit) {}
 
     result<global_neighbor<T>, space_of<Local>> find() {
         const own_communicator& ranks = on_.ranks();
@@ -303,8 +309,8 @@ auto nearest_of_parts(const distributed<Local>& on, const X& index, const Points
 
 /// For each of this rank's `points` the nearest shape of all parts: a `result` of `global_neighbor`, in the order of the
 /// points, 24 bytes each in float and 40 in double, in the local policy's memory. `index` is this rank's part, and `points`
-/// this rank's points; both as of `nearest` under the local policy. Points go to ranks whose parts may hold something nearer,
-/// at most 65,536 in a message.
+/// this rank's points; both as of `nearest` under the local policy. Points go to ranks whose parts may hold something
+/// nearer, at most 65,536 in a message.
 ///
 /// The answers are those of one machine. In double, scenes whose coordinates differ by factors beyond 2^250 may differ in
 /// the last bits under a pose.

@@ -155,9 +155,9 @@ struct parcel_room {
 /// or on none.
 ///
 /// It goes in rounds: in round k each rank sends to the k-th rank behind it and receives from the k-th before it. Both know
-/// from the boxes of all parts whether there is a parcel, so ranks that are far apart exchange nothing: goes(from, to) is the
-/// same on both. A parcel is some arrays. `parcels` says how long they are, makes room for the longest once, and then packs
-/// and unpacks them in that room:
+/// from the boxes of all parts whether there is a parcel, so ranks that are far apart exchange nothing: goes(from, to) is
+/// the same on both. A parcel is some arrays. `parcels` says how long they are, makes room for the longest once, and then
+/// packs and unpacks them in that room:
 ///   measure(to) -> sizes             how long the arrays for a rank are, std::array<std::uint64_t, N>; all 0 for no parcel
 ///   make_room(out, in)               for arrays of that many elements at most
 ///   pack(to, sizes)                  writes the arrays for a rank
@@ -180,13 +180,15 @@ void exchange_parcels(const distributed<Local>& on, attempts& attempt, parcel_ro
         if (goes(source, me)) {
             auto& coming = from[static_cast<std::size_t>(source)];
             open.emplace_back();
-            check_mpi(MPI_Irecv(coming.data(), arrays, MPI_UINT64_T, source, tag_sizes, ranks.get(), &open.back()), "MPI_Irecv");
+            check_mpi(MPI_Irecv(coming.data(), arrays, MPI_UINT64_T, source, tag_sizes, ranks.get(), &open.back()),
+                      "MPI_Irecv");
         }
         if (goes(me, target)) {
             auto& going = to[static_cast<std::size_t>(target)];
             attempt([&] { going = parcels.measure(target); });
             open.emplace_back();
-            check_mpi(MPI_Isend(going.data(), arrays, MPI_UINT64_T, target, tag_sizes, ranks.get(), &open.back()), "MPI_Isend");
+            check_mpi(MPI_Isend(going.data(), arrays, MPI_UINT64_T, target, tag_sizes, ranks.get(), &open.back()),
+                      "MPI_Isend");
         }
     }
     check_mpi(MPI_Waitall(static_cast<int>(open.size()), open.data(), MPI_STATUSES_IGNORE), "MPI_Waitall");
@@ -237,17 +239,66 @@ void exchange_parcels(const distributed<Local>& on, attempts& attempt, parcel_ro
     attempt.settle(ranks);
 }
 
+/// Room for shapes and their ids, on their way out and in: what parcels of such have in common.
+template <class Local, class Shape, class Id>
+class shape_rooms {
+public:
+    using sizes = std::array<std::uint64_t, 1>;
+
+    explicit shape_rooms(const Local& local) : local_(local) {}
+    void make_room(const sizes& out, const sizes& in) {
+        out_.emplace(local_, static_cast<std::size_t>(out[0]));
+        in_.emplace(local_, static_cast<std::size_t>(in[0]));
+    }
+    template <class F>
+    void send(const sizes& size, const F& f) {
+        hand_over(*out_, size, f);
+    }
+    template <class F>
+    void receive(const sizes& size, const F& f) {
+        hand_over(*in_, size, f);
+    }
+
+protected:
+    struct room {
+        message_room<Local, Shape> shapes;
+        message_room<Local, Id> ids;
+        room(const Local& local, std::size_t n) : shapes(local, n), ids(local, n) {}
+        void bring_here(const Local& local, std::size_t n) {
+            shapes.bring_here(local, n);
+            ids.bring_here(local, n);
+        }
+        void bring_there(const Local& local, std::size_t n) {
+            shapes.bring_there(local, n);
+            ids.bring_there(local, n);
+        }
+    };
+    const Local& local_;
+    std::optional<room> out_, in_;
+
+private:
+    template <class F>
+    void hand_over(room& all, const sizes& size, const F& f) {
+        f(all.shapes.here(), size[0], shape_type_.get());
+        f(all.ids.here(), size[0], id_type_.get());
+    }
+    message_type<Shape> shape_type_;
+    message_type<Id> id_type_;
+};
+
 /// Shapes that come near the parts of other ranks, with their ids. use(rank, shapes, ids) is called for what comes from a
 /// rank, in memory of the policy's that is used again after it.
 template <class Local, shape_view Shapes, class Use>
-class shape_parcels {
+class shape_parcels : public shape_rooms<Local, typename Shapes::shape_type, std::uint32_t> {
+    using rooms = shape_rooms<Local, typename Shapes::shape_type, std::uint32_t>;
+    using rooms::local_, rooms::out_, rooms::in_;
+
 public:
     using T = typename Shapes::scalar_type;
-    using shape_type = typename Shapes::shape_type;
-    using sizes = std::array<std::uint64_t, 1>;
+    using sizes = typename rooms::sizes;
 
     shape_parcels(const Local& local, const Shapes& shapes, const parts_of_set<T>& looking, const Use& use)
-        : local_(local), shapes_(shapes), looking_(looking), use_(use) {}
+        : rooms(local), shapes_(shapes), looking_(looking), use_(use) {}
 
     [[nodiscard]] sizes measure(int to) const {
         const one_if<comes_near<Shapes>> near{{shapes_, looking_[to]}};
@@ -255,46 +306,23 @@ public:
         size[0] = reduce(local_, shapes_.size(), std::uint64_t{0}, add_up_tallies{}, near);
         return size;
     }
-    void make_room(const sizes& out, const sizes& in) {
-        out_.emplace(local_, static_cast<std::size_t>(out[0]));
-        in_.emplace(local_, static_cast<std::size_t>(in[0]));
-    }
     void pack(int to, const sizes& size) {
         const auto n = static_cast<std::size_t>(size[0]);
         compact(local_, shapes_.size(), comes_near<Shapes>{shapes_, looking_[to]}, out_->ids.there());
         for_each_index(local_, n, pack_shape<Shapes>{shapes_, out_->ids.there(), out_->shapes.there()});
-        out_->ids.bring_here(local_, n);
-        out_->shapes.bring_here(local_, n);
-    }
-    template <class F>
-    void send(const sizes& size, const F& f) {
-        f(out_->shapes.here(), size[0], type_.get());
-        f(out_->ids.here(), size[0], MPI_UINT32_T);
-    }
-    template <class F>
-    void receive(const sizes& size, const F& f) {
-        f(in_->shapes.here(), size[0], type_.get());
-        f(in_->ids.here(), size[0], MPI_UINT32_T);
+        out_->bring_here(local_, n);
     }
     void unpack(int from, const sizes& size) {
         const auto n = static_cast<std::size_t>(size[0]);
-        in_->shapes.bring_there(local_, n);
-        in_->ids.bring_there(local_, n);
-        use_(from, shapes_view<shape_type, space_of<Local>>(in_->shapes.there(), n), in_->ids.there());
+        in_->bring_there(local_, n);
+        using view = shapes_view<typename Shapes::shape_type, space_of<Local>>;
+        use_(from, view(in_->shapes.there(), n), in_->ids.there());
     }
 
 private:
-    struct room {
-        message_room<Local, shape_type> shapes;
-        message_room<Local, std::uint32_t> ids;
-        room(const Local& local, std::size_t n) : shapes(local, n), ids(local, n) {}
-    };
-    const Local& local_;
     Shapes shapes_;
     const parts_of_set<T>& looking_;
     const Use& use_;
-    message_type<shape_type> type_;
-    std::optional<room> out_, in_;
 };
 
 }  // namespace abut::detail

@@ -136,14 +136,15 @@ public:
     template <class Write>
     void add(const Local& local, int rank, std::size_t n, const Write& write) {
         if (n == 0) return;
-        part found{rank, execution::buffer_of<Local, Global>(local, n), execution::buffer_of<Local, std::uint64_t>(local, n)};
+        part found{rank, execution::buffer_of<Local, Global>(local, n),
+                   execution::buffer_of<Local, std::uint64_t>(local, n)};
         write(found.values.data(), found.keys.data());
         synchronize(local);
         parts_.push_back(std::move(found));
     }
 
-    /// All of it; sorted by a, then b, if each part is and `sorted` is. b ascends with the ranks, and the sort by the keys, of
-    /// `bits` bits, is stable.
+    /// All of it; sorted by a, then b, if each part is and `sorted` is. b ascends with the ranks, and the sort by the keys,
+    /// of `bits` bits, is stable.
     result<Global, space_of<Local>> join(const Local& local, bool sorted, int bits) {
         std::sort(parts_.begin(), parts_.end(), [](const part& a, const part& b) { return a.rank < b.rank; });
         if (parts_.size() == 1) return result<Global, space_of<Local>>(std::move(parts_.front().values));
@@ -192,10 +193,9 @@ auto filter_here(const Filter& filter, const global_ids& ids) {
 template <class Filter, traversal Traversal, schedule Schedule>
 auto options_here(const query_options<Filter, Traversal, Schedule>& options, const global_ids& ids) {
     auto filter = filter_here(options.filter, ids);
-    return query_options<decltype(filter), Traversal, Schedule>{options.sorted,      filter,
-                                                                options.most_pairs,  options.resident,
-                                                                options.start_depth, options.scheduling,
-                                                                options.front};
+    return query_options<decltype(filter), Traversal, Schedule>{
+        options.sorted,     filter,       options.most_pairs, options.resident, options.start_depth,
+        options.scheduling, options.front};
 }
 template <class Filter>
 auto options_here(const contact_options<Filter>& options, const global_ids& ids) {
@@ -208,8 +208,9 @@ template <class Local, class X, class Y, class Filter>
 consteval bool can_pair_globally() {
     if constexpr (can_pair<Local, X, Y, keep_all>()) {
         constexpr bool is = std::same_as<Filter, keep_all> || answers<Local, Filter, bool, std::uint64_t, std::uint64_t>();
-        static_assert(is, "abut: a filter of a distributed query is called as filter(a, b) const with two std::uint64_t, and "
-                          "returns bool");
+        static_assert(is,
+                      "abut: a filter of a distributed query is called as filter(a, b) const with two std::uint64_t, and "
+                      "returns bool");
         return is;
     } else {
         return false;
@@ -349,9 +350,9 @@ void visit_all_parts(const distributed<Local>& on, const X& a, const Y& b, const
 /// @addtogroup distributed
 ///@{
 
-/// Whether any shape of `a` touches any shape of `b`: the same answer on all ranks. Arguments are this rank's parts, as those
-/// of `any` under the local policy; a filter is called with two std::uint64_t. A rank that has found a pair looks for no
-/// other; the others learn of it at the end.
+/// Whether any shape of `a` touches any shape of `b`: the same answer on all ranks. Arguments are this rank's parts, as
+/// those of `any` under the local policy; a filter is called with two std::uint64_t. A rank that has found a pair looks for
+/// no other; the others learn of it at the end.
 template <arithmetic A = filtered, execution_policy Local, class X, class Y, class Filter = keep_all,
           traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
 [[nodiscard]] bool any(const distributed<Local>& on, const X& a, const Y& b,
@@ -373,17 +374,18 @@ template <arithmetic A = filtered, execution_policy Local, class X, class Y, cla
                                   const query_options<Filter, Traversal, Schedule>& options = {}) {
     std::uint64_t found = 0;
     if constexpr (detail::can_pair_globally<Local, X, Y, Filter>()) {
-        detail::ask_all_parts(on, a, b, "abut::count", [&](int, const auto& x, const auto& y, const detail::global_ids& ids) {
-            found += count<A>(on.local(), x, y, detail::options_here(options, ids));
-        });
+        detail::ask_all_parts(on, a, b, "abut::count",
+                              [&](int, const auto& x, const auto& y, const detail::global_ids& ids) {
+                                  found += count<A>(on.local(), x, y, detail::options_here(options, ids));
+                              });
         found = detail::sum_of_ranks(on.ranks(), found);
     }
     return found;
 }
 
-/// All pairs of this rank's a-shapes that touch, each once: a `result` of `global_pair`, 16 bytes each, in the local policy's
-/// memory; sorted by a, then b, unless the options say otherwise. Then the lists of all ranks, one after another, are the
-/// list of one machine. Arguments as of `any`.
+/// All pairs of this rank's a-shapes that touch, each once: a `result` of `global_pair`, 16 bytes each, in the local
+/// policy's memory; sorted by a, then b, unless the options say otherwise. Then the lists of all ranks, one after another,
+/// are the list of one machine. Arguments as of `any`.
 template <arithmetic A = filtered, execution_policy Local, class X, class Y, class Filter = keep_all,
           traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
 [[nodiscard]] auto pairs(const distributed<Local>& on, const X& a, const Y& b,
@@ -397,16 +399,17 @@ template <arithmetic A = filtered, execution_policy Local, class X, class Y, cla
     }
 }
 
-/// Calls visitor(global_pair) -> visit once for every pair of this rank's a-shapes that touches, as `for_each_pair` under the
-/// local policy does. `visit::stop` ends the visits of this rank; other ranks go on. Arguments as of `any`.
+/// Calls visitor(global_pair) -> visit once for every pair of this rank's a-shapes that touches, as `for_each_pair` under
+/// the local policy does. `visit::stop` ends the visits of this rank; other ranks go on. Arguments as of `any`.
 template <arithmetic A = filtered, execution_policy Local, class X, class Y, class Visitor, class Filter = keep_all,
           traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
 void for_each_pair(const distributed<Local>& on, const X& a, const Y& b, const Visitor& visitor,
                    const query_options<Filter, Traversal, Schedule>& options = {}) {
     if constexpr (detail::can_pair_globally<Local, X, Y, Filter>()) {
         constexpr bool is = detail::answers<Local, Visitor, visit, global_pair>();
-        static_assert(is, "abut: a visitor of a distributed query is called as visitor(global_pair) const, and returns "
-                          "abut::visit::proceed or abut::visit::stop");
+        static_assert(is,
+                      "abut: a visitor of a distributed query is called as visitor(global_pair) const, and returns "
+                      "abut::visit::proceed or abut::visit::stop");
         if constexpr (is) detail::visit_all_parts<A>(on, a, b, visitor, options);
     }
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Sets that are divided anew among ranks, along a Morton curve: each rank gets as many shapes, and neighbours in space. Parts
-// are then far from each other, and little has to be sent.
+// Sets that are divided anew among ranks, along a Morton curve: each rank gets as many shapes, and neighbours in space.
+// Parts are then far from each other, and little has to be sent.
 
 #include <algorithm>
 #include <array>
@@ -29,8 +29,8 @@ namespace abut {
 /// @ingroup distributed
 template <shape Shape, memory_space Space>
 struct redistributed_part {
-    shapes<Shape, Space> set;           ///< its shapes, along the curve
-    result<std::uint64_t, Space> ids;   ///< of each, its id in the set as it was
+    shapes<Shape, Space> set;          ///< its shapes, along the curve
+    result<std::uint64_t, Space> ids;  ///< of each, its id in the set as it was
 };
 
 namespace detail {
@@ -130,14 +130,18 @@ private:
 
 /// Shapes that go to other ranks for good, along the curve, and their ids.
 template <class Local, shape_view Shapes>
-class part_parcels {
+class part_parcels : public shape_rooms<Local, typename Shapes::shape_type, std::uint64_t> {
+    using rooms = shape_rooms<Local, typename Shapes::shape_type, std::uint64_t>;
+    using room = typename rooms::room;
+    using rooms::local_, rooms::out_, rooms::in_;
+
 public:
     using shape_type = typename Shapes::shape_type;
-    using sizes = std::array<std::uint64_t, 1>;
+    using sizes = typename rooms::sizes;
 
     part_parcels(const Local& local, const Shapes& shapes, const std::uint32_t* order, std::uint64_t first_id,
                  const std::vector<std::uint64_t>& first)
-        : local_(local), shapes_(shapes), order_(order), first_id_(first_id), first_(first), from_(first.size() - 1) {}
+        : rooms(local), shapes_(shapes), order_(order), first_id_(first_id), first_(first), from_(first.size() - 1) {}
 
     [[nodiscard]] sizes measure(int to) const {
         const auto k = static_cast<std::size_t>(to);
@@ -145,30 +149,13 @@ public:
         size[0] = first_[k + 1] - first_[k];
         return size;
     }
-    void make_room(const sizes& out, const sizes& in) {
-        out_.emplace(local_, static_cast<std::size_t>(out[0]));
-        in_.emplace(local_, static_cast<std::size_t>(in[0]));
-    }
     void pack(int to, const sizes& size) {
-        const auto n = static_cast<std::size_t>(size[0]);
         write(to, *out_);
-        out_->shapes.bring_here(local_, n);
-        out_->ids.bring_here(local_, n);
-    }
-    template <class F>
-    void send(const sizes& size, const F& f) {
-        f(out_->shapes.here(), size[0], type_.get());
-        f(out_->ids.here(), size[0], MPI_UINT64_T);
-    }
-    template <class F>
-    void receive(const sizes& size, const F& f) {
-        f(in_->shapes.here(), size[0], type_.get());
-        f(in_->ids.here(), size[0], MPI_UINT64_T);
+        out_->bring_here(local_, static_cast<std::size_t>(size[0]));
     }
     void unpack(int from, const sizes& size) {
         const auto n = static_cast<std::size_t>(size[0]);
-        in_->shapes.bring_there(local_, n);
-        in_->ids.bring_there(local_, n);
+        in_->bring_there(local_, n);
         part came{buffer_of_shapes(local_, n), buffer_of_ids(local_, n)};
         copy(local_, in_->shapes.there(), n, came.shapes.data());
         copy(local_, in_->ids.there(), n, came.ids.data());
@@ -204,12 +191,6 @@ private:
         buffer_of_shapes shapes;
         buffer_of_ids ids;
     };
-    struct room {
-        message_room<Local, shape_type> shapes;
-        message_room<Local, std::uint64_t> ids;
-        room(const Local& local, std::size_t n) : shapes(local, n), ids(local, n) {}
-    };
-
     void write(int to, room& out) {
         const std::uint32_t* const order = order_ + first_[static_cast<std::size_t>(to)];
         const auto n = static_cast<std::size_t>(measure(to)[0]);
@@ -217,14 +198,11 @@ private:
         for_each_index(local_, n, write_global_ids{order, first_id_, out.ids.there()});
     }
 
-    const Local& local_;
     Shapes shapes_;
     const std::uint32_t* order_;
     std::uint64_t first_id_;
     const std::vector<std::uint64_t>& first_;
     std::vector<part> from_;
-    message_type<shape_type> type_;
-    std::optional<room> out_, in_;
 };
 
 template <class Local, class Set>
@@ -265,7 +243,8 @@ auto redistributed(const distributed<Local>& on, const Set& set, const char* fun
     });
     attempt.settle(ranks);
     division.divide(ranks, codes);
-    exchange_parcels(on, attempt, room, [](int, int) { return true; }, *parcels);
+    exchange_parcels(
+        on, attempt, room, [](int, int) { return true; }, *parcels);
 
     redistributed_part<shape_type, space_of<Local>> part;
     attempt([&] {
@@ -286,11 +265,12 @@ auto redistributed(const distributed<Local>& on, const Set& set, const char* fun
 
 }  // namespace detail
 
-/// Divides a set anew: each rank gets as many shapes as the others, or one more, and they are neighbours along a Morton curve
-/// (63 bits) through the middles of their boxes. `set` is this rank's part: a set or a view. Returns a `redistributed_part`:
-/// its new part, shapes as they are (faces become triangles, spheres of one radius spheres), and for each the id that it had,
-/// 8 bytes each, in the local policy's memory. Equal places keep the order of their ids. Other shapes, as queries need less
-/// to be sent then; it does not change answers but for the ids, which are positions in the new parts.
+/// Divides a set anew: each rank gets as many shapes as the others, or one more, and they are neighbours along a Morton
+/// curve (63 bits) through the middles of their boxes. `set` is this rank's part: a set or a view. Returns a
+/// `redistributed_part`: its new part, shapes as they are (faces become triangles, spheres of one radius spheres), and for
+/// each the id that it had, 8 bytes each, in the local policy's memory. Equal places keep the order of their ids. Other
+/// shapes, as queries need less to be sent then; it does not change answers but for the ids, which are positions in the new
+/// parts.
 ///
 /// Besides the result a rank holds its codes twice, 8 bytes each, and its shapes three times while they come.
 ///
