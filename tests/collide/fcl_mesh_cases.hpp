@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
+#pragma once
 
-// FCL's trees of two meshes against pairs of two trees, in double and in general position: a pair on which they differ is
-// left out, and counted, if moving one triangle by `margin` changes the exact answer, since FCL is wrong in exact contact.
-
-#include "support/fcl_model.hpp"
+// FCL's trees of two meshes against pairs of two trees on every policy, in double and in general position: a pair on which
+// they differ is left out, and counted, if moving one triangle by `margin` changes the exact answer, since FCL is wrong in
+// exact contact.
 
 #include <algorithm>
 #include <cstdio>
@@ -15,10 +15,11 @@
 #include "collide/mesh_cases.hpp"
 #include "io/support.hpp"
 #include "support/catch.hpp"
+#include "support/fcl_model.hpp"
 
 namespace abut::test {
 
-namespace {
+namespace fcl_runs {
 
 struct comparison {
     int scenes = 0, meet = 0;
@@ -30,7 +31,7 @@ struct comparison {
     }
 };
 
-bool is_near_contact(const triangle<double>& a, const triangle<double>& b, double margin) {
+inline bool is_near_contact(const triangle<double>& a, const triangle<double>& b, double margin) {
     const bool now = intersects<exact>(a, b);
     for (const double step : {-margin, margin}) {
         for (const vec3<double>& v : {vec3<double>{step, 0, 0}, vec3<double>{0, step, 0}, vec3<double>{0, 0, step}}) {
@@ -41,10 +42,11 @@ bool is_near_contact(const triangle<double>& a, const triangle<double>& b, doubl
 }
 
 /// `a` where it is and `b` under a pose, which FCL gets in its vertices.
-void compare(const mesh<double>& a, const fcl_model& model_a, const mesh<double>& b, const rigid<double>& pose,
-             double margin, comparison& all) {
+template <class Policy>
+void compare(const Policy& on, const mesh<double>& a, const fcl_model& model_a, const mesh<double>& b,
+             const rigid<double>& pose, double margin, comparison& all) {
     const std::vector<index_pair> theirs = fcl_pairs(model_a, make_fcl_model(b.view(), pose));
-    const auto ours = to_host(pairs(serial{}, make_bvh(serial{}, a), posed(make_bvh(serial{}, b), pose)));
+    const auto ours = to_host(pairs(on, make_bvh(on, a), posed(make_bvh(on, b), pose)));
     std::vector<index_pair> differing;
     std::set_symmetric_difference(ours.begin(), ours.end(), theirs.begin(), theirs.end(), std::back_inserter(differing));
     for (const index_pair& p : differing) {
@@ -65,11 +67,13 @@ struct poses {
     std::size_t least_hits;
 };
 
-comparison compare_under(const poses& all, const char* name, const mesh<double>& a, const mesh<double>& b) {
+template <class Policy>
+comparison compare_under(const Policy& on, const poses& all, const char* name, const mesh<double>& a,
+                         const mesh<double>& b) {
     comparison sum;
     const fcl_model model = make_fcl_model(a.view());
     for (std::uint64_t k = 0; k < all.count; ++k) {
-        compare(a, model, b, pose_within<double>(all.seed, k, all.lower, all.upper), all.margin, sum);
+        compare(on, a, model, b, pose_within<double>(all.seed, k, all.lower, all.upper), all.margin, sum);
     }
     sum.print(name);
     CHECK(sum.meet > all.least_that_meet);
@@ -79,28 +83,28 @@ comparison compare_under(const poses& all, const char* name, const mesh<double>&
     return sum;
 }
 
-}  // namespace
+}  // namespace fcl_runs
 
-TEST_CASE("meshes against meshes: FCL finds the same pairs in general position") {
+/// FCL finds the same pairs in general position.
+template <class Policy>
+void check_fcl_shapes(const Policy& on) {
     const torus<double> ring(48, 24, 2, 0.7);
-    compare_under({20261201, 60, {-2.5, -2.5, -2.5}, {2.5, 2.5, 2.5}, 1e-9, 40, 6000}, "torus and ball",
-                  {ring.vertices, ring.faces}, as_mesh(ball_surface<double>(4, 1.5)));
+    fcl_runs::compare_under(on, {20261201, 60, {-2.5, -2.5, -2.5}, {2.5, 2.5, 2.5}, 1e-9, 40, 6000}, "torus and ball",
+                            {ring.vertices, ring.faces}, as_mesh(ball_surface<double>(4, 1.5)));
 }
 
-TEST_CASE("meshes against meshes: FCL finds the same pairs of its own robot and room") {
+/// And of its own robot and room, and of two scans.
+template <class Policy>
+void check_fcl_files(const Policy& on) {
     const auto folder = io_test::meshes();
     if (!folder) ABUT_SKIP("data", "the folder of real meshes is not there (ABUT_DATA)");
     const auto env = io::read_mesh<double>(*folder / "env.obj"), rob = io::read_mesh<double>(*folder / "rob.obj");
-    const comparison all = compare_under({20261202, 400, {-3000, -3000, 0}, {3000, 3000, 3000}, 1e-6, 100, 5000},
-                                         "env.obj and rob.obj", env, rob);
+    const fcl_runs::comparison all = fcl_runs::compare_under(
+        on, {20261202, 400, {-3000, -3000, 0}, {3000, 3000, 3000}, 1e-6, 100, 5000}, "env.obj and rob.obj", env, rob);
     CHECK(all.meet < all.scenes);
-}
-
-TEST_CASE("meshes against meshes: FCL finds the same pairs of two scans") {
-    const auto folder = io_test::meshes();
-    if (!folder) ABUT_SKIP("data", "the folder of real meshes is not there (ABUT_DATA)");
     const auto scan = io::read_mesh<double>(*folder / "armadillo_2766.ply");
-    compare_under({20261203, 40, {-0.4, -0.4, -0.4}, {0.4, 0.4, 0.4}, 1e-9, 20, 5000}, "armadillo_2766.ply", scan, scan);
+    fcl_runs::compare_under(on, {20261203, 40, {-0.4, -0.4, -0.4}, {0.4, 0.4, 0.4}, 1e-9, 20, 5000}, "armadillo_2766.ply",
+                            scan, scan);
 }
 
 }  // namespace abut::test

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
+#pragma once
 
 // Random runs: two random meshes of 1 to 200 triangles under random poses, a tree over each of any builder, built or
-// refitted, in any layout, and a query of any kind and traversal, on either policy of the host. No pair is lost and none is
-// made up: the truth is a plain loop over `intersects<exact>`. Run k of a seed is the same run everywhere.
-
-#include "collide/mesh_cases.hpp"
+// refitted, in any layout, and a query of any kind and traversal, on every policy. No pair is lost and none is made up: the
+// truth is a plain loop over `intersects<exact>`. Run k of a seed has the same scene everywhere.
 
 #include <algorithm>
 #include <concepts>
@@ -14,33 +13,36 @@
 #include <utility>
 #include <vector>
 
+#include "collide/mesh_cases.hpp"
 #include "support/catch.hpp"
 #include "support/samples.hpp"
 
 namespace abut::test {
 
-namespace {
+namespace random_runs {
 
 // --- what a run draws --------------------------------------------------------------------------------------------------
 
 enum class mesh_kind : int { soup, tangle, lattice, ball, ring, chain, copies };
-constexpr const char* kind_names[] = {"soup", "tangle", "lattice", "ball", "ring", "chain", "copies"};
-constexpr int kinds = 7;
+inline constexpr const char* kind_names[] = {"soup", "tangle", "lattice", "ball", "ring", "chain", "copies"};
+inline constexpr int kinds = 7;
 
-constexpr std::pair<const char*, bvh_options> builders[] = {
+/// The last two are not for devices.
+inline constexpr std::pair<const char*, bvh_options> builders[] = {
     {"linear", {}},
     {"linear, 30 bits", {.morton_bits = 30}},
     {"linear, 63 bits", {.morton_bits = 63}},
+    {"ploc", {.builder = bvh_builder::ploc}},
     {"mean_split", {.builder = bvh_builder::mean_split}},
     {"sah", {.builder = bvh_builder::sah}},
-    {"ploc", {.builder = bvh_builder::ploc}},
 };
-constexpr const char* layouts[] = {"standard", "quantised", "leafless", "wide", "oriented", "spheres", "18-DOPs"};
+inline constexpr int device_builders = 4;
+inline constexpr const char* layouts[] = {"standard", "quantised", "leafless", "wide", "oriented", "spheres", "18-DOPs"};
 /// From here on layouts are for both sides of a query, and compiled for these alone.
-constexpr int first_for_both = 3;
-constexpr const char* questions[] = {"pairs",    "unsorted",  "exact",        "count",     "any",
-                                     "one tree", "one first", "larger first", "alternate", "breadth first"};
-constexpr int one_tree = 5;
+inline constexpr int first_for_both = 3;
+inline constexpr const char* questions[] = {"pairs",    "unsorted",  "exact",        "count",     "any",
+                                            "one tree", "one first", "larger first", "alternate", "breadth first"};
+inline constexpr int one_tree = 5;
 
 template <auto& Names>
 int draw_one_of(draws& d) {
@@ -130,12 +132,17 @@ random_scene<T> make_scene(draws& d) {
 
 // --- how it is asked ---------------------------------------------------------------------------------------------------
 
+/// Each layout and traversal is a query to compile anew. The walks of the serial policy are those of openmp, and on a device
+/// tests/cuda has tests of them: there the standard layout and the default traversal do.
+template <class Policy>
+inline constexpr bool has_all_forms = std::same_as<Policy, openmp>;
+
 struct tree_kind {
     int builder, layout;
     bool refitted;
 
-    explicit tree_kind(draws& d)
-        : builder(draw_one_of<builders>(d)), layout(draw_one_of<layouts>(d)), refitted(d.below(4) == 0) {}
+    tree_kind(draws& d, int builders_there)
+        : builder(draw_one_of<builders>(d) % builders_there), layout(draw_one_of<layouts>(d)), refitted(d.below(4) == 0) {}
     [[nodiscard]] std::string text() const {
         return std::string(builders[builder].first) + ", " + layouts[layout] + (refitted ? ", refitted" : "");
     }
@@ -145,9 +152,10 @@ struct tree_kind {
 template <class Policy, scalar T, class Use>
 void with_tree(const Policy& on, const mesh<T>& shape, const tree_kind& kind, const Use& use) {
     const bvh_options& options = builders[kind.builder].second;
-    const auto tree =
-        kind.refitted ? refit(on, make_bvh(on, scaled(shape, T(-1)), options), shape) : make_bvh(on, shape, options);
-    if constexpr (std::same_as<Policy, serial>) {  // the walks are the openmp policy's: one layout will do
+    const auto set = copy_to(on, shape);
+    const auto tree = kind.refitted ? refit(on, make_bvh(on, copy_to(on, scaled(shape, T(-1))), options), set)
+                                    : make_bvh(on, set, options);
+    if constexpr (!has_all_forms<Policy>) {
         use(tree);
     } else {
         if (kind.layout == 0) use(tree);
@@ -174,9 +182,9 @@ inline constexpr bool is_for_both =
 template <class X, class Y>
 inline constexpr bool may_meet = has_layout<X, typename layout_of<Y>::type> || (!is_for_both<X> && !is_for_both<Y>);
 
-/// Traversals but the default are for posed trees of the openmp policy, and follow the other questions.
+/// Traversals but the default are for posed trees, and follow the other questions.
 template <class Policy, class X>
-inline constexpr bool may_choose = std::same_as<Policy, openmp> && is_posed<X>;
+inline constexpr bool may_choose = has_all_forms<Policy> && is_posed<X>;
 
 template <traversal Traversal, class Policy, class X, class Y>
 bool is_walked_right(const Policy& on, const X& x, const Y& y, const pair_list& expected) {
@@ -210,14 +218,15 @@ bool is_right(const Policy& on, const X& x, const Y& y, int question, const pair
 
 template <class Policy, scalar T>
 bool run(const Policy& on, draws& d, const random_scene<T>& s, const pair_list& expected, std::string& told) {
-    tree_kind of_a(d), of_b(d);
-    if (std::same_as<Policy, serial>) of_a.layout = of_b.layout = 0;
+    constexpr int builders_there = host_policy<Policy> ? static_cast<int>(std::size(builders)) : device_builders;
+    tree_kind of_a(d, builders_there), of_b(d, builders_there);
+    if (!has_all_forms<Policy>) of_a.layout = of_b.layout = 0;
     if (of_a.layout >= first_for_both || of_b.layout >= first_for_both) {
         of_a.layout = of_b.layout = std::max(of_a.layout, of_b.layout);
     }
     int question = draw_one_of<questions>(d);
     const bool in_one_frame = s.a.pose == rigid<T>{} && s.b.pose == rigid<T>{} && d.below(2) == 0;
-    if (question > one_tree && (std::same_as<Policy, serial> || in_one_frame)) question = 0;
+    if (question > one_tree && (!has_all_forms<Policy> || in_one_frame)) question = 0;
     if (question > one_tree) of_a.layout = of_b.layout = 0;
     if (question > 1 && question < one_tree && (of_a.layout != 0 || of_b.layout != 0)) question = 0;
     told += std::string(questions[question]) + "; a: " + kind_names[static_cast<int>(s.kind_a)] + ", " + of_a.text() +
@@ -236,10 +245,12 @@ bool run(const Policy& on, draws& d, const random_scene<T>& s, const pair_list& 
     return right;
 }
 
-}  // namespace
+}  // namespace random_runs
 
-TEMPLATE_TEST_CASE("meshes against meshes: no pair is lost in random runs", "", float, double) {
-    using T = TestType;
+/// ask(d, s, expected, told) has a scene asked on a policy, says how in `told`, and returns whether the answer is right.
+template <scalar T, class Ask>
+void check_random_runs(const Ask& ask) {
+    using namespace random_runs;
     constexpr std::uint64_t stream = sizeof(T) == 4 ? 87 : 88;
     const std::uint64_t runs = sample_count() / 10;  // 500, or what ABUT_SAMPLES says
     std::uint64_t meet = 0, hits = 0;
@@ -247,10 +258,8 @@ TEMPLATE_TEST_CASE("meshes against meshes: no pair is lost in random runs", "", 
         draws d(seed, stream, k);
         const random_scene<T> s = make_scene<T>(d);
         const pair_list expected = exact_pairs(s.a, s.b);
-        const int threads = d.below(4);
-        std::string told = threads == 0 ? "serial; " : "openmp, " + std::to_string(threads) + " threads; ";
-        const bool right =
-            threads == 0 ? run(serial{}, d, s, expected, told) : run(openmp{.threads = threads}, d, s, expected, told);
+        std::string told;
+        const bool right = ask(d, s, expected, told);
         meet += expected.empty() ? 0 : 1;
         hits += expected.size();
         CAPTURE(seed, stream, k, told, s.a.shape.size(), s.b.shape.size(), expected.size());
