@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The tables of bench/extremes.cpp and bench/extremes.cu: answers and worst costs over the number range."""
+"""The tables of bench/extremes.cpp and bench/extremes.cu, answers and worst costs over the number range, and of
+bench/trade_scenes.cpp, what whole scenes lose to `fast`."""
 
 from report_core import *  # noqa: F403
 
@@ -59,3 +60,44 @@ def extremes_cpu(results):
 def extremes_cuda(results):
     r = results["cuda/extremes"]
     return ["Single pairs:", ""] + pairs_at_extremes(r) + ["Whole queries:", ""] + scenes_at_extremes(r) + made_on(r)
+
+
+@in_table("trade-scenes")
+def trade_scenes(results):
+    r = results["cpu/trade_scenes"]
+    rows = []
+    for name in r.names("scene/") + r.names("ccd/"):
+        if not name.endswith("/float"):
+            continue
+        what = "pairs" if name.startswith("scene/") else "impacts"
+        cells = []
+        for at in (name, name.removesuffix("float") + "double"):
+            found, off = r.get(at, what), r.get(at, "time_error")
+            cells += [whole(found), whole(r.get(at, "lost")), f"{100 * r.get(at, 'lost') / found:.1f}", whole(r.get(at, "invented")),
+                      "" if off is None else f"{off:.1g}"]
+        rows.append([", ".join(name.split("/")[1:-1]).replace("_", " "), what] + cells)
+    head = ["scene", ""] + [f"{s}{c}" for s in ("", "double: ") for c in ("there are", "lost", "%", "invented", "times off by")]
+    return ["What `fast` makes of whole scenes, in float and then in double; times are parts of the step:", ""] + \
+        table(head, rows, 2) + made_on(r)
+
+
+@in_table("trade-frames")
+def trade_frames(results):
+    r = results["cpu/trade_scenes"]
+
+    def frame(value):
+        return "never" if value < 0 else whole(value)
+
+    rows = []
+    for name in r.names("frames/"):
+        _, scene, scalar = name.split("/")
+        row = r.rows[name]
+        off, apart = row.get("time_error"), row.get("apart")
+        rows.append([scene, scalar, whole(row["frames"]), whole(row["frames_that_differ"]), frame(row["first_that_differs"]),
+                     whole(row.get("pairs", row.get("impacts"))), whole(row["lost"]), whole(row["invented"]), whole(row["most_in_a_frame"]),
+                     "" if off is None else f"{off:.1g}", "" if apart is None else frame(row["apart_after"]),
+                     "" if apart is None else f"{100 * apart:.0f}", whole(row.get("touch_at_end")), whole(row.get("filtered_touch_at_end"))])
+    head = ["what moves", "", "frames", "differ", "first", "contacts or impacts", "lost", "invented", "most in a frame",
+            "times off by, of a frame", "two cloths differ after frame", "apart at the end, % of a side", "pairs through the ball: `fast`",
+            "`filtered`"]
+    return ["The same of scenes that move:", ""] + table(head, rows, 2) + made_on(r)

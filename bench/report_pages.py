@@ -31,9 +31,9 @@ def cost_spheres(results):
             rows.append([machine(r) if index == "bvh" else "", name, shown(r.get(f"build/{index}/{policy}")),
                          shown(r.get(f"pairs/{index}/{policy}/{SPHERES}")), shown(r.get(f"all/{index}/{policy}")),
                          quotient(*both)])
-    return paragraph(f"""The scene of Lee and Hsieh 2019, who took {whole(quick)} ms on a GPU and {slow / 60000:.1f} minutes by brute
-        force on one core: a torus of {TRIANGLES:,} triangles and {SPHERES:,} spheres of radius 3, of which
-        {whole(cpu.get('all/bvh/serial', 'pairs'))} pairs touch. Float, `filtered` (so exact), sorted pairs.""") + \
+    return paragraph(f"""**Spheres and a mesh.** A torus of {TRIANGLES:,} triangles and {SPHERES:,} spheres of radius 3, the scene of Lee and
+        Hsieh 2019. {whole(cpu.get('all/bvh/serial', 'pairs'))} pairs touch. Theirs took {whole(quick)} ms on a GPU, and
+        {slow / 60000:.1f} minutes by brute force on one core. The table is of sorted pairs in float, by `filtered`: they are exact.""") + \
         table(["machine", "index", "build, ms", "query, ms", "both, ms", "`filtered` over `fast`"], rows, 2)
 
 
@@ -49,11 +49,11 @@ def cost_triangles(results):
 
     others = "".join(f", {name} {both(p, True)}" for p, name in (("cgal", "CGAL's exact predicates"),
                                                                  ("fcl", "FCL")) if f"pair/{p}/double/20" in cpu.rows)
-    return paragraph(f"""One triangle against 20 million (Maffina 2012: {whole(theirs['one_core_ms'][n])} ms on one core,
-        {whole(theirs['gpu_ms'][n])} ms on a GTX 590), float, 1 % hits, exact: `count` takes {shown(count)} ms on the
-        {cuda.context['device']}, where reading the same bytes takes {shown(cuda.get(f'read/float/cuda/{n}'))} ms, and `filtered`
-        costs {times} times `fast`. One core decides {both('filtered')} million distinct pairs a second with 1.7 % hits (20 %),
-        `fast` {both('fast')}{others}, in one run.""")
+    return paragraph(f"""**One triangle against 20 million,** in float, with 1 % hits. `count` takes {shown(count)} ms on the
+        {cuda.context['device']}, and {times} times what `fast` takes. Reading the same bytes takes
+        {shown(cuda.get(f'read/float/cuda/{n}'))} ms. Maffina 2012 took {whole(theirs['gpu_ms'][n])} ms on a GTX 590, and
+        {whole(theirs['one_core_ms'][n])} ms on one core. Pairs that all differ, with 1.7 % hits (with 20 %): one core decides
+        {both('filtered')} million a second. In the same run: `fast` {both('fast')}{others}.""")
 
 
 @in_table("cost-meshes")
@@ -61,15 +61,15 @@ def cost_meshes(results):
     cpu, layouts, cuda = results["cpu/meshes"], results["cpu/builders"], results["cuda/meshes"]
     batch = "batch/1000/cuda"
     embree = [cpu.get(f"unsorted/embree_{q}/serial") for q in ("low", "medium")]
-    peers_say = f"Embree with the same test at its leaves {shown(min(embree))}, unsorted; " if all(embree) else ""
+    peers_say = f" Embree with the same test at its leaves takes {shown(min(embree))} on one core, unsorted." if all(embree) else ""
     if cpu.get("unsorted/fcl_obb/serial"):
-        peers_say += f"FCL {shown(cpu.get('unsorted/fcl_obb/serial'))}; "
-    return paragraph(f"""Two meshes of 345,944 triangles with a BVH each: {whole(cpu.get('pairs/baked/serial', 'pairs'))} pairs, sorted and
-        exact, take {shown(cpu.get('pairs/baked/serial'))} ms on one core, {shown(layouts.get('pairs/baked/sah/wide'))} with wide
-        trees ({peers_say[:-2]}), and {shown(cuda.get('pairs/baked/cuda'))} ms on the {cuda.context['device']}. A tree takes
-        {shown(cpu.get('build/bvh/serial'))} and {shown(cuda.get('build/bvh/cuda/345944'))} ms to build. 1,000 posed pairs of meshes of
-        2,766 triangles, in one call on the device, take {shown(cuda.get(batch))} ms and have {whole(cuda.get(batch, 'pairs'))} pairs of
-        triangles.""")
+        peers_say += f" FCL takes {shown(cpu.get('unsorted/fcl_obb/serial'))}."
+    return paragraph(f"""**Two meshes** of 345,944 triangles with a tree each have {whole(cpu.get('pairs/baked/serial', 'pairs'))} pairs. Sorted and
+        exact, they take {shown(cpu.get('pairs/baked/serial'))} ms on one core, {shown(layouts.get('pairs/baked/sah/wide'))} with wide
+        trees, and {shown(cuda.get('pairs/baked/cuda'))} on the {cuda.context['device']}.{peers_say} A tree takes
+        {shown(cpu.get('build/bvh/serial'))} ms to build on the core, and {shown(cuda.get('build/bvh/cuda/345944'))} on the device. 1,000
+        posed pairs of meshes of 2,766 triangles, in one call on the device, take {shown(cuda.get(batch))} ms. They have
+        {whole(cuda.get(batch, 'pairs'))} pairs of triangles.""")
 
 
 @in_table("cost-wrong")
@@ -78,21 +78,22 @@ def cost_wrong(results):
     for page, what in (("sphere-triangle.md", "spheres and triangles"), ("triangle-triangle.md", "two triangles")):
         rows = [row for both in from_tests(page).values() for row in both.values()]
         wrong, pairs = sum(int(r["wrong"]) for r in rows), sum(int(r["pairs"]) for r in rows)
-        parts.append(f"of {pairs / 1e6:,.0f} million pairs of {what} ({len(rows) // 2} families, [table](docs/results/{page})) {wrong}")
+        parts.append(f"{wrong} of {pairs / 1e6:,.0f} million pairs of {what} ([{len(rows) // 2} families](docs/results/{page}))")
     r = results["cpu/trade"]
     at = [r.get(f"triangle_triangle/touching/{s}/fast", "wrong_per_million") for s in SCALARS]
-    return paragraph(f"""Pairs that were built to break it, in float and double, were each decided by rational arithmetic as well.
-        `filtered` and `exact` got wrong: {'; '.join(parts)}. `fast` errs where shapes nearly touch: for two triangles one rounding
-        step from contact in {at[0] / 1e4:.0f} % (float) and {at[1] / 1e4:.0f} % (double) of pairs.""")
+    return paragraph(f"""**Wrong answers.** Pairs were built to break the arithmetic, in float and double, and compared with rational numbers.
+        `filtered` and `exact` decided {' and '.join(parts)} wrongly. `fast` errs where shapes nearly touch. Of two triangles one
+        rounding step from contact it is wrong in {at[0] / 1e4:.0f} % (float) and {at[1] / 1e4:.0f} % (double).""")
 
 
 @in_table("cost-motion")
 def cost_motion(results):
     cpu, cuda = results["cpu/motion"], results["cuda/motion"]
     at = next(s for s in motion_scenes(cuda) if s.startswith("cloth-ball/"))
-    return paragraph(f"""In motion: a cloth of {whole(cuda.get(f'{at}/build', 'faces'))} triangles that folds over a ball, one step of a
-        simulation against itself, {whole(cuda.get(f'{at}/impacts', 'impacts'))} impacts with exact times: {shown(cpu.get('stage/cloth-ball/float/self_impacts'))}
-        ms on one core, {shown(cuda.get(f'{at}/frame'))} ms with the refit on the {cuda.context['device']}.""")
+    return paragraph(f"""**In motion.** A cloth of {whole(cuda.get(f'{at}/build', 'faces'))} triangles folds over a ball. One step of it against
+        itself has {whole(cuda.get(f'{at}/impacts', 'impacts'))} impacts. With their times they take
+        {shown(cpu.get('stage/cloth-ball/float/self_impacts'))} ms on one core, and {shown(cuda.get(f'{at}/frame'))} ms, with the refit, on
+        the {cuda.context['device']}.""")
 
 
 # --- docs/choosing.md -------------------------------------------------------------------------------------------------------

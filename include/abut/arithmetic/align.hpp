@@ -5,6 +5,7 @@
 // homogeneous polynomial does not see that power, so it never has to be put back. Numbers are taken apart by their bit
 // patterns: no operation here is floating-point arithmetic on them, so flush-to-zero modes and fast-math change nothing.
 
+#include <cstddef>
 #include <cstdint>
 
 #include <abut/arithmetic/arithmetic.hpp>
@@ -81,15 +82,15 @@ ABUT_HD constexpr bool is_subnormal(T x) {
 }
 
 /// Whether any of the numbers is neither zero nor normal.
-template <scalar T, int V>
+template <scalar T, std::size_t V>
 ABUT_HD constexpr bool any_subnormal(const T (&value)[V]) {
     bool any = false;
-    for (int i = 0; i < V; ++i) any |= is_subnormal(value[i]);  // all of them: no branch for each
+    for (int i = 0; i < int{V}; ++i) any |= is_subnormal(value[i]);  // all of them: no branch for each
     return any;
 }
 
 /// `V` finite numbers and the power of two, 2^low, that all are multiples of.
-template <int V>
+template <std::size_t V>
 struct aligned {
     binary_parts part[V];  ///< of each number
     int low;               ///< the largest power of two that divides all numbers
@@ -98,7 +99,7 @@ struct aligned {
     /// Takes the numbers apart and finds the span of their bits.
     template <scalar T>
     ABUT_HD explicit constexpr aligned(const T (&value)[V]) : part{}, low{1 << 20}, high{-(1 << 20)} {
-        for (int i = 0; i < V; ++i) {
+        for (int i = 0; i < int{V}; ++i) {
             const binary_parts p = take_apart(value[i]);
             part[i] = p;
             if (p.mantissa == 0) continue;

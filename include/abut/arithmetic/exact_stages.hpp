@@ -7,6 +7,7 @@
 // and how many of the values' first triples are `points`, which may all be moved by one vector: then it is also asked in
 // words.
 
+#include <cstddef>
 #include <cstdint>
 
 #include <abut/arithmetic/align.hpp>
@@ -23,7 +24,7 @@ namespace abut {
 namespace detail {
 
 /// Numbers in a row, as a predicate's `holds` takes them.
-template <scalar T, int V>
+template <scalar T, std::size_t V>
 struct row_of {
     T value[V];
 };
@@ -51,17 +52,17 @@ ABUT_HD constexpr auto in_a_row(const vec3<T>& first, const Rest&... rest) {
 
 /// In integers of `L` limbs a degree. Coordinates of up to 64 L - 4 bits leave headroom: a sum of three products of
 /// differences (a bit wider each) has degree 2 and at most 128 L - 4 bits, and it is down from there for higher degrees.
-template <class Predicate, int L, int V>
+template <class Predicate, int L, std::size_t V>
 ABUT_HD constexpr bool holds_in_limbs(const aligned<V>& x) {
     wide_int<L> value[V]{};
-    for (int i = 0; i < V; ++i) value[i] = x.template integer<L>(i);
+    for (int i = 0; i < int{V}; ++i) value[i] = x.template integer<L>(i);
     return Predicate::holds(value);
 }
 
 namespace detail {
 
 /// Numbers as integers of one unit, below 2^59 in magnitude.
-template <int V>
+template <std::size_t V>
 struct short_integers {
     std::int64_t at[V];
     std::uint64_t digits;  ///< those that are 1 in the magnitude of any
@@ -74,12 +75,12 @@ struct short_integers {
         using word = typename format::word;
         constexpr int fraction = format::digits - 1;
         word exponent[V]{}, most = 1;
-        for (int i = 0; i < V; ++i) {
+        for (int i = 0; i < int{V}; ++i) {
             exponent[i] = static_cast<word>(__builtin_bit_cast(word, value[i]) << 1) >> (fraction + 1);
             most = exponent[i] > most ? exponent[i] : most;
         }
         std::uint64_t lost = 0;
-        for (int i = 0; i < V; ++i) {
+        for (int i = 0; i < int{V}; ++i) {
             const auto bits = __builtin_bit_cast(word, value[i]);
             const word normal = exponent[i] != 0, below = most - exponent[i] - (1 - normal), down = below < 63 ? below : 63;
             const std::uint64_t mantissa = (bits & ((word{1} << fraction) - 1)) | normal << fraction;
@@ -104,7 +105,7 @@ struct short_integers {
     ABUT_HD constexpr void move_first_point_to_0() {
         digits = 0;
         for (int i = 3 * Points - 1; i >= 0; --i) at[i] -= at[i % 3];
-        for (int i = 0; i < V; ++i) digits |= static_cast<std::uint64_t>(at[i] < 0 ? -at[i] : at[i]);
+        for (int i = 0; i < int{V}; ++i) digits |= static_cast<std::uint64_t>(at[i] < 0 ? -at[i] : at[i]);
     }
 };
 
@@ -125,7 +126,7 @@ inline constexpr int word_digits<Predicate> = Predicate::degree <= 4 ? 30 : 19;
 /// The stage in registers: `unknown` only where the exponents span more than 124 bits. Not inlined: it is rarely reached,
 /// and every kernel that decides would else be compiled with its thousands of instructions once more. Numbers that are few
 /// digits apart need no wide integers.
-template <class Predicate, scalar T, int V>
+template <class Predicate, scalar T, std::size_t V>
 ABUT_NOINLINE ABUT_HD constexpr verdict decide_in_limbs(const T (&value)[V]) {
     constexpr int word_digits = detail::word_digits<Predicate>;
     detail::short_integers<V> x(value);
@@ -142,16 +143,16 @@ ABUT_NOINLINE ABUT_HD constexpr verdict decide_in_limbs(const T (&value)[V]) {
         }
     }
     wide_int<1> limb[V]{};
-    for (int i = 0; i < V; ++i) limb[i] = wide_int<1>::shifted(x.at[i], 0);
+    for (int i = 0; i < int{V}; ++i) limb[i] = wide_int<1>::shifted(x.at[i], 0);
     return to_verdict(Predicate::holds(limb));
 }
 
 /// The last stage: any finite values, through sums that are never added up.
-template <class Predicate, scalar T, int V>
+template <class Predicate, scalar T, std::size_t V>
 ABUT_HD constexpr bool decide_at_any_span(const T (&value)[V]) {
     const aligned<V> x(value);
     sparse_sum<T, 1, 1> sum[V]{};
-    for (int i = 0; i < V; ++i) sum[i] = sparse_number<T>(x, i);
+    for (int i = 0; i < int{V}; ++i) sum[i] = sparse_number<T>(x, i);
     return Predicate::holds(sum);
 }
 

@@ -6,6 +6,7 @@
 // compilers, and nvcc, which allows no vectors in functions that may run on a device, get four registers of one number each;
 // results are the same, since each lane is computed like a number on its own.
 
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
@@ -30,7 +31,7 @@ struct register_of {
 /// Answers of four comparisons.
 template <class Answer, int Registers>
 struct lane_mask {
-    Answer at[Registers];
+    Answer at[std::size_t{Registers}];
 
     ABUT_INLINE ABUT_HD friend lane_mask operator&(lane_mask a, const lane_mask& b) {
         for (int i = 0; i < Registers; ++i) a.at[i] = static_cast<Answer>(a.at[i] & b.at[i]);
@@ -52,7 +53,7 @@ struct lanes {
     static constexpr int in_register = static_cast<int>(sizeof(Register) / sizeof(T)), registers = 4 / in_register;
     using mask = lane_mask<decltype(Register{} < Register{}), registers>;
 
-    Register at[registers];
+    Register at[std::size_t{registers}];
 
     /// Four numbers that lie one after another.
     ABUT_INLINE ABUT_HD static lanes load(const T* from) {
@@ -99,11 +100,11 @@ ABUT_INLINE ABUT_HD lanes<T, Register> absolute(lanes<T, Register> x) {
 }
 
 /// Bit 4 r + k is lane k of row r.
-template <class Answer, int Registers, int Rows>
+template <class Answer, int Registers, std::size_t Rows>
 ABUT_INLINE ABUT_HD unsigned bits_of(const lane_mask<Answer, Registers> (&rows)[Rows]) {
     if constexpr (Registers == 4) {
         unsigned bits = 0;
-        for (int r = 0; r < Rows; ++r) {
+        for (int r = 0; r < int{Rows}; ++r) {
             for (int k = 0; k < 4; ++k) bits |= static_cast<unsigned>(rows[r].at[k] != 0) << (4 * r + k);
         }
         return bits;
@@ -111,7 +112,7 @@ ABUT_INLINE ABUT_HD unsigned bits_of(const lane_mask<Answer, Registers> (&rows)[
         // Each lane keeps its own bit, and then all of them are joined; g++ knows no shorter way to a number than this one.
         constexpr int in_register = 4 / Registers;
         Answer all{};
-        for (int r = 0; r < Rows; ++r) {
+        for (int r = 0; r < int{Rows}; ++r) {
             for (int i = 0; i < Registers; ++i) {
                 Answer own{};
                 for (int k = 0; k < in_register; ++k) own[k] = 1 << (4 * r + in_register * i + k);

@@ -8,6 +8,7 @@
 // by then: in one accumulator (Kulisch's), so that a thread's stack holds one and not a dozen long integers. The loops are
 // kept out of line: this is the rare path, and unrolled it would cost every caller registers and compile time.
 
+#include <cstddef>
 #include <cstdint>
 
 #include <abut/arithmetic/align.hpp>
@@ -25,12 +26,12 @@ struct sparse_term {
 /// The exact sum of at most `Terms` terms, none of them 0, whose coordinates had type `T`.
 template <scalar T, int Terms, int Degree>
 struct sparse_sum {
-    sparse_term<Degree> term[Terms];  ///< in any order
-    int count;                        ///< how many of them there are
+    sparse_term<Degree> term[std::size_t{Terms}];  ///< in any order
+    int count;                                     ///< how many of them there are
 };
 
 /// Number i, in the unit of all.
-template <scalar T, int V>
+template <scalar T, std::size_t V>
 ABUT_HD constexpr sparse_sum<T, 1, 1> sparse_number(const aligned<V>& x, int i) {
     const binary_parts& p = x.part[i];
     if (p.mantissa == 0) return {};
@@ -259,7 +260,7 @@ private:
         }
     }
 
-    std::int64_t digit_[size];  // the lowest `used_` are set
+    std::int64_t digit_[std::size_t{size}];  // the lowest `used_` are set
     int used_ = 0;
 };
 

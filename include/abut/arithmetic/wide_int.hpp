@@ -6,6 +6,7 @@
 // take L limbs, a value of degree d takes d*L. Nothing here allocates, rounds or heeds a compiler flag: integers know no
 // contraction, no fast-math and no flush to zero. Not for long numbers: multiplication is the schoolbook's.
 
+#include <cstddef>
 #include <cstdint>
 
 #include <abut/arithmetic/vec.hpp>
@@ -31,7 +32,7 @@ ABUT_HD constexpr std::uint64_t mask_if(bool wanted) { return wanted ? ~std::uin
 template <int N>
 struct wide_int {
     static_assert(N > 0);
-    std::uint64_t limb[N];  ///< least significant first
+    std::uint64_t limb[std::size_t{N}];  ///< least significant first
 
     /// value * 2^shift, for shift >= 0; the caller guarantees that it fits.
     ABUT_HD static constexpr wide_int shifted(std::int64_t value, int shift) {

@@ -6,6 +6,7 @@
 // the one that goes. So any direction has an honest depth, whatever rounding did to the direction, and the contact's is the
 // least over a few candidates.
 
+#include <cstddef>
 #include <cstdint>
 
 #include <abut/arithmetic/limits.hpp>
@@ -203,10 +204,10 @@ ABUT_HD constexpr point across_both(const triangle<T>& s, const triangle<T>& t) 
 struct extent {
     double lower, upper;
 };
-template <int K>
+template <std::size_t K>
 ABUT_HD constexpr extent extent_of(const point (&corner)[K], const point& n, const point& origin) {
     extent e{infinity<double>, -infinity<double>};
-    for (int i = 0; i < K; ++i) {
+    for (int i = 0; i < int{K}; ++i) {
         const double height = plain_dot(n, plain_difference(corner[i], origin));
         e = {least(e.lower, height), greatest(e.upper, height)};
     }

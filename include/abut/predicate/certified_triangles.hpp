@@ -21,6 +21,8 @@
 // m = 2^-1022 below 2^-415: `flushed` is more. The sum of the five magnitudes has to be below B / 2, and no difference is
 // more than that. What overflows fails that test, and so does NaN.
 
+#include <cstddef>
+
 #include <abut/arithmetic/magnitude.hpp>
 #include <abut/arithmetic/align.hpp>
 #include <abut/arithmetic/arithmetic.hpp>
@@ -169,7 +171,7 @@ ABUT_HD constexpr triangle<double> widened(const triangle<float>& t) { return {w
 ABUT_HD constexpr segment<double> widened(const segment<float>& s) { return {widened(s.a), widened(s.b)}; }
 
 /// `values` are the numbers of both shapes.
-template <class Shape, int V>
+template <class Shape, std::size_t V>
 ABUT_HD constexpr verdict decide_widened(const Shape& s, const triangle<float>& t, const row_of<float, V>& values) {
     if (any_subnormal(values.value)) return verdict::unknown;
     return decide_in_general_position<true>(widened(s), widened(t));

@@ -11,6 +11,8 @@
 // strict: a boundary belongs to a feature of lower dimension, and an edge or a face without extent has no interior, so
 // degenerate triangles need no case of their own.
 
+#include <cstddef>
+
 #include <abut/arithmetic/plain_sign.hpp>
 #include <abut/arithmetic/sparse_sum.hpp>
 #include <abut/arithmetic/vec.hpp>
@@ -42,7 +44,7 @@ ABUT_HD constexpr bool face_in_ball(const vec3<N>& p, const vec3<N>& q, const ve
 
 /// How the values of a question lie in an array of any number type: the centre's coordinates, those of the points, the
 /// radius.
-template <class N, int V>
+template <class N, std::size_t V>
 ABUT_HD constexpr vec3<N> point_at(const N (&value)[V], int i) {
     return {value[3 * i], value[3 * i + 1], value[3 * i + 2]};
 }

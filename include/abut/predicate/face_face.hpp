@@ -11,6 +11,8 @@
 //   three                if they have an area
 // Where two vertices of different numbers lie in one place, their numbers count and not the place.
 
+#include <cstddef>
+
 #include <abut/arithmetic/arithmetic.hpp>
 #include <abut/arithmetic/exact_stages.hpp>
 #include <abut/predicate/certified_faces.hpp>
@@ -77,13 +79,13 @@ ABUT_HD constexpr auto ask_of_faces(const faces_in_order<T>& f, const Ask& ask) 
 }
 
 struct ask_in_limbs {
-    template <class Predicate, scalar T, int V>
+    template <class Predicate, scalar T, std::size_t V>
     ABUT_HD constexpr verdict operator()(Predicate, const T (&value)[V]) const {
         return decide_in_limbs<Predicate>(value);
     }
 };
 struct ask_at_any_span {
-    template <class Predicate, scalar T, int V>
+    template <class Predicate, scalar T, std::size_t V>
     ABUT_HD constexpr bool operator()(Predicate, const T (&value)[V]) const {
         return decide_at_any_span<Predicate>(value);
     }
@@ -91,10 +93,10 @@ struct ask_at_any_span {
 /// As numbers of type F, which may round.
 template <scalar F>
 struct ask_in {
-    template <class Predicate, scalar T, int V>
+    template <class Predicate, scalar T, std::size_t V>
     ABUT_HD constexpr verdict operator()(Predicate, const T (&value)[V]) const {
         F number[V]{};
-        for (int i = 0; i < V; ++i) number[i] = static_cast<F>(value[i]);
+        for (int i = 0; i < int{V}; ++i) number[i] = static_cast<F>(value[i]);
         return to_verdict(Predicate::holds(number));
     }
 };

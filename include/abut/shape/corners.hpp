@@ -21,6 +21,7 @@
 // squares might overflow there are no bounds.
 
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 
 #include <abut/arithmetic/limits.hpp>
@@ -47,7 +48,7 @@ concept has_corners = (corners_of_shape<S> > 0);
 /// The corners as seen from a point.
 template <scalar T, int N>
 struct corners_from {
-    vec3<T> at[N];
+    vec3<T> at[std::size_t{N}];
 
     corners_from() = default;
     ABUT_HD corners_from(const vec3<T>& p, const vec3<T>& from) : at{p - from} {}

@@ -40,8 +40,8 @@ namespace abut {
 template <scalar T, int K>
     requires(K == 14 || K == 18 || K == 26)
 struct kdop {
-    T lower[K / 2];  ///< of n_i . x, for each normal in that order
-    T upper[K / 2];  ///< likewise
+    T lower[std::size_t{K / 2}];  ///< of n_i . x, for each normal in that order
+    T upper[std::size_t{K / 2}];  ///< likewise
 };
 
 namespace detail {

@@ -127,20 +127,18 @@ consteval bool is_row() {
     return readable_as<P, S>;
 }
 template <std::size_t n, class P>
-consteval bool is_index_row() {
-    static_assert(
-        index_row<P, n>,
-        "abut: a view reads vertex indices of 32 bits: expected an array of abut::face, std::array<int, 3> and the like "
-        "(of edges: of two), or of integers one by one");
-    return index_row<P, n>;
-}
-template <std::size_t n, class P>
 consteval bool holds_indices() {
     static_assert(
         holds_integers<P, n>,
         "abut: expected an array of vertex indices: of abut::face, std::array<int, 3> and the like (of edges: of two), "
         "or of integers one by one");
     return holds_integers<P, n>;
+}
+template <std::size_t n, class P>
+consteval bool is_index_row() {
+    static_assert(!holds_integers<P, n> || index_row<P, n>,
+                  "abut: a view reads vertex indices of 32 bits as they are; make a set of others, which copies them");
+    return holds_indices<n, P>() && index_row<P, n>;
 }
 
 /// Bytes from one element of S to the next in an array of P, which holds its numbers one by one if it is one of numbers.

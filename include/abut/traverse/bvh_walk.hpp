@@ -3,6 +3,7 @@
 
 // One query against a tree: a depth-first walk with a stack of the inner nodes still to see.
 
+#include <cstddef>
 #include <cstdint>
 
 #include <abut/index/bvh.hpp>
@@ -24,8 +25,8 @@ struct bvh_walk {
     /// Where a walk that rests goes on: the inner nodes still to see, the next one last.
     struct cursor {
         static constexpr int stack_size = Tree::width > 2 ? bvh_max_depth*(Tree::width - 1) + 1 : bvh_max_depth + 1;
-        std::uint32_t pending[stack_size];  ///< not initialised
-        int waiting = -1;                   ///< how many; a walk that has not begun has the root to see
+        std::uint32_t pending[std::size_t{stack_size}];  ///< not initialised
+        int waiting = -1;                                ///< how many; a walk that has not begun has the root to see
     };
 
     /// Calls visitor(shape id) -> visit for every leaf whose box the query reaches, until it says stop. Rests where rests()
