@@ -7,9 +7,8 @@
 # them, all in one run of ctest. With no argument:
 #   g++, Release, warnings as errors: all tests, the examples, each header alone, the syntax of bench/*.cpp, the
 #   include graph, an outside project;
-#   the .cu files, if nvcc 13.0 or newer is there (where no device is present they are compiled without optimisation, two that
-#   take minutes are not compiled, and the others are
-#   reported as skipped);
+#   the .cu files, if nvcc 13.0 or newer is there; where no device is present they are compiled without optimisation, but for
+#   two that take minutes, and reported as skipped;
 #   the address and undefined behaviour sanitizers on some of the layers.
 # More, each beside what is above:
 #   --clang     the same tests built by clang (no .cu files), its warnings as errors
