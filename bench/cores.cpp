@@ -210,8 +210,21 @@ struct compact_many {
     };
 };
 
-// --- runs
-// ------------------------------------------------------------------------------------------------------------------
+/// A loop that finds little by little what 32 MB hold.
+struct gather_many {
+    template <class Policy>
+    struct on_policy {
+        explicit on_policy(const Policy&) {}
+        std::size_t operator()(const Policy& on) {
+            abut::execution::work_queue<std::uint64_t, abut::host_space> found(on);
+            for_each_index(
+                on, 4'000'000, [](std::size_t i, auto& sink) { sink.push(scrambled(i)); }, found);
+            return found.size();
+        }
+    };
+};
+
+// --- runs --------------------------------------------------------------------------------------------------------------
 
 template <class Operation, class Policy>
 void run(benchmark::State& state, Policy on, bool busy) {
@@ -280,5 +293,6 @@ int main(int argc, char** argv) {
     add<sort_keys_of<40'000>>("sort_few_keys");
     add<exclusive_scan_of_many>("exclusive_scan");
     add<compact_many>("compact");
+    add<gather_many>("gather");
     return bench::run_registered("bench_cores", argc, argv);
 }
