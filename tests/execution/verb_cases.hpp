@@ -189,6 +189,16 @@ void check_loops(const Policy& on) {
         for (std::size_t i = 0; i < n; ++i) expected.insert(expected.end(), i % 4, i);
         CHECK(sorted_content(on, queue) == expected);
         CHECK(count.total() == expected.size());
+        // What a queue has stays before what comes.
+        const std::vector<std::uint64_t> before = on_host(on, queue.data(), queue.size());
+        for_each_index(on, n, push_some{}, queue, count);
+        std::vector<std::uint64_t> both = on_host(on, queue.data(), queue.size());
+        REQUIRE(both.size() == 2 * expected.size());
+        const auto middle = both.begin() + static_cast<std::ptrdiff_t>(expected.size());
+        CHECK(std::equal(before.begin(), before.end(), both.begin()));
+        std::sort(middle, both.end());
+        CHECK(std::equal(expected.begin(), expected.end(), middle));
+        CHECK(count.total() == 2 * expected.size());
 
         execution::work_flag<space_of<Policy>> flag(on), calm(on);
         for_each_index(on, n, raise_at{n / 2}, flag);
@@ -560,9 +570,10 @@ template <class Key, class Policy>
 void check_sorts(const Policy& on) {
     uniform random(42);
     for (const std::size_t n : verb_sizes) {
-        for (const int bits : {0, 1, 11, 12, 30, static_cast<int>(8 * sizeof(Key))}) {
+        for (const int bits : {0, 1, 11, 12, 23, 30, static_cast<int>(8 * sizeof(Key))}) {
             CAPTURE(n, bits, sizeof(Key));
-            const Key mask = bits == 8 * sizeof(Key) ? static_cast<Key>(-1) : static_cast<Key>((Key{1} << bits) - 1);
+            Key mask = bits == 8 * sizeof(Key) ? static_cast<Key>(-1) : static_cast<Key>((Key{1} << bits) - 1);
+            if (bits == 23) mask = static_cast<Key>(mask & ~Key{0xffff});  // keys that differ in their last digit alone
             std::vector<Key> keys(n);
             std::vector<std::uint32_t> order(n);
             for (Key& key : keys) key = static_cast<Key>(random() * 0x1p53) * Key{2654435761u} & mask;

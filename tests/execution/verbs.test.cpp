@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <exception>
 #include <functional>
 #include <limits>
 #include <mutex>
@@ -22,6 +23,24 @@ static_assert(execution_policy<serial>);
 static_assert(execution_policy<openmp>);
 static_assert(!execution_policy<int>);
 static_assert(host_policy<serial> && host_policy<openmp>);
+
+namespace {
+
+/// Runs f on a thread that has lost nothing yet, so that loops on a busy machine ask for other threads at once.
+template <class F>
+void on_fresh_thread(const F& f) {
+    std::exception_ptr failure;
+    std::thread([&] {
+        try {
+            f();
+        } catch (...) {
+            failure = std::current_exception();
+        }
+    }).join();
+    if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace
 
 TEST_CASE("verbs: serial") { test::check_verbs(serial{}); }
 
@@ -134,7 +153,7 @@ TEST_CASE("verbs: scans, selections, reductions and groups of openmp run on its 
         rendezvous meeting;
         std::vector<met_sum> values(n + 1, met_sum{3});
         met_sum::meeting = &meeting;
-        exclusive_scan(on, values.data(), n);
+        on_fresh_thread([&] { exclusive_scan(on, values.data(), n); });
         met_sum::meeting = nullptr;
         CHECK(meeting.met());
         CHECK(values[n].value == 3 * n);
@@ -146,7 +165,7 @@ TEST_CASE("verbs: scans, selections, reductions and groups of openmp run on its 
             meeting();
             return i % 2 == 1;
         };
-        CHECK(compact(on, n, odd, kept.data()) == n / 2);
+        on_fresh_thread([&] { CHECK(compact(on, n, odd, kept.data()) == n / 2); });
         CHECK(meeting.met());
         CHECK(kept[n / 2 - 1] == n - 1);
     }
@@ -156,12 +175,12 @@ TEST_CASE("verbs: scans, selections, reductions and groups of openmp run on its 
             meeting();
             return std::size_t{1};
         };
-        CHECK(reduce(on, n, std::size_t{0}, std::plus<std::size_t>{}, one) == n);
+        on_fresh_thread([&] { CHECK(reduce(on, n, std::size_t{0}, std::plus<std::size_t>{}, one) == n); });
         CHECK(meeting.met());
     }
     SECTION("for_each_task") {
         rendezvous meeting;
-        for_each_task(on, 2, [&](std::size_t) { meeting(); });
+        on_fresh_thread([&] { for_each_task(on, 2, [&](std::size_t) { meeting(); }); });
         CHECK(meeting.met());
     }
 }
@@ -216,7 +235,7 @@ TEST_CASE("verbs: when a functor throws on one thread, the others end soon") {
     };
     SECTION("a loop begins no more ranges") {
         constexpr std::size_t n = 32 * 1024;
-        CHECK_THROWS_WITH(for_each_index(on, n, throw_first), "the first");
+        CHECK_THROWS_WITH(on_fresh_thread([&] { for_each_index(on, n, throw_first); }), "the first");
         CHECK(begun > 0);
         CHECK(after < n / 2);
     }
@@ -224,9 +243,133 @@ TEST_CASE("verbs: when a functor throws on one thread, the others end soon") {
         constexpr std::size_t n = 2 * 1024;
         execution::work_count<host_space> count(on);
         const auto with_sink = [&](std::size_t i, auto&) { throw_first(i); };
-        CHECK_THROWS_WITH(for_each_index(on, n, with_sink, count), "the first");
+        CHECK_THROWS_WITH(on_fresh_thread([&] { for_each_index(on, n, with_sink, count); }), "the first");
         CHECK(begun > 0);
         CHECK(after < n / 4);
+    }
+}
+
+namespace {
+
+/// f(i) for i < n, each on a thread of a parallel region, where as many levels of regions may be open at a time.
+template <class F>
+void inside_regions([[maybe_unused]] int levels, std::size_t n, const F& f) {
+#if defined(_OPENMP)
+    const int before = omp_get_max_active_levels();
+    omp_set_max_active_levels(levels);
+#pragma omp parallel for num_threads(2) schedule(static, 1)
+#endif
+    for (std::size_t i = 0; i < n; ++i) f(i);
+#if defined(_OPENMP)
+    omp_set_max_active_levels(before);
+#endif
+}
+
+}  // namespace
+
+TEST_CASE("verbs: the more regions in a row lose time, the more work the calling thread does alone") {
+    execution::detail::lost_time lost;
+    lost.settle(1e-5);
+    CHECK(lost.owed == 0);
+    for (const double times : {1.0, 2.0, 4.0, 8.0, 16.0, 16.0}) {
+        lost.settle(2e-3);
+        CHECK(lost.owed == times * 2e-3);
+    }
+    lost.owed = 0;
+    lost.settle(-1);
+    CHECK(lost.owed == 0);
+    CHECK(lost.times == 8);
+    lost.settle(3600);
+    CHECK(lost.owed == 0.1);
+}
+
+TEST_CASE("verbs: what a loop has lost is worked off by the calling thread, and then it asks for others") {
+    const openmp on{.threads = 2};
+    if (concurrency(on) == 1) return;  // compiled without OpenMP
+    using execution::detail::lost_time_of_thread;
+    SECTION("as long as something is owed") {
+        on_fresh_thread([&] {
+            lost_time_of_thread().owed = 1e9;
+            std::size_t next = 0;  // no other thread is there
+            bool alone = true;
+            for_each_range(on, 10'500, 1'000, [&](int thread, std::size_t begin, std::size_t end) {
+                alone = alone && thread == 0 && begin == next;
+                next = end;
+            });
+            CHECK(alone);
+            CHECK(next == 10'500);
+            CHECK(lost_time_of_thread().owed > 0);
+            CHECK_THROWS_AS(for_each_index(on, 5'000,
+                                           [](std::size_t i) {
+                                               if (i == 4'000) throw std::bad_alloc();
+                                           }),
+                            std::bad_alloc);
+            test::check_verbs(on);
+        });
+    }
+    SECTION("then on all threads, and a region that gains makes the next loss cheaper") {
+        on_fresh_thread([&] {
+            lost_time_of_thread() = {.owed = 0.005, .times = 16};
+            rendezvous meeting;
+            std::vector<std::atomic<int>> calls(100);
+            for_each_task(on, calls.size(), [&](std::size_t i) {
+                std::this_thread::sleep_for(std::chrono::milliseconds(1));
+                ++calls[i];
+                if (i >= 6) meeting();
+            });
+            CHECK(meeting.met());
+            CHECK(lost_time_of_thread().owed <= 0);
+            CHECK(lost_time_of_thread().times == 8);
+            for (const auto& n : calls) CHECK(n == 1);
+        });
+    }
+    SECTION("and whatever a thread has lost, answers are the same") {
+        for (const double owed : {1e-6, 1e-4, 1e-2}) {
+            lost_time_of_thread().owed = owed;
+            test::check_verbs(openmp{.threads = 7});
+        }
+    }
+}
+
+TEST_CASE("verbs: in a parallel region of the caller's there is one thread, unless regions nest") {
+    const openmp on{.threads = 3};
+    if (concurrency(on) == 1) return;  // compiled without OpenMP
+    for (const int levels : {1, 2}) {
+        std::vector<std::uint64_t> sums(8), counts(8);
+        std::vector<int> threads(8);
+        inside_regions(levels, sums.size(), [&](std::size_t i) {
+            threads[i] = concurrency(on);
+            sums[i] = reduce(on, 50'000 + i, std::uint64_t{0}, test::sum{}, test::identity{});
+            execution::work_count<host_space> count(on);
+            for_each_index(
+                on, 30'000, [](std::size_t, auto& sink) { sink.add(1); }, count);
+            counts[i] = count.total();
+        });
+        for (std::size_t i = 0; i < sums.size(); ++i) {
+            CHECK(threads[i] == (levels == 1 ? 1 : 3));
+            CHECK(sums[i] == (50'000 + i) * (49'999 + i) / 2);
+            CHECK(counts[i] == 30'000);
+        }
+    }
+}
+
+TEST_CASE("verbs: several threads of the host at a time, each with more threads than there are processors") {
+    const openmp on{.threads = static_cast<int>(4 * std::max(std::thread::hardware_concurrency(), 1u))};
+    std::vector<std::uint64_t> sums(6);
+    std::vector<std::thread> hosts;
+    for (std::size_t h = 0; h < sums.size(); ++h) {
+        hosts.emplace_back([&, h] {
+            for (std::size_t k = 0; k < 20; ++k) {
+                std::vector<std::uint32_t> kept(40'000);
+                sums[h] += compact(
+                    on, kept.size(), [&](std::size_t i) { return i % (h + 2) == 0; }, kept.data());
+                sums[h] += reduce(on, 20'000, std::uint64_t{0}, test::sum{}, test::identity{});
+            }
+        });
+    }
+    for (auto& host : hosts) host.join();
+    for (std::size_t h = 0; h < sums.size(); ++h) {
+        CHECK(sums[h] == 20 * ((40'000 + h + 1) / (h + 2) + std::uint64_t{20'000} * 19'999 / 2));
     }
 }
 

@@ -18,9 +18,10 @@ namespace abut::execution {
 
 inline int concurrency(const serial&) { return 1; }
 /// More threads than a few for each processor gain nothing, and a runtime that cannot start as many as it is told to ends
-/// the program.
+/// the program. Within a parallel region there is one, unless the runtime nests regions.
 inline int concurrency([[maybe_unused]] const openmp& on) {
 #if defined(_OPENMP)
+    if (omp_get_active_level() >= omp_get_max_active_levels()) return 1;
     constexpr int for_each_processor = 8;
     const int wanted = on.threads > 0 ? on.threads : omp_get_max_threads();
     return std::max(1, std::min({wanted, for_each_processor * omp_get_num_procs(), omp_get_thread_limit()}));
@@ -73,23 +74,71 @@ private:
     void (*call_)(const void*, int, std::size_t, std::size_t);
 };
 
+/// What a thread's loops have lost by waiting for threads that had no processor. A parallel region ends when its last thread
+/// has come, though all work be done: on a busy machine that takes a turn of the scheduler, some milliseconds, in each loop.
+/// So the thread that calls works alone until it has done `times` as much as was lost, and only then asks for others again.
+struct lost_time {
+    static constexpr double least = 1e-4;     ///< seconds; regions on quiet processors lose less
+    static constexpr double most_owed = 0.1;  ///< also where the process has been stopped for hours
+    static constexpr double most_times = 16;
+    double owed = 0;   ///< seconds of work
+    double times = 1;  ///< the more, the more regions in a row have lost
+
+    /// What a region has lost, in seconds; negative if it has gained.
+    void settle(double lost) {
+        if (lost > least) {
+            owed = std::min(times * lost, most_owed);
+            times = std::min(2 * times, most_times);
+        } else {
+            times = std::max(times / 2, 1.0);
+        }
+    }
+};
+
+/// Of the calling thread.
+inline lost_time& lost_time_of_thread() {
+    thread_local lost_time lost;
+    return lost;
+}
+
 [[gnu::noinline]] inline void for_each_range_on(int threads, std::size_t n, std::size_t grain, const range_call& f) {
     if (threads == 1) return for_each_range(serial{}, n, grain, f);
 #if defined(_OPENMP)
+    const std::size_t ranges = n / grain + (n % grain != 0);
+    const auto call = [&](int thread, std::size_t range) {
+        f(thread, range * grain, range * grain + std::min(grain, n - range * grain));
+    };
+    lost_time& lost = lost_time_of_thread();
+    std::size_t first = 0;
+    double begun = omp_get_wtime();
+    for (; first < ranges && lost.owed > 0; ++first) {
+        call(0, first);
+        const double now = omp_get_wtime();
+        lost.owed -= now - begun;
+        begun = now;
+    }
+    if (first == ranges) return;
+
     std::exception_ptr failure;
     failure_flag failed;
-    const std::size_t ranges = n / grain + (n % grain != 0);
-#pragma omp parallel for num_threads(threads) schedule(dynamic, 1) shared(failure, failed)
-    for (std::size_t range = 0; range < ranges; ++range) {
-        if (failed.raised()) continue;
-        try {
-            f(omp_get_thread_num(), range * grain, range * grain + std::min(grain, n - range * grain));
-        } catch (...) {
-            failed.raise();
+    double work = 0;  // seconds of all threads
+#pragma omp parallel num_threads(threads) shared(failure, failed) reduction(+ : work)
+    {
+        const double from = omp_get_wtime();
+#pragma omp for schedule(dynamic, 1) nowait
+        for (std::size_t range = first; range < ranges; ++range) {
+            if (failed.raised()) continue;
+            try {
+                call(omp_get_thread_num(), range);
+            } catch (...) {
+                failed.raise();
 #pragma omp critical(abut_failure)
-            if (!failure) failure = std::current_exception();
+                if (!failure) failure = std::current_exception();
+            }
         }
+        work += omp_get_wtime() - from;
     }
+    lost.settle(omp_get_wtime() - begun - work);
     if (failure) std::rethrow_exception(failure);
 #else
     for_each_range(serial{}, n, grain, f);  // concurrency may come from a translation unit with OpenMP
@@ -99,7 +148,8 @@ private:
 }  // namespace detail
 
 /// Calls f(thread, begin, end) on ranges of `grain` indices that idle threads fetch; on the calling thread alone there is
-/// one range. The first exception thrown is thrown again when all threads are done. None of them begins another range then.
+/// one range. On a busy machine the calling thread may take the first ranges, or all, before it asks for others. The first
+/// exception thrown is thrown again when all threads are done. None of them begins another range then.
 template <class F>
 void for_each_range(const openmp& on, std::size_t n, std::size_t grain, const F& f) {
     detail::for_each_range_on(detail::range_threads(on, n, grain), n, grain, detail::range_call(f));

@@ -35,11 +35,11 @@ equal_parts parts_for(const Policy& on, std::size_t n) {
 /// One digit of all keys.
 template <class Key>
 struct digit_of_keys {
-    static constexpr int bits = 11;
-    static constexpr std::size_t values = std::size_t{1} << bits;
+    static constexpr int most_bits = 11;
     const Key* keys;
     int shift;
     Key mask;
+    [[nodiscard]] ABUT_HD std::size_t values() const { return static_cast<std::size_t>(mask) + 1; }
     [[nodiscard]] ABUT_HD std::size_t operator()(std::size_t i) const {
         return static_cast<std::size_t>(keys[i] >> shift & mask);
     }
@@ -52,30 +52,40 @@ struct count_digits {
     equal_parts parts;
     std::size_t* counts;
     ABUT_HD void operator()(std::size_t part) const {
-        std::size_t* const mine = counts + part * digit.values;
-        for (std::size_t d = 0; d < digit.values; ++d) mine[d] = 0;
+        std::size_t* const mine = counts + part * digit.values();
+        for (std::size_t d = 0; d < digit.values(); ++d) mine[d] = 0;
         for (std::size_t i = parts.begin(part); i < parts.end(part); ++i) ++mine[digit(i)];
     }
 };
 
-/// Where each part's keys of each digit go, in place of their counts. Whether all keys agree in the digit comes last.
+/// Where each part's keys of each digit go, in place of their counts; then whether all keys agree in the digit. It goes row by
+/// row, since the counts of a part are kilobytes from those of the next.
 struct offset_digits {
     std::size_t values;
     equal_parts parts;
     std::size_t* counts;
     ABUT_HD void operator()(std::size_t) const {
+        const std::size_t before_last = parts.count - 1;
+        // First the counts of all parts, then where the next part's keys go.
+        std::size_t* const last = counts + before_last * values;
+        for (std::size_t part = 0; part < before_last; ++part) {
+            for (std::size_t d = 0; d < values; ++d) last[d] += counts[part * values + d];
+        }
         std::size_t offset = 0, agree = 0;
         for (std::size_t d = 0; d < values; ++d) {
-            const std::size_t before = offset;
-            for (std::size_t part = 0; part < parts.count; ++part) {
-                std::size_t& count = counts[part * values + d];
-                const std::size_t mine = count;
-                count = offset;
-                offset += mine;
-            }
-            agree |= static_cast<std::size_t>(offset - before == parts.n);
+            const std::size_t all = last[d];
+            last[d] = offset;
+            offset += all;
+            agree |= static_cast<std::size_t>(all == parts.n);
         }
-        counts[parts.count * values] = agree;
+        for (std::size_t part = 0; part < before_last; ++part) {
+            for (std::size_t d = 0; d < values; ++d) {
+                const std::size_t mine = counts[part * values + d];
+                counts[part * values + d] = last[d];
+                last[d] += mine;
+            }
+        }
+        last[values] = agree;
     }
 };
 
@@ -88,7 +98,7 @@ struct move_by_digit {
     Key* moved_keys;
     Value* moved_values;
     ABUT_HD void operator()(std::size_t part) const {
-        std::size_t* const next = offsets + part * digit.values;
+        std::size_t* const next = offsets + part * digit.values();
         for (std::size_t i = parts.begin(part); i < parts.end(part); ++i) {
             const std::size_t to = next[digit(i)]++;
             moved_keys[to] = digit.keys[i];
@@ -99,22 +109,26 @@ struct move_by_digit {
 
 }  // namespace detail
 
-/// Sorts by the lowest `bits` bits, stable, and carries `values` along unless it is null. Uses as much memory again.
+/// Sorts by the lowest `bits` bits, stable, and carries `values` along unless it is null. Uses as much memory again. Digits
+/// are of nearly one length: short ones have few counts.
 template <class Policy, class Key, class Value, memory_space Space>
 void radix_sort(const Policy& on, buffer<Key, Space>& keys, buffer<Value, Space>* values, int bits) {
     using digit = detail::digit_of_keys<Key>;
+    const int digits = (bits + digit::most_bits - 1) / digit::most_bits;
+    if (digits <= 0) return;
+    const int longest = (bits + digits - 1) / digits;
     const std::size_t n = keys.size();
     const detail::equal_parts parts = detail::parts_for(on, n);
-    buffer<std::size_t, Space> counts(on, parts.count * digit::values + 1);
+    buffer<std::size_t, Space> counts(on, (parts.count << longest) + 1);
     buffer<Key, Space> other_keys(on, n);
     buffer<Value, Space> other_values(on, values ? n : 0);
-    for (int shift = 0; shift < bits; shift += digit::bits) {
-        const int width = std::min(bits - shift, digit::bits);
+    for (int shift = 0; shift < bits; shift += longest) {
+        const int width = std::min(bits - shift, longest);
         const digit of{keys.data(), shift, static_cast<Key>((Key{1} << width) - 1)};
         for_each_task(on, parts.count, detail::count_digits<Key>{of, parts, counts.data()});
-        for_each_task(on, 1, detail::offset_digits{digit::values, parts, counts.data()});
+        for_each_task(on, 1, detail::offset_digits{of.values(), parts, counts.data()});
         std::size_t agree = 0;
-        download(on, counts.data() + counts.size() - 1, 1, &agree);
+        download(on, counts.data() + parts.count * of.values(), 1, &agree);
         if (agree != 0) continue;
         for_each_task(on, parts.count,
                       detail::move_by_digit<Key, Value>{of, parts, counts.data(), values ? values->data() : nullptr,

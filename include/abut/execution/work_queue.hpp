@@ -97,16 +97,24 @@ public:
     [[nodiscard]] sink make_sink() { return {}; }
     template <class Policy>
     void merge(const Policy& on, std::vector<sink*>& sinks) {
-        std::size_t total = 0;
-        for (const sink* s : sinks) total += s->values.size();
-        buffer<T, host_space> all(on, total);
-        T* out = all.data();
-        for (sink* s : sinks) {
-            if (!s->values.empty()) std::memcpy(static_cast<void*>(out), s->values.data(), s->values.size() * sizeof(T));
-            out += s->values.size();
-            s->values = {};
+        std::vector<std::size_t> first{items_.size()};
+        for (const sink* s : sinks) first.push_back(first.back() + s->values.size());
+        if (first.back() == items_.size()) return;
+        buffer<T, host_space> all(on, first.back());
+        copy(on, items_.data(), items_.size(), all.data());
+        const auto move = [&](std::size_t k) {
+            auto& from = sinks[k]->values;
+            if (!from.empty()) std::memcpy(static_cast<void*>(all.data() + first[k]), from.data(), from.size() * sizeof(T));
+            from = {};
+        };
+        // What is large goes to memory that nobody has touched, so threads also share the work of the system.
+        constexpr std::size_t large = std::size_t{1} << 18;
+        if (all.capacity_bytes() < large) {
+            for (std::size_t k = 0; k < sinks.size(); ++k) move(k);
+        } else {
+            for_each_task(on, sinks.size(), move);
         }
-        items_ = joined(on, items_, all);
+        items_ = std::move(all);
     }
 
 private:
