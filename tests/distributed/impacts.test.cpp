@@ -127,6 +127,17 @@ TEST_CASE("distributed: impacts of all parts") {
     check_sheets<openmp, double>(distributed(world(), openmp{2}), division::even, division::uneven);
 }
 
+TEST_CASE("distributed: impacts of what only comes near") {
+    const distributed on(world(), serial{});
+    const auto all_x = make_sheet<float>(12, 0, 0, 6), all_y = make_sheet<float>(10, 2, 0, 7);
+    const auto x = part_of_frames(all_x, division::even, on.rank(), on.size()).set();
+    const auto y = part_of_frames(all_y, division::even, on.rank(), on.size()).set();
+    const auto whole_x = joined_parts(all_x, division::even, on.size()).set();
+    const auto whole_y = joined_parts(all_y, division::even, on.size()).set();
+    CHECK(impacts(serial{}, whole_x, whole_y).empty());
+    check_impacts<conservative>(on, x, y, whole_x, whole_y, {.bounds = {.separation = 1.75}});
+}
+
 TEST_CASE("distributed: impacts by a rule of faces") {
     const distributed on(world(), serial{});
     const auto all_x = make_sheet<float>(12, 0, 1, 3), all_y = make_sheet<float>(10, 2, -1, 4);
