@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// usage: mpirun -np P bench_distributed [--json=FILE] [--shapes=N] [--runs=N] [--whole=N]
+// usage: mpirun -np P bench_distributed [--json=FILE] [--shapes=N] [--runs=N] [--whole=N] [--cores=N]
 //
 // Queries of sets whose parts lie on ranks, each rank on one core. The scene is as many triangles as spheres, uniform in a
 // cube of as many units of volume, so that a triangle touches about three spheres. It is the same whatever P is. One run
 // measures 1, 2, 4 ... P ranks in turn, each on a communicator of its own, while the other ranks sleep. `ms` is by the
-// clock, for no more ranks than there are cores. `work_ms` is processor time outside of calls of MPI that wait, which other
-// jobs and a lack of cores disturb less. Both are of the slowest rank, and medians of --runs runs (7; 3 beyond the cores).
-// Names:
+// clock, for no more ranks than --cores, which is those of this host. `work_ms` is processor time outside of calls of MPI
+// that wait, which other jobs and a lack of cores disturb less. Both are of the slowest rank, and medians of --runs runs (7;
+// 3 beyond the cores). Names:
 //
 //   STAGE/DEAL/SHAPES/RANKS    SHAPES is N / 2, N and 2 N (200,000). STAGE is redistribute, build, pairs, count or nearest.
 //                              DEAL is how shapes are dealt to ranks: random, or curve, which is by redistribute. Counters
@@ -418,7 +418,8 @@ int main(int argc, char** argv) {
         const std::string json = bench::take_argument(argc, argv, "--json");
         const auto shapes = static_cast<std::size_t>(number(argc, argv, "--shapes", 200000));
         const auto whole = static_cast<std::size_t>(number(argc, argv, "--whole", 4000000));
-        const int runs = number(argc, argv, "--runs", 7), cores = static_cast<int>(std::thread::hardware_concurrency());
+        const int runs = number(argc, argv, "--runs", 7);
+        const int cores = number(argc, argv, "--cores", static_cast<int>(std::thread::hardware_concurrency()));
         rows all;
         for (int k = 0; k < runs; ++k) {
             for (const std::size_t n : {shapes / 2, shapes, 2 * shapes}) {

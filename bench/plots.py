@@ -18,7 +18,7 @@ from report_extremes import EXTREMES, PAIR_KINDS  # noqa: E402
 from report_motion import motion_scenes  # noqa: E402
 from report_predicates import INPUTS, PREDICATES  # noqa: E402
 from report_queries import ANY_SCENES, BUILDERS, SIZES, SPHERES, of_size, policies  # noqa: E402
-from report_scaling import CUBES, DEALS, Model, rank_counts, sizes  # noqa: E402
+from report_scaling import DEALS, Model, rank_counts, sizes  # noqa: E402
 
 GREY = "#888888"
 COLOURS = {"fast": "#d9773f", "filtered": "#3f8fd9", "exact": "#3fa66b", "resolve": "#b05fc7", "conservative": "#c7a52e"}
@@ -403,10 +403,10 @@ def scaling_distributed(results):
         work = [r.get(f"pairs/{deal}/{large}/{k}", "work_ms") for k in counts]
         axis.plot(counts, work, color=SERIES[index], marker="s", fillstyle="none", label=f"{DEALS[deal]}: work of a rank")
         clock = [(k, t) for k in counts if (t := r.get(f"pairs/{deal}/{large}/{k}"))]
-        axis.plot(*zip(*clock), "o", color=SERIES[index], label=f"{DEALS[deal]}: by the clock")
+        axis.plot(*zip(*clock), "o", color=SERIES[index], label=f"{DEALS[deal]}: by the clock, on a busy machine")
     one = r.get(f"pairs/curve/{large}/1", "work_ms")
     axis.plot(counts, [one / k for k in counts], ":", color=GREY, label="1 / ranks")
-    axis.plot(counts, [1e3 * m.seconds("pairs", large / k, k) for k in counts], "--", color=GREY, label="model")
+    axis.plot(counts, [1e3 * m.seconds("pairs", large / k, k) for k in counts], "--", color=GREY, label="model, along the curve")
     log_log(axis, "ranks", "pairs, ms")
     axis.set_xticks(counts, [str(k) for k in counts])
     axis.yaxis.set_major_locator(matplotlib.ticker.LogLocator(10, (1, 2, 5)))
@@ -415,11 +415,9 @@ def scaling_distributed(results):
 
     axis = axes[1]
     many = [(int(n.split("/")[1]), int(n.split("/")[2]), r.rows[n]) for n in r.names("parts/")]
-    for cubes, mark, label in ((False, "o", "sent"), (True, "s", "sent; 64, 512, 4,096 parts")):
-        points = sorted((whole / k, row["sent_shapes"] / k) for whole, k, row in many if k >= 64 and (k in CUBES) == cubes)
-        axis.plot(*zip(*points), mark, color=SERIES[0], fillstyle="none" if cubes else "full", label=label)
-    points = sorted((whole / k, row["least_shapes"] / k) for whole, k, row in many if k >= 64)
-    axis.plot(*zip(*points), "^", color=SERIES[2], label="least possible")
+    for index, (key, mark, label) in enumerate((("sent_shapes", "o", "sent"), ("least_shapes", "^", "least possible"))):
+        points = sorted((whole / k, row[key] / k) for whole, k, row in many if k >= 64)
+        axis.plot(*zip(*points), mark, color=SERIES[index], label=label)
     steps = [10**(e / 8) for e in range(16, 65)]
     axis.plot(steps, [m.law(n) for n in steps], "--", color=GREY, label="model")
     axis.plot(steps, steps, ":", color=GREY, label="all of them")
@@ -438,9 +436,11 @@ def scaling_distributed(results):
     for index, query in enumerate(("pairs", "nearest", "redistribute")):
         for n, style in ((1e6, "--"), (1e8, "-")):
             axes[3].plot(ranks, [m.seconds(query, n, k) for k in ranks], style, color=SERIES[index],
-                         label=f"{query}, $10^{{{math.log10(n):.0f}}}$ a rank")
+                         label=f"{query}, $10^{{{math.log10(n):.0f}}}$")
     for axis in axes[2:]:
         log_log(axis, "ranks", "s")
+    for axis in (axes[0], axes[3]):  # room for what is said above the lines
+        axis.set_ylim(top=20 * axis.get_ylim()[1])
     for axis in axes:
         axis.legend(fontsize=6.5)
     return figure

@@ -10,8 +10,8 @@ STAGES = {"redistribute": "`redistribute`, one set", "build": "`make_bvh`", "pai
 DEALS = {"random": "at random", "curve": "along the curve"}
 # Assumed, and not measured: one way of a short message, and what a rank sends in a second, on a network of a cluster.
 LATENCY, BANDWIDTH = 2e-6, 10e9
-# Numbers of parts that divide a cube into cubes: less is sent than of most numbers.
-CUBES = (8, 64, 512, 4096)
+# Bytes of a shape of b and its id; of a point and its answer.
+MESSAGES = {"pairs": 20, "nearest": 44}
 TERMS = ("own shapes", "imbalance", "looking through shapes", "shapes that came", "per rank", "bytes", "latency")
 
 
@@ -42,7 +42,8 @@ class Model:
         self.latency, self.bandwidth = latency, bandwidth
 
         def per_shape(stage, deal, depth):
-            each = sorted(1e-3 * r.get(f"{stage}/{deal}/{n}/1", "work_ms") / (n * (math.log2(n) if depth else 1)) for n in sizes(r))
+            each = sorted(1e-3 * r.get(f"{stage}/{deal}/{n}/1", "work_ms") / (n * (math.log2(n) if depth else 1))
+                          for n in sizes(r))
             return each[len(each) // 2]
         # A walk of a tree goes down log2 n levels.
         self.pairs, self.nearest = (per_shape(s, "curve", True) for s in ("pairs", "nearest"))
@@ -52,8 +53,8 @@ class Model:
         self.code /= math.log2(sizes(r)[len(sizes(r)) // 2])  # a step of a search
         # What is sent: some surface and some volume of a part.
         parts = [(int(n.split("/")[1]), int(n.split("/")[2]), n) for n in r.names("parts/")]
-        parts = [(whole / k, k, r.rows[name]) for whole, k, name in parts if k not in CUBES]
-        many = [(n, row["sent_shapes"] / k) for n, k, row in parts if k >= 100 and n >= 400]
+        parts = [(whole / k, k, r.rows[name]) for whole, k, name in parts]
+        many = [(n, row["sent_shapes"] / k) for n, k, row in parts if k >= 64]
         a11, a12, a22 = (sum(n**power / s**2 for n, s in many) for power in (4 / 3, 5 / 3, 2))  # least squares of relative errors
         b1, b2 = (sum(n**power / s for n, s in many) for power in (2 / 3, 1))
         d = a11 * a22 - a12**2
@@ -66,9 +67,22 @@ class Model:
         # Of k equal shares of things that fall at random the largest is beyond the mean by so many standard deviations.
         spread = sorted((row["imbalance"] - 1) / math.sqrt(2 * math.log(k) / n) for n, k, row in parts)
         self.spread = spread[len(spread) // 2]
-        most = max(rank_counts(r, f"nearest/curve/{sizes(r)[-1]}"))
-        end = f"curve/{sizes(r)[-1]}/{most}"
+        # What came costs other than what is here: for pairs most of it touches nothing.
+        self.came = {}
+        for query, bytes_each in MESSAGES.items():
+            costs = []
+            for n in sizes(r):
+                for k in rank_counts(r, f"{query}/curve/{n}")[1:]:
+                    row, here = r.rows[f"{query}/curve/{n}/{k}"], n / k
+                    own = self.own(query) * math.log2(here)
+                    looking = 2 * (k - 1) * here * self.shape if query == "pairs" else (k - 1) * here * self.point
+                    costs.append((1e-3 * row["work_ms"] - own * here - looking) / (own * row["most_bytes"] / bytes_each))
+            self.came[query] = sorted(costs)[len(costs) // 2]
+        end = f"curve/{sizes(r)[-1]}/{rank_counts(r, f'pairs/curve/{sizes(r)[-1]}')[-1]}"
         self.points = r.get("nearest/" + end, "bytes") / 44 / (r.get("pairs/" + end, "bytes") / 20)
+
+    def own(self, query):
+        return {"pairs": self.pairs, "nearest": self.nearest}[query]
 
     def law(self, n):
         return self.surface * n**(2 / 3) + self.volume * n
@@ -79,15 +93,16 @@ class Model:
         uneven = self.spread * math.sqrt(2 * math.log(ranks) / n)
         if query == "pairs":
             own = self.pairs * n * depth
-            return (own, own * uneven, 2 * near * n * self.shape, self.pairs * sent * depth, 2 * far * self.part,
-                    (20 * sent + 832 * far) / self.bandwidth, (6 * rounds + 4 * near) * self.latency)
+            return (own, own * uneven, 2 * near * n * self.shape, self.came[query] * self.pairs * sent * depth,
+                    2 * far * self.part, (20 * sent + 832 * far) / self.bandwidth, (6 * rounds + 4 * near) * self.latency)
         if query == "nearest":
             own = self.nearest * n * depth
             points = self.points * sent
-            return (own, own * uneven, far * n * self.point, self.nearest * points * depth, 0.0,
+            return (own, own * uneven, far * n * self.point, self.came[query] * self.nearest * points * depth, 0.0,
                     (44 * points + 424 * far) / self.bandwidth, (6 * rounds + far + 2 * near) * self.latency)
         own = self.redistribute * n
-        return (own, 0.0, 0.0, 0.0, 65 * far * self.code * depth, ((44 * n if far else 0) + (416 + 2 * 64 * 8) * far) / self.bandwidth,
+        return (own, 0.0, 0.0, 0.0, 65 * far * self.code * depth,
+                ((44 * n if far else 0) + (416 + 2 * 64 * 8) * far) / self.bandwidth,
                 (72 * rounds + 4 * far) * self.latency)
 
     def seconds(self, query, n, ranks):
@@ -169,15 +184,18 @@ def scaling_parts(results):
 def scaling_costs(results):
     r = results["cpu/distributed"]
     m = Model(r)
-    rows = [["own shapes, `pairs`", f"{1e9 * m.pairs:.0f} ns n log2 n"], ["own shapes, `nearest`", f"{1e9 * m.nearest:.0f} ns n log2 n"],
+    rows = [["own shapes, `pairs`", f"{1e9 * m.pairs:.0f} ns n log2 n"],
+            ["own shapes, `nearest`", f"{1e9 * m.nearest:.0f} ns n log2 n"],
             ["own shapes, `redistribute`", f"{1e9 * m.redistribute:.0f} ns n"],
             ["a shape, by one other part's boxes", f"{1e9 * m.shape:.1f} ns"],
             ["a point, by one other part's boxes", f"{1e9 * m.point:.1f} ns"], ["two parts", f"{1e9 * m.part:.1f} ns"],
             ["a code, by one step of a search", f"{1e9 * m.code:.1f} ns"],
             ["shapes that a part sends, mean of many parts", f"{m.surface:.1f} n^(2/3) + {m.volume:.2f} n"],
+            ["a shape that came over one's own, `pairs`; `nearest`", f"{m.came['pairs']:.2f}; {m.came['nearest']:.2f}"],
             ["points that `nearest` sends over shapes that `pairs` sends", two(m.points)],
             ["imbalance of P parts", f"1 + {m.spread:.2f} sqrt(2 ln P / n)"],
-            ["a short message, and bandwidth, here between two ranks", f"{1e3 * r.get('link/8'):.1f} us, {1.048576e-3 / r.get('link/1048576'):.1f} GB/s"],
+            ["a short message, and bandwidth, here between two ranks", 
+             f"{1e3 * r.get('link/8'):.1f} us, {1.048576 / r.get('link/1048576'):.1f} GB/s"],
             ["the same on a cluster, assumed", f"{1e6 * LATENCY:.0f} us, {1e-9 * BANDWIDTH:.0f} GB/s"]]
     return table(["what", "cost"], rows) + made_on(r, "; n shapes of each kind a rank")
 
