@@ -18,6 +18,7 @@ from report_extremes import EXTREMES, PAIR_KINDS  # noqa: E402
 from report_motion import motion_scenes  # noqa: E402
 from report_predicates import INPUTS, PREDICATES  # noqa: E402
 from report_queries import ANY_SCENES, BUILDERS, SIZES, SPHERES, of_size, policies  # noqa: E402
+from report_scaling import DEALS, Model, rank_counts, sizes  # noqa: E402
 
 GREY = "#888888"
 COLOURS = {"fast": "#d9773f", "filtered": "#3f8fd9", "exact": "#3fa66b", "resolve": "#b05fc7", "conservative": "#c7a52e"}
@@ -388,6 +389,60 @@ def scaling_motion(results):
                           color=SERIES[index])
     log_log(axis, "triangles", "a frame: refit and impacts, ms")
     beside(figure, figure.axes[0].get_legend_handles_labels()[0])
+    return figure
+
+
+@plot("scaling-distributed")
+def scaling_distributed(results):
+    r = results["cpu/distributed"]
+    m, large = Model(r), sizes(r)[-1]
+    figure, axes = grid(4, 2, height=3.9)
+
+    axis, counts = axes[0], rank_counts(r, f"pairs/curve/{large}")
+    for index, deal in enumerate(DEALS):
+        work = [r.get(f"pairs/{deal}/{large}/{k}", "work_ms") for k in counts]
+        axis.plot(counts, work, color=SERIES[index], marker="s", fillstyle="none", label=f"{DEALS[deal]}: work of a rank")
+        clock = [(k, t) for k in counts if (t := r.get(f"pairs/{deal}/{large}/{k}"))]
+        axis.plot(*zip(*clock), "o", color=SERIES[index], label=f"{DEALS[deal]}: by the clock, on a busy machine")
+    one = r.get(f"pairs/curve/{large}/1", "work_ms")
+    axis.plot(counts, [one / k for k in counts], ":", color=GREY, label="1 / ranks")
+    axis.plot(counts, [1e3 * m.seconds("pairs", large / k, k) for k in counts], "--", color=GREY, label="model, along the curve")
+    log_log(axis, "ranks", "pairs, ms")
+    axis.set_xticks(counts, [str(k) for k in counts])
+    axis.yaxis.set_major_locator(matplotlib.ticker.LogLocator(10, (1, 2, 5)))
+    axis.yaxis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda v, _: f"{v:,g}"))
+    axis.set_title(f"Measured: {large:,} triangles and spheres, 2 cores")
+
+    axis = axes[1]
+    many = [(int(n.split("/")[1]), int(n.split("/")[2]), r.rows[n]) for n in r.names("parts/")]
+    for index, (key, mark, label) in enumerate((("sent_shapes", "o", "sent"), ("least_shapes", "^", "least possible"))):
+        points = sorted((whole / k, row[key] / k) for whole, k, row in many if k >= 64)
+        axis.plot(*zip(*points), mark, color=SERIES[index], label=label)
+    steps = [10**(e / 8) for e in range(16, 65)]
+    axis.plot(steps, [m.law(n) for n in steps], "--", color=GREY, label="model")
+    axis.plot(steps, steps, ":", color=GREY, label="all of them")
+    log_log(axis, "spheres of a part", "spheres that it sends")
+    axis.set_title("Counted: what pairs sends, 64 parts or more")
+
+    ranks = [10**(e / 8) for e in range(33)]
+    axes[2].set_title("Model, strong: pairs, shapes in all")
+    axes[3].set_title("Model, weak: queries, shapes a rank")
+    for index, total in enumerate((1e8, 1e10, 1e12)):
+        there = [k for k in ranks if total / k <= 1e9]  # more shapes than a rank holds
+        axes[2].plot(there, [m.seconds("pairs", total / k, k) for k in there], color=SERIES[index],
+                     label=f"$10^{{{math.log10(total):.0f}}}$")
+        axes[2].plot(there, [m.seconds("pairs", total / k, 1) for k in there], ":", color=SERIES[index])
+    axes[2].plot([], [], ":", color=GREY, label="own shapes alone")
+    for index, query in enumerate(("pairs", "nearest", "redistribute")):
+        for n, style in ((1e6, "--"), (1e8, "-")):
+            axes[3].plot(ranks, [m.seconds(query, n, k) for k in ranks], style, color=SERIES[index],
+                         label=f"{query}, $10^{{{math.log10(n):.0f}}}$")
+    for axis in axes[2:]:
+        log_log(axis, "ranks", "s")
+    for axis in (axes[0], axes[3]):  # room for what is said above the lines
+        axis.set_ylim(top=20 * axis.get_ylim()[1])
+    for axis in axes:
+        axis.legend(fontsize=6.5)
     return figure
 
 

@@ -65,6 +65,7 @@ cpu reduce_contacts bench_reduce_contacts --json={} --mesh=@D@/meshes/armadillo_
 cpu extremes bench_extremes --json={}
 cpu trade_scenes bench_trade_scenes --json={} --data=@D@
 cpu footprint bench_footprint --json={}
+cpu distributed bench_distributed --json={}
 cuda footprint bench_footprint_cuda {}
 cuda trade bench_trade_cuda {}
 cuda spheres_mesh bench_spheres_mesh_cuda {}
@@ -128,7 +129,8 @@ results=${from:-build/report/results}
 if [ -z "$from" ]; then
     if [ -z "$bin" ]; then
         if [ $install = yes ]; then
-            need_packages g++ cmake ninja-build python3 libbenchmark-dev libtinyobjloader-dev libboost-dev
+            need_packages g++ cmake ninja-build python3 libbenchmark-dev libtinyobjloader-dev libboost-dev libopenmpi-dev \
+                openmpi-bin
             want_packages libembree-dev libnanoflann-dev libcgal-dev libfcl-dev libgmp-dev libmpfr-dev libbullet-dev \
                 python3-matplotlib
         fi
@@ -155,6 +157,9 @@ if [ -z "$from" ]; then
     fi
     : "${ABUT_FLAGS:=-O3 -DNDEBUG}"
     export ABUT_COMMIT ABUT_FLAGS
+    # More ranks than cores, and also by root: Open MPI wants to be told, and others take no notice.
+    export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1 OMPI_ALLOW_RUN_AS_ROOT=1 \
+        OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 
     # --- runs ----------------------------------------------------------------------------------------------------------
 
@@ -170,11 +175,17 @@ if [ -z "$from" ]; then
             path=${argument#*=}
             case $path in "$D"/*) [ -e "$path" ] || { printf '%s/%s: left out, there is no %s\n' "$kind" "$name" "$path"; return 0; } ;; esac
         done
+        ranks=''
+        if [ "$program" = bench_distributed ]; then
+            command -v mpirun >/dev/null 2>&1 || { printf '%s/%s: left out, there is no mpirun\n' "$kind" "$name"; return 0; }
+            ranks='mpirun -np 8'
+        fi
         started=$(date +%s)
         file=$results/$kind/$name.json
         rm -f "$file"
         status=0
-        "$bin/$program" "$@" >"$results/$kind/$name.log" 2>&1 || status=$?
+        # shellcheck disable=SC2086
+        $ranks "$bin/$program" "$@" >"$results/$kind/$name.log" 2>&1 || status=$?
         if [ $status = 0 ] && [ -s "$file" ]; then
             printf '%s/%s: %s s\n' "$kind" "$name" $(($(date +%s) - started))
         else

@@ -1,0 +1,235 @@
+# SPDX-License-Identifier: MIT
+"""The tables of docs/scaling.md: what bench/distributed.cpp measured, and a model of its costs on many ranks."""
+
+import math
+
+from report_core import *  # noqa: F403
+
+STAGES = {"redistribute": "`redistribute`, one set", "build": "`make_bvh`", "pairs": "`pairs`", "count": "`count`",
+          "nearest": "`nearest`"}
+DEALS = {"random": "at random", "curve": "along the curve"}
+# Assumed, and not measured: one way of a short message, and what a rank sends in a second, on a network of a cluster.
+LATENCY, BANDWIDTH = 2e-6, 10e9
+# Bytes of a shape of b and its id; of a point and its answer.
+MESSAGES = {"pairs": 20, "nearest": 44}
+TERMS = ("own shapes", "imbalance", "looking through shapes", "shapes that came", "per rank", "bytes", "latency")
+
+
+def rank_counts(r, name):
+    return sorted(int(n.split("/")[-1]) for n in r.names(name + "/"))
+
+
+def sizes(r):
+    return sorted({int(n.split("/")[2]) for n in r.names("pairs/")})
+
+
+def ascending(rows):
+    """Values at some numbers of ranks, as a function of any: straight between them over the logarithm, and then flat."""
+    rows = sorted(rows)
+
+    def at(ranks):
+        for (low, a), (high, b) in zip(rows, rows[1:]):
+            if ranks <= high:
+                return a + (b - a) * max(0.0, math.log(ranks / low) / math.log(high / low))
+        return rows[-1][1]
+    return at
+
+
+class Model:
+    """Seconds of the slowest rank, by terms: with n shapes of each kind a rank, on so many ranks."""
+
+    def __init__(self, r, latency=LATENCY, bandwidth=BANDWIDTH):
+        self.latency, self.bandwidth = latency, bandwidth
+
+        def per_shape(stage, deal, depth):
+            each = sorted(1e-3 * r.get(f"{stage}/{deal}/{n}/1", "work_ms") / (n * (math.log2(n) if depth else 1))
+                          for n in sizes(r))
+            return each[len(each) // 2]
+        # A walk of a tree goes down log2 n levels.
+        self.pairs, self.nearest = (per_shape(s, "curve", True) for s in ("pairs", "nearest"))
+        self.redistribute = per_shape("redistribute", "random", False)
+        self.shape, self.part, self.point, self.code = (1e-9 * r.get(f"local/{s}", "ns") for s in ("shape", "part", "point",
+                                                                                                   "code"))
+        self.code /= math.log2(sizes(r)[len(sizes(r)) // 2])  # a step of a search
+        # What is sent: some surface and some volume of a part.
+        parts = [(int(n.split("/")[1]), int(n.split("/")[2]), n) for n in r.names("parts/")]
+        parts = [(whole / k, k, r.rows[name]) for whole, k, name in parts]
+        many = [(n, row["sent_shapes"] / k) for n, k, row in parts if k >= 64]
+        a11, a12, a22 = (sum(n**power / s**2 for n, s in many) for power in (4 / 3, 5 / 3, 2))  # least squares of relative errors
+        b1, b2 = (sum(n**power / s for n, s in many) for power in (2 / 3, 1))
+        d = a11 * a22 - a12**2
+        self.surface, self.volume = (b1 * a22 - b2 * a12) / d, (b2 * a11 - b1 * a12) / d
+        # The rank that sends most, and the one with most neighbours, of the largest scene.
+        large = max(n * k for n, k, _ in parts)
+        large = [p for p in parts if p[0] * p[1] == large]
+        self.most_sent = ascending([(1, 0.0)] + [(k, row["most_sent_shapes"] / self.law(n)) for n, k, row in large])
+        self.neighbours = ascending([(1, 0.0)] + [(k, row["most_neighbours"]) for n, k, row in large])
+        # Of k equal shares of things that fall at random the largest is beyond the mean by so many standard deviations.
+        spread = sorted((row["imbalance"] - 1) / math.sqrt(2 * math.log(k) / n) for n, k, row in parts)
+        self.spread = spread[len(spread) // 2]
+        # What came costs other than what is here: for pairs most of it touches nothing.
+        self.came = {}
+        for query, bytes_each in MESSAGES.items():
+            costs = []
+            for n in sizes(r):
+                for k in rank_counts(r, f"{query}/curve/{n}")[1:]:
+                    row, here = r.rows[f"{query}/curve/{n}/{k}"], n / k
+                    own = self.own(query) * math.log2(here)
+                    looking = 2 * (k - 1) * here * self.shape if query == "pairs" else (k - 1) * here * self.point
+                    costs.append((1e-3 * row["work_ms"] - own * here - looking) / (own * row["most_bytes"] / bytes_each))
+            self.came[query] = sorted(costs)[len(costs) // 2]
+        end = f"curve/{sizes(r)[-1]}/{rank_counts(r, f'pairs/curve/{sizes(r)[-1]}')[-1]}"
+        self.points = r.get("nearest/" + end, "bytes") / 44 / (r.get("pairs/" + end, "bytes") / 20)
+
+    def own(self, query):
+        return {"pairs": self.pairs, "nearest": self.nearest}[query]
+
+    def law(self, n):
+        return self.surface * n**(2 / 3) + self.volume * n
+
+    def terms(self, query, n, ranks):
+        depth, rounds, far = math.log2(max(n, 2)), 2 * math.ceil(math.log2(ranks)), ranks - 1
+        sent, near = min(self.law(n) * self.most_sent(ranks), n * far), min(self.neighbours(ranks), far)
+        uneven = self.spread * math.sqrt(2 * math.log(ranks) / n)
+        if query == "pairs":
+            own = self.pairs * n * depth
+            return (own, own * uneven, 2 * near * n * self.shape, self.came[query] * self.pairs * sent * depth,
+                    2 * far * self.part, (20 * sent + 832 * far) / self.bandwidth, (6 * rounds + 4 * near) * self.latency)
+        if query == "nearest":
+            own = self.nearest * n * depth
+            points = self.points * sent
+            return (own, own * uneven, far * n * self.point, self.came[query] * self.nearest * points * depth, 0.0,
+                    (44 * points + 424 * far) / self.bandwidth, (6 * rounds + far + 2 * near) * self.latency)
+        own = self.redistribute * n
+        return (own, 0.0, 0.0, 0.0, 65 * far * self.code * depth,
+                ((44 * n if far else 0) + (416 + 2 * 64 * 8) * far) / self.bandwidth,
+                (72 * rounds + 4 * far) * self.latency)
+
+    def seconds(self, query, n, ranks):
+        return sum(self.terms(query, n, ranks))
+
+    def ranks_where(self, query, term, n):
+        """The least number of ranks, of two digits, at which a term takes as long as the own shapes; None up to a million."""
+        for power in range(6):
+            for digits in range(10, 100):
+                ranks = digits * 10**power // 10
+                if ranks > 1 and self.terms(query, n, ranks)[TERMS.index(term)] >= self.terms(query, n, 1)[0]:
+                    return ranks
+        return None
+
+
+def seconds(value):
+    return f"{value:.2g}" if value < 100 else whole(value)
+
+
+def two(value):
+    return f"{value:.2f}"
+
+
+@in_table("scaling-ranks")
+def scaling_ranks(results):
+    r = results["cpu/distributed"]
+    least, large = sizes(r)[0], sizes(r)[-1]
+    rows = []
+    for deal, name in DEALS.items():
+        for stage, call in STAGES.items():
+            if not r.names(f"{stage}/{deal}/"):
+                continue
+
+            def at(n, ranks, key="ms"):
+                return r.get(f"{stage}/{deal}/{n}/{ranks}", key)
+            rows.append([name, call, shown(at(large, 1)), shown(at(large, 2)), quotient(at(large, 1), at(large, 2))] +
+                        [quotient(at(large, 1, "work_ms"), at(large, k, "work_ms")) for k in (2, 4, 8)] +
+                        [quotient(at(2 * least, 2), at(least, 1))] +
+                        [quotient(at(k * least, k, "work_ms"), at(least, 1, "work_ms")) for k in (2, 4)])
+    return table(["dealt", "", "1 rank, ms", "2 ranks, ms", "speedup", "work, 2 ranks", "4", "8", "weak, 2 ranks", "work, 2", "4"],
+                 rows, 2) + made_on(r, f"; {large:,} triangles and as many spheres; weak: {least:,} of each a rank")
+
+
+@in_table("scaling-bytes")
+def scaling_bytes(results):
+    r = results["cpu/distributed"]
+    large = sizes(r)[-1]
+    rows = []
+    for deal, name in DEALS.items():
+        for k in rank_counts(r, f"pairs/{deal}/{large}"):
+            if k == 1:
+                continue
+            end = f"{deal}/{large}/{k}"
+            row = r.rows["pairs/" + end]
+            rows.append([name, whole(k), whole(row["bytes"] / k), whole(row["most_bytes"]), whole(row["least_bytes"] / k),
+                         quotient(row["bytes"], row["least_bytes"], 1), whole(row["most_messages"]), whole(row["gathered_bytes"]),
+                         two(row["imbalance"]), whole(r.get("nearest/" + end, "bytes") / k)] +
+                        [whole(r.get("redistribute/" + end, "bytes") / k) if deal == "random" else ""])
+    return table(["dealt", "ranks", "bytes a rank", "most", "least possible", "over least", "messages", "gathered, bytes",
+                  "imbalance", "`nearest`, bytes a rank", "`redistribute`, bytes a rank"], rows, 1) + \
+        made_on(r, f"; {large:,} triangles and as many spheres; the first columns are of `pairs`")
+
+
+@in_table("scaling-parts")
+def scaling_parts(results):
+    r = results["cpu/distributed"]
+    rows = []
+    for name in r.names("parts/"):
+        n, k = (int(x) for x in name.split("/")[1:])
+        row = r.rows[name]
+        rows.append([whole(n), whole(k), whole(n / k), whole(row["sent_shapes"] / k), whole(row["most_sent_shapes"]),
+                     whole(row["least_shapes"] / k), quotient(row["sent_shapes"], row["least_shapes"], 1),
+                     f"{row['neighbours'] / k:.1f}", whole(row["most_neighbours"]), two(row["imbalance"])])
+    return table(["spheres", "parts", "of a part", "sent by a part", "most", "least possible", "over least", "neighbours", "most",
+                  "imbalance"], rows, 0) + made_on(r)
+
+
+@in_table("scaling-costs")
+def scaling_costs(results):
+    r = results["cpu/distributed"]
+    m = Model(r)
+    rows = [["own shapes, `pairs`", f"{1e9 * m.pairs:.0f} ns n log2 n"],
+            ["own shapes, `nearest`", f"{1e9 * m.nearest:.0f} ns n log2 n"],
+            ["own shapes, `redistribute`", f"{1e9 * m.redistribute:.0f} ns n"],
+            ["a shape, by one other part's boxes", f"{1e9 * m.shape:.1f} ns"],
+            ["a point, by one other part's boxes", f"{1e9 * m.point:.1f} ns"], ["two parts", f"{1e9 * m.part:.1f} ns"],
+            ["a code, by one step of a search", f"{1e9 * m.code:.1f} ns"],
+            ["shapes that a part sends, mean of many parts", f"{m.surface:.1f} n^(2/3) + {m.volume:.2f} n"],
+            ["a shape that came over one's own, `pairs`; `nearest`", f"{m.came['pairs']:.2f}; {m.came['nearest']:.2f}"],
+            ["points that `nearest` sends over shapes that `pairs` sends", two(m.points)],
+            ["imbalance of P parts", f"1 + {m.spread:.2f} sqrt(2 ln P / n)"],
+            ["a short message, and bandwidth, here between two ranks", 
+             f"{1e3 * r.get('link/8'):.1f} us, {1.048576 / r.get('link/1048576'):.1f} GB/s"],
+            ["the same on a cluster, assumed", f"{1e6 * LATENCY:.0f} us, {1e-9 * BANDWIDTH:.0f} GB/s"]]
+    return table(["what", "cost"], rows) + made_on(r, "; n shapes of each kind a rank")
+
+
+@in_table("scaling-terms")
+def scaling_terms(results):
+    m = Model(results["cpu/distributed"])
+    rows = []
+    for n in (10**5, 10**6, 10**8):
+        for query in ("pairs", "nearest", "redistribute"):
+            terms = m.terms(query, n, 10**4)
+            rows.append([whole(n), f"`{query}`"] + [seconds(t) if t else "" for t in terms] +
+                        [seconds(sum(terms)), f"{100 * m.seconds(query, n, 1) / sum(terms):.0f}"])
+    return table(["shapes a rank", "seconds", *TERMS, "all", "weak efficiency, %"], rows, 2)
+
+
+@in_table("scaling-limits")
+def scaling_limits(results):
+    m = Model(results["cpu/distributed"])
+    rows = []
+    for query, term, what in (("nearest", "looking through shapes", "looks through all its points for each rank"),
+                              ("nearest", "latency", "tells each rank a number, one after another"),
+                              ("pairs", "looking through shapes", "looks through all its shapes for each neighbour, twice"),
+                              ("pairs", "shapes that came", "asks about shapes that came"),
+                              ("pairs", "per rank", "compares its boxes with each rank's"),
+                              ("pairs", "bytes", "sends shapes, and gathers all ranks' boxes"),
+                              ("redistribute", "latency", "messages to each rank, one after another; 63 reductions"),
+                              ("redistribute", "per rank", "searches its codes 65 times for each rank"),
+                              ("redistribute", "bytes", "sends shapes, and reduces a number for each rank 64 times")):
+        found = [m.ranks_where(query, term, n) for n in (10**5, 10**6, 10**8)]
+        rows.append([f"`{query}`", what] + [whole(p) if p else "-" for p in found])
+    return table(["", "what it does", "100,000 shapes a rank", "1,000,000", "100,000,000"], rows, 2)
+
+
+VALUES["scaling-nearest-limit"] = lambda results: whole(
+    Model(results["cpu/distributed"]).ranks_where("nearest", "looking through shapes", 10**6))
+VALUES["scaling-volume"] = lambda results: f"{100 * Model(results['cpu/distributed']).volume:.0f}"
