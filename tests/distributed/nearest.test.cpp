@@ -4,6 +4,7 @@
 
 #include <abut/mpi.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -79,6 +80,42 @@ TEST_CASE("distributed: nearest of all parts") {
 TEST_CASE("distributed: nearest in double, at the ends of the range too") {
     const distributed on(world(), openmp{2});
     for (const double size : {1.0, 0x1p-1000, 0x1p1000}) check_scene(on, size, division::even, division::uneven);
+}
+
+namespace {
+
+/// A long row, in which most points are far from most parts; some places have no shapes, so that points there look far.
+template <scalar T>
+void check_row(std::uint32_t seed) {
+    const distributed on(world(), serial{});
+    std::mt19937 random(seed);
+    std::uniform_int_distribution<int> cell(0, 2000), side(0, 16);
+    const auto row = [&](std::size_t n, bool gaps, int width) {
+        std::vector<vec3<T>> all;
+        while (all.size() < n) {
+            const int x = cell(random);
+            if (gaps && x / 50 % 2 == 1) continue;
+            const int y = side(random), z = side(random);
+            all.push_back({static_cast<T>(x) / 8, static_cast<T>(y) / 8, static_cast<T>(z) / 8});
+        }
+        // Neighbours as far as `width`; within that in any order.
+        const auto at = [&](const vec3<T>& p) { return static_cast<int>(p.x) / width; };
+        std::stable_sort(all.begin(), all.end(), [&](const auto& p, const auto& q) { return at(p) < at(q); });
+        return all;
+    };
+    const auto corners = row(800, true, 1), from = row(3000, false, 11);
+    for (const division how : {division::even, division::uneven}) {
+        CAPTURE(static_cast<int>(how), on.size());
+        const points<T> whole(corners), part(part_of(corners, how, on.rank(), on.size()));
+        check_nearest(on, make_bvh(on.local(), part), whole, part_of(from, division::even, on.rank(), on.size()), from);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("distributed: nearest of parts that are far from each other") {
+    for (const std::uint32_t seed : {31, 32, 33}) check_row<float>(seed);
+    check_row<double>(34);
 }
 
 TEST_CASE("distributed: more points than a message takes") {

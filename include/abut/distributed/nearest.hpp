@@ -82,6 +82,18 @@ struct write_measured {
     }
 };
 
+/// Whether a part may hold something as near as a ball reaches: least(box) is how near what lies in a box comes at least.
+template <scalar T, class Least>
+ABUT_HD bool may_reach(const part_bounds<T>& part, const shrinking_ball<T>& ball, const Least& least) {
+    if (!ball.keeps(least(part.around))) return false;
+    bool may = false;
+    for (std::size_t k = 0; k < part_boxes; ++k) {
+        const aabb<T>& box = part.groups[k];
+        may |= box.lower.x <= box.upper.x && ball.keeps(least(box));
+    }
+    return may;
+}
+
 /// Points for which a part may hold something as near as what they have.
 template <shape_view Points>
 struct may_be_nearer {
@@ -94,14 +106,48 @@ struct may_be_nearer {
     ABUT_HD bool operator()(std::size_t i) const {
         auto ball = world_frame<T>{unit.length(1)}.ball_around(points[i]);
         if (best[i].id != no_global_id) ball.shrink_to(best[i].measure);
-        if (!ball(part.around)) return false;
-        bool may = false;
-        for (std::size_t k = 0; k < part_boxes; ++k) may |= !is_empty(part.groups[k]) && ball(part.groups[k]);
-        return may;
+        return may_reach(part, ball, [&](const aabb<T>& box) { return ball.least_in(box); });
     }
+};
 
-private:
-    ABUT_HD static bool is_empty(const aabb<T>& box) { return !(box.lower.x <= box.upper.x); }
+/// Some neighbouring points, and the largest measure that one of them has.
+template <scalar T>
+struct point_block {
+    aabb<T> box;
+    double worst;
+};
+template <shape_view Points>
+struct write_point_blocks {
+    using T = typename Points::scalar_type;
+    Points points;
+    const measured_neighbor<T>* best;
+    point_block<T>* blocks;
+    ABUT_HD void operator()(std::size_t k) const {
+        const std::size_t first = k * block_size, left = points.size() - first;
+        point_block<T> block{empty_box<T>(), 0};
+        for (std::size_t i = first; i < first + (left < block_size ? left : block_size); ++i) {
+            block.box = merge(block.box, bounds(points[i]));
+            block.worst = greatest(block.worst, best[i].measure);
+        }
+        blocks[k] = block;
+    }
+};
+/// The same of blocks. The distance of two boxes is computed as that of a point from a box, and is no larger.
+template <scalar T>
+struct may_block_be_nearer {
+    const point_block<T>* blocks;
+    length_unit<T> unit;
+    part_bounds<T> part;
+
+    ABUT_HD bool operator()(std::size_t k) const {
+        const aabb<T> around = blocks[k].box;
+        auto ball = world_frame<T>{unit.length(1)}.ball_around(around.lower);
+        if (blocks[k].worst < infinity<double>) ball.shrink_to(blocks[k].worst);
+        return may_reach(part, ball, [&](const aabb<T>& box) {
+            const vec3<T> away = greatest(vec3<T>{}, greatest(around.lower - box.upper, box.lower - around.upper));
+            return dot(away, away);
+        });
+    }
 };
 
 template <scalar T>
@@ -141,8 +187,11 @@ public:
         attempt([&] {
             best_ = execution::buffer_of<Local, measured_neighbor<T>>(local_, n);
             ids_ = execution::buffer_of<Local, std::uint32_t>(local_, n);
+            blocks_ = execution::buffer_of<Local, point_block<T>>(local_, blocks_of(n));
+            near_ = execution::buffer_of<Local, std::uint32_t>(local_, blocks_of(n));
             rooms_.emplace(local_, std::min(n, most_points), most_of_others());
             answer(queries_, best_.data());
+            look_at_blocks();
         });
         attempt.settle(ranks);
         for (int round = 1; round < all; ++round) exchange((me + round) % all, (me - round + all) % all, attempt);
@@ -190,6 +239,26 @@ private:
         });
     }
 
+    /// What blocks of points still look for.
+    void look_at_blocks() {
+        const auto points = queries_.shapes();
+        using points_type = std::remove_const_t<decltype(points)>;
+        for_each_index(local_, blocks_.size(), write_point_blocks<points_type>{points, best_.data(), blocks_.data()});
+    }
+
+    /// The points that `target` is asked about, to ids_. Returns how many these are.
+    std::size_t choose_points(int target) {
+        const auto points = queries_.shapes();
+        using points_type = std::remove_const_t<decltype(points)>;
+        const may_block_be_nearer<T> may_block{blocks_.data(), unit_, parts_[target]};
+        const std::size_t blocks = compact(local_, blocks_.size(), may_block, near_.data());
+        const in_blocks<may_be_nearer<points_type>> may{
+            {points, best_.data(), unit_, parts_[target]}, near_.data(), points.size()};
+        const std::size_t chosen = compact(local_, blocks * block_size, may, ids_.data());
+        for_each_index(local_, chosen, write_ids_in_blocks<may_be_nearer<points_type>>{may, ids_.data()});
+        return chosen;
+    }
+
     /// Asks `target`, and answers `source`, some points at a time. Each knows how many there are before.
     void exchange(int target, int source, attempts& attempt) {
         enum tag { tag_count, tag_points, tag_answers };
@@ -214,10 +283,7 @@ private:
         };
         if (is_asked) receive(&in, 1, MPI_UINT64_T, source, tag_count);
         if (asks) {
-            attempt([&] {
-                const may_be_nearer<points_type> may{points, best_.data(), unit_, parts_[target]};
-                out = compact(local_, n, may, ids_.data());
-            });
+            attempt([&] { out = choose_points(target); });
             send(&out, 1, MPI_UINT64_T, target, tag_count);
         }
         wait();
@@ -255,6 +321,7 @@ private:
                 synchronize(local_);
             });
         }
+        if (out > 0) attempt([&] { look_at_blocks(); });
     }
 
     const distributed<Local>& on_;
@@ -267,7 +334,8 @@ private:
     message_type<vec3<T>> point_type_;
     message_type<measured_neighbor<T>> answer_type_;
     execution::buffer_of<Local, measured_neighbor<T>> best_;
-    execution::buffer_of<Local, std::uint32_t> ids_;
+    execution::buffer_of<Local, point_block<T>> blocks_;
+    execution::buffer_of<Local, std::uint32_t> ids_, near_;
     std::optional<rooms> rooms_;
 };
 

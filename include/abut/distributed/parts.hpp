@@ -108,6 +108,49 @@ struct comes_near {
     ABUT_HD bool operator()(std::size_t i) const { return there.reaches(bounds(shapes[i])); }
 };
 
+/// Neighbours in a set, as many as this, have a box of their own: most are left out without a look at each.
+inline constexpr std::size_t block_size = 64;
+inline std::size_t blocks_of(std::size_t n) { return n / block_size + (n % block_size != 0); }
+
+template <shape_view Shapes>
+struct write_block_boxes {
+    using T = typename Shapes::scalar_type;
+    Shapes shapes;
+    aabb<T>* boxes;
+    ABUT_HD void operator()(std::size_t k) const {
+        const std::size_t first = k * block_size, left = shapes.size() - first;
+        aabb<T> box = empty_box<T>();
+        for (std::size_t i = 0; i < (left < block_size ? left : block_size); ++i)
+            box = merge(box, bounds(shapes[first + i]));
+        boxes[k] = box;
+    }
+};
+template <scalar T>
+struct is_block_near {
+    const aabb<T>* boxes;
+    part_bounds<T> there;
+    ABUT_HD bool operator()(std::size_t k) const { return there.reaches(boxes[k]); }
+};
+
+/// A test of those that some blocks have, one after another.
+template <class Test>
+struct in_blocks {
+    Test test;
+    const std::uint32_t* blocks;
+    std::size_t count;  ///< of all, in these blocks or not
+    [[nodiscard]] ABUT_HD std::size_t id(std::size_t place) const {
+        return std::size_t{blocks[place / block_size]} * block_size + place % block_size;
+    }
+    ABUT_HD bool operator()(std::size_t place) const { return id(place) < count && test(id(place)); }
+};
+/// Ids in place of places.
+template <class Test>
+struct write_ids_in_blocks {
+    in_blocks<Test> in;
+    std::uint32_t* ids;
+    ABUT_HD void operator()(std::size_t i) const { ids[i] = static_cast<std::uint32_t>(in.id(ids[i])); }
+};
+
 template <shape_view Shapes>
 struct pack_shape {
     Shapes shapes;
@@ -300,15 +343,17 @@ public:
     shape_parcels(const Local& local, const Shapes& shapes, const parts_of_set<T>& looking, const Use& use)
         : rooms(local), shapes_(shapes), looking_(looking), use_(use) {}
 
-    [[nodiscard]] sizes measure(int to) const {
-        const one_if<comes_near<Shapes>> near{{shapes_, looking_[to]}};
+    [[nodiscard]] sizes measure(int to) {
+        const std::size_t blocks = near_blocks(to);
         sizes size{};
-        size[0] = reduce(local_, shapes_.size(), std::uint64_t{0}, add_up_tallies{}, near);
+        size[0] = reduce(local_, blocks * block_size, std::uint64_t{0}, add_up_tallies{}, one_if<near_in_blocks>{near(to)});
         return size;
     }
     void pack(int to, const sizes& size) {
         const auto n = static_cast<std::size_t>(size[0]);
-        compact(local_, shapes_.size(), comes_near<Shapes>{shapes_, looking_[to]}, out_->ids.there());
+        const std::size_t blocks = near_blocks(to);
+        compact(local_, blocks * block_size, near(to), out_->ids.there());
+        for_each_index(local_, n, write_ids_in_blocks<comes_near<Shapes>>{near(to), out_->ids.there()});
         for_each_index(local_, n, pack_shape<Shapes>{shapes_, out_->ids.there(), out_->shapes.there()});
         out_->bring_here(local_, n);
     }
@@ -320,9 +365,25 @@ public:
     }
 
 private:
+    using near_in_blocks = in_blocks<comes_near<Shapes>>;
+
+    /// Finds the blocks of which shapes may go to a rank.
+    [[nodiscard]] std::size_t near_blocks(int to) {
+        const std::size_t blocks = blocks_of(shapes_.size());
+        if (boxes_.size() == 0 && blocks > 0) {
+            boxes_ = execution::buffer_of<Local, aabb<T>>(local_, blocks);
+            near_ = execution::buffer_of<Local, std::uint32_t>(local_, blocks);
+            for_each_index(local_, blocks, write_block_boxes<Shapes>{shapes_, boxes_.data()});
+        }
+        return compact(local_, blocks, is_block_near<T>{boxes_.data(), looking_[to]}, near_.data());
+    }
+    [[nodiscard]] near_in_blocks near(int to) const { return {{shapes_, looking_[to]}, near_.data(), shapes_.size()}; }
+
     Shapes shapes_;
     const parts_of_set<T>& looking_;
     const Use& use_;
+    execution::buffer_of<Local, aabb<T>> boxes_;  ///< of blocks
+    execution::buffer_of<Local, std::uint32_t> near_;
 };
 
 }  // namespace abut::detail
