@@ -274,6 +274,34 @@ TEST_CASE("distributed: a rank that comes late") {
     }
 }
 
+TEST_CASE("distributed: boxes of a part are cut where its shapes jump") {
+    std::mt19937 random(9);
+    std::uniform_real_distribution<double> off(0, 1);
+    std::vector<vec3<double>> places;
+    double k = 0;  // each group is far from the others, and they do not lie on one line
+    for (const std::size_t n : {1u, 50u, 3u, 900u, 20u, 1u, 400u, 7u, 60u, 33u}) {
+        for (std::size_t i = 0; i < n; ++i) places.push_back({10 * k + off(random), k * k + off(random), off(random)});
+        ++k;
+    }
+    const points<double> set(places);
+    const auto part = detail::bounds_of_part(serial{}, set.view());
+    CHECK(part.size == places.size());
+    bool all = true, gaps = true;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        all = all && part.reaches(bounds(places[i]));
+        if (i == 0 || places[i].x - places[i - 1].x < 5) continue;
+        const vec3<double> middle = 0.5 * (places[i] + places[i - 1]);
+        gaps = gaps && !part.reaches(bounds(middle));
+    }
+    CHECK(all);
+    CHECK(gaps);
+    // Boxes of all space, as of planes, and none at all.
+    const std::vector<plane<float>> walls(20, {{0, 0, 1}, 1});
+    const shapes_view<plane<float>> view(walls.data(), walls.size());
+    CHECK(detail::bounds_of_part(serial{}, view).reaches({{1, 1, 1}, {2, 2, 2}}));
+    CHECK(!detail::bounds_of_part(serial{}, points<float>().view()).reaches({{-9, -9, -9}, {9, 9, 9}}));
+}
+
 TEST_CASE("distributed: ids above 2^32") {
     // Parts so large take too much memory for a test: here they say that they are.
     const distributed on(world(), serial{});

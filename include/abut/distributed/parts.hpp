@@ -27,7 +27,7 @@ namespace abut::detail {
 
 // --- where parts are ---------------------------------------------------------------------------------------------------
 
-/// Boxes around as many groups of neighbours in a part. One box would do; where ids follow space, several leave out more.
+/// Boxes around groups of neighbours in a part. One box would do; where ids follow space, several leave out more.
 inline constexpr std::size_t part_boxes = 16;
 
 /// A part of a set, as other ranks know it.
@@ -50,11 +50,87 @@ struct part_bounds {
     }
 };
 
+/// Neighbours in a set, as many as this, have a box of their own.
+inline constexpr std::size_t block_size = 64;
+inline std::size_t blocks_of(std::size_t n, std::size_t size = block_size) { return n / size + (n % size != 0); }
+
 template <shape_view Shapes>
-struct box_of_shape_from {
+struct write_block_boxes {
+    using T = typename Shapes::scalar_type;
     Shapes shapes;
-    std::size_t first;
-    ABUT_HD auto operator()(std::size_t i) const { return bounds(shapes[first + i]); }
+    std::size_t size;  ///< of a block
+    aabb<T>* boxes;
+    ABUT_HD void operator()(std::size_t k) const {
+        const std::size_t first = k * size, left = shapes.size() - first;
+        aabb<T> box = empty_box<T>();
+        for (std::size_t i = first; i < first + (left < size ? left : size); ++i) box = merge(box, bounds(shapes[i]));
+        boxes[k] = box;
+    }
+};
+
+/// Divides a row of boxes into groups of neighbours: the row is cut where that leaves the least volume, and again, until
+/// there are as many groups as a part has. Where shapes lie along a curve, these are the places where it jumps.
+template <scalar T>
+class box_groups {
+public:
+    explicit box_groups(const std::vector<aabb<T>>& boxes) : boxes_(boxes), left_(boxes.size()) {
+        for (const aabb<T>& box : boxes) around_ = merge(around_, box);
+        groups_.reserve(part_boxes);
+        if (!boxes.empty()) groups_.push_back(best_cut(0, boxes.size()));
+        while (groups_.size() < part_boxes) {
+            const auto gain = [](const group& x, const group& y) { return x.gain < y.gain; };
+            const auto most = std::max_element(groups_.begin(), groups_.end(), gain);
+            if (most == groups_.end() || most->cut == most->first) break;  // boxes are alone, or there are none
+            const group whole = *most;
+            *most = best_cut(whole.first, whole.cut);
+            groups_.push_back(best_cut(whole.cut, whole.last));
+        }
+    }
+
+    void write(part_bounds<T>& part) const {
+        part.around = around_;
+        for (aabb<T>& box : part.groups) box = empty_box<T>();
+        for (std::size_t k = 0; k < groups_.size(); ++k) {
+            for (std::size_t i = groups_[k].first; i < groups_[k].last; ++i) {
+                part.groups[k] = merge(part.groups[k], boxes_[i]);
+            }
+        }
+    }
+
+private:
+    struct group {
+        std::size_t first, last, cut;  ///< `cut` is `first` where there is none
+        double gain;                   ///< volume that is left out if it is cut there
+    };
+
+    /// In parts of the extents of all. Flat boxes have some volume too.
+    [[nodiscard]] double volume(const aabb<T>& box) const {
+        const auto side = [](T lower, T upper, T first, T last) {
+            const double extent = static_cast<double>(last) / 2 - static_cast<double>(first) / 2;
+            const double mine = static_cast<double>(upper) / 2 - static_cast<double>(lower) / 2;
+            return (extent > 0 ? mine / extent : 0) + 1.0 / 64;
+        };
+        return side(box.lower.x, box.upper.x, around_.lower.x, around_.upper.x) *
+               side(box.lower.y, box.upper.y, around_.lower.y, around_.upper.y) *
+               side(box.lower.z, box.upper.z, around_.lower.z, around_.upper.z);
+    }
+    [[nodiscard]] group best_cut(std::size_t first, std::size_t last) {
+        aabb<T> box = empty_box<T>();
+        for (std::size_t i = first; i + 1 < last; ++i) left_[i] = volume(box = merge(box, boxes_[i]));
+        group best{first, last, first, -infinity<double>};
+        const double whole = volume(merge(box, boxes_[last - 1]));
+        box = empty_box<T>();
+        for (std::size_t i = last - 1; i > first; --i) {
+            const double gain = whole - left_[i - 1] - volume(box = merge(box, boxes_[i]));
+            if (gain > best.gain) best.cut = i, best.gain = gain;
+        }
+        return best;
+    }
+
+    const std::vector<aabb<T>>& boxes_;
+    aabb<T> around_ = empty_box<T>();
+    std::vector<double> left_;  ///< the volume of a group's boxes up to each
+    std::vector<group> groups_;
 };
 
 template <class Policy, shape_view Shapes>
@@ -62,12 +138,13 @@ auto bounds_of_part(const Policy& on, const Shapes& shapes) {
     using T = typename Shapes::scalar_type;
     part_bounds<T> part;
     part.size = shapes.size();
-    for (std::size_t k = 0; k < part_boxes; ++k) {
-        const std::size_t first = shapes.size() * k / part_boxes, last = shapes.size() * (k + 1) / part_boxes;
-        const box_of_shape_from<Shapes> box{shapes, first};
-        part.groups[k] = first < last ? reduce(on, last - first, empty_box<T>(), merge_boxes{}, box) : empty_box<T>();
-        part.around = merge(part.around, part.groups[k]);
-    }
+    // Fine enough to cut where the curve jumps: of 50,000 shapes 1,024 boxes left eight parts to send three times as much.
+    const std::size_t size = std::clamp<std::size_t>(shapes.size() / 16384, 1, block_size);
+    std::vector<aabb<T>> boxes(blocks_of(shapes.size(), size));
+    execution::buffer_of<Policy, aabb<T>> there(on, boxes.size());
+    for_each_index(on, boxes.size(), write_block_boxes<Shapes>{shapes, size, there.data()});
+    download(on, there.data(), boxes.size(), boxes.data());
+    box_groups<T>(boxes).write(part);
     return part;
 }
 
@@ -108,23 +185,6 @@ struct comes_near {
     ABUT_HD bool operator()(std::size_t i) const { return there.reaches(bounds(shapes[i])); }
 };
 
-/// Neighbours in a set, as many as this, have a box of their own: most are left out without a look at each.
-inline constexpr std::size_t block_size = 64;
-inline std::size_t blocks_of(std::size_t n) { return n / block_size + (n % block_size != 0); }
-
-template <shape_view Shapes>
-struct write_block_boxes {
-    using T = typename Shapes::scalar_type;
-    Shapes shapes;
-    aabb<T>* boxes;
-    ABUT_HD void operator()(std::size_t k) const {
-        const std::size_t first = k * block_size, left = shapes.size() - first;
-        aabb<T> box = empty_box<T>();
-        for (std::size_t i = 0; i < (left < block_size ? left : block_size); ++i)
-            box = merge(box, bounds(shapes[first + i]));
-        boxes[k] = box;
-    }
-};
 template <scalar T>
 struct is_block_near {
     const aabb<T>* boxes;
@@ -373,7 +433,7 @@ private:
         if (boxes_.size() == 0 && blocks > 0) {
             boxes_ = execution::buffer_of<Local, aabb<T>>(local_, blocks);
             near_ = execution::buffer_of<Local, std::uint32_t>(local_, blocks);
-            for_each_index(local_, blocks, write_block_boxes<Shapes>{shapes_, boxes_.data()});
+            for_each_index(local_, blocks, write_block_boxes<Shapes>{shapes_, block_size, boxes_.data()});
         }
         return compact(local_, blocks, is_block_near<T>{boxes_.data(), looking_[to]}, near_.data());
     }
