@@ -16,9 +16,12 @@
 //                              results. For pairs: b-shapes that touch an a-shape of another rank, once for each such rank,
 //                              which is the least that has to be sent
 //   parts/SHAPES/PARTS         what pairs would send if --whole shapes (4,000,000), and a tenth, were on so many ranks along
-//                              the curve. One process counts it with the library's own rule
+//                              the curve, and how many blocks of shapes are near another part. One process counts it with
+//                              the library's own rule
 //   link/BYTES                 one way of a message between two ranks here, ms
-//   local/WHAT                 what a rank does for each other rank: one shape, point, part or code, ns
+//   local/WHAT                 what a rank does for each other rank, ns: a look at one block of shapes, at one shape of a
+//                              near block, at one block of points (most are far), at one point of a near block, at one part,
+//                              at one code; and the making of one block of points
 
 #include <algorithm>
 #include <chrono>
@@ -268,16 +271,35 @@ void run(rows& all, MPI_Comm comm, std::size_t shapes, bool timed) {
 
 // --- many parts, counted by one process -----------------------------------------------------------------------------------
 
+using bounds_of_some = std::vector<abut::detail::part_bounds<float>>;
+using ids = std::vector<std::uint32_t>;
+
 template <class Shapes>
-auto bounds_of_parts(const Shapes& view, std::size_t parts) {
+auto part_of(const Shapes& view, std::size_t k, std::size_t parts) {
+    const std::size_t first = view.size() * k / parts, last = view.size() * (k + 1) / parts;
     using shape = typename Shapes::shape_type;
-    std::vector<abut::detail::part_bounds<float>> all;
-    for (std::size_t k = 0; k < parts; ++k) {
-        const std::size_t first = view.size() * k / parts, last = view.size() * (k + 1) / parts;
-        const abut::shapes_view<shape, abut::host_space> part(view.shapes.first() + first, last - first);
-        all.push_back(abut::detail::bounds_of_part(abut::serial{}, part));
-    }
+    return abut::shapes_view<shape, abut::host_space>(view.shapes.first() + first, last - first);
+}
+template <class Shapes>
+bounds_of_some bounds_of_parts(const Shapes& view, std::size_t parts) {
+    bounds_of_some all;
+    for (std::size_t k = 0; k < parts; ++k)
+        all.push_back(abut::detail::bounds_of_part(abut::serial{}, part_of(view, k, parts)));
     return all;
+}
+
+template <class Shapes>
+std::vector<abut::aabb<float>> boxes_of_blocks(const Shapes& view) {
+    std::vector<abut::aabb<float>> boxes(abut::detail::blocks_of(view.size()));
+    const abut::detail::write_block_boxes<Shapes> write{view, boxes.data()};
+    for (std::size_t k = 0; k < boxes.size(); ++k) write(k);
+    return boxes;
+}
+template <class Test>
+ids which(std::size_t n, const Test& test) {
+    ids some(n);
+    some.resize(abut::execution::compact(abut::serial{}, n, test, some.data()));
+    return some;
 }
 
 void count_parts(rows& all, std::size_t shapes, const std::vector<std::size_t>& divisions) {
@@ -290,15 +312,19 @@ void count_parts(rows& all, std::size_t shapes, const std::vector<std::size_t>& 
     for (const std::size_t parts : divisions) {
         if (shapes / parts < 100) continue;
         const auto parts_a = bounds_of_parts(view_a, parts), parts_b = bounds_of_parts(view_b, parts);
-        double sent = 0, most_sent = 0, neighbours = 0, most_neighbours = 0;
+        double sent = 0, most_sent = 0, neighbours = 0, most_neighbours = 0, near_blocks = 0;
         for (std::size_t from = 0; from < parts; ++from) {
-            const std::size_t first = shapes * from / parts, last = shapes * (from + 1) / parts;
+            const auto part = part_of(view_b, from, parts);
+            const auto boxes = boxes_of_blocks(part);
             double here = 0, near = 0;
             for (std::size_t to = 0; to < parts; ++to) {
                 if (to == from || !parts_a[to].is_near(parts_b[from])) continue;
-                const abut::detail::comes_near<std::remove_const_t<decltype(view_b)>> comes{view_b, parts_a[to]};
+                using comes_near = abut::detail::comes_near<std::remove_const_t<decltype(part)>>;
+                const ids blocks = which(boxes.size(), abut::detail::is_block_near<float>{boxes.data(), parts_a[to]});
+                const abut::detail::in_blocks<comes_near> comes{{part, parts_a[to]}, blocks.data(), part.size()};
                 double some = 0;
-                for (std::size_t i = first; i < last; ++i) some += comes(i) ? 1 : 0;
+                for (std::size_t i = 0; i < blocks.size() * abut::detail::block_size; ++i) some += comes(i) ? 1 : 0;
+                near_blocks += static_cast<double>(blocks.size());
                 here += some;
                 near += some > 0 ? 1 : 0;
             }
@@ -309,12 +335,13 @@ void count_parts(rows& all, std::size_t shapes, const std::vector<std::size_t>& 
         }
         std::vector<std::uint64_t> touches;
         std::vector<double> found(parts);
-        const auto part_of = [&](std::uint32_t id) {  // the last part that begins at or before id
+        const auto which_part = [&](std::uint32_t id) {  // the last part that begins at or before id
             return ((id + std::uint64_t{1}) * parts - 1) / shapes;
         };
         for (const auto& pair : pairs) {
-            found[part_of(pair.a)] += 1;
-            if (part_of(pair.a) != part_of(pair.b)) touches.push_back(pair.b * std::uint64_t{parts} + part_of(pair.a));
+            const std::uint64_t part = which_part(pair.a);
+            found[part] += 1;
+            if (part != which_part(pair.b)) touches.push_back(pair.b * std::uint64_t{parts} + part);
         }
         std::sort(touches.begin(), touches.end());
         const auto least = static_cast<double>(std::unique(touches.begin(), touches.end()) - touches.begin());
@@ -323,6 +350,7 @@ void count_parts(rows& all, std::size_t shapes, const std::vector<std::size_t>& 
             {"sent_shapes", sent},
             {"most_sent_shapes", most_sent},
             {"least_shapes", least},
+            {"near_blocks", near_blocks},
             {"neighbours", neighbours},
             {"most_neighbours", most_neighbours},
             {"imbalance", *std::max_element(found.begin(), found.end()) / mean}};
@@ -348,19 +376,50 @@ void time_link(rows& all, int rank, int runs) {
     }
 }
 
-/// ns of each of n steps, a median.
+/// ns of processor time of each of n steps, a median.
 template <class Step>
 void time_steps(rows& all, const std::string& name, int runs, std::size_t n, const Step& step) {
     std::vector<double> ns;
     static volatile std::uint64_t keep = 0;
     for (int k = 0; k < runs; ++k) {
-        const double start = MPI_Wtime();
+        const double start = processor_ms();
         std::uint64_t sum = 0;
         for (std::size_t i = 0; i < n; ++i) sum += step(i);
         keep = keep + sum;
-        ns.push_back(1e9 * (MPI_Wtime() - start) / static_cast<double>(n));
+        ns.push_back(1e6 * (processor_ms() - start) / static_cast<double>(n));
     }
     all[name].values = {{"ns", median(ns)}};
+}
+
+/// A look of part `to` at one thing of another part.
+struct look {
+    std::uint32_t to, id;
+};
+/// Times tests[to](id) for all looks.
+template <class Test>
+void time_looks(rows& all, const std::string& name, int runs, const std::vector<Test>& tests,
+                const std::vector<look>& looks) {
+    time_steps(all, name, runs, looks.size(), [&](std::size_t i) { return tests[looks[i].to](looks[i].id) ? 1U : 0U; });
+}
+
+/// Times tests of blocks of other parts, for which may_ask(to, of), and tests of what is in the blocks that pass.
+template <class Test, class Block, class Ask>
+void time_blocks(rows& all, const std::string& name, int runs, std::size_t shapes, const std::vector<Block>& blocks,
+                 const std::vector<Test>& tests, const Ask& may_ask) {
+    constexpr std::size_t size = abut::detail::block_size;
+    std::vector<look> at_blocks, at_shapes;
+    for (std::uint32_t to = 0; to < blocks.size(); ++to) {
+        for (std::uint32_t k = 0; k < abut::detail::blocks_of(shapes); ++k) {
+            const std::size_t of = k * size * blocks.size() / shapes;
+            if (of == to || !may_ask(to, of)) continue;
+            at_blocks.push_back({to, k});
+            if (!blocks[to](k)) continue;
+            for (std::size_t i = k * size; i < std::min((k + 1) * size, shapes); ++i)
+                at_shapes.push_back({to, static_cast<std::uint32_t>(i)});
+        }
+    }
+    time_looks(all, "local/" + name + "_block", runs, blocks, at_blocks);
+    time_looks(all, "local/" + name, runs, tests, at_shapes);
 }
 
 void time_local(rows& all, std::size_t shapes, int runs) {
@@ -368,22 +427,40 @@ void time_local(rows& all, std::size_t shapes, int runs) {
     const auto set = abut::redistribute(alone, abut::shapes<abut::sphere<float>>(some_spheres(0, shapes, shapes))).set;
     const auto view = set.view();
     using view_type = std::remove_const_t<decltype(view)>;
-    const auto parts = bounds_of_parts(view, 100);
-    // By a part in the middle.
-    const abut::detail::comes_near<view_type> near{view, parts[50]};
-    time_steps(all, "local/shape", runs, shapes, [&](std::size_t i) { return near(i) ? 1U : 0U; });
+    const auto parts = bounds_of_parts(view, 1000);  // few of them are near to one
+    const auto boxes = boxes_of_blocks(view);
+    std::vector<abut::detail::is_block_near<float>> near_blocks;
+    std::vector<abut::detail::comes_near<view_type>> near_shapes;
+    for (const auto& part : parts) {
+        near_blocks.push_back({boxes.data(), part});
+        near_shapes.push_back({view, part});
+    }
+    time_blocks(all, "shape", runs, shapes, near_blocks, near_shapes,
+                [&](std::size_t to, std::size_t of) { return parts[to].is_near(parts[of]); });
     time_steps(all, "local/part", runs, 10000,
-               [&](std::size_t i) { return parts[i / 100].is_near(parts[i % 100]) ? 1U : 0U; });
+               [&](std::size_t i) { return parts[i / 100 * 10].is_near(parts[i % 100 * 10]) ? 1U : 0U; });
 
     std::vector<abut::vec3<float>> points;
     for (std::size_t i = 0; i < shapes; ++i) points.push_back(view[i].center);
     using points_view = abut::shapes_view<abut::vec3<float>, abut::host_space>;
+    const points_view all_points(points.data(), shapes);
     const auto unit = abut::detail::unit_of_magnitude<float>(std::cbrt(static_cast<double>(shapes)) / 2);
     std::vector<abut::detail::measured_neighbor<float>> best(shapes);
     const double one = unit.of(1);
     for (auto& b : best) b = {one * one, 0, {}, 1};
-    const abut::detail::may_be_nearer<points_view> may{points_view(points.data(), shapes), best.data(), unit, parts[50]};
-    time_steps(all, "local/point", runs, shapes, [&](std::size_t i) { return may(i) ? 1U : 0U; });
+    std::vector<abut::detail::point_block<float>> blocks(boxes.size());
+    const abut::detail::write_point_blocks<points_view> write{all_points, best.data(), blocks.data()};
+    time_steps(all, "local/made_block", runs, blocks.size(), [&](std::size_t k) {
+        write(k);
+        return blocks[k].worst > 0 ? 1U : 0U;
+    });
+    std::vector<abut::detail::may_block_be_nearer<float>> may_blocks;
+    std::vector<abut::detail::may_be_nearer<points_view>> may_points;
+    for (const auto& part : parts) {
+        may_blocks.push_back({blocks.data(), unit, part});
+        may_points.push_back({all_points, best.data(), unit, part});
+    }
+    time_blocks(all, "point", runs, shapes, may_blocks, may_points, [](std::size_t, std::size_t) { return true; });
 
     std::vector<std::uint64_t> codes(shapes);
     for (std::size_t i = 0; i < shapes; ++i) codes[i] = draws(2026, 3, i).bits() >> 1;

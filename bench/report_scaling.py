@@ -12,6 +12,7 @@ DEALS = {"random": "at random", "curve": "along the curve"}
 LATENCY, BANDWIDTH = 2e-6, 10e9
 # Bytes of a shape of b and its id; of a point and its answer.
 MESSAGES = {"pairs": 20, "nearest": 44}
+BLOCK = 64  # shapes with a box of their own: block_size of parts.hpp
 TERMS = ("own shapes", "imbalance", "looking through shapes", "shapes that came", "per rank", "bytes", "latency")
 
 
@@ -48,8 +49,9 @@ class Model:
         # A walk of a tree goes down log2 n levels.
         self.pairs, self.nearest = (per_shape(s, "curve", True) for s in ("pairs", "nearest"))
         self.redistribute = per_shape("redistribute", "random", False)
-        self.shape, self.part, self.point, self.code = (1e-9 * r.get(f"local/{s}", "ns") for s in ("shape", "part", "point",
-                                                                                                   "code"))
+        (self.shape_block, self.shape, self.point_block, self.made_block, self.point, self.part, self.code) = (
+            1e-9 * r.get(f"local/{s}", "ns")
+            for s in ("shape_block", "shape", "point_block", "made_block", "point", "part", "code"))
         self.code /= math.log2(sizes(r)[len(sizes(r)) // 2])  # a step of a search
         # What is sent: some surface and some volume of a part.
         parts = [(int(n.split("/")[1]), int(n.split("/")[2]), n) for n in r.names("parts/")]
@@ -59,6 +61,9 @@ class Model:
         b1, b2 = (sum(n**power / s for n, s in many) for power in (2 / 3, 1))
         d = a11 * a22 - a12**2
         self.surface, self.volume = (b1 * a22 - b2 * a12) / d, (b2 * a11 - b1 * a12) / d
+        # Blocks reach beyond what is sent by their own size, so the share of that falls as parts grow.
+        beyond = sorted((BLOCK * row["near_blocks"] / row["sent_shapes"] - 1) * n**(1 / 3) for n, k, row in parts if k >= 64)
+        self.beyond = beyond[len(beyond) // 2]
         # The rank that sends most, and the one with most neighbours, of the largest scene.
         large = max(n * k for n, k, _ in parts)
         large = [p for p in parts if p[0] * p[1] == large]
@@ -68,16 +73,17 @@ class Model:
         spread = sorted((row["imbalance"] - 1) / math.sqrt(2 * math.log(k) / n) for n, k, row in parts)
         self.spread = spread[len(spread) // 2]
         # What came costs other than what is here: for pairs most of it touches nothing.
-        self.came = {}
+        self.came, self.came_range = {}, {}
         for query, bytes_each in MESSAGES.items():
             costs = []
             for n in sizes(r):
                 for k in rank_counts(r, f"{query}/curve/{n}")[1:]:
                     row, here = r.rows[f"{query}/curve/{n}/{k}"], n / k
                     own = self.own(query) * math.log2(here)
-                    looking = 2 * (k - 1) * here * self.shape if query == "pairs" else (k - 1) * here * self.point
-                    costs.append((1e-3 * row["work_ms"] - own * here - looking) / (own * row["most_bytes"] / bytes_each))
-            self.came[query] = sorted(costs)[len(costs) // 2]
+                    sent = row["most_bytes"] / bytes_each
+                    looking = self.looking(query, here, k - 1, k - 1, sent)
+                    costs.append((1e-3 * row["work_ms"] - own * here - looking) / (own * sent))
+            self.came[query], self.came_range[query] = sorted(costs)[len(costs) // 2], (min(costs), max(costs))
         end = f"curve/{sizes(r)[-1]}/{rank_counts(r, f'pairs/curve/{sizes(r)[-1]}')[-1]}"
         self.points = r.get("nearest/" + end, "bytes") / 44 / (r.get("pairs/" + end, "bytes") / 20)
 
@@ -87,18 +93,25 @@ class Model:
     def law(self, n):
         return self.surface * n**(2 / 3) + self.volume * n
 
+    def looking(self, query, n, far, near, sent):
+        """The search for what goes to `far` other ranks, of which `near` are near."""
+        blocks, in_near_blocks = n / BLOCK, sent * (1 + self.beyond / n**(1 / 3))
+        if query == "pairs":  # to count and to pack
+            return 2 * (near * blocks * self.shape_block + in_near_blocks * self.shape)
+        return blocks * (far * self.point_block + near * self.made_block) + in_near_blocks * self.point
+
     def terms(self, query, n, ranks):
         depth, rounds, far = math.log2(max(n, 2)), 2 * math.ceil(math.log2(ranks)), ranks - 1
         sent, near = min(self.law(n) * self.most_sent(ranks), n * far), min(self.neighbours(ranks), far)
         uneven = self.spread * math.sqrt(2 * math.log(ranks) / n)
         if query == "pairs":
             own = self.pairs * n * depth
-            return (own, own * uneven, 2 * near * n * self.shape, self.came[query] * self.pairs * sent * depth,
+            return (own, own * uneven, self.looking(query, n, far, near, sent), self.came[query] * self.pairs * sent * depth,
                     2 * far * self.part, (20 * sent + 832 * far) / self.bandwidth, (6 * rounds + 4 * near) * self.latency)
         if query == "nearest":
             own = self.nearest * n * depth
             points = self.points * sent
-            return (own, own * uneven, far * n * self.point, self.came[query] * self.nearest * points * depth, 0.0,
+            return (own, own * uneven, self.looking(query, n, far, near, points), self.came[query] * self.nearest * points * depth, 0.0,
                     (44 * points + 424 * far) / self.bandwidth, (6 * rounds + far + 2 * near) * self.latency)
         own = self.redistribute * n
         return (own, 0.0, 0.0, 0.0, 65 * far * self.code * depth,
@@ -175,9 +188,10 @@ def scaling_parts(results):
         row = r.rows[name]
         rows.append([whole(n), whole(k), whole(n / k), whole(row["sent_shapes"] / k), whole(row["most_sent_shapes"]),
                      whole(row["least_shapes"] / k), quotient(row["sent_shapes"], row["least_shapes"], 1),
-                     f"{row['neighbours'] / k:.1f}", whole(row["most_neighbours"]), two(row["imbalance"])])
+                     f"{row['neighbours'] / k:.1f}", whole(row["most_neighbours"]), whole(n / k / BLOCK),
+                     shown(row["near_blocks"] / row["neighbours"]), two(row["imbalance"])])
     return table(["spheres", "parts", "of a part", "sent by a part", "most", "least possible", "over least", "neighbours", "most",
-                  "imbalance"], rows, 0) + made_on(r)
+                  "blocks of a part", "near a neighbour", "imbalance"], rows, 0) + made_on(r)
 
 
 @in_table("scaling-costs")
@@ -187,11 +201,15 @@ def scaling_costs(results):
     rows = [["own shapes, `pairs`", f"{1e9 * m.pairs:.0f} ns n log2 n"],
             ["own shapes, `nearest`", f"{1e9 * m.nearest:.0f} ns n log2 n"],
             ["own shapes, `redistribute`", f"{1e9 * m.redistribute:.0f} ns n"],
-            ["a shape, by one other part's boxes", f"{1e9 * m.shape:.1f} ns"],
-            ["a point, by one other part's boxes", f"{1e9 * m.point:.1f} ns"], ["two parts", f"{1e9 * m.part:.1f} ns"],
+            ["a block of shapes; a shape in a near block", f"{1e9 * m.shape_block:.1f} ns; {1e9 * m.shape:.1f} ns"],
+            ["a block of points, mostly by a far part; a point in a near block",
+             f"{1e9 * m.point_block:.1f} ns; {1e9 * m.point:.1f} ns"],
+            ["making a block of points", f"{1e9 * m.made_block:.0f} ns"], ["two parts", f"{1e9 * m.part:.1f} ns"],
             ["a code, by one step of a search", f"{1e9 * m.code:.1f} ns"],
             ["shapes that a part sends, mean of many parts", f"{m.surface:.1f} n^(2/3) + {m.volume:.2f} n"],
-            ["a shape that came over one's own, `pairs`; `nearest`", f"{m.came['pairs']:.2f}; {m.came['nearest']:.2f}"],
+            ["shapes in near blocks over shapes that are sent", f"1 + {m.beyond:.1f} / n^(1/3)"],
+            *([f"a shape that came over one's own, `{q}`, on 2, 4 and 8 ranks: median (range)",
+               f"{m.came[q]:.2f} ({m.came_range[q][0]:.2f} to {m.came_range[q][1]:.2f})"] for q in MESSAGES),
             ["points that `nearest` sends over shapes that `pairs` sends", two(m.points)],
             ["imbalance of P parts", f"1 + {m.spread:.2f} sqrt(2 ln P / n)"],
             ["a short message, and bandwidth, here between two ranks", 
@@ -216,9 +234,10 @@ def scaling_terms(results):
 def scaling_limits(results):
     m = Model(results["cpu/distributed"])
     rows = []
-    for query, term, what in (("nearest", "looking through shapes", "looks through all its points for each rank"),
+    for query, term, what in (("nearest", "looking through shapes", "looks at its blocks of points for each rank"),
+                              ("nearest", "shapes that came", "answers about points that came"),
                               ("nearest", "latency", "tells each rank a number, one after another"),
-                              ("pairs", "looking through shapes", "looks through all its shapes for each neighbour, twice"),
+                              ("pairs", "looking through shapes", "looks at blocks for each neighbour, and at shapes in near ones, twice"),
                               ("pairs", "shapes that came", "asks about shapes that came"),
                               ("pairs", "per rank", "compares its boxes with each rank's"),
                               ("pairs", "bytes", "sends shapes, and gathers all ranks' boxes"),
@@ -230,6 +249,17 @@ def scaling_limits(results):
     return table(["", "what it does", "100,000 shapes a rank", "1,000,000", "100,000,000"], rows, 2)
 
 
+def share_of_own(query, term):
+    """What a term takes over the own shapes, with a million of them on each of 10,000 ranks."""
+    def percent(results):
+        terms = Model(results["cpu/distributed"]).terms(query, 10**6, 10**4)
+        return f"{100 * terms[TERMS.index(term)] / terms[0]:.0f}"
+    return percent
+
+
 VALUES["scaling-nearest-limit"] = lambda results: whole(
     Model(results["cpu/distributed"]).ranks_where("nearest", "looking through shapes", 10**6))
+VALUES["scaling-came-nearest"] = share_of_own("nearest", "shapes that came")
+VALUES["scaling-came-pairs"] = share_of_own("pairs", "shapes that came")
+VALUES["scaling-pairs-looking"] = share_of_own("pairs", "looking through shapes")
 VALUES["scaling-volume"] = lambda results: f"{100 * Model(results['cpu/distributed']).volume:.0f}"
