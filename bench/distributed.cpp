@@ -291,7 +291,7 @@ bounds_of_some bounds_of_parts(const Shapes& view, std::size_t parts) {
 template <class Shapes>
 std::vector<abut::aabb<float>> boxes_of_blocks(const Shapes& view) {
     std::vector<abut::aabb<float>> boxes(abut::detail::blocks_of(view.size()));
-    const abut::detail::write_block_boxes<Shapes> write{view, boxes.data()};
+    const abut::detail::write_block_boxes<Shapes> write{view, abut::detail::block_size, boxes.data()};
     for (std::size_t k = 0; k < boxes.size(); ++k) write(k);
     return boxes;
 }
