@@ -12,6 +12,7 @@ DEALS = {"random": "at random", "curve": "along the curve"}
 LATENCY, BANDWIDTH = 2e-6, 10e9
 # Bytes of a shape of b and its id; of a point and its answer.
 MESSAGES = {"pairs": 20, "nearest": 44}
+CAME = 1  # assumed: what came costs as much as what is here
 BLOCK = 64  # shapes with a box of their own: block_size of parts.hpp
 TERMS = ("own shapes", "imbalance", "looking through shapes", "shapes that came", "per rank", "bytes", "latency")
 
@@ -53,14 +54,12 @@ class Model:
             1e-9 * r.get(f"local/{s}", "ns")
             for s in ("shape_block", "shape", "point_block", "made_block", "point", "part", "code"))
         self.code /= math.log2(sizes(r)[len(sizes(r)) // 2])  # a step of a search
-        # What is sent: some surface and some volume of a part.
+        # What is sent: some of a part's surface.
         parts = [(int(n.split("/")[1]), int(n.split("/")[2]), n) for n in r.names("parts/")]
         parts = [(whole / k, k, r.rows[name]) for whole, k, name in parts]
         many = [(n, row["sent_shapes"] / k) for n, k, row in parts if k >= 64]
-        a11, a12, a22 = (sum(n**power / s**2 for n, s in many) for power in (4 / 3, 5 / 3, 2))  # least squares of relative errors
-        b1, b2 = (sum(n**power / s for n, s in many) for power in (2 / 3, 1))
-        d = a11 * a22 - a12**2
-        self.surface, self.volume = (b1 * a22 - b2 * a12) / d, (b2 * a11 - b1 * a12) / d
+        # Least squares of relative errors.
+        self.surface = sum(n**(2 / 3) / s for n, s in many) / sum(n**(4 / 3) / s**2 for n, s in many)
         # Blocks reach beyond what is sent by their own size, so the share of that falls as parts grow.
         beyond = sorted((BLOCK * row["near_blocks"] / row["sent_shapes"] - 1) * n**(1 / 3) for n, k, row in parts if k >= 64)
         self.beyond = beyond[len(beyond) // 2]
@@ -72,8 +71,8 @@ class Model:
         # Of k equal shares of things that fall at random the largest is beyond the mean by so many standard deviations.
         spread = sorted((row["imbalance"] - 1) / math.sqrt(2 * math.log(k) / n) for n, k, row in parts)
         self.spread = spread[len(spread) // 2]
-        # What came costs other than what is here: for pairs most of it touches nothing.
-        self.came, self.came_range = {}, {}
+        # What is left of a rank's work, over what came: it holds also what two busy cores cost each other, so it is shown alone.
+        self.left = {}
         for query, bytes_each in MESSAGES.items():
             costs = []
             for n in sizes(r):
@@ -83,7 +82,7 @@ class Model:
                     sent = row["most_bytes"] / bytes_each
                     looking = self.looking(query, here, k - 1, k - 1, sent)
                     costs.append((1e-3 * row["work_ms"] - own * here - looking) / (own * sent))
-            self.came[query], self.came_range[query] = sorted(costs)[len(costs) // 2], (min(costs), max(costs))
+            self.left[query] = (min(costs), max(costs))
         end = f"curve/{sizes(r)[-1]}/{rank_counts(r, f'pairs/curve/{sizes(r)[-1]}')[-1]}"
         self.points = r.get("nearest/" + end, "bytes") / 44 / (r.get("pairs/" + end, "bytes") / 20)
 
@@ -91,7 +90,7 @@ class Model:
         return {"pairs": self.pairs, "nearest": self.nearest}[query]
 
     def law(self, n):
-        return self.surface * n**(2 / 3) + self.volume * n
+        return self.surface * n**(2 / 3)
 
     def looking(self, query, n, far, near, sent):
         """The search for what goes to `far` other ranks, of which `near` are near."""
@@ -106,12 +105,12 @@ class Model:
         uneven = self.spread * math.sqrt(2 * math.log(ranks) / n)
         if query == "pairs":
             own = self.pairs * n * depth
-            return (own, own * uneven, self.looking(query, n, far, near, sent), self.came[query] * self.pairs * sent * depth,
+            return (own, own * uneven, self.looking(query, n, far, near, sent), CAME * self.pairs * sent * depth,
                     2 * far * self.part, (20 * sent + 832 * far) / self.bandwidth, (6 * rounds + 4 * near) * self.latency)
         if query == "nearest":
             own = self.nearest * n * depth
             points = self.points * sent
-            return (own, own * uneven, self.looking(query, n, far, near, points), self.came[query] * self.nearest * points * depth, 0.0,
+            return (own, own * uneven, self.looking(query, n, far, near, points), CAME * self.nearest * points * depth, 0.0,
                     (44 * points + 424 * far) / self.bandwidth, (6 * rounds + far + 2 * near) * self.latency)
         own = self.redistribute * n
         return (own, 0.0, 0.0, 0.0, 65 * far * self.code * depth,
@@ -206,10 +205,11 @@ def scaling_costs(results):
              f"{1e9 * m.point_block:.1f} ns; {1e9 * m.point:.1f} ns"],
             ["making a block of points", f"{1e9 * m.made_block:.0f} ns"], ["two parts", f"{1e9 * m.part:.1f} ns"],
             ["a code, by one step of a search", f"{1e9 * m.code:.1f} ns"],
-            ["shapes that a part sends, mean of many parts", f"{m.surface:.1f} n^(2/3) + {m.volume:.2f} n"],
+            ["shapes that a part sends, mean of many parts", f"{m.surface:.1f} n^(2/3)"],
             ["shapes in near blocks over shapes that are sent", f"1 + {m.beyond:.1f} / n^(1/3)"],
-            *([f"a shape that came over one's own, `{q}`, on 2, 4 and 8 ranks: median (range)",
-               f"{m.came[q]:.2f} ({m.came_range[q][0]:.2f} to {m.came_range[q][1]:.2f})"] for q in MESSAGES),
+            ["a shape that came over one's own, assumed", f"{CAME:.0f}"],
+            *([f"what is left of a rank's work over that, `{q}`, on 2, 4 and 8 ranks", f"{low:.1f} to {high:.1f}"]
+              for q, (low, high) in m.left.items()),
             ["points that `nearest` sends over shapes that `pairs` sends", two(m.points)],
             ["imbalance of P parts", f"1 + {m.spread:.2f} sqrt(2 ln P / n)"],
             ["a short message, and bandwidth, here between two ranks", 
@@ -262,4 +262,3 @@ VALUES["scaling-nearest-limit"] = lambda results: whole(
 VALUES["scaling-came-nearest"] = share_of_own("nearest", "shapes that came")
 VALUES["scaling-came-pairs"] = share_of_own("pairs", "shapes that came")
 VALUES["scaling-pairs-looking"] = share_of_own("pairs", "looking through shapes")
-VALUES["scaling-volume"] = lambda results: f"{100 * Model(results['cpu/distributed']).volume:.0f}"
