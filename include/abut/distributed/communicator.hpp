@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include <mpi.h>
-
 #include <abut/error.hpp>
 #include <abut/execution/policy.hpp>
+
+#include <mpi.h>
 
 namespace abut {
 
@@ -186,9 +186,6 @@ private:
 
 /// @ingroup distributed
 /// The ranks of a communicator, each of which works by a policy of its own.
-///
-///     const abut::distributed on(MPI_COMM_WORLD, abut::openmp{});
-///     const auto touching = abut::pairs(on, my_triangles, my_spheres);
 template <execution_policy Local = openmp>
 class distributed {
 public:

@@ -13,13 +13,13 @@
 #include <type_traits>
 #include <utility>
 
-#include <mpi.h>
-
 #include <abut/collide/impacts.hpp>
 #include <abut/distributed/communicator.hpp>
 #include <abut/distributed/parts.hpp>
 #include <abut/distributed/query.hpp>
 #include <abut/execution/atomic.hpp>
+
+#include <mpi.h>
 
 namespace abut {
 

@@ -14,13 +14,13 @@
 #include <utility>
 #include <vector>
 
-#include <mpi.h>
-
 #include <abut/collide/nearest.hpp>
 #include <abut/distributed/communicator.hpp>
 #include <abut/distributed/parts.hpp>
 #include <abut/execution/ordered.hpp>
 #include <abut/shape/point_reach.hpp>
+
+#include <mpi.h>
 
 namespace abut {
 

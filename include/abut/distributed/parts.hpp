@@ -13,8 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include <mpi.h>
-
 #include <abut/collide/operand.hpp>
 #include <abut/distributed/communicator.hpp>
 #include <abut/execution/buffer.hpp>
@@ -22,6 +20,8 @@
 #include <abut/shape/bounds.hpp>
 #include <abut/shape/equal_elements.hpp>
 #include <abut/shape/view.hpp>
+
+#include <mpi.h>
 
 namespace abut::detail {
 

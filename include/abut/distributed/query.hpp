@@ -16,14 +16,14 @@
 #include <utility>
 #include <vector>
 
-#include <mpi.h>
-
 #include <abut/collide/contacts.hpp>
 #include <abut/collide/query.hpp>
 #include <abut/distributed/communicator.hpp>
 #include <abut/distributed/parts.hpp>
 #include <abut/execution/atomic.hpp>
 #include <abut/index/bvh.hpp>
+
+#include <mpi.h>
 
 namespace abut {
 

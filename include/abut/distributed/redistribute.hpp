@@ -13,8 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include <mpi.h>
-
 #include <abut/collide/options.hpp>
 #include <abut/distributed/communicator.hpp>
 #include <abut/distributed/parts.hpp>
@@ -22,6 +20,8 @@
 #include <abut/index/operand.hpp>
 #include <abut/shape/features.hpp>
 #include <abut/shape/set.hpp>
+
+#include <mpi.h>
 
 namespace abut {
 
@@ -273,9 +273,6 @@ auto redistributed(const distributed<Local>& on, const Set& set, const char* fun
 /// parts.
 ///
 /// Besides the result a rank holds its codes twice, 8 bytes each, and its shapes three times while they come.
-///
-///     const auto part = abut::redistribute(on, my_triangles);
-///     const auto hits = abut::pairs(on, part.set, my_spheres);
 /// @ingroup distributed
 template <execution_policy Local, class Set>
 [[nodiscard]] auto redistribute(const distributed<Local>& on, const Set& set) {
