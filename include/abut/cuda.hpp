@@ -16,5 +16,6 @@
 #endif
 
 #include <abut/abut.hpp>
+#include <abut/collide/async.hpp>
 #include <abut/execution/cuda_ordered.hpp>
 #include <abut/execution/cuda_verbs.hpp>

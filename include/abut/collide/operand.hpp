@@ -122,17 +122,17 @@ consteval bool have_one_scalar() {
 }
 
 /// `x` for the policy, which can be asked; errors are thrown in the name of `function`.
-template <class Policy, class X>
+template <input Input = input::checked, class Policy, class X>
 auto make_operand(const Policy& on, const X& x, const char* function) {
     if constexpr (is_posed<X>) {
         check(x.pose, function);
-        using operand_type = decltype(make_operand(on, x.object, function));
-        posed_operand<operand_type, typename X::scalar_type> placed{make_operand(on, x.object, function), x.pose, {}};
-        bool surely_finite = placed.shapes().size() == 0;
+        using operand_type = decltype(make_operand<Input>(on, x.object, function));
+        posed_operand<operand_type, typename X::scalar_type> placed{make_operand<Input>(on, x.object, function), x.pose, {}};
+        bool surely_finite = placed.shapes().size() == 0 || Input == input::trusted;
         if constexpr (operand_type::is_indexed) {
-            if (!surely_finite) {
+            if (placed.shapes().size() > 0) {
                 placed.around = placed.operand.bounds(on);
-                surely_finite = stays_finite(x.pose, placed.around);
+                surely_finite |= stays_finite(x.pose, placed.around);
             }
         }
         if (!surely_finite) check(on, placed.shapes(), function);
@@ -141,7 +141,7 @@ auto make_operand(const Policy& on, const X& x, const char* function) {
         require_same_device(on, x, function);
         return indexed_operand<X>{x};
     } else {
-        auto set = make_resident(on, x, function);
+        auto set = make_resident<Input>(on, x, function);
         return plain_operand<decltype(set)>{std::move(set)};
     }
 }

@@ -442,13 +442,13 @@ consteval bool can_pair() {
 }
 
 /// Both arguments of a query, ready to be paired; errors are thrown in the name of `function`.
-template <class Policy, class X, class Y, class Filter, traversal Traversal, schedule Schedule,
+template <input Input = input::checked, class Policy, class X, class Y, class Filter, traversal Traversal, schedule Schedule,
           class Nearness = near_enough_to_touch>
 auto pair_up(const Policy& on, const X& x, const Y& y, const query_options<Filter, Traversal, Schedule>& options,
              const char* function, const Nearness& near = {}) {
     check_options(on, options, function);
-    auto a = make_operand(on, x, function);
-    auto b = make_operand(on, y, function);
+    auto a = make_operand<Input>(on, x, function);
+    auto b = make_operand<Input>(on, y, function);
     using shape_a = typename decltype(a.shapes())::shape_type;
     using shape_b = typename decltype(b.shapes())::shape_type;
     const pair_key key{id_bits(a.shapes().size()), id_bits(b.shapes().size())};

@@ -383,6 +383,13 @@ inline unsigned blocks_for(std::size_t n) { return static_cast<unsigned>((n + bl
 
 inline void check_launch(const char* kernel) { check(cudaGetLastError(), kernel); }
 
+/// Runs `launch(deliver, sinks...)` with a sink of each queue. Does not wait.
+template <class Launch, class... Queues>
+void launch_once(const counter_delivery& deliver, const Launch& launch, Queues&... queues) {
+    [&]<std::size_t... K>(std::index_sequence<K...>) { launch(deliver, queues.make_sink(deliver.words + K)...); }
+    (std::index_sequence_for<Queues...>{});
+}
+
 /// Runs `launch(deliver, sinks...)` with a sink of each queue, over counters that are 0, reads what they have become, and
 /// runs again while a queue found that it was too small: only the last run counts. The last kernel of `launch` calls
 /// `deliver`.
@@ -394,8 +401,7 @@ void gather(const cuda& on, const Launch& launch, Queues&... queues) {
     bool complete = false;
     while (!complete) {
         counters.begin(on.stream);
-        [&]<std::size_t... K>(std::index_sequence<K...>) { launch(deliver, queues.make_sink(counters.words() + K)...); }
-        (std::index_sequence_for<Queues...>{});
+        launch_once(deliver, launch, queues...);
         counters.end(on.stream);
         const std::uint64_t* const counts = counters.read();
         std::size_t k = 0;
@@ -460,11 +466,12 @@ namespace detail {
 
 /// A loop that judges at most `pairs` candidates: launch(late_sink, sinks...) starts it. The kernel that finishes what it
 /// leaves open follows at once: the host need not know how much that is, and it is little as a rule. Returns how many of
-/// these found no room, and so were not finished.
-template <class Candidate, class Judge, class Launch, class... Queues>
-std::uint64_t judge_and_finish(const cuda& on, std::uint64_t pairs, const Judge& judge, const Launch& launch,
-                               Queues&... queues) {
-    open_queue<Candidate, (is_flag<sink_of<Queues>> || ...)> late(on, pairs);
+/// these found no room, and so were not finished. If the first queue is an async_queue, it returns 0 at once, and all counts
+/// are left on the device.
+template <class Candidate, class Judge, class Launch, class First, class... More>
+std::uint64_t judge_and_finish(const cuda& on, std::uint64_t pairs, const Judge& judge, const Launch& launch, First& first,
+                               More&... more) {
+    using open = open_queue<Candidate, is_flag<sink_of<First>> || (is_flag<sink_of<More>> || ...)>;
     const auto both = [&](const counter_delivery& deliver, auto late_sink, auto... sinks) {
         launch(late_sink, sinks...);
         constexpr auto kernel = finish_kernel<Judge, decltype(late_sink), decltype(sinks)...>;
@@ -472,10 +479,18 @@ std::uint64_t judge_and_finish(const cuda& on, std::uint64_t pairs, const Judge&
                                                                                                  sinks...);
         check_launch("finish");
     };
-    do {
-        gather(on, both, late, queues...);
-    } while (!late.is_complete() && !is_over(queues...));
-    return late.unfinished();
+    if constexpr (is_async<First>) {
+        const async_loop& loop = first.loop;
+        open late(loop.open, loop.open_capacity);
+        launch_once(counter_delivery{loop.words, loop.counts, 2 + sizeof...(more)}, both, late, first, more...);
+        return 0;
+    } else {
+        open late(on, pairs);
+        do {
+            gather(on, both, late, first, more...);
+        } while (!late.is_complete() && !is_over(first, more...));
+        return late.unfinished();
+    }
 }
 
 }  // namespace detail

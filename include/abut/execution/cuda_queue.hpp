@@ -320,6 +320,8 @@ public:
 
     /// For a loop over no more than `pairs` candidates.
     open_queue(const cuda& on, std::uint64_t pairs) : base(on, pairs < most ? pairs : most, 0) {}
+    /// In memory of the caller's, for a loop that never rests.
+    open_queue(T* room, std::uint64_t capacity) : base(room, capacity), patient_(true) {}
 
     [[nodiscard]] sink make_sink(std::uint64_t* count) {
         return {base::make_sink(count), patient_ ? ~std::uint64_t{0} : enough};

@@ -16,6 +16,10 @@
 //
 //   bounded_queue<T, Space>  the same up to a number of values. A loop that pushes more leaves the queue as it was and says
 //                          so: queue.overflowed()
+//
+// On a device a loop that judges candidates is not waited for if the first of its queues is
+//
+//   async_queue<Queue>     a queue of which the host learns nothing: what it counts is left in the device's memory
 
 #include <cstddef>
 #include <cstdint>
@@ -44,6 +48,24 @@ template <class T, memory_space Space>
 class capped_queue;
 template <class T, memory_space Space>
 class capped_queue_from_end;
+
+/// Memory of a device for one loop that the host does not wait for. Candidates are numbers of 64 bits.
+struct async_loop {
+    std::uint64_t* words;        ///< one more than `counts`; 0 before the loop and after it
+    std::uint64_t* counts;       ///< what was counted: of candidates left open, then of each queue
+    std::uint64_t* open;         ///< room for candidates left open; where it is too small, none of them is finished
+    std::uint64_t open_capacity;
+};
+
+/// The first queue of such a loop: a sink of `Queue`, in whose place the loop leaves counts.
+template <class Queue>
+struct async_queue : Queue {
+    async_loop loop;
+};
+template <class Queue>
+inline constexpr bool is_async = false;
+template <class Queue>
+inline constexpr bool is_async<async_queue<Queue>> = true;
 
 /// Values that may wait on a device to be finished, 8 bytes each as a rule.
 inline constexpr std::uint64_t most_open = std::uint64_t{1} << 21;

@@ -84,9 +84,15 @@ consteval bool can_reside() {
     }
 }
 
+/// Whether elements that lie in the policy's memory are looked at, for which a call has to wait.
+enum class input : bool {
+    checked,
+    trusted
+};
+
 /// `set` in the policy's memory: an owner that lies there already is shared, one in host memory is copied under cuda; a view
 /// is checked and stays where it is; one shape is checked and becomes a view that carries it.
-template <execution_policy Policy, class Set>
+template <input Input = input::checked, execution_policy Policy, class Set>
 auto make_resident(const Policy& on, const Set& set, const char* function) {
     if constexpr (!can_reside<Policy, Set>()) {
         return refused{};
@@ -96,7 +102,11 @@ auto make_resident(const Policy& on, const Set& set, const char* function) {
         return view;
     } else {
         if constexpr (shape_view<Set>) {
-            detail::check(on, set, function);
+            if constexpr (Input == input::checked) {
+                detail::check(on, set, function);
+            } else {
+                check_count(set.size(), function);
+            }
             return set;
         } else if constexpr (std::same_as<typename Set::memory_space, space_of<Policy>>) {
             if (set.size() > 0 && set.device() != device_of(on)) {
