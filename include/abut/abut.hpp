@@ -34,9 +34,11 @@
 #include <abut/narrow/nearest_point.hpp>
 #include <abut/narrow/time_of_impact.hpp>
 #include <abut/predicate/intersects.hpp>
+#include <abut/shape/copy_view.hpp>
 #include <abut/shape/features.hpp>
 #include <abut/shape/motion.hpp>
 #include <abut/shape/posed.hpp>
 #include <abut/shape/set.hpp>
 #include <abut/shape/volume.hpp>
 #include <abut/shape/welded.hpp>
+#include <abut/shape/xyz_view.hpp>

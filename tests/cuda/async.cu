@@ -159,6 +159,22 @@ TEST_CASE("async: a grid, a posed set, a single shape, other ways down two trees
     check_count(tree, posed(other, small_move()), query_options<keep_all, traversal::larger_first>{});
 }
 
+TEST_CASE("async: double") {
+    const cuda on;
+    uniform random(20261124);
+    const auto triangles = copy_to(on, triangle_soup<double>(random_triangles<double>(300, random)));
+    const auto balls = copy_to(on, spheres<double>(random_spheres<double>(300, random)));
+    const auto tree = make_bvh(on, triangles);
+    const pair_list expected = to_host(pairs(on, tree, balls));
+    CHECK(expected.size() > 20);
+    async_result<index_pair> hits(on, expected.size());
+    async_result<contact<double>> found(on, expected.size());
+    pairs_async(on, tree, balls, hits);
+    contacts_async(on, tree, balls, found);
+    CHECK(to_host(wait(on, hits)) == expected);
+    CHECK(same_bits(to_host(wait(on, found)), to_host(contacts(on, tree, balls))));
+}
+
 TEST_CASE("async: where there is nothing") {
     const cuda on;
     const auto [triangles, balls] = random_sets(on, 100);
@@ -301,6 +317,7 @@ TEST_CASE("async: the host does not wait") {
     spin<<<1, 1, 0, on.stream>>>(words, words + 1);
     ask();
     CHECK(cudaStreamQuery(on.stream) == cudaErrorNotReady);
+    cudaGetLastError();  // which that may be reported as
     *static_cast<volatile int*>(words) = 1;
     CHECK(to_host(wait(on, hits)) == expected);
     CHECK(to_host(wait(on, in_tree)) == expected);
@@ -339,10 +356,11 @@ TEST_CASE("async: a graph asks again about what has moved") {
         any_async(on, moving, tree, touch);
         count_async(on, moving, tree, number);
     };
+    const unsigned blocks = static_cast<unsigned>(vertices.size() / 256 + 1);
+    shift<<<blocks, 256, 0, on.stream>>>(vertices.data(), vertices.size(), 0.0f);
     ask();
     synchronize(on);
 
-    const unsigned blocks = static_cast<unsigned>(vertices.size() / 256 + 1);
     cudaGraph_t graph = nullptr;
     cudaGraphExec_t executable = nullptr;
     REQUIRE(cudaStreamBeginCapture(on.stream, cudaStreamCaptureModeGlobal) == cudaSuccess);

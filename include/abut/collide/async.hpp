@@ -36,8 +36,9 @@ namespace abut {
 ///
 /// @par What has to live
 /// Until the stream has done the work, and until `wait` where that is called: the result, and what a view or a filter points
-/// to. The result keeps the sets and indices of the last call that it was given to. Their elements may change when the work
-/// is done, and not before; `wait` looks at them again if the state says `undecided`.
+/// to. The result keeps the sets and indices of the last call that it was given to. Those that were made in another stream
+/// are given back in that one, so keep them until the work is done. Elements may change when the work is done, and not
+/// before; `wait` looks at them again if the state says `undecided`.
 ///
 /// @par Graphs
 /// All four calls may be captured into a CUDA graph. Each launch of it asks again, about what then lies in the memory of the
@@ -388,13 +389,13 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Y, sc
 void contacts_async(const Policy& on, const X& a, const Y& b, async_result<contact<T>, space_of<Policy>>& into,
                     const contact_options<Filter>& options = {}) {
     if constexpr (detail::can_touch<Policy, X, Y, Filter>()) {
-        using query_type = query_options<Filter>;
         if constexpr (detail::can_pair_async<Policy, X, Y, traversal::both_at_once, schedule::lazy_work_stealing>()) {
             constexpr const char* function = "abut::contacts_async";
             if (options.discard_sideways) {
                 throw error(std::string(function) + ": contacts are discarded by calls that wait");
             }
-            const query_type query{.sorted = options.sorted, .filter = options.filter, .resident = options.resident};
+            const query_options<Filter> query{
+                .sorted = options.sorted, .filter = options.filter, .resident = options.resident};
             const auto pairing = detail::pair_up_async(on, a, b, query, into, function);
             const detail::touch_and_contact<A> judge;
             static_assert(std::same_as<contact<T>, decltype(judge.answer(pairing.view(), std::uint64_t{}))>,

@@ -58,7 +58,7 @@
 //   copy(on, from, n, to)                   within the policy's memory
 //
 // reduce, the loops with queues, for_each_ordered with one best of all, compact, download and synchronize wait for the
-// result; the others may return before it is there.
+// result; the others may return before it is there, and so do loops on a device whose first queue is an async_queue.
 
 #include <concepts>
 #include <cstddef>

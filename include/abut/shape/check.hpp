@@ -15,6 +15,7 @@
 #include <abut/execution/host.hpp>
 #include <abut/shape/shape.hpp>
 #include <abut/shape/view.hpp>
+#include <abut/shape/xyz_view.hpp>
 
 namespace abut::detail {
 
@@ -153,6 +154,13 @@ void check_array(const Policy& on, const strided<S>& array, const char* function
     see_writes_to(array.data);
     check_shapes(on, shapes_view<S, space_of<Policy>>(array.first(), array.count, array.stride), function, element);
 }
+template <class Policy, scalar T, memory_space Space>
+void check_array(const Policy& on, const xyz_points_view<T, Space>& points, const char* function, const char* element) {
+    require_access(on, points.x, function);
+    require_access(on, points.y, function);
+    require_access(on, points.z, function);
+    check_shapes(on, points, function, element);
+}
 
 inline void check_count(std::size_t count, const char* function) {
     // Ids have 32 bits, and an index needs one of them for itself.
@@ -163,8 +171,8 @@ inline void check_count(std::size_t count, const char* function) {
 }
 
 /// Shapes over shared vertices, each given by the numbers of N of them.
-template <class Policy, scalar T, std::size_t N>
-void check_indexed(const Policy& on, const strided<vec3<T>>& vertices, const strided<std::array<std::uint32_t, N>>& elements,
+template <class Policy, class Vertices, std::size_t N>
+void check_indexed(const Policy& on, const Vertices& vertices, const strided<std::array<std::uint32_t, N>>& elements,
                    const char* function, const char* element) {
     check_count(elements.count, function);
     check_count(vertices.count, function);
@@ -211,6 +219,22 @@ void check(const Policy& on, const equal_spheres_view<T, Space>& view, const cha
     const sphere<T> first{{0, 0, 0}, view.radius};
     if (!is_valid(first)) refuse(function, "sphere", 0, first);
     check_array(on, view.centers, function, "sphere");
+}
+template <class Policy, scalar T, memory_space Space>
+void check(const Policy& on, const xyz_points_view<T, Space>& view, const char* function) {
+    check_count(view.size(), function);
+    check_array(on, view, function, "point");
+}
+template <class Policy, scalar T, memory_space Space>
+void check(const Policy& on, const xyz_spheres_view<T, Space>& view, const char* function) {
+    check_count(view.size(), function);
+    check_array(on, view.centers, function, "sphere");
+    require_access(on, view.radii, function);
+    check_shapes(on, view, function, "sphere");
+}
+template <class Policy, scalar T, memory_space Space>
+void check(const Policy& on, const xyz_mesh_view<T, Space>& view, const char* function) {
+    check_indexed(on, view.vertices, view.faces, function, "face");
 }
 template <class Policy, shape S, memory_space Space>
 void check(const Policy&, const single_view<S, Space>& view, const char* function) {

@@ -15,6 +15,7 @@
 #include <abut/execution/buffer.hpp>
 #include <abut/execution/host.hpp>
 #include <abut/shape/check.hpp>
+#include <abut/shape/copy_view.hpp>
 #include <abut/shape/half_edges.hpp>
 #include <abut/shape/set.hpp>
 #include <abut/shape/view.hpp>
@@ -22,48 +23,6 @@
 namespace abut {
 
 namespace detail {
-
-struct set_parts {
-    template <scalar T, memory_space Space>
-    static points<T, Space> vertices_of(const mesh<T, Space>& mesh) {
-        points<T, Space> all;
-        all.values_ = mesh.vertices_;
-        return all;
-    }
-    template <scalar T, memory_space Space>
-    static edge_mesh<T, Space> edge_mesh_of(const points<T, Space>& vertices, execution::buffer<edge, Space> edges) {
-        edge_mesh<T, Space> made;
-        made.vertices_ = vertices.values_;
-        made.elements_ = shared_array<edge, Space>(std::move(edges));
-        return made;
-    }
-    /// The same edges over other vertices.
-    template <scalar T, memory_space Space>
-    static edge_mesh<T, Space> with_points(const edge_mesh<T, Space>& edges, const points<T, Space>& vertices) {
-        edge_mesh<T, Space> made;
-        made.vertices_ = vertices.values_;
-        made.elements_ = edges.elements_;
-        return made;
-    }
-    /// The faces or edges of a set, wherever it lies. Waits for the copy.
-    template <class Set>
-    static auto elements_to_host(const Set& set) {
-        return set.elements_.to_host();
-    }
-    template <scalar T, memory_space Space>
-    static mesh<T, Space> mesh_of(execution::buffer<vec3<T>, Space> vertices, execution::buffer<face, Space> faces) {
-        mesh<T, Space> made;
-        made.vertices_ = shared_array<vec3<T>, Space>(std::move(vertices));
-        made.elements_ = shared_array<face, Space>(std::move(faces));
-        return made;
-    }
-    template <shape Shape, memory_space Space>
-    static shapes<Shape, Space> shapes_of(execution::buffer<Shape, Space> values) {
-        shapes<Shape, Space> made;
-        made.values_ = shared_array<Shape, Space>(std::move(values));
-        return made;
-    }
-};
 
 /// Writes the sides of face f, all in one direction.
 struct write_sides {

@@ -226,6 +226,7 @@ public:
 private:
     template <scalar, abut::memory_space>
     friend class equal_spheres;
+    friend detail::set_parts;
 
     detail::shared_array<vec3<T>, Space> centers_;
     T radius_ = 0;
