@@ -31,7 +31,7 @@ namespace abut {
 /// @par Memory
 /// Arguments lie on the policy's device: sets, views, single shapes, and indices. A set in host memory does not compile;
 /// `copy_to` brings it over. Both results own device memory of a fixed size. Each call takes memory for its own use in the
-/// order of the stream, and gives it back so: 8 bytes for each pair that may be left open (see async_result), 17 MB for two
+/// order of the stream, and gives it back so: 8 bytes for each pair that may be left open (see async_result), some 17 MB for two
 /// trees, and to make a list 16 bytes for each pair of its capacity, somewhat more where it sorts.
 ///
 /// @par What has to live
@@ -303,7 +303,7 @@ public:
     [[nodiscard]] std::size_t capacity() const { return items_.size(); }
     /// The first element, in device memory. How many of them there are, and whether that is all, is at `state()`.
     [[nodiscard]] const T* data() const { return items_.data(); }
-    /// In device memory: written behind the elements.
+    /// In device memory; each call writes it, as it writes the elements.
     [[nodiscard]] const async_state* state() const { return room_.state.data(); }
     /// The CUDA device.
     [[nodiscard]] int device() const { return room_.state.device(); }
