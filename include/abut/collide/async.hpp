@@ -31,8 +31,8 @@ namespace abut {
 /// @par Memory
 /// Arguments lie on the policy's device: sets, views, single shapes, and indices. A set in host memory does not compile;
 /// `copy_to` brings it over. Both results own device memory of a fixed size. Each call takes memory for its own use in the
-/// order of the stream, and gives it back so: 8 bytes for each pair that may be left open (see async_result), some 17 MB for two
-/// trees, and to make a list 16 bytes for each pair of its capacity, somewhat more where it sorts.
+/// order of the stream, and gives it back so: 8 bytes for each pair that may be left open (see async_result), some 17 MB for
+/// two trees, and to make a list 16 bytes for each pair of its capacity, somewhat more where it sorts.
 ///
 /// @par What has to live
 /// Until the stream has done the work, and until `wait` where that is called: the result, and what a view or a filter points
