@@ -267,7 +267,7 @@ void add(const std::string& name) {
         set(benchmark::RegisterBenchmark((name + "/serial" + load).c_str(), run<Operation, abut::serial>, abut::serial{},
                                          busy)
                 ->UseRealTime());
-        for (const int threads : {1, 2, 4, 8}) {
+        for (const int threads : {1, 2, 4, 8, 16}) {
             const std::string whole = name + "/openmp/" + std::to_string(threads) + load;
             const abut::openmp on{.threads = threads};
             set(benchmark::RegisterBenchmark(whole.c_str(), run<Operation, abut::openmp>, on, busy)->UseRealTime());

@@ -8,9 +8,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include <embree3/rtcore.h>
-
 #include "../docs/examples/scene.hpp"
+#include "embree.hpp"
 
 namespace embree_peer {
 

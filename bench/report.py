@@ -75,7 +75,8 @@ def rounded(value):
 
 def read(path):
     """Results in the form of bench/results.hpp, also of a file of Google Benchmark: its medians and counters. One thread is
-    measured by its processor time, which other jobs of the machine disturb less; threads by the clock."""
+    measured by its processor time, which other jobs of the machine disturb less; threads, and what is to be disturbed, by the clock;
+    a model by what it says itself."""
     try:
         data = json.loads(path.read_text(encoding="utf-8"))
         context = data["context"]
@@ -88,7 +89,7 @@ def read(path):
                 if row.get("error_occurred") or row.get("aggregate_name", "median") != "median":
                     continue
                 name = re.split(r"/(?:iterations|min_time|repeats|real_time)\b", row["run_name"])[0]
-                clock = "real_time" if "openmp" in name else "cpu_time"
+                clock = "real_time" if re.search("openmp|/busy$|/modelled/", name) else "cpu_time"
                 values = {"ms": row[clock] * {"ns": 1e-6, "us": 1e-3, "ms": 1.0, "s": 1e3}[row["time_unit"]]}
                 known = {"cpu_time", "real_time", "threads", "iterations", "repetitions", "family_index", "repetition_index",
                          "per_family_instance_index"}

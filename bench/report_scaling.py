@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The tables of docs/scaling.md: what bench/distributed.cpp measured, and a model of its costs on many ranks."""
+"""The tables of docs/scaling.md: what bench/cores.cpp and bench/distributed.cpp measured, and a model of costs on many ranks."""
 
 import math
 
@@ -129,6 +129,45 @@ class Model:
                     return ranks
         return None
 
+
+# --- cores
+
+OPERATIONS = {"build": "`make_bvh` of 345,960 triangles", "build_and_pairs": "`make_bvh` and sorted `pairs`, spheres in a mesh",
+              "pairs": "sorted `pairs` of these", "unsorted": "unsorted `pairs` of these",
+              "meshes_unsorted": "unsorted `pairs` of two meshes", "meshes_count": "`count` of two meshes",
+              "validate": "`validate` of 27,648 triangles", "sort_keys": "sort of 345,944 keys",
+              "sort_few_keys": "sort of 40,000 keys", "exclusive_scan": "prefix sums of 4,000,000 numbers",
+              "compact": "compaction of 4,000,000 numbers", "gather": "gathering 32 MB from all threads"}
+
+
+def core_counts(r):
+    return sorted({int(name.split("/")[2]) for name in r.names("build/openmp/")} - {1})
+
+
+@in_table("cores")
+def cores(results):
+    r = results["cpu/cores"]
+    rows = []
+    for operation, name in OPERATIONS.items():
+        serial, bound = r.get(f"{operation}/serial/quiet"), r.get(f"{operation}/modelled/16")
+        rows.append([name, shown(serial)] + [quotient(serial, r.get(f"{operation}/openmp/{k}/quiet"), 1) for k in core_counts(r)] +
+                    [quotient(serial, bound, 1)])
+    return table(["", "`serial`, ms", *(f"{k} threads" for k in core_counts(r)), "bound for 16"], rows) + \
+        made_on(r, f"; {r.context['cores']} cores")
+
+
+@in_table("cores-busy")
+def cores_busy(results):
+    r = results["cpu/cores"]
+    rows = []
+    for operation, name in OPERATIONS.items():
+        serial = r.get(f"{operation}/serial/busy")
+        if serial:
+            rows.append([name, shown(serial)] + [quotient(r.get(f"{operation}/openmp/{k}/busy"), serial) for k in core_counts(r)])
+    return table(["", "`serial`, ms", *(f"{k} threads" for k in core_counts(r))], rows) + made_on(r, f"; {r.context['cores']} cores")
+
+
+# --- ranks
 
 def seconds(value):
     return f"{value:.2g}" if value < 100 else whole(value)

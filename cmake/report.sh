@@ -65,6 +65,7 @@ cpu reduce_contacts bench_reduce_contacts --json={} --mesh=@D@/meshes/armadillo_
 cpu extremes bench_extremes --json={}
 cpu trade_scenes bench_trade_scenes --json={} --data=@D@
 cpu footprint bench_footprint --json={}
+cpu cores bench_cores $G --benchmark_filter=/quiet|/modelled/16|^(validate|build|sort_few_keys)/
 cpu distributed bench_distributed --json={}
 cuda footprint bench_footprint_cuda {}
 cuda trade bench_trade_cuda {}

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include <benchmark/benchmark.h>
-#include <embree3/rtcore.h>
 
 #include "../any_scenes.hpp"
+#include "../embree.hpp"
 
 namespace {
 

@@ -63,8 +63,9 @@ bool holds_all(const bounded_soup<V>& tree) {
 template <class V>
 bool same_nodes(const bounded_soup<V>& a, const bounded_soup<V>& b) {
     bool same = a.size() == b.size();
+    const auto nodes_a = a.view(), nodes_b = b.view();
     for (std::uint32_t i = 0; i + 1 < a.size() && same; ++i) {
-        const auto &x = a.view().fetch(i), &y = b.view().fetch(i);
+        const auto &x = nodes_a.fetch(i), &y = nodes_b.fetch(i);
         same = std::memcmp(x.volume, y.volume, sizeof x.volume) == 0 && x.child[0] == y.child[0] && x.child[1] == y.child[1];
     }
     return same;
@@ -110,7 +111,8 @@ TEST_CASE("bounded: polytopes are merged to what is made around all") {
     test::uniform random(89);
     const triangle_soup<float> soup(test::random_triangles<float>(300, random));
     const auto index = bounded_by<kdop<float, 26>>(serial{}, make_bvh(serial{}, soup));
-    const auto& root = index.view().fetch(index.view().root().index());
+    const auto nodes = index.view();
+    const auto& root = nodes.fetch(nodes.root().index());
     const auto merged = merge(root.volume[0], root.volume[1]), expected = around<kdop<float, 26>>(soup.view());
     CHECK(std::memcmp(&merged, &expected, sizeof merged) == 0);
 }

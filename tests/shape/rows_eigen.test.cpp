@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <Eigen/Core>
-#include <catch2/catch.hpp>
+#include "support/catch.hpp"
 
 #include <abut/abut.hpp>
 

@@ -145,11 +145,11 @@ private:
 /// Whether the convex hulls of two sets of points have a point in common. Neither is empty.
 inline bool hulls_meet(const std::vector<integer_point>& a, const std::vector<integer_point>& b) {
     using int512 = boost::multiprecision::int512_t;  // boost's have a sign beside their bits
-    unsigned bits = 0;                               // all coordinates are below 2^bits
+    std::size_t bits = 0;                            // all coordinates are below 2^bits
     for (const std::vector<integer_point>* points : {&a, &b}) {
         for (const integer_point& p : *points) {
             for (const integer* x : {&p.x, &p.y, &p.z}) {
-                if (*x != 0) bits = std::max(bits, boost::multiprecision::msb(abs(*x)) + 1);
+                if (*x != 0) bits = std::max<std::size_t>(bits, boost::multiprecision::msb(abs(*x)) + 1);
             }
         }
     }

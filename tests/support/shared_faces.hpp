@@ -155,8 +155,8 @@ bool meet_beyond_shared(const detail::mesh_face<T>& f, const detail::mesh_face<T
         for (const vec3<T>& p : *points) values.insert(values.end(), {p.x, p.y, p.z});
     }
     const std::vector<integer> v = to_integers(values);
-    unsigned bits = 0;
-    for (const integer& x : v) bits = x == 0 ? bits : std::max(bits, msb(integer(abs(x))) + 1);
+    std::size_t bits = 0;
+    for (const integer& x : v) bits = x == 0 ? bits : std::max<std::size_t>(bits, msb(integer(abs(x))) + 1);
     const auto decide_in = [&]<class N>(N) {
         std::array<point_of<N>, 3> a{}, b{};
         for (std::size_t k = 0; k < 9; ++k) {
