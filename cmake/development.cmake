@@ -60,6 +60,9 @@ target_compile_options(
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     # False alarms inside std::string (GCC bug 105651).
     target_compile_options(abut_development INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-restrict>)
+elseif(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # In Boost 1.83's wide numbers, in branches that are never taken.
+    target_compile_options(abut_development INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-array-bounds;-Wno-aggressive-loop-optimizations>)
 endif()
 if(ABUT_SANITIZE)
     target_compile_options(

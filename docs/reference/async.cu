@@ -11,7 +11,7 @@ void run() {
     cudaStreamCreate(&stream);
     {
         const abut::cuda on{.stream = stream};
-        const auto balls = abut::copy_to(on, abut::spheres<float>({{{1, 1, 2}, 2}, {{4, 4, 3}, 3}, {{4, 4, 9}, 1}}));
+        const auto balls = abut::copy_to(on, abut::spheres<float>({{{1, 1, 2}, 2}, {{2, 2, 3}, 3}, {{4, 4, 9}, 1}}));
         const abut::triangle<float> floor{{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}};
         //! [async]
         abut::async_result<abut::index_pair> hits(on, 100);  // room for 100 pairs

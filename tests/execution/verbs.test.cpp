@@ -12,6 +12,7 @@
 #include <set>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "execution/verb_cases.hpp"
@@ -381,4 +382,59 @@ TEST_CASE("buffers: memory for more elements than can be addressed is refused") 
     buffer a(serial{}, 3), b(std::move(a));
     CHECK(a.data() == nullptr);
     CHECK(b.size() == 3);
+}
+
+namespace {
+
+/// Keys, of which `kind` says how they are spread: 0 evenly, 1 few values, 2 most in one bucket, 3 all in one, 4 ascending.
+template <class Key>
+std::vector<Key> keys_of(int kind, std::size_t n, int bits) {
+    std::vector<Key> keys(n);
+    std::uint64_t state = 20261123;
+    for (std::size_t i = 0; i < n; ++i) {
+        state = state * 6364136223846793005u + 1442695040888963407u;
+        const std::uint64_t any = (state ^ state >> 29) >> (64 - bits), low = any & ((std::uint64_t{1} << bits / 2) - 1);
+        const std::uint64_t key = kind == 0   ? any
+                                  : kind == 1 ? any % 5
+                                  : kind == 2 ? (i % 50 == 0 ? any : low)
+                                  : kind == 3 ? low
+                                              : i & ((std::uint64_t{1} << (bits - 1)) * 2 - 1);
+        keys[i] = static_cast<Key>(key);
+    }
+    return keys;
+}
+
+template <class Key>
+void check_spread_keys(const openmp& on, int bits) {
+    for (int kind = 0; kind < 5; ++kind) {
+        for (const std::size_t n : {0, 1, 2'000, 5'000, 40'000}) {
+            CAPTURE(sizeof(Key), bits, kind, n);
+            const std::vector<Key> from = keys_of<Key>(kind, n, bits);
+            std::vector<std::pair<Key, std::uint32_t>> expected;
+            for (std::size_t i = 0; i < n; ++i) expected.emplace_back(from[i], static_cast<std::uint32_t>(i));
+            std::ranges::stable_sort(expected, {}, [](const auto& p) { return p.first; });
+            execution::buffer<Key, host_space> keys(on, n), alone(on, n);
+            execution::buffer<std::uint32_t, host_space> values(on, n);
+            for (std::size_t i = 0; i < n; ++i) {
+                keys.data()[i] = alone.data()[i] = from[i];
+                values.data()[i] = static_cast<std::uint32_t>(i);
+            }
+            execution::radix_sort(on, keys, &values, bits);
+            sort_keys(on, alone, bits);
+            std::size_t wrong = 0;
+            for (std::size_t i = 0; i < n; ++i) {
+                wrong += keys.data()[i] != expected[i].first || values.data()[i] != expected[i].second;
+                wrong += alone.data()[i] != expected[i].first;
+            }
+            CHECK(wrong == 0);
+        }
+    }
+}
+
+}  // namespace
+
+TEST_CASE("verbs: keys are sorted however they are spread, and equal ones stay in their order") {
+    const openmp on{.threads = 7};
+    for (const int bits : {1, 2, 7, 8, 9, 10, 16, 17, 24, 25, 31, 32}) check_spread_keys<std::uint32_t>(on, bits);
+    for (const int bits : {3, 30, 33, 41, 49, 51, 57, 63, 64}) check_spread_keys<std::uint64_t>(on, bits);
 }
