@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What self_pairs(policy, bodies) promises on every policy: of each two bodies what a plain loop over their placed shapes
-// says of them, named and sorted.
+// What queries of many bodies promise on every policy: of each two bodies what a plain loop over their placed shapes says of
+// them, named and sorted; also after the bodies have moved.
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <set>
 #include <string>
 #include <utility>
@@ -51,15 +52,36 @@ struct scene_of_bodies {
         kinds.push_back(kind);
         bodies.push_back(posed(trees[kind], pose));
     }
-    [[nodiscard]] std::vector<body_pair> truth() const {
-        std::vector<body_pair> all;
+    /// f(i, j, a, b) for each two bodies and their posed sets.
+    template <class F>
+    void for_each_two(const F& f) const {
         for (std::uint32_t i = 0; i < bodies.size(); ++i) {
             for (std::uint32_t j = i + 1; j < bodies.size(); ++j) {
-                const auto a = posed(sets[kinds[i]], bodies[i].pose), b = posed(sets[kinds[j]], bodies[j].pose);
-                for (const index_pair& p : pairs<exact>(serial{}, a, b)) all.push_back({i, j, p.a, p.b});
+                f(i, j, posed(sets[kinds[i]], bodies[i].pose), posed(sets[kinds[j]], bodies[j].pose));
             }
         }
+    }
+    [[nodiscard]] std::vector<body_pair> truth() const {
+        std::vector<body_pair> all;
+        for_each_two([&](std::uint32_t i, std::uint32_t j, const auto& a, const auto& b) {
+            for (const index_pair& p : pairs<exact>(serial{}, a, b)) all.push_back({i, j, p.a, p.b});
+        });
         return all;
+    }
+    [[nodiscard]] std::vector<body_contact<T>> true_contacts() const {
+        std::vector<body_contact<T>> all;
+        for_each_two([&](std::uint32_t i, std::uint32_t j, const auto& a, const auto& b) {
+            for (const contact<T>& c : contacts(serial{}, a, b)) all.push_back({i, j, c.a, c.b, c.point, c.normal, c.depth});
+        });
+        return all;
+    }
+    [[nodiscard]] std::vector<rigid<T>> poses() const {
+        std::vector<rigid<T>> all;
+        for (const auto& body : bodies) all.push_back(body.pose);
+        return all;
+    }
+    void move_to(const std::vector<rigid<T>>& poses) {
+        for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i].pose = poses[i];
     }
 };
 
@@ -69,21 +91,21 @@ std::size_t check_bodies(const Policy& on, const scene_of_bodies<Policy, Set>& s
     const auto& bodies = scene.bodies;
     const std::vector<body_pair> expected = scene.truth();
     CAPTURE(bodies.size(), expected.size());
-    CHECK((to_host(self_pairs(on, bodies)) == expected));
-    auto unsorted = to_host(self_pairs(on, bodies, {.sorted = false, .most_pairs = 3}));
+    CHECK((to_host(pairs(on, bodies)) == expected));
+    auto unsorted = to_host(pairs(on, bodies, {.sorted = false, .most_pairs = 3}));
     std::sort(unsorted.begin(), unsorted.end());
     CHECK((unsorted == expected));
-    CHECK(count_self_pairs(on, bodies) == expected.size());
-    CHECK(any_self_pairs(on, bodies) == !expected.empty());
+    CHECK(count(on, bodies) == expected.size());
+    CHECK(any(on, bodies) == !expected.empty());
 
     const body_options<some_bodies> with_filter{.filter = {}};
     auto some = expected;
     std::erase_if(some, [](const body_pair& p) { return !some_bodies{}(p); });
-    CHECK((to_host(self_pairs(on, bodies, with_filter)) == some));
+    CHECK((to_host(pairs(on, bodies, with_filter)) == some));
     if constexpr (host_policy<Policy>) {
-        CHECK(count_self_pairs(on, bodies, with_filter) == some.size());
-        CHECK(any_self_pairs(on, bodies, with_filter) == !some.empty());
-        CHECK((to_host(self_pairs<exact>(on, bodies)) == expected));
+        CHECK(count(on, bodies, with_filter) == some.size());
+        CHECK(any(on, bodies, with_filter) == !some.empty());
+        CHECK((to_host(pairs<exact>(on, bodies)) == expected));
     }
     return expected.size();
 }
@@ -92,7 +114,7 @@ std::size_t check_bodies(const Policy& on, const scene_of_bodies<Policy, Set>& s
 template <class T, class Policy>
 void check_random_bodies(const Policy& on) {
     constexpr std::uint64_t seed = 20270401;
-    std::printf("self pairs of bodies: seed %llu\n", static_cast<unsigned long long>(seed));
+    std::printf("many bodies: seed %llu\n", static_cast<unsigned long long>(seed));
     uniform random(seed);
     std::vector<triangle_soup<T>> sets;
     for (const std::size_t n : {0, 1, 2, 3, 100}) sets.emplace_back(random_triangles<T>(n, random));
@@ -141,7 +163,7 @@ void check_cube_lattice(const Policy& on) {
         CAPTURE(apart);
         check_bodies(on, scene);
         std::set<std::pair<std::uint32_t, std::uint32_t>> met;
-        for (const body_pair& p : to_host(self_pairs(on, scene.bodies))) met.emplace(p.body_a, p.body_b);
+        for (const body_pair& p : to_host(pairs(on, scene.bodies))) met.emplace(p.body_a, p.body_b);
         CHECK(met.size() == neighbours);
         CHECK(neighbours == (apart ? 49u : 158u));
     }
@@ -199,9 +221,9 @@ void check_refused(const Policy& on, const Bodies& bodies, const std::string& wo
             CHECK(std::string(problem.what()).find(name + ": " + words) == 0);
         }
     };
-    check_one([&] { (void)self_pairs(on, bodies); }, "abut::self_pairs");
-    check_one([&] { (void)count_self_pairs(on, bodies); }, "abut::count_self_pairs");
-    check_one([&] { (void)any_self_pairs(on, bodies); }, "abut::any_self_pairs");
+    check_one([&] { (void)pairs(on, bodies); }, "abut::pairs");
+    check_one([&] { (void)count(on, bodies); }, "abut::count");
+    check_one([&] { (void)any(on, bodies); }, "abut::any");
 }
 
 template <class T, class Policy>
@@ -234,13 +256,165 @@ void check_body_errors(const Policy& on) {
     CHECK(check_bodies(on, scene) > 5);
 }
 
+/// Sums up what it is shown, by all four numbers.
+struct sum_of_bodies {
+    std::uint64_t* sum;
+    ABUT_HD static std::uint64_t of(body_pair p) {
+        return ((p.body_a * 31 + p.body_b) * std::uint64_t{1009} + p.a) * 10007 + p.b + 1;
+    }
+    ABUT_HD visit operator()(body_pair p) const {
+        execution::atomic_add(sum, of(p));
+        return visit::proceed;
+    }
+};
+
+/// Whether two scenes have one topology: then the later one was refitted, and not built.
+template <class Bodies>
+bool have_one_topology(const Bodies& a, const Bodies& b) {
+    return a.tree().stored().plan == b.tree().stored().plan;
+}
+
+/// Bodies that go a little from frame to frame keep their tree, those that change places get a new one, and answers are
+/// right either way.
+template <class T, class Policy>
+void check_moving_bodies(const Policy& on) {
+    constexpr std::uint64_t seed = 20270405;
+    std::printf("moving bodies: seed %llu\n", static_cast<unsigned long long>(seed));
+    uniform random(seed);
+    std::vector<triangle_soup<T>> sets;
+    for (const std::size_t n : {0, 1, 2, 20}) sets.emplace_back(random_triangles<T>(n, random));
+    const torus<T> shape(6, 5, T(0.7), T(0.3));
+    sets.emplace_back(triangles_of(shape.vertices, shape.faces));
+    scene_of_bodies<Policy, triangle_soup<T>> scene(on, sets);
+    std::vector<std::uint32_t> kinds;
+    draws d(seed, 98, 0);
+    constexpr std::size_t n = 60;
+    for (std::size_t i = 0; i < n; ++i) {
+        kinds.push_back(static_cast<std::uint32_t>(i < 40 ? 4 : random.below(sets.size())));
+        scene.add(kinds.back(), make_pose<T>(d, 3));
+    }
+    const auto first = make_bodies(on, scene.trees, kinds, scene.poses());
+    REQUIRE(first.size() == n);
+    CHECK(first.indices().size() == sets.size());
+    CHECK(first.tree().size() < n);  // some are empty
+    auto all = first;
+    std::size_t hits = 0;
+    for (int frame = 0; frame < 6; ++frame) {
+        CAPTURE(frame);
+        if (frame > 0) {
+            auto poses = scene.poses();
+            if (frame == 3) {
+                for (std::size_t i = n; i-- > 1;) std::swap(poses[i].translation, poses[random.below(i + 1)].translation);
+            } else {
+                const auto by = [&] { return static_cast<T>(0.1 * random()); };
+                for (auto& pose : poses) pose.translation = pose.translation + vec3<T>{by(), by(), by()};
+            }
+            scene.move_to(poses);
+            const auto before = all;
+            if (frame % 2 == 0) {
+                all = refit(on, all, poses);
+            } else {
+                execution::buffer_of<Policy, rigid<T>> there(on, n);
+                upload(on, poses.data(), n, there.data());
+                synchronize(on);
+                all = refit(on, all, poses_view<T, space_of<Policy>>{there.data(), n});
+            }
+            CHECK(have_one_topology(before, all) == (frame != 3));
+        }
+        const auto expected = scene.truth();
+        hits += expected.size();
+        CHECK((to_host(pairs(on, all)) == expected));
+        CHECK(count(on, all) == expected.size());
+        if (frame != 4) continue;
+        CHECK((to_host(contacts(on, all)) == scene.true_contacts()));
+        std::uint64_t sum = 0, expected_sum = 0;
+        execution::buffer_of<Policy, std::uint64_t> there(on, 1);
+        fill(on, there.data(), 1, std::uint64_t{0});
+        for_each_pair(on, all, sum_of_bodies{there.data()});
+        download(on, there.data(), 1, &sum);
+        for (const body_pair& p : expected) expected_sum += sum_of_bodies::of(p);
+        CHECK(sum == expected_sum);
+    }
+    CHECK(hits > 500);
+    CHECK((to_host(pairs(on, first)) != to_host(pairs(on, all))));  // what was made stays as it is
+}
+
+/// What making and refitting refuse.
+template <class T, class Policy>
+void check_refused_bodies(const Policy& on) {
+    const std::vector<triangle<T>> some{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}};
+    const std::vector trees{make_bvh(on, triangle_soup<T>(some))};
+    const auto message_of = [](const auto& call) -> std::string {
+        try {
+            call();
+        } catch (const error& problem) {
+            return problem.what();
+        }
+        return "";
+    };
+    const std::vector<std::uint32_t> kinds{0, 0, 0};
+    std::vector<rigid<T>> poses(3);
+    const auto all = make_bodies(on, trees, kinds, poses);
+    CHECK(message_of([&] {
+              (void)make_bodies(on, trees, std::vector<std::uint32_t>{0, 0}, poses);
+          }) == "abut::make_bodies: there are 2 numbers of indices and 3 poses");
+    CHECK(message_of([&] {
+              (void)make_bodies(on, trees, std::vector<std::uint32_t>{0, 1, 0}, poses);
+          }).find("abut::make_bodies: body 1: its index is out of range, there are 1") == 0);
+    CHECK(message_of([&] { (void)refit(on, all, std::vector<rigid<T>>(2)); }) ==
+          "abut::refit: there are 3 bodies and 2 poses");
+    constexpr T largest = largest_finite<T>;
+    for (int k = 0; k < 6; ++k) {
+        auto bad = poses;
+        rigid<T>& pose = bad[2];
+        if (k == 0) pose.rotation[4] = T(1.01);
+        if (k == 1) pose.rotation[1] = T(0.01);
+        if (k == 2) pose.rotation[8] = -1;
+        if (k == 3) pose.translation.y = infinity<T>;
+        if (k == 4) pose.rotation[0] = std::numeric_limits<T>::quiet_NaN();
+        if (k == 5) pose.translation = {largest, largest, largest};  // refused by nothing: all shapes stay finite
+        const std::string words[] = {"rotation row 1", "rotation row 1", "rotation 0", "translation coordinate 1",
+                                     "rotation entry 0"};
+        CAPTURE(k);
+        const auto said = message_of([&] { (void)refit(on, all, bad); });
+        const auto made = message_of([&] { (void)make_bodies(on, trees, kinds, bad); });
+        CHECK(said.find(k < 5 ? "abut::refit: body 2: " + words[k] : "") == 0);
+        CHECK(made.find(k < 5 ? "abut::make_bodies: body 2: " + words[k] : "") == 0);
+        CHECK(said.empty() == (k == 5));
+        CHECK(made.empty() == (k == 5));
+    }
+    // Of no bodies.
+    const auto none = refit(on, make_bodies(on, trees, {}, {}), {});
+    CHECK(none.size() == 0);
+    CHECK(pairs(on, none).empty());
+}
+
+/// Equal bodies in one place: each two have in common what one has with itself.
+template <class T, class Policy>
+void check_equal_bodies(const Policy& on) {
+    const torus<T> shape(6, 5, T(0.7), T(0.3));
+    const std::vector trees{make_bvh(on, triangle_soup<T>(triangles_of(shape.vertices, shape.faces)))};
+    draws d(20270406, 99, 0);
+    constexpr std::size_t n = 60;
+    const auto all = make_bodies(on, trees, std::vector<std::uint32_t>(n), std::vector<rigid<T>>(n, make_pose<T>(d, 4)));
+    const auto of_two = count(on, trees[0], trees[0]);
+    CHECK(of_two > 60);
+    const auto found = to_host(pairs(on, all));
+    CHECK(found.size() == n * (n - 1) / 2 * of_two);
+    CHECK(std::is_sorted(found.begin(), found.end()));
+    CHECK(std::adjacent_find(found.begin(), found.end()) == found.end());
+}
+
 template <class T, class Policy>
 void check_all_bodies(const Policy& on) {
     check_random_bodies<T>(on);
     check_cube_lattice<T>(on);
     check_touching_bodies<T>(on);
-    if constexpr (host_policy<Policy>) check_ball_bodies<T>(on);  // for the boxes, which a host makes
+    check_ball_bodies<T>(on);
     check_body_errors<T>(on);
+    check_moving_bodies<T>(on);
+    check_refused_bodies<T>(on);
+    check_equal_bodies<T>(on);
 }
 
 }  // namespace abut::test
