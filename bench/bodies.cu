@@ -24,7 +24,16 @@ using bench::joined;
 using bench::table;
 using index_type = decltype(abut::make_bvh(abut::cuda{}, bodies_scene::shape(0)));
 
-void add(const abut::cuda& on, const std::vector<index_type>& indices, std::size_t n, table& out) {
+std::vector<index_type> make_indices(const abut::cuda& on, abut::bvh_builder builder) {
+    std::vector<index_type> made;
+    for (std::size_t k = 0; k < bodies_scene::kinds; ++k) {
+        made.push_back(abut::make_bvh(on, bodies_scene::shape(k), {.builder = builder}));
+    }
+    return made;
+}
+
+void add(const abut::cuda& on, std::size_t n, table& out) {
+    const auto indices = make_indices(on, abut::bvh_builder::linear);
     const auto scene = bodies_scene::make(n);
     const auto all = abut::make_bodies(on, indices, scene.kind, scene.now);
     abut::execution::buffer_of<abut::cuda, abut::rigid<float>> there(on, n);
@@ -59,15 +68,16 @@ void add(const abut::cuda& on, const std::vector<index_type>& indices, std::size
     row("frame", least_refit + least_pairs, [&] { return abut::pairs(on, abut::refit(on, all, later)).size(); });
     const abut::body_options<abut::keep_all_bodies, abut::schedule::lazy_work_stealing> stealing;
     row("stealing", least_pairs, [&] { return abut::pairs(on, all, stealing).size(); });
+    row("fast", least_pairs, [&] { return abut::pairs<abut::fast>(on, all).size(); });
+    const auto joined_up = abut::make_bodies(on, make_indices(on, abut::bvh_builder::ploc), scene.kind, scene.now);
+    row("ploc", least_pairs, [&] { return abut::pairs(on, joined_up).size(); });
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
     return bench::run("bench_bodies_cuda", argc, argv, [](const abut::cuda& on, table& out) {
-        std::vector<index_type> indices;
-        for (std::size_t k = 0; k < bodies_scene::kinds; ++k) indices.push_back(abut::make_bvh(on, bodies_scene::shape(k)));
-        add(on, indices, 10'000, out);
-        add(on, indices, 100'000, out);
+        add(on, 10'000, out);
+        add(on, 100'000, out);
     });
 }
