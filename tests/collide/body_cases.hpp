@@ -242,6 +242,11 @@ void check_body_errors(const Policy& on) {
     check_refused(on, bad.bodies, "body 3: rotation row 0");
     bad.bodies.back() = posed(scene.trees[0], bent);  // also where there is nothing to place
     check_refused(on, bad.bodies, "body 3: rotation row 0");
+    rigid<T> infinite;
+    infinite.translation.x = infinity<T>;
+    bad.bodies.back() = posed(scene.trees[0], infinite);
+    check_refused(on, bad.bodies, "body 3: translation coordinate 0");
+    bad.bodies.back() = scene.bodies[0];
     rigid<T> farther = shifted;
     farther.translation.x = T(1.5) * far;
     bad.bodies[1] = posed(scene.trees[2], farther);
