@@ -162,7 +162,8 @@ def nearest_cuda(results):
 
 BODIES = {"build": "`make_bodies`", "refit": "`refit`", "refit_from_host": "`refit`, poses in host memory",
           "near": "near pairs of bodies alone", "pairs": "`pairs`", "unsorted": "`pairs`, not sorted", "count": "`count`",
-          "any": "`any`", "contacts": "`contacts`", "stealing": "`pairs` by lazy stealing", "list": "`pairs` of a list",
+          "any": "`any`", "contacts": "`contacts`", "fast": "`pairs<fast>`", "ploc": "`pairs`, trees by `ploc`",
+          "stealing": "`pairs` by lazy stealing", "list": "`pairs` of a list",
           "frame": "`refit` and `pairs`"}
 
 
