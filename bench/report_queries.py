@@ -160,6 +160,39 @@ def nearest_cuda(results):
         made_on(r)
 
 
+BODIES = {"build": "`make_bodies`", "refit": "`refit`", "refit_from_host": "`refit`, poses in host memory",
+          "near": "near pairs of bodies alone", "pairs": "`pairs`", "unsorted": "`pairs`, not sorted", "count": "`count`",
+          "any": "`any`", "contacts": "`contacts`", "fast": "`pairs<fast>`", "ploc": "`pairs`, trees by `ploc`",
+          "stealing": "`pairs` by lazy stealing", "list": "`pairs` of a list",
+          "frame": "`refit` and `pairs`"}
+
+
+def bodies_rows(r, policies):
+    """Milliseconds by what is asked, for each policy and number of bodies; and what there is to find."""
+    columns = [(p, n) for n in r.parts("bodies/", 3) for p in policies if r.get(f"bodies/pairs/{p}/{n}") is not None]
+    rows = [[name] + [shown(r.get(f"bodies/{row}/{p}/{n}")) for p, n in columns] for row, name in BODIES.items()]
+    found = [f"{int(n):,} bodies: {whole(r.get(f'bodies/pairs/{p}/{n}', 'near'))} pairs of boxes meet, "
+             f"{whole(r.get(f'bodies/pairs/{p}/{n}', 'pairs'))} pairs of triangles touch" for p, n in columns
+             if p == policies[0]]
+    return columns, [row for row in rows if any(row[1:])], "; ".join(found) + "."
+
+
+@in_table("bodies-cpu")
+def bodies_cpu(results):
+    r = results["cpu/bodies"]
+    columns, rows, found = bodies_rows(r, ("serial", "openmp"))
+    return [found, ""] + table(["ms"] + [f"{int(n):,} bodies, `{p}`" for p, n in columns], rows) + made_on(r)
+
+
+@in_table("bodies-cuda")
+def bodies_cuda(results):
+    r = results["cuda/bodies"]
+    columns, rows, found = bodies_rows(r, ("cuda",))
+    floor = ["what has to be read and written at least once, for a frame"] + \
+        [shown(r.get(f"bodies/frame/{p}/{n}", "floor_ms")) for p, n in columns]
+    return [found, ""] + table(["ms"] + [f"{int(n):,} bodies" for p, n in columns], rows + [floor]) + made_on(r)
+
+
 @in_table("validate-cpu")
 def validate_cpu(results):
     r = results["cpu/validate"]

@@ -65,6 +65,7 @@ cpu reduce_contacts bench_reduce_contacts --json={} --mesh=@D@/meshes/armadillo_
 cpu extremes bench_extremes --json={}
 cpu trade_scenes bench_trade_scenes --json={} --data=@D@
 cpu footprint bench_footprint --json={}
+cpu bodies bench_bodies $G $I
 cpu cores bench_cores $G --benchmark_filter=/quiet|/modelled/16|^(validate|build|sort_few_keys)/
 cpu distributed bench_distributed --json={}
 cuda footprint bench_footprint_cuda {}
@@ -73,6 +74,7 @@ cuda spheres_mesh bench_spheres_mesh_cuda {}
 cuda triangles bench_triangles_cuda {}
 cuda ties bench_ties_cuda {}
 cuda nearest bench_nearest_cuda {}
+cuda bodies bench_bodies_cuda {}
 cuda validate bench_validate_cuda {}
 cuda meshes bench_meshes_cuda {} @D@/meshes/armadillo_345944.ply @D@/meshes/armadillo_2766.ply
 cuda meshes_138376 bench_meshes_cuda {} @D@/meshes/armadillo_138376.ply @D@/meshes/armadillo_2766.ply

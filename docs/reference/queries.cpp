@@ -69,17 +69,20 @@ void query_bodies() {
     abut::rigid<float> here, near, far;
     near.translation = {2, 0, 0};
     far.translation = {9, 0, 0};
-    //! [body_lists]
+    //! [many_bodies]
     const abut::serial on;
     auto part = abut::make_bvh(on, tetrahedron);  // not const, as for a list of pairs
     const std::vector<abut::posed_object<decltype(part)>> bodies{abut::posed(part, here), abut::posed(part, near),
                                                                  abut::posed(part, far)};
-    expect(abut::any_self_pairs(on, bodies));
-    for (const auto& hit : abut::to_host(abut::self_pairs(on, bodies))) {
+    expect(abut::any(on, bodies));
+    for (const auto& hit : abut::to_host(abut::pairs(on, bodies))) {
         expect(hit.body_a == 0 && hit.body_b == 1);  // hit.a and hit.b are faces of theirs
     }
-    //! [body_lists]
-    expect(abut::count_self_pairs(on, bodies) > 0);
+    auto scene = abut::make_bodies(on, bodies);  // for more than one question
+    scene = abut::refit(on, scene, std::vector{here, far, near});
+    for (const auto& touch : abut::to_host(abut::contacts(on, scene))) expect(touch.body_b == 2);
+    //! [many_bodies]
+    expect(abut::count(on, bodies) == abut::count(on, scene) && abut::count(on, scene) > 0);
 }
 
 void query_itself() {

@@ -8,6 +8,8 @@
 
 #include <abut/arithmetic/self_test.hpp>
 #include <abut/collide/advise.hpp>
+#include <abut/collide/bodies.hpp>
+#include <abut/collide/body_pairs.hpp>
 #include <abut/collide/contacts.hpp>
 #include <abut/collide/first_impact.hpp>
 #include <abut/collide/impacts.hpp>
@@ -15,7 +17,6 @@
 #include <abut/collide/nearest.hpp>
 #include <abut/collide/query.hpp>
 #include <abut/collide/reduce_contacts.hpp>
-#include <abut/collide/self_list.hpp>
 #include <abut/collide/self_pairs.hpp>
 #include <abut/collide/validate.hpp>
 #include <abut/config.hpp>

@@ -187,7 +187,7 @@ void check_calls_out_of_memory(const Policy& on) {
     check_out_of_memory("bodies", [&] {
         const rigid<float> aside{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {0.1f, 0, 0}};
         const std::vector<posed_object<decltype(make_bvh(on, ring))>> bodies{posed(ring_tree, {}), posed(ring_tree, aside)};
-        return count_self_pairs(on, bodies);
+        return count(on, bodies);
     });
     check_out_of_memory("nearest", [&] { return to_host(nearest(on, tree, some)).size(); });
     check_out_of_memory("validate", [&] { return validate(on, ring).edges; });

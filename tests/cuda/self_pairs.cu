@@ -2,11 +2,8 @@
 #include <abut/cuda.hpp>
 
 #include "collide/self_cases.hpp"
-#include "collide/self_list_cases.hpp"
 #include "support/catch.hpp"
 
 TEST_CASE("pairs within a set: cuda") { abut::test::check_all_self<float>(abut::cuda{}); }
 
 TEST_CASE("welded: cuda") { abut::test::check_all_welded<double>(abut::cuda{}); }
-
-TEST_CASE("self pairs of a list of bodies: cuda") { abut::test::check_all_bodies<float>(abut::cuda{}); }

@@ -45,7 +45,9 @@ NAMES = {
     "collide/impact_index.hpp": STEP,
     "collide/first_impact.hpp": STEP,
     "collide/list.hpp": GEAR,
-    "collide/self_list.hpp": GEAR,
+    "collide/bodies.hpp": GEAR + "std::vector<abut::posed_object<decltype(gear)>> list;"
+                                 "std::vector<abut::rigid<float>> poses;",
+    "collide/body_pairs.hpp": GEAR,
     "collide/advise.hpp": "const auto& voxels = mesh; const auto& tool = other;",
     "collide/query.hpp": "std::vector<int> flags(9); int* const touched = flags.data();",
     "collide/contacts.hpp": "const auto& tool = other; const abut::rigid<float> pose;",

@@ -2,20 +2,17 @@
 #pragma once
 
 // Queries of a list: many pairs of posed indices in one call, for scenes of many bodies, of which each pair alone is too
-// little work for a device. Each query says of each entry what it would say of its two indices alone. All trees are walked
-// together, down from all pairs of roots.
+// little work for a device. Each query says of each entry what it would say of its two indices alone. How pairs are found is
+// in list_pairing.hpp.
 
-#include <algorithm>
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <string>
-#include <type_traits>
-#include <utility>
 #include <vector>
 
 #include <abut/collide/contacts.hpp>
+#include <abut/collide/list_pairing.hpp>
+#include <abut/collide/placed.hpp>
 #include <abut/collide/query.hpp>
 
 namespace abut {
@@ -23,17 +20,19 @@ namespace abut {
 /// @defgroup lists Queries of a list of posed pairs
 ///
 /// `any`, `count`, `pairs`, `for_each_pair` and `contacts` of many pairs of posed indices in one call. Each says of an entry
-/// what it would say of the entry's two indices alone. For scenes of many bodies, of which each pair alone is too little
-/// work for a device. Entries in which a tree has one shape are searched one after another.
+/// what it would say of the entry's two indices alone. For many bodies, of which each pair alone is too little work for a
+/// device, where the caller knows which may meet. Where not, see @ref many_bodies.
 ///
 /// @par Memory
 /// Indices lie in the policy's memory, and the list itself in host memory. A `result` lies in the policy's memory, sorted by
-/// entry, then a, then b, unless the options say otherwise. The call takes a few hundred bytes an entry.
+/// entry, then a, then b, unless the options say otherwise. The call copies the poses to the policy's memory, and takes
+/// there some 200 bytes an entry in float.
 ///
 /// @par Errors
 /// - `invalid_geometry`, whose message names the entry: a pose is no rotation, or placed coordinates overflow.
 /// - `error`: an index lies on another device.
-/// - `capacity_error`: the bits of a position and of two ids are more than 64. Split the list then.
+/// - `capacity_error`: the bits of a position and of two ids are more than 64 (split the list then), or an index has more
+///   than 2^30 shapes (2^29 in wide_layout).
 /// - `std::bad_alloc`, `cuda_error`.
 ///
 /// @par Synchronisation
@@ -87,7 +86,7 @@ struct keep_all_tagged {
 };
 
 /// Options of queries of a list; with a filter write `list_options{.filter = f}` (see query_options). The schedule is
-/// that of query_options; entries of a tree of one shape have none.
+/// that of query_options.
 template <class Filter = keep_all_tagged, schedule Schedule = schedule::shared_list>
 struct list_options {
     /// Results sorted by pair, then a, then b. Without it the order is any, and may differ from call to call.
@@ -104,283 +103,37 @@ struct list_options {
 
 namespace detail {
 
-/// An entry of the list in the policy's memory.
-template <class TreeA, class TreeB, class ShapesA, class ShapesB>
-struct list_member {
-    using T = typename TreeA::scalar_type;
-    TreeA tree_a;
-    TreeB tree_b;
-    posed_view<ShapesA> a;
-    posed_view<ShapesB> b;
-    relative_pose<T> b_to_a;
-};
-
-template <class Member>
-struct relate_frames {
-    Member* members;
-    const std::uint32_t* walked;
-    ABUT_HD void operator()(std::size_t i) const {
-        Member& m = members[walked[i]];
-        m.b_to_a = make_relative_pose(m.a.pose, m.tree_a.root_bounds(), m.b.pose, m.tree_b.root_bounds());
+/// How shapes of an entry are named where a list is the caller's.
+struct names_of_entries {
+    ABUT_HD static tagged_pair pair(std::uint32_t entry, const index_pair&, std::uint32_t a, std::uint32_t b) {
+        return {entry, a, b};
+    }
+    template <scalar T>
+    ABUT_HD static tagged_contact<T> tagged(const tagged_pair& of, const contact<T>& c) {
+        return {of.pair, of.a, of.b, c.point, c.normal, c.depth};
     }
 };
 
-/// A pair's number, below that of its entry.
-struct list_key {
-    int member_bits;
-    pair_key pair;
-
-    [[nodiscard]] int bits() const { return member_bits + pair.bits(); }
-    [[nodiscard]] ABUT_HD std::uint64_t pack(std::uint32_t member, std::uint32_t a, std::uint32_t b) const {
-        return (std::uint64_t{member} << pair.a_bits | a) << pair.b_bits | b;
-    }
-    [[nodiscard]] ABUT_HD tagged_pair unpack(std::uint64_t key) const {
-        const auto member = static_cast<std::uint32_t>(key >> (pair.a_bits + pair.b_bits));
-        return {member, pair.a(key) & static_cast<std::uint32_t>((std::uint64_t{1} << pair.a_bits) - 1), pair.b(key)};
+/// Entry i is of the i-th body of each side.
+struct bodies_side_by_side {
+    ABUT_HD index_pair operator()(std::size_t i) const {
+        const auto body = static_cast<std::uint32_t>(i);
+        return {body, body};
     }
 };
 
-/// What a kernel sees of a list, as pair_view of two operands.
-template <class Member, class Filter>
-struct list_view {
-    using shape_type_a = typename decltype(Member::a)::shape_type;
-    using shape_type_b = typename decltype(Member::b)::shape_type;
-    const Member* members;
-    list_key key;
-    Filter filter;
-
-    [[nodiscard]] ABUT_HD shape_type_a shape_a(std::uint64_t k) const {
-        const tagged_pair at = key.unpack(k);
-        return members[at.pair].a[at.a];
-    }
-    [[nodiscard]] ABUT_HD shape_type_b shape_b(std::uint64_t k) const {
-        const tagged_pair at = key.unpack(k);
-        return members[at.pair].b[at.b];
-    }
-    [[nodiscard]] ABUT_HD tagged_pair ids(std::uint64_t k) const { return key.unpack(k); }
-    template <class T>
-    [[nodiscard]] ABUT_HD tagged_contact<T> tagged(std::uint64_t k, const contact<T>& c) const {
-        const tagged_pair at = key.unpack(k);
-        return {at.pair, at.a, at.b, c.point, c.normal, c.depth};
-    }
-    ABUT_INLINE void prefetch(std::uint64_t k, int step) const {
-        const tagged_pair at = key.unpack(k);
-        members[at.pair].a.prefetch(at.a, step);
-        members[at.pair].b.prefetch(at.b, step);
-    }
-};
-
-/// The ids of one entry, for the ways to candidates (pairing.hpp).
-template <class View>
-struct ids_of_member {
-    View list;
-    std::uint32_t member;
-    [[nodiscard]] ABUT_HD std::uint64_t pack(std::uint32_t a, std::uint32_t b) const { return list.key.pack(member, a, b); }
-    ABUT_CALLS_ANY
-    [[nodiscard]] ABUT_HD bool wanted(std::uint32_t a, std::uint32_t b) const {
-        return list.filter(tagged_pair{member, a, b});
-    }
-};
-
-/// Volumes of a member's two frames.
-template <scalar T>
-struct frames_at {
-    const relative_pose<T>* b_to_a;
-    template <class Volume>
-    ABUT_INLINE ABUT_HD bool operator()(const Volume& a, const Volume& b) const {
-        return overlaps_posed(a, *b_to_a, b);
-    }
-    ABUT_INLINE ABUT_HD auto operator()(const box_lanes<T>& a, const box_lanes<T>& b) const {
-        return overlaps(a, *b_to_a, b);
-    }
-};
-
-template <class Item, class Emitter>
-struct add_member_item {
-    Emitter& emitter;
-    std::uint32_t member;
-    ABUT_CALLS_ANY
-    template <class Number, class Nodes>
-    ABUT_INLINE ABUT_HD void operator()(Number k, bool is, const Nodes& next) const {
-        emitter.add(k, is, Item{member, next});
-    }
-};
-
-/// One step down two trees of a member.
-template <class Member, class Filter>
-struct expand_member {
-    using walk = pair_walk<decltype(Member::tree_a), decltype(Member::tree_b), frames_at<typename Member::T>>;
-    using ids = ids_of_member<list_view<Member, Filter>>;
-    struct item {
-        std::uint32_t member;
-        typename walk::item nodes;
-    };
-    using candidate = std::uint64_t;
-    static constexpr unsigned most_children = walk::most_children, most_depth = walk::most_depth;
-
-    list_view<Member, Filter> list;
-    const std::uint32_t* walked;  ///< entries of which both trees have nodes: `n` of them
-    std::size_t n;
-
-    [[nodiscard]] ABUT_HD walk walk_of(std::size_t i) const {
-        const Member& m = list.members[i];
-        return {m.tree_a, m.tree_b, {&m.b_to_a}};
-    }
-    [[nodiscard]] std::size_t seeds() const { return n; }
-    ABUT_INLINE void prefetch(const item& at) const { walk_of(at.member).prefetch(at.nodes); }
-    [[nodiscard]] ABUT_HD item seed(std::size_t i) const { return {walked[i], walk_of(walked[i]).seed(0)}; }
-    ABUT_CALLS_ANY
-    template <class Emitter>
-    ABUT_INLINE ABUT_HD void operator()(const item& at, Emitter&& emitter) const {
-        using sink = std::remove_reference_t<Emitter>;
-        const ids of_member{list, at.member};
-        walk_of(at.member).expand(at.nodes, add_member_item<item, sink>{emitter, at.member},
-                                  push_pair<false, sink, ids>{emitter, of_member});
-    }
-};
-
-/// Entries as the caller lists them. The source of entries of a list_pairing has these members.
-template <class IndexA, class IndexB>
-struct listed_entries {
-    using index_a = IndexA;
-    using index_b = IndexB;
-    static constexpr const char* noun = "entries";
-    const std::vector<posed_pair<IndexA, IndexB>>* list;
-
-    [[nodiscard]] std::size_t size() const { return list->size(); }
-    /// Two posed indices, a and b.
-    [[nodiscard]] const posed_pair<IndexA, IndexB>& operator[](std::size_t i) const { return (*list)[i]; }
-};
-
-/// A list that is asked about the pairs of its entries; the counterpart of `pairing`.
-template <class Policy, class Entries, class Filter, schedule Schedule>
-struct list_pairing {
-    using IndexA = typename Entries::index_a;
-    using IndexB = typename Entries::index_b;
-    using member = list_member<typename IndexA::view_type, typename IndexB::view_type,
-                               decltype(view_of(std::declval<const IndexA&>().set())),
-                               decltype(view_of(std::declval<const IndexB&>().set()))>;
-    using view_type = list_view<member, Filter>;
-    using expand = expand_member<member, Filter>;
-    static_assert(decidable<typename view_type::shape_type_a, typename view_type::shape_type_b>,
-                  "abut: queries between sets of these two shapes are not supported");
-
-    Entries list;
-    list_options<Filter, Schedule> options;
-    list_key key;
-    execution::buffer_of<Policy, member> members;
-    execution::buffer_of<Policy, std::uint32_t> walked;  ///< entries of which both trees have nodes
-    std::vector<std::uint32_t> rest;                     ///< other entries that have shapes
-    std::vector<member> from_members;                    ///< what was uploaded, for as long as that takes
-    std::vector<std::uint32_t> from_walked;
-
-    [[nodiscard]] view_type view() const { return {members.data(), key, options.filter}; }
-    [[nodiscard]] std::size_t likely_hits() const {
-        return std::clamp(512 * walked.size(), std::size_t{1} << 16, std::size_t{1} << 22);
-    }
-
-    template <class Run>
-    void judge_candidates(const Policy& on, const Run& run) const {
-        const expand step{view(), walked.data(), walked.size()};
-        const execution::scheduled<Schedule> how{options.scheduling};
-        run([&](const auto& judge, auto&... sinks) { return for_each_descendant(on, how, step, judge, sinks...); });
-        // Trees of one shape have no nodes to walk: what b has looks in a.
-        for (const std::uint32_t i : rest) {
-            const auto& [a, b] = list[i];
-            using shapes_b = decltype(member::b);
-            const posed_walk<bvh_walk<typename IndexA::view_type>> walk({a.object.view()}, a.pose, a.object.bounds());
-            const shapes_b rows{view_of(b.object.set()), b.pose};
-            look<true>(on, walk, rows, ids_of_member<view_type>{view(), i}, run);
-        }
-    }
-};
-
-/// What make_operand does with an argument, without a copy of the index.
-template <class Policy, class Index>
-void check_entry(const Policy& on, const posed_object<Index>& x, const char* function) {
-    check(x.pose, function);
-    require_same_device(on, x.object, function);
-    if (x.size() == 0 || stays_finite(x.pose, x.object.bounds())) return;
-    const auto shapes = view_of(x.object.set());
-    check(on, posed_view<std::remove_const_t<decltype(shapes)>>{shapes, x.pose}, function);
-}
-/// An error names the entry: by `name()`.
-template <class Policy, class Index, class Name>
-void check_entry(const Policy& on, const posed_object<Index>& x, const char* function, const Name& name) {
-    try {
-        check_entry(on, x, function);
-    } catch (const error&) {
-        check_entry(on, x, (std::string(function) + ": " + name()).c_str());
-        throw;
-    }
-}
-
-template <class Index>
-inline constexpr bool is_tree = false;
-template <class Set, memory_space Space, class Layout>
-inline constexpr bool is_tree<bvh<Set, Space, Layout>> = true;
-
-/// Whether all can be in a list.
-template <class Policy, class Index, class... More>
-consteval bool can_be_listed() {
-    static_assert(is_tree<Index>, "abut: a list of pairs or of bodies holds indices made by make_bvh");
-    if constexpr (!is_tree<Index>) {
-        return false;
-    } else if constexpr (!lies_there<Policy, Index>()) {
-        return false;
-    } else if constexpr (sizeof...(More) > 0) {
-        return can_be_listed<Policy, More...>();
-    } else {
-        return true;
-    }
-}
-
-/// Entries that have been checked, ready to be asked.
-template <class Policy, class Entries, class Filter, schedule Schedule>
-auto pair_up_entries(const Policy& on, Entries list, const list_options<Filter, Schedule>& options, const char* function) {
-    using pairing = list_pairing<Policy, Entries, Filter, Schedule>;
-    using member = typename pairing::member;
-    const std::size_t n = list.size();
-    std::vector<member> members;
-    std::vector<std::uint32_t> walked, rest;
-    members.reserve(n);
-    std::size_t most_a = 0, most_b = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-        const auto& [a, b] = list[i];
-        const std::size_t size_a = a.size(), size_b = b.size();
-        most_a = std::max(most_a, size_a);
-        most_b = std::max(most_b, size_b);
-        members.push_back(
-            {a.object.view(), b.object.view(), {view_of(a.object.set()), a.pose}, {view_of(b.object.set()), b.pose}, {}});
-        const bool nodes = std::min(size_a, size_b) > 1 && std::max(size_a, size_b) <= pairing::expand::walk::most_shapes;
-        if (std::min(size_a, size_b) > 0) (nodes ? walked : rest).push_back(static_cast<std::uint32_t>(i));
-    }
-    const list_key key{id_bits(n), {id_bits(most_a), id_bits(most_b)}};
-    if (key.bits() > 64 || n > std::numeric_limits<std::uint32_t>::max()) {
-        throw capacity_error(std::string(function) + ": a list of " + std::to_string(n) + " " + Entries::noun +
-                             " with up to " + std::to_string(most_a) + " and " + std::to_string(most_b) +
-                             " shapes; expected positions and ids of 64 bits together");
-    }
-    execution::buffer_of<Policy, member> there(on, n);
-    execution::buffer_of<Policy, std::uint32_t> which(on, walked.size());
-    upload(on, members.data(), n, there.data());
-    upload(on, walked.data(), walked.size(), which.data());
-    for_each_index(on, walked.size(), relate_frames<member>{there.data(), which.data()});
-    return pairing{std::move(list),    options,          key, std::move(there), std::move(which), std::move(rest),
-                   std::move(members), std::move(walked)};
-}
-
-/// A list, ready to be asked, as long as it lives; errors are thrown in the name of `function`.
+/// A list, ready to be asked; errors are thrown in the name of `function`.
 template <class Policy, class IndexA, class IndexB, class Filter, schedule Schedule>
 auto pair_up(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
              const list_options<Filter, Schedule>& options, const char* function) {
     require_callable(on, options.filter, tagged_pair{});
-    for (std::size_t i = 0; i < list.size(); ++i) {
-        const auto name = [i] { return "entry " + std::to_string(i) + " of the list"; };
-        check_entry(on, list[i].a, function, name);
-        check_entry(on, list[i].b, function, name);
-    }
-    return pair_up_entries(on, listed_entries<IndexA, IndexB>{&list}, options, function);
+    const auto name = [](std::size_t i) { return "entry " + std::to_string(i) + " of the list"; };
+    const auto side = [&]<class Index>(posed_object<Index> posed_pair<IndexA, IndexB>::*which) {
+        const auto body = [&](std::size_t i) -> const posed_object<Index>& { return list[i].*which; };
+        return place_bodies(on, gathered_bodies<Index>(list.size(), body), function, name);
+    };
+    return pair_up_entries<names_of_entries>(on, side(&posed_pair<IndexA, IndexB>::a), side(&posed_pair<IndexA, IndexB>::b),
+                                             list.size(), bodies_side_by_side{}, options, function, "entries");
 }
 
 }  // namespace detail

@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
-#include <vector>
 
 #include <abut/collide/options.hpp>
 #include <abut/collide/query.hpp>
@@ -67,12 +66,6 @@ struct self_options {
 };
 
 namespace detail {
-
-/// A list of bodies, whose self_pairs are in self_list.hpp.
-template <class X>
-inline constexpr bool is_list_of_bodies = false;
-template <class Index>
-inline constexpr bool is_list_of_bodies<std::vector<posed_object<Index>>> = true;
 
 /// The triangles of a view as faces that know their vertices: of a mesh its own numbers; others share no vertices, and the
 /// number of each shape stands for its three.
@@ -145,7 +138,6 @@ auto pair_up_faces(const Policy& on, const X& x, const self_options<Filter, Trav
 ///     for (const auto [f, g] : to_host(abut::self_pairs(on, abut::make_bvh(on, mesh)))) mark(f, g);
 template <arithmetic A = filtered, execution_policy Policy, class X, class Filter = keep_all,
           traversal Traversal = traversal::both_at_once>
-    requires(!detail::is_list_of_bodies<X>)
 [[nodiscard]] auto self_pairs(const Policy& on, const X& x, const self_options<Filter, Traversal>& options = {}) {
     if constexpr (detail::can_pair_itself<Policy, X, Filter>()) {
         return detail::pairs_of<A>(on, detail::pair_up_faces(on, x, options, "abut::self_pairs"));
@@ -157,7 +149,6 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Filte
 /// The number of pairs that self_pairs reports. Stores none of them.
 template <arithmetic A = filtered, execution_policy Policy, class X, class Filter = keep_all,
           traversal Traversal = traversal::both_at_once>
-    requires(!detail::is_list_of_bodies<X>)
 [[nodiscard]] std::uint64_t count_self_pairs(const Policy& on, const X& x,
                                              const self_options<Filter, Traversal>& options = {}) {
     if constexpr (detail::can_pair_itself<Policy, X, Filter>()) {

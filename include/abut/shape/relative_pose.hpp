@@ -186,7 +186,7 @@ ABUT_HD constexpr bool boxes_overlap(const vec3<T>& a, const vec3<T>& b, const v
 /// double, and a margin for rounding, in here and by `place`, and for balls: a row shorter than 1 shrinks their box, and
 /// their radius stays. Of all space where it overflows.
 template <scalar T>
-aabb<T> world_box(const rigid<T>& pose, const aabb<T>& around) {
+ABUT_HD constexpr aabb<T> world_box(const rigid<T>& pose, const aabb<T>& around) {
     const vec3<double> lower = widened(around.lower), upper = widened(around.upper);
     const double shift[] = {pose.translation.x, pose.translation.y, pose.translation.z};
     T low[3], high[3];

@@ -187,6 +187,20 @@ void check(const rigid<T>& pose, const std::string& function) {
     }
 }
 
+/// Whether `check` takes the pose: true is certain under every compiler, whether it contracts or not. Where this is false,
+/// the host has to look.
+template <scalar T>
+ABUT_HD constexpr bool is_surely_rigid(const rigid<T>& pose) {
+    constexpr double tolerance = rotation_tolerance * (1 - 0x1p-20);  // the rest is for rounding
+    const vec3<double> x = widened(row(pose.rotation, 0)), y = widened(row(pose.rotation, 1)),
+                       z = widened(row(pose.rotation, 2));
+    // Comparisons with NaN are false.
+    return absolute(dot(x, x) - 1) <= tolerance && absolute(dot(y, y) - 1) <= tolerance &&
+        absolute(dot(z, z) - 1) <= tolerance && absolute(dot(x, y)) <= tolerance && absolute(dot(y, z)) <= tolerance &&
+        absolute(dot(z, x)) <= tolerance && dot(cross(x, y), z) > 0 &&
+        magnitudes(widened(pose.translation)) < infinity<double>;
+}
+
 }  // namespace detail
 
 /// The pose with the rotation that is nearest to the given one, by the sum of the entries' squared differences: the

@@ -31,9 +31,9 @@ struct bvh_walk {
 
     /// Calls visitor(shape id) -> visit for every leaf whose box the query reaches, until it says stop. Rests where rests()
     /// says so, which it is asked before each node; then it returns true, and another call with the same query goes on from
-    /// `at`. At its end it returns false.
-    template <class Reach, class Rests, class Visitor>
-    ABUT_HD bool for_each(Reach& reach, cursor& at, const Rests& rests, Visitor&& visitor) const {
+    /// `at`, a cursor of this walk or one with more room. At its end it returns false.
+    template <class Reach, class Cursor, class Rests, class Visitor>
+    ABUT_HD bool for_each(Reach& reach, Cursor& at, const Rests& rests, Visitor&& visitor) const {
         if (at.waiting < 0) {
             const bvh_child root = tree.root();
             at.waiting = 0;
@@ -52,8 +52,8 @@ struct bvh_walk {
     }
 
 private:
-    template <class Reach, class Rests, class Visitor>
-    ABUT_HD bool for_each_below_two(Reach& reach, cursor& at, const Rests& rests, Visitor& visitor) const {
+    template <class Reach, class Cursor, class Rests, class Visitor>
+    ABUT_HD bool for_each_below_two(Reach& reach, Cursor& at, const Rests& rests, Visitor& visitor) const {
         // One entry at most for each level above the current node.
         std::uint32_t* const pending = at.pending;
         int depth = at.waiting - 1;
@@ -93,8 +93,8 @@ private:
         }
     }
 
-    template <class Reach, class Rests, class Visitor>
-    ABUT_HD bool for_each_below_wide(Reach& reach, cursor& at, const Rests& rests, Visitor& visitor) const {
+    template <class Reach, class Cursor, class Rests, class Visitor>
+    ABUT_HD bool for_each_below_wide(Reach& reach, Cursor& at, const Rests& rests, Visitor& visitor) const {
         std::uint32_t* const pending = at.pending;
         int waiting = at.waiting;
         while (waiting > 0) {

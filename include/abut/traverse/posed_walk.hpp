@@ -45,7 +45,7 @@ struct posed_walk {
     aabb<T> world;  ///< around all that the object reaches there
     relative_pose<T> to_world;
 
-    posed_walk(const Walk& in_frame, const rigid<T>& pose, const aabb<T>& around)
+    ABUT_HD posed_walk(const Walk& in_frame, const rigid<T>& pose, const aabb<T>& around)
         : walk(in_frame), world(world_box(pose, around)), to_world(make_relative_pose(rigid<T>{}, world, pose, around)) {}
 
     /// False if the query touches nothing in the object. Most queries are far away, which the world's box tells at less cost
@@ -58,8 +58,8 @@ struct posed_walk {
     }
 
     /// As the walk in the frame.
-    template <class Reach, class Rests, class Visitor>
-    ABUT_HD bool for_each(Reach& reach, cursor& at, const Rests& rests, Visitor&& visitor) const {
+    template <class Reach, class Cursor, class Rests, class Visitor>
+    ABUT_HD bool for_each(Reach& reach, Cursor& at, const Rests& rests, Visitor&& visitor) const {
         posed_reach<T> posed{clipped(reach), &to_world};
         return walk.for_each(posed, at, rests, std::forward<Visitor>(visitor));
     }

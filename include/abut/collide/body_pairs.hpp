@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Queries of a scene of many bodies: which shapes of one body touch which of another. A tree over boxes around the placed
+// bodies (bodies.hpp) finds the pairs of bodies that may touch, and these are asked about all together, as the entries of a
+// list (list_pairing.hpp). Near pairs stay in the policy's memory; the host learns their number. Not for pairs within one
+// body: those are self_pairs of its index.
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+#include <abut/collide/bodies.hpp>
+#include <abut/collide/contacts.hpp>
+#include <abut/collide/list_pairing.hpp>
+#include <abut/collide/query.hpp>
+#include <abut/collide/self_pairing.hpp>
+
+namespace abut {
+
+/// @defgroup many_bodies Which bodies of a scene touch
+///
+/// `any`, `count`, `pairs`, `for_each_pair` and `contacts` of many bodies: which shapes of one body touch which of another.
+/// A body is `posed(index, pose)`, of an index made by `make_bvh`. Any number of bodies may share an index, and they may be
+/// over empty sets. Queries take a `std::vector` of posed indices, of which they make `bodies` for the call. A scene that is
+/// asked more than once is made once, by make_bodies, and brought to other poses by `refit`.
+///
+/// A body is not paired with itself. Its own pairs are the same under every pose, but for the rounding of placed
+/// coordinates: `self_pairs(on, index)` gives them once for all bodies of that index. Two bodies share no vertices, also if
+/// they share a mesh: whatever touches is reported.
+///
+/// @par Memory
+/// Indices and `bodies` lie in the policy's memory, and a list of posed indices in host memory. A `result` lies in the
+/// policy's memory, 16 bytes a pair, and 44 a contact in float and 72 in double. Each pair of bodies whose boxes meet takes
+/// 80 bytes in the policy's memory in float, and 144 in double, for the call. Bodies that are far apart cost one box each in
+/// a tree.
+///
+/// @par Errors
+/// - `invalid_geometry`, whose message names the body: a pose is no rotation, or placed coordinates overflow. Poses are
+/// looked
+///   at when bodies are made and when they are refitted.
+/// - `error`: an index, or bodies, lie on another device.
+/// - `capacity_error`: there are 2^31 bodies or more; an index has more than 2^30 shapes (2^29 in wide_layout); or the bits
+/// of
+///   two ids and of the number of pairs of bodies whose boxes meet are more than 64.
+/// - `std::bad_alloc`, `cuda_error`.
+///
+/// @par Synchronisation
+/// Each call returns when its answer is complete; under `cuda` it waits for the policy's stream, several times.
+///
+/// @par Example
+/// @snippet queries.cpp many_bodies
+///@{
+
+/// Two shapes of two bodies that touch: shape `a` of body `body_a`, and shape `b` of body `body_b`; body_a < body_b. Bodies
+/// go by their positions in the list, shapes by their ids in the bodies' sets.
+struct body_pair {
+    std::uint32_t body_a;  ///< position of the first body
+    std::uint32_t body_b;  ///< position of the second one, which is higher
+    std::uint32_t a;       ///< id in the first body's set
+    std::uint32_t b;       ///< id in the second one's
+
+    friend constexpr bool operator==(const body_pair&, const body_pair&) = default;
+    friend constexpr auto operator<=>(const body_pair&, const body_pair&) = default;
+};
+
+/// A contact of two bodies: the first four are as in body_pair, the rest is as in contact<T>.
+template <scalar T>
+struct body_contact {
+    std::uint32_t body_a;  ///< position of the first body
+    std::uint32_t body_b;  ///< position of the second one, which is higher
+    std::uint32_t a;       ///< id in the first body's set
+    std::uint32_t b;       ///< id in the second one's
+    vec3<T> point;         ///< of both shapes, in the world
+    vec3<T> normal;        ///< of length 1, from b to a
+    T depth;               ///< 0 or more, in units of length
+
+    friend constexpr bool operator==(const body_contact&, const body_contact&) = default;
+};
+
+/// The filter that keeps every pair of shapes of two bodies.
+struct keep_all_bodies {
+    /// For every pair.
+    keep_all_bodies() = default;
+    /// No other filter becomes this one: does not compile.
+    template <class F>
+    ABUT_HD constexpr keep_all_bodies(const F&) {
+        detail::refuse_unnamed_options<F>();
+    }
+    /// true
+    ABUT_HD constexpr bool operator()(body_pair) const { return true; }
+};
+
+/// Options of queries of many bodies; with a filter write `body_options{.filter = f}` (see query_options). See list_options.
+template <class Filter = keep_all_bodies, schedule Schedule = schedule::shared_list>
+struct body_options {
+    /// Results sorted by body_a, then body_b, a and b. Without it the order is any, and may differ from call to call.
+    bool sorted = true;
+    /// filter(body_pair) -> bool: pairs for which it is false are neither tested nor reported. As in query_options.
+    Filter filter = {};
+    /// As in query_options.
+    std::uint64_t most_pairs = std::uint64_t{1} << 18;
+    /// Of contacts alone; as in contact_options.
+    bool discard_sideways = false;
+    /// As in query_options, for the walk of the bodies' trees.
+    schedule_options scheduling = {};
+};
+
+namespace detail {
+
+template <class X>
+inline constexpr bool is_many_bodies = false;
+template <class Index>
+inline constexpr bool is_many_bodies<bodies<Index>> = true;
+template <class Index>
+inline constexpr bool is_many_bodies<std::vector<posed_object<Index>>> = true;
+
+}  // namespace detail
+
+/// What queries of a scene take: `bodies`, or a std::vector of posed indices.
+template <class X>
+concept many_bodies = detail::is_many_bodies<X>;
+
+namespace detail {
+
+/// What bodies are of.
+template <class Bodies>
+struct index_of_bodies;
+template <class Index>
+struct index_of_bodies<bodies<Index>> : std::type_identity<Index> {};
+template <class Index>
+struct index_of_bodies<std::vector<posed_object<Index>>> : std::type_identity<Index> {};
+
+/// How shapes of an entry are named where the entries are pairs of bodies.
+struct names_of_bodies {
+    ABUT_HD static body_pair pair(std::uint32_t, const index_pair& bodies, std::uint32_t a, std::uint32_t b) {
+        return {bodies.a, bodies.b, a, b};
+    }
+    template <scalar T>
+    ABUT_HD static body_contact<T> tagged(const body_pair& of, const contact<T>& c) {
+        return {of.body_a, of.body_b, of.a, of.b, c.point, c.normal, c.depth};
+    }
+};
+
+/// The judge of boxes.
+struct boxes_meet {
+    template <scalar T>
+    ABUT_HD verdict decide(const aabb<T>& a, const aabb<T>& b) const {
+        return to_verdict(overlaps(a, b));
+    }
+    template <scalar T>
+    ABUT_HD verdict finish(const aabb<T>& a, const aabb<T>& b) const {
+        return decide(a, b);
+    }
+    template <scalar T>
+    bool resolve(const aabb<T>& a, const aabb<T>& b) const {
+        return overlaps(a, b);
+    }
+};
+
+/// The pairs of bodies whose boxes meet, as numbers of two leaves.
+struct near_bodies {
+    const std::uint64_t* keys;
+    pair_key key;
+    const std::uint32_t* with_shapes;
+    ABUT_HD index_pair operator()(std::size_t i) const { return {with_shapes[key.a(keys[i])], with_shapes[key.b(keys[i])]}; }
+};
+
+/// The keys of all pairs of boxes that meet; ascending if they are to be.
+template <class Policy, class Tree>
+auto find_near(const Policy& on, const Tree& tree, const pair_key& key, bool sorted) {
+    using operand = indexed_operand<Tree>;
+    const self_pairing<operand, keep_all, traversal::both_at_once, default_schedule<traversal::both_at_once>, as_they_are>
+        pairing{{tree}, {}, key, {}};
+    key_queue<Policy> near(on, std::max(8 * tree.size(), std::size_t{1} << 16));
+    search(on, pairing, boxes_meet{}, near);
+    auto keys = near.take();
+    if (sorted) sort_keys(on, keys, key.bits());
+    return keys;
+}
+
+/// Bodies, ready to be asked; errors are thrown in the name of `function`. Keys of results ascend as bodies do if entries
+/// are `sorted`.
+template <class Policy, class Index, class Filter, schedule Schedule>
+auto pair_up_bodies(const Policy& on, const bodies<Index>& all, const body_options<Filter, Schedule>& options, bool sorted,
+                    const char* function) {
+    require_callable(on, options.filter, body_pair{});
+    require_same_device(on, all, function);
+    const body_state<Index>& state = parts_of_bodies::of(all);
+    const int bits = id_bits(state.tree.size());
+    const pair_key key{bits, bits};
+    const auto keys = find_near(on, state.tree, key, sorted);
+    const near_bodies entries{keys.data(), key, state.with_shapes->data()};
+    return pair_up_entries<names_of_bodies>(on, state.placed, state.placed, keys.size(), entries, options, function,
+                                            "pairs of bodies whose boxes meet");
+}
+template <class Policy, class Index, class Filter, schedule Schedule>
+auto pair_up_bodies(const Policy& on, const std::vector<posed_object<Index>>& list,
+                    const body_options<Filter, Schedule>& options, bool sorted, const char* function) {
+    return pair_up_bodies(on, bodies_of(on, list, function), options, sorted, function);
+}
+
+/// Whether queries take the bodies.
+template <class Policy, class Bodies>
+consteval bool can_pair_bodies() {
+    return can_be_listed<Policy, typename index_of_bodies<Bodies>::type>();
+}
+
+}  // namespace detail
+
+/// Whether any shape of a body touches any of another. Stops soon after the first pair found.
+template <arithmetic A = filtered, execution_policy Policy, many_bodies Bodies, class Filter = keep_all_bodies,
+          schedule Schedule = schedule::shared_list>
+[[nodiscard]] bool any(const Policy& on, const Bodies& all, const body_options<Filter, Schedule>& options = {}) {
+    if constexpr (detail::can_pair_bodies<Policy, Bodies>()) {
+        return detail::any_of<A>(on, detail::pair_up_bodies(on, all, options, false, "abut::any"));
+    } else {
+        return false;
+    }
+}
+
+/// Number of pairs of shapes of two bodies that touch. Stores none of them.
+template <arithmetic A = filtered, execution_policy Policy, many_bodies Bodies, class Filter = keep_all_bodies,
+          schedule Schedule = schedule::shared_list>
+[[nodiscard]] std::uint64_t count(const Policy& on, const Bodies& all, const body_options<Filter, Schedule>& options = {}) {
+    if constexpr (detail::can_pair_bodies<Policy, Bodies>()) {
+        return detail::count_of<A>(on, detail::pair_up_bodies(on, all, options, false, "abut::count"));
+    } else {
+        return 0;
+    }
+}
+
+/// All pairs of shapes of two different bodies that touch, each once: a result of body_pair, in the policy's memory.
+///
+///     std::vector<abut::posed_object<decltype(gear)>> bodies{posed(gear, here), posed(gear, there)};
+///     for (const auto& hit : to_host(abut::pairs(on, bodies))) use(hit.body_a, hit.a, hit.body_b, hit.b);
+template <arithmetic A = filtered, execution_policy Policy, many_bodies Bodies, class Filter = keep_all_bodies,
+          schedule Schedule = schedule::shared_list>
+[[nodiscard]] auto pairs(const Policy& on, const Bodies& all, const body_options<Filter, Schedule>& options = {}) {
+    if constexpr (detail::can_pair_bodies<Policy, Bodies>()) {
+        return detail::pairs_of<A>(on, detail::pair_up_bodies(on, all, options, options.sorted, "abut::pairs"));
+    } else {
+        return result<body_pair, space_of<Policy>>();
+    }
+}
+
+/// Calls visitor(body_pair) -> visit once for every pair of shapes of two bodies that touches; see for_each_pair of two
+/// arguments.
+template <arithmetic A = filtered, execution_policy Policy, many_bodies Bodies, class Visitor,
+          class Filter = keep_all_bodies, schedule Schedule = schedule::shared_list>
+void for_each_pair(const Policy& on, const Bodies& all, const Visitor& visitor,
+                   const body_options<Filter, Schedule>& options = {}) {
+    if constexpr (detail::can_pair_bodies<Policy, Bodies>() && detail::is_visitor<Policy, Visitor, body_pair>()) {
+        detail::visit_pairs_of<A>(on, detail::pair_up_bodies(on, all, options, false, "abut::for_each_pair"), visitor);
+    }
+}
+
+/// The contacts of all pairs of shapes of two bodies that touch: a result of body_contact, in the policy's memory; see
+/// contacts of two arguments.
+template <arithmetic A = filtered, execution_policy Policy, many_bodies Bodies, class Filter = keep_all_bodies,
+          schedule Schedule = schedule::shared_list>
+[[nodiscard]] auto contacts(const Policy& on, const Bodies& all, const body_options<Filter, Schedule>& options = {}) {
+    if constexpr (detail::can_pair_bodies<Policy, Bodies>()) {
+        return detail::contacts_of<A>(on, detail::pair_up_bodies(on, all, options, options.sorted, "abut::contacts"),
+                                      options.discard_sideways);
+    } else {
+        return result<body_contact<float>, space_of<Policy>>();
+    }
+}
+
+///@}
+
+}  // namespace abut
