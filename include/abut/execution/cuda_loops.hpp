@@ -464,14 +464,25 @@ void for_each_group(const cuda& on, std::size_t n, const F& f) {
 
 namespace detail {
 
+/// Whether the first of some queues is an async_queue.
+template <class... Queues>
+inline constexpr bool is_async_loop = false;
+template <class First, class... More>
+inline constexpr bool is_async_loop<First, More...> = is_async<First>;
+
+template <class First, class... More>
+const async_loop& loop_of(const First& first, const More&...) {
+    return first.loop;
+}
+
 /// A loop that judges at most `pairs` candidates: launch(late_sink, sinks...) starts it. The kernel that finishes what it
 /// leaves open follows at once: the host need not know how much that is, and it is little as a rule. Returns how many of
 /// these found no room, and so were not finished. If the first queue is an async_queue, it returns 0 at once, and all counts
 /// are left on the device.
-template <class Candidate, class Judge, class Launch, class First, class... More>
-std::uint64_t judge_and_finish(const cuda& on, std::uint64_t pairs, const Judge& judge, const Launch& launch, First& first,
-                               More&... more) {
-    using open = open_queue<Candidate, is_flag<sink_of<First>> || (is_flag<sink_of<More>> || ...)>;
+template <class Candidate, class Judge, class Launch, class... Queues>
+std::uint64_t judge_and_finish(const cuda& on, std::uint64_t pairs, const Judge& judge, const Launch& launch,
+                               Queues&... queues) {
+    using open = open_queue<Candidate, (is_flag<sink_of<Queues>> || ...)>;
     const auto both = [&](const counter_delivery& deliver, auto late_sink, auto... sinks) {
         launch(late_sink, sinks...);
         constexpr auto kernel = finish_kernel<Judge, decltype(late_sink), decltype(sinks)...>;
@@ -479,16 +490,16 @@ std::uint64_t judge_and_finish(const cuda& on, std::uint64_t pairs, const Judge&
                                                                                                  sinks...);
         check_launch("finish");
     };
-    if constexpr (is_async<First>) {
-        const async_loop& loop = first.loop;
+    if constexpr (is_async_loop<Queues...>) {
+        const async_loop& loop = loop_of(queues...);
         open late(loop.open, loop.open_capacity);
-        launch_once(counter_delivery{loop.words, loop.counts, 2 + sizeof...(more)}, both, late, first, more...);
+        launch_once(counter_delivery{loop.words, loop.counts, 1 + sizeof...(queues)}, both, late, queues...);
         return 0;
     } else {
         open late(on, pairs);
         do {
-            gather(on, both, late, first, more...);
-        } while (!late.is_complete() && !is_over(first, more...));
+            gather(on, both, late, queues...);
+        } while (!late.is_complete() && !is_over(queues...));
         return late.unfinished();
     }
 }
