@@ -150,8 +150,9 @@ def cores(results):
     rows = []
     for operation, name in OPERATIONS.items():
         serial, bound = r.get(f"{operation}/serial/quiet"), r.get(f"{operation}/modelled/16")
-        rows.append([name, shown(serial)] + [quotient(serial, r.get(f"{operation}/openmp/{k}/quiet"), 1) for k in core_counts(r)] +
-                    [quotient(serial, bound, 1)])
+        if serial:
+            rows.append([name, shown(serial)] + [quotient(serial, r.get(f"{operation}/openmp/{k}/quiet"), 1) for k in core_counts(r)] +
+                        [quotient(serial, bound, 1)])
     return table(["", "`serial`, ms", *(f"{k} threads" for k in core_counts(r)), "bound for 16"], rows) + \
         made_on(r, f"; {r.context['cores']} cores")
 
