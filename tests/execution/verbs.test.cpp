@@ -186,18 +186,25 @@ TEST_CASE("verbs: scans, selections, reductions and groups of openmp run on its 
     }
 }
 
-TEST_CASE("verbs: a loop takes no more threads than it has ranges, nor than eight for each processor") {
+TEST_CASE("verbs: a loop of one range takes the calling thread, and no loop more than eight for each processor") {
     for (const int threads : {30'000, 200'000, std::numeric_limits<int>::max()}) {
         const openmp on{.threads = threads};
         CHECK(concurrency(on) >= 1);
         CHECK(static_cast<unsigned>(concurrency(on)) <= 8 * std::max(std::thread::hardware_concurrency(), 1u));
-        std::atomic<int> most{0};
+        std::atomic<int> most{0}, calls{0};
+        std::atomic<bool> elsewhere{false};
         const auto note = [&](int thread, std::size_t, std::size_t) {
             for (int seen = most; seen < thread && !most.compare_exchange_weak(seen, thread);) {
             }
+            ++calls;
         };
         for_each_range(on, 2'500, 1'000, note);
-        CHECK(most < 3);
+        CHECK(most < concurrency(on));
+        CHECK(calls == (concurrency(on) == 1 ? 1 : 3));
+        for_each_range(on, 1'000, 1'000, [&, caller = std::this_thread::get_id()](int thread, std::size_t, std::size_t) {
+            if (thread != 0 || std::this_thread::get_id() != caller) elsewhere = true;
+        });
+        CHECK_FALSE(elsewhere);
         CHECK(reduce(on, 1'000'000, std::uint64_t{0}, test::sum{}, test::identity{}) == 499'999'500'000);
     }
     CHECK(concurrency(openmp{.threads = 1}) == 1);

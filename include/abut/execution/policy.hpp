@@ -140,8 +140,8 @@ struct serial {
 /// @ingroup policies
 struct openmp {
     using memory_space = host_space;  ///< host memory
-    /// Number of threads; 0 leaves it to the OpenMP runtime. A loop takes no more of them than it has ranges of work, nor
-    /// more than eight for each processor.
+    /// Number of threads; 0 leaves it to the OpenMP runtime. A loop takes one where it has one range of work, and
+    /// never more than eight for each processor.
     int threads = 0;
 };
 
