@@ -186,25 +186,43 @@ TEST_CASE("verbs: scans, selections, reductions and groups of openmp run on its 
     }
 }
 
-TEST_CASE("verbs: a loop of one range takes the calling thread, and no loop more than eight for each processor") {
+namespace {
+
+/// Threads of the parallel region that this is called in.
+int team_size() {
+#if defined(_OPENMP)
+    return omp_get_num_threads();
+#else
+    return 1;
+#endif
+}
+
+}  // namespace
+
+TEST_CASE("verbs: a loop of one range takes the calling thread, others a team of one size, of eight for each processor at most") {
     for (const int threads : {30'000, 200'000, std::numeric_limits<int>::max()}) {
         const openmp on{.threads = threads};
         CHECK(concurrency(on) >= 1);
         CHECK(static_cast<unsigned>(concurrency(on)) <= 8 * std::max(std::thread::hardware_concurrency(), 1u));
-        std::atomic<int> most{0}, calls{0};
-        std::atomic<bool> elsewhere{false};
-        const auto note = [&](int thread, std::size_t, std::size_t) {
-            for (int seen = most; seen < thread && !most.compare_exchange_weak(seen, thread);) {
-            }
-            ++calls;
-        };
-        for_each_range(on, 2'500, 1'000, note);
-        CHECK(most < concurrency(on));
-        CHECK(calls == (concurrency(on) == 1 ? 1 : 3));
-        for_each_range(on, 1'000, 1'000, [&, caller = std::this_thread::get_id()](int thread, std::size_t, std::size_t) {
-            if (thread != 0 || std::this_thread::get_id() != caller) elsewhere = true;
+        on_fresh_thread([&] {
+            int alone = 0;
+            for_each_range(on, 1'000, 1'000,
+                           [&](int thread, std::size_t, std::size_t) { alone += thread == 0 && team_size() == 1; });
+            CHECK(alone == 1);
         });
-        CHECK_FALSE(elsewhere);
+        on_fresh_thread([&] {
+            const int all = concurrency(on);  // within a loop it is 1
+            std::atomic<int> most{0}, calls{0}, others{0};
+            for_each_range(on, 2'500, 1'000, [&](int thread, std::size_t, std::size_t) {
+                for (int seen = most; seen < thread && !most.compare_exchange_weak(seen, thread);) {
+                }
+                ++calls;
+                if (team_size() != all) ++others;
+            });
+            CHECK(most < all);
+            CHECK(calls == (all == 1 ? 1 : 3));
+            CHECK(others == 0);
+        });
         CHECK(reduce(on, 1'000'000, std::uint64_t{0}, test::sum{}, test::identity{}) == 499'999'500'000);
     }
     CHECK(concurrency(openmp{.threads = 1}) == 1);
