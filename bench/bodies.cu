@@ -66,7 +66,7 @@ void add(const abut::cuda& on, std::size_t n, table& out) {
     row("contacts", least_count + 44.0 * found, [&] { return abut::contacts(on, all).size(); });
     row("list", least_pairs, [&] { return abut::pairs(on, list).size(); });
     row("frame", least_refit + least_pairs, [&] { return abut::pairs(on, abut::refit(on, all, later)).size(); });
-    const abut::body_options<abut::keep_all_bodies, abut::schedule::lazy_work_stealing> stealing;
+    const abut::body_options<abut::keep_all, abut::schedule::lazy_work_stealing> stealing;
     row("stealing", least_pairs, [&] { return abut::pairs(on, all, stealing).size(); });
     row("fast", least_pairs, [&] { return abut::pairs<abut::fast>(on, all).size(); });
     const auto joined_up = abut::make_bodies(on, make_indices(on, abut::bvh_builder::ploc), scene.kind, scene.now);

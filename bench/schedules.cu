@@ -80,7 +80,7 @@ void add_pair(const abut::cuda& on, table& out, const std::string& name, const A
 template <abut::schedule Schedule, class List>
 void add_list(const abut::cuda& on, table& out, const std::string& name, const List& list) {
     add_scaling(out, name, [&](const abut::schedule_options& scheduling) {
-        return count(on, list, abut::list_options<abut::keep_all_tagged, Schedule>{.scheduling = scheduling});
+        return count(on, list, abut::list_options<abut::keep_all, Schedule>{.scheduling = scheduling});
     });
 }
 

@@ -3,6 +3,7 @@
 #include <abut/cuda.hpp>
 
 #include "expect.hpp"
+#include "run_on_device.hpp"
 
 namespace {
 
@@ -31,11 +32,4 @@ void run() {
 
 }  // namespace
 
-int main() {
-    int devices = 0;
-    if (cudaGetDeviceCount(&devices) != cudaSuccess || devices == 0) {
-        std::puts("abut skips: no CUDA device can be used here");
-        return 77;
-    }
-    run();
-}
+int main() { return run_on_device(run); }

@@ -28,7 +28,7 @@ TEST_CASE("many bodies: layouts, schedules, and the set alone") {
     const auto expected = to_host(pairs(on, bodies));
     CHECK(expected.size() > 1000);
     CHECK((to_host(pairs(on, coarse_bodies)) == expected));
-    const body_options<keep_all_bodies, schedule::work_stealing> stealing;
+    const body_options<keep_all, schedule::work_stealing> stealing;
     CHECK((to_host(pairs(on, bodies, stealing)) == expected));
     CHECK(count<fast>(on, bodies) > 0);
     // Of a mesh neighbours are no self pairs; two bodies of that mesh in one place meet in all that they have in common. A

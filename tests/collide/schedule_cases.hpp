@@ -112,7 +112,7 @@ void check_scheduled_lists(const Policy& on) {
     CHECK(expected.size() > 300);
     for (const schedule_options& scheduling : tight_options) {
         CAPTURE(static_cast<int>(Schedule), scheduling.queue_capacity, scheduling.most_blocks);
-        const list_options<keep_all_tagged, Schedule> options{.scheduling = scheduling};
+        const list_options<keep_all, Schedule> options{.scheduling = scheduling};
         CHECK(to_host(pairs(on, list, options)) == expected);
         CHECK(count(on, list, options) == expected.size());
     }

@@ -122,20 +122,6 @@ struct async_room {
         download(on, state.data(), 1, &now);
         return now;
     }
-    /// The same query, by a call that waits.
-    [[nodiscard]] Answer ask_again() const { return again(); }
-};
-
-/// Runs the one loop of a search.
-template <class Judge, class Hits, class Hard>
-struct async_loops {
-    const Judge& judge;
-    Hits& hits;
-    Hard& hard;
-    template <class Loop>
-    void operator()(const Loop& loop) const {
-        loop(judge, hits, hard);
-    }
 };
 
 /// As `search`, but that nobody waits: leaves counts in the room.
@@ -151,8 +137,7 @@ void search_async(const Policy& on, const Pairing& pairing, const Judge& judge, 
     execution::async_queue<Queue> found{hits, {room.counters.data(), room.counts(), open.data(), open.size()}};
     execution::capped_queue<std::uint64_t, space_of<Policy>> hard(static_cast<std::uint64_t*>(nullptr), 0);
     const judge_key<view, Judge> decide{both, judge, {}};
-    pairing.judge_candidates(
-        on, async_loops<judge_key<view, Judge>, execution::async_queue<Queue>, decltype(hard)>{decide, found, hard});
+    pairing.judge_candidates(on, [&](const auto& loop) { loop(decide, found, hard); });
 }
 
 /// Of the counts of a loop: pairs that were not decided.
@@ -433,7 +418,7 @@ template <execution_policy Policy, class T>
                              std::to_string(from.capacity()));
     };
     if (state.undecided > 0) {
-        auto all = room.ask_again();
+        auto all = room.again();
         require_room(all.size());
         return all;
     }
@@ -451,7 +436,7 @@ template <execution_policy Policy, class T>
     const auto& room = detail::async_parts::room(from);
     if (!room.again) throw error("abut::wait: nothing was asked");
     const auto state = room.read(on);
-    return state.undecided > 0 ? room.ask_again() : state.value;
+    return state.undecided > 0 ? room.again() : state.value;
 }
 
 ///@}

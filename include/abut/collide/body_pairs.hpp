@@ -37,13 +37,11 @@ namespace abut {
 /// a tree.
 ///
 /// @par Errors
-/// - `invalid_geometry`, whose message names the body: a pose is no rotation, or placed coordinates overflow. Poses are
-/// looked
-///   at when bodies are made and when they are refitted.
+/// - `invalid_geometry`, whose message names the body: a pose is no rotation, or placed coordinates overflow. Poses
+///   are looked at when bodies are made and when they are refitted.
 /// - `error`: an index, or bodies, lie on another device.
-/// - `capacity_error`: there are 2^31 bodies or more; an index has more than 2^30 shapes (2^29 in wide_layout); or the bits
-/// of
-///   two ids and of the number of pairs of bodies whose boxes meet are more than 64.
+/// - `capacity_error`: there are 2^31 bodies or more; an index has more than 2^30 shapes (2^29 in wide_layout); or
+///   the bits of two ids and of the number of pairs of bodies whose boxes meet are more than 64.
 /// - `std::bad_alloc`, `cuda_error`.
 ///
 /// @par Synchronisation
@@ -79,21 +77,8 @@ struct body_contact {
     friend constexpr bool operator==(const body_contact&, const body_contact&) = default;
 };
 
-/// The filter that keeps every pair of shapes of two bodies.
-struct keep_all_bodies {
-    /// For every pair.
-    keep_all_bodies() = default;
-    /// No other filter becomes this one: does not compile.
-    template <class F>
-    ABUT_HD constexpr keep_all_bodies(const F&) {
-        detail::refuse_unnamed_options<F>();
-    }
-    /// true
-    ABUT_HD constexpr bool operator()(body_pair) const { return true; }
-};
-
 /// Options of queries of many bodies; with a filter write `body_options{.filter = f}` (see query_options). See list_options.
-template <class Filter = keep_all_bodies, schedule Schedule = schedule::shared_list>
+template <class Filter = keep_all, schedule Schedule = schedule::shared_list>
 struct body_options {
     /// Results sorted by body_a, then body_b, a and b. Without it the order is any, and may differ from call to call.
     bool sorted = true;
@@ -210,7 +195,7 @@ consteval bool can_pair_bodies() {
 }  // namespace detail
 
 /// Whether any shape of a body touches any of another. Stops soon after the first pair found.
-template <arithmetic A = filtered, execution_policy Policy, many_bodies Bodies, class Filter = keep_all_bodies,
+template <arithmetic A = filtered, execution_policy Policy, many_bodies Bodies, class Filter = keep_all,
           schedule Schedule = schedule::shared_list>
 [[nodiscard]] bool any(const Policy& on, const Bodies& all, const body_options<Filter, Schedule>& options = {}) {
     if constexpr (detail::can_pair_bodies<Policy, Bodies>()) {
@@ -221,7 +206,7 @@ template <arithmetic A = filtered, execution_policy Policy, many_bodies Bodies, 
 }
 
 /// Number of pairs of shapes of two bodies that touch. Stores none of them.
-template <arithmetic A = filtered, execution_policy Policy, many_bodies Bodies, class Filter = keep_all_bodies,
+template <arithmetic A = filtered, execution_policy Policy, many_bodies Bodies, class Filter = keep_all,
           schedule Schedule = schedule::shared_list>
 [[nodiscard]] std::uint64_t count(const Policy& on, const Bodies& all, const body_options<Filter, Schedule>& options = {}) {
     if constexpr (detail::can_pair_bodies<Policy, Bodies>()) {
@@ -235,7 +220,7 @@ template <arithmetic A = filtered, execution_policy Policy, many_bodies Bodies, 
 ///
 ///     std::vector<abut::posed_object<decltype(gear)>> bodies{posed(gear, here), posed(gear, there)};
 ///     for (const auto& hit : to_host(abut::pairs(on, bodies))) use(hit.body_a, hit.a, hit.body_b, hit.b);
-template <arithmetic A = filtered, execution_policy Policy, many_bodies Bodies, class Filter = keep_all_bodies,
+template <arithmetic A = filtered, execution_policy Policy, many_bodies Bodies, class Filter = keep_all,
           schedule Schedule = schedule::shared_list>
 [[nodiscard]] auto pairs(const Policy& on, const Bodies& all, const body_options<Filter, Schedule>& options = {}) {
     if constexpr (detail::can_pair_bodies<Policy, Bodies>()) {
@@ -248,7 +233,7 @@ template <arithmetic A = filtered, execution_policy Policy, many_bodies Bodies, 
 /// Calls visitor(body_pair) -> visit once for every pair of shapes of two bodies that touches; see for_each_pair of two
 /// arguments.
 template <arithmetic A = filtered, execution_policy Policy, many_bodies Bodies, class Visitor,
-          class Filter = keep_all_bodies, schedule Schedule = schedule::shared_list>
+          class Filter = keep_all, schedule Schedule = schedule::shared_list>
 void for_each_pair(const Policy& on, const Bodies& all, const Visitor& visitor,
                    const body_options<Filter, Schedule>& options = {}) {
     if constexpr (detail::can_pair_bodies<Policy, Bodies>() && detail::is_visitor<Policy, Visitor, body_pair>()) {
@@ -258,7 +243,7 @@ void for_each_pair(const Policy& on, const Bodies& all, const Visitor& visitor,
 
 /// The contacts of all pairs of shapes of two bodies that touch: a result of body_contact, in the policy's memory; see
 /// contacts of two arguments.
-template <arithmetic A = filtered, execution_policy Policy, many_bodies Bodies, class Filter = keep_all_bodies,
+template <arithmetic A = filtered, execution_policy Policy, many_bodies Bodies, class Filter = keep_all,
           schedule Schedule = schedule::shared_list>
 [[nodiscard]] auto contacts(const Policy& on, const Bodies& all, const body_options<Filter, Schedule>& options = {}) {
     if constexpr (detail::can_pair_bodies<Policy, Bodies>()) {

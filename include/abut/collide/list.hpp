@@ -72,22 +72,9 @@ struct tagged_contact {
     friend constexpr bool operator==(const tagged_contact&, const tagged_contact&) = default;
 };
 
-/// The filter that keeps every pair of every entry.
-struct keep_all_tagged {
-    /// For every pair.
-    keep_all_tagged() = default;
-    /// No other filter becomes this one: does not compile.
-    template <class F>
-    ABUT_HD constexpr keep_all_tagged(const F&) {
-        detail::refuse_unnamed_options<F>();
-    }
-    /// true
-    ABUT_HD constexpr bool operator()(tagged_pair) const { return true; }
-};
-
 /// Options of queries of a list; with a filter write `list_options{.filter = f}` (see query_options). The schedule is
 /// that of query_options.
-template <class Filter = keep_all_tagged, schedule Schedule = schedule::shared_list>
+template <class Filter = keep_all, schedule Schedule = schedule::shared_list>
 struct list_options {
     /// Results sorted by pair, then a, then b. Without it the order is any, and may differ from call to call.
     bool sorted = true;
@@ -139,7 +126,7 @@ auto pair_up(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& li
 }  // namespace detail
 
 /// Whether the shapes of any entry touch. Stops at the first pair found.
-template <arithmetic A = filtered, execution_policy Policy, class IndexA, class IndexB, class Filter = keep_all_tagged,
+template <arithmetic A = filtered, execution_policy Policy, class IndexA, class IndexB, class Filter = keep_all,
           schedule Schedule = schedule::shared_list>
 [[nodiscard]] bool any(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
                        const list_options<Filter, Schedule>& options = {}) {
@@ -151,7 +138,7 @@ template <arithmetic A = filtered, execution_policy Policy, class IndexA, class 
 }
 
 /// Number of pairs of shapes that touch, of all entries. Stores none of them.
-template <arithmetic A = filtered, execution_policy Policy, class IndexA, class IndexB, class Filter = keep_all_tagged,
+template <arithmetic A = filtered, execution_policy Policy, class IndexA, class IndexB, class Filter = keep_all,
           schedule Schedule = schedule::shared_list>
 [[nodiscard]] std::uint64_t count(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
                                   const list_options<Filter, Schedule>& options = {}) {
@@ -166,7 +153,7 @@ template <arithmetic A = filtered, execution_policy Policy, class IndexA, class 
 ///
 ///     std::vector<abut::posed_pair<decltype(gear)>> list{{posed(gear, here), posed(gear, there)}};
 ///     for (const auto& hit : to_host(abut::pairs(on, list))) use(hit.pair, hit.a, hit.b);
-template <arithmetic A = filtered, execution_policy Policy, class IndexA, class IndexB, class Filter = keep_all_tagged,
+template <arithmetic A = filtered, execution_policy Policy, class IndexA, class IndexB, class Filter = keep_all,
           schedule Schedule = schedule::shared_list>
 [[nodiscard]] auto pairs(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
                          const list_options<Filter, Schedule>& options = {}) {
@@ -179,7 +166,7 @@ template <arithmetic A = filtered, execution_policy Policy, class IndexA, class 
 
 /// Calls visitor(tagged_pair) -> visit once for every pair of shapes that touches; see for_each_pair of two arguments.
 template <arithmetic A = filtered, execution_policy Policy, class IndexA, class IndexB, class Visitor,
-          class Filter = keep_all_tagged, schedule Schedule = schedule::shared_list>
+          class Filter = keep_all, schedule Schedule = schedule::shared_list>
 void for_each_pair(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list, const Visitor& visitor,
                    const list_options<Filter, Schedule>& options = {}) {
     if constexpr (detail::can_be_listed<Policy, IndexA, IndexB>() && detail::is_visitor<Policy, Visitor, tagged_pair>()) {
@@ -189,7 +176,7 @@ void for_each_pair(const Policy& on, const std::vector<posed_pair<IndexA, IndexB
 
 /// The contacts of all pairs of shapes that touch, tagged with the entry's position; see contacts of two arguments. In the
 /// policy's memory, 40 bytes each in float and 72 in double.
-template <arithmetic A = filtered, execution_policy Policy, class IndexA, class IndexB, class Filter = keep_all_tagged,
+template <arithmetic A = filtered, execution_policy Policy, class IndexA, class IndexB, class Filter = keep_all,
           schedule Schedule = schedule::shared_list>
 [[nodiscard]] auto contacts(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
                             const list_options<Filter, Schedule>& options = {}) {

@@ -50,8 +50,11 @@ struct keep_all {
     ABUT_HD constexpr keep_all(const F&) {
         detail::refuse_unnamed_options<F>();
     }
-    /// true
-    ABUT_HD constexpr bool operator()(std::uint32_t, std::uint32_t) const { return true; }
+    /// true, whatever a query says of a pair: two ids, or a tagged_pair, or a body_pair
+    template <class... Named>
+    ABUT_HD constexpr bool operator()(const Named&...) const {
+        return true;
+    }
 };
 
 /// An argument of a query, the first or the second one.
