@@ -35,6 +35,12 @@ if(ABUT_CUDA)
         enable_language(CUDA)
         find_package(CUDAToolkit REQUIRED)
         set(abut_cuda ON)
+        if(ABUT_QUICK_DEVICE_CODE)
+            # PTX alone, which a driver would compile. nvcc's -O3 is what the host's compiler gets, after -Xcompiler.
+            list(TRANSFORM CMAKE_CUDA_ARCHITECTURES REPLACE "^([0-9]+[af]?)(-real)?$" "\\1-virtual")
+            string(REPLACE "-O3" "-O0" CMAKE_CUDA_FLAGS_RELEASE "${CMAKE_CUDA_FLAGS_RELEASE}")
+            string(APPEND CMAKE_CUDA_FLAGS " -Ofc=max")
+        endif()
     elseif(ABUT_CUDA STREQUAL "AUTO")
         message(STATUS "abut: the .cu files are left out: nvcc 13.0 or newer is not there (found: '${nvcc_version}')")
     else()
@@ -55,8 +61,7 @@ target_compile_options(
     INTERFACE $<$<COMPILE_LANGUAGE:CXX>:${abut_warnings}>
               $<$<COMPILE_LANG_AND_ID:CUDA,NVIDIA>:${abut_cuda_warnings}>
               $<$<AND:$<BOOL:${ABUT_WERROR}>,$<COMPILE_LANGUAGE:CXX>>:-Werror>
-              $<$<AND:$<BOOL:${ABUT_WERROR}>,$<COMPILE_LANG_AND_ID:CUDA,NVIDIA>>:-Werror=all-warnings>
-              $<$<AND:$<BOOL:${ABUT_QUICK_DEVICE_CODE}>,$<COMPILE_LANG_AND_ID:CUDA,NVIDIA>>:-Ofc=max>)
+              $<$<AND:$<BOOL:${ABUT_WERROR}>,$<COMPILE_LANG_AND_ID:CUDA,NVIDIA>>:-Werror=all-warnings>)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     # False alarms inside std::string (GCC bug 105651).
     target_compile_options(abut_development INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-restrict>)

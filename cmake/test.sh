@@ -7,9 +7,9 @@
 # them, all in one run of ctest. With no argument:
 #   g++, Release, warnings as errors: all tests, the examples, each header alone, the syntax of bench/*.cpp, the
 #   include graph, an outside project;
-#   the .cu files, if nvcc 13.0 or newer is there; where no device is present they are compiled without optimisation, but for
-#   two that take minutes, and reported as skipped;
-#   the address and undefined behaviour sanitizers on some of the layers.
+#   the .cu files, if nvcc 13.0 or newer is there; where no device is present they are compiled to PTX alone, without
+#   optimisation, but for three that take minutes, and reported as skipped;
+#   the address and undefined behaviour sanitizers on some of the layers, without optimisation.
 # More, each beside what is above:
 #   --clang     the same tests built by clang (no .cu files), its warnings as errors
 #   --tsan      the OpenMP paths under clang's thread sanitizer
@@ -94,11 +94,13 @@ if [ $full = yes ]; then quick=OFF; fi
 # Where no device is present, .cu files are compiled to see that they can be.
 quick_device=OFF
 if [ $quick = ON ] && ! nvidia-smi -L 2>/dev/null | grep -q '^GPU'; then quick_device=ON; fi
-if [ $asan = all ]; then layers=''; fi
+sanitized='-O0 -g1'
+if [ $asan = all ]; then layers='' sanitized='-O1 -g1'; fi
 
 build_tree gcc default -DCMAKE_CXX_COMPILER=g++ -DABUT_CUDA=$cuda -DABUT_HEADER_COMPILERS="$compilers" -DABUT_BENCH=$bench_option \
     -DABUT_TEST_QUICK=$quick -DABUT_QUICK_DEVICE_CODE=$quick_device
-build_tree asan asan -DCMAKE_CXX_COMPILER=g++ -DABUT_EXAMPLES=OFF -DABUT_TEST_PREFIX='asan/' -DABUT_TEST_LAYERS="$layers"
+build_tree asan asan -DCMAKE_CXX_COMPILER=g++ -DABUT_EXAMPLES=OFF -DABUT_TEST_PREFIX='asan/' -DABUT_TEST_LAYERS="$layers" \
+    -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="$sanitized"
 if [ $clang = yes ]; then
     # --headers has checked them with clang already.
     header_compilers=$(command -v clang++)

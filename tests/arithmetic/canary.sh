@@ -64,8 +64,12 @@ for compiler in "$@"; do
         refuse "$compiler" -ffinite-math-only
         ;;
     *nvcc*)
-        check "$compiler" -x cu -arch=sm_90 --fmad=true
-        check "$compiler" -x cu -arch=sm_90 --fmad=false
+        if nvidia-smi -L 2>/dev/null | grep -q '^GPU'; then
+            check "$compiler" -x cu -arch=sm_90 --fmad=true
+            check "$compiler" -x cu -arch=sm_90 --fmad=false
+        else
+            check "$compiler" -x cu -arch=compute_90 -Ofc=max
+        fi
         ;;
     *)
         check "$compiler" -O3 $native
