@@ -62,9 +62,9 @@ private:
     N& cell(std::size_t r, std::size_t j) { return cells_[r * width_ + j]; }
 
     void set_column(std::size_t j, const integer_point& to, const integer_point& from, int l, int m) {
-        cell(0, j) = static_cast<N>(to.x - from.x);
-        cell(1, j) = static_cast<N>(to.y - from.y);
-        cell(2, j) = static_cast<N>(to.z - from.z);
+        cell(0, j) = to_number<N>(to.x - from.x);
+        cell(1, j) = to_number<N>(to.y - from.y);
+        cell(2, j) = to_number<N>(to.z - from.z);
         cell(3, j) = l;
         cell(4, j) = m;
     }

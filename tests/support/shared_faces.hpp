@@ -160,8 +160,8 @@ bool meet_beyond_shared(const detail::mesh_face<T>& f, const detail::mesh_face<T
     const auto decide_in = [&]<class N>(N) {
         std::array<point_of<N>, 3> a{}, b{};
         for (std::size_t k = 0; k < 9; ++k) {
-            a[k / 3][k % 3] = static_cast<N>(v[k]);
-            b[k / 3][k % 3] = static_cast<N>(v[9 + k]);
+            a[k / 3][k % 3] = to_number<N>(v[k]);
+            b[k / 3][k % 3] = to_number<N>(v[9 + k]);
         }
         return meet_beyond(a, b, shared);
     };
