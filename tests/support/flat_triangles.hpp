@@ -34,7 +34,7 @@ enum class flat_family : unsigned char {
 inline constexpr int flat_family_count = static_cast<int>(flat_family::count);
 
 template <scalar T>
-vec3<T> lattice_point(draws& d, int steps, T unit) {
+vec3<T> draw_lattice_point(draws& d, int steps, T unit) {
     const int x = d.below(steps + 1), y = d.below(steps + 1), z = d.below(steps + 1);
     using construction::rounded_to;
     const auto at = [&](int k) { return rounded_to<T>(static_cast<double>(k) * static_cast<double>(unit)); };
@@ -96,9 +96,9 @@ triangle<T> make_flat_triangle(std::uint64_t seed_value, flat_family family, std
             return from_three([&] { return round_to<T>(cube(d, size)); });
         }
         case flat_family::lattice:
-            return from_three([&] { return lattice_point<T>(d, 3, T(1)); });
+            return from_three([&] { return draw_lattice_point<T>(d, 3, T(1)); });
         case flat_family::tenth_lattice:
-            return from_three([&] { return lattice_point<T>(d, 3, T(0.1)); });
+            return from_three([&] { return draw_lattice_point<T>(d, 3, T(0.1)); });
         case flat_family::collinear:
             return on_line();
         case flat_family::collinear_scaled: {
@@ -121,7 +121,7 @@ triangle<T> make_flat_triangle(std::uint64_t seed_value, flat_family family, std
         }
         case flat_family::far_off: {
             const T offset = power_of_two<T>(sizeof(T) == 4 ? 22 : 51);
-            return from_three([&] { return vec3<T>{offset, offset, -offset} + lattice_point<T>(d, 3, T(1)); });
+            return from_three([&] { return vec3<T>{offset, offset, -offset} + draw_lattice_point<T>(d, 3, T(1)); });
         }
         case flat_family::points: {
             const vec3<T> p = round_to<T>(cube(d, 1)), q = d.below(2) == 0 ? p : round_to<T>(cube(d, 1));

@@ -20,11 +20,14 @@ namespace abut::test {
 
 using integer = boost::multiprecision::cpp_int;
 
-/// An integer in the number type N, which must hold it; if that is int128, 64 bits must: under nvcc Boost 1.83 knows no __int128.
+/// An integer in the number type N, which must hold it. If that is int128, 64 bits must: under nvcc Boost 1.83 knows no
+/// __int128.
 template <class N>
 N to_number(const integer& x) {
-    if constexpr (std::same_as<N, int128>) return static_cast<std::int64_t>(x);
-    else return static_cast<N>(x);
+    if constexpr (std::same_as<N, int128>)
+        return static_cast<std::int64_t>(x);
+    else
+        return static_cast<N>(x);
 }
 
 /// Finite numbers as integers of one unit, the largest power of two that divides them all.
