@@ -60,12 +60,9 @@ public:
         check(cudaGetDeviceProperties(&device, abut::execution::device_of(on)), "cudaGetDeviceProperties");
         int driver = 0;
         check(cudaDriverGetVersion(&driver), "cudaDriverGetVersion");
-        const auto dotted = [](int version) {
-            return std::to_string(version / 1000) + "." + std::to_string(version % 1000 / 10);
-        };
         results_.describe("device", device.name);
-        results_.describe("cuda", dotted(CUDART_VERSION));
-        results_.describe("cuda_of_driver", dotted(driver));
+        results_.describe("cuda", bench::cuda_version(CUDART_VERSION));
+        results_.describe("cuda_of_driver", bench::cuda_version(driver));
     }
 
     /// Bytes a millisecond; 0 until it has been measured.

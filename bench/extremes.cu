@@ -39,10 +39,8 @@ int main(int argc, char** argv) {
         if (cudaGetDeviceProperties(&device, abut::execution::device_of(on)) != cudaSuccess) {
             throw std::runtime_error("no CUDA device");
         }
-        return extremes_bench::run(
-            "bench_extremes_cuda", argc, argv, on, elapsed_time{}, of,
-            {{"device", device.name},
-             {"cuda", std::to_string(CUDART_VERSION / 1000) + "." + std::to_string(CUDART_VERSION % 1000 / 10)}});
+        return extremes_bench::run("bench_extremes_cuda", argc, argv, on, elapsed_time{}, of,
+                                   {{"device", device.name}, {"cuda", bench::cuda_version(CUDART_VERSION)}});
     } catch (const std::exception& problem) {
         std::fprintf(stderr, "bench_extremes_cuda: %s\n", problem.what());
         return 1;

@@ -28,6 +28,11 @@ namespace bench {
 using counters = std::vector<std::pair<std::string, double>>;
 using description = std::vector<std::pair<std::string, std::string>>;
 
+/// A version as CUDA numbers it, 13000, as people write it: 13.0.
+inline std::string cuda_version(int number) {
+    return std::to_string(number / 1000) + "." + std::to_string(number % 1000 / 10);
+}
+
 /// Parts of a row's name with slashes between them.
 inline std::string joined(std::initializer_list<std::string> parts) {
     std::string name;

@@ -93,7 +93,7 @@ quick=ON
 if [ $full = yes ]; then quick=OFF; fi
 # Where no device is present, .cu files are compiled to see that they can be.
 quick_device=OFF
-if [ $quick = ON ] && ! nvidia-smi -L 2>/dev/null | grep -q '^GPU'; then quick_device=ON; fi
+if [ $quick = ON ] && ! cuda_device_present; then quick_device=ON; fi
 sanitized='-O0 -g1'
 if [ $asan = all ]; then layers='' sanitized='-O1 -g1'; fi
 

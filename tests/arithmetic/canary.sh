@@ -6,6 +6,8 @@
 # part runs where there is a device and is compiled elsewhere. Exits 0 if nothing failed, and 77 if no compiler was there.
 
 here=$(cd "$(dirname "$0")" && pwd)
+# shellcheck source=cmake/common.sh
+. "$here/../../cmake/common.sh"
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 failed=0
@@ -64,7 +66,8 @@ for compiler in "$@"; do
         refuse "$compiler" -ffinite-math-only
         ;;
     *nvcc*)
-        if nvidia-smi -L 2>/dev/null | grep -q '^GPU'; then
+        nvcc=$compiler
+        if cuda_device_present; then
             check "$compiler" -x cu -arch=sm_90 --fmad=true
             check "$compiler" -x cu -arch=sm_90 --fmad=false
         else
