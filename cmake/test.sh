@@ -88,7 +88,7 @@ cuda=OFF
 if [ -n "$nvcc" ]; then cuda=ON; fi
 bench_option=OFF
 if [ $bench = yes ]; then bench_option=ON; fi
-layers='execution;traverse;io'
+layers='execution;traverse;devices;io'
 quick=ON
 if [ $full = yes ]; then quick=OFF; fi
 # Where no device is present, .cu files are compiled to see that they can be.
@@ -108,7 +108,7 @@ if [ $clang = yes ]; then
     build_tree clang clang -DABUT_TEST_QUICK=$quick -DABUT_TEST_PREFIX='clang/' -DABUT_HEADER_COMPILERS="$header_compilers"
 fi
 if [ $tsan = yes ]; then
-    build_tree tsan tsan -DABUT_EXAMPLES=OFF -DABUT_TEST_PREFIX='tsan/' -DABUT_TEST_LAYERS='execution;shape;index;collide'
+    build_tree tsan tsan -DABUT_EXAMPLES=OFF -DABUT_TEST_PREFIX='tsan/' -DABUT_TEST_LAYERS='execution;shape;index;collide;devices'
 fi
 
 # --- one run of ctest over all trees -----------------------------------------------------------------------------------

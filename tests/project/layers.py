@@ -108,8 +108,8 @@ def check(table, root):
                 problems.append(f"{where}: <abut/{target}> does not exist")
             if theirs != mine and theirs not in layers[mine].sees:
                 problems.append(f"{where}: {mine} does not see {theirs} (<abut/{target}>)")
-            if re.match(r"execution/cuda", target) and mine not in ("execution/", "cuda.hpp"):
-                problems.append(f"{where}: only cuda.hpp and execution/ include <abut/{target}>")
+            if re.match(r"execution/cuda", target) and mine not in ("execution/", "cuda.hpp", "cuda_devices.hpp"):
+                problems.append(f"{where}: only cuda.hpp, cuda_devices.hpp and execution/ include <abut/{target}>")
         if layers[mine].never:
             for target, via in sorted(reached(headers, path).items()):
                 if layer_of(target) in layers[mine].never:
@@ -128,7 +128,7 @@ PLANTS = [
     ("predicate/planted.hpp", "  #  include <abut/index/planted.hpp>", "predicate/ does not see index/"),
     ("predicate/planted.hpp", "#include <abut/shape/set_planted.hpp>", "predicate/planted.hpp: must not reach execution/"),
     ("traverse/planted.hpp", "#include <abut/narrow/planted.hpp>", "traverse/ does not see narrow/"),
-    ("collide/planted.hpp", "#include <abut/execution/cuda_planted.hpp>", "only cuda.hpp and execution/ include"),
+    ("collide/planted.hpp", "#include <abut/execution/cuda_planted.hpp>", "only cuda.hpp, cuda_devices.hpp and execution/ include"),
     ("abut.hpp", "#include <abut/io/planted.hpp>", "abut.hpp does not see io/"),
     ("stray/planted.hpp", "", "stray/ has no row"),
     ("shape/planted.hpp", "#include <abut/shape/absent.hpp>", "does not exist"),

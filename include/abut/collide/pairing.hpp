@@ -153,6 +153,45 @@ struct look_up {
     }
 };
 
+// What of the work a search does. Each candidate falls to one part.
+
+/// All of it.
+struct whole_search {};
+/// What falls to one of some parts. Rows and pairs of nodes are dealt out by a hash of their numbers: neighbours, which have
+/// as much to do, fall to different parts.
+struct search_part {
+    static constexpr std::size_t rows_together = 256;  ///< so that threads that run together all have work or none
+    std::uint32_t part = 0, parts = 1;
+
+    [[nodiscard]] ABUT_HD bool has(std::uint64_t item) const {
+        return static_cast<std::uint32_t>(item * 0x9e3779b97f4a7c15u >> 32) % parts == part;
+    }
+    /// The first of n rows that are shared out as they lie.
+    [[nodiscard]] std::size_t first_of(std::size_t n) const {
+        return n / parts * part + std::min<std::size_t>(n % parts, part);
+    }
+};
+
+/// The rows of a part look.
+template <class LookUp>
+struct look_up_of_part : LookUp {
+    search_part mine;
+    [[nodiscard]] ABUT_HD bool may_find(std::size_t i) const {
+        return mine.has(i / search_part::rows_together) && LookUp::may_find(i);
+    }
+};
+
+/// A step down two trees, from the seeds of a part.
+template <class Step>
+struct step_of_part : Step {
+    using item = typename Step::item;
+    search_part mine;
+    step_of_part(const Step& step, const search_part& part) : Step(step), mine(part) {}
+    [[nodiscard]] ABUT_HD item seed(std::size_t i) const {
+        return mine.has(i) ? Step::seed(i) : item{Step::nowhere, Step::nowhere};
+    }
+};
+
 /// Found by argument-dependent lookup, also where a member has the same name.
 template <class Shape>
 ABUT_HD auto reach_of_shape(const Shape& s) {
@@ -202,20 +241,59 @@ struct all_with_all {
     }
 };
 
+/// The rows from `first` on.
+template <class Tile>
+struct tile_from : Tile {
+    using row = typename Tile::row;
+    using column = typename Tile::column;
+    std::size_t first;
+
+    [[nodiscard]] const row* rows_in_memory() const {
+        const row* const all = Tile::rows_in_memory();
+        return all == nullptr ? all : all + first;
+    }
+    [[nodiscard]] ABUT_HD row load_row(std::size_t i) const { return Tile::load_row(first + i); }
+    [[nodiscard]] ABUT_HD std::uint64_t candidate_of(std::size_t i, std::size_t j) const {
+        return Tile::candidate_of(first + i, j);
+    }
+    ABUT_CALLS_ANY
+    template <class Hits>
+    ABUT_HD bool operator()(const row& r, std::size_t i, const column& c, std::size_t j, Hits& hits, auto&... sinks) const {
+        return Tile::operator()(r, first + i, c, j, hits, sinks...);
+    }
+};
+
 /// Judges what the rows find.
-template <bool RowsAreB, class Policy, class Walk, class Rows, class Ids, class Run, class Nearness = near_enough_to_touch>
-void look(const Policy& on, const Walk& walk, const Rows& rows, const Ids& ids, const Run& run, const Nearness& near = {}) {
-    const look_up<RowsAreB, Walk, Rows, Ids, Nearness> each{walk, rows, ids, near};
-    run([&](const auto& judge, auto&... sinks) { return for_each_candidate(on, rows.size(), each, judge, sinks...); });
+template <bool RowsAreB, class Policy, class Walk, class Rows, class Ids, class Run, class Nearness = near_enough_to_touch,
+          class Part = whole_search>
+void look(const Policy& on, const Walk& walk, const Rows& rows, const Ids& ids, const Run& run, const Nearness& near = {},
+          const Part& part = {}) {
+    const look_up<RowsAreB, Walk, Rows, Ids, Nearness> all{walk, rows, ids, near};
+    const auto judge_all = [&](const auto& each) {
+        run([&](const auto& judge, auto&... sinks) { return for_each_candidate(on, rows.size(), each, judge, sinks...); });
+    };
+    if constexpr (std::same_as<Part, whole_search>) {
+        judge_all(all);
+    } else {
+        judge_all(look_up_of_part<std::remove_const_t<decltype(all)>>{all, part});
+    }
 }
 
 /// Judges all pairs of a row and a column, in tiles.
-template <bool RowsAreB, class Policy, class Rows, class Columns, class Ids, class Run>
-void compare(const Policy& on, const Rows& rows, const Columns& columns, const Ids& ids, const Run& run) {
+template <bool RowsAreB, class Policy, class Rows, class Columns, class Ids, class Run, class Part = whole_search>
+void compare(const Policy& on, const Rows& rows, const Columns& columns, const Ids& ids, const Run& run,
+             const Part& part = {}) {
     run([&](const auto& judge, auto&... sinks) {
         using judge_type = std::remove_cvref_t<decltype(judge)>;
         const all_with_all<RowsAreB, Rows, Columns, Ids, judge_type> tile{rows, columns, ids, judge};
-        return for_each_tiled(on, rows.size(), columns.size(), tile, sinks...);
+        if constexpr (std::same_as<Part, whole_search>) {
+            return for_each_tiled(on, rows.size(), columns.size(), tile, sinks...);
+        } else {
+            const std::size_t first = part.first_of(rows.size());
+            const std::size_t last = search_part{part.part + 1, part.parts}.first_of(rows.size());
+            const tile_from<std::remove_const_t<decltype(tile)>> mine{tile, first};
+            return for_each_tiled(on, last - first, columns.size(), mine, sinks...);
+        }
     });
 }
 
@@ -262,10 +340,18 @@ struct expand_pair {
 };
 
 /// Judges what a walk down the trees of two operands finds, which may be one.
-template <class Policy, class A, class B, class Expand, class Filter, traversal Traversal, schedule Schedule, class Run>
+template <class Policy, class A, class B, class Expand, class Filter, traversal Traversal, schedule Schedule, class Run,
+          class Part = whole_search>
 void descend(const Policy& on, const A& a, const B& b, const Expand& expand,
-             const query_options<Filter, Traversal, Schedule>& options, const Run& run) {
-    if constexpr (Traversal == traversal::breadth_first) {
+             const query_options<Filter, Traversal, Schedule>& options, const Run& run, const Part& part = {}) {
+    if constexpr (!std::same_as<Part, whole_search>) {
+        static_assert(Traversal == traversal::both_at_once, "abut: parts of a search are walked both_at_once");
+        // Deep enough that the hash deals out pairs of nodes evenly.
+        const int depth = part.parts > 1 ? std::max(options.start_depth, 8) : options.start_depth;
+        const step_of_part mine(begin_below<Expand>(expand, depth), part);
+        const execution::scheduled<Schedule> how{options.scheduling};
+        run([&](const auto& judge, auto&... sinks) { return for_each_descendant(on, how, mine, judge, sinks...); });
+    } else if constexpr (Traversal == traversal::breadth_first) {
         for_each_on_levels(on, expand, options.start_depth, run);
     } else {
         const execution::scheduled<Schedule> how{options.scheduling};
@@ -316,13 +402,15 @@ auto box_overlap(const A& a, const B& b, const Nearness& near) {
 }
 
 /// Two operands that are asked about their pairs.
-template <operand A, operand B, class Filter, traversal Traversal, schedule Schedule, class Nearness = near_enough_to_touch>
+template <operand A, operand B, class Filter, traversal Traversal, schedule Schedule, class Nearness = near_enough_to_touch,
+          class Part = whole_search>
 struct pairing {
     A a;
     B b;
     pair_key key;
     query_options<Filter, Traversal, Schedule> options;
     Nearness near = {};
+    Part part = {};
 
     using view_a = decltype(std::declval<const A&>().shapes());
     using view_b = decltype(std::declval<const B&>().shapes());
@@ -344,13 +432,13 @@ struct pairing {
             const auto walk = walk_of_both();
             using walk_type = std::remove_const_t<decltype(walk)>;
             if (least > 1 && most <= walk_type::most_shapes) {  // a leaf alone has no place (traverse/pair_walk.hpp)
-                return descend(on, b, a, expand_pair<true, walk_type, view_type>{walk, both}, options, run);
+                return descend(on, b, a, expand_pair<true, walk_type, view_type>{walk, both}, options, run, part);
             }
         }
         if constexpr (A::is_indexed) {
-            look<true>(on, a.walk(), both.b, both, run, near);
+            look<true>(on, a.walk(), both.b, both, run, near, part);
         } else if constexpr (B::is_indexed) {
-            look<false>(on, b.walk(), both.a, both, run, near);
+            look<false>(on, b.walk(), both.a, both, run, near, part);
         } else {
             compare_all(on, both, run);
         }
@@ -370,8 +458,8 @@ private:
     /// Rows of tiles are what runs in parallel, so the larger set provides them; a single shape never does.
     template <class Policy, class Run>
     void compare_all(const Policy& on, const view_type& both, const Run& run) const {
-        const auto rows_a = [&] { detail::compare<false>(on, both.a, both.b, both, run); };
-        const auto rows_b = [&] { detail::compare<true>(on, both.b, both.a, both, run); };
+        const auto rows_a = [&] { detail::compare<false>(on, both.a, both.b, both, run, part); };
+        const auto rows_b = [&] { detail::compare<true>(on, both.b, both.a, both, run, part); };
         if constexpr (is_single<view_a>) {
             rows_b();
         } else if constexpr (is_single<view_b>) {
@@ -383,6 +471,13 @@ private:
         }
     }
 };
+
+/// A part of what a pairing searches.
+template <operand A, operand B, class Filter, traversal Traversal, schedule Schedule, class Nearness>
+auto in_part(pairing<A, B, Filter, Traversal, Schedule, Nearness> all, const search_part& part) {
+    return pairing<A, B, Filter, Traversal, Schedule, Nearness, search_part>{std::move(all.a), std::move(all.b), all.key,
+                                                                             all.options,      all.near,         part};
+}
 
 /// What is checked before the arguments of a query are: its options.
 template <class Policy, class Filter, traversal Traversal, schedule Schedule>

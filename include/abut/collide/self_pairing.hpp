@@ -52,13 +52,14 @@ struct as_they_are {
 /// One operand that is asked about its pairs. `Sight` makes of a view of its shapes the one that is judged: of as many
 /// shapes, with the same boxes.
 template <operand X, class Filter, traversal Traversal, schedule Schedule, class Sight,
-          class Nearness = near_enough_to_touch>
+          class Nearness = near_enough_to_touch, class Part = whole_search>
 struct self_pairing {
     X x;
     Sight sight;
     pair_key key;
     query_options<Filter, Traversal, Schedule> options;
     Nearness near = {};
+    Part part = {};
 
     using view_of_shapes = decltype(std::declval<const Sight&>()(std::declval<const X&>().shapes()));
     using view_type = pair_view<view_of_shapes, view_of_shapes, Filter>;
@@ -81,17 +82,24 @@ struct self_pairing {
             using walk_type = std::remove_const_t<decltype(walk)>;
             if (n <= walk_type::most_shapes) {
                 const expand_pair<false, walk_type, ids_in_order<view_type>> expand{walk, {both}};
-                return descend(on, x, x, expand, options, run);
+                return descend(on, x, x, expand, options, run, part);
             }
         }
         const ids_that_ascend<view_type> ids{both};
         if constexpr (X::is_indexed) {
-            look<false>(on, x.walk(), both.a, ids, run, near);
+            look<false>(on, x.walk(), both.a, ids, run, near, part);
         } else {
-            compare<false>(on, both.a, both.b, ids, run);
+            compare<false>(on, both.a, both.b, ids, run, part);
         }
     }
 };
+
+/// A part of what a pairing searches.
+template <operand X, class Filter, traversal Traversal, schedule Schedule, class Sight, class Nearness>
+auto in_part(self_pairing<X, Filter, Traversal, Schedule, Sight, Nearness> all, const search_part& part) {
+    return self_pairing<X, Filter, Traversal, Schedule, Sight, Nearness, search_part>{
+        std::move(all.x), all.sight, all.key, all.options, all.near, part};
+}
 
 /// Whether pair_up_self takes the argument, as it is, and the filter.
 template <class Policy, class X, class Filter>

@@ -229,26 +229,6 @@ auto brought_to(const Policy& on, const X& x) {
     }
 }
 
-/// What shapes from elsewhere look in: a, or where b has an index and a has none, an index of a. As on one machine, plain
-/// sets are compared all with all.
-template <class Policy, class X, class Y>
-auto looked_in(const Policy& on, const X& a, std::type_identity<Y>) {
-    constexpr bool makes_one = [] {
-        if constexpr (is_posed<Y>) {
-            return is_index<decltype(Y::object)>;
-        } else {
-            return is_index<Y>;
-        }
-    }();
-    if constexpr (is_posed<X>) {
-        return posed(looked_in(on, a.object, std::type_identity<Y>{}), a.pose);
-    } else if constexpr (makes_one && shape_set<X> && !is_index<X>) {
-        return make_bvh(on, a);
-    } else {
-        return a;
-    }
-}
-
 /// Runs ask(rank, a, b, ids) of a rank's own parts, and then of what comes from each other rank: all pairs of its a-shapes
 /// with b-shapes that they may touch, each once. Returns the parts of a. All ranks call it; it throws on all or on none.
 template <class Local, class X, class Y, class Ask>

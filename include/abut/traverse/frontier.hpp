@@ -228,15 +228,18 @@ template <class Expand>
 struct begin_below : Expand {
     using item = typename Expand::item;
     static_assert(Expand::most_children == 4);
+    static constexpr std::uint32_t nowhere = static_cast<std::uint32_t>(-1);  ///< what a node is where a path ends above
     seeds_below<decltype(Expand::walk)> from;
 
     begin_below(const Expand& expand, int depth) : Expand(expand), from(expand.walk, depth) {}
     [[nodiscard]] std::size_t seeds() const { return from.count(); }
     [[nodiscard]] ABUT_HD item seed(std::size_t i) const { return from(i); }
+    ABUT_INLINE void prefetch(const item& at) const {
+        if (at.a != nowhere && at.b != nowhere) Expand::prefetch(at);
+    }
     ABUT_CALLS_ANY
     template <class Emitter>
     ABUT_INLINE ABUT_HD void operator()(const item& at, Emitter&& emitter) const {
-        constexpr std::uint32_t nowhere = static_cast<std::uint32_t>(-1);
         if (at.a != nowhere && at.b != nowhere) Expand::operator()(at, emitter);
     }
 };

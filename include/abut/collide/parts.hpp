@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Parts of sets that lie on several ranks or devices: where each is, and which shapes of one come near another.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+#include <abut/collide/operand.hpp>
+#include <abut/execution/buffer.hpp>
+#include <abut/index/curve_order.hpp>
+#include <abut/index/lbvh.hpp>
+#include <abut/shape/bounds.hpp>
+#include <abut/shape/equal_elements.hpp>
+#include <abut/shape/posed.hpp>
+#include <abut/shape/view.hpp>
+
+namespace abut::detail {
+
+/// Boxes around groups of neighbours in a part. One box would do; where ids follow space, several leave out more.
+inline constexpr std::size_t part_boxes = 16;
+
+/// A part of a set, as the others know it.
+template <scalar T>
+struct part_bounds {
+    std::uint64_t size = 0;
+    aabb<T> around = empty_box<T>();
+    aabb<T> groups[part_boxes];  ///< empty ones where there are fewer shapes
+
+    /// Whether something in the box may touch a shape of the part.
+    [[nodiscard]] ABUT_HD bool reaches(const aabb<T>& box) const {
+        if (!overlaps(around, box)) return false;
+        bool reached = false;
+        for (std::size_t k = 0; k < part_boxes; ++k) reached |= overlaps(groups[k], box);
+        return reached;
+    }
+    /// Whether shapes of two parts may touch.
+    [[nodiscard]] bool is_near(const part_bounds& other) const {
+        return std::any_of(other.groups, other.groups + part_boxes, [this](const aabb<T>& box) { return reaches(box); });
+    }
+};
+
+/// Neighbours in a set, as many as this, have a box of their own.
+inline constexpr std::size_t block_size = 64;
+inline std::size_t blocks_of(std::size_t n, std::size_t size = block_size) { return n / size + (n % size != 0); }
+
+template <shape_view Shapes>
+struct write_block_boxes {
+    using T = typename Shapes::scalar_type;
+    Shapes shapes;
+    std::size_t size;  ///< of a block
+    aabb<T>* boxes;
+    ABUT_HD void operator()(std::size_t k) const {
+        const std::size_t first = k * size, left = shapes.size() - first;
+        aabb<T> box = empty_box<T>();
+        for (std::size_t i = first; i < first + (left < size ? left : size); ++i) box = merge(box, bounds(shapes[i]));
+        boxes[k] = box;
+    }
+};
+
+/// Divides a row of boxes into groups of neighbours: the row is cut where that leaves the least volume, and again, until
+/// there are as many groups as a part has. Where shapes lie along a curve, these are the places where it jumps.
+template <scalar T>
+class box_groups {
+public:
+    explicit box_groups(const std::vector<aabb<T>>& boxes) : boxes_(boxes), left_(boxes.size()) {
+        for (const aabb<T>& box : boxes) around_ = merge(around_, box);
+        groups_.reserve(part_boxes);
+        if (!boxes.empty()) groups_.push_back(best_cut(0, boxes.size()));
+        while (groups_.size() < part_boxes) {
+            const auto gain = [](const group& x, const group& y) { return x.gain < y.gain; };
+            const auto most = std::max_element(groups_.begin(), groups_.end(), gain);
+            if (most == groups_.end() || most->cut == most->first) break;  // boxes are alone, or there are none
+            const group whole = *most;
+            *most = best_cut(whole.first, whole.cut);
+            groups_.push_back(best_cut(whole.cut, whole.last));
+        }
+    }
+
+    void write(part_bounds<T>& part) const {
+        part.around = around_;
+        for (aabb<T>& box : part.groups) box = empty_box<T>();
+        for (std::size_t k = 0; k < groups_.size(); ++k) {
+            for (std::size_t i = groups_[k].first; i < groups_[k].last; ++i) {
+                part.groups[k] = merge(part.groups[k], boxes_[i]);
+            }
+        }
+    }
+
+private:
+    struct group {
+        std::size_t first, last, cut;  ///< `cut` is `first` where there is none
+        double gain;                   ///< volume that is left out if it is cut there
+    };
+
+    /// In parts of the extents of all. Flat boxes have some volume too.
+    [[nodiscard]] double volume(const aabb<T>& box) const {
+        const auto side = [](T lower, T upper, T first, T last) {
+            const double extent = static_cast<double>(last) / 2 - static_cast<double>(first) / 2;
+            const double mine = static_cast<double>(upper) / 2 - static_cast<double>(lower) / 2;
+            return (extent > 0 ? mine / extent : 0) + 1.0 / 64;
+        };
+        return side(box.lower.x, box.upper.x, around_.lower.x, around_.upper.x) *
+               side(box.lower.y, box.upper.y, around_.lower.y, around_.upper.y) *
+               side(box.lower.z, box.upper.z, around_.lower.z, around_.upper.z);
+    }
+    [[nodiscard]] group best_cut(std::size_t first, std::size_t last) {
+        aabb<T> box = empty_box<T>();
+        for (std::size_t i = first; i + 1 < last; ++i) left_[i] = volume(box = merge(box, boxes_[i]));
+        group best{first, last, first, -infinity<double>};
+        const double whole = volume(merge(box, boxes_[last - 1]));
+        box = empty_box<T>();
+        for (std::size_t i = last - 1; i > first; --i) {
+            const double gain = whole - left_[i - 1] - volume(box = merge(box, boxes_[i]));
+            if (gain > best.gain) best.cut = i, best.gain = gain;
+        }
+        return best;
+    }
+
+    const std::vector<aabb<T>>& boxes_;
+    aabb<T> around_ = empty_box<T>();
+    std::vector<double> left_;  ///< the volume of a group's boxes up to each
+    std::vector<group> groups_;
+};
+
+template <class Policy, shape_view Shapes>
+auto bounds_of_part(const Policy& on, const Shapes& shapes) {
+    using T = typename Shapes::scalar_type;
+    part_bounds<T> part;
+    part.size = shapes.size();
+    // Fine enough to cut where the curve jumps: of 50,000 shapes 1,024 boxes left eight parts to send three times as much.
+    const std::size_t size = std::clamp<std::size_t>(shapes.size() / 16384, 1, block_size);
+    std::vector<aabb<T>> boxes(blocks_of(shapes.size(), size));
+    execution::buffer_of<Policy, aabb<T>> there(on, boxes.size());
+    for_each_index(on, boxes.size(), write_block_boxes<Shapes>{shapes, size, there.data()});
+    download(on, there.data(), boxes.size(), boxes.data());
+    box_groups<T>(boxes).write(part);
+    return part;
+}
+
+/// Shapes that may touch one of another part's.
+template <shape_view Shapes>
+struct comes_near {
+    Shapes shapes;
+    part_bounds<typename Shapes::scalar_type> there;
+    ABUT_HD bool operator()(std::size_t i) const { return there.reaches(bounds(shapes[i])); }
+};
+
+template <scalar T>
+struct is_block_near {
+    const aabb<T>* boxes;
+    part_bounds<T> there;
+    ABUT_HD bool operator()(std::size_t k) const { return there.reaches(boxes[k]); }
+};
+
+/// A test of those that some blocks have, one after another.
+template <class Test>
+struct in_blocks {
+    Test test;
+    const std::uint32_t* blocks;
+    std::size_t count;  ///< of all, in these blocks or not
+    [[nodiscard]] ABUT_HD std::size_t id(std::size_t place) const {
+        return std::size_t{blocks[place / block_size]} * block_size + place % block_size;
+    }
+    ABUT_HD bool operator()(std::size_t place) const { return id(place) < count && test(id(place)); }
+};
+/// Ids in place of places.
+template <class Test>
+struct write_ids_in_blocks {
+    in_blocks<Test> in;
+    std::uint32_t* ids;
+    ABUT_HD void operator()(std::size_t i) const { ids[i] = static_cast<std::uint32_t>(in.id(ids[i])); }
+};
+
+template <shape_view Shapes>
+struct pack_shape {
+    Shapes shapes;
+    const std::uint32_t* ids;
+    typename Shapes::shape_type* out;
+    ABUT_HD void operator()(std::size_t i) const { out[i] = shapes[ids[i]]; }
+};
+
+/// Which shapes of a part come near another part.
+template <class Policy, shape_view Shapes>
+class near_shapes {
+public:
+    using T = typename Shapes::scalar_type;
+
+    explicit near_shapes(const Shapes& shapes) : shapes_(shapes) {}
+
+    /// How many come near.
+    [[nodiscard]] std::uint64_t count(const Policy& on, const part_bounds<T>& there) {
+        const std::size_t blocks = near_blocks(on, there);
+        return reduce(on, blocks * block_size, std::uint64_t{0}, add_up_tallies{}, one_if<near_in_blocks>{near(there)});
+    }
+    /// Writes as many, in the order of their ids, and these, in the policy's memory.
+    void write(const Policy& on, const part_bounds<T>& there, typename Shapes::shape_type* shapes, std::uint32_t* ids) {
+        const std::size_t blocks = near_blocks(on, there);
+        const std::size_t n = compact(on, blocks * block_size, near(there), ids);
+        for_each_index(on, n, write_ids_in_blocks<comes_near<Shapes>>{near(there), ids});
+        for_each_index(on, n, pack_shape<Shapes>{shapes_, ids, shapes});
+    }
+
+private:
+    using near_in_blocks = in_blocks<comes_near<Shapes>>;
+
+    /// Finds the blocks of which shapes may come near.
+    [[nodiscard]] std::size_t near_blocks(const Policy& on, const part_bounds<T>& there) {
+        const std::size_t blocks = blocks_of(shapes_.size());
+        if (boxes_.size() == 0 && blocks > 0) {
+            boxes_ = execution::buffer_of<Policy, aabb<T>>(on, blocks);
+            near_ = execution::buffer_of<Policy, std::uint32_t>(on, blocks);
+            for_each_index(on, blocks, write_block_boxes<Shapes>{shapes_, block_size, boxes_.data()});
+        }
+        return compact(on, blocks, is_block_near<T>{boxes_.data(), there}, near_.data());
+    }
+    [[nodiscard]] near_in_blocks near(const part_bounds<T>& there) const {
+        return {{shapes_, there}, near_.data(), shapes_.size()};
+    }
+
+    Shapes shapes_;
+    execution::buffer_of<Policy, aabb<T>> boxes_;  ///< of blocks
+    execution::buffer_of<Policy, std::uint32_t> near_;
+};
+
+/// What shapes from elsewhere look in: a, or where b has an index and a has none, an index of a. As on one machine, plain
+/// sets are compared all with all.
+template <class Policy, class X, class Y>
+auto looked_in(const Policy& on, const X& a, std::type_identity<Y>) {
+    constexpr bool makes_one = [] {
+        if constexpr (is_posed<Y>) {
+            return is_index<decltype(Y::object)>;
+        } else {
+            return is_index<Y>;
+        }
+    }();
+    if constexpr (is_posed<X>) {
+        return posed(looked_in(on, a.object, std::type_identity<Y>{}), a.pose);
+    } else if constexpr (makes_one && shape_set<X> && !is_index<X>) {
+        return make_bvh(on, a);
+    } else {
+        return a;
+    }
+}
+
+}  // namespace abut::detail

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Adds abut::cuda_devices: queries on several CUDA devices of one host. For .cu files, as abut/cuda.hpp.
+
+#include <abut/cuda.hpp>
+
+#include <abut/devices/nearest.hpp>
+#include <abut/devices/query.hpp>
+#include <abut/execution/cuda_devices.hpp>

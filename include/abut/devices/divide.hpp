@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Sets and indices on several devices: a copy on each, or a part on each.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <abut/collide/operand.hpp>
+#include <abut/collide/pairing.hpp>
+#include <abut/collide/parts.hpp>
+#include <abut/execution/team.hpp>
+#include <abut/index/curve_order.hpp>
+#include <abut/index/lbvh.hpp>
+#include <abut/shape/copy_view.hpp>
+#include <abut/shape/set.hpp>
+
+namespace abut {
+
+/// @addtogroup devices
+///@{
+
+/// The same set or index on each device.
+template <class X>
+class replicated {
+public:
+    using shape_type = typename detail::shape_of_argument<X>::type;  ///< what a shape is
+
+    /// One for each device, in their order. They have to be the same.
+    explicit replicated(std::vector<X> copies) : copies_(std::move(copies)) {}
+    /// What lies on the k-th device.
+    [[nodiscard]] const X& operator[](int k) const { return copies_[static_cast<std::size_t>(k)]; }
+    /// Number of devices.
+    [[nodiscard]] int devices() const { return static_cast<int>(copies_.size()); }
+    /// Number of shapes.
+    [[nodiscard]] std::size_t size() const { return copies_.empty() ? 0 : copies_.front().size(); }
+
+private:
+    std::vector<X> copies_;
+};
+
+/// A set of which each device has a part, or an index of each part.
+template <class X>
+class divided {
+public:
+    using shape_type = typename detail::shape_of_argument<X>::type;                  ///< what a shape is
+    using memory_space = typename X::memory_space;                                   ///< where parts lie
+    using ids_type = detail::shared_array<std::uint32_t, typename X::memory_space>;  ///< an array of ids
+
+    /// A part for each device, in their order, and for each of its shapes the id in the whole set, ascending.
+    divided(std::vector<X> parts, std::vector<ids_type> ids) : parts_(std::move(parts)), ids_(std::move(ids)) {
+        for (const ids_type& some : ids_) size_ += some.size();
+    }
+    /// What lies on the k-th device.
+    [[nodiscard]] const X& operator[](int k) const { return parts_[static_cast<std::size_t>(k)]; }
+    /// The ids of its shapes in the whole set, in memory of that device.
+    [[nodiscard]] const ids_type& ids(int k) const { return ids_[static_cast<std::size_t>(k)]; }
+    /// Number of devices.
+    [[nodiscard]] int devices() const { return static_cast<int>(parts_.size()); }
+    /// Number of shapes of the whole set.
+    [[nodiscard]] std::size_t size() const { return size_; }
+
+private:
+    std::vector<X> parts_;
+    std::vector<ids_type> ids_;
+    std::size_t size_ = 0;
+};
+
+///@}
+
+namespace detail {
+
+template <class X>
+inline constexpr bool is_replicated = false;
+template <class X>
+inline constexpr bool is_replicated<replicated<X>> = true;
+template <class X>
+inline constexpr bool is_divided = false;
+template <class X>
+inline constexpr bool is_divided<divided<X>> = true;
+
+/// What a device is asked about.
+template <class X>
+const auto& on_device(const X& x, int k) {
+    if constexpr (is_replicated<X> || is_divided<X>) {
+        return x[k];
+    } else {
+        return x;
+    }
+}
+template <class X>
+using type_on_device = std::remove_cvref_t<decltype(on_device(std::declval<const X&>(), 0))>;
+
+/// f(k) of each device, made on all at a time.
+template <class Team, class F>
+auto each_of(const Team& team, const F& f) {
+    using made = decltype(f(0));
+    std::vector<std::optional<made>> there(static_cast<std::size_t>(team.size()));
+    execution::on_each(team, [&](int k) { there[static_cast<std::size_t>(k)].emplace(f(k)); });
+    std::vector<made> all;
+    all.reserve(there.size());
+    for (auto& one : there) all.push_back(std::move(*one));
+    return all;
+}
+
+template <class Team, class X>
+void require_as_many(const Team& team, const X& x, const char* function) {
+    if constexpr (is_replicated<X> || is_divided<X>) {
+        if (x.devices() != team.size()) {
+            throw error(std::string(function) + ": the argument lies on " + std::to_string(x.devices()) +
+                        " devices, the call is to " + std::to_string(team.size()));
+        }
+    }
+}
+
+/// The first of the k-th of some parts of n elements.
+inline std::size_t first_of_part(std::size_t n, int k, int parts) {
+    const auto p = static_cast<std::size_t>(parts), i = static_cast<std::size_t>(k);
+    return n / p * i + (n % p < i ? n % p : i);
+}
+
+/// Parts of a set along a curve. `source` is the policy in whose memory the set lies, hand_over(p, n, policy, q) copies from
+/// there to a device.
+template <class Team, class Source, shape_view Shapes, class HandOver>
+auto divide_along_curve(const Team& team, const Source& source, const Shapes& all, const HandOver& hand_over) {
+    using shape_type = typename Shapes::shape_type;
+    using local = typename Team::local_policy;
+    using set = shapes<shape_type, space_of<local>>;
+    using ids_type = typename divided<set>::ids_type;
+    const auto order = order_on_curve(source, all);
+    synchronize(source);
+    auto parts = each_of(team, [&](int k) {
+        const std::size_t first = first_of_part(all.size(), k, team.size());
+        const std::size_t n = first_of_part(all.size(), k + 1, team.size()) - first;
+        execution::buffer_of<Source, std::uint32_t> mine(source, n);
+        execution::buffer_of<Source, shape_type> packed(source, n);
+        copy(source, order.data() + first, n, mine.data());
+        sort_keys(source, mine, id_bits(all.size()));  // so that what is sorted by the ids of a part is sorted by all
+        for_each_index(source, n, pack_shape<Shapes>{all, mine.data(), packed.data()});
+        synchronize(source);
+        execution::buffer_of<local, shape_type> there(team[k], n);
+        execution::buffer_of<local, std::uint32_t> ids(team[k], n);
+        hand_over(packed.data(), n, team[k], there.data());
+        hand_over(mine.data(), n, team[k], ids.data());
+        return std::pair(set_parts::shapes_of(std::move(there)), ids_type(std::move(ids)));
+    });
+    std::vector<set> sets;
+    std::vector<ids_type> ids;
+    for (auto& [part, part_ids] : parts) {
+        sets.push_back(std::move(part));
+        ids.push_back(std::move(part_ids));
+    }
+    return divided<set>(std::move(sets), std::move(ids));
+}
+
+}  // namespace detail
+
+/// @addtogroup devices
+///@{
+
+/// A copy of a set on each device. A set on one of the devices is shared there. Waits for the copies.
+template <execution::policy_team Team, shape_set Set>
+[[nodiscard]] auto replicate(const Team& team, const Set& set) {
+    return replicated(detail::each_of(team, [&](int k) { return set.copied_to(team[k]); }));
+}
+
+/// Divides a set: each device gets as many shapes as the others, or one more, and they are neighbours along a Hilbert curve.
+/// Parts hold shapes as they are, in the order of their ids: faces become triangles. Of each the id in `set` is kept, 4
+/// bytes. `set` lies on one of the devices or in host memory; there it may be larger than a device's memory. That side needs
+/// besides it 8 bytes a shape, and room for all parts. Waits for all. Throws error if the set lies on a device that is none
+/// of these.
+template <execution::policy_team Team, shape_set Set>
+[[nodiscard]] auto divide(const Team& team, const Set& set) {
+    using local = typename Team::local_policy;
+    if constexpr (std::same_as<typename Set::memory_space, host_space> && !host_policy<local>) {
+        const auto hand_over = [](const auto* from, std::size_t n, const local& to, auto* there) {
+            upload(to, from, n, there);
+            synchronize(to);
+        };
+        return detail::divide_along_curve(team, openmp{}, set.view(), hand_over);
+    } else {
+        int at = 0;
+        while (at < team.size() && set.size() > 0 && device_of(team[at]) != set.device()) ++at;
+        if (at == team.size()) {
+            throw error("abut::divide: the set lies on device " + std::to_string(set.device()) +
+                        ", which is none of these devices");
+        }
+        const local& source = team[at];
+        const auto hand_over = [&](const auto* from, std::size_t n, const local& to, auto* there) {
+            copy_across(source, from, n, to, there);
+        };
+        return detail::divide_along_curve(team, source, set.view(), hand_over);
+    }
+}
+
+/// A tree on each device: of the same set, or of its part of a divided one. Trees of one set are the same on all devices.
+/// Options are those of `make_bvh` under one policy. Returns a `replicated` or a `divided` tree; waits for all.
+template <execution::policy_team Team, class X, class... Options>
+[[nodiscard]] auto make_bvh(const Team& team, const X& x, const Options&... options) {
+    detail::require_as_many(team, x, "abut::make_bvh");
+    auto trees = detail::each_of(team, [&](int k) { return make_bvh(team[k], detail::on_device(x, k), options...); });
+    if constexpr (detail::is_divided<X>) {
+        std::vector<typename X::ids_type> ids;
+        for (int k = 0; k < team.size(); ++k) ids.push_back(x.ids(k));
+        return divided(std::move(trees), std::move(ids));
+    } else {
+        return replicated(std::move(trees));
+    }
+}
+
+/// What lies on each device, moved by a pose.
+///@{
+template <class X>
+[[nodiscard]] auto posed(const replicated<X>& object,
+                         const rigid<scalar_type_of<typename replicated<X>::shape_type>>& pose) {
+    std::vector<posed_object<X>> placed;
+    for (int k = 0; k < object.devices(); ++k) placed.push_back(posed(object[k], pose));
+    return replicated(std::move(placed));
+}
+template <class X>
+[[nodiscard]] auto posed(const divided<X>& object, const rigid<scalar_type_of<typename divided<X>::shape_type>>& pose) {
+    std::vector<posed_object<X>> placed;
+    std::vector<typename divided<X>::ids_type> ids;
+    for (int k = 0; k < object.devices(); ++k) {
+        placed.push_back(posed(object[k], pose));
+        ids.push_back(object.ids(k));
+    }
+    return divided(std::move(placed), std::move(ids));
+}
+///@}
+
+///@}
+
+}  // namespace abut

@@ -1,0 +1,477 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// any, count, pairs, for_each_pair and contacts, and self_pairs, on several devices at a time. What lies on each device is
+// searched in parts (search_part in collide/pairing.hpp); what is divided is searched where it lies. Where both arguments
+// are divided, shapes of b come to the devices whose a-shapes they come near.
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <abut/collide/contacts.hpp>
+#include <abut/collide/parts.hpp>
+#include <abut/collide/query.hpp>
+#include <abut/collide/self_pairs.hpp>
+#include <abut/devices/divide.hpp>
+#include <abut/execution/atomic.hpp>
+#include <abut/execution/team.hpp>
+
+namespace abut {
+
+namespace detail {
+
+/// Ids of shapes on a device, in the whole sets.
+struct ids_of_parts {
+    const std::uint32_t *a, *b;  ///< of the shapes there; null where all are there
+
+    [[nodiscard]] ABUT_HD index_pair operator()(std::uint32_t i, std::uint32_t j) const {
+        return {a == nullptr ? i : a[i], b == nullptr ? j : b[j]};
+    }
+};
+
+template <class Filter>
+struct filter_of_parts {
+    Filter filter;
+    ids_of_parts ids;
+    ABUT_CALLS_ANY
+    ABUT_HD bool operator()(std::uint32_t a, std::uint32_t b) const {
+        const index_pair pair = ids(a, b);
+        return filter(pair.a, pair.b);
+    }
+};
+
+/// The visitor of pairs there, and of none after it has said to stop.
+template <class Visitor>
+struct visitor_of_parts {
+    Visitor visitor;
+    ids_of_parts ids;
+    std::uint32_t* stopped;
+    ABUT_CALLS_ANY
+    ABUT_HD visit operator()(const index_pair& pair) const {
+        if (execution::atomic_load(stopped) != 0) return visit::stop;
+        const visit next = visitor(ids(pair.a, pair.b));
+        if (next == visit::stop) execution::atomic_store(stopped, 1);
+        return next;
+    }
+};
+
+template <class Found>
+struct rename_found {
+    const Found* found;
+    ids_of_parts ids;
+    Found* out;
+    ABUT_HD void operator()(std::size_t i) const {
+        Found renamed = found[i];
+        const index_pair pair = ids(renamed.a, renamed.b);
+        renamed.a = pair.a;
+        renamed.b = pair.b;
+        out[i] = renamed;
+    }
+};
+
+template <class Found>
+ABUT_HD bool comes_before(const Found& x, const Found& y) {
+    return x.a < y.a || (x.a == y.a && x.b < y.b);
+}
+/// Lists in order, one after another, become one. No pair is in two of them.
+template <class Found>
+struct merge_lists {
+    const Found* found;
+    const std::size_t* first;  ///< of each list, and the number of all
+    std::size_t lists;
+    Found* out;
+    ABUT_HD void operator()(std::size_t i) const {
+        const Found mine = found[i];
+        std::size_t place = 0;
+        for (std::size_t k = 0; k < lists; ++k) {
+            std::size_t lower = first[k], upper = first[k + 1];
+            if (lower <= i && i < upper) {
+                lower = i;
+            } else {
+                while (lower < upper) {
+                    const std::size_t middle = lower + (upper - lower) / 2;
+                    if (comes_before(found[middle], mine)) {
+                        lower = middle + 1;
+                    } else {
+                        upper = middle;
+                    }
+                }
+            }
+            place += lower - first[k];
+        }
+        out[place] = mine;
+    }
+};
+
+/// Lists one after another: where each begins, and where the last one ends.
+template <class Lists>
+std::vector<std::size_t> beginnings_of(const Lists& lists) {
+    std::vector<std::size_t> first{0};
+    for (const auto& list : lists) first.push_back(first.back() + list.size());
+    return first;
+}
+/// Such lists become one, in order if they are and `sorted` is.
+template <class Policy, class Found>
+auto merged(const Policy& on, execution::buffer_of<Policy, Found> all, const std::vector<std::size_t>& first, bool sorted) {
+    if (sorted && all.size() > 0) {
+        execution::buffer_of<Policy, std::size_t> begins(on, first.size());
+        execution::buffer_of<Policy, Found> in_order(on, all.size());
+        upload(on, first.data(), first.size(), begins.data());
+        for_each_index(on, all.size(), merge_lists<Found>{all.data(), begins.data(), first.size() - 1, in_order.data()});
+        synchronize(on);
+        all = std::move(in_order);
+    }
+    return result<Found, space_of<Policy>>(std::move(all));
+}
+template <class Local, class Found>
+using found_lists = std::vector<result<Found, space_of<Local>>>;
+/// Of one device.
+template <class Policy, class Found>
+auto joined(const Policy& on, found_lists<Policy, Found> lists, bool sorted) {
+    if (lists.size() == 1) return std::move(lists.front());
+    const auto first = beginnings_of(lists);
+    execution::buffer_of<Policy, Found> all(on, first.back());
+    for (std::size_t k = 0; k < lists.size(); ++k) {
+        copy(on, lists[k].data(), lists[k].size(), all.data() + first[k]);
+        lists[k] = {};
+    }
+    synchronize(on);
+    return merged(on, std::move(all), first, sorted);
+}
+/// Of each device one, brought to the first.
+template <class Team, class Found>
+auto on_first(const Team& team, std::vector<result<Found, space_of<typename Team::local_policy>>> lists, bool sorted) {
+    using local = typename Team::local_policy;
+    if (lists.size() == 1) return std::move(lists.front());
+    const auto first = beginnings_of(lists);
+    execution::buffer_of<local, Found> all(team[0], first.back());
+    synchronize(team[0]);
+    for (std::size_t k = 0; k < lists.size(); ++k) {
+        copy_across(team[static_cast<int>(k)], lists[k].data(), lists[k].size(), team[0], all.data() + first[k]);
+        lists[k] = {};
+    }
+    return merged(team[0], std::move(all), first, sorted);
+}
+
+/// The same options for the shapes of a device.
+///@{
+template <class Filter>
+auto filter_there(const Filter& filter, const ids_of_parts& ids) {
+    if constexpr (std::same_as<Filter, keep_all>) {
+        return filter;
+    } else {
+        return filter_of_parts<Filter>{filter, ids};
+    }
+}
+template <class Filter, traversal Traversal, schedule Schedule>
+auto options_there(const query_options<Filter, Traversal, Schedule>& options, const ids_of_parts& ids) {
+    auto filter = filter_there(options.filter, ids);
+    return query_options<decltype(filter), Traversal, Schedule>{
+        options.sorted, filter, options.most_pairs, options.resident, options.start_depth, options.scheduling, nullptr};
+}
+///@}
+
+template <class X>
+const std::uint32_t* ids_on(const X& x, int k) {
+    if constexpr (is_divided<X>) {
+        return x.ids(k).data();
+    } else {
+        return nullptr;
+    }
+}
+
+/// Shapes of another device's part, with their ids in the whole set.
+template <class Policy, class Shape>
+struct shapes_that_came {
+    execution::buffer_of<Policy, Shape> shapes;
+    execution::buffer_of<Policy, std::uint32_t> ids;
+};
+struct gather_ids {
+    const std::uint32_t* ids;
+    std::uint32_t* places;
+    ABUT_HD void operator()(std::size_t i) const { places[i] = ids[places[i]]; }
+};
+
+/// Runs ask(k, a, b, part, ids) on each device, on a thread of its own: once or several times, so that all pairs that may
+/// touch are looked at, each once.
+template <class Team, class X, class Y, class Ask>
+void ask_each(const Team& team, const X& x, const Y& y, const char* function, const Ask& ask) {
+    using local = typename Team::local_policy;
+    require_as_many(team, x, function);
+    require_as_many(team, y, function);
+    const auto parts = static_cast<std::uint32_t>(team.size());
+    if constexpr (!is_divided<X> && !is_divided<Y>) {
+        execution::on_each(team, [&](int k) {
+            ask(k, on_device(x, k), on_device(y, k), search_part{static_cast<std::uint32_t>(k), parts}, ids_of_parts{});
+        });
+    } else if constexpr (!is_divided<X> || !is_divided<Y>) {
+        execution::on_each(team, [&](int k) {
+            ask(k, on_device(x, k), on_device(y, k), search_part{}, ids_of_parts{ids_on(x, k), ids_on(y, k)});
+        });
+    } else {
+        const auto operands_b = each_of(team, [&](int k) { return make_operand(team[k], y[k], function); });
+        const auto bounds_a =
+            each_of(team, [&](int k) { return bounds_of_part(team[k], make_operand(team[k], x[k], function).shapes()); });
+        const auto bounds_b =
+            each_of(team, [&](int k) { return bounds_of_part(team[k], operands_b[static_cast<std::size_t>(k)].shapes()); });
+        execution::on_each(team, [&](int k) {
+            const local& on = team[k];
+            ask(k, x[k], y[k], search_part{}, ids_of_parts{ids_on(x, k), ids_on(y, k)});
+            std::optional<decltype(looked_in(on, x[k], std::type_identity<type_on_device<Y>>{}))> looks;
+            for (int step = 1; step < team.size(); ++step) {
+                const int other = (k + step) % team.size();
+                const auto& mine = bounds_a[static_cast<std::size_t>(k)];
+                if (!mine.is_near(bounds_b[static_cast<std::size_t>(other)])) continue;
+                const auto shapes_there = operands_b[static_cast<std::size_t>(other)].shapes();
+                using view_there = std::remove_const_t<decltype(shapes_there)>;
+                using shape_type = typename view_there::shape_type;
+                const auto came = [&] {
+                    const local& there = team[other];
+                    near_shapes<local, view_there> near(shapes_there);
+                    const auto n = static_cast<std::size_t>(near.count(there, mine));
+                    shapes_that_came<local, shape_type> packed{{there, n}, {there, n}}, here{{on, n}, {on, n}};
+                    near.write(there, mine, packed.shapes.data(), packed.ids.data());
+                    for_each_index(there, n, gather_ids{ids_on(y, other), packed.ids.data()});
+                    synchronize(there);
+                    copy_across(there, packed.shapes.data(), n, on, here.shapes.data());
+                    copy_across(there, packed.ids.data(), n, on, here.ids.data());
+                    return here;
+                }();
+                if (came.ids.size() == 0) continue;
+                if (!looks) looks.emplace(looked_in(on, x[k], std::type_identity<type_on_device<Y>>{}));
+                const shapes_view<shape_type, space_of<local>> view(came.shapes.data(), came.ids.size());
+                ask(k, *looks, view, search_part{}, ids_of_parts{ids_on(x, k), came.ids.data()});
+                synchronize(on);
+            }
+        });
+    }
+}
+
+/// What ask(on, pairing) finds on each device, in order if the options say so.
+template <class Found, class Team, class X, class Y, class Options, class Ask>
+auto found_on_each(const Team& team, const X& x, const Y& y, const Options& options, const char* function, const Ask& ask) {
+    using local = typename Team::local_policy;
+    using list = result<Found, space_of<local>>;
+    std::vector<std::vector<list>> found(static_cast<std::size_t>(team.size()));
+    ask_each(team, x, y, function,
+             [&](int k, const auto& a, const auto& b, const search_part& part, const ids_of_parts& ids) {
+                 const local& on = team[k];
+                 list some = ask(on, in_part(pair_up(on, a, b, options_there(options, ids), function), part));
+                 if constexpr (is_divided<X> || is_divided<Y>) {  // ids ascend in each part, so the order stays
+                     execution::buffer_of<local, Found> renamed(on, some.size());
+                     for_each_index(on, some.size(), rename_found<Found>{some.data(), ids, renamed.data()});
+                     synchronize(on);
+                     some = list(std::move(renamed));
+                 }
+                 found[static_cast<std::size_t>(k)].push_back(std::move(some));
+             });
+    return each_of(team, [&](int k) {
+        return joined<local, Found>(team[k], std::move(found[static_cast<std::size_t>(k)]), options.sorted);
+    });
+}
+
+/// Whether a query of several devices takes its arguments and options.
+template <class Team, class X, class Y, class Filter, traversal Traversal>
+consteval bool can_pair_on_devices() {
+    static_assert(Traversal == traversal::both_at_once, "abut: queries of several devices walk both_at_once");
+    return Traversal == traversal::both_at_once &&
+           can_pair<typename Team::local_policy, type_on_device<X>, type_on_device<Y>, Filter>();
+}
+
+template <arithmetic A, class Team, class X, class Y, class Options>
+auto pairs_on_each(const Team& team, const X& a, const Y& b, const Options& options, const char* function) {
+    return found_on_each<index_pair>(team, a, b, options, function,
+                                     [](const auto& on, const auto& pairing) { return pairs_of<A>(on, pairing); });
+}
+
+/// An argument of a self query; nothing of it is divided.
+template <class Team, class X, class Ask>
+void ask_each_itself(const Team& team, const X& x, const char* function, const Ask& ask) {
+    static_assert(!is_divided<X>, "abut: self queries of several devices take a replicated set or index");
+    require_as_many(team, x, function);
+    const auto parts = static_cast<std::uint32_t>(team.size());
+    execution::on_each(team, [&](int k) { ask(k, on_device(x, k), search_part{static_cast<std::uint32_t>(k), parts}); });
+}
+
+}  // namespace detail
+
+/// @defgroup devices Several devices
+///
+/// `abut::cuda_devices` from `<abut/cuda_devices.hpp>` asks a query of several devices at a time. `replicate` puts a set on
+/// each of them, `divide` a part of it on each, and `make_bvh` makes a tree of either on each. `any`, `count`, `pairs`,
+/// `for_each_pair`, `contacts`, `self_pairs` and `count_self_pairs` take these, posed or not, and sets in host memory and
+/// single shapes, which are copied to each device for the call. Answers are those of one device, bit for bit.
+///
+/// What both arguments have on each device is searched in parts: each device walks an equal share of the pairs of nodes, or
+/// of the shapes that look. What is divided is searched where it lies. If both are divided, shapes of b are copied to the
+/// devices whose a-shapes they come near, from one other device at a time.
+///
+/// @par Memory
+/// A result lies in memory of the first device, with the copies that it was made of for a moment. `pairs_by_device` leaves
+/// it where it was found.
+///
+/// @par Errors
+/// Those of @ref queries, and `error` if an argument lies on another number of devices. An error on one device is thrown
+/// when all have ended; if several failed, that of the first of them.
+///
+/// @par Synchronisation
+/// Each call returns when its answer is complete on all devices. Each device is driven by a thread of the host, the first by
+/// the caller's.
+///
+/// @par Example
+/// @snippet devices.cu devices
+///@{
+
+/// Whether any shape of `a` touches any shape of `b`. Each device stops soon after the first pair that it finds.
+template <arithmetic A = filtered, execution::policy_team Team, class X, class Y, class Filter = keep_all,
+          traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
+[[nodiscard]] bool any(const Team& team, const X& a, const Y& b,
+                       const query_options<Filter, Traversal, Schedule>& options = {}) {
+    std::atomic<bool> found{false};
+    if constexpr (detail::can_pair_on_devices<Team, X, Y, Filter, Traversal>()) {
+        detail::ask_each(team, a, b, "abut::any",
+                         [&](int k, const auto& x, const auto& y, const auto& part, const detail::ids_of_parts& ids) {
+                             if (found.load()) return;
+                             const auto both =
+                                 detail::pair_up(team[k], x, y, detail::options_there(options, ids), "abut::any");
+                             if (detail::any_of<A>(team[k], detail::in_part(both, part))) found.store(true);
+                         });
+    }
+    return found.load();
+}
+
+/// Number of pairs that touch and that the filter wants. Stores none of them.
+template <arithmetic A = filtered, execution::policy_team Team, class X, class Y, class Filter = keep_all,
+          traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
+[[nodiscard]] std::uint64_t count(const Team& team, const X& a, const Y& b,
+                                  const query_options<Filter, Traversal, Schedule>& options = {}) {
+    std::atomic<std::uint64_t> sum{0};
+    if constexpr (detail::can_pair_on_devices<Team, X, Y, Filter, Traversal>()) {
+        detail::ask_each(team, a, b, "abut::count",
+                         [&](int k, const auto& x, const auto& y, const auto& part, const detail::ids_of_parts& ids) {
+                             const auto both =
+                                 detail::pair_up(team[k], x, y, detail::options_there(options, ids), "abut::count");
+                             sum += detail::count_of<A>(team[k], detail::in_part(both, part));
+                         });
+    }
+    return sum.load();
+}
+
+/// All pairs that touch, each once, with ids in the whole sets: a `result` of `index_pair`, 8 bytes each, in memory of the
+/// first device; sorted by a, then b, unless the options say otherwise.
+template <arithmetic A = filtered, execution::policy_team Team, class X, class Y, class Filter = keep_all,
+          traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
+[[nodiscard]] auto pairs(const Team& team, const X& a, const Y& b,
+                         const query_options<Filter, Traversal, Schedule>& options = {}) {
+    if constexpr (detail::can_pair_on_devices<Team, X, Y, Filter, Traversal>()) {
+        return detail::on_first(team, detail::pairs_on_each<A>(team, a, b, options, "abut::pairs"), options.sorted);
+    } else {
+        return result<index_pair, space_of<typename Team::local_policy>>();
+    }
+}
+
+/// The same pairs where they were found: a vector of a `result` for each device. Each pair is in one of them, and each is
+/// sorted by a, then b, unless the options say otherwise.
+template <arithmetic A = filtered, execution::policy_team Team, class X, class Y, class Filter = keep_all,
+          traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
+[[nodiscard]] auto pairs_by_device(const Team& team, const X& a, const Y& b,
+                                   const query_options<Filter, Traversal, Schedule>& options = {}) {
+    if constexpr (detail::can_pair_on_devices<Team, X, Y, Filter, Traversal>()) {
+        return detail::pairs_on_each<A>(team, a, b, options, "abut::pairs_by_device");
+    } else {
+        return std::vector<result<index_pair, space_of<typename Team::local_policy>>>();
+    }
+}
+
+/// Calls visitor_of(k)(index_pair) -> visit for every pair that touches, once, on the k-th device, which has found it.
+/// visitor_of is called on the host, once for each device, and may return visitors with memory of that device. Otherwise as
+/// `for_each_pair` of one policy; `visit::stop` ends the visits of that device.
+template <arithmetic A = filtered, execution::policy_team Team, class X, class Y, class VisitorOf, class Filter = keep_all,
+          traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
+void for_each_pair(const Team& team, const X& a, const Y& b, const VisitorOf& visitor_of,
+                   const query_options<Filter, Traversal, Schedule>& options = {}) {
+    using local = typename Team::local_policy;
+    using visitor = std::remove_cvref_t<decltype(visitor_of(0))>;
+    if constexpr (detail::can_pair_on_devices<Team, X, Y, Filter, Traversal>() &&
+                  detail::is_visitor<local, visitor, index_pair>()) {
+        std::vector<visitor> visitors;
+        for (int k = 0; k < team.size(); ++k) visitors.push_back(visitor_of(k));
+        const auto stopped = detail::each_of(team, [&](int k) {
+            execution::buffer_of<local, std::uint32_t> flag(team[k], 1);
+            fill(team[k], flag.data(), 1, std::uint32_t{0});
+            return flag;
+        });
+        detail::ask_each(
+            team, a, b, "abut::for_each_pair",
+            [&](int k, const auto& x, const auto& y, const auto& part, const detail::ids_of_parts& ids) {
+                const local& on = team[k];
+                auto* const flag = const_cast<std::uint32_t*>(stopped[static_cast<std::size_t>(k)].data());
+                std::uint32_t has_stopped = 0;
+                download(on, flag, 1, &has_stopped);
+                if (has_stopped != 0) return;
+                const detail::visitor_of_parts<visitor> visits{visitors[static_cast<std::size_t>(k)], ids, flag};
+                const auto both = detail::pair_up(on, x, y, detail::options_there(options, ids), "abut::for_each_pair");
+                detail::visit_pairs_of<A>(on, detail::in_part(both, part), visits);
+            });
+    }
+}
+
+/// The contacts of all pairs that touch, with ids in the whole sets: a `result` of `contact` in memory of the first device,
+/// in the order of `pairs`. Numbers are those of `contacts` under one policy, bit for bit.
+template <arithmetic A = filtered, execution::policy_team Team, class X, class Y, class Filter = keep_all>
+[[nodiscard]] auto contacts(const Team& team, const X& a, const Y& b, const contact_options<Filter>& options = {}) {
+    using local = typename Team::local_policy;
+    if constexpr (detail::can_touch<local, detail::type_on_device<X>, detail::type_on_device<Y>, Filter>()) {
+        using T = scalar_type_of<typename detail::shape_of_argument<detail::type_on_device<X>>::type>;
+        const query_options<Filter> query{.sorted = options.sorted, .filter = options.filter, .resident = options.resident};
+        auto found =
+            detail::found_on_each<contact<T>>(team, a, b, query, "abut::contacts", [&](const auto& on, const auto& pairing) {
+                return detail::contacts_of<A>(on, pairing, options.discard_sideways);
+            });
+        return detail::on_first(team, std::move(found), options.sorted);
+    } else {
+        return result<contact<float>, space_of<local>>();
+    }
+}
+
+/// The pairs of shapes of one set that touch, as `self_pairs` finds them under one policy: of a set or an index that lies on
+/// each device. A `result` of `index_pair` in memory of the first device.
+template <arithmetic A = filtered, execution::policy_team Team, class X, class Filter = keep_all>
+[[nodiscard]] auto self_pairs(const Team& team, const X& x, const self_options<Filter>& options = {}) {
+    using local = typename Team::local_policy;
+    std::vector<result<index_pair, space_of<local>>> found(static_cast<std::size_t>(team.size()));
+    if constexpr (detail::can_pair_itself<local, detail::type_on_device<X>, Filter>()) {
+        detail::ask_each_itself(team, x, "abut::self_pairs", [&](int k, const auto& there, const detail::search_part& part) {
+            found[static_cast<std::size_t>(k)] = detail::pairs_of<A>(
+                team[k], detail::in_part(detail::pair_up_faces(team[k], there, options, "abut::self_pairs"), part));
+        });
+    }
+    return detail::on_first(team, std::move(found), options.sorted);
+}
+
+/// The number of pairs that self_pairs reports. Stores none of them.
+template <arithmetic A = filtered, execution::policy_team Team, class X, class Filter = keep_all>
+[[nodiscard]] std::uint64_t count_self_pairs(const Team& team, const X& x, const self_options<Filter>& options = {}) {
+    std::atomic<std::uint64_t> sum{0};
+    if constexpr (detail::can_pair_itself<typename Team::local_policy, detail::type_on_device<X>, Filter>()) {
+        detail::ask_each_itself(
+            team, x, "abut::count_self_pairs", [&](int k, const auto& there, const detail::search_part& part) {
+                sum += detail::count_of<A>(
+                    team[k],
+                    detail::in_part(detail::pair_up_faces(team[k], there, options, "abut::count_self_pairs"), part));
+            });
+    }
+    return sum.load();
+}
+
+///@}
+
+}  // namespace abut

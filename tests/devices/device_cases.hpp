@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Queries of several devices answer as one policy does: the same pairs, contacts and neighbours, bit for bit, in the same
+// order, whatever lies where.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <abut/abut.hpp>
+#include <abut/devices/nearest.hpp>
+#include <abut/devices/query.hpp>
+
+#include "support/catch.hpp"
+#include "support/poses.hpp"
+#include "support/surfaces.hpp"
+
+namespace abut::test {
+
+namespace device_cases {
+
+template <scalar T>
+struct scene {
+    std::vector<triangle<T>> triangles;
+    std::vector<sphere<T>> spheres;
+};
+
+/// Small shapes in a cube, half of them on a lattice, where many touch in one point exactly. If `skewed`, three of four lie
+/// in a corner.
+template <scalar T>
+scene<T> random_scene(std::size_t triangles, std::size_t spheres, bool skewed, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<T> place(0, 8), length(T(0.1), T(0.8));
+    std::uniform_int_distribution<int> cell(0, 16);
+    scene<T> all;
+    const auto draw = [&](std::size_t i) {
+        vec3<T> p{place(random), place(random), place(random)};
+        T r = length(random);
+        if (i % 2 == 0) {
+            p = {static_cast<T>(cell(random)) / 2, static_cast<T>(cell(random)) / 2, static_cast<T>(cell(random)) / 2};
+            r = T(0.5);
+        }
+        const T scale = skewed && i % 4 != 0 ? T(0.125) : T(1);
+        return std::pair(scale * p, scale * r);
+    };
+    for (std::size_t i = 0; i < triangles; ++i) {
+        const auto [p, r] = draw(i);
+        all.triangles.push_back({p, {p.x + r, p.y, p.z}, {p.x, p.y + r, p.z + (i % 3 == 0 ? T(0) : r)}});
+    }
+    for (std::size_t i = 0; i < spheres; ++i) {
+        const auto [p, r] = draw(i);
+        all.spheres.push_back({p, r / 2});
+    }
+    return all;
+}
+
+struct keep_some {
+    ABUT_HD bool operator()(std::uint32_t a, std::uint32_t b) const { return (a + 3 * b) % 5 != 0; }
+};
+struct keep_none {
+    ABUT_HD bool operator()(std::uint32_t, std::uint32_t) const { return false; }
+};
+
+/// Counts the pairs and adds up their numbers; stops after `most`.
+struct sum_up {
+    std::uint64_t* sums;
+    std::uint64_t most;
+    ABUT_HD visit operator()(const index_pair& pair) const {
+        execution::atomic_add(sums + 1, std::uint64_t{pair.a} * 1000003u + pair.b);
+        return execution::atomic_add(sums, std::uint64_t{1}) + 1 < most ? visit::proceed : visit::stop;
+    }
+};
+inline std::uint64_t sum_of(const std::vector<index_pair>& pairs) {
+    std::uint64_t sum = 0;
+    for (const index_pair& p : pairs) sum += std::uint64_t{p.a} * 1000003u + p.b;
+    return sum;
+}
+
+/// Number of visits on each device, and the sum of what they add up.
+template <class Team, class A, class B>
+std::pair<std::vector<std::uint64_t>, std::uint64_t> visits(const Team& team, const A& a, const B& b, std::uint64_t most) {
+    using local = typename Team::local_policy;
+    std::vector<execution::buffer_of<local, std::uint64_t>> sums;
+    for (int k = 0; k < team.size(); ++k) {
+        sums.emplace_back(team[k], 2);
+        fill(team[k], sums.back().data(), 2, std::uint64_t{0});
+        synchronize(team[k]);
+    }
+    for_each_pair(team, a, b, [&](int k) { return sum_up{sums[static_cast<std::size_t>(k)].data(), most}; });
+    std::vector<std::uint64_t> counts;
+    std::uint64_t sum = 0;
+    for (const auto& there : sums) {
+        const auto here = there.to_host();
+        counts.push_back(here.data()[0]);
+        sum += here.data()[1];
+    }
+    return {counts, sum};
+}
+
+/// The pairs that arguments on all devices have, against those of whole sets.
+template <class Team, class A, class B>
+void check_pairs(const Team& team, const A& a, const B& b, const std::vector<index_pair>& expected) {
+    CHECK(to_host(pairs(team, a, b)) == expected);
+    CHECK(count(team, a, b) == expected.size());
+    CHECK(any(team, a, b) == !expected.empty());
+}
+
+template <class Team, class A, class B, class WholeA, class WholeB>
+void check_queries(const Team& team, const A& a, const B& b, const WholeA& whole_a, const WholeB& whole_b) {
+    const auto expected = to_host(pairs(serial{}, whole_a, whole_b));
+    CHECK(expected.size() > 100);
+    check_pairs(team, a, b, expected);
+    CHECK(to_host(pairs<exact>(team, a, b)) == expected);
+    CHECK(to_host(contacts(team, a, b)) == to_host(contacts(serial{}, whole_a, whole_b)));
+
+    auto unsorted = to_host(pairs(team, a, b, {.sorted = false}));
+    std::sort(unsorted.begin(), unsorted.end());
+    CHECK(unsorted == expected);
+
+    std::vector<index_pair> by_device;
+    for (const auto& there : pairs_by_device(team, a, b)) {
+        const auto some = to_host(there);
+        CHECK(std::is_sorted(some.begin(), some.end()));
+        by_device.insert(by_device.end(), some.begin(), some.end());
+    }
+    std::sort(by_device.begin(), by_device.end());
+    CHECK(by_device == expected);
+
+    std::vector<index_pair> some;
+    std::copy_if(expected.begin(), expected.end(), std::back_inserter(some),
+                 [](const index_pair& pair) { return keep_some{}(pair.a, pair.b); });
+    CHECK(some.size() < expected.size());
+    CHECK(to_host(pairs(team, a, b, query_options<keep_some>{.filter = {}})) == some);
+    CHECK(count(team, a, b, query_options<keep_some>{.filter = {}}) == some.size());
+    CHECK(!any(team, a, b, query_options<keep_none>{.filter = {}}));
+
+    const auto [counts, sum] = visits(team, a, b, static_cast<std::uint64_t>(-1));
+    std::uint64_t all = 0;
+    for (const std::uint64_t n : counts) all += n;
+    CHECK(all == expected.size());
+    CHECK(sum == sum_of(expected));
+}
+
+template <scalar T, class Team>
+void check_scenes(const Team& team) {
+    for (const bool skewed : {false, true}) {
+        CAPTURE(skewed, team.size());
+        const auto all = random_scene<T>(700, 500, skewed, 20261124);
+        const triangle_soup<T> a(all.triangles);
+        const spheres<T> b(all.spheres);
+        const auto there_a = replicate(team, a);
+        const auto there_b = replicate(team, b);
+        const auto tree_a = make_bvh(team, a);
+        const auto tree_b = make_bvh(team, there_b);
+        const auto part_a = divide(team, a);
+        const auto part_b = divide(team, b);
+        const auto forest_a = make_bvh(team, part_a);
+        const auto forest_b = make_bvh(team, part_b);
+        CHECK((part_a.size() == a.size() && forest_b.size() == b.size() && tree_a.size() == a.size()));
+
+        check_queries(team, tree_a, tree_b, a, b);
+        check_queries(team, forest_a, forest_b, a, b);
+        const auto expected = to_host(pairs(serial{}, a, b));
+        check_pairs(team, there_a, there_b, expected);
+        check_pairs(team, there_a, tree_b, expected);
+        check_pairs(team, forest_a, tree_b, expected);
+        check_pairs(team, tree_a, forest_b, expected);
+        check_pairs(team, part_a, part_b, expected);
+        check_pairs(team, part_a, forest_b, expected);
+        check_pairs(team, forest_a, part_b, expected);
+        check_pairs(team, tree_a, b, expected);
+        check_pairs(team, part_a, b, expected);
+        check_pairs(team, make_bvh(team, divide(team, there_a[0])), there_b, expected);
+
+        draws d(7, 0, 0);
+        auto pose = make_rotation<T>(d);
+        pose.translation = {T(0.25), T(-0.5), T(0.125)};
+        check_pairs(team, posed(tree_a, pose), tree_b, to_host(pairs(serial{}, posed(a, pose), b)));
+        check_pairs(team, posed(forest_a, pose), forest_b, to_host(pairs(serial{}, posed(a, pose), b)));
+        check_pairs(team, forest_a, posed(forest_b, pose), to_host(pairs(serial{}, a, posed(b, pose))));
+        check_pairs(team, tree_a, all.spheres[3], to_host(pairs(serial{}, a, all.spheres[3])));
+
+        CHECK(to_host(self_pairs(team, tree_a)) == to_host(self_pairs(serial{}, a)));
+        CHECK(to_host(self_pairs(team, there_b)) == to_host(self_pairs(serial{}, b)));
+        CHECK(count_self_pairs(team, tree_a) == self_pairs(serial{}, a).size());
+    }
+}
+
+/// Faces that share vertices, of two surfaces, and of one with itself.
+template <scalar T, class Team>
+void check_meshes(const Team& team) {
+    const auto data = ball_surface<T>(3, 1.0), other = ball_surface<T>(2, 1.0);
+    const mesh<T> a(data.vertices, data.faces), b(other.vertices, other.faces);
+    const auto tree_a = make_bvh(team, a);
+    const auto tree_b = make_bvh(team, b);
+    const auto expected = to_host(pairs(serial{}, a, b));
+    CHECK(expected.size() > 100);
+    check_pairs(team, tree_a, tree_b, expected);
+    check_pairs(team, make_bvh(team, divide(team, a)), make_bvh(team, divide(team, b)), expected);
+    CHECK(to_host(self_pairs(team, tree_a)) == to_host(self_pairs(serial{}, a)));
+
+    // Each device gets its share of the work of surfaces that touch everywhere.
+    const auto there = pairs_by_device(team, tree_a, tree_a);
+    std::size_t all = 0, most = 0;
+    for (const auto& some : there) {
+        all += some.size();
+        most = std::max(most, some.size());
+    }
+    CHECK(most * there.size() <= all + all / 2);
+}
+
+/// Nothing, fewer shapes than devices, and what comes from nowhere.
+template <scalar T, class Team>
+void check_small(const Team& team) {
+    const auto all = random_scene<T>(60, 50, false, 5);
+    for (const std::size_t n : {std::size_t{0}, std::size_t{1}, std::size_t{2}, std::size_t{60}}) {
+        for (const std::size_t m : {std::size_t{0}, std::size_t{1}, std::size_t{3}, std::size_t{50}}) {
+            CAPTURE(n, m, team.size());
+            const triangle_soup<T> a(
+                std::vector<triangle<T>>(all.triangles.begin(), all.triangles.begin() + static_cast<std::ptrdiff_t>(n)));
+            const spheres<T> b(
+                std::vector<sphere<T>>(all.spheres.begin(), all.spheres.begin() + static_cast<std::ptrdiff_t>(m)));
+            const auto expected = to_host(pairs(serial{}, a, b));
+            check_pairs(team, make_bvh(team, a), make_bvh(team, b), expected);
+            check_pairs(team, make_bvh(team, divide(team, a)), make_bvh(team, divide(team, b)), expected);
+            check_pairs(team, divide(team, a), replicate(team, b), expected);
+            check_pairs(team, replicate(team, a), replicate(team, b), expected);
+        }
+    }
+}
+
+/// A visitor that stops is asked little more on its device.
+template <scalar T, class Team>
+void check_stops(const Team& team) {
+    const auto data = ball_surface<T>(5, 1.0);
+    const mesh<T> a(data.vertices, data.faces);
+    const auto tree = make_bvh(team, a);
+    const auto [counts, sum] = visits(team, tree, tree, 1);
+    for (const std::uint64_t n : counts) CHECK((n >= 1 && n < 20'000));
+    CHECK(count(team, tree, tree) > 50'000);
+}
+
+template <class Call>
+std::string message_of(const Call& call) {
+    try {
+        call();
+    } catch (const error& e) {
+        return e.what();
+    }
+    return "";
+}
+
+template <scalar T, class Team>
+void check_errors(const Team& team, const Team& larger) {
+    const auto all = random_scene<T>(20, 20, false, 6);
+    const triangle_soup<T> a(all.triangles);
+    const spheres<T> b(all.spheres);
+    const auto tree = make_bvh(team, a);
+    const std::string n = std::to_string(team.size()), m = std::to_string(larger.size());
+    CHECK(message_of([&] { (void)count(larger, tree, b); }) ==
+          "abut::count: the argument lies on " + n + " devices, the call is to " + m);
+    CHECK(message_of([&] { (void)nearest(larger, tree, std::vector<vec3<T>>(3)); }) ==
+          "abut::nearest: the argument lies on " + n + " devices, the call is to " + m);
+    CHECK(message_of([&] { (void)make_bvh(larger, divide(team, a)); }) ==
+          "abut::make_bvh: the argument lies on " + n + " devices, the call is to " + m);
+    rigid<T> mirror;
+    mirror.rotation[0] = -1;
+    CHECK_THROWS_AS((void)pairs(team, posed(tree, mirror), b), invalid_geometry);
+    CHECK_THROWS_AS((void)pairs(team, tree, b, {.start_depth = 99}), error);
+    CHECK(count(team, tree, b) == count(serial{}, a, b));  // nothing is left behind
+}
+
+template <scalar T>
+std::vector<vec3<T>> some_points(std::size_t n, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<T> place(-4, 12);
+    std::uniform_int_distribution<int> cell(0, 16);
+    std::vector<vec3<T>> points;
+    for (std::size_t i = 0; i < n; ++i) {
+        points.push_back({place(random), place(random), place(random)});
+        if (i % 2 == 0) {  // many shapes are as near as the nearest
+            points.back() = {static_cast<T>(cell(random)) / 2, static_cast<T>(cell(random)) / 2,
+                             static_cast<T>(cell(random)) / 2};
+        }
+    }
+    return points;
+}
+
+template <scalar T, class Team>
+void check_nearest(const Team& team) {
+    const auto all = random_scene<T>(900, 1, false, 8);
+    const triangle_soup<T> a(all.triangles);
+    for (const std::size_t n : {std::size_t{0}, std::size_t{1}, std::size_t{70}, std::size_t{9'000}}) {
+        CAPTURE(n, team.size());
+        const auto from = some_points<T>(n, 9);
+        const points<T> set(from);
+        const auto expected = to_host(nearest(serial{}, make_bvh(serial{}, a), from));
+        CHECK(to_host(nearest(team, make_bvh(team, a), from)) == expected);
+        CHECK(to_host(nearest(team, make_bvh(team, a), replicate(team, set))) == expected);
+        CHECK(to_host(nearest(team, make_bvh(team, divide(team, a)), from)) == expected);
+        CHECK(to_host(nearest(team, make_bvh(team, divide(team, a)), set)) == expected);
+    }
+    const auto none = to_host(nearest(team, make_bvh(team, divide(team, triangle_soup<T>())), some_points<T>(5, 1)));
+    CHECK(std::all_of(none.begin(), none.end(), [](const neighbor<T>& x) { return x.id == no_id; }));
+}
+
+/// Of what check_scenes looks at, what takes different ways: few kinds of queries, so that nvcc ends.
+template <scalar T, class Team>
+void check_each_way(const Team& team) {
+    for (const bool skewed : {false, true}) {
+        CAPTURE(skewed, team.size());
+        const auto all = random_scene<T>(7000, 5000, skewed, 20261125);
+        const triangle_soup<T> a(all.triangles);
+        const spheres<T> b(all.spheres);
+        const auto whole_a = make_bvh(serial{}, a);
+        const auto whole_b = make_bvh(serial{}, b);
+        const auto expected = to_host(pairs(serial{}, whole_a, whole_b));
+        check_queries(team, make_bvh(team, a), make_bvh(team, b), whole_a, whole_b);
+        check_pairs(team, make_bvh(team, divide(team, a)), make_bvh(team, divide(team, b)), expected);
+        CHECK(to_host(pairs(team, replicate(team, a), replicate(team, b))) == expected);
+        CHECK(to_host(pairs(team, make_bvh(team, a), b)) == expected);
+        draws d(7, 0, 0);
+        auto pose = make_rotation<T>(d);
+        pose.translation = {T(0.25), T(-0.5), T(0.125)};
+        CHECK(to_host(pairs(team, posed(make_bvh(team, divide(team, a)), pose), make_bvh(team, b))) ==
+              to_host(pairs(serial{}, posed(whole_a, pose), whole_b)));
+        CHECK(to_host(self_pairs(team, make_bvh(team, a))) == to_host(self_pairs(serial{}, whole_a)));
+    }
+}
+
+}  // namespace device_cases
+
+/// All cases of a team.
+template <scalar T, class Team>
+void check_devices(const Team& team) {
+    device_cases::check_scenes<T>(team);
+    device_cases::check_meshes<T>(team);
+    device_cases::check_small<T>(team);
+    device_cases::check_stops<T>(team);
+    device_cases::check_nearest<T>(team);
+}
+
+}  // namespace abut::test

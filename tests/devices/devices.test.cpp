@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "devices/host_team.hpp"
+
+#include "devices/device_cases.hpp"
+
+#include <atomic>
+#include <stdexcept>
+#include <thread>
+
+using namespace abut;
+
+TEST_CASE("devices: several policies answer as one") {
+    const int n = GENERATE(1, 2, 3, 5);
+    test::check_devices<float>(test::host_team<serial>(n));
+}
+
+TEST_CASE("devices: in double, on several threads each") {
+    const test::host_team<openmp> team(3, openmp{.threads = 2});
+    test::device_cases::check_meshes<double>(team);
+    test::device_cases::check_nearest<double>(team);
+}
+
+TEST_CASE("devices: errors") {
+    test::device_cases::check_errors<float>(test::host_team<serial>(2), test::host_team<serial>(3));
+}
+
+TEST_CASE("devices: each is driven by a thread of its own, and what the first of those that fail throws comes out") {
+    const test::host_team<serial> team(4);
+    std::vector<std::thread::id> threads(4);
+    execution::on_each(team, [&](int k) { threads[static_cast<std::size_t>(k)] = std::this_thread::get_id(); });
+    CHECK(threads[0] == std::this_thread::get_id());
+    std::sort(threads.begin(), threads.end());
+    CHECK(std::adjacent_find(threads.begin(), threads.end()) == threads.end());
+
+    std::atomic<int> ran{0};
+    std::string message;
+    try {
+        execution::on_each(team, [&](int k) {
+            ++ran;
+            if (k >= 2) throw std::runtime_error(std::to_string(k));
+        });
+    } catch (const std::runtime_error& e) {
+        message = e.what();
+    }
+    CHECK(message == "2");
+    CHECK(ran == 4);
+}
+
+TEST_CASE("devices: threads of the caller share a team") {
+    const test::host_team<serial> team(3);
+    std::atomic<int> ran{0};
+    std::vector<std::thread> callers;
+    for (int i = 0; i < 4; ++i) {
+        callers.emplace_back([&] {
+            for (int n = 0; n < 200; ++n) execution::on_each(team, [&](int) { ++ran; });
+        });
+    }
+    for (std::thread& t : callers) t.join();
+    CHECK(ran == 4 * 200 * 3);
+}
+
+TEST_CASE("devices: parts of a search have each item once, and as many rows as the others") {
+    for (const std::uint32_t parts : {1u, 2u, 3u, 7u}) {
+        std::vector<int> items(100'000);
+        for (std::uint32_t k = 0; k < parts; ++k) {
+            const detail::search_part part{k, parts};
+            std::size_t mine = 0;
+            for (std::size_t i = 0; i < items.size(); ++i) {
+                items[i] += part.has(i);
+                mine += part.has(i);
+            }
+            CHECK(mine > items.size() / parts * 9 / 10);
+            CHECK(part.first_of(10) == 10 / parts * k + std::min(10 % parts, k));
+            const detail::points_of_part points{k, parts};
+            for (const std::size_t n : {std::size_t{0}, std::size_t{5}, std::size_t{4096}, std::size_t{50'001}}) {
+                const std::size_t some = points.count(n);
+                CHECK((some == 0 || points(some - 1) < n));
+            }
+        }
+        CHECK(std::all_of(items.begin(), items.end(), [](int n) { return n == 1; }));
+        std::size_t all = 0;
+        for (std::size_t k = 0; k < parts; ++k) all += detail::points_of_part{k, parts}.count(50'001);
+        CHECK(all == 50'001);
+    }
+}
