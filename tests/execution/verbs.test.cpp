@@ -432,7 +432,7 @@ std::vector<Key> keys_of(int kind, std::size_t n, int bits) {
 template <class Key>
 void check_spread_keys(const openmp& on, int bits) {
     for (int kind = 0; kind < 5; ++kind) {
-        for (const std::size_t n : {0, 1, 2'000, 5'000, 40'000}) {
+        for (const std::size_t n : {std::size_t{0}, std::size_t{1}, std::size_t{2'000}, std::size_t{5'000}, std::size_t{40'000}}) {
             CAPTURE(sizeof(Key), bits, kind, n);
             const std::vector<Key> from = keys_of<Key>(kind, n, bits);
             std::vector<std::pair<Key, std::uint32_t>> expected;
