@@ -199,7 +199,8 @@ int team_size() {
 
 }  // namespace
 
-TEST_CASE("verbs: a loop of one range takes the calling thread, others a team of one size, of eight for each processor at most") {
+TEST_CASE(
+    "verbs: a loop of one range takes the calling thread, others a team of one size, of eight for each processor at most") {
     for (const int threads : {30'000, 200'000, std::numeric_limits<int>::max()}) {
         const openmp on{.threads = threads};
         CHECK(concurrency(on) >= 1);
@@ -432,7 +433,8 @@ std::vector<Key> keys_of(int kind, std::size_t n, int bits) {
 template <class Key>
 void check_spread_keys(const openmp& on, int bits) {
     for (int kind = 0; kind < 5; ++kind) {
-        for (const std::size_t n : {std::size_t{0}, std::size_t{1}, std::size_t{2'000}, std::size_t{5'000}, std::size_t{40'000}}) {
+        for (const std::size_t n :
+             {std::size_t{0}, std::size_t{1}, std::size_t{2'000}, std::size_t{5'000}, std::size_t{40'000}}) {
             CAPTURE(sizeof(Key), bits, kind, n);
             const std::vector<Key> from = keys_of<Key>(kind, n, bits);
             std::vector<std::pair<Key, std::uint32_t>> expected;

@@ -164,7 +164,7 @@ struct search_part {
     std::uint32_t part = 0, parts = 1;
 
     [[nodiscard]] ABUT_HD bool has(std::uint64_t item) const {
-        return static_cast<std::uint32_t>(item * 0x9e3779b97f4a7c15u >> 32) % parts == part;
+        return parts == 1 || static_cast<std::uint32_t>(item * 0x9e3779b97f4a7c15u >> 32) % parts == part;
     }
     /// The first of n rows that are shared out as they lie.
     [[nodiscard]] std::size_t first_of(std::size_t n) const {

@@ -48,17 +48,22 @@ template <class X>
 class divided {
 public:
     using shape_type = typename detail::shape_of_argument<X>::type;                  ///< what a shape is
+    using scalar_type = scalar_type_of<shape_type>;                                  ///< float or double
     using memory_space = typename X::memory_space;                                   ///< where parts lie
     using ids_type = detail::shared_array<std::uint32_t, typename X::memory_space>;  ///< an array of ids
 
-    /// A part for each device, in their order, and for each of its shapes the id in the whole set, ascending.
-    divided(std::vector<X> parts, std::vector<ids_type> ids) : parts_(std::move(parts)), ids_(std::move(ids)) {
+    /// A part for each device, in their order, and for each of its shapes the id in the whole set, ascending. `bounds` is
+    /// the library's own, of where the parts are.
+    divided(std::vector<X> parts, std::vector<ids_type> ids, std::vector<detail::part_bounds<scalar_type>> bounds = {})
+        : parts_(std::move(parts)), ids_(std::move(ids)), bounds_(std::move(bounds)) {
         for (const ids_type& some : ids_) size_ += some.size();
     }
     /// What lies on the k-th device.
     [[nodiscard]] const X& operator[](int k) const { return parts_[static_cast<std::size_t>(k)]; }
     /// The ids of its shapes in the whole set, in memory of that device.
     [[nodiscard]] const ids_type& ids(int k) const { return ids_[static_cast<std::size_t>(k)]; }
+    /// Where the parts are, if that is known: for the library.
+    [[nodiscard]] const std::vector<detail::part_bounds<scalar_type>>& bounds() const { return bounds_; }
     /// Number of devices.
     [[nodiscard]] int devices() const { return static_cast<int>(parts_.size()); }
     /// Number of shapes of the whole set.
@@ -67,6 +72,7 @@ public:
 private:
     std::vector<X> parts_;
     std::vector<ids_type> ids_;
+    std::vector<detail::part_bounds<scalar_type>> bounds_;
     std::size_t size_ = 0;
 };
 
@@ -123,6 +129,24 @@ inline std::size_t first_of_part(std::size_t n, int k, int parts) {
     return n / p * i + (n % p < i ? n % p : i);
 }
 
+template <shape_view Shapes>
+struct box_along_curve {
+    Shapes shapes;
+    const std::uint32_t* order;
+    ABUT_HD auto operator()(std::size_t i) const { return bounds(shapes[order[i]]); }
+};
+template <scalar T>
+part_bounds<T> bounds_of_boxes(std::size_t shapes, const std::vector<aabb<T>>& boxes) {
+    part_bounds<T> part;
+    part.size = shapes;
+    for (aabb<T>& box : part.groups) box = empty_box<T>();
+    for (std::size_t k = 0; k < boxes.size(); ++k) {
+        part.groups[k] = boxes[k];
+        part.around = merge(part.around, boxes[k]);
+    }
+    return part;
+}
+
 /// Parts of a set along a curve. `source` is the policy in whose memory the set lies, hand_over(p, n, policy, q) copies from
 /// there to a device.
 template <class Team, class Source, shape_view Shapes, class HandOver>
@@ -133,9 +157,22 @@ auto divide_along_curve(const Team& team, const Source& source, const Shapes& al
     using ids_type = typename divided<set>::ids_type;
     const auto order = order_on_curve(source, all);
     synchronize(source);
+    using T = typename Shapes::scalar_type;
+    struct part {
+        set shapes;
+        ids_type ids;
+        part_bounds<T> bounds;
+    };
     auto parts = each_of(team, [&](int k) {
         const std::size_t first = first_of_part(all.size(), k, team.size());
         const std::size_t n = first_of_part(all.size(), k + 1, team.size()) - first;
+        std::vector<aabb<T>> boxes(std::min(part_boxes, n));
+        for (std::size_t g = 0; g < boxes.size(); ++g) {
+            const int group = static_cast<int>(g), groups = static_cast<int>(boxes.size());
+            const std::size_t from = first_of_part(n, group, groups), to = first_of_part(n, group + 1, groups);
+            boxes[g] = reduce(source, to - from, empty_box<T>(), merge_boxes{},
+                              box_along_curve<Shapes>{all, order.data() + first + from});
+        }
         execution::buffer_of<Source, std::uint32_t> mine(source, n);
         execution::buffer_of<Source, shape_type> packed(source, n);
         copy(source, order.data() + first, n, mine.data());
@@ -146,15 +183,17 @@ auto divide_along_curve(const Team& team, const Source& source, const Shapes& al
         execution::buffer_of<local, std::uint32_t> ids(team[k], n);
         hand_over(packed.data(), n, team[k], there.data());
         hand_over(mine.data(), n, team[k], ids.data());
-        return std::pair(set_parts::shapes_of(std::move(there)), ids_type(std::move(ids)));
+        return part{set_parts::shapes_of(std::move(there)), ids_type(std::move(ids)), bounds_of_boxes(n, boxes)};
     });
     std::vector<set> sets;
     std::vector<ids_type> ids;
-    for (auto& [part, part_ids] : parts) {
-        sets.push_back(std::move(part));
-        ids.push_back(std::move(part_ids));
+    std::vector<part_bounds<T>> bounds;
+    for (part& p : parts) {
+        sets.push_back(std::move(p.shapes));
+        ids.push_back(std::move(p.ids));
+        bounds.push_back(p.bounds);
     }
-    return divided<set>(std::move(sets), std::move(ids));
+    return divided<set>(std::move(sets), std::move(ids), std::move(bounds));
 }
 
 }  // namespace detail
@@ -206,7 +245,7 @@ template <execution::policy_team Team, class X, class... Options>
     if constexpr (detail::is_divided<X>) {
         std::vector<typename X::ids_type> ids;
         for (int k = 0; k < team.size(); ++k) ids.push_back(x.ids(k));
-        return divided(std::move(trees), std::move(ids));
+        return divided(std::move(trees), std::move(ids), x.bounds());
     } else {
         return replicated(std::move(trees));
     }

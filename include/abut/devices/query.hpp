@@ -200,6 +200,19 @@ struct gather_ids {
     ABUT_HD void operator()(std::size_t i) const { places[i] = ids[places[i]]; }
 };
 
+/// Where the parts are; of parts under a pose one box each.
+template <class Team, class X, class Operands>
+auto bounds_of_parts(const Team& team, const X& x, const Operands& operands) {
+    using T = typename X::scalar_type;
+    if (!x.bounds().empty()) return x.bounds();
+    return each_of(team, [&](int k) {
+        const auto shapes = operands[static_cast<std::size_t>(k)].shapes();
+        const box_of_shape<std::remove_const_t<decltype(shapes)>> box{shapes};
+        const aabb<T> around = reduce(team[k], shapes.size(), empty_box<T>(), merge_boxes{}, box);
+        return bounds_of_boxes<T>(shapes.size(), {around});
+    });
+}
+
 /// Runs ask(k, a, b, part, ids) on each device, on a thread of its own: once or several times, so that all pairs that may
 /// touch are looked at, each once.
 template <class Team, class X, class Y, class Ask>
@@ -218,10 +231,9 @@ void ask_each(const Team& team, const X& x, const Y& y, const char* function, co
         });
     } else {
         const auto operands_b = each_of(team, [&](int k) { return make_operand(team[k], y[k], function); });
-        const auto bounds_a =
-            each_of(team, [&](int k) { return bounds_of_part(team[k], make_operand(team[k], x[k], function).shapes()); });
-        const auto bounds_b =
-            each_of(team, [&](int k) { return bounds_of_part(team[k], operands_b[static_cast<std::size_t>(k)].shapes()); });
+        const auto operands_a = each_of(team, [&](int k) { return make_operand(team[k], x[k], function); });
+        const auto bounds_a = bounds_of_parts(team, x, operands_a);
+        const auto bounds_b = bounds_of_parts(team, y, operands_b);
         execution::on_each(team, [&](int k) {
             const local& on = team[k];
             ask(k, x[k], y[k], search_part{}, ids_of_parts{ids_on(x, k), ids_on(y, k)});

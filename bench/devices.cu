@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+//
+// usage: bench_devices_cuda [OUT.json]
+//
+// The scene of spheres on several devices: `cuda` alone, cuda_devices of that one device, of that device named twice, which
+// shows what sharing out costs, and of all devices if there are several. All data is resident on the devices before the
+// clock starts. Each figure is the median of 21 runs after two that are not counted, taken with CUDA events of the first
+// device around the whole call. The floor is what has to be read and written at least once.
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <abut/cuda_devices.hpp>
+
+#include "../docs/examples/scene.hpp"
+#include "cuda_table.hpp"
+
+namespace {
+
+using bench::counters;
+using bench::joined;
+using bench::table;
+
+/// The queries of trees, or of what is divided, by one policy or by several.
+template <class Policy, class A, class B>
+void add(const Policy& on, const char* name, const char* policy, const A& a, const B& b, double bytes, table& out) {
+    const auto found = [](std::size_t n) { return counters{{"pairs", static_cast<double>(n)}}; };
+    out.add(joined({"devices", "pairs", name, policy}), bytes, [&] { return found(abut::pairs(on, a, b).size()); });
+    out.add(joined({"devices", "count", name, policy}), bytes, [&] { return found(abut::count(on, a, b)); });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return bench::run("bench_devices_cuda", argc, argv, [](const abut::cuda& on, table& out) {
+        const auto surface = scene::torus<float>();
+        const abut::mesh<float> mesh(surface.vertices, surface.faces);
+        const abut::equal_spheres<float> balls(scene::centers<float>(scene::sphere_count),
+                                               static_cast<float>(scene::radius));
+        const auto there = abut::copy_to(on, mesh);
+        const auto balls_there = abut::copy_to(on, balls);
+        const auto mesh_tree = abut::make_bvh(on, there);
+        const auto ball_tree = abut::make_bvh(on, balls_there);
+        const double bytes = static_cast<double>(mesh_tree.bytes()) + 12.0 * static_cast<double>(balls.size());
+        add(on, "trees", "cuda", mesh_tree, ball_tree, bytes, out);
+        add(on, "look_up", "cuda", mesh_tree, balls_there, bytes, out);
+
+        std::vector<std::vector<int>> lists{{0}, {0, 0}};
+        const abut::cuda_devices all;
+        std::vector<int> numbers;
+        for (int k = 0; k < all.size(); ++k) numbers.push_back(k);
+        if (all.size() > 1) lists.push_back(numbers);
+        const char* const names[] = {"one_device", "one_named_twice", "all_devices"};
+        for (std::size_t k = 0; k < lists.size(); ++k) {
+            const abut::cuda_devices team(lists[k]);
+            const auto copies = abut::make_bvh(team, mesh);
+            add(team, "trees", names[k], copies, abut::make_bvh(team, balls), bytes, out);
+            add(team, "look_up", names[k], copies, abut::replicate(team, balls), bytes, out);
+            add(team, "divided", names[k], abut::make_bvh(team, abut::divide(team, mesh)),
+                abut::make_bvh(team, abut::divide(team, balls)), bytes, out);
+        }
+    });
+}
