@@ -114,7 +114,7 @@ public:
         if (!is_series) return;
         struct sigaction action {};
         action.sa_handler = note;
-        action.sa_flags = SA_RESETHAND;
+        action.sa_flags = static_cast<int>(SA_RESETHAND);
         sigaction(SIGINT, &action, nullptr);
     }
     interruption(const interruption&) = delete;

@@ -35,7 +35,7 @@ void check_batches(const Policy& on) {
     uniform random(20261130);
     const torus<T> shape(12, 8, T(0.7), T(0.3));
     std::vector<mesh<T>> sets;
-    for (const std::size_t n : {0, 1, 2, 3, 40, 120}) {
+    for (const std::size_t n : {0u, 1u, 2u, 3u, 40u, 120u}) {
         std::vector<vec3<T>> vertices;
         std::vector<face> faces;
         for (std::uint32_t i = 0; i < n; ++i) {
@@ -51,7 +51,7 @@ void check_batches(const Policy& on) {
     for (const auto& set : sets) trees.push_back(make_bvh(on, set));
 
     using entry = posed_pair<tree>;
-    for (const std::size_t n : {0, 1, 2, 400}) {
+    for (const std::size_t n : {0u, 1u, 2u, 400u}) {
         std::vector<std::size_t> a, b;
         std::vector<rigid<T>> poses;
         std::vector<entry> list;

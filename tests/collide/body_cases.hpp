@@ -117,10 +117,10 @@ void check_random_bodies(const Policy& on) {
     std::printf("many bodies: seed %llu\n", static_cast<unsigned long long>(seed));
     uniform random(seed);
     std::vector<triangle_soup<T>> sets;
-    for (const std::size_t n : {0, 1, 2, 3, 100}) sets.emplace_back(random_triangles<T>(n, random));
+    for (const std::size_t n : {0u, 1u, 2u, 3u, 100u}) sets.emplace_back(random_triangles<T>(n, random));
     const torus<T> shape(12, 8, T(0.7), T(0.3));
     sets.emplace_back(triangles_of(shape.vertices, shape.faces));
-    for (const std::size_t n : {0, 1, 2, 60}) {
+    for (const std::size_t n : {0u, 1u, 2u, 60u}) {
         for (const double far : {0.5, 2.0, 1e3}) {
             scene_of_bodies<Policy, triangle_soup<T>> scene(on, sets);
             draws d(seed, 94, n);
@@ -236,7 +236,7 @@ void check_body_errors(const Policy& on) {
     rigid<T> bent, shifted;
     bent.rotation[0] = T(1.01);
     shifted.translation = {far, 0, 0};
-    for (const std::size_t kind : {1, 2, 0}) scene.add(kind, {});
+    for (const std::size_t kind : {1u, 2u, 0u}) scene.add(kind, {});
     auto bad = scene;
     bad.add(1, bent);
     check_refused(on, bad.bodies, "body 3: rotation row 0");
@@ -287,7 +287,7 @@ void check_moving_bodies(const Policy& on) {
     std::printf("moving bodies: seed %llu\n", static_cast<unsigned long long>(seed));
     uniform random(seed);
     std::vector<triangle_soup<T>> sets;
-    for (const std::size_t n : {0, 1, 2, 20}) sets.emplace_back(random_triangles<T>(n, random));
+    for (const std::size_t n : {0u, 1u, 2u, 20u}) sets.emplace_back(random_triangles<T>(n, random));
     const torus<T> shape(6, 5, T(0.7), T(0.3));
     sets.emplace_back(triangles_of(shape.vertices, shape.faces));
     scene_of_bodies<Policy, triangle_soup<T>> scene(on, sets);

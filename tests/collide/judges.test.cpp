@@ -75,7 +75,7 @@ TEST_CASE("search: a judge that leaves all open, and an operand of the caller's"
 // What a device does where it has no room for all candidates.
 TEST_CASE("what finds no room is gathered in parts, each once") {
     test::draws d(20270306, 97, 0);
-    for (const std::uint64_t n : {0, 100, 101, 5000}) {
+    for (const std::uint64_t n : {0u, 100u, 101u, 5000u}) {
         std::vector<std::uint64_t> keys, found, all;
         for (std::uint64_t i = 0; i < n; ++i) keys.push_back(i << d.below(2) * 31 | i);
         std::sort(keys.begin(), keys.end());

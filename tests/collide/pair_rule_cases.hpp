@@ -100,7 +100,7 @@ inline std::vector<topology> all_topologies() {
                               beside(tetrahedron, pyramid),
                               beside(fan(6, true), book(4)),
                               beside(sheet(3), strip(5))};
-    for (const std::uint32_t n : {5, 9, 20, 40}) all.push_back(any_faces(n, 30, 20270301 + n));
+    for (const std::uint32_t n : {5u, 9u, 20u, 40u}) all.push_back(any_faces(n, 30, 20270301 + n));
     all.push_back(beside(any_faces(30, 25, 20270302), sheet(4)));
     return all;
 }

@@ -196,7 +196,7 @@ const std::vector<self_case<T>>& self_meshes() {
             draws d(20270118, 190, made.size());
             made.emplace_back(tangled<T>(kind, 1, 12, 40), make_pose<T>(d, 1));
         }
-        for (const std::size_t n : {0, 1, 2, 3}) made.emplace_back(tangled<T>(places::lattice_1, 2, 4, n));
+        for (const std::size_t n : {0u, 1u, 2u, 3u}) made.emplace_back(tangled<T>(places::lattice_1, 2, 4, n));
         made.emplace_back(crumpled_torus<T>(10, 6, 5));
         made.emplace_back(crumpled_torus<T>(10, 6, 0));
         made.emplace_back(folded_sheet<T>(7));

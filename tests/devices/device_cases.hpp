@@ -186,6 +186,10 @@ void check_scenes(const Team& team) {
         check_pairs(team, forest_a, posed(forest_b, pose), to_host(pairs(serial{}, a, posed(b, pose))));
         check_pairs(team, tree_a, all.spheres[3], to_host(pairs(serial{}, a, all.spheres[3])));
 
+        using shared = query_options<keep_all, traversal::both_at_once, schedule::shared_list>;
+        CHECK(to_host(pairs(team, tree_a, tree_b, shared{.start_depth = 99})) == expected);
+        check_pairs(team, posed(part_a, pose), part_b, to_host(pairs(serial{}, posed(a, pose), b)));
+
         CHECK(to_host(self_pairs(team, tree_a)) == to_host(self_pairs(serial{}, a)));
         CHECK(to_host(self_pairs(team, there_b)) == to_host(self_pairs(serial{}, b)));
         CHECK(count_self_pairs(team, tree_a) == self_pairs(serial{}, a).size());
@@ -231,6 +235,7 @@ void check_small(const Team& team) {
             check_pairs(team, make_bvh(team, divide(team, a)), make_bvh(team, divide(team, b)), expected);
             check_pairs(team, divide(team, a), replicate(team, b), expected);
             check_pairs(team, replicate(team, a), replicate(team, b), expected);
+            CHECK(to_host(self_pairs(team, make_bvh(team, b))) == to_host(self_pairs(serial{}, b)));
         }
     }
 }
@@ -243,6 +248,8 @@ void check_stops(const Team& team) {
     const auto tree = make_bvh(team, a);
     const auto [counts, sum] = visits(team, tree, tree, 1);
     for (const std::uint64_t n : counts) CHECK((n >= 1 && n < 20'000));
+    const auto forest = make_bvh(team, divide(team, a));
+    for (const std::uint64_t n : visits(team, forest, forest, 1).first) CHECK((n >= 1 && n < 20'000));
     CHECK(count(team, tree, tree) > 50'000);
 }
 
@@ -305,6 +312,10 @@ void check_nearest(const Team& team) {
         CHECK(to_host(nearest(team, make_bvh(team, a), replicate(team, set))) == expected);
         CHECK(to_host(nearest(team, make_bvh(team, divide(team, a)), from)) == expected);
         CHECK(to_host(nearest(team, make_bvh(team, divide(team, a)), set)) == expected);
+        draws d(8, 0, 0);
+        const auto pose = make_rotation<T>(d);
+        CHECK(to_host(nearest(team, posed(make_bvh(team, divide(team, a)), pose), from)) ==
+              to_host(nearest(serial{}, posed(make_bvh(serial{}, a), pose), from)));
     }
     const auto none = to_host(nearest(team, make_bvh(team, divide(team, triangle_soup<T>())), some_points<T>(5, 1)));
     CHECK(std::all_of(none.begin(), none.end(), [](const neighbor<T>& x) { return x.id == no_id; }));

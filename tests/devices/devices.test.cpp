@@ -70,7 +70,12 @@ TEST_CASE("devices: parts of a search have each item once, and as many rows as t
                 mine += part.has(i);
             }
             CHECK(mine > items.size() / parts * 9 / 10);
-            CHECK(part.first_of(10) == 10 / parts * k + std::min(10 % parts, k));
+            for (const std::size_t n : {std::size_t{0}, std::size_t{3}, std::size_t{10}, std::size_t{1001}}) {
+                const std::size_t first = part.first_of(n), last = detail::search_part{k + 1, parts}.first_of(n);
+                CHECK((first <= last && first % 4 == 0 && last - first <= n / parts + 8));
+                CHECK((k > 0 || first == 0));
+                CHECK((k + 1 < parts || last == n));
+            }
             const detail::points_of_part points{k, parts};
             for (const std::size_t n : {std::size_t{0}, std::size_t{5}, std::size_t{4096}, std::size_t{50'001}}) {
                 const std::size_t some = points.count(n);

@@ -114,7 +114,7 @@ void check_row(std::uint32_t seed) {
 }  // namespace
 
 TEST_CASE("distributed: nearest of parts that are far from each other") {
-    for (const std::uint32_t seed : {31, 32, 33}) check_row<float>(seed);
+    for (const std::uint32_t seed : {31u, 32u, 33u}) check_row<float>(seed);
     check_row<double>(34);
 }
 

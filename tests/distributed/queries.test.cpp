@@ -95,10 +95,10 @@ void check_queries(const distributed<Local>& on, const A& a, const B& b, const W
     std::copy_if(expected.begin(), expected.end(), std::back_inserter(some),
                  [](const global_pair& pair) { return keep_some{}(pair.a, pair.b); });
     CHECK(some.size() < expected.size());
-    CHECK(lists_of_all(on.ranks(), pairs(on, a, b, query_options{.filter = keep_some{}}).to_host()) == some);
-    CHECK(count(on, a, b, query_options{.filter = keep_some{}}) == some.size());
+    CHECK(lists_of_all(on.ranks(), pairs(on, a, b, query_options<keep_some>{.filter = {}}).to_host()) == some);
+    CHECK(count(on, a, b, query_options<keep_some>{.filter = {}}) == some.size());
     const auto none = [](std::uint64_t, std::uint64_t) { return false; };
-    CHECK(!any(on, a, b, query_options{.filter = none}));
+    CHECK(!any(on, a, b, query_options<decltype(none)>{.filter = none}));
 
     std::vector<global_pair> visited(expected.size());
     std::atomic<std::size_t> visits{0};
@@ -245,7 +245,7 @@ TEST_CASE("distributed: a failure of one rank reaches all") {
                     throw std::range_error("a pair too many");
                 return true;
             };
-            const query_options options{.filter = fails};
+            const query_options<decltype(fails)> options{.filter = fails};
             CHECK(on_all(on.ranks(), thrown_by<std::range_error>([&] { (void)pairs(on, a, b, options); }, bad) == expected));
             CHECK(on_all(on.ranks(), thrown_by<std::range_error>([&] { (void)any(on, a, b, options); }, bad) != 3));
         }
@@ -269,7 +269,7 @@ TEST_CASE("distributed: a rank that comes late") {
             if (on.rank() == late && calls++ == 0) std::this_thread::sleep_for(std::chrono::milliseconds(20));
             return true;
         };
-        CHECK(lists_of_all(on.ranks(), pairs(on, a, b, query_options{.filter = dawdles}).to_host()) == expected);
+        CHECK(lists_of_all(on.ranks(), pairs(on, a, b, query_options<decltype(dawdles)>{.filter = dawdles}).to_host()) == expected);
         CHECK(count(on, a, b) == expected.size());
     }
 }

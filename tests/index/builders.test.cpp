@@ -446,7 +446,7 @@ TEST_CASE("curve_order: cells that follow each other are neighbours, and no cell
         CHECK(cells[0][0] % 512 == 0);
         std::size_t jumps = 0, out_of_step = 0;
         for (std::size_t i = 0; i + 1 < cells.size(); ++i) {
-            const auto apart = [&](int k) { return std::abs(int(cells[i][k]) - int(cells[i + 1][k])); };
+            const auto apart = [&](std::size_t k) { return std::abs(int(cells[i][k]) - int(cells[i + 1][k])); };
             jumps += apart(1) + apart(2) + apart(3) != 1;
             out_of_step += cells[i][0] + 1 != cells[i + 1][0];
         }

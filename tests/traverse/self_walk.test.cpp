@@ -68,7 +68,7 @@ TEMPLATE_TEST_CASE("a tree with itself: each pair of leaves whose boxes overlap,
     using T = TestType;
     uniform random(20270114);
     std::size_t pairs = 0;
-    for (const std::size_t n : {2, 3, 4, 5, 6, 7, 8, 9, 17, 60, 700}) {
+    for (const std::size_t n : {2u, 3u, 4u, 5u, 6u, 7u, 8u, 9u, 17u, 60u, 700u}) {
         pairs += check_self_walk(random_triangles<T>(n, random), detail::same_frame{});
     }
     CHECK(pairs > 2'500);

@@ -166,9 +166,10 @@ struct search_part {
     [[nodiscard]] ABUT_HD bool has(std::uint64_t item) const {
         return parts == 1 || static_cast<std::uint32_t>(item * 0x9e3779b97f4a7c15u >> 32) % parts == part;
     }
-    /// The first of n rows that are shared out as they lie.
+    /// The first of n rows that are shared out as they lie, four at a time, so that parts are aligned as the whole is.
     [[nodiscard]] std::size_t first_of(std::size_t n) const {
-        return n / parts * part + std::min<std::size_t>(n % parts, part);
+        if (part == parts) return n;
+        return (n / parts * part + std::min<std::size_t>(n % parts, part)) / 4 * 4;
     }
 };
 
@@ -347,7 +348,9 @@ void descend(const Policy& on, const A& a, const B& b, const Expand& expand,
     if constexpr (!std::same_as<Part, whole_search>) {
         static_assert(Traversal == traversal::both_at_once, "abut: parts of a search are walked both_at_once");
         // Deep enough that the hash deals out pairs of nodes evenly.
-        const int depth = part.parts > 1 ? std::max(options.start_depth, 8) : options.start_depth;
+        const int depth = Schedule == schedule::shared_list || part.parts > 1
+                              ? std::clamp(options.start_depth, 8, most_start_depth)
+                              : options.start_depth;
         const step_of_part mine(begin_below<Expand>(expand, depth), part);
         const execution::scheduled<Schedule> how{options.scheduling};
         run([&](const auto& judge, auto&... sinks) { return for_each_descendant(on, how, mine, judge, sinks...); });

@@ -3,9 +3,12 @@
 
 // Sets and indices on several devices: a copy on each, or a part on each.
 
+#include <algorithm>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -30,7 +33,7 @@ class replicated {
 public:
     using shape_type = typename detail::shape_of_argument<X>::type;  ///< what a shape is
 
-    /// One for each device, in their order. They have to be the same.
+    /// One for each device, in their order: copies of one set, or trees made of such copies by the same calls.
     explicit replicated(std::vector<X> copies) : copies_(std::move(copies)) {}
     /// What lies on the k-th device.
     [[nodiscard]] const X& operator[](int k) const { return copies_[static_cast<std::size_t>(k)]; }
@@ -158,12 +161,10 @@ auto divide_along_curve(const Team& team, const Source& source, const Shapes& al
     const auto order = order_on_curve(source, all);
     synchronize(source);
     using T = typename Shapes::scalar_type;
-    struct part {
-        set shapes;
-        ids_type ids;
-        part_bounds<T> bounds;
-    };
-    auto parts = each_of(team, [&](int k) {
+    std::vector<set> sets;
+    std::vector<ids_type> ids;
+    std::vector<part_bounds<T>> bounds;
+    for (int k = 0; k < team.size(); ++k) {  // one after another: the source has room for one part
         const std::size_t first = first_of_part(all.size(), k, team.size());
         const std::size_t n = first_of_part(all.size(), k + 1, team.size()) - first;
         std::vector<aabb<T>> boxes(std::min(part_boxes, n));
@@ -180,18 +181,12 @@ auto divide_along_curve(const Team& team, const Source& source, const Shapes& al
         for_each_index(source, n, pack_shape<Shapes>{all, mine.data(), packed.data()});
         synchronize(source);
         execution::buffer_of<local, shape_type> there(team[k], n);
-        execution::buffer_of<local, std::uint32_t> ids(team[k], n);
+        execution::buffer_of<local, std::uint32_t> ids_there(team[k], n);
         hand_over(packed.data(), n, team[k], there.data());
-        hand_over(mine.data(), n, team[k], ids.data());
-        return part{set_parts::shapes_of(std::move(there)), ids_type(std::move(ids)), bounds_of_boxes(n, boxes)};
-    });
-    std::vector<set> sets;
-    std::vector<ids_type> ids;
-    std::vector<part_bounds<T>> bounds;
-    for (part& p : parts) {
-        sets.push_back(std::move(p.shapes));
-        ids.push_back(std::move(p.ids));
-        bounds.push_back(p.bounds);
+        hand_over(mine.data(), n, team[k], ids_there.data());
+        sets.push_back(set_parts::shapes_of(std::move(there)));
+        ids.push_back(ids_type(std::move(ids_there)));
+        bounds.push_back(bounds_of_boxes(n, boxes));
     }
     return divided<set>(std::move(sets), std::move(ids), std::move(bounds));
 }
@@ -201,7 +196,8 @@ auto divide_along_curve(const Team& team, const Source& source, const Shapes& al
 /// @addtogroup devices
 ///@{
 
-/// A copy of a set on each device. A set on one of the devices is shared there. Waits for the copies.
+/// A copy of a set on each device. A set on one of the devices is shared there, and goes to the others through host memory.
+/// Waits for the copies.
 template <execution::policy_team Team, shape_set Set>
 [[nodiscard]] auto replicate(const Team& team, const Set& set) {
     return replicated(detail::each_of(team, [&](int k) { return set.copied_to(team[k]); }));
@@ -241,7 +237,13 @@ template <execution::policy_team Team, shape_set Set>
 template <execution::policy_team Team, class X, class... Options>
 [[nodiscard]] auto make_bvh(const Team& team, const X& x, const Options&... options) {
     detail::require_as_many(team, x, "abut::make_bvh");
-    auto trees = detail::each_of(team, [&](int k) { return make_bvh(team[k], detail::on_device(x, k), options...); });
+    auto trees = detail::each_of(team, [&](int k) {
+        if constexpr (shape_set<X>) {
+            return make_bvh(team[k], x.copied_to(team[k]), options...);
+        } else {
+            return make_bvh(team[k], detail::on_device(x, k), options...);
+        }
+    });
     if constexpr (detail::is_divided<X>) {
         std::vector<typename X::ids_type> ids;
         for (int k = 0; k < team.size(); ++k) ids.push_back(x.ids(k));

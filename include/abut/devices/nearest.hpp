@@ -4,6 +4,8 @@
 // nearest on several devices. Where each has all shapes, the points are shared out; where shapes are divided, each device
 // looks for all points in its part, and the first one keeps the nearest.
 
+#include <algorithm>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -185,7 +187,8 @@ auto nearest_on_devices(const Team& team, const X& index, const Points& points, 
 /// For each of `points` the nearest shape of `index`, as `nearest` finds it under one policy, bit for bit: a `result` of
 /// `neighbor` in memory of the first device. `index` is a set or an index that is replicated or divided, posed or not;
 /// `points` is replicated, or a set, a vector or a span in host memory, which is copied to each device. Where the index is
-/// divided, each device looks for all points in its part.
+/// divided, each device looks for all points in its part, and holds 32 bytes (double: 48) for each of them, the first device
+/// twice.
 /// @ingroup devices
 template <execution::policy_team Team, class X, class Points>
 [[nodiscard]] auto nearest(const Team& team, const X& index, const Points& points) {

@@ -174,8 +174,10 @@ auto filter_there(const Filter& filter, const ids_of_parts& ids) {
 template <class Filter, traversal Traversal, schedule Schedule>
 auto options_there(const query_options<Filter, Traversal, Schedule>& options, const ids_of_parts& ids) {
     auto filter = filter_there(options.filter, ids);
+    schedule_options scheduling = options.scheduling;
+    scheduling.report = nullptr;  // of one query, and here are several
     return query_options<decltype(filter), Traversal, Schedule>{
-        options.sorted, filter, options.most_pairs, options.resident, options.start_depth, options.scheduling, nullptr};
+        options.sorted, filter, options.most_pairs, options.resident, options.start_depth, scheduling, nullptr};
 }
 ///@}
 
@@ -200,6 +202,10 @@ struct gather_ids {
     ABUT_HD void operator()(std::size_t i) const { places[i] = ids[places[i]]; }
 };
 
+struct never_over {
+    bool operator()(int) const { return false; }
+};
+
 /// Where the parts are; of parts under a pose one box each.
 template <class Team, class X, class Operands>
 auto bounds_of_parts(const Team& team, const X& x, const Operands& operands) {
@@ -214,9 +220,9 @@ auto bounds_of_parts(const Team& team, const X& x, const Operands& operands) {
 }
 
 /// Runs ask(k, a, b, part, ids) on each device, on a thread of its own: once or several times, so that all pairs that may
-/// touch are looked at, each once.
-template <class Team, class X, class Y, class Ask>
-void ask_each(const Team& team, const X& x, const Y& y, const char* function, const Ask& ask) {
+/// touch are looked at, each once; no more of them once is_over(k).
+template <class Team, class X, class Y, class Ask, class IsOver = never_over>
+void ask_each(const Team& team, const X& x, const Y& y, const char* function, const Ask& ask, const IsOver& is_over = {}) {
     using local = typename Team::local_policy;
     require_as_many(team, x, function);
     require_as_many(team, y, function);
@@ -238,7 +244,7 @@ void ask_each(const Team& team, const X& x, const Y& y, const char* function, co
             const local& on = team[k];
             ask(k, x[k], y[k], search_part{}, ids_of_parts{ids_on(x, k), ids_on(y, k)});
             std::optional<decltype(looked_in(on, x[k], std::type_identity<type_on_device<Y>>{}))> looks;
-            for (int step = 1; step < team.size(); ++step) {
+            for (int step = 1; step < team.size() && !is_over(k); ++step) {
                 const int other = (k + step) % team.size();
                 const auto& mine = bounds_a[static_cast<std::size_t>(k)];
                 if (!mine.is_near(bounds_b[static_cast<std::size_t>(other)])) continue;
@@ -322,6 +328,9 @@ void ask_each_itself(const Team& team, const X& x, const char* function, const A
 /// `for_each_pair`, `contacts`, `self_pairs` and `count_self_pairs` take these, posed or not, and sets in host memory and
 /// single shapes, which are copied to each device for the call. Answers are those of one device, bit for bit.
 ///
+/// A filter runs on every device: what it points to has to be readable on each of them. `schedule_options::report` is left
+/// as it is.
+///
 /// What both arguments have on each device is searched in parts: each device walks an equal share of the pairs of nodes, or
 /// of the shapes that look. What is divided is searched where it lies. If both are divided, shapes of b are copied to the
 /// devices whose a-shapes they come near, from one other device at a time.
@@ -342,20 +351,21 @@ void ask_each_itself(const Team& team, const X& x, const char* function, const A
 /// @snippet devices.cu devices
 ///@{
 
-/// Whether any shape of `a` touches any shape of `b`. Each device stops soon after the first pair that it finds.
+/// Whether any shape of `a` touches any shape of `b`. Each device stops soon after the first pair that it finds, and does
+/// not ask others for their shapes once one is found.
 template <arithmetic A = filtered, execution::policy_team Team, class X, class Y, class Filter = keep_all,
           traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
 [[nodiscard]] bool any(const Team& team, const X& a, const Y& b,
                        const query_options<Filter, Traversal, Schedule>& options = {}) {
     std::atomic<bool> found{false};
     if constexpr (detail::can_pair_on_devices<Team, X, Y, Filter, Traversal>()) {
-        detail::ask_each(team, a, b, "abut::any",
-                         [&](int k, const auto& x, const auto& y, const auto& part, const detail::ids_of_parts& ids) {
-                             if (found.load()) return;
-                             const auto both =
-                                 detail::pair_up(team[k], x, y, detail::options_there(options, ids), "abut::any");
-                             if (detail::any_of<A>(team[k], detail::in_part(both, part))) found.store(true);
-                         });
+        detail::ask_each(
+            team, a, b, "abut::any",
+            [&](int k, const auto& x, const auto& y, const auto& part, const detail::ids_of_parts& ids) {
+                const auto both = detail::pair_up(team[k], x, y, detail::options_there(options, ids), "abut::any");
+                if (detail::any_of<A>(team[k], detail::in_part(both, part))) found.store(true);
+            },
+            [&](int) { return found.load(); });
     }
     return found.load();
 }
@@ -421,17 +431,19 @@ void for_each_pair(const Team& team, const X& a, const Y& b, const VisitorOf& vi
             fill(team[k], flag.data(), 1, std::uint32_t{0});
             return flag;
         });
+        const auto flag = [&](int k) { return const_cast<std::uint32_t*>(stopped[static_cast<std::size_t>(k)].data()); };
         detail::ask_each(
             team, a, b, "abut::for_each_pair",
             [&](int k, const auto& x, const auto& y, const auto& part, const detail::ids_of_parts& ids) {
                 const local& on = team[k];
-                auto* const flag = const_cast<std::uint32_t*>(stopped[static_cast<std::size_t>(k)].data());
-                std::uint32_t has_stopped = 0;
-                download(on, flag, 1, &has_stopped);
-                if (has_stopped != 0) return;
-                const detail::visitor_of_parts<visitor> visits{visitors[static_cast<std::size_t>(k)], ids, flag};
+                const detail::visitor_of_parts<visitor> visits{visitors[static_cast<std::size_t>(k)], ids, flag(k)};
                 const auto both = detail::pair_up(on, x, y, detail::options_there(options, ids), "abut::for_each_pair");
                 detail::visit_pairs_of<A>(on, detail::in_part(both, part), visits);
+            },
+            [&](int k) {
+                std::uint32_t has_stopped = 0;
+                download(team[k], flag(k), 1, &has_stopped);
+                return has_stopped != 0;
             });
     }
 }

@@ -102,7 +102,8 @@ template <class Local, class Goes, class Parcels>
 void exchange_parcels(const distributed<Local>& on, attempts& attempt, parcel_room<typename Parcels::sizes>& room,
                       const Goes& goes, Parcels& parcels) {
     using sizes = typename Parcels::sizes;
-    auto& [to, from, open] = room;
+    auto &to = room.to, &from = room.from;
+    auto& open = room.open;
     constexpr int arrays = int{std::tuple_size_v<sizes>};
     const own_communicator& ranks = on.ranks();
     const int me = ranks.rank(), all = ranks.size();

@@ -257,7 +257,9 @@ auto ask_all_parts(const distributed<Local>& on, const X& x, const Y& y, const c
         part_b = bounds_of_part(local, std::get<3>(*here).shapes());
     });
     attempt.settle(ranks);
-    const auto& [a, b, operand_a, operand_b] = *here;
+    const auto& a = std::get<0>(*here);
+    const auto& b = std::get<1>(*here);
+    const auto& operand_b = std::get<3>(*here);
     parts_a.gather(ranks, part_a);
     parts_b.gather(ranks, part_b);
     const std::uint64_t first_a = parts_a.first_of(ranks.rank());

@@ -88,7 +88,7 @@ public:
     current_device(const current_device&) = delete;
     current_device& operator=(const current_device&) = delete;
     ~current_device() {
-        if (changed_) cudaSetDevice(before_);
+        if (changed_ && cudaSetDevice(before_) != cudaSuccess) cudaGetLastError();  // not for the next call to report
     }
 
 private:

@@ -5,7 +5,9 @@
 
 #include <cstddef>
 #include <memory>
+#include <mutex>
 #include <numeric>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -74,7 +76,10 @@ private:
         for (const execution::cuda& a : policies_) {
             for (const execution::cuda& b : policies_) let_read(a.device, b.device);
         }
-        threads_ = std::make_shared<execution::crew>(size());
+        // A thread stays with its device, so that no other device is touched for want of one that is current.
+        threads_ = std::make_shared<execution::crew>(size(), [all = policies_](int k) {
+            if (cudaSetDevice(all[static_cast<std::size_t>(k)].device) != cudaSuccess) cudaGetLastError();
+        });
     }
     static std::vector<int> all_numbers() {
         int count = 0;
@@ -91,18 +96,24 @@ private:
         }
         return policies;
     }
-    /// Memory of the library's pool on a device becomes readable from another one, where the two are peers.
+    /// Memory of the library's pool on a device becomes readable from another one, where the two are peers: once in a
+    /// process, and for as long as it runs.
     static void let_read(int owner, int reader) {
-        if (owner == reader) return;
+        static std::mutex mutex;
+        static std::set<std::pair<int, int>> done;
+        const std::scoped_lock lock(mutex);
+        if (owner == reader || done.contains({owner, reader})) return;
         int can = 0;
         execution::detail::check(cudaDeviceCanAccessPeer(&can, reader, owner), "cudaDeviceCanAccessPeer");
-        if (can == 0) return;
-        cudaMemAccessDesc access{};
-        access.location.type = cudaMemLocationTypeDevice;
-        access.location.id = reader;
-        access.flags = cudaMemAccessFlagsProtReadWrite;
-        execution::detail::check(cudaMemPoolSetAccess(execution::detail::pool_of(owner), &access, 1),
-                                 "cudaMemPoolSetAccess");
+        if (can != 0) {
+            cudaMemAccessDesc access{};
+            access.location.type = cudaMemLocationTypeDevice;
+            access.location.id = reader;
+            access.flags = cudaMemAccessFlagsProtReadWrite;
+            const auto pool = execution::detail::pool_of(owner);
+            execution::detail::check(cudaMemPoolSetAccess(pool, &access, 1), "cudaMemPoolSetAccess");
+        }
+        done.insert({owner, reader});
     }
 
     std::vector<execution::cuda> policies_;

@@ -23,13 +23,19 @@ namespace abut::execution {
 /// since what a thread of the host holds for a device, as page-locked memory, takes long to make.
 class crew {
 public:
-    /// For a team of `size` policies. Throws std::system_error if a thread cannot be started.
-    explicit crew(int size) {
-        for (int k = 1; k < size; ++k) workers_.push_back(std::make_unique<worker>());
+    /// For a team of `size` policies. Each thread but the caller's begins with begin(k). Throws std::system_error if a
+    /// thread cannot be started.
+    explicit crew(
+        int size, const std::function<void(int)>& begin = [](int) {}) {
+        for (int k = 1; k < size; ++k) {
+            workers_.push_back(std::make_unique<worker>());
+            workers_.back()->give([begin, k] { begin(k); });
+        }
     }
 
     /// Runs f(k) for each policy, the first on the caller's thread. Returns when all have ended. If some throw, what the
-    /// first of them threw is thrown on. May be called from several threads at a time; their work is done in turn.
+    /// first of them threw is thrown on. May be called from several threads at a time: each of the crew's threads does their
+    /// work in turn. Not to be called from within f.
     template <class F>
     void run(const F& f) {
         std::vector<std::exception_ptr> failed(workers_.size() + 1);

@@ -47,7 +47,8 @@ public:
         if constexpr (std::same_as<space_of<Policy>, Space>) {
             if (size() == 0 || device() == device_of(to)) return *this;
         }
-        shared_array<T, space_of<Policy>> copy(to, to_host());
+        const std::vector<T> values = to_host();
+        shared_array<T, space_of<Policy>> copy(to, values);
         synchronize(to);
         return copy;
     }
