@@ -4,12 +4,15 @@
 // Parts of sets that lie on several ranks or devices: where each is, and which shapes of one come near another.
 
 #include <algorithm>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
 #include <vector>
 
 #include <abut/collide/operand.hpp>
+#include <abut/collide/options.hpp>
+#include <abut/execution/atomic.hpp>
 #include <abut/execution/buffer.hpp>
 #include <abut/index/curve_order.hpp>
 #include <abut/index/lbvh.hpp>
@@ -17,6 +20,7 @@
 #include <abut/shape/equal_elements.hpp>
 #include <abut/shape/posed.hpp>
 #include <abut/shape/view.hpp>
+#include <abut/traverse/traversal.hpp>
 
 namespace abut::detail {
 
@@ -245,5 +249,42 @@ auto looked_in(const Policy& on, const X& a, std::type_identity<Y>) {
         return a;
     }
 }
+
+// What a user gives, called with ids of the whole sets: ids(a, b) names the pair of two shapes that are here.
+
+template <class Filter, class Ids>
+struct filter_by_whole_ids {
+    Filter filter;
+    Ids ids;
+    ABUT_CALLS_ANY
+    ABUT_HD bool operator()(std::uint32_t a, std::uint32_t b) const {
+        const auto pair = ids(a, b);
+        return filter(pair.a, pair.b);
+    }
+};
+/// The filter that keeps all stays as it is.
+template <class Filter, class Ids>
+auto filter_here(const Filter& filter, const Ids& ids) {
+    if constexpr (std::same_as<Filter, keep_all>) {
+        return filter;
+    } else {
+        return filter_by_whole_ids<Filter, Ids>{filter, ids};
+    }
+}
+
+/// The visitor of pairs here, and of none after it has said to stop.
+template <class Visitor, class Ids>
+struct visitor_by_whole_ids {
+    Visitor visitor;
+    Ids ids;
+    std::uint32_t* stopped;
+    ABUT_CALLS_ANY
+    ABUT_HD visit operator()(const index_pair& pair) const {
+        if (execution::atomic_load(stopped) != 0) return visit::stop;
+        const visit next = visitor(ids(pair.a, pair.b));
+        if (next == visit::stop) execution::atomic_store(stopped, 1);
+        return next;
+    }
+};
 
 }  // namespace abut::detail

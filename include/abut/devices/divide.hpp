@@ -206,7 +206,7 @@ template <execution::policy_team Team, shape_set Set>
 /// Divides a set: each device gets as many shapes as the others, or one more, and they are neighbours along a Hilbert curve.
 /// Parts hold shapes as they are, in the order of their ids: faces become triangles. Of each the id in `set` is kept, 4
 /// bytes. `set` lies on one of the devices or in host memory; there it may be larger than a device's memory. That side needs
-/// besides it 8 bytes a shape, and room for all parts. Waits for all. Throws error if the set lies on a device that is none
+/// besides it 16 bytes a shape, and room for one part. Waits for all. Throws error if the set lies on a device that is none
 /// of these.
 template <execution::policy_team Team, shape_set Set>
 [[nodiscard]] auto divide(const Team& team, const Set& set) {

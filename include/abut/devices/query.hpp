@@ -5,8 +5,6 @@
 // searched in parts (search_part in collide/pairing.hpp); what is divided is searched where it lies. Where both arguments
 // are divided, shapes of b come to the devices whose a-shapes they come near.
 
-#include <algorithm>
-#include <array>
 #include <atomic>
 #include <concepts>
 #include <cstddef>
@@ -21,7 +19,6 @@
 #include <abut/collide/query.hpp>
 #include <abut/collide/self_pairs.hpp>
 #include <abut/devices/divide.hpp>
-#include <abut/execution/atomic.hpp>
 #include <abut/execution/team.hpp>
 
 namespace abut {
@@ -34,32 +31,6 @@ struct ids_of_parts {
 
     [[nodiscard]] ABUT_HD index_pair operator()(std::uint32_t i, std::uint32_t j) const {
         return {a == nullptr ? i : a[i], b == nullptr ? j : b[j]};
-    }
-};
-
-template <class Filter>
-struct filter_of_parts {
-    Filter filter;
-    ids_of_parts ids;
-    ABUT_CALLS_ANY
-    ABUT_HD bool operator()(std::uint32_t a, std::uint32_t b) const {
-        const index_pair pair = ids(a, b);
-        return filter(pair.a, pair.b);
-    }
-};
-
-/// The visitor of pairs there, and of none after it has said to stop.
-template <class Visitor>
-struct visitor_of_parts {
-    Visitor visitor;
-    ids_of_parts ids;
-    std::uint32_t* stopped;
-    ABUT_CALLS_ANY
-    ABUT_HD visit operator()(const index_pair& pair) const {
-        if (execution::atomic_load(stopped) != 0) return visit::stop;
-        const visit next = visitor(ids(pair.a, pair.b));
-        if (next == visit::stop) execution::atomic_store(stopped, 1);
-        return next;
     }
 };
 
@@ -162,24 +133,14 @@ auto on_first(const Team& team, std::vector<result<Found, space_of<typename Team
 }
 
 /// The same options for the shapes of a device.
-///@{
-template <class Filter>
-auto filter_there(const Filter& filter, const ids_of_parts& ids) {
-    if constexpr (std::same_as<Filter, keep_all>) {
-        return filter;
-    } else {
-        return filter_of_parts<Filter>{filter, ids};
-    }
-}
 template <class Filter, traversal Traversal, schedule Schedule>
 auto options_there(const query_options<Filter, Traversal, Schedule>& options, const ids_of_parts& ids) {
-    auto filter = filter_there(options.filter, ids);
+    auto filter = filter_here(options.filter, ids);
     schedule_options scheduling = options.scheduling;
     scheduling.report = nullptr;  // of one query, and here are several
     return query_options<decltype(filter), Traversal, Schedule>{
         options.sorted, filter, options.most_pairs, options.resident, options.start_depth, scheduling, nullptr};
 }
-///@}
 
 template <class X>
 const std::uint32_t* ids_on(const X& x, int k) {
@@ -436,7 +397,8 @@ void for_each_pair(const Team& team, const X& a, const Y& b, const VisitorOf& vi
             team, a, b, "abut::for_each_pair",
             [&](int k, const auto& x, const auto& y, const auto& part, const detail::ids_of_parts& ids) {
                 const local& on = team[k];
-                const detail::visitor_of_parts<visitor> visits{visitors[static_cast<std::size_t>(k)], ids, flag(k)};
+                const detail::visitor_by_whole_ids<visitor, detail::ids_of_parts> visits{
+                    visitors[static_cast<std::size_t>(k)], ids, flag(k)};
                 const auto both = detail::pair_up(on, x, y, detail::options_there(options, ids), "abut::for_each_pair");
                 detail::visit_pairs_of<A>(on, detail::in_part(both, part), visits);
             },

@@ -65,32 +65,6 @@ struct global_ids {
     }
 };
 
-template <class Filter>
-struct global_filter {
-    Filter filter;
-    global_ids ids;
-    ABUT_CALLS_ANY
-    ABUT_HD bool operator()(std::uint32_t a, std::uint32_t b) const {
-        const global_pair pair = ids(a, b);
-        return filter(pair.a, pair.b);
-    }
-};
-
-/// The visitor of pairs here, and of none after it has said to stop.
-template <class Visitor>
-struct global_visitor {
-    Visitor visitor;
-    global_ids ids;
-    std::uint32_t* stopped;
-    ABUT_CALLS_ANY
-    ABUT_HD visit operator()(index_pair pair) const {
-        if (execution::atomic_load(stopped) != 0) return visit::stop;
-        const visit next = visitor(ids(pair.a, pair.b));
-        if (next == visit::stop) execution::atomic_store(stopped, 1);
-        return next;
-    }
-};
-
 /// What was found here, with the ids of the whole sets.
 ///@{
 ABUT_HD inline global_pair named_globally(const index_pair& pair, const global_ids& ids) { return ids(pair.a, pair.b); }
@@ -182,14 +156,6 @@ private:
 };
 
 /// The same options of the local query, with a filter of local ids.
-template <class Filter>
-auto filter_here(const Filter& filter, const global_ids& ids) {
-    if constexpr (std::same_as<Filter, keep_all>) {
-        return filter;
-    } else {
-        return global_filter<Filter>{filter, ids};
-    }
-}
 template <class Filter, traversal Traversal, schedule Schedule>
 auto options_here(const query_options<Filter, Traversal, Schedule>& options, const global_ids& ids) {
     auto filter = filter_here(options.filter, ids);
@@ -323,7 +289,7 @@ void visit_all_parts(const distributed<Local>& on, const X& a, const Y& b, const
         std::uint32_t has_stopped = 0;
         download(local, stopped.data(), 1, &has_stopped);
         if (has_stopped != 0) return;
-        for_each_pair<A>(local, x, y, global_visitor<Visitor>{visitor, ids, stopped.data()}, options_here(options, ids));
+        for_each_pair<A>(local, x, y, visitor_by_whole_ids<Visitor, global_ids>{visitor, ids, stopped.data()}, options_here(options, ids));
     });
 }
 
