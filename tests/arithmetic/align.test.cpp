@@ -24,7 +24,7 @@ bool is_taken_apart(T x) {
 
 TEMPLATE_TEST_CASE("take_apart: odd mantissa times a power of two, for every finite number", "", float, double) {
     using namespace test::construction;
-    test::draws d(test::seed, 1, sizeof(TestType));
+    test::draws d(test::sample_seed, 1, sizeof(TestType));
     std::uint64_t wrong = 0;
     for (std::uint64_t i = 0; i < test::sample_count(); ++i) wrong += !is_taken_apart(any_finite<TestType>(d));
     CHECK(wrong == 0);

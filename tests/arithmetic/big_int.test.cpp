@@ -81,7 +81,7 @@ TEST_CASE("big integers: sums, products and shifts") {
     const std::uint64_t n = sample_count();
     std::array<std::uint64_t, 8> wrong{};
     for (std::uint64_t i = 0; i < n; ++i) {
-        draws d(seed, 90, i);
+        draws d(sample_seed, 90, i);
         both a = draw(d, 20), b = draw(d, 20);
         if (i % 8 == 0) b = {-a.truth, -a.made};
         if (i % 8 == 1) b = {a.truth + 1, a.made + big_int(1)};
@@ -114,7 +114,7 @@ TEST_CASE("big integers: the values that a number is made of") {
 }
 
 TEST_CASE("big integers: copied and moved, short and long") {
-    draws d(seed, 91, 0);
+    draws d(sample_seed, 91, 0);
     std::vector<both> kept;
     for (int i = 0; i < 40; ++i) kept.push_back(draw(d, 20));
     for (int i = 0; i < 20000; ++i) {
@@ -257,7 +257,7 @@ TEST_CASE("roots in the unit interval: known ones") {
 TEST_CASE("roots in the unit interval: close to others, drawn") {
     const std::uint64_t n = sample_count() / 25 + 1;
     for (std::uint64_t i = 0; i < n; ++i) {
-        draws d(seed, 92, i);
+        draws d(sample_seed, 92, i);
         CAPTURE(i);
         std::vector<dyadic> roots;
         const int k = d.below(3) == 0 ? 48 : d.below(62) + 1;
@@ -277,7 +277,7 @@ TEST_CASE("roots in the unit interval: close to others, drawn") {
 TEST_CASE("roots in the unit interval: irrational ones") {
     // x^2 = m / 2^60: floor(2^40 x) is an integer square root.
     for (std::uint64_t i = 0; i < sample_count() / 5; ++i) {
-        draws d(seed, 93, i);
+        draws d(sample_seed, 93, i);
         const auto m = static_cast<std::int64_t>(d.bits() >> (4 + d.below(40)));
         const roots_in_unit_interval found(polynomial(std::vector<big_int>{-big_int(m), big_int(), big_int(1, 60)}));
         REQUIRE(found.end() - found.begin() == 1);

@@ -59,7 +59,7 @@ bool same_bits(T a, T b) {
 
 TEMPLATE_TEST_CASE("directed sums: the nearest representable number on the right side", "", float, double) {
     using T = TestType;
-    test::draws d(test::seed, 3, sizeof(T));
+    test::draws d(test::sample_seed, 3, sizeof(T));
     std::uint64_t wrong = 0, exact_sums = 0, overflows = 0;
     for (std::uint64_t i = 0; i < test::sample_count(); ++i) {
         T a, b;
@@ -78,7 +78,7 @@ TEMPLATE_TEST_CASE("directed sums: the same bits in each floating-point mode", "
     using T = TestType;
     constexpr T normal = std::numeric_limits<T>::min(), tiny = std::numeric_limits<T>::denorm_min();
     constexpr int digits = std::numeric_limits<T>::digits;
-    test::draws d(test::seed, 5, sizeof(T));
+    test::draws d(test::sample_seed, 5, sizeof(T));
     const auto near_zero = [&d] {
         const T steps = std::ldexp(T(d.below(9) - 4), d.below(digits + 2)) + T(d.below(5) - 2);
         return T(d.below(5) - 2) * normal + steps * tiny;
@@ -159,7 +159,7 @@ TEMPLATE_TEST_CASE("directed sums: edges of the range", "", float, double) {
 
 TEMPLATE_TEST_CASE("two_sum, two_diff, two_prod: value and error make the exact result", "", float, double) {
     using T = TestType;
-    test::draws d(test::seed, 4, sizeof(T));
+    test::draws d(test::sample_seed, 4, sizeof(T));
     std::uint64_t wrong = 0;
     for (std::uint64_t i = 0; i < test::sample_count(); ++i) {
         T a, b;

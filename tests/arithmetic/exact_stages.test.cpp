@@ -60,7 +60,7 @@ struct outcome {
 };
 template <class Predicate, class N, int V>
 outcome compare(int digits, std::uint64_t count) {
-    test::draws d(test::seed, 900 + static_cast<std::uint64_t>(digits), V);
+    test::draws d(test::sample_seed, 900 + static_cast<std::uint64_t>(digits), V);
     outcome sum;
     for (std::uint64_t k = 0; k < count; ++k) {
         std::int64_t whole[V];
@@ -96,7 +96,7 @@ void check_words() {
 
 TEMPLATE_TEST_CASE("short_integers: the numbers, where they are integers of 59 digits of one unit", "", float, double) {
     using T = TestType;
-    test::draws d(test::seed, 901, sizeof(T));
+    test::draws d(test::sample_seed, 901, sizeof(T));
     std::uint64_t wrong = 0, whole = 0;
     for (std::uint64_t k = 0; k < test::sample_count(); ++k) {
         T v[6];

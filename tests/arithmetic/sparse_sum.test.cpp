@@ -36,7 +36,7 @@ vec3<N> three(const N& x) {
 
 template <scalar T>
 void check_signs() {
-    test::draws d(test::seed, 2, sizeof(T));
+    test::draws d(test::sample_seed, 2, sizeof(T));
     std::uint64_t wrong = 0, zero = 0;
     for (std::uint64_t i = 0; i < test::sample_count(); ++i) {
         T x[6];

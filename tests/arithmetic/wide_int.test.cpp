@@ -36,10 +36,10 @@ wide_int<N> random_wide(test::draws& d, int spare) {
 
 template <int N, int M>
 void check_against_integers() {
-    test::draws d(test::seed, static_cast<std::uint64_t>(100 * N + M), 0);
+    test::draws d(test::sample_seed, static_cast<std::uint64_t>(100 * N + M), 0);
     const std::uint64_t count = test::sample_count();
     std::printf("wide_int<%d> and <%d>: %llu pairs, seed %llu\n", N, M, static_cast<unsigned long long>(count),
-                static_cast<unsigned long long>(test::seed));
+                static_cast<unsigned long long>(test::sample_seed));
     std::uint64_t wrong = 0;
     for (std::uint64_t i = 0; i < count; ++i) {
         const auto a = random_wide<N>(d, 2), b = random_wide<N>(d, 2);
@@ -55,7 +55,7 @@ void check_against_integers() {
 
 template <int N>
 void check_shifted() {
-    test::draws d(test::seed, 7, N);
+    test::draws d(test::sample_seed, 7, N);
     for (int shift = 0; shift < 64 * N; ++shift) {
         // The largest magnitude that fits beside the shift, a one, and a random number between, of either sign.
         const int room = 64 * N - 1 - shift < 62 ? 64 * N - 1 - shift : 62;

@@ -23,7 +23,7 @@ struct extreme_sets {
 
     extreme_sets(const extreme_step& step, std::uint32_t n) {
         for (std::uint32_t i = 0; i < n; ++i) {
-            const pair p = make_extreme_pair<Kind, T>(seed, step, i);
+            const pair p = make_extreme_pair<Kind, T>(sample_seed, step, i);
             a.push_back(p.a);
             b.push_back(p.b);
         }

@@ -19,7 +19,7 @@ void check_extreme_pairs(std::uint64_t many) {
             CAPTURE(Kind::name, name_of(what), step.value);
             std::size_t wrong_filtered = 0, wrong_exact = 0, wrong_last = 0;
             for (std::uint64_t i = 0; i < n; ++i) {
-                const auto p = test::make_extreme_pair<Kind, T>(test::seed, step, i);
+                const auto p = test::make_extreme_pair<Kind, T>(test::sample_seed, step, i);
                 const bool touches = test::touch_in_truth<T>(p);
                 wrong_filtered += intersects<filtered>(p.a, p.b) != touches;
                 wrong_exact += intersects<exact>(p.b, p.a) != touches;

@@ -24,7 +24,7 @@ TEMPLATE_TEST_CASE("first_impact: a coordinate stays within its bounds until a t
     constexpr double largest = static_cast<double>(largest_finite<T>);
     std::size_t narrower = 0;
     for (std::uint64_t i = 0; i < sample_count(); ++i) {
-        draws d(seed, sizeof(T), i);
+        draws d(sample_seed, sizeof(T), i);
         const int family = d.below(6);
         double from = d.uniform(-1, 1), to = d.uniform(-1, 1);
         if (family == 1) to = from + d.uniform(-1, 1) * d.power_of_ten(-16, -4);

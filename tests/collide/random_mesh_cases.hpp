@@ -255,18 +255,18 @@ void check_random_runs(const Ask& ask) {
     const std::uint64_t runs = sample_count() / 10;  // 500, or what ABUT_SAMPLES says
     std::uint64_t meet = 0, hits = 0;
     for (std::uint64_t k = 0; k < runs; ++k) {
-        draws d(seed, stream, k);
+        draws d(sample_seed, stream, k);
         const random_scene<T> s = make_scene<T>(d);
         const pair_list expected = exact_pairs(s.a, s.b);
         std::string told;
         const bool right = ask(d, s, expected, told);
         meet += expected.empty() ? 0 : 1;
         hits += expected.size();
-        CAPTURE(seed, stream, k, told, s.a.shape.size(), s.b.shape.size(), expected.size());
+        CAPTURE(sample_seed, stream, k, told, s.a.shape.size(), s.b.shape.size(), expected.size());
         CHECK(right);
     }
     std::printf("random runs: seed %llu, stream %llu, %llu of %llu pairs of meshes meet, %llu hits\n",
-                static_cast<unsigned long long>(seed), static_cast<unsigned long long>(stream),
+                static_cast<unsigned long long>(sample_seed), static_cast<unsigned long long>(stream),
                 static_cast<unsigned long long>(meet), static_cast<unsigned long long>(runs),
                 static_cast<unsigned long long>(hits));
     CHECK(meet * 3 > runs);

@@ -23,7 +23,9 @@ struct sphere_triangle_pairs {
     test::family family;
     static constexpr int families = test::family_count;
     [[nodiscard]] std::string name() const { return test::name_of(family); }
-    ABUT_HD test::sphere_triangle_pair<T> make(std::size_t i) const { return test::make_pair<T>(test::seed, family, i); }
+    ABUT_HD test::sphere_triangle_pair<T> make(std::size_t i) const {
+        return test::make_pair<T>(test::sample_seed, family, i);
+    }
 };
 
 template <class T>
@@ -31,7 +33,9 @@ struct triangle_pairs {
     test::triangle_family family;
     static constexpr int families = test::triangle_family_count;
     [[nodiscard]] std::string name() const { return test::name_of(family); }
-    ABUT_HD test::triangle_pair<T> make(std::size_t i) const { return test::make_triangle_pair<T>(test::seed, family, i); }
+    ABUT_HD test::triangle_pair<T> make(std::size_t i) const {
+        return test::make_triangle_pair<T>(test::sample_seed, family, i);
+    }
 };
 
 /// A box, a plane or a capsule, and a triangle.
@@ -41,7 +45,7 @@ struct shape_pairs {
     static constexpr int families = test::shape_family_count;
     [[nodiscard]] std::string name() const { return "other shape, " + std::to_string(static_cast<int>(family)); }
     ABUT_HD test::shape_triangle_pair<Shape, T> make(std::size_t i) const {
-        return test::make_shape_pair<Shape, T>(test::seed, family, i);
+        return test::make_shape_pair<Shape, T>(test::sample_seed, family, i);
     }
 };
 
@@ -49,7 +53,7 @@ template <class T, class Kind>
 struct extreme_pairs {
     test::extreme_step step;
     [[nodiscard]] std::string name() const { return test::name_of(step.what) + (' ' + std::to_string(step.value)); }
-    ABUT_HD auto make(std::size_t i) const { return test::make_extreme_pair<Kind, T>(test::seed, step, i); }
+    ABUT_HD auto make(std::size_t i) const { return test::make_extreme_pair<Kind, T>(test::sample_seed, step, i); }
 };
 
 /// Every stage's answer for pair first + i of a family, in one byte, and a checksum of the generated input: a device may

@@ -415,7 +415,7 @@ TEMPLATE_TEST_CASE("motion oracle: contacts at fixed times", "", float, double) 
         for (const motion_family f : exact_families) {
             CAPTURE(name_of(kind), name_of(f));
             for (std::uint64_t i = 0; i < n; ++i) {
-                const motion<TestType> m = make_motion<TestType>(seed, kind, f, i);
+                const motion<TestType> m = make_motion<TestType>(sample_seed, kind, f, i);
                 const motion_answer a = oracle::first_contact(kind, m);
                 const auto p = corners_in_integers(m);
                 int first = 0;
@@ -504,7 +504,7 @@ TEST_CASE("motion oracle: no contact where boxes show that there is none") {
     for (const motion_kind kind : both_kinds) {
         for (const motion_family f : {motion_family::lattice_2, motion_family::lattice_4, motion_family::lattice_16}) {
             for (std::uint64_t i = 0; i < n; ++i) {
-                motion<double> m = make_motion<double>(seed + 1, kind, f, i);
+                motion<double> m = make_motion<double>(sample_seed + 1, kind, f, i);
                 if (i % 4 == 0) {  // always in one plane, which may move
                     for (int v = 0; v < 4; ++v) {
                         m.t0[v].z = m.t0[v].x + m.t0[0].z - m.t0[0].x;
@@ -585,11 +585,11 @@ TEMPLATE_TEST_CASE("motion oracle: symmetries", "", float, double) {
         for (int k = 0; k < motion_family_count; ++k) {
             const auto f = static_cast<motion_family>(k);
             for (std::uint64_t i = 0; i < count_of<TestType>(f, n); ++i) {
-                const motion<TestType> m = make_motion<TestType>(seed + 2, kind, f, i);
+                const motion<TestType> m = make_motion<TestType>(sample_seed + 2, kind, f, i);
                 const motion_answer a = oracle::first_contact(kind, m);
                 ++pairs;
                 if (a.hit) ++hits;
-                draws d(seed, 77, i);
+                draws d(sample_seed, 77, i);
                 for (int order = 0; order < 3; ++order) {
                     const motion_answer b = oracle::first_contact(kind, construction::motions::shuffled(d, kind, m));
                     expect(a == b, "another order", kind, f, i);
@@ -634,7 +634,7 @@ TEMPLATE_TEST_CASE("motion families: contacts and none in each", "", float, doub
             const std::uint64_t count = count_of<TestType>(f, n);
             std::uint64_t hits = 0;
             for (std::uint64_t i = 0; i < count; ++i) {
-                const motion<TestType> m = make_motion<TestType>(seed, kind, f, i);
+                const motion<TestType> m = make_motion<TestType>(sample_seed, kind, f, i);
                 if (oracle::first_contact(kind, m).hit) ++hits;
             }
             CAPTURE(name_of(kind), name_of(f), hits, count);

@@ -159,7 +159,7 @@ struct exact_tally {
 
 template <scalar T>
 void examine_exact(motion_kind kind, motion_family f, std::uint64_t i, exact_tally& tally) {
-    const motion<T> m = pair_of<T>(seed, kind, f, i);
+    const motion<T> m = pair_of<T>(sample_seed, kind, f, i);
     const motion_answer truth = oracle::first_contact(kind, m);
     const double time = expected_time(truth);
     ++tally.pairs;
@@ -170,7 +170,7 @@ void examine_exact(motion_kind kind, motion_family f, std::uint64_t i, exact_tal
     const auto p = points_of(m);
     tally.features.add((edges ? detail::exact_time<true>(p) : detail::exact_time<false>(p)) != truth.cell, i);
 
-    draws d(seed, 78, i);
+    draws d(sample_seed, 78, i);
     const motion<T> other = construction::motions::shuffled(d, kind, m);
     tally.order.add(time_of<filtered>(kind, other) != time || time_of<exact>(kind, other) != time, i);
 
@@ -275,7 +275,7 @@ TEMPLATE_TEST_CASE("time of impact: the filter never contradicts the oracle", ""
     for_each_family<TestType, filter_tally>(
         sample_count() / 20,
         [](motion_kind kind, motion_family f, std::uint64_t i, filter_tally& tally) {
-            const motion<TestType> m = pair_of<TestType>(seed + 3, kind, f, i);
+            const motion<TestType> m = pair_of<TestType>(sample_seed + 3, kind, f, i);
             const motion_answer truth = oracle::first_contact(kind, m);
             ++tally.pairs;
             kind == motion_kind::edge_edge ? examine_filter<true>(m, truth, i, tally)
@@ -315,7 +315,7 @@ TEMPLATE_TEST_CASE("time of impact: in every mode of the processor", "", float, 
     for_each_family<TestType, mode_tally>(
         sample_count() / 100 + 1,
         [](motion_kind kind, motion_family f, std::uint64_t i, mode_tally& tally) {
-            const motion<TestType> m = pair_of<TestType>(seed + 4, kind, f, i);
+            const motion<TestType> m = pair_of<TestType>(sample_seed + 4, kind, f, i);
             const motion_answer truth = oracle::first_contact(kind, m);
             const double time = expected_time(truth);
             ++tally.pairs;
@@ -461,7 +461,7 @@ struct conservative_tally {
 
 template <scalar T>
 void examine_conservative(motion_kind kind, motion_family f, std::uint64_t i, conservative_tally& tally) {
-    const motion<T> m = pair_of<T>(seed + 5, kind, f, i);
+    const motion<T> m = pair_of<T>(sample_seed + 5, kind, f, i);
     const motion_answer truth = oracle::first_contact(kind, m);
     const seen_motion<T> seen(kind, m);
     ++tally.pairs;
@@ -554,8 +554,8 @@ TEMPLATE_TEST_CASE("time of impact: a pair at rest is reported within the separa
               motion_family::at_rest_coplanar, motion_family::offset_1e6}) {
             rest_tally t;
             for (std::uint64_t i = 0; i < sample_count() / 5; ++i) {
-                motion<TestType> m = pair_of<TestType>(seed + 6, kind, f, i);
-                draws d(seed + 6, 79, i);
+                motion<TestType> m = pair_of<TestType>(sample_seed + 6, kind, f, i);
+                draws d(sample_seed + 6, 79, i);
                 const vec3<TestType> by{static_cast<TestType>(d.below(9)), static_cast<TestType>(d.below(9)), 0};
                 const bool moves = f != motion_family::random && f != motion_family::offset_1e6 && i % 2 == 0;
                 for (int k = 0; k < 4; ++k) m.t1[k] = moves ? m.t0[k] + by : m.t0[k];  // together

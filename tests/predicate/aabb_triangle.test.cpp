@@ -49,7 +49,8 @@ TEMPLATE_TEST_CASE("box and triangle: a point where it has no extent", "", float
     std::uint64_t wrong = 0, hits = 0, pairs = 0;
     for (int i = 0; i < test::shape_family_count; ++i) {
         for (std::uint64_t k = 0; k < test::sample_count() / 10; ++k) {
-            const auto [box, t] = test::make_shape_pair<aabb, TestType>(test::seed, static_cast<test::shape_family>(i), k);
+            const auto [box, t] =
+                test::make_shape_pair<aabb, TestType>(test::sample_seed, static_cast<test::shape_family>(i), k);
             const vec3<TestType> point = k % 2 == 0 ? box.upper : t.a;
             const bool truth = test::oracle::intersects(sphere<TestType>{point, 0}, t);
             const aabb<TestType> as_box{point, point};

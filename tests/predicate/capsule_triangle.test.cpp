@@ -7,17 +7,17 @@ namespace {
 
 using namespace abut;
 
-constexpr triangle<float> floor{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
+constexpr triangle<float> ground{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
 constexpr triangle<double> wide{{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}};
 
 // Constant expressions, in either order: an end over the face, the axis beside a corner and an edge, and across the face.
-static_assert(intersects(capsule<float>{{{0, 0, 5}, {0, 7, 9}}, 5}, floor));
-static_assert(!intersects(floor, capsule<float>{{{0, 0, 5}, {0, 7, 9}}, 0x1.3ffffep2f}));
-static_assert(intersects<exact>(floor, capsule<float>{{{-7, 5, 3}, {7, 5, 3}}, 5}));
-static_assert(!intersects<exact>(floor, capsule<float>{{{-7, 5, 3}, {7, 5, 3}}, 0x1.3ffffep2f}));
+static_assert(intersects(capsule<float>{{{0, 0, 5}, {0, 7, 9}}, 5}, ground));
+static_assert(!intersects(ground, capsule<float>{{{0, 0, 5}, {0, 7, 9}}, 0x1.3ffffep2f}));
+static_assert(intersects<exact>(ground, capsule<float>{{{-7, 5, 3}, {7, 5, 3}}, 5}));
+static_assert(!intersects<exact>(ground, capsule<float>{{{-7, 5, 3}, {7, 5, 3}}, 0x1.3ffffep2f}));
 static_assert(intersects(wide, capsule<double>{{{0, -13, 9}, {0, -13, -9}}, 4}));
 static_assert(!intersects(wide, capsule<double>{{{0, -13, 9}, {0, -13, -9}}, 0x1.fffffffffffffp1}));
-static_assert(intersects<fast>(capsule<float>{{{0, 0, -9}, {0, 0, 9}}, 0}, floor));
+static_assert(intersects<fast>(capsule<float>{{{0, 0, -9}, {0, 0, 9}}, 0}, ground));
 // Without radius, without length, without both.
 static_assert(intersects(capsule<double>{{{0, 0, -9}, {0, 0, 9}}, 0}, wide));
 static_assert(!intersects(capsule<double>{{{0, 0, 0x1p-52}, {0, 0, 9}}, 0}, wide));
@@ -48,7 +48,8 @@ TEMPLATE_TEST_CASE("capsule and triangle: a sphere where it has no length, a seg
     std::uint64_t wrong = 0, hits = 0, pairs = 0;
     for (int i = 0; i < test::shape_family_count; ++i) {
         for (std::uint64_t k = 0; k < test::sample_count() / 10; ++k) {
-            const auto [s, t] = test::make_shape_pair<capsule, TestType>(test::seed, static_cast<test::shape_family>(i), k);
+            const auto [s, t] =
+                test::make_shape_pair<capsule, TestType>(test::sample_seed, static_cast<test::shape_family>(i), k);
             const sphere<TestType> ball{s.axis.b, s.radius};
             const bool as_ball = test::oracle::intersects(ball, t), as_segment = test::oracle::intersects(s.axis, t);
             const capsule<TestType> short_one{{s.axis.b, s.axis.b}, s.radius}, thin_one{s.axis, TestType(0)};

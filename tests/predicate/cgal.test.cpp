@@ -40,7 +40,7 @@ TEMPLATE_TEST_CASE("sphere and triangle: agrees with CGAL's exact squared distan
     for (const family f : {family::random, family::tangent_vertex, family::tangent_edge, family::tangent_face,
                            family::needle_1e6, family::radius_zero, family::lattice_4, family::tenths_16, family::largest}) {
         for (std::uint64_t k = 0; k < count; ++k) {
-            const auto [s, t] = test::make_pair<TestType>(test::seed, f, k);
+            const auto [s, t] = test::make_pair<TestType>(test::sample_seed, f, k);
             const kernel::Triangle_3 face = theirs(t);
             if (face.is_degenerate()) continue;
             const kernel::FT r(static_cast<double>(s.radius));
@@ -51,7 +51,7 @@ TEMPLATE_TEST_CASE("sphere and triangle: agrees with CGAL's exact squared distan
         }
     }
     std::printf("CGAL, spheres: %llu pairs, seed %llu, %llu hits\n", static_cast<unsigned long long>(compared),
-                static_cast<unsigned long long>(test::seed), static_cast<unsigned long long>(hits));
+                static_cast<unsigned long long>(test::sample_seed), static_cast<unsigned long long>(hits));
     CHECK(compared > 8 * count);
     CHECK(hits * 5 > compared);
     CHECK(hits * 5 < 4 * compared);
@@ -65,7 +65,7 @@ TEMPLATE_TEST_CASE("triangle and triangle: agrees with CGAL's exact kernel", "",
     const std::uint64_t count = std::min<std::uint64_t>(test::sample_count() / 4, 20000);
     for (int i = 0; i < test::triangle_family_count; ++i) {
         for (std::uint64_t k = 0; k < count; ++k) {
-            const auto [s, t] = test::make_triangle_pair<TestType>(test::seed, static_cast<triangle_family>(i), k);
+            const auto [s, t] = test::make_triangle_pair<TestType>(test::sample_seed, static_cast<triangle_family>(i), k);
             const kernel::Triangle_3 their_s = theirs(s), their_t = theirs(t);
             if (their_s.is_degenerate() || their_t.is_degenerate()) {
                 ++degenerate;
@@ -79,7 +79,7 @@ TEMPLATE_TEST_CASE("triangle and triangle: agrees with CGAL's exact kernel", "",
     }
     std::printf("CGAL, triangles: %llu pairs of %d families, seed %llu, %llu hits; %llu degenerate ones left out\n",
                 static_cast<unsigned long long>(compared), test::triangle_family_count,
-                static_cast<unsigned long long>(test::seed), static_cast<unsigned long long>(hits),
+                static_cast<unsigned long long>(test::sample_seed), static_cast<unsigned long long>(hits),
                 static_cast<unsigned long long>(degenerate));
     CHECK(compared > 33 * count);
     CHECK(hits * 5 > compared);

@@ -35,7 +35,7 @@ TEST_CASE("sphere and triangle: agrees with FCL in general position") {
     constexpr double margin = 1e-9;
     std::uint64_t compared = 0, near_tangency = 0, hits = 0, wrong = 0;
     for (std::uint64_t k = 0; k < test::sample_count(); ++k) {
-        const auto [s, t] = test::make_pair<double>(test::seed, test::family::random, k);
+        const auto [s, t] = test::make_pair<double>(test::sample_seed, test::family::random, k);
         const auto smaller = sphere<double>{s.center, s.radius - margin},
                    larger = sphere<double>{s.center, s.radius + margin};
         if (s.radius < margin || intersects<exact>(smaller, t) != intersects<exact>(larger, t)) {
@@ -51,7 +51,7 @@ TEST_CASE("sphere and triangle: agrees with FCL in general position") {
         wrong += intersects(s, t) != theirs || intersects<exact>(s, t) != theirs || intersects<fast>(s, t) != theirs;
     }
     std::printf("FCL, spheres: %llu pairs, seed %llu, %llu hits; %llu within %g of tangency left out\n",
-                static_cast<unsigned long long>(compared), static_cast<unsigned long long>(test::seed),
+                static_cast<unsigned long long>(compared), static_cast<unsigned long long>(test::sample_seed),
                 static_cast<unsigned long long>(hits), static_cast<unsigned long long>(near_tangency), margin);
     CHECK(compared + near_tangency >= test::sample_count());
     CHECK(near_tangency * 100 < compared);
@@ -73,7 +73,7 @@ TEMPLATE_TEST_CASE("triangle and triangle: agrees with FCL where it is right", "
     const std::uint64_t count = std::min<std::uint64_t>(test::sample_count(), 100000);
     for (const F f : families) {
         for (std::uint64_t k = 0; k < count; ++k) {
-            const auto [s, t] = test::make_triangle_pair<TestType>(test::seed, f, k);
+            const auto [s, t] = test::make_triangle_pair<TestType>(test::sample_seed, f, k);
             const fcl::Vector3d a[] = {point(s.a), point(s.b), point(s.c)}, b[] = {point(t.a), point(t.b), point(t.c)};
             if ((a[1] - a[0]).cross(a[2] - a[0]).isZero(0) || (b[1] - b[0]).cross(b[2] - b[0]).isZero(0)) {
                 ++degenerate;
@@ -86,8 +86,9 @@ TEMPLATE_TEST_CASE("triangle and triangle: agrees with FCL where it is right", "
         }
     }
     std::printf("FCL, triangles: %llu pairs of %zu families, seed %llu, %llu hits; %llu degenerate ones left out\n",
-                static_cast<unsigned long long>(compared), families.size(), static_cast<unsigned long long>(test::seed),
-                static_cast<unsigned long long>(hits), static_cast<unsigned long long>(degenerate));
+                static_cast<unsigned long long>(compared), families.size(),
+                static_cast<unsigned long long>(test::sample_seed), static_cast<unsigned long long>(hits),
+                static_cast<unsigned long long>(degenerate));
     CHECK(compared * 10 > 9 * count * families.size());
     CHECK(hits * 5 > compared);
     CHECK(hits * 5 < 4 * compared);

@@ -127,7 +127,7 @@ TEST_CASE("hulls: all pairs of triangles on the corners of a cube") {
 TEST_CASE("hulls: up to 6 points against up to 4 on small lattices, in every number type") {
     std::uint64_t pairs = 0, hits = 0, wrong = 0;
     for (std::uint64_t k = 0; k < 4 * test::sample_count(); ++k) {
-        test::draws d(test::seed, 8, k);
+        test::draws d(test::sample_seed, 8, k);
         const int size = 1 + d.below(6);
         const points a = draw_points(d, 6, size), b = draw_points(d, 4, size);
         const bool truth = meet_by_force(a, b);
@@ -147,7 +147,7 @@ TEST_CASE("hulls: up to 6 points against up to 4 on small lattices, in every num
         wrong += test::hulls_meet({moved.begin(), middle}, {middle, moved.end()}) != truth;
     }
     std::printf("hulls: %llu pairs of point sets, seed %llu, %llu hits\n", static_cast<unsigned long long>(pairs),
-                static_cast<unsigned long long>(test::seed), static_cast<unsigned long long>(hits));
+                static_cast<unsigned long long>(test::sample_seed), static_cast<unsigned long long>(hits));
     CHECK(hits * 10 > pairs);
     CHECK(hits * 10 < 9 * pairs);
     CHECK(wrong == 0);
@@ -156,7 +156,7 @@ TEST_CASE("hulls: up to 6 points against up to 4 on small lattices, in every num
 TEST_CASE("hulls: boxes against triangles") {
     std::uint64_t pairs = 0, hits = 0, wrong = 0;
     for (std::uint64_t k = 0; k < test::sample_count() / 4; ++k) {
-        test::draws d(test::seed, 9, k);
+        test::draws d(test::sample_seed, 9, k);
         points ends = draw_points(d, 1, 4), t(3);
         ends.push_back(ends[0] + small_point{d.below(3), d.below(3), d.below(3)});
         points box;
@@ -169,7 +169,7 @@ TEST_CASE("hulls: boxes against triangles") {
         wrong += test::hulls_meet(widened(t), widened(box)) != truth;
     }
     std::printf("hulls: %llu boxes and triangles, seed %llu, %llu hits\n", static_cast<unsigned long long>(pairs),
-                static_cast<unsigned long long>(test::seed), static_cast<unsigned long long>(hits));
+                static_cast<unsigned long long>(test::sample_seed), static_cast<unsigned long long>(hits));
     CHECK(hits * 10 > pairs);
     CHECK(hits * 10 < 9 * pairs);
     CHECK(wrong == 0);

@@ -66,7 +66,7 @@ void check_families(const char* title, const char* file_name, const Examine& exa
     test::check_every_family<family>(
         title, file_name, false, test::family_count, [](family f) { return test::name_of(f); },
         [&]<class T>(T, family f, std::uint64_t k, test::stage_tally& sum) {
-            examine(test::make_pair<T>(test::seed, f, k), k, sum);
+            examine(test::make_pair<T>(test::sample_seed, f, k), k, sum);
         });
 }
 
@@ -76,7 +76,7 @@ void check_triangle_families(const char* title, const char* file_name, bool late
     test::check_every_family<triangle_family>(
         title, file_name, late, test::triangle_family_count, [](triangle_family f) { return test::name_of(f); },
         [&]<class T>(T, triangle_family f, std::uint64_t k, test::stage_tally& sum) {
-            examine(test::make_triangle_pair<T>(test::seed, f, k), k, sum);
+            examine(test::make_triangle_pair<T>(test::sample_seed, f, k), k, sum);
         });
 }
 
@@ -114,8 +114,8 @@ TEST_CASE("point and triangle: a sphere of radius 0") {
     std::uint64_t wrong = 0;
     for (const family f : {family::radius_zero, family::lattice_4, family::degenerate, family::all_bit_patterns}) {
         for (std::uint64_t k = 0; k < test::sample_count(); ++k) {
-            const auto p = test::make_pair<double>(test::seed, f, k);
-            const auto q = test::make_pair<float>(test::seed, f, k);
+            const auto p = test::make_pair<double>(test::sample_seed, f, k);
+            const auto q = test::make_pair<float>(test::sample_seed, f, k);
             wrong += intersects(p.s.center, p.t) != intersects(sphere<double>{p.s.center, 0}, p.t);
             wrong += intersects(q.s.center, q.t) != intersects(sphere<float>{q.s.center, 0}, q.t);
         }
@@ -156,7 +156,7 @@ TEMPLATE_TEST_CASE("answers do not depend on the order of corners, on powers of 
     CHECK(rc::check("sphere and triangle", [] {
         const auto f = static_cast<family>(*rc::gen::inRange(0, test::family_count));
         const auto index = *rc::gen::arbitrary<std::uint32_t>();
-        const auto [s, t] = test::make_pair<T>(test::seed, f, index);
+        const auto [s, t] = test::make_pair<T>(test::sample_seed, f, index);
         const bool answer = intersects(s, t);
 
         const triangle<T> orders[] = {{t.a, t.c, t.b}, {t.b, t.a, t.c}, {t.b, t.c, t.a}, {t.c, t.a, t.b}, {t.c, t.b, t.a}};
@@ -185,8 +185,8 @@ TEST_CASE("the filter is right in every rounding mode") {
         for (const family f :
              {family::random, family::tangent_face, family::needle_1e6, family::radius_tiny, family::lattice_4}) {
             for (std::uint64_t k = 0; k < test::sample_count() / 10; ++k) {
-                const auto p = test::make_pair<float>(test::seed, f, k);
-                const auto q = test::make_pair<double>(test::seed, f, k);
+                const auto p = test::make_pair<float>(test::sample_seed, f, k);
+                const auto q = test::make_pair<double>(test::sample_seed, f, k);
                 std::fesetround(mode);
                 const bool single = intersects(p.s, p.t), twice = intersects(q.s, q.t);
                 std::fesetround(FE_TONEAREST);
@@ -203,8 +203,8 @@ TEST_CASE("the filter is right where denormals are flushed to zero") {
     std::uint64_t wrong = 0;
     for (int i = 0; i < test::family_count; ++i) {
         for (std::uint64_t k = 0; k < test::sample_count() / 10; ++k) {
-            const auto p = test::make_pair<float>(test::seed, static_cast<family>(i), k);
-            const auto q = test::make_pair<double>(test::seed, static_cast<family>(i), k);
+            const auto p = test::make_pair<float>(test::sample_seed, static_cast<family>(i), k);
+            const auto q = test::make_pair<double>(test::sample_seed, static_cast<family>(i), k);
             const unsigned before = _mm_getcsr();
             _mm_setcsr(before | 0x8040);
             const bool single = intersects(p.s, p.t), twice = intersects(q.s, q.t);

@@ -90,7 +90,7 @@ void check_every_stage(const char* title, const char* file_name, const touching_
     check_every_family<shape_family>(
         title, file_name, false, shape_family_count, [&](shape_family f) { return name_of(f, touching); },
         []<class T>(T, shape_family f, std::uint64_t k, stage_tally& sum) {
-            const auto p = make_shape_pair<Shape, T>(seed, f, k);
+            const auto p = make_shape_pair<Shape, T>(sample_seed, f, k);
             examine_shapes(p.s, p.t, k, sum);
         });
 }
@@ -102,7 +102,7 @@ void check_under(Change change, Restore restore) {
         std::uint64_t wrong = 0, certain_and_wrong = 0;
         for (int i = 0; i < shape_family_count; ++i) {
             for (std::uint64_t k = 0; k < sample_count() / 4; ++k) {
-                const auto [s, t] = make_shape_pair<Shape, T>(seed, static_cast<shape_family>(i), k);
+                const auto [s, t] = make_shape_pair<Shape, T>(sample_seed, static_cast<shape_family>(i), k);
                 change();
                 const bool answer = intersects(s, t);
                 const verdict by_filter = decide<filtered>(s, t);
@@ -187,7 +187,7 @@ void check_one_answer() {
         std::uint64_t differing = 0, scaled_pairs = 0;
         for (int i = 0; i < shape_family_count; ++i) {
             for (std::uint64_t k = 0; k < sample_count() / 10; ++k) {
-                const auto [s, t] = make_shape_pair<Shape, T>(seed + 1, static_cast<shape_family>(i), k);
+                const auto [s, t] = make_shape_pair<Shape, T>(sample_seed + 1, static_cast<shape_family>(i), k);
                 const bool answer = intersects(s, t);
                 const triangle<T> orders[] = {
                     {t.a, t.c, t.b}, {t.b, t.a, t.c}, {t.b, t.c, t.a}, {t.c, t.a, t.b}, {t.c, t.b, t.a}};

@@ -22,7 +22,7 @@ TEST_CASE("sphere and triangle: every stage is right in every family") {
         "Sphere against triangle", "sphere-triangle.md", false, test::family_count,
         [](family f) { return test::name_of(f); },
         []<class T>(T, family f, std::uint64_t k, test::stage_tally& sum) {
-            const auto [s, t] = test::make_pair<T>(test::seed, f, k);
+            const auto [s, t] = test::make_pair<T>(test::sample_seed, f, k);
             test::examine_stages<detail::ball_meets_triangle>(s, t, detail::values_of(s, t).value,
                                                               test::oracle::intersects(s, t), k, sum);
         });

@@ -99,8 +99,8 @@ void check_changes(const char* what, Check check) {
         const std::uint64_t count = test::sample_count() / 10;
         const changes c = test::in_threads<changes>(count, [&](std::uint64_t first, std::uint64_t last, changes& sum) {
             for (std::uint64_t k = first; k < last; ++k) {
-                const auto p = test::make_triangle_pair<T>(test::seed, f, k);
-                test::draws d(test::seed, 300 + static_cast<std::uint64_t>(i), k);
+                const auto p = test::make_triangle_pair<T>(test::sample_seed, f, k);
+                test::draws d(test::sample_seed, 300 + static_cast<std::uint64_t>(i), k);
                 const bool answer = intersects(p.a, p.b);
                 ++sum.pairs;
                 sum.hits += answer;
@@ -113,7 +113,7 @@ void check_changes(const char* what, Check check) {
     }
     std::printf("%s, %s: %llu pairs of %d families, seed %llu, hits %.1f %%, asked again %llu times\n", what,
                 sizeof(T) == 4 ? "float" : "double", static_cast<unsigned long long>(all.pairs), test::triangle_family_count,
-                static_cast<unsigned long long>(test::seed), test::percent(all.hits, all.pairs),
+                static_cast<unsigned long long>(test::sample_seed), test::percent(all.hits, all.pairs),
                 static_cast<unsigned long long>(all.asked));
     CHECK(all.asked * 5 > all.pairs);
     CHECK(test::percent(all.hits, all.pairs) > 20);
@@ -134,7 +134,7 @@ TEST_CASE("triangle and triangle: every stage is right in every family") {
         "Triangle against triangle", "triangle-triangle.md", true, test::triangle_family_count,
         [](triangle_family f) { return test::name_of(f); },
         []<class T>(T, triangle_family f, std::uint64_t k, test::stage_tally& sum) {
-            const auto [s, t] = test::make_triangle_pair<T>(test::seed, f, k);
+            const auto [s, t] = test::make_triangle_pair<T>(test::sample_seed, f, k);
             test::examine_stages<detail::triangle_meets_triangle>(s, t, detail::values_of(s, t).value,
                                                                   test::oracle::intersects(s, t), k, sum);
         });
@@ -143,7 +143,7 @@ TEST_CASE("triangle and triangle: every stage is right in every family") {
 TEMPLATE_TEST_CASE("triangle and triangle: triangles, segments and points, each against each", "", float, double) {
     std::uint64_t pairs[3][3] = {}, hits[3][3] = {}, wrong = 0;
     for (std::uint64_t k = 0; k < test::sample_count(); ++k) {
-        const auto [s, t] = test::make_triangle_pair<TestType>(test::seed, triangle_family::degenerate, k);
+        const auto [s, t] = test::make_triangle_pair<TestType>(test::sample_seed, triangle_family::degenerate, k);
         const bool truth = test::oracle::intersects(s, t);
         wrong += intersects(s, t) != truth || intersects<exact>(s, t) != truth;
         ++pairs[dimension(s)][dimension(t)];
@@ -168,7 +168,7 @@ TEMPLATE_TEST_CASE("triangle and triangle: ties on a coarse grid and at shared c
     std::uint64_t left = 0, undecided = 0, shared = 0, missed = 0;
     for (const triangle_family f : {triangle_family::lattice_4, triangle_family::lattice_16, triangle_family::lattice_256}) {
         for (std::uint64_t k = 0; k < test::sample_count(); ++k) {
-            auto [s, t] = test::make_triangle_pair<T>(test::seed, f, k);
+            auto [s, t] = test::make_triangle_pair<T>(test::sample_seed, f, k);
             // Anywhere on the grid, of any unit, and with the largest number that has 16 bits
             const T unit = std::ldexp(T(1), static_cast<int>(k % 181) - 90), off = static_cast<T>(0xffff - 256);
             const auto placed = [&](T x, int) { return (k % 2 == 0 ? x + off : x) * unit; };
@@ -180,7 +180,7 @@ TEMPLATE_TEST_CASE("triangle and triangle: ties on a coarse grid and at shared c
     }
     for (const triangle_family f : {triangle_family::shared_vertex, triangle_family::shared_edge, triangle_family::copied}) {
         for (std::uint64_t k = 0; k < test::sample_count(); ++k) {
-            const auto [s, t] = test::make_triangle_pair<T>(test::seed, f, k);
+            const auto [s, t] = test::make_triangle_pair<T>(test::sample_seed, f, k);
             bool any = false;
             for (const vec3<T>& p : {s.a, s.b, s.c}) any = any || p == t.a || p == t.b || p == t.c;
             shared += any;

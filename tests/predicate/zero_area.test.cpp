@@ -84,7 +84,7 @@ TEMPLATE_TEST_CASE("zero area: every stage is right in every family", "", float,
     for (int k = 0; k < test::flat_family_count; ++k) {
         area_tally sum;
         for (std::uint64_t i = 0; i < test::sample_count(); ++i) {
-            const auto t = test::make_flat_triangle<T>(test::seed, static_cast<test::flat_family>(k), i);
+            const auto t = test::make_flat_triangle<T>(test::sample_seed, static_cast<test::flat_family>(k), i);
             examine(t, truly_flat(t), sum);
         }
         const double percent = 100.0 / static_cast<double>(sum.triangles);
@@ -108,7 +108,7 @@ void check_under(const Enter& enter, const Leave& leave) {
         std::vector<triangle<T>> triangles;
         std::vector<char> truth;
         for (std::uint64_t i = 0; i < test::sample_count() / 5; ++i) {
-            triangles.push_back(test::make_flat_triangle<T>(test::seed + 1, static_cast<test::flat_family>(k), i));
+            triangles.push_back(test::make_flat_triangle<T>(test::sample_seed + 1, static_cast<test::flat_family>(k), i));
             truth.push_back(truly_flat(triangles.back()));
         }
         area_tally sum;

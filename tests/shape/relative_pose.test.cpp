@@ -39,7 +39,7 @@ template <class T>
 void check_touching(bool extreme) {
     const auto body = [extreme](std::uint64_t first, std::uint64_t last, tally& sum) {
         for (std::uint64_t i = first; i < last; ++i) {
-            test::draws d(test::seed, extreme ? 11 : 10, i);
+            test::draws d(test::sample_seed, extreme ? 11 : 10, i);
             const test::posed_contact<T> c = test::make_posed_contact<T>(d, extreme);
             const relative_pose<T> pose = make_relative_pose(c.pose_a, c.box_a, c.pose_b, c.box_b);
             const bool kept[3] = {overlaps<box_axes::of_a>(c.box_a, pose, c.box_b),
@@ -79,7 +79,7 @@ void check_balls() {
     const auto body = [](std::uint64_t first, std::uint64_t last, tally& sum) {
         using namespace test::construction;
         for (std::uint64_t i = first; i < last; ++i) {
-            test::draws d(test::seed, 12, i);
+            test::draws d(test::sample_seed, 12, i);
             const double from_origin = d.power_of_ten(-4, 1);
             rigid<T> pose_a = test::make_loose_pose<T>(d, 0), pose_b = test::make_loose_pose<T>(d, 0);
             if (d.below(2) == 0) {

@@ -57,7 +57,7 @@ void check_error() {
     const std::uint64_t n = test::sample_count() / 5 + 1;
     std::uint64_t wrong = 0, inexact = 0;
     for (std::uint64_t i = 0; i < n; ++i) {
-        test::draws d(test::seed, 1, i);
+        test::draws d(test::sample_seed, 1, i);
         const int span = sizeof(T) == 4 ? 36 : 300;
         const double size = d.power_of_ten(-span, span), relative = d.power_of_ten(-9, 9);
         const double far = std::fmin(size * relative, 1e-2 * static_cast<double>(largest_finite<T>));
@@ -108,7 +108,7 @@ template <class T>
 void check_order() {
     std::uint64_t different = 0;
     for (std::uint64_t i = 0; i < test::sample_count(); ++i) {
-        test::draws d(test::seed, 2, i);
+        test::draws d(test::sample_seed, 2, i);
         const rigid<T> pose = test::make_pose<T>(d, d.power_of_ten(-3, 3));
         const vec3<T> p = test::construction::round_to<T>(test::construction::cube(d, d.power_of_ten(-3, 3)));
         different += !(place(pose, p) == in_stated_order(pose, p));
@@ -120,7 +120,7 @@ template <class T>
 void check_round_trips() {
     const T tolerance = 400 * unit_roundoff<T>;
     for (std::uint64_t i = 0; i < test::sample_count() / 5; ++i) {
-        test::draws d(test::seed, 3, i);
+        test::draws d(test::sample_seed, 3, i);
         const rigid<T> a = test::make_pose<T>(d, 1), b = test::make_pose<T>(d, 1);
         const vec3<T> p = test::construction::round_to<T>(test::construction::cube(d, 1));
         const vec3<T> back = place(inverse(a), place(a, p)) - p, twice = place(compose(a, b), p) - place(a, place(b, p));
@@ -187,7 +187,7 @@ void check_acceptance() {
     const std::uint64_t n = test::sample_count() / 50 + 1;
     std::uint64_t refused = 0, refused_printed = 0;
     for (std::uint64_t i = 0; i < n; ++i) {
-        test::draws d(test::seed, 4, i);
+        test::draws d(test::sample_seed, 4, i);
         rigid<T> product = test::make_pose<T>(d, 1);
         for (int k = 0; k < 1000; ++k) product = compose(test::make_pose<T>(d, 1e-3), product);
         refused += !test::is_accepted(product);
@@ -226,7 +226,7 @@ void check_orthonormalised() {
     constexpr auto unit = static_cast<double>(unit_roundoff<T>);
     double rows_off = 0, off = 0, off_strained = 0, moved = 0;
     for (std::uint64_t i = 0; i < test::sample_count(); ++i) {
-        test::draws d(test::seed, 5, i);
+        test::draws d(test::sample_seed, 5, i);
         const rigid<T> pose = test::make_pose<T>(d, 1), once = orthonormalised(pose);
         REQUIRE(once.translation == pose.translation);
         for (int k = 0; k < 9; ++k) {
@@ -289,7 +289,7 @@ void check_refusals_to_mend() {
 template <class T>
 void check_matrices() {
     for (std::uint64_t i = 0; i < 100; ++i) {
-        test::draws d(test::seed, 6, i);
+        test::draws d(test::sample_seed, 6, i);
         const rigid<T> pose = test::make_loose_pose<T>(d, 10);
         const T* const r = pose.rotation;
         const vec3<T>& t = pose.translation;

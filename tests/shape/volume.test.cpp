@@ -142,7 +142,7 @@ void check_enclosing() {
                 std::vector<triangle<T>> a, b;
                 for (std::uint64_t k = 0; k <= i % 4; ++k) {
                     const auto pair =
-                        test::make_triangle_pair<T>(test::seed, static_cast<test::triangle_family>(f), 4 * i + k);
+                        test::make_triangle_pair<T>(test::sample_seed, static_cast<test::triangle_family>(f), 4 * i + k);
                     a.push_back(pair.a);
                     b.push_back(pair.b);
                 }
@@ -210,7 +210,7 @@ void check_touching(const char* name, bool extreme) {
     const std::uint64_t n = test::sample_count();
     const auto body = [extreme](std::uint64_t first, std::uint64_t last, touching_tally& sum) {
         for (std::uint64_t i = first; i < last; ++i) {
-            draws d(test::seed, extreme ? 21 : 20, i);
+            draws d(test::sample_seed, extreme ? 21 : 20, i);
             const test::posed_contact<T> c = test::make_posed_contact<T>(d, extreme);
             const double from_origin = test::construction::largest_of(test::construction::widened(c.a.a));
             const double size = std::fmax(from_origin, 1e-300) * d.power_of_ten(-6, 3);
@@ -327,7 +327,7 @@ void check_against_truth() {
             sum.kept_clear += is_clear && kept;
         };
         for (std::uint64_t i = first; i < last; ++i) {
-            draws d(test::seed, 30, i);
+            draws d(test::sample_seed, 30, i);
             const rigid<T> pose_a = test::make_pose<T>(d, 0.5), pose_b = test::make_pose<T>(d, 1), here;
             const auto box = [&d] {
                 const point p = test::construction::cube(d, 0.3);
@@ -387,7 +387,7 @@ void check_culling(const char* name, double percent) {
     const std::uint64_t n = test::sample_count() / 5 + 1;
     const auto body = [](std::uint64_t first, std::uint64_t last, culling_tally& sum) {
         for (std::uint64_t i = first; i < last; ++i) {
-            draws d(test::seed, 40, i);
+            draws d(test::sample_seed, 40, i);
             const int range = sizeof(T) == 4 ? 30 : 280;
             const double scale = d.power_of_ten(-range, range);
             const auto triangles = [&] {

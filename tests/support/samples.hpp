@@ -10,7 +10,7 @@
 
 namespace abut::test {
 
-inline constexpr std::uint64_t seed = 20190819;
+inline constexpr std::uint64_t sample_seed = 20190819;
 
 /// Pairs for each family and scalar: the environment's ABUT_SAMPLES, or 5,000.
 inline std::uint64_t sample_count() {

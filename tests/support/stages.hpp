@@ -97,7 +97,7 @@ public:
                 out,
                 "%s, seed %llu; fast: missed / phantom per million; then the share of pairs that each stage decides "
                 "(%%)\n\n",
-                title, static_cast<unsigned long long>(seed));
+                title, static_cast<unsigned long long>(sample_seed));
             std::fprintf(out,
                          "| family | scalar | pairs | hits %% | fast | filter |%s 1 limb | 2 limbs | any span | wrong |\n",
                          late_ ? " late |" : "");

@@ -336,7 +336,7 @@ TEMPLATE_TEST_CASE("modes: no walk loses a pair, whatever becomes of denormals a
     using T = TestType;
     for (int kind = 0; kind < 8; ++kind) {
         for (std::uint64_t round = 0; round < 3; ++round) {
-            draws d(seed, 90 + static_cast<std::uint64_t>(kind), round);
+            draws d(sample_seed, 90 + static_cast<std::uint64_t>(kind), round);
             const known_scene<T> known(scene<T>(d, static_cast<coordinates>(kind)));
             for (const floating_mode& mode : floating_modes()) {
                 CAPTURE(names_of_coordinates[kind], round, mode.name);
@@ -354,7 +354,7 @@ TEMPLATE_TEST_CASE("modes: nor does it between posed objects", "", float, double
         if (static_cast<coordinates>(kind) == coordinates::largest) continue;  // placed, they overflow
         std::size_t hits = 0;
         for (std::uint64_t round = 0; round < 4; ++round) {
-            draws d(seed, 110 + static_cast<std::uint64_t>(kind), round);
+            draws d(sample_seed, 110 + static_cast<std::uint64_t>(kind), round);
             const auto number = [&] { return draw_coordinate<T>(d, static_cast<coordinates>(kind)); };
             const auto pose = [&] {
                 rigid<T> r = make_rotation<T>(d);
@@ -387,7 +387,7 @@ TEMPLATE_TEST_CASE("modes: nothing overflows, is invalid or divides by zero in a
                    double) {
     using T = TestType;
     for (const bool flat : {false, true}) {
-        draws d(seed, 130, flat);
+        draws d(sample_seed, 130, flat);
         scene<T> shapes(d, coordinates::lattice);
         if (flat) {
             for (triangle<T>& t : shapes.a) t.a.z = t.b.z = t.c.z = 0;
