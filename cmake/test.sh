@@ -98,7 +98,7 @@ sanitized='-O0 -g1'
 if [ $asan = all ]; then layers='' sanitized='-O1 -g1'; fi
 
 build_tree gcc default -DCMAKE_CXX_COMPILER=g++ -DABUT_CUDA=$cuda -DABUT_HEADER_COMPILERS="$compilers" -DABUT_BENCH=$bench_option \
-    -DABUT_TEST_QUICK=$quick -DABUT_QUICK_DEVICE_CODE=$quick_device
+    -DABUT_TEST_QUICK=$quick -DABUT_QUICK_EXAMPLES=$quick -DABUT_QUICK_DEVICE_CODE=$quick_device
 build_tree asan asan -DCMAKE_CXX_COMPILER=g++ -DABUT_EXAMPLES=OFF -DABUT_TEST_PREFIX='asan/' -DABUT_TEST_LAYERS="$layers" \
     -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="$sanitized"
 if [ $clang = yes ]; then
