@@ -97,8 +97,12 @@ TEMPLATE_TEST_CASE("wide: every kind of query, beside every kind of side", "", f
 }
 
 TEMPLATE_TEST_CASE("layouts: queries do not depend on them", "", float, double) {
-    test::check_layout_queries<TestType>(serial{});
-    if constexpr (std::same_as<TestType, float>) test::check_layout_queries<TestType>(openmp{3});
+    // Each policy with one scalar: the walks are the same, and to compile them for sixteen pairs of layouts takes long.
+    if constexpr (std::same_as<TestType, float>) {
+        test::check_layout_queries<TestType>(openmp{3});
+    } else {
+        test::check_layout_queries<TestType>(serial{});
+    }
 }
 
 TEMPLATE_TEST_CASE("quantiser: the nearest cells on either side, for any numbers", "", float, double) {
