@@ -5,6 +5,8 @@
 
 #include <abut/cuda.hpp>
 
+#include <abut/devices/bodies.hpp>
+#include <abut/devices/impacts.hpp>
 #include <abut/devices/nearest.hpp>
 #include <abut/devices/query.hpp>
 #include <abut/execution/cuda_devices.hpp>

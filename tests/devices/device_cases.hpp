@@ -5,15 +5,20 @@
 // order, whatever lies where.
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <random>
 #include <string>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 #include <abut/abut.hpp>
+#include <abut/devices/bodies.hpp>
+#include <abut/devices/impacts.hpp>
 #include <abut/devices/nearest.hpp>
 #include <abut/devices/query.hpp>
 
@@ -279,6 +284,8 @@ void check_errors(const Team& team, const Team& larger) {
     rigid<T> mirror;
     mirror.rotation[0] = -1;
     CHECK_THROWS_AS((void)pairs(team, posed(tree, mirror), b), invalid_geometry);
+    CHECK(message_of([&] { (void)first_impact(larger, make_impact_index(team, mesh<T>()), mesh<T>()); }) ==
+          "abut::first_impact: the argument lies on " + n + " devices, the call is to " + m);
     CHECK_THROWS_AS((void)pairs(team, tree, b, {.start_depth = 99}), error);
     CHECK(count(team, tree, b) == count(serial{}, a, b));  // nothing is left behind
 }
@@ -321,6 +328,116 @@ void check_nearest(const Team& team) {
     CHECK(std::all_of(none.begin(), none.end(), [](const neighbor<T>& x) { return x.id == no_id; }));
 }
 
+/// A mesh in motion whose vertices each go their own way, half of them from one place of a lattice to another.
+template <scalar T>
+moving_set<mesh<T>> shaken(const surface_data<T>& data, vec3<T> by, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<T> offset(T(-0.5), T(0.5));
+    auto t0 = data.vertices, t1 = data.vertices;
+    for (std::size_t i = 0; i < t0.size(); ++i) {
+        const auto shake = [&] { return vec3<T>{offset(random), offset(random), offset(random)}; };
+        const auto on_lattice = [](vec3<T> p) {
+            return vec3<T>{std::round(8 * p.x) / 8, std::round(8 * p.y) / 8, std::round(8 * p.z) / 8};
+        };
+        t1[i] = t1[i] + by + shake();
+        t0[i] = t0[i] + shake();
+        if (i % 2 == 0) t0[i] = on_lattice(t0[i]), t1[i] = on_lattice(t1[i]);
+    }
+    const mesh<T> first(t0, data.faces);
+    return moving(first, first.with_vertices(serial{}, t1));
+}
+
+/// Meshes in motion: what meets, and what first.
+template <scalar T, class Team>
+void check_impacts(const Team& team) {
+    const auto a = shaken(ball_surface<T>(3, 1.0), vec3<T>{T(0.5), 0, 0}, 1);
+    const auto b = shaken(ball_surface<T>(2, 0.75), vec3<T>{T(-0.5), T(0.25), 0}, 2);
+    const auto expected = to_host(impacts(serial{}, a, b));
+    const auto within = to_host(self_impacts(serial{}, a));
+    CAPTURE(team.size(), expected.size(), within.size());
+    CHECK((expected.size() > 500 && within.size() > 500));
+
+    const auto index_a = make_impact_index(team, a);
+    const auto index_b = make_impact_index(team, replicate(team, b));
+    CHECK(to_host(impacts(team, index_a, index_b)) == expected);
+    CHECK(to_host(self_impacts(team, index_a)) == within);
+    CHECK(first_impact(team, index_a, index_b) == first_impact(serial{}, a, b));
+    CHECK(first_self_impact(team, index_a) == first_self_impact(serial{}, a));
+
+    const auto later = shaken(ball_surface<T>(3, 1.0), vec3<T>{0, T(0.5), 0}, 3);
+    const auto moved = refit(team, index_a, later);
+    CHECK(to_host(impacts(team, moved, b)) == to_host(impacts(serial{}, later, b)));
+
+    const auto far = shaken(ball_surface<T>(1, 0.75), vec3<T>{9, 0, 0}, 4);  // meets b late
+    CHECK(first_impact(team, far, b) == first_impact(serial{}, far, b));
+    CHECK(first_impact(team, a, mesh<T>()) == std::nullopt);
+    if constexpr (host_policy<typename Team::local_policy>) {
+        auto unsorted = to_host(impacts(team, a, b, {.sorted = false}));
+        const auto before = [](const impact<T>& x, const impact<T>& y) {
+            return std::tuple(x.kind, x.vertices, x.time) < std::tuple(y.kind, y.vertices, y.time);
+        };
+        auto in_order = expected;
+        std::sort(unsorted.begin(), unsorted.end(), before);
+        std::sort(in_order.begin(), in_order.end(), before);
+        CHECK(unsorted == in_order);
+        CHECK(to_host(impacts<exact>(team, a, b.t0())) == to_host(impacts<exact>(serial{}, a, b.t0())));
+        const impact_options near{.bounds = {.tolerance = 0x1p-10, .separation = 0.0625}};
+        CHECK(to_host(impacts<conservative>(team, a, b, near)) == to_host(impacts<conservative>(serial{}, a, b, near)));
+        const mesh<T> one(std::vector<vec3<T>>{{-2, -2, 0}, {2, -2, 0}, {0, 2, 0}}, std::vector<face>{{0, 1, 2}});
+        CHECK(to_host(impacts(team, a, one)) == to_host(impacts(serial{}, a, one)));  // a tree without nodes
+        CHECK(to_host(impacts(team, one, a)) == to_host(impacts(serial{}, one, a)));
+    }
+}
+
+struct keep_some_bodies {
+    ABUT_HD bool operator()(const body_pair& p) const { return (p.body_a + p.body_b + p.a + p.b) % 3 != 0; }
+};
+
+/// Many bodies, of a few indices.
+template <scalar T, class Team>
+void check_bodies(const Team& team) {
+    const auto large = ball_surface<T>(2, 1.0), small = ball_surface<T>(1, 0.5);
+    const std::vector<mesh<T>> sets{mesh<T>(large.vertices, large.faces), mesh<T>(small.vertices, small.faces),
+                                    mesh<T>()};
+    std::vector<replicated<decltype(make_bvh(team[0], sets[0]))>> indices;
+    std::vector<bvh<mesh<T>, host_space>> whole;
+    for (const auto& set : sets) {
+        indices.push_back(make_bvh(team, set));
+        whole.push_back(make_bvh(serial{}, set));
+    }
+    std::vector<std::uint32_t> index_of;
+    std::vector<rigid<T>> poses, later;
+    for (std::uint32_t i = 0; i < 60; ++i) {
+        draws d(11, 0, i);
+        index_of.push_back(i % 7 == 3 ? 2 : i % 2);
+        poses.push_back(make_rotation<T>(d));
+        later.push_back(make_rotation<T>(d));
+        for (auto* pose : {&poses.back(), &later.back()}) {
+            pose->translation = {static_cast<T>(d.uniform(0, 5)), static_cast<T>(d.uniform(0, 5)), static_cast<T>(d.below(5))};
+        }
+    }
+    const auto alone = make_bodies(serial{}, whole, index_of, poses);
+    const auto all = make_bodies(team, indices, index_of, poses);
+    const auto expected = to_host(pairs(serial{}, alone));
+    CAPTURE(team.size(), expected.size());
+    CHECK((all.size() == poses.size() && expected.size() > 500));
+    CHECK((to_host(pairs(team, all)) == expected));
+    CHECK(count(team, all) == expected.size());
+    const auto moved = refit(team, all, later);
+    CHECK((to_host(pairs(team, moved)) == to_host(pairs(serial{}, refit(serial{}, alone, later)))));
+    if constexpr (host_policy<typename Team::local_policy>) {
+        CHECK(any(team, all));
+        CHECK((to_host(contacts(team, all)) == to_host(contacts(serial{}, alone))));
+        const body_options<keep_some_bodies> with_filter{.filter = {}};
+        CHECK((to_host(pairs(team, all, with_filter)) == to_host(pairs(serial{}, alone, with_filter))));
+        auto unsorted = to_host(pairs(team, all, {.sorted = false}));
+        std::sort(unsorted.begin(), unsorted.end());
+        CHECK((unsorted == expected));
+        for (rigid<T>& pose : later) pose.translation.x += static_cast<T>(9 * (&pose - later.data()));
+        CHECK(!any(team, refit(team, all, later)));
+    }
+}
+
 /// Of what check_scenes looks at, what takes different ways: few kinds of queries, so that nvcc ends.
 template <scalar T, class Team>
 void check_each_way(const Team& team) {
@@ -355,6 +472,8 @@ void check_devices(const Team& team) {
     device_cases::check_small<T>(team);
     device_cases::check_stops<T>(team);
     device_cases::check_nearest<T>(team);
+    device_cases::check_impacts<T>(team);
+    device_cases::check_bodies<T>(team);
 }
 
 }  // namespace abut::test

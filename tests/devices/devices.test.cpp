@@ -18,6 +18,8 @@ TEST_CASE("devices: in double, on several threads each") {
     const test::host_team<openmp> team(3, openmp{.threads = 2});
     test::device_cases::check_meshes<double>(team);
     test::device_cases::check_nearest<double>(team);
+    test::device_cases::check_impacts<double>(team);
+    test::device_cases::check_bodies<double>(team);
 }
 
 TEST_CASE("devices: errors") {

@@ -6,6 +6,8 @@
 // list (list_pairing.hpp). Near pairs stay in the policy's memory; the host learns their number. Not for pairs within one
 // body: those are self_pairs of its index.
 
+#include <algorithm>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -153,29 +155,33 @@ struct near_bodies {
 };
 
 /// The keys of all pairs of boxes that meet; ascending if they are to be.
-template <class Policy, class Tree>
-auto find_near(const Policy& on, const Tree& tree, const pair_key& key, bool sorted) {
+template <class Policy, class Tree, class Part>
+auto find_near(const Policy& on, const Tree& tree, const pair_key& key, bool sorted, const Part& part) {
     using operand = indexed_operand<Tree>;
     const self_pairing<operand, keep_all, traversal::both_at_once, default_schedule<traversal::both_at_once>, as_they_are>
         pairing{{tree}, {}, key, {}};
     key_queue<Policy> near(on, std::max(8 * tree.size(), std::size_t{1} << 16));
-    search(on, pairing, boxes_meet{}, near);
+    if constexpr (std::same_as<Part, whole_search>) {
+        search(on, pairing, boxes_meet{}, near);
+    } else {
+        search(on, in_part(pairing, part), boxes_meet{}, near);
+    }
     auto keys = near.take();
     if (sorted) sort_keys(on, keys, key.bits());
     return keys;
 }
 
-/// Bodies, ready to be asked; errors are thrown in the name of `function`. Keys of results ascend as bodies do if entries
-/// are `sorted`.
-template <class Policy, class Index, class Filter, schedule Schedule>
+/// Bodies, ready to be asked, of all pairs that are near each other or of a part of those; errors are thrown in the name of
+/// `function`. Keys of results ascend as bodies do if entries are `sorted`.
+template <class Policy, class Index, class Filter, schedule Schedule, class Part = whole_search>
 auto pair_up_bodies(const Policy& on, const bodies<Index>& all, const body_options<Filter, Schedule>& options, bool sorted,
-                    const char* function) {
+                    const char* function, const Part& part = {}) {
     require_callable(on, options.filter, body_pair{});
     require_same_device(on, all, function);
     const body_state<Index>& state = parts_of_bodies::of(all);
     const int bits = id_bits(state.tree.size());
     const pair_key key{bits, bits};
-    const auto keys = find_near(on, state.tree, key, sorted);
+    const auto keys = find_near(on, state.tree, key, sorted, part);
     const near_bodies entries{keys.data(), key, state.with_shapes->data()};
     return pair_up_entries<names_of_bodies>(on, state.placed, state.placed, keys.size(), entries, options, function,
                                             "pairs of bodies whose boxes meet");

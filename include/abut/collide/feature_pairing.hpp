@@ -84,6 +84,7 @@ struct expand_features {
     using candidate = std::uint64_t;
     static constexpr unsigned most_children = pairs::most_children, most_depth = pairs::most_depth;
     static constexpr std::size_t most_shapes = pairs::most_shapes;
+    static constexpr std::uint32_t nowhere = descent_path<Tree>::nowhere;
 
     trees_of_features<Tree> a, b;
     Overlap overlap;
@@ -121,7 +122,6 @@ struct expand_features {
     ABUT_CALLS_ANY
     template <class Emitter>
     ABUT_INLINE ABUT_HD void operator()(const item& at, Emitter&& emitter) const {
-        constexpr std::uint32_t nowhere = descent_path<Tree>::nowhere;
         if (at.a == nowhere || at.b == nowhere) return;
         using sink = std::remove_reference_t<Emitter>;
         const add_features<item, sink> add{emitter, at.kind};
@@ -158,19 +158,26 @@ struct given_fronts {
 };
 
 /// The features of two meshes, or `Within` one, that are asked about their pairs; as `pairing` of two operands.
-template <bool Within, class Index, class Nearness, class Fronts>
+template <bool Within, class Index, class Nearness, class Fronts, class Part = whole_search>
 struct feature_pairing {
     using T = typename Index::scalar_type;
     using view_type = feature_pairs<T, typename Index::memory_space>;
-    static constexpr int depth_on_device = 6;
+    static constexpr int depth_on_device = 6, depth_of_parts = 8;
 
     const Index &x, &y;
     view_type both;
     Nearness near;
     Fronts fronts;
+    Part part;
 
-    feature_pairing(const Index& of_x, const Index& of_y, const Nearness& how_near, const Fronts& from, const char* function)
-        : x(of_x), y(of_y), both(features(of_x), features(of_y), Within, function), near(how_near), fronts(from) {}
+    feature_pairing(const Index& of_x, const Index& of_y, const Nearness& how_near, const Fronts& from, const char* function,
+                    const Part& of_all = {})
+        : x(of_x),
+          y(of_y),
+          both(features(of_x), features(of_y), Within, function),
+          near(how_near),
+          fronts(from),
+          part(of_all) {}
 
     [[nodiscard]] const view_type& view() const { return both; }
 
@@ -181,14 +188,19 @@ struct feature_pairing {
         const auto overlap = overlap_of();
         using tree = std::remove_cvref_t<decltype(trees_x.faces)>;
         using expand_type = expand_features<Within, tree, std::remove_const_t<decltype(overlap)>, view_type>;
-        const expand_type expand(trees_x, trees_y, overlap, both, host_policy<Policy> ? 0 : depth_on_device);
+        const expand_type expand(trees_x, trees_y, overlap, both, depth(host_policy<Policy> ? 0 : depth_on_device));
         if constexpr (std::same_as<Fronts, no_fronts>) {
             // Features in motion are crowded in places, and work is dealt out evenly again and again (docs/benchmarks.md).
             const execution::scheduled<schedule::static_partition> how{};
+            const auto walk = [&](const auto& step) {
+                run([&](const auto& judge, auto&... sinks) { return for_each_descendant(on, how, step, judge, sinks...); });
+            };
             if (expand.seeds() > 0) {
-                run([&](const auto& judge, auto&... sinks) {
-                    return for_each_descendant(on, how, expand, judge, sinks...);
-                });
+                if constexpr (std::same_as<Part, whole_search>) {
+                    walk(expand);
+                } else {
+                    walk(step_of_part(expand, part));
+                }
             }
         }
         judge_kind<feature_pair::vertex_face>(on, expand, x.vertices(), y.faces(), both.a.vertices, run);
@@ -197,6 +209,13 @@ struct feature_pairing {
     }
 
 private:
+    /// Deep enough that the hash deals out pairs of nodes evenly, where there are parts.
+    [[nodiscard]] int depth(int of_whole) const {
+        if constexpr (!std::same_as<Part, whole_search>) {
+            if (part.parts > 1) return depth_of_parts;
+        }
+        return of_whole;
+    }
     static features_of_mesh<T, typename Index::memory_space> features(const Index& of) {
         return {of.mesh(), of.edges().set()};
     }
@@ -236,9 +255,9 @@ private:
         } else if (of_x.size() > 0 && of_y.size() > 0) {
             const auto walk = indexed_operand<TreeY>{of_y}.walk();
             if constexpr (of_one) {
-                look<false>(on, walk, rows, ids_that_ascend<ids_of_kind<view_type>>{ids}, run, near);
+                look<false>(on, walk, rows, ids_that_ascend<ids_of_kind<view_type>>{ids}, run, near, part);
             } else {
-                look<false>(on, walk, rows, ids, run, near);
+                look<false>(on, walk, rows, ids, run, near, part);
             }
         }
     }

@@ -129,13 +129,21 @@ struct time_of_impact_at {
     const impact<T>* all;
     ABUT_HD time_and_place operator()(std::size_t i) const { return {all[i].time, i}; }
 };
-template <class Policy, scalar T>
-std::optional<impact<T>> first_of(const Policy& on, const result<impact<T>, space_of<Policy>>& all) {
-    const time_and_place first =
-        reduce(on, all.size(), time_and_place{infinity<double>, all.size()}, earlier_of{}, time_of_impact_at<T>{all.data()});
-    if (first.place == all.size()) return std::nullopt;
+/// An impact, and the key of its pair.
+template <scalar T>
+struct keyed_impact {
     impact<T> found;
-    download(on, all.data() + first.place, 1, &found);
+    std::uint64_t key;
+};
+template <class Policy, scalar T, memory_space Space>
+std::optional<keyed_impact<T>> first_of(const Policy& on, const keyed_impacts<T, Space>& all) {
+    const std::size_t n = all.found.size();
+    const time_and_place first =
+        reduce(on, n, time_and_place{infinity<double>, n}, earlier_of{}, time_of_impact_at<T>{all.found.data()});
+    if (first.place == n) return std::nullopt;
+    keyed_impact<T> found;
+    download(on, all.found.data() + first.place, 1, &found.found);
+    download(on, all.keys.data() + first.place, 1, &found.key);
     return found;
 }
 
@@ -143,29 +151,35 @@ std::optional<impact<T>> first_of(const Policy& on, const result<impact<T>, spac
 /// step is looked at twice.
 inline constexpr double first_part_of_step = 0x1p-4, growth_of_part = 16;
 
-/// The first impact of two indices, or `Within` one. `fast` and `conservative` may tell times at which boxes do not meet
-/// yet: they look at the whole step.
-template <motion_arithmetic A, bool Within, class Policy, class Index, class Fronts>
-auto first_of_indices(const Policy& on, const Index& x, const Index& y, impact_options options, const Fronts& fronts,
-                      const char* function) {
-    options.sorted = true;
+/// The first impact; first_until(time) tells the first of those in a part of the step, which has all that begin in it.
+/// `fast` and `conservative` may tell times at which boxes do not meet yet: they look at the whole step.
+template <motion_arithmetic A, class FirstUntil>
+auto first_of_step(const FirstUntil& first_until) {
+    using T = typename decltype(first_until(1.0)->found)::scalar_type;
     constexpr bool is_exact = std::same_as<A, filtered> || std::same_as<A, exact>;
     for (double time = is_exact ? first_part_of_step : 1;;) {
-        const bool whole = time >= 1;
-        const Index part = whole ? x : until(on, x, time);
-        const auto all = [&] {
-            if constexpr (Within) {
-                return impacts_of_indices<A, true>(on, part, part, options, fronts, function).found;
-            } else {
-                return impacts_of_indices<A, false>(on, part, whole ? y : until(on, y, time), options, fronts, function).found;
-            }
-        }();
-        const auto first = first_of(on, all);
+        const auto first = first_until(time);
         // A time is the true one rounded down. None that is as early by it is missing.
-        const double enough = first ? first->time + last_time_bit : growth_of_part * time;
-        if (whole || (first && enough <= time)) return first;
+        const double enough = first ? first->found.time + last_time_bit : growth_of_part * time;
+        if (time >= 1 || (first && enough <= time)) return first ? std::optional<impact<T>>(first->found) : std::nullopt;
         time = std::min(enough, 1.0);
     }
+}
+/// The first impact of two indices, or `Within` one, until a time; or the first in a part of the search.
+template <motion_arithmetic A, bool Within, class Policy, class Index, class Fronts, class Part = whole_search>
+auto first_until(const Policy& on, const Index& x, const Index& y, double time, impact_options options,
+                 const Fronts& fronts, const char* function, const Part& part = {}) {
+    options.sorted = true;
+    const auto during = [&](const Index& all) { return time >= 1 ? all : until(on, all, time); };
+    const Index a = during(x);
+    const auto all = [&](const Index& b) { return impacts_of_indices<A, Within>(on, a, b, options, fronts, function, part); };
+    return first_of(on, Within ? all(a) : all(during(y)));
+}
+template <motion_arithmetic A, bool Within, class Policy, class Index, class Fronts>
+auto first_of_indices(const Policy& on, const Index& x, const Index& y, const impact_options& options, const Fronts& fronts,
+                      const char* function) {
+    return first_of_step<A>(
+        [&](double time) { return first_until<A, Within>(on, x, y, time, options, fronts, function); });
 }
 
 /// Of two arguments, and of one with itself.

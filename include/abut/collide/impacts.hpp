@@ -287,17 +287,18 @@ auto impacts_of(const Policy& on, const impact_options& options, const View& bot
     return of_all;
 }
 
-/// The impacts of two indices, or `Within` one.
-template <motion_arithmetic A, bool Within, class Policy, class Index, class Fronts>
+/// The impacts of two indices, or `Within` one; or a part of them.
+template <motion_arithmetic A, bool Within, class Policy, class Index, class Fronts, class Part = whole_search>
 auto impacts_of_indices(const Policy& on, const Index& x, const Index& y, const impact_options& options,
-                        const Fronts& fronts, const char* function) {
+                        const Fronts& fronts, const char* function, const Part& part = {}) {
     const auto near = nearness_of<A, typename Index::scalar_type>(options.bounds, function);
     if constexpr (Index::rule == pair_rule::feature_trees) {
-        const feature_pairing<Within, Index, std::remove_const_t<decltype(near)>, Fronts> pairing(x, y, near, fronts,
-                                                                                                  function);
+        const feature_pairing<Within, Index, std::remove_const_t<decltype(near)>, Fronts, Part> pairing(x, y, near, fronts,
+                                                                                                        function, part);
         return impacts_of<A>(on, options, pairing.view(),
                              [&](const auto& judge, timed_queue<Policy>& hits) { search_times(on, pairing, judge, hits); });
     } else {
+        static_assert(std::same_as<Part, whole_search>, "abut: several devices take indices of pair_rule::feature_trees");
         static_assert(std::same_as<Fronts, no_fronts>, "abut: fronts are of trees over features, pair_rule::feature_trees");
         const auto both = features_of_two<Within>(x, y, function);
         return impacts_of<A>(on, options, both, [&](const auto& judge, timed_queue<Policy>& hits) {

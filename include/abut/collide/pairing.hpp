@@ -189,7 +189,10 @@ struct step_of_part : Step {
     search_part mine;
     step_of_part(const Step& step, const search_part& part) : Step(step), mine(part) {}
     [[nodiscard]] ABUT_HD item seed(std::size_t i) const {
-        return mine.has(i) ? Step::seed(i) : item{Step::nowhere, Step::nowhere};
+        if (mine.has(i)) return Step::seed(i);
+        item nothing{};
+        nothing.a = nothing.b = Step::nowhere;
+        return nothing;
     }
 };
 

@@ -27,19 +27,19 @@ namespace abut {
 /// @addtogroup devices
 ///@{
 
-/// The same set or index on each device.
+/// The same set, index or scene of bodies on each device.
 template <class X>
 class replicated {
 public:
-    using shape_type = typename detail::shape_of_argument<X>::type;  ///< what a shape is
+    using scalar_type = typename X::scalar_type;  ///< float or double
 
-    /// One for each device, in their order: copies of one set, or trees made of such copies by the same calls.
+    /// One for each device, in their order: copies of one set, or what is made of such copies by the same calls.
     explicit replicated(std::vector<X> copies) : copies_(std::move(copies)) {}
     /// What lies on the k-th device.
     [[nodiscard]] const X& operator[](int k) const { return copies_[static_cast<std::size_t>(k)]; }
     /// Number of devices.
     [[nodiscard]] int devices() const { return static_cast<int>(copies_.size()); }
-    /// Number of shapes.
+    /// Number of shapes, or of bodies.
     [[nodiscard]] std::size_t size() const { return copies_.empty() ? 0 : copies_.front().size(); }
 
 private:
@@ -253,11 +253,19 @@ template <execution::policy_team Team, class X, class... Options>
     }
 }
 
+/// What lies on each device, brought to another step as `refit` of one policy does: trees of a set and impact indices to
+/// `step`, which is a set on each device or in host memory; bodies to poses in host memory. Waits for all.
+template <execution::policy_team Team, class X, class Step>
+[[nodiscard]] auto refit(const Team& team, const replicated<X>& all, const Step& step) {
+    detail::require_as_many(team, all, "abut::refit");
+    detail::require_as_many(team, step, "abut::refit");
+    return replicated(detail::each_of(team, [&](int k) { return refit(team[k], all[k], detail::on_device(step, k)); }));
+}
+
 /// What lies on each device, moved by a pose.
 ///@{
 template <class X>
-[[nodiscard]] auto posed(const replicated<X>& object,
-                         const rigid<scalar_type_of<typename replicated<X>::shape_type>>& pose) {
+[[nodiscard]] auto posed(const replicated<X>& object, const rigid<typename X::scalar_type>& pose) {
     std::vector<posed_object<X>> placed;
     for (int k = 0; k < object.devices(); ++k) placed.push_back(posed(object[k], pose));
     return replicated(std::move(placed));

@@ -48,19 +48,26 @@ struct rename_found {
     }
 };
 
-template <class Found>
-ABUT_HD bool comes_before(const Found& x, const Found& y) {
-    return x.a < y.a || (x.a == y.a && x.b < y.b);
-}
-/// Lists in order, one after another, become one. No pair is in two of them.
-template <class Found>
+struct by_ids {
+    template <class Found>
+    ABUT_HD bool operator()(const Found& x, const Found& y) const {
+        return x.a < y.a || (x.a == y.a && x.b < y.b);
+    }
+};
+struct by_number {
+    ABUT_HD bool operator()(std::uint64_t x, std::uint64_t y) const { return x < y; }
+};
+/// Lists in the order of their keys, one after another, become one. No pair is in two of them.
+template <class Order, class Key, class Found>
 struct merge_lists {
+    Order comes_before;
+    const Key* keys;
     const Found* found;
     const std::size_t* first;  ///< of each list, and the number of all
     std::size_t lists;
     Found* out;
     ABUT_HD void operator()(std::size_t i) const {
-        const Found mine = found[i];
+        const Key mine = keys[i];
         std::size_t place = 0;
         for (std::size_t k = 0; k < lists; ++k) {
             std::size_t lower = first[k], upper = first[k + 1];
@@ -69,7 +76,7 @@ struct merge_lists {
             } else {
                 while (lower < upper) {
                     const std::size_t middle = lower + (upper - lower) / 2;
-                    if (comes_before(found[middle], mine)) {
+                    if (comes_before(keys[middle], mine)) {
                         lower = middle + 1;
                     } else {
                         upper = middle;
@@ -78,7 +85,7 @@ struct merge_lists {
             }
             place += lower - first[k];
         }
-        out[place] = mine;
+        out[place] = found[i];
     }
 };
 
@@ -89,17 +96,23 @@ std::vector<std::size_t> beginnings_of(const Lists& lists) {
     for (const auto& list : lists) first.push_back(first.back() + list.size());
     return first;
 }
+/// Such lists become one in the order of their keys, in which each of them is.
+template <class Policy, class Order, class Key, class Found>
+auto merged_by(const Policy& on, const Order& order, const Key* keys, const execution::buffer_of<Policy, Found>& all,
+               const std::vector<std::size_t>& first) {
+    execution::buffer_of<Policy, std::size_t> begins(on, first.size());
+    execution::buffer_of<Policy, Found> in_order(on, all.size());
+    upload(on, first.data(), first.size(), begins.data());
+    for_each_index(on, all.size(),
+                   merge_lists<Order, Key, Found>{order, keys, all.data(), begins.data(), first.size() - 1, in_order.data()});
+    synchronize(on);
+    return in_order;
+}
 /// Such lists become one, in order if they are and `sorted` is.
-template <class Policy, class Found>
-auto merged(const Policy& on, execution::buffer_of<Policy, Found> all, const std::vector<std::size_t>& first, bool sorted) {
-    if (sorted && all.size() > 0) {
-        execution::buffer_of<Policy, std::size_t> begins(on, first.size());
-        execution::buffer_of<Policy, Found> in_order(on, all.size());
-        upload(on, first.data(), first.size(), begins.data());
-        for_each_index(on, all.size(), merge_lists<Found>{all.data(), begins.data(), first.size() - 1, in_order.data()});
-        synchronize(on);
-        all = std::move(in_order);
-    }
+template <class Policy, class Found, class Order = by_ids>
+auto merged(const Policy& on, execution::buffer_of<Policy, Found> all, const std::vector<std::size_t>& first, bool sorted,
+            const Order& order = {}) {
+    if (sorted && all.size() > 0) all = merged_by(on, order, all.data(), all, first);
     return result<Found, space_of<Policy>>(std::move(all));
 }
 template <class Local, class Found>
@@ -117,19 +130,25 @@ auto joined(const Policy& on, found_lists<Policy, Found> lists, bool sorted) {
     synchronize(on);
     return merged(on, std::move(all), first, sorted);
 }
-/// Of each device one, brought to the first.
+/// Of each device one, one after another in memory of the first. They are empty then.
 template <class Team, class Found>
-auto on_first(const Team& team, std::vector<result<Found, space_of<typename Team::local_policy>>> lists, bool sorted) {
-    using local = typename Team::local_policy;
-    if (lists.size() == 1) return std::move(lists.front());
-    const auto first = beginnings_of(lists);
-    execution::buffer_of<local, Found> all(team[0], first.back());
+auto brought_to_first(const Team& team, found_lists<typename Team::local_policy, Found>& lists,
+                      const std::vector<std::size_t>& first) {
+    execution::buffer_of<typename Team::local_policy, Found> all(team[0], first.back());
     synchronize(team[0]);
     for (std::size_t k = 0; k < lists.size(); ++k) {
         copy_across(team[static_cast<int>(k)], lists[k].data(), lists[k].size(), team[0], all.data() + first[k]);
         lists[k] = {};
     }
-    return merged(team[0], std::move(all), first, sorted);
+    return all;
+}
+/// The same as one list.
+template <class Team, class Found, class Order = by_ids>
+auto on_first(const Team& team, std::vector<result<Found, space_of<typename Team::local_policy>>> lists, bool sorted,
+              const Order& order = {}) {
+    if (lists.size() == 1) return std::move(lists.front());
+    const auto first = beginnings_of(lists);
+    return merged(team[0], brought_to_first<Team, Found>(team, lists, first), first, sorted, order);
 }
 
 /// The same options for the shapes of a device.

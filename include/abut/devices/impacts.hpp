@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// impacts, self_impacts and the first of them on several devices. Each has the whole meshes and walks its share of the pairs
+// of nodes (search_part in collide/pairing.hpp). Keys of pairs are the same on all, and what is found is merged by them.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <abut/collide/first_impact.hpp>
+#include <abut/collide/impacts.hpp>
+#include <abut/devices/divide.hpp>
+#include <abut/devices/query.hpp>
+#include <abut/execution/team.hpp>
+
+namespace abut {
+
+namespace detail {
+
+/// An argument of an impact query as an index on each device.
+template <pair_rule Rule, class Team, class X>
+auto impact_operands_on_each(const Team& team, const X& x, const char* function) {
+    static_assert(!is_divided<X>, "abut: impacts of several devices take meshes and indices that each device has whole");
+    require_as_many(team, x, function);
+    return each_of(team, [&](int k) { return impact_operand<Rule>(team[k], on_device(x, k), function); });
+}
+
+inline search_part part_of_device(int k, int devices) {
+    return {static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(devices)};
+}
+
+/// The impacts of indices on each device, or `Within` one.
+template <motion_arithmetic A, bool Within, class Team, class Index>
+auto impacts_on_devices(const Team& team, const std::vector<Index>& x, const std::vector<Index>& y,
+                        const impact_options& options, const char* function) {
+    using local = typename Team::local_policy;
+    using found_type = impact<typename Index::scalar_type>;
+    auto there = each_of(team, [&](int k) {
+        const auto i = static_cast<std::size_t>(k);
+        return impacts_of_indices<A, Within>(team[k], x[i], y[i], options, no_fronts{}, function,
+                                             part_of_device(k, team.size()));
+    });
+    if (there.size() == 1) return std::move(there.front().found);
+    found_lists<local, found_type> lists;
+    found_lists<local, std::uint64_t> keys;
+    for (auto& one : there) {
+        lists.push_back(std::move(one.found));
+        keys.push_back(std::move(one.keys));
+    }
+    const auto first = beginnings_of(lists);
+    auto all = brought_to_first<Team, found_type>(team, lists, first);
+    if (options.sorted && all.size() > 0) {
+        const auto order = brought_to_first<Team, std::uint64_t>(team, keys, first);
+        all = merged_by(team[0], by_number{}, order.data(), all, first);
+    }
+    return result<found_type, space_of<local>>(std::move(all));
+}
+
+/// The first of them: each device looks at the same part of the step.
+template <motion_arithmetic A, bool Within, class Team, class Index>
+auto first_on_devices(const Team& team, const std::vector<Index>& x, const std::vector<Index>& y,
+                      const impact_options& options, const char* function) {
+    return first_of_step<A>([&](double time) {
+        const auto found = each_of(team, [&](int k) {
+            const auto i = static_cast<std::size_t>(k);
+            return first_until<A, Within>(team[k], x[i], y[i], time, options, no_fronts{}, function,
+                                          part_of_device(k, team.size()));
+        });
+        auto first = found.front();
+        for (const auto& one : found) {
+            if (!one) continue;
+            const bool earlier = !first || one->found.time < first->found.time ||
+                                 (one->found.time == first->found.time && one->key < first->key);
+            if (earlier) first = one;
+        }
+        return first;
+    });
+}
+
+}  // namespace detail
+
+/// @addtogroup devices
+///@{
+
+/// An impact index on each device, of a mesh at rest or in motion in host memory, or of one that each device has. Options
+/// are those of `make_impact_index` under one policy. Waits for all.
+template <execution::policy_team Team, class X>
+[[nodiscard]] auto make_impact_index(const Team& team, const X& x, const bvh_options& options = {}) {
+    static_assert(!detail::is_divided<X>, "abut: impacts of several devices take meshes that each device has whole");
+    detail::require_as_many(team, x, "abut::make_impact_index");
+    return replicated(
+        detail::each_of(team, [&](int k) { return make_impact_index(team[k], detail::on_device(x, k), options); }));
+}
+
+/// The impacts of two meshes, as under one policy, bit for bit: a `result` of `impact` in memory of the first device.
+/// Arguments are replicated meshes, at rest or in motion, replicated indices of such, or meshes in host memory, which are
+/// copied to each device for the call. Fronts are not taken.
+template <motion_arithmetic A = filtered, execution::policy_team Team, class X, class Y>
+[[nodiscard]] auto impacts(const Team& team, const X& a, const Y& b, const impact_options& options = {}) {
+    constexpr const char* function = "abut::impacts";
+    using on_a = detail::type_on_device<X>;
+    using on_b = detail::type_on_device<Y>;
+    if constexpr (detail::can_meet<typename Team::local_policy, on_a, on_b>()) {
+        constexpr pair_rule rule = detail::rule_of<on_a, on_b>();
+        const auto x = detail::impact_operands_on_each<rule>(team, a, function);
+        const auto y = detail::impact_operands_on_each<rule>(team, b, function);
+        return detail::impacts_on_devices<A, false>(team, x, y, options, function);
+    } else {
+        return result<impact<float>, space_of<typename Team::local_policy>>();
+    }
+}
+
+/// The impacts of a mesh with itself, as under one policy; otherwise as `impacts`.
+template <motion_arithmetic A = filtered, execution::policy_team Team, class X>
+[[nodiscard]] auto self_impacts(const Team& team, const X& x, const impact_options& options = {}) {
+    constexpr const char* function = "abut::self_impacts";
+    using there = detail::type_on_device<X>;
+    if constexpr (detail::can_move<typename Team::local_policy, there>()) {
+        const auto all = detail::impact_operands_on_each<detail::rule_of<there, there>()>(team, x, function);
+        return detail::impacts_on_devices<A, true>(team, all, all, options, function);
+    } else {
+        return result<impact<float>, space_of<typename Team::local_policy>>();
+    }
+}
+
+/// The earliest of the impacts, as under one policy: a std::optional<impact<T>>. All devices look at a first part of the
+/// step, and at more where none finds anything in it. Arguments are those of `impacts`.
+template <motion_arithmetic A = filtered, execution::policy_team Team, class X, class Y>
+[[nodiscard]] auto first_impact(const Team& team, const X& a, const Y& b, const impact_options& options = {}) {
+    constexpr const char* function = "abut::first_impact";
+    using on_a = detail::type_on_device<X>;
+    using on_b = detail::type_on_device<Y>;
+    if constexpr (detail::can_meet<typename Team::local_policy, on_a, on_b>()) {
+        constexpr pair_rule rule = detail::rule_of<on_a, on_b>();
+        const auto x = detail::impact_operands_on_each<rule>(team, a, function);
+        const auto y = detail::impact_operands_on_each<rule>(team, b, function);
+        return detail::first_on_devices<A, false>(team, x, y, options, function);
+    } else {
+        return std::optional<impact<float>>();
+    }
+}
+
+/// The earliest of the impacts of a mesh with itself; otherwise as `first_impact`.
+template <motion_arithmetic A = filtered, execution::policy_team Team, class X>
+[[nodiscard]] auto first_self_impact(const Team& team, const X& x, const impact_options& options = {}) {
+    constexpr const char* function = "abut::first_self_impact";
+    using there = detail::type_on_device<X>;
+    if constexpr (detail::can_move<typename Team::local_policy, there>()) {
+        const auto all = detail::impact_operands_on_each<detail::rule_of<there, there>()>(team, x, function);
+        return detail::first_on_devices<A, true>(team, all, all, options, function);
+    } else {
+        return std::optional<impact<float>>();
+    }
+}
+
+///@}
+
+}  // namespace abut
