@@ -306,7 +306,8 @@ void ask_each_itself(const Team& team, const X& x, const char* function, const A
 /// `abut::cuda_devices` from `<abut/cuda_devices.hpp>` asks a query of several devices at a time. `replicate` puts a set on
 /// each of them, `divide` a part of it on each, and `make_bvh` makes a tree of either on each. `any`, `count`, `pairs`,
 /// `for_each_pair`, `contacts`, `self_pairs` and `count_self_pairs` take these, posed or not, and sets in host memory and
-/// single shapes, which are copied to each device for the call. Answers are those of one device, bit for bit.
+/// single shapes, which are copied to each device for the call. `impacts` and queries of bodies take what each device has
+/// whole. Answers are those of one device, bit for bit.
 ///
 /// A filter runs on every device: what it points to has to be readable on each of them. `schedule_options::report` is left
 /// as it is.
