@@ -333,23 +333,30 @@ def of_size(results, kind, n):
     return results[f"{kind}/meshes" if n == SIZES[-1] else f"{kind}/meshes_{n}"]
 
 
+def near_phase(r, policy):
+    """What contacts take beyond the walk of both trees."""
+    both, walk = r.get(f"contacts/posed/{policy}"), r.get(f"boxes/posed/{policy}")
+    return both - walk if both and walk else None
+
+
 @in_table("sizes")
 def sizes(results):
-    lines = []
-    for title, phase, rows_of in (
-            ("Middle phase, the walk of two trees, and the build of one, in ms", "middle", (
-                ("walk: one core", "cpu", "boxes/posed/serial"), ("walk: device", "cuda", "boxes/posed/cuda"),
-                ("build: one core", "cpu", "build/bvh/serial"), ("build: device", "cuda", "build/bvh/cuda/{}"))),
-            ("Near phase, in ms; of ours both phases together", "near", (
-                ("pairs: one core", "cpu", "pairs/posed/serial"), ("pairs: device", "cuda", "pairs/posed/cuda"),
-                ("contacts: one core", "cpu", "contacts/posed/serial"), ("contacts: device", "cuda", "contacts/posed/cuda")))):
-        rows = []
-        for n in SIZES:
-            theirs = LITERATURE["backman_2011"]["sizes"][n]
-            rows.append([f"{int(n):,}", shown(theirs[f"{phase}_cpu_ms"]), shown(theirs[f"{phase}_gpu_ms"])] +
-                        [shown(of_size(results, kind, n).get(name.format(n))) for _, kind, name in rows_of])
-        lines += [f"{title}:", ""] + filled(["triangles", "source: processor", "source: GPU"] + [head for head, _,
-                                                                                                 _ in rows_of], rows)
+    middle, near = [], []
+    for n in SIZES:
+        theirs = LITERATURE["backman_2011"]["sizes"][n]
+        cpu, cuda = [of_size(results, kind, n) for kind in ("cpu", "cuda")]
+        size = f"{int(n):,}"
+        middle.append([size] + [shown(ms) for ms in (
+            theirs["middle_cpu_ms"], theirs["middle_gpu_ms"], cpu.get("boxes/posed/serial"), cuda.get("boxes/posed/cuda"),
+            cpu.get("build/bvh/serial"), cuda.get(f"build/bvh/cuda/{n}"))])
+        near.append([size] + [shown(ms) for ms in (
+            theirs["near_cpu_ms"], theirs["near_gpu_ms"], near_phase(cpu, "serial"), near_phase(cuda, "cuda"),
+            cpu.get("contacts/posed/serial"), cuda.get("contacts/posed/cuda"))])
+    head = ["triangles", "source: processor", "source: GPU"]
+    lines = ["Middle phase, the walk of two trees, and the build of one, in ms:", ""]
+    lines += filled(head + ["walk: one core", "walk: device", "build: one core", "build: device"], middle)
+    lines += ["Near phase, in ms: of ours what `contacts` takes beyond the walk, and then all that it takes:", ""]
+    lines += filled(head + ["near phase: one core", "near phase: device", "contacts: one core", "contacts: device"], near)
     return lines + made_on(results["cpu/meshes"]) + made_on(results["cuda/meshes"])
 
 
