@@ -102,9 +102,23 @@ def spheres_cpu(results):
     return spheres_mesh(results["cpu/spheres_mesh"])
 
 
+def without_waiting(r):
+    """Calls into a stream, beside those that wait; nothing where there are none."""
+    if not r.names("async/"):
+        return []
+    waits = {"pairs": "pairs/bvh/cuda/1703244", "count": "count/bvh/cuda/1703244"}
+    rows = [[f"`{query}`", shown(r.get(name))] + [shown(r.get(f"async/{query}/{what}"))
+                                                  for what in ("read", "ended", "captured", "enqueue")]
+            for query, name in waits.items()]
+    return ["The whole scene by calls that do not wait, in ms:", ""] + \
+        table(["query", "the call that waits", "asynchronous, and `wait`", "until the stream ends", "from a graph",
+               "the host's thread, until the call returns"], rows)
+
+
 @in_table("spheres-cuda")
 def spheres_cuda(results):
-    return spheres_mesh(results["cuda/spheres_mesh"])
+    r = results["cuda/spheres_mesh"]
+    return spheres_mesh(r) + without_waiting(r)
 
 
 @in_table("spheres-sources")

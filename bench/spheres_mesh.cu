@@ -8,6 +8,8 @@
 // read and written at least once, over the bandwidth that a read loop reaches in this run. Prints a table, and writes JSON
 // in the form of Google Benchmark. Takes less than a minute.
 
+#include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -72,6 +74,63 @@ void add_sizes(const abut::cuda& on, const resident_scene& data, const char* nam
     }
 }
 
+/// The whole scene by calls that do not wait. `enqueue_ms` is what the host's thread takes for a call, behind one that still
+/// runs; `captured` is the same call out of a graph.
+template <class X>
+void add_async(const abut::cuda& own, const resident_scene& data, const X& index, std::size_t found, table& out) {
+    cudaStream_t stream = nullptr;  // the default one cannot be recorded
+    check(cudaStreamCreate(&stream), "cudaStreamCreate");
+    {
+        abut::cuda on = own;
+        on.stream = stream;
+        abut::async_result<abut::index_pair> pairs(on, 2 * found);
+        abut::async_value<std::uint64_t> count(on);
+        const auto row = [&](const char* query, const auto& ask, const auto& wait) {
+            const auto ended = [&] { check(cudaStreamSynchronize(stream), "cudaStreamSynchronize"); };
+            ended();
+            out.add(joined({"async", query, "ended"}), 0, [&] {
+                ask();
+                ended();
+                return counters{};
+            });
+            out.add(joined({"async", query, "read"}), 0, [&] {
+                ask();
+                wait();
+                return counters{};
+            });
+            std::vector<double> enqueue;
+            for (int i = 0; i < 51; ++i) {
+                ask();
+                const auto start = std::chrono::steady_clock::now();
+                ask();
+                enqueue.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+                ended();
+            }
+            std::sort(enqueue.begin(), enqueue.end());
+            cudaGraph_t graph = nullptr;
+            cudaGraphExec_t run = nullptr;
+            check(cudaStreamBeginCapture(stream, cudaStreamCaptureModeThreadLocal), "cudaStreamBeginCapture");
+            ask();
+            check(cudaStreamEndCapture(stream, &graph), "cudaStreamEndCapture");
+            check(cudaGraphInstantiate(&run, graph, 0), "cudaGraphInstantiate");
+            out.add(joined({"async", query, "captured"}), 0, [&] {
+                check(cudaGraphLaunch(run, stream), "cudaGraphLaunch");
+                ended();
+                return counters{};
+            });
+            check(cudaGraphExecDestroy(run), "cudaGraphExecDestroy");
+            check(cudaGraphDestroy(graph), "cudaGraphDestroy");
+            out.note(joined({"async", query, "enqueue"}), {{"ms", enqueue[enqueue.size() / 2]}, {"best_ms", enqueue[0]}});
+        };
+        row(
+            "pairs", [&] { abut::pairs_async(on, index, data.whole(), pairs); },
+            [&] { (void)abut::wait(on, pairs).size(); });
+        row(
+            "count", [&] { abut::count_async(on, index, data.whole(), count); }, [&] { (void)abut::wait(on, count); });
+    }
+    check(cudaStreamDestroy(stream), "cudaStreamDestroy");
+}
+
 template <class Index>
 void add_index(const abut::cuda& on, const resident_scene& data, table& out) {
     const auto name = [](const char* what) { return joined({what, Index::name, "cuda"}); };
@@ -99,6 +158,7 @@ void add_index(const abut::cuda& on, const resident_scene& data, table& out) {
     out.add(joined({"arithmetic", Index::name, "float/fast"}), least,
             [&] { return of(abut::pairs<abut::fast>(on, index, data.whole()).size()); });
     if constexpr (std::is_same_v<Index, bvh>) {
+        add_async(on, data, index, found, out);
         out.add("arithmetic/bvh/float/exact", least,
                 [&] { return of(abut::pairs<abut::exact>(on, index, data.whole()).size()); });
         out.add("all_unsorted/bvh/cuda", least + bytes,
