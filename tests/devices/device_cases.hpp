@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <random>
 #include <string>
@@ -368,8 +369,20 @@ void check_impacts(const Team& team) {
     const auto moved = refit(team, index_a, later);
     CHECK(to_host(impacts(team, moved, b)) == to_host(impacts(serial{}, later, b)));
 
-    const auto far = shaken(ball_surface<T>(1, 0.75), vec3<T>{9, 0, 0}, 4);  // meets b late
-    CHECK(first_impact(team, far, b) == first_impact(serial{}, far, b));
+    const auto late = [&](T x0, T x1) {
+        const auto data = ball_surface<T>(1, 0.75);
+        auto t0 = data.vertices, t1 = data.vertices;
+        for (auto& p : t0) p.x += x0;
+        for (auto& p : t1) p.x += x1;
+        const mesh<T> first(t0, data.faces);
+        return moving(first, first.with_vertices(serial{}, t1));
+    };
+    for (const T x0 : {T(-3), T(-12), T(-90)}) {  // later and later, the last not at all
+        const auto comes = late(x0, x0 < T(-80) ? x0 + 1 : T(3));
+        const auto first = first_impact(serial{}, comes, b);
+        CHECK((first ? first->time > 1.0 / 16 : x0 < T(-80)));
+        CHECK(first_impact(team, comes, b) == first);
+    }
     CHECK(first_impact(team, a, mesh<T>()) == std::nullopt);
     if constexpr (host_policy<typename Team::local_policy>) {
         auto unsorted = to_host(impacts(team, a, b, {.sorted = false}));
@@ -393,9 +406,18 @@ struct keep_some_bodies {
     ABUT_HD bool operator()(const body_pair& p) const { return (p.body_a + p.body_b + p.a + p.b) % 3 != 0; }
 };
 
-/// Many bodies, of a few indices.
+/// Counts pairs of bodies.
+struct count_bodies {
+    std::uint64_t* count;
+    ABUT_HD visit operator()(const body_pair&) const {
+        execution::atomic_add(count, std::uint64_t{1});
+        return visit::proceed;
+    }
+};
+
+/// Bodies, of a few indices.
 template <scalar T, class Team>
-void check_bodies(const Team& team) {
+void check_some_bodies(const Team& team, std::uint32_t bodies) {
     const auto large = ball_surface<T>(2, 1.0), small = ball_surface<T>(1, 0.5);
     const std::vector<mesh<T>> sets{mesh<T>(large.vertices, large.faces), mesh<T>(small.vertices, small.faces),
                                     mesh<T>()};
@@ -407,7 +429,7 @@ void check_bodies(const Team& team) {
     }
     std::vector<std::uint32_t> index_of;
     std::vector<rigid<T>> poses, later;
-    for (std::uint32_t i = 0; i < 60; ++i) {
+    for (std::uint32_t i = 0; i < bodies; ++i) {
         draws d(11, 0, i);
         index_of.push_back(i % 7 == 3 ? 2 : i % 2);
         poses.push_back(make_rotation<T>(d));
@@ -420,13 +442,16 @@ void check_bodies(const Team& team) {
     const auto all = make_bodies(team, indices, index_of, poses);
     const auto expected = to_host(pairs(serial{}, alone));
     CAPTURE(team.size(), expected.size());
-    CHECK((all.size() == poses.size() && expected.size() > 500));
+    CHECK((all.size() == poses.size() && (bodies < 60 || expected.size() > 500)));
     CHECK((to_host(pairs(team, all)) == expected));
     CHECK(count(team, all) == expected.size());
     const auto moved = refit(team, all, later);
     CHECK((to_host(pairs(team, moved)) == to_host(pairs(serial{}, refit(serial{}, alone, later)))));
     if constexpr (host_policy<typename Team::local_policy>) {
-        CHECK(any(team, all));
+        CHECK(any(team, all) == !expected.empty());
+        std::vector<std::uint64_t> visits(static_cast<std::size_t>(team.size()));
+        for_each_pair(team, all, [&](int k) { return count_bodies{&visits[static_cast<std::size_t>(k)]}; });
+        CHECK(std::accumulate(visits.begin(), visits.end(), std::size_t{0}) == expected.size());
         CHECK((to_host(contacts(team, all)) == to_host(contacts(serial{}, alone))));
         const body_options<keep_some_bodies> with_filter{.filter = {}};
         CHECK((to_host(pairs(team, all, with_filter)) == to_host(pairs(serial{}, alone, with_filter))));
@@ -436,6 +461,11 @@ void check_bodies(const Team& team) {
         for (rigid<T>& pose : later) pose.translation.x += static_cast<T>(9 * (&pose - later.data()));
         CHECK(!any(team, refit(team, all, later)));
     }
+}
+
+template <scalar T, class Team>
+void check_bodies(const Team& team) {
+    for (const std::uint32_t bodies : {0u, 1u, 2u, 3u, 60u}) check_some_bodies<T>(team, bodies);
 }
 
 /// Of what check_scenes looks at, what takes different ways: few kinds of queries, so that nvcc ends.

@@ -201,10 +201,16 @@ bodies<Index> bodies_of(const Policy& on, const std::vector<posed_object<Index>>
     return build_bodies(on, place_bodies(on, gathered_bodies<Index>(list.size(), body), function, name_of_body));
 }
 
+/// Bodies under other poses, with the refitted tree.
+template <class Index>
+struct moved_bodies {
+    body_state<Index> state;
+    bool wants_new_tree;
+};
 /// The same bodies under poses in the policy's memory, which are not checked yet.
 template <class Policy, class Index>
-bodies<Index> refit_bodies(const Policy& on, const bodies<Index>& all,
-                           execution::buffer_of<Policy, rigid<typename Index::scalar_type>> poses) {
+moved_bodies<Index> move_bodies(const Policy& on, const bodies<Index>& all,
+                                execution::buffer_of<Policy, rigid<typename Index::scalar_type>> poses) {
     using state = body_state<Index>;
     const state& old = parts_of_bodies::of(all);
     placed_bodies<Index> placed{old.placed.objects,
@@ -213,11 +219,27 @@ bodies<Index> refit_bodies(const Policy& on, const bodies<Index>& all,
     auto boxes = box_bodies(on, placed, *old.with_shapes);
     const box_view<typename state::T, typename state::Space> shapes{boxes.data(), boxes.size()};
     typename state::tree_type tree({boxes.data(), boxes.size()}, refit_storage(on, old.tree.stored(), shapes));
-    if (needs_rebuild(old.when_built, surfaces_of(on, tree))) {
-        return build_bodies<Policy, Index>(on, std::move(placed), old.with_shapes, std::move(boxes));
-    }
-    return parts_of_bodies::make<Index>(
-        {std::move(placed), old.with_shapes, std::move(boxes), std::move(tree), old.when_built});
+    const bool is_worse = needs_rebuild(old.when_built, surfaces_of(on, tree));
+    return {{std::move(placed), old.with_shapes, std::move(boxes), std::move(tree), old.when_built}, is_worse};
+}
+/// And from host memory.
+template <class Policy, class Index>
+moved_bodies<Index> move_bodies(const Policy& on, const bodies<Index>& all,
+                                std::span<const rigid<typename Index::scalar_type>> poses) {
+    execution::buffer_of<Policy, rigid<typename Index::scalar_type>> there(on, poses.size());
+    upload(on, poses.data(), poses.size(), there.data());
+    return move_bodies(on, all, std::move(there));
+}
+template <class Policy, class Index>
+bodies<Index> settle_bodies(const Policy& on, moved_bodies<Index> moved, bool new_tree) {
+    body_state<Index>& state = moved.state;
+    if (!new_tree) return parts_of_bodies::make<Index>(std::move(state));
+    return build_bodies<Policy, Index>(on, std::move(state.placed), std::move(state.with_shapes), std::move(state.boxes));
+}
+template <class Policy, class Index>
+bodies<Index> settle_bodies(const Policy& on, moved_bodies<Index> moved) {
+    const bool new_tree = moved.wants_new_tree;
+    return settle_bodies(on, std::move(moved), new_tree);
 }
 
 /// Throws where there are not as many poses as bodies, or the bodies lie on another device.
@@ -290,9 +312,7 @@ template <execution_policy Policy, class Index>
                          std::type_identity_t<std::span<const rigid<typename Index::scalar_type>>> poses) {
     if constexpr (detail::can_be_listed<Policy, Index>()) {
         detail::check_refit(on, all, poses.size());
-        execution::buffer_of<Policy, rigid<typename Index::scalar_type>> there(on, poses.size());
-        upload(on, poses.data(), poses.size(), there.data());
-        return detail::refit_bodies(on, all, std::move(there));
+        return detail::settle_bodies(on, detail::move_bodies(on, all, poses));
     } else {
         return detail::refused();
     }
@@ -307,7 +327,7 @@ template <execution_policy Policy, class Index, memory_space Space>
         require_access(on, poses.first, "abut::refit");
         execution::buffer_of<Policy, rigid<typename Index::scalar_type>> own(on, poses.count);
         copy(on, poses.first, poses.count, own.data());
-        return detail::refit_bodies(on, all, std::move(own));
+        return detail::settle_bodies(on, detail::move_bodies(on, all, std::move(own)));
     } else {
         return detail::refused();
     }

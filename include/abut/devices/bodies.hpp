@@ -22,6 +22,9 @@ namespace abut {
 
 namespace detail {
 
+template <class Index>
+inline constexpr bool refits_alone<bodies<Index>> = false;
+
 struct by_bodies {
     template <class Found>
     ABUT_HD bool operator()(const Found& x, const Found& y) const {
@@ -35,13 +38,16 @@ struct by_bodies {
 template <class Team, class Index, class Options, class Ask>
 void ask_bodies(const Team& team, const replicated<bodies<Index>>& all, const Options& options, bool sorted,
                 const char* function, const Ask& ask) {
-    require_as_many(team, all, function);
-    const auto parts = static_cast<std::uint32_t>(team.size());
-    execution::on_each(team, [&](int k) {
-        auto here = options;
-        here.scheduling.report = nullptr;  // of one query, and here are several
-        ask(k, pair_up_bodies(team[k], all[k], here, sorted, function, search_part{static_cast<std::uint32_t>(k), parts}));
-    });
+    if constexpr (can_be_listed<typename Team::local_policy, Index>()) {
+        require_as_many(team, all, function);
+        const auto parts = static_cast<std::uint32_t>(team.size());
+        execution::on_each(team, [&](int k) {
+            auto here = options;
+            here.scheduling.report = nullptr;  // of one query, and here are several
+            const search_part mine{static_cast<std::uint32_t>(k), parts};
+            ask(k, pair_up_bodies(team[k], all[k], here, sorted, function, mine));
+        });
+    }
 }
 /// What ask(on, pairing) finds, in memory of the first device.
 template <class Found, class Team, class Index, class Options, class Ask>
@@ -61,7 +67,7 @@ auto found_of_bodies(const Team& team, const replicated<bodies<Index>>& all, con
 
 /// Bodies on each device: body i is indices[index_of[i]] under poses[i], as of `make_bodies` under one policy. Indices are
 /// what `make_bvh` made for these devices. Throws as `make_bodies` does, and `error` if an index lies on another number of
-/// devices. Waits for all. `refit(team, bodies, poses)` brings them to other poses.
+/// devices. Waits for all.
 template <execution::policy_team Team, class Index>
 [[nodiscard]] auto make_bodies(const Team& team, const std::vector<replicated<Index>>& indices,
                                std::type_identity_t<std::span<const std::uint32_t>> index_of,
@@ -71,6 +77,22 @@ template <execution::policy_team Team, class Index>
         std::vector<Index> there;
         for (const replicated<Index>& index : indices) there.push_back(index[k]);
         return make_bodies(team[k], there, index_of, poses);
+    }));
+}
+
+/// The same bodies under other poses, in host memory, as `refit` of one policy. The first device decides for all whether
+/// there is to be a new tree: they have to walk the same one. Waits for all.
+template <execution::policy_team Team, class Index>
+[[nodiscard]] auto refit(const Team& team, const replicated<bodies<Index>>& all,
+                         std::type_identity_t<std::span<const rigid<typename Index::scalar_type>>> poses) {
+    detail::require_as_many(team, all, "abut::refit");
+    auto moved = detail::each_of(team, [&](int k) {
+        detail::check_refit(team[k], all[k], poses.size());
+        return detail::move_bodies(team[k], all[k], poses);
+    });
+    const bool new_tree = moved.front().wants_new_tree;
+    return replicated(detail::each_of(team, [&](int k) {
+        return detail::settle_bodies(team[k], std::move(moved[static_cast<std::size_t>(k)]), new_tree);
     }));
 }
 
@@ -107,6 +129,22 @@ template <arithmetic A = filtered, execution::policy_team Team, class Index, cla
     return detail::found_of_bodies<body_pair>(
         team, all, options, "abut::pairs",
         [](const auto& on, const auto& pairing) { return detail::pairs_of<A>(on, pairing); });
+}
+
+/// Calls visitor_of(k)(body_pair) -> visit for every such pair, once, on the k-th device, which has found it; otherwise as
+/// `for_each_pair` of two arguments on several devices.
+template <arithmetic A = filtered, execution::policy_team Team, class Index, class VisitorOf, class Filter = keep_all,
+          schedule Schedule = schedule::shared_list>
+void for_each_pair(const Team& team, const replicated<bodies<Index>>& all, const VisitorOf& visitor_of,
+                   const body_options<Filter, Schedule>& options = {}) {
+    using visitor = std::remove_cvref_t<decltype(visitor_of(0))>;
+    if constexpr (detail::is_visitor<typename Team::local_policy, visitor, body_pair>()) {
+        std::vector<visitor> visitors;
+        for (int k = 0; k < team.size(); ++k) visitors.push_back(visitor_of(k));
+        detail::ask_bodies(team, all, options, false, "abut::for_each_pair", [&](int k, const auto& pairing) {
+            detail::visit_pairs_of<A>(team[k], pairing, visitors[static_cast<std::size_t>(k)]);
+        });
+    }
 }
 
 /// Their contacts, as under one policy: a `result` of `body_contact` in memory of the first device.

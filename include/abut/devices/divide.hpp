@@ -91,6 +91,12 @@ template <class X>
 inline constexpr bool is_divided = false;
 template <class X>
 inline constexpr bool is_divided<divided<X>> = true;
+/// Whether each device may be brought to another step without a look at the others.
+template <class X>
+inline constexpr bool refits_alone = true;
+/// What has shapes, and so may be posed.
+template <class X>
+concept has_shape_type = requires { typename shape_of_argument<X>::type; };
 
 /// What a device is asked about.
 template <class X>
@@ -253,18 +259,19 @@ template <execution::policy_team Team, class X, class... Options>
     }
 }
 
-/// What lies on each device, brought to another step as `refit` of one policy does: trees of a set and impact indices to
-/// `step`, which is a set on each device or in host memory; bodies to poses in host memory. Waits for all.
+/// What lies on each device, brought to another step as `refit` of one policy does: trees of a set, or impact indices, to
+/// `step`, which is a set on each device or in host memory. Waits for all.
 template <execution::policy_team Team, class X, class Step>
+    requires detail::refits_alone<X>
 [[nodiscard]] auto refit(const Team& team, const replicated<X>& all, const Step& step) {
     detail::require_as_many(team, all, "abut::refit");
     detail::require_as_many(team, step, "abut::refit");
     return replicated(detail::each_of(team, [&](int k) { return refit(team[k], all[k], detail::on_device(step, k)); }));
 }
 
-/// What lies on each device, moved by a pose.
+/// The set or tree on each device, moved by a pose.
 ///@{
-template <class X>
+template <detail::has_shape_type X>
 [[nodiscard]] auto posed(const replicated<X>& object, const rigid<typename X::scalar_type>& pose) {
     std::vector<posed_object<X>> placed;
     for (int k = 0; k < object.devices(); ++k) placed.push_back(posed(object[k], pose));

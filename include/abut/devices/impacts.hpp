@@ -20,10 +20,32 @@ namespace abut {
 
 namespace detail {
 
+/// Whether impact queries of several devices take arguments of these types.
+template <class X>
+consteval bool is_whole() {
+    static_assert(!is_divided<X>, "abut: impacts of several devices take meshes and indices that each device has whole");
+    return !is_divided<X>;
+}
+template <class Team, class X>
+consteval bool can_move_on_devices() {
+    if constexpr (is_whole<X>()) {
+        return can_move<typename Team::local_policy, type_on_device<X>>();
+    } else {
+        return false;
+    }
+}
+template <class Team, class X, class Y>
+consteval bool can_meet_on_devices() {
+    if constexpr (is_whole<X>() && is_whole<Y>()) {
+        return can_meet<typename Team::local_policy, type_on_device<X>, type_on_device<Y>>();
+    } else {
+        return false;
+    }
+}
+
 /// An argument of an impact query as an index on each device.
 template <pair_rule Rule, class Team, class X>
 auto impact_operands_on_each(const Team& team, const X& x, const char* function) {
-    static_assert(!is_divided<X>, "abut: impacts of several devices take meshes and indices that each device has whole");
     require_as_many(team, x, function);
     return each_of(team, [&](int k) { return impact_operand<Rule>(team[k], on_device(x, k), function); });
 }
@@ -89,10 +111,13 @@ auto first_on_devices(const Team& team, const std::vector<Index>& x, const std::
 /// are those of `make_impact_index` under one policy. Waits for all.
 template <execution::policy_team Team, class X>
 [[nodiscard]] auto make_impact_index(const Team& team, const X& x, const bvh_options& options = {}) {
-    static_assert(!detail::is_divided<X>, "abut: impacts of several devices take meshes that each device has whole");
-    detail::require_as_many(team, x, "abut::make_impact_index");
-    return replicated(
-        detail::each_of(team, [&](int k) { return make_impact_index(team[k], detail::on_device(x, k), options); }));
+    if constexpr (detail::can_move_on_devices<Team, X>()) {
+        detail::require_as_many(team, x, "abut::make_impact_index");
+        return replicated(
+            detail::each_of(team, [&](int k) { return make_impact_index(team[k], detail::on_device(x, k), options); }));
+    } else {
+        return detail::refused();
+    }
 }
 
 /// The impacts of two meshes, as under one policy, bit for bit: a `result` of `impact` in memory of the first device.
@@ -103,7 +128,7 @@ template <motion_arithmetic A = filtered, execution::policy_team Team, class X, 
     constexpr const char* function = "abut::impacts";
     using on_a = detail::type_on_device<X>;
     using on_b = detail::type_on_device<Y>;
-    if constexpr (detail::can_meet<typename Team::local_policy, on_a, on_b>()) {
+    if constexpr (detail::can_meet_on_devices<Team, X, Y>()) {
         constexpr pair_rule rule = detail::rule_of<on_a, on_b>();
         const auto x = detail::impact_operands_on_each<rule>(team, a, function);
         const auto y = detail::impact_operands_on_each<rule>(team, b, function);
@@ -118,7 +143,7 @@ template <motion_arithmetic A = filtered, execution::policy_team Team, class X>
 [[nodiscard]] auto self_impacts(const Team& team, const X& x, const impact_options& options = {}) {
     constexpr const char* function = "abut::self_impacts";
     using there = detail::type_on_device<X>;
-    if constexpr (detail::can_move<typename Team::local_policy, there>()) {
+    if constexpr (detail::can_move_on_devices<Team, X>()) {
         const auto all = detail::impact_operands_on_each<detail::rule_of<there, there>()>(team, x, function);
         return detail::impacts_on_devices<A, true>(team, all, all, options, function);
     } else {
@@ -127,13 +152,13 @@ template <motion_arithmetic A = filtered, execution::policy_team Team, class X>
 }
 
 /// The earliest of the impacts, as under one policy: a std::optional<impact<T>>. All devices look at a first part of the
-/// step, and at more where none finds anything in it. Arguments are those of `impacts`.
+/// step, and at more where nothing touches in it. Arguments are those of `impacts`.
 template <motion_arithmetic A = filtered, execution::policy_team Team, class X, class Y>
 [[nodiscard]] auto first_impact(const Team& team, const X& a, const Y& b, const impact_options& options = {}) {
     constexpr const char* function = "abut::first_impact";
     using on_a = detail::type_on_device<X>;
     using on_b = detail::type_on_device<Y>;
-    if constexpr (detail::can_meet<typename Team::local_policy, on_a, on_b>()) {
+    if constexpr (detail::can_meet_on_devices<Team, X, Y>()) {
         constexpr pair_rule rule = detail::rule_of<on_a, on_b>();
         const auto x = detail::impact_operands_on_each<rule>(team, a, function);
         const auto y = detail::impact_operands_on_each<rule>(team, b, function);
@@ -148,7 +173,7 @@ template <motion_arithmetic A = filtered, execution::policy_team Team, class X>
 [[nodiscard]] auto first_self_impact(const Team& team, const X& x, const impact_options& options = {}) {
     constexpr const char* function = "abut::first_self_impact";
     using there = detail::type_on_device<X>;
-    if constexpr (detail::can_move<typename Team::local_policy, there>()) {
+    if constexpr (detail::can_move_on_devices<Team, X>()) {
         const auto all = detail::impact_operands_on_each<detail::rule_of<there, there>()>(team, x, function);
         return detail::first_on_devices<A, true>(team, all, all, options, function);
     } else {
