@@ -207,6 +207,23 @@ def bodies_cuda(results):
     return [found, ""] + table(["ms"] + [f"{int(n):,} bodies" for p, n in columns], rows + [floor]) + made_on(r)
 
 
+@in_table("devices-cuda")
+def devices_cuda(results):
+    r = results["cuda/devices"]
+    columns = [c for c in ("cuda", "one_device", "one_named_twice", "all_devices") if any(n.endswith(c) for n in r.rows)]
+    heads = {"cuda": "`cuda`", "one_device": "`cuda_devices` of that device", "one_named_twice": "of that device named twice",
+             "all_devices": "of all devices"}
+    scenes = (("trees", "two trees, copied"), ("look_up", "spheres look in a tree, copied"), ("divided", "two trees, divided"),
+              ("bodies", "100,000 bodies"), ("tori", "a torus moves through another"))
+    rows = []
+    for scene, name in scenes:
+        for query in ("pairs", "count", "impacts"):
+            if r.names(f"devices/{query}/{scene}/"):
+                rows.append([name, f"`{query}`"] + [shown(r.get(f"devices/{query}/{scene}/{c}")) for c in columns])
+    return ["ms; all data on the devices before:", ""] + \
+        table(["scene", "query"] + [heads[c] for c in columns], rows, 2) + made_on(r)
+
+
 @in_table("validate-cpu")
 def validate_cpu(results):
     r = results["cpu/validate"]
