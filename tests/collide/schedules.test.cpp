@@ -14,7 +14,7 @@ TEST_CASE("schedules: serial has one") {
 
 TEST_CASE("schedules: openmp") {
     constexpr openmp on{.threads = 3};
-    check_scheduled_queries<double, schedule::work_stealing>(on, 20);
+    check_scheduled_queries<double, schedule::work_stealing>(on, 200);
     check_scheduled_forms<float, schedule::static_partition>(on);
     check_scheduled_lists<float, schedule::lazy_work_stealing>(on);
 }

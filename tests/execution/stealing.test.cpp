@@ -192,14 +192,14 @@ TEST_CASE("schedules: threads that steal find what one thread finds") {
     for (const int workers : {2, 5}) {
         const std_threads on(workers, workers);
         test::check_schedule<schedule::work_stealing>(on);
-        test::check_schedule_is_itself<schedule::work_stealing>(on, 11, 20);
+        test::check_schedule_is_itself<schedule::work_stealing>(on, 11, 200);
     }
 }
 
 TEST_CASE("schedules: threads of openmp that steal") {
     const openmp on{.threads = 3};
     test::check_schedule<schedule::work_stealing>(on);
-    test::check_schedule_is_itself<schedule::work_stealing>(on, 11, 20);
+    test::check_schedule_is_itself<schedule::work_stealing>(on, 11, 200);
 }
 
 TEST_CASE("schedules: no worker waits for one that has not begun") {

@@ -155,8 +155,8 @@ struct near_bodies {
 };
 
 /// The keys of all pairs of boxes that meet; ascending if they are to be.
-template <class Policy, class Tree, class Part>
-auto find_near(const Policy& on, const Tree& tree, const pair_key& key, bool sorted, const Part& part) {
+template <class Policy, class Tree, class Part = whole_search>
+auto find_near(const Policy& on, const Tree& tree, const pair_key& key, bool sorted, const Part& part = {}) {
     using operand = indexed_operand<Tree>;
     const self_pairing<operand, keep_all, traversal::both_at_once, default_schedule<traversal::both_at_once>, as_they_are>
         pairing{{tree}, {}, key, {}};

@@ -74,11 +74,11 @@ inline constexpr schedule default_schedule = Traversal == traversal::both_at_onc
                                                  : schedule::shared_list;
 
 /// Options of `any`, `count`, `pairs` and `for_each_pair`. Without a filter, `{.sorted = false}` will do in a call; with
-/// one, write the type's name: `query_options{.filter = f}` where f is a lambda or a functor. (clang before 17 cannot deduce
-/// the argument of an aggregate: `query_options<decltype(f)>{.filter = f}`.)
+/// one, write the type's name: `query_options{.filter = f}` where f is a lambda or a functor. clang before 17 cannot deduce
+/// the argument of an aggregate, and takes it as in the example.
 ///
 ///     const auto later = [](std::uint32_t a, std::uint32_t b) { return a < b; };
-///     const auto hits = abut::pairs(on, mesh, other, abut::query_options{.filter = later});
+///     const auto hits = abut::pairs(on, mesh, other, abut::query_options<decltype(later)>{.filter = later});
 ///
 /// Under cuda a filter runs on the device. A functor marked ABUT_HD needs no flag of nvcc's; a lambda needs
 /// `--extended-lambda` and the mark, as in `[=] ABUT_HD(std::uint32_t a, std::uint32_t b) { return first[a] < b; }`, which
