@@ -388,7 +388,13 @@ def sizes(results):
     lines += filled(head + ["walk: one core", "walk: device", "build: one core", "build: device"], middle)
     lines += ["Near phase, in ms: of ours what `contacts` takes beyond the walk, and then all that it takes:", ""]
     lines += filled(head + ["near phase: one core", "near phase: device", "contacts: one core", "contacts: device"], near)
-    return lines + made_on(results["cpu/meshes"]) + made_on(results["cuda/meshes"])
+    for kind in ("cpu", "cuda"):  # sizes may have been measured at different times
+        of = {}
+        for n in SIZES:
+            of.setdefault(tuple(made_on(of_size(results, kind, n))), []).append(f"{int(n):,}")
+        for said, sizes_of_it in of.items():
+            lines += [line if len(of) == 1 or not line else f"{' and '.join(sizes_of_it)} triangles: {line}" for line in said]
+    return lines
 
 
 # --- reduction of contacts --------------------------------------------------------------------------------------------------

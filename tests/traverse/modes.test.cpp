@@ -386,6 +386,11 @@ TEMPLATE_TEST_CASE("modes: nor does it between posed objects", "", float, double
 TEMPLATE_TEST_CASE("modes: nothing overflows, is invalid or divides by zero in a scene that is not extreme", "", float,
                    double) {
     using T = TestType;
+#if defined(__clang__)
+    constexpr int exceptions = FE_OVERFLOW | FE_DIVBYZERO;  // it may convert to int what a branch then leaves unused
+#else
+    constexpr int exceptions = FE_OVERFLOW | FE_DIVBYZERO | FE_INVALID;
+#endif
     for (const bool flat : {false, true}) {
         draws d(sample_seed, 130, flat);
         scene<T> shapes(d, coordinates::lattice);
@@ -397,7 +402,7 @@ TEMPLATE_TEST_CASE("modes: nothing overflows, is invalid or divides by zero in a
             std::feclearexcept(FE_ALL_EXCEPT);
             body();
             CAPTURE(name);
-            CHECK(std::fetestexcept(FE_OVERFLOW | FE_INVALID | FE_DIVBYZERO) == 0);
+            CHECK(std::fetestexcept(exceptions) == 0);
         };
         check("layouts", [&] { check_scene(known, floating_modes().front(), floating_modes().front()); });
         check("grids", [&] { check_grids(known); });

@@ -61,10 +61,18 @@ struct lanes {
         for (int i = 0; i < registers; ++i) std::memcpy(&r.at[i], from + i * in_register, sizeof(Register));
         return r;
     }
-    /// The same number four times. (x - 0 is x, also of -0.0, and no compiler computes it.)
+    /// The same number four times. Not by arithmetic, which may flush a denormal number.
     ABUT_INLINE ABUT_HD static lanes all(T x) {
         lanes r;
-        for (int i = 0; i < registers; ++i) r.at[i] = x - Register{};
+        for (Register& one : r.at) {
+            if constexpr (in_register == 4) {
+                one = Register{x, x, x, x};
+            } else if constexpr (in_register == 2) {
+                one = Register{x, x};
+            } else {
+                one = x;
+            }
+        }
         return r;
     }
 
