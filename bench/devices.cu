@@ -4,9 +4,9 @@
 //
 // Scenes on several devices: `cuda` alone, cuda_devices of that one device, of that device named twice, which shows what
 // sharing out costs, and of all devices if there are several. The scene of spheres (trees, look_up, divided), 100,000 bodies
-// (bodies), and two tori in motion, of which one passes through the other (impacts). All data is resident on the devices
-// before the clock starts. Each figure is the median of 21 runs after two that are not counted, taken with CUDA events of the first
-// device around the whole call. The floor is what has to be read and written at least once.
+// (bodies), and a torus that moves through another (impacts). All data is resident on the devices before the clock starts.
+// Each figure is the median of 21 runs after two that are not counted, taken with CUDA events of the first device around the
+// whole call. The floor is what has to be read and written at least once.
 
 #include <cstddef>
 #include <string>

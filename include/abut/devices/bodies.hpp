@@ -40,12 +40,10 @@ void ask_bodies(const Team& team, const replicated<bodies<Index>>& all, const Op
                 const char* function, const Ask& ask) {
     if constexpr (can_be_listed<typename Team::local_policy, Index>()) {
         require_as_many(team, all, function);
-        const auto parts = static_cast<std::uint32_t>(team.size());
         execution::on_each(team, [&](int k) {
             auto here = options;
             here.scheduling.report = nullptr;  // of one query, and here are several
-            const search_part mine{static_cast<std::uint32_t>(k), parts};
-            ask(k, pair_up_bodies(team[k], all[k], here, sorted, function, mine));
+            ask(k, pair_up_bodies(team[k], all[k], here, sorted, function, share_of(team, k)));
         });
     }
 }

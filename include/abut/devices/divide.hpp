@@ -122,6 +122,12 @@ auto each_of(const Team& team, const F& f) {
     return all;
 }
 
+/// The share of a search that falls to the k-th device, where each has all of what is searched.
+template <class Team>
+search_part share_of(const Team& team, int k) {
+    return {static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(team.size())};
+}
+
 template <class Team, class X>
 void require_as_many(const Team& team, const X& x, const char* function) {
     if constexpr (is_replicated<X> || is_divided<X>) {

@@ -43,15 +43,12 @@ consteval bool can_meet_on_devices() {
     }
 }
 
-/// An argument of an impact query as an index on each device.
-template <pair_rule Rule, class Team, class X>
-auto impact_operands_on_each(const Team& team, const X& x, const char* function) {
+/// What `x` is to a query of it and `Y`: an index on each device.
+template <class Y, class Team, class X>
+auto impact_operand_on_each(const Team& team, const X& x, const char* function) {
+    constexpr pair_rule rule = rule_of<type_on_device<X>, type_on_device<Y>>();
     require_as_many(team, x, function);
-    return each_of(team, [&](int k) { return impact_operand<Rule>(team[k], on_device(x, k), function); });
-}
-
-inline search_part part_of_device(int k, int devices) {
-    return {static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(devices)};
+    return each_of(team, [&](int k) { return impact_operand<rule>(team[k], on_device(x, k), function); });
 }
 
 /// The impacts of indices on each device, or `Within` one.
@@ -63,7 +60,7 @@ auto impacts_on_devices(const Team& team, const std::vector<Index>& x, const std
     auto there = each_of(team, [&](int k) {
         const auto i = static_cast<std::size_t>(k);
         return impacts_of_indices<A, Within>(team[k], x[i], y[i], options, no_fronts{}, function,
-                                             part_of_device(k, team.size()));
+                                             share_of(team, k));
     });
     if (there.size() == 1) return std::move(there.front().found);
     found_lists<local, found_type> lists;
@@ -89,7 +86,7 @@ auto first_on_devices(const Team& team, const std::vector<Index>& x, const std::
         const auto found = each_of(team, [&](int k) {
             const auto i = static_cast<std::size_t>(k);
             return first_until<A, Within>(team[k], x[i], y[i], time, options, no_fronts{}, function,
-                                          part_of_device(k, team.size()));
+                                          share_of(team, k));
         });
         auto first = found.front();
         for (const auto& one : found) {
@@ -126,12 +123,9 @@ template <execution::policy_team Team, class X>
 template <motion_arithmetic A = filtered, execution::policy_team Team, class X, class Y>
 [[nodiscard]] auto impacts(const Team& team, const X& a, const Y& b, const impact_options& options = {}) {
     constexpr const char* function = "abut::impacts";
-    using on_a = detail::type_on_device<X>;
-    using on_b = detail::type_on_device<Y>;
     if constexpr (detail::can_meet_on_devices<Team, X, Y>()) {
-        constexpr pair_rule rule = detail::rule_of<on_a, on_b>();
-        const auto x = detail::impact_operands_on_each<rule>(team, a, function);
-        const auto y = detail::impact_operands_on_each<rule>(team, b, function);
+        const auto x = detail::impact_operand_on_each<Y>(team, a, function);
+        const auto y = detail::impact_operand_on_each<X>(team, b, function);
         return detail::impacts_on_devices<A, false>(team, x, y, options, function);
     } else {
         return result<impact<float>, space_of<typename Team::local_policy>>();
@@ -142,9 +136,8 @@ template <motion_arithmetic A = filtered, execution::policy_team Team, class X, 
 template <motion_arithmetic A = filtered, execution::policy_team Team, class X>
 [[nodiscard]] auto self_impacts(const Team& team, const X& x, const impact_options& options = {}) {
     constexpr const char* function = "abut::self_impacts";
-    using there = detail::type_on_device<X>;
     if constexpr (detail::can_move_on_devices<Team, X>()) {
-        const auto all = detail::impact_operands_on_each<detail::rule_of<there, there>()>(team, x, function);
+        const auto all = detail::impact_operand_on_each<X>(team, x, function);
         return detail::impacts_on_devices<A, true>(team, all, all, options, function);
     } else {
         return result<impact<float>, space_of<typename Team::local_policy>>();
@@ -156,12 +149,9 @@ template <motion_arithmetic A = filtered, execution::policy_team Team, class X>
 template <motion_arithmetic A = filtered, execution::policy_team Team, class X, class Y>
 [[nodiscard]] auto first_impact(const Team& team, const X& a, const Y& b, const impact_options& options = {}) {
     constexpr const char* function = "abut::first_impact";
-    using on_a = detail::type_on_device<X>;
-    using on_b = detail::type_on_device<Y>;
     if constexpr (detail::can_meet_on_devices<Team, X, Y>()) {
-        constexpr pair_rule rule = detail::rule_of<on_a, on_b>();
-        const auto x = detail::impact_operands_on_each<rule>(team, a, function);
-        const auto y = detail::impact_operands_on_each<rule>(team, b, function);
+        const auto x = detail::impact_operand_on_each<Y>(team, a, function);
+        const auto y = detail::impact_operand_on_each<X>(team, b, function);
         return detail::first_on_devices<A, false>(team, x, y, options, function);
     } else {
         return std::optional<impact<float>>();
@@ -172,9 +162,8 @@ template <motion_arithmetic A = filtered, execution::policy_team Team, class X, 
 template <motion_arithmetic A = filtered, execution::policy_team Team, class X>
 [[nodiscard]] auto first_self_impact(const Team& team, const X& x, const impact_options& options = {}) {
     constexpr const char* function = "abut::first_self_impact";
-    using there = detail::type_on_device<X>;
     if constexpr (detail::can_move_on_devices<Team, X>()) {
-        const auto all = detail::impact_operands_on_each<detail::rule_of<there, there>()>(team, x, function);
+        const auto all = detail::impact_operand_on_each<X>(team, x, function);
         return detail::first_on_devices<A, true>(team, all, all, options, function);
     } else {
         return std::optional<impact<float>>();

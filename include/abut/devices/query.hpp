@@ -206,10 +206,9 @@ void ask_each(const Team& team, const X& x, const Y& y, const char* function, co
     using local = typename Team::local_policy;
     require_as_many(team, x, function);
     require_as_many(team, y, function);
-    const auto parts = static_cast<std::uint32_t>(team.size());
     if constexpr (!is_divided<X> && !is_divided<Y>) {
         execution::on_each(team, [&](int k) {
-            ask(k, on_device(x, k), on_device(y, k), search_part{static_cast<std::uint32_t>(k), parts}, ids_of_parts{});
+            ask(k, on_device(x, k), on_device(y, k), share_of(team, k), ids_of_parts{});
         });
     } else if constexpr (!is_divided<X> || !is_divided<Y>) {
         execution::on_each(team, [&](int k) {
@@ -295,8 +294,7 @@ template <class Team, class X, class Ask>
 void ask_each_itself(const Team& team, const X& x, const char* function, const Ask& ask) {
     static_assert(!is_divided<X>, "abut: self queries of several devices take a replicated set or index");
     require_as_many(team, x, function);
-    const auto parts = static_cast<std::uint32_t>(team.size());
-    execution::on_each(team, [&](int k) { ask(k, on_device(x, k), search_part{static_cast<std::uint32_t>(k), parts}); });
+    execution::on_each(team, [&](int k) { ask(k, on_device(x, k), share_of(team, k)); });
 }
 
 }  // namespace detail
