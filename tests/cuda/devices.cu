@@ -35,6 +35,12 @@ TEST_CASE("several devices: cuda") {
     if (all.size() > 1) {
         test::device_cases::check_each_way<float>(all);
         test::device_cases::check_nearest<double>(all);
+        // The first of them is not the one that is current, and stays so.
+        const cuda_devices turned({1, 0});
+        test::device_cases::check_each_way<float>(turned);
+        test::device_cases::check_nearest<double>(turned);
+        int current = -1;
+        CHECK((cudaGetDevice(&current) == cudaSuccess && current == 0));
     } else {
         std::printf("one device: copies between different ones are not tested\n");
     }

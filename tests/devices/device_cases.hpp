@@ -11,6 +11,7 @@
 #include <numeric>
 #include <optional>
 #include <random>
+#include <span>
 #include <string>
 #include <tuple>
 #include <type_traits>
@@ -153,6 +154,27 @@ void check_queries(const Team& team, const A& a, const B& b, const WholeA& whole
     CHECK(sum == sum_of(expected));
 }
 
+/// Parts that devices are given: as the shapes lie, of different sizes, one of them empty if there are three.
+template <class Shape, class Team>
+auto given_parts(const Team& team, const std::vector<Shape>& all) {
+    using set = shapes<Shape, space_of<typename Team::local_policy>>;
+    std::vector<set> parts;
+    std::span<const Shape> left(all);
+    for (int k = 0; k < team.size(); ++k) {
+        const std::size_t n = k + 1 == team.size() ? left.size() : k == 1 ? 0 : left.size() / 3;
+        parts.emplace_back(team[k], left.first(n));
+        left = left.subspan(n);
+    }
+    return divided(std::move(parts));
+}
+/// Views of them.
+template <class Set>
+auto views_of(const divided<Set>& parts) {
+    std::vector<typename Set::view_type> views;
+    for (int k = 0; k < parts.devices(); ++k) views.push_back(parts[k].view());
+    return divided(std::move(views));
+}
+
 template <scalar T, class Team>
 void check_scenes(const Team& team) {
     for (const bool skewed : {false, true}) {
@@ -183,6 +205,14 @@ void check_scenes(const Team& team) {
         check_pairs(team, tree_a, b, expected);
         check_pairs(team, part_a, b, expected);
         check_pairs(team, make_bvh(team, divide(team, there_a[0])), there_b, expected);
+        const auto given_a = given_parts(team, all.triangles);
+        const auto given_b = given_parts(team, all.spheres);
+        CHECK((given_a.size() == a.size() && given_b.devices() == team.size()));
+        check_pairs(team, given_a, given_b, expected);
+        check_pairs(team, make_bvh(team, given_a), make_bvh(team, given_b), expected);
+        check_pairs(team, make_bvh(team, given_a), forest_b, expected);
+        check_pairs(team, tree_a, make_bvh(team, given_b), expected);
+        CHECK(to_host(pairs(team, all.triangles[5], views_of(given_b))) == to_host(pairs(serial{}, all.triangles[5], b)));
 
         draws d(7, 0, 0);
         auto pose = make_rotation<T>(d);
@@ -320,6 +350,7 @@ void check_nearest(const Team& team) {
         CHECK(to_host(nearest(team, make_bvh(team, a), replicate(team, set))) == expected);
         CHECK(to_host(nearest(team, make_bvh(team, divide(team, a)), from)) == expected);
         CHECK(to_host(nearest(team, make_bvh(team, divide(team, a)), set)) == expected);
+        CHECK(to_host(nearest(team, make_bvh(team, given_parts(team, all.triangles)), set)) == expected);
         draws d(8, 0, 0);
         const auto pose = make_rotation<T>(d);
         CHECK(to_host(nearest(team, posed(make_bvh(team, divide(team, a)), pose), from)) ==
@@ -483,6 +514,8 @@ void check_each_way(const Team& team) {
         check_pairs(team, make_bvh(team, divide(team, a)), make_bvh(team, divide(team, b)), expected);
         CHECK(to_host(pairs(team, replicate(team, a), replicate(team, b))) == expected);
         CHECK(to_host(pairs(team, make_bvh(team, a), b)) == expected);
+        CHECK(to_host(pairs(team, make_bvh(team, given_parts(team, all.triangles)),
+                            make_bvh(team, given_parts(team, all.spheres)))) == expected);
         draws d(7, 0, 0);
         auto pose = make_rotation<T>(d);
         pose.translation = {T(0.25), T(-0.5), T(0.125)};

@@ -19,6 +19,7 @@
 #include <abut/execution/team.hpp>
 #include <abut/index/curve_order.hpp>
 #include <abut/index/lbvh.hpp>
+#include <abut/narrow/nearest_point.hpp>
 #include <abut/shape/copy_view.hpp>
 #include <abut/shape/set.hpp>
 
@@ -46,6 +47,15 @@ private:
     std::vector<X> copies_;
 };
 
+/// Ids of a part's shapes in the whole set: a list of them in memory of the device, or numbers from one on.
+struct part_ids {
+    const std::uint32_t* list = nullptr;  ///< null if they are first, first + 1, ...
+    std::uint32_t first = 0;              ///< of the shape that has id 0 in the part
+
+    /// The id in the whole set of the part's shape i.
+    [[nodiscard]] ABUT_HD std::uint32_t operator()(std::uint32_t i) const { return list == nullptr ? first + i : list[i]; }
+};
+
 /// A set of which each device has a part, or an index of each part.
 template <class X>
 class divided {
@@ -55,16 +65,38 @@ public:
     using memory_space = typename X::memory_space;                                   ///< where parts lie
     using ids_type = detail::shared_array<std::uint32_t, typename X::memory_space>;  ///< an array of ids
 
-    /// A part for each device, in their order, and for each of its shapes the id in the whole set, ascending. `bounds` is
-    /// the library's own, of where the parts are.
-    divided(std::vector<X> parts, std::vector<ids_type> ids, std::vector<detail::part_bounds<scalar_type>> bounds = {})
-        : parts_(std::move(parts)), ids_(std::move(ids)), bounds_(std::move(bounds)) {
-        for (const ids_type& some : ids_) size_ += some.size();
+    /// Of parts that the devices have, one for each in their order: sets, or views of the caller's memory, each on its device.
+    /// In the whole set the shapes of the first part come first, then those of the second, and so on. Nothing is copied.
+    /// Throws capacity_error for 2^32 - 1 shapes or more in all.
+    explicit divided(std::vector<X> parts) : parts_(std::move(parts)) {
+        for (const X& part : parts_) {
+            first_.push_back(static_cast<std::uint32_t>(size_));
+            size_ += part.size();
+            if (size_ >= no_id) {
+                throw capacity_error("abut::divided: parts of " + std::to_string(size_) +
+                                     " shapes; expected fewer than 2^32 - 1 in all");
+            }
+        }
     }
+    /// The same, and for each shape of a part the id in the whole set, ascending. `bounds` is the library's own, of where the
+    /// parts are.
+    divided(std::vector<X> parts, std::vector<ids_type> ids, std::vector<detail::part_bounds<scalar_type>> bounds = {})
+        : divided(std::move(parts)) {
+        ids_ = std::move(ids);
+        bounds_ = std::move(bounds);
+    }
+    /// What is made of the parts of `whole`, shape for shape: trees of them, or the same under a pose.
+    template <class Y>
+    divided(std::vector<X> parts, const divided<Y>& whole, std::vector<detail::part_bounds<scalar_type>> bounds = {})
+        : divided(std::move(parts), whole.ids_, std::move(bounds)) {}
+
     /// What lies on the k-th device.
     [[nodiscard]] const X& operator[](int k) const { return parts_[static_cast<std::size_t>(k)]; }
-    /// The ids of its shapes in the whole set, in memory of that device.
-    [[nodiscard]] const ids_type& ids(int k) const { return ids_[static_cast<std::size_t>(k)]; }
+    /// The ids of its shapes in the whole set, as that device reads them.
+    [[nodiscard]] part_ids ids(int k) const {
+        const auto i = static_cast<std::size_t>(k);
+        return ids_.empty() ? part_ids{nullptr, first_[i]} : part_ids{ids_[i].data(), 0};
+    }
     /// Where the parts are, if that is known: for the library.
     [[nodiscard]] const std::vector<detail::part_bounds<scalar_type>>& bounds() const { return bounds_; }
     /// Number of devices.
@@ -73,7 +105,11 @@ public:
     [[nodiscard]] std::size_t size() const { return size_; }
 
 private:
+    template <class>
+    friend class divided;
+
     std::vector<X> parts_;
+    std::vector<std::uint32_t> first_;  ///< ids of the parts' first shapes, where there are no others
     std::vector<ids_type> ids_;
     std::vector<detail::part_bounds<scalar_type>> bounds_;
     std::size_t size_ = 0;
@@ -160,6 +196,17 @@ part_bounds<T> bounds_of_boxes(std::size_t shapes, const std::vector<aabb<T>>& b
         part.around = merge(part.around, boxes[k]);
     }
     return part;
+}
+
+/// The boxes of trees, one each.
+template <class Tree>
+auto bounds_of_trees(const std::vector<Tree>& trees) {
+    std::vector<part_bounds<typename Tree::scalar_type>> all;
+    for (const Tree& tree : trees) {
+        all.push_back(bounds_of_boxes(tree.size(), tree.size() > 0 ? std::vector{tree.bounds()}
+                                                                   : std::vector<decltype(tree.bounds())>()));
+    }
+    return all;
 }
 
 /// Parts of a set along a curve. `source` is the policy in whose memory the set lies, hand_over(p, n, policy, q) copies from
@@ -257,9 +304,8 @@ template <execution::policy_team Team, class X, class... Options>
         }
     });
     if constexpr (detail::is_divided<X>) {
-        std::vector<typename X::ids_type> ids;
-        for (int k = 0; k < team.size(); ++k) ids.push_back(x.ids(k));
-        return divided(std::move(trees), std::move(ids), x.bounds());
+        auto bounds = x.bounds().empty() ? detail::bounds_of_trees(trees) : x.bounds();
+        return divided<typename decltype(trees)::value_type>(std::move(trees), x, std::move(bounds));
     } else {
         return replicated(std::move(trees));
     }
@@ -286,12 +332,8 @@ template <detail::has_shape_type X>
 template <class X>
 [[nodiscard]] auto posed(const divided<X>& object, const rigid<scalar_type_of<typename divided<X>::shape_type>>& pose) {
     std::vector<posed_object<X>> placed;
-    std::vector<typename divided<X>::ids_type> ids;
-    for (int k = 0; k < object.devices(); ++k) {
-        placed.push_back(posed(object[k], pose));
-        ids.push_back(object.ids(k));
-    }
-    return divided(std::move(placed), std::move(ids));
+    for (int k = 0; k < object.devices(); ++k) placed.push_back(posed(object[k], pose));
+    return divided<posed_object<X>>(std::move(placed), object);
 }
 ///@}
 

@@ -64,7 +64,8 @@ struct write_measured_on_device {
     Shapes shapes;
     Points points;
     length_unit<T> unit;
-    const std::uint32_t *ids, *order;
+    part_ids ids;
+    const std::uint32_t* order;
     const execution::least_value* found;  ///< null for none
     measured_on_device<T>* out;
 
@@ -75,7 +76,7 @@ struct write_measured_on_device {
         if (found == nullptr || found[i].key >= no_id) return;
         const auto id = static_cast<std::uint32_t>(found[i].key);
         out[k] = {found[i].value, neighbor_of(p, shapes[id], id, unit)};
-        out[k].near.id = ids[id];
+        out[k].near.id = ids(id);
     }
 };
 /// Keeps the nearer one, and of equally near ones that with the smaller id.
@@ -132,7 +133,7 @@ auto nearest_on_devices(const Team& team, const X& index, const Points& points, 
                 answers all(team[k], n);
                 using write_type =
                     write_measured_on_device<std::remove_const_t<decltype(shapes)>, std::remove_const_t<decltype(from)>>;
-                for_each_index(team[k], n, write_type{shapes, from, unit, index.ids(k).data(), order, values, all.data()});
+                for_each_index(team[k], n, write_type{shapes, from, unit, index.ids(k), order, values, all.data()});
                 synchronize(team[k]);
                 return all;
             };
@@ -141,6 +142,7 @@ auto nearest_on_devices(const Team& team, const X& index, const Points& points, 
         answers best(first, n), other(first, n);
         copy(first, found[0].data(), n, best.data());
         for (int k = 1; k < team.size(); ++k) {
+            synchronize(team[k]);
             copy_across(team[k], found[static_cast<std::size_t>(k)].data(), n, first, other.data());
             for_each_index(first, n, keep_nearer<T>{other.data(), best.data()});
             synchronize(first);
@@ -174,6 +176,7 @@ auto nearest_on_devices(const Team& team, const X& index, const Points& points, 
         for (int k = 0; k < team.size(); ++k) {
             const auto& there = found[static_cast<std::size_t>(k)];
             execution::buffer_of<local, neighbor<T>> came(first, there.size());
+            synchronize(team[k]);
             copy_across(team[k], there.data(), there.size(), first, came.data());
             for_each_index(first, there.size(), put_points_of_part<neighbor<T>>{came.data(), part_of(k), out.data()});
             synchronize(first);

@@ -3,6 +3,7 @@
 
 // The CUDA policy: a stream on a device, its errors, and its memory. The verbs are in execution/cuda_verbs.hpp.
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -46,12 +47,17 @@ struct cuda {
     int device = -1;                ///< -1: the device that is current when a call is made
 };
 
+/// Where limit_memory sets no limit.
+/// @ingroup policies
+inline constexpr std::uint64_t no_memory_limit = ~std::uint64_t{0};
+
 /// Memory of the library's pool on one device, in bytes.
 /// @ingroup policies
 struct memory_use {
-    std::uint64_t reserved;   ///< taken from the system
-    std::uint64_t used;       ///< of these, in use
-    std::uint64_t used_peak;  ///< the most that has been in use
+    std::uint64_t reserved;                 ///< taken from the system
+    std::uint64_t used;                     ///< of these, in use
+    std::uint64_t used_peak;                ///< the most that has been in use
+    std::uint64_t limit = no_memory_limit;  ///< the most that may be in use (limit_memory)
 };
 
 namespace detail {
@@ -98,23 +104,74 @@ private:
 
 /// The library's own pool on a device, made at first use and kept: it holds on to freed memory, so that a repeated query
 /// allocates nothing from the system. The device's default pool is left alone.
-inline cudaMemPool_t pool_of(int device) {
-    static std::mutex mutex;
-    static std::map<int, cudaMemPool_t> pools;
-    const std::scoped_lock lock(mutex);
-    auto [found, fresh] = pools.try_emplace(device, nullptr);
-    if (found->second == nullptr) {
+class memory_pool {
+public:
+    explicit memory_pool(int device) : device_(device) {
         cudaMemPoolProps properties{};
         properties.allocType = cudaMemAllocationTypePinned;
         properties.location.type = cudaMemLocationTypeDevice;
         properties.location.id = device;
-        cudaMemPool_t pool = nullptr;
-        check(cudaMemPoolCreate(&pool, &properties), "cudaMemPoolCreate");
-        std::uint64_t keep = static_cast<std::uint64_t>(-1);
-        check(cudaMemPoolSetAttribute(pool, cudaMemPoolAttrReleaseThreshold, &keep), "cudaMemPoolSetAttribute");
-        found->second = pool;
+        check(cudaMemPoolCreate(&handle_, &properties), "cudaMemPoolCreate");
+        keep(no_memory_limit);
     }
-    return found->second;
+    memory_pool(const memory_pool&) = delete;
+    memory_pool& operator=(const memory_pool&) = delete;
+
+    /// Memory in the order of a stream of the device, which is current. Under a limit threads ask one after another, so that
+    /// two of them do not take the same room.
+    [[nodiscard]] void* allocate(std::size_t bytes, cudaStream_t stream) {
+        std::unique_lock<std::mutex> one_at_a_time;
+        if (limit_.load(std::memory_order_relaxed) != no_memory_limit) {
+            one_at_a_time = std::unique_lock(mutex_);
+            require_room(bytes, stream);
+        }
+        void* p = nullptr;
+        check(cudaMallocFromPoolAsync(&p, bytes, handle_, stream), "cudaMallocFromPoolAsync");
+        return p;
+    }
+    /// Of what is in use. What is kept besides goes back to the system when a stream is waited for, if it is more in all.
+    void limit(std::uint64_t bytes) {
+        const std::scoped_lock lock(mutex_);
+        keep(bytes);
+        limit_ = bytes;
+    }
+    [[nodiscard]] std::uint64_t limit() const { return limit_; }
+    [[nodiscard]] std::uint64_t get(cudaMemPoolAttr attribute) const {
+        std::uint64_t value = 0;
+        check(cudaMemPoolGetAttribute(handle_, attribute, &value), "cudaMemPoolGetAttribute");
+        return value;
+    }
+    [[nodiscard]] cudaMemPool_t handle() const { return handle_; }
+
+private:
+    void keep(std::uint64_t bytes) {
+        check(cudaMemPoolSetAttribute(handle_, cudaMemPoolAttrReleaseThreshold, &bytes), "cudaMemPoolSetAttribute");
+    }
+    void require_room(std::size_t bytes, cudaStream_t stream) {
+        const std::uint64_t most = limit_;
+        const auto fits = [&] {
+            const std::uint64_t used = get(cudaMemPoolAttrUsedMemCurrent);
+            return used <= most && bytes <= most - used;
+        };
+        if (fits()) return;
+        check(cudaStreamSynchronize(stream), "cudaStreamSynchronize");  // memory on its way back is counted until then
+        if (fits()) return;
+        throw capacity_error("abut::limit_memory: device " + std::to_string(device_) + " may have " + std::to_string(most) +
+                             " bytes in use; " + std::to_string(get(cudaMemPoolAttrUsedMemCurrent)) +
+                             " are, and " + std::to_string(bytes) + " more are needed");
+    }
+
+    int device_;
+    cudaMemPool_t handle_ = nullptr;
+    std::mutex mutex_;
+    std::atomic<std::uint64_t> limit_{no_memory_limit};
+};
+
+inline memory_pool& pool_of(int device) {
+    static std::mutex mutex;
+    static std::map<int, memory_pool> pools;
+    const std::scoped_lock lock(mutex);
+    return pools.try_emplace(device, device).first->second;
 }
 
 /// A little page-locked memory for each host thread, through which sizes and sums come back without a slow copy.
@@ -145,13 +202,11 @@ struct allocator<device_space> {
     /// Of the policy's stream and device.
     explicit allocator(const cuda& on) : on_{on.stream, device_of(on)} {}
 
-    /// Throws std::bad_alloc when the device has not enough memory. Rows are aligned to 256 bytes.
+    /// Throws std::bad_alloc when the device has not enough memory, and capacity_error when limit_memory allows no more.
+    /// Rows are aligned to 256 bytes.
     [[nodiscard]] void* allocate(std::size_t bytes) const {
         const detail::current_device scope(on_);
-        void* p = nullptr;
-        detail::check(cudaMallocFromPoolAsync(&p, bytes, detail::pool_of(on_.device), on_.stream),
-                      "cudaMallocFromPoolAsync");
-        return p;
+        return detail::pool_of(on_.device).allocate(bytes, on_.stream);
     }
     /// Gives memory back when the stream gets there. Does not wait.
     void deallocate(void* p) const noexcept {
@@ -245,29 +300,32 @@ void download(const cuda& on, const T* from, std::size_t n, T* to) {
 /// @ingroup policies
 inline void release_memory(const cuda& on) {
     synchronize(on);
-    detail::check(cudaMemPoolTrimTo(detail::pool_of(device_of(on)), 0), "cudaMemPoolTrimTo");
+    detail::check(cudaMemPoolTrimTo(detail::pool_of(device_of(on)).handle(), 0), "cudaMemPoolTrimTo");
 }
+
+/// The most memory of the policy's device that the library's pool may have in use from now on, for all streams and threads
+/// of the process; `no_memory_limit` ends it. A call that needs more throws capacity_error and leaves nothing behind, as for
+/// want of memory. What is in use already stays. Unused memory is kept up to this size and no further. Does not synchronise.
+/// Throws cuda_error.
+/// @ingroup policies
+inline void limit_memory(const cuda& on, std::uint64_t bytes) { detail::pool_of(device_of(on)).limit(bytes); }
 
 /// What the library's pool holds on the policy's device. Does not synchronise. Beside the pool each host thread that
 /// runs queries keeps up to 32 MiB for what they leave open. Throws cuda_error.
 /// @ingroup policies
 inline memory_use memory_in_use(const cuda& on) {
-    const cudaMemPool_t pool = detail::pool_of(device_of(on));
-    memory_use use{};
-    const auto read = [&](cudaMemPoolAttr attribute, std::uint64_t& value) {
-        detail::check(cudaMemPoolGetAttribute(pool, attribute, &value), "cudaMemPoolGetAttribute");
-    };
-    read(cudaMemPoolAttrReservedMemCurrent, use.reserved);
-    read(cudaMemPoolAttrUsedMemCurrent, use.used);
-    read(cudaMemPoolAttrUsedMemHigh, use.used_peak);
-    return use;
+    const detail::memory_pool& pool = detail::pool_of(device_of(on));
+    return {pool.get(cudaMemPoolAttrReservedMemCurrent), pool.get(cudaMemPoolAttrUsedMemCurrent),
+            pool.get(cudaMemPoolAttrUsedMemHigh), pool.limit()};
 }
 
 }  // namespace execution
 
 using execution::cuda;
+using execution::limit_memory;
 using execution::memory_in_use;
 using execution::memory_use;
+using execution::no_memory_limit;
 using execution::release_memory;
 using execution::synchronize;
 

@@ -22,12 +22,11 @@ namespace abut {
 
 namespace execution {
 
-/// Copies from one device to another, directly where the devices can, else through host memory. Waits for the source's
-/// stream first, and then for the copy.
+/// Copies from one device to another, directly where the devices can, else through host memory. Waits for the copy, and not
+/// for what the source's stream is busy with.
 template <class T>
 void copy_across(const cuda& from, const T* p, std::size_t n, const cuda& to, T* q) {
     if (n == 0) return;
-    synchronize(from);
     const detail::current_device scope(to);
     detail::check(cudaMemcpyPeerAsync(q, device_of(to), p, device_of(from), n * sizeof(T), to.stream),
                   "cudaMemcpyPeerAsync");
@@ -110,7 +109,7 @@ private:
             access.location.type = cudaMemLocationTypeDevice;
             access.location.id = reader;
             access.flags = cudaMemAccessFlagsProtReadWrite;
-            const auto pool = execution::detail::pool_of(owner);
+            const auto pool = execution::detail::pool_of(owner).handle();
             execution::detail::check(cudaMemPoolSetAccess(pool, &access, 1), "cudaMemPoolSetAccess");
         }
         done.insert({owner, reader});

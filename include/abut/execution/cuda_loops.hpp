@@ -366,6 +366,7 @@ std::size_t resident_blocks(const cuda& on) {
     static std::atomic<std::size_t> answers[remembered];
     const int device = device_of(on);
     if (device < remembered && answers[device] != 0) return answers[device];
+    const current_device scope(device);
     int blocks = 0;
     if (cudaFuncSetAttribute(Kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, int{MostShared}) != cudaSuccess) {
         cudaGetLastError();  // the refusal is an answer, and no error of the next call

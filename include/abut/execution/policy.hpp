@@ -85,6 +85,7 @@ namespace abut {
 /// @par Errors
 /// - `cuda_error`: a CUDA call failed. What went wrong in a kernel may be reported by a later call.
 /// - `std::bad_alloc`: memory ran out, on the host or on a device.
+/// - `capacity_error`: a call under `cuda` needs more memory than `limit_memory` allows.
 ///
 /// `serial` and `openmp` add no errors of their own.
 ///

@@ -133,7 +133,8 @@ private:
 
 /// Policies that work together. team[k] is the k-th, for 0 <= k < team.size(), of which there is one at least. All are of
 /// the type `local_policy`. team.threads() drives them. copy_across(from, p, n, to, q) copies n elements from memory of the
-/// policy `from` to that of `to`, both of that type, and returns when they are there.
+/// policy `from` to that of `to`, both of that type, and returns when they are there. They have to be complete: it does not
+/// wait for what `from` is doing.
 template <class Team>
 concept policy_team = requires(const Team& team, int k) {
     typename Team::local_policy;

@@ -66,6 +66,15 @@ private:
 /// Makes sets of arrays that have been checked, and takes such arrays out (shape/features.hpp).
 struct set_parts;
 
+/// Shape i of a set is make(i).
+template <class Shape, class Make>
+struct put_shape {
+    Make make;
+    Shape* to;
+    ABUT_CALLS_ANY
+    ABUT_HD void operator()(std::size_t i) const { to[i] = make(i); }
+};
+
 }  // namespace detail
 
 /// @defgroup sets Sets
@@ -116,6 +125,18 @@ public:
     template <execution_policy Policy>
         requires std::same_as<space_of<Policy>, Space>
     shapes(const Policy& on, std::span<const Shape> values) : values_(on, values) {
+        detail::check(on, view(), detail::name_of<Shape>.set);
+    }
+    /// Of `count` shapes that are made where the policy works: shape i is make(i), for a std::size_t i, called for each
+    /// concurrently. Under `cuda` it is a functor marked ABUT_HD, and nothing goes through host memory: for sets that are larger
+    /// than it, or whose numbers lie on the device already.
+    template <execution_policy Policy, class Make>
+        requires(std::same_as<space_of<Policy>, Space> && std::is_invocable_r_v<Shape, const Make&, std::size_t>)
+    shapes(const Policy& on, std::size_t count, const Make& make) {
+        require_callable(on, make, std::size_t{});
+        execution::buffer<Shape, Space> values(on, count);
+        for_each_index(on, count, detail::put_shape<Shape, Make>{make, values.data()});
+        values_ = detail::shared_array<Shape, Space>(std::move(values));
         detail::check(on, view(), detail::name_of<Shape>.set);
     }
     /// Of another library's array: a container or a span of elements that hold the shape's numbers in the order of its
