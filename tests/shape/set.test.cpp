@@ -244,6 +244,29 @@ TEST_CASE("sets: copies share their storage") {
     CHECK(copy_to(openmp{}, pills).view().shapes.data == pills.view().shapes.data);
 }
 
+namespace {
+
+/// Unit spheres in a row; the one that is named has radius -1.
+struct make_sphere {
+    std::size_t bad;
+    ABUT_HD sphere<float> operator()(std::size_t i) const {
+        return {{static_cast<float>(i), 0, 0}, i == bad ? -1.0f : 1.0f};
+    }
+};
+
+}  // namespace
+
+TEST_CASE("sets: made where the policy works, shape by shape") {
+    const spheres<float> row(openmp{}, std::size_t{10'000}, make_sphere{10'000});
+    CHECK(row.size() == 10'000);
+    bool all = true;
+    for (std::size_t i = 0; i < row.size(); ++i) all &= row.view()[i].center.x == static_cast<float>(i);
+    CHECK(all);
+    CHECK(spheres<float>(serial{}, std::size_t{0}, make_sphere{0}).size() == 0);
+    CHECK_THROWS_WITH((spheres<float>(serial{}, std::size_t{5'000}, make_sphere{4'321})),
+                      "abut::spheres: sphere 4321: radius is negative (-1)");
+}
+
 TEST_CASE("sets: made of a vector, they know their shape") {
     const shapes balls(std::vector<sphere<float>>{{{0, 0, 0}, 1}, {{1, 0, 0}, 1}});
     static_assert(std::same_as<decltype(balls), const spheres<float>>);
