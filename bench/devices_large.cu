@@ -11,8 +11,9 @@
 //
 // by `cuda`, by cuda_devices of that device, and of all devices. Rows devices_large/QUERY/SCENE/POLICY. Each figure is a
 // median of bench/cuda_table.hpp, taken with CUDA events of the first device around the whole call. All answers are compared
-// with those of `cuda`, pairs bit for bit; a difference is an error. Counters: `pairs`; `busiest`, what the device that found
-// most found, over an equal share; and where a floor is known `floor_ms`, what one device takes to read the scene.
+// with those of `cuda`, pairs bit for bit; a difference is an error. Row `devices` has their number. Counters: `pairs`;
+// `busiest`, what the device that found most found, over an equal share; and where a floor is known `floor_ms`, what one
+// device takes to read the scene.
 
 #include <algorithm>
 #include <cmath>
@@ -206,6 +207,7 @@ int main(int argc, char** argv) {
         const auto release_all = [&] {
             for (int k = 0; k < all.size(); ++k) release_memory(all[k]);
         };
+        out.note("devices", {{"count", static_cast<double>(all.size())}});
         add_corner(on, alone, all, out);
         release_all();
         add_mesh(on, alone, all, around, out);

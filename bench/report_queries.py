@@ -207,12 +207,17 @@ def bodies_cuda(results):
     return [found, ""] + table(["ms"] + [f"{int(n):,} bodies" for p, n in columns], rows + [floor]) + made_on(r)
 
 
+def of_all_devices(r):
+    """What the column of all devices is called."""
+    return f"of {whole(r.get('devices', 'count'))} devices"
+
+
 @in_table("devices-cuda")
 def devices_cuda(results):
     r = results["cuda/devices"]
     columns = [c for c in ("cuda", "one_device", "one_named_twice", "all_devices") if any(n.endswith(c) for n in r.rows)]
     heads = {"cuda": "`cuda`", "one_device": "`cuda_devices` of that device", "one_named_twice": "of that device named twice",
-             "all_devices": "of all devices"}
+             "all_devices": of_all_devices(r)}
     scenes = (("trees", "two trees, copied"), ("look_up", "spheres look in a tree, copied"), ("divided", "two trees, divided"),
               ("bodies", "100,000 bodies"), ("tori", "a torus moves through another"))
     rows = []
@@ -223,6 +228,29 @@ def devices_cuda(results):
     return ["ms; all data on the devices before:", ""] + \
         table(["scene", "query"] + [heads[c] for c in columns], rows, 2) + made_on(r)
 
+
+@in_table("devices-large-cuda")
+def devices_large_cuda(results):
+    r = results["cuda/devices_large"]
+    # A divided scene is compared with the same scene on one device.
+    scenes = (("one", "one", "1 triangle against 2,000,000,000, divided"), ("mesh", "mesh", "two meshes, copied"),
+              ("mesh_divided", "mesh", "two meshes, divided"), ("corner", "corner", "a crowded corner, copied"),
+              ("corner_divided", "corner", "a crowded corner, divided"))
+    rows = []
+    for scene, whole_scene, name in scenes:
+        for query in ("make_bvh", "count", "pairs"):
+            one, team = (r.get(f"devices_large/{query}/{whole_scene}/{c}") for c in ("cuda", "one_device"))
+            here = f"devices_large/{query}/{scene}/all_devices"
+            if r.get(here) is None:
+                continue
+            alone = scene == whole_scene
+            rows.append([name, f"`{query}`", shown(one), quotient(team, one) if alone else "", shown(r.get(here)),
+                         quotient(r.get(here), one), quotient(r.get(here, "busiest"), 1)])
+    one_floor = r.get("devices_large/count/one/cuda", "floor_ms")
+    return ["ms, and over `cuda` on one device:", ""] + \
+        table(["scene", "query", "`cuda`", "`cuda_devices` of it, over `cuda`", of_all_devices(r), "over `cuda`", "busiest"],
+              rows, 2) + [f"To read the {2e9 * 36 / 1e9:.0f} GB once takes one device {shown(one_floor)} ms at the speed of a read loop.",
+                          ""] + made_on(r)
 
 @in_table("validate-cpu")
 def validate_cpu(results):

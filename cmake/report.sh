@@ -74,6 +74,7 @@ cuda spheres_mesh bench_spheres_mesh_cuda {}
 cuda triangles bench_triangles_cuda {}
 cuda ties bench_ties_cuda {}
 cuda devices bench_devices_cuda {}
+cuda devices_large bench_devices_large_cuda {}
 cuda nearest bench_nearest_cuda {}
 cuda bodies bench_bodies_cuda {}
 cuda validate bench_validate_cuda {}
