@@ -52,13 +52,20 @@ struct never_over {
     bool operator()(int) const { return false; }
 };
 
-/// Where the parts are; of parts under a pose one box each.
-template <class Team, class X, class Operands>
-auto bounds_of_parts(const Team& team, const X& x, const Operands& operands) {
+/// Both arguments on a device.
+template <class A, class B>
+struct operands_there {
+    A a;
+    B b;
+};
+
+/// Where the parts of x are, by the shapes that shapes_on(k) gives; if it is not known yet, one box each.
+template <class Team, class X, class ShapesOn>
+auto bounds_of_parts(const Team& team, const X& x, const ShapesOn& shapes_on) {
     using T = typename X::scalar_type;
     if (!x.bounds().empty()) return x.bounds();
     return each_of(team, [&](int k) {
-        const auto shapes = operands[static_cast<std::size_t>(k)].shapes();
+        const auto shapes = shapes_on(k);
         const box_of_shape<std::remove_const_t<decltype(shapes)>> box{shapes};
         const aabb<T> around = reduce(team[k], shapes.size(), empty_box<T>(), merge_boxes{}, box);
         return bounds_of_boxes<T>(shapes.size(), {around});
@@ -67,15 +74,15 @@ auto bounds_of_parts(const Team& team, const X& x, const Operands& operands) {
 
 /// What each device packs for each other one, [from][to]: of its part of b what comes near the other's part of a; nothing for
 /// those that are over. Complete when it returns.
-template <class Team, class Operands, class Bounds, class Ids, class IsOver>
-auto pack_for_others(const Team& team, const Operands& operands, const Bounds& bounds_a, const Bounds& bounds_b, const Ids& ids,
-                     const IsOver& is_over) {
+template <class Team, class ShapesOn, class Bounds, class IdsOn, class IsOver>
+auto pack_for_others(const Team& team, const ShapesOn& shapes_on, const IdsOn& ids, const Bounds& bounds_a,
+                     const Bounds& bounds_b, const IsOver& is_over) {
     using local = typename Team::local_policy;
-    using view = decltype(operands[0].shapes());
+    using view = decltype(shapes_on(0));
     using packed = near_part<local, typename view::shape_type>;
     return each_of(team, [&](int from) {
         const local& on = team[from];
-        near_shapes<local, view> near(operands[static_cast<std::size_t>(from)].shapes());
+        near_shapes<local, view> near(shapes_on(from));
         std::vector<packed> for_each(static_cast<std::size_t>(team.size()));
         for (int to = 0; to < team.size(); ++to) {
             const auto& theirs = bounds_a[static_cast<std::size_t>(to)];
@@ -96,12 +103,17 @@ auto pack_for_others(const Team& team, const Operands& operands, const Bounds& b
 template <class Team, class X, class Y, class Ask, class IsOver>
 void ask_each_of_parts(const Team& team, const X& x, const Y& y, const char* function, const Ask& ask, const IsOver& is_over) {
     using local = typename Team::local_policy;
-    const auto operands_b = each_of(team, [&](int k) { return make_operand(team[k], y[k], function); });
-    const auto operands_a = each_of(team, [&](int k) { return make_operand(team[k], x[k], function); });
-    const auto bounds_a = bounds_of_parts(team, x, operands_a);
-    const auto bounds_b = bounds_of_parts(team, y, operands_b);
+    const auto operands = each_of(team, [&](int k) {
+        auto b = make_operand(team[k], y[k], function);
+        auto a = make_operand(team[k], x[k], function);
+        return operands_there<decltype(a), decltype(b)>{std::move(a), std::move(b)};
+    });
+    const auto shapes_a = [&](int k) { return operands[static_cast<std::size_t>(k)].a.shapes(); };
+    const auto shapes_b = [&](int k) { return operands[static_cast<std::size_t>(k)].b.shapes(); };
+    const auto bounds_a = bounds_of_parts(team, x, shapes_a);
+    const auto bounds_b = bounds_of_parts(team, y, shapes_b);
     const auto pack = [&] {
-        return pack_for_others(team, operands_b, bounds_a, bounds_b, [&](int k) { return ids_on(y, k); }, is_over);
+        return pack_for_others(team, shapes_b, [&](int k) { return ids_on(y, k); }, bounds_a, bounds_b, is_over);
     };
     const auto search_own = [&](int k) {
         ask(k, x[k], y[k], search_part{}, ids_of_parts{ids_on(x, k), ids_on(y, k)});
