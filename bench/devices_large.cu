@@ -151,19 +151,19 @@ void add_mesh(const abut::cuda& on, const abut::cuda_devices& alone, const abut:
               table& out) {
     const abut::rigid<float> turned = meshes_scene::turned(meshes_scene::unit_torus(), 0.3);
     expected truth;
-    const auto on_one = [&](const auto& policy, const char* name, const auto& a, const auto& b) {
-        out.add(row("make_bvh", "mesh", name), 0, [&] {
-            return counters{{"triangles", static_cast<double>(abut::make_bvh(policy, a).size())}};
+    const auto add_pair = [&](const auto& policy, const char* scene, const char* name, const auto& a, const auto& b) {
+        out.add(row("build_and_pairs", scene, name), 0, [&] {
+            const auto found = abut::pairs(policy, abut::make_bvh(policy, a), abut::make_bvh(policy, b)).size();
+            return counters{{"triangles", static_cast<double>(a.size())}, {"pairs", static_cast<double>(found)}};
         });
-        add(policy, "mesh", name, abut::make_bvh(policy, a), abut::make_bvh(policy, b), 0, truth, out);
+        add(policy, scene, name, abut::make_bvh(policy, a), abut::make_bvh(policy, b), 0, truth, out);
     };
-    on_one(on, "cuda", torus(on, around, {}), torus(on, around, turned));
-    on_one(alone, "one_device", torus_on_each(alone, around, {}), torus_on_each(alone, around, turned));
+    add_pair(on, "mesh", "cuda", torus(on, around, {}), torus(on, around, turned));
+    add_pair(alone, "mesh", "one_device", torus_on_each(alone, around, {}), torus_on_each(alone, around, turned));
     if (all.size() == 1) return;
-    on_one(all, "all_devices", torus_on_each(all, around, {}), torus_on_each(all, around, turned));
-    const auto a = abut::make_bvh(all, abut::divide(all, torus(all[0], around, {})));
-    const auto b = abut::make_bvh(all, abut::divide(all, torus(all[0], around, turned)));
-    add(all, "mesh_divided", "all_devices", a, b, 0, truth, out);
+    add_pair(all, "mesh", "all_devices", torus_on_each(all, around, {}), torus_on_each(all, around, turned));
+    add_pair(all, "mesh_divided", "all_devices", abut::divide(all, torus(all[0], around, {})),
+             abut::divide(all, torus(all[0], around, turned)));
 }
 
 // --- a crowded corner -------------------------------------------------------------------------------------------------------

@@ -238,13 +238,13 @@ def devices_large_cuda(results):
               ("corner_divided", "corner", "a crowded corner, divided"))
     rows = []
     for scene, whole_scene, name in scenes:
-        for query in ("make_bvh", "count", "pairs"):
+        for query, title in (("count", "`count`"), ("pairs", "`pairs`"), ("build_and_pairs", "both `make_bvh` and `pairs`")):
             one, team = (r.get(f"devices_large/{query}/{whole_scene}/{c}") for c in ("cuda", "one_device"))
             here = f"devices_large/{query}/{scene}/all_devices"
             if r.get(here) is None:
                 continue
             alone = scene == whole_scene
-            rows.append([name, f"`{query}`", shown(one), quotient(team, one) if alone else "", shown(r.get(here)),
+            rows.append([name, title, shown(one), quotient(team, one) if alone else "", shown(r.get(here)),
                          quotient(r.get(here), one), quotient(r.get(here, "busiest"), 1)])
     one_floor = r.get("devices_large/count/one/cuda", "floor_ms")
     return ["ms, and over `cuda` on one device:", ""] + \

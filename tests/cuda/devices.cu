@@ -28,6 +28,7 @@ TEST_CASE("several devices: cuda") {
         test::device_cases::check_each_way<float>(cuda_devices(list));
     }
     test::device_cases::check_stops<float>(cuda_devices({0, 0}));
+    test::device_cases::check_corner<float>(cuda_devices({0, 0}));
     test::device_cases::check_nearest<double>(cuda_devices({0, 0, 0}));
 
     const cuda_devices all;
@@ -35,6 +36,7 @@ TEST_CASE("several devices: cuda") {
     if (all.size() > 1) {
         test::device_cases::check_each_way<float>(all);
         test::device_cases::check_nearest<double>(all);
+        test::device_cases::check_corner<float>(all);
         // The first of them is not the one that is current, and stays so.
         const cuda_devices turned({1, 0});
         test::device_cases::check_each_way<float>(turned);

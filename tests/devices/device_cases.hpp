@@ -255,6 +255,31 @@ void check_meshes(const Team& team) {
     CHECK(most * there.size() <= all + all / 2);
 }
 
+/// Where nearly all shapes crowd in a corner, far below the root of a tree, the work there falls to all devices.
+template <scalar T, class Team>
+void check_corner(const Team& team) {
+    auto all = random_scene<T>(6000, 6000, false, 77);
+    const T scale = T(1) / 128;
+    for (std::size_t i = 0; i < all.triangles.size(); ++i) {
+        if (i % 16 == 0) continue;
+        auto& [a, b, c] = all.triangles[i];
+        a = scale * a, b = scale * b, c = scale * c;
+        all.spheres[i] = {scale * all.spheres[i].center, scale * all.spheres[i].radius};
+    }
+    const triangle_soup<T> a(all.triangles);
+    const spheres<T> b(all.spheres);
+    const auto tree_a = make_bvh(team, a);
+    const auto tree_b = make_bvh(team, b);
+    check_pairs(team, tree_a, tree_b, to_host(pairs(serial{}, make_bvh(serial{}, a), make_bvh(serial{}, b))));
+    std::size_t sum = 0, most = 0;
+    for (const auto& some : pairs_by_device(team, tree_a, tree_b)) {
+        sum += some.size();
+        most = std::max(most, some.size());
+    }
+    CHECK(sum > 10'000);
+    CHECK(most * static_cast<std::size_t>(team.size()) <= sum + sum / 4);
+}
+
 /// Nothing, fewer shapes than devices, and what comes from nowhere.
 template <scalar T, class Team>
 void check_small(const Team& team) {
@@ -532,6 +557,7 @@ template <scalar T, class Team>
 void check_devices(const Team& team) {
     device_cases::check_scenes<T>(team);
     device_cases::check_meshes<T>(team);
+    device_cases::check_corner<T>(team);
     device_cases::check_small<T>(team);
     device_cases::check_stops<T>(team);
     device_cases::check_nearest<T>(team);

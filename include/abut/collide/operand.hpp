@@ -46,6 +46,10 @@ struct indexed_operand<bvh<Set, Space, Layout>> {
     [[nodiscard]] topology shape_of_tree() const requires std::same_as<Layout, standard_layout> {
         return index.stored().plan;
     }
+    /// Whether node k lies between leaves k and k + 1 of an order.
+    [[nodiscard]] bool is_along_curve() const requires std::same_as<Layout, standard_layout> {
+        return index.stored().along_curve;
+    }
     /// Around all shapes, of which there are some.
     template <class Policy>
     [[nodiscard]] aabb<T> bounds(const Policy&) const {
@@ -86,6 +90,7 @@ struct posed_operand {
     [[nodiscard]] auto shapes() const { return posed_view<decltype(operand.shapes())>{operand.shapes(), pose}; }
     [[nodiscard]] auto tree() const { return operand.tree(); }
     [[nodiscard]] topology shape_of_tree() const requires has_topology<Operand> { return operand.shape_of_tree(); }
+    [[nodiscard]] bool is_along_curve() const requires has_topology<Operand> { return operand.is_along_curve(); }
     [[nodiscard]] auto walk() const { return posed_walk<decltype(operand.walk())>(operand.walk(), pose, around); }
 };
 

@@ -16,6 +16,7 @@
 #include <abut/collide/judge.hpp>
 #include <abut/collide/operand.hpp>
 #include <abut/collide/options.hpp>
+#include <abut/traverse/even_nodes.hpp>
 #include <abut/traverse/front.hpp>
 #include <abut/traverse/frontier.hpp>
 #include <abut/traverse/pair_walk.hpp>
@@ -196,6 +197,37 @@ struct step_of_part : Step {
     }
 };
 
+/// The same, or where nodes are given, from all pairs of these (traverse/even_nodes.hpp); of one tree with itself from each
+/// pair once. They come in any order, so a pair falls to a part by its nodes.
+template <class Step>
+struct step_of_nodes : step_of_part<Step> {
+    using item = typename Step::item;
+    static constexpr bool is_of_one_tree = requires(const Step& step) { step.walk.tree(); };
+    const std::uint32_t *nodes_a = nullptr, *nodes_b = nullptr;
+    std::size_t count_a = 0, count_b = 0;
+
+    using step_of_part<Step>::step_of_part;
+    template <class Policy>
+    void begin_at(const cut_trees<Policy>& nodes) {
+        const auto& b = is_of_one_tree ? nodes.a : nodes.b;
+        if (nodes.a.size() * b.size() > most_even_pairs) return;
+        nodes_a = nodes.a.data();
+        nodes_b = b.data();
+        count_a = nodes.a.size();
+        count_b = b.size();
+    }
+    [[nodiscard]] std::size_t seeds() const { return nodes_a == nullptr ? Step::seeds() : count_a * count_b; }
+    [[nodiscard]] ABUT_HD item seed(std::size_t i) const {
+        if (nodes_a == nullptr) return step_of_part<Step>::seed(i);
+        item at{};
+        at.a = nodes_a[i / count_b];
+        at.b = nodes_b[i % count_b];
+        const bool once = !is_of_one_tree || at.a <= at.b;
+        if (!once || !this->mine.has(std::uint64_t{at.a} << 32 | at.b)) at.a = at.b = Step::nowhere;
+        return at;
+    }
+};
+
 /// Found by argument-dependent lookup, also where a member has the same name.
 template <class Shape>
 ABUT_HD auto reach_of_shape(const Shape& s) {
@@ -343,6 +375,16 @@ struct expand_pair {
     }
 };
 
+/// Whether the numbers of an operand's nodes tell how many shapes are below them.
+template <class Operand>
+bool is_along_curve(const Operand& x) {
+    if constexpr (requires { x.is_along_curve(); }) {
+        return x.is_along_curve();
+    } else {
+        return false;
+    }
+}
+
 /// Judges what a walk down the trees of two operands finds, which may be one.
 template <class Policy, class A, class B, class Expand, class Filter, traversal Traversal, schedule Schedule, class Run,
           class Part = whole_search>
@@ -354,7 +396,12 @@ void descend(const Policy& on, const A& a, const B& b, const Expand& expand,
         const int depth = Schedule == schedule::shared_list || part.parts > 1
                               ? std::clamp(options.start_depth, 8, most_start_depth)
                               : options.start_depth;
-        const step_of_part mine(begin_below<Expand>(expand, depth), part);
+        step_of_nodes<begin_below<Expand>> mine(begin_below<Expand>(expand, depth), part);
+        cut_trees<Policy> nodes;
+        if (part.parts > 1 && is_along_curve(a) && is_along_curve(b)) {
+            nodes = cut_evenly(on, expand.walk);
+            mine.begin_at(nodes);
+        }
         const execution::scheduled<Schedule> how{options.scheduling};
         run([&](const auto& judge, auto&... sinks) { return for_each_descendant(on, how, mine, judge, sinks...); });
     } else if constexpr (Traversal == traversal::breadth_first) {

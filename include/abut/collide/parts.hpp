@@ -14,6 +14,7 @@
 #include <abut/collide/options.hpp>
 #include <abut/execution/atomic.hpp>
 #include <abut/execution/buffer.hpp>
+#include <abut/execution/group.hpp>
 #include <abut/index/curve_order.hpp>
 #include <abut/index/lbvh.hpp>
 #include <abut/shape/bounds.hpp>
@@ -62,6 +63,32 @@ struct write_block_boxes {
         aabb<T> box = empty_box<T>();
         for (std::size_t i = first; i < first + (left < size ? left : size); ++i) box = merge(box, bounds(shapes[i]));
         boxes[k] = box;
+    }
+};
+
+/// The same for blocks of block_size, each read by a group of threads as it lies in memory, and not by one thread, whose
+/// neighbours would read far from it.
+template <shape_view Shapes>
+struct write_boxes_by_groups {
+    using T = typename Shapes::scalar_type;
+    static constexpr unsigned members = execution::subgroup_size;
+    struct shared {
+        aabb<T> boxes[members];
+    };
+    Shapes shapes;
+    aabb<T>* boxes;
+    ABUT_HD void operator()(const execution::group<shared, members>& some) const {
+        const std::size_t block = some.first / members, first = block * block_size, left = shapes.size() - first;
+        const auto count = static_cast<unsigned>(left < block_size ? left : block_size);
+        aabb<T>* const mine = some.shared.boxes;
+        some.each([&](unsigned k) {
+            mine[k] = empty_box<T>();
+            for (unsigned i = k; i < count; i += members) mine[k] = merge(mine[k], bounds(shapes[first + i]));
+        });
+        for (unsigned half = members / 2; half > 0; half /= 2) {
+            some.each(0, half, [&](unsigned k) { mine[k] = merge(mine[k], mine[k + half]); });
+        }
+        some.each(0, 1, [&](unsigned) { boxes[block] = mine[0]; });
     }
 };
 
@@ -217,7 +244,8 @@ private:
         if (boxes_.size() == 0 && blocks > 0) {
             boxes_ = execution::buffer_of<Policy, aabb<T>>(on, blocks);
             near_ = execution::buffer_of<Policy, std::uint32_t>(on, blocks);
-            for_each_index(on, blocks, write_block_boxes<Shapes>{shapes_, block_size, boxes_.data()});
+            using group_type = write_boxes_by_groups<Shapes>;
+            for_each_group(on, blocks * group_type::members, group_type{shapes_, boxes_.data()});
         }
         return compact(on, blocks, is_block_near<T>{boxes_.data(), there}, near_.data());
     }

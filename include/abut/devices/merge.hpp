@@ -100,12 +100,15 @@ template <class Team, class Found>
 auto brought_to_first(const Team& team, found_lists<typename Team::local_policy, Found>& lists,
                       const std::vector<std::size_t>& first) {
     execution::buffer_of<typename Team::local_policy, Found> all(team[0], first.back());
-    synchronize(team[0]);
-    for (std::size_t k = 0; k < lists.size(); ++k) {
-        synchronize(team[static_cast<int>(k)]);
-        copy_across(team[static_cast<int>(k)], lists[k].data(), lists[k].size(), team[0], all.data() + first[k]);
+    copy(team[0], lists[0].data(), lists[0].size(), all.data());
+    lists[0] = {};
+    for (std::size_t k = 1; k < lists.size(); ++k) {
+        const auto& there = team[static_cast<int>(k)];
+        synchronize(there);
+        copy_across(there, lists[k].data(), lists[k].size(), team[0], all.data() + first[k]);
         lists[k] = {};
     }
+    synchronize(team[0]);
     return all;
 }
 /// The same as one list.

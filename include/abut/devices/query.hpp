@@ -66,9 +66,16 @@ auto found_on_each(const Team& team, const X& x, const Y& y, const Options& opti
                  }
                  found[static_cast<std::size_t>(k)].push_back(std::move(some));
              });
-    return each_of(team, [&](int k) {
+    const auto one = [&](int k) {
         return joined<local, Found>(team[k], std::move(found[static_cast<std::size_t>(k)]), options.sorted);
-    });
+    };
+    if constexpr (is_divided<X> && is_divided<Y>) {
+        return each_of(team, one);
+    } else {  // each has one list, and nothing is to be done on the devices
+        std::vector<list> all;
+        for (int k = 0; k < team.size(); ++k) all.push_back(one(k));
+        return all;
+    }
 }
 
 /// Whether a query of several devices takes its arguments and options.

@@ -166,6 +166,8 @@ struct standard_layout {
         execution::buffer<bvh_root<T>, Space> root;   ///< one; none where there are no shapes
         /// Shared by all trees that refit makes of one.
         std::shared_ptr<shared_refit_plan<Space>> plan = std::make_shared<shared_refit_plan<Space>>();
+        /// Whether node k lies between leaves k and k + 1 of an order, as the linear builder makes them.
+        bool along_curve = false;
 
         /// The view of a tree of so many shapes.
         [[nodiscard]] view<T, Space> view_of(std::size_t shapes) const { return {{nodes.data(), root.data(), shapes}}; }

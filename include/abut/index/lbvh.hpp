@@ -75,6 +75,7 @@ auto build_bvh(const Policy& on, const Set& set, const bvh_options& options) {
                 return tree_type(std::move(resident), std::move(tree));
             }
         }
+        tree->along_curve = true;
         const bool choose = options.morton_bits == 0;
         if (options.morton_bits != 63) {
             const int bits = choose ? sufficient_morton_bits(n) : 30;
