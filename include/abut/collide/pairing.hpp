@@ -165,7 +165,7 @@ struct search_part {
     std::uint32_t part = 0, parts = 1;
 
     [[nodiscard]] ABUT_HD bool has(std::uint64_t item) const {
-        return parts == 1 || static_cast<std::uint32_t>(item * 0x9e3779b97f4a7c15u >> 32) % parts == part;
+        return parts == 1 || (item * 0x9e3779b97f4a7c15u >> 32) * parts >> 32 == part;  // by its highest bits, of which all have a say
     }
     /// The first of n rows that are shared out as they lie, four at a time, so that parts are aligned as the whole is.
     [[nodiscard]] std::size_t first_of(std::size_t n) const {
@@ -399,7 +399,7 @@ void descend(const Policy& on, const A& a, const B& b, const Expand& expand,
         step_of_nodes<begin_below<Expand>> mine(begin_below<Expand>(expand, depth), part);
         cut_trees<Policy> nodes;
         if (part.parts > 1 && is_along_curve(a) && is_along_curve(b)) {
-            nodes = cut_evenly(on, expand.walk);
+            nodes = cut_both_evenly(on, expand.walk);
             mine.begin_at(nodes);
         }
         const execution::scheduled<Schedule> how{options.scheduling};

@@ -2,7 +2,8 @@
 #pragma once
 
 // Where to cut two trees, or one that is walked with itself, into parts of work: at nodes of about equal numbers of shapes,
-// however deep they lie. Where shapes are crowded in a place, all nodes of one depth but one are nearly empty.
+// however deep they lie. Where shapes are crowded in a place, all nodes of one depth but one are nearly empty. And the boxes of
+// such nodes, which tell where a tree's shapes are.
 
 #include <algorithm>
 #include <concepts>
@@ -15,6 +16,7 @@
 #include <abut/execution/policy.hpp>
 #include <abut/execution/work_queue.hpp>
 #include <abut/index/bvh.hpp>
+#include <abut/shape/bounds.hpp>
 #include <abut/traverse/self_walk.hpp>
 
 namespace abut::detail {
@@ -74,30 +76,55 @@ struct find_even_nodes {
     }
 };
 
-/// Nodes of a walk's trees, in no order; of one tree with itself, `a` alone.
+/// The nodes of one tree, in no order.
+template <class Policy, bvh_layout Tree>
+execution::buffer_of<Policy, std::uint32_t> cut_evenly(const Policy& on, const Tree& tree) {
+    const nodes_below<Tree> below(tree, even_nodes);
+    execution::work_queue<std::uint32_t, space_of<Policy>> found(on, 8 * even_nodes), none(on, 1);
+    for_each_index(on, below.places(), find_even_nodes<Tree, Tree>{below, below, below.places()}, found, none);
+    return found.take();
+}
+
+/// The nodes of a walk's trees, in no order; of one tree with itself, `a` alone.
 template <class Policy>
 struct cut_trees {
     execution::buffer_of<Policy, std::uint32_t> a, b;
 };
-/// Both trees have more than one shape, and nodes as nodes_below needs them.
+/// The trees have more than one shape each, and nodes as nodes_below needs them.
 template <class Policy, class Walk>
-cut_trees<Policy> cut_evenly(const Policy& on, const Walk& walk) {
-    using list = execution::work_queue<std::uint32_t, space_of<Policy>>;
-    const auto cut = [&](const auto& tree_a, const auto& tree_b, std::size_t trees) {
-        using tree_a_type = std::remove_cvref_t<decltype(tree_a)>;
-        using tree_b_type = std::remove_cvref_t<decltype(tree_b)>;
-        const nodes_below<tree_a_type> a(tree_a, even_nodes);
-        const nodes_below<tree_b_type> b(tree_b, even_nodes);
-        list of_a(on, 8 * even_nodes), of_b(on, trees > 1 ? 8 * even_nodes : 1);
-        const std::size_t places = a.places() + (trees > 1 ? b.places() : 0);
-        for_each_index(on, places, find_even_nodes<tree_a_type, tree_b_type>{a, b, a.places()}, of_a, of_b);
-        return cut_trees<Policy>{of_a.take(), of_b.take()};
-    };
+cut_trees<Policy> cut_both_evenly(const Policy& on, const Walk& walk) {
     if constexpr (requires { walk.tree(); }) {
-        return cut(walk.tree(), walk.tree(), 1);
+        return {cut_evenly(on, walk.tree()), {}};
     } else {
-        return cut(walk.a, walk.b, 2);
+        using tree_a = std::remove_cvref_t<decltype(walk.a)>;
+        using tree_b = std::remove_cvref_t<decltype(walk.b)>;
+        const nodes_below<tree_a> a(walk.a, even_nodes);
+        const nodes_below<tree_b> b(walk.b, even_nodes);
+        execution::work_queue<std::uint32_t, space_of<Policy>> of_a(on, 8 * even_nodes), of_b(on, 8 * even_nodes);
+        for_each_index(on, a.places() + b.places(), find_even_nodes<tree_a, tree_b>{a, b, a.places()}, of_a, of_b);
+        return {of_a.take(), of_b.take()};
     }
+}
+
+/// The boxes of such nodes.
+template <bvh_layout Tree>
+struct write_node_boxes {
+    Tree tree;
+    const std::uint32_t* nodes;
+    aabb<typename Tree::scalar_type>* boxes;
+    ABUT_HD void operator()(std::size_t i) const {
+        const bvh_child at{nodes[i]};
+        const auto& node = tree.fetch(at.is_leaf() ? at.index() / 2 : at.index());
+        boxes[i] = at.is_leaf() ? tree.bounds(node, static_cast<int>(at.index() % 2))
+                                : merge(tree.bounds(node, 0), tree.bounds(node, 1));
+    }
+};
+template <class Policy, bvh_layout Tree>
+auto boxes_of_even_nodes(const Policy& on, const Tree& tree) {
+    const auto nodes = cut_evenly(on, tree);
+    execution::buffer_of<Policy, aabb<typename Tree::scalar_type>> boxes(on, nodes.size());
+    for_each_index(on, nodes.size(), write_node_boxes<Tree>{tree, nodes.data(), boxes.data()});
+    return boxes;
 }
 
 }  // namespace abut::detail
