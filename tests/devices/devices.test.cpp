@@ -61,6 +61,30 @@ TEST_CASE("devices: threads of the caller share a team") {
     CHECK(ran == 4 * 200 * 3);
 }
 
+TEST_CASE("devices: long lists become one, also where they are one already") {
+    constexpr std::uint32_t n = 1'100'000;
+    const auto id = [](std::uint32_t i) { return index_pair{i / 3, i % 3}; };
+    for (const std::uint32_t mixed : {0u, 1u, n}) {  // so many of the first list's last ones come in turn with the second's first
+        const std::uint32_t half = n / 2, alone = half - mixed / 2;
+        std::vector<index_pair> lists[3];
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const bool second = i < alone ? false : i >= alone + 2 * (half - alone) ? true : (i - alone) % 2 == 0;
+            lists[second ? 2 : 0].push_back(id(i));
+        }
+        if (mixed == 1) std::swap(lists[0].back(), lists[2].front());
+        std::vector<std::size_t> first{0};
+        execution::buffer<index_pair, host_space> all(serial{}, n);
+        for (const auto& list : lists) {
+            std::copy(list.begin(), list.end(), all.data() + first.back());
+            first.push_back(first.back() + list.size());
+        }
+        const auto merged = to_host(detail::merged(serial{}, std::move(all), first, true));
+        std::size_t wrong = 0;
+        for (std::uint32_t i = 0; i < n; ++i) wrong += !(merged[i] == id(i));
+        CHECK((merged.size() == n && wrong == 0));
+    }
+}
+
 TEST_CASE("devices: parts of a search have each item once, and as many rows as the others") {
     for (const std::uint32_t parts : {1u, 2u, 3u, 7u}) {
         std::vector<int> items(100'000);

@@ -73,7 +73,7 @@ auto impacts_on_devices(const Team& team, const std::vector<Index>& x, const std
     auto all = brought_to_first<Team, found_type>(team, lists, first);
     if (options.sorted && all.size() > 0) {
         const auto order = brought_to_first<Team, std::uint64_t>(team, keys, first);
-        all = merged_by(team[0], by_number{}, order.data(), all, first);
+        all = merged_by(team[0], by_number{}, order.data(), std::move(all), first);
     }
     return result<found_type, space_of<local>>(std::move(all));
 }

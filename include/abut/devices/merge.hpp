@@ -10,6 +10,7 @@
 
 #include <abut/collide/query.hpp>
 #include <abut/execution/team.hpp>
+#include <abut/shape/equal_elements.hpp>
 
 namespace abut::detail {
 
@@ -54,6 +55,18 @@ struct merge_lists {
     }
 };
 
+/// Whether list k + 1 does not go on where list k ends.
+template <class Order, class Key>
+struct is_out_of_order {
+    Order comes_before;
+    const Key* keys;
+    const std::size_t *first, *last;
+    ABUT_HD bool operator()(std::size_t k) const {
+        const std::size_t i = first[k + 1];
+        return i > 0 && i < *last && !comes_before(keys[i - 1], keys[i]);
+    }
+};
+
 /// Lists one after another: where each begins, and where the last one ends.
 template <class Lists>
 std::vector<std::size_t> beginnings_of(const Lists& lists) {
@@ -61,15 +74,23 @@ std::vector<std::size_t> beginnings_of(const Lists& lists) {
     for (const auto& list : lists) first.push_back(first.back() + list.size());
     return first;
 }
-/// Such lists become one in the order of their keys, in which each of them is.
+/// Such lists become one in the order of their keys, in which each of them is. Long ones may be so already, as where parts
+/// have ids one after another.
 template <class Policy, class Order, class Key, class Found>
-auto merged_by(const Policy& on, const Order& order, const Key* keys, const execution::buffer_of<Policy, Found>& all,
+auto merged_by(const Policy& on, const Order& order, const Key* keys, execution::buffer_of<Policy, Found> all,
                const std::vector<std::size_t>& first) {
+    constexpr std::size_t many = std::size_t{1} << 20;
+    const std::size_t lists = first.size() - 1;
     execution::buffer_of<Policy, std::size_t> begins(on, first.size());
-    execution::buffer_of<Policy, Found> in_order(on, all.size());
     upload(on, first.data(), first.size(), begins.data());
+    const is_out_of_order<Order, Key> out_of_order{order, keys, begins.data(), begins.data() + lists};
+    if (all.size() >= many && reduce(on, lists - 1, std::uint64_t{0}, add_up_tallies{},
+                                     one_if<is_out_of_order<Order, Key>>{out_of_order}) == 0) {
+        return all;
+    }
+    execution::buffer_of<Policy, Found> in_order(on, all.size());
     for_each_index(on, all.size(),
-                   merge_lists<Order, Key, Found>{order, keys, all.data(), begins.data(), first.size() - 1, in_order.data()});
+                   merge_lists<Order, Key, Found>{order, keys, all.data(), begins.data(), lists, in_order.data()});
     synchronize(on);
     return in_order;
 }
@@ -77,7 +98,8 @@ auto merged_by(const Policy& on, const Order& order, const Key* keys, const exec
 template <class Policy, class Found, class Order = by_ids>
 auto merged(const Policy& on, execution::buffer_of<Policy, Found> all, const std::vector<std::size_t>& first, bool sorted,
             const Order& order = {}) {
-    if (sorted && all.size() > 0) all = merged_by(on, order, all.data(), all, first);
+    const Found* const keys = all.data();
+    if (sorted && all.size() > 0) all = merged_by(on, order, keys, std::move(all), first);
     return result<Found, space_of<Policy>>(std::move(all));
 }
 template <class Local, class Found>
