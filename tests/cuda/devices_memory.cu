@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// long to compile
 //
 // Scenes under a limit of memory: what is too large for one device is an error there, and runs where it is divided.
 
