@@ -172,33 +172,18 @@ auto bounds_of_part(const Policy& on, const Shapes& shapes) {
     return part;
 }
 
-/// The same of a part whose boxes are known better, in memory of who asks.
-template <scalar T>
-struct fine_bounds {
-    part_bounds<T> part;
-    const aabb<T>* boxes = nullptr;
-    std::size_t count = 0;  ///< 0 if nothing more is known
-
-    [[nodiscard]] ABUT_HD bool reaches(const aabb<T>& box) const {
-        if (!part.reaches(box)) return false;
-        bool reached = count == 0;
-        for (std::size_t k = 0; k < count && !reached; ++k) reached = overlaps(boxes[k], box);
-        return reached;
-    }
-};
-
 /// Shapes that may touch one of another part's.
-template <shape_view Shapes, class Bounds = part_bounds<typename Shapes::scalar_type>>
+template <shape_view Shapes>
 struct comes_near {
     Shapes shapes;
-    Bounds there;
+    part_bounds<typename Shapes::scalar_type> there;
     ABUT_HD bool operator()(std::size_t i) const { return there.reaches(bounds(shapes[i])); }
 };
 
-template <scalar T, class Bounds = part_bounds<T>>
+template <scalar T>
 struct is_block_near {
     const aabb<T>* boxes;
-    Bounds there;
+    part_bounds<T> there;
     ABUT_HD bool operator()(std::size_t k) const { return there.reaches(boxes[k]); }
 };
 
@@ -229,8 +214,8 @@ struct pack_shape {
     ABUT_HD void operator()(std::size_t i) const { out[i] = shapes[ids[i]]; }
 };
 
-/// Which shapes of a part come near another part, of which Bounds are known.
-template <class Policy, shape_view Shapes, class Bounds = part_bounds<typename Shapes::scalar_type>>
+/// Which shapes of a part come near another part.
+template <class Policy, shape_view Shapes>
 class near_shapes {
 public:
     using T = typename Shapes::scalar_type;
@@ -238,23 +223,23 @@ public:
     explicit near_shapes(const Shapes& shapes) : shapes_(shapes) {}
 
     /// How many come near.
-    [[nodiscard]] std::uint64_t count(const Policy& on, const Bounds& there) {
+    [[nodiscard]] std::uint64_t count(const Policy& on, const part_bounds<T>& there) {
         const std::size_t blocks = near_blocks(on, there);
         return reduce(on, blocks * block_size, std::uint64_t{0}, add_up_tallies{}, one_if<near_in_blocks>{near(there)});
     }
     /// Writes as many, in the order of their ids, and these, in the policy's memory.
-    void write(const Policy& on, const Bounds& there, typename Shapes::shape_type* shapes, std::uint32_t* ids) {
+    void write(const Policy& on, const part_bounds<T>& there, typename Shapes::shape_type* shapes, std::uint32_t* ids) {
         const std::size_t blocks = near_blocks(on, there);
         const std::size_t n = compact(on, blocks * block_size, near(there), ids);
-        for_each_index(on, n, write_ids_in_blocks<comes_near<Shapes, Bounds>>{near(there), ids});
+        for_each_index(on, n, write_ids_in_blocks<comes_near<Shapes>>{near(there), ids});
         for_each_index(on, n, pack_shape<Shapes>{shapes_, ids, shapes});
     }
 
 private:
-    using near_in_blocks = in_blocks<comes_near<Shapes, Bounds>>;
+    using near_in_blocks = in_blocks<comes_near<Shapes>>;
 
     /// Finds the blocks of which shapes may come near.
-    [[nodiscard]] std::size_t near_blocks(const Policy& on, const Bounds& there) {
+    [[nodiscard]] std::size_t near_blocks(const Policy& on, const part_bounds<T>& there) {
         const std::size_t blocks = blocks_of(shapes_.size());
         if (boxes_.size() == 0 && blocks > 0) {
             boxes_ = execution::buffer_of<Policy, aabb<T>>(on, blocks);
@@ -262,9 +247,9 @@ private:
             using group_type = write_boxes_by_groups<Shapes>;
             for_each_group(on, blocks * group_type::members, group_type{shapes_, boxes_.data()});
         }
-        return compact(on, blocks, is_block_near<T, Bounds>{boxes_.data(), there}, near_.data());
+        return compact(on, blocks, is_block_near<T>{boxes_.data(), there}, near_.data());
     }
-    [[nodiscard]] near_in_blocks near(const Bounds& there) const {
+    [[nodiscard]] near_in_blocks near(const part_bounds<T>& there) const {
         return {{shapes_, there}, near_.data(), shapes_.size()};
     }
 

@@ -17,7 +17,6 @@
 #include <abut/collide/parts.hpp>
 #include <abut/devices/divide.hpp>
 #include <abut/execution/team.hpp>
-#include <abut/traverse/even_nodes.hpp>
 
 namespace abut::detail {
 
@@ -53,20 +52,11 @@ struct never_over {
     bool operator()(int) const { return false; }
 };
 
-/// Both arguments on a device, and boxes around some hundred groups of a's shapes, if it has a tree that tells.
-template <class Policy, class A, class B>
+/// Both arguments on a device.
+template <class A, class B>
 struct operands_there {
-    using T = typename decltype(std::declval<const A&>().shapes())::scalar_type;
     A a;
     B b;
-    execution::buffer_of<Policy, aabb<T>> boxes = {};
-
-    operands_there(const Policy& on, A of_a, B of_b) : a(std::move(of_a)), b(std::move(of_b)) {
-        if constexpr (A::has_tree && !A::is_posed) {
-            if (is_along_curve(a) && a.shapes().size() > even_nodes) boxes = boxes_of_even_nodes(on, a.tree());
-            synchronize(on);
-        }
-    }
 };
 
 /// Where the parts of x are, by the shapes that shapes_on(k) gives; if it is not known yet, one box each.
@@ -84,24 +74,19 @@ auto bounds_of_parts(const Team& team, const X& x, const ShapesOn& shapes_on) {
 
 /// What each device packs for each other one, [from][to]: of its part of b what comes near the other's part of a; nothing for
 /// those that are over. Complete when it returns.
-template <class Team, class Operands, class IdsOn, class Bounds, class IsOver>
-auto pack_for_others(const Team& team, const Operands& operands, const IdsOn& ids, const Bounds& bounds_a,
+template <class Team, class ShapesOn, class Bounds, class IdsOn, class IsOver>
+auto pack_for_others(const Team& team, const ShapesOn& shapes_on, const IdsOn& ids, const Bounds& bounds_a,
                      const Bounds& bounds_b, const IsOver& is_over) {
     using local = typename Team::local_policy;
-    using T = typename Operands::value_type::T;
-    using view = decltype(operands[0].b.shapes());
+    using view = decltype(shapes_on(0));
     using packed = near_part<local, typename view::shape_type>;
     return each_of(team, [&](int from) {
         const local& on = team[from];
-        near_shapes<local, view, fine_bounds<T>> near(operands[static_cast<std::size_t>(from)].b.shapes());
+        near_shapes<local, view> near(shapes_on(from));
         std::vector<packed> for_each(static_cast<std::size_t>(team.size()));
         for (int to = 0; to < team.size(); ++to) {
-            const auto& part = bounds_a[static_cast<std::size_t>(to)];
-            if (to == from || is_over(to) || !part.is_near(bounds_b[static_cast<std::size_t>(from)])) continue;
-            const auto& there = operands[static_cast<std::size_t>(to)].boxes;
-            execution::buffer_of<local, aabb<T>> boxes(on, there.size());
-            copy_across(team[to], there.data(), there.size(), on, boxes.data());
-            const fine_bounds<T> theirs{part, boxes.data(), boxes.size()};
+            const auto& theirs = bounds_a[static_cast<std::size_t>(to)];
+            if (to == from || is_over(to) || !theirs.is_near(bounds_b[static_cast<std::size_t>(from)])) continue;
             const auto n = static_cast<std::size_t>(near.count(on, theirs));
             packed some{{on, n}, {on, n}};
             near.write(on, theirs, some.shapes.data(), some.ids.data());
@@ -121,14 +106,14 @@ void ask_each_of_parts(const Team& team, const X& x, const Y& y, const char* fun
     const auto operands = each_of(team, [&](int k) {
         auto b = make_operand(team[k], y[k], function);
         auto a = make_operand(team[k], x[k], function);
-        return operands_there<local, decltype(a), decltype(b)>(team[k], std::move(a), std::move(b));
+        return operands_there<decltype(a), decltype(b)>{std::move(a), std::move(b)};
     });
     const auto shapes_a = [&](int k) { return operands[static_cast<std::size_t>(k)].a.shapes(); };
     const auto shapes_b = [&](int k) { return operands[static_cast<std::size_t>(k)].b.shapes(); };
     const auto bounds_a = bounds_of_parts(team, x, shapes_a);
     const auto bounds_b = bounds_of_parts(team, y, shapes_b);
     const auto pack = [&] {
-        return pack_for_others(team, operands, [&](int k) { return ids_on(y, k); }, bounds_a, bounds_b, is_over);
+        return pack_for_others(team, shapes_b, [&](int k) { return ids_on(y, k); }, bounds_a, bounds_b, is_over);
     };
     const auto search_own = [&](int k) {
         ask(k, x[k], y[k], search_part{}, ids_of_parts{ids_on(x, k), ids_on(y, k)});

@@ -2,8 +2,7 @@
 #pragma once
 
 // Where to cut two trees, or one that is walked with itself, into parts of work: at nodes of about equal numbers of shapes,
-// however deep they lie. Where shapes are crowded in a place, all nodes of one depth but one are nearly empty. And the boxes of
-// such nodes, which tell where a tree's shapes are.
+// however deep they lie. Where shapes are crowded in a place, all nodes of one depth but one are nearly empty.
 
 #include <algorithm>
 #include <concepts>
@@ -16,7 +15,6 @@
 #include <abut/execution/policy.hpp>
 #include <abut/execution/work_queue.hpp>
 #include <abut/index/bvh.hpp>
-#include <abut/shape/bounds.hpp>
 #include <abut/traverse/self_walk.hpp>
 
 namespace abut::detail {
@@ -104,27 +102,6 @@ cut_trees<Policy> cut_both_evenly(const Policy& on, const Walk& walk) {
         for_each_index(on, a.places() + b.places(), find_even_nodes<tree_a, tree_b>{a, b, a.places()}, of_a, of_b);
         return {of_a.take(), of_b.take()};
     }
-}
-
-/// The boxes of such nodes.
-template <bvh_layout Tree>
-struct write_node_boxes {
-    Tree tree;
-    const std::uint32_t* nodes;
-    aabb<typename Tree::scalar_type>* boxes;
-    ABUT_HD void operator()(std::size_t i) const {
-        const bvh_child at{nodes[i]};
-        const auto& node = tree.fetch(at.is_leaf() ? at.index() / 2 : at.index());
-        boxes[i] = at.is_leaf() ? tree.bounds(node, static_cast<int>(at.index() % 2))
-                                : merge(tree.bounds(node, 0), tree.bounds(node, 1));
-    }
-};
-template <class Policy, bvh_layout Tree>
-auto boxes_of_even_nodes(const Policy& on, const Tree& tree) {
-    const auto nodes = cut_evenly(on, tree);
-    execution::buffer_of<Policy, aabb<typename Tree::scalar_type>> boxes(on, nodes.size());
-    for_each_index(on, nodes.size(), write_node_boxes<Tree>{tree, nodes.data(), boxes.data()});
-    return boxes;
 }
 
 }  // namespace abut::detail
