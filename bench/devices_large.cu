@@ -4,10 +4,10 @@
 //
 // What several devices are for, made where it is asked about: nothing goes through host memory.
 //
-//   one       one triangle against TRIANGLES (2,000,000,000: 72 GB), of which 1 % touch it; divided, each device makes its part
+//   one       one triangle against TRIANGLES (2,000,000,000: 72 GB), 1 % of which touch it; divided, each device makes a part
 //   mesh      the pair of bench/meshes_scene.hpp enlarged: a torus of AROUND x AROUND / 2 quads (10,000: 100 million
 //             triangles) against its turned copy; copied, and divided
-//   corner    16,777,216 triangles against as many, 15 of 16 of them in a corner of 1/32 of the scene's side; copied, and divided
+//   corner    16,777,216 triangles against as many, 15 of 16 of them in a corner of 1/32 of the side; copied, and divided
 //
 // by `cuda`, by cuda_devices of that device, and of all devices. Rows devices_large/QUERY/SCENE/POLICY. Each figure is a
 // median of bench/cuda_table.hpp, taken with CUDA events of the first device around the whole call. All answers are compared
@@ -86,7 +86,8 @@ struct make_triangle {
     }
 };
 
-void add_one(const abut::cuda& on, const abut::cuda_devices& alone, const abut::cuda_devices& all, std::size_t n, table& out) {
+void add_one(const abut::cuda& on, const abut::cuda_devices& alone, const abut::cuda_devices& all, std::size_t n,
+             table& out) {
     const double bytes = static_cast<double>(n) * sizeof(abut::triangle<float>);
     const auto reference = triangle_scene::reference<float>();
     expected truth;
@@ -116,7 +117,8 @@ struct make_vertex {
     abut::rigid<float> pose;
     ABUT_HD abut::vec3<float> operator()(std::size_t k) const {
         constexpr double turn = 6.283185307179586, major = 0.35, minor = 0.15;
-        const double u = turn * static_cast<double>(k / across) / around, v = turn * static_cast<double>(k % across) / across;
+        const double u = turn * static_cast<double>(k / across) / around,
+                     v = turn * static_cast<double>(k % across) / across;
         const double r = major + minor * std::cos(v);
         return abut::place(pose, abut::vec3<float>{static_cast<float>(r * std::cos(u)), static_cast<float>(r * std::sin(u)),
                                                    static_cast<float>(minor * std::sin(v))});
@@ -139,7 +141,8 @@ mesh torus(const abut::cuda& on, std::uint32_t around, const abut::rigid<float>&
     const abut::points<float, device_space> vertices(on, n, make_vertex{around, across, pose});
     abut::execution::buffer_of<abut::cuda, abut::face> faces(on, 2 * n);
     for_each_index(on, 2 * n, make_face{around, across, faces.data()});
-    return copy_to(on, abut::mesh_view<float, device_space>(vertices.view().shapes.first(), n, std::as_const(faces).data(), 2 * n));
+    return copy_to(
+        on, abut::mesh_view<float, device_space>(vertices.view().shapes.first(), n, std::as_const(faces).data(), 2 * n));
 }
 abut::replicated<mesh> torus_on_each(const abut::cuda_devices& team, std::uint32_t around, const abut::rigid<float>& pose) {
     std::vector<mesh> copies;
@@ -166,7 +169,7 @@ void add_mesh(const abut::cuda& on, const abut::cuda_devices& alone, const abut:
              abut::divide(all, torus(all[0], around, turned)));
 }
 
-// --- a crowded corner -------------------------------------------------------------------------------------------------------
+// --- a crowded corner -----------------------------------------------------------------------------------------------------
 
 struct make_in_corner {
     std::uint64_t stream;
@@ -193,7 +196,8 @@ void add_corner(const abut::cuda& on, const abut::cuda_devices& alone, const abu
     add(alone, "corner", "one_device", abut::make_bvh(alone, alone_a), abut::make_bvh(alone, alone_b), 0, truth, out);
     if (all.size() == 1) return;
     add(all, "corner", "all_devices", abut::make_bvh(all, a), abut::make_bvh(all, b), 0, truth, out);
-    const auto parts_a = abut::make_bvh(all, abut::divide(all, a[0])), parts_b = abut::make_bvh(all, abut::divide(all, b[0]));
+    const auto parts_a = abut::make_bvh(all, abut::divide(all, a[0])),
+               parts_b = abut::make_bvh(all, abut::divide(all, b[0]));
     add(all, "corner_divided", "all_devices", parts_a, parts_b, 0, truth, out);
 }
 

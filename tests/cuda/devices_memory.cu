@@ -95,7 +95,8 @@ TEST_CASE("memory: a limit is capacity_error, nothing is left behind, and a divi
     for (int k = 0; k < all.size(); ++k) limits.push_back(std::make_unique<limit_in_scope>(all[k], limit));
     for (int k = 0; k < all.size(); ++k) CHECK_THROWS_AS(whole_pairs(all[k]), capacity_error);
     CHECK(to_host(pairs(all, make_bvh(all, divide(all, a)), make_bvh(all, divide(all, b)))) == expected);
-    for (int k = 0; k < all.size(); ++k) CHECK(memory_in_use(all[k]).used_peak <= std::max(enough, memory_in_use(all[k]).limit));
+    for (int k = 0; k < all.size(); ++k)
+        CHECK(memory_in_use(all[k]).used_peak <= std::max(enough, memory_in_use(all[k]).limit));
     CHECK_THROWS_AS((void)replicate(all, triangle_soup<float>(serial{}, 16 * n, make_triangle{3})), capacity_error);
     CHECK(count(all, make_bvh(all, divide(all, a)), make_bvh(all, divide(all, b))) == expected.size());
 }

@@ -64,7 +64,8 @@ TEST_CASE("devices: threads of the caller share a team") {
 TEST_CASE("devices: long lists become one, also where they are one already") {
     constexpr std::uint32_t n = 1'100'000;
     const auto id = [](std::uint32_t i) { return index_pair{i / 3, i % 3}; };
-    for (const std::uint32_t mixed : {0u, 1u, n}) {  // so many of the first list's last ones come in turn with the second's first
+    // So many of all, in the middle, are of the two lists by turns; if it is 1, two have changed places.
+    for (const std::uint32_t mixed : {0u, 1u, n}) {
         const std::uint32_t half = n / 2, alone = half - mixed / 2;
         std::vector<index_pair> lists[3];
         for (std::uint32_t i = 0; i < n; ++i) {

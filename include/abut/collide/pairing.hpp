@@ -165,7 +165,8 @@ struct search_part {
     std::uint32_t part = 0, parts = 1;
 
     [[nodiscard]] ABUT_HD bool has(std::uint64_t item) const {
-        return parts == 1 || (item * 0x9e3779b97f4a7c15u >> 32) * parts >> 32 == part;  // by its highest bits, of which all have a say
+        // By the highest bits of the product, in which all bits of the item have a say.
+        return parts == 1 || (item * 0x9e3779b97f4a7c15u >> 32) * parts >> 32 == part;
     }
     /// The first of n rows that are shared out as they lie, four at a time, so that parts are aligned as the whole is.
     [[nodiscard]] std::size_t first_of(std::size_t n) const {

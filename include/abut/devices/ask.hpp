@@ -2,8 +2,8 @@
 #pragma once
 
 // What of a query each device is asked. What lies on each device is searched in parts (search_part in collide/pairing.hpp);
-// what is divided is searched where it lies. Where both arguments are divided, shapes of b come to the devices whose a-shapes
-// they come near.
+// what is divided is searched where it lies. Where both arguments are divided, shapes of b come to the devices whose
+// a-shapes they come near.
 
 #include <concepts>
 #include <cstddef>
@@ -72,8 +72,8 @@ auto bounds_of_parts(const Team& team, const X& x, const ShapesOn& shapes_on) {
     });
 }
 
-/// What each device packs for each other one, [from][to]: of its part of b what comes near the other's part of a; nothing for
-/// those that are over. Complete when it returns.
+/// What each device packs for each other one, [from][to]: of its part of b what comes near the other's part of a; nothing
+/// for those that are over. Complete when it returns.
 template <class Team, class ShapesOn, class Bounds, class IdsOn, class IsOver>
 auto pack_for_others(const Team& team, const ShapesOn& shapes_on, const IdsOn& ids, const Bounds& bounds_a,
                      const Bounds& bounds_b, const IsOver& is_over) {
@@ -98,10 +98,11 @@ auto pack_for_others(const Team& team, const ShapesOn& shapes_on, const IdsOn& i
     });
 }
 
-/// ask_each of two divided arguments. Devices pack before they search, or a device would wait until another has searched. Only
-/// where a search may be over soon they search their own parts first.
+/// ask_each of two divided arguments. Devices pack before they search, or a device would wait until another has searched.
+/// Only where a search may be over soon they search their own parts first.
 template <class Team, class X, class Y, class Ask, class IsOver>
-void ask_each_of_parts(const Team& team, const X& x, const Y& y, const char* function, const Ask& ask, const IsOver& is_over) {
+void ask_each_of_parts(const Team& team, const X& x, const Y& y, const char* function, const Ask& ask,
+                       const IsOver& is_over) {
     using local = typename Team::local_policy;
     const auto operands = each_of(team, [&](int k) {
         auto b = make_operand(team[k], y[k], function);
@@ -113,11 +114,10 @@ void ask_each_of_parts(const Team& team, const X& x, const Y& y, const char* fun
     const auto bounds_a = bounds_of_parts(team, x, shapes_a);
     const auto bounds_b = bounds_of_parts(team, y, shapes_b);
     const auto pack = [&] {
-        return pack_for_others(team, shapes_b, [&](int k) { return ids_on(y, k); }, bounds_a, bounds_b, is_over);
+        return pack_for_others(
+            team, shapes_b, [&](int k) { return ids_on(y, k); }, bounds_a, bounds_b, is_over);
     };
-    const auto search_own = [&](int k) {
-        ask(k, x[k], y[k], search_part{}, ids_of_parts{ids_on(x, k), ids_on(y, k)});
-    };
+    const auto search_own = [&](int k) { ask(k, x[k], y[k], search_part{}, ids_of_parts{ids_on(x, k), ids_on(y, k)}); };
     const auto search_near = [&](int k, auto& packed) {
         using part = typename std::remove_cvref_t<decltype(packed)>::value_type::value_type;
         using shape_type = typename decltype(part::shapes)::value_type;

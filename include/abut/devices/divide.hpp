@@ -65,9 +65,9 @@ public:
     using memory_space = typename X::memory_space;                                   ///< where parts lie
     using ids_type = detail::shared_array<std::uint32_t, typename X::memory_space>;  ///< an array of ids
 
-    /// Of parts that the devices have, one for each in their order: sets, or views of the caller's memory, each on its device.
-    /// In the whole set the shapes of the first part come first, then those of the second, and so on. Nothing is copied.
-    /// Throws capacity_error for 2^32 - 1 shapes or more in all.
+    /// Of parts that the devices have, one for each in their order: sets, or views of the caller's memory, each on its
+    /// device. In the whole set the shapes of the first part come first, then those of the second, and so on. Nothing is
+    /// copied. Throws capacity_error for 2^32 - 1 shapes or more in all.
     explicit divided(std::vector<X> parts) : parts_(std::move(parts)) {
         for (const X& part : parts_) {
             first_.push_back(static_cast<std::uint32_t>(size_));
@@ -78,8 +78,8 @@ public:
             }
         }
     }
-    /// The same, and for each shape of a part the id in the whole set, ascending. `bounds` is the library's own, of where the
-    /// parts are.
+    /// The same, and for each shape of a part the id in the whole set, ascending. `bounds` is the library's own, of where
+    /// the parts are.
     divided(std::vector<X> parts, std::vector<ids_type> ids, std::vector<detail::part_bounds<scalar_type>> bounds = {})
         : divided(std::move(parts)) {
         ids_ = std::move(ids);
@@ -203,8 +203,8 @@ template <class Tree>
 auto bounds_of_trees(const std::vector<Tree>& trees) {
     std::vector<part_bounds<typename Tree::scalar_type>> all;
     for (const Tree& tree : trees) {
-        all.push_back(bounds_of_boxes(tree.size(), tree.size() > 0 ? std::vector{tree.bounds()}
-                                                                   : std::vector<decltype(tree.bounds())>()));
+        all.push_back(bounds_of_boxes(
+            tree.size(), tree.size() > 0 ? std::vector{tree.bounds()} : std::vector<decltype(tree.bounds())>()));
     }
     return all;
 }

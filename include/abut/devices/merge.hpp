@@ -84,8 +84,8 @@ auto merged_by(const Policy& on, const Order& order, const Key* keys, execution:
     execution::buffer_of<Policy, std::size_t> begins(on, first.size());
     upload(on, first.data(), first.size(), begins.data());
     const is_out_of_order<Order, Key> out_of_order{order, keys, begins.data(), begins.data() + lists};
-    if (all.size() >= many && reduce(on, lists - 1, std::uint64_t{0}, add_up_tallies{},
-                                     one_if<is_out_of_order<Order, Key>>{out_of_order}) == 0) {
+    if (all.size() >= many &&
+        reduce(on, lists - 1, std::uint64_t{0}, add_up_tallies{}, one_if<is_out_of_order<Order, Key>>{out_of_order}) == 0) {
         return all;
     }
     execution::buffer_of<Policy, Found> in_order(on, all.size());

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// any, count, pairs, for_each_pair and contacts, and self_pairs, on several devices at a time. ask.hpp says what each device is
-// asked, merge.hpp makes one list of what they find.
+// any, count, pairs, for_each_pair and contacts, and self_pairs, on several devices at a time. ask.hpp says what each device
+// is asked, merge.hpp makes one list of what they find.
 
 #include <atomic>
 #include <cstddef>

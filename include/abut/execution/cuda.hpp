@@ -157,8 +157,8 @@ private:
         check(cudaStreamSynchronize(stream), "cudaStreamSynchronize");  // memory on its way back is counted until then
         if (fits()) return;
         throw capacity_error("abut::limit_memory: device " + std::to_string(device_) + " may have " + std::to_string(most) +
-                             " bytes in use; " + std::to_string(get(cudaMemPoolAttrUsedMemCurrent)) +
-                             " are, and " + std::to_string(bytes) + " more are needed");
+                             " bytes in use; " + std::to_string(get(cudaMemPoolAttrUsedMemCurrent)) + " are, and " +
+                             std::to_string(bytes) + " more are needed");
     }
 
     int device_;

@@ -128,8 +128,8 @@ public:
         detail::check(on, view(), detail::name_of<Shape>.set);
     }
     /// Of `count` shapes that are made where the policy works: shape i is make(i), for a std::size_t i, called for each
-    /// concurrently. Under `cuda` it is a functor marked ABUT_HD, and nothing goes through host memory: for sets that are larger
-    /// than it, or whose numbers lie on the device already.
+    /// concurrently. Under `cuda` it is a functor marked ABUT_HD, and nothing goes through host memory: for sets that are
+    /// larger than it, or whose numbers lie on the device already.
     template <execution_policy Policy, class Make>
         requires(std::same_as<space_of<Policy>, Space> && std::is_invocable_r_v<Shape, const Make&, std::size_t>)
     shapes(const Policy& on, std::size_t count, const Make& make) {

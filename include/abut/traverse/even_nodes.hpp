@@ -24,8 +24,8 @@ inline constexpr std::size_t even_nodes = 256;
 /// More pairs of nodes than this are too many to begin at: of trees as no scene should have them.
 inline constexpr std::size_t most_even_pairs = std::size_t{1} << 22;
 
-/// The nodes and leaves that have no more than `most` shapes, where their parents have more: each shape is below one of them.
-/// Node k of the tree lies between leaves k and k + 1 (index/climb.hpp), so that its own number tells what a child has.
+/// The nodes and leaves that have no more than `most` shapes, where their parents have more: each shape is below one.
+/// Node k of the tree lies between leaves k and k + 1 (index/climb.hpp), so that its number tells what its children have.
 template <bvh_layout Tree>
 struct nodes_below {
     Tree tree;
