@@ -4,7 +4,7 @@
 //
 // What several devices are for, made where it is asked about: nothing goes through host memory.
 //
-//   one       one triangle against TRIANGLES (2,000,000,000: 72 GB), 1 % of which touch it; divided, each device makes a part
+//   one       one triangle against TRIANGLES (2 x 10^9: 72 GB), 1 % of which touch it; divided, each device makes its part
 //   mesh      the pair of bench/meshes_scene.hpp enlarged: a torus of AROUND x AROUND / 2 quads (10,000: 100 million
 //             triangles) against its turned copy; copied, and divided
 //   corner    16,777,216 triangles against as many, 15 of 16 of them in a corner of 1/32 of the side; copied, and divided
