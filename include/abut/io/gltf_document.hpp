@@ -33,10 +33,10 @@ struct gltf_array_options {
 
 /// What a file has once. Nodes are named by their numbers, as text.
 struct gltf_scene_parts {
-    std::vector<std::string> roots;      ///< nodes that the scene is of
-    std::string translation;             ///< of all of it; empty: none
-    std::string animation;               ///< empty: none
-    std::string extras;                  ///< of the file
+    std::vector<std::string> roots;       ///< nodes that the scene is of
+    std::string translation;              ///< of all of it; empty: none
+    std::string animation;                ///< empty: none
+    std::string extras;                   ///< of the file
     std::vector<std::string> extensions;  ///< names of those that are used
 };
 
@@ -67,13 +67,18 @@ public:
         if constexpr (std::endian::native == std::endian::little) {
             std::memcpy(bytes_.data() + offset, values.data(), length);
         } else {
-            for (std::size_t i = 0; i < values.size(); ++i) put_little_endian(bytes_.data() + offset + i * sizeof(V), values[i]);
+            for (std::size_t i = 0; i < values.size(); ++i)
+                put_little_endian(bytes_.data() + offset + i * sizeof(V), values[i]);
         }
         views_.push_back(json_object({{"buffer", "0"},
                                       {"byteOffset", json_number(offset)},
                                       {"byteLength", json_number(length)},
-                                      {"target", options.is_attribute ? "34962" : options.is_indices ? "34963" : ""}}));
-        const auto bound = [&](auto better) { return options.has_bounds ? bounds(values, components, better) : std::string(); };
+                                      {"target", options.is_attribute ? "34962"
+                                                 : options.is_indices ? "34963"
+                                                                      : ""}}));
+        const auto bound = [&](auto better) {
+            return options.has_bounds ? bounds(values, components, better) : std::string();
+        };
         accessors_.push_back(json_object({{"bufferView", json_number(views_.size() - 1)},
                                           {"componentType", json_number(gltf_component<V>())},
                                           {"normalized", options.is_normalised ? "true" : ""},
@@ -137,7 +142,9 @@ private:
     }
 
     [[nodiscard]] std::string header(const gltf_scene_parts& parts) const {
-        const auto list = [](const std::vector<std::string>& values) { return values.empty() ? std::string() : json_array(values); };
+        const auto list = [](const std::vector<std::string>& values) {
+            return values.empty() ? std::string() : json_array(values);
+        };
         const std::string version = std::to_string(ABUT_VERSION_MAJOR) + '.' + std::to_string(ABUT_VERSION_MINOR) + '.' +
                                     std::to_string(ABUT_VERSION_PATCH);
         std::vector<std::string> nodes = nodes_, roots = parts.roots;

@@ -44,7 +44,9 @@ inline colour plain_colour(std::size_t set) {
 inline std::array<float, 3> flat_normal(const vec3<double>& a, const vec3<double>& b, const vec3<double>& c) {
     const vec3<double> u = b - a, v = c - a;
     // Both are scaled to 1 before they are multiplied: no product overflows or vanishes.
-    const auto greatest = [](const vec3<double>& p) { return std::fmax(std::fabs(p.x), std::fmax(std::fabs(p.y), std::fabs(p.z))); };
+    const auto greatest = [](const vec3<double>& p) {
+        return std::fmax(std::fabs(p.x), std::fmax(std::fabs(p.y), std::fabs(p.z)));
+    };
     const double of_u = greatest(u), of_v = greatest(v);
     if (!(of_u > 0) || !(of_v > 0)) return {0, 0, 1};
     const vec3<double> n = cross((1 / of_u) * u, (1 / of_v) * v);
