@@ -21,6 +21,11 @@ export function featureName(vertices: number[]): string {
   return `${["vertex", "edge", "face"][vertices.length - 1]} ${vertices.join(" ")}`;
 }
 
+/** The moment of an impact on the scene's clock. */
+export function timeOf(result: Result, row: number): number {
+  return result.step + result.times[row]!;
+}
+
 export function timeText(result: Result, row: number): string {
   return result.exactTimes?.[row] ?? shortest(result.times[row]!);
 }

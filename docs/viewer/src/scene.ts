@@ -16,9 +16,10 @@ export interface ShapeSet {
   name: string;
   shape: Shape;
   count: number;
+  of: number; // how many the whole set has
   span: number;
   positions: Float32Array;
-  moves: Float32Array | undefined; // what is added to positions at time 1
+  frames: Float32Array[]; // what is added to positions at times 1, 2, ...; none of a set that stands still
   radii: Float32Array | undefined;
   ids: Uint32Array; // one an element
   corners: Uint32Array | undefined; // a mesh's vertex numbers, one a drawn vertex
@@ -34,6 +35,8 @@ export interface Result {
   a: number;
   b: number;
   count: number;
+  of: number; // how many there are in all
+  step: number; // of impacts: the time at which their step begins
   aIds: Uint32Array; // pairs and contacts
   bIds: Uint32Array;
   points: Float32Array; // contacts
@@ -49,7 +52,9 @@ export interface Scene {
   title: string;
   sets: ShapeSet[];
   results: Result[];
-  moves: boolean;
+  origin: number[]; // is to be added to all coordinates
+  duration: number; // the last frame's time; 0 where nothing moves
+  notes: string[];
 }
 
 const none = { u32: new Uint32Array(0), f32: new Float32Array(0), u8: new Uint8Array(0) };
@@ -87,6 +92,8 @@ function vector(value: unknown, otherwise: number[], where: string): number[] {
   return numbers as number[];
 }
 
+type Drawn = Pick<ShapeSet, "span" | "positions" | "frames" | "radii" | "ids" | "corners">;
+
 class Reader {
   private readonly nodes: unknown[];
   private readonly meshes: unknown[];
@@ -105,7 +112,11 @@ class Reader {
     const count = whole(value.count, `${where}: count`);
     const drawn = count === 0 ? this.nothing() : shape === "spheres" ? this.spheres(value, count, where) : this.drawn(value, shape, count, where);
     refuseUnlessFinite(drawn.positions, where);
-    if (drawn.moves !== undefined) refuseUnlessFinite(drawn.moves, `${where}: motion`);
+    drawn.frames.forEach((frame, i) => refuseUnlessFinite(frame, `${where}: frame ${i + 1}`));
+    if (value.ids !== undefined && count > 0) {
+      drawn.ids = this.glb.accessor(value.ids, `${where}: ids`, "SCALAR", "UNSIGNED_INT").values as Uint32Array;
+      sameCount(drawn.ids.length, count, `${where}: ids`);
+    }
     const hit = new Uint8Array(count);
     if (value.hit !== undefined) {
       const given = this.glb.accessor(value.hit, `${where}: hit`, "SCALAR", "UNSIGNED_BYTE");
@@ -114,18 +125,19 @@ class Reader {
     }
     const elementOf = inverse(drawn.ids);
     const vertexAt = inverse(drawn.corners ?? none.u32);
-    return { name, shape, count, hit, hits: 0, hitIsGiven: value.hit !== undefined, elementOf, vertexAt, ...drawn };
+    const of = whole(value.of, `${where}: of`, count);
+    return { name, shape, count, of, hit, hits: 0, hitIsGiven: value.hit !== undefined, elementOf, vertexAt, ...drawn };
   }
 
-  private nothing() {
-    return { span: 1, positions: none.f32, moves: undefined, radii: undefined, ids: none.u32, corners: undefined };
+  private nothing(): Drawn {
+    return { span: 1, positions: none.f32, frames: [], radii: undefined, ids: none.u32, corners: undefined };
   }
 
   private node(value: unknown, where: string): Json {
     return entry(this.nodes, whole(value, `${where}: node`), `${where}: node`);
   }
 
-  private drawn(set: Json, shape: Shape, count: number, where: string) {
+  private drawn(set: Json, shape: Shape, count: number, where: string): Drawn {
     const node = this.node(set.node, where);
     const mesh = entry(this.meshes, whole(node.mesh, `${where}: mesh`), `${where}: mesh`);
     const primitive = entry(list(mesh.primitives, `${where}: primitives`), 0, `${where}: primitive`);
@@ -139,13 +151,13 @@ class Reader {
     const span = shape === "triangles" ? 3 : shape === "segments" ? 2 : shape === "points" ? 1 : vertices / count;
     if (vertices !== span * count || (shape === "boxes" && span % 3 !== 0))
       refuse(`${where}: count says ${count} ${shape}, and there are ${vertices} vertices`);
-    let moves: Float32Array | undefined;
-    const targets = list(primitive.targets, `${where}: targets`);
-    if (targets.length > 0) {
-      moves = this.glb.floats(entry(targets, 0, `${where}: targets`).POSITION, `${where}: targets 0: POSITION`, "VEC3");
-      sameCount(moves.length / 3, vertices, `${where}: targets 0: POSITION`);
-    }
-    return { span, positions, moves, radii: undefined, ids: this.ids(attributes._ID, count, span, where),
+    const frames = list(primitive.targets, `${where}: targets`).map((target, i) => {
+      const name = `${where}: targets ${i}: POSITION`;
+      const frame = this.glb.floats(isObject(target) ? target.POSITION : undefined, name, "VEC3");
+      sameCount(frame.length / 3, vertices, name);
+      return frame;
+    });
+    return { span, positions, frames, radii: undefined, ids: this.ids(attributes._ID, count, span, where),
              corners: this.corners(attributes._CORNER, vertices, where) };
   }
 
@@ -165,7 +177,7 @@ class Reader {
     return corners;
   }
 
-  private spheres(set: Json, count: number, where: string) {
+  private spheres(set: Json, count: number, where: string): Drawn {
     const node = this.node(set.node, where);
     const instancing = isObject(node.extensions) ? node.extensions.EXT_mesh_gpu_instancing : undefined;
     const radii = new Float32Array(count);
@@ -188,14 +200,13 @@ class Reader {
         const sphere = this.node(child, `${where}: child ${i}`);
         positions.set(vector(sphere.translation, [0, 0, 0], `${where}: child ${i}: translation`), 3 * i);
         radii[i] = vector(sphere.scale, [1, 1, 1], `${where}: child ${i}: scale`)[0]!;
-        const id = isObject(sphere.extras) ? sphere.extras.id : undefined;
-        ids[i] = whole(id, `${where}: child ${i}: id`, i);
+        ids[i] = i;
       });
     }
     radii.forEach((r, i) => {
       if (!(Number.isFinite(r) && r >= 0)) refuse(`${where}: sphere ${i}: no radius (${r})`);
     });
-    return { span: 1, positions, moves: undefined, radii, ids, corners: undefined };
+    return { span: 1, positions, frames: [], radii, ids, corners: undefined };
   }
 
   result(value: unknown, number: number, sets: ShapeSet[]): Result {
@@ -214,7 +225,9 @@ class Reader {
       sameCount(found.count, elements, `${where}: ${name}`);
       return found;
     };
-    const result: Result = { kind, a, b, count, aIds: none.u32, bIds: none.u32, points: none.f32, normals: none.f32,
+    const of = whole(value.of, `${where}: of`, count);
+    const step = whole(value.step, `${where}: step`, 0);
+    const result: Result = { kind, a, b, count, of, step, aIds: none.u32, bIds: none.u32, points: none.f32, normals: none.f32,
                              depths: none.f32, kinds: none.u8, vertices: none.u32, times: none.f32, exactTimes: undefined };
     if (count === 0) return result;
     if (kind !== "impacts") {
@@ -252,7 +265,8 @@ class Reader {
   private refuseImpacts(result: Result, sets: ShapeSet[], where: string): void {
     for (let i = 0; i < result.count; ++i) {
       if (result.kinds[i]! >= kindsOfImpact.length) refuse(`${where}: kinds: element ${i}: no kind ${result.kinds[i]}`);
-      if (!(result.times[i]! >= 0 && result.times[i]! <= 1)) refuse(`${where}: times: element ${i}: ${result.times[i]} is not in [0, 1]`);
+      if (!(result.times[i]! >= 0 && result.times[i]! <= 1))
+        refuse(`${where}: times: element ${i}: ${result.times[i]} is not in [0, 1]`);
       for (const { set, vertices } of featuresOf(result, i)) {
         for (const v of vertices) {
           if (sets[set]!.vertexAt(v) < 0) refuse(`${where}: vertices: element ${i}: there is no vertex ${v} in "${sets[set]!.name}"`);
@@ -273,6 +287,21 @@ export function featuresOf(result: Result, i: number): [Feature, Feature] {
   if (result.kinds[i] === 0) return [{ set: result.a, vertices: [p] }, { set: result.b, vertices: [q, r, s] }];
   if (result.kinds[i] === 1) return [{ set: result.a, vertices: [q, r, s] }, { set: result.b, vertices: [p] }];
   return [{ set: result.a, vertices: [p, q] }, { set: result.b, vertices: [r, s] }];
+}
+
+/** Where a drawn vertex is at a time, in the file's coordinates. */
+export function placeOf(set: ShapeSet, at: number, time: number): [number, number, number] {
+  const p = set.positions;
+  const [from, part] = stretchOf(set, time);
+  const [low, high] = [set.frames[from - 1], set.frames[from]];
+  const moved = (i: number) => p[i]! + (1 - part) * (low?.[i] ?? 0) + (high === undefined ? 0 : part * high[i]!);
+  return [moved(3 * at), moved(3 * at + 1), moved(3 * at + 2)];
+}
+
+/** The frame before a time, at most the last but one, and which part of the way to the next has passed. */
+export function stretchOf(set: ShapeSet, time: number): [number, number] {
+  const from = Math.max(0, Math.min(Math.floor(time), set.frames.length - 1));
+  return [from, Math.min(1, Math.max(0, time - from))];
 }
 
 /** The index of the greatest value, the first of equals; -1 of none. */
@@ -334,7 +363,10 @@ export function readScene(bytes: Uint8Array, title: string): Scene {
   const sets = list(extras.sets, "sets").map((set, i) => reader.set(set, i));
   const results = list(extras.results, "results").map((result, i) => reader.result(result, i, sets));
   markHits(sets, results);
-  return { title, sets, results, moves: sets.some((set) => set.moves !== undefined) };
+  return {
+    title, sets, results, origin: vector(extras.origin, [0, 0, 0], "origin"), duration: Math.max(0, ...sets.map((set) => set.frames.length)),
+    notes: list(extras.notes, "notes").map(String),
+  };
 }
 
 export { FileError };

@@ -5,8 +5,8 @@
 import * as THREE from "three";
 import { byId, counted, cssColour, make, shortest } from "./dom";
 import { Label, Labels } from "./labels";
-import { allRows, columnsOf, elementName, featureName, kindsOfImpact, marksOf, noun, partnersOf, rowsWith, timeText, titleOf } from "./results";
-import { featuresOf, greatest, least, Result, Scene } from "./scene";
+import { allRows, columnsOf, elementName, featureName, kindsOfImpact, marksOf, noun, partnersOf, rowsWith, timeOf, timeText, titleOf } from "./results";
+import { featuresOf, greatest, least, placeOf, Result, Scene } from "./scene";
 import { Mark, Palette, Picked, Stage } from "./stage";
 import { View } from "./view";
 import { VirtualList } from "./virtual_list";
@@ -51,7 +51,8 @@ export class SceneMode {
     this.selection = undefined;
     this.paint();
     byId("file-name").textContent = scene.title;
-    byId("time-tools").hidden = !scene.moves;
+    byId("time-tools").hidden = scene.duration === 0;
+    this.time.max = String(scene.duration || 1);
     byId("first-impact").hidden = this.first() === undefined;
     byId("arrow-tools").hidden = !scene.results.some((r) => r.kind === "contacts" && r.count > 0);
     for (const id of ["hits-only", "z-up"]) byId<HTMLInputElement>(id).checked = false;
@@ -79,7 +80,7 @@ export class SceneMode {
       deepest: cssColour("deepest"), a: cssColour("a"), b: cssColour("b"), sets: [0, 1, 2, 3].map((i) => cssColour(`set-${i}`)),
     };
     this.stage?.paint(palette);
-    if (this.scene?.moves === true) this.drawTimeMarks();
+    if ((this.scene?.duration ?? 0) > 0) this.drawTimeMarks();
   }
 
   private checked(id: string): boolean {
@@ -93,7 +94,8 @@ export class SceneMode {
     this.scene?.results.forEach((result, i) => {
       if (result.kind !== "impacts" || result.count === 0) return;
       const row = least(result.times);
-      if (best === undefined || result.times[row]! < this.scene!.results[best.result]!.times[best.row]!) best = { result: i, row };
+      const before = best && this.scene!.results[best.result]!;
+      if (before === undefined || timeOf(result, row) < timeOf(before, best!.row)) best = { result: i, row };
     });
     return best;
   }
@@ -151,9 +153,10 @@ export class SceneMode {
       const toggle = make("input", { type: "checkbox", checked: true, "aria-label": `Show ${set.name}`, onchange: (event) => this.stage!.showSet(i, (event.target as HTMLInputElement).checked) });
       const swatch = make("span", { class: "swatch", style: `background: var(--set-${i % 4})` });
       const hits = set.hits > 0 ? `${set.hits.toLocaleString("en")} hit` : "no hit";
-      table.append(make("tr", {}, make("td", {}, make("label", {}, toggle, swatch, set.name)), make("td", {}, counted(set.count, noun(scene, i))), make("td", { class: "quiet" }, hits)));
+      table.append(make("tr", {}, make("td", {}, make("label", {}, toggle, swatch, set.name)), make("td", {}, (set.of > set.count ? `${set.count.toLocaleString("en")} of ` : "") + counted(set.of, noun(scene, i))), make("td", { class: "quiet" }, hits)));
     });
-    this.summary.replaceChildren(...parts, table);
+    const notes = scene.notes.map((note) => make("p", { class: "quiet note" }, note));
+    this.summary.replaceChildren(...parts, table, ...notes);
   }
 
   // --- list ---------------------------------------------------------------------------------------------------------------------
@@ -174,7 +177,7 @@ export class SceneMode {
     const { column, descending } = this.list.sorting;
     const asked = this.search.value.trim();
     const found = asked === "" ? allRows(result) : rowsWith(result, asked);
-    byId("row-count").textContent = found === undefined ? "Type an id: 7, or a 7, or b 7." : asked === "" ? counted(result.count, "row") : `${found.length.toLocaleString("en")} of ${counted(result.count, "row")}`;
+    byId("row-count").textContent = found === undefined ? "Type an id: 7, or a 7, or b 7." : asked === "" ? (result.of > result.count ? `${result.count.toLocaleString("en")} of ` : "") + counted(result.of, "row") : `${found.length.toLocaleString("en")} of ${counted(result.count, "row")}`;
     this.list.show(columnsOf(result), found ?? new Uint32Array(0));
     if (column >= 0) this.list.sort(column, descending);
   }
@@ -198,7 +201,7 @@ export class SceneMode {
     if (selection?.kind === "row") {
       if (selection.result !== this.shown) this.showResult(selection.result);
       const result = this.scene.results[selection.result]!;
-      if (result.kind === "impacts") this.setTime(result.times[selection.row]!);
+      if (result.kind === "impacts") this.setTime(timeOf(result, selection.row));
       this.list.mark(selection.row);
     } else {
       this.list.mark(-1);
@@ -225,7 +228,12 @@ export class SceneMode {
     const s = this.selection;
     const scene = this.scene!;
     if (s === undefined) return [];
-    if (s.kind === "row") return marksOf(scene, scene.results[s.result]!, s.row);
+    if (s.kind === "row") {
+      const result = scene.results[s.result]!;
+      const marks = marksOf(scene, result, s.row);
+      if (result.kind === "contacts") marks[0]!.contact = { result: s.result, row: s.row };
+      return marks;
+    }
     const marks: Mark[] = [{ set: s.set, side: "a", elements: [s.element] }];
     for (const result of scene.results) {
       for (const partner of partnersOf(scene, result, s.set, s.element)) {
@@ -255,6 +263,10 @@ export class SceneMode {
       const name = mark.vertices !== undefined ? featureName(mark.vertices) : `${noun(scene, mark.set)} ${scene.sets[mark.set]!.ids[mark.elements![0]!]}`;
       words.push({ at: this.stage.ballOf([mark]).center, text: `${mark.side} · ${name}`, look: mark.side });
     }
+    if (s.kind === "row" && scene.results[s.result]!.kind === "contacts") {
+      const depth = shortest(scene.results[s.result]!.depths[s.row]!);
+      words.push({ at: this.stage.pointOfContact(s.result, s.row), text: `${depth} deep`, look: "depth" });
+    }
     this.labels.set(words);
   }
 
@@ -274,13 +286,21 @@ export class SceneMode {
     return make("tr", {}, make("th", { scope: "row" }, title), ...Array.from(values, (x) => make("td", {}, shortest(x))));
   }
 
+  /** A point of the file, to which the scene's origin is added. */
+  private place(title: string, point: ArrayLike<number>): HTMLElement {
+    const { origin } = this.scene!;
+    const text = (x: number, k: number) => (origin[k] === 0 ? shortest(Math.fround(x)) : String(Number((x + origin[k]!).toPrecision(12))));
+    return make("tr", {}, make("th", { scope: "row" }, title), ...Array.from(point, (x, k) => make("td", {}, text(x, k))));
+  }
+
   private cornersTable(set: number, element: number): HTMLElement {
-    const { positions, span, corners, radii, shape } = this.scene!.sets[set]!;
+    const all = this.scene!.sets[set]!;
+    const { span, corners, radii, shape } = all;
     const table = make("table", { class: "corners" });
     for (let i = 0; i < Math.min(span, 3); ++i) {
       const at = element * span + i;
       const title = shape === "spheres" ? "center" : corners !== undefined ? `vertex ${corners[at]}` : shape === "points" ? "point" : `corner ${i}`;
-      table.append(this.numbers(title, positions.subarray(3 * at, 3 * at + 3)));
+      table.append(this.place(title, placeOf(all, at, this.stage!.time)));
     }
     if (radii !== undefined) table.append(this.numbers("radius", [radii[element]!]));
     return table;
@@ -299,7 +319,7 @@ export class SceneMode {
     const parts: HTMLElement[] = [];
     if (result.kind === "contacts") {
       const table = make("table", { id: "contact-numbers" });
-      table.append(this.numbers("depth", [result.depths[row]!]), this.numbers("point", result.points.subarray(3 * row, 3 * row + 3)),
+      table.append(this.numbers("depth", [result.depths[row]!]), this.place("point", result.points.subarray(3 * row, 3 * row + 3)),
         this.numbers("normal", result.normals.subarray(3 * row, 3 * row + 3)));
       parts.push(table);
     }
@@ -313,7 +333,7 @@ export class SceneMode {
 
   private impactDetails(result: Result, row: number): { title: string; parts: HTMLElement[] } {
     const scene = this.scene!;
-    const table = make("table", {}, make("tr", {}, make("th", { scope: "row" }, "time"), make("td", { id: "impact-time" }, timeText(result, row))),
+    const table = make("table", {}, make("tr", {}, make("th", { scope: "row" }, "time"), make("td", { id: "impact-time" }, timeText(result, row) + (result.step > 0 ? ` of the step from frame ${result.step}` : ""))),
       make("tr", {}, make("th", { scope: "row" }, "kind"), make("td", {}, kindsOfImpact[result.kinds[row]!]!)));
     const parts: HTMLElement[] = [table];
     featuresOf(result, row).forEach((feature, i) => {
@@ -322,9 +342,7 @@ export class SceneMode {
       const set = scene.sets[feature.set]!;
       const places = make("table", { class: "corners" });
       for (const v of feature.vertices) {
-        const at = 3 * set.vertexAt(v);
-        const moved = [0, 1, 2].map((k) => set.positions[at + k]! + (set.moves?.[at + k] ?? 0) * result.times[row]!);
-        places.append(this.numbers(`vertex ${v}`, moved.map(Math.fround)));
+        places.append(this.place(`vertex ${v}`, placeOf(set, set.vertexAt(v), timeOf(result, row))));
       }
       parts.push(places);
     });
@@ -387,18 +405,22 @@ export class SceneMode {
     if (this.stage === undefined) return;
     this.stage.time = value;
     this.time.value = String(value);
-    byId("time-value").textContent = `t = ${value.toFixed(4)}`;
+    const { duration } = this.scene!;
+    byId("time-value").textContent = duration > 1 ? `${value.toFixed(3)} of ${duration}` : `t = ${value.toFixed(4)}`;
     this.refreshLabels();
+    if (this.selection?.kind === "element" && this.playing === 0) this.writeDetails(); // its corners have moved
   }
 
   play(): void {
     if (this.playing !== 0) return this.stop();
-    if (this.scene?.moves !== true) return;
-    if (Number(this.time.value) >= 1) this.setTime(0);
-    const begin = performance.now() - 4000 * Number(this.time.value);
+    const duration = this.scene?.duration ?? 0;
+    if (duration === 0) return;
+    if (Number(this.time.value) >= duration) this.setTime(0);
+    const length = Math.min(8000, 2500 + 60 * duration); // ms
+    const begin = performance.now() - (length * Number(this.time.value)) / duration;
     const step = () => {
-      const t = Math.min(1, (performance.now() - begin) / 4000);
-      this.setTime(t);
+      const t = Math.min(1, (performance.now() - begin) / length);
+      this.setTime(t * duration);
       if (t < 1) this.playing = requestAnimationFrame(step);
       else this.stop();
     };
@@ -423,7 +445,10 @@ export class SceneMode {
     pen.scale(devicePixelRatio, devicePixelRatio);
     const impacts = (this.scene?.results ?? []).filter((r) => r.kind === "impacts");
     const bins = new Float64Array(Math.max(1, Math.floor(width)));
-    for (const result of impacts) for (const t of result.times) ++bins[Math.min(bins.length - 1, Math.floor(t * bins.length))]!;
+    const { duration } = this.scene!;
+    for (const result of impacts) {
+      for (let i = 0; i < result.count; ++i) ++bins[Math.min(bins.length - 1, Math.floor((timeOf(result, i) / duration) * bins.length))]!;
+    }
     const most = bins.reduce((x, y) => Math.max(x, y), 1);
     pen.fillStyle = cssColour("mark");
     bins.forEach((n, x) => {
@@ -432,7 +457,7 @@ export class SceneMode {
     });
     const first = this.first();
     if (first === undefined) return;
-    const x = this.scene!.results[first.result]!.times[first.row]! * width;
+    const x = (timeOf(this.scene!.results[first.result]!, first.row) / duration) * width;
     pen.beginPath();
     pen.moveTo(x - 5, 0);
     pen.lineTo(x + 5, 0);

@@ -5,14 +5,15 @@
 
 export const placeShape = /* glsl */ `
 #ifdef MOVES
-in vec3 displacement;
+in vec3 moveFrom;
+in vec3 moveTo;
+uniform float part;
 #endif
 #ifdef SPHERES
 in vec3 center;
 in float radius;
 #endif
 in float hit;
-uniform float time;
 uniform bool hitsOnly;
 uniform float pointSize;
 out vec3 viewed;
@@ -33,7 +34,7 @@ void main() {
   smoothNormal = vec3(0.0);
 #endif
 #ifdef MOVES
-  p += time * displacement;
+  p += mix(moveFrom, moveTo, part);
 #endif
   vec4 at = modelViewMatrix * vec4(p, 1.0);
   viewed = at.xyz;
@@ -82,7 +83,7 @@ void main() {
   float across = max(width.x, max(width.y, width.z));
   vec3 near = smoothstep(vec3(0.0), width * 1.15, corner);
   float edge = 1.0 - min(near.x, min(near.y, near.z));
-  own = mix(own, ink, edge * 0.5 * (1.0 - smoothstep(0.03, 0.16, across)));
+  own = mix(own, ink, edge * 0.5 * (1.0 - smoothstep(0.02, 0.09, across)));
 #endif
 #endif
   colour = vec4(own, 1.0);

@@ -4,7 +4,7 @@
 // the file, moved and scaled so that the scene fits into a ball of radius 1: scenes that are huge, tiny or far away look alike.
 
 import * as THREE from "three";
-import { greatest, Result, Scene, ShapeSet } from "./scene";
+import { greatest, placeOf, Result, Scene, ShapeSet, stretchOf } from "./scene";
 import { placeArrow, placeShape, shadeArrow, shadeShape, writeCode } from "./shaders";
 import { View, World } from "./view";
 
@@ -28,6 +28,7 @@ export interface Mark {
   side: "a" | "b";
   elements?: number[];
   vertices?: number[]; // of a mesh: one is a point, two an edge, three a face
+  contact?: { result: number; row: number }; // its point
 }
 
 interface Part {
@@ -35,6 +36,8 @@ interface Part {
   object: THREE.Object3D;
   seen: THREE.ShaderMaterial;
   code: THREE.ShaderMaterial;
+  part: { value: number }; // of the way from one frame to the next
+  stretch: number; // which frames are on the way now
   away: THREE.Vector3;
   base: number;
   count: number;
@@ -56,12 +59,13 @@ export class Stage implements World {
   private readonly arrows: (Part & { result: number })[] = [];
   private readonly marks = new THREE.Group();
   private readonly shared = {
-    time: { value: 0 }, hitsOnly: { value: false }, pointSize: { value: 7 }, screen: { value: new THREE.Vector2(1, 1) }, ink: { value: colour("#000") },
+    hitsOnly: { value: false }, pointSize: { value: 7 }, screen: { value: new THREE.Vector2(1, 1) }, ink: { value: colour("#000") },
   };
   private readonly target = new THREE.WebGLRenderTarget(9, 9, { minFilter: THREE.NearestFilter, magFilter: THREE.NearestFilter });
   private marked: Mark[] = [];
   private palette: Palette | undefined;
   private explosion = 0;
+  private now = 0;
 
   constructor(readonly scene: Scene, private readonly view: View) {
     const box = new THREE.Box3();
@@ -130,18 +134,20 @@ export class Stage implements World {
       const hit = new Uint8Array(points.length / 3);
       for (let e = 0; e < set.count; ++e) if (set.hit[e] !== 0) hit.fill(1, e * set.span, (e + 1) * set.span);
       geometry.setAttribute("hit", new THREE.BufferAttribute(hit, 1));
-      if (set.moves !== undefined) {
+      if (set.frames.length > 0) {
         defines.MOVES = 1;
-        geometry.setAttribute("displacement", new THREE.BufferAttribute(this.scaled(set.moves, false), 3));
+        geometry.setAttribute("moveFrom", new THREE.BufferAttribute(new Float32Array(points.length), 3));
+        geometry.setAttribute("moveTo", new THREE.BufferAttribute(this.scaled(set.frames[0]!, false), 3));
       }
     }
-    const { time, hitsOnly, pointSize, ink } = this.shared;
-    const placed = { time, hitsOnly, pointSize };
+    const { hitsOnly, pointSize, ink } = this.shared;
+    const part = { value: 0 };
+    const placed = { part, hitsOnly, pointSize };
     const seen = this.material(placeShape, shadeShape, defines,
       { ...placed, ink, plain: { value: colour("#888") }, struck: { value: colour("#e80") }, contrast: { value: 1 } });
     const code = this.material(placeShape, writeCode, { ...defines, PICK: 1 }, { ...placed, base: { value: base } });
     const object = isSurface ? new THREE.Mesh(geometry, seen) : set.shape === "segments" ? new THREE.LineSegments(geometry, seen) : new THREE.Points(geometry, seen);
-    return this.part(object, seen, code, base, set.count, this.wayOut(set, number));
+    return { ...this.part(object, seen, code, base, set.count, this.wayOut(set, number)), part };
   }
 
   private part(object: THREE.Object3D, seen: THREE.ShaderMaterial, code: THREE.ShaderMaterial, base: number, count: number, away: THREE.Vector3): Part {
@@ -149,7 +155,7 @@ export class Stage implements World {
     const group = new THREE.Group();
     group.add(object);
     this.content.add(group);
-    return { group, object, seen, code, away, base, count };
+    return { group, object, seen, code, away, base, count, part: { value: 0 }, stretch: 0 };
   }
 
   /** Where a set goes when sets are moved apart: away from the middle, or along x, which is as good as any. */
@@ -201,12 +207,27 @@ export class Stage implements World {
     this.redrawMarks();
   }
 
-  set time(value: number) {
-    this.shared.time.value = value;
-    this.redrawMarks();
-  }
   get time(): number {
-    return this.shared.time.value;
+    return this.now;
+  }
+  set time(value: number) {
+    this.now = value;
+    this.scene.sets.forEach((set, i) => {
+      if (set.frames.length === 0) return;
+      const part = this.parts[i]!;
+      const [from, passed] = stretchOf(set, value);
+      part.part.value = passed;
+      if (part.stretch === from) return;
+      part.stretch = from;
+      const geometry = (part.object as THREE.Mesh).geometry;
+      for (const [name, frame] of [["moveFrom", set.frames[from - 1]], ["moveTo", set.frames[from]]] as const) {
+        const attribute = geometry.getAttribute(name) as THREE.BufferAttribute;
+        if (frame === undefined) (attribute.array as Float32Array).fill(0);
+        else (attribute.array as Float32Array).set(this.scaled(frame, false));
+        attribute.needsUpdate = true;
+      }
+    });
+    this.redrawMarks();
   }
 
   set hitsOnly(value: boolean) {
@@ -242,6 +263,7 @@ export class Stage implements World {
     for (const arrow of this.arrows) {
       arrow.object.visible = visible && arrow.result === result;
       arrow.seen.uniforms.only!.value = row;
+      arrow.seen.depthTest = row < 0; // the one that is asked for is seen through what is before it
     }
     this.view.draw();
   }
@@ -255,11 +277,7 @@ export class Stage implements World {
   }
 
   private vertex(set: number, at: number): THREE.Vector3 {
-    const { positions: p, moves: m } = this.scene.sets[set]!;
-    const t = m === undefined ? 0 : this.time;
-    const at3 = 3 * at;
-    const moved = (i: number) => p[at3 + i]! + (m === undefined ? 0 : t * m[at3 + i]!);
-    return this.placed(moved(0), moved(1), moved(2), set);
+    return this.placed(...placeOf(this.scene.sets[set]!, at, this.now), set);
   }
 
   /** The corners of an element in the world, without the rotation of `zUp`. */
@@ -358,6 +376,11 @@ export class Stage implements World {
         }
       }
     }
+    if (mark.contact !== undefined) {
+      const { points: p } = this.scene.results[mark.contact.result]!;
+      const at = 3 * mark.contact.row;
+      points.push(...this.placed(p[at]!, p[at + 1]!, p[at + 2]!, mark.set).toArray());
+    }
     const at = (mark.vertices ?? []).map((v) => this.vertex(mark.set, set.vertexAt(v)));
     if (at.length === 1) points.push(...at[0]!.toArray());
     if (at.length === 2) lines.push(...at[0]!.toArray(), ...at[1]!.toArray());
@@ -423,15 +446,18 @@ function buffer(values: number[]): THREE.BufferGeometry {
 }
 
 function grow(box: THREE.Box3, set: ShapeSet): void {
-  const { positions: p, moves: m, radii } = set;
+  const { positions: p, radii } = set;
+  if (p.length === 0) return;
   const low = [Infinity, Infinity, Infinity];
   const high = [-Infinity, -Infinity, -Infinity];
-  for (let i = 0; i < p.length; ++i) {
-    const axis = i % 3;
-    const r = radii?.[Math.floor(i / 3)] ?? 0;
-    const other = m === undefined ? p[i]! : p[i]! + m[i]!;
-    low[axis] = Math.min(low[axis]!, p[i]! - r, other - r);
-    high[axis] = Math.max(high[axis]!, p[i]! + r, other + r);
+  for (const frame of [undefined, ...set.frames]) {
+    for (let i = 0; i < p.length; ++i) {
+      const axis = i % 3;
+      const r = radii?.[Math.floor(i / 3)] ?? 0;
+      const x = p[i]! + (frame?.[i] ?? 0);
+      if (x - r < low[axis]!) low[axis] = x - r;
+      if (x + r > high[axis]!) high[axis] = x + r;
+    }
   }
-  if (p.length > 0) box.union(new THREE.Box3(new THREE.Vector3(...low), new THREE.Vector3(...high)));
+  box.union(new THREE.Box3(new THREE.Vector3(...low), new THREE.Vector3(...high)));
 }
