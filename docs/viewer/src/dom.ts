@@ -34,6 +34,11 @@ export function shortest(x: number): string {
   return String(Number(x.toPrecision(9)));
 }
 
+/** A few digits, for where there is little room. */
+export function brief(x: number): string {
+  return String(Number(x.toPrecision(6)));
+}
+
 export function counted(n: number, what: string): string {
   const plural = /(s|sh|ch|x)$/.test(what) ? what + "es" : what + "s";
   return `${n.toLocaleString("en")} ${n === 1 ? what : plural}`;

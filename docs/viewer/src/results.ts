@@ -2,7 +2,7 @@
 //
 // Results as rows of a list, in words, and as what stands out in the picture.
 
-import { shortest } from "./dom";
+import { brief, shortest } from "./dom";
 import { featuresOf, kindsOfImpact, Result, Scene } from "./scene";
 import { Mark } from "./stage";
 import { Column } from "./virtual_list";
@@ -41,7 +41,7 @@ export function columnsOf(result: Result): Column[] {
   if (result.kind === "impacts") {
     return [
       number,
-      { title: "time", explain: "Sort by time of impact", width: "92px", text: (i) => timeText(result, i).slice(0, 11), key: (i) => result.times[i]! },
+      { title: "time", explain: "Sort by time of impact", width: "92px", text: (i) => brief(result.times[i]!), key: (i) => result.times[i]! },
       {
         title: "what meets", explain: "Sort by kind", width: "1fr", key: (i) => result.kinds[i]!,
         text: (i) => featuresOf(result, i).map((f) => featureName(f.vertices)).join(" · "),
@@ -87,6 +87,12 @@ export function marksOf(scene: Scene, result: Result, row: number): Mark[] {
     { set: result.a, side: "a", elements: [scene.sets[result.a]!.elementOf(result.aIds[row]!)] },
     { set: result.b, side: "b", elements: [scene.sets[result.b]!.elementOf(result.bIds[row]!)] },
   ];
+}
+
+/** Results that say something of their own: pairs whose contacts are there too say nothing more. */
+export function distinctResults(scene: Scene): number[] {
+  const isToldBy = (pairs: Result, other: Result) => other.kind === "contacts" && other.a === pairs.a && other.b === pairs.b && other.count === pairs.count;
+  return scene.results.flatMap((r, i) => (r.kind === "pairs" && scene.results.some((other) => isToldBy(r, other)) ? [] : [i]));
 }
 
 export interface Partner {

@@ -3,9 +3,9 @@
 // A scene on the page: summary, what is selected, the list, and the controls under the picture.
 
 import * as THREE from "three";
-import { byId, counted, cssColour, make, shortest } from "./dom";
+import { brief, byId, counted, cssColour, make, shortest } from "./dom";
 import { Label, Labels } from "./labels";
-import { allRows, columnsOf, elementName, featureName, kindsOfImpact, marksOf, noun, partnersOf, rowsWith, timeOf, timeText, titleOf } from "./results";
+import { allRows, columnsOf, distinctResults, elementName, featureName, kindsOfImpact, marksOf, noun, partnersOf, rowsWith, timeOf, timeText, titleOf } from "./results";
 import { featuresOf, greatest, least, placeOf, Result, Scene } from "./scene";
 import { Mark, Palette, Picked, Stage } from "./stage";
 import { View } from "./view";
@@ -55,7 +55,9 @@ export class SceneMode {
     this.time.max = String(scene.duration || 1);
     byId("first-impact").hidden = this.first() === undefined;
     byId("arrow-tools").hidden = !scene.results.some((r) => r.kind === "contacts" && r.count > 0);
-    for (const id of ["hits-only", "z-up"]) byId<HTMLInputElement>(id).checked = false;
+    byId<HTMLInputElement>("hits-only").checked = false;
+    byId<HTMLInputElement>("z-up").checked = fallsAlongZ(scene);
+    this.stage.zUp = this.checked("z-up");
     byId<HTMLInputElement>("explode").value = "0";
     this.time.value = "0";
     this.setTime(0);
@@ -202,13 +204,11 @@ export class SceneMode {
       if (selection.result !== this.shown) this.showResult(selection.result);
       const result = this.scene.results[selection.result]!;
       if (result.kind === "impacts") this.setTime(timeOf(result, selection.row));
-      this.list.mark(selection.row);
-    } else {
-      this.list.mark(-1);
     }
     this.stage.mark(this.marks());
     this.arrowsOfSelection();
     this.writeDetails();
+    this.list.mark(selection?.kind === "row" ? selection.row : -1); // after the details, which take room from the list
     this.refreshLabels();
     if (fly && selection !== undefined) this.flyThere();
   }
@@ -235,7 +235,8 @@ export class SceneMode {
       return marks;
     }
     const marks: Mark[] = [{ set: s.set, side: "a", elements: [s.element] }];
-    for (const result of scene.results) {
+    for (const number of distinctResults(scene)) {
+      const result = scene.results[number]!;
       for (const partner of partnersOf(scene, result, s.set, s.element)) {
         if (partner.set >= 0) marks.push({ set: partner.set, side: "b", elements: [partner.element] });
         else marks.push(...marksOf(scene, result, partner.row).filter((m) => m.set !== s.set).map((m): Mark => ({ ...m, side: "b" })));
@@ -250,7 +251,7 @@ export class SceneMode {
     const ball = this.stage!.ballOf(s.kind === "row" ? marks : marks.slice(0, 1));
     const isContact = s.kind === "row" && this.scene!.results[s.result]!.kind === "contacts";
     const at = isContact && byId<HTMLInputElement>("explode").value === "0" ? this.stage!.pointOfContact(s.result, s.row) : ball.center;
-    this.view.fly(at, Math.min(3.2, Math.max(4.5 * ball.radius, 0.004)));
+    this.view.fly(at, Math.min(3.2, Math.max(6 * ball.radius, 0.004)));
   }
 
   refreshLabels(): void {
@@ -355,19 +356,20 @@ export class SceneMode {
     const scene = this.scene!;
     const id = scene.sets[set]!.ids[element]!;
     const parts: HTMLElement[] = [make("p", {}, make("span", { class: "chip a" }, "a"), ` set `, make("b", {}, scene.sets[set]!.name), `, id `, make("b", { id: "picked-id" }, String(id))), this.cornersTable(set, element)];
-    scene.results.forEach((result, number) => {
-      if (result.a !== set && result.b !== set) return;
+    for (const number of distinctResults(scene)) {
+      const result = scene.results[number]!;
+      if (result.a !== set && result.b !== set) continue;
       const partners = partnersOf(scene, result, set, element);
       const what = result.kind === "impacts" ? counted(partners.length, "impact") : result.kind === "contacts" ? counted(partners.length, "contact") : counted(partners.length, "pair");
       parts.push(make("h3", {}, partners.length === 0 ? `no ${result.kind}` : what));
       const items = partners.slice(0, mostPartners).map((partner) => {
-        const text = result.kind === "impacts" ? `t = ${timeText(result, partner.row).slice(0, 9)}` :
+        const text = result.kind === "impacts" ? `t = ${brief(result.times[partner.row]!)}` :
           `${noun(scene, partner.set)} ${scene.sets[partner.set]!.ids[partner.element]}` + (result.kind === "contacts" ? `, ${shortest(result.depths[partner.row]!)} deep` : "");
         return make("li", {}, make("button", { type: "button", onclick: () => this.select({ kind: "row", result: number, row: partner.row }, true) }, text));
       });
       if (items.length > 0) parts.push(make("ul", { class: "partners" }, ...items));
       if (partners.length > mostPartners) parts.push(make("p", { class: "quiet" }, `and ${partners.length - mostPartners} more; the list finds them by the id.`));
-    });
+    }
     return { title: elementName(scene, set, id), parts };
   }
 
@@ -464,4 +466,11 @@ export class SceneMode {
     pen.lineTo(x, 7);
     pen.fill();
   }
+}
+
+/** Whether what moves goes along z more than along x and y, as things fall where z is up. */
+function fallsAlongZ(scene: Scene): boolean {
+  const way = [0, 0, 0];
+  for (const set of scene.sets) set.frames.at(-1)?.forEach((x, i) => (way[i % 3]! += x));
+  return Math.abs(way[2]!) > 2 * Math.max(Math.abs(way[0]!), Math.abs(way[1]!));
 }

@@ -65,6 +65,7 @@ export class Stage implements World {
   private marked: Mark[] = [];
   private palette: Palette | undefined;
   private explosion = 0;
+  private reach = 0.06;
   private now = 0;
 
   constructor(readonly scene: Scene, private readonly view: View) {
@@ -249,7 +250,7 @@ export class Stage implements World {
   }
 
   set arrowLength(value: number) {
-    for (const { seen } of this.arrows) seen.uniforms.reach!.value = value; // code has the same uniform
+    this.reach = value;
     this.view.draw();
   }
 
@@ -426,8 +427,13 @@ export class Stage implements World {
     return arrow && { result: arrow.result, row: code - arrow.base };
   }
 
-  before(_: THREE.PerspectiveCamera, width: number, height: number): void {
+  before(camera: THREE.PerspectiveCamera, width: number, height: number): void {
     this.shared.screen.value.set(width / 2, height / 2);
+    for (const { seen } of this.arrows) {
+      // One arrow alone stays within the picture, however near that is. `code` has the same uniform.
+      const most = seen.uniforms.only!.value < 0 ? Infinity : 0.2 * camera.position.distanceTo(this.view.controls.target);
+      seen.uniforms.reach!.value = Math.min(this.reach, most);
+    }
   }
 
   dispose(): void {

@@ -51,6 +51,7 @@ export class VirtualList {
     const sign = descending ? -1 : 1;
     places.sort((i, j) => sign * (keys[i]! - keys[j]!) || this.order[i]! - this.order[j]!);
     this.order = places.map((i) => this.order[i]!);
+    this.host.scrollTop = 0;
     this.drawHead();
     this.draw();
   }
