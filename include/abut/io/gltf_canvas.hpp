@@ -141,7 +141,8 @@ public:
                     json_number(file_.add_node(json_object({{"name", json_string(name + ' ' + std::to_string(marks.id(i)))},
                                                             {"mesh", json_number(ball_of(c, 2))},
                                                             {"translation", json_point(center)},
-                                                            {"scale", json_list(scale, scale, scale)}}))));
+                                                            {"scale", json_list(scale, scale, scale)},
+                                                            {"extras", json_object({{"id", json_number(marks.id(i))}})}}))));
                 continue;
             }
             centers.insert(centers.end(), center.begin(), center.end());
