@@ -71,7 +71,7 @@ public:
 
         std::vector<float> positions, normals;
         std::vector<std::uint8_t> colours;
-        std::vector<std::uint16_t> ids, vertices;
+        std::vector<float> ids, vertices;
         const colour plain = plain_colour(drawn_++), marked = hit_colour();
         for (std::size_t i = 0; i < count; ++i) {
             const auto points = gltf_points(at(0, i));
@@ -126,7 +126,7 @@ public:
         });
         std::vector<float> centers, scales;
         std::vector<std::uint8_t> colours;
-        std::vector<std::uint16_t> ids;
+        std::vector<float> ids;
         const colour plain = plain_colour(drawn_++), marked = hit_colour();
         std::vector<std::string> children;
         for (std::size_t i = 0; i < count; ++i) {
@@ -141,7 +141,8 @@ public:
                     json_number(file_.add_node(json_object({{"name", json_string(name + ' ' + std::to_string(marks.id(i)))},
                                                             {"mesh", json_number(ball_of(c, 2))},
                                                             {"translation", json_point(center)},
-                                                            {"scale", json_list(scale, scale, scale)}}))));
+                                                            {"scale", json_list(scale, scale, scale)},
+                                                            {"extras", json_object({{"id", json_number(marks.id(i))}})}}))));
                 continue;
             }
             centers.insert(centers.end(), center.begin(), center.end());
@@ -177,7 +178,7 @@ public:
     /// Lines of two positions each, one after another; returns their node.
     std::size_t add_lines(const std::vector<float>& positions) {
         std::vector<std::uint8_t> colours;
-        std::vector<std::uint16_t> ids;
+        std::vector<float> ids;
         const colour c = linear_colour(200, 30, 60);
         for (std::size_t i = 0; i < positions.size() / 3; ++i) {
             push_id(ids, static_cast<std::uint32_t>(i / 2));
@@ -254,8 +255,10 @@ private:
         }
     }
 
-    static void push_id(std::vector<std::uint16_t>& to, std::uint32_t id) {
-        to.insert(to.end(), {static_cast<std::uint16_t>(id & 0xffff), static_cast<std::uint16_t>(id >> 16)});
+    /// As two floats, which hold 16 bits each exactly: readers take attributes of their own for floats (VTK's leaves out
+    /// integers, and then its mesh is not sound).
+    static void push_id(std::vector<float>& to, std::uint32_t id) {
+        to.insert(to.end(), {static_cast<float>(id & 0xffff), static_cast<float>(id >> 16)});
     }
     template <class V>
     std::string add_attribute(const std::vector<V>& values, std::size_t components, bool is_normalised = false) {

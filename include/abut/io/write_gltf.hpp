@@ -75,8 +75,8 @@ concept impact_like = requires(const I& i) {
 /// A scene that is being put together: sets, and what touches among them. `write_gltf` writes it.
 ///
 /// @par Memory
-/// What is added is copied, in the form of the file: 109 bytes a triangle, 36 more for each further frame of a motion, 1.2
-/// kB a box, 40 bytes a segment, 20 a point, 33 a sphere (some 200 bytes of text where they are 256 or fewer), 61 a contact.
+/// What is added is copied, in the form of the file: 133 bytes a triangle, 36 more for each further frame of a motion, 1.3
+/// kB a box, 48 bytes a segment, 24 a point, 37 a sphere (some 200 bytes of text where they are 256 or fewer), 84 a contact.
 /// A file of binary glTF holds 4 GiB.
 ///
 /// @par Errors
