@@ -49,7 +49,7 @@ wanted='libgmp-dev libmpfr-dev libcgal-dev libfcl-dev libeigen3-dev libtinyobjlo
     libbenchmark-dev doxygen libopenmpi-dev openmpi-bin'
 if [ $bench = yes ]; then wanted="$wanted libembree-dev libbullet-dev libnanoflann-dev"; fi
 # shellcheck disable=SC2086
-want_packages $wanted ccache
+want_packages $wanted ccache $viewer_packages
 if [ $clang = yes ] || [ $tsan = yes ] || [ $headers = yes ]; then
     need_packages clang
     major=$(clang++ -dumpversion | cut -d. -f1)

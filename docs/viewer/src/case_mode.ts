@@ -24,6 +24,7 @@ export class CaseMode {
   private readonly signCells: HTMLElement[] = [];
   private readonly patternCanvas = make("canvas", { id: "patterns", width: "270", height: "270", role: "img" });
   private readonly patternText = make("p", { class: "quiet", id: "pattern-text" });
+  private readonly groupText = make("p", { class: "quiet", id: "case-group" });
   private started = false;
 
   constructor(private readonly view: View, labels: Labels, readonly predicate: Predicate) {
@@ -62,10 +63,10 @@ export class CaseMode {
       corners.append(make("h3", { class: side === 0 ? "side-reference" : "" }, side === 0 ? "Reference" : "Other"));
       for (let i = 3 * side; i < 3 * side + 3; ++i) corners.append(this.cornerFields(i));
     }
-    corners.append(make("p", { class: "quiet" }, "Drag a corner in the picture, or type. +, 0, −: above, on or below the other's plane, in rational numbers. Arrow keys in a field go by one; with Alt, by the smallest step of a float."));
+    corners.append(make("p", { class: "quiet" }, "Drag a corner in the picture, or type. +, 0, −: above, on or below the other's plane, in rational numbers; ·: the other spans no plane. Arrow keys in a field go by one; with Alt, by the smallest step of a float."));
     const patterns = make("details", { id: "pattern-box", ontoggle: () => this.drawPatterns() }, make("summary", {}, "All patterns of sides"), this.patternCanvas, this.patternText);
     this.patternCanvas.addEventListener("click", (event) => this.openPattern(event));
-    byId("case-panel").replaceChildren(make("section", {}, intro, this.chooser), this.answer, corners, make("section", {}, patterns));
+    byId("case-panel").replaceChildren(make("section", {}, intro, this.chooser, this.groupText), this.answer, corners, make("section", {}, patterns));
   }
 
   private cornerFields(i: number): HTMLElement {
@@ -108,6 +109,7 @@ export class CaseMode {
     this.index = index;
     this.chooser.value = String(index);
     byId("case-number").textContent = `${index + 1} of ${this.count}`;
+    this.groupText.textContent = this.configurations[index]!.group;
     this.set([...this.configurations[index]!.corners], true);
   }
 

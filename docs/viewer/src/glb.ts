@@ -150,11 +150,16 @@ export class Glb {
     return this.accessor(index, where, type, "FLOAT").values as Float32Array;
   }
 
-  /** Numbers of 32 bits that lie in the file as their low and their high half. */
+  /** Numbers of 32 bits that lie in the file as their low and their high half, as whole numbers or as floats. */
   halves(index: unknown, where: string): Uint32Array {
     const { values, count } = this.accessor(index, where, "VEC2");
     const joined = new Uint32Array(count);
-    for (let i = 0; i < count; ++i) joined[i] = values[2 * i]! + values[2 * i + 1]! * 65536;
+    for (let i = 0; i < count; ++i) {
+      const [low, high] = [values[2 * i]!, values[2 * i + 1]!];
+      if (!(low >= 0 && low < 65536 && high >= 0 && high < 65536 && low % 1 === 0 && high % 1 === 0))
+        refuse(`${where}: element ${i}: expected two halves of a number, got ${low} and ${high}`);
+      joined[i] = low + high * 65536;
+    }
     return joined;
   }
 }

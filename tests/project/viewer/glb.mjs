@@ -100,7 +100,7 @@ function spheres(out, set) {
   const attributes = {
     TRANSLATION: out.accessor(set.spheres.flatMap((s) => s.slice(0, 3)), 5126, "VEC3"),
     SCALE: out.accessor(set.spheres.flatMap((s) => [s[3], s[3], s[3]]), 5126, "VEC3"),
-    _ID: out.accessor(halves(ids), 5123, "VEC2"),
+    _ID: out.accessor(halves(ids), 5126, "VEC2"), // both are right: whole numbers, and floats as abut writes them
   };
   const node = out.node({ name: set.name, extensions: { EXT_mesh_gpu_instancing: { attributes } } });
   return { name: set.name, kind: "spheres", node, count: set.spheres.length, as: "instances", moves: false };

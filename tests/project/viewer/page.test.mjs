@@ -238,7 +238,8 @@ test("a motion: slider, first impact, stepping, playing", async () => {
   const time = () => viewer("v.scenes.stage.time");
   await page.locator("#time").fill("0.75");
   assert.equal(await time(), 0.75);
-  const z = await viewer("v.scenes.stage.ballOf([{ set: 0, side: 'a', vertices: [0] }]).center.z / v.scenes.stage.scale + v.scenes.stage.origin.z");
+  assert.equal(await page.locator("#z-up").isChecked(), true, "it falls along z, so z is up: y in the picture");
+  const z = await viewer("v.scenes.stage.ballOf([{ set: 0, side: 'a', vertices: [0] }]).center.y / v.scenes.stage.scale + v.scenes.stage.origin.z");
   assert.ok(Math.abs(z + 0.5) < 1e-5, `the corner is at ${z}`);
   await page.getByRole("button", { name: "First impact", exact: true }).click();
   assert.equal(await time(), 0.25);

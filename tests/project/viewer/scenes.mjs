@@ -76,6 +76,7 @@ export function hostile() {
     { name: "another version", bytes: edited((j) => (extras(j).version = 2)), says: /version 2; this page reads version 1/ },
     { name: "sets that are no list", bytes: edited((j) => (extras(j).sets = { length: 3 })), says: /sets: expected a list/ },
     { name: "indices", bytes: edited((j) => (j.meshes[0].primitives[0].indices = 0)), says: /got indices/ },
+    { name: "ids that are halves of nothing", bytes: edited((j) => (j.meshes[0].primitives[0].attributes._CORNER = 0)), says: /expected VEC2, got "VEC3"/ },
     { name: "sparse", bytes: edited((j) => (j.accessors[0].sparse = {})), says: /sparse accessors/ },
     { name: "data elsewhere", bytes: edited((j) => (j.buffers[0].uri = "http://example.org/x.bin")), says: /data is in another file/ },
   ];
