@@ -27,6 +27,7 @@ class Page {
   mode: "scene" | "cases" = "scene";
   readonly labels: Labels;
   private theme: "light" | "dark";
+  private starting: Promise<Predicate> | undefined;
   private readonly keys: [string, string, () => void][];
 
   constructor() {
@@ -80,7 +81,7 @@ class Page {
     const holder = byId("abut-scene");
     const text = (holder.textContent ?? "").trim();
     if (text === "") return false;
-    const title = holder.dataset.name ?? "scene in this page";
+    const title = holder.dataset.name ?? decodeURIComponent(location.pathname.split("/").pop() || "scene in this page");
     try {
       this.open(fromBase64(text), title);
     } catch (error) {
@@ -92,8 +93,29 @@ class Page {
 
   // --- modes, theme ---------------------------------------------------------------------------------------------------------------
 
-  setMode(mode: "scene" | "cases"): void {
-    if (mode === "cases" && this.cases === undefined) return say("This page was built without the predicate: cmake/view.sh says what it needs.");
+  /** Special cases; the predicate is started the first time. */
+  async openCases(): Promise<void> {
+    if (!Predicate.isHere) return say("This page was built without the predicate: cmake/view.sh says what it needs.");
+    try {
+      this.starting ??= Predicate.load();
+      const predicate = await this.starting;
+      this.cases ??= new CaseMode(this.view, this.labels, predicate);
+    } catch (error) {
+      return say(`The predicate cannot be started: ${String(error)}`);
+    }
+    this.setMode("cases");
+  }
+
+  showScene(): void {
+    this.setMode("scene");
+  }
+
+  private switchMode(): void {
+    if (this.mode === "scene") void this.openCases();
+    else this.setMode("scene");
+  }
+
+  private setMode(mode: "scene" | "cases"): void {
     this.mode = mode;
     for (const name of ["scene", "cases"] as const) {
       const tab = byId(`mode-${name}`);
@@ -141,7 +163,7 @@ class Page {
       ["]", "impact after", step(1)],
       ["/", "find an id in the list", inScene(() => byId("search").focus())],
       ["o", "open a file", () => byId("file").click()],
-      ["c", "special cases, and back", () => this.setMode(this.mode === "scene" ? "cases" : "scene")],
+      ["c", "special cases, and back", () => this.switchMode()],
       ["t", "dark or light", () => this.setTheme(this.theme === "dark" ? "light" : "dark")],
       ["?", "this help", () => byId<HTMLDialogElement>("help").showModal()],
     ];
@@ -154,14 +176,16 @@ class Page {
       if (file.files?.[0] !== undefined) void this.openFile(file.files[0]);
       file.value = "";
     });
-    byId("cases-first").addEventListener("click", () => this.setMode("cases"));
+    byId("cases-first").addEventListener("click", () => void this.openCases());
     byId("mode-scene").addEventListener("click", () => this.setMode("scene"));
-    byId("mode-cases").addEventListener("click", () => this.setMode("cases"));
+    byId("mode-cases").addEventListener("click", () => void this.openCases());
     byId("modes").addEventListener("keydown", (event) => {
       if (event.key !== "ArrowLeft" && event.key !== "ArrowRight") return;
       event.stopPropagation();
-      this.setMode(this.mode === "scene" ? "cases" : "scene");
-      byId(`mode-${this.mode}`).focus();
+      const next = this.mode === "scene" ? "cases" : "scene";
+      if (next === "scene") this.setMode("scene");
+      else void this.openCases();
+      byId(`mode-${next}`).focus();
     });
     byId("theme").addEventListener("click", () => this.setTheme(this.theme === "dark" ? "light" : "dark"));
     byId("help-open").addEventListener("click", () => byId<HTMLDialogElement>("help").showModal());
@@ -252,17 +276,13 @@ async function begin(): Promise<void> {
   }
   // For tests and for the browser's console.
   Object.assign(window, { abutViewer: page });
-  const predicate = await Predicate.load().catch((error: unknown) => {
-    say(`The predicate cannot be started: ${String(error)}`);
-    return undefined;
-  });
-  if (predicate !== undefined) page.cases = new CaseMode(page.view, page.labels, predicate);
-  byId<HTMLButtonElement>("mode-cases").disabled = predicate === undefined;
-  byId("cases-first").hidden = predicate === undefined;
+  byId<HTMLButtonElement>("mode-cases").disabled = !Predicate.isHere;
+  byId("cases-first").hidden = !Predicate.isHere;
+  page.showScene();
   const url = new URLSearchParams(location.search).get("scene");
   const embedded = page.openEmbedded();
   if (!embedded && url !== null) await page.openUrl(url);
-  if (!embedded && url === null) page.setMode(location.hash === "#cases" ? "cases" : "scene");
+  if (location.hash === "#cases") await page.openCases();
   document.documentElement.dataset.ready = "true";
 }
 

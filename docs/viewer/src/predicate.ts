@@ -39,9 +39,10 @@ interface Calls {
 export class Predicate {
   private constructor(private readonly calls: Calls) {}
 
-  /** Nothing where the page was built without it. */
-  static async load(): Promise<Predicate | undefined> {
-    if (code.length === 0) return undefined;
+  /** Whether the page was built with it. */
+  static readonly isHere = code.length > 0;
+
+  static async load(): Promise<Predicate> {
     // The module prints only when it gives up, and a trap follows.
     const refuse = () => 52;
     const system = { fd_close: refuse, fd_seek: refuse, fd_write: refuse };

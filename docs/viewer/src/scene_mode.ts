@@ -141,7 +141,7 @@ export class SceneMode {
     if (first !== undefined) {
       const r = scene.results[first.result]!;
       const more = featuresOf(r, first.row).map((f) => `${featureName(f.vertices)} of ${scene.sets[f.set]!.name}`).join(" and ");
-      parts.push(button("First impact", `t = ${timeText(r, first.row)}`, more, first));
+      parts.push(button("First impact", `t = ${timeText(r, first.row)}`, more + (r.step > 0 ? `, in the step from frame ${r.step}` : ""), first));
     }
     const pairs = scene.results.findIndex((r) => r.kind === "pairs" && r.count > 0);
     if (parts.length === 0 && pairs >= 0) {
