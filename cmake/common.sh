@@ -23,6 +23,8 @@ have_package() {
     case $1 in
         cmake | g++ | clang | ccache | doxygen | python3) command -v "$1" >/dev/null 2>&1 && return 0 ;;
         ninja-build) command -v ninja >/dev/null 2>&1 && return 0 ;;
+        nodejs) command -v node >/dev/null 2>&1 && return 0 ;;
+        npm) command -v npm >/dev/null 2>&1 && return 0 ;;
     esac
     dpkg-query -W -f='${Status}' "$1" 2>/dev/null | grep -q 'ok installed'
 }
