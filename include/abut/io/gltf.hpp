@@ -29,6 +29,7 @@ struct gltf_transform {
     std::array<std::array<double, 4>, 3> rows{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 
     [[nodiscard]] vec3<double> operator()(const vec3<double>& p) const {
+        if (is_identity()) return p;  // with the signs of its zeros
         const auto row = [&](const std::array<double, 4>& r) { return r[0] * p.x + r[1] * p.y + r[2] * p.z + r[3]; };
         return {row(rows[0]), row(rows[1]), row(rows[2])};
     }
@@ -43,6 +44,7 @@ struct gltf_transform {
         }
         return made;
     }
+    [[nodiscard]] bool is_identity() const { return rows == gltf_transform{}.rows; }
     [[nodiscard]] bool mirrors() const {
         const auto column = [&](std::size_t j) { return vec3<double>{rows[0][j], rows[1][j], rows[2][j]}; };
         return dot(cross(column(0), column(1)), column(2)) < 0;

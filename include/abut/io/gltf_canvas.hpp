@@ -133,15 +133,15 @@ public:
             const auto sphere = view[i];
             const auto radius = static_cast<double>(sphere.radius);
             const auto center = rounded(in_double(sphere.center));
-            for (const double r : {-radius, radius}) grow(rounded(in_double(sphere.center) + vec3<double>{r, r, r}));
+            for (const double k : {-radius, radius}) grow(rounded(in_double(sphere.center) + vec3<double>{k, k, k}));
             const colour& c = marks.is_hit(i) ? marked : plain;
             if (count <= most_nodes) {
-                const std::string scale = json_number(static_cast<float>(radius));
+                const auto r = static_cast<float>(radius);
                 children.push_back(
                     json_number(file_.add_node(json_object({{"name", json_string(name + ' ' + std::to_string(marks.id(i)))},
                                                             {"mesh", json_number(ball_of(c, 2))},
                                                             {"translation", json_point(center)},
-                                                            {"scale", json_list(scale, scale, scale)},
+                                                            {"scale", json_point({r, r, r})},
                                                             {"extras", json_object({{"id", json_number(marks.id(i))}})}}))));
                 continue;
             }
@@ -337,8 +337,10 @@ private:
                          {"material", json_number(material_of(c))}});
         return place->second = file_.add_mesh(json_object({{"name", "\"ball\""}, {"primitives", json_list(primitive)}}));
     }
+    /// Each float as the double that it is: readers take numbers for doubles.
     static std::string json_point(const std::array<float, 3>& p) {
-        return json_list(json_number(p[0]), json_number(p[1]), json_number(p[2]));
+        const auto number = [](float x) { return json_number(static_cast<double>(x)); };
+        return json_list(number(p[0]), number(p[1]), number(p[2]));
     }
 
     gltf_document file_;

@@ -105,21 +105,26 @@ private:
     }
 };
 
-/// The twelve triangles of a box, facing outwards.
+/// A corner of a box: bit k of its number says which end in coordinate k.
 template <scalar T>
-std::array<triangle<T>, 12> box_faces(const aabb<T>& box) {
-    const auto corner = [&](int i) {
-        return vec3<T>{(i & 1) != 0 ? box.upper.x : box.lower.x, (i & 2) != 0 ? box.upper.y : box.lower.y,
-                       (i & 4) != 0 ? box.upper.z : box.lower.z};
-    };
-    constexpr int quads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
-    std::array<triangle<T>, 12> faces;
-    for (std::size_t q = 0; q < 6; ++q) {
-        const auto& c = quads[q];
-        faces[2 * q] = {corner(c[0]), corner(c[1]), corner(c[2])};
-        faces[2 * q + 1] = {corner(c[0]), corner(c[2]), corner(c[3])};
-    }
-    return faces;
+vec3<T> box_corner(const aabb<T>& box, unsigned i) {
+    return {(i & 1) != 0 ? box.upper.x : box.lower.x, (i & 2) != 0 ? box.upper.y : box.lower.y,
+            (i & 4) != 0 ? box.upper.z : box.lower.z};
+}
+/// The corners of the twelve triangles of a box, facing outwards.
+constexpr std::array<std::array<std::uint32_t, 3>, 12> box_corners() {
+    return {{{0, 4, 6},
+             {0, 6, 2},
+             {1, 3, 7},
+             {1, 7, 5},
+             {0, 1, 5},
+             {0, 5, 4},
+             {2, 6, 7},
+             {2, 7, 3},
+             {0, 2, 3},
+             {0, 3, 1},
+             {4, 5, 7},
+             {4, 7, 6}}};
 }
 
 /// What is read of an argument of `gltf_scene::add`, after a check.
@@ -182,9 +187,9 @@ std::array<vec3<T>, 1> gltf_points(const vec3<T>& p) {
 template <scalar T>
 std::array<vec3<T>, 36> gltf_points(const aabb<T>& box) {
     std::array<vec3<T>, 36> points;
-    const auto faces = box_faces(box);
-    for (std::size_t f = 0; f < faces.size(); ++f) {
-        points[3 * f] = faces[f].a, points[3 * f + 1] = faces[f].b, points[3 * f + 2] = faces[f].c;
+    std::size_t k = 0;
+    for (const auto& triangle : box_corners()) {
+        for (const std::uint32_t corner : triangle) points[k++] = box_corner(box, corner);
     }
     return points;
 }

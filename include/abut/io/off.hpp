@@ -89,6 +89,7 @@ private:
         if (word.empty()) word = next();
         if (word == "BINARY") text_.fail("OFF as text", word);
         if (word.empty()) {
+            text_.rest();  // a comment
             text_.next_line();
             begin_row();
             word = next();

@@ -41,8 +41,12 @@ public:
 
     void check_rows(const ply_element& element) const {
         // Each value takes a character and a blank or line end; the last line may lack its end.
-        const std::size_t least = 2 * element.least_row(options_.lenient ? 0 : 3, false), left = text_.bytes_left();
+        const std::size_t least = 2 * element.least_row(0, false), left = text_.bytes_left();
         if (too_many(element.count, least, left + 1)) text_.fail_with(rows_expected(element, least, left));
+    }
+    /// How many of a file's faces there can be at most, for all that is left of it.
+    [[nodiscard]] std::size_t most_faces(const ply_element& element) const {
+        return (text_.bytes_left() + 1) / (2 * element.least_row(3, false));
     }
     void begin_row() {
         for (text_.skip_blanks(); text_.at_line_end() && !text_.at_end(); text_.skip_blanks()) text_.next_line();
@@ -120,9 +124,10 @@ public:
           swap_((header.form == ply_form::big_endian) == (std::endian::native == std::endian::little)) {}
 
     void check_rows(const ply_element& element) const {
-        const std::size_t least = element.least_row(options_.lenient ? 0 : 3, true);
+        const std::size_t least = element.least_row(0, true);
         if (too_many(element.count, least, left())) fail_at(at_, rows_expected(element, least, left()));
     }
+    [[nodiscard]] std::size_t most_faces(const ply_element& element) const { return left() / element.least_row(3, true); }
     void begin_row() const {}
     void end_row() const {}
     void check_list(std::uint64_t count, ply_type type) const {
@@ -266,7 +271,9 @@ void read_faces(Source& from, const ply_element& element, std::uint64_t vertices
     const std::size_t list = element.corners();
     const bool is_strip = element.name == "tristrips";
     std::vector<std::int64_t> corners;
-    if (!is_strip) mesh.faces.reserve(static_cast<std::size_t>(element.count));
+    if (!is_strip) {
+        mesh.faces.reserve(std::min(static_cast<std::size_t>(element.count), from.most_faces(element)));
+    }
     for (std::uint64_t row = 0; row < element.count; ++row) {
         from.begin_row();
         for (std::size_t i = 0; i < element.fields.size(); ++i) {

@@ -70,8 +70,6 @@ concept impact_like = requires(const I& i) {
     static_cast<unsigned char>(i.kind);
 };
 
-///@}
-
 /// A scene that is being put together: sets, and what touches among them. `write_gltf` writes it.
 ///
 /// @par Memory
@@ -85,6 +83,13 @@ concept impact_like = requires(const I& i) {
 ///   a set is of another scene.
 /// - `invalid_geometry`: a view that is added is no geometry, or a pose is none.
 /// - `std::bad_alloc`.
+///
+/// @par Synchronisation
+/// All calls run on the calling thread and return when they are done. One thread at a time may add to a scene; several may write
+/// it.
+///
+/// @par Example
+/// @snippet files.cpp scene
 class gltf_scene {
 public:
     /// Adds a set: triangles (mesh, triangle_soup), spheres, segments (edge_mesh, segments), points or boxes; or a view of

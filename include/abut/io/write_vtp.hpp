@@ -84,10 +84,10 @@ public:
             "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
             "<PolyData>\n");
     }
-    void piece(std::size_t points, std::size_t single_points, std::size_t polygons) {
+    void piece(std::size_t points, std::size_t single_points, std::size_t polygons, std::size_t lines = 0) {
         file_.write("<Piece NumberOfPoints=\"" + std::to_string(points) + "\" NumberOfVerts=\"" +
-                    std::to_string(single_points) + "\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
-                    std::to_string(polygons) + "\">\n");
+                    std::to_string(single_points) + "\" NumberOfLines=\"" + std::to_string(lines) +
+                    "\" NumberOfStrips=\"0\" NumberOfPolys=\"" + std::to_string(polygons) + "\">\n");
     }
     void open(std::string_view element, std::string_view attributes = "") {
         file_.write('<');
