@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a file that abut wrote says: sets of shapes, and results that name them by their ids. docs/viewer.md has the format.
+// What a file that abut wrote says: sets of shapes, and results that name them by their ids. docs/files.md has the format.
 // All that can be wrong with a file is found here, before anything is drawn.
 
 import { Accessor, entry, FileError, Glb, isObject, Json, list, refuse, shown, whole } from "./glb";

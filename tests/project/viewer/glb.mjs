@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A small writer of scenes for tests of docs/viewer, by the description of the format in docs/viewer.md. It shares no code with
+// A small writer of scenes for tests of docs/viewer, by the description of the format in docs/files.md. It shares no code with
 // the page's reader. `edit` changes the JSON before it is written: that makes files that are wrong.
 
 const components = { 5121: Uint8Array, 5123: Uint16Array, 5125: Uint32Array, 5126: Float32Array };
@@ -54,7 +54,7 @@ class Binary {
 const halves = (ids) => ids.flatMap((id) => [id % 65536, Math.floor(id / 65536)]);
 
 /**
- * sets: [{ name, kind, vertices, faces, ids, to }] for triangles (`to`: the vertices at time 1), [{ kind: "spheres", spheres,
+ * sets: [{ name, kind, vertices, faces, ids, frames }] for triangles (`frames`: the vertices at times 1, 2, ...), [{ kind: "spheres", spheres,
  * ids, as }] for spheres; results as in extras, with plain lists in place of accessors.
  */
 export function writeScene({ sets, results, edit }) {
@@ -69,20 +69,20 @@ export function writeScene({ sets, results, edit }) {
       _CORNER: out.accessor(halves(corners), 5123, "VEC2"),
     };
     const primitive = { attributes, mode: 4 };
-    if (set.to) {
-      const deltas = corners.flatMap((v) => set.to[v].map((x, k) => x - set.vertices[v][k]));
-      primitive.targets = [{ POSITION: out.accessor(deltas, 5126, "VEC3") }];
+    if (set.frames) {
+      const deltas = (frame) => corners.flatMap((v) => frame[v].map((x, k) => x - set.vertices[v][k]));
+      primitive.targets = set.frames.map((frame) => ({ POSITION: out.accessor(deltas(frame), 5126, "VEC3") }));
     }
     out.json.meshes.push({ primitives: [primitive] });
     const node = out.node({ name: set.name, mesh: out.json.meshes.length - 1 });
-    return { name: set.name, kind: "triangles", node, count: set.faces.length, moves: set.to !== undefined };
+    return { name: set.name, kind: "triangles", node, count: set.faces.length, moves: set.frames !== undefined };
   });
   const types = { a_ids: [5125, "SCALAR"], b_ids: [5125, "SCALAR"], points: [5126, "VEC3"], normals: [5126, "VEC3"], depths: [5126, "SCALAR"],
                   kinds: [5121, "SCALAR"], vertices: [5125, "SCALAR"], times: [5126, "SCALAR"] };
-  const written = results.map(({ kind, a, b, count, times_exact, ...lists }) => {
+  const written = results.map(({ kind, a, b, count, times_exact, step, of, ...lists }) => {
     const accessors = {};
     for (const [name, values] of Object.entries(lists)) accessors[name] = out.accessor(values, ...types[name]);
-    return { kind, a, b, count, accessors, ...(times_exact && { times_exact }) };
+    return { kind, a, b, count, accessors, ...(times_exact && { times_exact }), ...(step && { step }), ...(of && { of }) };
   });
   out.json.extras = { abut: { version: 1, sets: described, results: written } };
   return out.write(edit);

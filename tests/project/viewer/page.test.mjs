@@ -12,7 +12,7 @@ import { folder, html, openPage, openScene, settle, startBrowser, text } from ".
 import { torus, writeScene } from "./glb.mjs";
 import { contactsOf, loadPredicate } from "./predicate.mjs";
 import { firstMet } from "./rays.mjs";
-import { hostile, motion, small } from "./scenes.mjs";
+import { frames, hostile, motion, small } from "./scenes.mjs";
 
 let browser, page, predicate, meshes, contacts, bytes;
 
@@ -261,6 +261,27 @@ test("a motion: slider, first impact, stepping, playing", async () => {
   const stopped = await time();
   await page.waitForTimeout(120);
   assert.equal(await time(), stopped);
+});
+
+test("several frames: the clock, the step of an impact, an origin", async () => {
+  await openScene(page, writeScene(frames()), "frames.glb");
+  await page.getByRole("button", { name: /^First impact: t = 0.25/ }).click();
+  assert.equal(await viewer("v.scenes.stage.time"), 2.25);
+  const details = await text(page, "#details");
+  assert.match(details, /0.25 of the step from frame 2/);
+  assert.match(details, /vertex 0\s+1000001.5\s+1\s+0\n/);
+  assert.match(await text(page, "#row-count"), /^1 of 9 rows/);
+  assert.match(await text(page, "#summary"), /nine were found/);
+  const place = () => viewer("v.scenes.stage.screenOf(0, 0)");
+  const before = await place();
+  await page.locator("#time").fill("1.5");
+  assert.notDeepEqual(await place(), before);
+  await page.locator("#time").fill("2.25");
+  assert.deepEqual(await place(), before);
+  // What is drawn is where it is said to be.
+  await page.locator("#time").fill("1.5");
+  const at = await place();
+  assert.deepEqual(await viewer("v.scenes.stage.pick(argument.x, argument.y)", at), { set: 0, element: 0 });
 });
 
 test("files come by drop, by ?scene=, and in the page", async () => {

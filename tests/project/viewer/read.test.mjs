@@ -6,10 +6,10 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { join } from "node:path";
-import { small, hostile, motion } from "./scenes.mjs";
+import { frames, hostile, motion, small } from "./scenes.mjs";
 import { writeScene } from "./glb.mjs";
 
-const { readScene, FileError } = await import(join(process.env.ABUT_VIEWER, "scene.mjs"));
+const { readScene, placeOf, FileError } = await import(join(process.env.ABUT_VIEWER, "scene.mjs"));
 
 test("a scene is read as it was written", () => {
   const scene = readScene(writeScene(small()), "small");
@@ -31,6 +31,25 @@ test("a motion is read as it was written", () => {
   assert.deepEqual(Array.from(scene.results[0].times), [0.5, 0.25]);
   assert.deepEqual(scene.results[0].exactTimes, ["0.5", "0.25"]);
   assert.deepEqual(scene.sets.map((s) => Array.from(s.hit)), [[1], [1, 0]]);
+});
+
+test("faces are hit by their vertices, their edges, and as a whole", () => {
+  const hits = (kinds, vertices) => readScene(writeScene({ ...motion(), results: [{ kind: "impacts", a: 0, b: 1, count: 1, kinds, vertices, times: [0.5] }] }), "").sets.map((s) => Array.from(s.hit));
+  assert.deepEqual(hits([2], [0, 1, 1, 2]), [[1], [1, 1]], "the edge of both faces");
+  assert.deepEqual(hits([2], [0, 1, 3, 2]), [[1], [0, 1]], "an edge of one, against its direction");
+  assert.deepEqual(hits([1], [3, 0, 1, 2]), [[1], [0, 1]], "a vertex of one");
+  assert.deepEqual(hits([0], [2, 2, 0, 1]), [[1], [1, 0]], "one face, from another corner on");
+});
+
+test("several frames, an origin, parts and notes", () => {
+  const scene = readScene(writeScene(frames()), "");
+  assert.deepEqual([scene.duration, scene.origin, scene.notes, scene.results[0].step, scene.results[0].of], [3, [1000000, 0, 0], ["nine were found"], 2, 9]);
+  const at = (time) => placeOf(scene.sets[0], 0, time);
+  assert.deepEqual([0, 0.5, 1, 1.5, 2, 2.25, 3, 9].map(at), [[1, 1, 1], [1, 1, 1.5], [1, 1, 2], [1.25, 1, 2], [1.5, 1, 2], [1.5, 1, 0], [1.5, 1, -6], [1.5, 1, -6]]);
+  assert.deepEqual(placeOf(scene.sets[1], 1, 2.5), [4, 0, 0]);
+  const part = small();
+  part.edit = (json) => Object.assign(json.extras.abut.sets[0], { of: 99 });
+  assert.equal(readScene(writeScene(part), "").sets[0].of, 99);
 });
 
 test("spheres as nodes are the same as instances", () => {

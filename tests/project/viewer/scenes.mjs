@@ -24,11 +24,22 @@ export function motion() {
   const fall = [[1, 1, 1], [1.5, 1, 2.5], [1, 1.5, 2.5]];
   return {
     sets: [
-      { name: "falling", kind: "triangles", vertices: fall, to: fall.map(([x, y, z]) => [x, y, z - 2]), faces: [[0, 1, 2]] },
+      { name: "falling", kind: "triangles", vertices: fall, frames: [fall.map(([x, y, z]) => [x, y, z - 2])], faces: [[0, 1, 2]] },
       { name: "floor", kind: "triangles", vertices: [[0, 0, 0], [4, 0, 0], [0, 4, 0], [4, 4, -5]], faces: [[0, 1, 2], [1, 3, 2]] },
     ],
     results: [{ kind: "impacts", a: 0, b: 1, count: 2, kinds: [0, 2], vertices: [0, 0, 1, 2, 0, 1, 0, 1], times: [0.5, 0.25], times_exact: ["0.5", "0.25"] }],
   };
+}
+
+/** Frames in which a face goes up, to the side, and down through the floor: at 2.25, a quarter of the third step. */
+export function frames() {
+  const scene = motion();
+  const [start] = [scene.sets[0].vertices];
+  const moved = (dx, dz) => start.map(([x, y, z]) => [x + dx, y, z + dz]);
+  scene.sets[0].frames = [moved(0, 1), moved(0.5, 1), moved(0.5, -7)];
+  scene.results = [{ kind: "impacts", a: 0, b: 1, count: 1, of: 9, step: 2, kinds: [0], vertices: [0, 0, 1, 2], times: [0.25] }];
+  scene.edit = (json) => Object.assign(json.extras.abut, { origin: [1000000, 0, 0], notes: ["nine were found"] });
+  return scene;
 }
 
 export function hostile() {
@@ -63,6 +74,7 @@ export function hostile() {
     { name: "another component", bytes: edited((j) => (result(j).accessors.depths = result(j).accessors.a_ids)), says: /expected FLOAT, got UNSIGNED_INT/ },
     { name: "a count too large", bytes: edited((j) => (extras(j).sets[0].count = 4000000000)), says: /count says 4000000000 triangles, and there are 6 vertices/ },
     { name: "a count of results too large", bytes: edited((j) => (result(j).count = 3)), says: /results 0: a_ids: expected 3 elements, got 2/ },
+    { name: "a count of results too small", bytes: edited((j) => (result(j).count = 1)), says: /results 0: a_ids: expected 1 elements, got 2/ },
     { name: "a count below 0", bytes: edited((j) => (result(j).count = -1)), says: /count: expected a whole number, got -1/ },
     { name: "an id of nothing", bytes: writeScene({ ...small(), results: [{ kind: "pairs", a: 0, b: 1, count: 1, a_ids: [8], b_ids: [0] }] }), says: /a_ids: element 0: there is no 8 in "a"/ },
     { name: "a set of nothing", bytes: edited((j) => (result(j).b = 5)), says: /there is no set 5, there are 3/ },
