@@ -27,13 +27,22 @@ const predicate = {
 
 async function bundle(entry, options) {
   const made = await build({
-    entryPoints: [join(here, "src", entry)], bundle: true, write: false, target: "es2022", nodePaths: [join(folder, "node_modules")],
-    plugins: [predicate], logLevel: "warning", legalComments: "eof", ...options,
+    entryPoints: [join(here, "src", entry)],
+    bundle: true,
+    write: false,
+    target: "es2022",
+    nodePaths: [join(folder, "node_modules")],
+    plugins: [predicate],
+    logLevel: "warning",
+    legalComments: "eof",
+    ...options,
   });
   return made.outputFiles[0].text;
 }
 
-const script = (await bundle("main.ts", { format: "iife", minify: true })).replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--");
+const script = (await bundle("main.ts", { format: "iife", minify: true }))
+  .replaceAll("</script", "<\\/script")
+  .replaceAll("<!--", "<\\!--");
 const style = readFileSync(join(here, "style.css"), "utf8");
 const page = readFileSync(join(here, "index.html"), "utf8")
   .replace("/*STYLE*/", () => style)
@@ -42,4 +51,6 @@ const place = '<script id="abut-scene" type="application/octet-stream;base64"></
 if (page.split(place).length !== 2) throw new Error(`expected exactly one ${place} in the page`);
 writeFileSync(join(folder, "viewer.html"), page);
 writeFileSync(join(folder, "scene.mjs"), await bundle("scene.ts", { format: "esm" }));
-console.log(`${join(folder, "viewer.html")}: ${(page.length / 1e6).toFixed(2)} MB${existsSync(wasm) ? "" : ", without special cases"}`);
+console.log(
+  `${join(folder, "viewer.html")}: ${(page.length / 1e6).toFixed(2)} MB${existsSync(wasm) ? "" : ", without special cases"}`,
+);

@@ -12,8 +12,17 @@ const { chromium } = createRequire(join(resolve(folder), "package.json"))("playw
 const [width, height] = size.split("x").map(Number);
 const browser = await chromium.launch({
   executablePath: chromiumPath,
-  args: ["--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update",
-    "--disable-sync", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"],
+  args: [
+    "--no-sandbox",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--ignore-gpu-blocklist",
+  ],
 });
 const tab = await browser.newPage({ viewport: { width, height }, colorScheme, reducedMotion: "reduce" });
 const [path, hash = ""] = page.split("#");

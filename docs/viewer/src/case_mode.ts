@@ -27,7 +27,11 @@ export class CaseMode {
   private readonly groupText = make("p", { class: "quiet", id: "case-group" });
   private started = false;
 
-  constructor(private readonly view: View, labels: Labels, readonly predicate: Predicate) {
+  constructor(
+    private readonly view: View,
+    labels: Labels,
+    readonly predicate: Predicate,
+  ) {
     this.stage = new CaseStage(view, labels, (corner, to) => this.moveCorner(corner, to.toArray()));
     this.configurations = predicate.configurations();
     byId("case-previous").addEventListener("click", () => this.step(-1));
@@ -52,21 +56,47 @@ export class CaseMode {
     });
     this.chooser.addEventListener("change", () => this.open(Number(this.chooser.value)));
     const right = this.configurations.filter((c) => {
-      const answers = (["float", "double"] as const).flatMap((scalar) => Object.values(this.predicate.answers(c.corners, scalar)));
+      const answers = (["float", "double"] as const).flatMap((scalar) =>
+        Object.values(this.predicate.answers(c.corners, scalar)),
+      );
       return answers.every((answer) => answer === c.hit);
     }).length;
-    const intro = make("p", { class: "quiet" },
+    const intro = make(
+      "p",
+      { class: "quiet" },
       `Two triangles can meet in few ways. Here are ${this.count} pairs, which the tests ask about; the library's own code, in WebAssembly, decides them as you look. `,
-      make("span", { id: "case-check" }, `${right} of ${this.count} came out as written down, by all three arithmetics in float and double.`));
+      make(
+        "span",
+        { id: "case-check" },
+        `${right} of ${this.count} came out as written down, by all three arithmetics in float and double.`,
+      ),
+    );
     const corners = make("section", { "aria-label": "Corners" });
     for (const side of [0, 1]) {
       corners.append(make("h3", { class: side === 0 ? "side-reference" : "" }, side === 0 ? "Reference" : "Other"));
       for (let i = 3 * side; i < 3 * side + 3; ++i) corners.append(this.cornerFields(i));
     }
-    corners.append(make("p", { class: "quiet" }, "Drag a corner in the picture, or type. +, 0, −: above, on or below the other's plane, in rational numbers; ·: the other spans no plane. Arrow keys in a field go by one; with Alt, by the smallest step of a float."));
-    const patterns = make("details", { id: "pattern-box", ontoggle: () => this.drawPatterns() }, make("summary", {}, "All patterns of sides"), this.patternCanvas, this.patternText);
+    corners.append(
+      make(
+        "p",
+        { class: "quiet" },
+        "Drag a corner in the picture, or type. +, 0, −: above, on or below the other's plane, in rational numbers; ·: the other spans no plane. Arrow keys in a field go by one; with Alt, by the smallest step of a float.",
+      ),
+    );
+    const patterns = make(
+      "details",
+      { id: "pattern-box", ontoggle: () => this.drawPatterns() },
+      make("summary", {}, "All patterns of sides"),
+      this.patternCanvas,
+      this.patternText,
+    );
     this.patternCanvas.addEventListener("click", (event) => this.openPattern(event));
-    byId("case-panel").replaceChildren(make("section", {}, intro, this.chooser, this.groupText), this.answer, corners, make("section", {}, patterns));
+    byId("case-panel").replaceChildren(
+      make("section", {}, intro, this.chooser, this.groupText),
+      this.answer,
+      corners,
+      make("section", {}, patterns),
+    );
   }
 
   private cornerFields(i: number): HTMLElement {
@@ -153,23 +183,52 @@ export class CaseMode {
       if (i !== typing) field.value = shortest(corners[i]!);
     });
     sides.forEach((side, i) => (this.signCells[i]!.textContent = signs[side]!));
-    const answers = make("table", { class: "answers" }, make("tr", {}, make("td", {}), make("th", { scope: "col" }, "exact"), make("th", { scope: "col" }, "filtered"), make("th", { scope: "col" }, "fast")));
-    for (const [name, got] of [["float", float], ["double", double]] as const) {
+    const answers = make(
+      "table",
+      { class: "answers" },
+      make(
+        "tr",
+        {},
+        make("td", {}),
+        make("th", { scope: "col" }, "exact"),
+        make("th", { scope: "col" }, "filtered"),
+        make("th", { scope: "col" }, "fast"),
+      ),
+    );
+    for (const [name, got] of [
+      ["float", float],
+      ["double", double],
+    ] as const) {
       const cell = (hit: boolean) => make("td", { class: hit === got.exact ? "" : "differs" }, hit ? "yes" : "no");
-      answers.append(make("tr", {}, make("th", { scope: "row" }, name), cell(got.exact), cell(got.filtered), cell(got.fast)));
+      answers.append(
+        make("tr", {}, make("th", { scope: "row" }, name), cell(got.exact), cell(got.filtered), cell(got.fast)),
+      );
     }
     const contact = predicate.contact(corners, "float");
     const numbers = make("table", {});
     if (contact !== undefined) {
-      for (const [name, values] of [["point", contact.point], ["normal", contact.normal], ["depth", [contact.depth]]] as const)
-        numbers.append(make("tr", {}, make("th", { scope: "row" }, name), ...values.map((x) => make("td", {}, shortest(x)))));
+      for (const [name, values] of [
+        ["point", contact.point],
+        ["normal", contact.normal],
+        ["depth", [contact.depth]],
+      ] as const)
+        numbers.append(
+          make("tr", {}, make("th", { scope: "row" }, name), ...values.map((x) => make("td", {}, shortest(x)))),
+        );
     }
     const part = partNames[common.length] ?? `an area of ${common.length} corners`;
     const isOriginal = corners.every((x, i) => x === this.configurations[this.index]!.corners[i]);
     byId<HTMLButtonElement>("case-reset").disabled = isOriginal;
     this.answer.replaceChildren(
-      make("p", { class: `answer ${float.exact ? "yes" : "no"}`, id: "case-touch" }, float.exact ? "They touch" : "They do not touch"),
-      make("p", { id: "case-part" }, `In common: ${part}.`), answers, numbers);
+      make(
+        "p",
+        { class: `answer ${float.exact ? "yes" : "no"}`, id: "case-touch" },
+        float.exact ? "They touch" : "They do not touch",
+      ),
+      make("p", { id: "case-part" }, `In common: ${part}.`),
+      answers,
+      numbers,
+    );
     if (this.patterns !== undefined) this.drawPatterns();
   }
 

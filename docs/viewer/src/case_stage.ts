@@ -28,7 +28,11 @@ export class CaseStage implements World {
   private dragged = -1;
   planes = true;
 
-  constructor(private readonly view: View, private readonly labels: Labels, private readonly moved: (corner: number, to: Vector) => void) {
+  constructor(
+    private readonly view: View,
+    private readonly labels: Labels,
+    private readonly moved: (corner: number, to: Vector) => void,
+  ) {
     // In the tests' picture z is up and the reference lies flat.
     this.root.rotation.x = -Math.PI / 2;
     this.root.add(this.content);
@@ -43,7 +47,8 @@ export class CaseStage implements World {
   /** Puts the middle of the triangles into the middle of the view. */
   center(corners: number[]): void {
     const box = new THREE.Box3();
-    for (let i = 0; i < 6; ++i) box.expandByPoint(new THREE.Vector3(...(corners.slice(3 * i, 3 * i + 3) as [number, number, number])));
+    for (let i = 0; i < 6; ++i)
+      box.expandByPoint(new THREE.Vector3(...(corners.slice(3 * i, 3 * i + 3) as [number, number, number])));
     box.getCenter(this.middle);
   }
 
@@ -89,8 +94,17 @@ export class CaseStage implements World {
 
   private triangle(p: Vector[], ink: string, opacity: number): void {
     const face = new THREE.BufferGeometry().setFromPoints(p);
-    this.add(new THREE.Mesh(face, new THREE.MeshBasicMaterial({ color: ink, transparent: true, opacity, side: THREE.DoubleSide, depthWrite: false })), 1);
-    this.add(new THREE.LineLoop(new THREE.BufferGeometry().setFromPoints(p), new THREE.LineBasicMaterial({ color: ink })), 2);
+    this.add(
+      new THREE.Mesh(
+        face,
+        new THREE.MeshBasicMaterial({ color: ink, transparent: true, opacity, side: THREE.DoubleSide, depthWrite: false }),
+      ),
+      1,
+    );
+    this.add(
+      new THREE.LineLoop(new THREE.BufferGeometry().setFromPoints(p), new THREE.LineBasicMaterial({ color: ink })),
+      2,
+    );
   }
 
   private normal(p: Vector[]): Vector {
@@ -104,7 +118,18 @@ export class CaseStage implements World {
     const middle = p[0]!.clone().add(p[1]!).add(p[2]!).divideScalar(3);
     const reach = 1.5 * Math.max(...p.map((corner) => corner.distanceTo(middle)), 0.4);
     const group = new THREE.Group();
-    group.add(new THREE.Mesh(new THREE.CircleGeometry(reach, 72), new THREE.MeshBasicMaterial({ color: ink, transparent: true, opacity: 0.07, side: THREE.DoubleSide, depthWrite: false })));
+    group.add(
+      new THREE.Mesh(
+        new THREE.CircleGeometry(reach, 72),
+        new THREE.MeshBasicMaterial({
+          color: ink,
+          transparent: true,
+          opacity: 0.07,
+          side: THREE.DoubleSide,
+          depthWrite: false,
+        }),
+      ),
+    );
     const grid = new THREE.PolarGridHelper(reach, 8, 4, 72, ink, ink);
     grid.rotation.x = Math.PI / 2;
     Object.assign(grid.material, { transparent: true, opacity: 0.13, depthWrite: false });
@@ -119,20 +144,30 @@ export class CaseStage implements World {
     const along = n.clone().cross(m);
     if (along.length() < 1e-7 * n.length() * m.length() || along.lengthSq() === 0) return;
     const square = along.lengthSq();
-    const base = m.clone().multiplyScalar(n.dot(corners[0]!)).sub(n.clone().multiplyScalar(m.dot(corners[3]!))).cross(along).divideScalar(square);
+    const base = m
+      .clone()
+      .multiplyScalar(n.dot(corners[0]!))
+      .sub(n.clone().multiplyScalar(m.dot(corners[3]!)))
+      .cross(along)
+      .divideScalar(square);
     const ends = corners.map((p) => p.clone().sub(base).dot(along) / square);
     const [low, high] = [Math.min(...ends), Math.max(...ends)];
     const more = (high - low) * 0.15;
     const line = new THREE.Line(
       new THREE.BufferGeometry().setFromPoints([low - more, high + more].map((t) => base.clone().addScaledVector(along, t))),
-      new THREE.LineDashedMaterial({ color: cssColour("quiet"), dashSize: 0.05, gapSize: 0.035 }));
+      new THREE.LineDashedMaterial({ color: cssColour("quiet"), dashSize: 0.05, gapSize: 0.035 }),
+    );
     line.computeLineDistances();
     this.add(line, 2);
   }
 
   private commonPart(p: Vector[]): void {
     const ink = cssColour("part");
-    const solid = (geometry: THREE.BufferGeometry) => this.add(new THREE.Mesh(geometry, new THREE.MeshBasicMaterial({ color: ink, depthTest: false, transparent: true })), 4);
+    const solid = (geometry: THREE.BufferGeometry) =>
+      this.add(
+        new THREE.Mesh(geometry, new THREE.MeshBasicMaterial({ color: ink, depthTest: false, transparent: true })),
+        4,
+      );
     for (const q of p) solid(new THREE.SphereGeometry(p.length === 1 ? 0.032 : 0.018, 20, 14).translate(q.x, q.y, q.z));
     const edges = p.length === 2 ? 1 : p.length > 2 ? p.length : 0;
     for (let i = 0; i < edges; ++i) {
@@ -141,7 +176,19 @@ export class CaseStage implements World {
     }
     if (p.length > 2) {
       const fan = p.slice(2).flatMap((_, i) => [p[0]!, p[i + 1]!, p[i + 2]!]);
-      this.add(new THREE.Mesh(new THREE.BufferGeometry().setFromPoints(fan), new THREE.MeshBasicMaterial({ color: ink, transparent: true, opacity: 0.45, side: THREE.DoubleSide, depthTest: false })), 3);
+      this.add(
+        new THREE.Mesh(
+          new THREE.BufferGeometry().setFromPoints(fan),
+          new THREE.MeshBasicMaterial({
+            color: ink,
+            transparent: true,
+            opacity: 0.45,
+            side: THREE.DoubleSide,
+            depthTest: false,
+          }),
+        ),
+        3,
+      );
     }
   }
 
@@ -157,7 +204,9 @@ export class CaseStage implements World {
     this.root.updateMatrixWorld(true);
     if (!this.active) return;
     const words: Label[] = corners.map((p, i) => ({
-      at: p.clone().applyMatrix4(this.root.matrixWorld), text: `${"ABC"[i % 3]}${i < 3 ? "" : "′"} ${signs[this.picture!.sides[i]!]}`, look: i < 3 ? "sign reference" : "sign other",
+      at: p.clone().applyMatrix4(this.root.matrixWorld),
+      text: `${"ABC"[i % 3]}${i < 3 ? "" : "′"} ${signs[this.picture!.sides[i]!]}`,
+      look: i < 3 ? "sign reference" : "sign other",
     }));
     this.labels.set(words);
   }
@@ -195,11 +244,17 @@ export class CaseStage implements World {
       return;
     }
     const box = this.view.canvas.getBoundingClientRect();
-    const pointer = new THREE.Vector2(((event.clientX - box.left) / box.width) * 2 - 1, 1 - ((event.clientY - box.top) / box.height) * 2);
+    const pointer = new THREE.Vector2(
+      ((event.clientX - box.left) / box.width) * 2 - 1,
+      1 - ((event.clientY - box.top) / box.height) * 2,
+    );
     const ray = new THREE.Raycaster();
     ray.setFromCamera(pointer, this.view.camera);
     const at = this.handles[this.dragged]!.position.clone().applyMatrix4(this.root.matrixWorld);
-    const facing = new THREE.Plane().setFromNormalAndCoplanarPoint(this.view.camera.getWorldDirection(new THREE.Vector3()), at);
+    const facing = new THREE.Plane().setFromNormalAndCoplanarPoint(
+      this.view.camera.getWorldDirection(new THREE.Vector3()),
+      at,
+    );
     const hit = ray.ray.intersectPlane(facing, new THREE.Vector3());
     if (hit === null) return;
     const local = this.root.worldToLocal(hit).divideScalar(unit).add(this.middle);

@@ -12,7 +12,9 @@ type Child = Node | string;
 
 /** An element with attributes and children; `on...` are listeners. */
 export function make<K extends keyof HTMLElementTagNameMap>(
-  tag: K, attributes: { [name: string]: string | boolean | EventListener } = {}, ...children: Child[]
+  tag: K,
+  attributes: { [name: string]: string | boolean | EventListener } = {},
+  ...children: Child[]
 ): HTMLElementTagNameMap[K] {
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) {

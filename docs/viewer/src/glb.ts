@@ -43,7 +43,9 @@ export function shown(value: unknown): string {
 }
 
 type Numbers = Float32Array | Uint32Array | Uint16Array | Uint8Array | Int16Array | Int8Array;
-const kinds: { [code: number]: { name: string; make: new (buffer: ArrayBuffer, at: number, n: number) => Numbers; size: number } } = {
+const kinds: {
+  [code: number]: { name: string; make: new (buffer: ArrayBuffer, at: number, n: number) => Numbers; size: number };
+} = {
   5120: { name: "BYTE", make: Int8Array as never, size: 1 },
   5121: { name: "UNSIGNED_BYTE", make: Uint8Array as never, size: 1 },
   5122: { name: "SHORT", make: Int16Array as never, size: 2 },
@@ -140,7 +142,8 @@ export class Glb {
     } else {
       const packed = new Uint8Array(count * element);
       const source = new Uint8Array(buffer);
-      for (let i = 0; i < count; ++i) packed.set(source.subarray(start + i * stride, start + i * stride + element), i * element);
+      for (let i = 0; i < count; ++i)
+        packed.set(source.subarray(start + i * stride, start + i * stride + element), i * element);
       values = new kind.make(packed.buffer, 0, count * width);
     }
     return { values, count, width, component: kind.name };

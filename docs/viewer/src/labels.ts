@@ -15,7 +15,10 @@ export interface Label {
 export class Labels {
   private shown: { at: THREE.Vector3; element: HTMLElement }[] = [];
 
-  constructor(private readonly host: HTMLElement, private readonly view: View) {}
+  constructor(
+    private readonly host: HTMLElement,
+    private readonly view: View,
+  ) {}
 
   set(labels: Label[]): void {
     this.shown = labels.map(({ at, text, look }) => ({ at, element: make("div", { class: `label ${look}` }, text) }));

@@ -71,7 +71,10 @@ class Page {
       if (!answer.ok) throw new Error(`status ${answer.status}`);
       this.open(new Uint8Array(await answer.arrayBuffer()), decodeURIComponent(url.split("/").pop() ?? url));
     } catch (error) {
-      const local = location.protocol === "file:" ? " A page opened from a file may not read others by itself: drop the file here instead." : "";
+      const local =
+        location.protocol === "file:"
+          ? " A page opened from a file may not read others by itself: drop the file here instead."
+          : "";
       say(`${url}: cannot be fetched (${error instanceof Error ? error.message : String(error)}).${local}`);
     }
   }
@@ -156,7 +159,11 @@ class Page {
       ["d", "deepest contact, or first impact", inScene(() => scenes.headline())],
       ["f", "show all", () => (this.mode === "cases" ? this.cases?.stage.look(false) : scenes.fit())],
       ["h", "hits only", toggle("hits-only")],
-      ["e", "sets apart, and together again", inScene(() => scenes.setExplode(Number(byId<HTMLInputElement>("explode").value) > 0 ? 0 : 0.6))],
+      [
+        "e",
+        "sets apart, and together again",
+        inScene(() => scenes.setExplode(Number(byId<HTMLInputElement>("explode").value) > 0 ? 0 : 0.6)),
+      ],
       ["z", "z up instead of y", toggle("z-up")],
       [" ", "play the motion", inScene(() => scenes.play())],
       ["[", "impact before", step(-1)],
@@ -190,10 +197,16 @@ class Page {
     byId("theme").addEventListener("click", () => this.setTheme(this.theme === "dark" ? "light" : "dark"));
     byId("help-open").addEventListener("click", () => byId<HTMLDialogElement>("help").showModal());
     byId("message-close").addEventListener("click", () => (byId("message").hidden = true));
-    for (const [key, what] of this.keys) byId("keys").append(make("dt", {}, make("kbd", {}, key === " " ? "space" : key)), make("dd", {}, what));
-    byId("keys").append(make("dt", {}, make("kbd", {}, "Esc")), make("dd", {}, "clear the selection"),
-      make("dt", {}, make("kbd", {}, "↑"), " ", make("kbd", {}, "↓")), make("dd", {}, "step through the list"),
-      make("dt", {}, make("kbd", {}, "←"), " ", make("kbd", {}, "→")), make("dd", {}, "special case before and after"));
+    for (const [key, what] of this.keys)
+      byId("keys").append(make("dt", {}, make("kbd", {}, key === " " ? "space" : key)), make("dd", {}, what));
+    byId("keys").append(
+      make("dt", {}, make("kbd", {}, "Esc")),
+      make("dd", {}, "clear the selection"),
+      make("dt", {}, make("kbd", {}, "↑"), " ", make("kbd", {}, "↓")),
+      make("dd", {}, "step through the list"),
+      make("dt", {}, make("kbd", {}, "←"), " ", make("kbd", {}, "→")),
+      make("dd", {}, "special case before and after"),
+    );
     window.addEventListener("keydown", (event) => this.key(event));
     this.listenToDrops();
     this.listenToClicks();
@@ -208,8 +221,12 @@ class Page {
       if (this.mode === "scene") this.scenes.select(undefined, false);
       return;
     }
-    const typing = target instanceof HTMLSelectElement || (target instanceof HTMLInputElement && !["checkbox", "range"].includes(target.type));
-    const pressing = event.key === " " && (target instanceof HTMLButtonElement || target instanceof HTMLInputElement || target.tagName === "SUMMARY");
+    const typing =
+      target instanceof HTMLSelectElement ||
+      (target instanceof HTMLInputElement && !["checkbox", "range"].includes(target.type));
+    const pressing =
+      event.key === " " &&
+      (target instanceof HTMLButtonElement || target instanceof HTMLInputElement || target.tagName === "SUMMARY");
     if (typing || pressing) return;
     const sliding = target instanceof HTMLInputElement && target.type === "range";
     if (this.mode === "cases" && !sliding && (event.key === "ArrowLeft" || event.key === "ArrowRight")) {

@@ -13,7 +13,14 @@ export interface Pattern {
   pairs: number;
 }
 
-const orders = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [1, 0, 2], [2, 1, 0]] as const;
+const orders = [
+  [0, 1, 2],
+  [1, 2, 0],
+  [2, 0, 1],
+  [0, 2, 1],
+  [1, 0, 2],
+  [2, 1, 0],
+] as const;
 
 function inOrder(corners: number[], order: readonly number[]): number[] {
   return order.flatMap((i) => corners.slice(3 * i, 3 * i + 3));

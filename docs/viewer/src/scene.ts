@@ -61,7 +61,8 @@ const none = { u32: new Uint32Array(0), f32: new Float32Array(0), u8: new Uint8A
 
 function refuseUnlessFinite(values: Float32Array, where: string): void {
   for (let i = 0; i < values.length; ++i) {
-    if (!Number.isFinite(values[i])) refuse(`${where}: vertex ${Math.floor(i / 3)}: a coordinate is not finite (${values[i]})`);
+    if (!Number.isFinite(values[i]))
+      refuse(`${where}: vertex ${Math.floor(i / 3)}: a coordinate is not finite (${values[i]})`);
   }
 }
 
@@ -110,7 +111,12 @@ class Reader {
     if (!shapes.includes(shape)) refuse(`${where}: kind: expected one of ${shapes.join(", ")}, got ${shown(value.kind)}`);
     const name = typeof value.name === "string" && value.name !== "" ? value.name : `set ${number}`;
     const count = whole(value.count, `${where}: count`);
-    const drawn = count === 0 ? this.nothing() : shape === "spheres" ? this.spheres(value, count, where) : this.drawn(value, shape, count, where);
+    const drawn =
+      count === 0
+        ? this.nothing()
+        : shape === "spheres"
+          ? this.spheres(value, count, where)
+          : this.drawn(value, shape, count, where);
     refuseUnlessFinite(drawn.positions, where);
     drawn.frames.forEach((frame, i) => refuseUnlessFinite(frame, `${where}: frame ${i + 1}`));
     if (value.ids !== undefined && count > 0) {
@@ -157,8 +163,14 @@ class Reader {
       sameCount(frame.length / 3, vertices, name);
       return frame;
     });
-    return { span, positions, frames, radii: undefined, ids: this.ids(attributes._ID, count, span, where),
-             corners: this.corners(attributes._CORNER, vertices, where) };
+    return {
+      span,
+      positions,
+      frames,
+      radii: undefined,
+      ids: this.ids(attributes._ID, count, span, where),
+      corners: this.corners(attributes._CORNER, vertices, where),
+    };
   }
 
   private ids(accessor: unknown, count: number, span: number, where: string): Uint32Array {
@@ -218,7 +230,8 @@ class Reader {
     const count = whole(value.count, `${where}: count`);
     const a = whole(value.a, `${where}: a`);
     const b = whole(value.b, `${where}: b`);
-    for (const side of [a, b]) if (side >= sets.length) refuse(`${where}: there is no set ${side}, there are ${sets.length}`);
+    for (const side of [a, b])
+      if (side >= sets.length) refuse(`${where}: there is no set ${side}, there are ${sets.length}`);
     const accessors = isObject(value.accessors) ? value.accessors : {};
     const read = (name: string, type: string, component: string, elements: number): Accessor => {
       const found = this.glb.accessor(accessors[name], `${where}: ${name}`, type, component);
@@ -227,8 +240,23 @@ class Reader {
     };
     const of = whole(value.of, `${where}: of`, count);
     const step = whole(value.step, `${where}: step`, 0);
-    const result: Result = { kind, a, b, count, of, step, aIds: none.u32, bIds: none.u32, points: none.f32, normals: none.f32,
-                             depths: none.f32, kinds: none.u8, vertices: none.u32, times: none.f32, exactTimes: undefined };
+    const result: Result = {
+      kind,
+      a,
+      b,
+      count,
+      of,
+      step,
+      aIds: none.u32,
+      bIds: none.u32,
+      points: none.f32,
+      normals: none.f32,
+      depths: none.f32,
+      kinds: none.u8,
+      vertices: none.u32,
+      times: none.f32,
+      exactTimes: undefined,
+    };
     if (count === 0) return result;
     if (kind !== "impacts") {
       result.aIds = read("a_ids", "SCALAR", "UNSIGNED_INT", count).values as Uint32Array;
@@ -269,7 +297,8 @@ class Reader {
         refuse(`${where}: times: element ${i}: ${result.times[i]} is not in [0, 1]`);
       for (const { set, vertices } of featuresOf(result, i)) {
         for (const v of vertices) {
-          if (sets[set]!.vertexAt(v) < 0) refuse(`${where}: vertices: element ${i}: there is no vertex ${v} in "${sets[set]!.name}"`);
+          if (sets[set]!.vertexAt(v) < 0)
+            refuse(`${where}: vertices: element ${i}: there is no vertex ${v} in "${sets[set]!.name}"`);
         }
       }
     }
@@ -284,9 +313,20 @@ export interface Feature {
 /** The two features of an impact, that of side a first. */
 export function featuresOf(result: Result, i: number): [Feature, Feature] {
   const [p, q, r, s] = result.vertices.subarray(4 * i, 4 * i + 4) as unknown as [number, number, number, number];
-  if (result.kinds[i] === 0) return [{ set: result.a, vertices: [p] }, { set: result.b, vertices: [q, r, s] }];
-  if (result.kinds[i] === 1) return [{ set: result.a, vertices: [q, r, s] }, { set: result.b, vertices: [p] }];
-  return [{ set: result.a, vertices: [p, q] }, { set: result.b, vertices: [r, s] }];
+  if (result.kinds[i] === 0)
+    return [
+      { set: result.a, vertices: [p] },
+      { set: result.b, vertices: [q, r, s] },
+    ];
+  if (result.kinds[i] === 1)
+    return [
+      { set: result.a, vertices: [q, r, s] },
+      { set: result.b, vertices: [p] },
+    ];
+  return [
+    { set: result.a, vertices: [p, q] },
+    { set: result.b, vertices: [r, s] },
+  ];
 }
 
 /** Where a drawn vertex is at a time, in the file's coordinates. */
@@ -323,7 +363,12 @@ function markImpacts(set: ShapeSet, side: number, result: Result): void {
   const met: Set<string | number>[] = [new Set(), new Set(), new Set()];
   const corners = set.corners;
   if (corners === undefined) return;
-  const key = (vertices: ArrayLike<number>) => (vertices.length === 1 ? vertices[0]! : Array.from(vertices).sort((x, y) => x - y).join());
+  const key = (vertices: ArrayLike<number>) =>
+    vertices.length === 1
+      ? vertices[0]!
+      : Array.from(vertices)
+          .sort((x, y) => x - y)
+          .join();
   const touched = new Set<number>();
   for (let i = 0; i < result.count; ++i) {
     for (const feature of featuresOf(result, i)) {
@@ -364,7 +409,11 @@ export function readScene(bytes: Uint8Array, title: string): Scene {
   const results = list(extras.results, "results").map((result, i) => reader.result(result, i, sets));
   markHits(sets, results);
   return {
-    title, sets, results, origin: vector(extras.origin, [0, 0, 0], "origin"), duration: Math.max(0, ...sets.map((set) => set.frames.length)),
+    title,
+    sets,
+    results,
+    origin: vector(extras.origin, [0, 0, 0], "origin"),
+    duration: Math.max(0, ...sets.map((set) => set.frames.length)),
     notes: list(extras.notes, "notes").map(String),
   };
 }

@@ -3,17 +3,31 @@
 // A scene on the page: summary, what is selected, the list, and the controls under the picture.
 
 import * as THREE from "three";
-import { brief, byId, counted, cssColour, make, shortest } from "./dom";
+import { byId, counted, cssColour, make, shortest } from "./dom";
+import { DetailsWriter, Selection } from "./details";
 import { Label, Labels } from "./labels";
-import { allRows, columnsOf, distinctResults, elementName, featureName, kindsOfImpact, marksOf, noun, partnersOf, rowsWith, timeOf, timeText, titleOf } from "./results";
-import { featuresOf, greatest, least, placeOf, Result, Scene } from "./scene";
-import { Mark, Palette, Picked, Stage } from "./stage";
+import {
+  allRows,
+  columnsOf,
+  deepestContact,
+  distinctResults,
+  elementName,
+  featureName,
+  firstImpact,
+  marksOf,
+  noun,
+  partnersOf,
+  Place,
+  rowsWith,
+  timeOf,
+  timeText,
+  titleOf,
+} from "./results";
+import { featuresOf, Scene } from "./scene";
+import { Mark } from "./marks";
+import { Palette, Picked, Stage } from "./stage";
 import { View } from "./view";
 import { VirtualList } from "./virtual_list";
-
-export type Selection = { kind: "element"; set: number; element: number } | { kind: "row"; result: number; row: number };
-
-const mostPartners = 60;
 
 export class SceneMode {
   stage: Stage | undefined;
@@ -28,7 +42,10 @@ export class SceneMode {
   private readonly which = byId<HTMLSelectElement>("which-result");
   private readonly time = byId<HTMLInputElement>("time");
 
-  constructor(private readonly view: View, private readonly labels: Labels) {
+  constructor(
+    private readonly view: View,
+    private readonly labels: Labels,
+  ) {
     this.list = new VirtualList(byId("list"), (row) => this.select({ kind: "row", result: this.shown, row }, true));
     this.which.addEventListener("change", () => this.showResult(Number(this.which.value)));
     this.search.addEventListener("input", () => this.filter());
@@ -53,7 +70,7 @@ export class SceneMode {
     byId("file-name").textContent = scene.title;
     byId("time-tools").hidden = scene.duration === 0;
     this.time.max = String(scene.duration || 1);
-    byId("first-impact").hidden = this.first() === undefined;
+    byId("first-impact").hidden = this.first === undefined;
     byId("arrow-tools").hidden = !scene.results.some((r) => r.kind === "contacts" && r.count > 0);
     byId<HTMLInputElement>("hits-only").checked = false;
     byId<HTMLInputElement>("z-up").checked = fallsAlongZ(scene);
@@ -64,7 +81,9 @@ export class SceneMode {
     this.setArrows();
     this.writeSummary();
     this.writeDetails();
-    this.which.replaceChildren(...scene.results.map((result, i) => make("option", { value: String(i) }, titleOf(scene, result))));
+    this.which.replaceChildren(
+      ...scene.results.map((result, i) => make("option", { value: String(i) }, titleOf(scene, result))),
+    );
     byId("rows").hidden = scene.results.length === 0;
     if (scene.results.length > 0) this.showResult(this.headlineResult());
     this.fit(true);
@@ -78,8 +97,14 @@ export class SceneMode {
 
   paint(): void {
     const palette: Palette = {
-      background: cssColour("scene"), ink: cssColour("ink"), struck: cssColour("struck"), shallow: cssColour("shallow"),
-      deepest: cssColour("deepest"), a: cssColour("a"), b: cssColour("b"), sets: [0, 1, 2, 3].map((i) => cssColour(`set-${i}`)),
+      background: cssColour("scene"),
+      ink: cssColour("ink"),
+      struck: cssColour("struck"),
+      shallow: cssColour("shallow"),
+      deepest: cssColour("deepest"),
+      a: cssColour("a"),
+      b: cssColour("b"),
+      sets: [0, 1, 2, 3].map((i) => cssColour(`set-${i}`)),
     };
     this.stage?.paint(palette);
     if ((this.scene?.duration ?? 0) > 0) this.drawTimeMarks();
@@ -91,71 +116,92 @@ export class SceneMode {
 
   // --- summary ------------------------------------------------------------------------------------------------------------------
 
-  private first(): { result: number; row: number } | undefined {
-    let best: { result: number; row: number } | undefined;
-    this.scene?.results.forEach((result, i) => {
-      if (result.kind !== "impacts" || result.count === 0) return;
-      const row = least(result.times);
-      const before = best && this.scene!.results[best.result]!;
-      if (before === undefined || timeOf(result, row) < timeOf(before, best!.row)) best = { result: i, row };
-    });
-    return best;
+  private get first(): Place | undefined {
+    return this.scene && firstImpact(this.scene);
   }
-
-  private deepest(): { result: number; row: number } | undefined {
-    let best: { result: number; row: number } | undefined;
-    this.scene?.results.forEach((result, i) => {
-      if (result.kind !== "contacts" || result.count === 0) return;
-      const row = greatest(result.depths);
-      if (best === undefined || result.depths[row]! > this.scene!.results[best.result]!.depths[best.row]!) best = { result: i, row };
-    });
-    return best;
+  private get deepest(): Place | undefined {
+    return this.scene && deepestContact(this.scene);
   }
 
   private headlineResult(): number {
     const first = this.scene!.results.findIndex((r) => r.count > 0);
-    return this.deepest()?.result ?? this.first()?.result ?? Math.max(0, first);
+    return this.deepest?.result ?? this.first?.result ?? Math.max(0, first);
   }
 
   /** Goes to what matters most: the deepest contact, or the first impact, or the first pair. */
   headline(): void {
     if (this.scene === undefined) return;
     const pairs = this.scene.results.findIndex((r) => r.count > 0);
-    const place = this.deepest() ?? this.first() ?? (pairs >= 0 ? { result: pairs, row: 0 } : undefined);
+    const place = this.deepest ?? this.first ?? (pairs >= 0 ? { result: pairs, row: 0 } : undefined);
     if (place !== undefined) this.select({ kind: "row", ...place }, true);
   }
 
   private writeSummary(): void {
     const scene = this.scene!;
     const parts: HTMLElement[] = [];
-    const button = (what: string, value: string, more: string, place: { result: number; row: number }) =>
-      make("button", { class: "headline", type: "button", onclick: () => this.select({ kind: "row", ...place }, true) },
-        make("b", {}, `${what}: `, make("i", { class: "value" }, value)), make("span", {}, `${more}. Show it`));
-    const deep = this.deepest();
+    const button = (what: string, value: string, more: string, place: Place) =>
+      make(
+        "button",
+        { class: "headline", type: "button", onclick: () => this.select({ kind: "row", ...place }, true) },
+        make("b", {}, `${what}: `, make("i", { class: "value" }, value)),
+        make("span", {}, `${more}. Show it`),
+      );
+    const deep = this.deepest;
     if (deep !== undefined) {
       const r = scene.results[deep.result]!;
       const more = `${elementName(scene, r.a, r.aIds[deep.row]!)} and ${elementName(scene, r.b, r.bIds[deep.row]!)}`;
       parts.push(button("Deepest contact", shortest(r.depths[deep.row]!), more, deep));
     }
-    const first = this.first();
+    const first = this.first;
     if (first !== undefined) {
       const r = scene.results[first.result]!;
-      const more = featuresOf(r, first.row).map((f) => `${featureName(f.vertices)} of ${scene.sets[f.set]!.name}`).join(" and ");
-      parts.push(button("First impact", `t = ${timeText(r, first.row)}`, more + (r.step > 0 ? `, in the step from frame ${r.step}` : ""), first));
+      const more = featuresOf(r, first.row)
+        .map((f) => `${featureName(f.vertices)} of ${scene.sets[f.set]!.name}`)
+        .join(" and ");
+      parts.push(
+        button(
+          "First impact",
+          `t = ${timeText(r, first.row)}`,
+          more + (r.step > 0 ? `, in the step from frame ${r.step}` : ""),
+          first,
+        ),
+      );
     }
     const pairs = scene.results.findIndex((r) => r.kind === "pairs" && r.count > 0);
     if (parts.length === 0 && pairs >= 0) {
       const r = scene.results[pairs]!;
       const more = `first: ${elementName(scene, r.a, r.aIds[0]!)} and ${elementName(scene, r.b, r.bIds[0]!)}`;
-      parts.push(button(r.count === 1 ? "Pair that touches" : "Pairs that touch", r.count.toLocaleString("en"), more, { result: pairs, row: 0 }));
+      parts.push(
+        button(r.count === 1 ? "Pair that touches" : "Pairs that touch", r.count.toLocaleString("en"), more, {
+          result: pairs,
+          row: 0,
+        }),
+      );
     }
     if (parts.length === 0) parts.push(make("p", { class: "answer no" }, "Nothing touches."));
     const table = make("table", { class: "sets" });
     scene.sets.forEach((set, i) => {
-      const toggle = make("input", { type: "checkbox", checked: true, "aria-label": `Show ${set.name}`, onchange: (event) => this.stage!.showSet(i, (event.target as HTMLInputElement).checked) });
+      const toggle = make("input", {
+        type: "checkbox",
+        checked: true,
+        "aria-label": `Show ${set.name}`,
+        onchange: (event) => this.stage!.showSet(i, (event.target as HTMLInputElement).checked),
+      });
       const swatch = make("span", { class: "swatch", style: `background: var(--set-${i % 4})` });
       const hits = set.hits > 0 ? `${set.hits.toLocaleString("en")} hit` : "no hit";
-      table.append(make("tr", {}, make("td", {}, make("label", {}, toggle, swatch, set.name)), make("td", {}, (set.of > set.count ? `${set.count.toLocaleString("en")} of ` : "") + counted(set.of, noun(scene, i))), make("td", { class: "quiet" }, hits)));
+      table.append(
+        make(
+          "tr",
+          {},
+          make("td", {}, make("label", {}, toggle, swatch, set.name)),
+          make(
+            "td",
+            {},
+            (set.of > set.count ? `${set.count.toLocaleString("en")} of ` : "") + counted(set.of, noun(scene, i)),
+          ),
+          make("td", { class: "quiet" }, hits),
+        ),
+      );
     });
     const notes = scene.notes.map((note) => make("p", { class: "quiet note" }, note));
     this.summary.replaceChildren(...parts, table, ...notes);
@@ -179,14 +225,19 @@ export class SceneMode {
     const { column, descending } = this.list.sorting;
     const asked = this.search.value.trim();
     const found = asked === "" ? allRows(result) : rowsWith(result, asked);
-    byId("row-count").textContent = found === undefined ? "Type an id: 7, or a 7, or b 7." : asked === "" ? (result.of > result.count ? `${result.count.toLocaleString("en")} of ` : "") + counted(result.of, "row") : `${found.length.toLocaleString("en")} of ${counted(result.count, "row")}`;
+    byId("row-count").textContent =
+      found === undefined
+        ? "Type an id: 7, or a 7, or b 7."
+        : asked === ""
+          ? (result.of > result.count ? `${result.count.toLocaleString("en")} of ` : "") + counted(result.of, "row")
+          : `${found.length.toLocaleString("en")} of ${counted(result.count, "row")}`;
     this.list.show(columnsOf(result), found ?? new Uint32Array(0));
     if (column >= 0) this.list.sort(column, descending);
   }
 
   /** The impact after or before the present time. */
   stepImpact(forward: boolean): void {
-    const first = this.first();
+    const first = this.first;
     if (first === undefined) return;
     const result = this.scene!.results[first.result]!;
     const now = this.selection?.kind === "row" && this.selection.result === first.result ? this.selection.row : -1;
@@ -239,7 +290,12 @@ export class SceneMode {
       const result = scene.results[number]!;
       for (const partner of partnersOf(scene, result, s.set, s.element)) {
         if (partner.set >= 0) marks.push({ set: partner.set, side: "b", elements: [partner.element] });
-        else marks.push(...marksOf(scene, result, partner.row).filter((m) => m.set !== s.set).map((m): Mark => ({ ...m, side: "b" })));
+        else
+          marks.push(
+            ...marksOf(scene, result, partner.row)
+              .filter((m) => m.set !== s.set)
+              .map((m): Mark => ({ ...m, side: "b" })),
+          );
       }
     }
     return marks;
@@ -250,7 +306,10 @@ export class SceneMode {
     const marks = this.marks();
     const ball = this.stage!.ballOf(s.kind === "row" ? marks : marks.slice(0, 1));
     const isContact = s.kind === "row" && this.scene!.results[s.result]!.kind === "contacts";
-    const at = isContact && byId<HTMLInputElement>("explode").value === "0" ? this.stage!.pointOfContact(s.result, s.row) : ball.center;
+    const at =
+      isContact && byId<HTMLInputElement>("explode").value === "0"
+        ? this.stage!.pointOfContact(s.result, s.row)
+        : ball.center;
     this.view.fly(at, Math.min(3.2, Math.max(6 * ball.radius, 0.004)));
   }
 
@@ -261,7 +320,10 @@ export class SceneMode {
     const scene = this.scene!;
     const marks = this.marks();
     for (const mark of s.kind === "row" ? marks : marks.slice(0, 1)) {
-      const name = mark.vertices !== undefined ? featureName(mark.vertices) : `${noun(scene, mark.set)} ${scene.sets[mark.set]!.ids[mark.elements![0]!]}`;
+      const name =
+        mark.vertices !== undefined
+          ? featureName(mark.vertices)
+          : `${noun(scene, mark.set)} ${scene.sets[mark.set]!.ids[mark.elements![0]!]}`;
       words.push({ at: this.stage.ballOf([mark]).center, text: `${mark.side} · ${name}`, look: mark.side });
     }
     if (s.kind === "row" && scene.results[s.result]!.kind === "contacts") {
@@ -277,100 +339,23 @@ export class SceneMode {
     const s = this.selection;
     this.details.hidden = s === undefined;
     if (s === undefined) return this.details.replaceChildren();
-    const close = make("button", { type: "button", "aria-label": "Clear the selection", title: "Clear (Esc)", onclick: () => this.select(undefined, false) }, "✕");
-    const body = s.kind === "row" ? this.rowDetails(s.result, s.row) : this.elementDetails(s.set, s.element);
+    const close = make(
+      "button",
+      {
+        type: "button",
+        "aria-label": "Clear the selection",
+        title: "Clear (Esc)",
+        onclick: () => this.select(undefined, false),
+      },
+      "✕",
+    );
+    const body = new DetailsWriter(
+      this.scene!,
+      () => this.stage!.time,
+      (selection, fly) => this.select(selection, fly),
+    ).of(s);
     this.details.replaceChildren(make("h2", {}, body.title, close), ...body.parts);
     this.details.scrollTop = 0;
-  }
-
-  private numbers(title: string, values: ArrayLike<number>): HTMLElement {
-    return make("tr", {}, make("th", { scope: "row" }, title), ...Array.from(values, (x) => make("td", {}, shortest(x))));
-  }
-
-  /** A point of the file, to which the scene's origin is added. */
-  private place(title: string, point: ArrayLike<number>): HTMLElement {
-    const { origin } = this.scene!;
-    const text = (x: number, k: number) => (origin[k] === 0 ? shortest(Math.fround(x)) : String(Number((x + origin[k]!).toPrecision(12))));
-    return make("tr", {}, make("th", { scope: "row" }, title), ...Array.from(point, (x, k) => make("td", {}, text(x, k))));
-  }
-
-  private cornersTable(set: number, element: number): HTMLElement {
-    const all = this.scene!.sets[set]!;
-    const { span, corners, radii, shape } = all;
-    const table = make("table", { class: "corners" });
-    for (let i = 0; i < Math.min(span, 3); ++i) {
-      const at = element * span + i;
-      const title = shape === "spheres" ? "center" : corners !== undefined ? `vertex ${corners[at]}` : shape === "points" ? "point" : `corner ${i}`;
-      table.append(this.place(title, placeOf(all, at, this.stage!.time)));
-    }
-    if (radii !== undefined) table.append(this.numbers("radius", [radii[element]!]));
-    return table;
-  }
-
-  private sideTitle(side: "a" | "b", set: number, id: number): HTMLElement {
-    const element = this.scene!.sets[set]!.elementOf(id);
-    return make("h3", {}, make("span", { class: `chip ${side}` }, side),
-      make("button", { type: "button", title: "Select it", onclick: () => this.select({ kind: "element", set, element }, true) }, elementName(this.scene!, set, id)));
-  }
-
-  private rowDetails(number: number, row: number): { title: string; parts: HTMLElement[] } {
-    const scene = this.scene!;
-    const result = scene.results[number]!;
-    if (result.kind === "impacts") return this.impactDetails(result, row);
-    const parts: HTMLElement[] = [];
-    if (result.kind === "contacts") {
-      const table = make("table", { id: "contact-numbers" });
-      table.append(this.numbers("depth", [result.depths[row]!]), this.place("point", result.points.subarray(3 * row, 3 * row + 3)),
-        this.numbers("normal", result.normals.subarray(3 * row, 3 * row + 3)));
-      parts.push(table);
-    }
-    for (const [side, set, ids] of [["a", result.a, result.aIds], ["b", result.b, result.bIds]] as const) {
-      parts.push(this.sideTitle(side, set, ids[row]!), this.cornersTable(set, scene.sets[set]!.elementOf(ids[row]!)));
-    }
-    const deepest = this.deepest();
-    const isDeepest = deepest?.result === number && deepest.row === row;
-    return { title: result.kind === "pairs" ? `Pair ${row}` : isDeepest ? `Deepest contact (number ${row})` : `Contact ${row}`, parts };
-  }
-
-  private impactDetails(result: Result, row: number): { title: string; parts: HTMLElement[] } {
-    const scene = this.scene!;
-    const table = make("table", {}, make("tr", {}, make("th", { scope: "row" }, "time"), make("td", { id: "impact-time" }, timeText(result, row) + (result.step > 0 ? ` of the step from frame ${result.step}` : ""))),
-      make("tr", {}, make("th", { scope: "row" }, "kind"), make("td", {}, kindsOfImpact[result.kinds[row]!]!)));
-    const parts: HTMLElement[] = [table];
-    featuresOf(result, row).forEach((feature, i) => {
-      const side = i === 0 ? "a" : "b";
-      parts.push(make("h3", {}, make("span", { class: `chip ${side}` }, side), `${featureName(feature.vertices)} of ${scene.sets[feature.set]!.name}`));
-      const set = scene.sets[feature.set]!;
-      const places = make("table", { class: "corners" });
-      for (const v of feature.vertices) {
-        places.append(this.place(`vertex ${v}`, placeOf(set, set.vertexAt(v), timeOf(result, row))));
-      }
-      parts.push(places);
-    });
-    const first = this.first();
-    const isFirst = first !== undefined && scene.results[first.result] === result && first.row === row;
-    return { title: isFirst ? `First impact (number ${row})` : `Impact ${row}`, parts };
-  }
-
-  private elementDetails(set: number, element: number): { title: string; parts: HTMLElement[] } {
-    const scene = this.scene!;
-    const id = scene.sets[set]!.ids[element]!;
-    const parts: HTMLElement[] = [make("p", {}, make("span", { class: "chip a" }, "a"), ` set `, make("b", {}, scene.sets[set]!.name), `, id `, make("b", { id: "picked-id" }, String(id))), this.cornersTable(set, element)];
-    for (const number of distinctResults(scene)) {
-      const result = scene.results[number]!;
-      if (result.a !== set && result.b !== set) continue;
-      const partners = partnersOf(scene, result, set, element);
-      const what = result.kind === "impacts" ? counted(partners.length, "impact") : result.kind === "contacts" ? counted(partners.length, "contact") : counted(partners.length, "pair");
-      parts.push(make("h3", {}, partners.length === 0 ? `no ${result.kind}` : what));
-      const items = partners.slice(0, mostPartners).map((partner) => {
-        const text = result.kind === "impacts" ? `t = ${brief(result.times[partner.row]!)}` :
-          `${noun(scene, partner.set)} ${scene.sets[partner.set]!.ids[partner.element]}` + (result.kind === "contacts" ? `, ${shortest(result.depths[partner.row]!)} deep` : "");
-        return make("li", {}, make("button", { type: "button", onclick: () => this.select({ kind: "row", result: number, row: partner.row }, true) }, text));
-      });
-      if (items.length > 0) parts.push(make("ul", { class: "partners" }, ...items));
-      if (partners.length > mostPartners) parts.push(make("p", { class: "quiet" }, `and ${partners.length - mostPartners} more; the list finds them by the id.`));
-    }
-    return { title: elementName(scene, set, id), parts };
   }
 
   // --- controls -------------------------------------------------------------------------------------------------------------------
@@ -449,7 +434,8 @@ export class SceneMode {
     const bins = new Float64Array(Math.max(1, Math.floor(width)));
     const { duration } = this.scene!;
     for (const result of impacts) {
-      for (let i = 0; i < result.count; ++i) ++bins[Math.min(bins.length - 1, Math.floor((timeOf(result, i) / duration) * bins.length))]!;
+      for (let i = 0; i < result.count; ++i)
+        ++bins[Math.min(bins.length - 1, Math.floor((timeOf(result, i) / duration) * bins.length))]!;
     }
     const most = bins.reduce((x, y) => Math.max(x, y), 1);
     pen.fillStyle = cssColour("mark");
@@ -457,7 +443,7 @@ export class SceneMode {
       const tall = n === 0 ? 0 : 3 + (height - 4) * Math.sqrt(n / most);
       pen.fillRect(x, height - tall, 1.2, tall);
     });
-    const first = this.first();
+    const first = this.first;
     if (first === undefined) return;
     const x = (timeOf(this.scene!.results[first.result]!, first.row) / duration) * width;
     pen.beginPath();

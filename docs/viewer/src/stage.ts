@@ -4,6 +4,7 @@
 // the file, moved and scaled so that the scene fits into a ball of radius 1: scenes that are huge, tiny or far away look alike.
 
 import * as THREE from "three";
+import { Mark, markLimit, Marks } from "./marks";
 import { greatest, placeOf, Result, Scene, ShapeSet, stretchOf } from "./scene";
 import { placeArrow, placeShape, shadeArrow, shadeShape, writeCode } from "./shaders";
 import { View, World } from "./view";
@@ -22,15 +23,6 @@ export interface Palette {
 /** What lies under the pointer: an element of a set, or a contact. */
 export type Picked = { set: number; element: number } | { result: number; row: number };
 
-/** What is to stand out: elements or vertices of a set, on side a or b. */
-export interface Mark {
-  set: number;
-  side: "a" | "b";
-  elements?: number[];
-  vertices?: number[]; // of a mesh: one is a point, two an edge, three a face
-  contact?: { result: number; row: number }; // its point
-}
-
 interface Part {
   group: THREE.Group;
   object: THREE.Object3D;
@@ -43,9 +35,6 @@ interface Part {
   count: number;
 }
 
-const markLimit = 400;
-const sphereShape = new THREE.IcosahedronGeometry(1, 2).getAttribute("position").array as Float32Array;
-
 function colour(text: string): THREE.Color {
   return new THREE.Color(text);
 }
@@ -57,18 +46,27 @@ export class Stage implements World {
   private readonly content = new THREE.Group();
   private readonly parts: Part[] = [];
   private readonly arrows: (Part & { result: number })[] = [];
-  private readonly marks = new THREE.Group();
+  private readonly marks: Marks;
   private readonly shared = {
-    hitsOnly: { value: false }, pointSize: { value: 7 }, screen: { value: new THREE.Vector2(1, 1) }, ink: { value: colour("#000") },
+    hitsOnly: { value: false },
+    pointSize: { value: 7 },
+    screen: { value: new THREE.Vector2(1, 1) },
+    ink: { value: colour("#000") },
   };
-  private readonly target = new THREE.WebGLRenderTarget(9, 9, { minFilter: THREE.NearestFilter, magFilter: THREE.NearestFilter });
+  private readonly target = new THREE.WebGLRenderTarget(9, 9, {
+    minFilter: THREE.NearestFilter,
+    magFilter: THREE.NearestFilter,
+  });
   private marked: Mark[] = [];
   private palette: Palette | undefined;
   private explosion = 0;
   private reach = 0.06;
   private now = 0;
 
-  constructor(readonly scene: Scene, private readonly view: View) {
+  constructor(
+    readonly scene: Scene,
+    private readonly view: View,
+  ) {
     const box = new THREE.Box3();
     for (const set of scene.sets) grow(box, set);
     const radius = box.isEmpty() ? 1 : box.getSize(new THREE.Vector3()).length() / 2;
@@ -85,8 +83,8 @@ export class Stage implements World {
       this.arrows.push({ ...this.contacts(result, base), result: number });
       base += result.count;
     });
-    this.marks.renderOrder = 2;
-    this.content.add(this.marks);
+    this.marks = new Marks(scene, this);
+    this.content.add(this.marks.group);
     this.root.add(this.content);
   }
 
@@ -104,9 +102,18 @@ export class Stage implements World {
     return out;
   }
 
-  private material(vertex: string, fragment: string, defines: { [name: string]: string | number }, uniforms: object): THREE.ShaderMaterial {
+  private material(
+    vertex: string,
+    fragment: string,
+    defines: { [name: string]: string | number },
+    uniforms: object,
+  ): THREE.ShaderMaterial {
     return new THREE.ShaderMaterial({
-      glslVersion: THREE.GLSL3, vertexShader: vertex, fragmentShader: fragment, defines, side: THREE.DoubleSide,
+      glslVersion: THREE.GLSL3,
+      vertexShader: vertex,
+      fragmentShader: fragment,
+      defines,
+      side: THREE.DoubleSide,
       uniforms: uniforms as { [name: string]: THREE.IUniform },
     });
   }
@@ -125,7 +132,13 @@ export class Stage implements World {
       instanced.setIndex(ball.getIndex());
       instanced.setAttribute("position", ball.getAttribute("position"));
       instanced.setAttribute("center", new THREE.InstancedBufferAttribute(points, 3));
-      instanced.setAttribute("radius", new THREE.InstancedBufferAttribute(set.radii!.map((r) => r * this.scale), 1));
+      instanced.setAttribute(
+        "radius",
+        new THREE.InstancedBufferAttribute(
+          set.radii!.map((r) => r * this.scale),
+          1,
+        ),
+      );
       instanced.setAttribute("hit", new THREE.InstancedBufferAttribute(set.hit, 1));
       instanced.instanceCount = set.count;
       geometry = instanced;
@@ -144,14 +157,30 @@ export class Stage implements World {
     const { hitsOnly, pointSize, ink } = this.shared;
     const part = { value: 0 };
     const placed = { part, hitsOnly, pointSize };
-    const seen = this.material(placeShape, shadeShape, defines,
-      { ...placed, ink, plain: { value: colour("#888") }, struck: { value: colour("#e80") }, contrast: { value: 1 } });
+    const seen = this.material(placeShape, shadeShape, defines, {
+      ...placed,
+      ink,
+      plain: { value: colour("#888") },
+      struck: { value: colour("#e80") },
+      contrast: { value: 1 },
+    });
     const code = this.material(placeShape, writeCode, { ...defines, PICK: 1 }, { ...placed, base: { value: base } });
-    const object = isSurface ? new THREE.Mesh(geometry, seen) : set.shape === "segments" ? new THREE.LineSegments(geometry, seen) : new THREE.Points(geometry, seen);
+    const object = isSurface
+      ? new THREE.Mesh(geometry, seen)
+      : set.shape === "segments"
+        ? new THREE.LineSegments(geometry, seen)
+        : new THREE.Points(geometry, seen);
     return { ...this.part(object, seen, code, base, set.count, this.wayOut(set, number)), part };
   }
 
-  private part(object: THREE.Object3D, seen: THREE.ShaderMaterial, code: THREE.ShaderMaterial, base: number, count: number, away: THREE.Vector3): Part {
+  private part(
+    object: THREE.Object3D,
+    seen: THREE.ShaderMaterial,
+    code: THREE.ShaderMaterial,
+    base: number,
+    count: number,
+    away: THREE.Vector3,
+  ): Part {
     object.frustumCulled = false;
     const group = new THREE.Group();
     group.add(object);
@@ -165,7 +194,9 @@ export class Stage implements World {
     if (count < 2) return new THREE.Vector3();
     const box = new THREE.Box3();
     grow(box, set);
-    const way = box.isEmpty() ? new THREE.Vector3() : box.getCenter(new THREE.Vector3()).sub(this.origin).multiplyScalar(this.scale);
+    const way = box.isEmpty()
+      ? new THREE.Vector3()
+      : box.getCenter(new THREE.Vector3()).sub(this.origin).multiplyScalar(this.scale);
     if (way.length() < 0.1 || count === 2) {
       const first = way.clone();
       if (count === 2 && first.length() > 0.02) return first.normalize();
@@ -182,10 +213,21 @@ export class Stage implements World {
     geometry.setAttribute("foot", new THREE.InstancedBufferAttribute(this.scaled(result.points, true), 3));
     geometry.setAttribute("normal_", new THREE.InstancedBufferAttribute(result.normals, 3));
     const most = result.depths[greatest(result.depths)]! || 1;
-    geometry.setAttribute("depth", new THREE.InstancedBufferAttribute(result.depths.map((d) => d / most), 1));
+    geometry.setAttribute(
+      "depth",
+      new THREE.InstancedBufferAttribute(
+        result.depths.map((d) => d / most),
+        1,
+      ),
+    );
     geometry.instanceCount = result.count;
     const placed = { screen: this.shared.screen, reach: { value: 0.06 }, thickness: { value: 2 }, only: { value: -1 } };
-    const seen = this.material(placeArrow, shadeArrow, {}, { ...placed, shallow: { value: colour("#000") }, deepest: { value: colour("#000") } });
+    const seen = this.material(
+      placeArrow,
+      shadeArrow,
+      {},
+      { ...placed, shallow: { value: colour("#000") }, deepest: { value: colour("#000") } },
+    );
     const code = this.material(placeArrow, writeCode, { PICK: 1 }, { ...placed, base: { value: base } });
     const part = this.part(new THREE.Mesh(geometry, seen), seen, code, base, result.count, new THREE.Vector3());
     part.object.renderOrder = 1;
@@ -221,7 +263,10 @@ export class Stage implements World {
       if (part.stretch === from) return;
       part.stretch = from;
       const geometry = (part.object as THREE.Mesh).geometry;
-      for (const [name, frame] of [["moveFrom", set.frames[from - 1]], ["moveTo", set.frames[from]]] as const) {
+      for (const [name, frame] of [
+        ["moveFrom", set.frames[from - 1]],
+        ["moveTo", set.frames[from]],
+      ] as const) {
         const attribute = geometry.getAttribute(name) as THREE.BufferAttribute;
         if (frame === undefined) (attribute.array as Float32Array).fill(0);
         else (attribute.array as Float32Array).set(this.scaled(frame, false));
@@ -239,7 +284,8 @@ export class Stage implements World {
   set explode(value: number) {
     this.explosion = value;
     for (const part of this.parts) part.group.position.copy(part.away).multiplyScalar(value);
-    for (const arrow of this.arrows) arrow.group.position.copy(this.parts[this.scene.results[arrow.result]!.a]!.group.position);
+    for (const arrow of this.arrows)
+      arrow.group.position.copy(this.parts[this.scene.results[arrow.result]!.a]!.group.position);
     this.redrawMarks();
   }
 
@@ -272,22 +318,26 @@ export class Stage implements World {
   // --- places ---------------------------------------------------------------------------------------------------------------
 
   /** A point of the file, at the present time, as a point of the world. `set` is the one it moves with. */
-  private placed(x: number, y: number, z: number, set: number): THREE.Vector3 {
-    const p = new THREE.Vector3((x - this.origin.x) * this.scale, (y - this.origin.y) * this.scale, (z - this.origin.z) * this.scale);
+  placed(x: number, y: number, z: number, set: number): THREE.Vector3 {
+    const p = new THREE.Vector3(
+      (x - this.origin.x) * this.scale,
+      (y - this.origin.y) * this.scale,
+      (z - this.origin.z) * this.scale,
+    );
     return p.addScaledVector(this.parts[set]!.away, this.explosion);
   }
 
-  private vertex(set: number, at: number): THREE.Vector3 {
+  vertex(set: number, at: number): THREE.Vector3 {
     return this.placed(...placeOf(this.scene.sets[set]!, at, this.now), set);
   }
 
   /** The corners of an element in the world, without the rotation of `zUp`. */
-  private cornersOf(set: number, element: number): THREE.Vector3[] {
+  cornersOf(set: number, element: number): THREE.Vector3[] {
     const { span } = this.scene.sets[set]!;
     return Array.from({ length: span }, (_, i) => this.vertex(set, element * span + i));
   }
 
-  private radiusOf(set: number, element: number): number {
+  radiusOf(set: number, element: number): number {
     return (this.scene.sets[set]!.radii?.[element] ?? 0) * this.scale;
   }
 
@@ -327,65 +377,8 @@ export class Stage implements World {
   }
 
   private redrawMarks(): void {
-    for (const child of this.marks.children) {
-      const drawn = child as THREE.Mesh;
-      drawn.geometry.dispose();
-      (drawn.material as THREE.Material).dispose();
-    }
-    this.marks.clear();
     this.view.draw();
-    if (this.palette === undefined) return;
-    for (const side of ["b", "a"] as const) {
-      const faces: number[] = [];
-      const lines: number[] = [];
-      const points: number[] = [];
-      for (const mark of this.marked.filter((m) => m.side === side)) this.collect(mark, faces, lines, points);
-      const ink = colour(this.palette[side]);
-      for (const through of [true, false]) {
-        const look = { color: ink, transparent: through, opacity: through ? 0.3 : 1, depthTest: !through, depthWrite: false };
-        const offset = { polygonOffset: true, polygonOffsetFactor: -2, polygonOffsetUnits: -2, side: THREE.DoubleSide };
-        if (faces.length > 0) this.addMark(new THREE.Mesh(buffer(faces), new THREE.MeshBasicMaterial({ ...look, ...offset })));
-        if (lines.length > 0) this.addMark(new THREE.LineSegments(buffer(lines), new THREE.LineBasicMaterial({ ...look, opacity: 1, depthTest: false })));
-        if (points.length > 0)
-          this.addMark(new THREE.Points(buffer(points), new THREE.PointsMaterial({ ...look, size: 11, sizeAttenuation: false, opacity: 1, depthTest: false })));
-      }
-    }
-  }
-
-  private addMark(object: THREE.Object3D): void {
-    object.renderOrder = 2;
-    object.frustumCulled = false;
-    this.marks.add(object);
-  }
-
-  private collect(mark: Mark, faces: number[], lines: number[], points: number[]): void {
-    const set = this.scene.sets[mark.set]!;
-    for (const e of (mark.elements ?? []).slice(0, markLimit)) {
-      const corners = this.cornersOf(mark.set, e);
-      if (set.shape === "spheres") {
-        const r = this.radiusOf(mark.set, e) * 1.005;
-        const c = corners[0]!;
-        for (let i = 0; i < sphereShape.length; i += 3) faces.push(c.x + r * sphereShape[i]!, c.y + r * sphereShape[i + 1]!, c.z + r * sphereShape[i + 2]!);
-        continue;
-      }
-      const into = set.shape === "segments" ? lines : set.shape === "points" ? points : faces;
-      for (const p of corners) into.push(p.x, p.y, p.z);
-      if (into !== faces) continue;
-      for (let i = 0; i < corners.length; i += 3) {
-        for (const [k, l] of [[0, 1], [1, 2], [2, 0]] as const) {
-          lines.push(...corners[i + k]!.toArray(), ...corners[i + l]!.toArray());
-        }
-      }
-    }
-    if (mark.contact !== undefined) {
-      const { points: p } = this.scene.results[mark.contact.result]!;
-      const at = 3 * mark.contact.row;
-      points.push(...this.placed(p[at]!, p[at + 1]!, p[at + 2]!, mark.set).toArray());
-    }
-    const at = (mark.vertices ?? []).map((v) => this.vertex(mark.set, set.vertexAt(v)));
-    if (at.length === 1) points.push(...at[0]!.toArray());
-    if (at.length === 2) lines.push(...at[0]!.toArray(), ...at[1]!.toArray());
-    if (at.length === 3) for (const p of at) faces.push(...p.toArray());
+    if (this.palette !== undefined) this.marks.draw(this.marked, { a: this.palette.a, b: this.palette.b });
   }
 
   // --- picking ------------------------------------------------------------------------------------------------------------------
@@ -399,7 +392,7 @@ export class Stage implements World {
     camera.setViewOffset(width, height, Math.floor(x) - 4, Math.floor(y) - 4, size, size);
     const screen = this.shared.screen.value.clone();
     this.shared.screen.value.set(size / 2, size / 2);
-    this.marks.visible = false;
+    this.marks.group.visible = false;
     for (const part of drawn) (part.object as THREE.Mesh).material = part.code;
     renderer.setRenderTarget(this.target);
     renderer.setClearColor(0, 0);
@@ -410,7 +403,7 @@ export class Stage implements World {
     renderer.setRenderTarget(null);
     renderer.setClearColor(background, 1);
     for (const part of drawn) (part.object as THREE.Mesh).material = part.seen;
-    this.marks.visible = true;
+    this.marks.group.visible = true;
     this.shared.screen.value.copy(screen);
     camera.clearViewOffset();
     let best = Infinity;
@@ -445,10 +438,6 @@ export class Stage implements World {
     this.mark([]);
     this.target.dispose();
   }
-}
-
-function buffer(values: number[]): THREE.BufferGeometry {
-  return new THREE.BufferGeometry().setAttribute("position", new THREE.BufferAttribute(new Float32Array(values), 3));
 }
 
 function grow(box: THREE.Box3, set: ShapeSet): void {

@@ -103,7 +103,11 @@ export class View {
     const to = target.clone().addScaledVector(way, distance);
     if (window.matchMedia("(prefers-reduced-motion: reduce)").matches) return this.place(to, target);
     this.flight = {
-      from: this.camera.position.clone(), fromTarget: this.controls.target.clone(), to, toTarget: target.clone(), start: performance.now(),
+      from: this.camera.position.clone(),
+      fromTarget: this.controls.target.clone(),
+      to,
+      toTarget: target.clone(),
+      start: performance.now(),
     };
     this.draw();
   }

@@ -25,7 +25,10 @@ export class VirtualList {
   private readonly body = make("div", { role: "presentation" });
   private head = make("div", { role: "row", class: "list-head" });
 
-  constructor(private readonly host: HTMLElement, private readonly choose: (row: number) => void) {
+  constructor(
+    private readonly host: HTMLElement,
+    private readonly choose: (row: number) => void,
+  ) {
     host.addEventListener("scroll", () => this.draw());
     new ResizeObserver(() => this.draw()).observe(host);
     host.addEventListener("keydown", (event) => this.step(event));
@@ -70,7 +73,8 @@ export class VirtualList {
     const view = this.host.clientHeight - rowHeight;
     if (place >= 0 && view > 0) {
       const top = place * this.pitch;
-      if (top < this.host.scrollTop || top + rowHeight > this.host.scrollTop + view) this.host.scrollTop = Math.max(0, top - view / 2);
+      if (top < this.host.scrollTop || top + rowHeight > this.host.scrollTop + view)
+        this.host.scrollTop = Math.max(0, top - view / 2);
     }
     this.draw();
   }
@@ -81,14 +85,21 @@ export class VirtualList {
   }
 
   private drawHead(): void {
-    this.head = make("div", { role: "row", class: "list-head", style: `grid-template-columns: ${this.columns.map((c) => c.width).join(" ")}` });
+    this.head = make("div", {
+      role: "row",
+      class: "list-head",
+      style: `grid-template-columns: ${this.columns.map((c) => c.width).join(" ")}`,
+    });
     this.columns.forEach((column, i) => {
       const sorted = this.sortedBy === i;
       const direction = sorted ? (this.descending ? "descending" : "ascending") : "none";
       const again = () => this.sort(i, sorted ? !this.descending : column.descending === true);
       const title = column.title + (sorted ? (this.descending ? " ↓" : " ↑") : "");
-      const cell = make("div", { role: "columnheader", "aria-sort": direction },
-        column.key === undefined ? title : make("button", { type: "button", title: column.explain, onclick: again }, title));
+      const cell = make(
+        "div",
+        { role: "columnheader", "aria-sort": direction },
+        column.key === undefined ? title : make("button", { type: "button", title: column.explain, onclick: again }, title),
+      );
       this.head.append(cell);
     });
     this.host.replaceChildren(this.head, this.body);
@@ -107,8 +118,13 @@ export class VirtualList {
       const row = this.order[place]!;
       const top = first * pitch + (place - first) * rowHeight;
       const element = make("div", {
-        role: "row", class: "list-row", id: `row-${row}`, "aria-rowindex": String(place + 2), "aria-selected": String(row === this.chosen),
-        style: `top: ${top}px; grid-template-columns: ${this.columns.map((c) => c.width).join(" ")}`, onclick: () => this.choose(row),
+        role: "row",
+        class: "list-row",
+        id: `row-${row}`,
+        "aria-rowindex": String(place + 2),
+        "aria-selected": String(row === this.chosen),
+        style: `top: ${top}px; grid-template-columns: ${this.columns.map((c) => c.width).join(" ")}`,
+        onclick: () => this.choose(row),
       });
       for (const column of this.columns) element.append(make("div", { role: "gridcell" }, column.text(row)));
       rows.push(element);
@@ -121,7 +137,14 @@ export class VirtualList {
   private step(event: KeyboardEvent): void {
     if (event.target !== this.host || this.order.length === 0) return;
     const page = Math.max(1, Math.floor(this.host.clientHeight / rowHeight) - 2);
-    const steps: { [key: string]: number } = { ArrowDown: 1, ArrowUp: -1, PageDown: page, PageUp: -page, Home: -Infinity, End: Infinity };
+    const steps: { [key: string]: number } = {
+      ArrowDown: 1,
+      ArrowUp: -1,
+      PageDown: page,
+      PageUp: -page,
+      Home: -Infinity,
+      End: Infinity,
+    };
     const step = steps[event.key];
     if (step === undefined) return;
     event.preventDefault();

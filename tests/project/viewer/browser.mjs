@@ -14,8 +14,17 @@ const { chromium } = createRequire(join(folder, "package.json"))("playwright-cor
 export async function startBrowser() {
   return chromium.launch({
     executablePath: process.env.ABUT_CHROMIUM ?? "/usr/bin/chromium",
-    args: ["--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update",
-      "--disable-sync", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"],
+    args: [
+      "--no-sandbox",
+      "--disable-quic",
+      "--no-first-run",
+      "--disable-background-networking",
+      "--disable-component-update",
+      "--disable-sync",
+      "--use-angle=swiftshader",
+      "--enable-unsafe-swiftshader",
+      "--ignore-gpu-blocklist",
+    ],
   });
 }
 
@@ -24,11 +33,16 @@ export const viewerUrl = pathToFileURL(join(folder, "viewer.html")).href;
 
 /** A page of the viewer, ready. `problems` gathers what it says on the console, and what it asks of the network. */
 export async function openPage(browser, { url = viewerUrl, size = [900, 600], scheme = "light", serve } = {}) {
-  const page = await browser.newPage({ viewport: { width: size[0], height: size[1] }, colorScheme: scheme, reducedMotion: "reduce" });
+  const page = await browser.newPage({
+    viewport: { width: size[0], height: size[1] },
+    colorScheme: scheme,
+    reducedMotion: "reduce",
+  });
   page.problems = [];
   page.on("console", (message) => {
     // Reading pixels back is what picking is; a driver in software complains of it.
-    if (message.type() !== "log" && !/GPU stall due to ReadPixels/.test(message.text())) page.problems.push(`${message.type()}: ${message.text()}`);
+    if (message.type() !== "log" && !/GPU stall due to ReadPixels/.test(message.text()))
+      page.problems.push(`${message.type()}: ${message.text()}`);
   });
   page.on("pageerror", (error) => page.problems.push(error.stack ?? String(error)));
   page.on("request", (request) => {
@@ -45,7 +59,10 @@ export async function openScene(page, bytes, name = "test.glb") {
   const isLarge = bytes.length > 40e6; // Playwright sends no more
   if (isLarge) writeFileSync(path, bytes);
   await page.setInputFiles("#file", isLarge ? path : { name, mimeType: "model/gltf-binary", buffer: Buffer.from(bytes) });
-  await page.waitForFunction((wanted) => document.getElementById("file-name").textContent === wanted || !document.getElementById("message").hidden, name);
+  await page.waitForFunction(
+    (wanted) => document.getElementById("file-name").textContent === wanted || !document.getElementById("message").hidden,
+    name,
+  );
   await settle(page);
 }
 

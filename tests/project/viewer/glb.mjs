@@ -8,14 +8,28 @@ const components = { 5121: Uint8Array, 5123: Uint16Array, 5125: Uint32Array, 512
 class Binary {
   chunks = [];
   size = 0;
-  json = { asset: { version: "2.0" }, buffers: [], bufferViews: [], accessors: [], nodes: [], meshes: [], scenes: [{ nodes: [] }], scene: 0 };
+  json = {
+    asset: { version: "2.0" },
+    buffers: [],
+    bufferViews: [],
+    accessors: [],
+    nodes: [],
+    meshes: [],
+    scenes: [{ nodes: [] }],
+    scene: 0,
+  };
 
   accessor(values, componentType, type) {
     const array = new components[componentType](values);
     const bytes = new Uint8Array(array.buffer);
     const width = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4 }[type];
     this.json.bufferViews.push({ buffer: 0, byteOffset: this.size, byteLength: bytes.length });
-    this.json.accessors.push({ bufferView: this.json.bufferViews.length - 1, componentType, count: array.length / width, type });
+    this.json.accessors.push({
+      bufferView: this.json.bufferViews.length - 1,
+      componentType,
+      count: array.length / width,
+      type,
+    });
     const padded = new Uint8Array(Math.ceil(bytes.length / 4) * 4);
     padded.set(bytes);
     this.chunks.push(padded);
@@ -64,7 +78,11 @@ export function writeScene({ sets, results, edit }) {
     const corners = set.faces.flat();
     const ids = set.ids ?? set.faces.map((_, i) => i);
     const attributes = {
-      POSITION: out.accessor(corners.flatMap((v) => set.vertices[v]), 5126, "VEC3"),
+      POSITION: out.accessor(
+        corners.flatMap((v) => set.vertices[v]),
+        5126,
+        "VEC3",
+      ),
       _ID: out.accessor(halves(ids.flatMap((id) => [id, id, id])), 5123, "VEC2"),
       _CORNER: out.accessor(halves(corners), 5123, "VEC2"),
     };
@@ -77,8 +95,16 @@ export function writeScene({ sets, results, edit }) {
     const node = out.node({ name: set.name, mesh: out.json.meshes.length - 1 });
     return { name: set.name, kind: "triangles", node, count: set.faces.length, moves: set.frames !== undefined };
   });
-  const types = { a_ids: [5125, "SCALAR"], b_ids: [5125, "SCALAR"], points: [5126, "VEC3"], normals: [5126, "VEC3"], depths: [5126, "SCALAR"],
-                  kinds: [5121, "SCALAR"], vertices: [5125, "SCALAR"], times: [5126, "SCALAR"] };
+  const types = {
+    a_ids: [5125, "SCALAR"],
+    b_ids: [5125, "SCALAR"],
+    points: [5126, "VEC3"],
+    normals: [5126, "VEC3"],
+    depths: [5126, "SCALAR"],
+    kinds: [5121, "SCALAR"],
+    vertices: [5125, "SCALAR"],
+    times: [5126, "SCALAR"],
+  };
   const written = results.map(({ kind, a, b, count, times_exact, step, of, ...lists }) => {
     const accessors = {};
     for (const [name, values] of Object.entries(lists)) accessors[name] = out.accessor(values, ...types[name]);
@@ -95,11 +121,26 @@ function spheres(out, set) {
       out.json.nodes.push({ translation: [x, y, z], scale: [r, r, r] });
       return out.json.nodes.length - 1;
     });
-    return { name: set.name, kind: "spheres", node: out.node({ name: set.name, children }), count: children.length, as: "nodes", moves: false };
+    return {
+      name: set.name,
+      kind: "spheres",
+      node: out.node({ name: set.name, children }),
+      count: children.length,
+      as: "nodes",
+      moves: false,
+    };
   }
   const attributes = {
-    TRANSLATION: out.accessor(set.spheres.flatMap((s) => s.slice(0, 3)), 5126, "VEC3"),
-    SCALE: out.accessor(set.spheres.flatMap((s) => [s[3], s[3], s[3]]), 5126, "VEC3"),
+    TRANSLATION: out.accessor(
+      set.spheres.flatMap((s) => s.slice(0, 3)),
+      5126,
+      "VEC3",
+    ),
+    SCALE: out.accessor(
+      set.spheres.flatMap((s) => [s[3], s[3], s[3]]),
+      5126,
+      "VEC3",
+    ),
     _ID: out.accessor(halves(ids), 5126, "VEC2"), // both are right: whole numbers, and floats as abut writes them
   };
   const node = out.node({ name: set.name, extensions: { EXT_mesh_gpu_instancing: { attributes } } });
@@ -114,7 +155,9 @@ export function torus(center, major, minor, around, about) {
     for (let j = 0; j < about; ++j) {
       const [u, v] = [(2 * Math.PI * i) / around, (2 * Math.PI * j) / about];
       const r = major + minor * Math.cos(v);
-      vertices.push([center[0] + r * Math.cos(u), center[1] + minor * Math.sin(v), center[2] + r * Math.sin(u)].map(Math.fround));
+      vertices.push(
+        [center[0] + r * Math.cos(u), center[1] + minor * Math.sin(v), center[2] + r * Math.sin(u)].map(Math.fround),
+      );
       const at = (k, l) => ((i + k) % around) * about + ((j + l) % about);
       faces.push([at(0, 0), at(0, 1), at(1, 1)], [at(0, 0), at(1, 1), at(1, 0)]);
     }

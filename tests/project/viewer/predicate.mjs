@@ -6,7 +6,9 @@ import { readFileSync } from "node:fs";
 
 export async function loadPredicate(file) {
   const refuse = () => 52;
-  const { instance } = await WebAssembly.instantiate(readFileSync(file), { wasi_snapshot_preview1: { fd_close: refuse, fd_seek: refuse, fd_write: refuse } });
+  const { instance } = await WebAssembly.instantiate(readFileSync(file), {
+    wasi_snapshot_preview1: { fd_close: refuse, fd_seek: refuse, fd_write: refuse },
+  });
   const calls = instance.exports;
   calls._initialize();
   const numbers = () => new Float64Array(calls.memory.buffer, calls.numbers(), 64);

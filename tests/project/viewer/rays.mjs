@@ -7,7 +7,10 @@ export async function firstMet(page, at, meshes) {
   const [matrices, place] = await page.evaluate(() => {
     const { view, scenes } = window.abutViewer;
     view.camera.updateMatrixWorld();
-    return [[view.camera.matrixWorld.elements, view.camera.projectionMatrixInverse.elements, view.width, view.height], [scenes.stage.origin.toArray(), scenes.stage.scale]];
+    return [
+      [view.camera.matrixWorld.elements, view.camera.projectionMatrixInverse.elements, view.width, view.height],
+      [scenes.stage.origin.toArray(), scenes.stage.scale],
+    ];
   });
   const [world, unproject, width, height] = matrices;
   const [origin, scale] = place;
@@ -15,23 +18,36 @@ export async function firstMet(page, at, meshes) {
   const met = (x, y) => {
     const ndc = [(2 * x) / width - 1, 1 - (2 * y) / height, 0.5, 1];
     const inView = times(unproject, ndc);
-    const far = times(world, inView.map((c) => c / inView[3])).slice(0, 3);
+    const far = times(
+      world,
+      inView.map((c) => c / inView[3]),
+    ).slice(0, 3);
     const eye = world.slice(12, 15);
     const way = far.map((c, k) => c - eye[k]);
     let best = { t: Infinity };
-    meshes.forEach((mesh, set) => mesh.faces.forEach((face, element) => {
-      const [p, q, r] = face.map((v) => mesh.vertices[v].map((c, k) => (c - origin[k]) * scale));
-      const t = hit(eye, way, p, q, r);
-      if (t !== undefined && t < best.t) best = { t, set, element };
-    }));
+    meshes.forEach((mesh, set) =>
+      mesh.faces.forEach((face, element) => {
+        const [p, q, r] = face.map((v) => mesh.vertices[v].map((c, k) => (c - origin[k]) * scale));
+        const t = hit(eye, way, p, q, r);
+        if (t !== undefined && t < best.t) best = { t, set, element };
+      }),
+    );
     return best;
   };
   // picking looks at the pixel's middle
   const [x, y] = [Math.floor(at.x) + 0.5, Math.floor(at.y) + 0.5];
   const best = met(x, y);
   if (best.t === Infinity) return undefined;
-  const around = [[-1, 0], [1, 0], [0, -1], [0, 1]].map(([dx, dy]) => met(x + 0.7 * dx, y + 0.7 * dy));
-  const arrow = await page.evaluate(([px, py]) => "result" in (window.abutViewer.scenes.stage.pick(px, py) ?? {}), [at.x, at.y]);
+  const around = [
+    [-1, 0],
+    [1, 0],
+    [0, -1],
+    [0, 1],
+  ].map(([dx, dy]) => met(x + 0.7 * dx, y + 0.7 * dy));
+  const arrow = await page.evaluate(
+    ([px, py]) => "result" in (window.abutViewer.scenes.stage.pick(px, py) ?? {}),
+    [at.x, at.y],
+  );
   const clear = !arrow && around.every((m) => m.set === best.set && m.element === best.element);
   return { set: best.set, element: best.element, clear };
 }
