@@ -549,7 +549,9 @@ void describe(CLI::App& app, settings& s) {
         "Without files: a cloth falls on a ball. Vertices that are hit stop shortly before, and the step is looked\n"
         "at again until none is. This is no simulator: what is hit sticks.\n" +
         std::string(Program::note));
-    app.add_option("frame0", s.frame_0, "Read the mesh where the step begins from an .obj or .ply file")->type_name("FILE");
+    app.add_option("frame0", s.frame_0,
+                   "Read the mesh where the step begins from an .obj, .ply, .stl, .off, .glb or .gltf file")
+        ->type_name("FILE");
     app.add_option("frame1", s.frame_1, "Read it where the step ends: the same faces")->type_name("FILE");
     app.add_option("--cloth", s.cloth, "Vertices along a side of the embedded cloth")
         ->type_name("N")

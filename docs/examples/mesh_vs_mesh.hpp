@@ -283,8 +283,8 @@ void describe(CLI::App& app, settings& s) {
         "Without files: two tori of 9,216 triangles, one leaning through the other. With one file: it against\n"
         "itself.\n" +
         std::string(Program::note));
-    app.add_option("a", s.file_a, "Read mesh a from an .obj or .ply file")->type_name("FILE");
-    app.add_option("b", s.file_b, "Read mesh b from an .obj or .ply file")->type_name("FILE");
+    app.add_option("a", s.file_a, "Read mesh a from an .obj, .ply, .stl, .off, .glb or .gltf file")->type_name("FILE");
+    app.add_option("b", s.file_b, "Read mesh b from such a file")->type_name("FILE");
     app.add_option("--pose", s.pose, "Turn mesh b by ANGLE degrees about the axis X Y Z, then move it by TX TY TZ")
         ->type_name("X Y Z ANGLE TX TY TZ")
         ->expected(7);

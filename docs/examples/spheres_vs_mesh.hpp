@@ -260,7 +260,8 @@ void describe(CLI::App& app, settings& s) {
         "With --mesh and without --spheres: spheres in the mesh's box, by default 1,000,000 with the mean\n"
         "length of the triangles' sides as radius.\n" +
         std::string(Program::note));
-    app.add_option("--mesh", s.mesh_file, "Read the mesh from an .obj or .ply file")->type_name("FILE");
+    app.add_option("--mesh", s.mesh_file, "Read the mesh from an .obj, .ply, .stl, .off, .glb or .gltf file")
+        ->type_name("FILE");
     const auto file =
         app.add_option("--spheres", s.spheres_file, "Read the spheres from a .csv file: x,y,z,r; or x,y,z, with --radius")
             ->type_name("FILE");
