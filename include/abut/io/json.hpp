@@ -120,7 +120,7 @@ private:
         if (depth > deepest) fail("at most 100 arrays and objects within each other");
         if (take('{')) {
             made.kind = json_kind::object;
-            list(made, '}', [&] {
+            list('}', [&] {
                 skip_blanks();
                 json_value name{.kind = json_kind::string, .at = begin_ + at_};
                 if (!take('"')) fail("the name of a member in quotes");
@@ -132,7 +132,7 @@ private:
             });
         } else if (take('[')) {
             made.kind = json_kind::array;
-            list(made, ']', [&] { made.items.push_back(value(depth + 1)); });
+            list(']', [&] { made.items.push_back(value(depth + 1)); });
         } else if (take('"')) {
             made.kind = json_kind::string;
             made.text = string();
@@ -142,7 +142,7 @@ private:
         return made;
     }
     template <class Item>
-    void list(json_value&, char end, const Item& item) {
+    void list(char end, const Item& item) {
         skip_blanks();
         if (take(end)) return;
         for (;;) {
