@@ -96,5 +96,5 @@ cuda_device_present() {
 
 # What the page of docs/viewer is made with and shown by: wanted, for without some of it the page has less.
 # shellcheck disable=SC2034
-viewer_packages='nodejs npm chromium fonts-dejavu-core clang lld wasi-libc libc++-dev-wasm32 libc++abi-dev-wasm32
-    libclang-rt-dev-wasm32 libboost-dev'
+viewer_packages='nodejs npm chromium fonts-dejavu-core clang lld wasi-libc libc++-dev-wasm32 libclang-rt-dev-wasm32
+    libboost-dev'

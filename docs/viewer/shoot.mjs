@@ -37,7 +37,7 @@ await tab.waitForTimeout(300);
 await tab.screenshot({ path: out, timeout: 120000 });
 const message = tab.locator("#message");
 if (await message.isVisible()) {
-  console.error(`${page}: ${await message.innerText()}`);
+  console.error(`${page}: ${await tab.locator("#message-text").innerText()}`);
   process.exitCode = 1;
 }
 await browser.close();
