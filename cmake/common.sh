@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 #
-# What demo.sh and test.sh share; they source it. POSIX sh.
+# What demo.sh, test.sh and view.sh share; they source it. POSIX sh.
 
 say() { printf '\n== %s\n' "$*"; }
 fail() { printf '%s: %s\n' "${0##*/}" "$*" >&2; exit 1; }
@@ -22,6 +22,8 @@ have_package() {
     # A program of that name will do, whoever installed it.
     case $1 in
         cmake | g++ | clang | ccache | doxygen | python3) command -v "$1" >/dev/null 2>&1 && return 0 ;;
+        nodejs) command -v node >/dev/null 2>&1 && return 0 ;;
+        npm | chromium) command -v "$1" >/dev/null 2>&1 && return 0 ;;
         ninja-build) command -v ninja >/dev/null 2>&1 && return 0 ;;
     esac
     dpkg-query -W -f='${Status}' "$1" 2>/dev/null | grep -q 'ok installed'
@@ -91,3 +93,8 @@ find_nvcc() {
 cuda_device_present() {
     [ -n "$nvcc" ] && command -v nvidia-smi >/dev/null 2>&1 && nvidia-smi -L 2>/dev/null | grep -q '^GPU '
 }
+
+# What the page of docs/viewer is made with and shown by: wanted, for without some of it the page has less.
+# shellcheck disable=SC2034
+viewer_packages='nodejs npm chromium fonts-dejavu-core clang lld wasi-libc libc++-dev-wasm32 libclang-rt-dev-wasm32
+    libboost-dev'

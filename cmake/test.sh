@@ -49,7 +49,13 @@ wanted='libgmp-dev libmpfr-dev libcgal-dev libfcl-dev libeigen3-dev libtinyobjlo
     libbenchmark-dev doxygen libopenmpi-dev openmpi-bin'
 if [ $bench = yes ]; then wanted="$wanted libembree-dev libbullet-dev libnanoflann-dev"; fi
 # shellcheck disable=SC2086
-want_packages $wanted ccache
+want_packages $wanted ccache $viewer_packages
+# The Khronos validator of glTF, for the tests of its writer.
+if command -v npm >/dev/null 2>&1 && [ ! -d build/npm/node_modules/gltf-validator ]; then
+    mkdir -p build/npm
+    npm install --prefix build/npm --no-audit --no-fund --loglevel=error gltf-validator@2.0.0-dev.3.10 >build/npm.log 2>&1 ||
+        printf 'npm could not install gltf-validator; what needs it is skipped\n'
+fi
 if [ $clang = yes ] || [ $tsan = yes ] || [ $headers = yes ]; then
     need_packages clang
     major=$(clang++ -dumpversion | cut -d. -f1)

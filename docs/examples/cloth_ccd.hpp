@@ -27,6 +27,7 @@
 
 #include "falling_cloth.hpp"
 #include "program.hpp"
+#include "view.hpp"
 
 namespace cloth_ccd {
 
@@ -200,31 +201,62 @@ struct marks {
     }
 };
 
-/// Writes PREFIX_part.ply and .vtp: a frame, its vertices and faces marked where they are hit.
-class writer {
+/// The faces over an edge, and what impacts say of them.
+class face_marker {
 public:
-    writer(const settings& s, std::vector<abut::face> faces) : s_(s), faces_(std::move(faces)) {
+    explicit face_marker(const std::vector<abut::face>& faces) : faces_(faces) {
         for (std::uint32_t f = 0; f < faces_.size(); ++f) {
             for (std::size_t k = 0; k < 3; ++k) faces_of_[edge_of(faces_[f][k], faces_[f][(k + 1) % 3])].push_back(f);
         }
     }
+    [[nodiscard]] const std::vector<abut::face>& faces() const { return faces_; }
+    template <abut::scalar T>
+    [[nodiscard]] marks of_vertices(std::size_t vertices, const outcome<T>& found) const {
+        marks made(vertices);
+        found.for_each_feature([&](const auto& feature, double time) {
+            for (const std::uint32_t v : feature) made.add(v, time);
+        });
+        return made;
+    }
+    template <abut::scalar T>
+    [[nodiscard]] marks of_faces(const outcome<T>& found) const {
+        marks made(faces_.size());
+        found.for_each_feature([&](const auto& feature, double time) {
+            if (feature.size() == 1) return;
+            for (const std::uint32_t f : faces_of_.at(edge_of(feature[0], feature[1]))) {
+                if (feature.size() == 2 || std::ranges::equal(faces_[f], feature)) made.add(f, time);
+            }
+        });
+        return made;
+    }
+
+private:
+    static std::pair<std::uint32_t, std::uint32_t> edge_of(std::uint32_t a, std::uint32_t b) { return std::minmax(a, b); }
+
+    std::vector<abut::face> faces_;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> faces_of_;
+};
+
+/// 0 or 1 for each.
+inline std::vector<std::uint8_t> hits_of(const marks& m) {
+    std::vector<std::uint8_t> hit(m.impacts.size());
+    std::ranges::transform(m.impacts, hit.begin(), [](std::uint32_t n) { return n > 0 ? 1 : 0; });
+    return hit;
+}
+
+/// Writes PREFIX_part.ply and .vtp: a frame, its vertices and faces marked where they are hit.
+class writer {
+public:
+    writer(const settings& s, const face_marker& marker) : s_(s), marker_(marker) {}
 
     template <abut::scalar T>
     void write(const std::string& part, const std::vector<abut::vec3<T>>& positions, const outcome<T>& found) {
-        marks of_vertices(positions.size()), of_faces(faces_.size());
-        found.for_each_feature([&](const auto& feature, double time) {
-            for (const std::uint32_t v : feature) of_vertices.add(v, time);
-            if (feature.size() == 1) return;
-            for (const std::uint32_t f : faces_of_.at(edge_of(feature[0], feature[1]))) {
-                if (feature.size() == 2 || std::ranges::equal(faces_[f], feature)) of_faces.add(f, time);
-            }
-        });
-        std::vector<std::uint8_t> hit(faces_.size());
-        std::ranges::transform(of_faces.impacts, hit.begin(), [](std::uint32_t n) { return n > 0 ? 1 : 0; });
+        const marks of_vertices = marker_.of_vertices(positions.size(), found), of_faces = marker_.of_faces(found);
+        const std::vector<std::uint8_t> hit = hits_of(of_faces);
         const auto properties = [](const marks& m) -> std::vector<abut::io::property> {
             return {{"impacts", std::span<const std::uint32_t>(m.impacts)}, {"time", std::span<const double>(m.time)}};
         };
-        write_both(part, positions, faces_,
+        write_both(part, positions, marker_.faces(),
                    {.hit = hit, .face_properties = properties(of_faces), .vertex_properties = properties(of_vertices)});
     }
     template <abut::scalar T>
@@ -249,15 +281,34 @@ public:
     }
 
 private:
-    static std::pair<std::uint32_t, std::uint32_t> edge_of(std::uint32_t a, std::uint32_t b) { return std::minmax(a, b); }
-
     const settings& s_;
-    std::vector<abut::face> faces_;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> faces_of_;
+    const face_marker& marker_;
     std::string first_, last_;
     int written_ = 0;
     std::exception_ptr failure_;
 };
+
+/// The impacts of which all vertices are shown: those of the cloth by `shown`.
+template <abut::scalar T>
+std::vector<abut::impact<T>> shown_impacts(abut::io::gltf_scene& scene, const std::vector<abut::impact<T>>& impacts,
+                                           bool with_itself, const std::vector<std::uint8_t>& shown) {
+    return example::shown_results(scene, "impacts", impacts, [&](const abut::impact<T>& i) {
+        const auto features = features_of(i);
+        const auto is_shown = [&](std::uint32_t v) { return shown[v] != 0; };
+        return std::ranges::all_of(features[0], is_shown) && (!with_itself || std::ranges::all_of(features[1], is_shown));
+    });
+}
+
+/// The vertices of the faces that are shown.
+inline std::vector<std::uint8_t> shown_vertices(const std::vector<abut::face>& faces, const example::selection& which,
+                                                std::size_t vertices) {
+    std::vector<std::uint8_t> shown(vertices);
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+        if (!which.shows(f)) continue;
+        for (const std::uint32_t v : faces[f]) shown[v] = 1;
+    }
+    return shown;
+}
 
 inline void print_settings(const settings& s) {
     std::printf("%s, %s arithmetic on %s", s.policy().c_str(), s.arithmetic.c_str(), s.scalar.c_str());
@@ -325,8 +376,20 @@ void run_frames(const Policy& on, const settings& s) {
         std::printf(" at t = %.12f\n", i->time);
     }
     if (s.repeat > 1) rows.print_medians();
+    const face_marker marker(faces);
+    if (!s.view.empty()) {
+        const example::selection which(hits_of(marker.of_faces(found)), example::most_faces_shown,
+                                       example::most_faces_shown);
+        const abut::mesh<T> mesh(at_t0, faces);
+        abut::io::gltf_scene scene;
+        const auto set =
+            example::add_selected(scene, "mesh", abut::moving(mesh, mesh.with_vertices(abut::serial{}, at_t1)), which);
+        const auto impacts = shown_impacts(scene, found.itself, true, shown_vertices(faces, which, at_t0.size()));
+        scene.add_impacts(set, set, impacts, {.of = found.itself.size()});
+        example::write_view(s.view, scene);
+    }
     if (s.no_output) return;
-    writer out(s, faces);
+    writer out(s, marker);
     out.write("t0", at_t0, found);
     out.write("t1", at_t1, found);
     out.print();
@@ -361,6 +424,74 @@ void print_touching(const abut::mesh<T>& cloth, const abut::mesh<T>& ball) {
                 static_cast<unsigned long long>(abut::count(on, index, ball)));
 }
 
+/// What --view shows of a fall: where the cloth was at some of the steps' ends, and the impacts of the last step.
+template <abut::scalar T>
+class fall {
+public:
+    /// Where all steps would be too much, each so manyth of them is kept, and the last two.
+    fall(const settings& s, const falling_cloth<T>& cloth)
+        : s_(s),
+          mesh_(cloth.positions(), cloth.faces()),
+          last_(mesh_),
+          every_(1 + static_cast<int>(cloth.faces().size() * static_cast<std::size_t>(s.steps) / most_moving_faces)) {
+        if (!s.view.empty()) frames_.push_back(mesh_);
+    }
+    void add(int step, const std::vector<abut::vec3<T>>& positions) {
+        if (s_.view.empty()) return;
+        const bool was_kept = (step - 1) % every_ == 0;
+        before_ = was_kept ? std::nullopt : std::optional(last_);
+        last_ = mesh_.with_vertices(abut::serial{}, positions);
+        if (step % every_ == 0) frames_.push_back(last_);
+        last_step_ = step;
+    }
+    void write(const outcome<T>& found, const face_marker& marker, const abut::mesh<T>& ball) {
+        if (s_.view.empty()) return;
+        if (last_step_ % every_ != 0) {
+            if (before_) frames_.push_back(*before_);
+            frames_.push_back(last_);
+        } else if (before_) {
+            frames_.insert(frames_.end() - 1, *before_);
+        }
+        const example::selection which(hits_of(marker.of_faces(found)), example::most_faces_shown,
+                                       example::most_faces_shown);
+        abut::io::gltf_scene scene;
+        tell(scene, "impacts are those of the last step, on the way that the cloth wanted to go; what is hit was held back");
+        if (every_ > 1) {
+            tell(scene, "of " + std::to_string(last_step_) + " steps, the ends of " + std::to_string(frames_.size() - 1) +
+                            " are shown: each " + std::to_string(every_) + "th, and the last two");
+        }
+        which.tell(scene, "cloth");
+        if (!which.is_whole()) {
+            for (auto& frame : frames_) frame = example::part_of(frame, which.ids());
+        }
+        const auto cloth = scene.add_frames("cloth", frames_, which.options());
+        const auto of_ball = scene.add("ball", ball);
+        const auto shown = shown_vertices(marker.faces(), which, mesh_.view().vertices.count);
+        const auto add = [&](abut::io::gltf_set other, const auto& impacts, bool with_itself) {
+            scene.add_impacts(cloth, other, shown_impacts(scene, impacts, with_itself, shown),
+                              {.of = impacts.size(), .step = frames_.size() - 2});
+        };
+        add(cloth, found.itself, true);
+        add(of_ball, found.ball, false);
+        example::write_view(s_.view, scene);
+    }
+
+private:
+    /// Faces times frames: 36 bytes each.
+    static constexpr std::size_t most_moving_faces = 2'000'000;
+
+    static void tell(abut::io::gltf_scene& scene, const std::string& text) {
+        std::printf("view: %s\n", text.c_str());
+        scene.add_note(text);
+    }
+
+    const settings& s_;
+    abut::mesh<T> mesh_, last_;
+    int every_, last_step_ = 0;
+    std::optional<abut::mesh<T>> before_;  // where the last step began, if that is not kept
+    std::vector<abut::mesh<T>> frames_;
+};
+
 /// Each step the cloth says where it wants to go, and the impacts say how far it gets. It begins apart from the ball and
 /// from itself, and stays so, exactly: the last query of each step has found nothing. This is no simulator: what is hit
 /// sticks until it is pulled away, nothing slides or bounces, and momentum is lost.
@@ -374,7 +505,10 @@ void run_scene(const Policy& on, const settings& s) {
     print_size("ball", sphere.vertices.size(), sphere.faces.size());
 
     detector<A, Policy, T> detect(on, abut::mesh<T>(cloth.positions(), cloth.faces()), ball_mesh, s);
-    writer out(s, cloth.faces());
+    const face_marker marker(cloth.faces());
+    writer out(s, marker);
+    fall<T> seen(s, cloth);
+    outcome<T> last;
     if (!s.no_output) out.write_both("ball", sphere.vertices, sphere.faces, {});
     table rows(true);
     for (example::series steps(s.steps); steps.more();) {
@@ -389,6 +523,8 @@ void run_scene(const Policy& on, const settings& s) {
         }
         detect.advance(watch);
         cloth.go(part);
+        seen.add(step, cloth.positions());
+        if (!s.view.empty()) last = wanted;
         rows.add(step, queries, wanted, watch);
         if (!s.no_output && (step % s.write_every == 0 || steps.is_last())) {
             char number[16];
@@ -398,6 +534,7 @@ void run_scene(const Policy& on, const settings& s) {
     }
     rows.print_medians();
     print_touching(abut::mesh<T>(cloth.positions(), cloth.faces()), ball_mesh);
+    seen.write(last, marker, ball_mesh);
     if (!s.no_output) out.print();
 }
 
@@ -412,7 +549,9 @@ void describe(CLI::App& app, settings& s) {
         "Without files: a cloth falls on a ball. Vertices that are hit stop shortly before, and the step is looked\n"
         "at again until none is. This is no simulator: what is hit sticks.\n" +
         std::string(Program::note));
-    app.add_option("frame0", s.frame_0, "Read the mesh where the step begins from an .obj or .ply file")->type_name("FILE");
+    app.add_option("frame0", s.frame_0,
+                   "Read the mesh where the step begins from an .obj, .ply, .stl, .off, .glb or .gltf file")
+        ->type_name("FILE");
     app.add_option("frame1", s.frame_1, "Read it where the step ends: the same faces")->type_name("FILE");
     app.add_option("--cloth", s.cloth, "Vertices along a side of the embedded cloth")
         ->type_name("N")
@@ -451,6 +590,7 @@ void describe(CLI::App& app, settings& s) {
         ->check(CLI::Range(1, 100000))
         ->capture_default_str();
     app.add_flag("--no-output", s.no_output, "Write no files");
+    example::add_view(app, s);
 }
 
 /// What CLI11 does not check.
@@ -474,6 +614,7 @@ inline void check(const CLI::App& app, const settings& s) {
                                    ", a quarter of an edge of the cloth, whose neighbours would come too near otherwise");
     }
     example::check_threads(s);
+    example::check_view(s);
     if (s.no_output) return;
     for (const char* part : {"_t0", "_t1", "_ball"}) {
         for (const char* extension : {".ply", ".vtp"}) example::require_writable(s.out + part + extension);

@@ -26,6 +26,7 @@
 
 #include "program.hpp"
 #include "scene.hpp"
+#include "view.hpp"
 
 namespace mesh_vs_mesh {
 
@@ -177,6 +178,27 @@ std::vector<std::uint32_t> count_hits(const std::vector<abut::index_pair>& pairs
     return hits;
 }
 
+/// Both meshes where they lie, with the triangles that are hit marked, and what touches.
+template <abut::scalar T>
+void write_view(const settings& s, const input<T>& in, const outcome<T>& found, const std::vector<std::uint32_t>& hits_a,
+                const std::vector<std::uint32_t>& hits_b) {
+    const auto select = [](const std::vector<std::uint32_t>& hits) {
+        std::vector<std::uint8_t> hit(hits.size());
+        std::ranges::transform(hits, hit.begin(), [](std::uint32_t n) { return n > 0 ? 1 : 0; });
+        return example::selection(hit, example::most_faces_shown / 2, example::most_faces_shown / 2);
+    };
+    const auto of_a = select(hits_a), of_b = select(hits_b);
+    abut::io::gltf_scene scene;
+    const auto a = example::add_selected(scene, "a", in.a, of_a);
+    const auto b = example::add_selected(scene, "b", abut::posed(in.b, in.pose), of_b);
+    const auto shows = [&](const auto& r) { return of_a.shows(r.a) && of_b.shows(r.b); };
+    const auto pairs = example::shown_results(scene, "pairs", found.pairs, shows);
+    const auto contacts = example::shown_results(scene, "contacts", found.contacts, shows);
+    scene.add_pairs(a, b, pairs, {.of = found.pairs.size()});
+    scene.add_contacts(a, b, contacts, {.of = found.contacts.size()});
+    example::write_view(s.view, scene);
+}
+
 inline void print_report(const char* which, const std::string& name, const abut::mesh_report& r) {
     const auto said = [](bool yes) { return yes ? "yes" : "no"; };
     std::printf("mesh %s: %s\n", which, name.c_str());
@@ -243,6 +265,7 @@ void run_as(const settings& s) {
         if (s.bins > 0) line("reduced contacts", found.reduced.size());
         std::printf("time in ms%s\n", s.repeat > 1 ? " (from the trees on: medians)" : "");
         watch.print();
+        if (!s.view.empty()) write_view(s, in, found, hits_a, hits_b);
         if (!all_written) return;
         std::printf("written:");
         for (std::size_t i = 0; i < written.size(); ++i) std::printf("%s %s", i == 0 ? "" : ",", written[i].c_str());
@@ -260,8 +283,8 @@ void describe(CLI::App& app, settings& s) {
         "Without files: two tori of 9,216 triangles, one leaning through the other. With one file: it against\n"
         "itself.\n" +
         std::string(Program::note));
-    app.add_option("a", s.file_a, "Read mesh a from an .obj or .ply file")->type_name("FILE");
-    app.add_option("b", s.file_b, "Read mesh b from an .obj or .ply file")->type_name("FILE");
+    app.add_option("a", s.file_a, "Read mesh a from an .obj, .ply, .stl, .off, .glb or .gltf file")->type_name("FILE");
+    app.add_option("b", s.file_b, "Read mesh b from such a file")->type_name("FILE");
     app.add_option("--pose", s.pose, "Turn mesh b by ANGLE degrees about the axis X Y Z, then move it by TX TY TZ")
         ->type_name("X Y Z ANGLE TX TY TZ")
         ->expected(7);
@@ -279,6 +302,7 @@ void describe(CLI::App& app, settings& s) {
         ->type_name("PREFIX")
         ->capture_default_str();
     app.add_flag("--no-output", s.no_output, "Write no files");
+    example::add_view(app, s);
 }
 
 /// What CLI11 does not check.
@@ -289,6 +313,7 @@ inline void check(const settings& s) {
         throw example::usage_error("--pose: expected an axis with a length");
     }
     example::check_threads(s);
+    example::check_view(s);
     if (s.no_output) return;
     for (const char* part : {"_a", "_b", "_contacts", "_reduced"}) {
         for (const char* extension : {".ply", ".vtp"}) example::require_writable(s.out + part + extension);

@@ -200,6 +200,7 @@ struct common_settings {
     int threads = 0;
     int repeat = 1;
     bool no_output = false;
+    std::string view;        ///< a file to look at; empty: none (view.hpp)
     bool is_series = false;  ///< Ctrl-C ends it between two runs also where nothing is repeated
 
     /// Where a program takes but one.

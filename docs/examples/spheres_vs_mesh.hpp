@@ -25,6 +25,7 @@
 
 #include "program.hpp"
 #include "scene.hpp"
+#include "view.hpp"
 
 namespace spheres_vs_mesh {
 
@@ -173,6 +174,25 @@ inline std::string chosen_index(const settings& s, std::size_t spheres, std::siz
 
 // --- what comes out ----------------------------------------------------------------------------------------------------
 
+/// Of spheres that touch nothing, so many are shown.
+inline constexpr std::size_t most_others_shown = 2000;
+
+/// The mesh, the spheres that touch it and some others, and the pairs.
+template <abut::scalar T>
+void write_view(const settings& s, const input<T>& in, const std::vector<abut::index_pair>& pairs,
+                const std::vector<std::uint8_t>& triangle_hit, const std::vector<std::uint8_t>& sphere_hit) {
+    const example::selection triangles(triangle_hit, example::most_faces_shown, example::most_faces_shown);
+    const std::size_t most = std::min(example::most_spheres_shown, example::count_set(sphere_hit) + most_others_shown);
+    const example::selection spheres(sphere_hit, most, most_others_shown);
+    abut::io::gltf_scene scene;
+    const auto a = example::add_selected(scene, "mesh", in.mesh, triangles);
+    const auto b =
+        std::visit([&](const auto& set) { return example::add_selected(scene, "spheres", set, spheres); }, in.spheres);
+    const auto shows = [&](const auto& pair) { return triangles.shows(pair.a) && spheres.shows(pair.b); };
+    scene.add_pairs(a, b, example::shown_results(scene, "pairs", pairs, shows), {.of = pairs.size()});
+    example::write_view(s.view, scene);
+}
+
 template <class Program, abut::scalar T>
 void run_as(const settings& s) {
     const auto begin = std::chrono::steady_clock::now();
@@ -226,6 +246,7 @@ void run_as(const settings& s) {
         watch.print();
         std::printf("  %-16s %12.3f\n", "all of it", whole.count());
         if (written) std::printf("written: %s, %s\n", s.out_pairs.c_str(), s.out_mesh.c_str());
+        if (!s.view.empty()) write_view(s, in, found.pairs, triangle_hit, sphere_hit);
     });
 }
 
@@ -239,7 +260,8 @@ void describe(CLI::App& app, settings& s) {
         "With --mesh and without --spheres: spheres in the mesh's box, by default 1,000,000 with the mean\n"
         "length of the triangles' sides as radius.\n" +
         std::string(Program::note));
-    app.add_option("--mesh", s.mesh_file, "Read the mesh from an .obj or .ply file")->type_name("FILE");
+    app.add_option("--mesh", s.mesh_file, "Read the mesh from an .obj, .ply, .stl, .off, .glb or .gltf file")
+        ->type_name("FILE");
     const auto file =
         app.add_option("--spheres", s.spheres_file, "Read the spheres from a .csv file: x,y,z,r; or x,y,z, with --radius")
             ->type_name("FILE");
@@ -262,6 +284,7 @@ void describe(CLI::App& app, settings& s) {
         ->type_name("FILE")
         ->capture_default_str();
     app.add_flag("--no-output", s.no_output, "Write no files");
+    example::add_view(app, s);
 }
 
 /// What CLI11 does not check.
@@ -273,6 +296,7 @@ inline void check(const settings& s) {
     for (const auto& file : {s.mesh_file, s.spheres_file}) {
         if (!file.empty() && !std::filesystem::exists(file)) throw example::usage_error(file + ": no such file");
     }
+    example::check_view(s);
     if (s.no_output) return;
     example::require_mesh_format("--out-mesh", s.out_mesh);
     for (const auto& file : {s.out_pairs, s.out_mesh}) example::require_writable(file);

@@ -23,6 +23,7 @@
 
 #include "program.hpp"
 #include "scene.hpp"
+#include "view.hpp"
 
 namespace triangle_vs_many {
 
@@ -181,6 +182,28 @@ void write_scene(const std::string& file, std::vector<abut::triangle<T>> triangl
                          {.hit = hit, .face_properties = {{"reference", std::span<const std::uint8_t>(is_reference)}}});
 }
 
+/// Of triangles that are not hit, so many are shown.
+inline constexpr std::size_t most_others_shown = 20'000;
+
+/// The reference, the triangles that it touches and some others, and the pairs.
+template <abut::scalar T>
+void write_view(const std::string& file, const std::vector<abut::triangle<T>>& triangles,
+                const std::vector<std::uint8_t>& hit) {
+    const std::size_t most = std::min(example::most_faces_shown, example::count_set(hit) + most_others_shown);
+    const example::selection which(hit, most, most_others_shown);
+    std::vector<abut::index_pair> pairs;
+    for (std::uint32_t i = 0; i < hit.size(); ++i) {
+        if (hit[i] != 0) pairs.push_back({0, i});
+    }
+    const std::vector<std::uint8_t> is_hit{static_cast<std::uint8_t>(pairs.empty() ? 0 : 1)};
+    abut::io::gltf_scene scene;
+    const auto a = scene.add("reference", reference<T>, {.hit = is_hit});
+    const auto b = example::add_selected(scene, "triangles", abut::triangle_soup<T>(triangles), which);
+    const auto shows = [&](const abut::index_pair& pair) { return which.shows(pair.b); };
+    scene.add_pairs(a, b, example::shown_results(scene, "pairs", pairs, shows), {.of = pairs.size()});
+    example::write_view(file, scene);
+}
+
 /// A column for each policy, a row for each stage.
 inline void print_times(const settings& s, const std::vector<outcome>& found) {
     std::printf("%-18s", s.repeat > 1 ? "medians in ms" : "time in ms");
@@ -223,6 +246,7 @@ int run_as(const settings& s) {
         std::printf("outside of the policies\n");
         watch.print();
         if (written) std::printf("written: %s\n", s.out.c_str());
+        if (!s.view.empty()) write_view(s.view, triangles, found.front().hit);
         same = compare(found, triangles);
     });
     return same ? 0 : 1;
@@ -263,6 +287,7 @@ CLI::Option* describe(CLI::App& app, settings& s) {
             ->type_name("FILE")
             ->capture_default_str();
     app.add_flag("--no-output", s.no_output, "Write no file");
+    example::add_view(app, s);
     return out;
 }
 
@@ -277,6 +302,10 @@ inline void check(const settings& s, bool names_a_file) {
     example::check_threads(s);
     if (names_a_file && !s.asks_all())
         throw example::usage_error("--out: --any does not find which triangles are hit; add --all");
+    if (!s.view.empty() && !s.asks_all()) {
+        throw example::usage_error("--view: --any does not find which triangles are hit; add --all");
+    }
+    example::check_view(s);
     if (s.no_output || !s.asks_all()) return;
     example::require_mesh_format("--out", s.out);
     example::require_writable(s.out);

@@ -3,6 +3,7 @@
 #include <abut/abut.hpp>
 #include <abut/io/read.hpp>
 #include <abut/io/write.hpp>
+#include <abut/io/write_gltf.hpp>
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -31,4 +32,14 @@ int main() {
         expect(e.file() == "no_such_file.ply" && !e.line());
     }
     //! [files]
+
+    const auto part = abut::io::read_mesh<float>("reference_part.ply");
+    const auto ground = abut::io::read_mesh<float>("reference_ground.ply");
+    //! [scene]
+    abut::io::gltf_scene scene;
+    const auto a = scene.add("part", part), b = scene.add("ground", ground);
+    scene.add_contacts(a, b, abut::contacts(abut::serial{}, part, ground));
+    abut::io::write_gltf("reference_scene.glb", scene);
+    //! [scene]
+    expect(abut::io::read_mesh<float>("reference_scene.glb").size() == 2);
 }

@@ -239,8 +239,8 @@ void check_known_meshes(const Policy& on) {
     const std::vector<face> tetrahedron{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
     const auto check = [&](const plain_mesh<T>& m, const known_facts& known) { check_known(on, m, known); };
 
-    check({}, {"nothing", 0, 0, 0, true, true, true, 0, 0, 0, {}, {}, {}, {}, {}, {}});
-    check({corners, {}}, {"vertices only", 0, 0, 0, true, true, true, 0, 0, 0, {}, {}, {}, {0, 1, 2, 3}, {}, {}});
+    check({}, {"nothing", 0, 0, 0, false, true, true, 0, 0, 0, {}, {}, {}, {}, {}, {}});
+    check({corners, {}}, {"vertices only", 0, 0, 0, false, true, true, 0, 0, 0, {}, {}, {}, {0, 1, 2, 3}, {}, {}});
     check({{{1, 2, 3}}, {{0, 0, 0}}}, {"one point", 0, 0, 0, false, false, true, 0, 0, 0, {0}, {0}, {}, {0}, {}, {}});
     check({corners, {{1, 2, 3}}}, {"one triangle", 3, 1, 1, false, true, true, 3, 0, 0, {}, {}, {}, {0}, {}, {}});
     check({corners, tetrahedron}, {"tetrahedron", 6, 1, 2, true, true, true, 0, 0, 0, {}, {}, {}, {}, {}, {}});

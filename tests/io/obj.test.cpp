@@ -141,6 +141,30 @@ TEST_CASE("obj: a polygon of many corners is a fan if that is right, and refused
           "t.obj: expected polygons that are convex or have at most 1024 corners, found one with 2000");
 }
 
+TEST_CASE("obj: what some programs write beside it") {
+    CHECK(parse(square + "t 0 0\ngroup one two\nf 1 2 3\n" + std::string(37, '\0')).faces == faces{{0, 1, 2}});
+    CHECK(refusal(square + std::string("f 1 2 3\n\0\nf 1 2 4\n", 18)) ==
+          "t.obj:6: expected an OBJ statement (v, f, vt, vn, g, ...), found '\\x00'");
+    const auto cloud = parse(square);
+    CHECK(cloud.vertices.size() == 4);
+    CHECK(cloud.faces.empty());
+    CHECK(refusal(std::string("\xff\xfev\0 \0", 6)) == "t.obj: expected text in ASCII or UTF-8, found UTF-16");
+    CHECK(refusal(std::string("#\0 \0v\0", 6)) == "t.obj: expected text in ASCII or UTF-8, found UTF-16");
+}
+
+TEST_CASE("obj: leniently, long rows and faces of two corners are passed over and counted") {
+    const auto lenient = [](const std::string& text) {
+        return abut::io::parse_obj<double>(text, "t.obj", {.lenient = true});
+    };
+    const auto read = lenient("v 0 0 0 1 1 1 1 1 1\nv 1 0 0 1 1\nv 0 1 0 1\nf 1 2\nf -1\nf\nf 1 2 3\nf 3/1 2/1 1/1\n");
+    CHECK(read.faces == faces{{0, 1, 2}, {2, 1, 0}});
+    CHECK(read.skipped == abut::io::skipped_parts{3, 2, 0});
+    CHECK(io_test::refusal([&] { lenient("v 0 0 0 x\n"); }) ==
+          "t.obj:1: expected the end of the vertex, a weight or a colour, found 'x'");
+    CHECK(io_test::refusal([&] { lenient(square + "f 1 5\n"); }) ==
+          "t.obj:5: expected a vertex index from 1 to 4 (or from -1 to -4), found '5'");
+}
+
 TEST_CASE("obj: every malformed line is refused with its number") {
     CHECK(refusal("") == "t.obj:1: expected vertices ('v x y z') in an OBJ file, found the end of the file");
     CHECK(refusal("# nothing\n") == "t.obj:2: expected vertices ('v x y z') in an OBJ file, found the end of the file");

@@ -212,8 +212,8 @@ TEST_CASE("ply: every malformed header is refused with its line") {
           "t.ply:2: expected format ascii, binary_little_endian or binary_big_endian, found 'text'");
     CHECK(refusal(ascii_head + "format ascii 1.0\n") == "t.ply:3: expected one format line, found 'format'");
     CHECK(refusal(ascii_head + "format\n" + rest).rfind("t.ply:3: ", 0) == 0);
-    CHECK(refusal(ascii_head + "elements vertex 3\n") ==
-          "t.ply:3: expected a line of a PLY header (format, element, property, comment, end_header), found 'elements'");
+    CHECK(refusal(ascii_head + "element vertex 3\nelements vertex 3\n") ==
+          "t.ply:4: expected a line of a PLY header (format, element, property, comment, end_header), found 'elements'");
     CHECK(refusal(ascii_head + "element vertex -3\n") == "t.ply:3: expected the number of elements, found '-3'");
     CHECK(refusal(ascii_head + "element vertex 3 4\n") == "t.ply:3: expected the end of the line, found '4'");
     CHECK(refusal(ascii_head + "element\nx") == "t.ply:3: expected the name of an element, found the end of the line");
@@ -232,15 +232,77 @@ TEST_CASE("ply: every malformed header is refused with its line") {
           "t.ply:5: expected an element 'vertex' in the header of a mesh, found 'end_header'");
     CHECK(refusal(ascii_head + "element vertex 1\nproperty int x\nproperty int y\n" + end) ==
           "t.ply:6: expected a scalar property 'z' of 'vertex' in the header of a mesh, found 'end_header'");
-    CHECK(refusal(ascii_head + vertices(1) + end) ==
-          "t.ply:7: expected an element 'face' in the header of a mesh, found 'end_header'");
     CHECK(refusal(ascii_head + vertices(1) + "element face 1\nproperty list uchar float vertex_indices\n" + end) ==
           "t.ply:9: expected a list of integers 'vertex_indices' of 'face' in the header of a mesh, found 'end_header'");
     CHECK(refusal(ascii_head + vertices(1) + list(1) + "property list uchar int vertex_index\n" + end) ==
           "t.ply:10: expected one of 'vertex_indices' and 'vertex_index', not both, in the header of a mesh, found "
           "'end_header'");
-    CHECK(refusal(ascii_head + vertices(1) + "element tristrips 1\nproperty list int int vertex_indices\n" + end) ==
-          "t.ply:9: expected faces; triangle strips (element 'tristrips') are not supported");
+    CHECK(
+        refusal(ascii_head + vertices(1) + "element tristrips 1\nproperty list int float vertex_indices\n" + end) ==
+        "t.ply:9: expected a list of integers 'vertex_indices' of 'tristrips' in the header of a mesh, found 'end_header'");
+}
+
+TEST_CASE("ply: comments that lack their keyword, where no element can be meant") {
+    const std::string rest = vertices(3) + list(1) + end + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    CHECK(parse(ascii_head + "made by hand\n\n" + rest).faces.size() == 1);
+    CHECK(parse(ascii_head + vertices(3) + "comment a long one\nthat goes on\nand on\n" + list(1) + end +
+                "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+              .faces.size() == 1);
+    // Before the format, or where a property is misspelt, it is none.
+    CHECK(refusal("ply\nmade by hand\nformat ascii 1.0\n" + rest).starts_with("t.ply:2: expected a line of a PLY header"));
+    CHECK(
+        refusal(ascii_head + "element vertex 3\npropery float w\n").starts_with("t.ply:4: expected a line of a PLY header"));
+    CHECK(refusal(ascii_head + "comment x\nelement vertex 3\n\npropery float w\n").starts_with("t.ply:6: expected a line"));
+}
+
+TEST_CASE("ply: a file without faces is a cloud of points") {
+    const auto cloud = parse(ascii_head + vertices(2) + "property float nx\n" + end + "1 2 3 0\n4 5 6 0\n");
+    CHECK(cloud.vertices == points{{1, 2, 3}, {4, 5, 6}});
+    CHECK(cloud.faces.empty());
+}
+
+TEST_CASE("ply: triangle strips, with restarts") {
+    const std::string strips = "element tristrips 2\nproperty list int int vertex_indices\n";
+    const std::string rows = "9 0 1 2 3 -1 3 2 1 -1\n6 0 1 1 2 3 4\n";
+    const auto read = parse(ascii_head + vertices(5) + strips + end + square + "2 2 2\n" + rows);
+    // The second strip goes through vertex 1 twice: its first two triangles have no three corners, and they count for the turns of the others.
+    CHECK(read.faces == faces{{0, 1, 2}, {2, 1, 3}, {3, 2, 1}, {1, 2, 3}, {3, 2, 4}});
+    bytes binary(binary_head(false) + vertices(3) + "element tristrips 1\nproperty list uchar int vertex_indices\n" + end,
+                 false);
+    for (int i = 0; i < 9; ++i) binary.put(static_cast<float>(i));
+    CHECK(parse(binary.put('\5').put(0).put(1).put(2).put(-1).put(0).data()).faces == faces{{0, 1, 2}});
+    CHECK(refusal(ascii_head + vertices(4) + strips + end + square + "3 0 1 -2\n")
+              .find("expected a vertex index below 4, found '-2'") != std::string::npos);
+    CHECK(refusal(ascii_head + vertices(4) + list(1) + end + square + "3 0 1 -1\n").find("found '-1'") != std::string::npos);
+}
+
+TEST_CASE("ply: leniently, long rows, rows too many and faces of two corners are passed over and counted") {
+    const auto lenient = [](const std::string& data) {
+        return abut::io::parse_ply<double>(data, "t.ply", {.lenient = true});
+    };
+    const auto read = lenient(ascii_head + vertices(4) + list(4) + end + "0 0 0 9\n1 0 0\n1 1 0 nonsense\n0 1 0\n" +
+                              "3 0 1 2 255 0 0\n2 0 1\n0\n3 0 2 3\n3 1 2 3\n\n4 5\n");
+    CHECK(read.faces == faces{{0, 1, 2}, {0, 2, 3}});
+    CHECK(read.skipped == abut::io::skipped_parts{2, 3, 13});
+    bytes binary(binary_head(true) + vertices(1) + list(2) + end, true);
+    binary.put(1.0f).put(2.0f).put(3.0f).put('\2').put(0).put(0).put('\3').put(0).put(0).put(0).put('x');
+    CHECK(lenient(binary.data()).faces == faces{{0, 0, 0}});
+    CHECK(lenient(binary.data()).skipped == abut::io::skipped_parts{1, 0, 1});
+    CHECK(parse(ascii_head + vertices(1) + list(0) + end + "1 2 3\n").skipped == abut::io::skipped_parts{});
+    // What is missing or wrong is refused all the same.
+    const auto message = [&](const std::string& data) { return io_test::refusal([&] { lenient(data); }); };
+    CHECK(message(ascii_head + vertices(1) + list(0) + end + "100 200\n") ==
+          "t.ply:10: expected the z coordinate of a vertex, found the end of the line");
+    CHECK(message(ascii_head + vertices(1) + list(1) + end + "1 2 3\n2 0 7\n") ==
+          "t.ply:11: expected a vertex index below 1, found '7'");
+}
+
+TEST_CASE("ply: UTF-16 is named") {
+    const std::string expected = "t.ply: expected text in ASCII or UTF-8, found UTF-16";
+    CHECK(refusal(std::string("\xff\xfep\0l\0y\0", 8)) == expected);
+    CHECK(refusal(std::string("\xfe\xff\0p\0l\0y", 8)) == expected);
+    CHECK(refusal(std::string("p\0l\0y\0", 6)) == expected);
+    CHECK(refusal(std::string("\0p\0l\0y", 6)) == expected);
 }
 
 TEST_CASE("ply: every malformed row of text is refused with its line") {

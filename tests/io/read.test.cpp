@@ -102,10 +102,10 @@ TEST_CASE("read_mesh: the extension decides, in any case") {
     CHECK(abut::io::read_mesh<float>(folder.file("a.OBJ", triangle)).size() == 1);
     CHECK(abut::io::read_mesh<double>(folder.file("a.obj", triangle)).size() == 1);
     CHECK(abut::io::read_mesh<float>(folder.file("a.Ply", io_test::content(io_test::seeds() / "ply/big.ply"))).size() == 3);
-    for (const std::string name : {"a.stl", "a", "obj", "a.obj.gz"}) {
+    for (const std::string name : {"a.3ds", "a", "obj", "a.obj.gz"}) {
         const auto path = folder.file(name, triangle);
         CHECK(io_test::refusal([&] { abut::io::read_mesh<float>(path); }) ==
-              path.string() + ": expected a file name that ends with .obj or .ply");
+              path.string() + ": expected a file name that ends with .obj, .ply, .stl, .off, .glb or .gltf");
     }
 }
 
@@ -171,7 +171,7 @@ TEST_CASE("readers: files larger than one read") {
 // Seeds of the fuzzers and what they found: each is read soundly, or refused with a message; none crashes.
 TEST_CASE("readers: seeds and regressions") {
     std::size_t accepted = 0, refused = 0;
-    for (const std::string kind : {"obj", "ply", "csv"}) {
+    for (const std::string kind : {"obj", "ply", "csv", "stl", "off", "gltf"}) {
         for (const auto& entry : std::filesystem::directory_iterator(io_test::seeds() / kind)) {
             INFO(entry.path().string());
             const std::string message = io_test::refusal([&] {
@@ -193,6 +193,6 @@ TEST_CASE("readers: seeds and regressions") {
         }
     }
     std::printf("seeds: %zu read, %zu refused\n", accepted, refused);
-    CHECK(accepted >= 14);
+    CHECK(accepted >= 24);
     CHECK(refused >= 1);
 }

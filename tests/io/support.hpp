@@ -3,7 +3,10 @@
 
 // What the tests of readers and writers share: messages of refusals, files that go away, and where test data lies.
 
+#include <algorithm>
+#include <bit>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -52,6 +55,13 @@ public:
 private:
     std::filesystem::path path_;
 };
+
+/// The bytes of a number in the order of most binary files.
+template <class V>
+void to_little_endian(V value, char* bytes) {
+    std::memcpy(bytes, &value, sizeof value);
+    if (std::endian::native == std::endian::big) std::reverse(bytes, bytes + sizeof value);
+}
 
 inline std::string content(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);

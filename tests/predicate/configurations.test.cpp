@@ -17,6 +17,7 @@
 #include <abut/predicate/intersects.hpp>
 
 #include "predicate/common_part.hpp"
+#include "predicate/configuration_pairs.hpp"
 #include "predicate/configurations.hpp"
 #include "predicate/configurations_picture.hpp"
 #include "support/catch.hpp"
@@ -28,19 +29,11 @@
 namespace {
 
 using namespace abut;
+using test::all_pairs;
 using test::common;
 using test::integer_triangle;
-
-struct named_pair {
-    std::string name;
-    integer_triangle a, b;
-    bool hit;
-};
-
-template <class Map>
-integer_triangle mapped(const integer_triangle& t, const Map& map) {
-    return {map(t.a), map(t.b), map(t.c)};
-}
+using test::mapped;
+using test::named_pair;
 
 template <scalar T>
 triangle<T> to(const integer_triangle& t) {
@@ -48,37 +41,6 @@ triangle<T> to(const integer_triangle& t) {
         return vec3<T>{static_cast<T>(p.x), static_cast<T>(p.y), static_cast<T>(p.z)};
     };
     return {point(t.a), point(t.b), point(t.c)};
-}
-
-/// Reversed along the x axis, so that its part of that axis stays, and only the ends of the part change places.
-integer_triangle reversed(const integer_triangle& t, const integer_triangle& other) {
-    const test::hull part = test::clipped_to_plane(test::hull_of(t), test::hull_of(other));
-    REQUIRE((part.size() == 1 || part.size() == 2));
-    const test::rational ends = part.front().x + part.back().x;
-    REQUIRE(
-        (denominator(ends) == 1 && part.front().y == 0 && part.front().z == 0 && part.back().y == 0 && part.back().z == 0));
-    const int sum = static_cast<int>(numerator(ends));
-    return mapped(t, [sum](const vec3<int>& p) { return vec3<int>{sum - p.x, p.y, p.z}; });
-}
-
-/// Each configuration; where both triangles have a part of the line in which the planes cross, also with either reversed.
-std::vector<named_pair> all_pairs() {
-    std::vector<named_pair> pairs;
-    for (const auto& group : test::configuration_groups) {
-        for (const auto& c : group.members) {
-            const std::string name = group.title + " / " + c.name;
-            const bool hit = c.part != common::nothing;
-            pairs.push_back({name, c.reference, c.other, hit});
-            const test::hull s = test::hull_of(c.reference), t = test::hull_of(c.other);
-            if (test::picture::shared_line(s, t).empty()) continue;
-            if (test::clipped_to_plane(s, t).empty() || test::clipped_to_plane(t, s).empty()) continue;
-            const integer_triangle a = reversed(c.reference, c.other), b = reversed(c.other, c.reference);
-            pairs.push_back({name + " (reference reversed)", a, c.other, hit});
-            pairs.push_back({name + " (other reversed)", c.reference, b, hit});
-            pairs.push_back({name + " (both reversed)", a, b, hit});
-        }
-    }
-    return pairs;
 }
 
 /// Affine maps with small integers. They keep what touches what, and leave next to nothing along the axes.

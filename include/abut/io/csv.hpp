@@ -36,7 +36,7 @@ inline std::string plain_name(std::string_view name) {
 template <scalar T, std::size_t Columns>
 class csv_reader {
 public:
-    csv_reader(std::string_view text, const std::string& file) : text_(text, file) {}
+    csv_reader(std::string_view text, const std::string& file) : text_(text, file) { refuse_utf16(text, file); }
 
     template <class Add>
     void run(const Add& add) {

@@ -16,14 +16,36 @@
 
 namespace abut::io {
 
+/// @addtogroup files
+///@{
+
+/// How readers of meshes take files that are not quite in order.
+struct read_options {
+    /// Passes over what others' programs write and no geometry needs: faces of fewer than three corners, further values in a
+    /// row, and what follows after the last row. By default such files are refused. What is passed over is counted
+    /// (`mesh_data::skipped`).
+    bool lenient = false;
+};
+
+/// What a lenient reader has passed over.
+struct skipped_parts {
+    std::size_t faces = 0;  ///< of fewer than three corners
+    std::size_t rows = 0;   ///< rows that went on after their last value; the rows themselves are read
+    std::size_t bytes = 0;  ///< after the last row
+
+    friend constexpr bool operator==(const skipped_parts&, const skipped_parts&) = default;
+};
+
 /// Vertices in the file's order, coordinates finite; triangles in the file's order, all indices below the number of
-/// vertices.
-/// @ingroup files
+/// vertices. A file of points alone has no faces.
 template <scalar T>
 struct mesh_data {
     std::vector<vec3<T>> vertices;                    ///< in units of the file
     std::vector<std::array<std::uint32_t, 3>> faces;  ///< three vertex indices each, from 0
+    skipped_parts skipped{};                          ///< nothing, unless the file was read leniently
 };
+
+///@}
 
 namespace detail {
 
@@ -172,6 +194,16 @@ public:
             const std::uint32_t next = corner(i);
             mesh_.faces.push_back({first, previous, next});
             previous = next;
+        }
+    }
+    /// The triangles of a strip: every second one is turned around. Those that name a vertex twice join strips, and are no
+    /// faces.
+    template <class Corner>
+    void add_strip(std::size_t corners, const Corner& corner) {
+        for (std::size_t i = 2; i < corners; ++i) {
+            const std::uint32_t a = corner(i - 2), b = corner(i - 1), c = corner(i);
+            if (a == b || b == c || a == c) continue;
+            mesh_.faces.push_back(i % 2 == 0 ? std::array{a, b, c} : std::array{b, a, c});
         }
     }
     void finish() { cut_polygons(mesh_, polygons_, file_); }

@@ -30,11 +30,11 @@ namespace detail {
 
 /// Statements that say nothing about polygons. The rest of the line is skipped.
 constexpr bool is_obj_aside(std::string_view word) {
-    constexpr std::string_view words[] = {"vt",    "vn",     "vp",       "vw",       "l",          "p",         "g",
-                                          "o",     "s",      "mg",       "usemtl",   "mtllib",     "usemap",    "maplib",
-                                          "lod",   "bevel",  "c_interp", "d_interp", "shadow_obj", "trace_obj", "ctech",
-                                          "stech", "cstype", "deg",      "bmat",     "step",       "curv",      "curv2",
-                                          "parm",  "trim",   "hole",     "scrv",     "sp",         "end",       "con"};
+    constexpr std::string_view words[] = {
+        "t",          "group",     "vt",     "vn",     "vp",     "vw",     "l",    "p",     "g",        "o",
+        "s",          "mg",        "usemtl", "mtllib", "usemap", "maplib", "lod",  "bevel", "c_interp", "d_interp",
+        "shadow_obj", "trace_obj", "ctech",  "stech",  "cstype", "deg",    "bmat", "step",  "curv",     "curv2",
+        "parm",       "trim",      "hole",   "scrv",   "sp",     "end",    "con"};
     for (const std::string_view known : words) {
         if (word == known) return true;
     }
@@ -43,16 +43,18 @@ constexpr bool is_obj_aside(std::string_view word) {
 
 /// Those of them that hold names and not numbers: a backslash at the end may belong to a path.
 constexpr bool is_obj_naming(std::string_view word) {
-    return word == "g" || word == "o" || word == "usemtl" || word == "mtllib" || word == "usemap" || word == "maplib" ||
-           word == "shadow_obj" || word == "trace_obj";
+    return word == "g" || word == "group" || word == "o" || word == "usemtl" || word == "mtllib" || word == "usemap" ||
+           word == "maplib" || word == "shadow_obj" || word == "trace_obj";
 }
 
 /// The first pass: reads the statements, checks all that is used of them, and keeps positions and `f` statements.
 template <scalar T>
 class obj_scanner {
 public:
-    obj_scanner(std::string_view text, const std::string& file, std::vector<vec3<T>>& vertices)
-        : file_(file), text_(text, file), vertices_(vertices) {}
+    obj_scanner(std::string_view text, const std::string& file, const read_options& options, mesh_data<T>& mesh)
+        : file_(file), text_(text, file), options_(options), vertices_(mesh.vertices), skipped_(mesh.skipped) {
+        refuse_utf16(text, file);
+    }
 
     void run() {
         while (!text_.at_end()) {
@@ -108,14 +110,16 @@ private:
         std::size_t more = 0;
         for (std::string_view word = next(); !word.empty(); word = next(), ++more) {
             float ignored = 0;
-            if (more == 4 || to_number(word, ignored) == number::malformed) {
+            if ((more == 4 && !options_.lenient) || to_number(word, ignored) == number::malformed) {
                 text_.fail("the end of the vertex, a weight or a colour", word);
             }
         }
-        if (more == 2) text_.fail("x, y, z, and then a weight, a colour of three numbers or both", {});
+        if (more == 2 && !options_.lenient) text_.fail("x, y, z, and then a weight, a colour of three numbers or both", {});
+        if (more == 2 || more > 4) ++skipped_.rows;
     }
 
     void face() {
+        const std::size_t begin = faces_.size();
         faces_ += 'f';
         std::size_t corners = 0;
         for (std::string_view word = next(); !word.empty(); word = next(), ++corners) {
@@ -123,7 +127,12 @@ private:
             faces_ += ' ';
             faces_ += word;
         }
-        if (corners < 3) text_.fail("a face of at least 3 corners", {});
+        if (corners < 3) {
+            if (!options_.lenient) text_.fail("a face of at least 3 corners", {});
+            faces_.resize(begin);
+            ++skipped_.faces;
+            return;
+        }
         faces_ += '\n';
         before_.push_back(static_cast<std::uint32_t>(vertices_.size()));
     }
@@ -183,7 +192,9 @@ private:
 
     const std::string& file_;
     text_cursor text_;
+    const read_options options_;
     std::vector<vec3<T>>& vertices_;
+    skipped_parts& skipped_;
     std::string faces_;
     std::vector<std::uint32_t> before_;
     std::vector<forward_reference> ahead_;
@@ -221,13 +232,15 @@ struct obj_faces {
 ///@{
 
 /// Reads the text of an OBJ file; `file` is its name in messages. Polygons are cut into triangles as docs/files.md says.
-/// Positions are the decimal text rounded once to T. Throws io_error with the line for text that is malformed.
+/// Positions are the decimal text rounded once to T. Throws io_error with the line for text that is malformed. A text
+/// without faces is a cloud of points.
 ///
 ///     const auto mesh = abut::io::parse_obj<double>("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "inline");
 template <scalar T>
-mesh_data<T> parse_obj(std::string_view text, const std::string& file) {
+mesh_data<T> parse_obj(std::string_view text, const std::string& file, const read_options& options = {}) {
+    while (text.ends_with('\0')) text.remove_suffix(1);  // with which some programs fill the file up
     mesh_data<T> mesh;
-    detail::obj_scanner<T> scanner(text, file, mesh.vertices);
+    detail::obj_scanner<T> scanner(text, file, options, mesh);
     scanner.run();
 
     detail::face_collector<T> collector(mesh, file);

@@ -36,20 +36,28 @@ inline std::string rows_expected(const ply_element& element, std::size_t least, 
 /// Values written as text: one element a line, values apart by blanks, empty lines skipped.
 class ply_text {
 public:
-    ply_text(std::string_view data, const ply_header& header, const std::string& file)
-        : text_(data.substr(header.body), file, header.body_line) {}
+    ply_text(std::string_view data, const ply_header& header, const std::string& file, const read_options& options)
+        : text_(data.substr(header.body), file, header.body_line), options_(options) {}
 
     void check_rows(const ply_element& element) const {
         // Each value takes a character and a blank or line end; the last line may lack its end.
-        const std::size_t least = 2 * element.fields.size(), left = text_.bytes_left();
+        const std::size_t least = 2 * element.least_row(0, false), left = text_.bytes_left();
         if (too_many(element.count, least, left + 1)) text_.fail_with(rows_expected(element, least, left));
+    }
+    /// How many of a file's faces there can be at most, for all that is left of it.
+    [[nodiscard]] std::size_t most_faces(const ply_element& element) const {
+        return (text_.bytes_left() + 1) / (2 * element.least_row(3, false));
     }
     void begin_row() {
         for (text_.skip_blanks(); text_.at_line_end() && !text_.at_end(); text_.skip_blanks()) text_.next_line();
     }
     void end_row() {
         text_.skip_blanks();
-        if (!text_.at_line_end()) text_.fail("the end of the line", text_.token());
+        if (!text_.at_line_end()) {
+            if (!options_.lenient) text_.fail("the end of the line", text_.token());
+            text_.rest();
+            ++skipped.rows;
+        }
         text_.next_line();
     }
     void check_list(std::uint64_t, ply_type) const {}  // its items are read one by one, and counted where they are kept
@@ -75,8 +83,12 @@ public:
     }
     void check_end() {
         begin_row();
-        if (!text_.at_end()) text_.fail("the end of the file after the last row", text_.token());
+        if (text_.at_end()) return;
+        if (!options_.lenient) text_.fail("the end of the file after the last row", text_.token());
+        skipped.bytes = text_.bytes_left();
     }
+
+    skipped_parts skipped;
 
 private:
     std::string_view next() {
@@ -98,22 +110,24 @@ private:
     }
 
     text_cursor text_;
+    const read_options options_;
 };
 
 /// Values written as bytes, in either order.
 class ply_bytes {
 public:
-    ply_bytes(std::string_view data, const ply_header& header, const std::string& file)
+    ply_bytes(std::string_view data, const ply_header& header, const std::string& file, const read_options& options)
         : data_(data),
           file_(file),
+          options_(options),
           at_(header.body),
           swap_((header.form == ply_form::big_endian) == (std::endian::native == std::endian::little)) {}
 
     void check_rows(const ply_element& element) const {
-        std::size_t least = 0;
-        for (const auto& field : element.fields) least += size_of(field.count_type.value_or(field.type));
+        const std::size_t least = element.least_row(0, true);
         if (too_many(element.count, least, left())) fail_at(at_, rows_expected(element, least, left()));
     }
+    [[nodiscard]] std::size_t most_faces(const ply_element& element) const { return left() / element.least_row(3, true); }
     void begin_row() const {}
     void end_row() const {}
     void check_list(std::uint64_t count, ply_type type) const {
@@ -144,11 +158,17 @@ public:
     [[noreturn]] void fail(const std::string& expected, std::int64_t found) const {
         fail_at(last_, "expected " + expected + ", found " + std::to_string(found));
     }
-    void check_end() const {
+    void check_end() {
         if (left() == 0) return;
+        if (options_.lenient) {
+            skipped.bytes = left();
+            return;
+        }
         fail_at(at_, "expected the end of the file after the last row, found " + std::to_string(left()) +
                          (left() == 1 ? " more byte" : " more bytes"));
     }
+
+    skipped_parts skipped;
 
 private:
     [[nodiscard]] std::size_t left() const { return data_.size() - at_; }
@@ -190,6 +210,7 @@ private:
 
     std::string_view data_;
     const std::string& file_;
+    const read_options options_;
     std::size_t at_;
     std::size_t last_ = 0;  // where the last value began
     bool swap_;
@@ -229,12 +250,30 @@ void read_vertices(Source& from, const ply_element& element, std::vector<vec3<T>
     }
 }
 
+/// The indices of a row's list; of a strip also -1, where it ends and another one begins.
+template <class Source>
+void read_corners(Source& from, const ply_field& field, std::int64_t count, std::int64_t least, std::uint64_t vertices,
+                  std::vector<std::int64_t>& corners) {
+    from.check_list(static_cast<std::uint64_t>(count), field.type);
+    corners.clear();
+    for (std::int64_t corner = 0; corner < count; ++corner) {
+        const std::int64_t index = from.integer(field.type, "a vertex index");
+        if (index < least || (index >= 0 && static_cast<std::uint64_t>(index) >= vertices)) {
+            from.fail("a vertex index below " + std::to_string(vertices), index);
+        }
+        corners.push_back(index);
+    }
+}
+
 template <scalar T, class Source>
-void read_faces(Source& from, const ply_element& element, std::uint64_t vertices, mesh_data<T>& mesh,
-                face_collector<T>& faces) {
-    const std::size_t list = std::min(element.find("vertex_indices"), element.find("vertex_index"));
-    std::vector<std::uint32_t> corners;
-    mesh.faces.reserve(static_cast<std::size_t>(element.count));
+void read_faces(Source& from, const ply_element& element, std::uint64_t vertices, const read_options& options,
+                mesh_data<T>& mesh, face_collector<T>& faces) {
+    const std::size_t list = element.corners();
+    const bool is_strip = element.name == "tristrips";
+    std::vector<std::int64_t> corners;
+    if (!is_strip) {
+        mesh.faces.reserve(std::min(static_cast<std::size_t>(element.count), from.most_faces(element)));
+    }
     for (std::uint64_t row = 0; row < element.count; ++row) {
         from.begin_row();
         for (std::size_t i = 0; i < element.fields.size(); ++i) {
@@ -244,24 +283,28 @@ void read_faces(Source& from, const ply_element& element, std::uint64_t vertices
                 continue;
             }
             const std::int64_t count = from.integer(*field.count_type, "the number of corners of a face");
-            if (count < 3) from.fail("a face of at least 3 corners", count);
-            from.check_list(static_cast<std::uint64_t>(count), field.type);
-            corners.clear();
-            for (std::int64_t corner = 0; corner < count; ++corner) {
-                const std::int64_t index = from.integer(field.type, "a vertex index");
-                if (index < 0 || static_cast<std::uint64_t>(index) >= vertices) {
-                    from.fail("a vertex index below " + std::to_string(vertices), index);
+            if (count < 0 || (count < 3 && !is_strip && !options.lenient)) from.fail("a face of at least 3 corners", count);
+            read_corners(from, field, count, is_strip ? -1 : 0, vertices, corners);
+            const auto at = [&](std::size_t first) {
+                return [&, first](std::size_t corner) { return static_cast<std::uint32_t>(corners[first + corner]); };
+            };
+            if (is_strip) {
+                for (std::size_t first = 0, end = 0; first < corners.size(); first = end + 1) {
+                    for (end = first; end < corners.size() && corners[end] >= 0;) ++end;
+                    faces.add_strip(end - first, at(first));
                 }
-                corners.push_back(static_cast<std::uint32_t>(index));
+            } else if (count < 3) {
+                ++from.skipped.faces;
+            } else {
+                faces.add(corners.size(), at(0));
             }
-            faces.add(corners.size(), [&](std::size_t corner) { return corners[corner]; });
         }
         from.end_row();
     }
 }
 
 template <scalar T, class Source>
-mesh_data<T> read_body(Source from, const ply_header& header, const std::string& file) {
+mesh_data<T> read_body(Source from, const ply_header& header, const std::string& file, const read_options& options) {
     mesh_data<T> mesh;
     face_collector<T> faces(mesh, file);
     for (const ply_element& element : header.elements) {
@@ -269,8 +312,8 @@ mesh_data<T> read_body(Source from, const ply_header& header, const std::string&
         from.check_rows(element);
         if (element.name == "vertex") {
             read_vertices(from, element, mesh.vertices);
-        } else if (element.name == "face") {
-            read_faces(from, element, header.find("vertex")->count, mesh, faces);
+        } else if (element.has_corners()) {
+            read_faces(from, element, header.find("vertex")->count, options, mesh, faces);
         } else {
             for (std::uint64_t row = 0; row < element.count; ++row) {
                 from.begin_row();
@@ -280,6 +323,7 @@ mesh_data<T> read_body(Source from, const ply_header& header, const std::string&
         }
     }
     from.check_end();
+    mesh.skipped = from.skipped;
     faces.finish();
     return mesh;
 }
@@ -290,18 +334,19 @@ mesh_data<T> read_body(Source from, const ply_header& header, const std::string&
 ///@{
 
 /// Reads the bytes of a PLY file; `file` is its name in messages. Polygons are cut into triangles as docs/files.md says.
-/// In ASCII, positions are the decimal text rounded once to T; in binary, the value rounded to T. Memory is allocated
-/// only for what the bytes can hold. Throws io_error with the line (header and ASCII) or byte (binary) of what is
-/// malformed or missing.
+/// A file without faces is a cloud of points. In ASCII, positions are the decimal text rounded once to T; in binary, the
+/// value rounded to T. Memory is allocated only for what the bytes can hold. Throws io_error with the line (header and
+/// ASCII) or byte (binary) of what is malformed or missing.
 ///
 ///     const auto mesh = abut::io::parse_ply<float>({bytes.data(), bytes.size()}, "part.ply");
 template <scalar T>
-mesh_data<T> parse_ply(std::string_view data, const std::string& file) {
+mesh_data<T> parse_ply(std::string_view data, const std::string& file, const read_options& options = {}) {
+    detail::refuse_utf16(data, file);
     const detail::ply_header header = detail::ply_header_parser(data, file).parse();
     if (header.form == detail::ply_form::ascii) {
-        return detail::read_body<T>(detail::ply_text(data, header, file), header, file);
+        return detail::read_body<T>(detail::ply_text(data, header, file, options), header, file, options);
     }
-    return detail::read_body<T>(detail::ply_bytes(data, header, file), header, file);
+    return detail::read_body<T>(detail::ply_bytes(data, header, file, options), header, file, options);
 }
 
 ///@}

@@ -3,6 +3,7 @@
 
 // The header of a PLY file: which elements follow, of which properties, in which form.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -43,6 +44,20 @@ struct ply_element {
         while (i < fields.size() && fields[i].name != field) ++i;
         return i;
     }
+    /// Whether its rows are faces or strips of triangles.
+    [[nodiscard]] bool has_corners() const { return name == "face" || name == "tristrips"; }
+    /// Index of the list of its corners, or the number of fields.
+    [[nodiscard]] std::size_t corners() const { return std::min(find("vertex_indices"), find("vertex_index")); }
+    /// How many values, or bytes of values, a row has at least, where a face has at least so many corners.
+    [[nodiscard]] std::size_t least_row(std::size_t corners_of_a_face, bool in_bytes) const {
+        std::size_t least = 0;
+        for (std::size_t i = 0; i < fields.size(); ++i) {
+            const ply_field& field = fields[i];
+            least += in_bytes ? size_of(field.count_type.value_or(field.type)) : 1;
+            if (name == "face" && i == corners()) least += corners_of_a_face * (in_bytes ? size_of(field.type) : 1);
+        }
+        return least;
+    }
 };
 
 enum class ply_form { ascii, little_endian, big_endian };
@@ -74,7 +89,13 @@ public:
         for (;;) {
             if (!next_line()) fail("'end_header'", {});
             const std::string_view keyword = word();
-            if (keyword == "comment" || keyword == "obj_info" || keyword.empty()) continue;
+            if (keyword.empty()) continue;
+            if (keyword == "comment" || keyword == "obj_info") {
+                in_comment_ = true;
+                continue;
+            }
+            const bool may_be_comment = in_comment_ || elements_.empty();
+            in_comment_ = false;
             if (keyword == "format")
                 format();
             else if (keyword == "element")
@@ -83,7 +104,12 @@ public:
                 property();
             else if (keyword == "end_header")
                 break;
-            else
+            else if (may_be_comment && form_) {
+                // A comment that lacks its keyword, or goes on without it. Among elements and their properties it might be
+                // one that is misspelt.
+                in_comment_ = true;
+                continue;
+            } else
                 fail("a line of a PLY header (format, element, property, comment, end_header)", keyword);
             if (const auto more = word(); !more.empty()) fail("the end of the line", more);
         }
@@ -175,13 +201,8 @@ private:
     void check() const {
         const auto missing = [&](const std::string& what) { fail(what + " in the header of a mesh", "end_header"); };
         const ply_element* vertex = nullptr;
-        const ply_element* face = nullptr;
         for (const auto& element : elements_) {
             if (element.name == "vertex") vertex = &element;
-            if (element.name == "face") face = &element;
-            if (element.name == "tristrips" && element.count > 0) {
-                fail_with("expected faces; triangle strips (element 'tristrips') are not supported");
-            }
         }
         if (!vertex) missing("an element 'vertex'");
         for (const std::string name : {"x", "y", "z"}) {
@@ -191,13 +212,15 @@ private:
         }
         constexpr std::uint64_t most = 0xffffffff;
         if (vertex->count > most) fail_with("expected at most 4294967295 vertices, found " + std::to_string(vertex->count));
-        if (!face) missing("an element 'face'");
-        const std::size_t both = face->fields.size();
-        const std::size_t plural = face->find("vertex_indices"), singular = face->find("vertex_index");
-        if (plural != both && singular != both) missing("one of 'vertex_indices' and 'vertex_index', not both,");
-        const std::size_t i = plural != both ? plural : singular;
-        if (i == both || !face->fields[i].count_type || !is_integer(face->fields[i].type)) {
-            missing("a list of integers 'vertex_indices' of 'face'");
+        for (const auto& element : elements_) {
+            if (!element.has_corners()) continue;
+            const std::size_t both = element.fields.size(), i = element.corners();
+            if (element.find("vertex_indices") != both && element.find("vertex_index") != both) {
+                missing("one of 'vertex_indices' and 'vertex_index', not both,");
+            }
+            if (i == both || !element.fields[i].count_type || !is_integer(element.fields[i].type)) {
+                missing("a list of integers 'vertex_indices' of '" + element.name + "'");
+            }
         }
     }
 
@@ -214,8 +237,9 @@ private:
     char line_end_ = '\n';
     std::size_t at_ = 0;
     std::size_t line_number_ = 0;
-    std::string_view line_;   // what is left of the line
-    std::string_view found_;  // all of it, for messages
+    bool in_comment_ = false;  // whether the last line was a comment
+    std::string_view line_;    // what is left of the line
+    std::string_view found_;   // all of it, for messages
     std::optional<ply_form> form_;
     std::vector<ply_element> elements_;
     std::set<std::string, std::less<>> names_of_elements_, names_of_fields_;  // the latter of the last element

@@ -64,6 +64,13 @@ struct point_options {
     std::vector<property> properties{};
 };
 
+/// A pair of ids: `index_pair`, or any type with two integers `a` and `b`.
+template <class P>
+concept id_pair = requires(const P& pair) {
+    requires std::integral<std::remove_cvref_t<decltype(pair.a)>>;
+    requires std::integral<std::remove_cvref_t<decltype(pair.b)>>;
+};
+
 ///@}
 
 namespace detail {

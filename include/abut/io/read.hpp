@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Files into sets: a mesh from OBJ or PLY, spheres from CSV. Formats and exact rules: docs/files.md. The parsers beneath
-// work on text and bytes in memory (obj.hpp, ply.hpp, csv.hpp).
+// Files into sets: a mesh from OBJ, PLY, STL, OFF or glTF, spheres from CSV. Formats and exact rules: docs/files.md. The
+// parsers beneath work on text and bytes in memory (obj.hpp, ply.hpp, stl.hpp, off.hpp, gltf.hpp, csv.hpp).
 
 #include <filesystem>
 #include <string>
@@ -13,9 +13,12 @@
 #include <abut/io/csv.hpp>
 #include <abut/io/error.hpp>
 #include <abut/io/file.hpp>
+#include <abut/io/gltf.hpp>
 #include <abut/io/mesh_data.hpp>
 #include <abut/io/obj.hpp>
+#include <abut/io/off.hpp>
 #include <abut/io/ply.hpp>
+#include <abut/io/stl.hpp>
 #include <abut/shape/set.hpp>
 
 /// Readers and writers of files; see @ref files.
@@ -23,8 +26,10 @@ namespace abut::io {
 
 /// @defgroup files Files
 ///
-/// Readers of meshes from OBJ and PLY and of spheres from CSV, and writers of meshes and points as PLY or VTP and of pairs
-/// as CSV. They are the CMake target `abut::io`, and are included one by one: `<abut/io/read.hpp>`, `<abut/io/write.hpp>`.
+/// Readers of meshes from OBJ, PLY, STL, OFF and glTF and of spheres from CSV; writers of sets as PLY or VTP, of pairs as
+/// CSV, and of whole scenes as glTF or as a page for a browser. They are the CMake target `abut::io`, and are included one
+/// by one: `<abut/io/read.hpp>`, `<abut/io/write.hpp>`,
+/// `<abut/io/write_gltf.hpp>`, `<abut/io/write_html.hpp>`.
 /// docs/files.md has the exact rules. The parsers beneath take text and bytes in memory.
 ///
 /// @par Memory
@@ -45,29 +50,36 @@ namespace abut::io {
 /// @snippet files.cpp files
 ///@{
 
-/// Vertices and faces of the file, by its extension (.obj or .ply, in any case), as plain vectors: for those who want to
-/// change them before they make a set. Throws io_error for another extension, for a file that cannot be read, and for one
-/// that is malformed or truncated; std::bad_alloc.
+/// Vertices and faces of the file, by its extension (.obj, .ply, .stl, .off, .glb or .gltf, in any case), as plain vectors:
+/// for those who want to change them before they make a set, or who have a cloud of points, which has no faces. Throws
+/// io_error for another extension, for a file that cannot be read, and for one that is malformed or truncated;
+/// std::bad_alloc.
 template <scalar T>
-mesh_data<T> read_mesh_data(const std::filesystem::path& path) {
-    const std::string extension = detail::plain_name(path.extension().string());
-    const bool is_obj = extension == ".obj";
-    if (!is_obj && extension != ".ply") {
-        throw io_error(path.string(), "expected a file name that ends with .obj or .ply");
+mesh_data<T> read_mesh_data(const std::filesystem::path& path, const read_options& options = {}) {
+    const std::string extension = detail::plain_name(path.extension().string()), name = path.string();
+    const bool is_gltf = extension == ".glb" || extension == ".gltf";
+    if (!is_gltf && extension != ".obj" && extension != ".ply" && extension != ".stl" && extension != ".off") {
+        throw io_error(name, "expected a file name that ends with .obj, .ply, .stl, .off, .glb or .gltf");
     }
     const std::vector<char> bytes = detail::read_file(path);
     const std::string_view data(bytes.data(), bytes.size());
-    return is_obj ? parse_obj<T>(data, path.string()) : parse_ply<T>(data, path.string());
+    if (is_gltf) {
+        return parse_gltf<T>(data, name,
+                             [&](const std::string& other) { return detail::read_file(path.parent_path() / other); });
+    }
+    if (extension == ".obj") return parse_obj<T>(data, name, options);
+    if (extension == ".ply") return parse_ply<T>(data, name, options);
+    return extension == ".stl" ? parse_stl<T>(data, name, options) : parse_off<T>(data, name, options);
 }
 
-/// The mesh in a file: OBJ or PLY, by its extension. Polygons become triangles; vertices and triangles are in the file's
-/// order, vertices that no triangle uses included. Throws as `read_mesh_data` does, and what the constructor of `mesh`
-/// throws (capacity_error for 2^31 elements or more).
+/// The mesh in a file: OBJ, PLY, STL, OFF or glTF, by its extension. Polygons become triangles; vertices and triangles are
+/// in the file's order, vertices that no triangle uses included. A cloud of points becomes a mesh without faces. Throws as
+/// `read_mesh_data` does, and what the constructor of `mesh` throws (capacity_error for 2^31 elements or more).
 ///
 ///     const auto mesh = abut::io::read_mesh<float>("part.obj");
 template <scalar T>
-mesh<T> read_mesh(const std::filesystem::path& path) {
-    const mesh_data<T> data = read_mesh_data<T>(path);
+mesh<T> read_mesh(const std::filesystem::path& path, const read_options& options = {}) {
+    const mesh_data<T> data = read_mesh_data<T>(path, options);
     return mesh<T>{data.vertices, data.faces};
 }
 

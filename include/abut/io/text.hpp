@@ -40,6 +40,14 @@ inline std::string in_quotes(std::string_view text) {
     return result + (text.size() > longest ? "...'" : "'");
 }
 
+/// Throws io_error if a text is UTF-16, as some editors save it: its bytes would be taken for a text that is malformed.
+inline void refuse_utf16(std::string_view text, const std::string& file) {
+    const bool is_marked = text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff");
+    const bool is_plain = text.size() > 3 && ((text[0] == 0 && text[1] > 0 && text[2] == 0 && text[3] > 0) ||
+                                              (text[0] > 0 && text[1] == 0 && text[2] > 0 && text[3] == 0));
+    if (is_marked || is_plain) throw io_error(file, "expected text in ASCII or UTF-8, found UTF-16");
+}
+
 /// How a number's text was taken.
 enum class number { ok, malformed, not_finite, out_of_range };
 

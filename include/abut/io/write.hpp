@@ -24,13 +24,6 @@ namespace abut::io {
 /// @addtogroup files
 ///@{
 
-/// A pair of ids: `index_pair`, or any type with two integers `a` and `b`.
-template <class P>
-concept id_pair = requires(const P& pair) {
-    requires std::integral<std::remove_cvref_t<decltype(pair.a)>>;
-    requires std::integral<std::remove_cvref_t<decltype(pair.b)>>;
-};
-
 namespace detail {
 
 /// Whether the file is to be VTP; PLY if not. Throws io_error for other extensions.

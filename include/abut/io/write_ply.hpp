@@ -160,7 +160,7 @@ void write_ply(const std::filesystem::path& path, const std::vector<vec3<T>>& ve
 }
 
 /// Writes points as binary little-endian PLY: an element `vertex` with positions in T, and what the options add; no faces.
-/// (This library's own readers take meshes only, and refuse such a file.) Replaces and throws as `write_ply` does.
+/// The readers here give back such a file as a mesh without faces. Replaces and throws as `write_ply` does.
 ///
 ///     abut::io::write_points_ply("contacts.ply", points, {.normals = normals, .properties = {{"depth", depths}}});
 template <scalar T>

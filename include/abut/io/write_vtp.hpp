@@ -18,6 +18,7 @@
 #include <variant>
 #include <vector>
 
+#include <abut/io/base64.hpp>
 #include <abut/io/file.hpp>
 #include <abut/io/property.hpp>
 #include <abut/shape/set.hpp>
@@ -25,47 +26,6 @@
 namespace abut::io {
 
 namespace detail {
-
-/// Bytes as base64 (RFC 4648, section 4), without line breaks.
-class base64_writer {
-public:
-    explicit base64_writer(output_file& to) : to_(to) {}
-
-    template <class V>
-    void put(V value) {
-        std::array<char, sizeof(V)> bytes;
-        put_little_endian(bytes.data(), value);
-        for (const char c : bytes) {
-            group_ = group_ << 8 | static_cast<unsigned char>(c);
-            if (++used_ == 3) flush();
-        }
-    }
-    template <scalar T>
-    void put(const vec3<T>& v) {
-        put(v.x);
-        put(v.y);
-        put(v.z);
-    }
-    /// Has to be called after the last byte.
-    void finish() {
-        if (used_ == 0) return;
-        const int bytes = used_;
-        group_ <<= 8 * (3 - bytes);
-        flush(bytes);
-    }
-
-private:
-    void flush(int bytes = 3) {
-        constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-        for (int i = 0; i < 4; ++i) to_.write(i > bytes ? '=' : digits[group_ >> (18 - 6 * i) & 63]);
-        group_ = 0;
-        used_ = 0;
-    }
-
-    output_file& to_;
-    std::uint32_t group_ = 0;
-    int used_ = 0;
-};
 
 template <class V>
 struct vtk_array {
@@ -124,10 +84,10 @@ public:
             "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
             "<PolyData>\n");
     }
-    void piece(std::size_t points, std::size_t single_points, std::size_t polygons) {
+    void piece(std::size_t points, std::size_t single_points, std::size_t polygons, std::size_t lines = 0) {
         file_.write("<Piece NumberOfPoints=\"" + std::to_string(points) + "\" NumberOfVerts=\"" +
-                    std::to_string(single_points) + "\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
-                    std::to_string(polygons) + "\">\n");
+                    std::to_string(single_points) + "\" NumberOfLines=\"" + std::to_string(lines) +
+                    "\" NumberOfStrips=\"0\" NumberOfPolys=\"" + std::to_string(polygons) + "\">\n");
     }
     void open(std::string_view element, std::string_view attributes = "") {
         file_.write('<');

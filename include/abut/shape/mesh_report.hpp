@@ -80,8 +80,10 @@ struct mesh_report {
     /// All but the first of vertices in one place, unused ones too. -0.0 and 0.0 are one place; what is not finite is none.
     std::vector<coincident_vertex> coincident_vertices;
 
-    /// Every face is three edges and every edge two faces, so that E = 3F/2. So is a mesh without faces.
-    [[nodiscard]] bool closed() const { return every_face_counts() && boundary_edges.empty() && nonmanifold_edges.empty(); }
+    /// Every face is three edges and every edge two faces, so that E = 3F/2. A mesh without faces is not closed.
+    [[nodiscard]] bool closed() const {
+        return faces > 0 && every_face_counts() && boundary_edges.empty() && nonmanifold_edges.empty();
+    }
     /// A surface, with or without a boundary: no edge has more than two faces and no vertex more than one fan. Whether it
     /// passes through itself or lies on itself in places is another question: coincident, duplicate or flat faces do not
     /// count against it.

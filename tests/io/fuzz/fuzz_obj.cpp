@@ -15,5 +15,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string_view text(reinterpret_cast<const char*>(data), size);
     fuzz::check_mesh<float>([&] { return abut::io::parse_obj<float>(text, "fuzz"); });
     fuzz::check_mesh<double>([&] { return abut::io::parse_obj<double>(text, "fuzz"); });
+    fuzz::check_mesh<float>([&] { return abut::io::parse_obj<float>(text, "fuzz", {.lenient = true}); });
     return 0;
 }

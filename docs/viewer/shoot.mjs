@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+//
+// node shoot.mjs FOLDER CHROMIUM PAGE.html OUT.png [light|dark] [WIDTHxHEIGHT] [KEY...]: a picture of a page with a scene in it,
+// after these keys were pressed. Its graphics are drawn in software. FOLDER has node_modules. Fails if the page shows no scene.
+
+import { createRequire } from "node:module";
+import { join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+
+const [folder, chromiumPath, page, out, colorScheme = "light", size = "1280x800", ...keys] = process.argv.slice(2);
+const { chromium } = createRequire(join(resolve(folder), "package.json"))("playwright-core");
+const [width, height] = size.split("x").map(Number);
+const browser = await chromium.launch({
+  executablePath: chromiumPath,
+  args: [
+    "--no-sandbox",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--ignore-gpu-blocklist",
+  ],
+});
+const tab = await browser.newPage({ viewport: { width, height }, colorScheme, reducedMotion: "reduce" });
+const [path, hash = ""] = page.split("#");
+await tab.goto(pathToFileURL(resolve(path)).href + (hash && `#${hash}`));
+await tab.waitForSelector("html[data-ready]", { timeout: 120000 });
+for (const key of keys) {
+  if (key.includes("=")) await tab.locator(`#${key.split("=")[0]}`).fill(key.split("=")[1]);
+  else if (key.startsWith("#")) await tab.click(key);
+  else await tab.keyboard.press(key);
+}
+await tab.waitForTimeout(300);
+await tab.screenshot({ path: out, timeout: 120000 });
+const message = tab.locator("#message");
+if (await message.isVisible()) {
+  console.error(`${page}: ${await tab.locator("#message-text").innerText()}`);
+  process.exitCode = 1;
+}
+await browser.close();

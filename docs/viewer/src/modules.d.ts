@@ -1,0 +1,5 @@
+// SPDX-License-Identifier: MIT
+declare module "predicate.wasm" {
+  const code: Uint8Array;
+  export default code;
+}

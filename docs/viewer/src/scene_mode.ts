@@ -1,0 +1,462 @@
+// SPDX-License-Identifier: MIT
+//
+// A scene on the page: summary, what is selected, the list, and the controls under the picture.
+
+import * as THREE from "three";
+import { byId, counted, cssColour, make, shortest } from "./dom";
+import { DetailsWriter, Selection } from "./details";
+import { Label, Labels } from "./labels";
+import {
+  allRows,
+  columnsOf,
+  deepestContact,
+  distinctResults,
+  elementName,
+  featureName,
+  firstImpact,
+  marksOf,
+  noun,
+  partnersOf,
+  Place,
+  rowsWith,
+  timeOf,
+  timeText,
+  titleOf,
+} from "./results";
+import { featuresOf, Scene } from "./scene";
+import { Mark } from "./marks";
+import { Palette, Picked, Stage } from "./stage";
+import { View } from "./view";
+import { VirtualList } from "./virtual_list";
+
+export class SceneMode {
+  stage: Stage | undefined;
+  scene: Scene | undefined;
+  selection: Selection | undefined;
+  private shown = -1; // the result in the list
+  private playing = 0;
+  private readonly list: VirtualList;
+  private readonly summary = byId("summary");
+  private readonly details = byId("details");
+  private readonly search = byId<HTMLInputElement>("search");
+  private readonly which = byId<HTMLSelectElement>("which-result");
+  private readonly time = byId<HTMLInputElement>("time");
+
+  constructor(
+    private readonly view: View,
+    private readonly labels: Labels,
+  ) {
+    this.list = new VirtualList(byId("list"), (row) => this.select({ kind: "row", result: this.shown, row }, true));
+    this.which.addEventListener("change", () => this.showResult(Number(this.which.value)));
+    this.search.addEventListener("input", () => this.filter());
+    this.time.addEventListener("input", () => this.setTime(Number(this.time.value)));
+    byId("play").addEventListener("click", () => this.play());
+    byId("first-impact").addEventListener("click", () => this.headline());
+    byId("fit").addEventListener("click", () => this.fit());
+    byId("hits-only").addEventListener("change", () => this.stage && (this.stage.hitsOnly = this.checked("hits-only")));
+    byId("z-up").addEventListener("change", () => this.turnUp());
+    byId("explode").addEventListener("input", () => this.setExplode());
+    byId("arrows").addEventListener("input", () => this.setArrows());
+    new ResizeObserver(() => this.drawTimeMarks()).observe(byId("time-track"));
+  }
+
+  open(scene: Scene): void {
+    this.stage?.dispose();
+    this.stop();
+    this.scene = scene;
+    this.stage = new Stage(scene, this.view);
+    this.selection = undefined;
+    this.paint();
+    byId("file-name").textContent = scene.title;
+    byId("time-tools").hidden = scene.duration === 0;
+    this.time.max = String(scene.duration || 1);
+    byId("first-impact").hidden = this.first === undefined;
+    byId("arrow-tools").hidden = !scene.results.some((r) => r.kind === "contacts" && r.count > 0);
+    byId<HTMLInputElement>("hits-only").checked = false;
+    byId<HTMLInputElement>("z-up").checked = fallsAlongZ(scene);
+    this.stage.zUp = this.checked("z-up");
+    byId<HTMLInputElement>("explode").value = "0";
+    this.time.value = "0";
+    this.setTime(0);
+    this.setArrows();
+    this.writeSummary();
+    this.writeDetails();
+    this.which.replaceChildren(
+      ...scene.results.map((result, i) => make("option", { value: String(i) }, titleOf(scene, result))),
+    );
+    byId("rows").hidden = scene.results.length === 0;
+    if (scene.results.length > 0) this.showResult(this.headlineResult());
+    this.fit(true);
+  }
+
+  show(): void {
+    if (this.stage === undefined) return;
+    this.view.show(this.stage);
+    this.refreshLabels();
+  }
+
+  paint(): void {
+    const palette: Palette = {
+      background: cssColour("scene"),
+      ink: cssColour("ink"),
+      struck: cssColour("struck"),
+      shallow: cssColour("shallow"),
+      deepest: cssColour("deepest"),
+      a: cssColour("a"),
+      b: cssColour("b"),
+      sets: [0, 1, 2, 3].map((i) => cssColour(`set-${i}`)),
+    };
+    this.stage?.paint(palette);
+    if ((this.scene?.duration ?? 0) > 0) this.drawTimeMarks();
+  }
+
+  private checked(id: string): boolean {
+    return byId<HTMLInputElement>(id).checked;
+  }
+
+  // --- summary ------------------------------------------------------------------------------------------------------------------
+
+  private get first(): Place | undefined {
+    return this.scene && firstImpact(this.scene);
+  }
+  private get deepest(): Place | undefined {
+    return this.scene && deepestContact(this.scene);
+  }
+
+  private headlineResult(): number {
+    const first = this.scene!.results.findIndex((r) => r.count > 0);
+    return this.deepest?.result ?? this.first?.result ?? Math.max(0, first);
+  }
+
+  /** Goes to what matters most: the deepest contact, or the first impact, or the first pair. */
+  headline(): void {
+    if (this.scene === undefined) return;
+    const pairs = this.scene.results.findIndex((r) => r.count > 0);
+    const place = this.deepest ?? this.first ?? (pairs >= 0 ? { result: pairs, row: 0 } : undefined);
+    if (place !== undefined) this.select({ kind: "row", ...place }, true);
+  }
+
+  private writeSummary(): void {
+    const scene = this.scene!;
+    const parts: HTMLElement[] = [];
+    const button = (what: string, value: string, more: string, place: Place) =>
+      make(
+        "button",
+        { class: "headline", type: "button", onclick: () => this.select({ kind: "row", ...place }, true) },
+        make("b", {}, `${what}: `, make("i", { class: "value" }, value)),
+        make("span", {}, `${more}. Show it`),
+      );
+    const deep = this.deepest;
+    if (deep !== undefined) {
+      const r = scene.results[deep.result]!;
+      const more = `${elementName(scene, r.a, r.aIds[deep.row]!)} and ${elementName(scene, r.b, r.bIds[deep.row]!)}`;
+      parts.push(button("Deepest contact", shortest(r.depths[deep.row]!), more, deep));
+    }
+    const first = this.first;
+    if (first !== undefined) {
+      const r = scene.results[first.result]!;
+      const more = featuresOf(r, first.row)
+        .map((f) => `${featureName(f.vertices)} of ${scene.sets[f.set]!.name}`)
+        .join(" and ");
+      parts.push(
+        button(
+          "First impact",
+          `t = ${timeText(r, first.row)}`,
+          more + (r.step > 0 ? `, in the step from frame ${r.step}` : ""),
+          first,
+        ),
+      );
+    }
+    const pairs = scene.results.findIndex((r) => r.kind === "pairs" && r.count > 0);
+    if (parts.length === 0 && pairs >= 0) {
+      const r = scene.results[pairs]!;
+      const more = `first: ${elementName(scene, r.a, r.aIds[0]!)} and ${elementName(scene, r.b, r.bIds[0]!)}`;
+      parts.push(
+        button(r.count === 1 ? "Pair that touches" : "Pairs that touch", r.count.toLocaleString("en"), more, {
+          result: pairs,
+          row: 0,
+        }),
+      );
+    }
+    if (parts.length === 0) parts.push(make("p", { class: "answer no" }, "Nothing touches."));
+    const table = make("table", { class: "sets" });
+    scene.sets.forEach((set, i) => {
+      const toggle = make("input", {
+        type: "checkbox",
+        checked: true,
+        "aria-label": `Show ${set.name}`,
+        onchange: (event) => this.stage!.showSet(i, (event.target as HTMLInputElement).checked),
+      });
+      const swatch = make("span", { class: "swatch", style: `background: var(--set-${i % 4})` });
+      const hits = set.hits > 0 ? `${set.hits.toLocaleString("en")} hit` : "no hit";
+      table.append(
+        make(
+          "tr",
+          {},
+          make("td", {}, make("label", {}, toggle, swatch, set.name)),
+          make(
+            "td",
+            {},
+            (set.of > set.count ? `${set.count.toLocaleString("en")} of ` : "") + counted(set.of, noun(scene, i)),
+          ),
+          make("td", { class: "quiet" }, hits),
+        ),
+      );
+    });
+    const notes = scene.notes.map((note) => make("p", { class: "quiet note" }, note));
+    this.summary.replaceChildren(...parts, table, ...notes);
+  }
+
+  // --- list ---------------------------------------------------------------------------------------------------------------------
+
+  showResult(number: number): void {
+    this.shown = number;
+    this.which.value = String(number);
+    this.search.value = "";
+    this.filter();
+    const result = this.scene!.results[number]!;
+    if (result.kind !== "pairs") this.list.sort(1, result.kind === "contacts");
+    this.arrowsOfSelection();
+  }
+
+  private filter(): void {
+    const result = this.scene?.results[this.shown];
+    if (result === undefined) return;
+    const { column, descending } = this.list.sorting;
+    const asked = this.search.value.trim();
+    const found = asked === "" ? allRows(result) : rowsWith(result, asked);
+    byId("row-count").textContent =
+      found === undefined
+        ? "Type an id: 7, or a 7, or b 7."
+        : asked === ""
+          ? (result.of > result.count ? `${result.count.toLocaleString("en")} of ` : "") + counted(result.of, "row")
+          : `${found.length.toLocaleString("en")} of ${counted(result.count, "row")}`;
+    this.list.show(columnsOf(result), found ?? new Uint32Array(0));
+    if (column >= 0) this.list.sort(column, descending);
+  }
+
+  /** The impact after or before the present time. */
+  stepImpact(forward: boolean): void {
+    const first = this.first;
+    if (first === undefined) return;
+    const result = this.scene!.results[first.result]!;
+    const now = this.selection?.kind === "row" && this.selection.result === first.result ? this.selection.row : -1;
+    const order = Array.from(allRows(result)).sort((i, j) => result.times[i]! - result.times[j]! || i - j);
+    const place = now < 0 ? (forward ? 0 : order.length - 1) : order.indexOf(now) + (forward ? 1 : -1);
+    if (place >= 0 && place < order.length) this.select({ kind: "row", result: first.result, row: order[place]! }, true);
+  }
+
+  // --- selection ------------------------------------------------------------------------------------------------------------------
+
+  select(selection: Selection | undefined, fly: boolean): void {
+    if (this.scene === undefined || this.stage === undefined) return;
+    this.selection = selection;
+    if (selection?.kind === "row") {
+      if (selection.result !== this.shown) this.showResult(selection.result);
+      const result = this.scene.results[selection.result]!;
+      if (result.kind === "impacts") this.setTime(timeOf(result, selection.row));
+    }
+    this.stage.mark(this.marks());
+    this.arrowsOfSelection();
+    this.writeDetails();
+    this.list.mark(selection?.kind === "row" ? selection.row : -1); // after the details, which take room from the list
+    this.refreshLabels();
+    if (fly && selection !== undefined) this.flyThere();
+  }
+
+  private arrowsOfSelection(): void {
+    const s = this.selection;
+    this.stage?.showArrows(this.shown, s?.kind === "row" && s.result === this.shown ? s.row : -1, true);
+  }
+
+  picked(picked: Picked | undefined): void {
+    if (picked === undefined) this.select(undefined, false);
+    else if ("result" in picked) this.select({ kind: "row", ...picked }, false);
+    else this.select({ kind: "element", ...picked }, false);
+  }
+
+  private marks(): Mark[] {
+    const s = this.selection;
+    const scene = this.scene!;
+    if (s === undefined) return [];
+    if (s.kind === "row") {
+      const result = scene.results[s.result]!;
+      const marks = marksOf(scene, result, s.row);
+      if (result.kind === "contacts") marks[0]!.contact = { result: s.result, row: s.row };
+      return marks;
+    }
+    const marks: Mark[] = [{ set: s.set, side: "a", elements: [s.element] }];
+    for (const number of distinctResults(scene)) {
+      const result = scene.results[number]!;
+      for (const partner of partnersOf(scene, result, s.set, s.element)) {
+        if (partner.set >= 0) marks.push({ set: partner.set, side: "b", elements: [partner.element] });
+        else
+          marks.push(
+            ...marksOf(scene, result, partner.row)
+              .filter((m) => m.set !== s.set)
+              .map((m): Mark => ({ ...m, side: "b" })),
+          );
+      }
+    }
+    return marks;
+  }
+
+  private flyThere(): void {
+    const s = this.selection!;
+    const marks = this.marks();
+    const ball = this.stage!.ballOf(s.kind === "row" ? marks : marks.slice(0, 1));
+    const isContact = s.kind === "row" && this.scene!.results[s.result]!.kind === "contacts";
+    const at =
+      isContact && byId<HTMLInputElement>("explode").value === "0"
+        ? this.stage!.pointOfContact(s.result, s.row)
+        : ball.center;
+    this.view.fly(at, Math.min(3.2, Math.max(6 * ball.radius, 0.004)));
+  }
+
+  refreshLabels(): void {
+    const s = this.selection;
+    if (s === undefined || this.stage === undefined) return this.labels.set([]);
+    const words: Label[] = [];
+    const scene = this.scene!;
+    const marks = this.marks();
+    for (const mark of s.kind === "row" ? marks : marks.slice(0, 1)) {
+      const name =
+        mark.vertices !== undefined
+          ? featureName(mark.vertices)
+          : `${noun(scene, mark.set)} ${scene.sets[mark.set]!.ids[mark.elements![0]!]}`;
+      words.push({ at: this.stage.ballOf([mark]).center, text: `${mark.side} · ${name}`, look: mark.side });
+    }
+    if (s.kind === "row" && scene.results[s.result]!.kind === "contacts") {
+      const depth = shortest(scene.results[s.result]!.depths[s.row]!);
+      words.push({ at: this.stage.pointOfContact(s.result, s.row), text: `${depth} deep`, look: "depth" });
+    }
+    this.labels.set(words);
+  }
+
+  // --- details --------------------------------------------------------------------------------------------------------------------
+
+  private writeDetails(): void {
+    const s = this.selection;
+    this.details.hidden = s === undefined;
+    if (s === undefined) return this.details.replaceChildren();
+    const close = make(
+      "button",
+      {
+        type: "button",
+        "aria-label": "Clear the selection",
+        title: "Clear (Esc)",
+        onclick: () => this.select(undefined, false),
+      },
+      "✕",
+    );
+    const body = new DetailsWriter(
+      this.scene!,
+      () => this.stage!.time,
+      (selection, fly) => this.select(selection, fly),
+    ).of(s);
+    this.details.replaceChildren(make("h2", {}, body.title, close), ...body.parts);
+    this.details.scrollTop = 0;
+  }
+
+  // --- controls -------------------------------------------------------------------------------------------------------------------
+
+  fit(atOnce = false): void {
+    if (this.stage === undefined) return;
+    const away = 3.1 / Math.min(1, this.view.camera.aspect) ** 0.9;
+    const middle = new THREE.Vector3(0, -0.08, 0);
+    const direction = new THREE.Vector3(0.55, 0.42, 0.9).normalize();
+    if (atOnce) this.view.show(this.stage);
+    if (atOnce) this.view.place(middle.clone().addScaledVector(direction, away), middle);
+    else this.view.fly(middle, away, direction);
+  }
+
+  private turnUp(): void {
+    if (this.stage === undefined) return;
+    this.stage.zUp = this.checked("z-up");
+    this.refreshLabels();
+  }
+
+  setExplode(value?: number): void {
+    if (this.stage === undefined) return;
+    const slider = byId<HTMLInputElement>("explode");
+    if (value !== undefined) slider.value = String(value);
+    this.stage.explode = Number(slider.value);
+    this.refreshLabels();
+  }
+
+  private setArrows(): void {
+    if (this.stage !== undefined) this.stage.arrowLength = 0.6 * Number(byId<HTMLInputElement>("arrows").value) ** 2;
+  }
+
+  setTime(value: number): void {
+    if (this.stage === undefined) return;
+    this.stage.time = value;
+    this.time.value = String(value);
+    const { duration } = this.scene!;
+    byId("time-value").textContent = duration > 1 ? `${value.toFixed(3)} of ${duration}` : `t = ${value.toFixed(4)}`;
+    this.refreshLabels();
+    if (this.selection?.kind === "element" && this.playing === 0) this.writeDetails(); // its corners have moved
+  }
+
+  play(): void {
+    if (this.playing !== 0) return this.stop();
+    const duration = this.scene?.duration ?? 0;
+    if (duration === 0) return;
+    if (Number(this.time.value) >= duration) this.setTime(0);
+    const length = Math.min(8000, 2500 + 60 * duration); // ms
+    const begin = performance.now() - (length * Number(this.time.value)) / duration;
+    const step = () => {
+      const t = Math.min(1, (performance.now() - begin) / length);
+      this.setTime(t * duration);
+      if (t < 1) this.playing = requestAnimationFrame(step);
+      else this.stop();
+    };
+    byId("play").textContent = "❚❚";
+    this.playing = requestAnimationFrame(step);
+  }
+
+  private stop(): void {
+    cancelAnimationFrame(this.playing);
+    this.playing = 0;
+    byId("play").textContent = "▶";
+  }
+
+  /** A stroke over the slider at each moment of impact. */
+  private drawTimeMarks(): void {
+    const canvas = byId<HTMLCanvasElement>("time-marks");
+    const [width, height] = [canvas.clientWidth, canvas.clientHeight];
+    if (width === 0) return;
+    canvas.width = width * devicePixelRatio;
+    canvas.height = height * devicePixelRatio;
+    const pen = canvas.getContext("2d")!;
+    pen.scale(devicePixelRatio, devicePixelRatio);
+    const impacts = (this.scene?.results ?? []).filter((r) => r.kind === "impacts");
+    const bins = new Float64Array(Math.max(1, Math.floor(width)));
+    const { duration } = this.scene!;
+    for (const result of impacts) {
+      for (let i = 0; i < result.count; ++i)
+        ++bins[Math.min(bins.length - 1, Math.floor((timeOf(result, i) / duration) * bins.length))]!;
+    }
+    const most = bins.reduce((x, y) => Math.max(x, y), 1);
+    pen.fillStyle = cssColour("mark");
+    bins.forEach((n, x) => {
+      const tall = n === 0 ? 0 : 3 + (height - 4) * Math.sqrt(n / most);
+      pen.fillRect(x, height - tall, 1.2, tall);
+    });
+    const first = this.first;
+    if (first === undefined) return;
+    const x = (timeOf(this.scene!.results[first.result]!, first.row) / duration) * width;
+    pen.beginPath();
+    pen.moveTo(x - 5, 0);
+    pen.lineTo(x + 5, 0);
+    pen.lineTo(x, 7);
+    pen.fill();
+  }
+}
+
+/** Whether what moves goes along z more than along x and y, as things fall where z is up. */
+function fallsAlongZ(scene: Scene): boolean {
+  const way = [0, 0, 0];
+  for (const set of scene.sets) set.frames.at(-1)?.forEach((x, i) => (way[i % 3]! += x));
+  return Math.abs(way[2]!) > 2 * Math.max(Math.abs(way[0]!), Math.abs(way[1]!));
+}
