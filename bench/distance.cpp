@@ -4,14 +4,14 @@
 //
 // How far apart two meshes are, in many poses (bench/distance_scene.hpp). Names:
 //
-//   distance/SCENE/KIND/bvh       two linear trees on one core, float
-//   distance/SCENE/KIND/sah       trees by surface area
-//   distance/SCENE/KIND/double    linear trees, in double
-//   distance/SCENE/KIND/openmp    linear trees, on all cores
-//   distance/SCENE/KIND/list      all poses in one call, one core
+//   distance/SCENE/KIND/bvh              two linear trees on one core, float
+//   distance/SCENE/KIND/oriented         oriented trees, of trees by surface area
+//   distance/SCENE/KIND/oriented_double  the same in double
+//   distance/SCENE/KIND/oriented_openmp  in float, on all cores
+//   distance/SCENE/KIND/any              whether anything touches, for comparison: of the oriented trees, one core
 //
-// KIND is apart or touching; a row is the time of all poses of its kind. The peers (bench/distance/) are in the same run, where
-// their packages are there.
+// KIND is apart or touching; a row is the time of all poses of its kind. The peers (bench/distance/) are in the same run,
+// where their packages are there.
 
 #include <string>
 #include <vector>
@@ -43,12 +43,15 @@ abut::rigid<T> pose_in(const pose& p) {
 }
 
 template <class T, class Policy>
-void add(const scene& s, const char* name, const Policy& on, abut::bvh_builder builder = abut::bvh_builder::linear) {
-    const abut::bvh_options options{.builder = builder};
-    distance_peer::add(s, name,
-                       [on, a = make_bvh(on, mesh_in<T>(s.a), options), b = make_bvh(on, mesh_in<T>(s.b), options)](const pose& p) {
-                           return static_cast<double>(abut::distance(on, a, posed(b, pose_in<T>(p)))->distance);
-                       });
+auto oriented_tree(const Policy& on, const distance_scene::surface& s) {
+    return oriented(on, make_bvh(on, mesh_in<T>(s), {.builder = abut::bvh_builder::sah}));
+}
+
+template <class T, class Policy, class Tree>
+void add(const scene& s, const char* name, const Policy& on, const Tree& a, const Tree& b) {
+    distance_peer::add(s, name, [=](const pose& p) {
+        return static_cast<double>(abut::distance(on, a, posed(b, pose_in<T>(p)))->distance);
+    });
 }
 
 }  // namespace
@@ -63,11 +66,14 @@ int main(int argc, char** argv) {
         --argc;
     }
     const std::vector<scene> scenes = distance_scene::make_scenes(folder);
+    const abut::serial on;
     for (const scene& s : scenes) {
-        add<float>(s, "bvh", abut::serial{});
-        add<float>(s, "sah", abut::serial{}, abut::bvh_builder::sah);
-        add<double>(s, "double", abut::serial{});
-        add<float>(s, "openmp", abut::openmp{});
+        add<float>(s, "bvh", on, make_bvh(on, mesh_in<float>(s.a)), make_bvh(on, mesh_in<float>(s.b)));
+        const auto a = oriented_tree<float>(on, s.a), b = oriented_tree<float>(on, s.b);
+        add<float>(s, "oriented", on, a, b);
+        add<double>(s, "oriented_double", on, oriented_tree<double>(on, s.a), oriented_tree<double>(on, s.b));
+        add<float>(s, "oriented_openmp", abut::openmp{}, a, b);
+        distance_peer::add(s, "any", [=](const pose& p) { return abut::any(on, a, posed(b, p)) ? 1.0 : 0.0; });
         for (const auto& peer : distance_peer::peers()) peer(s);
     }
     return bench::run_registered("bench_distance", argc, argv);

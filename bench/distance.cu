@@ -7,8 +7,8 @@
 //   distance/SCENE/KIND/bvh    each pose in a call of its own; ms of all poses
 //   distance/SCENE/KIND/list   all poses in one call
 //
-// Each figure is the median of 21 runs after two that are not counted (fewer of long ones), taken with CUDA events around the
-// whole call.
+// Each figure is the median of 21 runs after two that are not counted (fewer of long ones), taken with CUDA events around
+// the whole call.
 
 #include <cstring>
 #include <string>
@@ -30,7 +30,8 @@ using distance_scene::scene;
 using device_mesh = abut::mesh<float, abut::device_space>;
 
 void add(const abut::cuda& on, const scene& s, table& out) {
-    const auto a = make_bvh(on, device_mesh(on, s.a.vertices, s.a.faces)), b = make_bvh(on, device_mesh(on, s.b.vertices, s.b.faces));
+    const auto a = make_bvh(on, device_mesh(on, s.a.vertices, s.a.faces)),
+               b = make_bvh(on, device_mesh(on, s.b.vertices, s.b.faces));
     const auto add_kind = [&](const char* kind, const std::vector<pose>& poses) {
         if (poses.empty()) return;
         const auto n = static_cast<double>(poses.size());
@@ -41,8 +42,9 @@ void add(const abut::cuda& on, const scene& s, table& out) {
         });
         std::vector<abut::posed_pair<std::remove_const_t<decltype(a)>>> list;
         for (const pose& p : poses) list.push_back({posed(a, pose{}), posed(b, p)});
-        out.add(joined({"distance", s.name, kind, "list"}), 0,
-                [&] { return counters{{"poses", static_cast<double>(abut::distance(on, list).size())}}; });
+        out.add(joined({"distance", s.name, kind, "list"}), 0, [&] {
+            return counters{{"poses", static_cast<double>(abut::distance(on, list).size())}};
+        });
     };
     add_kind("apart", s.apart);
     add_kind("touching", s.touching);

@@ -43,7 +43,8 @@ inline surface torus() {
     constexpr int major = 64, minor = 64;
     for (int i = 0; i < major; ++i) {
         for (int j = 0; j < minor; ++j) {
-            const double u = 2 * std::numbers::pi * i / major, v = 2 * std::numbers::pi * j / minor, r = 2 + 0.5 * std::cos(v);
+            const double u = 2 * std::numbers::pi * i / major, v = 2 * std::numbers::pi * j / minor,
+                         r = 2 + 0.5 * std::cos(v);
             s.vertices.push_back({float(r * std::cos(u)), float(r * std::sin(u)), float(0.5 * std::sin(v))});
             const auto at = [](int k, int l) { return static_cast<std::uint32_t>(k % major * minor + l % minor); };
             s.faces.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What `distance` promises on every policy: 0 exactly where shapes touch, and else the pair with the least distance, as it is
-// computed for one pair, and of equal ones the least ids; the same bits whatever the indices, their layouts and the poses. The
-// truth is a plain loop over all pairs; that one pair is right is tests/narrow's matter.
+// What `distance` promises on every policy: 0 exactly where shapes touch, and else the pair with the least distance, as it
+// is computed for one pair, and of equal ones the least ids; the same bits whatever the indices, their layouts and the
+// poses. The truth is a plain loop over all pairs; that one pair is right is tests/narrow's matter.
 
 #include <cmath>
 #include <cstdint>
@@ -132,7 +132,8 @@ struct two_meshes {
 
     explicit two_meshes(const Policy& on) : there_a(copy_to(on, a)), there_b(copy_to(on, b)) {}
     [[nodiscard]] maybe_apart<T> expected(const rigid<T>& pose_a, const rigid<T>& pose_b) const {
-        return distance_by_definition(posed_view<mesh_view<T>>{a.view(), pose_a}, posed_view<mesh_view<T>>{b.view(), pose_b});
+        return distance_by_definition(posed_view<mesh_view<T>>{a.view(), pose_a},
+                                      posed_view<mesh_view<T>>{b.view(), pose_b});
     }
 };
 
@@ -170,8 +171,9 @@ void check_distance_by_indices(const Policy& on) {
         check_same(distance(on, of.there_a, posed(make_grid(on, of.there_b), pose)), expected);
         check_same(distance(on, quantised(on, tree_a), posed(leafless(on, tree_b), pose)), expected);
         check_same(distance(on, oriented(on, tree_a), posed(oriented(on, tree_b), pose)), expected);
-        check_same(distance(on, make_bvh(on, of.there_a, {.builder = bvh_builder::ploc}), posed(make_grid(on, of.there_b), pose)),
-                   expected);
+        check_same(
+            distance(on, make_bvh(on, of.there_a, {.builder = bvh_builder::ploc}), posed(make_grid(on, of.there_b), pose)),
+            expected);
     }
 }
 
@@ -216,7 +218,8 @@ void check_distance_of_lists(const Policy& on) {
     for (std::size_t i = 0; i < 24; ++i) check_same(distance(on, list[i].a, list[i].b), expected[i]);
     CHECK(distance(on, std::vector<posed_pair<tree>>{}).empty());
     list[3].a.pose.rotation[0] = 2;
-    CHECK(message_of([&] { (void)distance(on, list); }).rfind("abut::distance: entry 3 of the list: rotation row 0", 0) == 0);
+    CHECK(message_of([&] { (void)distance(on, list); }).rfind("abut::distance: entry 3 of the list: rotation row 0", 0) ==
+          0);
 }
 
 template <class T, class Policy>

@@ -15,9 +15,9 @@
 #include "support/samples.hpp"
 #include "support/triangle_families.hpp"
 
-// The oracle: the least squared distance of two hulls, in 300 bits, by the supports of the weights. For each set of corners of
-// one and of the other it solves the normal equations of the free weights, and keeps those that are positive. Hulls that do
-// not meet need four corners at most. It shares no formula with the library.
+// The oracle: the least squared distance of two hulls, in 300 bits, by the supports of the weights. For each set of corners
+// of one and of the other it solves the normal equations of the free weights, and keeps those that are positive. Hulls that
+// do not meet need four corners at most. It shares no formula with the library.
 
 namespace abut::test {
 
@@ -171,8 +171,8 @@ distance_tally check_distances(const std::string& name, std::uint64_t pairs, con
 
 void check_total(const char* name, const distance_tally& tally) {
     std::printf("distance, %s: %llu pairs, %llu touch; off by %.2f, points by %.2f\n", name,
-                static_cast<unsigned long long>(tally.pairs), static_cast<unsigned long long>(tally.touching), tally.distance,
-                tally.point);
+                static_cast<unsigned long long>(tally.pairs), static_cast<unsigned long long>(tally.touching),
+                tally.distance, tally.point);
     CHECK(tally.touching > tally.pairs / 10);
     CHECK(tally.touching < tally.pairs * 9 / 10);
 }

@@ -42,14 +42,17 @@ namespace detail {
 /// The key of no pair.
 inline constexpr std::uint64_t no_pair = static_cast<std::uint64_t>(-1);
 
-// --- what touches: the least key --------------------------------------------------------------------------------------------
+// --- what touches: the least key
+// --------------------------------------------------------------------------------------------
 
 /// A filter: pairs before the first one that is known to touch. So where much touches, little of it is decided.
 template <class Key>
 struct before_first_touch {
     Key key{};
     const std::uint64_t* first = nullptr;  ///< of each entry
-    ABUT_HD bool operator()(std::uint32_t a, std::uint32_t b) const { return key.pack(a, b) < execution::atomic_load(first); }
+    ABUT_HD bool operator()(std::uint32_t a, std::uint32_t b) const {
+        return key.pack(a, b) < execution::atomic_load(first);
+    }
     /// Of a list.
     template <class Tagged>
     ABUT_HD bool operator()(const Tagged& of) const {
@@ -82,16 +85,26 @@ auto first_touches(const Policy& on, Pairing& pairing, std::size_t n) {
     return first;
 }
 
-// --- what does not touch: the least distance --------------------------------------------------------------------------------
+// --- what does not touch: the least distance
+// --------------------------------------------------------------------------------
 
-/// Offers a sink two shapes by their ids.
-template <class View, class Best>
-struct offer_pair {
-    const View& both;
+/// Offers a sink what is measured of two shapes, in the order of the arguments, and turns the reach to where better was
+/// found. What the reach sees first is the second of them if it is `Reversed`.
+template <bool Reversed, class Best, class Reach>
+struct offer_distance {
     Best& best;
+    Reach& reach;
+    vec3<double> along{0, 0, 0};  ///< the way between the nearest so far
+
     ABUT_CALLS_ANY
-    ABUT_HD void operator()(std::uint32_t a, std::uint32_t b) const {
-        best.offer(measure_apart{}.measure(both.a[a], both.b[b], best.bound()), both.pack(a, b));
+    template <class S, class U>
+    ABUT_HD void operator()(const S& s, const U& t, std::uint64_t key) {
+        const double bound = best.bound();
+        const distance_and_way found = measure_apart{}.look(s, t, bound, along);
+        best.offer(found.distance, key);
+        if (!(found.distance < bound)) return;
+        along = found.way;
+        reach.turn_to(Reversed ? vec3<double>{-along.x, -along.y, -along.z} : along);
     }
 };
 
@@ -112,8 +125,11 @@ struct walk_from_pairs {
         constexpr std::uint32_t nowhere = decltype(from.a)::nowhere;
         if (at.a == nowhere || at.b == nowhere) return;
         Reach mine = reach;
-        const offer_pair<View, Best> offers{both, best};
-        once ? walk.descend(at, mine, best, offers) : walk(at, mine, best, offers);
+        offer_distance<false, Best, Reach> offer{best, mine};
+        const auto visit_pair = [&](std::uint32_t id_a, std::uint32_t id_b) {
+            offer(both.a[id_a], both.b[id_b], both.pack(id_a, id_b));
+        };
+        once ? walk.descend(at, mine, best, visit_pair) : walk(at, mine, best, visit_pair);
     }
 };
 
@@ -143,17 +159,24 @@ struct look_from_shapes {
     template <class Best>
     ABUT_HD void operator()(std::size_t i, Best& best) const {
         const auto row = static_cast<std::uint32_t>(i);
-        auto reach = sight.reach_of(bounds_of_row(i));
-        const offer_pair<View, Best> offers{both, best};
-        walk(reach, best, [&](std::uint32_t found) { RowsAreB ? offers(found, row) : offers(row, found); });
+        const auto shape = shape_of_row(i);
+        auto reach = sight.reach_of(bounds(shape));
+        offer_distance<RowsAreB, Best, decltype(reach)> offer{best, reach};
+        walk(reach, best, [&](std::uint32_t found) {
+            if constexpr (RowsAreB) {
+                offer(both.a[found], shape, both.pack(found, row));
+            } else {
+                offer(shape, both.b[found], both.pack(row, found));
+            }
+        });
     }
 
 private:
-    [[nodiscard]] ABUT_HD auto bounds_of_row(std::size_t i) const {
+    [[nodiscard]] ABUT_HD auto shape_of_row(std::size_t i) const {
         if constexpr (RowsAreB) {
-            return bounds(both.b[i]);
+            return both.b[i];
         } else {
-            return bounds(both.a[i]);
+            return both.a[i];
         }
     }
 };
@@ -217,9 +240,9 @@ void walk_two_trees(const Policy& on, const Pairing& pairing, const Walk& walk, 
     const auto both = pairing.view();
     const auto from_depth = [&](int depth, bool once) {
         const seeds_below<Walk> from(walk, depth);
-        for_each_ordered(
-            on, from.count(),
-            walk_from_pairs<Walk, Reach, std::remove_const_t<decltype(both)>>{walk, reach, both, from, once}, best);
+        for_each_ordered(on, from.count(),
+                         walk_from_pairs<Walk, Reach, std::remove_const_t<decltype(both)>>{walk, reach, both, from, once},
+                         best);
     };
     const int depth = depth_of_seeds(concurrency(on), host_policy<Policy>);
     // Whoever begins without a bound looks in vain: many short looks find a good one.
@@ -254,7 +277,8 @@ void look_for_nearest_pair(const Policy& on, const Pairing& pairing, const Index
 /// Offers `best` all pairs that may be the nearest. Nothing touches.
 template <class Policy, class Pairing, class Best>
 void look_for_nearest_pair(const Policy& on, const Pairing& pairing, Best& best) {
-    const auto &a = pairing.a, &b = pairing.b;
+    const auto& a = pairing.a;
+    const auto& b = pairing.b;
     using A = std::remove_cvref_t<decltype(a)>;
     using B = std::remove_cvref_t<decltype(b)>;
     const std::size_t n = a.shapes().size(), m = b.shapes().size();
@@ -262,7 +286,9 @@ void look_for_nearest_pair(const Policy& on, const Pairing& pairing, Best& best)
         const ordered_pair_walk<decltype(a.tree()), decltype(b.tree())> walk{a.tree(), b.tree()};
         if (n > 1 && m > 1 && n <= walk.most_shapes && m <= walk.most_shapes) {
             using T = typename decltype(a.tree())::scalar_type;
-            if constexpr (A::is_posed || B::is_posed) {
+            using walk_type = std::remove_const_t<decltype(walk)>;
+            constexpr bool by_volumes = walk_type::template compares_volumes<near_posed_boxes<T>>();
+            if constexpr (A::is_posed || B::is_posed || by_volumes) {
                 const auto at_a = placement_of(a), at_b = placement_of(b);
                 const near_posed_boxes<T> reach(at_a.pose, at_a.around, at_b.pose, at_b.around);
                 return walk_two_trees(on, pairing, walk, reach, best);
@@ -276,7 +302,8 @@ void look_for_nearest_pair(const Policy& on, const Pairing& pairing, Best& best)
     constexpr bool a_is_better = A::has_tree ? !B::has_tree : A::is_indexed && !B::is_indexed;
     const bool more_in_a = A::is_indexed ? n >= m : n < m;
     if constexpr (alike) {
-        more_in_a ? look_for_nearest_pair<true>(on, pairing, a, m, best) : look_for_nearest_pair<false>(on, pairing, b, n, best);
+        more_in_a ? look_for_nearest_pair<true>(on, pairing, a, m, best)
+                  : look_for_nearest_pair<false>(on, pairing, b, n, best);
     } else if constexpr (a_is_better) {
         look_for_nearest_pair<true>(on, pairing, a, m, best);
     } else {
@@ -284,7 +311,8 @@ void look_for_nearest_pair(const Policy& on, const Pairing& pairing, Best& best)
     }
 }
 
-// --- answers ----------------------------------------------------------------------------------------------------------------
+// --- answers
+// ----------------------------------------------------------------------------------------------------------------
 
 /// What a walk begins with, so that it loses nothing that is below once it is rounded to T.
 template <scalar T>

@@ -16,19 +16,6 @@ namespace abut {
 
 namespace detail {
 
-/// Offers a sink two shapes of an entry.
-template <class View, class Best>
-struct offer_entry_pair {
-    const View& list;
-    std::uint32_t entry;
-    Best& best;
-    ABUT_CALLS_ANY
-    ABUT_HD void operator()(std::uint32_t a, std::uint32_t b) const {
-        const std::uint64_t key = list.key.pack(entry, a, b);
-        best.offer(measure_apart{}.measure(list.shape_a(key), list.shape_b(key), best.bound()), key);
-    }
-};
-
 /// Walks the trees of an entry in which nothing touches.
 template <class View, class TreeA, class TreeB>
 struct walk_entry {
@@ -46,27 +33,33 @@ struct walk_entry {
         const auto& a = list.a.object(of.a);
         const auto& b = list.b.object(of.b);
         if (a.tree.size() == 0 || b.tree.size() == 0) return;
-        const offer_entry_pair<View, Best> offers{list, entry, best};
         if (b.tree.size() == 1) {  // a tree of one shape has no nodes to walk
-            look(list.b.shape(of.b, list.b.object_of[of.b], 0), a, list.a.poses[of.a], best,
-                 [&](std::uint32_t found) { offers(found, 0); });
+            look<true>(list.b.shape(of.b, list.b.object_of[of.b], 0), a, list.a.poses[of.a], entry, best);
         } else if (a.tree.size() == 1) {
-            look(list.a.shape(of.a, list.a.object_of[of.a], 0), b, list.b.poses[of.b], best,
-                 [&](std::uint32_t found) { offers(0, found); });
+            look<false>(list.a.shape(of.a, list.a.object_of[of.a], 0), b, list.b.poses[of.b], entry, best);
         } else {
             near_posed_boxes<T> reach(list.a.poses[of.a], a.bounds, list.b.poses[of.b], b.bounds);
+            offer_distance<false, Best, near_posed_boxes<T>> offer{best, reach};
             const ordered_pair_walk<TreeA, TreeB> walk{a.tree, b.tree};
-            walk({a.tree.root().index(), b.tree.root().index()}, reach, best, offers);
+            walk({a.tree.root().index(), b.tree.root().index()}, reach, best, [&](std::uint32_t id_a, std::uint32_t id_b) {
+                const std::uint64_t key = list.key.pack(entry, id_a, id_b);
+                offer(list.shape_a(key), list.shape_b(key), key);
+            });
         }
     }
 
 private:
+    /// The only shape of one body, which is b if `RowIsB`, looks in the other.
     ABUT_CALLS_ANY
-    template <class Shape, class Object, class Best, class Visitor>
-    ABUT_HD static void look(const Shape& shape, const Object& object, const rigid<T>& pose, const Best& best,
-                             const Visitor& visitor) {
+    template <bool RowIsB, class Shape, class Object, class Best>
+    ABUT_HD void look(const Shape& shape, const Object& object, const rigid<T>& pose, std::uint32_t entry,
+                      Best& best) const {
         auto reach = object_sight<T>{pose, object.bounds}.box(bounds(shape));
-        ordered_tree_walk<std::remove_cvref_t<decltype(object.tree)>>{object.tree}(reach, best, visitor);
+        offer_distance<RowIsB, Best, decltype(reach)> offer{best, reach};
+        ordered_tree_walk<std::remove_cvref_t<decltype(object.tree)>>{object.tree}(reach, best, [&](std::uint32_t found) {
+            const std::uint64_t key = RowIsB ? list.key.pack(entry, found, 0) : list.key.pack(entry, 0, found);
+            offer(list.shape_a(key), list.shape_b(key), key);
+        });
     }
 };
 
@@ -106,8 +99,7 @@ auto distances_of(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>
     // Nothing is below 0: then no entry is looked at.
     execution::best_of_each<space_of<Policy>> best(on, n, bound_below<T>(options.below > 0 ? options.below : 0));
     for_each_ordered(
-        on, n,
-        walk_entry<view_type, typename IndexA::view_type, typename IndexB::view_type>{view, touches.data()}, best);
+        on, n, walk_entry<view_type, typename IndexA::view_type, typename IndexB::view_type>{view, touches.data()}, best);
     execution::buffer_of<Policy, separation<T>> out(on, n);
     for_each_index(on, n, write_separations<view_type>{view, touches.data(), best.data(), options.below, out.data()});
     synchronize(on);

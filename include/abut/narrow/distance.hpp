@@ -2,7 +2,8 @@
 #pragma once
 
 // `distance` of two shapes: how far apart they are and where, and 0 exactly where they touch, as `intersects` decides. The
-// numbers of shapes that do not touch are measured in nearest_ways.hpp; docs/numerics.md bounds what rounding leaves in them.
+// numbers of shapes that do not touch are measured in nearest_ways.hpp; docs/numerics.md bounds what rounding leaves in
+// them.
 
 #include <concepts>
 #include <cstddef>
@@ -23,9 +24,9 @@
 
 namespace abut {
 
-/// How far apart two shapes are, and a point of each that are so far apart. Where two shapes touch the distance is 0, and both
-/// points are one that they share. No distance of shapes that do not touch is 0: at least it is the least positive number.
-/// One that T has no number for is infinite.
+/// How far apart two shapes are, and a point of each that are so far apart. Where two shapes touch the distance is 0, and
+/// both points are one that they share. No distance of shapes that do not touch is 0: at least it is the least positive
+/// number. One that T has no number for is infinite.
 template <scalar T>
 struct separation {
     std::uint32_t a;  ///< id of the first shape; 0 of a single pair
@@ -84,7 +85,9 @@ ABUT_HD constexpr auto common_unit(const S& s, const U& t) {
 template <scalar T>
 ABUT_HD constexpr double gap_of_boxes(const aabb<T>& a, const aabb<T>& b) {
     const auto gap = [](T lower_a, T upper_a, T lower_b, T upper_b) {
-        const auto over = [](T lower, T upper) { return plain_sum(static_cast<double>(lower), -static_cast<double>(upper)); };
+        const auto over = [](T lower, T upper) {
+            return plain_sum(static_cast<double>(lower), -static_cast<double>(upper));
+        };
         return greatest(over(lower_a, upper_b), over(lower_b, upper_a), 0.0);
     };
     vec3<double> gaps{gap(a.lower.x, a.upper.x, b.lower.x, b.upper.x), gap(a.lower.y, a.upper.y, b.lower.y, b.upper.y),
@@ -112,7 +115,7 @@ template <scalar T>
 struct measured_pair {
     nearest_way<T> nearest;  ///< of the cores
     length_unit<T> unit;
-    double length;            ///< of the way, in the unit
+    double length;  ///< of the way, in the unit
     double radius_a, radius_b;
 
     template <class S, class U>
@@ -145,8 +148,8 @@ private:
     }
 };
 
-/// A plane and a triangle that do not touch: how far, in lengths, and where. A plane of normal 0 that is nothing is infinitely
-/// far.
+/// A plane and a triangle that do not touch: how far, in lengths, and where. A plane of normal 0 that is nothing is
+/// infinitely far.
 template <scalar T>
 struct measured_plane {
     double length = infinity<double>;
@@ -188,13 +191,20 @@ inline constexpr bool measured_in_order = requires(const S& s, const U& t, const
 template <scalar T>
 inline constexpr bool measured_in_order<plane<T>, triangle<T>> = true;
 
+/// A distance and a way as long, from the first shape to the second, in no unit.
+struct distance_and_way {
+    double distance = infinity<double>;
+    vec3<double> way{0, 0, 0};
+};
+
 /// Of two shapes that do not touch, rounded to double: positive, or infinite.
 template <class S, class U>
-ABUT_NOINLINE ABUT_HD constexpr double distance_apart(const S& s, const U& t) {
+ABUT_NOINLINE ABUT_HD constexpr distance_and_way distance_apart(const S& s, const U& t) {
     if constexpr (requires { s.normal; }) {
-        return positive_distance(s, t, measured_plane(s, t).length);
+        return {positive_distance(s, t, measured_plane(s, t).length)};
     } else {
-        return positive_distance(s, t, measured_pair<scalar_type_of<S>>(s, t).distance());
+        const measured_pair<scalar_type_of<S>> m(s, t);
+        return {positive_distance(s, t, m.distance()), m.nearest.way};
     }
 }
 
@@ -231,7 +241,7 @@ template <class S, class U>
 concept measurable = (contact_pair<S, U> && measured_in_order<S, U>) || (contact_pair<U, S> && measured_in_order<U, S>);
 
 template <class S, class U>
-inline constexpr bool measured_as_given = contact_pair<S, U> && measured_in_order<S, U>;
+inline constexpr bool measured_as_given = contact_pair<S, U>&& measured_in_order<S, U>;
 
 /// Two shapes of which it is known whether they touch.
 template <class S, class U>
@@ -249,26 +259,35 @@ ABUT_HD constexpr auto separation_of(const S& s, const U& t, bool touch) {
 /// Measures distances of shapes that do not touch.
 struct measure_apart {
     template <class S, class U>
-        requires measurable<S, U>
-    ABUT_HD double measure(const S& s, const U& t, double bound) const {
+    requires measurable<S, U> ABUT_HD double measure(const S& s, const U& t, double bound) const {
+        return look(s, t, bound, {0, 0, 0}).distance;
+    }
+    /// With a way; `along` is one that is likely to be along it.
+    template <class S, class U>
+        requires measurable<S, U> ABUT_HD distance_and_way look(const S& s, const U& t, double bound,
+                                                                const vec3<double>& along)
+    const {
         if constexpr (!measured_as_given<S, U>) {
-            return measure(t, s, bound);
+            const auto opposite = [](const vec3<double>& v) { return vec3<double>{-v.x, -v.y, -v.z}; };
+            const distance_and_way found = look(t, s, bound, opposite(along));
+            return {found.distance, opposite(found.way)};
         } else {
-            if (is_surely_beyond(s, t, bound)) return infinity<double>;
+            if (is_surely_beyond(s, t, bound, along)) return {};
             return distance_apart(s, t);
         }
     }
 
 private:
     /// Most pairs that a walk meets are told to be too far apart in a fraction of the time that measuring takes: surely they
-    /// are, if there is a slab of that width between them, orthogonal to w, the way from one's middle to the other's as it is
-    /// rounded.
+    /// are, if there is a slab of that width between them. Tried are two vectors w, to which the slab is orthogonal: the
+    /// given one, and the way from one's middle to the other's, as they are rounded.
     ///
     /// A corner's product with w is off by less than 5u |w| |corner|, and the gap by twice that of the largest. Nothing is
-    /// said where the gap is below 2^-36 of |w| times the root of all corners' squares, so that it is off by 2^-16 of itself,
-    /// and the distance, as it is measured, by less. What underflows is nothing beside 2^-900; what overflows says nothing.
+    /// said where the gap is below 2^-36 of |w| times the root of all corners' squares, so that it is off by 2^-16 of
+    /// itself, and the distance, as it is measured, by less. What underflows is nothing beside 2^-900; what overflows says
+    /// nothing.
     template <class S, class U>
-    ABUT_HD static bool is_surely_beyond(const S& s, const U& t, double bound) {
+    ABUT_HD static bool is_surely_beyond(const S& s, const U& t, double bound, const vec3<double>& along) {
         if constexpr (requires { core_of(s).corners + core_of(t).corners; }) {
             const auto a = core_of(s);
             const auto b = core_of(t);
@@ -286,14 +305,17 @@ private:
                 sum_b = sum_b + q[j];
                 all += dot(q[j], q[j]);
             }
-            const vec3<double> w = static_cast<double>(n) * sum_b - static_cast<double>(m) * sum_a;
-            double from = 0, to = infinity<double>;
-            for (int i = 1; i < n; ++i) from = greatest(from, dot(w, p[i]));
-            for (int j = 0; j < m; ++j) to = least(to, dot(w, q[j]));
-            const double gap = to - from, square = gap * gap, ww = dot(w, w);
             const length_unit<scalar_type_of<S>> plain;
             const double far = bound + (core_radius(s, plain) + core_radius(t, plain));
-            return gap > 0 && square > 0x1p-900 && square > ww * greatest(0x1p-72 * all, (1 + 0x1p-10) * (far * far));
+            const double least_square = greatest(0x1p-72 * all, (1 + 0x1p-10) * (far * far));
+            const auto tells = [&](const vec3<double>& w) {
+                double from = 0, to = infinity<double>;
+                for (int i = 1; i < n; ++i) from = greatest(from, dot(w, p[i]));
+                for (int j = 0; j < m; ++j) to = least(to, dot(w, q[j]));
+                const double gap = to - from, square = gap * gap;
+                return gap > 0 && square > 0x1p-900 && square > dot(w, w) * least_square;
+            };
+            return tells(along) || tells(static_cast<double>(n) * sum_b - static_cast<double>(m) * sum_a);
         } else {
             return false;
         }
@@ -304,8 +326,8 @@ private:
 
 /// How far apart two closed shapes are: a `separation` with ids 0. It takes the pairs that `contact_of` takes, in either
 /// order: triangles, segments and points with triangles; spheres with triangles, segments and spheres; capsules, boxes and
-/// planes with triangles. The distance is 0 exactly where the two touch, as `intersects` decides. Otherwise it is accurate to
-/// a few units in the last place of the shapes' farthest corners (docs/numerics.md). The same bits on every compiler and
+/// planes with triangles. The distance is 0 exactly where the two touch, as `intersects` decides. Otherwise it is accurate
+/// to a few units in the last place of the shapes' farthest corners (docs/numerics.md). The same bits on every compiler and
 /// device, in constant expressions too. Shapes are finite and valid.
 ///
 ///     constexpr auto d = abut::distance(abut::sphere<float>{{0, 0, 4}, 1},

@@ -56,7 +56,10 @@ struct plane_heights {
         const int both = -(of_normal + scale.exponent);
         const bool is_far = both + of_offset > 100;
         if (is_far) exponent = of_offset - of_normal;
-        const auto offset = two_doubles::of(scaled(given_offset, is_far ? -of_offset : both < -2044 ? -2044 : both > 2046 ? 2046 : both));
+        const auto offset = two_doubles::of(scaled(given_offset, is_far         ? -of_offset
+                                                                 : both < -2044 ? -2044
+                                                                 : both > 2046  ? 2046
+                                                                                : both));
         for (std::size_t i = 0; i < N; ++i) {
             const two_doubles over = is_far ? -offset : dot(normal, as<two_doubles>(at[i])) - offset;
             height[i] = over / length;

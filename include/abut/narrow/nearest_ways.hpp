@@ -6,10 +6,10 @@
 // every compiler, flag and device that rounds to nearest and keeps subnormals.
 //
 // The least way between two hulls of corners that do not meet begins or ends at a corner, or joins two edges inside both.
-// So it is the least of these: between two corners, from a corner to a place inside an edge or a face of the other, and between
-// two edges where their lines come nearest. Each candidate is a way between two points that are combinations of corners with weights in [0, 1].
-// So none is shorter than the least way but for a few units of roundoff of D, the largest distance between a corner of one
-// and a corner of the other.
+// So it is the least of these: between two corners, from a corner to a place inside an edge or a face of the other, and
+// between two edges where their lines come nearest. Each candidate is a way between two points that are combinations of
+// corners with weights in [0, 1]. So none is shorter than the least way but for a few units of roundoff of D, the largest
+// distance between a corner of one and a corner of the other.
 //
 // Nor is the least of them longer by more. Let two edges u and v, no longer than L, lie on lines at a distance g and an
 // angle with the sine s, and let c u be some units of roundoff. The product u x v is off by c u |u| |v|, and so the place on
@@ -40,8 +40,6 @@ struct nearest_way {
     vec3<double> way{};      ///< from a's end to b's
     vec3<T> from_a, from_b;  ///< corners
     vec3<double> to_a{}, to_b{};
-};
-    }
 };
 
 /// A hull of corners, and its edges in a unit. A triangle, a segment or a point.
@@ -96,9 +94,11 @@ struct nearest_way_finder {
         const double square = plain_dot(way, way);
         if (square < best.square) best = {square, way, p, q, {}, {}};
     }
-    /// From a corner p of one, which is b if `Reversed`, to an edge of the other, inside it; `seen` is where the edge begins.
+    /// From a corner p of one, which is b if `Reversed`, to an edge of the other, inside it; `seen` is where the edge
+    /// begins.
     template <bool Reversed>
-    ABUT_HD constexpr void offer_edge(const vec3<T>& p, const vec3<double>& seen, const vec3<double>& edge, double edge_square) {
+    ABUT_HD constexpr void offer_edge(const vec3<T>& p, const vec3<double>& seen, const vec3<double>& edge,
+                                      double edge_square) {
         const double along = -plain_dot(seen, edge);
         if (along > 0 && along < edge_square) offer_foot<Reversed>(p, plain_step(seen, along / edge_square, edge));
     }

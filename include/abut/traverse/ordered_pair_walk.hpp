@@ -2,9 +2,9 @@
 #pragma once
 
 // Two trees at once, for what is least of pairs: the nearest pair of nodes first, and less and less far as better is found.
-// The counterpart of ordered_walk.hpp for two trees. A walk takes a reach of pairs that shrinks (shape/pair_reach.hpp), a sink
-// of execution/ordered.hpp, whose bound shrinks it, and a visitor, which offers the sink what it finds. It passes over nothing
-// that may be as good as the bound.
+// The counterpart of ordered_walk.hpp for two trees. A walk takes a reach of pairs that shrinks (shape/pair_reach.hpp), a
+// sink of execution/ordered.hpp, whose bound shrinks it, and a visitor, which offers the sink what it finds. It passes over
+// nothing that may be as good as the bound.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,9 +18,9 @@
 
 namespace abut::detail {
 
-/// A pair of nodes makes the pairs of their children. Of these the nearest is next, and the others wait with their distances;
-/// they are dropped when their turn comes if the reach has shrunk below that. Pairs of leaves wait like nodes. Trees of two
-/// shapes or more: a leaf alone has no link.
+/// A pair of nodes makes the pairs of their children. Of these the nearest is next, and the others wait with their
+/// distances; they are dropped when their turn comes if the reach has shrunk below that. Pairs of leaves wait like nodes.
+/// Trees of two shapes or more: a leaf alone has no link.
 template <bvh_layout A, bvh_layout B>
 struct ordered_pair_walk {
     using T = typename A::scalar_type;
@@ -28,6 +28,15 @@ struct ordered_pair_walk {
     static constexpr std::size_t most_shapes = pair_walk<A, B, same_frame>::most_shapes;
     A a;
     B b;
+    /// Whether volumes of both trees are compared, and not the boxes around them.
+    template <class Reach>
+    static consteval bool compares_volumes() {
+        if constexpr (bvh_layouts_of_one_volume<A, B>) {
+            return requires(const Reach& reach, const typename A::volume_type& v) { reach.least_between(v, v); };
+        } else {
+            return false;
+        }
+    }
 
     /// All pairs below a pair of nodes.
     ABUT_CALLS_ANY
@@ -86,6 +95,15 @@ private:
         for (int slot = 1; slot < tree.children(node); ++slot) box = merge(box, tree.bounds(node, slot));
         return box;
     }
+    /// A child's volume, if both trees have volumes that the reach knows, or else its box.
+    template <class Reach, class Tree>
+    [[nodiscard]] ABUT_HD static auto what_bounds(const Tree& tree, const typename Tree::node_type& node, int slot) {
+        if constexpr (compares_volumes<Reach>()) {
+            return tree.volume(node, slot);
+        } else {
+            return tree.bounds(node, slot);
+        }
+    }
     template <class Reach>
     [[nodiscard]] ABUT_HD T least_of(const item& at, const Reach& reach) const {
         return reach.least_between(bounds_of(a, at.a), bounds_of(b, at.b));
@@ -99,12 +117,13 @@ private:
         const auto& of_b = b.fetch(at_b.node);
         const int first = waiting, end_a = at_a.end_of_slots(a.children(of_a)), end_b = at_b.end_of_slots(b.children(of_b));
         for (int i = at_a.first_slot(); i < end_a; ++i) {
-            const aabb<T> box = a.bounds(of_a, i);
+            const auto box = what_bounds<Reach>(a, of_a, i);
             const std::uint32_t child_a = link_to(a.child(of_a, i), A::width * at_a.node + static_cast<std::uint32_t>(i));
             for (int j = at_b.first_slot(); j < end_b; ++j) {
-                const T least = reach.least_between(box, b.bounds(of_b, j));
+                const T least = reach.least_between(box, what_bounds<Reach>(b, of_b, j));
                 if (!reach.keeps(least)) continue;
-                const std::uint32_t child_b = link_to(b.child(of_b, j), B::width * at_b.node + static_cast<std::uint32_t>(j));
+                const std::uint32_t child_b =
+                    link_to(b.child(of_b, j), B::width * at_b.node + static_cast<std::uint32_t>(j));
                 int place = waiting++;
                 for (; place > first && pending[place - 1].least < least; --place) pending[place] = pending[place - 1];
                 pending[place] = {{child_a, child_b}, least};
