@@ -336,8 +336,13 @@ private:
 /// @ingroup one_pair
 template <shape S, shape U>
 [[nodiscard]] ABUT_HD constexpr auto distance(const S& s, const U& t) {
-    static_assert(detail::measurable<S, U>, "abut: there is no distance of this pair of shapes");
-    return detail::separation_of(detail::as_stored(s), detail::as_stored(t), intersects(s, t));
+    constexpr bool are = detail::measurable<S, U>;
+    static_assert(are, "abut: there is no distance of this pair of shapes");
+    if constexpr (are) {
+        return detail::separation_of(detail::as_stored(s), detail::as_stored(t), intersects(s, t));
+    } else {
+        return separation<scalar_type_of<S>>{};
+    }
 }
 
 }  // namespace abut

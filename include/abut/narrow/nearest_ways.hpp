@@ -20,7 +20,6 @@
 // end is longer than the least one by the same e. So parallel edges need no special care, and needles none: of the foot on a
 // face nearest_point.hpp says the same.
 
-#include <concepts>
 #include <cstddef>
 
 #include <abut/arithmetic/error_free.hpp>
