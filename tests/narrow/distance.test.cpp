@@ -122,6 +122,10 @@ const char* wrong_with_distance(const S& s, const U& t, distance_tally& tally) {
     ++tally.pairs;
     if (found.a != 0 || found.b != 0) return "ids are not 0";
     const separation<T> other = distance(t, s);
+    if constexpr (!std::same_as<S, U>) {
+        const separation<T> swapped{0, 0, found.point_b, found.point_a, found.distance};
+        if (!(other == swapped)) return "the other order has another answer";
+    }
     if (intersects<exact>(s, t)) {
         ++tally.touching;
         if (found.distance != 0 || other.distance != 0) return "what touches is apart";

@@ -69,14 +69,14 @@ ABUT_HD constexpr double core_radius(const S& s, const length_unit<T>& unit) {
     }
 }
 
-/// A unit for two shapes: what products of six lengths stay in.
+/// A unit for two shapes: what products of four lengths stay in.
 template <class S, class U>
 ABUT_HD constexpr auto common_unit(const S& s, const U& t) {
     using T = scalar_type_of<S>;
     if constexpr (std::same_as<T, float>) {
         return length_unit<float>{};
     } else {
-        return length_unit<double>(greatest(contact_math::magnitude_of(s), contact_math::magnitude_of(t)), 160);
+        return length_unit<double>(greatest(contact_math::magnitude_of(s), contact_math::magnitude_of(t)));
     }
 }
 

@@ -46,10 +46,10 @@ struct length_unit<double> {
     double per_length = 1, unit = 1;
 
     length_unit() = default;
-    /// For coordinates that are nowhere larger in magnitude than `largest`: they come below 2^bits.
-    ABUT_HD explicit constexpr length_unit(double largest, int bits = 250) {
+    /// For coordinates that are nowhere larger in magnitude than `largest`: they come below 2^250.
+    ABUT_HD explicit constexpr length_unit(double largest) {
         if (!(largest > 0)) return;
-        const int e = bits - 1 - contact_math::exponent_of(largest), k = e < -1000 ? -1000 : e > 1000 ? 1000 : e;
+        const int e = 249 - contact_math::exponent_of(largest), k = e < -1000 ? -1000 : e > 1000 ? 1000 : e;
         per_length = contact_math::power_of_two(k);
         unit = contact_math::power_of_two(-k);
     }
