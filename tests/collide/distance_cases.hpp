@@ -159,6 +159,38 @@ void check_distance_of_meshes(const Policy& on) {
     check_same(distance(on, tree_a, tree_b), of.expected({}, {}));
 }
 
+/// Two parallel sheets far from the origin: nearly all pairs of triangles are as far apart as each other, but for the
+/// rounding of placed corners, which alone says which is the nearest.
+template <class T, class Policy>
+void check_distance_of_sheets(const Policy& on) {
+    std::vector<vec3<T>> vertices;
+    std::vector<face> faces;
+    constexpr std::uint32_t n = 9;
+    for (std::uint32_t i = 0; i <= n; ++i) {
+        for (std::uint32_t j = 0; j <= n; ++j) vertices.push_back({T(i) / 7, T(j) / 7, 0});
+    }
+    for (std::uint32_t i = 0; i < n * n; ++i) {
+        const std::uint32_t at = i / n * (n + 1) + i % n;
+        faces.push_back({at, at + 1, at + n + 1});
+        faces.push_back({at + 1, at + n + 2, at + n + 1});
+    }
+    const mesh<T> sheet(vertices, faces);
+    const auto tree = make_bvh(on, copy_to(on, sheet));
+    for (int i = 0; i < 6; ++i) {
+        CAPTURE(i);
+        draws d(91, 5, static_cast<std::uint64_t>(i));
+        rigid<T> a;
+        const long double w = d.uniform(-1, 1), x = d.uniform(-1, 1), y = d.uniform(-1, 1), z = d.uniform(-1, 1);
+        construction::set_rotation(a, w, x, y, z);
+        rigid<T> b = a;
+        a.translation = {T(1000), T(-3000), T(2000) + T(i)};
+        const vec3<T> up = detail::column(a.rotation, 2);
+        b.translation = a.translation + T(2) * up;
+        const posed_view<mesh_view<T>> placed_a{sheet.view(), a}, placed_b{sheet.view(), b};
+        check_same(distance(on, posed(tree, a), posed(tree, b)), distance_by_definition(placed_a, placed_b));
+    }
+}
+
 /// Indices of other kinds.
 template <class T, class Policy>
 void check_distance_by_indices(const Policy& on) {
@@ -312,6 +344,7 @@ void check_all_distances(const Policy& on) {
     check_distance_below<T>(on);
     check_distance_of_lists<T>(on);
     check_distance_of_meshes<T>(on);
+    check_distance_of_sheets<T>(on);
     check_distance_by_indices<T>(on);
     check_distance_scales<T>(on);
     check_distance_of<sphere<T>, triangle<T>>(on, 93);
