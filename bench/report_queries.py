@@ -174,6 +174,42 @@ def nearest_cuda(results):
         made_on(r)
 
 
+# --- distances --------------------------------------------------------------------------------------------------------------
+
+SCENES = {"robot": "robot in a room", "scan": "scan of 27,674 triangles", "large_scan": "scan of 345,944 triangles", "torus": "torus"}
+
+
+def distance_rows(r, names):
+    """A row for each scene and kind, in microseconds a pose; the first of `names` is the peer."""
+    for scene in r.parts("distance/", 1):
+        for kind in r.parts(f"distance/{scene}/", 2):
+            start = f"distance/{scene}/{kind}"
+            poses = max(int(r.get(name, "poses") or 0) for name in r.names(start + "/"))
+            yield scene, kind, poses, [None if r.get(f"{start}/{n}") is None else r.get(f"{start}/{n}") * 1e3 / poses for n in names]
+
+
+@in_table("distance-cpu")
+def distance_cpu(results):
+    r = results["cpu/distance"]
+    names = {"fcl": "FCL, double", "fcl_float": "FCL, float", "bvh": "`make_bvh`", "oriented": "`oriented`",
+             "oriented_double": "`oriented`, double", "oriented_openmp": "`oriented`, openmp", "any": "`any`, `oriented`"}
+    rows = []
+    for scene, kind, poses, times in distance_rows(r, names):
+        peer = min(t for t in times[:2] if t is not None) if times[0] is not None else None
+        rows.append([SCENES[scene], kind, f"{poses:,}"] + [shown(t) for t in times] + [quotient(min(times[2:4]), peer)])
+    return ["Microseconds a pose; one core, but for openmp:", ""] + \
+        table(["scene", "poses", "number"] + list(names.values()) + ["the faster tree over the faster FCL"], rows) + made_on(r)
+
+
+@in_table("distance-cuda")
+def distance_cuda(results):
+    r = results["cuda/distance"]
+    names = {"bvh": "a call for each pose", "list": "all poses in one call"}
+    rows = [[SCENES[scene], kind, f"{poses:,}"] + [shown(t) for t in times]
+            for scene, kind, poses, times in distance_rows(r, names)]
+    return ["Microseconds a pose:", ""] + table(["scene", "poses", "number"] + list(names.values()), rows) + made_on(r)
+
+
 BODIES = {"build": "`make_bodies`", "refit": "`refit`", "refit_from_host": "`refit`, poses in host memory",
           "near": "near pairs of bodies alone", "pairs": "`pairs`", "unsorted": "`pairs`, not sorted", "count": "`count`",
           "any": "`any`", "contacts": "`contacts`", "fast": "`pairs<fast>`", "ploc": "`pairs`, trees by `ploc`",

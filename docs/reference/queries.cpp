@@ -115,6 +115,18 @@ void query_nearest() {
     //! [nearest]
 }
 
+void query_distance() {
+    const abut::serial on;
+    //! [distance]
+    const abut::triangle<float> above{{1, 1, 7}, {2, 1, 7}, {1, 2, 9}};
+    const auto apart = abut::distance(on, abut::make_bvh(on, tetrahedron), above);
+    expect(apart && apart->b == 0 && apart->distance == abut::distance(on, tetrahedron, above)->distance);
+    expect(!abut::distance(on, tetrahedron, above, {.below = 1}));          // nothing is nearer than 1
+    expect(abut::distance(on, tetrahedron, tetrahedron)->distance == 0);    // it touches itself
+    expect(abut::distance(above, abut::vec3<float>{1, 1, 4}).distance == 3);  // of two shapes
+    //! [distance]
+}
+
 void query_mesh() {
     //! [validate]
     const auto report = abut::validate(abut::serial{}, tetrahedron);
@@ -150,6 +162,7 @@ int main() {
     query_itself();
     query_contacts();
     query_nearest();
+    query_distance();
     query_mesh();
     query_one_pair();
 }

@@ -11,9 +11,11 @@
 #include <abut/collide/bodies.hpp>
 #include <abut/collide/body_pairs.hpp>
 #include <abut/collide/contacts.hpp>
+#include <abut/collide/distance.hpp>
 #include <abut/collide/first_impact.hpp>
 #include <abut/collide/impacts.hpp>
 #include <abut/collide/list.hpp>
+#include <abut/collide/list_distance.hpp>
 #include <abut/collide/nearest.hpp>
 #include <abut/collide/query.hpp>
 #include <abut/collide/reduce_contacts.hpp>
@@ -31,6 +33,7 @@
 #include <abut/index/refit.hpp>
 #include <abut/index/wide.hpp>
 #include <abut/narrow/contact.hpp>
+#include <abut/narrow/distance.hpp>
 #include <abut/narrow/feature_weights.hpp>
 #include <abut/narrow/nearest_point.hpp>
 #include <abut/narrow/time_of_impact.hpp>

@@ -22,7 +22,7 @@ namespace abut::test {
 namespace fcl_runs {
 
 struct comparison {
-    int scenes = 0, meet = 0;
+    int scenes = 0, meet = 0, apart = 0;  // apart: whose distance was compared
     std::size_t hits = 0, near_contact = 0, wrong = 0;
 
     void print(const char* name) const {
@@ -45,13 +45,23 @@ inline bool is_near_contact(const triangle<double>& a, const triangle<double>& b
 template <class Policy>
 void compare(const Policy& on, const mesh<double>& a, const fcl_model& model_a, const mesh<double>& b,
              const rigid<double>& pose, double margin, comparison& all) {
-    const std::vector<index_pair> theirs = fcl_pairs(model_a, make_fcl_model(b.view(), pose));
-    const auto ours = to_host(pairs(on, make_bvh(on, a), posed(make_bvh(on, b), pose)));
+    const fcl_model model_b = make_fcl_model(b.view(), pose);
+    const std::vector<index_pair> theirs = fcl_pairs(model_a, model_b);
+    const auto tree_a = make_bvh(on, a), tree_b = make_bvh(on, b);
+    const auto ours = to_host(pairs(on, tree_a, posed(tree_b, pose)));
     std::vector<index_pair> differing;
     std::set_symmetric_difference(ours.begin(), ours.end(), theirs.begin(), theirs.end(), std::back_inserter(differing));
     for (const index_pair& p : differing) {
         const bool is_near = is_near_contact(a.view()[p.a], place(pose, b.view()[p.b]), margin);
         ++(is_near ? all.near_contact : all.wrong);
+    }
+    if constexpr (std::same_as<Policy, serial>) {
+        const auto apart = distance(on, tree_a, posed(tree_b, pose));
+        CHECK((apart->distance == 0) == !ours.empty());
+        if (ours.empty() && theirs.empty()) {
+            ++all.apart;
+            CHECK(apart->distance == Approx(fcl_distance(model_a, model_b)).epsilon(1e-7));
+        }
     }
     ++all.scenes;
     all.meet += theirs.empty() ? 0 : 1;
@@ -102,6 +112,7 @@ void check_fcl_files(const Policy& on) {
     const fcl_runs::comparison all = fcl_runs::compare_under(
         on, {20261202, 400, {-3000, -3000, 0}, {3000, 3000, 3000}, 1e-6, 100, 5000}, "env.obj and rob.obj", env, rob);
     CHECK(all.meet < all.scenes);
+    if constexpr (std::same_as<Policy, serial>) CHECK(all.apart > 20);
     const auto scan = io::read_mesh<double>(*folder / "armadillo_2766.ply");
     fcl_runs::compare_under(on, {20261203, 40, {-0.4, -0.4, -0.4}, {0.4, 0.4, 0.4}, 1e-9, 20, 5000}, "armadillo_2766.ply",
                             scan, scan);

@@ -403,6 +403,11 @@ TEST_CASE("nearest_point: by hand") {
     CHECK(nearest_point(sphere<float>{{0, 0, 0}, 2}, vec{5, 0, 0}) == vec{2, 0, 0});
     CHECK(nearest_point(sphere<float>{{0, 0, 0}, 2}, vec{1, 0, 1}) == vec{1, 0, 1});
     CHECK(nearest_point(capsule<float>{{{0, 0, 0}, {4, 0, 0}}, 1}, vec{2, 3, 0}) == vec{2, 1, 0});
+    // A way that is longer than the largest number.
+    constexpr double most = std::numeric_limits<double>::max();
+    const auto far = nearest_point(segment<double>{{most / 2, -most, 0}, {most, most, 0}}, vec3<double>{-most, 0, 0});
+    CHECK(far.x / most == Approx(11.0 / 17));
+    CHECK(far.y / most == Approx(-7.0 / 17));
     static_assert(approachable<triangle<float>> && approachable<capsule<double>> && !approachable<plane<float>>);
 }
 

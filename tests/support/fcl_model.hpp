@@ -52,4 +52,11 @@ inline std::vector<index_pair> fcl_pairs(const fcl_model& a, const fcl_model& b)
     return pairs;
 }
 
+/// How far apart two models are that do not touch.
+inline double fcl_distance(const fcl_model& a, const fcl_model& b) {
+    const fcl::Transform3d identity = fcl::Transform3d::Identity();
+    fcl::DistanceResultd result;
+    return fcl::distance(a.get(), identity, b.get(), identity, fcl::DistanceRequestd(), result);
+}
+
 }  // namespace abut::test

@@ -431,15 +431,28 @@ using chosen_walk = typename std::conditional_t<
     Traversal == traversal::both_at_once || Traversal == traversal::breadth_first || Traversal == traversal::from_front,
     std::type_identity<pair_walk<A, B, Overlap>>, std::type_identity<rule_walk<A, B, Overlap, Traversal>>>::type;
 
+/// Where an operand with a tree lies: its pose, and the box around its shapes in their frame.
+template <scalar T>
+struct placement {
+    rigid<T> pose;
+    aabb<T> around;
+};
+template <class Operand>
+auto placement_of(const Operand& x) {
+    if constexpr (Operand::is_posed) {
+        return placement{x.pose, x.around};
+    } else {
+        const auto around = x.index.bounds();
+        return placement{rigid<decltype(around.lower.x + 0)>{}, around};
+    }
+}
+
 /// How boxes of two operands' trees are compared.
 template <class A, class B>
 auto box_overlap(const A& a, const B& b) {
-    if constexpr (A::is_posed && B::is_posed) {
-        return two_frames{make_relative_pose(a.pose, a.around, b.pose, b.around)};
-    } else if constexpr (A::is_posed) {
-        return two_frames{make_relative_pose(a.pose, a.around, {}, b.index.bounds())};
-    } else if constexpr (B::is_posed) {
-        return two_frames{make_relative_pose({}, a.index.bounds(), b.pose, b.around)};
+    if constexpr (A::is_posed || B::is_posed) {
+        const auto at_a = placement_of(a), at_b = placement_of(b);
+        return two_frames{make_relative_pose(at_a.pose, at_a.around, at_b.pose, at_b.around)};
     } else {
         return same_frame{};
     }

@@ -65,6 +65,17 @@ inline ABUT_HD void set_bits_in_group(std::uint32_t* target, std::uint32_t bits)
 #endif
 }
 
+/// Leaves the lesser of the word and the value there.
+inline ABUT_HD void atomic_min(std::uint64_t* target, std::uint64_t value) {
+#if ABUT_DEVICE_CODE
+    atomicMin(reinterpret_cast<unsigned long long*>(target), static_cast<unsigned long long>(value));
+#else
+    std::atomic_ref<std::uint64_t> word(*target);
+    std::uint64_t seen = word.load(std::memory_order_relaxed);
+    while (value < seen && !word.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {}
+#endif
+}
+
 /// Stores `desired` if the word is `expected`; returns the value before. T as for atomic_add.
 template <class T>
 ABUT_HD T atomic_compare_exchange(T* target, T expected, T desired) {

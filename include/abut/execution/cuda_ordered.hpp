@@ -53,10 +53,7 @@ public:
         __device__ void begin(std::size_t) {}
         __device__ void offer(double value, std::uint64_t key) {
             mine.offer(value, key);
-            if (value < bound()) {
-                atomicMin(reinterpret_cast<unsigned long long*>(word),
-                          static_cast<unsigned long long>(__double_as_longlong(value)));
-            }
+            if (value < bound()) atomic_min(word, static_cast<std::uint64_t>(__double_as_longlong(value)));
         }
         [[nodiscard]] __device__ double bound() const {
             return __longlong_as_double(static_cast<long long>(atomic_load(word)));
@@ -74,8 +71,8 @@ public:
         }
     };
 
-    explicit best_of_all(const cuda& on) : word_(on, 1) {
-        fill(on, word_.data(), 1, __builtin_bit_cast(std::uint64_t, least_value{}.value));
+    explicit best_of_all(const cuda& on, double bound = least_value{}.value) : word_(on, 1) {
+        fill(on, word_.data(), 1, __builtin_bit_cast(std::uint64_t, bound));
     }
     [[nodiscard]] least_value least() const { return least_; }
 

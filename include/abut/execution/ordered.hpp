@@ -45,22 +45,23 @@ public:
     /// Of the index that is being walked.
     struct sink {
         least_value* out;
+        double most;
         least_value mine{};
 
         ABUT_HD void begin(std::size_t) { mine = {}; }
         ABUT_HD void offer(double value, std::uint64_t key) { mine.offer(value, key); }
-        [[nodiscard]] ABUT_HD double bound() const { return mine.value; }
+        [[nodiscard]] ABUT_HD double bound() const { return mine.value < most ? mine.value : most; }
         ABUT_HD void end(std::size_t i) { out[i] = mine; }
         ABUT_HD void close() {}
     };
 
     template <execution_policy Policy>
-    best_of_each(const Policy& on, std::size_t n) : values_(on, n) {}
+    best_of_each(const Policy& on, std::size_t n, double bound = least_value{}.value) : values_(on, n), most_(bound) {}
 
     /// By index, in the policy's memory.
     [[nodiscard]] const least_value* data() const { return values_.data(); }
 
-    [[nodiscard]] sink make_sink(std::size_t /*thread*/) { return {values_.data()}; }
+    [[nodiscard]] sink make_sink(std::size_t /*thread*/) { return {values_.data(), most_}; }
     template <class Policy>
     void begin(const Policy&, std::size_t /*threads*/) {}
     template <class Policy>
@@ -68,6 +69,7 @@ public:
 
 private:
     buffer<least_value, Space> values_;
+    double most_;
 };
 
 template <memory_space Space>
@@ -85,12 +87,7 @@ public:
         ABUT_HD void begin(std::size_t) {}
         ABUT_HD void offer(double value, std::uint64_t key) {
             mine.offer(value, key);
-            const auto bits = __builtin_bit_cast(std::uint64_t, mine.value);
-            for (std::uint64_t seen = atomic_load(word); bits < seen;) {
-                const std::uint64_t before = atomic_compare_exchange(word, seen, bits);
-                if (before == seen) break;
-                seen = before;
-            }
+            atomic_min(word, __builtin_bit_cast(std::uint64_t, mine.value));
         }
         [[nodiscard]] ABUT_HD double bound() const { return __builtin_bit_cast(double, atomic_load(word)); }
         ABUT_HD void end(std::size_t) {}
@@ -98,7 +95,8 @@ public:
     };
 
     template <execution_policy Policy>
-    explicit best_of_all(const Policy&) {}
+    explicit best_of_all(const Policy&, double bound = least_value{}.value)
+        : word_(__builtin_bit_cast(std::uint64_t, bound)) {}
     /// The least of all loops so far.
     [[nodiscard]] least_value least() const { return least_; }
 
@@ -115,7 +113,7 @@ public:
 
 private:
     least_value least_{};
-    std::uint64_t word_ = __builtin_bit_cast(std::uint64_t, __builtin_huge_val());
+    std::uint64_t word_;
     buffer<least_value, host_space> of_threads_;
 };
 
@@ -146,7 +144,9 @@ void for_each_ordered(const Policy& on, std::size_t n, const Walk& walk, Best& b
 
 template <range_policy Policy, class Walk, class Best>
 void for_each_ordered(const Policy& on, std::size_t n, const Walk& walk, Best& best) {
-    constexpr std::size_t grain = 256, ahead = 8;
+    constexpr std::size_t ahead = 8;
+    std::size_t grain = 256;
+    if constexpr (requires { Walk::grain; }) grain = Walk::grain;  // of long walks
     best.begin(on, static_cast<std::size_t>(concurrency(on)));
     for_each_range(on, n, grain, [&](int thread, std::size_t begin, std::size_t end) {
         auto sink = best.make_sink(static_cast<std::size_t>(thread));

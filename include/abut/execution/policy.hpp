@@ -42,7 +42,8 @@
 //   for_each_ordered(on, n, walk, best)     walk(i, sink) for every i < n, each by one thread, which decides where it walks:
 //                                           nearest first. The sink takes what it finds by sink.offer(value, key), and
 //                                           sink.bound(), which shrinks meanwhile, tells what is still worth looking at: all
-//                                           that is not above. `best` is of each index or of all (execution/ordered.hpp)
+//                                           that is not above. `best` is of each index or of all (execution/ordered.hpp). A
+//                                           walk that takes long says so by its `grain`, how many go together
 //   for_each_tiled(on, n, m, tile, queue...)
 //                                           judges all pairs of n rows and m columns that pass. Rows stream by; columns are
 //                                           kept close to the cores, in tiles. What a judge leaves open waits in room of a

@@ -36,6 +36,37 @@ ABUT_HD constexpr point middle_at_zero(const corners& t, const two_doubles (&hei
     return {plain_sum(first.x, sum.x / count), plain_sum(first.y, sum.y / count), plain_sum(first.z, sum.z / count)};
 }
 
+/// How high points lie over a plane, whose normal is not 0. The points are at the common scale.
+template <std::size_t N>
+struct plane_heights {
+    vec3<two_doubles> normal;  ///< brought to one
+    two_doubles height[N];
+    int exponent;  ///< heights times 2^exponent are lengths; the common scale's, but of planes beyond 2^100 of that
+
+    template <scalar T>
+    ABUT_HD constexpr plane_heights(const plane<T>& s, const point (&at)[N], const common_scale& scale)
+        : normal{}, height{}, exponent(scale.exponent) {
+        const point given = widened(s.normal);
+        const int of_normal = exponent_of(largest_of(given));
+        normal = as<two_doubles>(scaled(given, -of_normal));
+        const two_doubles length = root(dot(normal, normal));
+        const auto given_offset = static_cast<double>(s.offset);
+        const int of_offset = given_offset == 0 ? -3000 : exponent_of(absolute(given_offset));
+        // In one step, since the first of two may overflow. What the limit of a step leaves out is as good as 0.
+        const int both = -(of_normal + scale.exponent);
+        const bool is_far = both + of_offset > 100;
+        if (is_far) exponent = of_offset - of_normal;
+        const auto offset = two_doubles::of(scaled(given_offset, is_far         ? -of_offset
+                                                                 : both < -2044 ? -2044
+                                                                 : both > 2046  ? 2046
+                                                                                : both));
+        for (std::size_t i = 0; i < N; ++i) {
+            const two_doubles over = is_far ? -offset : dot(normal, as<two_doubles>(at[i])) - offset;
+            height[i] = over / length;
+        }
+    }
+};
+
 ABUT_HD constexpr double& coordinate(point& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
 ABUT_HD constexpr double coordinate(const point& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
 
@@ -80,23 +111,12 @@ namespace abut::detail {
 template <scalar T>
 ABUT_NOINLINE ABUT_HD constexpr contact<T> contact_between(const plane<T>& s, const triangle<T>& t) {
     using namespace contact_math;
+    if (is_zero(widened(s.normal))) return {0, 0, t.a, {0, 0, 1}, largest_finite<T>};
     const common_scale scale(s, t);
     const corners corner = scale(t);
-    const point given{static_cast<double>(s.normal.x), static_cast<double>(s.normal.y), static_cast<double>(s.normal.z)};
-    const double largest = largest_of(given);
-    if (!(largest > 0)) return {0, 0, t.a, {0, 0, 1}, largest_finite<T>};
-    const int exponent = exponent_of(largest);
-    const vec3<two_doubles> normal = as<two_doubles>(scaled(given, -exponent));
-    const two_doubles length = root(dot(normal, normal));
-    // In one step, since the first of two may overflow. Of shapes that touch, both together do not; what the limits of a
-    // step leave out is 0, or as good as that.
-    const int both = -(exponent + scale.exponent);
-    const auto offset = two_doubles::of(scaled(static_cast<double>(s.offset), both < -2044  ? -2044
-                                                                              : both > 2046 ? 2046
-                                                                                            : both));
-    two_doubles height[3]{};
-    for (int i = 0; i < 3; ++i) height[i] = (dot(normal, as<two_doubles>(corner.at[i])) - offset) / length;
-    const point n = as_stored_direction<T>(unit_vector(normal));
+    const plane_heights<3> over(s, corner.at, scale);
+    const auto& height = over.height;
+    const point n = as_stored_direction<T>(unit_vector(over.normal));
     least_overlap way;
     way.offer(negated(n), -least(height[0].high, height[1].high, height[2].high));
     way.offer(n, greatest(height[0].high, height[1].high, height[2].high));

@@ -105,28 +105,38 @@ ABUT_HD constexpr vec3<double> foot_on_segment(const vec3<double>& a, const vec3
     return held(foot, least(a, b), greatest(a, b));
 }
 
-/// Whether there is a foot on the face. The weight of c is that of a height, and may be poor; that of b makes up for it along
-/// the triangle, whatever it is. Where the product of four lengths comes near underflow, all lengths are taken 2^300 times.
-ABUT_HD constexpr bool has_foot_on_face(const vec3<double>& a, const vec3<double>& ab, const vec3<double>& ac,
-                                        vec3<double>& foot) {
-    vec3<double> to_a = a, to_b = ab, n = plain_cross(ab, ac);
-    double nn = plain_dot(n, n);
-    if (!(nn > 0x1p-900)) {
-        const auto larger = [](const vec3<double>& v) {
-            return vec3<double>{plain_product(v.x, 0x1p300), plain_product(v.y, 0x1p300), plain_product(v.z, 0x1p300)};
-        };
-        to_a = larger(a), to_b = larger(ab);
-        n = plain_cross(to_b, larger(ac));
-        nn = plain_dot(n, n);
-        if (!(nn > 0)) return false;
+/// A triangle's face by two of its edges, from a to b and to c, for the foot of the origin on it.
+struct face_of_edges {
+    vec3<double> ab, ac, n;
+    double nn;
+
+    ABUT_HD constexpr face_of_edges(const vec3<double>& to_b, const vec3<double>& to_c)
+        : ab(to_b), ac(to_c), n(plain_cross(to_b, to_c)), nn(plain_dot(n, n)) {}
+    /// Whether there is a foot on the face of a triangle whose corner a is there. The weight of c is that of a height, and may
+    /// be poor; that of b makes up for it along the triangle, whatever it is. Where the product of four lengths comes near
+    /// underflow, all lengths are taken 2^300 times.
+    ABUT_HD constexpr bool has_foot(const vec3<double>& a, vec3<double>& foot) const {
+        double of_c = 0;
+        if (nn > 0x1p-900) {
+            of_c = -plain_dot(plain_cross(n, ab), a);
+            if (!(of_c > 0 && of_c < nn)) return false;
+            of_c /= nn;
+        } else {
+            const auto larger = [](const vec3<double>& v) {
+                return vec3<double>{plain_product(v.x, 0x1p300), plain_product(v.y, 0x1p300), plain_product(v.z, 0x1p300)};
+            };
+            const vec3<double> large_ab = larger(ab), m = plain_cross(large_ab, larger(ac));
+            const double mm = plain_dot(m, m);
+            if (!(mm > 0)) return false;
+            of_c = -plain_dot(plain_cross(m, large_ab), larger(a)) / mm;
+        }
+        if (!(of_c > 0 && of_c < 1)) return false;
+        const vec3<double> at_height = plain_step(a, of_c, ac);
+        const double of_b = -plain_dot(at_height, ab) / plain_dot(ab, ab);
+        foot = plain_step(at_height, of_b, ab);
+        return of_b > 0 && plain_sum(of_b, of_c) < 1;
     }
-    const double of_c = -plain_dot(plain_cross(n, to_b), to_a) / nn;
-    if (!(of_c > 0 && of_c < 1)) return false;
-    const vec3<double> at_height = plain_step(a, of_c, ac);
-    const double of_b = -plain_dot(at_height, ab) / plain_dot(ab, ab);
-    foot = plain_step(at_height, of_b, ab);
-    return of_b > 0 && plain_sum(of_b, of_c) < 1;
-}
+};
 
 /// The point of a triangle that is nearest to the origin. Long, and seldom called: out of line.
 ABUT_NOINLINE ABUT_HD constexpr vec3<double> foot_on_triangle(vec3<double> a, vec3<double> b, vec3<double> c) {
@@ -147,7 +157,7 @@ ABUT_NOINLINE ABUT_HD constexpr vec3<double> foot_on_triangle(vec3<double> a, ve
     const vec3<double> ab = plain_difference(b, a), ac = plain_difference(c, a);
     const double along_ab = -plain_dot(a, ab), along_ac = -plain_dot(a, ac);
     vec3<double> nearest = a;
-    if ((along_ab > 0 || along_ac > 0) && !has_foot_on_face(a, ab, ac, nearest)) {
+    if ((along_ab > 0 || along_ac > 0) && !face_of_edges(ab, ac).has_foot(a, nearest)) {
         nearest = a;
         double least_square = aa;
         const auto offer = [&](const vec3<double>& foot) {
@@ -174,7 +184,7 @@ template <scalar T>
 struct distance_bounds {
     T product, of_w, all;  ///< the least product; squares: of w, of all corners' ways in sum
 
-    ABUT_HD distance_bounds(const triangle<T>& t, const vec3<T>& p) {
+    ABUT_HD constexpr distance_bounds(const triangle<T>& t, const vec3<T>& p) {
         const vec3<T> a = t.a - p, b = t.b - p, c = t.c - p, w = a + b + c;
         const T aa = dot(a, a), bb = dot(b, b), cc = dot(c, c);
         product = least(dot(w, a), dot(w, b), dot(w, c));
@@ -182,7 +192,7 @@ struct distance_bounds {
         all = aa + bb + cc;
     }
     /// Whether it is surely farther than the root of `limit`.
-    [[nodiscard]] ABUT_HD bool are_beyond(T limit) const {
+    [[nodiscard]] ABUT_HD constexpr bool are_beyond(T limit) const {
         const T square = product * product, far = T(0x1p-10) * all, near = T(1 + 0x1p-13) * limit;
         return product > 0 && square > tiny && square > of_w * (near > far ? near : far);
     }
@@ -192,7 +202,7 @@ private:
 };
 
 /// From the origin to a ball around `center`; nothing if it is inside.
-ABUT_HD inline vec3<double> way_to_ball(const vec3<double>& center, double radius) {
+ABUT_HD constexpr vec3<double> way_to_ball(const vec3<double>& center, double radius) {
     const double length = contact_math::root(contact_math::one_double{plain_dot(center, center)}).high;
     const double gap = plain_sum(length, -radius);
     if (!(gap > 0)) return {0, 0, 0};
@@ -203,27 +213,27 @@ ABUT_HD inline vec3<double> way_to_ball(const vec3<double>& center, double radiu
 // --- the way from p to each shape ----------------------------------------------------------------------------------------
 
 template <scalar T>
-ABUT_HD vec3<double> way_to(const vec3<T>& q, const vec3<T>& p, const length_unit<T>& unit) {
+ABUT_HD constexpr vec3<double> way_to(const vec3<T>& q, const vec3<T>& p, const length_unit<T>& unit) {
     return way_between(p, q, unit);
 }
 template <scalar T>
-ABUT_HD vec3<double> way_to(const segment<T>& s, const vec3<T>& p, const length_unit<T>& unit) {
+ABUT_HD constexpr vec3<double> way_to(const segment<T>& s, const vec3<T>& p, const length_unit<T>& unit) {
     return foot_on_segment(way_between(p, s.a, unit), way_between(p, s.b, unit));
 }
 template <scalar T>
-ABUT_HD vec3<double> way_to(const triangle<T>& t, const vec3<T>& p, const length_unit<T>& unit) {
+ABUT_HD constexpr vec3<double> way_to(const triangle<T>& t, const vec3<T>& p, const length_unit<T>& unit) {
     return foot_on_triangle(way_between(p, t.a, unit), way_between(p, t.b, unit), way_between(p, t.c, unit));
 }
 template <scalar T>
-ABUT_HD vec3<double> way_to(const sphere<T>& s, const vec3<T>& p, const length_unit<T>& unit) {
+ABUT_HD constexpr vec3<double> way_to(const sphere<T>& s, const vec3<T>& p, const length_unit<T>& unit) {
     return held(way_to_ball(way_between(p, s.center, unit), unit.of(s.radius)), bounds(s), p, unit);
 }
 template <scalar T>
-ABUT_HD vec3<double> way_to(const capsule<T>& s, const vec3<T>& p, const length_unit<T>& unit) {
+ABUT_HD constexpr vec3<double> way_to(const capsule<T>& s, const vec3<T>& p, const length_unit<T>& unit) {
     return held(way_to_ball(way_to(s.axis, p, unit), unit.of(s.radius)), bounds(s), p, unit);
 }
 template <scalar T>
-ABUT_HD vec3<double> way_to(const aabb<T>& box, const vec3<T>& p, const length_unit<T>& unit) {
+ABUT_HD constexpr vec3<double> way_to(const aabb<T>& box, const vec3<T>& p, const length_unit<T>& unit) {
     return held(vec3<double>{0, 0, 0}, box, p, unit);
 }
 
@@ -235,15 +245,15 @@ concept has_way_to = requires(const S& s, const vec3<scalar_type_of<S>>& p, cons
 
 /// p plus the way, in T, and in the shape's box.
 template <scalar T>
-ABUT_HD vec3<T> end_of_way(const vec3<T>& p, const vec3<double>& way, const aabb<T>& box, const length_unit<T>& unit) {
+ABUT_HD constexpr vec3<T> end_of_way(const vec3<T>& p, const vec3<double>& way, const aabb<T>& box, const length_unit<T>& unit) {
     const auto one = [&](T x, double d) {
-        return rounded(static_cast<T>(plain_sum(static_cast<double>(x), unit.length(d))));
+        return rounded(static_cast<T>(unit.length(plain_sum(unit.of(x), d))));  // in the unit, where nothing overflows
     };
     return least(greatest(vec3<T>{one(p.x, way.x), one(p.y, way.y), one(p.z, way.z)}, box.lower), box.upper);
 }
 /// Where the way leads to a corner it is the corner, and of a box nothing is rounded.
 template <class S, scalar T>
-ABUT_HD vec3<T> end_of_way(const S& s, const vec3<T>& p, const vec3<double>& way, const length_unit<T>& unit) {
+ABUT_HD constexpr vec3<T> end_of_way(const S& s, const vec3<T>& p, const vec3<double>& way, const length_unit<T>& unit) {
     if constexpr (std::same_as<S, aabb<T>>) return least(greatest(p, s.lower), s.upper);
     if constexpr (requires { s.b; }) {
         if (way == way_between(p, s.a, unit)) return s.a;
@@ -257,7 +267,7 @@ ABUT_HD vec3<T> end_of_way(const S& s, const vec3<T>& p, const vec3<double>& way
 
 /// A unit for one shape and one point.
 template <scalar T>
-ABUT_HD length_unit<T> unit_for(const aabb<T>& box, const vec3<T>& p) {
+ABUT_HD constexpr length_unit<T> unit_for(const aabb<T>& box, const vec3<T>& p) {
     if constexpr (std::same_as<T, double>) {
         const vec3<double> most = greatest(greatest(absolute(box.lower), absolute(box.upper)), absolute(p));
         return length_unit<double>(least(greatest(most.x, most.y, most.z), largest_finite<double>));

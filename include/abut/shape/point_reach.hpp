@@ -17,11 +17,11 @@
 
 namespace abut {
 
-/// A prune functor that tightens. `least_in(box)` orders boxes by how much what lies in them measures at least;
+/// What a query reaches, less and less far (of grids a prune functor as well). `least_in(box)` orders boxes by how much what lies in them measures at least;
 /// `keeps(least)` is what the reach says of a box of that; and after `shrink_to(bound)` it may leave out what measures more
 /// than bound, and nothing else.
 template <class R, class T>
-concept shrinking_reach = prune_functor<R, T> && requires(R& reach, const aabb<T>& box, double bound) {
+concept shrinking_reach = requires(R& reach, const aabb<T>& box, double bound) {
     { reach.least_in(box) } -> std::same_as<T>;
     { reach.keeps(T{}) } -> std::same_as<bool>;
     reach.shrink_to(bound);

@@ -47,6 +47,12 @@ struct descent_path {
         return at.is_leaf() ? bvh_child::leaf_bit | link : at.index();
     }
     ABUT_HD bool operator()(std::size_t path) const { return end(path) != nowhere; }
+    /// Number of paths.
+    [[nodiscard]] std::size_t count() const {
+        std::size_t paths = 1;
+        for (int level = 0; level < depth; ++level) paths *= Tree::width;
+        return paths;
+    }
 };
 
 /// All pairs of two ends of paths.
@@ -168,10 +174,8 @@ descent_path<Tree> path_to_start(const Tree& tree, int start_depth) {
 /// The numbers of the paths that end somewhere.
 template <class Policy, bvh_layout Tree>
 execution::buffer_of<Policy, std::uint32_t> paths_with_ends(const Policy& on, const descent_path<Tree>& path) {
-    std::size_t paths = 1;
-    for (int level = 0; level < path.depth; ++level) paths *= Tree::width;
-    execution::buffer_of<Policy, std::uint32_t> found(on, paths);
-    found.shrink(compact(on, paths, path, found.data()));
+    execution::buffer_of<Policy, std::uint32_t> found(on, path.count());
+    found.shrink(compact(on, path.count(), path, found.data()));
     return found;
 }
 
@@ -205,8 +209,7 @@ struct seeds_below {
     std::size_t count_a, count_b;
 
     seeds_below(const Walk& walk, int depth)
-        : a(path_to_depth(walk.a, depth)), b(path_to_depth(walk.b, depth)), count_a(std::size_t{1} << a.depth),
-          count_b(std::size_t{1} << b.depth) {}
+        : a(path_to_depth(walk.a, depth)), b(path_to_depth(walk.b, depth)), count_a(a.count()), count_b(b.count()) {}
     [[nodiscard]] std::size_t count() const { return count_a * count_b; }
     [[nodiscard]] ABUT_HD typename Walk::item operator()(std::size_t i) const { return {a.end(i / count_b), b.end(i % count_b)}; }
 };
@@ -216,7 +219,7 @@ struct seeds_below<self_walk<Tree, Overlap>> {
     descent_path<Tree> path;
     std::size_t ends;
 
-    seeds_below(const walk_type& walk, int depth) : path(path_to_depth(walk.tree(), depth)), ends(std::size_t{1} << path.depth) {}
+    seeds_below(const walk_type& walk, int depth) : path(path_to_depth(walk.tree(), depth)), ends(path.count()) {}
     [[nodiscard]] std::size_t count() const { return ends > 1 ? ends / 2 * (ends + 1) : 1; }
     [[nodiscard]] ABUT_HD typename walk_type::item operator()(std::size_t k) const {
         return {path.end(k % ends), path.end((k + k / ends) % ends)};

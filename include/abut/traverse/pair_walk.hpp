@@ -89,6 +89,30 @@ template <class A, class B>
 concept bvh_layouts_of_one_volume =
     volume_bvh_layout<A> && volume_bvh_layout<B> && std::same_as<typename A::volume_type, typename B::volume_type>;
 
+/// A node of each tree. A leaf goes by the link to it, which tells its box as well: the link to slot s of node n is
+/// width * n + s.
+struct tree_pair {
+    std::uint32_t a, b;
+};
+/// A child, as half of a pair: an inner node by its number, a leaf by the link to it.
+ABUT_INLINE ABUT_HD std::uint32_t link_to(bvh_child child, std::uint32_t link) {
+    return child.is_leaf() ? bvh_child::leaf_bit | link : child.index();
+}
+/// Half of it.
+struct node_or_leaf {
+    bool is_leaf;
+    std::uint32_t node, slot;  ///< of a leaf, its parent and where it hangs there; of a node, itself
+
+    ABUT_INLINE ABUT_HD node_or_leaf(std::uint32_t bits, std::uint32_t width) : is_leaf((bits & bvh_child::leaf_bit) != 0) {
+        const std::uint32_t number = bits & ~bvh_child::leaf_bit;
+        node = is_leaf ? number / width : number;
+        slot = number % width;
+    }
+    /// Which of the node's children are meant: a leaf itself, of a node all.
+    [[nodiscard]] ABUT_HD int first_slot() const { return is_leaf ? static_cast<int>(slot) : 0; }
+    [[nodiscard]] ABUT_HD int end_of_slots(int children) const { return is_leaf ? static_cast<int>(slot) + 1 : children; }
+};
+
 /// Down both trees at once: an inner node has its children's boxes, so a step is two fetches and four tests (sixteen, in
 /// rows of four, where nodes have four children), and no box has to be kept. In which order steps are taken is the policy's
 /// to choose: depth first in a thread of the host, a block's newest items at a time on a device (execution/cuda_expand.hpp).
@@ -103,11 +127,7 @@ struct pair_walk {
     /// Trees of more shapes have no items, for want of bits.
     static constexpr std::size_t most_shapes = bvh_child::leaf_bit / (width_a > width_b ? width_a : width_b);
 
-    /// A node of each tree. A leaf goes by the link to it, which tells its box as well: the link to
-    /// slot s of node n is width * n + s.
-    struct item {
-        std::uint32_t a, b;
-    };
+    using item = tree_pair;
     [[nodiscard]] ABUT_HD static constexpr std::size_t seeds() { return 1; }
     [[nodiscard]] ABUT_HD item seed(std::size_t) const { return {a.root().index(), b.root().index()}; }
 
@@ -124,7 +144,7 @@ struct pair_walk {
     /// as long.
     template <class Add, class Visitor>
     ABUT_INLINE ABUT_HD void expand(const item& at, const Add& add, const Visitor& visitor) const {
-        const half_item at_a(at.a, width_a), at_b(at.b, width_b);
+        const node_or_leaf at_a(at.a, width_a), at_b(at.b, width_b);
         if constexpr (width_a == 2 && width_b == 2) {
             const typename A::node_type of_a = a.fetch(at_a.node);
             const typename B::node_type of_b = b.fetch(at_b.node);
@@ -144,21 +164,9 @@ struct pair_walk {
     }
 
 private:
-    /// Half an item.
-    struct half_item {
-        bool is_leaf;
-        std::uint32_t node, slot;  ///< of a leaf, its parent and where it hangs there; of a node, itself
-
-        ABUT_INLINE ABUT_HD half_item(std::uint32_t bits, std::uint32_t width) : is_leaf((bits & bvh_child::leaf_bit) != 0) {
-            const std::uint32_t number = bits & ~bvh_child::leaf_bit;
-            node = is_leaf ? number / width : number;
-            slot = number % width;
-        }
-    };
-
     /// Pair K of binary nodes' children. No lambda: g++ would not inline it where a program has several queries.
     template <unsigned K, class Add, class Visitor>
-    ABUT_INLINE ABUT_HD void compare(const half_item& at_a, const typename A::node_type& of_a, const half_item& at_b,
+    ABUT_INLINE ABUT_HD void compare(const node_or_leaf& at_a, const typename A::node_type& of_a, const node_or_leaf& at_b,
                                      const typename B::node_type& of_b, const Add& add, const Visitor& visitor) const {
         constexpr unsigned i = K / 2, j = K % 2;
         // A leaf is meant itself, of a node both children.
@@ -179,13 +187,12 @@ private:
                                             std::uint32_t link_b, const Add& add, const Visitor& visitor) {
         const bool leaves = (child_a.bits & child_b.bits & bvh_child::leaf_bit) != 0;
         add(k, meet & !leaves,
-            item{child_a.is_leaf() ? bvh_child::leaf_bit | link_a : child_a.index(),
-                 child_b.is_leaf() ? bvh_child::leaf_bit | link_b : child_b.index()});
+            item{link_to(child_a, link_a), link_to(child_b, link_b)});
         visitor(k, meet & leaves, child_a.index(), child_b.index());
     }
 
     /// Which children overlap, of those that an item means: bit width_b * i + j is slot i of a's node and slot j of b's.
-    ABUT_INLINE ABUT_HD unsigned meeting(const half_item& at_a, const typename A::node_type& of_a, const half_item& at_b,
+    ABUT_INLINE ABUT_HD unsigned meeting(const node_or_leaf& at_a, const typename A::node_type& of_a, const node_or_leaf& at_b,
                                          const typename B::node_type& of_b) const {
         const int n = a.children(of_a), m = b.children(of_b);
         const int i = static_cast<int>(at_a.slot), j = static_cast<int>(at_b.slot);
@@ -209,8 +216,8 @@ private:
             return bits_of(rows) & first(4 * n) & 0x1111 * first(m);
         } else {
             unsigned meet = 0;
-            for (int k = at_a.is_leaf ? i : 0; k < (at_a.is_leaf ? i + 1 : n); ++k) {
-                for (int l = at_b.is_leaf ? j : 0; l < (at_b.is_leaf ? j + 1 : m); ++l) {
+            for (int k = at_a.first_slot(); k < at_a.end_of_slots(n); ++k) {
+                for (int l = at_b.first_slot(); l < at_b.end_of_slots(m); ++l) {
                     const bool both = overlap(a.bounds(of_a, k), b.bounds(of_b, l));
                     meet |= static_cast<unsigned>(both) << (B::width * k + l);
                 }

@@ -1,0 +1,419 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// distance: how far apart two sets are, where, and which two shapes are the nearest.
+//
+// First it is decided whether any shapes touch, by the engine of all queries (search.hpp). So a distance is 0 exactly where
+// `any` is true. Only where none touch is anything measured: by definition the answer is then the pair with the least
+// distance as narrow/distance.hpp computes it in double, and of equal ones the one with the least ids. Everything else here
+// moves time and no answer: which index there is, and in what order pairs are taken. Lists of pairs are in
+// list_distance.hpp.
+
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <type_traits>
+
+#include <abut/collide/nearest.hpp>
+#include <abut/collide/pairing.hpp>
+#include <abut/collide/search.hpp>
+#include <abut/error.hpp>
+#include <abut/execution/atomic.hpp>
+#include <abut/execution/ordered.hpp>
+#include <abut/narrow/distance.hpp>
+#include <abut/shape/pair_reach.hpp>
+#include <abut/traverse/frontier.hpp>
+#include <abut/traverse/ordered_pair_walk.hpp>
+
+namespace abut {
+
+/// Options of `distance`.
+/// @ingroup queries
+struct distance_options {
+    /// Only what is nearer than this is looked for. What is farther is not measured, so that a small bound saves time.
+    double below = infinity<double>;
+};
+
+namespace detail {
+
+/// The key of no pair.
+inline constexpr std::uint64_t no_pair = static_cast<std::uint64_t>(-1);
+
+// --- what touches: the least key
+// --------------------------------------------------------------------------------------------
+
+/// A filter: pairs before the first one that is known to touch. So where much touches, little of it is decided.
+template <class Key>
+struct before_first_touch {
+    Key key{};
+    const std::uint64_t* first = nullptr;  ///< of each entry
+    ABUT_HD bool operator()(std::uint32_t a, std::uint32_t b) const {
+        return key.pack(a, b) < execution::atomic_load(first);
+    }
+    /// Of a list.
+    template <class Tagged>
+    ABUT_HD bool operator()(const Tagged& of) const {
+        return key.pack(of.pair, of.a, of.b) < execution::atomic_load(first + of.pair);
+    }
+};
+/// Takes pairs that touch.
+template <class Key>
+struct keep_first_touch {
+    Key key;
+    std::uint64_t* first;
+    ABUT_HD bool operator()(std::uint64_t pair) const {
+        std::size_t entry = 0;
+        if constexpr (requires { key.entry_bits; }) entry = key.unpack(pair).entry;
+        execution::atomic_min(first + entry, pair);
+        return true;
+    }
+};
+
+/// For each of n entries the least key of a pair that touches, or no_pair. Of two arguments there is one entry.
+template <class Policy, class Pairing>
+auto first_touches(const Policy& on, Pairing& pairing, std::size_t n) {
+    using key_type = decltype(pairing.key);
+    execution::buffer_of<Policy, std::uint64_t> first(on, n);
+    fill(on, first.data(), n, no_pair);
+    pairing.options.filter = before_first_touch<key_type>{pairing.key, first.data()};
+    const keep_first_touch<key_type> keeps{pairing.key, first.data()};
+    execution::work_visit<keep_first_touch<key_type>, space_of<Policy>> hits(on, keeps);
+    search(on, pairing, touch<filtered>{}, hits);
+    return first;
+}
+
+// --- what does not touch: the least distance
+// --------------------------------------------------------------------------------
+
+/// Offers a sink what is measured of two shapes, in the order of the arguments, and turns the reach to where better was
+/// found. What the reach sees first is the second of them if it is `Reversed`.
+template <bool Reversed, class Best, class Reach>
+struct offer_distance {
+    Best& best;
+    Reach& reach;
+    vec3<double> along{0, 0, 0};  ///< the way between the nearest so far
+
+    ABUT_CALLS_ANY
+    template <class S, class U>
+    ABUT_HD void operator()(const S& s, const U& t, std::uint64_t key) {
+        const double bound = best.bound();
+        const distance_and_way found = measure_apart{}.look(s, t, bound, along);
+        best.offer(found.distance, key);
+        if (!(found.distance < bound)) return;
+        along = found.way;
+        reach.turn_to(Reversed ? vec3<double>{-along.x, -along.y, -along.z} : along);
+    }
+};
+
+/// Two trees, down from pairs of nodes at a depth.
+template <class Walk, class Reach, class View>
+struct walk_from_pairs {
+    static constexpr std::size_t grain = 16;
+    Walk walk;
+    Reach reach;
+    View both;
+    seeds_below<Walk> from;
+    bool once;  ///< one pair of shapes below each, for a first bound
+
+    ABUT_CALLS_ANY
+    template <class Best>
+    ABUT_HD void operator()(std::size_t i, Best& best) const {
+        const auto at = from(i);
+        constexpr std::uint32_t nowhere = decltype(from.a)::nowhere;
+        if (at.a == nowhere || at.b == nowhere) return;
+        Reach mine = reach;
+        offer_distance<false, Best, Reach> offer{best, mine};
+        const auto visit_pair = [&](std::uint32_t id_a, std::uint32_t id_b) {
+            offer(both.a[id_a], both.b[id_b], both.pack(id_a, id_b));
+        };
+        once ? walk.descend(at, mine, best, visit_pair) : walk(at, mine, best, visit_pair);
+    }
+};
+
+/// What shapes in the world see of an index, by the box around each: `box` for trees, `ball` for grids.
+template <scalar T>
+struct world_sight {
+    [[nodiscard]] ABUT_HD auto box(const aabb<T>& query) const { return near_one_box<near_boxes<T>, T>{{}, query}; }
+};
+template <scalar T>
+struct object_sight {
+    rigid<T> pose;
+    aabb<T> around;
+    [[nodiscard]] ABUT_HD auto box(const aabb<T>& query) const {
+        return near_one_box<near_posed_boxes<T>, T>{near_posed_boxes<T>(rigid<T>{}, query, pose, around), query};
+    }
+};
+
+/// Each shape of one operand looks in the other, which has a walk of its own (ordered_walk.hpp).
+template <bool RowsAreB, class Walk, class Sight, class View>
+struct look_from_shapes {
+    static constexpr std::size_t grain = 16;
+    Walk walk;
+    Sight sight;
+    View both;
+
+    ABUT_CALLS_ANY
+    template <class Best>
+    ABUT_HD void operator()(std::size_t i, Best& best) const {
+        const auto row = static_cast<std::uint32_t>(i);
+        const auto shape = shape_of_row(i);
+        auto reach = sight.reach_of(bounds(shape));
+        offer_distance<RowsAreB, Best, decltype(reach)> offer{best, reach};
+        walk(reach, best, [&](std::uint32_t found) {
+            if constexpr (RowsAreB) {
+                offer(both.a[found], shape, both.pack(found, row));
+            } else {
+                offer(shape, both.b[found], both.pack(row, found));
+            }
+        });
+    }
+
+private:
+    [[nodiscard]] ABUT_HD auto shape_of_row(std::size_t i) const {
+        if constexpr (RowsAreB) {
+            return both.b[i];
+        } else {
+            return both.a[i];
+        }
+    }
+};
+
+/// Sights of trees are boxes.
+template <class Frame>
+struct sight_of_tree : Frame {
+    template <scalar T>
+    [[nodiscard]] ABUT_HD auto reach_of(const aabb<T>& query) const {
+        return Frame::box(query);
+    }
+};
+/// Those of grids are balls, of a frame of nearest.hpp.
+template <class Frame>
+struct sight_of_grid : Frame {
+    template <scalar T>
+    [[nodiscard]] ABUT_HD auto reach_of(const aabb<T>& query) const {
+        const auto middle = [](T lower, T upper) {
+            const T m = T(0.5) * lower + T(0.5) * upper;
+            return is_finite(m) ? m : T(0);
+        };
+        const vec3<T> c{middle(query.lower.x, query.upper.x), middle(query.lower.y, query.upper.y),
+                        middle(query.lower.z, query.upper.z)};
+        const vec3<double> half = greatest(widened(c) - widened(query.lower), widened(query.upper) - widened(c));
+        return near_ball_of_box<T>(Frame::ball_around(c), std::sqrt(dot(half, half)) * (1 + 0x1p-50));
+    }
+};
+/// Of plain sets: all boxes are looked at.
+struct sight_of_list {
+    template <scalar T>
+    [[nodiscard]] ABUT_HD auto reach_of(const aabb<T>& query) const {
+        return near_one_box<near_boxes<T>, T>{{}, query};
+    }
+};
+/// All of n shapes, one after another, whose boxes are near enough.
+template <shape_view Shapes>
+struct walk_all_boxes {
+    Shapes shapes;
+    ABUT_CALLS_ANY
+    template <class Reach, class Best, class Visitor>
+    ABUT_HD void operator()(Reach& reach, const Best& best, const Visitor& visitor) const {
+        double bound = infinity<double>;
+        tighten(reach, best, bound);
+        for (std::size_t i = 0; i < shapes.size(); ++i) {
+            if (!reach(bounds(shapes[i]))) continue;
+            visitor(static_cast<std::uint32_t>(i));
+            tighten(reach, best, bound);
+        }
+    }
+};
+
+/// How many levels down two trees are dealt out: so that each of `concurrency` threads finds some.
+inline int depth_of_seeds(int concurrency, bool on_host) {
+    if (concurrency <= 1) return 0;
+    return !on_host ? 9 : concurrency <= 16 ? 5 : 6;
+}
+
+/// All pairs of two trees of two shapes or more.
+template <class Policy, class Pairing, class Walk, class Reach, class Best>
+void walk_two_trees(const Policy& on, const Pairing& pairing, const Walk& walk, const Reach& reach, Best& best) {
+    const auto both = pairing.view();
+    const auto from_depth = [&](int depth, bool once) {
+        const seeds_below<Walk> from(walk, depth);
+        for_each_ordered(on, from.count(),
+                         walk_from_pairs<Walk, Reach, std::remove_const_t<decltype(both)>>{walk, reach, both, from, once},
+                         best);
+    };
+    const int depth = depth_of_seeds(concurrency(on), host_policy<Policy>);
+    // Whoever begins without a bound looks in vain: many short looks find a good one.
+    if (depth > 0) from_depth(4, true);
+    from_depth(depth, false);
+}
+
+/// The shapes of one operand look in the other.
+template <bool RowsAreB, class Policy, class Pairing, class Index, class Best>
+void look_for_nearest_pair(const Policy& on, const Pairing& pairing, const Index& x, std::size_t rows, Best& best) {
+    const auto both = pairing.view();
+    using T = typename decltype(both.a)::scalar_type;
+    const auto look = [&](const auto& walk, const auto& sight) {
+        using walk_type = std::remove_cvref_t<decltype(walk)>;
+        using sight_type = std::remove_cvref_t<decltype(sight)>;
+        for_each_ordered(
+            on, rows,
+            look_from_shapes<RowsAreB, walk_type, sight_type, std::remove_const_t<decltype(both)>>{walk, sight, both}, best);
+    };
+    if constexpr (!Index::is_indexed) {
+        look(walk_all_boxes<decltype(x.shapes())>{x.shapes()}, sight_of_list{});
+    } else if constexpr (!Index::has_tree) {
+        const auto frame = frame_of(x, length_unit<T>{});
+        look(ordered_walk_of(x), sight_of_grid<std::remove_const_t<decltype(frame)>>{frame});
+    } else if constexpr (Index::is_posed) {
+        look(ordered_walk_of(x), sight_of_tree<object_sight<T>>{{x.pose, x.around}});
+    } else {
+        look(ordered_walk_of(x), sight_of_tree<world_sight<T>>{});
+    }
+}
+
+/// Offers `best` all pairs that may be the nearest. Nothing touches.
+template <class Policy, class Pairing, class Best>
+void look_for_nearest_pair(const Policy& on, const Pairing& pairing, Best& best) {
+    const auto& a = pairing.a;
+    const auto& b = pairing.b;
+    using A = std::remove_cvref_t<decltype(a)>;
+    using B = std::remove_cvref_t<decltype(b)>;
+    const std::size_t n = a.shapes().size(), m = b.shapes().size();
+    if constexpr (A::has_tree && B::has_tree) {
+        const ordered_pair_walk<decltype(a.tree()), decltype(b.tree())> walk{a.tree(), b.tree()};
+        if (n > 1 && m > 1 && n <= walk.most_shapes && m <= walk.most_shapes) {
+            using T = typename decltype(a.tree())::scalar_type;
+            using walk_type = std::remove_const_t<decltype(walk)>;
+            constexpr bool by_volumes = walk_type::template compares_volumes<near_posed_boxes<T>>();
+            if constexpr (A::is_posed || B::is_posed || by_volumes) {
+                const auto at_a = placement_of(a), at_b = placement_of(b);
+                const near_posed_boxes<T> reach(at_a.pose, at_a.around, at_b.pose, at_b.around);
+                return walk_two_trees(on, pairing, walk, reach, best);
+            } else {
+                return walk_two_trees(on, pairing, walk, near_boxes<T>{}, best);
+            }
+        }
+    }
+    // In trees rather than in grids, and the fewer shapes look. Of plain sets the more, since they are shared out.
+    constexpr bool alike = A::has_tree == B::has_tree && A::is_indexed == B::is_indexed;
+    constexpr bool a_is_better = A::has_tree ? !B::has_tree : A::is_indexed && !B::is_indexed;
+    const bool more_in_a = A::is_indexed ? n >= m : n < m;
+    if constexpr (alike) {
+        more_in_a ? look_for_nearest_pair<true>(on, pairing, a, m, best)
+                  : look_for_nearest_pair<false>(on, pairing, b, n, best);
+    } else if constexpr (a_is_better) {
+        look_for_nearest_pair<true>(on, pairing, a, m, best);
+    } else {
+        look_for_nearest_pair<false>(on, pairing, b, n, best);
+    }
+}
+
+// --- answers
+// ----------------------------------------------------------------------------------------------------------------
+
+/// What a walk begins with, so that it loses nothing that is below once it is rounded to T.
+template <scalar T>
+double bound_below(double below) {
+    constexpr double grown = 1 + 4 * static_cast<double>(unit_roundoff<T>);
+    return below * grown + static_cast<double>(smallest_normal<T>);
+}
+template <scalar T>
+ABUT_HD bool is_below(const separation<T>& found, double below) {
+    return static_cast<double>(found.distance) < below || below == infinity<double>;
+}
+
+inline void check(const distance_options& options, const char* function) {
+    if (options.below != options.below) throw error(std::string(function) + ": below is NaN; expected a distance");
+}
+
+/// Two shapes of a pairing, in host memory.
+template <class Policy, class View>
+whole_pair<View> pair_of_key(const Policy& on, const View& both, std::uint64_t key) {
+    whole_pair<View> pair;
+    execution::buffer_of<Policy, std::uint64_t> keys(on, 1);
+    execution::buffer_of<Policy, whole_pair<View>> pairs(on, 1);
+    upload(on, &key, 1, keys.data());
+    for_each_index(on, 1, fetch_pair<View>{both, keys.data(), pairs.data()});
+    download(on, pairs.data(), 1, &pair);
+    return pair;
+}
+
+/// `distance` of arguments that have been looked at.
+template <class Policy, class X, class Y>
+auto distance_of(const Policy& on, const X& x, const Y& y, const distance_options& options, const char* function) {
+    using T = scalar_type_of<typename shape_of_argument<X>::type>;
+    check(options, function);
+    auto pairing = pair_up(on, x, y, query_options<before_first_touch<pair_key>>{}, function);
+    if (pairing.a.shapes().size() == 0 || pairing.b.shapes().size() == 0 || !(options.below > 0)) {
+        return std::optional<separation<T>>();
+    }
+    std::uint64_t key = no_pair;
+    download(on, first_touches(on, pairing, 1).data(), 1, &key);
+    const bool touch = key != no_pair;
+    if (!touch) {
+        execution::best_of_all<space_of<Policy>> best(on, bound_below<T>(options.below));
+        look_for_nearest_pair(on, pairing, best);
+        key = best.least().key;
+    }
+    if (key == no_pair) return std::optional<separation<T>>();
+    const auto pair = pair_of_key(on, pairing.view(), key);
+    separation<T> found = separation_of(pair.a, pair.b, touch);
+    found.a = pairing.key.a(key);
+    found.b = pairing.key.b(key);
+    return is_below(found, options.below) ? std::optional<separation<T>>(found) : std::optional<separation<T>>();
+}
+
+/// Whether `distance` takes both arguments.
+template <class Policy, class X, class Y>
+consteval bool can_be_apart() {
+    if constexpr (!can_pair<Policy, X, Y, keep_all>()) {
+        return false;
+    } else {
+        constexpr bool are = measurable<typename shape_of_argument<X>::type, typename shape_of_argument<Y>::type>;
+        static_assert(are, "abut: there is no distance of sets of these two shapes");
+        return are;
+    }
+}
+
+}  // namespace detail
+
+/// How far apart two sets are: a std::optional<separation<T>> with the ids of the two nearest shapes, a point of each, and
+/// the distance. It is 0 exactly where `any` is true; then both points are one that the two shapes share. Of pairs that are
+/// equally far apart, and of those that touch, it has the one with the least id in `a`, then in `b`. It is empty where a set
+/// is, and where nothing is nearer than `options.below`.
+///
+/// Arguments are those of `any`, of shapes of which contact_of takes pairs. Two trees are walked together, the nearest pairs
+/// of nodes first. Without a tree on either side each shape of one looks in the other.
+///
+/// The same bits on every policy, for every index and any number of threads. Distances are computed in double; those that
+/// differ by less than docs/numerics.md says may be taken for each other. Points and distance are those of `distance` of the
+/// two shapes.
+///
+/// @par Memory
+/// As in @ref queries. Nothing is stored for each pair. Under `cuda` a walk of two trees keeps a stack of 289 pairs of nodes,
+/// 3.5 KB in float and 4.6 KB in double, in the device's local memory, which CUDA sets aside once for all threads that the
+/// device holds at a time.
+///
+/// @par Errors
+/// As in @ref queries, and `error` where `below` is NaN.
+///
+/// @par Synchronisation
+/// Returns when the answer is complete; under `cuda` it waits for the policy's stream.
+///
+/// @par Example
+/// @snippet queries.cpp distance
+///
+/// @ingroup queries
+template <execution_policy Policy, class X, class Y>
+[[nodiscard]] auto distance(const Policy& on, const X& a, const Y& b, const distance_options& options = {}) {
+    if constexpr (detail::can_be_apart<Policy, X, Y>()) {
+        return detail::distance_of(on, a, b, options, "abut::distance");
+    } else {
+        return std::optional<separation<float>>();
+    }
+}
+
+}  // namespace abut

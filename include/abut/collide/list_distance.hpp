@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// distance of a list: how far apart the two indices of each entry are, many pairs in one call. Each entry is walked by one
+// thread; what is decided and measured is that of two arguments (distance.hpp).
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <abut/collide/distance.hpp>
+#include <abut/collide/list.hpp>
+
+namespace abut {
+
+namespace detail {
+
+/// Walks the trees of an entry in which nothing touches.
+template <class View, class TreeA, class TreeB>
+struct walk_entry {
+    static constexpr std::size_t grain = 1;
+    using T = typename View::T;
+    View list;
+    const std::uint64_t* touches;
+
+    ABUT_CALLS_ANY
+    template <class Best>
+    ABUT_HD void operator()(std::size_t i, Best& best) const {
+        if (touches[i] != no_pair) return;
+        const auto entry = static_cast<std::uint32_t>(i);
+        const index_pair of = list.bodies[entry];
+        const auto& a = list.a.object(of.a);
+        const auto& b = list.b.object(of.b);
+        if (a.tree.size() == 0 || b.tree.size() == 0) return;
+        if (b.tree.size() == 1) {  // a tree of one shape has no nodes to walk
+            look<true>(list.b.shape(of.b, list.b.object_of[of.b], 0), a, list.a.poses[of.a], entry, best);
+        } else if (a.tree.size() == 1) {
+            look<false>(list.a.shape(of.a, list.a.object_of[of.a], 0), b, list.b.poses[of.b], entry, best);
+        } else {
+            near_posed_boxes<T> reach(list.a.poses[of.a], a.bounds, list.b.poses[of.b], b.bounds);
+            offer_distance<false, Best, near_posed_boxes<T>> offer{best, reach};
+            const ordered_pair_walk<TreeA, TreeB> walk{a.tree, b.tree};
+            walk({a.tree.root().index(), b.tree.root().index()}, reach, best, [&](std::uint32_t id_a, std::uint32_t id_b) {
+                const std::uint64_t key = list.key.pack(entry, id_a, id_b);
+                offer(list.shape_a(key), list.shape_b(key), key);
+            });
+        }
+    }
+
+private:
+    /// The only shape of one body, which is b if `RowIsB`, looks in the other.
+    ABUT_CALLS_ANY
+    template <bool RowIsB, class Shape, class Object, class Best>
+    ABUT_HD void look(const Shape& shape, const Object& object, const rigid<T>& pose, std::uint32_t entry,
+                      Best& best) const {
+        auto reach = object_sight<T>{pose, object.bounds}.box(bounds(shape));
+        offer_distance<RowIsB, Best, decltype(reach)> offer{best, reach};
+        ordered_tree_walk<std::remove_cvref_t<decltype(object.tree)>>{object.tree}(reach, best, [&](std::uint32_t found) {
+            const std::uint64_t key = RowIsB ? list.key.pack(entry, found, 0) : list.key.pack(entry, 0, found);
+            offer(list.shape_a(key), list.shape_b(key), key);
+        });
+    }
+};
+
+/// The answers, one of each entry.
+template <class View>
+struct write_separations {
+    using T = typename View::T;
+    View list;
+    const std::uint64_t* touches;
+    const execution::least_value* nearest;
+    double below;
+    separation<T>* out;
+
+    ABUT_HD void operator()(std::size_t i) const {
+        const bool touch = touches[i] != no_pair;
+        const std::uint64_t key = touch ? touches[i] : nearest[i].key;
+        out[i] = {no_id, no_id, {0, 0, 0}, {0, 0, 0}, infinity<T>};
+        if (key == no_pair) return;
+        const entry_pair at = list.key.unpack(key);
+        separation<T> found = separation_of(list.shape_a(key), list.shape_b(key), touch);
+        found.a = at.a;
+        found.b = at.b;
+        if (is_below(found, below)) out[i] = found;
+    }
+};
+
+template <class Policy, class IndexA, class IndexB>
+auto distances_of(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list, const distance_options& options,
+                  const char* function) {
+    using T = typename IndexA::scalar_type;
+    check(options, function);
+    auto pairing = pair_up(on, list, list_options<before_first_touch<list_key>>{}, function);
+    const std::size_t n = list.size();
+    const auto touches = first_touches(on, pairing, n);
+    const auto view = pairing.view();
+    using view_type = std::remove_const_t<decltype(view)>;
+    // Nothing is below 0: then no entry is looked at.
+    execution::best_of_each<space_of<Policy>> best(on, n, bound_below<T>(options.below > 0 ? options.below : 0));
+    for_each_ordered(
+        on, n, walk_entry<view_type, typename IndexA::view_type, typename IndexB::view_type>{view, touches.data()}, best);
+    execution::buffer_of<Policy, separation<T>> out(on, n);
+    for_each_index(on, n, write_separations<view_type>{view, touches.data(), best.data(), options.below, out.data()});
+    synchronize(on);
+    return result<separation<T>, space_of<Policy>>(std::move(out));
+}
+
+}  // namespace detail
+
+/// @addtogroup lists
+///@{
+
+/// How far apart the two indices of each entry are: a `result` of separation<T>, one of each entry in their order, 36 bytes
+/// each in float and 64 in double. An entry in which an index is empty, or in which nothing is nearer than `options.below`,
+/// has `no_id` for both ids and an infinite distance. Otherwise it is what `distance` says of the two indices alone.
+///
+///     for (const auto& apart : to_host(abut::distance(on, list))) clearance = std::min(clearance, apart.distance);
+template <execution_policy Policy, class IndexA, class IndexB>
+[[nodiscard]] auto distance(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
+                            const distance_options& options = {}) {
+    if constexpr (!detail::can_be_listed<Policy, IndexA, IndexB>()) {
+        return result<separation<float>, space_of<Policy>>();
+    } else {
+        constexpr bool are = detail::measurable<typename IndexA::shape_type, typename IndexB::shape_type>;
+        static_assert(are, "abut: there is no distance of sets of these two shapes");
+        return detail::distances_of(on, list, options, "abut::distance");
+    }
+}
+
+///@}
+
+}  // namespace abut

@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// `distance` of two shapes: how far apart they are and where, and 0 exactly where they touch, as `intersects` decides. The
+// numbers of shapes that do not touch are measured in nearest_ways.hpp; docs/numerics.md bounds what rounding leaves in
+// them.
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+
+#include <abut/arithmetic/error_free.hpp>
+#include <abut/arithmetic/limits.hpp>
+#include <abut/arithmetic/magnitude.hpp>
+#include <abut/narrow/contact.hpp>
+#include <abut/narrow/nearest_point.hpp>
+#include <abut/narrow/nearest_ways.hpp>
+#include <abut/narrow/numbers.hpp>
+#include <abut/predicate/intersects.hpp>
+#include <abut/shape/bounds.hpp>
+#include <abut/shape/corners.hpp>
+#include <abut/shape/primitive.hpp>
+#include <abut/shape/shape.hpp>
+
+namespace abut {
+
+/// How far apart two shapes are, and a point of each that are so far apart. Where two shapes touch the distance is 0, and
+/// both points are one that they share. No distance of shapes that do not touch is 0: at least it is the least positive
+/// number. One that T has no number for is infinite.
+template <scalar T>
+struct separation {
+    std::uint32_t a;  ///< id of the first shape; 0 of a single pair
+    std::uint32_t b;  ///< id of the second one; 0 of a single pair
+    vec3<T> point_a;  ///< of the first shape, in the world
+    vec3<T> point_b;  ///< of the second one
+    T distance;       ///< between the two shapes, rounded to T
+
+    friend constexpr bool operator==(const separation&, const separation&) = default;
+};
+
+namespace detail {
+
+// A shape is a hull of corners, or a box, and what is within a radius of that.
+
+template <has_corners S>
+ABUT_HD constexpr auto core_of(const S& s) {
+    return hull_of(s);
+}
+template <scalar T>
+ABUT_HD constexpr auto core_of(const sphere<T>& s) {
+    return hull_of(s.center);
+}
+template <scalar T>
+ABUT_HD constexpr auto core_of(const capsule<T>& s) {
+    return hull_of(s.axis);
+}
+template <scalar T>
+ABUT_HD constexpr aabb<T> core_of(const aabb<T>& s) {
+    return s;
+}
+
+/// In a unit.
+template <class S, scalar T>
+ABUT_HD constexpr double core_radius(const S& s, const length_unit<T>& unit) {
+    if constexpr (requires { s.radius; }) {
+        return unit.of(s.radius);
+    } else {
+        return 0;
+    }
+}
+
+/// A unit for two shapes: what products of four lengths stay in.
+template <class S, class U>
+ABUT_HD constexpr auto common_unit(const S& s, const U& t) {
+    using T = scalar_type_of<S>;
+    if constexpr (std::same_as<T, float>) {
+        return length_unit<float>{};
+    } else {
+        return length_unit<double>(greatest(contact_math::magnitude_of(s), contact_math::magnitude_of(t)));
+    }
+}
+
+/// The distance of two boxes in double, with a relative error of a few units of roundoff, also where squares would leave the
+/// range.
+template <scalar T>
+ABUT_HD constexpr double gap_of_boxes(const aabb<T>& a, const aabb<T>& b) {
+    const auto gap = [](T lower_a, T upper_a, T lower_b, T upper_b) {
+        const auto over = [](T lower, T upper) {
+            return plain_sum(static_cast<double>(lower), -static_cast<double>(upper));
+        };
+        return greatest(over(lower_a, upper_b), over(lower_b, upper_a), 0.0);
+    };
+    vec3<double> gaps{gap(a.lower.x, a.upper.x, b.lower.x, b.upper.x), gap(a.lower.y, a.upper.y, b.lower.y, b.upper.y),
+                      gap(a.lower.z, a.upper.z, b.lower.z, b.upper.z)};
+    int exponent = 0;
+    if constexpr (std::same_as<T, double>) {
+        const double largest = contact_math::largest_of(gaps);
+        if (!(largest > 0) || !(largest < infinity<double>)) return largest;
+        exponent = contact_math::exponent_of(largest);
+        gaps = contact_math::scaled(gaps, -exponent);
+    }
+    const double length = contact_math::root(contact_math::one_double{plain_dot(gaps, gaps)}).high;
+    return exponent == 0 ? length : contact_math::scaled(length, exponent);
+}
+
+/// A distance that is known to be positive, as it is measured: never below that of the boxes, so that culling by boxes loses
+/// nothing.
+template <class S, class U>
+ABUT_HD constexpr double positive_distance(const S& s, const U& t, double measured) {
+    return greatest(measured, gap_of_boxes(bounds(s), bounds(t)), 0x1p-1074);
+}
+
+/// Two shapes that do not touch, measured.
+template <scalar T>
+struct measured_pair {
+    nearest_way<T> nearest;  ///< of the cores
+    length_unit<T> unit;
+    double length;  ///< of the way, in the unit
+    double radius_a, radius_b;
+
+    template <class S, class U>
+    ABUT_HD constexpr measured_pair(const S& s, const U& t)
+        : unit(common_unit(s, t)), radius_a(core_radius(s, unit)), radius_b(core_radius(t, unit)) {
+        nearest = nearest_way_between(core_of(s), core_of(t), unit);
+        length = contact_math::root(contact_math::one_double{nearest.square}).high;
+    }
+    [[nodiscard]] ABUT_HD constexpr double distance() const {
+        return unit.length(plain_sum(length, -plain_sum(radius_a, radius_b)));
+    }
+    template <class S>
+    [[nodiscard]] ABUT_HD constexpr vec3<T> point_on_a(const S& s) const {
+        return on_shape(s, nearest.from_a, nearest.to_a, radius_a);
+    }
+    template <class U>
+    [[nodiscard]] ABUT_HD constexpr vec3<T> point_on_b(const U& t) const {
+        return on_shape(t, nearest.from_b, nearest.to_b, -radius_b);
+    }
+
+private:
+    template <class S>
+    [[nodiscard]] ABUT_HD constexpr vec3<T> on_shape(const S& s, const vec3<T>& from, vec3<double> to, double along) const {
+        if (along != 0 && length > 0) to = plain_step(to, along / length, nearest.way);
+        if constexpr (std::same_as<S, aabb<T>>) {
+            return end_of_way<T>(from, to, s, unit);
+        } else {
+            return end_of_way(s, from, to, unit);
+        }
+    }
+};
+
+/// A plane and a triangle that do not touch: how far, in lengths, and where. A plane of normal 0 that is nothing is
+/// infinitely far.
+template <scalar T>
+struct measured_plane {
+    double length = infinity<double>;
+    vec3<T> on_plane{}, on_triangle{};
+
+    ABUT_HD constexpr measured_plane(const plane<T>& s, const triangle<T>& t) : on_plane(t.a), on_triangle(t.a) {
+        using namespace contact_math;
+        if (is_zero(widened(s.normal))) return;
+        const common_scale scale(s, t);
+        const corners corner = scale(t);
+        const plane_heights<3> over(s, corner.at, scale);
+        int least_corner = 0;
+        for (int i = 1; i < 3; ++i) {
+            if (absolute(over.height[i].high) < absolute(over.height[least_corner].high)) least_corner = i;
+        }
+        on_triangle = least_corner == 0 ? t.a : least_corner == 1 ? t.b : t.c;
+        const two_doubles height = over.height[least_corner];
+        const int e = over.exponent < -2040 ? -2040 : over.exponent > 2040 ? 2040 : over.exponent;
+        length = scaled(absolute(height.high), e);
+        // The foot, in the plane's own scale.
+        const two_doubles size = root(dot(over.normal, over.normal));
+        const point& from = corner.at[least_corner];
+        const auto foot = [&](double x, const two_doubles& n) {
+            const int down = scale.exponent - e < -2040 ? -2040 : scale.exponent - e;
+            const two_doubles at = two_doubles::of(scaled(x, down)) - height * (n / size);
+            const double y = scaled(at.high, e);
+            constexpr auto far = static_cast<double>(largest_finite<T>);
+            return y > far ? largest_finite<T> : y < -far ? -largest_finite<T> : rounded(static_cast<T>(y));
+        };
+        on_plane = {foot(from.x, over.normal.x), foot(from.y, over.normal.y), foot(from.z, over.normal.z)};
+    }
+};
+
+/// Pairs of shapes, in this order, that are measured.
+template <class S, class U>
+inline constexpr bool measured_in_order = requires(const S& s, const U& t, const length_unit<scalar_type_of<S>>& unit) {
+    nearest_way_between(core_of(s), core_of(t), unit);
+};
+template <scalar T>
+inline constexpr bool measured_in_order<plane<T>, triangle<T>> = true;
+
+/// A distance and a way as long, from the first shape to the second, in no unit.
+struct distance_and_way {
+    double distance = infinity<double>;
+    vec3<double> way{0, 0, 0};
+};
+
+/// Of two shapes that do not touch, rounded to double: positive, or infinite.
+template <class S, class U>
+ABUT_NOINLINE ABUT_HD constexpr distance_and_way distance_apart(const S& s, const U& t) {
+    if constexpr (requires { s.normal; }) {
+        return {positive_distance(s, t, measured_plane(s, t).length)};
+    } else {
+        const measured_pair<scalar_type_of<S>> m(s, t);
+        return {positive_distance(s, t, m.distance()), m.nearest.way};
+    }
+}
+
+template <scalar T>
+ABUT_HD constexpr T rounded_distance(double distance) {
+    const T d = distance > static_cast<double>(largest_finite<T>) * (1 + static_cast<double>(unit_roundoff<T>) / 2)
+                    ? infinity<T>
+                    : rounded(static_cast<T>(distance));
+    constexpr T least_positive = __builtin_bit_cast(T, typename float_format<T>::word{1});
+    return d > 0 ? d : least_positive;
+}
+
+/// The same with the points, and ids 0.
+template <class S, class U>
+ABUT_NOINLINE ABUT_HD constexpr auto separation_apart(const S& s, const U& t) {
+    using T = scalar_type_of<S>;
+    if constexpr (requires { s.normal; }) {
+        const measured_plane<T> m(s, t);
+        return separation<T>{0, 0, m.on_plane, m.on_triangle, rounded_distance<T>(positive_distance(s, t, m.length))};
+    } else {
+        const measured_pair<T> m(s, t);
+        return separation<T>{0, 0, m.point_on_a(s), m.point_on_b(t),
+                             rounded_distance<T>(positive_distance(s, t, m.distance()))};
+    }
+}
+
+template <scalar T>
+ABUT_HD constexpr separation<T> reversed(const separation<T>& s) {
+    return {s.b, s.a, s.point_b, s.point_a, s.distance};
+}
+
+/// Whether two shapes have a distance, in either order: those that can be decided and have contacts.
+template <class S, class U>
+concept measurable = (contact_pair<S, U> && measured_in_order<S, U>) || (contact_pair<U, S> && measured_in_order<U, S>);
+
+template <class S, class U>
+inline constexpr bool measured_as_given = contact_pair<S, U>&& measured_in_order<S, U>;
+
+/// Two shapes of which it is known whether they touch.
+template <class S, class U>
+ABUT_HD constexpr auto separation_of(const S& s, const U& t, bool touch) {
+    using T = scalar_type_of<S>;
+    if constexpr (!measured_as_given<S, U>) {
+        return reversed(separation_of(t, s, touch));
+    } else {
+        if (!touch) return separation_apart(s, t);
+        const vec3<T> shared = contact_between(s, t).point;
+        return separation<T>{0, 0, shared, shared, T(0)};
+    }
+}
+
+/// Measures distances of shapes that do not touch.
+struct measure_apart {
+    template <class S, class U>
+    requires measurable<S, U> ABUT_HD double measure(const S& s, const U& t, double bound) const {
+        return look(s, t, bound, {0, 0, 0}).distance;
+    }
+    /// With a way; `along` is one that is likely to be along it.
+    template <class S, class U>
+        requires measurable<S, U> ABUT_HD distance_and_way look(const S& s, const U& t, double bound,
+                                                                const vec3<double>& along)
+    const {
+        if constexpr (!measured_as_given<S, U>) {
+            const auto opposite = [](const vec3<double>& v) { return vec3<double>{-v.x, -v.y, -v.z}; };
+            const distance_and_way found = look(t, s, bound, opposite(along));
+            return {found.distance, opposite(found.way)};
+        } else {
+            if (is_surely_beyond(s, t, bound, along)) return {};
+            return distance_apart(s, t);
+        }
+    }
+
+private:
+    /// Most pairs that a walk meets are told to be too far apart in a fraction of the time that measuring takes: surely they
+    /// are, if there is a slab of that width between them. Tried are two vectors w, to which the slab is orthogonal: the
+    /// given one, and the way from one's middle to the other's, as they are rounded.
+    ///
+    /// A corner's product with w is off by less than 5u |w| |corner|, and the gap by twice that of the largest. Nothing is
+    /// said where the gap is below 2^-36 of |w| times the root of all corners' squares, so that it is off by 2^-16 of
+    /// itself, and the distance, as it is measured, by less. What underflows is nothing beside 2^-900; what overflows says
+    /// nothing.
+    template <class S, class U>
+    ABUT_HD static bool is_surely_beyond(const S& s, const U& t, double bound, const vec3<double>& along) {
+        if constexpr (requires { core_of(s).corners + core_of(t).corners; }) {
+            const auto a = core_of(s);
+            const auto b = core_of(t);
+            constexpr int n = decltype(a)::corners, m = decltype(b)::corners;
+            const vec3<double> origin = widened(a.at[0]);
+            vec3<double> p[n], q[m], sum_a{0, 0, 0}, sum_b{0, 0, 0};
+            double all = 0;
+            for (int i = 0; i < n; ++i) {
+                p[i] = widened(a.at[i]) - origin;
+                sum_a = sum_a + p[i];
+                all += dot(p[i], p[i]);
+            }
+            for (int j = 0; j < m; ++j) {
+                q[j] = widened(b.at[j]) - origin;
+                sum_b = sum_b + q[j];
+                all += dot(q[j], q[j]);
+            }
+            const length_unit<scalar_type_of<S>> plain;
+            const double far = bound + (core_radius(s, plain) + core_radius(t, plain));
+            const double least_square = greatest(0x1p-72 * all, (1 + 0x1p-10) * (far * far));
+            const auto tells = [&](const vec3<double>& w) {
+                double from = 0, to = infinity<double>;
+                for (int i = 1; i < n; ++i) from = greatest(from, dot(w, p[i]));
+                for (int j = 0; j < m; ++j) to = least(to, dot(w, q[j]));
+                const double gap = to - from, square = gap * gap;
+                return gap > 0 && square > 0x1p-900 && square > dot(w, w) * least_square;
+            };
+            return tells(along) || tells(static_cast<double>(n) * sum_b - static_cast<double>(m) * sum_a);
+        } else {
+            return false;
+        }
+    }
+};
+
+}  // namespace detail
+
+/// How far apart two closed shapes are: a `separation` with ids 0. It takes the pairs that `contact_of` takes, in either
+/// order: triangles, segments and points with triangles; spheres with triangles, segments and spheres; capsules, boxes and
+/// planes with triangles. The distance is 0 exactly where the two touch, as `intersects` decides. Otherwise it is accurate
+/// to a few units in the last place of the shapes' farthest corners (docs/numerics.md). The same bits on every compiler and
+/// device, in constant expressions too. Shapes are finite and valid.
+///
+///     constexpr auto d = abut::distance(abut::sphere<float>{{0, 0, 4}, 1},
+///                                       abut::triangle<float>{{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}});
+///     static_assert(d.distance == 3 && d.point_a == abut::vec3<float>{0, 0, 3});
+/// @ingroup one_pair
+template <shape S, shape U>
+[[nodiscard]] ABUT_HD constexpr auto distance(const S& s, const U& t) {
+    constexpr bool are = detail::measurable<S, U>;
+    static_assert(are, "abut: there is no distance of this pair of shapes");
+    if constexpr (are) {
+        return detail::separation_of(detail::as_stored(s), detail::as_stored(t), intersects(s, t));
+    } else {
+        return separation<scalar_type_of<S>>{};
+    }
+}
+
+}  // namespace abut

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include <abut/collide/distance.hpp>
+
+#include "collide/distance_cases.hpp"
+#include "support/catch.hpp"
+
+using namespace abut;
+
+TEMPLATE_TEST_CASE("distance: serial", "", float, double) { test::check_all_distances<TestType>(serial{}); }
+
+TEST_CASE("distance: openmp on 1, 3 and 17 threads") {
+    for (const int threads : {1, 3, 17}) {
+        CAPTURE(threads);
+        test::check_distance_by_hand<float>(openmp{threads});
+        test::check_distance_of_meshes<float>(openmp{threads});
+        test::check_distance_of_lists<float>(openmp{threads});
+    }
+}
+
+TEST_CASE("distance: points, segments, capsules, boxes, planes and spheres") {
+    test::check_distance_of<vec3<float>, triangle<float>>(serial{}, 94);
+    test::check_distance_of<segment<double>, triangle<double>>(serial{}, 95);
+    test::check_distance_of<triangle<float>, capsule<float>>(serial{}, 96);
+    test::check_distance_of<triangle<double>, aabb<double>>(serial{}, 97);
+    test::check_distance_of<plane<float>, triangle<float>>(serial{}, 98);
+    test::check_distance_of<sphere<double>, segment<double>>(serial{}, 99);
+    test::check_distance_of<sphere<float>, sphere<float>>(serial{}, 100);
+}
+
+TEST_CASE("distance: wide trees and those of other builders") {
+    test::uniform random(101);
+    const test::torus<float> ring(24, 12, 2, 0.5f);
+    const mesh<float> a(ring.vertices, ring.faces);
+    const serial on;
+    const auto tree = make_bvh(on, a);
+    const rigid<float> pose{{0.6f, -0.8f, 0, 0.8f, 0.6f, 0, 0, 0, 1}, {4, 1, 3}};
+    const auto expected = test::distance_by_definition(a.view(), posed_view<mesh_view<float>>{a.view(), pose});
+    test::check_same(distance(on, wide(on, tree), posed(wide(on, tree), pose)), expected);
+    test::check_same(distance(openmp{3}, wide(on, tree), posed(tree, pose)), expected);
+    const auto sah = make_bvh(on, a, {.builder = bvh_builder::sah});
+    test::check_same(distance(on, sah, posed(make_bvh(on, a, {.builder = bvh_builder::mean_split}), pose)), expected);
+}

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#include <abut/cuda.hpp>
+
+#include "collide/distance_cases.hpp"
+#include "support/catch.hpp"
+
+TEST_CASE("distance: cuda") {
+    const abut::cuda on;
+    abut::test::check_distance_of_meshes<float>(on);
+    abut::test::check_distance_below<float>(on);
+    abut::test::check_distance_of_lists<float>(on);
+}
+
+TEST_CASE("distance: a scene of many triangles, cuda and serial say the same") {
+    const abut::cuda on;
+    const abut::serial host;
+    const abut::test::torus<float> ring(256, 128, 2, 0.5f);
+    const abut::mesh<float> mesh(ring.vertices, ring.faces);
+    const auto tree = make_bvh(host, mesh);
+    const auto there = make_bvh(on, copy_to(on, mesh));
+    for (const float away : {5.0f, 5.5f, 9.0f, 4.9f}) {
+        const abut::rigid<float> pose{{0.6f, -0.8f, 0, 0.8f, 0.6f, 0, 0, 0, 1}, {away, 0.25f, 0.125f}};
+        abut::test::check_same(distance(on, there, posed(there, pose)), distance(host, tree, posed(tree, pose)));
+    }
+}

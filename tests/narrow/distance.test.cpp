@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: MIT
+#include <abut/narrow/distance.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "support/catch.hpp"
+#include "support/contact_oracles.hpp"
+#include "support/families.hpp"
+#include "support/other_shapes.hpp"
+#include "support/samples.hpp"
+#include "support/triangle_families.hpp"
+
+// The oracle: the least squared distance of two hulls, in 300 bits, by the supports of the weights. For each set of corners
+// of one and of the other it solves the normal equations of the free weights, and keeps those that are positive. Hulls that
+// do not meet need four corners at most. It shares no formula with the library.
+
+namespace abut::test {
+
+template <scalar T>
+wide distance_from(const wide_point& x, const plane<T>& s) {
+    return abs(dot(widest(s.normal), x) - wide(s.offset)) / length_of(widest(s.normal));
+}
+
+namespace {
+
+constexpr std::uint64_t distance_seed = 20261124;
+
+wide squared_distance(const wide_hull& a, const wide_hull& b) {
+    wide least = -1;
+    const auto offer = [&](const wide_point& way) {
+        const wide square = dot(way, way);
+        if (least < 0 || square < least) least = square;
+    };
+    // The way from x to y, free along one or two edges.
+    const auto along_one = [&](const wide_point& way, const wide_point& e) {
+        const wide ee = dot(e, e), s = -dot(way, e);
+        if (s > 0 && s < ee) offer(way + (s / ee) * e);
+    };
+    const auto along_two = [&](const wide_point& way, const wide_point& e, const wide_point& f, bool one_face) {
+        const wide ee = dot(e, e), ef = dot(e, f), ff = dot(f, f), we = -dot(way, e), wf = -dot(way, f);
+        const wide d = ee * ff - ef * ef, s = we * ff - wf * ef, t = wf * ee - we * ef;
+        if (!(d > 0) || !(s > 0) || !(t > 0) || (one_face ? s + t > d : s > d || t > d)) return;
+        offer(way + (s / d) * e + (t / d) * f);
+    };
+    const std::size_t n = a.corners.size(), m = b.corners.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = 0; j < m; ++j) {
+            const wide_point way = b.corners[j] - a.corners[i];
+            offer(way);
+            for (std::size_t k = i + 1; k < n; ++k) {
+                const wide_point e = a.corners[i] - a.corners[k];
+                along_one(way, e);
+                for (std::size_t l = k + 1; l < n; ++l) along_two(way, e, a.corners[i] - a.corners[l], true);
+                for (std::size_t l = j + 1; l < m; ++l) along_two(way, e, b.corners[l] - b.corners[j], false);
+            }
+            for (std::size_t k = j + 1; k < m; ++k) {
+                const wide_point e = b.corners[k] - b.corners[j];
+                along_one(way, e);
+                for (std::size_t l = k + 1; l < m; ++l) along_two(way, e, b.corners[l] - b.corners[j], true);
+            }
+        }
+    }
+    return least;
+}
+
+/// What is known of two shapes: their distance if they do not touch, and that of their farthest points.
+struct wide_gap {
+    wide distance, farthest;
+};
+template <class S, class U>
+wide_gap exact_gap(const S& s, const U& t) {
+    const wide_hull a = hull_of(s), b = hull_of(t);
+    wide far = 0;
+    for (const auto& p : a.corners) {
+        for (const auto& q : b.corners) far = std::max(far, length_of(p - q));
+    }
+    return {sqrt(squared_distance(a, b)) - a.radius - b.radius, far + a.radius + b.radius};
+}
+template <scalar T>
+wide_gap exact_gap(const plane<T>& s, const triangle<T>& t) {
+    const wide_point n = widest(s.normal);
+    wide least = -1, far = 0;
+    for (const wide_point& p : hull_of(t).corners) {
+        const wide height = abs(dot(n, p) - wide(s.offset)) / length_of(n);
+        if (least < 0 || height < least) least = height;
+        far = std::max(far, length_of(p));
+    }
+    return {least, far + least};
+}
+
+/// Worst figures, in units of 2^-53 of the distance of the farthest points.
+struct distance_tally {
+    std::uint64_t pairs = 0, touching = 0;
+    double distance = 0, point = 0;
+
+    distance_tally& operator+=(const distance_tally& t) {
+        pairs += t.pairs;
+        touching += t.touching;
+        distance = std::max(distance, t.distance);
+        point = std::max(point, t.point);
+        return *this;
+    }
+};
+
+constexpr double most_steps = 16;
+
+template <scalar T>
+wide rounding_of(const vec3<T>& p) {
+    const wide_point q = widest(p);
+    return wide(unit_roundoff<T>) * (abs(q.x) + abs(q.y) + abs(q.z)) + 4 * wide(std::numeric_limits<T>::denorm_min());
+}
+
+template <class S, class U>
+const char* wrong_with_distance(const S& s, const U& t, distance_tally& tally) {
+    using T = scalar_type_of<S>;
+    const separation<T> found = distance(s, t);
+    ++tally.pairs;
+    if (found.a != 0 || found.b != 0) return "ids are not 0";
+    const separation<T> other = distance(t, s);
+    if constexpr (!std::same_as<S, U>) {
+        const separation<T> swapped{0, 0, found.point_b, found.point_a, found.distance};
+        if (!(other == swapped)) return "the other order has another answer";
+    }
+    if (intersects<exact>(s, t)) {
+        ++tally.touching;
+        if (found.distance != 0 || other.distance != 0) return "what touches is apart";
+        if (!(found.point_a == found.point_b)) return "what touches has two points";
+        const wide off = std::max(distance_from(widest(found.point_a), s), distance_from(widest(found.point_a), t));
+        return off > wide(contact_bound(s, t)) ? "the shared point is off the shapes" : nullptr;
+    }
+    if (!(found.distance > 0) || !(other.distance > 0)) return "what does not touch is at no distance";
+    if constexpr (std::same_as<S, plane<T>>) {
+        if (s.normal == vec3<T>{0, 0, 0}) return found.distance == infinity<T> ? nullptr : "a plane that is nothing is near";
+    }
+    const wide_gap gap = exact_gap(s, t);
+    const wide step = wide(0x1p-53) * gap.farthest;
+    if (gap.distance > wide(largest_finite<T>) + step) return nullptr;  // T may have no number for it
+    const auto within = [&](const wide& off, const wide& allowed, double& worst) {
+        if (off > allowed && step > 0) worst = std::max(worst, static_cast<double>((off - allowed) / step));
+        return off <= allowed + most_steps * step;
+    };
+    for (const separation<T>& one : {found, other}) {
+        const wide rounded = wide(unit_roundoff<T>) * gap.distance + wide(std::numeric_limits<T>::denorm_min());
+        if (!within(abs(wide(one.distance) - gap.distance), rounded, tally.distance)) return "the distance is off";
+    }
+    // The foot on a plane may lie where T has no number.
+    const vec3<T> far = detail::absolute(found.point_a);
+    if (std::same_as<S, plane<T>> && detail::greatest(far.x, far.y, far.z) == largest_finite<T>) return nullptr;
+    const wide on_a = rounding_of(found.point_a), on_b = rounding_of(found.point_b);
+    if (!within(distance_from(widest(found.point_a), s), on_a, tally.point)) return "the first point is off its shape";
+    if (!within(distance_from(widest(found.point_b), t), on_b, tally.point)) return "the second point is off its shape";
+    const wide between = length_of(widest(found.point_b) - widest(found.point_a));
+    if (!within(abs(between - gap.distance), on_a + on_b, tally.point)) return "the points are not so far apart";
+    return nullptr;
+}
+
+/// `make(i)` gives pair i.
+template <class Make>
+distance_tally check_distances(const std::string& name, std::uint64_t pairs, const Make& make) {
+    distance_tally tally;
+    for (std::uint64_t i = 0; i < pairs; ++i) {
+        const auto [s, t] = make(i);
+        if (const char* const wrong = wrong_with_distance(s, t, tally)) {
+            CAPTURE(name, i);
+            FAIL_CHECK(wrong);
+        }
+    }
+    return tally;
+}
+
+void check_total(const char* name, const distance_tally& tally) {
+    std::printf("distance, %s: %llu pairs, %llu touch; off by %.2f, points by %.2f\n", name,
+                static_cast<unsigned long long>(tally.pairs), static_cast<unsigned long long>(tally.touching),
+                tally.distance, tally.point);
+    CHECK(tally.touching > tally.pairs / 10);
+    CHECK(tally.touching < tally.pairs * 9 / 10);
+}
+
+/// A hundredth of ABUT_SAMPLES in `part`, at least: oracles take their time.
+std::uint64_t some_samples(std::uint64_t part) { return std::max<std::uint64_t>(sample_count() / part, 1); }
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("distance: of triangles, segments and points with triangles, in each family, against 300 bits", "", float,
+                   double) {
+    using T = TestType;
+    std::printf("distance: seed %llu\n", static_cast<unsigned long long>(distance_seed));
+    distance_tally total, flat;
+    for (int f = 0; f < triangle_family_count; ++f) {
+        const auto of = static_cast<triangle_family>(f);
+        total += check_distances(name_of(of), some_samples(80), [&](std::uint64_t i) {
+            const auto p = make_triangle_pair<T>(distance_seed, of, i);
+            return std::pair(p.a, p.b);
+        });
+        flat += check_distances(name_of(of), some_samples(250), [&](std::uint64_t i) {
+            const auto p = make_triangle_pair<T>(distance_seed + 1, of, i);
+            return std::pair(segment<T>{p.a.a, p.a.b}, p.b);
+        });
+        flat += check_distances(name_of(of), some_samples(250), [&](std::uint64_t i) {
+            const auto p = make_triangle_pair<T>(distance_seed + 2, of, i);
+            return std::pair(p.a.c, p.b);
+        });
+    }
+    check_total("triangles", total);
+    check_total("segments and points", flat);
+}
+
+TEMPLATE_TEST_CASE("distance: of round and flat shapes, in each family, against 300 bits", "", float, double) {
+    using T = TestType;
+    distance_tally spheres_total, capsules, boxes, planes;
+    for (int f = 0; f < family_count; ++f) {
+        const auto of = static_cast<family>(f);
+        spheres_total += check_distances(name_of(of), some_samples(120), [&](std::uint64_t i) {
+            const auto p = make_pair<T>(distance_seed, of, i);
+            return std::pair(p.s, p.t);
+        });
+        spheres_total += check_distances(name_of(of), some_samples(250), [&](std::uint64_t i) {
+            const auto p = make_pair<T>(distance_seed + 1, of, i);
+            return std::pair(p.s, segment<T>{p.t.a, p.t.b});
+        });
+        spheres_total += check_distances(name_of(of), some_samples(250), [&](std::uint64_t i) {
+            const auto p = make_pair<T>(distance_seed + 2, of, i), q = make_pair<T>(distance_seed + 3, of, i);
+            return std::pair(p.s, sphere<T>{p.t.a, i % 3 == 0 ? T(0) : q.s.radius});
+        });
+    }
+    for (int f = 0; f < shape_family_count; ++f) {
+        const auto of = static_cast<shape_family>(f);
+        const auto make = [&]<template <class> class Shape>(std::uint64_t i) {
+            const auto p = make_shape_pair<Shape, T>(distance_seed, of, i);
+            return std::pair(p.s, p.t);
+        };
+        const std::string name = "family " + std::to_string(f);
+        capsules += check_distances(name, some_samples(120), [&](auto i) { return make.template operator()<capsule>(i); });
+        boxes += check_distances(name, some_samples(250), [&](auto i) { return make.template operator()<aabb>(i); });
+        planes += check_distances(name, some_samples(120), [&](auto i) { return make.template operator()<plane>(i); });
+    }
+    check_total("spheres", spheres_total);
+    check_total("capsules", capsules);
+    check_total("boxes", boxes);
+    check_total("planes", planes);
+}
+
+namespace {
+
+/// Two triangles with edges that are parallel but for an angle down to 2^-60, or needles, at a distance down to 2^-40.
+template <scalar T>
+std::pair<triangle<T>, triangle<T>> nearly_parallel(std::uint64_t i) {
+    using namespace construction;
+    draws d(distance_seed, 77, i);
+    const point a = cube(d, 1), b = cube(d, 1), across = unit(cross_product(between(a, b), cube(d, 1)));
+    const auto aside = [&](const point& p, double by) { return along(p, by, across); };
+    const double gap = std::ldexp(1.0, -d.below(40)), angle = std::ldexp(1.0, -d.below(61)), shift = d.uniform(-1, 1);
+    const point p = along(a, shift, between(a, b)), q = along(along(b, shift, between(a, b)), angle, cube(d, 1));
+    const double width_a = std::ldexp(1.0, -d.below(50)), width_b = std::ldexp(1.0, -d.below(50));
+    const triangle<T> s{round_to<T>(a), round_to<T>(b), round_to<T>(aside(a, -width_a))};
+    const triangle<T> t{round_to<T>(aside(p, gap)), round_to<T>(aside(q, gap)), round_to<T>(aside(q, gap + width_b))};
+    return {reordered(s, d.below(6)), reordered(t, d.below(6))};
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("distance: edges that are nearly parallel, and needles, against 300 bits", "", float, double) {
+    const distance_tally total = check_distances("nearly parallel", some_samples(2), nearly_parallel<TestType>);
+    std::printf("distance, nearly parallel: off by %.2f, points by %.2f\n", total.distance, total.point);
+    CHECK(total.touching < total.pairs / 2);
+}
+
+TEST_CASE("distance: by hand, and in constant expressions") {
+    using vec = vec3<double>;
+    constexpr triangle<double> t{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
+    static_assert(distance(t, vec{1, 1, 3}) == separation<double>{0, 0, {1, 1, 0}, {1, 1, 3}, 3});
+    static_assert(distance(vec{1, 1, -3}, t) == separation<double>{0, 0, {1, 1, -3}, {1, 1, 0}, 3});
+    static_assert(distance(t, triangle<double>{{1, 1, 2}, {5, 5, 9}, {-4, 5, 9}}).distance == 2);
+    static_assert(distance(t, segment<double>{{1, -2, -5}, {1, -2, 5}}) ==
+                  separation<double>{0, 0, {1, 0, 0}, {1, -2, 0}, 2});
+    static_assert(distance(sphere<double>{{0, 0, 0}, 1}, sphere<double>{{0, 5, 0}, 2}) ==
+                  separation<double>{0, 0, {0, 1, 0}, {0, 3, 0}, 2});
+    static_assert(distance(t, capsule<double>{{{1, 1, 3}, {1, 1, 5}}, 1}).distance == 2);
+    static_assert(distance(aabb<double>{{1, 1, 2}, {2, 2, 3}}, t).distance == 2);
+    static_assert(distance(plane<double>{{0, 0, 2}, -6}, t) == separation<double>{0, 0, {0, 0, -3}, {0, 0, 0}, 3});
+    static_assert(distance(plane<double>{{0, 0, 0}, 1}, t).distance == infinity<double>);
+    static_assert(distance(t, t).distance == 0);
+    constexpr auto shared = distance(sphere<double>{{1, 1, 2}, 2}, t);
+    static_assert(shared.distance == 0 && shared.point_a == vec{1, 1, 0} && shared.point_b == vec{1, 1, 0});
+
+    constexpr double most = std::numeric_limits<double>::max(), least = std::numeric_limits<double>::denorm_min();
+    CHECK(distance(triangle<double>{{0, 0, 0}, {most, 0, 0}, {0, most, 0}}, vec{0, 0, least}).distance == least);
+    CHECK(distance(triangle<double>{{0, 0, -most}, {most, 0, -most}, {0, most, -most}}, vec{0, 0, most}).distance ==
+          infinity<double>);
+    // A plane that is far beyond all numbers, and one with the least of them.
+    CHECK(distance(plane<double>{{0, 0, least}, most}, t).distance == infinity<double>);
+    CHECK(distance(plane<double>{{0, 0, least}, 8 * least}, triangle<double>{{0, 0, 0}, {least, 0, 0}, {0, least, 0}})
+              .distance == 8);
+}
+
+}  // namespace abut::test
