@@ -71,6 +71,13 @@ struct write_hits {
     }
 };
 
+template <class X>
+inline constexpr bool is_grid = false;
+template <class Set, memory_space Space>
+inline constexpr bool is_grid<grid<Set, Space>> = true;
+template <class Object>
+inline constexpr bool is_grid<posed_object<Object>> = is_grid<Object>;
+
 template <class S>
 inline constexpr bool is_line = std::same_as<S, ray<scalar_type_of<S>>> || std::same_as<S, segment<scalar_type_of<S>>>;
 
@@ -84,15 +91,14 @@ consteval bool can_be_met() {
         using line_type = typename shape_of_argument<Lines>::type;
         constexpr bool are = std::same_as<shape_type, triangle<scalar_type_of<shape_type>>>;
         static_assert(are, "abut: raycast looks for triangles: a mesh, a triangle_soup, or a tree of one");
+        constexpr bool has_walk = !is_grid<X>;
+        static_assert(has_walk, "abut: raycast takes a tree, a set or one shape, and no grid");
         constexpr bool look = is_line<line_type>;
         static_assert(look, "abut: raycast takes rays or segments: a set of them, a view, or one");
-        if constexpr (are && look) return have_one_scalar<X, Lines>();
+        if constexpr (are && has_walk && look) return have_one_scalar<X, Lines>();
         return false;
     }
 }
-
-template <class Operand>
-inline constexpr bool is_grid_operand = Operand::is_indexed && !Operand::has_tree;
 
 template <arithmetic A, class Policy, class X, class Lines>
 auto raycast_of(const Policy& on, const X& index, const Lines& rays, const char* function) {
