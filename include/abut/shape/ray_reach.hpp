@@ -17,6 +17,7 @@
 
 #include <abut/arithmetic/align.hpp>
 #include <abut/arithmetic/error_free.hpp>
+#include <abut/arithmetic/lanes.hpp>
 #include <abut/arithmetic/limits.hpp>
 #include <abut/arithmetic/magnitude.hpp>
 #include <abut/arithmetic/strict.hpp>
@@ -34,6 +35,14 @@ ABUT_HD constexpr double times_power_of_two(double x, int e) {
     return plain_product(plain_product(x, power_of_two<double>(half)), power_of_two<double>(e - half));
 }
 
+/// The exponent of a normal number x > 0: 2^e <= x < 2^(e + 1).
+template <scalar T>
+ABUT_HD constexpr int exponent_of_normal(T x) {
+    using format = float_format<T>;
+    return static_cast<int>(__builtin_bit_cast(typename format::word, x) >> (format::digits - 1)) + format::min_exponent +
+           format::digits - 2;
+}
+
 template <scalar T>
 struct ray_reach {
     vec3<T> below, above;  ///< the origin, moved up and down by its slack
@@ -45,6 +54,7 @@ struct ray_reach {
     bool is_narrow;  ///< whether it is 0 in any coordinate
 
     static constexpr T most = largest_finite<T> / 8;
+    static constexpr bool takes_four = true;
 
     ray_reach() = default;
     /// last: the time at which it ends, or infinity. slack: by how much a point of it may be off.
@@ -54,10 +64,9 @@ struct ray_reach {
         const vec3<T> size = absolute(direction);
         const T largest = greatest(size.x, size.y, size.z);
         const bool is_safe = largest >= smallest_normal<T>;  // nothing is asked of a direction of denormal numbers
-        if (is_safe) {
-            const binary_parts parts = take_apart(largest);
-            exponent = parts.exponent + parts.bits - 1;
-        }
+        if (is_safe) exponent = exponent_of_normal(largest);
+        // In two steps, since 2^-e need not be a normal number.
+        const T first = power_of_two<T>(-exponent / 2), second = power_of_two<T>(-exponent - -exponent / 2);
         const T reach = slack + 4 * smallest_normal<T>;
         const auto prepare = [&](T vec3<T>::*x) {
             below.*x = origin.*x + reach;
@@ -69,9 +78,9 @@ struct ray_reach {
                 is_narrow = true;
                 return;
             }
-            const double scaled = times_power_of_two(static_cast<double>(direction.*x), -exponent);
-            if (!is_safe || !(scaled >= 0x1p-60 || scaled <= -0x1p-60)) return;
-            inverse.*x = static_cast<T>(1 / scaled);
+            const T scaled = plain_product(plain_product(direction.*x, first), second);
+            if (!is_safe || !(absolute(scaled) >= T(0x1p-60))) return;
+            inverse.*x = 1 / scaled;
             far.*x = 0;
         };
         prepare(&vec3<T>::x);
@@ -93,12 +102,44 @@ struct ray_reach {
         if (entry > exit * grown + tiny || (is_narrow && !overlaps(around, box))) return infinity<T>;
         return entry;
     }
+    /// The same of four boxes: planes(axis, upper) are their lower or their upper bounds along an axis. Which of the two the
+    /// ray passes first is the same for all boxes. What is not kept gets a time above every limit.
+    template <class Planes>
+    ABUT_INLINE ABUT_HD void least_in_four(const Planes& planes, T (&to)[4]) const {
+        using many = decltype(planes(0, false));
+        const auto all = [](T x) { return many::all(x); };
+        constexpr T grown = 1 + 32 * unit_roundoff<T>, tiny = 4 * smallest_normal<T>;
+        const auto along = [&](int axis, T vec3<T>::*x, many& entry, many& exit) {
+            const T factor = inverse.*x;
+            const bool back = factor < 0;
+            const many in = (planes(axis, back) - all(back ? above.*x : below.*x)) * all(factor);
+            const many out = (planes(axis, !back) - all(back ? below.*x : above.*x)) * all(factor);
+            entry = greatest(in, entry);
+            exit = least(out + all(far.*x), exit);
+        };
+        many entry = all(T(0)), exit = all(infinity<T>);
+        along(0, &vec3<T>::x, entry, exit);
+        along(1, &vec3<T>::y, entry, exit);
+        along(2, &vec3<T>::z, entry, exit);
+        entry = least(entry, all(most));
+        auto apart = entry > exit * all(grown) + all(tiny);
+        if (is_narrow) {
+            const auto beside = [&](int axis, T vec3<T>::*x) {
+                return (planes(axis, false) > all(around.upper.*x)) | (all(around.lower.*x) > planes(axis, true));
+            };
+            apart = apart | (beside(0, &vec3<T>::x) | beside(1, &vec3<T>::y) | beside(2, &vec3<T>::z));
+        }
+        entry.store(to);
+        const decltype(apart) row[1] = {apart};
+        for (unsigned missed = bits_of(row); missed != 0; missed &= missed - 1) to[lowest_bit(missed)] = infinity<T>;
+    }
     [[nodiscard]] ABUT_HD bool keeps(T least) const { return !(least > limit); }
     ABUT_HD bool operator()(const aabb<T>& box) const { return keeps(least_in(box)); }
     [[nodiscard]] ABUT_HD aabb<T> bounds() const { return around; }
     /// bound: a time, in the direction's own length.
     ABUT_HD void shrink_to(double bound) {
         constexpr double grown = 1 + 32 * static_cast<double>(unit_roundoff<T>);
+        if (bound == infinity<double>) return;
         const double scaled = times_power_of_two(bound, exponent) * grown + 4 * static_cast<double>(smallest_normal<T>);
         limit = scaled < static_cast<double>(most) ? static_cast<T>(scaled) : most;
     }
