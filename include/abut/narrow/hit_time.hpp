@@ -100,6 +100,25 @@ ABUT_HD constexpr triangle<T> turned_once(const triangle<T>& t) {
     return {turned_once(t.a), turned_once(t.b), turned_once(t.c)};
 }
 
+/// About when the line meets what `What` says, if nothing overflows or vanishes on the way.
+template <met What, scalar T>
+ABUT_HD constexpr double approximate_time(const line_of<T>& l, const triangle<T>& t) {
+    using number = contact_math::two_doubles;
+    const auto way = [](const vec3<T>& from, const vec3<T>& to) {
+        return contact_math::between<number>(widened_by_bits(from), widened_by_bits(to));
+    };
+    const auto to_a = way(l.origin, t.a), side = way(t.a, t.b), along = way(l.start, l.end);
+    if constexpr (What == met::plane) {
+        const auto n = cross(side, way(t.a, t.c));
+        return (dot(n, to_a) / dot(n, along)).high;
+    } else if constexpr (What == met::side) {
+        const auto z_of = [](const auto& a, const auto& b) { return a.x * b.y - a.y * b.x; };
+        return (z_of(to_a, side) / z_of(along, side)).high;
+    } else {
+        return (to_a.x / along.x).high;
+    }
+}
+
 /// The time at which the line meets what `What` says, which is not negative: among the doubles in their order, by halves.
 template <met What, scalar T>
 ABUT_HD constexpr double rounded_time(const line_of<T>& l, const triangle<T>& t) {
@@ -111,6 +130,14 @@ ABUT_HD constexpr double rounded_time(const line_of<T>& l, const triangle<T>& t)
     };
     const auto number = [](std::uint64_t bits) { return __builtin_bit_cast(double, bits); };
     std::uint64_t low = 0, high = __builtin_bit_cast(std::uint64_t, largest_finite<double>);
+    // It is what doubles make of it, nearly always, or next to that.
+    const double guess = approximate_time<What>(l, t);
+    if (guess > smallest_normal<double> && guess < largest_finite<double> / 2) {
+        const std::uint64_t bits = __builtin_bit_cast(std::uint64_t, guess);
+        for (std::uint64_t at = bits - 1; at <= bits + 1; ++at) {
+            if (!is_above_mean(number(at), number(at + 1)) && is_above_mean(number(at - 1), number(at))) return number(at);
+        }
+    }
     while (low < high) {
         const std::uint64_t middle = low + (high - low) / 2;
         if (is_above_mean(number(middle), number(middle + 1))) {
