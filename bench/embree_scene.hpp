@@ -43,9 +43,11 @@ inline vec closest_point(const vec& p, const vec& a, const vec& b, const vec& c)
 /// A tree over the triangles of a surface, for one thread.
 class embree_scene {
 public:
-    explicit embree_scene(const scene::surface<float>& mesh) : device_(rtcNewDevice("threads=1")) {
+    /// robust: rays do not slip through edges.
+    explicit embree_scene(const scene::surface<float>& mesh, bool robust = false) : device_(rtcNewDevice("threads=1")) {
         if (device_ == nullptr) throw std::runtime_error("Embree gives no device");
         scene_ = rtcNewScene(device_);
+        if (robust) rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
         RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
         copy_in(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.vertices);
         copy_in(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh.faces);

@@ -210,6 +210,44 @@ def distance_cuda(results):
     return ["Microseconds a pose:", ""] + table(["scene", "poses", "number"] + list(names.values()), rows) + made_on(r)
 
 
+RAYS = {"coherent": "from a camera", "scattered": "scattered"}
+
+
+@in_table("raycast-cpu")
+def raycast_cpu(results):
+    r = results["cpu/raycast"]
+    names = {"embree/float": "Embree", "embree_robust/float": "Embree, robust", "bvh/filtered": "`make_bvh`", "sah/filtered": "`make_bvh`, `sah`",
+             "wide_sah/filtered": "`wide`, of a `sah` tree", "sah/fast": "`make_bvh`, `sah`, by `fast`"}
+    rays = r.get("raycast/coherent/sah/filtered/serial", "rays")
+    rows = []
+    for index, name in names.items():
+        row = [name]
+        for kind in RAYS:
+            ms, peer = r.get(f"raycast/{kind}/{index}/serial"), r.get(f"raycast/{kind}/embree/float/serial")
+            row += [shown(ms), shown(rays / ms / 1e3), quotient(ms, peer)]
+        rows.append(row)
+    head = [""] + [h for kind in RAYS.values() for h in (f"{kind}, ms", "million rays a second", "over Embree")]
+    return [f"First hits of {int(rays):,} rays in a mesh of 345,944 triangles, one core, ms:", ""] + table(head, rows) + made_on(r)
+
+
+@in_table("raycast-cuda")
+def raycast_cuda(results):
+    r = results["cuda/raycast"]
+    names = {"bvh/filtered": "`make_bvh`", "ploc/filtered": "`ploc`", "ploc/fast": "`ploc`, by `fast`"}
+    rays = r.get("raycast/coherent/bvh/filtered/cuda", "items")
+    rows = []
+    for index, name in names.items():
+        row = [name]
+        for kind in RAYS:
+            ms = r.get(f"raycast/{kind}/{index}/cuda")
+            row += [shown(ms), shown(rays / ms / 1e3)]
+        rows.append(row)
+    floor_ms = r.get("raycast/coherent/bvh/filtered/cuda", "floor_ms")
+    head = [""] + [h for kind in RAYS.values() for h in (f"{kind}, ms", "million rays a second")]
+    return [f"First hits of {int(rays):,} rays in a mesh of 345,944 triangles:", ""] + table(head, rows) + \
+        [f"To read the tree and the rays and to write the hits once takes {shown(floor_ms)} ms at the speed of a read loop.", ""] + made_on(r)
+
+
 BODIES = {"build": "`make_bodies`", "refit": "`refit`", "refit_from_host": "`refit`, poses in host memory",
           "near": "near pairs of bodies alone", "pairs": "`pairs`", "unsorted": "`pairs`, not sorted", "count": "`count`",
           "any": "`any`", "contacts": "`contacts`", "fast": "`pairs<fast>`", "ploc": "`pairs`, trees by `ploc`",

@@ -58,6 +58,7 @@ cpu meshes bench_meshes $G $I --mesh=@D@/meshes/armadillo_345944.ply --benchmark
 cpu any bench_meshes $G $I --mesh=@D@/meshes/stanford-bunny.ply --benchmark_filter=any/[a-z_]*/.*/
 cpu nearest bench_nearest $G $I --benchmark_filter=/100000/
 cpu distance bench_distance $G $I --meshes=@D@/meshes
+cpu raycast bench_raycast $G $I --mesh=@D@/meshes/armadillo_345944.ply
 cpu descents bench_descents --json={} --mesh=@D@/meshes/armadillo_345944.ply
 cpu meshes_138376 bench_meshes $G $I --mesh=@D@/meshes/armadillo_138376.ply --benchmark_filter=^(build/bvh|pairs|boxes|contacts)/
 cpu meshes_27674 bench_meshes $G $I --mesh=@D@/meshes/armadillo_27674.ply --benchmark_filter=^(build/bvh|pairs|boxes|contacts)/
@@ -78,6 +79,7 @@ cuda devices bench_devices_cuda {}
 cuda devices_large bench_devices_large_cuda {}
 cuda nearest bench_nearest_cuda {}
 cuda distance bench_distance_cuda --meshes=@D@/meshes {}
+cuda raycast bench_raycast_cuda {} @D@/meshes/armadillo_345944.ply
 cuda bodies bench_bodies_cuda {}
 cuda validate bench_validate_cuda {}
 cuda meshes bench_meshes_cuda {} @D@/meshes/armadillo_345944.ply @D@/meshes/armadillo_2766.ply

@@ -127,6 +127,15 @@ void query_distance() {
     //! [distance]
 }
 
+void query_rays() {
+    //! [raycast]
+    const abut::rays<float> rays({{{1, 1, -3}, {0, 0, 2}}, {{9, 9, 9}, {1, 0, 0}}});
+    const auto hits = abut::to_host(abut::raycast(abut::serial{}, tetrahedron, rays));
+    expect(hits[0].id == 0 && hits[0].t == 1.5f);  // face 0, from below
+    expect(hits[1].id == abut::no_id);             // nothing
+    //! [raycast]
+}
+
 void query_mesh() {
     //! [validate]
     const auto report = abut::validate(abut::serial{}, tetrahedron);
@@ -163,6 +172,7 @@ int main() {
     query_contacts();
     query_nearest();
     query_distance();
+    query_rays();
     query_mesh();
     query_one_pair();
 }

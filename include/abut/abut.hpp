@@ -18,6 +18,7 @@
 #include <abut/collide/list_distance.hpp>
 #include <abut/collide/nearest.hpp>
 #include <abut/collide/query.hpp>
+#include <abut/collide/raycast.hpp>
 #include <abut/collide/reduce_contacts.hpp>
 #include <abut/collide/self_pairs.hpp>
 #include <abut/collide/validate.hpp>

@@ -76,6 +76,11 @@ struct lanes {
         return r;
     }
 
+    /// To four numbers that lie one after another.
+    ABUT_INLINE ABUT_HD void store(T* to) const {
+        for (int i = 0; i < registers; ++i) std::memcpy(to + i * in_register, &at[i], sizeof(Register));
+    }
+
     ABUT_INLINE ABUT_HD friend lanes operator+(lanes a, const lanes& b) {
         for (int i = 0; i < registers; ++i) a.at[i] = a.at[i] + b.at[i];
         return a;
@@ -106,6 +111,20 @@ ABUT_INLINE ABUT_HD lanes<T, Register> absolute(lanes<T, Register> x) {
     for (Register& r : x.at) r = r > -r ? r : -r;
     return x;
 }
+
+/// The lesser and the greater of each two numbers: the second of two that do not compare, as of single ones (magnitude.hpp).
+///@{
+template <scalar T, class Register>
+ABUT_INLINE ABUT_HD lanes<T, Register> least(lanes<T, Register> a, const lanes<T, Register>& b) {
+    for (int i = 0; i < a.registers; ++i) a.at[i] = a.at[i] < b.at[i] ? a.at[i] : b.at[i];
+    return a;
+}
+template <scalar T, class Register>
+ABUT_INLINE ABUT_HD lanes<T, Register> greatest(lanes<T, Register> a, const lanes<T, Register>& b) {
+    for (int i = 0; i < a.registers; ++i) a.at[i] = a.at[i] > b.at[i] ? a.at[i] : b.at[i];
+    return a;
+}
+///@}
 
 /// Bit 4 r + k is lane k of row r.
 template <class Answer, int Registers, std::size_t Rows>

@@ -52,6 +52,10 @@ struct wide_view : bvh_view_base<T, Space, wide_node<T>, 4> {
     ///@}
     /// The boxes of all four slots, as lanes of four numbers.
     [[nodiscard]] ABUT_HD static auto all_bounds(const node_type& n) { return detail::box_lanes<T>::load(n.lower, n.upper); }
+    /// The lower or the upper bounds of all four slots along an axis, likewise.
+    [[nodiscard]] ABUT_HD static auto all_planes(const node_type& n, int axis, bool upper) {
+        return detail::lanes<T>::load(upper ? n.upper[axis] : n.lower[axis]);
+    }
 };
 
 /// 128 bytes a node in single precision, 224 in double, for two to three shapes.

@@ -91,6 +91,16 @@ ABUT_HD constexpr aabb<T> bounds(const plane<T>&) {
     return {{-far, -far, -far}, {far, far, far}};
 }
 
+/// From the origin to infinity along each axis on which the ray moves, which it is told by the direction's bits.
+template <scalar T>
+ABUT_HD constexpr aabb<T> bounds(const ray<T>& r) {
+    constexpr T far = infinity<T>;
+    const auto lower = [](T from, T along) { return !detail::is_zero(along) && detail::has_sign(along) ? -far : from; };
+    const auto upper = [](T from, T along) { return !detail::is_zero(along) && !detail::has_sign(along) ? far : from; };
+    const vec3<T>&o = r.origin, &d = r.direction;
+    return {{lower(o.x, d.x), lower(o.y, d.y), lower(o.z, d.z)}, {upper(o.x, d.x), upper(o.y, d.y), upper(o.z, d.z)}};
+}
+
 ///@}
 
 }  // namespace abut

@@ -60,6 +60,13 @@ struct capsule {
     T radius;         ///< 0 or more
 };
 
+/// All origin + t direction with t >= 0. The direction has any length; with direction 0 it is the point `origin`.
+template <scalar T>
+struct ray {
+    vec3<T> origin;     ///< where it begins
+    vec3<T> direction;  ///< of any length; t is measured in it
+};
+
 ///@}
 
 }  // namespace abut

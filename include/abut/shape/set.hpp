@@ -194,6 +194,9 @@ using capsules = shapes<capsule<T>, Space>;
 /// Solid boxes along the axes.
 template <scalar T, memory_space Space = host_space>
 using boxes = shapes<aabb<T>, Space>;
+/// Rays, each with its own origin and direction.
+template <scalar T, memory_space Space = host_space>
+using rays = shapes<ray<T>, Space>;
 
 /// Solid spheres of one radius, which is stored once.
 template <scalar T, memory_space Space = host_space>

@@ -88,6 +88,10 @@ ABUT_HD constexpr bool is_valid(const plane<T>& p) {
     return is_valid(p.normal) && detail::is_finite(p.offset);
 }
 template <scalar T>
+ABUT_HD constexpr bool is_valid(const ray<T>& r) {
+    return is_valid(r.origin) && is_valid(r.direction);
+}
+template <scalar T>
 ABUT_HD constexpr bool is_valid(const capsule<T>& s) {
     return is_valid(s.axis) && detail::is_finite(s.radius) && s.radius >= 0;
 }

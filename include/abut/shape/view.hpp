@@ -109,7 +109,7 @@ struct shapes_view {
     }
 };
 
-/// Views of triangles, balls, points, segments, capsules or boxes, each with all its numbers.
+/// Views of triangles, balls, points, segments, capsules, boxes or rays, each with all its numbers.
 ///@{
 template <scalar T, memory_space Space = host_space>
 using triangle_soup_view = shapes_view<triangle<T>, Space>;
@@ -123,6 +123,8 @@ template <scalar T, memory_space Space = host_space>
 using capsules_view = shapes_view<capsule<T>, Space>;
 template <scalar T, memory_space Space = host_space>
 using boxes_view = shapes_view<aabb<T>, Space>;
+template <scalar T, memory_space Space = host_space>
+using rays_view = shapes_view<ray<T>, Space>;
 ///@}
 
 /// Triangles as faces over shared vertices.

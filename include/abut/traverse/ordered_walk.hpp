@@ -42,6 +42,13 @@ ABUT_HD auto least_in_slot(const Reach& reach, const Tree& tree, const typename 
     }
 }
 
+/// Whether a reach looks at the four boxes of a node at once.
+template <class Reach, class Tree>
+concept looks_at_four = requires(const typename Tree::node_type& node) {
+    requires Reach::takes_four;
+    Tree::all_planes(node, 0, false);
+};
+
 /// Nearest child first; the others wait with their distances, and are dropped when their turn comes if the reach has shrunk
 /// below that. Leaves wait like nodes. A walk without branches on what is nearer and what is kept was tried, also with four
 /// nodes at a time: it took half as long again on one core, which guesses right more often than not.
@@ -65,6 +72,22 @@ struct ordered_tree_walk {
         for (;;) {
             while (reach.keeps(at.least) && !at.child.is_leaf()) {
                 const auto& node = tree.fetch(at.child.index());
+                if constexpr (looks_at_four<Reach, Tree>) {
+                    // The nearest goes on; the others wait, the farthest below.
+                    T least_of[4];
+                    reach.least_in_four([&](int axis, bool upper) { return tree.all_planes(node, axis, upper); }, least_of);
+                    const int first = waiting;
+                    for (int slot = 0; slot < tree.children(node); ++slot) {
+                        if (!reach.keeps(least_of[slot])) continue;
+                        int k = waiting++;
+                        for (; k > first && least_of[slot] > pending[k - 1].least; --k) pending[k] = pending[k - 1];
+                        pending[k] = {tree.child(node, slot), least_of[slot]};
+                        tree.prefetch(pending[k].child);
+                    }
+                    if (waiting == 0) return;
+                    at = pending[--waiting];
+                    continue;
+                }
                 at = {tree.child(node, 0), least_in_slot(reach, tree, node, 0)};
                 tree.prefetch(at.child);
                 for (int slot = 1; slot < tree.children(node); ++slot) {

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+//
+// The peer: Embree's first hits over the same triangles, one ray at a time on one thread. `robust` is its watertight way
+// (RTC_SCENE_FLAG_ROBUST); neither is exact.
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include <benchmark/benchmark.h>
+
+#include "../embree_scene.hpp"
+#include "peer.hpp"
+
+namespace {
+
+void add(bool robust) {
+    for (std::size_t kind = 0; kind < raycast_scene::kinds.size(); ++kind) {
+        const std::string name = std::string("raycast/") + raycast_scene::kinds[kind] + (robust ? "/embree_robust" : "/embree") + "/float/serial";
+        raycast_peer::add(name, [=](benchmark::State& state) {
+            const auto rays = raycast_scene::rays_at(raycast_peer::mesh(), kind, raycast_scene::default_side);
+            const embree_peer::embree_scene index(raycast_peer::mesh(), robust);
+            struct answer {
+                std::uint32_t id;
+                float t;
+            };
+            std::size_t hits = 0;
+            for (auto _ : state) {
+                std::vector<answer> found(rays.size());
+                RTCIntersectContext context;
+                rtcInitIntersectContext(&context);
+                for (std::size_t i = 0; i < rays.size(); ++i) {
+                    const auto &o = rays[i].origin, &d = rays[i].direction;
+                    RTCRayHit ray{};
+                    ray.ray.org_x = o.x, ray.ray.org_y = o.y, ray.ray.org_z = o.z;
+                    ray.ray.dir_x = d.x, ray.ray.dir_y = d.y, ray.ray.dir_z = d.z;
+                    ray.ray.tfar = std::numeric_limits<float>::infinity();
+                    ray.ray.mask = static_cast<unsigned>(-1);
+                    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+                    rtcIntersect1(index.get(), &context, &ray);
+                    found[i] = {ray.hit.geomID == RTC_INVALID_GEOMETRY_ID ? static_cast<std::uint32_t>(-1) : ray.hit.primID, ray.ray.tfar};
+                }
+                state.PauseTiming();
+                hits = 0;
+                for (const answer& a : found) hits += a.id != static_cast<std::uint32_t>(-1);
+                state.ResumeTiming();
+            }
+            raycast_peer::note(state, rays.size(), hits);
+        });
+    }
+}
+
+void add_both() {
+    add(false);
+    add(true);
+}
+[[maybe_unused]] const bool registered = (raycast_peer::peers().push_back(add_both), true);
+
+}  // namespace

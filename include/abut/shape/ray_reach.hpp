@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// How far a ray or a segment reaches that looks for what it meets first: a prune functor that tightens (point_reach.hpp), by
+// when the ray passes the two planes of a box in each coordinate.
+//
+// The direction is divided by a power of two, 2^e, that brings its largest coordinate to [1, 2); times become 2^e times as
+// long. The time at which a plane is passed is (plane - origin) times the inverse of a coordinate: three roundings of 2u each
+// in any mode, so it is off by less than 7u of itself, and of two such the lesser may seem the greater by 15u. The exit is
+// taken 32u later. What is flushed to zero moves a difference by less than 3 m, where m is the smallest normal number: the
+// origin's own reach, `slack`, is 4 m at least. Inverses are above 1/2, so times above 2 m are not flushed; 4 m is added.
+// Differences may overflow. An entry is held below an eighth of the largest number, which the true one is above if it
+// overflows, and a limit that is not below that is none.
+//
+// Where the direction is 0 in a coordinate the origin has to lie between both planes. Where it is less than 2^-60 of the
+// largest, the planes say nothing.
+
+#include <abut/arithmetic/align.hpp>
+#include <abut/arithmetic/error_free.hpp>
+#include <abut/arithmetic/lanes.hpp>
+#include <abut/arithmetic/limits.hpp>
+#include <abut/arithmetic/magnitude.hpp>
+#include <abut/arithmetic/strict.hpp>
+#include <abut/shape/bounds.hpp>
+#include <abut/shape/point_reach.hpp>
+#include <abut/shape/primitive.hpp>
+
+namespace abut {
+
+namespace detail {
+
+/// x 2^e, for a result and an e of which doubles are in reach; in two steps, since 2^e itself may not be.
+ABUT_HD constexpr double times_power_of_two(double x, int e) {
+    const int half = e / 2;
+    return plain_product(plain_product(x, power_of_two<double>(half)), power_of_two<double>(e - half));
+}
+
+/// The exponent of a normal number x > 0: 2^e <= x < 2^(e + 1).
+template <scalar T>
+ABUT_HD constexpr int exponent_of_normal(T x) {
+    using format = float_format<T>;
+    return static_cast<int>(__builtin_bit_cast(typename format::word, x) >> (format::digits - 1)) + format::min_exponent +
+           format::digits - 2;
+}
+
+template <scalar T>
+struct ray_reach {
+    vec3<T> below, above;  ///< the origin, moved up and down by its slack
+    vec3<T> inverse;       ///< of the direction's coordinates; 0 where they say nothing
+    vec3<T> far;           ///< infinity where they say nothing, and else 0
+    aabb<T> around;        ///< of the coordinates in which the direction is 0; infinite in the others
+    T limit;
+    int exponent;    ///< e
+    bool is_narrow;  ///< whether it is 0 in any coordinate
+
+    static constexpr T most = largest_finite<T> / 8;
+    static constexpr bool takes_four = true;
+
+    ray_reach() = default;
+    /// last: the time at which it ends, or infinity. slack: by how much a point of it may be off.
+    ABUT_HD ray_reach(const vec3<T>& origin, const vec3<T>& direction, double last, T slack = 0)
+        : below(origin), above(origin), inverse{0, 0, 0}, far{}, around{}, limit(most), exponent(0), is_narrow(false) {
+        constexpr T none = infinity<T>;
+        const vec3<T> size = absolute(direction);
+        const T largest = greatest(size.x, size.y, size.z);
+        const bool is_safe = largest >= smallest_normal<T>;  // nothing is asked of a direction of denormal numbers
+        if (is_safe) exponent = exponent_of_normal(largest);
+        // In two steps, since 2^-e need not be a normal number.
+        const T first = power_of_two<T>(-exponent / 2), second = power_of_two<T>(-exponent - -exponent / 2);
+        const T reach = slack + 4 * smallest_normal<T>;
+        const auto prepare = [&](T vec3<T>::*x) {
+            below.*x = origin.*x + reach;
+            above.*x = origin.*x - reach;
+            around.lower.*x = -none, around.upper.*x = none;
+            far.*x = none;
+            if (is_zero(direction.*x)) {
+                around.lower.*x = above.*x - reach, around.upper.*x = below.*x + reach;
+                is_narrow = true;
+                return;
+            }
+            const T scaled = plain_product(plain_product(direction.*x, first), second);
+            if (!is_safe || !(absolute(scaled) >= T(0x1p-60))) return;
+            inverse.*x = 1 / scaled;
+            far.*x = 0;
+        };
+        prepare(&vec3<T>::x);
+        prepare(&vec3<T>::y);
+        prepare(&vec3<T>::z);
+        shrink_to(last);
+    }
+
+    /// When it enters the box, or a time above every limit.
+    ABUT_HD T least_in(const aabb<T>& box) const {
+        constexpr T grown = 1 + 32 * unit_roundoff<T>, tiny = 4 * smallest_normal<T>;
+        const auto first = [&](T vec3<T>::*x) { return (box.lower.*x - below.*x) * inverse.*x; };
+        const auto second = [&](T vec3<T>::*x) { return (box.upper.*x - above.*x) * inverse.*x; };
+        const vec3<T> one{first(&vec3<T>::x), first(&vec3<T>::y), first(&vec3<T>::z)},
+            other{second(&vec3<T>::x), second(&vec3<T>::y), second(&vec3<T>::z)};
+        const vec3<T> in = least(one, other), out = greatest(one, other) + far;
+        const T entry = least(greatest(in.x, in.y, greatest(in.z, T(0))), most);
+        const T exit = least(out.x, out.y, out.z);
+        if (entry > exit * grown + tiny || (is_narrow && !overlaps(around, box))) return infinity<T>;
+        return entry;
+    }
+    /// The same of four boxes: planes(axis, upper) are their lower or their upper bounds along an axis. Which of the two the
+    /// ray passes first is the same for all boxes. What is not kept gets a time above every limit.
+    template <class Planes>
+    ABUT_INLINE ABUT_HD void least_in_four(const Planes& planes, T (&to)[4]) const {
+        using many = decltype(planes(0, false));
+        const auto all = [](T x) { return many::all(x); };
+        constexpr T grown = 1 + 32 * unit_roundoff<T>, tiny = 4 * smallest_normal<T>;
+        const auto along = [&](int axis, T vec3<T>::*x, many& entry, many& exit) {
+            const T factor = inverse.*x;
+            const bool back = factor < 0;
+            const many in = (planes(axis, back) - all(back ? above.*x : below.*x)) * all(factor);
+            const many out = (planes(axis, !back) - all(back ? below.*x : above.*x)) * all(factor);
+            entry = greatest(in, entry);
+            exit = least(out + all(far.*x), exit);
+        };
+        many entry = all(T(0)), exit = all(infinity<T>);
+        along(0, &vec3<T>::x, entry, exit);
+        along(1, &vec3<T>::y, entry, exit);
+        along(2, &vec3<T>::z, entry, exit);
+        entry = least(entry, all(most));
+        auto apart = entry > exit * all(grown) + all(tiny);
+        if (is_narrow) {
+            const auto beside = [&](int axis, T vec3<T>::*x) {
+                return (planes(axis, false) > all(around.upper.*x)) | (all(around.lower.*x) > planes(axis, true));
+            };
+            apart = apart | (beside(0, &vec3<T>::x) | beside(1, &vec3<T>::y) | beside(2, &vec3<T>::z));
+        }
+        entry.store(to);
+        const decltype(apart) row[1] = {apart};
+        for (unsigned missed = bits_of(row); missed != 0; missed &= missed - 1) to[lowest_bit(missed)] = infinity<T>;
+    }
+    [[nodiscard]] ABUT_HD bool keeps(T least) const { return !(least > limit); }
+    ABUT_HD bool operator()(const aabb<T>& box) const { return keeps(least_in(box)); }
+    [[nodiscard]] ABUT_HD aabb<T> bounds() const { return around; }
+    /// bound: a time, in the direction's own length.
+    ABUT_HD void shrink_to(double bound) {
+        constexpr double grown = 1 + 32 * static_cast<double>(unit_roundoff<T>);
+        if (bound == infinity<double>) return;
+        const double scaled = times_power_of_two(bound, exponent) * grown + 4 * static_cast<double>(smallest_normal<T>);
+        limit = scaled < static_cast<double>(most) ? static_cast<T>(scaled) : most;
+    }
+};
+
+/// What a frame sees of a line in the world (point_reach.hpp).
+template <scalar T>
+ABUT_HD ray_reach<T> reach_of_line(const world_frame<T>&, const vec3<T>& origin, const vec3<T>& direction, double last) {
+    return {origin, direction, last};
+}
+/// The origin is brought there as a ball's centre is, and what that may be off is its slack. The direction is off by no more
+/// than a share of its length that is 5 times the pose's deviation, and rounding: at a time at which the line is near the
+/// object, that is this share of how far both are apart.
+template <scalar T>
+ABUT_HD ray_reach<T> reach_of_line(const object_frame<T>& frame, const vec3<T>& origin, const vec3<T>& direction,
+                                   double last) {
+    const auto seen = frame.ball_around(origin);
+    const rigid<T>& pose = frame.pose;
+    const vec3<double> d = widened(direction);
+    const vec3<double> turned{dot(widened(column(pose.rotation, 0)), d), dot(widened(column(pose.rotation, 1)), d),
+                              dot(widened(column(pose.rotation, 2)), d)};
+    constexpr double u = static_cast<double>(unit_roundoff<T>);
+    const double apart = magnitudes(widened(origin)) + 2 * magnitudes(widened(pose.translation)) + 2 * frame.size;
+    const double slack = 2 * seen.map.slack + (16 * frame.deviation + 64 * u) * apart;
+    const bool is_known = slack < static_cast<double>(largest_finite<T>) / 4 &&
+                          magnitudes(turned) < static_cast<double>(largest_finite<T>) / 4;
+    if (!is_known) return {origin, {1, 1, 1}, infinity<double>, infinity<T>};
+    return {seen.center, to_scalar<T>(turned), last, static_cast<T>(slack)};
+}
+
+}  // namespace detail
+
+/// A ray reaches the boxes that it passes through.
+template <scalar T>
+ABUT_HD auto reach_of(const ray<T>& r) {
+    return detail::ray_reach<T>(r.origin, r.direction, infinity<double>);
+}
+
+}  // namespace abut

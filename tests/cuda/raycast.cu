@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#include <abut/cuda.hpp>
+
+#include "collide/raycast_cases.hpp"
+#include "support/catch.hpp"
+
+TEST_CASE("raycast: cuda") {
+    const abut::cuda on;
+    abut::test::check_raycast<float>(on);
+    abut::test::check_raycast<double>(on);
+    abut::test::check_watertight<float>(on);
+    abut::test::check_watertight<double>(on);
+    abut::test::check_raycast_scales<float>(on);
+    abut::test::check_raycast_scales<double>(on);
+}
