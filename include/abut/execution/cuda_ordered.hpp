@@ -81,7 +81,9 @@ public:
         const std::size_t blocks = (n + detail::ordered_block - 1) / detail::ordered_block;
         of_warps_ = buffer<least_value, device_space>(on, blocks * (detail::ordered_block / detail::warp_size));
     }
-    void end(const cuda& on) {
+    /// A template, so that its kernels are compiled only where it is called.
+    template <class Policy>
+    void end(const Policy& on) {
         least_ = reduce(on, of_warps_.size(), least_, lesser_value{}, detail::value_at{of_warps_.data()});
     }
 
