@@ -60,4 +60,17 @@ ABUT_HD constexpr auto cross(const vec3<A>& a, const vec3<B>& b) {
     return vec3<decltype(x)>{x, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+namespace detail {
+
+/// b, c, a.
+template <class V>
+ABUT_HD constexpr void rotate(V& a, V& b, V& c) {
+    const V first = a;
+    a = b;
+    b = c;
+    c = first;
+}
+
+}  // namespace detail
+
 }  // namespace abut

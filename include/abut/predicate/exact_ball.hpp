@@ -68,11 +68,16 @@ struct ball_meets_triangle {
     ABUT_HD static constexpr bool holds(const N (&value)[13]) {
         const vec3<N> center = point_at(value, 0), a = point_at(value, 1), b = point_at(value, 2), c = point_at(value, 3);
         const N& r = value[12];
-        const auto p = a - center, q = b - center, s = c - center;
+        auto p = a - center, q = b - center, s = c - center;
         if (vertex_in_ball(p, r) || vertex_in_ball(q, r) || vertex_in_ball(s, r)) return true;
-        const auto ab = b - a, bc = c - b, ca = a - c;
-        return edge_in_ball(p, q, ab, r) || edge_in_ball(q, s, bc, r) || edge_in_ball(s, p, ca, r) ||
-               face_in_ball(p, q, s, cross(ab, bc), r);
+        auto pq = b - a, qs = c - b, sp = a - c;
+        ABUT_ROLLED
+        for (int edge = 0; edge < 3; ++edge) {
+            if (edge_in_ball(p, q, pq, r)) return true;
+            rotate(p, q, s);
+            rotate(pq, qs, sp);
+        }
+        return face_in_ball(p, q, s, cross(pq, qs), r);
     }
 };
 

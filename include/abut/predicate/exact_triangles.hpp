@@ -90,19 +90,32 @@ ABUT_HD constexpr bool intervals_meet(const three_points<N>& s, unsigned above, 
            sign_of_dot(cross(corner(s, of_s.last) - p, corner(t, of_t.last) - p), across) <= 0;
 }
 
-/// In which sense the line of edge i of s passes that of edge j of t; 0 if they are in one plane.
+// Loops over edges turn the corners, so that each looks at the first edge: corners stay in a device's registers, and no turn
+// of a loop is compiled for itself.
+
 template <class N>
-ABUT_HD constexpr int passing_sense(const three_points<N>& s, int i, const three_points<N>& t, int j) {
-    return sign_of_dot(cross(s[after(i)] - s[i], t[j] - s[i]), t[after(j)] - s[i]);
+ABUT_HD constexpr void turn_corners(three_points<N>& s) {
+    rotate(s.at[0], s.at[1], s.at[2]);
 }
 
-/// Whether edge i of s, which meets the plane of t in one point, meets t.
+/// In which sense the lines of the first edges of s and t pass each other; 0 if they are in one plane.
 template <class N>
-ABUT_HD constexpr bool passes_through(const three_points<N>& s, int i, const three_points<N>& t) {
-    const int first = passing_sense(s, i, t, 0), second = passing_sense(s, i, t, 1);
-    if (first * second < 0) return false;
-    const int third = passing_sense(s, i, t, 2);
-    return first * third >= 0 && second * third >= 0;
+ABUT_HD constexpr int passing_sense(const three_points<N>& s, const three_points<N>& t) {
+    return sign_of_dot(cross(s[1] - s[0], t[0] - s[0]), t[1] - s[0]);
+}
+
+/// Whether the first edge of s, which meets the plane of t in one point, meets t.
+template <class N>
+ABUT_HD constexpr bool passes_through(const three_points<N>& s, three_points<N> t) {
+    bool left = false, right = false;
+    ABUT_ROLLED
+    for (int edge = 0; edge < 3 && !(left && right); ++edge) {
+        const int sense = passing_sense(s, t);
+        left |= sense < 0;
+        right |= sense > 0;
+        turn_corners(t);
+    }
+    return !(left && right);
 }
 
 // In one plane, one coordinate left out.
@@ -136,12 +149,13 @@ ABUT_HD constexpr int turn(const flat_point<N>& p, const flat_point<N>& q, const
 
 /// Whether the line of an edge of s has all of t strictly on one side, and s not on that side.
 template <class N>
-ABUT_HD constexpr bool edge_separates(const flat_points<N>& s, const flat_points<N>& t) {
-    for (int i = 0; i < 3; ++i) {
-        const flat_point<N>&p = s[i], &q = s[after(i)];
-        const int side = turn(p, q, t[0]);
-        if (side != 0 && turn(p, q, t[1]) == side && turn(p, q, t[2]) == side && turn(p, q, s[after(after(i))]) != side)
+ABUT_HD constexpr bool edge_separates(flat_points<N> s, const flat_points<N>& t) {
+    ABUT_ROLLED
+    for (int edge = 0; edge < 3; ++edge) {
+        const int side = turn(s[0], s[1], t[0]);
+        if (side != 0 && turn(s[0], s[1], t[1]) == side && turn(s[0], s[1], t[2]) == side && turn(s[0], s[1], s[2]) != side)
             return true;
+        rotate(s.at[0], s.at[1], s.at[2]);
     }
     return false;
 }
@@ -162,8 +176,15 @@ ABUT_HD constexpr bool interval_separates(const flat_points<N>& s, const flat_po
 /// Seen along an axis, in a plane; one of them has an area there.
 template <class N>
 ABUT_HD constexpr bool images_meet(const three_points<N>& s, const three_points<N>& t, int axis) {
-    const flat_points<N> p = flattened(s, axis), q = flattened(t, axis);
-    return !edge_separates(p, q) && !edge_separates(q, p);
+    flat_points<N> p = flattened(s, axis), q = flattened(t, axis);
+    ABUT_ROLLED
+    for (int of_whom = 0; of_whom < 2; ++of_whom) {
+        if (edge_separates(p, q)) return false;
+        const flat_points<N> other = p;
+        p = q;
+        q = other;
+    }
+    return true;
 }
 
 /// An axis along which the area of s shows, or 3 if s has none.
@@ -175,12 +196,14 @@ ABUT_HD constexpr int axis_of_area(const three_points<N>& s) {
 
 /// Neither has an area.
 template <class N>
-ABUT_HD constexpr bool segments_meet(const three_points<N>& s, const three_points<N>& t) {
-    for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j) {
-            if (passing_sense(s, i, t, j) != 0) return false;  // skew
-        }
+ABUT_HD constexpr bool segments_meet(three_points<N> s, three_points<N> t) {
+    ABUT_ROLLED
+    for (int pair = 1; pair <= 9; ++pair) {
+        if (passing_sense(s, t) != 0) return false;  // skew
+        turn_corners(s);
+        if (pair % 3 == 0) turn_corners(t);
     }
+    ABUT_ROLLED
     for (int axis = 0; axis < 3; ++axis) {  // each coordinate is x once
         if (interval_separates(flattened(s, axis), flattened(t, axis)) || !images_meet(s, t, axis)) return false;
     }
@@ -190,17 +213,17 @@ ABUT_HD constexpr bool segments_meet(const three_points<N>& s, const three_point
 /// Both in one plane; or else all signs of their corners are 0 because neither has an area.
 template <class N>
 ABUT_HD constexpr bool meet_in_plane(const three_points<N>& s, const three_points<N>& t) {
-    const int of_s = axis_of_area(s);
-    if (of_s < 3) return images_meet(s, t, of_s);
-    const int of_t = axis_of_area(t);
-    return of_t < 3 ? images_meet(s, t, of_t) : segments_meet(s, t);
+    const int of_s = axis_of_area(s), axis = of_s < 3 ? of_s : axis_of_area(t);
+    return axis < 3 ? images_meet(s, t, axis) : segments_meet(s, t);
 }
 
 /// Whether an edge of s, which crosses the plane of t, meets t.
 template <class N>
-ABUT_HD constexpr bool segment_meets(const three_points<N>& s, const plane_sides& of_s, const three_points<N>& t) {
+ABUT_HD constexpr bool segment_meets(three_points<N> s, const plane_sides& of_s, const three_points<N>& t) {
+    ABUT_ROLLED
     for (int i = 0; i < 3; ++i) {
-        if (of_s.crossed_by(i) && passes_through(s, i, t)) return true;
+        if (of_s.crossed_by(i) && passes_through(s, t)) return true;
+        turn_corners(s);
     }
     return false;
 }
