@@ -22,7 +22,7 @@ template <class Work>
 std::uint64_t peak_of(const cuda& on, const Work& work) {
     synchronize(on);
     std::uint64_t none = 0;
-    REQUIRE(cudaMemPoolSetAttribute(execution::detail::pool_of(device_of(on)), cudaMemPoolAttrUsedMemHigh, &none) ==
+    REQUIRE(cudaMemPoolSetAttribute(execution::detail::pool_of(device_of(on)).handle(), cudaMemPoolAttrUsedMemHigh, &none) ==
             cudaSuccess);
     const std::uint64_t before = memory_in_use(on).used;
     work();

@@ -11,18 +11,18 @@ namespace {
 
 using namespace abut;
 
-constexpr triangle<float> slope{{3, 0, 0}, {0, 3, 0}, {0, 0, 3}};
+constexpr triangle<float> ramp{{3, 0, 0}, {0, 3, 0}, {0, 0, 3}};
 
 // Constant expressions, in either order: through the inside, a side and a corner, from it, away from it, beside it.
-static_assert(intersects(ray<float>{{0, 0, 0}, {1, 1, 1}}, slope) && intersects(slope, ray<float>{{9, 9, 9}, {-1, -1, -1}}));
-static_assert(intersects(ray<float>{{0, 0, -1}, {1, 1, 1}}, slope) && intersects<exact>(ray<float>{{0, 0, 9}, {0, 0, -1}}, slope));
-static_assert(intersects(ray<float>{{1, 1, 1}, {1, 1, 1}}, slope) && !intersects(ray<float>{{2, 1, 1}, {1, 1, 1}}, slope));
-static_assert(!intersects(ray<float>{{0, 0, 0}, {-1, 1, 1}}, slope));
+static_assert(intersects(ray<float>{{0, 0, 0}, {1, 1, 1}}, ramp) && intersects(ramp, ray<float>{{9, 9, 9}, {-1, -1, -1}}));
+static_assert(intersects(ray<float>{{0, 0, -1}, {1, 1, 1}}, ramp) && intersects<exact>(ray<float>{{0, 0, 9}, {0, 0, -1}}, ramp));
+static_assert(intersects(ray<float>{{1, 1, 1}, {1, 1, 1}}, ramp) && !intersects(ray<float>{{2, 1, 1}, {1, 1, 1}}, ramp));
+static_assert(!intersects(ray<float>{{0, 0, 0}, {-1, 1, 1}}, ramp));
 // In its plane: towards a side, along one, away from one, and past a corner.
-static_assert(intersects(ray<float>{{6, -3, 0}, {-1, 1, 0}}, slope) && intersects(ray<float>{{1, 1, 1}, {-1, 1, 0}}, slope));
-static_assert(!intersects(ray<float>{{6, -3, 0}, {1, -1, 0}}, slope) && !intersects(ray<float>{{4, 0, -1}, {1, -1, 0}}, slope));
+static_assert(intersects(ray<float>{{6, -3, 0}, {-1, 1, 0}}, ramp) && intersects(ray<float>{{1, 1, 1}, {-1, 1, 0}}, ramp));
+static_assert(!intersects(ray<float>{{6, -3, 0}, {1, -1, 0}}, ramp) && !intersects(ray<float>{{4, 0, -1}, {1, -1, 0}}, ramp));
 // A direction of 0 is a point; triangles without area are segments and points.
-static_assert(intersects(ray<float>{{1, 1, 1}, {0, 0, 0}}, slope) && !intersects(ray<float>{{1, 1, 2}, {0, 0, 0}}, slope));
+static_assert(intersects(ray<float>{{1, 1, 1}, {0, 0, 0}}, ramp) && !intersects(ray<float>{{1, 1, 2}, {0, 0, 0}}, ramp));
 static_assert(intersects(ray<double>{{0, 0, 0}, {1, 0, 0}}, triangle<double>{{2, -1, 0}, {2, 1, 0}, {2, 0, 0}}));
 static_assert(!intersects(ray<double>{{0, 0, 0}, {1, 0, 0}}, triangle<double>{{2, -1, 1}, {2, 1, 1}, {2, 0, 1}}));
 static_assert(intersects(ray<double>{{0, 0, 0}, {1, 0, 0}}, triangle<double>{{2, 0, 0}, {-2, 0, 0}, {-1, 0, 0}}));

@@ -26,7 +26,7 @@ namespace abut::test {
 
 using rational = boost::multiprecision::cpp_rational;
 
-namespace detail {
+namespace ray_program {
 
 using column = std::array<integer, 4>;
 
@@ -87,7 +87,7 @@ inline std::optional<rational> first_time(const integer_point& o, const std::arr
     return least;
 }
 
-}  // namespace detail
+}  // namespace ray_program
 
 /// The time at which origin + t (end - start) is first in the triangle, for t of 0 or more; no more than `last`.
 template <scalar T>
@@ -97,7 +97,7 @@ std::optional<rational> first_time(const vec3<T>& origin, const vec3<T>& end, co
                                    t.c.z, end.x, end.y, end.z, start.x, start.y, start.z});
     const auto point = [&](std::size_t i) { return integer_point{n[i], n[i + 1], n[i + 2]}; };
     const integer_point d{n[12] - n[15], n[13] - n[16], n[14] - n[17]};
-    auto found = detail::first_time(point(0), {point(3), point(6), point(9)}, d);
+    auto found = ray_program::first_time(point(0), {point(3), point(6), point(9)}, d);
     if (has_end && found && *found > 1) found.reset();
     return found;
 }
