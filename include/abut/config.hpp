@@ -37,18 +37,18 @@
 #define ABUT_CALLS_ANY
 #endif
 
-// ABUT_ROLLED stands before a loop that nvcc is not to unroll: a turn of it is thousands of instructions in a kernel that is
-// rarely run, and each takes time to compile.
-#if defined(__CUDACC__)
-#define ABUT_ROLLED _Pragma("unroll 1")
-#else
-#define ABUT_ROLLED
-#endif
-
 #if defined(__CUDA_ARCH__)
 #define ABUT_DEVICE_CODE 1
 #else
 #define ABUT_DEVICE_CODE 0
+#endif
+
+// ABUT_ROLLED stands before a loop that nvcc is not to unroll in a kernel: a turn of it is thousands of instructions that are
+// rarely run, and each takes time to compile.
+#if ABUT_DEVICE_CODE
+#define ABUT_ROLLED _Pragma("unroll 1")
+#else
+#define ABUT_ROLLED
 #endif
 
 #if defined(__CUDACC__)

@@ -80,7 +80,7 @@ ABUT_HD void touching(draws& d, int kind, shape_triangle_pair<aabb, T>& p) {
         T* const lower[3] = {&p.s.lower.x, &p.s.lower.y, &p.s.lower.z};
         *lower[k] = *lower[k] - back;
     }
-    nudge(d, p.t);
+    construction::nudge(d, p.t);
 }
 
 template <scalar T>
