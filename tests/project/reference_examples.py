@@ -18,6 +18,10 @@ EXAMPLE = re.compile(r"^ *///     (.*)$")
 HEAD = """#include <abut/abut.hpp>
 #include <abut/io/read.hpp>
 #include <abut/io/write.hpp>
+#include <abut/io/write_gltf.hpp>
+#include <abut/io/write_html.hpp>
+#include <abut/io/write_sets.hpp>
+#include <algorithm>
 #include <cstdio>
 
 namespace {
@@ -45,6 +49,11 @@ NAMES = {
     "collide/impact_index.hpp": STEP,
     "collide/first_impact.hpp": STEP,
     "collide/list.hpp": GEAR,
+    "collide/list_distance.hpp": GEAR + "std::vector<abut::posed_pair<decltype(gear)>> list; float clearance = 9;",
+    "io/write_gltf.hpp": "const abut::spheres<float> spheres; const std::vector<abut::contact<float>> contacts;",
+    "io/write_html.hpp": "abut::io::gltf_scene scene;",
+    "io/write_sets.hpp": "const abut::spheres<float> grains; const abut::boxes<float> boxes; const abut::segments<float> segments;"
+                         "const std::vector<float> lengths;",
     "collide/bodies.hpp": GEAR + "std::vector<abut::posed_object<decltype(gear)>> list;"
                                  "std::vector<abut::rigid<float>> poses;",
     "collide/body_pairs.hpp": GEAR,

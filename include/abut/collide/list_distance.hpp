@@ -116,7 +116,7 @@ auto distances_of(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>
 /// each in float and 64 in double. An entry in which an index is empty, or in which nothing is nearer than `options.below`,
 /// has `no_id` for both ids and an infinite distance. Otherwise it is what `distance` says of the two indices alone.
 ///
-///     for (const auto& apart : to_host(abut::distance(on, list))) clearance = std::min(clearance, apart.distance);
+///     for (const auto& apart : abut::to_host(abut::distance(on, list))) clearance = std::min(clearance, apart.distance);
 template <execution_policy Policy, class IndexA, class IndexB>
 [[nodiscard]] auto distance(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
                             const distance_options& options = {}) {

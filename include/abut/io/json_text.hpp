@@ -12,14 +12,17 @@
 #include <string_view>
 #include <utility>
 
+#include <abut/config.hpp>
+
 namespace abut::io::detail {
 
 /// The shortest decimal that reads back as this number, which is finite; integers as they are.
 template <class N>
-    requires std::integral<N> || std::floating_point<N> std::string json_number(N value) {
-        std::array<char, 32> text;
-        return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
-    }
+    requires std::integral<N> || std::floating_point<N>
+std::string json_number(N value) {
+    std::array<char, 32> text;
+    return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
 
 /// A text in quotes. Bytes from 0x80 on are taken for UTF-8 as they are.
 inline std::string json_string(std::string_view text) {

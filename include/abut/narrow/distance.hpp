@@ -293,7 +293,7 @@ private:
             const auto b = core_of(t);
             constexpr int n = decltype(a)::corners, m = decltype(b)::corners;
             const vec3<double> origin = widened(a.at[0]);
-            vec3<double> p[n], q[m], sum_a{0, 0, 0}, sum_b{0, 0, 0};
+            vec3<double> p[std::size_t{n}], q[std::size_t{m}], sum_a{0, 0, 0}, sum_b{0, 0, 0};
             double all = 0;
             for (int i = 0; i < n; ++i) {
                 p[i] = widened(a.at[i]) - origin;
