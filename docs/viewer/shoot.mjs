@@ -3,27 +3,14 @@
 // node shoot.mjs FOLDER CHROMIUM PAGE.html OUT.png [light|dark] [WIDTHxHEIGHT] [KEY...]: a picture of a page with a scene in it,
 // after these keys were pressed. Its graphics are drawn in software. FOLDER has node_modules. Fails if the page shows no scene.
 
-import { createRequire } from "node:module";
-import { join, resolve } from "node:path";
+import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 
+import { startChromium } from "./chromium.mjs";
+
 const [folder, chromiumPath, page, out, colorScheme = "light", size = "1280x800", ...keys] = process.argv.slice(2);
-const { chromium } = createRequire(join(resolve(folder), "package.json"))("playwright-core");
 const [width, height] = size.split("x").map(Number);
-const browser = await chromium.launch({
-  executablePath: chromiumPath,
-  args: [
-    "--no-sandbox",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
-    "--ignore-gpu-blocklist",
-  ],
-});
+const browser = await startChromium(folder, chromiumPath);
 const tab = await browser.newPage({ viewport: { width, height }, colorScheme, reducedMotion: "reduce" });
 const [path, hash = ""] = page.split("#");
 await tab.goto(pathToFileURL(resolve(path)).href + (hash && `#${hash}`));

@@ -4,29 +4,14 @@
 // node_modules, ABUT_CHROMIUM the browser.
 
 import { readFileSync, writeFileSync } from "node:fs";
-import { createRequire } from "node:module";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 
-export const folder = process.env.ABUT_VIEWER;
-const { chromium } = createRequire(join(folder, "package.json"))("playwright-core");
+import { startChromium } from "../../../docs/viewer/chromium.mjs";
 
-export async function startBrowser() {
-  return chromium.launch({
-    executablePath: process.env.ABUT_CHROMIUM ?? "/usr/bin/chromium",
-    args: [
-      "--no-sandbox",
-      "--disable-quic",
-      "--no-first-run",
-      "--disable-background-networking",
-      "--disable-component-update",
-      "--disable-sync",
-      "--use-angle=swiftshader",
-      "--enable-unsafe-swiftshader",
-      "--ignore-gpu-blocklist",
-    ],
-  });
-}
+export const folder = process.env.ABUT_VIEWER;
+
+export const startBrowser = () => startChromium(folder, process.env.ABUT_CHROMIUM ?? "/usr/bin/chromium");
 
 export const html = () => readFileSync(join(folder, "viewer.html"), "utf8");
 export const viewerUrl = pathToFileURL(join(folder, "viewer.html")).href;
