@@ -20,9 +20,9 @@
 namespace abut::detail {
 
 /// As many points as a subgroup has members look for their nearest shapes. What their box and a corner near its middle leave
-/// over, a node or a shape for each member, comes to a list, which the members share. Each shape of the list is tested with
-/// each point, by a bound that takes little. The pairs that are left are shared out again, and tested by one that takes
-/// more; what is left then is measured, a pair for each member, and its point's limit shrinks.
+/// over, a node or a shape for each member, comes to a list, which the members share. Each member tests its point with each
+/// shape of the list, by bounds that take little (shape/corners.hpp), and so its limit shrinks. The pairs that are left are
+/// shared out, and tested once more by what the limits are by then. What is left is measured, a pair for each member.
 ///
 /// Some groups lie around what is as near to them on all sides, such as the middle of a tube, and find long lists. Their
 /// points are left for a second run, in which each looks by itself, with all members of a group.
@@ -52,7 +52,6 @@ struct nearest_to_group {
         vec3<T> world[members];          ///< the points
         seen_corner<T> points[members];  ///< -2 p, where p is the point as seen from the middle, and its limit
         seen_shape shapes[room];         ///< the list
-        std::uint32_t passing[members];  ///< of each point, bits of shapes on the list
         std::uint16_t pairs[members * (members + 1)];
         waiting_pair waiting[2 * members];
         measured values[members];
@@ -117,7 +116,7 @@ struct nearest_to_group {
             const vec3<T> minus_twice = T(-2) * (memory.world[k] - middle);
             const T limit = memory.corner.at_most + dot(minus_twice, memory.corner.at);
             memory.points[k] = {minus_twice, least(limit, infinity<T>)};  // not NaN
-            memory.passing[k] = memory.mine[k] = 0;
+            memory.mine[k] = 0;
             if (k < there) out[first + k] = {};
         });
 
@@ -153,33 +152,45 @@ struct nearest_to_group {
                 if (may_be) {
                     const seen_shape& shape = memory.shapes[memory.pairs[begin + k] / members];
                     const unsigned point = memory.pairs[begin + k] % members;
-                    pair = {shape.least_from_point(T(-0.5) * memory.points[point].at), shape.id, point};
+                    pair = {shape.least_from(memory.points[point].at), shape.id, point};
                     may_be = !(pair.at_least > memory.points[point].at_most);
                 }
                 all.append(waiting, may_be, [&](unsigned to) { memory.waiting[to] = pair; });
             });
         };
         const auto test_list = [&](bool is_last) {
-            all.each([&](unsigned k) {
-                seen_corner<T>& p = memory.points[k];
-                for (unsigned i = 0; i < listed; ++i) p.at_most = least(memory.shapes[i].most_from(p.at), p.at_most);
-            });
             unsigned pairs = 0;
             for (unsigned begin = 0; begin == 0 || begin < listed; begin += members) {
-                all.each([&](unsigned k) {
-                    if (begin + k >= listed) return;
-                    const seen_shape shape = memory.shapes[begin + k];
-                    for (unsigned i = 0; i < there; ++i) {
-                        const seen_corner<T> p = memory.points[i];
-                        if (!(shape.least_from(p.at) > p.at_most)) execution::set_bits_in_group(&memory.passing[i], 1u << k);
-                    }
-                });
-                all.each([&](unsigned k) {
-                    all.append_bits(pairs, memory.passing[k], [&](unsigned to, unsigned bit) {
-                        memory.pairs[to] = static_cast<std::uint16_t>((begin + bit) * members + k);
+                const unsigned end = begin + members < listed ? begin + members : listed;
+                if (there > 1) {
+                    all.each([&](unsigned k) {
+                        seen_corner<T> p = memory.points[k];
+                        std::uint32_t passing = 0;
+                        for (unsigned i = begin; i < end; ++i) {
+                            const T most = memory.shapes[i].most_from(p.at);
+                            if (!(most - memory.shapes[i].spread > p.at_most)) passing |= 1u << (i - begin);
+                            p.at_most = least(most, p.at_most);
+                        }
+                        memory.points[k].at_most = p.at_most;
+                        all.append_bits(pairs, k < there ? passing : 0, [&](unsigned to, unsigned bit) {
+                            memory.pairs[to] = static_cast<std::uint16_t>((begin + bit) * members + k);
+                        });
                     });
-                    memory.passing[k] = 0;
-                });
+                } else {
+                    // A shape for each member, since there is one point.
+                    const seen_corner<T> p = memory.points[0];
+                    const T most = all.least([&](unsigned k) {
+                        return begin + k < end ? least(memory.shapes[begin + k].most_from(p.at), infinity<T>) : infinity<T>;
+                    });
+                    const T limit = least(most, p.at_most);
+                    all.each([&](unsigned k) {
+                        if (k == 0) memory.points[0].at_most = limit;
+                        const bool may_be = begin + k < end && !(memory.shapes[begin + k].least_from(p.at) > limit);
+                        all.append(pairs, may_be, [&](unsigned to) {
+                            memory.pairs[to] = static_cast<std::uint16_t>((begin + k) * members);
+                        });
+                    });
+                }
                 const bool is_end = begin + members >= listed;
                 while (pairs >= members || (is_end && pairs > 0) || (is_end && is_last && waiting > 0)) {
                     const unsigned some = pairs < members ? pairs : members;
@@ -199,7 +210,7 @@ struct nearest_to_group {
             all.each([&](unsigned k) {
                 nearest[k] = infinity<T>;
                 for (unsigned i = k; i < listed; i += members) {
-                    const vec3<T> corner = memory.shapes[i].corners.at[0];
+                    const vec3<T> corner = memory.shapes[i].corners[0].at;
                     const T square = dot(corner, corner);
                     if (square < nearest[k]) nearest[k] = square, memory.shapes[k].id = memory.shapes[i].id;
                 }
