@@ -7,6 +7,7 @@
 //
 //   nearest/INDEX/POLICY/POINTS           the query alone; the index is there
 //   nearest_vertex/INDEX/POLICY/POINTS    the same of the torus's vertices
+//   nearest_few/INDEX/POLICY/POINTS       the 8 nearest of the centres to each of them
 //
 // The peers (bench/nearest/) are in the same run, where their packages are there.
 
@@ -74,17 +75,36 @@ void nearest(benchmark::State& state, Policy on, std::size_t n) {
     state.counters["mean_distance"] = sum / static_cast<double>(n);
 }
 
-template <class Index, class Policy>
-void add(const char* policy, const Policy& on, const char* question = "nearest") {
+template <class Policy>
+void nearest_few(benchmark::State& state, Policy on, std::size_t n) {
+    const abut::points<float> points(scene::centers<float>(n));
+    const auto index = abut::make_bvh(on, points);
+    double sum = 0;
+    for (auto _ : state) {
+        const auto found = abut::nearest(on, index, points, 8);
+        state.PauseTiming();
+        sum = 0;
+        for (const auto& near : found) sum += static_cast<double>(near.distance);
+        state.ResumeTiming();
+    }
+    state.counters["points"] = static_cast<double>(n);
+    state.counters["mean_distance"] = sum / static_cast<double>(8 * n);
+}
+
+void add_row(const std::string& name, const auto& run, const auto& on) {
     for (const std::size_t n : {std::size_t{100'000}, scene::sphere_count}) {
-        const std::string name = std::string(question) + "/" + Index::name + "/" + policy + "/" + std::to_string(n);
-        benchmark::RegisterBenchmark(name.c_str(), nearest<Index, Policy>, on, n)
+        benchmark::RegisterBenchmark((name + "/" + std::to_string(n)).c_str(), run, on, n)
             ->Repetitions(5)
             ->ReportAggregatesOnly(true)
             ->Unit(benchmark::kMillisecond)
             ->UseRealTime()
             ->Iterations(1);
     }
+}
+
+template <class Index, class Policy>
+void add(const char* policy, const Policy& on, const char* question = "nearest") {
+    add_row(std::string(question) + "/" + Index::name + "/" + policy, nearest<Index, Policy>, on);
 }
 
 }  // namespace
@@ -97,5 +117,6 @@ int main(int argc, char** argv) {
     add<bvh>("openmp", abut::openmp{});
     add<bvh_of_vertices>("serial", abut::serial{}, "nearest_vertex");
     add<sah_of_vertices>("serial", abut::serial{}, "nearest_vertex");
+    add_row("nearest_few/bvh/serial", nearest_few<abut::serial>, abut::serial{});
     return bench::run_registered("bench_nearest", argc, argv);
 }

@@ -150,7 +150,10 @@ def nearest_cpu(results):
                                                  "wide_sah": "`wide`, of a `sah` tree",
                                                  "oriented_sah": "`oriented`, of a `sah` tree"}),
             ("nearest_vertex", "the nearest vertex", {"nanoflann": "nanoflann", "bvh": "`make_bvh` of `vertices(mesh)`",
-                                                      "sah": "the same, `sah`"})):
+                                                      "sah": "the same, `sah`"}),
+            ("nearest_few", "the 8 nearest of them", {"nanoflann": "nanoflann", "bvh": "`make_bvh` of `points`"})):
+        if not r.parts(f"{question}/", 3):
+            continue
         points = min(int(n) for n in r.parts(f"{question}/", 3))
         peer = r.get(f"{question}/{next(iter(names))}/serial/{points}")
         rows = []

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The peer for points: nanoflann's k-d tree over the torus's vertices, in float, on one thread, with the leaves that its
-// documentation names as a good size. Its points come in the order in which they are. Squares are rounded, so of vertices
+// The peer for points: nanoflann's k-d tree over the torus's vertices, or over the centres, in float, on one thread, with the
+// leaves that its documentation names as a good size. Its points come in the order in which they are. Squares are rounded, so of vertices
 // that are nearly as near it may find another one than abut does.
 
 #include <cmath>
@@ -56,6 +56,27 @@ void nearest_vertex(benchmark::State& state, std::size_t n) {
     nearest_peer::note(state, n, sum);
 }
 
-[[maybe_unused]] const bool registered = nearest_peer::add("nearest_vertex/nanoflann/serial", nearest_vertex);
+void nearest_few(benchmark::State& state, std::size_t n) {
+    constexpr std::size_t count = 8;
+    const cloud centers{scene::centers<float>(n)};
+    const kd_tree index(3, centers, nanoflann::KDTreeSingleIndexAdaptorParams(10));
+    std::vector<std::uint32_t> ids(count * n);
+    std::vector<float> squares(count * n);
+    double sum = 0;
+    for (auto _ : state) {
+        for (std::size_t i = 0; i < n; ++i) {
+            const float from[3] = {centers.points[i].x, centers.points[i].y, centers.points[i].z};
+            index.knnSearch(from, count, ids.data() + count * i, squares.data() + count * i);
+        }
+        state.PauseTiming();
+        sum = 0;
+        for (const float square : squares) sum += std::sqrt(static_cast<double>(square));
+        state.ResumeTiming();
+    }
+    nearest_peer::note(state, n, sum / count);
+}
+
+[[maybe_unused]] const bool registered = nearest_peer::add("nearest_vertex/nanoflann/serial", nearest_vertex) &&
+                                         nearest_peer::add("nearest_few/nanoflann/serial", nearest_few);
 
 }  // namespace

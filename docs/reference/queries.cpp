@@ -113,6 +113,12 @@ void query_nearest() {
     expect(near[0].id == 0 && near[0].distance == 3);                              // below face 0
     expect(near[1].point == abut::vec3<float>{4, 0, 0} && near[1].distance == 5);  // from a corner
     //! [nearest]
+    //! [nearest few]
+    const std::vector<abut::vec3<float>> cloud{{0, 0, 0}, {1, 0, 0}, {0, 3, 0}, {5, 0, 0}};
+    const auto tree = abut::make_bvh(abut::serial{}, abut::points<float>(cloud));
+    const auto few = abut::to_host(abut::nearest(abut::serial{}, tree, cloud, 3));  // itself, and two more, of each
+    expect(few[0].id == 0 && few[1].id == 1 && few[2].id == 2 && few[2].distance == 3);
+    //! [nearest few]
 }
 
 void query_distance() {

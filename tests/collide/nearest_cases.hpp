@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <abut/abut.hpp>
@@ -40,6 +41,26 @@ std::vector<neighbor<T>> nearest_by_definition(const Shapes& shapes, const std::
                     static_cast<T>(unit.length(std::sqrt(square)))};
         }
         all.push_back(best);
+    }
+    return all;
+}
+
+/// The few nearest by definition, in their order.
+template <shape_view Shapes, class T>
+std::vector<neighbor<T>> nearest_few_by_definition(const Shapes& shapes, const std::vector<vec3<T>>& points,
+                                                   const detail::length_unit<T>& unit, std::size_t count) {
+    std::vector<neighbor<T>> all;
+    for (const vec3<T>& p : points) {
+        std::vector<std::pair<double, std::uint32_t>> squares;
+        for (std::uint32_t i = 0; i < shapes.size(); ++i) squares.emplace_back(detail::squared_distance(p, shapes[i], unit), i);
+        std::sort(squares.begin(), squares.end());
+        for (std::size_t k = 0; k < count; ++k) {
+            all.push_back({no_id, p, std::numeric_limits<T>::infinity()});
+            if (k >= squares.size()) continue;
+            const auto [square, id] = squares[k];
+            const vec3<double> way = detail::way_from(p, shapes[id], unit);
+            all.back() = {id, detail::end_of_way(shapes[id], p, way, unit), static_cast<T>(unit.length(std::sqrt(square)))};
+        }
     }
     return all;
 }
@@ -302,6 +323,45 @@ void check_nearest_by_hand(const Policy& on) {
     CHECK_THROWS_AS(nearest(on, t, bad), invalid_geometry);
 }
 
+/// The few nearest: of a mesh, where triangles at a corner are as near, and of points among points.
+template <class T, class Policy>
+void check_nearest_few(const Policy& on) {
+    uniform random(82);
+    const torus<T> shape(24, 12, 2, 1);
+    const mesh<T> surface(shape.vertices, shape.faces);
+    const auto unit = unit_of_all(surface.view(), shape.vertices);
+    const auto points = points_around<T>(300, random, shape.vertices);
+    const auto there = copy_to(on, surface);
+    const auto tree = make_bvh(on, there);
+    const rigid<T> pose{{0, -1, 0, 1, 0, 0, 0, 0, 1}, {1, 2, 3}};
+    const posed_view<mesh_view<T>> placed{surface.view(), pose};
+    for (const std::size_t count : {1u, 2u, 7u, 40u}) {
+        CAPTURE(count);
+        const auto expected = nearest_few_by_definition(surface.view(), points, unit, count);
+        CHECK(to_host(nearest(on, tree, points, count)) == expected);
+        CHECK(to_host(nearest(on, make_grid(on, there), points, count)) == expected);
+        CHECK(to_host(nearest(on, there, points[1], count)) ==
+              nearest_few_by_definition(surface.view(), {points[1]}, unit, count));
+        CHECK(to_host(nearest(on, posed(tree, pose), points, count)) ==
+              nearest_few_by_definition(placed, points, unit_of_all(placed, points), count));
+    }
+    CHECK(to_host(nearest(on, tree, points, 1)) == to_host(nearest(on, tree, points)));
+
+    // More than there are, and points among themselves, of which each is the nearest to itself.
+    std::vector<vec3<T>> cloud;
+    for (int i = 0; i < 20; ++i) cloud.push_back(random.point<T>(-1, 1));
+    cloud.push_back(cloud[3]);
+    const shapes<vec3<T>> set(cloud);
+    const auto neighbors = to_host(nearest(on, make_bvh(on, set), cloud, 25));
+    CHECK(neighbors == nearest_few_by_definition(set.view(), cloud, unit_of_all(set.view(), cloud), 25));
+    CHECK(neighbors[25 * 20].id == 3);
+    CHECK(neighbors[25 * 20 + 1].id == 20);
+    CHECK(neighbors[24] == neighbor<T>{no_id, cloud[0], std::numeric_limits<T>::infinity()});
+    CHECK(to_host(nearest(on, triangle_soup<T>(), cloud[0], 2)) == std::vector<neighbor<T>>(2, neighbors[24]));
+    CHECK_THROWS_WITH(nearest(on, set, cloud, 0), "abut::nearest: count is 0, expected 1 or more");
+    CHECK_THROWS_AS(nearest(on, set, cloud, std::size_t{1} << 60), capacity_error);
+}
+
 template <class T, class Policy>
 void check_all_nearest(const Policy& on) {
     std::printf("nearest: seeds 71 to 74\n");
@@ -309,6 +369,7 @@ void check_all_nearest(const Policy& on) {
     check_nearest_to_mesh<T>(on);
     check_nearest_in_hole<T>(on);
     check_nearest_scales<T>(on);
+    check_nearest_few<T>(on);
     check_nearest_of<triangle<T>>(on, 73);
     check_nearest_of<sphere<T>>(on, 74);
 }

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// nearest: for each of many points the nearest shape of a set, the point on it, and the distance.
+// nearest: for each of many points the nearest shape of a set, or the nearest few, the point on it, and the distance.
 //
 // By definition the answer is the shape with the least squared distance, as narrow/nearest_point.hpp computes it, and of
-// equal ones the one with the least id. Everything else here moves time and no answer: which index there is, in what order
+// equal ones the one with the least id; the nearest few come in that order. Everything else here moves time and no answer: which index there is, in what order
 // the points are taken.
 
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -67,7 +68,7 @@ struct measure_each_shape {
     }
 };
 
-/// The answers, each where its point is.
+/// The answers, each where its point is: `count` for each.
 template <shape_view Shapes, shape_view Points>
 struct write_neighbors {
     using T = typename Points::scalar_type;
@@ -77,16 +78,19 @@ struct write_neighbors {
     const std::uint32_t* order;
     const execution::least_value* found;  ///< null for none
     neighbor<T>* out;
+    std::size_t count = 1;
 
     ABUT_HD void operator()(std::size_t i) const {
-        const std::size_t k = order == nullptr ? i : order[i];
+        const std::size_t point = count == 1 ? i : i / count;
+        const std::size_t k = order == nullptr ? point : order[point];
+        const std::size_t to = count == 1 ? k : k * count + (i - point * count);
         const vec3<T> p = points[k];
         if (found == nullptr || found[i].key >= no_id) {
-            out[k] = {no_id, p, infinity<T>};
+            out[to] = {no_id, p, infinity<T>};
             return;
         }
         const auto id = static_cast<std::uint32_t>(found[i].key);
-        out[k] = neighbor_of(p, shapes[id], id, unit);
+        out[to] = neighbor_of(p, shapes[id], id, unit);
     }
 };
 
@@ -203,6 +207,26 @@ inline constexpr std::size_t few_points = 64;
 template <class Policy>
 inline constexpr std::size_t many_points = looks_in_groups<Policy> ? 64 : 4096;
 
+/// Null for their own.
+template <class Operand, class Policy, shape_view Points>
+execution::buffer_of<Policy, std::uint32_t> order_of_points(const Policy& on, const Points& points) {
+    const std::size_t n = points.size();
+    if (Operand::is_indexed && n >= many_points<Policy> && n < no_id) return order_on_curve(on, points);
+    return {};
+}
+
+/// Each point walks by itself. `best` keeps what is nearest to each.
+template <class Policy, class Operand, shape_view Points, class Judge, class Best>
+void walk_alone_from_points(const Policy& on, const Operand& x, const Points& points, const Judge& judge,
+                            const std::uint32_t* order, Best& best) {
+    const auto walk = ordered_walk_of(x);
+    const auto frame = frame_of(x, judge.unit);
+    const auto there = x.shapes();
+    using walk_type = walk_from_points<std::remove_const_t<decltype(walk)>, std::remove_const_t<decltype(frame)>,
+                                       std::remove_const_t<decltype(there)>, Points, Judge>;
+    for_each_ordered(on, points.size(), walk_type{walk, frame, there, points, judge, order}, best);
+}
+
 /// Finds the nearest shape of each point. finish(order, found) takes what was found: found[i] is the least squared distance of
 /// point order[i], or i where `order` is null; with no shapes or no points `found` is null.
 template <class Policy, class Operand, class Queries, scalar T, class Finish>
@@ -231,35 +255,45 @@ auto look_for_nearest(const Policy& on, const Operand& x, const Queries& queries
         }
     }
     const auto walk = ordered_walk_of(x);
-    const auto frame = frame_of(x, unit);
-    execution::buffer_of<Policy, std::uint32_t> order;
-    if (Operand::is_indexed && n >= many_points<Policy> && n < no_id) order = order_on_curve(on, from);
+    const auto order = order_of_points<Operand>(on, from);
     if constexpr (look_in_groups<Policy, std::remove_const_t<decltype(walk)>, typename shapes_type::shape_type>) {
+        const auto frame = frame_of(x, unit);
         return finish(order.data(), nearest_in_groups(on, walk.tree, frame, there, from, judge, order.data()).data());
     } else {
         execution::best_of_each<space_of<Policy>> best(on, n);
-        using walk_type = walk_from_points<std::remove_const_t<decltype(walk)>, std::remove_const_t<decltype(frame)>,
-                                           shapes_type, points_type, measure_distance<T>>;
-        for_each_ordered(on, n, walk_type{walk, frame, there, from, judge, order.data()}, best);
+        walk_alone_from_points(on, x, from, judge, order.data(), best);
         return finish(order.data(), best.data());
     }
 }
 
-/// `nearest` of arguments that have been looked at.
-template <class Policy, class X, class Points>
-auto nearest_of(const Policy& on, const X& index, const Points& points, const char* function) {
+/// The same for the `count` nearest: found[count * i], and what follows it, is of point order[i].
+template <class Policy, class Operand, class Queries, scalar T, class Finish>
+auto look_for_nearest_few(const Policy& on, const Operand& x, const Queries& queries, const length_unit<T>& unit,
+                          std::size_t count, const Finish& finish) {
+    const auto from = queries.shapes();
+    if (from.size() == 0 || x.shapes().size() == 0) return finish(nullptr, nullptr);
+    const auto order = order_of_points<Operand>(on, from);
+    execution::best_few_of_each<space_of<Policy>> best(on, from.size(), count);
+    walk_alone_from_points(on, x, from, measure_distance<T>{unit}, order.data(), best);
+    return finish(order.data(), best.data());
+}
+
+/// `nearest` of arguments that have been looked at, with `count` answers for each point.
+template <class Policy, class X, class Points, class Look>
+auto nearest_of(const Policy& on, const X& index, const Points& points, std::size_t count, const char* function,
+                const Look& look) {
     using T = scalar_type_of<typename shape_of_argument<X>::type>;
     const auto x = make_operand(on, index, function);
     const auto queries = make_points<T>(on, points, function);
     const auto there = x.shapes();
     const auto from = queries.shapes();
     const auto unit = common_unit(on, x, from);
-    return look_for_nearest(on, x, queries, unit, [&](const std::uint32_t* order, const execution::least_value* found) {
-        execution::buffer_of<Policy, neighbor<T>> out(on, from.size());
+    return look(x, queries, unit, [&](const std::uint32_t* order, const execution::least_value* found) {
+        execution::buffer_of<Policy, neighbor<T>> out(on, from.size() * count);
         using shapes_type = std::remove_const_t<decltype(there)>;
         using points_type = std::remove_const_t<decltype(from)>;
-        for_each_index(on, from.size(),
-                       write_neighbors<shapes_type, points_type>{there, from, unit, order, found, out.data()});
+        for_each_index(on, from.size() * count,
+                       write_neighbors<shapes_type, points_type>{there, from, unit, order, found, out.data(), count});
         synchronize(on);
         return result<neighbor<T>, space_of<Policy>>(std::move(out));
     });
@@ -300,7 +334,54 @@ auto nearest_of(const Policy& on, const X& index, const Points& points, const ch
 template <execution_policy Policy, class X, class Points>
 [[nodiscard]] auto nearest(const Policy& on, const X& index, const Points& points) {
     if constexpr (detail::can_be_near<Policy, X, Points>()) {
-        return detail::nearest_of(on, index, points, "abut::nearest");
+        return detail::nearest_of(on, index, points, 1, "abut::nearest",
+                                  [&](const auto& x, const auto& queries, const auto& unit, const auto& finish) {
+                                      return detail::look_for_nearest(on, x, queries, unit, finish);
+                                  });
+    } else {
+        return result<neighbor<float>, space_of<Policy>>();
+    }
+}
+
+/// For each of `points` the `count` nearest shapes of `index`: a `result` of `neighbor`, `count` for each point, in the order
+/// of the points; those of point i stand at count * i and after. The nearest comes first; of equal distances the least id
+/// does. Where there are fewer shapes the last are as `nearest` gives where there are none: `no_id`, the point asked about, and
+/// infinity. What `index` and `points` may be, how accurate distances are, and that the answers are the same bits
+/// everywhere: as of the nearest one. With a cloud of points as the index these are the neighbours of points among points.
+///
+/// It takes time in proportion to `count` for each shape that comes among the nearest so far: it is meant for counts up to some
+/// hundred. All within a distance: `within`.
+///
+/// @par Memory
+/// As in @ref queries; a vector or a span of points lies in host memory, and is copied under `cuda`. The result lies in the
+/// policy's memory, 20 bytes for each of count * points in float and 40 in double, and while it is made 16 more.
+///
+/// @par Errors
+/// - `error`: `count` is 0; a set or an index lies on another device.
+/// - `invalid_geometry`: a view, a single shape or a row of points holds no geometry, or a pose is no rotation.
+/// - `capacity_error`: a view or a row has 2^31 elements or more, or count * points is 2^40 or more.
+/// - `std::bad_alloc`, `cuda_error`.
+///
+/// @par Synchronisation
+/// Returns when the answers are complete; under `cuda` it waits for the policy's stream.
+///
+/// @par Example
+/// @snippet queries.cpp nearest few
+///
+/// @ingroup queries
+template <execution_policy Policy, class X, class Points>
+[[nodiscard]] auto nearest(const Policy& on, const X& index, const Points& points, std::size_t count) {
+    if constexpr (detail::can_be_near<Policy, X, Points>()) {
+        if (count == 0) throw error("abut::nearest: count is 0, expected 1 or more");
+        return detail::nearest_of(on, index, points, count, "abut::nearest",
+                                  [&](const auto& x, const auto& queries, const auto& unit, const auto& finish) {
+                                      if (queries.shapes().size() > (std::size_t{1} << 40) / count) {
+                                          throw capacity_error("abut::nearest: " + std::to_string(count) + " neighbours of " +
+                                                               std::to_string(queries.shapes().size()) +
+                                                               " points, expected fewer than 2^40 in all");
+                                      }
+                                      return detail::look_for_nearest_few(on, x, queries, unit, count, finish);
+                                  });
     } else {
         return result<neighbor<float>, space_of<Policy>>();
     }

@@ -2,12 +2,13 @@
 #pragma once
 
 // The least of many values, for walks that look for it: sinks that give back what they have, and the verb
-// for_each_ordered, of which execution/policy.hpp says what it does. Two kinds:
+// for_each_ordered, of which execution/policy.hpp says what it does. Three kinds:
 //
-//   best_of_each<Space>   the least of each index by itself
-//   best_of_all<Space>    the least of all indices; they share a bound
+//   best_of_each<Space>       the least of each index by itself
+//   best_few_of_each<Space>   as many of the least of each index by itself
+//   best_of_all<Space>        the least of all indices; they share a bound
 //
-// Both take sink.offer(value, key), and keep the least value and, of equal ones, the least key; sink.bound() is what values
+// All take sink.offer(value, key), and keep the least value and, of equal ones, the least key; sink.bound() is what values
 // have to stay below, or equal, to matter. Values are doubles, 0 or more. What is left does not depend on the order in which
 // values come, and so not on threads, as long as nothing at the bound is left out.
 
@@ -70,6 +71,53 @@ public:
 private:
     buffer<least_value, Space> values_;
     double most_;
+};
+
+/// Of each index the `count` least, the least first. What was kept may be offered again, and is kept once.
+template <memory_space Space>
+class best_few_of_each {
+public:
+    struct sink {
+        least_value* out;
+        std::size_t count;
+        least_value* mine = nullptr;
+
+        ABUT_HD void begin(std::size_t i) {
+            mine = out + i * count;
+            for (std::size_t k = 0; k < count; ++k) mine[k] = {};
+        }
+        ABUT_HD void offer(double value, std::uint64_t key) {
+            const least_value one{value, key};
+            const auto is_before = [](const least_value& a, const least_value& b) {
+                return a.value < b.value || (a.value == b.value && a.key < b.key);
+            };
+            std::size_t to = count;
+            while (to > 0 && is_before(one, mine[to - 1])) --to;
+            if (to == count || (to > 0 && mine[to - 1] == one)) return;
+            for (std::size_t k = count - 1; k > to; --k) mine[k] = mine[k - 1];
+            mine[to] = one;
+        }
+        [[nodiscard]] ABUT_HD double bound() const { return mine[count - 1].value; }
+        ABUT_HD void end(std::size_t) {}
+        ABUT_HD void close() {}
+    };
+
+    /// n indices; count > 0
+    template <execution_policy Policy>
+    best_few_of_each(const Policy& on, std::size_t n, std::size_t count) : values_(on, n * count), count_(count) {}
+
+    /// By index, in the policy's memory.
+    [[nodiscard]] const least_value* data() const { return values_.data(); }
+
+    [[nodiscard]] sink make_sink(std::size_t /*thread*/) { return {values_.data(), count_}; }
+    template <class Policy>
+    void begin(const Policy&, std::size_t /*threads*/) {}
+    template <class Policy>
+    void end(const Policy&) {}
+
+private:
+    buffer<least_value, Space> values_;
+    std::size_t count_;
 };
 
 template <memory_space Space>
