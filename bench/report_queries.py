@@ -169,7 +169,8 @@ def nearest_cpu(results):
 @in_table("nearest-cuda")
 def nearest_cuda(results):
     r = results["cuda/nearest"]
-    names = {"bvh": "`make_bvh`", "ploc": "`ploc`", "quantised": "`quantised`", "oriented": "`oriented`, of `ploc`"}
+    names = {"bvh": "`make_bvh`", "ploc": "`ploc`", "quantised": "`quantised`", "oriented": "`oriented`, of `ploc`",
+             "plain": "a plain walk in float"}
     rows = [[f"{int(n):,}"] + [shown(r.get(f"nearest/{i}/cuda/{n}")) for i in names] for n in r.parts("nearest/", 3)]
     floor_ms = r.get(f"nearest/bvh/cuda/{SPHERES}", "floor_ms")
     return ["For so many points the nearest triangle, ms:", ""] + table(["points"] + list(names.values()), rows) + \
