@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Rays and triangles as signs of determinants, written once over a number type: whether they meet, and when.
+// Rays and triangles as signs of determinants, written once over a number type: whether they meet. When is asked in
+// narrow/exact_hit_time.hpp.
 //
 // Let o be the origin, d the direction, and A, B, C the ways from o to the corners. The line meets the triangle where it
 // passes the three sides in no two opposite senses: where the signs of (A x B).d, (B x C).d and (C x A).d are none of them
@@ -82,57 +83,6 @@ struct ray_meets_triangle {
         const three_points<N> corners{{l.corner[0], l.corner[1], l.corner[2]}};
         const vec3<N> origin{v[0], v[1], v[2]};
         return hulls_meet(three_points<N>{{origin, origin, origin}}, corners);
-    }
-};
-
-/// Whether the line crosses the plane of the triangle in one point.
-struct line_crosses_plane {
-    static constexpr int degree = 3, points = 4;
-
-    template <class N>
-    ABUT_HD static constexpr bool holds(const N (&v)[18]) {
-        const line_and_triangle<N> l(v);
-        return sign_of_dot(l.normal(), l.along) != 0;
-    }
-};
-
-/// Whether the direction and the first side, seen along z, are of different directions.
-struct line_turns_to_side {
-    static constexpr int degree = 2, points = 4;
-
-    template <class N>
-    ABUT_HD static constexpr bool holds(const N (&v)[18]) {
-        const line_and_triangle<N> l(v);
-        return turn_along(2, l.along, l.side(0)) != 0;
-    }
-};
-
-/// Of what it is that the time is asked at which the line meets it: the plane of the triangle, the first side, seen along z,
-/// or the first corner, by its x.
-enum class met : int { plane, side, corner };
-
-/// Whether the time is above the mean of two numbers, which stand behind the other values, and a 1 behind these: the exact
-/// stages see one unit of all values.
-template <met What>
-struct time_is_above_mean {
-    template <class N>
-    ABUT_HD static constexpr bool holds(const N (&v)[21]) {
-        const line_and_triangle<N> l(v);
-        const auto twice_mean = v[18] + v[19];
-        const auto two = v[20] + v[20];
-        const auto is_above = [&](const auto& numerator, const auto& denominator) {
-            return sign(numerator * two - denominator * twice_mean) * sign(denominator) > 0;
-        };
-        if constexpr (What == met::plane) {
-            const auto n = l.normal();
-            return is_above(dot(n, l.to[0]), dot(n, l.along));
-        } else if constexpr (What == met::side) {
-            const auto edge = l.side(0);
-            const auto z_of = [](const auto& a, const auto& b) { return a.x * b.y - a.y * b.x; };
-            return is_above(z_of(l.to[0], edge), z_of(l.along, edge));
-        } else {
-            return is_above(l.to[0].x, l.along.x);
-        }
     }
 };
 

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Integers whose length is known at run time, in room that is known when it is compiled: for exact results, and not only
+// signs, of any finite input. All loops are over limbs and none is unrolled, and all lengths share one function out of line.
+// So a formula costs a kernel a few calls, where wide_int.hpp writes out each product. It is slower for that: for what is
+// rarely asked.
+
+#include <cstddef>
+#include <cstdint>
+
+#include <abut/arithmetic/align.hpp>
+#include <abut/arithmetic/wide_int.hpp>
+#include <abut/config.hpp>
+
+namespace abut::detail {
+
+/// Limb i of a number in two's complement of n limbs, continued by its sign.
+ABUT_HD constexpr std::uint64_t limb_of(const std::uint64_t* a, int n, int i) {
+    return i < n ? a[i] : mask_if(static_cast<std::int64_t>(a[n - 1]) < 0);
+}
+
+/// r += a b, or r -= a b, modulo 2^(64 n), for an r of n limbs.
+ABUT_NOINLINE ABUT_HD constexpr void add_product(std::uint64_t* r, int n, const std::uint64_t* a, int limbs_a,
+                                                 const std::uint64_t* b, int limbs_b, bool negated) {
+    ABUT_ROLLED
+    for (int i = 0; i < n; ++i) {
+        const std::uint64_t x = limb_of(a, limbs_a, i);
+        if (x == 0) continue;
+        std::uint64_t carry = negated ? x : 0;  // -b is ~b + 1
+        ABUT_ROLLED
+        for (int j = 0; i + j < n; ++j) {
+            const uint128 t = static_cast<uint128>(x) * (limb_of(b, limbs_b, j) ^ mask_if(negated)) + r[i + j] + carry;
+            r[i + j] = lower_limb(t);
+            carry = upper_limb(t);
+        }
+    }
+}
+
+/// r += value 2^shift, or r -= it, modulo 2^(64 n).
+ABUT_NOINLINE ABUT_HD constexpr void add_shifted(std::uint64_t* r, int n, std::int64_t value, int shift, bool negated) {
+    const auto moved = static_cast<int128>(negated ? -value : value) * (static_cast<int128>(1) << shift % 64);
+    const auto bits = static_cast<uint128>(moved);
+    std::uint64_t carry = 0;
+    ABUT_ROLLED
+    for (int i = shift / 64; i < n; ++i) {
+        const int k = i - shift / 64;
+        const uint128 t = static_cast<uint128>(r[i]) + carry +
+                          (k == 0 ? lower_limb(bits) : k == 1 ? upper_limb(bits) : mask_if(moved < 0));
+        r[i] = lower_limb(t);
+        carry = upper_limb(t);
+    }
+}
+
+/// A number in two's complement, of `count` limbs, the least significant first; no more than `Room`. Sums wrap: whoever sets
+/// the count leaves room for what is added.
+template <int Room>
+struct rolled_int {
+    std::uint64_t limb[std::size_t{Room}];  // not initialised
+    int count;
+
+    /// 0, of n limbs.
+    ABUT_HD constexpr void clear(int n) {
+        count = n;
+        ABUT_ROLLED
+        for (int i = 0; i < n; ++i) limb[i] = 0;
+    }
+    template <int A, int B>
+    ABUT_HD constexpr void add(const rolled_int<A>& a, const rolled_int<B>& b, bool negated = false) {
+        add_product(limb, count, a.limb, a.count, b.limb, b.count, negated);
+    }
+    template <int A>
+    ABUT_HD constexpr void add(const rolled_int<A>& a, bool negated = false) {
+        const std::uint64_t one = 1;
+        add_product(limb, count, &one, 1, a.limb, a.count, negated);
+    }
+    /// Adds or subtracts number i, in the unit of all.
+    template <std::size_t V>
+    ABUT_HD constexpr void add(const aligned<V>& x, int i, bool negated = false) {
+        const binary_parts& p = x.part[i];
+        if (p.mantissa != 0) add_shifted(limb, count, p.mantissa, p.exponent - x.low, negated);
+    }
+    /// -1, 0 or 1.
+    [[nodiscard]] ABUT_HD constexpr int sign() const {
+        if (static_cast<std::int64_t>(limb[count - 1]) < 0) return -1;
+        std::uint64_t any = 0;
+        ABUT_ROLLED
+        for (int i = 0; i < count; ++i) any |= limb[i];
+        return any != 0 ? 1 : 0;
+    }
+    /// Changes the sign if it is negative.
+    ABUT_HD constexpr void drop_sign() {
+        if (static_cast<std::int64_t>(limb[count - 1]) >= 0) return;
+        std::uint64_t carry = 1;
+        ABUT_ROLLED
+        for (int i = 0; i < count; ++i) {
+            limb[i] = ~limb[i] + carry;
+            carry = carry != 0 && limb[i] == 0 ? 1 : 0;
+        }
+    }
+};
+
+// Magnitudes: n limbs without a sign.
+
+ABUT_NOINLINE ABUT_HD constexpr bool limbs_less(const std::uint64_t* a, const std::uint64_t* b, int n) {
+    int i = n - 1;
+    while (i > 0 && a[i] == b[i]) --i;
+    return a[i] < b[i];
+}
+
+/// The magnitude is below 2^bits.
+ABUT_NOINLINE ABUT_HD constexpr int bits_of_limbs(const std::uint64_t* a, int n) {
+    int i = n - 1;
+    while (i > 0 && a[i] == 0) --i;
+    int bits = 64 * i;
+    std::uint64_t x = a[i];
+    ABUT_ROLLED
+    for (int step = 32; step > 0; step /= 2) {
+        if (x >> step == 0) continue;
+        x >>= step;
+        bits += step;
+    }
+    return bits + (x != 0 ? 1 : 0);
+}
+
+ABUT_NOINLINE ABUT_HD constexpr void move_up(std::uint64_t* a, int n, int shift) {
+    const int whole = shift / 64, part = shift % 64;
+    ABUT_ROLLED
+    for (int i = n - 1; i >= 0; --i) {
+        const int k = i - whole;
+        const std::uint64_t high = k >= 0 ? a[k] : 0, low = k > 0 ? a[k - 1] : 0;
+        a[i] = part == 0 ? high : high << part | low >> (64 - part);
+    }
+}
+
+/// a / b, for a of 0 or more and a b above 0, rounded to the nearest double, and of two that are as near to the lesser; the
+/// largest one if it is above that. Both have to leave a bit beside that of the sign, and both are changed.
+ABUT_NOINLINE ABUT_HD constexpr double divide_magnitudes(std::uint64_t* a, std::uint64_t* b, int n) {
+    constexpr int lowest = float_format<double>::min_exponent, digits = float_format<double>::digits;
+    constexpr std::uint64_t largest = 0x7fefffffffffffff;
+    const int bits_a = bits_of_limbs(a, n), bits_b = bits_of_limbs(b, n);
+    if (bits_a == 0) return 0;
+    if (bits_a < bits_b) move_up(a, n, bits_b - bits_a);
+    if (bits_b < bits_a) move_up(b, n, bits_a - bits_b);
+    // The quotient, by its digits: the first stands for 2^weight, and one of the first two is 1. As many follow as a double of
+    // this magnitude has.
+    int weight = bits_a - bits_b, last = lowest;
+    if (weight < lowest) return weight == lowest - 1 && limbs_less(b, a, n) ? __builtin_bit_cast(double, std::uint64_t{1}) : 0;
+    std::uint64_t quotient = 0;
+    for (;; --weight) {
+        const bool is_one = !limbs_less(a, b, n);
+        const std::uint64_t one = 1;
+        if (is_one) add_product(a, n, &one, 1, b, n, true);
+        quotient = quotient << 1 | (is_one ? 1 : 0);
+        if (quotient == 1) last = weight - digits + 1 > lowest ? weight - digits + 1 : lowest;
+        move_up(a, n, 1);
+        if (weight == last) break;
+    }
+    if (limbs_less(b, a, n)) ++quotient;
+    if (last - lowest > 2100) return __builtin_bit_cast(double, largest);
+    const std::uint64_t bits = (static_cast<std::uint64_t>(last - lowest) << (digits - 1)) + quotient;
+    return __builtin_bit_cast(double, bits < largest ? bits : largest);
+}
+
+/// |a| / |b| as above.
+template <int Room>
+ABUT_HD constexpr double rounded_quotient(rolled_int<Room>& a, rolled_int<Room>& b) {
+    a.drop_sign();
+    b.drop_sign();
+    return divide_magnitudes(a.limb, b.limb, a.count);
+}
+
+}  // namespace abut::detail
