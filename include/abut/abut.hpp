@@ -14,11 +14,13 @@
 #include <abut/collide/distance.hpp>
 #include <abut/collide/first_impact.hpp>
 #include <abut/collide/impacts.hpp>
+#include <abut/collide/inside.hpp>
 #include <abut/collide/list.hpp>
 #include <abut/collide/list_distance.hpp>
 #include <abut/collide/nearest.hpp>
 #include <abut/collide/query.hpp>
 #include <abut/collide/raycast.hpp>
+#include <abut/collide/raycast_all.hpp>
 #include <abut/collide/reduce_contacts.hpp>
 #include <abut/collide/self_pairs.hpp>
 #include <abut/collide/validate.hpp>

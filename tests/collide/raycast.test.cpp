@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include <abut/collide/raycast.hpp>
+#include <abut/collide/raycast_all.hpp>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "collide/raycast_cases.hpp"
 #include "support/catch.hpp"
 #include "support/modes.hpp"
+#include "support/ray_oracle.hpp"
 
 using namespace abut;
 
@@ -61,9 +66,91 @@ TEST_CASE("raycast: nothing to meet, and nothing that looks") {
     CHECK(raycast(serial{}, floor, ray<float>{{0, 0, 1}, {0, 0, -1}}).to_host()[0] == ray_hit<float>{0, 1});
     CHECK(raycast<fast>(serial{}, floor, ray<float>{{0, 0, 1}, {0, 0, -1}}).to_host()[0] == ray_hit<float>{0, 1});
     CHECK(raycast(serial{}, floor, segment<float>{{0, 0, 1}, {0, 0, 0.5f}}).to_host()[0].id == no_id);
+    const ray<float> down{{0, 0, 1}, {0, 0, -1}};
+    CHECK(raycast_all(serial{}, none, down).size() == 0);
+    CHECK(raycast_all(serial{}, floor, rays<float>()).size() == 0);
+    CHECK(raycast_all<fast>(serial{}, floor, down).to_host() == std::vector<hit_of_ray<float>>{{0, 0, 1}});
+    CHECK(raycast_any(serial{}, none, down).to_host() == std::vector<std::uint8_t>{0});
+    CHECK(raycast_any(serial{}, floor, rays<float>()).size() == 0);
+    CHECK(raycast_any<fast>(serial{}, floor, down).to_host() == std::vector<std::uint8_t>{1});
+    CHECK(raycast_any(serial{}, floor, segment<float>{{0, 0, 1}, {0, 0, 0.5f}})[0] == 0);
     const float nan = std::numeric_limits<float>::quiet_NaN();
     CHECK_THROWS_AS(raycast(serial{}, floor, ray<float>{{0, 0, nan}, {0, 0, 1}}), invalid_geometry);
+    CHECK_THROWS_AS(raycast_any(serial{}, floor, ray<float>{{0, 0, nan}, {0, 0, 1}}), invalid_geometry);
+    CHECK_THROWS_AS(raycast_all(serial{}, floor, ray<float>{{0, 0, nan}, {0, 0, 1}}), invalid_geometry);
     CHECK_THROWS_AS(rays<float>({{{0, 0, 0}, {0, 0, 1}}, {{0, 0, 0}, {nan, 0, 1}}}), invalid_geometry);
+}
+
+TEST_CASE("raycast: all hits in the order of their true times, in rational numbers") {
+    // On a lattice, where rays start on triangles, run along sides and through corners, and meet many at one time; there
+    // times that differ do so by more than doubles are apart.
+    test::uniform random(97);
+    const auto on_lattice = [&](int half) {
+        const auto one = [&] { return static_cast<float>(static_cast<int>(random.below(std::size_t(2 * half + 1))) - half); };
+        return vec3<float>{one(), one(), one()};
+    };
+    std::vector<triangle<float>> triangles;
+    for (int i = 0; i < 60; ++i) {
+        const vec3<float> a = on_lattice(2);
+        triangles.push_back({a, a + on_lattice(1), a + on_lattice(2)});
+    }
+    const triangle_soup<float> soup(triangles);
+    std::vector<ray<float>> lines;
+    for (int i = 0; i < 300; ++i) lines.push_back({on_lattice(3), on_lattice(2)});
+    std::vector<index_pair> expected;
+    std::vector<double> times;
+    std::size_t ties = 0, at_start = 0;
+    for (std::uint32_t k = 0; k < lines.size(); ++k) {
+        std::vector<std::pair<test::rational, std::uint32_t>> mine;
+        for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+            if (const auto t = test::first_time(lines[k], triangles[i])) mine.emplace_back(*t, i);
+        }
+        std::sort(mine.begin(), mine.end());
+        for (std::size_t i = 0; i < mine.size(); ++i) {
+            expected.push_back({k, mine[i].second});
+            ties += i > 0 && mine[i].first == mine[i - 1].first;
+            at_start += mine[i].first == 0;
+        }
+    }
+    CHECK(expected.size() > 500);
+    CHECK(ties > 100);
+    CHECK(at_start > 50);
+    const rays<float> all(lines);
+    const auto tree = make_bvh(serial{}, soup);
+    const auto in_order = [&](const auto& found) {
+        std::vector<index_pair> ids;
+        for (const auto& hit : found) ids.push_back({hit.ray, hit.id});
+        return ids;
+    };
+    CHECK(in_order(raycast_all(serial{}, tree, all)) == expected);
+    CHECK(in_order(raycast_all(openmp{3}, wide(serial{}, tree), all)) == expected);
+    CHECK(in_order(raycast_all(serial{}, soup, all)) == expected);
+    const auto any = raycast_any(serial{}, wide(serial{}, tree), all);
+    const auto first = raycast(serial{}, tree, all);
+    for (std::uint32_t k = 0; k < lines.size(); ++k) {
+        const auto begin = std::find_if(expected.begin(), expected.end(), [&](const index_pair& p) { return p.a == k; });
+        CHECK(any[k] == (begin != expected.end() ? 1 : 0));
+        CHECK(first[k].id == (begin != expected.end() ? begin->b : no_id));
+    }
+}
+
+TEST_CASE("raycast: thousands of hits on one ray are in order") {
+    // Sheets in disorder, some at one height.
+    test::uniform random(98);
+    std::vector<triangle<double>> sheets;
+    for (int i = 0; i < 3000; ++i) {
+        const auto z = static_cast<double>(random.below(2000));
+        sheets.push_back({{-9, -9, z}, {9, -9, z}, {0, 9, z}});
+    }
+    const auto all = raycast_all(serial{}, make_bvh(serial{}, triangle_soup<double>(sheets)), ray<double>{{0, 0, -1}, {0, 0, 2}});
+    REQUIRE(all.size() == sheets.size());
+    std::vector<bool> seen(sheets.size());
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        CHECK(all[k].t == (sheets[all[k].id].a.z + 1) / 2);
+        if (k > 0) CHECK((all[k].t > all[k - 1].t || (all[k].t == all[k - 1].t && all[k].id > all[k - 1].id)));
+        seen[all[k].id] = true;
+    }
+    CHECK(std::find(seen.begin(), seen.end(), false) == seen.end());
 }
 
 TEST_CASE("raycast: all that rays meet is what pairs finds") {

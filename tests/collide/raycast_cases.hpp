@@ -2,13 +2,14 @@
 #pragma once
 
 // What `raycast` promises on every policy: of each ray or segment the triangle that it meets first, as times are computed for
-// one pair, and of equal times the least id; the same bits whatever the index, its layout and the pose. The truth is a plain
-// loop over all triangles; that one pair is right is tests/narrow's matter. And that nothing slips through a closed mesh.
+// one pair, and of equal times the least id; the same bits whatever the index, its layout and the pose. And `raycast_all` and
+// `raycast_any` of all of them. The truth is a plain loop over all triangles; that one pair is right is tests/narrow's matter. And that nothing slips through a closed mesh.
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <abut/abut.hpp>
@@ -54,6 +55,42 @@ void check_hits(const Policy& on, const X& index, const std::vector<Line>& lines
     FAIL_CHECK("another answer than by definition");
 }
 
+template <shape_view Shapes, class Line>
+auto all_hits_by_definition(const Shapes& shapes, const std::vector<Line>& lines) {
+    using T = scalar_type_of<Line>;
+    std::vector<hit_of_ray<T>> all;
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+        std::vector<std::pair<double, std::uint32_t>> mine;
+        for (std::uint32_t i = 0; i < shapes.size(); ++i) {
+            const double time = detail::hit_time<exact>(lines[k], shapes[i]);
+            if (time >= 0) mine.emplace_back(time, i);
+        }
+        std::sort(mine.begin(), mine.end());
+        const double most = static_cast<double>(std::numeric_limits<T>::max());
+        for (const auto& [time, id] : mine) {
+            all.push_back({static_cast<std::uint32_t>(k), id, static_cast<T>(std::min(time, most))});
+        }
+    }
+    return all;
+}
+/// What rays meet of all that there is, in order, and whether they meet anything.
+template <arithmetic A = filtered, class Policy, class X, shape_view Shapes, class Line>
+void check_all_hits(const Policy& on, const X& index, const Shapes& shapes_there, const std::vector<Line>& lines) {
+    const auto expected = all_hits_by_definition(shapes_there, lines);
+    const shapes<Line> made(lines);
+    const auto found = to_host(raycast_all<A>(on, index, made));
+    REQUIRE(found.size() == expected.size());
+    const auto wrong = std::mismatch(found.begin(), found.end(), expected.begin());
+    if (wrong.first != found.end()) {
+        CAPTURE(wrong.first->ray, wrong.first->id, wrong.second->ray, wrong.second->id, wrong.first->t, wrong.second->t);
+        FAIL_CHECK("another order than by definition");
+    }
+    std::vector<std::uint8_t> met(lines.size(), 0);
+    for (const auto& hit : expected) met[hit.ray] = 1;
+    CHECK(to_host(raycast_any<A>(on, index, made)) == met);
+    CHECK(expected.size() * 2 > lines.size());
+}
+
 /// Lines that are aimed at corners, sides and the insides of triangles, and at nothing.
 template <class T, shape_view Shapes>
 std::vector<ray<T>> rays_at(const Shapes& shapes, std::size_t n, uniform& random, double half) {
@@ -96,6 +133,7 @@ void check_indices(const Policy& on, const Set& set, const std::vector<Line>& li
     check_hits(on, there, lines, expected);
     check_hits(on, tree, lines, expected);
     check_hits<exact>(on, tree, lines, expected);
+    check_all_hits(on, tree, set.view(), lines);
     check_hits(on, quantised(on, tree), lines, expected);
     if constexpr (host_policy<Policy>) check_hits(on, wide(on, tree), lines, expected);
 }
@@ -136,6 +174,7 @@ void check_raycast(const Policy& on) {
             const auto expected = hits_by_definition(placed, moved);
             check_hits(on, posed(tree, pose), moved, expected);
             check_hits(on, posed(soup, pose), moved, expected);
+            if (k < 4) check_all_hits(on, posed(tree, pose), placed, moved);
         }
     }
 }
@@ -190,6 +229,7 @@ void check_raycast_scales(const Policy& on) {
         const auto expected = hits_by_definition(soup.view(), rays);
         CHECK(share_of_hits(expected) > 0.3);
         check_hits(on, make_bvh(on, soup), rays, expected);
+        check_all_hits(on, make_bvh(on, soup), soup.view(), rays);
         check_hits(on, quantised(on, make_bvh(on, soup)), rays, expected);
     }
 }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// raycast: for each of many rays the triangle that it meets first, and when.
+// raycast: for each of many rays the triangle that it meets first, and when; raycast_any: whether it meets any.
 //
-// By definition the answer is the triangle with the least time, as narrow/hit_time.hpp gives it, and of equal ones the one
-// with the least id. The walk is that of `nearest`: nearer child first, and no farther than what is found.
+// By definition the first is the triangle with the least time, as narrow/hit_time.hpp gives it, and of equal ones the one
+// with the least id. The walk is that of `nearest`: nearer child first, and no farther than what is found. Whether there is
+// any is the same walk, which ends at the first hit. raycast_all.hpp has all of them.
 
 #include <concepts>
 #include <cstddef>
@@ -56,6 +57,38 @@ struct walk_along_lines {
     }
 };
 
+/// The same, which ends at what a line meets at all.
+template <arithmetic A, class Walk, class Frame, shape_view Shapes, shape_view Lines>
+struct walk_to_any {
+    Walk walk;
+    Frame frame;
+    Shapes shapes;
+    Lines lines;
+    std::uint8_t* out;
+
+    ABUT_CALLS_ANY
+    template <class Sink>
+    ABUT_HD void operator()(std::size_t i, Sink& sink) const {
+        const auto line = lines[i];
+        const line_of<typename Lines::scalar_type> l(line);
+        auto reach = reach_of_line(frame, l.origin, l.direction(), l.last);
+        bool met = false;
+        walk(reach, sink, [&](std::uint32_t id) {
+            if (met || !is_met<A>(line, shapes[id])) return;
+            met = true;
+            sink.stop();
+        });
+        out[i] = met ? 1 : 0;
+    }
+};
+
+/// A time as it is reported: no infinity.
+template <scalar T>
+ABUT_HD T time_as(double time) {
+    const double most = static_cast<double>(largest_finite<T>);
+    return static_cast<T>(time < most ? time : most);
+}
+
 template <scalar T>
 struct write_hits {
     const execution::least_value* found;  ///< null for none
@@ -65,8 +98,7 @@ struct write_hits {
         if (found == nullptr || found[i].key >= no_id) {
             out[i] = {no_id, infinity<T>};
         } else {
-            const double most = static_cast<double>(largest_finite<T>), time = found[i].value;
-            out[i] = {static_cast<std::uint32_t>(found[i].key), static_cast<T>(time < most ? time : most)};
+            out[i] = {static_cast<std::uint32_t>(found[i].key), time_as<T>(found[i].value)};
         }
     }
 };
@@ -100,28 +132,57 @@ consteval bool can_be_met() {
     }
 }
 
+/// Both arguments of a query of rays where its policy works, and what a walk needs of them.
+template <class Policy, class X, class Lines>
+struct lines_and_shapes {
+    using T = scalar_type_of<typename shape_of_argument<X>::type>;
+    decltype(make_operand(std::declval<const Policy&>(), std::declval<const X&>(), "")) x;
+    decltype(make_operand(std::declval<const Policy&>(), std::declval<const Lines&>(), "")) looking;
+
+    lines_and_shapes(const Policy& on, const X& index, const Lines& rays, const char* function)
+        : x(make_operand(on, index, function)), looking(make_operand(on, rays, function)) {}
+
+    [[nodiscard]] std::size_t size() const { return looking.shapes().size(); }
+    [[nodiscard]] bool has_nothing() const { return size() == 0 || x.shapes().size() == 0; }
+    /// A functor Walk<A, ...>: of the walk, the frame, the shapes and the lines, and what else it is made of.
+    template <template <arithmetic, class, class, shape_view, shape_view> class Walk, arithmetic A, class... Rest>
+    [[nodiscard]] auto walk(const Rest&... rest) const {
+        const length_unit<T> unit{};
+        return Walk<A, decltype(ordered_walk_of(x)), decltype(frame_of(x, unit)), decltype(x.shapes()),
+                    decltype(looking.shapes())>{ordered_walk_of(x), frame_of(x, unit), x.shapes(), looking.shapes(), rest...};
+    }
+};
+
 template <arithmetic A, class Policy, class X, class Lines>
 auto raycast_of(const Policy& on, const X& index, const Lines& rays, const char* function) {
-    using T = scalar_type_of<typename shape_of_argument<X>::type>;
-    const auto x = make_operand(on, index, function);
-    const auto looking = make_operand(on, rays, function);
-    const auto there = x.shapes();
-    const auto lines = looking.shapes();
-    const std::size_t n = lines.size();
+    const lines_and_shapes<Policy, X, Lines> both(on, index, rays, function);
+    using T = typename lines_and_shapes<Policy, X, Lines>::T;
+    const std::size_t n = both.size();
     execution::buffer_of<Policy, ray_hit<T>> out(on, n);
     const auto finish = [&](const execution::least_value* found) {
         for_each_index(on, n, write_hits<T>{found, out.data()});
         synchronize(on);
         return result<ray_hit<T>, space_of<Policy>>(std::move(out));
     };
-    if (n == 0 || there.size() == 0) return finish(nullptr);
-    const auto walk = ordered_walk_of(x);
-    const auto frame = frame_of(x, length_unit<T>{});
+    if (both.has_nothing()) return finish(nullptr);
     execution::best_of_each<space_of<Policy>> best(on, n);
-    using walk_type = walk_along_lines<A, std::remove_const_t<decltype(walk)>, std::remove_const_t<decltype(frame)>,
-                                       std::remove_const_t<decltype(there)>, std::remove_const_t<decltype(lines)>>;
-    for_each_ordered(on, n, walk_type{walk, frame, there, lines}, best);
+    for_each_ordered(on, n, both.template walk<walk_along_lines, A>(), best);
     return finish(best.data());
+}
+
+template <arithmetic A, class Policy, class X, class Lines>
+auto raycast_any_of(const Policy& on, const X& index, const Lines& rays, const char* function) {
+    const lines_and_shapes<Policy, X, Lines> both(on, index, rays, function);
+    const std::size_t n = both.size();
+    execution::buffer_of<Policy, std::uint8_t> out(on, n);
+    if (both.has_nothing()) {
+        fill(on, out.data(), n, std::uint8_t{0});
+    } else {
+        execution::until_stopped until;
+        for_each_ordered(on, n, both.template walk<walk_to_any, A>(out.data()), until);
+    }
+    synchronize(on);
+    return result<std::uint8_t, space_of<Policy>>(std::move(out));
 }
 
 }  // namespace detail
@@ -160,6 +221,34 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Rays>
         return detail::raycast_of<A>(on, index, rays, "abut::raycast");
     } else {
         return result<ray_hit<float>, space_of<Policy>>();
+    }
+}
+
+/// For each of `rays` whether it meets any triangle of `index`: a `result` of `std::uint8_t`, in the order of the rays, 1 or 0.
+/// It is 1 where `raycast` of the same arguments finds a hit, and takes less time: a ray ends at the first triangle that is
+/// found, which need not be the first one that it meets. Segments from a point to a light tell what lies in shadow.
+///
+/// Arguments, and what is decided exactly, are those of `raycast`.
+///
+/// @par Memory
+/// As in @ref queries. The result lies in the policy's memory, 1 byte a ray.
+///
+/// @par Errors
+/// Those of `raycast`.
+///
+/// @par Synchronisation
+/// Returns when the answers are complete; under `cuda` it waits for the policy's stream.
+///
+/// @par Example
+/// @snippet queries.cpp raycast_any
+///
+/// @ingroup queries
+template <arithmetic A = filtered, execution_policy Policy, class X, class Rays>
+[[nodiscard]] auto raycast_any(const Policy& on, const X& index, const Rays& rays) {
+    if constexpr (detail::can_be_met<Policy, X, Rays>()) {
+        return detail::raycast_any_of<A>(on, index, rays, "abut::raycast_any");
+    } else {
+        return result<std::uint8_t, space_of<Policy>>();
     }
 }
 

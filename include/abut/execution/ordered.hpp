@@ -2,13 +2,14 @@
 #pragma once
 
 // The least of many values, for walks that look for it: sinks that give back what they have, and the verb
-// for_each_ordered, of which execution/policy.hpp says what it does. Three kinds:
+// for_each_ordered, of which execution/policy.hpp says what it does. Three kinds, and one that keeps nothing:
 //
 //   best_of_each<Space>       the least of each index by itself
 //   best_few_of_each<Space>   as many of the least of each index by itself
 //   best_of_all<Space>        the least of all indices; they share a bound
+//   until_stopped             for walks that keep what they find themselves, and may end before all is seen
 //
-// All take sink.offer(value, key), and keep the least value and, of equal ones, the least key; sink.bound() is what values
+// All but the last take sink.offer(value, key), and keep the least value and, of equal ones, the least key; sink.bound() is what values
 // have to stay below, or equal, to matter. Values are doubles, 0 or more. What is left does not depend on the order in which
 // values come, and so not on threads, as long as nothing at the bound is left out.
 
@@ -163,6 +164,25 @@ private:
     least_value least_{};
     std::uint64_t word_;
     buffer<least_value, host_space> of_threads_;
+};
+
+/// There is no bound, until the walk of an index says that nothing matters any more: sink.stop().
+struct until_stopped {
+    struct sink {
+        bool stopped = false;
+
+        ABUT_HD void begin(std::size_t) { stopped = false; }
+        ABUT_HD void stop() { stopped = true; }
+        [[nodiscard]] ABUT_HD double bound() const { return stopped ? -__builtin_huge_val() : __builtin_huge_val(); }
+        ABUT_HD void end(std::size_t) {}
+        ABUT_HD void close() {}
+    };
+
+    [[nodiscard]] sink make_sink(std::size_t /*thread*/) { return {}; }
+    template <class Policy>
+    void begin(const Policy&, std::size_t /*threads*/) {}
+    template <class Policy>
+    void end(const Policy&) {}
 };
 
 namespace detail {

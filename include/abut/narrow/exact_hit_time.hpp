@@ -13,6 +13,12 @@
 // A ray meets the interval first at 0, if the interval holds 0, or at its lesser end.
 //
 // A direction of 0 asks whether o lies in the triangle. So it does if and only if a line from o to a corner meets it at 0.
+//
+// A point is inside of a closed mesh if the way up from it crosses an odd number of triangles. That has to be asked of a way
+// that meets neither edges nor corners. So o is moved aside by (e, e^2, 0), for an e that is as small as need be: a sign that is
+// 0 becomes that of what e changes, and if that is 0 that of what e^2 changes (H. Edelsbrunner, E. Muecke, Simulation of
+// Simplicity, 1990). Both faces at an edge ask about the same sign, so that the way crosses one of them or none or both as a
+// line that is really moved aside does.
 
 #include <cstddef>
 #include <cstdint>
@@ -38,6 +44,9 @@ struct rolled_numbers {
 };
 
 ABUT_HD constexpr int next_axis(int k) { return k == 2 ? 0 : k + 1; }
+
+/// What the way up from a point meets of a triangle: nothing, its inside, which it crosses, or the triangle at the point itself.
+enum class met_above : int { nothing, crossing, start, unknown };
 
 template <scalar T>
 class exact_line {
@@ -98,7 +107,36 @@ public:
         return has_direction_ || time == 0 ? time : -1;
     }
 
+    /// Of a line along z, from the point upward.
+    [[nodiscard]] ABUT_HD constexpr met_above meets_above() {
+        is_timed_ = false;
+        const bool meets = first_time() >= 0;
+        if (begins_before_ && ends_after_) return met_above::start;
+        if (!meets) return met_above::nothing;
+        int sides = 0;
+        ABUT_ROLLED
+        for (int i = 0; i < 3; ++i) sides += side_if_moved(to_[i], to_[next_axis(i)]);
+        return sides == 3 || sides == -3 ? met_above::crossing : met_above::nothing;
+    }
+
 private:
+    /// On which side of the line of two corners, seen along z, the origin is if it is moved: A.x B.y - A.y B.x, then what
+    /// becomes of it if A and B have (e, e^2) taken off.
+    [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr int side_if_moved(const length (&a)[3], const length (&b)[3]) const {
+        area side;
+        cross(a, b, 2, side);
+        if (side.sign() != 0) return side.sign();
+        length change;
+        change.clear(of_length_);
+        change.add(a[1]);
+        change.add(b[1], true);
+        if (change.sign() != 0) return change.sign();
+        change.clear(of_length_);
+        change.add(b[0]);
+        change.add(a[0], true);
+        return change.sign();
+    }
+
     /// Coordinate k of a x b.
     ABUT_NOINLINE ABUT_HD constexpr void cross(const length (&a)[3], const length (&b)[3], int k, area& r) const {
         const int i = next_axis(k), j = next_axis(i);
@@ -117,7 +155,7 @@ private:
         numerator.drop_sign();
         denominator.drop_sign();
         if (has_end_ && limbs_less(denominator.limb, numerator.limb, numerator.count)) return;
-        least_ = least(divide_magnitudes(numerator.limb, denominator.limb, numerator.count), least_);
+        least_ = is_timed_ ? least(divide_magnitudes(numerator.limb, denominator.limb, numerator.count), least_) : 1;
     }
 
     /// The side from p to q, which is in one plane with the line.
@@ -163,7 +201,7 @@ private:
 
     length to_[3][3], along_[3];
     int of_length_ = 0, of_area_ = 0, of_volume_ = 0;  ///< limbs
-    bool has_end_, has_direction_ = false, begins_before_ = false, ends_after_ = false;
+    bool has_end_, has_direction_ = false, is_timed_ = true, begins_before_ = false, ends_after_ = false;
     double least_ = infinity<double>;
 };
 

@@ -91,4 +91,18 @@ ABUT_HD constexpr double hit_time(const Line& line, const triangle<T>& t) {
     }
 }
 
+/// Whether it does at all.
+template <arithmetic A, class Line, scalar T>
+ABUT_HD constexpr bool is_met(const Line& line, const triangle<T>& t) {
+    if constexpr (std::same_as<A, fast>) {
+        return intersects<fast>(line, t);
+    } else {
+        if (std::same_as<A, filtered> && !__builtin_is_constant_evaluated()) {
+            const verdict v = decide<filtered>(as_stored(line), as_stored(t));
+            if (v != verdict::unknown) return v == verdict::yes;
+        }
+        return exact_hit_time(line, t) >= 0;
+    }
+}
+
 }  // namespace abut::detail

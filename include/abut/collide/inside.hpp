@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// inside: which of many points are inside of a closed mesh; signed_distance: how far they are from its surface.
+//
+// By definition a point that is on no triangle is inside if the way up from it, moved aside by as little as need be, crosses an
+// odd number of triangles (narrow/crossing.hpp). The walk is that of a ray.
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include <abut/arithmetic/arithmetic.hpp>
+#include <abut/collide/nearest.hpp>
+#include <abut/collide/validate.hpp>
+#include <abut/execution/ordered.hpp>
+#include <abut/narrow/crossing.hpp>
+#include <abut/shape/half_edges.hpp>
+#include <abut/shape/ray_reach.hpp>
+#include <abut/traverse/ordered_walk.hpp>
+
+namespace abut {
+
+/// Where a point is.
+/// @ingroup queries
+enum class containment : std::uint8_t {
+    outside,    ///< 0
+    inside,     ///< 1
+    on_surface  ///< 2: on a triangle of the mesh, its edges and corners too
+};
+
+/// Options of `inside` and `signed_distance`.
+/// @ingroup queries
+struct inside_options {
+    /// The caller knows that the mesh is closed, and it is not looked at. Of a mesh that is not, answers mean nothing.
+    bool known_closed = false;
+};
+
+namespace detail {
+
+/// A walk up from each of many points.
+template <arithmetic A, class Walk, class Frame, shape_view Shapes, shape_view Points>
+struct walk_upward {
+    using T = typename Points::scalar_type;
+    Walk walk;
+    Frame frame;
+    Shapes shapes;
+    Points points;
+    containment* out;
+
+    ABUT_CALLS_ANY
+    template <class Sink>
+    ABUT_HD void operator()(std::size_t i, Sink& sink) const {
+        const vec3<T> p = points[i];
+        auto reach = reach_of_line(frame, p, vec3<T>{0, 0, 1}, infinity<double>);
+        bool is_odd = false, is_on = false;
+        walk(reach, sink, [&](std::uint32_t id) {
+            if (is_on) return;
+            const met_above found = crossing_of<A>(p, shapes[id]);
+            is_odd ^= found == met_above::crossing;
+            is_on = found == met_above::start;
+            if (is_on) sink.stop();
+        });
+        out[i] = is_on ? containment::on_surface : is_odd ? containment::inside : containment::outside;
+    }
+};
+
+/// The first face at an edge of an odd number of faces, if half-edge i is that edge's first; and how many they are.
+struct face_at_odd_edge {
+    sorted_half_edges table;
+    ABUT_HD execution::least_value operator()(std::size_t i) const {
+        if (!table.is_edge(i) || !table.is_first(i)) return {};
+        const mesh_edge edge = mesh_edge_of{table}(static_cast<std::uint32_t>(i));
+        if (edge.faces % 2 == 0) return {};
+        return {static_cast<double>(edge.first_face), edge.faces};
+    }
+};
+
+template <class Policy, scalar T, memory_space Space>
+void require_closed(const Policy& on, const mesh_view<T, Space>& mesh, const char* function) {
+    check_sides(mesh.size(), function);
+    const half_edge_table<Policy> sorted(on, mesh, id_bits(mesh.vertices.count));
+    const sorted_half_edges table = sorted.view();
+    const execution::least_value first =
+        reduce(on, table.count, execution::least_value{}, execution::lesser_value{}, face_at_odd_edge{table});
+    if (first == execution::least_value{}) return;
+    throw invalid_geometry(function, "face", static_cast<std::size_t>(first.value),
+                           "the mesh is not closed: an edge of this face has an odd number of faces",
+                           static_cast<double>(first.key));
+}
+template <class Policy, class View>
+void require_closed(const Policy& on, const posed_view<View>& mesh, const char* function) {
+    require_closed(on, mesh.shapes, function);
+}
+
+template <class X>
+inline constexpr bool has_faces = is_mesh<X>;
+template <class Set, memory_space Space, class Layout>
+inline constexpr bool has_faces<bvh<Set, Space, Layout>> = is_mesh<Set>;
+template <class Object>
+inline constexpr bool has_faces<posed_object<Object>> = has_faces<Object>;
+
+/// Whether `inside` takes both arguments.
+template <arithmetic A, class Policy, class X, class Points>
+consteval bool can_contain() {
+    constexpr bool is_decided = !std::same_as<A, fast>;
+    static_assert(is_decided, "abut: inside is decided by `filtered` or `exact`");
+    constexpr bool is_mesh_or_tree = has_faces<X>;
+    static_assert(is_mesh_or_tree, "abut: inside looks into a closed mesh: a mesh, a mesh_view, or a tree of one");
+    if constexpr (is_decided && is_mesh_or_tree) return can_be_near<Policy, X, Points>();
+    return false;
+}
+
+template <arithmetic A, class Policy, class X, class Points>
+auto inside_of(const Policy& on, const X& mesh, const Points& points, const inside_options& options, const char* function) {
+    using T = scalar_type_of<typename shape_of_argument<X>::type>;
+    const auto x = make_operand(on, mesh, function);
+    const auto queries = make_points<T>(on, points, function);
+    const auto there = x.shapes();
+    const auto from = queries.shapes();
+    if (!options.known_closed) require_closed(on, there, function);
+    execution::buffer_of<Policy, containment> out(on, from.size());
+    if (there.size() == 0) {
+        fill(on, out.data(), from.size(), containment::outside);
+    } else {
+        const auto walk = ordered_walk_of(x);
+        const auto frame = frame_of(x, length_unit<T>{});
+        using walk_type = walk_upward<A, std::remove_const_t<decltype(walk)>, std::remove_const_t<decltype(frame)>,
+                                      std::remove_const_t<decltype(there)>, std::remove_const_t<decltype(from)>>;
+        execution::until_stopped until;
+        for_each_ordered(on, from.size(), walk_type{walk, frame, there, from, out.data()}, until);
+    }
+    synchronize(on);
+    return result<containment, space_of<Policy>>(std::move(out));
+}
+
+template <scalar T>
+struct write_signed {
+    const neighbor<T>* nearest;
+    const containment* where;
+    neighbor<T>* out;
+
+    ABUT_HD void operator()(std::size_t i) const {
+        out[i] = nearest[i];
+        if (where[i] == containment::inside) out[i].distance = -out[i].distance;
+        if (where[i] == containment::on_surface) out[i].distance = 0;
+    }
+};
+
+}  // namespace detail
+
+/// For each of `points` whether it is inside of a closed mesh: a `result` of `containment`, in the order of the points. A point
+/// on a triangle, on an edge or on a corner is `on_surface`. Any other is inside if a way from it to infinity crosses the surface
+/// an odd number of times, whichever way the faces are turned. So a hollow in a solid is outside, and so is what two bodies in
+/// one mesh have in common.
+///
+/// Decided exactly, for every finite input, with `filtered` as with `exact`; the same on every policy. Ways that meet edges and
+/// corners fool nothing. Under a pose it is decided of the placed coordinates.
+///
+/// `mesh` is a mesh, a mesh_view, or a tree of any layout over one, posed or not. `points` are as of `nearest`. Closed means
+/// that every edge is one of an even number of faces, by the numbers of its vertices. Vertices that lie in one place and have
+/// two numbers make a mesh that is not closed; `welded` joins them. What is closed is found out in each call; it takes a sort
+/// of all sides of the faces. `{.known_closed = true}` leaves it out.
+///
+/// @par Memory
+/// As in @ref queries. The result lies in the policy's memory, 1 byte a point. Scratch takes 72 bytes a face, while it is found
+/// out whether the mesh is closed.
+///
+/// @par Errors
+/// - `invalid_geometry`: the mesh is not closed (the message has a face and how many faces one of its edges has); a view or a
+///   row of points holds no geometry, or a pose is no rotation.
+/// - `error`: a set or an index lies on another device.
+/// - `capacity_error`: a view or a row has 2^31 elements or more, or there are more than 1,431,655,765 faces.
+/// - `std::bad_alloc`, `cuda_error`.
+///
+/// @par Synchronisation
+/// Returns when the answers are complete; under `cuda` it waits for the policy's stream.
+///
+/// @par Example
+/// @snippet queries.cpp inside
+///
+/// @ingroup queries
+template <arithmetic A = filtered, execution_policy Policy, class X, class Points>
+[[nodiscard]] auto inside(const Policy& on, const X& mesh, const Points& points, const inside_options& options = {}) {
+    if constexpr (detail::can_contain<A, Policy, X, Points>()) {
+        return detail::inside_of<A>(on, mesh, points, options, "abut::inside");
+    } else {
+        return result<containment, space_of<Policy>>();
+    }
+}
+
+/// For each of `points` what `nearest` says of it, with a distance that is below 0 where the point is `inside`, and 0 where it is
+/// on the surface.
+///
+/// Arguments and options are those of `inside`. The sign is exact; distances are those of `nearest`.
+///
+/// @par Memory
+/// As in @ref queries. The result lies in the policy's memory, 20 bytes a point in float and 40 in double; scratch takes as much
+/// again, and what `inside` takes.
+///
+/// @par Errors
+/// Those of `inside`.
+///
+/// @par Synchronisation
+/// Returns when the answers are complete; under `cuda` it waits for the policy's stream.
+///
+/// @par Example
+/// @snippet queries.cpp signed_distance
+///
+/// @ingroup queries
+template <execution_policy Policy, class X, class Points>
+[[nodiscard]] auto signed_distance(const Policy& on, const X& mesh, const Points& points, const inside_options& options = {}) {
+    if constexpr (detail::can_contain<filtered, Policy, X, Points>()) {
+        constexpr const char* function = "abut::signed_distance";
+        using T = scalar_type_of<typename detail::shape_of_argument<X>::type>;
+        const auto where = detail::inside_of<filtered>(on, mesh, points, options, function);
+        const auto nearest = detail::nearest_of(on, mesh, points, function);
+        execution::buffer_of<Policy, neighbor<T>> out(on, nearest.size());
+        for_each_index(on, nearest.size(), detail::write_signed<T>{nearest.data(), where.data(), out.data()});
+        synchronize(on);
+        return result<neighbor<T>, space_of<Policy>>(std::move(out));
+    } else {
+        return result<neighbor<float>, space_of<Policy>>();
+    }
+}
+
+}  // namespace abut

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// raycast_all: for each of many rays all triangles that it meets, in the order in which it meets them.
+//
+// The rays walk twice: once to count what each meets, and once to write it where it belongs, so that memory is what the answer
+// takes. Each ray then brings its own hits into order.
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include <abut/collide/raycast.hpp>
+
+namespace abut {
+
+/// One of the triangles that a ray meets.
+/// @ingroup queries
+template <scalar T>
+struct hit_of_ray {
+    std::uint32_t ray;  ///< its number
+    std::uint32_t id;   ///< of the shape in its set
+    T t;                ///< where, as in ray_hit
+
+    friend constexpr bool operator==(const hit_of_ray&, const hit_of_ray&) = default;
+};
+
+namespace detail {
+
+/// Counts what each line meets.
+template <arithmetic A, class Walk, class Frame, shape_view Shapes, shape_view Lines>
+struct count_along_lines {
+    Walk walk;
+    Frame frame;
+    Shapes shapes;
+    Lines lines;
+    std::uint64_t* counts;
+
+    ABUT_CALLS_ANY
+    template <class Sink>
+    ABUT_HD void operator()(std::size_t i, Sink& sink) const {
+        const auto line = lines[i];
+        const line_of<typename Lines::scalar_type> l(line);
+        auto reach = reach_of_line(frame, l.origin, l.direction(), l.last);
+        std::uint64_t count = 0;
+        walk(reach, sink, [&](std::uint32_t id) { if (is_met<A>(line, shapes[id])) ++count; });
+        counts[i] = count;
+    }
+};
+
+/// Brings a line's hits into their order, where they lie: as they come they nearly are (Shell, 1959).
+ABUT_HD inline void sort_hits(execution::least_value* hits, std::uint64_t n) {
+    std::uint64_t gap = n / 2;
+    while (gap > 0) {
+        for (std::uint64_t i = gap; i < n; ++i) {
+            const execution::least_value at = hits[i];
+            std::uint64_t k = i;
+            for (; k >= gap; k -= gap) {
+                const execution::least_value& before = hits[k - gap];
+                if (before.value < at.value || (before.value == at.value && before.key < at.key)) break;
+                hits[k] = before;
+            }
+            hits[k] = at;
+        }
+        gap = gap == 2 ? 1 : gap * 5 / 11;
+    }
+}
+
+/// Writes what each line meets, from the place of its first hit on.
+template <arithmetic A, class Walk, class Frame, shape_view Shapes, shape_view Lines>
+struct write_along_lines {
+    Walk walk;
+    Frame frame;
+    Shapes shapes;
+    Lines lines;
+    const std::uint64_t* first;
+    execution::least_value* hits;
+
+    ABUT_CALLS_ANY
+    template <class Sink>
+    ABUT_HD void operator()(std::size_t i, Sink& sink) const {
+        if (first[i] == first[i + 1]) return;
+        const auto line = lines[i];
+        const line_of<typename Lines::scalar_type> l(line);
+        auto reach = reach_of_line(frame, l.origin, l.direction(), l.last);
+        execution::least_value* const mine = hits + first[i];
+        const std::uint64_t counted = first[i + 1] - first[i];
+        std::uint64_t count = 0;
+        walk(reach, sink, [&](std::uint32_t id) {
+            const double time = hit_time<A>(line, shapes[id]);
+            if (time >= 0 && count < counted) mine[count++] = {time, id};
+        });
+        // `fast` may decide otherwise the second time, where a compiler contracts what it inlines.
+        while (count < counted) mine[count++] = {};
+        sort_hits(mine, counted);
+    }
+};
+
+/// Hit k, with the number of its ray.
+template <scalar T>
+struct write_all_hits {
+    const std::uint64_t* first;
+    std::size_t rays;
+    const execution::least_value* hits;
+    hit_of_ray<T>* out;
+
+    ABUT_HD void operator()(std::size_t k) const {
+        std::size_t low = 0, high = rays;  // the ray is the last one whose first hit is not behind k
+        while (high - low > 1) {
+            const std::size_t middle = low + (high - low) / 2;
+            (first[middle] <= k ? low : high) = middle;
+        }
+        out[k] = {static_cast<std::uint32_t>(low), static_cast<std::uint32_t>(hits[k].key), time_as<T>(hits[k].value)};
+    }
+};
+
+template <arithmetic A, class Policy, class X, class Lines>
+auto raycast_all_of(const Policy& on, const X& index, const Lines& rays, const char* function) {
+    const lines_and_shapes<Policy, X, Lines> both(on, index, rays, function);
+    using T = typename lines_and_shapes<Policy, X, Lines>::T;
+    using answer = result<hit_of_ray<T>, space_of<Policy>>;
+    if (both.has_nothing()) return answer();
+    const std::size_t n = both.size();
+    execution::buffer_of<Policy, std::uint64_t> first(on, n + 1);
+    execution::until_stopped until;
+    for_each_ordered(on, n, both.template walk<count_along_lines, A>(first.data()), until);
+    exclusive_scan(on, first.data(), n);
+    std::uint64_t total = 0;
+    download(on, first.data() + n, 1, &total);
+    execution::buffer_of<Policy, execution::least_value> hits(on, total);
+    for_each_ordered(on, n, both.template walk<write_along_lines, A>(std::as_const(first).data(), hits.data()), until);
+    execution::buffer_of<Policy, hit_of_ray<T>> out(on, total);
+    for_each_index(on, total, write_all_hits<T>{first.data(), n, hits.data(), out.data()});
+    synchronize(on);
+    return answer(std::move(out));
+}
+
+}  // namespace detail
+
+/// All triangles of `index` that each of `rays` meets: a `result` of `hit_of_ray`, sorted by the ray's number, then by t, then
+/// by id. The first hit of a ray is that of `raycast`. A ray that meets nothing has none.
+///
+/// Arguments, and what is decided exactly, are those of `raycast`. Order is that of the times as `raycast` compares them, in
+/// double, also where t is a float. A ray through an edge meets both faces at it.
+///
+/// @par Memory
+/// As in @ref queries. The result lies in the policy's memory, 12 bytes a hit in float and 16 in double. Scratch takes 8 bytes a
+/// ray and 16 a hit. To take less, ask for some rays at a time: a view of a part of them will do.
+///
+/// @par Errors
+/// Those of `raycast`.
+///
+/// @par Synchronisation
+/// Returns when the answers are complete; under `cuda` it waits for the policy's stream.
+///
+/// @par Example
+/// @snippet queries.cpp raycast_all
+///
+/// @ingroup queries
+template <arithmetic A = filtered, execution_policy Policy, class X, class Rays>
+[[nodiscard]] auto raycast_all(const Policy& on, const X& index, const Rays& rays) {
+    if constexpr (detail::can_be_met<Policy, X, Rays>()) {
+        return detail::raycast_all_of<A>(on, index, rays, "abut::raycast_all");
+    } else {
+        return result<hit_of_ray<float>, space_of<Policy>>();
+    }
+}
+
+}  // namespace abut
