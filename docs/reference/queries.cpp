@@ -140,6 +140,30 @@ void query_rays() {
     expect(hits[0].id == 0 && hits[0].t == 1.5f);  // face 0, from below
     expect(hits[1].id == abut::no_id);             // nothing
     //! [raycast]
+    //! [raycast_any]
+    const abut::segments<float> to_light({{{1, 1, -3}, {1, 1, 9}}, {{1, 1, -3}, {1, 1, -1}}});
+    const auto in_shadow = abut::raycast_any(abut::serial{}, tetrahedron, to_light);
+    expect(in_shadow[0] == 1 && in_shadow[1] == 0);
+    //! [raycast_any]
+    //! [raycast_all]
+    const auto all = abut::to_host(abut::raycast_all(abut::serial{}, tetrahedron, rays));
+    expect(all.size() == 2 && all[0] == abut::hit_of_ray<float>{0, 0, 1.5f});  // ray 0 enters at face 0
+    expect(all[1].ray == 0 && all[1].t == 2.5f);                               // and leaves
+    //! [raycast_all]
+}
+
+void query_inside() {
+    const abut::serial on;
+    //! [inside]
+    const std::vector<abut::vec3<float>> points{{1, 1, 1}, {9, 0, 0}, {0, 0, 2}};
+    const auto where = abut::inside(on, abut::make_bvh(on, tetrahedron), points);
+    expect(where[0] == abut::containment::inside && where[1] == abut::containment::outside);
+    expect(where[2] == abut::containment::on_surface);  // on an edge
+    //! [inside]
+    //! [signed_distance]
+    const auto near = abut::signed_distance(on, tetrahedron, points);
+    expect(near[0].distance < 0 && near[1].distance == 5 && near[2].distance == 0);
+    //! [signed_distance]
 }
 
 void query_mesh() {
@@ -179,6 +203,7 @@ int main() {
     query_nearest();
     query_distance();
     query_rays();
+    query_inside();
     query_mesh();
     query_one_pair();
 }

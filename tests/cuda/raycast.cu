@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <abut/cuda.hpp>
 
+#include "collide/inside_cases.hpp"
 #include "collide/raycast_cases.hpp"
 #include "support/catch.hpp"
 
@@ -12,4 +13,10 @@ TEST_CASE("raycast: cuda") {
     abut::test::check_watertight<double>(on);
     abut::test::check_raycast_scales<float>(on);
     abut::test::check_raycast_scales<double>(on);
+}
+
+TEST_CASE("inside: cuda") {
+    const abut::cuda on;
+    abut::test::check_inside<float>(on);
+    abut::test::check_inside<double>(on, 1);
 }
