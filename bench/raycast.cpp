@@ -5,10 +5,14 @@
 // For each of a million rays the triangle that it meets first: of a mesh (FILE, PLY or OBJ, or a torus). Names:
 //
 //   raycast/RAYS/INDEX/ARITHMETIC/POLICY    the query alone; the index is there. RAYS: raycast_scene.hpp
+//   occluded/...                            the same by raycast_any
+//   all/...                                 by raycast_all
+//   inside/points/INDEX/ARITHMETIC/POLICY   points in the box around the mesh, by inside; `checked`: with a look at the mesh
 //
-// The peer (bench/raycast/) is in the same run, where its package is there.
+// Peers (bench/raycast/) are in the same run, where their packages are there.
 
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -23,23 +27,54 @@
 
 namespace {
 
-template <abut::arithmetic A, class Policy, class Index>
-void add(const char* index_name, const char* arithmetic, const char* policy, const Policy& on, const Index& index) {
+/// Rows of a query: ask(rays) gives its answers, and is_hit(answer) tells which are hits.
+template <class Ask, class IsHit>
+void add_rays(const char* query, const std::string& name, const Ask& ask, const IsHit& is_hit) {
     for (std::size_t kind = 0; kind < raycast_scene::kinds.size(); ++kind) {
         const abut::rays<float> rays(raycast_scene::rays_at(raycast_peer::mesh(), kind, raycast_scene::default_side));
-        const std::string name = std::string("raycast/") + raycast_scene::kinds[kind] + "/" + index_name + "/" + arithmetic + "/" + policy;
-        raycast_peer::add(name, [=](benchmark::State& state) {
+        raycast_peer::add(std::string(query) + "/" + raycast_scene::kinds[kind] + "/" + name, [=](benchmark::State& state) {
             std::size_t hits = 0;
             for (auto _ : state) {
-                const auto found = abut::raycast<A>(on, index, rays);
+                const auto found = ask(rays);
                 state.PauseTiming();
                 hits = 0;
-                for (const auto& hit : found) hits += hit.id != abut::no_id;
+                for (const auto& hit : found) hits += is_hit(hit);
                 state.ResumeTiming();
             }
             raycast_peer::note(state, rays.size(), hits);
         });
     }
+}
+
+template <abut::arithmetic A, class Policy, class Index>
+void add(const char* index_name, const char* arithmetic, const char* policy, const Policy& on, const Index& index) {
+    add_rays("raycast", std::string(index_name) + "/" + arithmetic + "/" + policy,
+             [=](const auto& rays) { return abut::raycast<A>(on, index, rays); },
+             [](const auto& hit) { return hit.id != abut::no_id; });
+}
+
+template <class Policy, class Index>
+void add_others(const char* index_name, const Policy& on, const Index& index) {
+    const std::string name = std::string(index_name) + "/filtered/serial";
+    add_rays("occluded", name, [=](const auto& rays) { return abut::raycast_any(on, index, rays); },
+             [](std::uint8_t hit) { return hit; });
+    add_rays("all", name, [=](const auto& rays) { return abut::raycast_all(on, index, rays); }, [](const auto&) { return 1; });
+}
+
+template <class Policy, class Index>
+void add_inside(const char* index_name, const Policy& on, const Index& index, bool is_checked) {
+    const auto points = raycast_scene::points_in(raycast_peer::mesh());
+    raycast_peer::add(std::string("inside/points/") + index_name + "/filtered/serial", [=](benchmark::State& state) {
+        std::size_t within = 0;
+        for (auto _ : state) {
+            const auto found = abut::inside(on, index, points, {.known_closed = !is_checked});
+            state.PauseTiming();
+            within = 0;
+            for (const auto where : found) within += where == abut::containment::inside;
+            state.ResumeTiming();
+        }
+        raycast_peer::note(state, points.size(), within);
+    });
 }
 
 }  // namespace
@@ -58,6 +93,11 @@ int main(int argc, char** argv) {
         add<abut::filtered>("wide_sah", "filtered", "serial", on, wide_sah);
         add<abut::fast>("sah", "fast", "serial", on, sah);
         add<abut::filtered>("sah", "filtered", "openmp", abut::openmp{}, sah);
+        add_others("sah", on, sah);
+        add_others("wide_sah", on, wide_sah);
+        add_inside("sah", on, sah, false);
+        add_inside("wide_sah", on, wide_sah, false);
+        add_inside("wide_sah_checked", on, wide_sah, true);
         for (const auto register_peer : raycast_peer::peers()) register_peer();
         return bench::run_registered("bench_raycast", argc, argv);
     } catch (const std::exception& problem) {

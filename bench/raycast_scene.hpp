@@ -2,7 +2,7 @@
 #pragma once
 
 // Rays at a mesh, the same for each program and peer: `coherent` ones from a camera beside it, a row of pixels after the other,
-// and `scattered` ones from points on a ball around it to points inside that ball.
+// and `scattered` ones from points on a ball around it to points inside that ball. And points in the box around it.
 
 #include <array>
 #include <cmath>
@@ -50,5 +50,20 @@ inline std::vector<abut::ray<float>> rays_at(const scene::surface<float>& mesh, 
 }
 
 inline constexpr std::size_t default_side = 1024;
+
+/// Points in the box around a mesh.
+inline std::vector<abut::vec3<float>> points_in(const scene::surface<float>& mesh) {
+    auto box = abut::empty_box<float>();
+    for (const auto& p : mesh.vertices) box = merge(box, abut::bounds(p));
+    std::vector<abut::vec3<float>> points;
+    for (std::size_t i = 0; i < 100000; ++i) {
+        const auto between = [&](float lower, float upper, std::size_t k) {
+            return lower + (upper - lower) * static_cast<float>(scene::uniform(18, 4 * i + k));
+        };
+        points.push_back({between(box.lower.x, box.upper.x, 0), between(box.lower.y, box.upper.y, 1),
+                          between(box.lower.z, box.upper.z, 2)});
+    }
+    return points;
+}
 
 }  // namespace raycast_scene

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The peer: Embree's first hits over the same triangles, one ray at a time on one thread. `robust` is its watertight way
-// (RTC_SCENE_FLAG_ROBUST); neither is exact.
+// The peer: Embree's first hits over the same triangles, and whether there are any (rtcOccluded1), one ray at a time on one
+// thread. `robust` is its watertight way (RTC_SCENE_FLAG_ROBUST); neither is exact.
 
 #include <cstddef>
 #include <cstdint>
@@ -51,9 +51,39 @@ void add(bool robust) {
     }
 }
 
+void add_occluded(bool robust) {
+    for (std::size_t kind = 0; kind < raycast_scene::kinds.size(); ++kind) {
+        const std::string name = std::string("occluded/") + raycast_scene::kinds[kind] + (robust ? "/embree_robust" : "/embree") + "/float/serial";
+        raycast_peer::add(name, [=](benchmark::State& state) {
+            const auto rays = raycast_scene::rays_at(raycast_peer::mesh(), kind, raycast_scene::default_side);
+            const embree_peer::embree_scene index(raycast_peer::mesh(), robust);
+            std::size_t hits = 0;
+            for (auto _ : state) {
+                std::vector<std::uint8_t> found(rays.size());
+                RTCIntersectContext context;
+                rtcInitIntersectContext(&context);
+                for (std::size_t i = 0; i < rays.size(); ++i) {
+                    const auto &o = rays[i].origin, &d = rays[i].direction;
+                    RTCRay ray{};
+                    ray.org_x = o.x, ray.org_y = o.y, ray.org_z = o.z;
+                    ray.dir_x = d.x, ray.dir_y = d.y, ray.dir_z = d.z;
+                    ray.tfar = std::numeric_limits<float>::infinity();
+                    ray.mask = static_cast<unsigned>(-1);
+                    rtcOccluded1(index.get(), &context, &ray);
+                    found[i] = ray.tfar < 0 ? 1 : 0;
+                }
+                state.PauseTiming();
+                hits = 0;
+                for (const std::uint8_t hit : found) hits += hit;
+                state.ResumeTiming();
+            }
+            raycast_peer::note(state, rays.size(), hits);
+        });
+    }
+}
+
 void add_both() {
-    add(false);
-    add(true);
+    for (const bool robust : {false, true}) add(robust), add_occluded(robust);
 }
 [[maybe_unused]] const bool registered = (raycast_peer::peers().push_back(add_both), true);
 

@@ -139,6 +139,15 @@ TEST_CASE("inside: a mesh that is not closed, and none at all") {
     CHECK(message == "abut::inside: face 0: the mesh is not closed: an edge of this face has an odd number of faces (1)");
     CHECK_THROWS_AS(signed_distance(serial{}, open, points), invalid_geometry);
     CHECK(abut::inside(serial{}, open, points, {.known_closed = true}).size() == points.size());
+    auto thrice = all;
+    thrice.push_back({1, 2, 3});
+    try {
+        (void)abut::inside(serial{}, mesh<float>(corners, thrice), points);
+        FAIL_CHECK("edges of three faces");
+    } catch (const invalid_geometry& e) {
+        CHECK(e.index() == 0);
+        CHECK(e.value() == 3);
+    }
     // A face that names a vertex twice, and one that is there twice more, close nothing and open nothing.
     auto more = all;
     more.insert(more.end(), {{1, 1, 2}, {0, 1, 2}, {1, 0, 2}});
