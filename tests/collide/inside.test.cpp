@@ -105,6 +105,11 @@ TEMPLATE_TEST_CASE("inside: against tetrahedra in rational numbers", "", float, 
         points.push_back({a.x, b.y, a.z});
         points.push_back({a.x, a.y, std::nextafter(a.z, i % 2 == 0 ? T(9) : T(-9))});
     }
+    // As near to a face as rounding leaves them.
+    for (std::size_t i = 0; i < data.faces.size(); i += 4) {
+        const face& f = data.faces[i];
+        points.push_back(T(0.3) * data.vertices[f[0]] + T(0.5) * data.vertices[f[1]] + T(0.2) * data.vertices[f[2]]);
+    }
     const mesh<T> ball(data.vertices, data.faces);
     const auto found = inside(serial{}, make_bvh(serial{}, ball), points);
     const std::array<inside_rational, 3> apex{inside_rational(1234567, 1000003), inside_rational(7654321, 1000033),

@@ -103,9 +103,9 @@ struct ray_reach {
         return entry;
     }
     /// The same of four boxes: planes(axis, upper) are their lower or their upper bounds along an axis. Which of the two the
-    /// ray passes first is the same for all boxes. What is not kept gets a time above every limit.
+    /// ray passes first is the same for all boxes. A bit for each box that is kept; of the others the times mean nothing.
     template <class Planes>
-    ABUT_INLINE ABUT_HD void least_in_four(const Planes& planes, T (&to)[4]) const {
+    ABUT_INLINE ABUT_HD unsigned least_in_four(const Planes& planes, T (&to)[4]) const {
         using many = decltype(planes(0, false));
         const auto all = [](T x) { return many::all(x); };
         constexpr T grown = 1 + 32 * unit_roundoff<T>, tiny = 4 * smallest_normal<T>;
@@ -122,7 +122,7 @@ struct ray_reach {
         along(1, &vec3<T>::y, entry, exit);
         along(2, &vec3<T>::z, entry, exit);
         entry = least(entry, all(most));
-        auto apart = entry > exit * all(grown) + all(tiny);
+        auto apart = (entry > exit * all(grown) + all(tiny)) | (entry > all(limit));
         if (is_narrow) {
             const auto beside = [&](int axis, T vec3<T>::*x) {
                 return (planes(axis, false) > all(around.upper.*x)) | (all(around.lower.*x) > planes(axis, true));
@@ -131,7 +131,7 @@ struct ray_reach {
         }
         entry.store(to);
         const decltype(apart) row[1] = {apart};
-        for (unsigned missed = bits_of(row); missed != 0; missed &= missed - 1) to[lowest_bit(missed)] = infinity<T>;
+        return ~bits_of(row) & 0xfu;
     }
     [[nodiscard]] ABUT_HD bool keeps(T least) const { return !(least > limit); }
     ABUT_HD bool operator()(const aabb<T>& box) const { return keeps(least_in(box)); }

@@ -73,19 +73,36 @@ struct ordered_tree_walk {
             while (reach.keeps(at.least) && !at.child.is_leaf()) {
                 const auto& node = tree.fetch(at.child.index());
                 if constexpr (looks_at_four<Reach, Tree>) {
-                    // The nearest goes on; the others wait, the farthest below.
+                    // The nearest goes on; the others wait, the farthest below. Often there is one alone.
                     T least_of[4];
-                    reach.least_in_four([&](int axis, bool upper) { return tree.all_planes(node, axis, upper); }, least_of);
-                    const int first = waiting;
-                    for (int slot = 0; slot < tree.children(node); ++slot) {
-                        if (!reach.keeps(least_of[slot])) continue;
-                        int k = waiting++;
-                        for (; k > first && least_of[slot] > pending[k - 1].least; --k) pending[k] = pending[k - 1];
-                        pending[k] = {tree.child(node, slot), least_of[slot]};
-                        tree.prefetch(pending[k].child);
+                    const auto planes = [&](int axis, bool upper) { return tree.all_planes(node, axis, upper); };
+                    unsigned kept = reach.least_in_four(planes, least_of) & ((1u << tree.children(node)) - 1);
+                    if (kept == 0) {
+                        do {
+                            if (waiting == 0) return;
+                            at = pending[--waiting];
+                        } while (!reach.keeps(at.least));
+                        continue;
                     }
-                    if (waiting == 0) return;
-                    at = pending[--waiting];
+                    const auto take = [&] {
+                        const auto slot = static_cast<int>(lowest_bit(kept));
+                        kept &= kept - 1;
+                        return entry{tree.child(node, slot), least_of[slot]};
+                    };
+                    at = take();
+                    const int first = waiting;
+                    while (kept != 0) {
+                        entry other = take();
+                        if (other.least < at.least) {
+                            const entry before = at;
+                            at = other;
+                            other = before;
+                        }
+                        int k = waiting++;
+                        for (; k > first && other.least > pending[k - 1].least; --k) pending[k] = pending[k - 1];
+                        pending[k] = other;
+                        tree.prefetch(other.child);
+                    }
                     continue;
                 }
                 at = {tree.child(node, 0), least_in_slot(reach, tree, node, 0)};
