@@ -217,9 +217,9 @@ template <execution_policy Policy, class X, class Points>
         constexpr const char* function = "abut::signed_distance";
         using T = scalar_type_of<typename detail::shape_of_argument<X>::type>;
         const auto where = detail::inside_of<filtered>(on, mesh, points, options, function);
-        const auto nearest = detail::nearest_of(on, mesh, points, function);
-        execution::buffer_of<Policy, neighbor<T>> out(on, nearest.size());
-        for_each_index(on, nearest.size(), detail::write_signed<T>{nearest.data(), where.data(), out.data()});
+        const auto near = nearest(on, mesh, points);
+        execution::buffer_of<Policy, neighbor<T>> out(on, near.size());
+        for_each_index(on, near.size(), detail::write_signed<T>{near.data(), where.data(), out.data()});
         synchronize(on);
         return result<neighbor<T>, space_of<Policy>>(std::move(out));
     } else {
