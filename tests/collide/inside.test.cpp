@@ -69,6 +69,13 @@ TEST_CASE("inside: openmp on 1 and 3 threads, and every layout") {
     std::vector<vec3<float>> points;
     for (const auto& p : scene.places) points.push_back(map(p));
     const auto tree = make_bvh(serial{}, test::mesh_of_cells(body, map));
+    std::size_t wrong_signs = 0;
+    const auto apart = signed_distance(openmp{2}, tree, points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const auto d = apart[i].distance;
+        wrong_signs += scene.truth[i] != (d < 0 ? containment::inside : d > 0 ? containment::outside : containment::on_surface);
+    }
+    CHECK(wrong_signs == 0);
     CHECK(to_host(inside(serial{}, quantised(serial{}, tree), points)) == scene.truth);
     CHECK(to_host(inside(openmp{2}, wide(serial{}, tree), points)) == scene.truth);
 }

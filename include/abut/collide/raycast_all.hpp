@@ -3,8 +3,8 @@
 
 // raycast_all: for each of many rays all triangles that it meets, in the order in which it meets them.
 //
-// The rays walk twice: once to count what each meets, and once to write it where it belongs, so that memory is what the answer
-// takes. Each ray then brings its own hits into order.
+// The rays walk once to count what each meets, and those that meet more than a few walk again to write it where it belongs. So
+// memory is what the answer takes, and room for those few. Each ray then brings its own hits into order.
 
 #include <cstddef>
 #include <cstdint>
@@ -27,6 +27,9 @@ struct hit_of_ray {
 
 namespace detail {
 
+/// So many hits of a line are kept as they are counted.
+inline constexpr std::uint64_t kept_hits = 4;
+
 /// Counts what each line meets.
 template <arithmetic A, class Walk, class Frame, shape_view Shapes, shape_view Lines>
 struct count_along_lines {
@@ -35,6 +38,7 @@ struct count_along_lines {
     Shapes shapes;
     Lines lines;
     std::uint64_t* counts;
+    execution::least_value* few;
 
     ABUT_CALLS_ANY
     template <class Sink>
@@ -43,7 +47,11 @@ struct count_along_lines {
         const line_of<typename Lines::scalar_type> l(line);
         auto reach = reach_of_line(frame, l.origin, l.direction(), l.last);
         std::uint64_t count = 0;
-        walk(reach, sink, [&](std::uint32_t id) { if (is_met<A>(line, shapes[id])) ++count; });
+        walk(reach, sink, [&](std::uint32_t id) {
+            const double time = hit_time<A>(line, shapes[id]);
+            if (time >= 0 && count < kept_hits) few[kept_hits * i + count] = {time, id};
+            if (time >= 0) ++count;
+        });
         counts[i] = count;
     }
 };
@@ -74,17 +82,21 @@ struct write_along_lines {
     Shapes shapes;
     Lines lines;
     const std::uint64_t* first;
+    const execution::least_value* few;
     execution::least_value* hits;
 
     ABUT_CALLS_ANY
     template <class Sink>
     ABUT_HD void operator()(std::size_t i, Sink& sink) const {
-        if (first[i] == first[i + 1]) return;
+        execution::least_value* const mine = hits + first[i];
+        const std::uint64_t counted = first[i + 1] - first[i];
+        if (counted <= kept_hits) {
+            for (std::uint64_t k = 0; k < counted; ++k) mine[k] = few[kept_hits * i + k];
+            return sort_hits(mine, counted);
+        }
         const auto line = lines[i];
         const line_of<typename Lines::scalar_type> l(line);
         auto reach = reach_of_line(frame, l.origin, l.direction(), l.last);
-        execution::least_value* const mine = hits + first[i];
-        const std::uint64_t counted = first[i + 1] - first[i];
         std::uint64_t count = 0;
         walk(reach, sink, [&](std::uint32_t id) {
             const double time = hit_time<A>(line, shapes[id]);
@@ -122,13 +134,16 @@ auto raycast_all_of(const Policy& on, const X& index, const Lines& rays, const c
     if (both.has_nothing()) return answer();
     const std::size_t n = both.size();
     execution::buffer_of<Policy, std::uint64_t> first(on, n + 1);
+    execution::buffer_of<Policy, execution::least_value> few(on, kept_hits * n);
     execution::until_stopped until;
-    for_each_ordered(on, n, both.template walk<count_along_lines, A>(first.data()), until);
+    for_each_ordered(on, n, both.template walk<count_along_lines, A>(first.data(), few.data()), until);
     exclusive_scan(on, first.data(), n);
     std::uint64_t total = 0;
     download(on, first.data() + n, 1, &total);
     execution::buffer_of<Policy, execution::least_value> hits(on, total);
-    for_each_ordered(on, n, both.template walk<write_along_lines, A>(std::as_const(first).data(), hits.data()), until);
+    for_each_ordered(on, n,
+                     both.template walk<write_along_lines, A>(std::as_const(first).data(), std::as_const(few).data(), hits.data()),
+                     until);
     execution::buffer_of<Policy, hit_of_ray<T>> out(on, total);
     for_each_index(on, total, write_all_hits<T>{first.data(), n, hits.data(), out.data()});
     synchronize(on);
@@ -144,7 +159,7 @@ auto raycast_all_of(const Policy& on, const X& index, const Lines& rays, const c
 /// double, also where t is a float. A ray through an edge meets both faces at it.
 ///
 /// @par Memory
-/// As in @ref queries. The result lies in the policy's memory, 12 bytes a hit in float and 16 in double. Scratch takes 8 bytes a
+/// As in @ref queries. The result lies in the policy's memory, 12 bytes a hit in float and 16 in double. Scratch takes 72 bytes a
 /// ray and 16 a hit. To take less, ask for some rays at a time: a view of a part of them will do.
 ///
 /// @par Errors
