@@ -108,7 +108,7 @@ std::vector<lattice_map<T>> lattice_maps() {
     const T largest = std::ldexp(T(1), std::numeric_limits<T>::max_exponent - 8), least = std::numeric_limits<T>::denorm_min();
     return {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 1},
             {{{0, -1, 0}, {0, 0, 1}, {1, 0, 0}}, T(0.1)},
-            {{{1, 2, 0}, {0, 1, -3}, {0, 0, 1}}, T(12345) / 4096},
+            {{{7, 3, 0}, {0, 11, 5}, {2, 0, 13}}, T(12345) / 4096},
             {{{1, 0, 0}, {0, 1, 0}, {5, -2, 1}}, largest},
             {{{2, 1, 0}, {0, 3, 1}, {1, 0, -2}}, least}};
 }
