@@ -24,6 +24,7 @@
 #include <abut/collide/reduce_contacts.hpp>
 #include <abut/collide/self_pairs.hpp>
 #include <abut/collide/validate.hpp>
+#include <abut/collide/within.hpp>
 #include <abut/config.hpp>
 #include <abut/error.hpp>
 #include <abut/index/bounded.hpp>
@@ -41,6 +42,7 @@
 #include <abut/narrow/nearest_point.hpp>
 #include <abut/narrow/time_of_impact.hpp>
 #include <abut/predicate/intersects.hpp>
+#include <abut/predicate/within.hpp>
 #include <abut/shape/copy_view.hpp>
 #include <abut/shape/features.hpp>
 #include <abut/shape/motion.hpp>

@@ -227,11 +227,11 @@ private:
         const auto& object_b = list.b.objects[m.object_b];
         if (object_b.tree.size() == 1) {
             const posed_walk<bvh_walk<TreeA>> walk({object_a.tree}, list.a.poses[of.a], object_a.bounds);
-            auto reach = reach_of_shape(list.b.shape(of.b, m.object_b, 0));
+            auto reach = near_enough_to_touch{}.reach(list.b.shape(of.b, m.object_b, 0));
             return f(walk, reach, std::true_type{});
         }
         const posed_walk<bvh_walk<TreeB>> walk({object_b.tree}, list.b.poses[of.b], object_b.bounds);
-        auto reach = reach_of_shape(list.a.shape(of.a, m.object_a, 0));
+        auto reach = near_enough_to_touch{}.reach(list.a.shape(of.a, m.object_a, 0));
         return f(walk, reach, std::false_type{});
     }
 };

@@ -114,7 +114,7 @@ struct near_reach {
     }
     ABUT_HD bool operator()(const aabb<T>& box) const { return near_frame<T>{distance}(query, box); }
 };
-/// So near that no coordinate of their boxes is farther apart than `distance`. For trees without a pose.
+/// So near that no coordinate of their boxes is farther apart than `distance`.
 template <scalar T>
 struct near_within {
     T distance;
@@ -229,18 +229,12 @@ struct step_of_nodes : step_of_part<Step> {
     }
 };
 
-/// Found by argument-dependent lookup, also where a member has the same name.
-template <class Shape>
-ABUT_HD auto reach_of_shape(const Shape& s) {
-    return reach_of(s);
-}
-
 /// All shapes of one operand against all of the other.
-template <bool RowsAreB, class Rows, class Columns, class Ids, class Judge>
+template <bool RowsAreB, class Rows, class Columns, class Ids, class Nearness, class Judge>
 struct all_with_all {
     using candidate = std::uint64_t;
     using row = typename Rows::shape_type;
-    using reach = decltype(reach_of_shape(row{}));
+    using reach = decltype(std::declval<const Nearness&>().reach(row{}));
     struct column {
         typename Columns::shape_type shape;
         decltype(bounds(typename Columns::shape_type{})) box;
@@ -248,11 +242,12 @@ struct all_with_all {
     Rows rows;
     Columns columns;
     Ids ids;
+    Nearness near;
     Judge judge;
 
     [[nodiscard]] const row* rows_in_memory() const { return shapes_in_memory(rows); }
     [[nodiscard]] ABUT_HD row load_row(std::size_t i) const { return rows[i]; }
-    [[nodiscard]] ABUT_HD reach reach_of(const row& r) const { return reach_of_shape(r); }
+    [[nodiscard]] ABUT_HD reach reach_of(const row& r) const { return near.reach(r); }
     [[nodiscard]] ABUT_HD column load_column(std::size_t j) const {
         const auto shape = columns[j];
         return {shape, bounds(shape)};
@@ -317,12 +312,13 @@ void look(const Policy& on, const Walk& walk, const Rows& rows, const Ids& ids, 
 }
 
 /// Judges all pairs of a row and a column, in tiles.
-template <bool RowsAreB, class Policy, class Rows, class Columns, class Ids, class Run, class Part = whole_search>
+template <bool RowsAreB, class Policy, class Rows, class Columns, class Ids, class Run, class Nearness = near_enough_to_touch,
+          class Part = whole_search>
 void compare(const Policy& on, const Rows& rows, const Columns& columns, const Ids& ids, const Run& run,
-             const Part& part = {}) {
+             const Nearness& near = {}, const Part& part = {}) {
     run([&](const auto& judge, auto&... sinks) {
         using judge_type = std::remove_cvref_t<decltype(judge)>;
-        const all_with_all<RowsAreB, Rows, Columns, Ids, judge_type> tile{rows, columns, ids, judge};
+        const all_with_all<RowsAreB, Rows, Columns, Ids, Nearness, judge_type> tile{rows, columns, ids, near, judge};
         if constexpr (std::same_as<Part, whole_search>) {
             return for_each_tiled(on, rows.size(), columns.size(), tile, sinks...);
         } else {
@@ -458,12 +454,17 @@ auto box_overlap(const A& a, const B& b) {
     }
 }
 
+/// The same for boxes that may be so far apart. In units of a's frame lengths are off by less than 2^-7 (relative_pose.hpp): of
+/// A^T, which stretches the way between two shapes, and of the axes that boxes are compared along.
 template <class A, class B, class Nearness>
 auto box_overlap(const A& a, const B& b, const Nearness& near) {
     if constexpr (std::same_as<Nearness, near_enough_to_touch>) {
         return box_overlap(a, b);
+    } else if constexpr (A::is_posed || B::is_posed) {
+        auto frames = box_overlap(a, b);
+        frames.b_to_a.slack = add_up(frames.b_to_a.slack, add_up(near.distance, near.distance / 64));
+        return frames;
     } else {
-        static_assert(!A::is_posed && !B::is_posed);
         return near_frame{near.distance};
     }
 }
@@ -525,8 +526,8 @@ private:
     /// Rows of tiles are what runs in parallel, so the larger set provides them; a single shape never does.
     template <class Policy, class Run>
     void compare_all(const Policy& on, const view_type& both, const Run& run) const {
-        const auto rows_a = [&] { detail::compare<false>(on, both.a, both.b, both, run, part); };
-        const auto rows_b = [&] { detail::compare<true>(on, both.b, both.a, both, run, part); };
+        const auto rows_a = [&] { detail::compare<false>(on, both.a, both.b, both, run, near, part); };
+        const auto rows_b = [&] { detail::compare<true>(on, both.b, both.a, both, run, near, part); };
         if constexpr (is_single<view_a>) {
             rows_b();
         } else if constexpr (is_single<view_b>) {
@@ -587,19 +588,27 @@ consteval bool is_filter() {
     return is;
 }
 
-/// Whether pair_up takes both arguments and the filter.
-template <class Policy, class X, class Y, class Filter>
-consteval bool can_pair() {
+/// Whether pair_up takes both arguments.
+template <class Policy, class X, class Y>
+consteval bool can_both_be_asked() {
     if constexpr (!can_be_asked<Policy, X>()) {
         return false;
     } else if constexpr (!can_be_asked<Policy, Y>()) {
         return false;
-    } else if constexpr (!have_one_scalar<X, Y>()) {
-        return false;
     } else {
+        return have_one_scalar<X, Y>();
+    }
+}
+
+/// Whether it takes them and the filter, and what touches can be decided.
+template <class Policy, class X, class Y, class Filter>
+consteval bool can_pair() {
+    if constexpr (can_both_be_asked<Policy, X, Y>()) {
         constexpr bool is = decidable<typename shape_of_argument<X>::type, typename shape_of_argument<Y>::type>;
         static_assert(is, "abut: queries between sets of these two shapes are not supported");
         return is && is_filter<Policy, Filter>();
+    } else {
+        return false;
     }
 }
 

@@ -40,35 +40,35 @@ consteval bool is_visitor() {
     return is;
 }
 
-// The queries, of any pairing: two arguments (below) or a list of them (list.hpp).
+// The queries, of any pairing: two arguments (below) or a list of them (list.hpp). Whether shapes touch is what is decided,
+// unless another judge is given.
 
-template <arithmetic A, class Policy, class Pairing>
-bool any_of(const Policy& on, const Pairing& pairing) {
+template <arithmetic A, class Policy, class Pairing, class Judge = touch<A>>
+bool any_of(const Policy& on, const Pairing& pairing, const Judge& judge = {}) {
     execution::work_flag<space_of<Policy>> found(on);
-    search(on, pairing, touch<A>{}, found);
+    search(on, pairing, judge, found);
     return found.raised();
 }
 
-template <arithmetic A, class Policy, class Pairing>
-std::uint64_t count_of(const Policy& on, const Pairing& pairing) {
+template <arithmetic A, class Policy, class Pairing, class Judge = touch<A>>
+std::uint64_t count_of(const Policy& on, const Pairing& pairing, const Judge& judge = {}) {
     execution::work_count<space_of<Policy>> hits(on);
-    search(on, pairing, touch<A>{}, hits);
+    search(on, pairing, judge, hits);
     return hits.total();
 }
 
-template <arithmetic A, class Policy, class Pairing>
-auto pairs_of(const Policy& on, const Pairing& pairing) {
-    const touch_and_name<A> judge;
+template <arithmetic A, class Policy, class Pairing, class Judge = touch_and_name<A>>
+auto pairs_of(const Policy& on, const Pairing& pairing, const Judge& judge = {}) {
     return answers_to(on, pairing, judge, find_keys(on, pairing, judge));
 }
 
-template <arithmetic A, class Policy, class Pairing, class Visitor>
-void visit_pairs_of(const Policy& on, const Pairing& pairing, const Visitor& visitor) {
+template <arithmetic A, class Policy, class Pairing, class Visitor, class Judge = touch<A>>
+void visit_pairs_of(const Policy& on, const Pairing& pairing, const Visitor& visitor, const Judge& judge = {}) {
     using view = typename Pairing::view_type;
     require_callable(on, visitor, decltype(pairing.view().ids(0)){});
     const visit_pair<view, Visitor> visits{pairing.view(), visitor};
     execution::work_visit<visit_pair<view, Visitor>, space_of<Policy>> hits(on, visits);
-    search(on, pairing, touch<A>{}, hits);
+    search(on, pairing, judge, hits);
 }
 
 }  // namespace detail

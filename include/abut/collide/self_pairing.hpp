@@ -89,7 +89,7 @@ struct self_pairing {
         if constexpr (X::is_indexed) {
             look<false>(on, x.walk(), both.a, ids, run, near, part);
         } else {
-            compare<false>(on, both.a, both.b, ids, run, part);
+            compare<false>(on, both.a, both.b, ids, run, near, part);
         }
     }
 };

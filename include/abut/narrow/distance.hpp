@@ -18,7 +18,7 @@
 #include <abut/narrow/numbers.hpp>
 #include <abut/predicate/intersects.hpp>
 #include <abut/shape/bounds.hpp>
-#include <abut/shape/corners.hpp>
+#include <abut/shape/core.hpp>
 #include <abut/shape/primitive.hpp>
 #include <abut/shape/shape.hpp>
 
@@ -40,33 +40,10 @@ struct separation {
 
 namespace detail {
 
-// A shape is a hull of corners, or a box, and what is within a radius of that.
-
-template <has_corners S>
-ABUT_HD constexpr auto core_of(const S& s) {
-    return hull_of(s);
-}
-template <scalar T>
-ABUT_HD constexpr auto core_of(const sphere<T>& s) {
-    return hull_of(s.center);
-}
-template <scalar T>
-ABUT_HD constexpr auto core_of(const capsule<T>& s) {
-    return hull_of(s.axis);
-}
-template <scalar T>
-ABUT_HD constexpr aabb<T> core_of(const aabb<T>& s) {
-    return s;
-}
-
-/// In a unit.
+/// How far around its core a shape reaches, in a unit.
 template <class S, scalar T>
 ABUT_HD constexpr double core_radius(const S& s, const length_unit<T>& unit) {
-    if constexpr (requires { s.radius; }) {
-        return unit.of(s.radius);
-    } else {
-        return 0;
-    }
+    return unit.of(radius_around_core(s));
 }
 
 /// A unit for two shapes: what products of four lengths stay in.

@@ -27,6 +27,7 @@
 #include <abut/arithmetic/magnitude.hpp>
 #include <abut/narrow/nearest_point.hpp>
 #include <abut/narrow/numbers.hpp>
+#include <abut/shape/core.hpp>
 #include <abut/shape/primitive.hpp>
 #include <abut/shape/shape.hpp>
 
@@ -41,27 +42,10 @@ struct nearest_way {
     vec3<double> to_a{}, to_b{};
 };
 
-/// A hull of corners, and its edges in a unit. A triangle, a segment or a point.
+/// Edge i of a hull, in a unit.
 template <scalar T, int N>
-struct corner_hull {
-    static constexpr int corners = N, edges = N == 3 ? 3 : N - 1;
-    vec3<T> at[std::size_t{N}];
-
-    [[nodiscard]] ABUT_HD constexpr vec3<double> edge(int i, const length_unit<T>& unit) const {
-        return way_between(at[i], at[i + 1 == N ? 0 : i + 1], unit);
-    }
-};
-template <scalar T>
-ABUT_HD constexpr corner_hull<T, 3> hull_of(const triangle<T>& t) {
-    return {{t.a, t.b, t.c}};
-}
-template <scalar T>
-ABUT_HD constexpr corner_hull<T, 2> hull_of(const segment<T>& s) {
-    return {{s.a, s.b}};
-}
-template <scalar T>
-ABUT_HD constexpr corner_hull<T, 1> hull_of(const vec3<T>& p) {
-    return {{p}};
+ABUT_HD constexpr vec3<double> hull_edge(const corner_hull<T, N>& hull, int i, const length_unit<T>& unit) {
+    return way_between(hull.at[i], hull.at[i + 1 == N ? 0 : i + 1], unit);
 }
 
 /// What of a hull is asked from each corner of the other: its edges, and its face.
@@ -73,7 +57,7 @@ struct hull_sides {
 
     ABUT_HD constexpr hull_sides(const corner_hull<T, N>& hull, const length_unit<T>& unit) {
         for (int i = 0; i < edges; ++i) {
-            edge[i] = hull.edge(i, unit);
+            edge[i] = hull_edge(hull, i, unit);
             square[i] = plain_dot(edge[i], edge[i]);
         }
     }

@@ -33,7 +33,7 @@ struct same_frame {
 };
 
 /// Boxes of one frame that may be so far apart, in each coordinate. Rounding is monotone: what is no larger than the distance is
-/// rounded to no more.
+/// rounded to no more. Other volumes by their boxes.
 template <scalar T>
 struct near_frame {
     T distance;
@@ -41,6 +41,16 @@ struct near_frame {
         const auto near = [this](T lower, T upper) { return static_cast<unsigned>(lower - upper <= distance); };
         return (near(a.lower.x, b.upper.x) & near(b.lower.x, a.upper.x) & near(a.lower.y, b.upper.y) &
                 near(b.lower.y, a.upper.y) & near(a.lower.z, b.upper.z) & near(b.lower.z, a.upper.z)) != 0;
+    }
+    template <class Volume>
+    ABUT_INLINE ABUT_HD bool operator()(const Volume& a, const Volume& b) const {
+        return (*this)(bounds(a), bounds(b));
+    }
+    ABUT_INLINE ABUT_HD auto operator()(const box_lanes<T>& a, const box_lanes<T>& b) const {
+        const auto far = box_lanes<T>::lanes_type::all(distance);
+        return ((a.lower.x - b.upper.x <= far) & (b.lower.x - a.upper.x <= far)) &
+               ((a.lower.y - b.upper.y <= far) & (b.lower.y - a.upper.y <= far)) &
+               ((a.lower.z - b.upper.z <= far) & (b.lower.z - a.upper.z <= far));
     }
 };
 template <scalar T>
