@@ -92,20 +92,26 @@ ABUT_HD constexpr verdict decide_from_point(const S& s, const U& t, double dista
     }
 }
 
-/// Cores that may cross each other, by their signs in general position; `unknown` otherwise.
-template <bool Certified, scalar T>
-ABUT_HD constexpr bool surely_cross(const corner_hull<T, 3>& a, const corner_hull<T, 3>& b) {
-    return decide_in_general_position<Certified>(triangle<T>{a.at[0], a.at[1], a.at[2]},
-                                                 triangle<T>{b.at[0], b.at[1], b.at[2]}) == verdict::yes;
+template <class A, class S, scalar T>
+ABUT_HD constexpr bool seem_to_touch(const S& s, const triangle<T>& t) {
+    if constexpr (std::same_as<A, fast>) {
+        return intersects<fast>(s, t);
+    } else {
+        return decide<filtered>(s, t) == verdict::yes;
+    }
 }
-template <bool Certified, scalar T>
-ABUT_HD constexpr bool surely_cross(const corner_hull<T, 2>& a, const corner_hull<T, 3>& b) {
-    return decide_in_general_position<Certified>(segment<T>{a.at[0], a.at[1]},
-                                                 triangle<T>{b.at[0], b.at[1], b.at[2]}) == verdict::yes;
+/// Whether cores without radii touch, as signs in floating point tell: of `filtered` surely, where it says so.
+template <class A, scalar T>
+ABUT_HD constexpr bool seem_to_touch(const corner_hull<T, 3>& a, const corner_hull<T, 3>& b) {
+    return seem_to_touch<A>(triangle<T>{a.at[0], a.at[1], a.at[2]}, triangle<T>{b.at[0], b.at[1], b.at[2]});
 }
-template <bool Certified, scalar T>
-ABUT_HD constexpr bool surely_cross(const corner_hull<T, 2>&, const corner_hull<T, 2>&) {
-    return false;
+template <class A, scalar T>
+ABUT_HD constexpr bool seem_to_touch(const corner_hull<T, 2>& a, const corner_hull<T, 3>& b) {
+    return seem_to_touch<A>(segment<T>{a.at[0], a.at[1]}, triangle<T>{b.at[0], b.at[1], b.at[2]});
+}
+template <class A, scalar T>
+ABUT_HD constexpr bool seem_to_touch(const corner_hull<T, 2>&, const corner_hull<T, 2>&) {
+    return false;  // but where they are in one plane, which is for the integers
 }
 
 // The stages, as those of `intersects`. Shapes come with their cores in order.
@@ -127,7 +133,7 @@ ABUT_HD constexpr verdict decide_within(const S& s, const U& t, double distance)
 template <arithmetic A, class S, class U>
 ABUT_NOINLINE ABUT_HD constexpr verdict decide_within_late(const S& s, const U& t, double distance) {
     constexpr bool certified = std::same_as<A, filtered>;
-    if (surely_cross<certified>(core_of(s), core_of(t))) return verdict::yes;
+    if (seem_to_touch<A>(core_of(s), core_of(t))) return verdict::yes;
     return near_by_ways(two_hulls_of<certified>(s, t, distance));
 }
 
