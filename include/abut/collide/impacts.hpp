@@ -134,7 +134,7 @@ auto nearness_of(const conservative_bounds& bounds, const char* function) {
                         std::to_string(bounds.tolerance) + "; expected 0 or more, and finite");
         }
         const T rounded = static_cast<T>(bounds.separation);
-        return near_within<T>{static_cast<double>(rounded) < bounds.separation ? next_up(rounded) : rounded};
+        return near_in_coordinates<T>{{static_cast<double>(rounded) < bounds.separation ? next_up(rounded) : rounded}};
     } else {
         return near_enough_to_touch{};
     }

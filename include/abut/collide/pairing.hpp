@@ -101,28 +101,33 @@ struct near_enough_to_touch {
         return reach_of(s);
     }
 };
-/// All boxes that come so near to one, as near_frame tells: so it is the same pairs that a walk of two trees finds.
-template <scalar T>
+/// All boxes that come so near to one, as a frame tells: so it is the same pairs that a walk of two trees finds.
+template <scalar T, class Frame>
 struct near_reach {
     aabb<T> query;
-    T distance;
+    Frame frame;
     [[nodiscard]] ABUT_HD aabb<T> bounds() const {
-        const auto down = [this](T x) { return add_down(x, -distance); };
-        const auto up = [this](T x) { return add_up(x, distance); };
+        const auto down = [this](T x) { return add_down(x, -frame.distance); };
+        const auto up = [this](T x) { return add_up(x, frame.distance); };
         return {{down(query.lower.x), down(query.lower.y), down(query.lower.z)},
                 {up(query.upper.x), up(query.upper.y), up(query.upper.z)}};
     }
-    ABUT_HD bool operator()(const aabb<T>& box) const { return near_frame<T>{distance}(query, box); }
+    ABUT_HD bool operator()(const aabb<T>& box) const { return frame(query, box); }
 };
-/// So near that no coordinate of their boxes is farther apart than `distance`.
-template <scalar T>
-struct near_within {
-    T distance;
+/// So near that a frame keeps their boxes: near_frame or distance_frame (traverse/pair_walk.hpp).
+template <scalar T, class Frame>
+struct near_by {
+    Frame frame;
     template <class S>
     [[nodiscard]] ABUT_HD auto reach(const S& s) const {
-        return near_reach<T>{bounds(s), distance};
+        return near_reach<T, Frame>{bounds(s), frame};
     }
 };
+/// In each coordinate; and along a straight line.
+template <scalar T>
+using near_in_coordinates = near_by<T, near_frame<T>>;
+template <scalar T>
+using near_in_distance = near_by<T, distance_frame<T>>;
 
 /// Each shape of one operand looks in the index of the other.
 template <bool RowsAreB, class Walk, class Rows, class Ids, class Nearness>
@@ -462,10 +467,11 @@ auto box_overlap(const A& a, const B& b, const Nearness& near) {
         return box_overlap(a, b);
     } else if constexpr (A::is_posed || B::is_posed) {
         auto frames = box_overlap(a, b);
-        frames.b_to_a.slack = add_up(frames.b_to_a.slack, add_up(near.distance, near.distance / 64));
+        const auto distance = near.frame.distance;
+        frames.b_to_a.slack = add_up(frames.b_to_a.slack, add_up(distance, distance / 64));
         return frames;
     } else {
-        return near_frame{near.distance};
+        return near.frame;
     }
 }
 

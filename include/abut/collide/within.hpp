@@ -85,13 +85,13 @@ auto pair_up_within(const Policy& on, const X& x, const Y& y, double distance, c
                     const char* function) {
     using T = scalar_type_of<typename shape_of_argument<X>::type>;
     check_distance(distance, function);
-    return pair_up(on, x, y, options, function, near_within<T>{rounded_up<T>(distance)});
+    return pair_up(on, x, y, options, function, near_in_distance<T>{distance_frame<T>(rounded_up<T>(distance))});
 }
 template <class Policy, class X, class Options>
 auto pair_up_self_within(const Policy& on, const X& x, double distance, const Options& options, const char* function) {
     using T = scalar_type_of<typename shape_of_argument<X>::type>;
     check_distance(distance, function);
-    return pair_up_self(on, x, options, function, as_they_are{}, near_within<T>{rounded_up<T>(distance)});
+    return pair_up_self(on, x, options, function, as_they_are{}, near_in_distance<T>{distance_frame<T>(rounded_up<T>(distance))});
 }
 
 }  // namespace detail

@@ -9,6 +9,8 @@
 #include <type_traits>
 
 #include <abut/arithmetic/lanes.hpp>
+#include <abut/arithmetic/limits.hpp>
+#include <abut/arithmetic/magnitude.hpp>
 #include <abut/index/bvh.hpp>
 #include <abut/shape/box_lanes.hpp>
 #include <abut/shape/relative_pose.hpp>
@@ -33,7 +35,7 @@ struct same_frame {
 };
 
 /// Boxes of one frame that may be so far apart, in each coordinate. Rounding is monotone: what is no larger than the distance is
-/// rounded to no more. Other volumes by their boxes.
+/// rounded to no more.
 template <scalar T>
 struct near_frame {
     T distance;
@@ -42,19 +44,38 @@ struct near_frame {
         return (near(a.lower.x, b.upper.x) & near(b.lower.x, a.upper.x) & near(a.lower.y, b.upper.y) &
                 near(b.lower.y, a.upper.y) & near(a.lower.z, b.upper.z) & near(b.lower.z, a.upper.z)) != 0;
     }
+};
+template <scalar T>
+near_frame(T) -> near_frame<T>;
+
+/// Boxes of one frame that may be so far apart, along a straight line. Other volumes by their boxes.
+///
+/// Squares are compared, of twice the gaps: g + |g| is that without a branch. Rounding, also of denormals, is that of
+/// ball_reach (shape/reach.hpp), for a distance that is 4 of the smallest normal number more than is meant. A gap that
+/// overflows to the other side gives NaN, and what is not a number is kept.
+template <scalar T>
+struct distance_frame {
+    T distance;
+    T limit;  ///< four times the squared distance, and a slack
+
+    ABUT_HD explicit distance_frame(T most) : distance(most) {
+        constexpr T slack = 16 * unit_roundoff<T>, tiny = 2 * smallest_normal<T>;
+        const T square = most * most;
+        limit = 4 * (square + (slack * square + tiny));
+    }
+    ABUT_INLINE ABUT_HD bool operator()(const aabb<T>& a, const aabb<T>& b) const {
+        const vec3<T> gap = greatest(a.lower, b.lower) - least(a.upper, b.upper), twice = gap + absolute(gap);
+        return !(dot(twice, twice) > limit);
+    }
     template <class Volume>
     ABUT_INLINE ABUT_HD bool operator()(const Volume& a, const Volume& b) const {
         return (*this)(bounds(a), bounds(b));
     }
     ABUT_INLINE ABUT_HD auto operator()(const box_lanes<T>& a, const box_lanes<T>& b) const {
-        const auto far = box_lanes<T>::lanes_type::all(distance);
-        return ((a.lower.x - b.upper.x <= far) & (b.lower.x - a.upper.x <= far)) &
-               ((a.lower.y - b.upper.y <= far) & (b.lower.y - a.upper.y <= far)) &
-               ((a.lower.z - b.upper.z <= far) & (b.lower.z - a.upper.z <= far));
+        const auto gap = greatest(a.lower, b.lower) - least(a.upper, b.upper), twice = gap + absolute(gap);
+        return !(dot(twice, twice) > box_lanes<T>::lanes_type::all(limit));
     }
 };
-template <scalar T>
-near_frame(T) -> near_frame<T>;
 
 /// Volumes of two frames (shape/relative_pose.hpp). Polytopes by their boxes: under a pose a slab takes as long as several
 /// boxes do, and queries that compared them all took two to ten times as long (docs/hierarchies.md).
