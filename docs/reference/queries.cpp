@@ -133,6 +133,20 @@ void query_distance() {
     //! [distance]
 }
 
+void query_within() {
+    const abut::serial on;
+    //! [within]
+    const abut::points<float> cloud({{0, 0, 0}, {3, 4, 0}, {0, 0, 9}});
+    const auto tree = abut::make_bvh(on, cloud);
+    for (const auto [i, j] : abut::to_host(abut::self_within(on, tree, 5))) std::printf("points %u and %u\n", i, j);
+    expect(abut::count_self_within(on, tree, 4.999) == 0);                  // 5 is the distance, exactly
+    const auto near = abut::to_host(abut::within(on, tetrahedron, tree, 5));  // faces and points
+    expect(near.size() == abut::count_within(on, tetrahedron, tree, 5));
+    expect(abut::any_within(on, tetrahedron, abut::vec3<float>{1, 1, -3}, 3));     // of face 0
+    expect(abut::within(abut::vec3<float>{3, 4, 0}, abut::vec3<float>{0, 0, 0}, 5));  // of two shapes
+    //! [within]
+}
+
 void query_rays() {
     //! [raycast]
     const abut::rays<float> rays({{{1, 1, -3}, {0, 0, 2}}, {{9, 9, 9}, {1, 0, 0}}});
@@ -202,6 +216,7 @@ int main() {
     query_contacts();
     query_nearest();
     query_distance();
+    query_within();
     query_rays();
     query_inside();
     query_mesh();

@@ -175,7 +175,7 @@ void for_each_within(const Policy& on, const X& a, const Y& b, double distance, 
 /// All pairs of shapes of `x` that are no farther apart than `distance`, each once with a < b. A shape is not paired with
 /// itself. Faces of a mesh are triangles here: neighbours are 0 apart and belong to the answer.
 ///
-///     for (const auto [i, j] : to_host(abut::self_within(on, abut::make_bvh(on, points), 0.5))) join(i, j);
+///     for (const auto [i, j] : to_host(abut::self_within(on, abut::make_bvh(on, vertices(mesh)), 0.5))) mark(i, j);
 template <arithmetic A = filtered, execution_policy Policy, class X, class Filter = keep_all,
           traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
 [[nodiscard]] auto self_within(const Policy& on, const X& x, double distance,

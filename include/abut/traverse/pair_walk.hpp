@@ -58,6 +58,7 @@ struct distance_frame {
     T distance;
     T limit;  ///< four times the squared distance, and a slack
 
+    distance_frame() = default;
     ABUT_HD explicit distance_frame(T most) : distance(most) {
         constexpr T slack = 16 * unit_roundoff<T>, tiny = 2 * smallest_normal<T>;
         const T square = most * most;
