@@ -11,7 +11,7 @@ using namespace abut;
 
 TEST_CASE("within: points, segments, triangles, spheres and capsules") {
     const serial on;
-    std::printf("within: seeds 141 to 147\n");
+    std::printf("within: seeds 141 to 151\n");
     test::check_within_of<vec3<float>, vec3<float>>(on, 141);
     test::check_within_of<vec3<double>, triangle<double>>(on, 142);
     test::check_within_of<triangle<float>, triangle<float>>(on, 143);
@@ -97,4 +97,8 @@ TEMPLATE_TEST_CASE("within: boxes lose nothing in any floating-point mode", "", 
     }
     CHECK(hits > 100);
     CHECK(hits < asked * 9 / 10);
+    for (const test::floating_mode& mode : test::floating_modes()) {
+        CAPTURE(mode.name);
+        test::in_mode(mode, [&] { test::check_within_at_pairs<T>(on, 151); });
+    }
 }

@@ -198,4 +198,36 @@ double extreme_distance(draws& d, const std::vector<vec3<T>>& points) {
     return kind == 0 ? std::nextafter(x, 0) : kind == 1 ? std::nextafter(x, std::numeric_limits<double>::max()) : x;
 }
 
+/// The least double that the distance of two points does not exceed.
+template <scalar T>
+double least_distance(const vec3<T>& p, const vec3<T>& q) {
+    const auto way = detail::widened(p) - detail::widened(q);
+    double d = std::sqrt(dot(way, way));
+    while (!within<exact>(p, q, d)) d = std::nextafter(d, 2 * d);
+    while (within<exact>(p, q, std::nextafter(d, 0))) d = std::nextafter(d, 0);
+    return d;
+}
+
+/// Distances that are those of pairs, and boxes that are points: nothing but a slack keeps a pair.
+template <scalar T, class Policy>
+void check_within_at_pairs(const Policy& on, std::uint64_t seed) {
+    CAPTURE(seed);
+    uniform random(seed);
+    const points<T> cloud(shape_maker<vec3<T>>(random, false)(60));
+    const auto set = cloud.view();
+    const auto there = copy_to(on, cloud);
+    const auto tree = make_bvh(on, there);
+    for (std::uint32_t i = 0; i + 1 < set.size(); ++i) {
+        const double d = least_distance(set[i], set[i + 1]);
+        CAPTURE(i, d);
+        const auto expected = within_by_definition(set, set, d, true);
+        CHECK(to_host(self_within(on, tree, d)) == expected);
+        if (i % 8 == 0) {
+            CHECK(to_host(self_within(on, there, d)) == expected);
+            CHECK(count_self_within(on, make_grid(on, there), d) == expected.size());
+        }
+        CHECK(count_self_within(on, tree, std::nextafter(d, 0)) < expected.size());
+    }
+}
+
 }  // namespace abut::test
