@@ -35,13 +35,21 @@ missing_of() {
     done
 }
 
+# Once in a run: it takes seconds.
+lists_are_new=no
+update_lists() {
+    [ $lists_are_new = no ] || return 0
+    lists_are_new=yes
+    as_root apt-get update -qq || printf 'apt-get update failed; going on with the package lists that are there\n'
+}
+
 # need_packages PACKAGE...: installs those that are missing, or fails.
 need_packages() {
     missing=$(missing_of "$@")
     [ -n "$missing" ] || return 0
     say "installing what is missing: $missing"
     command -v apt-get >/dev/null 2>&1 || fail "no apt-get here; please install the counterparts of: $missing"
-    as_root apt-get update -qq || printf 'apt-get update failed; going on with the package lists that are there\n'
+    update_lists
     # shellcheck disable=SC2086
     as_root apt-get install -y -qq --no-install-recommends $missing >/dev/null || fail "apt-get could not install: $missing"
 }
@@ -51,10 +59,12 @@ want_packages() {
     missing=$(missing_of "$@")
     [ -n "$missing" ] || return 0
     command -v apt-get >/dev/null 2>&1 || return 0
-    as_root apt-get update -qq || true
+    update_lists
+    # shellcheck disable=SC2086
+    in_lists=$(apt-cache --no-all-versions show $missing 2>/dev/null | sed -n 's/^Package: //p')
     known=''
     for package in $missing; do
-        if apt-cache show "$package" >/dev/null 2>&1; then
+        if printf '%s\n' "$in_lists" | grep -Fqx "$package"; then
             known="$known $package"
         else
             printf 'this distribution has no package %s; what needs it is left out\n' "$package"

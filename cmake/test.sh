@@ -9,7 +9,8 @@
 #   include graph, an outside project;
 #   the .cu files, if nvcc 13.0 or newer is there; where no device is present they are compiled to PTX alone, without
 #   optimisation, but for those that take minutes, and reported as skipped;
-#   the address and undefined behaviour sanitizers on execution, traverse and io, with hardly any optimisation.
+#   the address and undefined behaviour sanitizers on execution, traverse and io, with hardly any optimisation. io is tested
+#   by them alone, and traverse/modes.test.cpp without them: --asan and --full build both both ways.
 # More, each beside what is above:
 #   --clang     the same tests built by clang (no .cu files), its warnings as errors
 #   --tsan      the OpenMP paths under clang's thread sanitizer
@@ -95,21 +96,28 @@ if [ -n "$nvcc" ]; then cuda=ON; fi
 bench_option=OFF
 if [ $bench = yes ]; then bench_option=ON; fi
 layers='execution;traverse;io'
+# What one of the two trees tests, the other does not build again: readers and writers are tested under the sanitizers, and walks
+# in each floating-point mode without them.
+elsewhere_gcc=io elsewhere_asan=traverse/modes
+if [ $full = yes ] || [ $asan = all ]; then elsewhere_gcc='' elsewhere_asan=''; fi
 quick=ON
 if [ $full = yes ]; then quick=OFF; fi
 # Where no device is present, .cu files are compiled to see that they can be.
 quick_device=OFF
 if [ $quick = ON ] && ! cuda_device_present; then quick_device=ON; fi
 sanitized='-O0 -g1'
-# Three sources of a layer are compiled as one: most of it goes into the headers that they share. clang takes them singly.
+# Six sources of a layer are compiled as one: most of it goes into what they share, headers and what is made of templates. A
+# compiler then takes up to 3.5 GB. clang takes them singly.
 together_gcc=$quick together_asan=ON
 if [ $asan = all ]; then layers='' sanitized='-O1 -g1' together_asan=OFF; fi
 
 build_tree gcc default -DCMAKE_CXX_COMPILER=g++ -DABUT_CUDA=$cuda -DABUT_HEADER_COMPILERS="$compilers" -DABUT_BENCH=$bench_option \
     -DABUT_TEST_QUICK=$quick -DABUT_QUICK_EXAMPLES=$quick -DABUT_QUICK_DEVICE_CODE=$quick_device \
-    -DCMAKE_UNITY_BUILD=$together_gcc -DCMAKE_UNITY_BUILD_BATCH_SIZE=3
+    -DABUT_TEST_ELSEWHERE=$elsewhere_gcc \
+    -DCMAKE_UNITY_BUILD=$together_gcc -DCMAKE_UNITY_BUILD_BATCH_SIZE=6
 build_tree asan asan -DCMAKE_CXX_COMPILER=g++ -DABUT_EXAMPLES=OFF -DABUT_TEST_PREFIX='asan/' -DABUT_TEST_LAYERS="$layers" \
-    -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="$sanitized" -DCMAKE_UNITY_BUILD=$together_asan -DCMAKE_UNITY_BUILD_BATCH_SIZE=3
+    -DABUT_TEST_ELSEWHERE=$elsewhere_asan \
+    -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="$sanitized" -DCMAKE_UNITY_BUILD=$together_asan -DCMAKE_UNITY_BUILD_BATCH_SIZE=6
 if [ $clang = yes ]; then
     # --headers has checked them with clang already.
     header_compilers=$(command -v clang++)

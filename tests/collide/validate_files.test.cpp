@@ -15,14 +15,14 @@ using namespace abut;
 namespace {
 
 /// What shared/data/README.md says of a file.
-struct truth {
+struct known_flaws {
     const char* file;
     std::size_t vertices, faces, open, bad;
     std::uint64_t components;  // 0 where it does not say
     std::size_t zero_area, coincident, more_than_one_fan, unused, duplicates;
 };
 
-const truth truths[] = {
+const known_flaws truths[] = {
     {"meshes/armadillo_2766.ply", 1385, 2766, 0, 0, 1, 0, 0, 0, 0, 0},
     {"meshes/armadillo_27674.ply", 13839, 27674, 0, 0, 1, 0, 0, 0, 0, 0},
     {"meshes/armadillo_99994.ply", 49999, 99994, 0, 0, 1, 0, 0, 0, 0, 0},
@@ -75,7 +75,7 @@ mesh<double> welded(const char* file) {
 
 TEMPLATE_TEST_CASE("validate: what is known of the real meshes", "", float, double) {
     if (!io_test::meshes()) ABUT_SKIP("data", "the folder of real meshes is not there (ABUT_DATA)");
-    for (const truth& known : truths) {
+    for (const known_flaws& known : truths) {
         // Rounding their doubles to float may move vertices onto one another, and onto lines.
         const bool of_doubles = std::string_view(known.file).starts_with("ccd/");
         if (sizeof(TestType) == 4 && of_doubles) continue;

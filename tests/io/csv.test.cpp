@@ -7,6 +7,8 @@
 #include "io/support.hpp"
 #include "support/catch.hpp"
 
+namespace io_test::csv_cases {
+
 namespace {
 
 template <class T = double>
@@ -95,3 +97,5 @@ TEST_CASE("csv: every malformed line is refused with its number") {
     CHECK(refusal("0,0,0,-0.5\n") == "t.csv:1: expected a radius of 0 or more, found -0.5");
     CHECK(refusal(std::string("1,2,3,\0\n", 8)) == "t.csv:1: expected the radius of a sphere, found '\\x00'");
 }
+
+}  // namespace io_test::csv_cases

@@ -12,6 +12,8 @@
 #include "io/support.hpp"
 #include "support/catch.hpp"
 
+namespace io_test::gltf_cases {
+
 namespace {
 
 using faces = std::vector<std::array<std::uint32_t, 3>>;
@@ -264,3 +266,5 @@ TEST_CASE("gltf: what is malformed is refused with its byte") {
     }
     CHECK(refused > 3 * whole.size());
 }
+
+}  // namespace io_test::gltf_cases

@@ -10,6 +10,8 @@
 #include "io/support.hpp"
 #include "support/catch.hpp"
 
+namespace io_test::obj_cases {
+
 namespace {
 
 using faces = std::vector<std::array<std::uint32_t, 3>>;
@@ -202,3 +204,5 @@ TEST_CASE("obj: every malformed line is refused with its number") {
     CHECK(refusal(square + "g name\\\nf 1 2 3 4 9\n") ==
           "t.obj:6: expected a vertex index from 1 to 4 (or from -1 to -4), found '9'");
 }
+
+}  // namespace io_test::obj_cases

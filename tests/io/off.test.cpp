@@ -9,6 +9,8 @@
 #include "io/support.hpp"
 #include "support/catch.hpp"
 
+namespace io_test::off_cases {
+
 namespace {
 
 using faces = std::vector<std::array<std::uint32_t, 3>>;
@@ -76,3 +78,5 @@ TEST_CASE("off: leniently, faces of two corners and rows too many are passed ove
     CHECK(read.faces == faces{{0, 1, 2}});
     CHECK(read.skipped == abut::io::skipped_parts{2, 0, 8});
 }
+
+}  // namespace io_test::off_cases

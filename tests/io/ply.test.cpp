@@ -15,6 +15,8 @@
 #include "io/support.hpp"
 #include "support/catch.hpp"
 
+namespace io_test::ply_cases {
+
 namespace {
 
 using faces = std::vector<std::array<std::uint32_t, 3>>;
@@ -354,3 +356,5 @@ TEST_CASE("ply: every malformed value in binary is refused with its byte") {
     CHECK(refusal(bytes(head, true).put(0.0).put(0.0).put(0.0).put('\3').put(0).put(0).put('\0').data()) ==
           at(25) + "expected a list of 3 values of 4 bytes, found 9 bytes");
 }
+
+}  // namespace io_test::ply_cases

@@ -16,6 +16,8 @@
 #include "io/support.hpp"
 #include "support/catch.hpp"
 
+namespace io_test::read_cases {
+
 namespace {
 
 const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
@@ -196,3 +198,5 @@ TEST_CASE("readers: seeds and regressions") {
     CHECK(accepted >= 24);
     CHECK(refused >= 1);
 }
+
+}  // namespace io_test::read_cases

@@ -11,6 +11,8 @@
 #include "io/support.hpp"
 #include "support/catch.hpp"
 
+namespace io_test::stl_cases {
+
 namespace {
 
 using faces = std::vector<std::array<std::uint32_t, 3>>;
@@ -102,3 +104,5 @@ TEST_CASE("stl: leniently, what follows is passed over and counted") {
     CHECK(io_test::refusal([] { leniently(binary(std::vector<float>(18)).substr(0, 100)); }) ==
           "t.stl: byte 80: expected 2 triangles of 50 bytes, found 16 bytes");
 }
+
+}  // namespace io_test::stl_cases

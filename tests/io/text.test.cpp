@@ -7,6 +7,8 @@
 
 #include "support/catch.hpp"
 
+namespace io_test::text_cases {
+
 using abut::io::detail::number;
 
 namespace {
@@ -98,3 +100,5 @@ TEST_CASE("an io_error knows file, line and byte") {
     CHECK(byte.byte() == 123u);
     CHECK_FALSE(byte.line());
 }
+
+}  // namespace io_test::text_cases

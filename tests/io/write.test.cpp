@@ -14,6 +14,8 @@
 #include "io/support.hpp"
 #include "support/catch.hpp"
 
+namespace io_test::write_cases {
+
 namespace {
 
 struct id_pair {
@@ -232,3 +234,5 @@ TEST_CASE("writers: a full disk and a path that cannot be written are errors") {
     CHECK(io_test::refusal([&] { abut::io::write_points_ply(full, square); }) ==
           "/dev/full: cannot be written: No space left on device");
 }
+
+}  // namespace io_test::write_cases

@@ -23,6 +23,8 @@
 #include "io/support.hpp"
 #include "support/catch.hpp"
 
+namespace io_test::write_gltf_cases {
+
 namespace {
 
 using abut::vec3;
@@ -479,3 +481,5 @@ TEST_CASE("write_gltf: the Khronos validator finds nothing wrong") {
     folder.file("bad.glb", bytes);
     CHECK(run("bad.glb >/dev/null") != 0);
 }
+
+}  // namespace io_test::write_gltf_cases

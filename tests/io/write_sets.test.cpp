@@ -14,6 +14,8 @@
 #include "io/support.hpp"
 #include "support/catch.hpp"
 
+namespace io_test::write_sets_cases {
+
 namespace {
 
 using abut::vec3;
@@ -119,3 +121,5 @@ TEST_CASE("write_boxes: a closed mesh of each box, with the box's values") {
     CHECK(io_test::refusal([&] { abut::io::write_boxes(folder / "c.obj", set); }).ends_with("ends with .ply or .vtp"));
     CHECK_FALSE(std::filesystem::exists(folder / "c.ply"));
 }
+
+}  // namespace io_test::write_sets_cases

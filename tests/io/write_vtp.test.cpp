@@ -15,6 +15,8 @@
 #include "io/support.hpp"
 #include "support/catch.hpp"
 
+namespace io_test::write_vtp_cases {
+
 // A small reader of what is written here: elements and attributes by plain search, base64 by table.
 
 namespace {
@@ -244,3 +246,5 @@ TEST_CASE("write_vtp: base64, and across the ends of the buffer") {
     const std::string text = io_test::content(folder / "a.vtp");
     CHECK(same_bits(arrays(element(text, "Points").second).at(0).as<double>(), flat(points)));
 }
+
+}  // namespace io_test::write_vtp_cases

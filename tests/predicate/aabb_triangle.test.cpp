@@ -22,11 +22,11 @@ static_assert(intersects(aabb<float>{{1, 1, 1}, {1, 1, 1}}, slope));
 static_assert(!intersects(aabb<float>{{1, 1, 0x1.fffffep-1f}, {1, 1, 0x1.fffffep-1f}}, slope));
 static_assert(intersects(aabb<float>{{0, 0, 0}, {5, 5, 5}}, triangle<float>{{5, 5, 5}, {5, 5, 5}, {5, 5, 5}}));
 // The filter knows ties of shapes that lie along the axes.
-constexpr triangle<float> floor{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
-static_assert(decide<filtered>(aabb<float>{{1, 1, 0}, {2, 2, 1}}, floor) == verdict::yes);
-static_assert(decide<filtered>(aabb<float>{{4, -5, -1}, {5, 5, 0}}, floor) == verdict::yes);
-static_assert(decide<filtered>(aabb<float>{{-1, -1, -1}, {0, 1, 0}}, floor) == verdict::yes);
-static_assert(decide<filtered>(aabb<float>{{-1, -1, -1}, {0, 1, -0x1p-149f}}, floor) == verdict::no);
+constexpr triangle<float> base_triangle{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
+static_assert(decide<filtered>(aabb<float>{{1, 1, 0}, {2, 2, 1}}, base_triangle) == verdict::yes);
+static_assert(decide<filtered>(aabb<float>{{4, -5, -1}, {5, 5, 0}}, base_triangle) == verdict::yes);
+static_assert(decide<filtered>(aabb<float>{{-1, -1, -1}, {0, 1, 0}}, base_triangle) == verdict::yes);
+static_assert(decide<filtered>(aabb<float>{{-1, -1, -1}, {0, 1, -0x1p-149f}}, base_triangle) == verdict::no);
 
 static_assert(decidable_pair<aabb<float>, triangle<float>> && decidable_pair<aabb<double>, triangle<double>>);
 static_assert(!decidable_pair<aabb<float>, triangle<double>>);

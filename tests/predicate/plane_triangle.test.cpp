@@ -7,13 +7,13 @@ namespace {
 
 using namespace abut;
 
-constexpr triangle<float> slope{{3, 0, 0}, {0, 3, 0}, {0, 0, 3}};
+constexpr triangle<float> tilted{{3, 0, 0}, {0, 3, 0}, {0, 0, 3}};
 
 // Constant expressions, in either order. A plane is a surface: a triangle on either side of it does not touch it.
-static_assert(intersects(plane<float>{{1, 0, 0}, 3}, slope) && intersects<exact>(slope, plane<float>{{-1, 0, 0}, 0}));
-static_assert(!intersects(plane<float>{{1, 0, 0}, 0x1.800002p1f}, slope) && !intersects(slope, plane<float>{{1, 0, 0}, -1}));
-static_assert(intersects(plane<float>{{1, 1, 1}, 3}, slope) && intersects<fast>(plane<float>{{1, 1, 1}, 3}, slope));
-static_assert(!intersects(plane<float>{{1, 1, 1}, 0x1.7ffffep1f}, slope));
+static_assert(intersects(plane<float>{{1, 0, 0}, 3}, tilted) && intersects<exact>(tilted, plane<float>{{-1, 0, 0}, 0}));
+static_assert(!intersects(plane<float>{{1, 0, 0}, 0x1.800002p1f}, tilted) && !intersects(tilted, plane<float>{{1, 0, 0}, -1}));
+static_assert(intersects(plane<float>{{1, 1, 1}, 3}, tilted) && intersects<fast>(plane<float>{{1, 1, 1}, 3}, tilted));
+static_assert(!intersects(plane<float>{{1, 1, 1}, 0x1.7ffffep1f}, tilted));
 // A plane without normal is everything, or nothing.
 static_assert(intersects(plane<double>{{0, 0, 0}, 0}, triangle<double>{{1, 2, 3}, {1, 2, 3}, {1, 2, 3}}));
 static_assert(!intersects(plane<double>{{0, 0, 0}, 0x1p-1074}, triangle<double>{{1, 2, 3}, {4, 5, 7}, {0, 0, 0}}));

@@ -23,7 +23,7 @@
 
 using namespace abut;
 /// Without expression templates, so that vec3's operations return it.
-using rational = boost::multiprecision::number<boost::multiprecision::cpp_rational_backend, boost::multiprecision::et_off>;
+using eager_rational = boost::multiprecision::number<boost::multiprecision::cpp_rational_backend, boost::multiprecision::et_off>;
 using test::draws;
 using test::encloses;
 using point = test::construction::point;
@@ -251,11 +251,11 @@ void check_touching(const char* name, bool extreme) {
 
 // --- that they do tell apart what is apart --------------------------------------------------------------------------------
 
-using exact_point = vec3<rational>;
+using exact_point = vec3<eager_rational>;
 
 template <class T>
 exact_point to_exact(const vec3<T>& p) {
-    return {rational(p.x), rational(p.y), rational(p.z)};
+    return {eager_rational(p.x), eager_rational(p.y), eager_rational(p.z)};
 }
 
 /// A solid spanned by three vectors either way from its centre.
@@ -264,10 +264,10 @@ struct exact_box {
 };
 
 /// By the separating axes of both, in rational arithmetic, as if they were `larger` times as large. No edge is 0.
-bool overlap(const exact_box& a, const exact_box& b, const rational& larger = 1) {
+bool overlap(const exact_box& a, const exact_box& b, const eager_rational& larger = 1) {
     const exact_point way = b.center - a.center;
     const auto separates = [&](const exact_point& n) {
-        rational reach = 0;
+        eager_rational reach = 0;
         for (const exact_box* const box : {&a, &b}) {
             for (const exact_point& edge : box->edges) reach += abs(dot(n, edge));
         }
@@ -292,7 +292,7 @@ exact_box in_world(const rigid<T>& pose, const obb<T>& v) {
     };
     const T h[3] = {v.half_widths.x, v.half_widths.y, v.half_widths.z};
     exact_box r{turned(to_exact(v.center)) + to_exact(pose.translation), {}};
-    for (int i = 0; i < 3; ++i) r.edges[i] = rational(h[i]) * turned(to_exact(v.axes[i]));
+    for (int i = 0; i < 3; ++i) r.edges[i] = eager_rational(h[i]) * turned(to_exact(v.axes[i]));
     return r;
 }
 
@@ -321,7 +321,7 @@ void check_against_truth() {
                 sum.lost += !kept;
                 return;
             }
-            const bool is_clear = !overlap(a, b, rational(1001) / 1000);
+            const bool is_clear = !overlap(a, b, eager_rational(1001) / 1000);
             ++sum.apart;
             sum.clear += is_clear;
             sum.kept_clear += is_clear && kept;

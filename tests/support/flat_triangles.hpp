@@ -56,7 +56,7 @@ T power_of_two(int e) {
 
 /// One coordinate of one corner, a step up or down.
 template <scalar T>
-void nudge(draws& d, triangle<T>& t) {
+void move_one_coordinate(draws& d, triangle<T>& t) {
     vec3<T>* const corners[3] = {&t.a, &t.b, &t.c};
     vec3<T>& p = *corners[d.below(3)];
     T* const coordinates[3] = {&p.x, &p.y, &p.z};
@@ -113,7 +113,7 @@ triangle<T> make_flat_triangle(std::uint64_t seed_value, flat_family family, std
         }
         case flat_family::one_ulp_off:
             t = on_line();
-            nudge(d, t);
+            move_one_coordinate(d, t);
             return t;
         case flat_family::rounded_line: {
             const point from = cube(d, 1), along_it = cube(d, 1);
@@ -127,7 +127,7 @@ triangle<T> make_flat_triangle(std::uint64_t seed_value, flat_family family, std
             const vec3<T> p = round_to<T>(cube(d, 1)), q = d.below(2) == 0 ? p : round_to<T>(cube(d, 1));
             const int k = d.below(3);
             t = {k == 0 ? q : p, k == 1 ? q : p, k == 2 ? q : p};
-            if (d.below(4) == 0) nudge(d, t);
+            if (d.below(4) == 0) move_one_coordinate(d, t);
             return t;
         }
         case flat_family::denormals:
@@ -152,7 +152,7 @@ triangle<T> make_flat_triangle(std::uint64_t seed_value, flat_family family, std
                 const T x = halves(), y = halves();
                 return vec3<T>{x, y, halves()};
             });
-            if (d.below(3) == 0) nudge(d, t);
+            if (d.below(3) == 0) move_one_coordinate(d, t);
             return t;
         }
         case flat_family::across: {
@@ -161,14 +161,14 @@ triangle<T> make_flat_triangle(std::uint64_t seed_value, flat_family family, std
             const vec3<T> p = axis == 0 ? vec3<T>{large, y, z} : axis == 1 ? vec3<T>{z, large, y} : vec3<T>{y, z, large};
             const T part = T(0.5) * static_cast<T>(d.below(3) - 1);
             t = {{-p.x, -p.y, -p.z}, p, {part * p.x, part * p.y, part * p.z}};
-            if (d.below(3) == 0) nudge(d, t);
+            if (d.below(3) == 0) move_one_coordinate(d, t);
             return t;
         }
         case flat_family::mixed_exponents:
             return mixed();
         case flat_family::mixed_off:
             t = mixed();
-            if (d.below(4) != 0) nudge(d, t);
+            if (d.below(4) != 0) move_one_coordinate(d, t);
             return t;
         case flat_family::along_axis: {
             const int axis = d.below(3);
