@@ -7,8 +7,8 @@
 //
 //   nearest/INDEX/POLICY/POINTS           the query alone; the index is there
 //   nearest_vertex/INDEX/POLICY/POINTS    the same of the torus's vertices
-//   nearest_few/INDEX/POLICY/POINTS       the 8 nearest of the centres to each of them, after two calls that are not counted:
-//                                         the process has the memory by then, which takes as long to get in a virtual machine
+//   nearest_few/INDEX/POLICY/POINTS       the 8 nearest of the centres to each of them, after two calls that are not
+//                                         counted: the process has the memory by then
 //
 // The peers (bench/nearest/) are in the same run, where their packages are there.
 

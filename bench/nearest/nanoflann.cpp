@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// The peer for points: nanoflann's k-d tree over the torus's vertices, or over the centres, in float, on one thread, with the
-// leaves that its documentation names as a good size. Memory for the answers is taken within the clock, as by abut. Its
-// points come in the order in which they are. Squares are rounded, so of vertices that are nearly as near it may find another
-// one than abut does.
+// The peer for points: nanoflann's k-d tree over the torus's vertices, or over the centres, in float, on one thread, with
+// the leaves that its documentation names as a good size. Memory for the answers is taken within the clock, as by abut. Its
+// points come in the order in which they are. Squares are rounded, so of vertices that are nearly as near it may find
+// another one than abut does.
 
 #include <cmath>
 #include <cstddef>
