@@ -231,7 +231,21 @@ def raycast_cpu(results):
             row += [shown(ms), shown(rays / ms / 1e3), quotient(ms, peer)]
         rows.append(row)
     head = [""] + [h for kind in RAYS.values() for h in (f"{kind}, ms", "million rays a second", "over Embree")]
-    return [f"First hits of {int(rays):,} rays in a mesh of 345,944 triangles, one core, ms:", ""] + table(head, rows) + made_on(r)
+    others = []
+    for question, index, name in (("occluded", "embree/float", "Embree, `rtcOccluded1`"),
+                                  ("occluded", "wide_sah/filtered", "`raycast_any`, `wide`, of a `sah` tree"),
+                                  ("all", "wide_sah/filtered", "`raycast_all`, the same")):
+        row = [name]
+        for kind in RAYS:
+            ms, peer = r.get(f"{question}/{kind}/{index}/serial"), r.get(f"{question}/{kind}/embree/float/serial")
+            row += [shown(ms), quotient(ms, peer) if peer else ""]
+        others.append(row)
+    other_head = [""] + [h for kind in RAYS.values() for h in (f"{kind}, ms", "over Embree")]
+    inside, cgal = (r.get(f"inside/points/{i}/serial") for i in ("wide_sah/filtered", "cgal/double"))
+    return [f"First hits of {int(rays):,} rays in a mesh of 345,944 triangles, one core, ms:", ""] + table(head, rows) + \
+        ["Of the same rays, whether they meet anything, and all that they meet:", ""] + table(other_head, others) + \
+        [f"For 100,000 points `inside` takes {shown(inside)} ms with that tree, {quotient(inside, cgal)} of what CGAL's "
+         f"`Side_of_triangle_mesh` takes in double.", ""] + made_on(r)
 
 
 @in_table("raycast-cuda")
