@@ -101,7 +101,8 @@ triangle_pair<T> at_whole_distance(draws& d) {
     constexpr whole frames[][3] = {{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}},  {{1, 2, 2}, {2, -1, 0}, {0, 1, -1}},
                                    {{2, 3, 6}, {3, -2, 0}, {0, 2, -1}}, {{2, 6, 9}, {3, -1, 0}, {0, 3, -2}},
                                    {{6, 6, 7}, {1, -1, 0}, {0, 7, -6}}, {{1, 4, 8}, {4, -1, 0}, {0, 2, -1}}};
-    const auto& [n, u, v] = frames[d.below(6)];
+    const auto& frame = frames[d.below(6)];
+    const whole n = frame[0], u = frame[1], v = frame[2];
     const int away = d.below(5), shift = d.below(3) == 0 ? 1 << 15 : 0, e = d.below(4) == 0 ? d.below(200) - 148 : 0;
     const auto place = [&](int along_u, int along_v, int along_n) {
         const auto at = [&](int nn, int uu, int vv) {

@@ -438,6 +438,8 @@ struct placement {
     rigid<T> pose;
     aabb<T> around;
 };
+template <scalar T>
+placement(const rigid<T>&, const aabb<T>&) -> placement<T>;
 template <class Operand>
 auto placement_of(const Operand& x) {
     if constexpr (Operand::is_posed) {

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -133,7 +134,7 @@ auto gltf_view(const Object& object) {
     constexpr const char* function = "abut::io::gltf_scene::add";
     if constexpr (is_posed<Object>) {
         const auto inner = gltf_view(object.object);
-        const posed_view<decltype(inner)> placed{inner, object.pose};
+        const posed_view<std::remove_const_t<decltype(inner)>> placed{inner, object.pose};
         abut::detail::check(object.pose, function);
         abut::detail::check(serial{}, placed, function);
         return placed;
