@@ -36,6 +36,15 @@ struct ray_hit {
 
 namespace detail {
 
+/// Walks through an index along a line: visit(id) for all shapes whose boxes it passes through before the sink's bound.
+ABUT_CALLS_ANY
+template <class Walk, class Frame, class Line, class Sink, class Visitor>
+ABUT_HD void walk_along(const Walk& walk, const Frame& frame, const Line& line, Sink& sink, const Visitor& visit) {
+    const line_of<scalar_type_of<Line>> l(line);
+    auto reach = reach_of_line(frame, l.origin, l.direction(), l.last);
+    walk(reach, sink, visit);
+}
+
 /// A walk through an index along each line.
 template <arithmetic A, class Walk, class Frame, shape_view Shapes, shape_view Lines>
 struct walk_along_lines {
@@ -48,9 +57,7 @@ struct walk_along_lines {
     template <class Best>
     ABUT_HD void operator()(std::size_t i, Best& best) const {
         const auto line = lines[i];
-        const line_of<typename Lines::scalar_type> l(line);
-        auto reach = reach_of_line(frame, l.origin, l.direction(), l.last);
-        walk(reach, best, [&](std::uint32_t id) {
+        walk_along(walk, frame, line, best, [&](std::uint32_t id) {
             const double time = hit_time<A>(line, shapes[id]);
             if (time >= 0) best.offer(time, id);
         });
@@ -70,10 +77,8 @@ struct walk_to_any {
     template <class Sink>
     ABUT_HD void operator()(std::size_t i, Sink& sink) const {
         const auto line = lines[i];
-        const line_of<typename Lines::scalar_type> l(line);
-        auto reach = reach_of_line(frame, l.origin, l.direction(), l.last);
         bool met = false;
-        walk(reach, sink, [&](std::uint32_t id) {
+        walk_along(walk, frame, line, sink, [&](std::uint32_t id) {
             if (met || !is_met<A>(line, shapes[id])) return;
             met = true;
             sink.stop();
