@@ -44,10 +44,8 @@ struct count_along_lines {
     template <class Sink>
     ABUT_HD void operator()(std::size_t i, Sink& sink) const {
         const auto line = lines[i];
-        const line_of<typename Lines::scalar_type> l(line);
-        auto reach = reach_of_line(frame, l.origin, l.direction(), l.last);
         std::uint64_t count = 0;
-        walk(reach, sink, [&](std::uint32_t id) {
+        walk_along(walk, frame, line, sink, [&](std::uint32_t id) {
             const double time = hit_time<A>(line, shapes[id]);
             if (time >= 0 && count < kept_hits) few[kept_hits * i + count] = {time, id};
             if (time >= 0) ++count;
@@ -64,9 +62,8 @@ ABUT_HD inline void sort_hits(execution::least_value* hits, std::uint64_t n) {
             const execution::least_value at = hits[i];
             std::uint64_t k = i;
             for (; k >= gap; k -= gap) {
-                const execution::least_value& before = hits[k - gap];
-                if (before.value < at.value || (before.value == at.value && before.key < at.key)) break;
-                hits[k] = before;
+                if (hits[k - gap].comes_before(at)) break;
+                hits[k] = hits[k - gap];
             }
             hits[k] = at;
         }
@@ -95,10 +92,8 @@ struct write_along_lines {
             return sort_hits(mine, counted);
         }
         const auto line = lines[i];
-        const line_of<typename Lines::scalar_type> l(line);
-        auto reach = reach_of_line(frame, l.origin, l.direction(), l.last);
         std::uint64_t count = 0;
-        walk(reach, sink, [&](std::uint32_t id) {
+        walk_along(walk, frame, line, sink, [&](std::uint32_t id) {
             const double time = hit_time<A>(line, shapes[id]);
             if (time >= 0 && count < counted) mine[count++] = {time, id};
         });

@@ -28,8 +28,12 @@ struct least_value {
     double value = __builtin_huge_val();
     std::uint64_t key = static_cast<std::uint64_t>(-1);
 
+    [[nodiscard]] ABUT_HD bool comes_before(const least_value& other) const {
+        return value < other.value || (value == other.value && key < other.key);
+    }
     ABUT_HD void offer(double v, std::uint64_t k) {
-        if (v < value || (v == value && k < key)) value = v, key = k;
+        const least_value one{v, k};
+        if (one.comes_before(*this)) *this = one;
     }
     friend constexpr bool operator==(const least_value&, const least_value&) = default;
 };
@@ -89,11 +93,8 @@ public:
         }
         ABUT_HD void offer(double value, std::uint64_t key) {
             const least_value one{value, key};
-            const auto is_before = [](const least_value& a, const least_value& b) {
-                return a.value < b.value || (a.value == b.value && a.key < b.key);
-            };
             std::size_t to = count;
-            while (to > 0 && is_before(one, mine[to - 1])) --to;
+            while (to > 0 && one.comes_before(mine[to - 1])) --to;
             if (to == count || (to > 0 && mine[to - 1] == one)) return;
             for (std::size_t k = count - 1; k > to; --k) mine[k] = mine[k - 1];
             mine[to] = one;
