@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include <abut/arithmetic/align.hpp>
+#include <abut/arithmetic/vec.hpp>
 #include <abut/arithmetic/wide_int.hpp>
 #include <abut/config.hpp>
 
@@ -65,6 +66,11 @@ struct rolled_int {
         ABUT_ROLLED
         for (int i = 0; i < n; ++i) limb[i] = 0;
     }
+    /// The same, and 0 in all its room in a constant expression, which copies no number that was not set.
+    ABUT_HD constexpr void begin(int n) {
+        clear(__builtin_is_constant_evaluated() ? Room : n);
+        count = n;
+    }
     template <int A, int B>
     ABUT_HD constexpr void add(const rolled_int<A>& a, const rolled_int<B>& b, bool negated = false) {
         add_product(limb, count, a.limb, a.count, b.limb, b.count, negated);
@@ -88,6 +94,7 @@ struct rolled_int {
         for (int i = 0; i < count; ++i) any |= limb[i];
         return any != 0 ? 1 : 0;
     }
+    ABUT_HD friend constexpr int sign(const rolled_int& a) { return a.sign(); }
     /// Changes the sign if it is negative.
     ABUT_HD constexpr void drop_sign() {
         if (static_cast<std::int64_t>(limb[count - 1]) >= 0) return;
@@ -99,6 +106,61 @@ struct rolled_int {
         }
     }
 };
+
+// Numbers as results: a product has the limbs of both factors, a sum those of its terms, which have one length and leave room
+// for it. Whoever computes polynomials of them leaves two bits of each number's first limb.
+
+template <int A, int B>
+ABUT_HD constexpr rolled_int<A + B> operator*(const rolled_int<A>& a, const rolled_int<B>& b) {
+    rolled_int<A + B> r;
+    r.begin(a.count + b.count);
+    r.add(a, b);
+    return r;
+}
+
+/// r = a - b, of n limbs each.
+ABUT_NOINLINE ABUT_HD constexpr void subtract(std::uint64_t* r, const std::uint64_t* a, const std::uint64_t* b, int n) {
+    std::uint64_t carry = 1;
+    ABUT_ROLLED
+    for (int i = 0; i < n; ++i) {
+        const uint128 t = static_cast<uint128>(a[i]) + ~b[i] + carry;
+        r[i] = lower_limb(t);
+        carry = upper_limb(t);
+    }
+}
+
+template <int A>
+ABUT_HD constexpr rolled_int<A> operator-(const rolled_int<A>& a, const rolled_int<A>& b) {
+    rolled_int<A> r;
+    r.begin(a.count);
+    subtract(r.limb, a.limb, b.limb, a.count);
+    return r;
+}
+
+template <int A, int B>
+ABUT_HD constexpr auto cross(const vec3<rolled_int<A>>& a, const vec3<rolled_int<B>>& b) {
+    vec3<rolled_int<A + B>> r;
+    const auto write = [](rolled_int<A + B>& to, const auto& p, const auto& q, const auto& s, const auto& t) {
+        to.begin(p.count + q.count);
+        to.add(p, q);
+        to.add(s, t, true);
+    };
+    write(r.x, a.y, b.z, a.z, b.y);
+    write(r.y, a.z, b.x, a.x, b.z);
+    write(r.z, a.x, b.y, a.y, b.x);
+    return r;
+}
+
+/// The sign of a . b
+template <int A, int B>
+ABUT_HD constexpr int sign_of_dot(const vec3<rolled_int<A>>& a, const vec3<rolled_int<B>>& b) {
+    rolled_int<A + B> sum;
+    sum.begin(a.x.count + b.x.count);
+    sum.add(a.x, b.x);
+    sum.add(a.y, b.y);
+    sum.add(a.z, b.z);
+    return sum.sign();
+}
 
 // Magnitudes: n limbs without a sign.
 

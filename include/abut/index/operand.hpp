@@ -10,7 +10,8 @@
 #include <abut/error.hpp>
 #include <abut/execution/policy.hpp>
 #include <abut/shape/check.hpp>
-#include <abut/shape/motion.hpp>  // its check has to be known here
+#include <abut/shape/hulls.hpp>   // its check has to be known here
+#include <abut/shape/motion.hpp>  // and its
 #include <abut/shape/rows.hpp>
 #include <abut/shape/set.hpp>
 
@@ -72,7 +73,9 @@ consteval bool can_reside() {
             "if it is plain data and has bounds(shape) in its namespace, as docs/extending.md says");
         return false;
     } else if constexpr (shape<Set>) {
-        return true;
+        constexpr bool whole = !refers_to_memory<Set> || std::same_as<space_of<Policy>, host_space>;
+        static_assert(whole, "abut: a hull alone lies in host memory and the policy works elsewhere; make a set, abut::hulls");
+        return whole;
     } else {
         using space = typename Set::memory_space;
         constexpr bool there = std::same_as<space, space_of<Policy>>, on_host = std::same_as<space, host_space>;

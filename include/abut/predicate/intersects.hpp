@@ -7,6 +7,7 @@
 #include <abut/arithmetic/arithmetic.hpp>
 #include <abut/predicate/aabb_triangle.hpp>
 #include <abut/predicate/capsule_triangle.hpp>
+#include <abut/predicate/hull_hull.hpp>
 #include <abut/predicate/plane_triangle.hpp>
 #include <abut/predicate/ray_triangle.hpp>
 #include <abut/predicate/segment_triangle.hpp>
@@ -97,8 +98,8 @@ ABUT_HD constexpr bool intersects_exactly(const S& s, const U& t) {
 
 }  // namespace detail
 
-/// Whether two closed shapes have a point in common: triangles, segments, rays, points (vec3) and planes, and spheres, boxes
-/// and capsules, which are solid, as docs/numerics.md lists. With `filtered` and `exact` the answer is right for every finite
+/// Whether two closed shapes have a point in common: triangles, segments, rays, points (vec3) and planes, and spheres, boxes,
+/// capsules and convex hulls, which are solid, as docs/numerics.md lists. With `filtered` and `exact` the answer is right for every finite
 /// input and the same on each compiler and device; `fast` is approximate. Constant expressions are decided in integers.
 ///
 ///     static_assert(abut::intersects(abut::sphere<float>{{0, 0, 5}, 5},

@@ -6,11 +6,13 @@
 
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 
 #include <abut/execution/buffer.hpp>
 #include <abut/execution/host.hpp>
 #include <abut/shape/check.hpp>
+#include <abut/shape/hulls.hpp>
 #include <abut/shape/set.hpp>
 #include <abut/shape/view.hpp>
 
@@ -60,6 +62,13 @@ struct set_parts {
         return made;
     }
     template <scalar T, memory_space Space>
+    static hulls<T, Space> hulls_of(execution::buffer<vec3<T>, Space> points, execution::buffer<std::uint32_t, Space> offsets) {
+        hulls<T, Space> made;
+        made.points_ = shared_array<vec3<T>, Space>(std::move(points));
+        made.offsets_ = shared_array<std::uint32_t, Space>(std::move(offsets));
+        return made;
+    }
+    template <scalar T, memory_space Space>
     static equal_spheres<T, Space> equal_spheres_of(execution::buffer<vec3<T>, Space> centers, T radius) {
         equal_spheres<T, Space> made;
         made.centers_ = shared_array<vec3<T>, Space>(std::move(centers));
@@ -95,6 +104,9 @@ auto set_of(const Policy& on, const View& view) {
         const auto vertices =
             set_parts::shapes_of<vec3<T>, space>(side_by_side<vec3<T>>(on, view.vertices, view.vertices.count));
         return set_parts::edge_mesh_of(vertices, side_by_side<edge>(on, view.edges, view.edges.count));
+    } else if constexpr (std::same_as<View, hulls_view<T, space>>) {
+        return set_parts::hulls_of<T, space>(side_by_side<vec3<T>>(on, view.points, view.points.count),
+                                             side_by_side<std::uint32_t>(on, view.offsets, view.offsets.count));
     } else if constexpr (std::same_as<View, equal_spheres_view<T, space>>) {
         return set_parts::equal_spheres_of<T, space>(side_by_side<vec3<T>>(on, view.centers, view.centers.count),
                                                      view.radius);

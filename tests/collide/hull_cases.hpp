@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Sets of convex hulls in queries, on every policy: the same with each index and under poses, against a plain loop over
+// `intersects<exact>` of hulls in host memory, whose own truth is tests/predicate.
+
+#include <cstdint>
+#include <cstdio>
+#include <vector>
+
+#include <abut/abut.hpp>
+
+#include "collide/set_cases.hpp"
+#include "support/catch.hpp"
+#include "support/poses.hpp"
+#include "support/scenes.hpp"
+
+namespace abut::test {
+
+/// Hulls of one to twelve points in a box of side 2; on a lattice, many touch exactly.
+template <class T>
+hulls<T> random_hulls(std::size_t n, uniform& random, bool on_lattice) {
+    const shape_maker<triangle<T>> make(random, on_lattice);
+    std::vector<vec3<T>> points;
+    std::vector<std::uint32_t> offsets(1, 0);
+    for (std::size_t i = 0; i < n; ++i) {
+        const vec3<T> center = make(1)[0].a;
+        const auto count = static_cast<std::size_t>(random(1, 12.99));
+        for (std::size_t k = 0; k < count; ++k) {
+            const triangle<T> t = make(1)[0];
+            points.push_back(center + (t.b - t.a));
+        }
+        offsets.push_back(static_cast<std::uint32_t>(points.size()));
+    }
+    return {points, offsets};
+}
+
+/// By brute force, indexed on one side and on both, posed, and in the calls that store less.
+template <class Policy, class T, class Set>
+std::size_t check_hulls_against(const Policy& on, const hulls<T>& a, const Set& b, const rigid<T>& pose) {
+    const auto expected = all_that_touch(a.view(), b.view());
+    const auto there_a = copy_to(on, a);
+    const auto there_b = copy_to(on, b);
+    const auto tree = make_bvh(on, there_a);
+    CHECK(to_host(pairs(on, there_a, there_b)) == expected);
+    CHECK(to_host(pairs(on, tree, there_b)) == expected);
+    CHECK(to_host(pairs(on, tree, make_bvh(on, there_b))) == expected);
+    CHECK(to_host(pairs<exact>(on, make_grid(on, there_a), there_b)) == expected);
+    CHECK(count(on, there_a, make_bvh(on, there_b)) == expected.size());
+    CHECK(any(on, tree, there_b) == !expected.empty());
+    const auto placed = all_that_touch(posed_view<decltype(a.view())>{a.view(), pose}, b.view());
+    CHECK(to_host(pairs(on, posed(tree, pose), there_b)) == placed);
+    CHECK(to_host(pairs(on, posed(tree, pose), make_bvh(on, there_b))) == placed);
+    CHECK(to_host(pairs(on, posed(there_a, pose), there_b)) == placed);
+    return expected.size() + placed.size();
+}
+
+template <class T, class Policy>
+void check_hulls(const Policy& on) {
+    constexpr std::uint64_t seed = 71;
+    std::printf("sets of hulls: seed %llu\n", static_cast<unsigned long long>(seed));
+    uniform random(seed);
+    rigid<T> pose;
+    pose.rotation[0] = pose.rotation[4] = T(0.8);
+    pose.rotation[1] = T(-0.6), pose.rotation[3] = T(0.6);
+    pose.translation = {T(0.5), T(-0.25), T(0.125)};
+    for (const bool on_lattice : {false, true}) {
+        CAPTURE(on_lattice);
+        const auto a = random_hulls<T>(130, random, on_lattice), b = random_hulls<T>(90, random, on_lattice);
+        const std::size_t hits = check_hulls_against(on, a, b, pose);
+        CHECK(hits > 200);
+        CHECK(hits < 130 * 90);
+        const triangle_soup<T> soup(shape_maker<triangle<T>>(random, on_lattice)(90));
+        CHECK(check_hulls_against(on, a, soup, pose) > 200);
+    }
+    const auto none = hulls<T>();
+    check_hulls_against(on, none, random_hulls<T>(3, random, false), pose);
+}
+
+}  // namespace abut::test
