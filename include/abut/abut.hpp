@@ -45,6 +45,7 @@
 #include <abut/predicate/within.hpp>
 #include <abut/shape/copy_view.hpp>
 #include <abut/shape/features.hpp>
+#include <abut/shape/hulls.hpp>
 #include <abut/shape/motion.hpp>
 #include <abut/shape/posed.hpp>
 #include <abut/shape/set.hpp>

@@ -73,6 +73,9 @@ void check_hulls(const Policy& on) {
         const triangle_soup<T> soup(shape_maker<triangle<T>>(random, on_lattice)(90));
         CHECK(check_hulls_against(on, a, soup, pose) > 200);
     }
+    const auto a = random_hulls<T>(60, random, true);
+    CHECK(check_hulls_against(on, a, spheres<T>(shape_maker<sphere<T>>(random, true)(60)), pose) > 100);
+    CHECK(count(on, copy_to(on, a), plane<T>{{0, 0, 1}, 0}) > 20);
     const auto none = hulls<T>();
     check_hulls_against(on, none, random_hulls<T>(3, random, false), pose);
 }

@@ -148,7 +148,11 @@ hull_pair<T> make_hull_pair(std::uint64_t seed, hull_family f, std::uint64_t ind
             for (std::vector<point>* points : {&a, &b}) {
                 for (point& p : *points) p = tilted(p);
             }
-            if (f == hull_family::denormal) unit_of_both = static_cast<double>(least_denormal<T>);
+            // Denormal, or on both sides of the smallest normal number.
+            if (f == hull_family::denormal) {
+                unit_of_both = static_cast<double>(least_denormal<T>);
+                if (index % 2 == 1) unit_of_both *= sizeof(T) == 4 ? 0x1p18 : 0x1p47;
+            }
             break;
         }
         case hull_family::exponents: {

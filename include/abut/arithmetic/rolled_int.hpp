@@ -151,15 +151,20 @@ ABUT_HD constexpr auto cross(const vec3<rolled_int<A>>& a, const vec3<rolled_int
     return r;
 }
 
-/// The sign of a . b
 template <int A, int B>
-ABUT_HD constexpr int sign_of_dot(const vec3<rolled_int<A>>& a, const vec3<rolled_int<B>>& b) {
+ABUT_HD constexpr rolled_int<A + B> dot(const vec3<rolled_int<A>>& a, const vec3<rolled_int<B>>& b) {
     rolled_int<A + B> sum;
     sum.begin(a.x.count + b.x.count);
     sum.add(a.x, b.x);
     sum.add(a.y, b.y);
     sum.add(a.z, b.z);
-    return sum.sign();
+    return sum;
+}
+
+/// The sign of a . b
+template <int A, int B>
+ABUT_HD constexpr int sign_of_dot(const vec3<rolled_int<A>>& a, const vec3<rolled_int<B>>& b) {
+    return dot(a, b).sign();
 }
 
 // Magnitudes: n limbs without a sign.

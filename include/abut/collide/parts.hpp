@@ -208,6 +208,8 @@ struct write_ids_in_blocks {
 
 template <shape_view Shapes>
 struct pack_shape {
+    static_assert(!refers_to_memory<typename Shapes::shape_type>,
+                  "abut: hulls refer to their points, and are not sent to another rank or device; give each the whole set");
     Shapes shapes;
     const std::uint32_t* ids;
     typename Shapes::shape_type* out;

@@ -85,7 +85,7 @@ public:
             const nearest_to found = look_at_feature(w, count);
             if (found != nearest_to::nothing) return found;
         }
-        return count == 4 ? nearest_to::origin : nearest_to::nothing;
+        return count == 4 ? nearest_to::origin : nearest_to::nothing;  // of which all corners are left
     }
 
 private:
@@ -143,8 +143,8 @@ private:
 
 /// Two hulls in numbers of some kind, as the search reads them:
 ///   difference(i, j)        point i of one less point j of the other
-///   are_apart(way, i, j)    finds the two points whose difference lies farthest back along a way; true where even that lies
-///                           ahead of the origin, for sure
+///   look_back(way, i, j)    finds the two points whose difference lies farthest back along a way
+///   are_apart(way, i, j)    whether even that difference lies ahead of the origin, for sure
 ///   holds_origin(w, at)     whether it does, of a simplex that was found to
 ///   when_lost(at)           what to say where a difference comes again, and nothing else is known
 ///   most_steps              after which it is lost too
@@ -154,36 +154,49 @@ concept hulls_in_numbers = requires(const H& x, const vec3<typename nearest_feat
                                     const difference_simplex& at) {
     { H::most_steps } -> std::convertible_to<int>;
     { x.difference(i, i) } -> std::same_as<vec3<typename H::number>>;
+    { x.look_back(way, i, i) } -> std::same_as<void>;
     { x.are_apart(way, i, i) } -> std::same_as<bool>;
     { x.holds_origin(w, at) } -> std::same_as<verdict>;
     { x.when_lost(at) } -> std::same_as<verdict>;
 };
 
-/// Whether hulls meet. Begins at a simplex, any one, and leaves there what it came to.
-template <hulls_in_numbers Hulls>
-ABUT_HD constexpr verdict search_origin(const Hulls& x, difference_simplex& at) {
+/// What is asked: whether hulls meet, or, if they do not, where they are nearest as well.
+enum class sought : bool { meeting, nearest };
+
+/// Whether hulls meet; `no` where they are apart. Begins at a simplex, any one, and leaves there what it came to: of hulls that
+/// are apart, and of which the nearest points are sought, the feature that these are on. Its corners are then in `w`.
+template <sought What, hulls_in_numbers Hulls>
+ABUT_HD constexpr verdict search_origin(const Hulls& x, difference_simplex& at, vec3<typename Hulls::number> (&w)[4]) {
     using number = typename Hulls::number;
-    vec3<number> w[4];
     if (at.count == 0) at.append(0, 0);
     for (int k = 0; k < at.count; ++k) w[k] = x.difference(at.a[k], at.b[k]);
     unsigned needed = 0;
     for (int step = 0; step < Hulls::most_steps; ++step) {
         nearest_feature<number> nearest;
         const nearest_to found = nearest.find(w, at.count, needed);
-        if (found == nearest_to::origin) return x.holds_origin(w, at);
-        if (found == nearest_to::nothing) return x.when_lost(at);
+        if (found == nearest_to::nothing) break;
         const difference_simplex before = at;
-        at.count = 0;
-        for (int k = 0; k < before.count; ++k) {
-            if ((nearest.corners >> k & 1) == 0) continue;
-            if (at.count != k) w[at.count] = w[k];
-            at.append(before.a[k], before.b[k]);
+        if (nearest.corners < 1u << at.count) {
+            at.count = 0;
+            for (int k = 0; k < before.count; ++k) {
+                if ((nearest.corners >> k & 1) == 0) continue;
+                if (at.count != k) w[at.count] = w[k];
+                at.append(before.a[k], before.b[k]);
+            }
         }
+        if (found == nearest_to::origin) return x.holds_origin(w, at);
         std::uint32_t i = 0, j = 0;
-        if (x.are_apart(nearest.way, i, j)) return verdict::no;
-        if (before.has(i, j)) return x.when_lost(before);
+        x.look_back(nearest.way, i, j);
+        if constexpr (What == sought::meeting) {
+            if (x.are_apart(nearest.way, i, j)) return verdict::no;
+        }
+        if (before.has(i, j)) break;
+        const vec3<number> next = x.difference(i, j);
+        if constexpr (What == sought::nearest) {
+            if (sign_of_dot(nearest.way, next - w[0]) >= 0) return verdict::no;
+        }
         needed = 1u << at.count;
-        w[at.count] = x.difference(i, j);
+        w[at.count] = next;
         at.append(i, j);
     }
     return x.when_lost(at);

@@ -2,261 +2,22 @@
 #pragma once
 
 // Does a convex hull touch another, or a point, a segment, a triangle or a solid box, which are hulls of their corners? The
-// search of gjk.hpp, in three kinds of numbers: in the input's type (`fast`), in double with certificates (`filtered`), and in
-// integers of as many limbs as the input needs. The last begins where the one in double ended, so that it mostly has to
-// confirm.
-//
-// Why the certificates hold. u = 2^-52, so that every bound holds in each rounding mode, with and without contraction.
-//
-// Apart. Points are seen from the first point of a; r are the true ones and M the largest magnitude of a coordinate. A
-// computed coordinate is within u of itself, so a computed g . r is within 5u |g| M, with the sum of magnitudes |g|, and the
-// difference of a least and a greatest one within 12u |g| M. The code takes 16u.
-//
-// Touching. The origin is inside of a tetrahedron of differences if the four determinants of three of them, with alternating
-// signs, are all positive or all negative. A computed one is within 8u of the sum of its products' magnitudes; the code takes
-// 16u. And two equal points touch.
-//
-// Underflow: a float that is read as 0 is off by less than 2^-126, and so a difference by less than 2^-125; products lose
-// less than 2^-1020. Overflow makes a comparison false, since what may overflow is compared with 2^1000 first.
+// search of gjk.hpp in the numbers of hull_numbers.hpp.
 
-#include <concepts>
-#include <cstddef>
-#include <cstdint>
-
-#include <abut/arithmetic/align.hpp>
 #include <abut/arithmetic/arithmetic.hpp>
-#include <abut/arithmetic/limits.hpp>
-#include <abut/arithmetic/magnitude.hpp>
-#include <abut/arithmetic/rolled_int.hpp>
-#include <abut/predicate/certified_ball.hpp>
 #include <abut/predicate/gjk.hpp>
+#include <abut/predicate/hull_numbers.hpp>
 #include <abut/shape/hull.hpp>
-#include <abut/shape/primitive.hpp>
 
 namespace abut {
 
 namespace detail {
 
-/// Points whose hull a shape is, where they are at hand.
-template <scalar T, int N>
-struct hull_points {
-    vec3<T> at[std::size_t{N}];
-    ABUT_HD constexpr hull<T> as_hull() const { return {at, std::size_t{N}}; }
-};
-template <scalar T>
-struct hull_points<T, 0> {
-    const hull<T>& of;
-    ABUT_HD constexpr const hull<T>& as_hull() const { return of; }
-};
-
-template <scalar T>
-ABUT_HD constexpr hull_points<T, 0> points_of(const hull<T>& h) {
-    return {h};
-}
-template <scalar T>
-ABUT_HD constexpr hull_points<T, 1> points_of(const vec3<T>& p) {
-    return {{p}};
-}
-template <scalar T>
-ABUT_HD constexpr hull_points<T, 2> points_of(const segment<T>& s) {
-    return {{s.a, s.b}};
-}
-template <scalar T>
-ABUT_HD constexpr hull_points<T, 3> points_of(const triangle<T>& t) {
-    return {{t.a, t.b, t.c}};
-}
-template <scalar T>
-ABUT_HD constexpr hull_points<T, 8> points_of(const aabb<T>& box) {
-    const vec3<T>&l = box.lower, &u = box.upper;
-    return {{l, {u.x, l.y, l.z}, {l.x, u.y, l.z}, {u.x, u.y, l.z}, {l.x, l.y, u.z}, {u.x, l.y, u.z}, {l.x, u.y, u.z}, u}};
-}
-
-/// Shapes that are hulls of points, of the scalar type T.
-template <class S, class T>
-concept made_of_points = std::same_as<scalar_type_of<S>, T> && requires(const S& s) { points_of(s).as_hull(); };
-
-/// Two hulls in numbers of type F: the input's own, for `fast`, or double with the certificates above.
 template <bool Certified, scalar T>
-class hulls_in_floats {
-public:
-    using number = std::conditional_t<Certified, double, T>;
-    static constexpr int most_steps = 64;
-
-    ABUT_HD constexpr hulls_in_floats(const hull<T>& a, const hull<T>& b) : a_(a), b_(b), origin_(a[0]) {
-        if constexpr (Certified) {
-            for (std::size_t i = 1; i < a.count; ++i) include(seen(a[i], origin_));
-            for (std::size_t j = 0; j < b.count; ++j) include(seen(b[j], origin_));
-        }
-    }
-    [[nodiscard]] ABUT_HD constexpr vec3<number> difference(std::uint32_t i, std::uint32_t j) const {
-        return seen(a_[i], b_[j]);
-    }
-    ABUT_HD constexpr bool are_apart(const vec3<number>& way, std::uint32_t& i, std::uint32_t& j) const {
-        number back = infinity<number>, front = -infinity<number>;
-        for (std::size_t k = 0; k < a_.count; ++k) {
-            const number x = dot(way, seen(a_[k], origin_));
-            if (x < back) back = x, i = static_cast<std::uint32_t>(k);
-        }
-        for (std::size_t k = 0; k < b_.count; ++k) {
-            const number x = dot(way, seen(b_[k], origin_));
-            if (x > front) front = x, j = static_cast<std::uint32_t>(k);
-        }
-        if constexpr (Certified) {
-            const double length = magnitudes(way), reach = length * size_;
-            return reach < 0x1p1000 && back - front > 0x1p-48 * reach + (tiny * length + 0x1p-1000);
-        } else {
-            return back > front;
-        }
-    }
-    ABUT_HD constexpr verdict holds_origin(const vec3<number> (&w)[4], const difference_simplex& at) const {
-        if constexpr (!Certified) {
-            return verdict::yes;
-        } else {
-            if (at.count == 4) {
-                const int side = side_of(w[1], w[2], w[3]);
-                if (side != 0 && side_of(w[0], w[3], w[2]) == side && side_of(w[0], w[1], w[3]) == side &&
-                    side_of(w[0], w[2], w[1]) == side) {
-                    return verdict::yes;
-                }
-            }
-            return when_lost(at);
-        }
-    }
-    [[nodiscard]] ABUT_HD constexpr verdict when_lost(const difference_simplex& at) const {
-        if constexpr (!Certified) return verdict::yes;
-        bool shared = false;
-        for (int k = 0; k < at.count; ++k) shared = shared || same_bits(a_[at.a[k]], b_[at.b[k]]);
-        return shared ? verdict::yes : verdict::unknown;
-    }
-
-private:
-    /// Of what differences lose where small numbers are read as 0.
-    static constexpr double tiny = std::same_as<T, float> ? 0x1p-120 : 0x1p-1000;
-
-    ABUT_HD static constexpr vec3<number> seen(const vec3<T>& p, const vec3<T>& from) {
-        if constexpr (Certified) {
-            return relative_to(from, p);
-        } else {
-            return p - from;
-        }
-    }
-    ABUT_HD constexpr void include(const vec3<double>& r) {
-        size_ = greatest(size_, absolute(r.x), absolute(r.y), absolute(r.z));
-    }
-    ABUT_HD static constexpr bool same_bits(T x, T y) {
-        using word = typename float_format<T>::word;
-        return __builtin_bit_cast(word, x) == __builtin_bit_cast(word, y);
-    }
-    ABUT_HD static constexpr bool same_bits(const vec3<T>& p, const vec3<T>& q) {
-        return same_bits(p.x, q.x) && same_bits(p.y, q.y) && same_bits(p.z, q.z);
-    }
-    /// The sign of p . (q x r), or 0 where it is not certain.
-    ABUT_HD static constexpr int side_of(const vec3<double>& p, const vec3<double>& q, const vec3<double>& r) {
-        const vec3<double> a = absolute(p), b = absolute(q), c = absolute(r);
-        const double sum = a.x * (b.y * c.z + b.z * c.y) + a.y * (b.z * c.x + b.x * c.z) + a.z * (b.x * c.y + b.y * c.x);
-        const double length = greatest(magnitudes(p), magnitudes(q), magnitudes(r));
-        const double bound = 0x1p-48 * sum + (tiny * 0x1p4 * length * length + 0x1p-960), volume = dot(p, cross(q, r));
-        if (!(length < 0x1p300)) return 0;
-        return volume > bound ? 1 : volume < -bound ? -1 : 0;
-    }
-
-    const hull<T>&a_, &b_;
-    vec3<T> origin_;
-    double size_ = 0;
-};
-
-/// The unit of two hulls' coordinates, and how many bits the largest takes in it.
-template <scalar T>
-struct unit_of_hulls {
-    int low = 1 << 20, high = -(1 << 20);
-
-    ABUT_HD constexpr unit_of_hulls(const hull<T>& a, const hull<T>& b) {
-        include(a);
-        include(b);
-    }
-    [[nodiscard]] ABUT_HD constexpr int width() const { return high > low ? high - low : 1; }
-
-private:
-    ABUT_HD constexpr void include(const hull<T>& h) {
-        ABUT_ROLLED
-        for (std::size_t i = 0; i < h.count; ++i) {
-            const vec3<T> p = h[i];
-            include(p.x);
-            include(p.y);
-            include(p.z);
-        }
-    }
-    ABUT_HD constexpr void include(T x) {
-        const binary_parts p = take_apart(x);
-        if (p.mantissa == 0) return;
-        low = p.exponent < low ? p.exponent : low;
-        high = p.exponent + p.bits > high ? p.exponent + p.bits : high;
-    }
-};
-
-/// Bits beside those of a coordinate that differences of differences, a sign and sums of their products take.
-inline constexpr int spare_bits = 4;
-
-/// Two hulls in integers, whose differences have no more than `Room` limbs. With coordinates below 2^w a difference of
-/// differences is below 2^(w + 2), and sums of products of d of them below 2^(d (w + 2) + d): so w + 4 bits for each factor
-/// leave room for the sum and its sign.
-template <int Room, scalar T>
-class hulls_in_integers {
-public:
-    using number = rolled_int<Room>;
-    static constexpr int most_steps = 0x7fffffff;  // it ends
-
-    ABUT_HD constexpr hulls_in_integers(const hull<T>& a, const hull<T>& b, const unit_of_hulls<T>& unit)
-        : a_(a), b_(b), low_(unit.low), limbs_((unit.width() + spare_bits + 63) / 64) {}
-
-    [[nodiscard]] ABUT_HD constexpr vec3<number> difference(std::uint32_t i, std::uint32_t j) const {
-        return between(b_[j], a_[i]);
-    }
-    ABUT_HD constexpr bool are_apart(const vec3<rolled_int<3 * Room>>& way, std::uint32_t& i, std::uint32_t& j) const {
-        i = farthest(a_, way, -1);
-        j = farthest(b_, way, 1);
-        return sign_of_dot(way, difference(i, j)) > 0;
-    }
-    ABUT_HD constexpr verdict holds_origin(const vec3<number> (&)[4], const difference_simplex&) const { return verdict::yes; }
-    [[nodiscard]] ABUT_HD constexpr verdict when_lost(const difference_simplex&) const { return verdict::unknown; }
-
-private:
-    ABUT_HD constexpr number between(T from, T to) const {
-        number r;
-        r.begin(limbs_);
-        const binary_parts p = take_apart(to), q = take_apart(from);
-        if (p.mantissa != 0) add_shifted(r.limb, limbs_, p.mantissa, p.exponent - low_, false);
-        if (q.mantissa != 0) add_shifted(r.limb, limbs_, q.mantissa, q.exponent - low_, true);
-        return r;
-    }
-    ABUT_HD constexpr vec3<number> between(const vec3<T>& from, const vec3<T>& to) const {
-        return {between(from.x, to.x), between(from.y, to.y), between(from.z, to.z)};
-    }
-    /// The first of the points that lie farthest along a way, or for a sense of -1 against it.
-    ABUT_NOINLINE ABUT_HD constexpr std::uint32_t farthest(const hull<T>& h, const vec3<rolled_int<3 * Room>>& way,
-                                                           int sense) const {
-        std::uint32_t best = 0;
-        vec3<T> at = h[0];
-        ABUT_ROLLED
-        for (std::size_t k = 1; k < h.count; ++k) {
-            const vec3<T> p = h[k];
-            if (sign_of_dot(way, between(at, p)) != sense) continue;
-            best = static_cast<std::uint32_t>(k);
-            at = p;
-        }
-        return best;
-    }
-
-    const hull<T>&a_, &b_;
-    int low_, limbs_;
-};
-
-/// Where the search in double comes to: a simplex for the one in integers to begin with. It decides nothing.
-template <scalar T>
-ABUT_NOINLINE ABUT_HD constexpr difference_simplex guess_simplex(const hull<T>& a, const hull<T>& b) {
+ABUT_NOINLINE ABUT_HD constexpr verdict decide_in_floats(const hull<T>& a, const hull<T>& b) {
     difference_simplex at;
-    if (!__builtin_is_constant_evaluated()) (void)search_origin(hulls_in_floats<true, T>(a, b), at);
-    return at;
+    vec3<typename hulls_in_floats<Certified, T>::number> w[4];
+    return search_origin<sought::meeting>(hulls_in_floats<Certified, T>(a, b), at, w);
 }
 
 /// In integers whose differences have up to `Room` limbs; `unknown` where they need more.
@@ -264,14 +25,9 @@ template <int Room, scalar T>
 ABUT_NOINLINE ABUT_HD constexpr verdict decide_in_integers(const hull<T>& a, const hull<T>& b) {
     const unit_of_hulls<T> unit(a, b);
     if (unit.width() + spare_bits > 64 * Room) return verdict::unknown;
-    difference_simplex at = guess_simplex(a, b);
-    return search_origin(hulls_in_integers<Room, T>(a, b, unit), at);
-}
-
-template <bool Certified, scalar T>
-ABUT_NOINLINE ABUT_HD constexpr verdict decide_in_floats(const hull<T>& a, const hull<T>& b) {
-    difference_simplex at;
-    return search_origin(hulls_in_floats<Certified, T>(a, b), at);
+    difference_simplex at = guess_simplex<sought::meeting>(a, b);
+    vec3<rolled_int<Room>> w[4];
+    return search_origin<sought::meeting>(hulls_in_integers<Room, T>(a, b, unit), at, w);
 }
 
 }  // namespace detail
@@ -292,10 +48,8 @@ ABUT_HD constexpr verdict decide(const hull<T>& a, const S& s) {
 /// The last stage: decides every finite input.
 template <scalar T, detail::made_of_points<T> S>
 ABUT_NOINLINE ABUT_HD constexpr bool resolve(const hull<T>& a, const S& s) {
-    using format = detail::float_format<T>;
-    constexpr int most = format::max_exponent - format::min_exponent + format::digits;
     const auto points = detail::points_of(s);
-    return detail::decide_in_integers<(most + detail::spare_bits + 63) / 64>(a, points.as_hull()) == verdict::yes;
+    return detail::decide_in_integers<detail::limbs_of_any<T>>(a, points.as_hull()) == verdict::yes;
 }
 
 }  // namespace abut

@@ -7,7 +7,9 @@
 #include <abut/arithmetic/arithmetic.hpp>
 #include <abut/predicate/aabb_triangle.hpp>
 #include <abut/predicate/capsule_triangle.hpp>
+#include <abut/predicate/capsule_hull.hpp>
 #include <abut/predicate/hull_hull.hpp>
+#include <abut/predicate/plane_hull.hpp>
 #include <abut/predicate/plane_triangle.hpp>
 #include <abut/predicate/ray_triangle.hpp>
 #include <abut/predicate/segment_triangle.hpp>

@@ -202,6 +202,8 @@ void check(const Policy& on, const V& view, const char* function) {
 }
 template <class Policy, shape S, memory_space Space>
 void check(const Policy& on, const shapes_view<S, Space>& view, const char* function) {
+    static_assert(!refers_to_memory<S> || std::same_as<Space, host_space>,
+                  "abut: hulls one by one lie in host memory; make a set, abut::hulls, which has its points with it");
     check_count(view.size(), function);
     check_array(on, view.shapes, function, name_of<S>.one);
 }

@@ -76,9 +76,6 @@ ABUT_HD constexpr bool is_valid(const hull<T>& h) {
 
 namespace detail {
 
-/// Whether a shape refers to memory that it does not hold: then a copy of it says nothing where that memory cannot be read.
-template <class S>
-inline constexpr bool refers_to_memory = false;
 template <scalar T>
 inline constexpr bool refers_to_memory<hull<T>> = true;
 

@@ -113,6 +113,14 @@ struct reach_of_box {
 
 }  // namespace detail
 
+namespace detail {
+
+/// Whether a shape refers to memory that it does not hold: then a copy of it says nothing where that memory cannot be read.
+template <class S>
+inline constexpr bool refers_to_memory = false;
+
+}  // namespace detail
+
 /// How far a shape reaches, as a prune functor (shape/reach.hpp). A shape that does not say otherwise reaches what
 /// overlaps its box.
 template <shape S>

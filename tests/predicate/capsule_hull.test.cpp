@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+#include <abut/predicate/capsule_hull.hpp>
+
+#include <abut/predicate/intersects.hpp>
+
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <vector>
+
+#include "support/catch.hpp"
+#include "support/hull_pairs.hpp"
+#include "support/hulls.hpp"
+#include "support/modes.hpp"
+#include "support/rational.hpp"
+#include "support/samples.hpp"
+
+// Spheres, capsules and planes against hulls. The oracle: hulls meet, by linear programming; or else a ball reaches a hull of
+// three of the differences of their points, each of which is decided on the Gram matrix, in unbounded integers.
+
+namespace {
+
+using namespace abut;
+
+constexpr vec3<double> wedge[4] = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}};
+constexpr hull<double> corner_of_space(wedge, 4);
+
+// Constant expressions: tangent to a corner, an edge and a face, and one step less.
+static_assert(intersects(sphere<double>{{-2, -3, -6}, 7}, corner_of_space));
+static_assert(!intersects(corner_of_space, sphere<double>{{-2, -3, -6}, 0x1.bffffffffffffp2}));
+static_assert(intersects(corner_of_space, sphere<double>{{-3, 1, -4}, 5}));
+static_assert(!intersects<exact>(corner_of_space, sphere<double>{{-3, 1, -4}, 0x1.3ffffffffffffp2}));
+static_assert(intersects(capsule<double>{{{-2, 1, 1}, {-2, 1, 9}}, 2}, corner_of_space));
+static_assert(!intersects(capsule<double>{{{-2, 1, 1}, {-2, 1, 9}}, 0x1.fffffffffffffp0}, corner_of_space));
+static_assert(intersects(capsule<double>{{{-2, 1, 1}, {9, 1, 1}}, 0}, corner_of_space));
+static_assert(intersects(plane<double>{{1, 1, 1}, 4}, corner_of_space));
+static_assert(intersects(corner_of_space, plane<double>{{1, 1, 1}, 0}));
+static_assert(!intersects(corner_of_space, plane<double>{{1, 1, 1}, -0x1p-1074}));
+static_assert(!intersects(corner_of_space, plane<double>{{1, 1, 1}, 0x1.0000000000001p2}));
+static_assert(decidable_pair<sphere<float>, hull<float>> && decidable_pair<capsule<double>, hull<double>> &&
+              !decidable_pair<capsule<double>, hull<float>>);
+
+template <scalar T>
+bool ball_reaches(const test::point_list<T>& core, T radius, const test::point_list<T>& points) {
+    if (test::oracle::hulls_intersect(core, points)) return true;
+    std::vector<T> values{radius};
+    for (const test::point_list<T>* list : {&core, &points}) {
+        for (const vec3<T>& p : *list) values.insert(values.end(), {p.x, p.y, p.z});
+    }
+    const std::vector<test::integer> v = test::to_integers(values);
+    std::vector<test::integer_point> w;
+    for (std::size_t i = 0; i < core.size(); ++i) {
+        for (std::size_t j = core.size(); j < core.size() + points.size(); ++j) {
+            w.push_back({v[3 * j + 1] - v[3 * i + 1], v[3 * j + 2] - v[3 * i + 2], v[3 * j + 3] - v[3 * i + 3]});
+        }
+    }
+    const test::integer rr = v[0] * v[0];
+    for (std::size_t i = 0; i < w.size(); ++i) {
+        for (std::size_t j = i; j < w.size(); ++j) {
+            for (std::size_t k = j; k < w.size(); ++k) {
+                if (test::hull_reaches({w[i], w[j], w[k]}, rr)) return true;
+            }
+        }
+    }
+    return false;
+}
+
+/// A radius: at random, a small whole number, 0, or as near to tangent as `fast` can tell, and a step off.
+template <scalar T>
+T draw_radius(test::draws& d, const test::point_list<T>& core, const test::point_list<T>& points) {
+    const int kind = d.below(4);
+    if (kind == 0) return T(0);
+    if (kind == 1) return static_cast<T>(d.below(6));
+    if (kind == 2) return static_cast<T>(d.uniform(0, 1));
+    T below = 0, above = 0x1p40;
+    for (int i = 0; i < 90 && below < above; ++i) {
+        const T middle = below / 2 + above / 2;
+        if (middle == below || middle == above) break;
+        const capsule<T> s{{core.front(), core.back()}, middle};
+        (intersects<fast>(s, test::hull_over(points)) ? above : below) = middle;
+    }
+    return above == 0 ? above : test::construction::moved(above, d.below(5) - 2);
+}
+
+template <scalar T>
+struct round_case {
+    test::point_list<T> core, points;
+    T radius;
+    bool truth;
+};
+
+template <scalar T>
+round_case<T> make_case(std::uint64_t seed, test::hull_family f, std::uint64_t index) {
+    auto both = test::make_hull_pair<T>(seed, f, index);
+    test::draws d(seed, 7, index);
+    both.a.resize(both.a.size() > 1 ? static_cast<std::size_t>(1 + d.below(2)) : 1);
+    if (both.b.size() > 6) both.b.resize(6);
+    round_case<T> made{both.a, both.b, T(0), false};
+    made.radius = draw_radius(d, both.a, both.b);
+    if (!(made.radius >= 0)) made.radius = 0;
+    made.truth = ball_reaches(made.core, made.radius, made.points);
+    return made;
+}
+
+constexpr test::hull_family families[] = {test::hull_family::general,  test::hull_family::far_away,  test::hull_family::lattice,
+                                          test::hull_family::flat,     test::hull_family::line,      test::hull_family::touching,
+                                          test::hull_family::step_off, test::hull_family::exponents, test::hull_family::denormal};
+
+template <scalar T, class S>
+bool is_right(const S& s, const round_case<T>& c) {
+    const hull<T> h = test::hull_over(c.points);
+    const verdict by_filter = decide<filtered>(s, h), by_limbs = decide<exact>(s, h);
+    bool right = by_filter != to_verdict(!c.truth) && by_limbs != to_verdict(!c.truth);
+    right = right && intersects(s, h) == c.truth && intersects<exact>(h, s) == c.truth && resolve(s, h) == c.truth;
+    return right && decide<fast>(s, h) != verdict::unknown;
+}
+
+template <scalar T>
+bool is_right(const round_case<T>& c) {
+    bool right = is_right(capsule<T>{{c.core.front(), c.core.back()}, c.radius}, c);
+    if (c.core.size() == 1) right = right && is_right(sphere<T>{c.core.front(), c.radius}, c);
+    return right;
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("capsule and hull: every stage is right in every family", "", float, double) {
+    std::printf("capsules and hulls, seed %llu\n| family | pairs | hits %% | filter %% | wrong |\n",
+                static_cast<unsigned long long>(test::sample_seed));
+    for (const test::hull_family f : families) {
+        std::uint64_t wrong = 0, hits = 0, filter = 0;
+        const std::uint64_t samples = test::sample_count() / 20 / (f == test::hull_family::exponents ? 4 : 1);
+        for (std::uint64_t k = 0; k < samples; ++k) {
+            const auto c = make_case<TestType>(test::sample_seed, f, k);
+            wrong += !is_right(c);
+            hits += c.truth;
+            filter += decide<filtered>(capsule<TestType>{{c.core.front(), c.core.back()}, c.radius},
+                                       test::hull_over(c.points)) != verdict::unknown;
+        }
+        const auto percent = [samples](std::uint64_t n) { return 100.0 * static_cast<double>(n) / static_cast<double>(samples); };
+        std::printf("| %s | %llu | %.1f | %.1f | %llu |\n", test::name_of(f), static_cast<unsigned long long>(samples),
+                    percent(hits), percent(filter), static_cast<unsigned long long>(wrong));
+        INFO(test::name_of(f));
+        CHECK(wrong == 0);
+        CHECK(percent(hits) > 5);
+        if (f != test::hull_family::denormal) CHECK(percent(hits) < 95);
+        if (f == test::hull_family::general) CHECK(percent(filter) > 60);
+    }
+}
+
+TEMPLATE_TEST_CASE("capsule and hull: right in every rounding mode, and where denormals are flushed", "", float, double) {
+    std::vector<round_case<TestType>> cases;
+    for (const test::hull_family f : families) {
+        for (std::uint64_t k = 0; k < 20; ++k) cases.push_back(make_case<TestType>(test::sample_seed + 2, f, k));
+    }
+    for (const test::floating_mode& mode : test::floating_modes()) {
+        std::size_t wrong = 0;
+        test::in_mode(mode, [&] {
+            for (const auto& c : cases) wrong += !is_right(c);
+        });
+        INFO(mode.name);
+        CHECK(wrong == 0);
+    }
+}
+
+TEMPLATE_TEST_CASE("plane and hull: as the heights of the points say", "", float, double) {
+    std::uint64_t wrong = 0, hits = 0, touches = 0;
+    const std::uint64_t samples = test::sample_count() / 4;
+    for (std::uint64_t k = 0; k < samples; ++k) {
+        const auto f = k % 2 == 0 ? test::hull_family::lattice : test::hull_family::general;
+        const auto both = test::make_hull_pair<TestType>(test::sample_seed, f, k);
+        const vec3<TestType>&n = both.a.front(), &on = both.b.front();
+        const plane<TestType> p{n, k % 3 == 0 ? TestType(3) : static_cast<TestType>(dot(n, on))};
+        std::vector<TestType> values{1, p.offset, n.x, n.y, n.z};
+        for (const vec3<TestType>& q : both.b) values.insert(values.end(), {q.x, q.y, q.z});
+        const std::vector<test::integer> v = test::to_integers(values);
+        bool above = false, below = false, in = false;
+        for (std::size_t i = 5; i < v.size(); i += 3) {
+            const test::integer height = v[2] * v[i] + v[3] * v[i + 1] + v[4] * v[i + 2] - v[0] * v[1];
+            above = above || height > 0, below = below || height < 0, in = in || height == 0;
+        }
+        const bool truth = in || (above && below);
+        const hull<TestType> h = test::hull_over(both.b);
+        hits += truth;
+        touches += truth && !(above && below);
+        wrong += intersects(p, h) != truth || intersects<exact>(h, p) != truth || resolve(p, h) != truth;
+        wrong += decide<fast>(p, h) == verdict::unknown;
+    }
+    CHECK(wrong == 0);
+    CHECK(hits * 10 > samples);
+    CHECK(hits * 10 < samples * 9);
+    CHECK(touches * 50 > samples);
+}
