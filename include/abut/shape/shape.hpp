@@ -41,7 +41,8 @@ template <class S>
 using scalar_type_of = typename detail::named_scalar<S>::type;
 
 /// Has `bounds(s)`: a box around all of the shape, of all space if need be. It may be larger than the shape and is never
-/// smaller: where arithmetic rounds, it rounds outward. Constant time, on hosts and devices.
+/// smaller: where arithmetic rounds, it rounds outward. On hosts and devices, in constant time, or in time that is linear in
+/// what the shape is made of.
 template <class S>
 concept boundable = scalar<scalar_type_of<S>> && requires(const S& s) {
     { bounds(s) } -> std::same_as<aabb<scalar_type_of<S>>>;
