@@ -10,6 +10,7 @@
 
 #include <abut/abut.hpp>
 
+#include "collide/distance_cases.hpp"
 #include "collide/set_cases.hpp"
 #include "support/catch.hpp"
 #include "support/poses.hpp"
@@ -55,6 +56,21 @@ std::size_t check_hulls_against(const Policy& on, const hulls<T>& a, const Set& 
     return expected.size() + placed.size();
 }
 
+/// Distances as by definition, of sets that touch and of ones that do not.
+template <class Policy, class T, class Set>
+void check_distances_of_hulls(const Policy& on, const hulls<T>& a, const Set& b) {
+    const auto there_b = copy_to(on, b);
+    const auto tree_a = make_bvh(on, copy_to(on, a));
+    for (const T beside : {T(0), T(3.25), T(400)}) {
+        rigid<T> pose;
+        pose.translation = {beside, T(0.5), T(0)};
+        const auto expected = distance_by_definition(posed_view<decltype(a.view())>{a.view(), pose}, b.view());
+        CHECK((expected->distance == 0) == (beside == 0));
+        check_same(distance(on, posed(tree_a, pose), make_bvh(on, there_b)), expected);
+        check_same(distance(on, posed(tree_a, pose), there_b), expected);
+    }
+}
+
 template <class T, class Policy>
 void check_hulls(const Policy& on) {
     constexpr std::uint64_t seed = 71;
@@ -76,6 +92,8 @@ void check_hulls(const Policy& on) {
     const auto a = random_hulls<T>(60, random, true);
     CHECK(check_hulls_against(on, a, spheres<T>(shape_maker<sphere<T>>(random, true)(60)), pose) > 100);
     CHECK(count(on, copy_to(on, a), plane<T>{{0, 0, 1}, 0}) > 20);
+    check_distances_of_hulls(on, a, random_hulls<T>(50, random, false));
+    check_distances_of_hulls(on, a, triangle_soup<T>(shape_maker<triangle<T>>(random, true)(50)));
     const auto none = hulls<T>();
     check_hulls_against(on, none, random_hulls<T>(3, random, false), pose);
 }

@@ -385,7 +385,7 @@ consteval bool can_be_apart() {
 /// equally far apart, and of those that touch, it has the one with the least id in `a`, then in `b`. It is empty where a set
 /// is, and where nothing is nearer than `options.below`.
 ///
-/// Arguments are those of `any`, of shapes of which contact_of takes pairs. Two trees are walked together, the nearest pairs
+/// Arguments are those of `any`, of shapes of which distance(s, t) takes pairs. Two trees are walked together, the nearest pairs
 /// of nodes first. Without a tree on either side each shape of one looks in the other.
 ///
 /// The same bits on every policy, for every index and any number of threads. Distances are computed in double; those that

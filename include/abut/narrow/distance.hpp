@@ -13,6 +13,7 @@
 #include <abut/arithmetic/limits.hpp>
 #include <abut/arithmetic/magnitude.hpp>
 #include <abut/narrow/contact.hpp>
+#include <abut/narrow/hull_distance.hpp>
 #include <abut/narrow/nearest_point.hpp>
 #include <abut/narrow/nearest_ways.hpp>
 #include <abut/narrow/numbers.hpp>
@@ -177,7 +178,11 @@ struct distance_and_way {
 /// Of two shapes that do not touch, rounded to double: positive, or infinite.
 template <class S, class U>
 ABUT_NOINLINE ABUT_HD constexpr distance_and_way distance_apart(const S& s, const U& t) {
-    if constexpr (requires { s.normal; }) {
+    if constexpr (measured_hulls<S, U>) {
+        return with_measured_hulls(s, t, [&](const auto& m) {
+            return distance_and_way{positive_distance(s, t, m.distance()), m.way()};
+        });
+    } else if constexpr (requires { s.normal; }) {
         return {positive_distance(s, t, measured_plane(s, t).length)};
     } else {
         const measured_pair<scalar_type_of<S>> m(s, t);
@@ -198,7 +203,12 @@ ABUT_HD constexpr T rounded_distance(double distance) {
 template <class S, class U>
 ABUT_NOINLINE ABUT_HD constexpr auto separation_apart(const S& s, const U& t) {
     using T = scalar_type_of<S>;
-    if constexpr (requires { s.normal; }) {
+    if constexpr (measured_hulls<S, U>) {
+        return with_measured_hulls(s, t, [&](const auto& m) {
+            return separation<T>{0, 0, m.point_on_a(), m.point_on_b(),
+                                 rounded_distance<T>(positive_distance(s, t, m.distance()))};
+        });
+    } else if constexpr (requires { s.normal; }) {
         const measured_plane<T> m(s, t);
         return separation<T>{0, 0, m.on_plane, m.on_triangle, rounded_distance<T>(positive_distance(s, t, m.length))};
     } else {
@@ -213,12 +223,12 @@ ABUT_HD constexpr separation<T> reversed(const separation<T>& s) {
     return {s.b, s.a, s.point_b, s.point_a, s.distance};
 }
 
-/// Whether two shapes have a distance, in either order: those that can be decided and have contacts.
 template <class S, class U>
-concept measurable = (contact_pair<S, U> && measured_in_order<S, U>) || (contact_pair<U, S> && measured_in_order<U, S>);
+inline constexpr bool measured_as_given = (contact_pair<S, U> && measured_in_order<S, U>) || measured_hulls<S, U>;
 
+/// Whether two shapes have a distance, in either order: those that can be decided and have contacts, and convex hulls.
 template <class S, class U>
-inline constexpr bool measured_as_given = contact_pair<S, U>&& measured_in_order<S, U>;
+concept measurable = measured_as_given<S, U> || measured_as_given<U, S>;
 
 /// Two shapes of which it is known whether they touch.
 template <class S, class U>
@@ -228,7 +238,12 @@ ABUT_HD constexpr auto separation_of(const S& s, const U& t, bool touch) {
         return reversed(separation_of(t, s, touch));
     } else {
         if (!touch) return separation_apart(s, t);
-        const vec3<T> shared = contact_between(s, t).point;
+        vec3<T> shared{};
+        if constexpr (measured_hulls<S, U>) {
+            shared = with_measured_hulls(s, t, [](const auto& m) { return m.shared_point(); });
+        } else {
+            shared = contact_between(s, t).point;
+        }
         return separation<T>{0, 0, shared, shared, T(0)};
     }
 }
@@ -293,9 +308,22 @@ private:
                 return gap > 0 && square > 0x1p-900 && square > dot(w, w) * least_square;
             };
             return tells(along) || tells(static_cast<double>(n) * sum_b - static_cast<double>(m) * sum_a);
+        } else if constexpr (measured_hulls<S, U>) {
+            return is_slab_between(points_of(s).as_hull(), points_of(t).as_hull(), along,
+                                   bound + (static_cast<double>(radius_around_core(s)) + static_cast<double>(radius_around_core(t))));
         } else {
             return false;
         }
+    }
+    /// The same of convex hulls, and the given vector alone.
+    template <scalar T>
+    ABUT_NOINLINE ABUT_HD static bool is_slab_between(const hull<T>& a, const hull<T>& b, const vec3<double>& along, double far) {
+        const vec3<double> back{-along.x, -along.y, -along.z};
+        const hulls_in_floats<true, T> x(a, b);
+        std::uint32_t i = 0, j = 0;
+        x.look_back(back, i, j);
+        const double gap = x.ahead(back, i, j), square = gap * gap, all = 3 * x.size() * x.size();
+        return gap > 0 && square > 0x1p-900 && square > dot(along, along) * greatest(0x1p-72 * all, (1 + 0x1p-10) * (far * far));
     }
 };
 
@@ -303,7 +331,7 @@ private:
 
 /// How far apart two closed shapes are: a `separation` with ids 0. It takes the pairs that `contact_of` takes, in either
 /// order: triangles, segments and points with triangles; spheres with triangles, segments and spheres; capsules, boxes and
-/// planes with triangles. The distance is 0 exactly where the two touch, as `intersects` decides. Otherwise it is accurate
+/// planes with triangles; and convex hulls with all of these but planes, and with each other. The distance is 0 exactly where the two touch, as `intersects` decides. Otherwise it is accurate
 /// to a few units in the last place of the shapes' farthest corners (docs/numerics.md). The same bits on every compiler and
 /// device, in constant expressions too. Shapes are finite and valid.
 ///

@@ -47,9 +47,9 @@ struct difference_simplex {
     }
 };
 
-/// A number in a longer type.
+/// A number in a longer type: one of a type that has no lengths, as it is.
 template <class N>
-    requires std::is_floating_point_v<N>
+    requires(!requires(const N& n) { n.count; })
 ABUT_HD constexpr N held_as(const N& x, const N*) {
     return x;
 }

@@ -244,10 +244,20 @@ private:
     ABUT_HD constexpr number between(T from, T to) const {
         number r;
         r.begin(limbs_);
-        const binary_parts p = take_apart(to), q = take_apart(from);
-        if (p.mantissa != 0) add_shifted(r.limb, limbs_, p.mantissa, p.exponent - low_, false);
-        if (q.mantissa != 0) add_shifted(r.limb, limbs_, q.mantissa, q.exponent - low_, true);
+        add(r, to, false);
+        add(r, from, true);
         return r;
+    }
+    /// What of x is below the unit is cut off.
+    ABUT_HD constexpr void add(number& r, T x, bool negated) const {
+        const binary_parts p = take_apart(x);
+        if (p.mantissa == 0) return;
+        const int up = p.exponent - low_;
+        if (up >= 0) {
+            add_shifted(r.limb, limbs_, p.mantissa, up, negated);
+        } else if (up > -63) {
+            add_shifted(r.limb, limbs_, p.mantissa / (std::int64_t{1} << -up), 0, negated);
+        }
     }
     ABUT_HD constexpr vec3<number> between(const vec3<T>& from, const vec3<T>& to) const {
         return {between(from.x, to.x), between(from.y, to.y), between(from.z, to.z)};

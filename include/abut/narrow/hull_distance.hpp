@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// How far apart two convex hulls are, and where: hulls of points, the shapes that are hulls of their corners, and what is within
+// a radius of these. The search of predicate/gjk.hpp for the feature of all differences that is nearest to the origin, first in
+// doubles whose operations are rounded one by one, then in integers, which confirm it. The squared distance and the weights of
+// the points that it lies between are quotients of integers; they become doubles at the end. So nothing is lost where hulls are
+// thin, or nearly parallel, and the bits are the same on every compiler and device.
+//
+// Integers of two words for each degree do, for any input: what of a coordinate is below 2^-124 of the largest one is cut off.
+// That changes a distance by less than 2^-120 of the largest coordinate, which is far below what rounding does. It may take hulls
+// that do not touch for ones that do: so nothing here decides whether they do.
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+
+#include <abut/arithmetic/error_free.hpp>
+#include <abut/arithmetic/limits.hpp>
+#include <abut/arithmetic/magnitude.hpp>
+#include <abut/arithmetic/rolled_int.hpp>
+#include <abut/narrow/nearest_point.hpp>
+#include <abut/narrow/numbers.hpp>
+#include <abut/predicate/capsule_hull.hpp>
+#include <abut/predicate/gjk.hpp>
+#include <abut/predicate/hull_numbers.hpp>
+#include <abut/shape/core.hpp>
+#include <abut/shape/hull.hpp>
+#include <abut/shape/shape.hpp>
+
+namespace abut::detail {
+
+namespace contact_math {
+
+// What the search asks of a number, in namespace of the number.
+ABUT_HD constexpr int sign(one_double x) { return (x.high > 0) - (x.high < 0); }
+ABUT_HD constexpr int sign_of_dot(const vec3<one_double>& a, const vec3<one_double>& b) { return sign(dot(a, b)); }
+
+/// value 2^exponent
+struct far_double {
+    double value;
+    int exponent;
+};
+
+/// The magnitude of an integer, in its first 64 bits.
+template <int Room>
+ABUT_HD constexpr far_double magnitude_of(rolled_int<Room> n) {
+    n.drop_sign();
+    const int bits = bits_of_limbs(n.limb, n.count);
+    if (bits == 0) return {0, 0};
+    const int cut = bits > 64 ? bits - 64 : 0, whole = cut / 64, part = cut % 64;
+    std::uint64_t top = n.limb[whole] >> part;
+    if (part != 0 && whole + 1 < n.count) top |= n.limb[whole + 1] << (64 - part);
+    return {static_cast<double>(top), cut};
+}
+
+/// x 2^e for any e.
+ABUT_HD constexpr double scaled_far(double x, int e) { return e < -2040 ? 0 : scaled(x, e > 2040 ? 2040 : e); }
+
+}  // namespace contact_math
+
+/// Two hulls in doubles whose operations are rounded one by one, in a unit in which no power of a difference overflows.
+template <scalar T>
+class hulls_in_plain_doubles {
+public:
+    using number = contact_math::one_double;
+    static constexpr int most_steps = 64;
+
+    ABUT_HD constexpr hulls_in_plain_doubles(const hull<T>& a, const hull<T>& b) : a_(a), b_(b), origin_(a[0]) {
+        double largest = 0;
+        for (std::size_t i = 0; i < a.count; ++i) largest = greatest(largest, contact_math::largest_of(widened(a[i])));
+        for (std::size_t j = 0; j < b.count; ++j) largest = greatest(largest, contact_math::largest_of(widened(b[j])));
+        if (largest > 0) down_ = -contact_math::exponent_of(largest) - 2;
+    }
+    [[nodiscard]] ABUT_HD constexpr vec3<number> difference(std::uint32_t i, std::uint32_t j) const {
+        return seen(a_[i], b_[j]);
+    }
+    ABUT_HD constexpr void look_back(const vec3<number>& way, std::uint32_t& i, std::uint32_t& j) const {
+        number back{infinity<double>}, front{-infinity<double>};
+        for (std::size_t k = 0; k < a_.count; ++k) {
+            const number x = dot(way, seen(a_[k], origin_));
+            if (x < back) back = x, i = static_cast<std::uint32_t>(k);
+        }
+        for (std::size_t k = 0; k < b_.count; ++k) {
+            const number x = dot(way, seen(b_[k], origin_));
+            if (front < x) front = x, j = static_cast<std::uint32_t>(k);
+        }
+    }
+    [[nodiscard]] ABUT_HD constexpr bool are_apart(const vec3<number>&, std::uint32_t, std::uint32_t) const { return false; }
+    ABUT_HD constexpr verdict holds_origin(const vec3<number> (&)[4], const difference_simplex&) const { return verdict::yes; }
+    [[nodiscard]] ABUT_HD constexpr verdict when_lost(const difference_simplex&) const { return verdict::unknown; }
+
+private:
+    ABUT_HD constexpr vec3<number> seen(const vec3<T>& p, const vec3<T>& from) const {
+        const vec3<double> x = contact_math::scaled(widened(p), down_), y = contact_math::scaled(widened(from), down_);
+        return contact_math::between<number>(y, x);
+    }
+
+    const hull<T>&a_, &b_;
+    vec3<T> origin_;
+    int down_ = 0;
+};
+
+/// Points of two hulls that are as near to each other as any, as means of the hulls' points, and their distance; or, where the
+/// hulls seem to touch, of one point of both, and 0.
+template <scalar T>
+struct nearest_in_hulls {
+    difference_simplex at;
+    double weight[4] = {1, 0, 0, 0};
+    double length = 0;
+
+    ABUT_NOINLINE ABUT_HD constexpr nearest_in_hulls(const hull<T>& a, const hull<T>& b) {
+        vec3<contact_math::one_double> rough[4];
+        (void)search_origin<sought::nearest>(hulls_in_plain_doubles<T>(a, b), at, rough);
+        unit_of_hulls<T> unit(a, b);
+        constexpr int most = 64 * room - spare_bits;
+        if (unit.high - unit.low > most) unit.low = unit.high - most;
+        const hulls_in_integers<room, T> x(a, b, unit);
+        vec3<number> w[4];
+        const bool meet = search_origin<sought::nearest>(x, at, w) == verdict::yes;
+        measure(w, meet, unit.low);
+    }
+    [[nodiscard]] ABUT_HD constexpr vec3<double> point_on_a(const hull<T>& a) const { return mean(a, at.a); }
+    [[nodiscard]] ABUT_HD constexpr vec3<double> point_on_b(const hull<T>& b) const { return mean(b, at.b); }
+    /// From a's point to b's: of differences, which are rounded once, and so as long as the distance wherever rounding lets it.
+    [[nodiscard]] ABUT_HD constexpr vec3<double> way(const hull<T>& a, const hull<T>& b) const {
+        vec3<double> sum{0, 0, 0};
+        for (int k = 0; k < at.count; ++k) {
+            const vec3<double> w = contact_math::plain_difference(widened(b[at.b[k]]), widened(a[at.a[k]]));
+            sum = plain_step(sum, weight[k], w);
+        }
+        return sum;
+    }
+
+private:
+    static constexpr int room = 2;
+    using number = rolled_int<room>;
+
+    ABUT_HD constexpr vec3<double> mean(const hull<T>& h, const std::uint32_t (&ids)[4]) const {
+        const vec3<double> first = widened(h[ids[0]]);
+        vec3<double> sum{0, 0, 0};
+        for (int k = 1; k < at.count; ++k) {
+            sum = plain_step(sum, weight[k], contact_math::plain_difference(widened(h[ids[k]]), first));
+        }
+        return plain_step(first, 1, sum);
+    }
+
+    ABUT_HD constexpr void measure(const vec3<number> (&w)[4], bool meet, int unit) {
+        using contact_math::magnitude_of;
+        using contact_math::far_double;
+        far_double share[4] = {{1, 0}, {0, 0}, {0, 0}, {0, 0}}, over{0, 0}, under{1, 0};
+        const vec3<number> e = w[1 < at.count ? 1 : 0] - w[0];
+        if (at.count == 1) {
+            over = magnitude_of(dot(w[0], w[0]));
+        } else if (at.count == 2) {
+            const auto moment = cross(w[0], e);
+            share[0] = magnitude_of(dot(e, w[1]));
+            share[1] = magnitude_of(dot(e, w[0]));
+            over = magnitude_of(dot(moment, moment));
+            under = magnitude_of(dot(e, e));
+        } else if (at.count == 3) {
+            const auto normal = cross(e, w[2] - w[0]);
+            const auto height = dot(normal, w[0]);
+            for (int k = 0; k < 3; ++k) {
+                const int l = k == 2 ? 0 : k + 1, m = l == 2 ? 0 : l + 1;
+                share[k] = magnitude_of(dot(normal, cross(w[l], w[m])));
+            }
+            over = magnitude_of(height * height);
+            under = magnitude_of(dot(normal, normal));
+        } else {
+            for (int k = 0; k < 4; ++k) {
+                share[k] = magnitude_of(dot(w[(k + 1) & 3], cross(w[(k + 2) & 3], w[(k + 3) & 3])));
+            }
+        }
+        weigh(share);
+        if (!meet) length = root_of_quotient(over, under, unit);
+    }
+    ABUT_HD constexpr void weigh(const contact_math::far_double (&share)[4]) {
+        int highest = -1;
+        for (int k = 0; k < at.count; ++k) {
+            if (share[k].value > 0 && share[k].exponent > highest) highest = share[k].exponent;
+        }
+        double sum = 0;
+        for (int k = 0; k < at.count; ++k) {
+            weight[k] = contact_math::scaled_far(share[k].value, share[k].exponent - highest);
+            sum = plain_sum(sum, weight[k]);
+        }
+        for (int k = 0; k < at.count; ++k) weight[k] /= sum;
+    }
+    /// The root of a quotient, times 2^unit.
+    ABUT_HD static constexpr double root_of_quotient(const contact_math::far_double& over,
+                                                     const contact_math::far_double& under, int unit) {
+        int exponent = over.exponent - under.exponent;
+        double quotient = over.value / under.value;
+        if (exponent % 2 != 0) {
+            quotient = plain_product(quotient, 2.0);
+            --exponent;
+        }
+        return contact_math::scaled_far(contact_math::root(contact_math::one_double{quotient}).high, exponent / 2 + unit);
+    }
+};
+
+/// A convex hull, and another one or a shape that is a hull of its corners, or what is within a radius of such a hull.
+template <class S, class U>
+concept measured_hulls = refers_to_memory<S> && requires(const U& t) { points_of(t); };
+
+/// Two such shapes, whose cores are hulls.
+template <scalar T>
+struct measured_hull_pair {
+    nearest_in_hulls<T> nearest;
+    double radius_a, radius_b;
+    const hull<T>&a, &b;
+
+    ABUT_HD constexpr measured_hull_pair(const hull<T>& of_a, T around_a, const hull<T>& of_b, T around_b)
+        : nearest(of_a, of_b), radius_a(static_cast<double>(around_a)), radius_b(static_cast<double>(around_b)), a(of_a),
+          b(of_b) {}
+
+    [[nodiscard]] ABUT_HD constexpr double distance() const {
+        return plain_sum(nearest.length, -plain_sum(radius_a, radius_b));
+    }
+    [[nodiscard]] ABUT_HD constexpr vec3<double> way() const { return nearest.way(a, b); }
+    [[nodiscard]] ABUT_HD constexpr vec3<T> point_on_a() const { return on_surface(nearest.point_on_a(a), radius_a); }
+    [[nodiscard]] ABUT_HD constexpr vec3<T> point_on_b() const { return on_surface(nearest.point_on_b(b), -radius_b); }
+    /// Of shapes that touch, one of which has no radius: a point of that one, which lies in both.
+    [[nodiscard]] ABUT_HD constexpr vec3<T> shared_point() const { return radius_a == 0 ? point_on_a() : point_on_b(); }
+
+private:
+    [[nodiscard]] ABUT_HD constexpr vec3<T> on_surface(vec3<double> p, double along) const {
+        if (along != 0) p = plain_step(p, along, contact_math::unit_vector(contact_math::as<contact_math::one_double>(way())));
+        return {rounded_within(p.x), rounded_within(p.y), rounded_within(p.z)};
+    }
+    [[nodiscard]] ABUT_HD static constexpr T rounded_within(double x) {
+        constexpr auto far = static_cast<double>(largest_finite<T>);
+        return x > far ? largest_finite<T> : x < -far ? -largest_finite<T> : rounded(static_cast<T>(x));
+    }
+};
+
+/// Calls f of the measured pair, whose hulls live as long as that takes.
+template <class S, class U, class F>
+ABUT_HD constexpr auto with_measured_hulls(const S& s, const U& t, const F& f) {
+    const auto points_a = points_of(s);
+    const auto points_b = points_of(t);
+    return f(measured_hull_pair<scalar_type_of<S>>(points_a.as_hull(), radius_around_core(s), points_b.as_hull(),
+                                                   radius_around_core(t)));
+}
+
+}  // namespace abut::detail

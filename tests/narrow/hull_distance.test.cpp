@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include <abut/narrow/hull_distance.hpp>
+
+#include <abut/narrow/distance.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <vector>
+
+#include "support/catch.hpp"
+#include "support/contact_oracles.hpp"
+#include "support/hull_pairs.hpp"
+#include "support/samples.hpp"
+
+// The distance of convex hulls against the definition, in 300 bits: hulls that do not meet are nearest to each other at a feature of
+// their differences, which is one of them, a line between two, or a triangle of three. All are tried.
+
+namespace {
+
+using namespace abut;
+using test::wide;
+using test::wide_point;
+
+constexpr vec3<double> slab[8] = {{0, 0, 0}, {8, 0, 0}, {0, 8, 0}, {8, 8, 0}, {0, 0, 1}, {8, 0, 1}, {0, 8, 1}, {8, 8, 1}};
+constexpr vec3<double> spike[4] = {{4, 4, 5}, {3, 3, 9}, {5, 3, 9}, {4, 9, 9}};
+constexpr auto apart = distance(hull<double>(slab, 8), hull<double>(spike, 4));
+static_assert(apart.distance == 4 && apart.point_a == vec3<double>{4, 4, 1} && apart.point_b == vec3<double>{4, 4, 5});
+static_assert(distance(sphere<double>{{-3, -4, 0.5}, 2}, hull<double>(slab, 8)).distance == 3);
+static_assert(distance(hull<double>(slab, 8), vec3<double>{4, 4, 0.5}).distance == 0);
+
+wide squared_distance(const std::vector<wide_point>& w) {
+    wide least = -1;
+    const auto offer = [&](const wide_point& q) {
+        const wide square = dot(q, q);
+        if (least < 0 || square < least) least = square;
+    };
+    for (std::size_t i = 0; i < w.size(); ++i) {
+        offer(w[i]);
+        for (std::size_t j = i + 1; j < w.size(); ++j) {
+            const wide_point e = w[j] - w[i];
+            const wide ee = dot(e, e), s = -dot(e, w[i]);
+            if (s > 0 && s < ee) offer(w[i] + (s / ee) * e);
+            for (std::size_t k = j + 1; k < w.size(); ++k) {
+                const wide_point f = w[k] - w[i];
+                const wide ff = dot(f, f), ef = dot(e, f), t = -dot(f, w[i]), d = ee * ff - ef * ef;
+                if (!(d > 0)) continue;
+                const wide u = (s * ff - t * ef) / d, v = (t * ee - s * ef) / d;
+                if (u > 0 && v > 0 && u + v < 1) offer(w[i] + u * e + v * f);
+            }
+        }
+    }
+    return least;
+}
+
+template <scalar T>
+std::vector<wide_point> differences(const test::point_list<T>& a, const test::point_list<T>& b) {
+    std::vector<wide_point> w;
+    for (const vec3<T>& p : a) {
+        for (const vec3<T>& q : b) w.push_back(test::widest(q) - test::widest(p));
+    }
+    return w;
+}
+
+struct tally {
+    std::uint64_t pairs = 0, touching = 0;
+    double distance = 0, point = 0;  ///< the worst ones, less the last rounding to T, in units of 2^-53 D (docs/numerics.md)
+};
+
+template <scalar T>
+wide rounding_of(const vec3<T>& p) {
+    const wide_point q = test::widest(p);
+    return wide(unit_roundoff<T>) * (abs(q.x) + abs(q.y) + abs(q.z)) + 4 * wide(test::construction::least_denormal<T>);
+}
+
+template <scalar T>
+const char* wrong_with(const separation<T>& found, const test::point_list<T>& a, const test::point_list<T>& b, T radius_a,
+                       bool touch, tally& sum) {
+    wide farthest = 0;
+    for (const wide_point& way : differences(a, b)) farthest = std::max(farthest, test::length_of(way));
+    const wide unit = (farthest + wide(radius_a)) * wide(0x1p-53) + wide(test::construction::least_denormal<T>);
+    ++sum.pairs;
+    sum.touching += touch;
+    if (touch != (found.distance == 0)) return "it is 0 where they do not touch, or is not where they do";
+    // How far the points are from their hulls.
+    const auto off = [&](const vec3<T>& p, const test::point_list<T>& points, T radius) {
+        // The differences of a hull that p is in have no nearest feature; then a corner of them is not behind.
+        if (intersects(hull<T>(points.data(), points.size()), p)) return wide(0);
+        const wide d = sqrt(squared_distance(differences<T>({p}, points))) - wide(radius);
+        return d > 0 ? d : wide(0);
+    };
+    const wide in_a = rounding_of(found.point_a), in_b = rounding_of(found.point_b);
+    const wide off_points = std::max<wide>(off(found.point_a, a, radius_a) - in_a, off(found.point_b, b, T(0)) - in_b);
+    sum.point = std::max(sum.point, static_cast<double>(off_points / unit));
+    if (touch) return found.point_a == found.point_b ? nullptr : "what touches has two points";
+    const wide truth = sqrt(squared_distance(differences(a, b))) - wide(radius_a);
+    const wide last = wide(unit_roundoff<T>) * wide(found.distance);
+    const wide error = abs(wide(found.distance) - truth) - last, way = test::length_of(test::widest(found.point_b) - test::widest(found.point_a));
+    sum.distance = std::max(sum.distance, static_cast<double>(error / unit));
+    sum.point = std::max(sum.point, static_cast<double>((abs(way - truth) - in_a - in_b) / unit));
+    return nullptr;
+}
+
+constexpr test::hull_family families[] = {test::hull_family::general,  test::hull_family::far_away, test::hull_family::lattice,
+                                          test::hull_family::flat,     test::hull_family::line,     test::hull_family::touching,
+                                          test::hull_family::step_off, test::hull_family::exponents};
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("distance of hulls: as by definition, in every family", "", float, double) {
+    using T = TestType;
+    std::printf("distances of hulls, seed %llu: errors in units of 2^-53 D\n",
+                static_cast<unsigned long long>(test::sample_seed));
+    for (const test::hull_family f : families) {
+        tally sum;
+        for (std::uint64_t k = 0; k < test::sample_count() / 80 / (f == test::hull_family::exponents ? 4 : 1); ++k) {
+            auto both = test::make_hull_pair<T>(test::sample_seed + 3, f, k);
+            if (both.a.size() > 5) both.a.resize(5);
+            if (both.b.size() > 5) both.b.resize(5);
+            const hull<T> a = test::hull_over(both.a), b = test::hull_over(both.b);
+            INFO(test::name_of(f) << " " << k);
+            const separation<T> found = distance(a, b), other = distance(b, a);
+            const char* wrong = wrong_with(found, both.a, both.b, T(0), intersects<exact>(a, b), sum);
+            if (wrong == nullptr) wrong = wrong_with(other, both.b, both.a, T(0), intersects<exact>(a, b), sum);
+            // Shapes of one and two points, with a radius.
+            const T radius = static_cast<T>(0.125);
+            const sphere<T> ball{both.a[0], radius};
+            if (wrong == nullptr) wrong = wrong_with(distance(ball, b), {both.a[0]}, both.b, radius, intersects<exact>(b, ball), sum);
+            if (both.b.size() > 2 && wrong == nullptr) {
+                const triangle<T> t{both.b[0], both.b[1], both.b[2]};
+                const separation<T> to = distance(a, t), from = distance(t, a);
+                wrong = wrong_with(to, both.a, {t.a, t.b, t.c}, T(0), intersects<exact>(a, t), sum);
+                if (!(to == separation<T>{0, 0, from.point_b, from.point_a, from.distance})) wrong = "the other order has another answer";
+            }
+            if (wrong != nullptr) FAIL_CHECK(wrong);
+        }
+        std::printf("  %s: %llu pairs, %llu touch, distance %.2f, points %.2f\n", test::name_of(f),
+                    static_cast<unsigned long long>(sum.pairs), static_cast<unsigned long long>(sum.touching), sum.distance,
+                    sum.point);
+        INFO(test::name_of(f));
+        CHECK(sum.touching * 20 > sum.pairs);
+        CHECK(sum.touching * 20 < sum.pairs * 19);
+        CHECK(sum.distance < 16);
+        CHECK(sum.point < 16);
+    }
+}
