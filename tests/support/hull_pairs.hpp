@@ -39,7 +39,7 @@ inline const char* name_of(hull_family f) {
 
 /// How many of the pairs of other families this one has: the oracle takes longer.
 inline std::uint64_t thinned_by(hull_family f) {
-    return f == hull_family::any_bits ? 40 : f == hull_family::many ? 100 : f == hull_family::exponents ? 8 : 1;
+    return f == hull_family::any_bits ? 10 : f == hull_family::many ? 100 : f == hull_family::exponents ? 8 : 1;
 }
 
 namespace construction {

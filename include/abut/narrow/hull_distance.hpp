@@ -59,7 +59,7 @@ ABUT_HD constexpr double scaled_far(double x, int e) { return e < -2040 ? 0 : sc
 
 }  // namespace contact_math
 
-/// Two hulls in doubles whose operations are rounded one by one, in a unit in which no power of a difference overflows.
+/// Two hulls in doubles whose operations are rounded one by one; where squares of squares would leave the range, in another unit.
 template <scalar T>
 class hulls_in_plain_doubles {
 public:
@@ -70,7 +70,8 @@ public:
         double largest = 0;
         for (std::size_t i = 0; i < a.count; ++i) largest = greatest(largest, contact_math::largest_of(widened(a[i])));
         for (std::size_t j = 0; j < b.count; ++j) largest = greatest(largest, contact_math::largest_of(widened(b[j])));
-        if (largest > 0) down_ = -contact_math::exponent_of(largest) - 2;
+        const bool far = std::same_as<T, double> && (largest > 0x1p200 || largest < 0x1p-200);
+        if (largest > 0 && far) down_ = -contact_math::exponent_of(largest) - 2;
     }
     [[nodiscard]] ABUT_HD constexpr vec3<number> difference(std::uint32_t i, std::uint32_t j) const {
         return seen(a_[i], b_[j]);
@@ -92,7 +93,8 @@ public:
 
 private:
     ABUT_HD constexpr vec3<number> seen(const vec3<T>& p, const vec3<T>& from) const {
-        const vec3<double> x = contact_math::scaled(widened(p), down_), y = contact_math::scaled(widened(from), down_);
+        vec3<double> x = widened(p), y = widened(from);
+        if (down_ != 0) x = contact_math::scaled(x, down_), y = contact_math::scaled(y, down_);
         return contact_math::between<number>(y, x);
     }
 
@@ -115,7 +117,7 @@ struct nearest_in_hulls {
         unit_of_hulls<T> unit(a, b);
         constexpr int most = 64 * room - spare_bits;
         if (unit.high - unit.low > most) unit.low = unit.high - most;
-        const hulls_in_integers<room, T> x(a, b, unit);
+        const hulls_in_integers<room, T, true> x(a, b, unit);
         vec3<number> w[4];
         const bool meet = search_origin<sought::nearest>(x, at, w) == verdict::yes;
         measure(w, meet, unit.low);

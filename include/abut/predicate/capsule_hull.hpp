@@ -103,13 +103,13 @@ ABUT_NOINLINE ABUT_HD constexpr bool is_feature_within(const vec3<rolled_int<Roo
     return (height * height - rr * dot(normal, normal)).sign() <= 0;
 }
 
-template <int Room, scalar T>
+template <int Room, bool Sifted, scalar T>
 ABUT_NOINLINE ABUT_HD constexpr verdict near_in_integers(const hull<T>& core, T radius, const hull<T>& h) {
     const unit_of_hulls<T> unit(core, h, radius);
     if (unit.width() + spare_bits > 64 * Room) return verdict::unknown;
     difference_simplex at = guess_simplex<sought::nearest>(core, h);
     vec3<rolled_int<Room>> w[4];
-    const hulls_in_integers<Room, T> x(core, h, unit);
+    const hulls_in_integers<Room, T, Sifted> x(core, h, unit);
     if (search_origin<sought::nearest>(x, at, w) == verdict::yes) return verdict::yes;
     return to_verdict(is_feature_within(w, at.count, x.of(radius)));
 }
@@ -131,10 +131,18 @@ template <arithmetic A, scalar T, class S>
 ABUT_HD constexpr verdict decide(const S& s, const hull<T>& h) {
     const auto core = detail::points_of(s);
     if constexpr (std::same_as<A, exact>) {
-        return detail::near_in_integers<2>(core.as_hull(), s.radius, h);
+        return detail::near_in_integers<2, false>(core.as_hull(), s.radius, h);
     } else {
         return detail::near_in_floats<std::same_as<A, filtered>>(core.as_hull(), s.radius, h);
     }
+}
+
+/// What the filter left, in integers, with points compared in double first.
+template <arithmetic A, scalar T, class S>
+    requires(std::same_as<A, filtered> && (std::same_as<S, sphere<T>> || std::same_as<S, capsule<T>>))
+ABUT_HD constexpr verdict decide_late(const S& s, const hull<T>& h) {
+    const auto core = detail::points_of(s);
+    return detail::near_in_integers<2, true>(core.as_hull(), s.radius, h);
 }
 
 /// The last stage: decides every finite input.
@@ -142,7 +150,7 @@ template <scalar T, class S>
     requires(std::same_as<S, sphere<T>> || std::same_as<S, capsule<T>>)
 ABUT_NOINLINE ABUT_HD constexpr bool resolve(const S& s, const hull<T>& h) {
     const auto core = detail::points_of(s);
-    return detail::near_in_integers<detail::limbs_of_any<T>>(core.as_hull(), s.radius, h) == verdict::yes;
+    return detail::near_in_integers<detail::limbs_of_any<T>, true>(core.as_hull(), s.radius, h) == verdict::yes;
 }
 
 }  // namespace abut

@@ -148,6 +148,7 @@ private:
 ///   holds_origin(w, at)     whether it does, of a simplex that was found to
 ///   when_lost(at)           what to say where a difference comes again, and nothing else is known
 ///   most_steps              after which it is lost too
+/// They may have way_between_middles(), a way to begin with.
 template <class H>
 concept hulls_in_numbers = requires(const H& x, const vec3<typename nearest_feature<typename H::number>::cubic>& way,
                                     std::uint32_t& i, const vec3<typename H::number> (&w)[4],
@@ -168,7 +169,17 @@ enum class sought : bool { meeting, nearest };
 template <sought What, hulls_in_numbers Hulls>
 ABUT_HD constexpr verdict search_origin(const Hulls& x, difference_simplex& at, vec3<typename Hulls::number> (&w)[4]) {
     using number = typename Hulls::number;
-    if (at.count == 0) at.append(0, 0);
+    if (at.count == 0) {
+        std::uint32_t i = 0, j = 0;
+        if constexpr (requires { x.way_between_middles(); }) {
+            const auto way = x.way_between_middles();
+            x.look_back(way, i, j);
+            if constexpr (What == sought::meeting) {
+                if (x.are_apart(way, i, j)) return verdict::no;
+            }
+        }
+        at.append(i, j);
+    }
     for (int k = 0; k < at.count; ++k) w[k] = x.difference(at.a[k], at.b[k]);
     unsigned needed = 0;
     for (int step = 0; step < Hulls::most_steps; ++step) {

@@ -21,13 +21,13 @@ ABUT_NOINLINE ABUT_HD constexpr verdict decide_in_floats(const hull<T>& a, const
 }
 
 /// In integers whose differences have up to `Room` limbs; `unknown` where they need more.
-template <int Room, scalar T>
+template <int Room, bool Sifted, scalar T>
 ABUT_NOINLINE ABUT_HD constexpr verdict decide_in_integers(const hull<T>& a, const hull<T>& b) {
     const unit_of_hulls<T> unit(a, b);
     if (unit.width() + spare_bits > 64 * Room) return verdict::unknown;
     difference_simplex at = guess_simplex<sought::meeting>(a, b);
     vec3<rolled_int<Room>> w[4];
-    return search_origin<sought::meeting>(hulls_in_integers<Room, T>(a, b, unit), at, w);
+    return search_origin<sought::meeting>(hulls_in_integers<Room, T, Sifted>(a, b, unit), at, w);
 }
 
 }  // namespace detail
@@ -39,17 +39,25 @@ ABUT_HD constexpr verdict decide(const hull<T>& a, const S& s) {
     const auto points = detail::points_of(s);
     const hull<T>& b = points.as_hull();
     if constexpr (std::same_as<A, exact>) {
-        return detail::decide_in_integers<2>(a, b);
+        return detail::decide_in_integers<2, false>(a, b);
     } else {
         return detail::decide_in_floats<std::same_as<A, filtered>>(a, b);
     }
+}
+
+/// What the filter left, in integers, with points compared in double first.
+template <arithmetic A, scalar T, detail::made_of_points<T> S>
+    requires std::same_as<A, filtered>
+ABUT_HD constexpr verdict decide_late(const hull<T>& a, const S& s) {
+    const auto points = detail::points_of(s);
+    return detail::decide_in_integers<2, true>(a, points.as_hull());
 }
 
 /// The last stage: decides every finite input.
 template <scalar T, detail::made_of_points<T> S>
 ABUT_NOINLINE ABUT_HD constexpr bool resolve(const hull<T>& a, const S& s) {
     const auto points = detail::points_of(s);
-    return detail::decide_in_integers<detail::limbs_of_any<T>>(a, points.as_hull()) == verdict::yes;
+    return detail::decide_in_integers<detail::limbs_of_any<T>, true>(a, points.as_hull()) == verdict::yes;
 }
 
 }  // namespace abut

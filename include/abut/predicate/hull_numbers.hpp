@@ -83,11 +83,10 @@ public:
     static constexpr int most_steps = 64;
 
     ABUT_HD constexpr hulls_in_floats(const hull<T>& a, const hull<T>& b) : a_(a), b_(b), origin_(a[0]) {
-        if constexpr (Certified) {
-            for (std::size_t i = 1; i < a.count; ++i) include(seen(a[i], origin_));
-            for (std::size_t j = 0; j < b.count; ++j) include(seen(b[j], origin_));
-        }
+        const vec3<number> middle_a = middle_of(a), middle_b = middle_of(b);
+        middle_way_ = middle_a - middle_b;
     }
+    [[nodiscard]] ABUT_HD constexpr vec3<number> way_between_middles() const { return middle_way_; }
     [[nodiscard]] ABUT_HD constexpr vec3<number> difference(std::uint32_t i, std::uint32_t j) const {
         return seen(a_[i], b_[j]);
     }
@@ -148,8 +147,15 @@ private:
             return p - from;
         }
     }
-    ABUT_HD constexpr void include(const vec3<double>& r) {
-        size_ = greatest(size_, absolute(r.x), absolute(r.y), absolute(r.z));
+    /// The mean of a hull's points, which on the way count for the size of all.
+    ABUT_HD constexpr vec3<number> middle_of(const hull<T>& h) {
+        vec3<number> sum{0, 0, 0};
+        for (std::size_t i = 0; i < h.count; ++i) {
+            const vec3<number> r = seen(h[i], origin_);
+            if constexpr (Certified) size_ = greatest(size_, absolute(r.x), absolute(r.y), absolute(r.z));
+            sum = sum + r;
+        }
+        return (1 / static_cast<number>(h.count)) * sum;
     }
     ABUT_HD static constexpr bool same_bits(T x, T y) {
         using word = typename float_format<T>::word;
@@ -170,6 +176,7 @@ private:
 
     const hull<T>&a_, &b_;
     vec3<T> origin_;
+    vec3<number> middle_way_{0, 0, 0};
     double size_ = 0;
 };
 
@@ -215,7 +222,10 @@ inline constexpr int limbs_of_any = (float_format<T>::max_exponent - float_forma
 /// Two hulls in integers, whose differences have no more than `Room` limbs. With coordinates below 2^w a difference of
 /// differences is below 2^(w + 2), and sums of products of d of them below 2^(d (w + 2) + d): so w + 4 bits for each factor
 /// leave room for the sum and its sign.
-template <int Room, scalar T>
+///
+/// Where they are `Sifted`, points are compared in double first, and only those that rounding leaves open in integers. The answer
+/// is the same.
+template <int Room, scalar T, bool Sifted>
 class hulls_in_integers {
 public:
     using number = rolled_int<Room>;
@@ -267,15 +277,65 @@ private:
                                                            int sense) const {
         std::uint32_t best = 0;
         vec3<T> at = h[0];
+        const rough_scan rough(at, way, sense);
+        double height = 0, off = 0;  // of the best, as far as double tells
         ABUT_ROLLED
         for (std::size_t k = 1; k < h.count; ++k) {
             const vec3<T> p = h[k];
-            if (sign_of_dot(way, between(at, p)) != sense) continue;
+            double height_p = 0, off_p = 0;
+            if constexpr (Sifted) {
+                rough.measure(p, height_p, off_p);
+                if (height_p + off_p < height - off) continue;
+            }
+            if (!(Sifted && height_p - off_p > height + off) && sign_of_dot(way, between(at, p)) != sense) continue;
             best = static_cast<std::uint32_t>(k);
             at = p;
+            height = height_p;
+            off = off_p;
         }
         return best;
     }
+    /// Heights along a way in double, as seen from a first point, and by how much they may be off: a coordinate of the way is
+    /// within u = 2^-52 of itself, one of a difference too, and so a height is within 7u of its products' magnitudes. The code
+    /// takes 16u, twice that for the rounding of what is compared. The way's largest coordinate is brought to 1, and less than
+    /// 2^-695 of it is left out. What is not a number leaves all open.
+    struct rough_scan {
+        vec3<T> first;
+        vec3<double> way{0, 0, 0};
+
+        ABUT_HD constexpr rough_scan(const vec3<T>& from, const vec3<rolled_int<3 * Room>>& along, int sense) : first(from) {
+            if constexpr (Sifted) {
+                const int top = greatest(bits_of(along.x), bits_of(along.y), bits_of(along.z));
+                way = {rounded_part(along.x, top, sense), rounded_part(along.y, top, sense), rounded_part(along.z, top, sense)};
+            }
+        }
+        ABUT_HD constexpr void measure(const vec3<T>& p, double& height, double& off) const {
+            constexpr double tiny = std::same_as<T, float> ? 0x1p-120 : 0x1p-960;
+            const vec3<double> r = relative_to(first, p);
+            height = dot(way, r);
+            off = 0x1p-48 * dot(absolute(way), absolute(r)) + (0x1p-690 * magnitudes(r) + tiny);
+            if (!(off < 0x1p900)) off = infinity<double>;
+        }
+
+    private:
+        ABUT_HD static constexpr int bits_of(rolled_int<3 * Room> n) {
+            n.drop_sign();
+            return bits_of_limbs(n.limb, n.count);
+        }
+        /// n 2^-top times the sense.
+        ABUT_HD static constexpr double rounded_part(rolled_int<3 * Room> n, int top, int sense) {
+            const int sign = n.sign() * sense;
+            n.drop_sign();
+            double sum = 0;
+            ABUT_ROLLED
+            for (int i = 0; i < n.count; ++i) {
+                const int e = 64 * i - top;
+                if (e <= -760 || n.limb[i] == 0) continue;  // a limb is below 2^(e + 64)
+                sum += static_cast<double>(n.limb[i]) * __builtin_bit_cast(double, static_cast<std::uint64_t>(e + 1023) << 52);
+            }
+            return sign < 0 ? -sum : sum;
+        }
+    };
 
     const hull<T>&a_, &b_;
     int low_, limbs_;
