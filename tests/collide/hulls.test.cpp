@@ -14,7 +14,7 @@ using namespace abut;
 
 static_assert(shape_set<hulls<float>> && shape_view<hulls_view<double>> && placeable<hull<float>>);
 
-const std::vector<vec3<float>> tetrahedra{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {5, 0, 0}, {6, 0, 0}, {5, 1, 0}, {5, 0, 1}};
+const std::vector<vec3<float>> two_tetrahedra{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {5, 0, 0}, {6, 0, 0}, {5, 1, 0}, {5, 0, 1}};
 
 }  // namespace
 
@@ -22,10 +22,10 @@ TEST_CASE("hulls: queries, serial") { test::check_hulls<float>(serial{}); }
 TEST_CASE("hulls: queries, openmp") { test::check_hulls<double>(openmp{3}); }
 
 TEST_CASE("hulls: against one shape, themselves, lists, and bodies") {
-    const hulls<float> set(tetrahedra, std::vector<std::uint32_t>{0, 4, 8});
+    const hulls<float> set(two_tetrahedra, std::vector<std::uint32_t>{0, 4, 8});
     CHECK(to_host(pairs(serial{}, set, vec3<float>{5.25f, 0.25f, 0.5f})) == std::vector<index_pair>{{1, 0}});
     CHECK(count(serial{}, set, aabb<float>{{-1, -1, -1}, {7, 7, 7}}) == 2);
-    CHECK(any(serial{}, hull<float>(tetrahedra.data(), 4), set));
+    CHECK(any(serial{}, hull<float>(two_tetrahedra.data(), 4), set));
     CHECK(count(serial{}, segment<float>{{0.25f, 0.25f, 0.25f}, {9, 0.25f, 0.25f}}, set) == 2);
     const std::vector<std::vector<vec3<float>>> lists{{{0, 0, 0}, {1, 0, 0}}, {{0.5f, -1, 0}, {0.5f, 1, 0}}, {{9, 9, 9}}};
     const hulls<float> rods(lists);

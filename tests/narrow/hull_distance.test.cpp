@@ -24,12 +24,12 @@ using test::wide_point;
 
 constexpr vec3<double> slab[8] = {{0, 0, 0}, {8, 0, 0}, {0, 8, 0}, {8, 8, 0}, {0, 0, 1}, {8, 0, 1}, {0, 8, 1}, {8, 8, 1}};
 constexpr vec3<double> spike[4] = {{4, 4, 5}, {3, 3, 9}, {5, 3, 9}, {4, 9, 9}};
-constexpr auto apart = distance(hull<double>(slab, 8), hull<double>(spike, 4));
-static_assert(apart.distance == 4 && apart.point_a == vec3<double>{4, 4, 1} && apart.point_b == vec3<double>{4, 4, 5});
+constexpr auto slab_and_spike = distance(hull<double>(slab, 8), hull<double>(spike, 4));
+static_assert(slab_and_spike.distance == 4 && slab_and_spike.point_a == vec3<double>{4, 4, 1} && slab_and_spike.point_b == vec3<double>{4, 4, 5});
 static_assert(distance(sphere<double>{{-3, -4, 0.5}, 2}, hull<double>(slab, 8)).distance == 3);
 static_assert(distance(hull<double>(slab, 8), vec3<double>{4, 4, 0.5}).distance == 0);
 
-wide squared_distance(const std::vector<wide_point>& w) {
+wide square_of_gap(const std::vector<wide_point>& w) {
     wide least = -1;
     const auto offer = [&](const wide_point& q) {
         const wide square = dot(q, q);
@@ -62,20 +62,20 @@ std::vector<wide_point> differences(const test::point_list<T>& a, const test::po
     return w;
 }
 
-struct tally {
+struct hull_distance_tally {
     std::uint64_t pairs = 0, touching = 0;
     double distance = 0, point = 0;  ///< the worst ones, less the last rounding to T, in units of 2^-53 D (docs/numerics.md)
 };
 
 template <scalar T>
-wide rounding_of(const vec3<T>& p) {
+wide hull_rounding_of(const vec3<T>& p) {
     const wide_point q = test::widest(p);
     return wide(unit_roundoff<T>) * (abs(q.x) + abs(q.y) + abs(q.z)) + 4 * wide(test::construction::least_denormal<T>);
 }
 
 template <scalar T>
-const char* wrong_with(const separation<T>& found, const test::point_list<T>& a, const test::point_list<T>& b, T radius_a,
-                       bool touch, tally& sum) {
+const char* wrong_with_hulls(const separation<T>& found, const test::point_list<T>& a, const test::point_list<T>& b, T radius_a,
+                       bool touch, hull_distance_tally& sum) {
     wide farthest = 0;
     for (const wide_point& way : differences(a, b)) farthest = std::max(farthest, test::length_of(way));
     const wide unit = (farthest + wide(radius_a)) * wide(0x1p-53) + wide(test::construction::least_denormal<T>);
@@ -86,14 +86,14 @@ const char* wrong_with(const separation<T>& found, const test::point_list<T>& a,
     const auto off = [&](const vec3<T>& p, const test::point_list<T>& points, T radius) {
         // The differences of a hull that p is in have no nearest feature; then a corner of them is not behind.
         if (intersects(hull<T>(points.data(), points.size()), p)) return wide(0);
-        const wide d = sqrt(squared_distance(differences<T>({p}, points))) - wide(radius);
+        const wide d = sqrt(square_of_gap(differences<T>({p}, points))) - wide(radius);
         return d > 0 ? d : wide(0);
     };
-    const wide in_a = rounding_of(found.point_a), in_b = rounding_of(found.point_b);
+    const wide in_a = hull_rounding_of(found.point_a), in_b = hull_rounding_of(found.point_b);
     const wide off_points = std::max<wide>(off(found.point_a, a, radius_a) - in_a, off(found.point_b, b, T(0)) - in_b);
     sum.point = std::max(sum.point, static_cast<double>(off_points / unit));
     if (touch) return found.point_a == found.point_b ? nullptr : "what touches has two points";
-    const wide truth = sqrt(squared_distance(differences(a, b))) - wide(radius_a);
+    const wide truth = sqrt(square_of_gap(differences(a, b))) - wide(radius_a);
     const wide last = wide(unit_roundoff<T>) * wide(found.distance);
     const wide error = abs(wide(found.distance) - truth) - last, way = test::length_of(test::widest(found.point_b) - test::widest(found.point_a));
     sum.distance = std::max(sum.distance, static_cast<double>(error / unit));
@@ -101,7 +101,7 @@ const char* wrong_with(const separation<T>& found, const test::point_list<T>& a,
     return nullptr;
 }
 
-constexpr test::hull_family families[] = {test::hull_family::general,  test::hull_family::far_away, test::hull_family::lattice,
+constexpr test::hull_family hull_families[] = {test::hull_family::general,  test::hull_family::far_away, test::hull_family::lattice,
                                           test::hull_family::flat,     test::hull_family::line,     test::hull_family::touching,
                                           test::hull_family::step_off, test::hull_family::exponents};
 
@@ -111,8 +111,8 @@ TEMPLATE_TEST_CASE("distance of hulls: as by definition, in every family", "", f
     using T = TestType;
     std::printf("distances of hulls, seed %llu: errors in units of 2^-53 D\n",
                 static_cast<unsigned long long>(test::sample_seed));
-    for (const test::hull_family f : families) {
-        tally sum;
+    for (const test::hull_family f : hull_families) {
+        hull_distance_tally sum;
         for (std::uint64_t k = 0; k < test::sample_count() / 80 / (f == test::hull_family::exponents ? 4 : 1); ++k) {
             auto both = test::make_hull_pair<T>(test::sample_seed + 3, f, k);
             if (both.a.size() > 5) both.a.resize(5);
@@ -120,16 +120,16 @@ TEMPLATE_TEST_CASE("distance of hulls: as by definition, in every family", "", f
             const hull<T> a = test::hull_over(both.a), b = test::hull_over(both.b);
             INFO(test::name_of(f) << " " << k);
             const separation<T> found = distance(a, b), other = distance(b, a);
-            const char* wrong = wrong_with(found, both.a, both.b, T(0), intersects<exact>(a, b), sum);
-            if (wrong == nullptr) wrong = wrong_with(other, both.b, both.a, T(0), intersects<exact>(a, b), sum);
+            const char* wrong = wrong_with_hulls(found, both.a, both.b, T(0), intersects<exact>(a, b), sum);
+            if (wrong == nullptr) wrong = wrong_with_hulls(other, both.b, both.a, T(0), intersects<exact>(a, b), sum);
             // Shapes of one and two points, with a radius.
             const T radius = static_cast<T>(0.125);
             const sphere<T> ball{both.a[0], radius};
-            if (wrong == nullptr) wrong = wrong_with(distance(ball, b), {both.a[0]}, both.b, radius, intersects<exact>(b, ball), sum);
+            if (wrong == nullptr) wrong = wrong_with_hulls(distance(ball, b), {both.a[0]}, both.b, radius, intersects<exact>(b, ball), sum);
             if (both.b.size() > 2 && wrong == nullptr) {
                 const triangle<T> t{both.b[0], both.b[1], both.b[2]};
                 const separation<T> to = distance(a, t), from = distance(t, a);
-                wrong = wrong_with(to, both.a, {t.a, t.b, t.c}, T(0), intersects<exact>(a, t), sum);
+                wrong = wrong_with_hulls(to, both.a, {t.a, t.b, t.c}, T(0), intersects<exact>(a, t), sum);
                 if (!(to == separation<T>{0, 0, from.point_b, from.point_a, from.distance})) wrong = "the other order has another answer";
             }
             if (wrong != nullptr) FAIL_CHECK(wrong);

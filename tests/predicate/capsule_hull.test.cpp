@@ -90,7 +90,7 @@ struct round_case {
 };
 
 template <scalar T>
-round_case<T> make_case(std::uint64_t seed, test::hull_family f, std::uint64_t index) {
+round_case<T> make_round_case(std::uint64_t seed, test::hull_family f, std::uint64_t index) {
     auto both = test::make_hull_pair<T>(seed, f, index);
     test::draws d(seed, 7, index);
     both.a.resize(both.a.size() > 1 ? static_cast<std::size_t>(1 + d.below(2)) : 1);
@@ -102,7 +102,7 @@ round_case<T> make_case(std::uint64_t seed, test::hull_family f, std::uint64_t i
     return made;
 }
 
-constexpr test::hull_family families[] = {test::hull_family::general,  test::hull_family::far_away,  test::hull_family::lattice,
+constexpr test::hull_family families_around[] = {test::hull_family::general,  test::hull_family::far_away,  test::hull_family::lattice,
                                           test::hull_family::flat,     test::hull_family::line,      test::hull_family::touching,
                                           test::hull_family::step_off, test::hull_family::exponents, test::hull_family::denormal};
 
@@ -127,11 +127,11 @@ bool is_right(const round_case<T>& c) {
 TEMPLATE_TEST_CASE("capsule and hull: every stage is right in every family", "", float, double) {
     std::printf("capsules and hulls, seed %llu\n| family | pairs | hits %% | filter %% | wrong |\n",
                 static_cast<unsigned long long>(test::sample_seed));
-    for (const test::hull_family f : families) {
+    for (const test::hull_family f : families_around) {
         std::uint64_t wrong = 0, hits = 0, filter = 0;
         const std::uint64_t samples = test::sample_count() / 20 / (f == test::hull_family::exponents ? 4 : 1);
         for (std::uint64_t k = 0; k < samples; ++k) {
-            const auto c = make_case<TestType>(test::sample_seed, f, k);
+            const auto c = make_round_case<TestType>(test::sample_seed, f, k);
             wrong += !is_right(c);
             hits += c.truth;
             filter += decide<filtered>(capsule<TestType>{{c.core.front(), c.core.back()}, c.radius},
@@ -150,8 +150,8 @@ TEMPLATE_TEST_CASE("capsule and hull: every stage is right in every family", "",
 
 TEMPLATE_TEST_CASE("capsule and hull: right in every rounding mode, and where denormals are flushed", "", float, double) {
     std::vector<round_case<TestType>> cases;
-    for (const test::hull_family f : families) {
-        for (std::uint64_t k = 0; k < 20; ++k) cases.push_back(make_case<TestType>(test::sample_seed + 2, f, k));
+    for (const test::hull_family f : families_around) {
+        for (std::uint64_t k = 0; k < 20; ++k) cases.push_back(make_round_case<TestType>(test::sample_seed + 2, f, k));
     }
     for (const test::floating_mode& mode : test::floating_modes()) {
         std::size_t wrong = 0;

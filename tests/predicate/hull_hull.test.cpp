@@ -51,7 +51,7 @@ struct hull_tally {
 
 /// Hull b, and the other shapes that are hulls of as many points.
 template <scalar T>
-void examine(const test::hull_pair<T>& both, std::uint64_t index, hull_tally& sum) {
+void examine_hulls(const test::hull_pair<T>& both, std::uint64_t index, hull_tally& sum) {
     const hull<T> a = test::hull_over(both.a), b = test::hull_over(both.b);
     const bool truth = test::oracle::hulls_intersect(both.a, both.b);
     const verdict by_filter = decide<filtered>(a, b), by_limbs = decide<exact>(a, b);
@@ -72,10 +72,10 @@ void examine(const test::hull_pair<T>& both, std::uint64_t index, hull_tally& su
 }
 
 template <scalar T>
-hull_tally examine_family(test::hull_family f) {
+hull_tally examine_hull_family(test::hull_family f) {
     const std::uint64_t samples = test::sample_count() / test::thinned_by(f) + 20;
     return test::in_threads<hull_tally>(samples, [&](std::uint64_t first, std::uint64_t last, hull_tally& sum) {
-        for (std::uint64_t k = first; k < last; ++k) examine(test::make_hull_pair<T>(test::sample_seed, f, k), k, sum);
+        for (std::uint64_t k = first; k < last; ++k) examine_hulls(test::make_hull_pair<T>(test::sample_seed, f, k), k, sum);
     });
 }
 
@@ -86,7 +86,7 @@ TEMPLATE_TEST_CASE("hull and hull: every stage is right in every family", "", fl
                 static_cast<unsigned long long>(test::sample_seed), sizeof(TestType) == 4 ? "float" : "double");
     for (int i = 0; i < test::hull_family_count; ++i) {
         const auto f = static_cast<test::hull_family>(i);
-        const hull_tally t = examine_family<TestType>(f);
+        const hull_tally t = examine_hull_family<TestType>(f);
         const auto percent = [&t](std::uint64_t n) { return 100.0 * static_cast<double>(n) / static_cast<double>(t.pairs); };
         std::printf("| %s | %llu | %.1f | %.2f | %.2f | %.2f | %llu |\n", test::name_of(f),
                     static_cast<unsigned long long>(t.pairs), percent(t.hits), percent(t.fast_wrong), percent(t.filter),
