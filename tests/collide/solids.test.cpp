@@ -90,6 +90,35 @@ TEST_CASE("queries: posed capsules, and boxes and planes that stay where they ar
     CHECK(met == standing.size());
 }
 
+TEST_CASE("queries: boxes and a plane within a distance") {
+    const openmp on{.threads = 2};
+    test::uniform random(105);
+    const boxes<float> crates(test::shape_maker<aabb<float>>(random, true)(120));
+    const capsules<float> rods(test::shape_maker<capsule<float>>(random, true)(120));
+    const triangle_soup<float> soup(test::shape_maker<triangle<float>>(random, true)(120));
+    const auto check = [&](const auto& b) {
+        std::vector<index_pair> expected;
+        for (std::uint32_t i = 0; i < crates.size(); ++i) {
+            for (std::uint32_t j = 0; j < b.size(); ++j) {
+                if (within<exact>(crates.view()[i], b.view()[j], 0.25)) expected.push_back({i, j});
+            }
+        }
+        CHECK(expected.size() > count(on, crates, b));
+        CHECK(expected.size() * 2 < crates.size() * b.size());
+        CHECK(to_host(within(on, make_bvh(on, crates), make_bvh(on, b), 0.25)) == expected);
+        CHECK(to_host(within(on, crates, b, 0.25)) == expected);
+    };
+    check(rods);
+    check(soup);
+    const plane<float> ground{{0, 0, 2}, 0.25f};
+    std::size_t near = 0;
+    for (std::uint32_t i = 0; i < crates.size(); ++i) near += within<exact>(crates.view()[i], ground, 0.25);
+    CHECK(near > count(on, crates, ground));
+    CHECK(near < crates.size());
+    CHECK(count_within(on, make_bvh(on, crates), ground, 0.25) == near);
+    CHECK(count_self_within(on, make_bvh(on, crates), 0.25) > count_self_pairs(on, crates));
+}
+
 TEST_CASE("queries: lists of capsules with spheres, segments and a mesh") {
     test::uniform random(104);
     const capsules<float> rods(test::shape_maker<capsule<float>>(random, true)(120));

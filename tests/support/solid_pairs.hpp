@@ -109,21 +109,6 @@ bool plane_and_points(const plane<T>& p, const std::vector<vec3<T>>& points, con
     return below && above;
 }
 
-template <class S>
-std::vector<vec3<scalar_type_of<S>>> corners_of(const S& s) {
-    const auto core = detail::core_of(s);
-    if constexpr (std::same_as<std::remove_cvref_t<decltype(core)>, aabb<scalar_type_of<S>>>) {
-        std::vector<vec3<scalar_type_of<S>>> corners;
-        for (int i = 0; i < 8; ++i) {
-            corners.push_back({i % 2 == 0 ? s.lower.x : s.upper.x, i / 2 % 2 == 0 ? s.lower.y : s.upper.y,
-                               i / 4 == 0 ? s.lower.z : s.upper.z});
-        }
-        return corners;
-    } else {
-        return {std::begin(core.at), std::end(core.at)};
-    }
-}
-
 /// Whether two shapes are no farther apart than a distance.
 ///@{
 template <class S, class U>
@@ -156,6 +141,10 @@ bool within_distance(const aabb<T>& a, const aabb<T>& b, double distance) {
     }
     return square <= v[12] * v[12];
 }
+template <scalar T>
+bool within_distance(const aabb<T>& box, const triangle<T>& t, double distance) {
+    return intersects(box, t) || exact_gap(box, t).compared_with(distance) <= 0;
+}
 template <scalar T, class S>
 bool within_distance(const plane<T>& p, const S& s, double distance) {
     return plane_and_points(p, corners_of(s), {static_cast<double>(detail::radius_around_core(s)), distance});
@@ -187,8 +176,10 @@ bool planes_meet(const plane<T>& p, const plane<T>& q) {
 // --- the families
 // ----------------------------------------------------------------------------------------------------------
 
-/// What breaks what: as in shape_families.hpp. In the families of contact both shapes have one point in common, on a
-/// lattice, and a plane between them; one number of one of them may then be moved by a step.
+/// What breaks what: as in shape_families.hpp. Near contact: in general position, with the least radius that lets the shapes
+/// touch, or a step more or less; without a radius, planes and boxes that just reach the other shape. In the families of
+/// contact both shapes have one point in common, on a lattice, and a plane between them; one number of one of them may then
+/// be moved by a step.
 enum class solid_family : int {
     random,
     offset_1e6,
@@ -204,15 +195,16 @@ enum class solid_family : int {
     contact,
     contact_far_off,
     contact_any_scale,
+    near_contact,
 };
-inline constexpr int solid_family_count = 14;
+inline constexpr int solid_family_count = 15;
 
 /// On the host only.
 inline const char* name_of(solid_family f) {
-    constexpr const char* names[solid_family_count] = {"random",           "offset 1e6",        "any size",   "lattice 4",
-                                                       "lattice 16",       "0.1 lattice 4",     "denormal",   "largest",
-                                                       "mixed exponents",  "all bit patterns",  "degenerate", "contact",
-                                                       "contact, far off", "contact, any scale"};
+    constexpr const char* names[solid_family_count] = {"random",           "offset 1e6",         "any size",    "lattice 4",
+                                                       "lattice 16",       "0.1 lattice 4",      "denormal",    "largest",
+                                                       "mixed exponents",  "all bit patterns",   "degenerate",  "contact",
+                                                       "contact, far off", "contact, any scale", "near contact"};
     return names[static_cast<int>(f)];
 }
 
@@ -242,6 +234,8 @@ S of_numbers(draws& d, const T (&v)[8]) {
         return p;
     } else if constexpr (std::same_as<S, segment<T>>) {
         return {p, q};
+    } else if constexpr (std::same_as<S, triangle<T>>) {
+        return {p, q, {v[6], v[7], v[kind]}};
     } else if constexpr (std::same_as<S, aabb<T>>) {
         return box_of(p, q);
     } else if constexpr (std::same_as<S, sphere<T>>) {
@@ -291,6 +285,7 @@ S any_solid(draws& d, solid_family f) {
         // Without a length, a radius, an extent in some directions, or a normal.
         const int kind = d.below(4);
         if constexpr (std::same_as<S, segment<T>>) s.b = kind < 3 ? s.a : s.b;
+        if constexpr (std::same_as<S, triangle<T>>) collapse(d, s);
         if constexpr (std::same_as<S, capsule<T>>) s.axis.b = kind < 2 ? s.axis.a : s.axis.b;
         if constexpr (requires { s.radius; }) s.radius = kind == 1 || kind == 2 ? T(0) : s.radius;
         if constexpr (std::same_as<S, aabb<T>>) {
@@ -351,6 +346,9 @@ S touching_from(draws& d, const contact_frame& f, int side) {
         return moved_by(0, 0, 0);
     } else if constexpr (std::same_as<S, segment<T>>) {
         return axis_at(0);
+    } else if constexpr (std::same_as<S, triangle<T>>) {
+        const segment<T> axis = axis_at(0);
+        return {axis.a, axis.b, moved_by(away, j, back)};
     } else if constexpr (std::same_as<S, sphere<T>>) {
         return {moved_by(up, 0, 0), static_cast<T>(up * f.length)};
     } else if constexpr (std::same_as<S, capsule<T>>) {
@@ -388,6 +386,49 @@ S scaled_shape(const S& s, T by) {
     return r;
 }
 
+/// The least number from 0 on at which it holds, or 8; it holds for all greater ones.
+template <scalar T, class Holds>
+T least_number(const Holds& holds) {
+    using word = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
+    word low = 0, high = std::bit_cast<word>(T(8));
+    while (low < high) {
+        const word middle = low + (high - low) / 2;
+        if (holds(std::bit_cast<T>(middle))) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    return std::bit_cast<T>(low);
+}
+
+/// Changes the number of one of the shapes that decides.
+template <class S, class U>
+void bring_to_contact(draws& d, S& s, U& t) {
+    using T = scalar_type_of<S>;
+    [[maybe_unused]] const auto grow = [&](auto& number, T from) {
+        number = least_number<T>([&](T x) {
+            number = from + x;
+            return oracle::within_distance(s, t, 0);
+        });
+        number = moved(from + number, d.below(3) - 1);
+    };
+    if constexpr (requires { t.radius; }) {
+        grow(t.radius, T(0));
+        t = made_valid(t);
+    } else if constexpr (requires { t.offset; }) {
+        t.offset = d.below(2) == 0 ? s.offset : t.offset;
+    } else if constexpr (requires { s.offset; }) {
+        const auto corners = corners_of(t);
+        double least = 1e9;
+        for (const auto& c : corners) least = std::fmin(least, product(widened(c), widened(s.normal)));
+        s.offset = moved(rounded_to<T>(least), d.below(3) - 1);
+    } else if constexpr (std::same_as<S, aabb<T>>) {
+        grow(s.upper.x, s.lower.x);
+        s = made_valid(s);
+    }
+}
+
 }  // namespace construction
 
 template <class S, class U>
@@ -401,7 +442,7 @@ solid_pair<S, U> make_solid_pair(std::uint64_t seed, solid_family f, std::uint64
     namespace make = construction;
     using T = scalar_type_of<S>;
     draws d(seed, 8800 + static_cast<std::uint64_t>(f), index);
-    if (f < solid_family::contact) {
+    if (f < solid_family::contact || f == solid_family::near_contact) {
         solid_pair<S, U> p{make::any_solid<S>(d, f), make::any_solid<U>(d, f)};
         const double size = f == solid_family::any_size ? d.power_of_ten(-30, 30) : 1;
         if (f == solid_family::any_size) {
@@ -420,6 +461,7 @@ solid_pair<S, U> make_solid_pair(std::uint64_t seed, solid_family f, std::uint64
             };
             p = {far_off(p.s), far_off(p.t)};
         }
+        if (f == solid_family::near_contact) make::bring_to_contact(d, p.s, p.t);
         return p;
     }
     const make::contact_frame frame = make::any_contact_frame(d, f == solid_family::contact_far_off ? 1 << 14 : 0);
@@ -434,62 +476,71 @@ solid_pair<S, U> make_solid_pair(std::uint64_t seed, solid_family f, std::uint64
     return p;
 }
 
-/// Kinds of pairs that have no triangle and no predicate of their own file's test.
+/// Calls f(shape, shape) for the pair of two kinds of shapes.
+template <class F>
+struct solid_pair_caller {
+    std::uint64_t seed;
+    solid_family family;
+    std::uint64_t index;
+    const F& f;
+
+    template <class S, class U>
+    void call() const {
+        const auto p = make_solid_pair<S, U>(seed, family, index);
+        f(p.s, p.t);
+    }
+};
+
 inline constexpr int solid_pair_kinds = 19;
 
-/// Calls f(shape, shape) for a pair of the kind. On the host only.
+/// Of all kinds of pairs that have no triangle, and no test of their own. On the host only.
 template <scalar T, class F>
 void with_solid_pair(int kind, std::uint64_t seed, solid_family family, std::uint64_t index, const F& f) {
     using point = vec3<T>;
-    const auto call = [&]<class S, class U>(S*, U*) {
-        const auto p = make_solid_pair<S, U>(seed, family, index);
-        f(p.s, p.t);
-    };
-    constexpr point* a_point = nullptr;
-    constexpr segment<T>* a_segment = nullptr;
-    constexpr sphere<T>* a_sphere = nullptr;
-    constexpr capsule<T>* a_capsule = nullptr;
-    constexpr aabb<T>* a_box = nullptr;
-    constexpr plane<T>* a_plane = nullptr;
+    const solid_pair_caller<F> with{seed, family, index, f};
     switch (kind) {
-        case 0:
-            return call(a_point, a_point);
-        case 1:
-            return call(a_point, a_segment);
-        case 2:
-            return call(a_point, a_sphere);
-        case 3:
-            return call(a_point, a_capsule);
-        case 4:
-            return call(a_box, a_point);
-        case 5:
-            return call(a_plane, a_point);
-        case 6:
-            return call(a_segment, a_segment);
-        case 7:
-            return call(a_segment, a_capsule);
-        case 8:
-            return call(a_box, a_segment);
-        case 9:
-            return call(a_plane, a_segment);
-        case 10:
-            return call(a_sphere, a_capsule);
-        case 11:
-            return call(a_box, a_sphere);
-        case 12:
-            return call(a_plane, a_sphere);
-        case 13:
-            return call(a_capsule, a_capsule);
-        case 14:
-            return call(a_box, a_capsule);
-        case 15:
-            return call(a_plane, a_capsule);
-        case 16:
-            return call(a_box, a_box);
-        case 17:
-            return call(a_plane, a_box);
-        default:
-            return call(a_plane, a_plane);
+        case 0: return with.template call<point, point>();
+        case 1: return with.template call<point, segment<T>>();
+        case 2: return with.template call<point, sphere<T>>();
+        case 3: return with.template call<point, capsule<T>>();
+        case 4: return with.template call<aabb<T>, point>();
+        case 5: return with.template call<plane<T>, point>();
+        case 6: return with.template call<segment<T>, segment<T>>();
+        case 7: return with.template call<segment<T>, capsule<T>>();
+        case 8: return with.template call<aabb<T>, segment<T>>();
+        case 9: return with.template call<plane<T>, segment<T>>();
+        case 10: return with.template call<sphere<T>, capsule<T>>();
+        case 11: return with.template call<aabb<T>, sphere<T>>();
+        case 12: return with.template call<plane<T>, sphere<T>>();
+        case 13: return with.template call<capsule<T>, capsule<T>>();
+        case 14: return with.template call<aabb<T>, capsule<T>>();
+        case 15: return with.template call<plane<T>, capsule<T>>();
+        case 16: return with.template call<aabb<T>, aabb<T>>();
+        case 17: return with.template call<plane<T>, aabb<T>>();
+        default: return with.template call<plane<T>, plane<T>>();
+    }
+}
+
+inline constexpr int within_pair_kinds = 12;
+
+/// Of all kinds of pairs that have a box or a plane, and a distance.
+template <scalar T, class F>
+void with_within_pair(int kind, std::uint64_t seed, solid_family family, std::uint64_t index, const F& f) {
+    using point = vec3<T>;
+    const solid_pair_caller<F> with{seed, family, index, f};
+    switch (kind) {
+        case 0: return with.template call<aabb<T>, triangle<T>>();
+        case 1: return with.template call<plane<T>, triangle<T>>();
+        case 2: return with.template call<aabb<T>, point>();
+        case 3: return with.template call<plane<T>, point>();
+        case 4: return with.template call<aabb<T>, segment<T>>();
+        case 5: return with.template call<plane<T>, segment<T>>();
+        case 6: return with.template call<aabb<T>, sphere<T>>();
+        case 7: return with.template call<plane<T>, sphere<T>>();
+        case 8: return with.template call<aabb<T>, capsule<T>>();
+        case 9: return with.template call<plane<T>, capsule<T>>();
+        case 10: return with.template call<aabb<T>, aabb<T>>();
+        default: return with.template call<plane<T>, aabb<T>>();
     }
 }
 

@@ -1,28 +1,51 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// `within`: are two shapes no farther apart than a distance? The distance of shapes that are hulls of up to three corners,
-// or what is within a radius of such a hull, is compared with a number that is taken as it is. The squared distance is a
-// rational of the input, and so the answer is decided exactly. Not for how far apart they are: that is distance
-// (narrow/distance.hpp), which rounds.
+// `within`: are two shapes no farther apart than a distance? The distance of shapes that are hulls of up to three corners or
+// boxes, or what is within a radius of such a hull, from each other or from a plane, is compared with a number that is taken
+// as it is. The squared distance is a rational of the input, and so the answer is decided exactly. Not for how far apart they
+// are: that is distance (narrow/distance.hpp), which rounds.
 
 #include <concepts>
 
 #include <abut/arithmetic/arithmetic.hpp>
+#include <abut/predicate/box_within.hpp>
 #include <abut/predicate/intersects.hpp>
+#include <abut/predicate/plane_core.hpp>
 #include <abut/predicate/within_stages.hpp>
 #include <abut/shape/core.hpp>
 
 namespace abut {
 
-/// Two shapes whose distance can be compared with a number: points, segments, triangles, spheres and capsules, of one
-/// scalar type.
+namespace detail {
+
+/// Shapes in the order in which their stages are written.
 template <class S, class U>
-concept distance_decidable = std::same_as<scalar_type_of<S>, scalar_type_of<U>> && detail::corners_of_core<S> > 0 &&
-                             detail::corners_of_core<U> > 0;
+concept within_as_given = std::same_as<scalar_type_of<S>, scalar_type_of<U>> && requires(const S& s, const U& t) {
+    resolve_within(s, t, 0.0);
+};
+
+/// What the first stage left, in registers; `unknown` only where the exponents of all numbers span more than 124 bits.
+template <arithmetic A, class S, class U>
+ABUT_HD constexpr verdict decide_within_open(const S& s, const U& t, double distance) {
+    if constexpr (!std::same_as<A, exact> && requires { decide_within_late<A>(s, t, distance); }) {
+        if (std::same_as<A, fast> || !__builtin_is_constant_evaluated()) {
+            const verdict v = decide_within_late<A>(s, t, distance);
+            if (std::same_as<A, fast> || v != verdict::unknown) return v;
+        }
+    }
+    return decide_within<exact>(s, t, distance);
+}
+
+}  // namespace detail
+
+/// Two shapes whose distance can be compared with a number: points, segments, triangles, spheres, capsules and boxes, each
+/// with each, and a plane with any of these; of one scalar type.
+template <class S, class U>
+concept distance_decidable = detail::within_as_given<S, U> || detail::within_as_given<U, S>;
 
 /// Whether two closed shapes are no farther apart than `distance`, which is finite and 0 or more: points, segments,
-/// triangles, spheres and capsules with each other. With `filtered` and `exact` the answer is right for every finite input,
+/// triangles, spheres, capsules and boxes with each other, and a plane with any of them. With `filtered` and `exact` the answer is right for every finite input,
 /// with the distance taken exactly as the double that it is, and the same on each compiler and device; `fast` is
 /// approximate. With distance 0 it is `intersects`. Constant expressions are decided in integers.
 ///
@@ -34,7 +57,7 @@ template <arithmetic A = filtered, class S, class U>
         static_assert(distance_decidable<S, U>,
                       "abut::within does not support this pair of shapes (both of one scalar type)");
         return false;
-    } else if constexpr (!detail::cores_in_order<S, U>) {
+    } else if constexpr (!detail::within_as_given<S, U>) {
         return within<A>(t, s, distance);
     } else {
         if (!std::same_as<A, exact> && !__builtin_is_constant_evaluated()) {

@@ -28,7 +28,7 @@ namespace detail {
 
 /// Predicates are written for the core of fewer corners first.
 template <class S, class U>
-inline constexpr bool cores_in_order = corners_of_core<S> <= corners_of_core<U>;
+concept cores_in_order = corners_of_core<S> > 0 && corners_of_core<S> <= corners_of_core<U>;
 
 /// A float as a double, also where a processor is told to read denormals as 0.
 ABUT_HD constexpr double widened_exactly(float x) {
@@ -40,6 +40,7 @@ ABUT_HD constexpr double widened_exactly(double x) { return x; }
 
 /// As exact_within.hpp expects them, in double, whatever the input's type is: the distance is one.
 template <class S, class U>
+    requires cores_in_order<S, U>
 ABUT_HD constexpr auto values_within(const S& s, const U& t, double distance) {
     const auto a = core_of(s);
     const auto b = core_of(t);
@@ -112,6 +113,7 @@ ABUT_HD constexpr bool seem_to_touch(const corner_hull<T, 2>&, const corner_hull
 
 /// The first one, in registers.
 template <arithmetic A, class S, class U>
+    requires cores_in_order<S, U>
 ABUT_HD constexpr verdict decide_within(const S& s, const U& t, double distance) {
     constexpr int n = corners_of_core<S>, m = corners_of_core<U>;
     if constexpr (std::same_as<A, exact>) {
@@ -125,26 +127,16 @@ ABUT_HD constexpr verdict decide_within(const S& s, const U& t, double distance)
 
 /// What that leaves of pairs without a point: all features, in floating point. `fast` always answers.
 template <arithmetic A, class S, class U>
+    requires(cores_in_order<S, U> && corners_of_core<S> > 1)
 ABUT_NOINLINE ABUT_HD constexpr verdict decide_within_late(const S& s, const U& t, double distance) {
     constexpr bool certified = std::same_as<A, filtered>;
     if (seem_to_touch<A>(core_of(s), core_of(t))) return verdict::yes;
     return near_by_ways(two_hulls_of<certified>(s, t, distance));
 }
 
-/// What the first stage left, in registers; `unknown` only where the exponents of all numbers span more than 124 bits.
-template <arithmetic A, class S, class U>
-ABUT_HD constexpr verdict decide_within_open(const S& s, const U& t, double distance) {
-    if constexpr (!std::same_as<A, exact> && corners_of_core<S> > 1) {
-        if (std::same_as<A, fast> || !__builtin_is_constant_evaluated()) {
-            const verdict v = decide_within_late<A>(s, t, distance);
-            if (std::same_as<A, fast> || v != verdict::unknown) return v;
-        }
-    }
-    return decide_within<exact>(s, t, distance);
-}
-
 /// The last one: decides every finite input.
 template <class S, class U>
+    requires cores_in_order<S, U>
 ABUT_NOINLINE ABUT_HD constexpr bool resolve_within(const S& s, const U& t, double distance) {
     return decide_at_any_span<hulls_within<corners_of_core<S>, corners_of_core<U>>>(values_within(s, t, distance).value);
 }

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The exact half of the question whether a box and a segment, the axis of a capsule, are no farther apart than a number. An
-// OR over pairs of features, as in exact_capsule.hpp: a nearest pair of points exists whose features have no common
-// direction. These are left:
+// The exact half of the question whether a box and a segment, the axis of a capsule, or a triangle are no farther apart than
+// a number. An OR over pairs of features, as in exact_capsule.hpp: a nearest pair of points exists whose features have no
+// common direction. These are left:
 // - an end and anything of the box: how far the end is from the box is the length of a vector of differences, degree 2;
 // - the inside of the axis and a corner: edge_in_ball, degree 4;
 // - the inside of the axis and an edge that is not parallel to it: seen along the edge that is a point, and the axis's foot
 //   must be between the edge's ends, degree 3;
 // - the inside of the axis and a face that is not parallel to it, or the box's inside: the axis goes through the box.
+// A triangle has three such axes. And it has a face, which may be near a corner of the box, face_in_ball, degree 6; or it
+// meets the box. Every other feature of the box has a direction in common with the face, or crosses it.
 // Boxes may be flat: features without extent only ask the same twice. Each yes is backed by two points.
 
 #include <cstddef>
@@ -58,14 +60,19 @@ ABUT_HD constexpr bool edge_near_axis(const vec3<N>& c, const N& upper, const ve
            sign_of_dot(vec3<difference>{a.z - upper, d.z, difference{}}, weights) <= 0;
 }
 
+/// Corner i of a box.
+template <class N>
+ABUT_HD constexpr vec3<N> box_corner(const vec3<N>& lower, const vec3<N>& upper, int i) {
+    return {(i & 1) != 0 ? upper.x : lower.x, (i & 2) != 0 ? upper.y : lower.y, (i & 4) != 0 ? upper.z : lower.z};
+}
+
 /// Degree 4. The axis from a to b.
 template <class N, class R>
 ABUT_HD constexpr bool box_near_axis(vec3<N> lower, vec3<N> upper, vec3<N> a, vec3<N> b, const R& r) {
     if (box_in_ball(lower, upper, a, r) || box_in_ball(lower, upper, b, r)) return true;
     ABUT_ROLLED
     for (int i = 0; i < 8; ++i) {
-        const vec3<N> c{(i & 1) != 0 ? upper.x : lower.x, (i & 2) != 0 ? upper.y : lower.y,
-                        (i & 4) != 0 ? upper.z : lower.z};
+        const vec3<N> c = box_corner(lower, upper, i);
         if (edge_in_ball(a - c, b - c, b - a, r)) return true;
     }
     ABUT_ROLLED
@@ -81,14 +88,35 @@ ABUT_HD constexpr bool box_near_axis(vec3<N> lower, vec3<N> upper, vec3<N> a, ve
     return axis_meets_box(lower, upper, a, b);
 }
 
-/// The box's lower and upper corner, the axis's ends, a radius and a distance.
-struct box_within_axis {
-    static constexpr int degree = 4, points = 4;
+/// The box's lower and upper corner, the ends of an axis or the corners of a triangle, a radius and a distance.
+template <int Corners>
+struct box_within_hull {
+    static constexpr int degree = Corners == 2 ? 4 : 6, points = 2 + Corners;
 
     template <class N>
-    ABUT_HD static constexpr bool holds(const N (&value)[14]) {
-        return box_near_axis(point_at(value, 0), point_at(value, 1), point_at(value, 2), point_at(value, 3),
-                             value[12] + value[13]);
+    ABUT_HD static constexpr bool holds(const N (&value)[std::size_t{8 + 3 * Corners}]) {
+        const vec3<N> lower = point_at(value, 0), upper = point_at(value, 1);
+        const auto r = value[6 + 3 * Corners] + value[7 + 3 * Corners];
+        vec3<N> a = point_at(value, 2), b = point_at(value, 3);
+        if (box_near_axis(lower, upper, a, b, r)) return true;
+        if constexpr (Corners == 3) {
+            vec3<N> c = point_at(value, 4);
+            ABUT_ROLLED
+            for (int i = 0; i < 2; ++i) {
+                rotate(a, b, c);
+                if (box_near_axis(lower, upper, a, b, r)) return true;
+            }
+            const auto normal = cross(b - a, c - b);
+            ABUT_ROLLED
+            for (int i = 0; i < 8; ++i) {
+                const vec3<N> corner = box_corner(lower, upper, i);
+                if (face_in_ball(a - corner, b - corner, c - corner, normal, r)) return true;
+            }
+            N both[15]{};
+            for (int i = 0; i < 15; ++i) both[i] = value[i];
+            return box_meets_triangle::holds(both);
+        }
+        return false;
     }
 };
 
