@@ -119,6 +119,35 @@ TEST_CASE("queries: boxes and a plane within a distance") {
     CHECK(count_self_within(on, make_bvh(on, crates), 0.25) > count_self_pairs(on, crates));
 }
 
+TEST_CASE("queries: contacts and the distance of boxes, capsules and a plane") {
+    const openmp on{.threads = 2};
+    test::uniform random(106);
+    const boxes<float> crates(test::shape_maker<aabb<float>>(random, false)(60));
+    const capsules<float> rods(test::shape_maker<capsule<float>>(random, false)(60));
+    const auto touching = to_host(pairs(on, crates, rods));
+    const auto how = to_host(contacts(on, make_bvh(on, crates), make_bvh(on, rods)));
+    CHECK(touching.size() > 20);
+    REQUIRE(how.size() == touching.size());
+    for (std::size_t i = 0; i < how.size(); ++i) {
+        contact<float> one = *contact_of(crates.view()[touching[i].a], rods.view()[touching[i].b]);
+        one.a = touching[i].a, one.b = touching[i].b;
+        CHECK(how[i] == one);
+    }
+    CHECK(distance(on, crates, rods)->distance == 0);
+    // Far away: the least of all pairs.
+    rigid<float> away;
+    away.translation = {3, 4, 0};
+    const posed_view<capsules<float>::view_type> there{rods.view(), away};
+    float least = 1e9f;
+    for (std::uint32_t i = 0; i < crates.size(); ++i) {
+        for (std::uint32_t j = 0; j < rods.size(); ++j) {
+            least = detail::least(distance(crates.view()[i], there[j]).distance, least);
+        }
+    }
+    CHECK(least > 1);
+    CHECK(distance(on, make_bvh(on, crates), posed(make_bvh(on, rods), away))->distance == least);
+}
+
 TEST_CASE("queries: lists of capsules with spheres, segments and a mesh") {
     test::uniform random(104);
     const capsules<float> rods(test::shape_maker<capsule<float>>(random, true)(120));

@@ -5,6 +5,7 @@
 // point, normal and depth are rounded, within `contact_bound`. docs/contacts.md says what they mean for each pair of shapes.
 
 #include <abut/arithmetic/arithmetic.hpp>
+#include <abut/narrow/box_contact.hpp>
 #include <abut/narrow/directions.hpp>
 #include <abut/narrow/flat_contact.hpp>
 #include <abut/narrow/round_contact.hpp>
