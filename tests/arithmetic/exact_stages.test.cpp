@@ -118,7 +118,11 @@ TEMPLATE_TEST_CASE("short_integers: the numbers, where they are integers of 59 d
 TEST_CASE("words do not overflow with as many digits as each predicate allows") {
     check_words<detail::triangle_meets_triangle, 18>();
     check_words<detail::box_meets_triangle, 15>();
+    check_words<detail::box_meets_segment, 12>();
+    check_words<detail::box_within_hull<2>, 14>();
+    check_words<detail::box_within_hull<3>, 17>();
     check_words<detail::plane_meets_triangle, 14>();
+    check_words<detail::plane_meets_corners<2, true>, 13>();
     check_words<detail::ball_meets_ball, 8>();
     check_words<detail::ball_meets_segment, 10>();
     check_words<detail::ball_meets_triangle, 13>();

@@ -119,4 +119,36 @@ void check_all_pairs_of_shapes(const Policy& on) {
     check_pair_of_shapes<sphere<T>, sphere<T>>(on, 69);
 }
 
+/// Sets of which none has triangles.
+template <class T, class Policy>
+void check_sets_without_triangles(const Policy& on) {
+    std::printf("sets without triangles: seeds 91 to 96\n");
+    check_pair_of_shapes<aabb<T>, capsule<T>>(on, 91);
+    check_pair_of_shapes<sphere<T>, aabb<T>>(on, 92);
+    check_pair_of_shapes<capsule<T>, segment<T>>(on, 93);
+    check_pair_of_shapes<plane<T>, capsule<T>>(on, 94);
+    check_pair_of_shapes<aabb<T>, aabb<T>>(on, 95);
+    check_pair_of_shapes<vec3<T>, sphere<T>>(on, 96);
+}
+
+/// The pairs within one set.
+template <class Shape, class Policy>
+void check_self_pairs_of(const Policy& on, std::uint64_t seed) {
+    CAPTURE(seed);
+    uniform random(seed);
+    for (const bool on_lattice : {false, true}) {
+        const shapes<Shape> set(shape_maker<Shape>(random, on_lattice)(200));
+        std::vector<index_pair> expected;
+        for (const index_pair& p : all_that_touch(set.view(), set.view())) {
+            if (p.a < p.b) expected.push_back(p);
+        }
+        CHECK(expected.size() > 20);
+        CHECK(expected.size() < 199 * 100);
+        const auto there = copy_to(on, set);
+        CHECK(to_host(self_pairs(on, there)) == expected);
+        CHECK(to_host(self_pairs(on, make_bvh(on, there))) == expected);
+        CHECK(count_self_pairs(on, make_grid(on, there)) == expected.size());
+    }
+}
+
 }  // namespace abut::test

@@ -4,5 +4,5 @@
 
 int main() {
     const abut::spheres<float> balls;
-    return abut::any(abut::serial{}, balls, abut::aabb<float>{{0, 0, 0}, {1, 1, 1}});
+    return abut::any(abut::serial{}, balls, abut::ray<float>{{0, 0, 0}, {1, 1, 1}});
 }

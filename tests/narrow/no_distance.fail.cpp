@@ -2,4 +2,4 @@
 // expect: abut: there is no distance of this pair of shapes
 #include <abut/narrow/distance.hpp>
 
-float gap(const abut::aabb<float>& a, const abut::aabb<float>& b) { return abut::distance(a, b).distance; }
+float gap(const abut::plane<float>& a, const abut::plane<float>& b) { return abut::distance(a, b).distance; }

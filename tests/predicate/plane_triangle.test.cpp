@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <abut/predicate/plane_triangle.hpp>
+#include <abut/predicate/plane_core.hpp>
 
 #include "predicate/shape_cases.hpp"
 

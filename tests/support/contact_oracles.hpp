@@ -309,6 +309,7 @@ const char* wrong_with_depth(const capsule<T>& s, const triangle<T>& t, const co
 
 /// Of all directions.
 template <scalar T, class U>
+    requires(!detail::pair_of_round_contact<sphere<T>, U>)
 const char* wrong_with_depth(const sphere<T>& s, const U& t, const contact<T>& c, contact_tally& tally) {
     const wide_hull h = hull_of(t);
     const wide distance = distance_from(widest(s.center), {h.corners}), least = wide(s.radius) + h.radius - distance;
@@ -327,32 +328,81 @@ const char* wrong_with_depth(const segment<T>& s, const triangle<T>& t, const co
     return wrong_with_depth(triangle<T>{s.a, s.b, s.b}, t, c, tally);
 }
 
-/// A plane and a triangle.
-template <scalar T>
-const char* wrong_with(const plane<T>& s, const triangle<T>& t, const contact<T>& c, contact_tally& tally) {
+/// The least distance of the cores, less which the radii are.
+template <class S, class U, scalar T>
+    requires detail::pair_of_round_contact<S, U>
+const char* wrong_with_depth(const S& s, const U& t, const contact<T>& c, contact_tally& tally) {
+    const wide_hull a = hull_of(s), b = hull_of(t);
+    const wide_hull flat{{b.corners.front(), b.corners.back(), b.corners.back()}};
+    const wide distance = segment_distance({{a.corners.front(), a.corners.back()}}, flat);
+    return compare_depth(c.depth, a.radius + b.radius - distance, wide(contact_bound(s, t)), tally);
+}
+/// Along the axes alone.
+template <scalar T, class U>
+    requires(std::same_as<U, aabb<T>> || std::same_as<U, vec3<T>> || std::same_as<U, segment<T>>)
+const char* wrong_with_depth(const aabb<T>& s, const U& t, const contact<T>& c, contact_tally& tally) {
+    least_of least(s, t);
+    for (const wide_point& axis : {wide_point{1, 0, 0}, wide_point{0, 1, 0}, wide_point{0, 0, 1}}) least.offer(axis);
+    return compare_depth(c.depth, least.value(), wide(contact_bound(s, t)), tally);
+}
+
+/// Of all directions: straight away; or out of the sum of the box and the axis, if they meet.
+template <scalar T, class U>
+    requires requires(const U& t) { t.radius; }
+const char* wrong_with_depth(const aabb<T>& s, const U& t, const contact<T>& c, contact_tally& tally) {
+    const wide_hull box = hull_of(s), h = hull_of(t);
+    const auto core = detail::core_of(t);
+    const segment<T> axis{core.at[0], core.at[detail::corners_of_core<U> - 1]};
+    const wide bound = wide(contact_bound(s, t));
+    const wide_hull flat{{widest(axis.a), widest(axis.b), widest(axis.b)}};
+    wide distance = std::min(distance_from(widest(axis.a), s), distance_from(widest(axis.b), s));
+    for (std::size_t i = 0; i < 8; ++i) {
+        for (std::size_t along = 1; along < 8; along *= 2) {
+            if ((i & along) != 0) continue;
+            distance = std::min(distance, segment_distance({{box.corners[i], box.corners[i | along]}}, flat));
+        }
+    }
+    const bool meet = intersects<exact>(s, axis);
+    if (!meet && distance > bound / 1000) return compare_depth(c.depth, wide(t.radius) - distance, bound, tally);
+    if (!meet) return nullptr;
+    least_of least(s, t);
+    const wide_point d = widest(axis.b) - widest(axis.a);
+    for (const wide_point& e : {wide_point{1, 0, 0}, wide_point{0, 1, 0}, wide_point{0, 0, 1}}) {
+        least.offer(e);
+        least.offer(cross(e, d));
+    }
+    return compare_depth(c.depth, least.value(), bound, tally);
+}
+
+/// A plane and another shape, whose first corner is what it has of a plane that is everything.
+template <scalar T, class U>
+const char* wrong_with(const plane<T>& s, const U& t, const contact<T>& c, contact_tally& tally) {
     ++tally.touching;
     const wide_point given = widest(s.normal), n = widest(c.normal);
     const wide length = length_of(given), bound = wide(contact_bound(s, t));
+    const wide_hull h = hull_of(t);
     if (length == 0) {
-        const bool as_said = c.point == t.a && c.normal == vec3<T>{0, 0, 1} && c.depth == largest_finite<T>;
+        const bool in_shape = distance_from(widest(c.point), t) == 0;
+        const bool as_said = in_shape && c.normal == vec3<T>{0, 0, 1} && c.depth == largest_finite<T>;
         return as_said ? nullptr : "not what is said of planes of normal 0";
     }
     const auto height = [&](const wide_point& p) -> wide { return (dot(given, p) - wide(s.offset)) / length; };
     const wide gap = std::max<wide>(distance_from(widest(c.point), t), abs(height(widest(c.point))));
-    tally.gap = std::max(tally.gap, static_cast<double>(gap / bound));
-    if (gap > bound) return "the point is off the shapes";
+    // The foot of a round shape may lie where T has no number.
+    const bool is_there = detail::contact_math::magnitude_of(c.point) < largest_finite<T>;
+    if (gap > bound && is_there) return "the point is off the shapes";
     if (abs(length_of(n) - 1) > 2 * wide(unit_roundoff<T>)) return "the normal is no unit vector";
-    const wide a = height(widest(t.a)), b = height(widest(t.b)), d = height(widest(t.c));
-    const wide above = std::max({a, b, d}), below = std::min({a, b, d});
+    if (is_there) tally.gap = std::max(tally.gap, static_cast<double>(gap / bound));
+    const wide above = (h.upper(given) - wide(s.offset)) / length, below = (h.lower(given) - wide(s.offset)) / length;
     const char* wrong = compare_depth(c.depth, std::min<wide>(above, -below), bound, tally);
     if (wrong != nullptr) return wrong;
     ++tally.moved;
-    const triangle<T> moved = moved_by(t, vec3<T>{-c.normal.x, -c.normal.y, -c.normal.z}, c.depth + contact_bound(s, t));
+    const U moved = moved_by(t, vec3<T>{-c.normal.x, -c.normal.y, -c.normal.z}, c.depth + contact_bound(s, t));
     if (is_finite_shape(moved) && intersects<exact>(s, moved)) return "the moved pair is not disjoint";
     return nullptr;
 }
-template <scalar T>
-const char* wrong_with_depth(const plane<T>&, const triangle<T>&, const contact<T>&, contact_tally&) {
+template <scalar T, class U>
+const char* wrong_with_depth(const plane<T>&, const U&, const contact<T>&, contact_tally&) {
     return nullptr;  // in wrong_with
 }
 

@@ -9,7 +9,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include <abut/shape/core.hpp>
@@ -22,13 +24,29 @@
 
 namespace abut::test {
 
+/// Of what is around which there may be a radius: a hull, or a box.
+template <class S>
+std::vector<vec3<scalar_type_of<S>>> corners_of(const S& s) {
+    const auto core = detail::core_of(s);
+    if constexpr (std::same_as<std::remove_cvref_t<decltype(core)>, aabb<scalar_type_of<S>>>) {
+        std::vector<vec3<scalar_type_of<S>>> corners;
+        for (int i = 0; i < 8; ++i) {
+            corners.push_back({i % 2 == 0 ? s.lower.x : s.upper.x, i / 2 % 2 == 0 ? s.lower.y : s.upper.y,
+                               i / 4 == 0 ? s.lower.z : s.upper.z});
+        }
+        return corners;
+    } else {
+        return {std::begin(core.at), std::end(core.at)};
+    }
+}
+
 /// The distance of two shapes, less their radii, in a unit of 2^-shift.
 class exact_gap {
 public:
     template <class S, class U>
     exact_gap(const S& s, const U& t) {
-        const auto a = detail::core_of(s);
-        const auto b = detail::core_of(t);
+        const auto a = corners_of(s);
+        const auto b = corners_of(t);
         std::vector<double> values;
         const auto add = [&values](const auto& corners) {
             for (const auto& p : corners) {
@@ -36,14 +54,14 @@ public:
                               {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)});
             }
         };
-        add(a.at);
-        add(b.at);
+        add(a);
+        add(b);
         values.push_back(static_cast<double>(detail::radius_around_core(s)));
         values.push_back(static_cast<double>(detail::radius_around_core(t)));
         values.push_back(1);  // which tells the unit
         const std::vector<integer> v = to_integers(values);
         std::vector<integer_point> ways;
-        const std::size_t n = std::size(a.at), m = std::size(b.at);
+        const std::size_t n = a.size(), m = b.size();
         for (std::size_t i = 0; i < 3 * n; i += 3) {
             for (std::size_t j = 3 * n; j < 3 * (n + m); j += 3) {
                 ways.push_back({v[j] - v[i], v[j + 1] - v[i + 1], v[j + 2] - v[i + 2]});

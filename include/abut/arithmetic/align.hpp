@@ -5,8 +5,10 @@
 // homogeneous polynomial does not see that power, so it never has to be put back. Numbers are taken apart by their bit
 // patterns: no operation here is floating-point arithmetic on them, so flush-to-zero modes and fast-math change nothing.
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include <abut/arithmetic/arithmetic.hpp>
 #include <abut/arithmetic/wide_int.hpp>
@@ -87,6 +89,16 @@ ABUT_HD constexpr bool any_subnormal(const T (&value)[V]) {
     bool any = false;
     for (int i = 0; i < int{V}; ++i) any |= is_subnormal(value[i]);  // all of them: no branch for each
     return any;
+}
+
+/// A finite number as an integer that is less than another's where the number is; equal for 0 and -0. By its bits, so that
+/// comparisons are right also where denormal numbers are read as 0.
+template <scalar T>
+ABUT_HD constexpr auto ordered_bits(T x) {
+    using word = std::conditional_t<std::same_as<T, float>, std::int32_t, std::int64_t>;
+    constexpr auto least = static_cast<word>(std::uint64_t{1} << (8 * sizeof(T) - 1));
+    const auto w = __builtin_bit_cast(word, x);
+    return w < 0 ? least - w : w;
 }
 
 /// `V` finite numbers and the power of two, 2^low, that all are multiples of.

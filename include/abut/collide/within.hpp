@@ -30,7 +30,7 @@ struct come_within {
 
     template <class S, class U>
     ABUT_HD verdict decide(const S& s, const U& t) const {
-        if constexpr (cores_in_order<S, U>) {
+        if constexpr (within_as_given<S, U>) {
             return decide_within<A>(s, t, distance);
         } else {
             return decide_within<A>(t, s, distance);
@@ -40,7 +40,7 @@ struct come_within {
     ABUT_HD verdict finish(const S& s, const U& t) const {
         if constexpr (std::same_as<A, exact>) {
             return verdict::unknown;  // the first try was all that registers can do
-        } else if constexpr (cores_in_order<S, U>) {
+        } else if constexpr (within_as_given<S, U>) {
             return decide_within_open<A>(s, t, distance);
         } else {
             return decide_within_open<A>(t, s, distance);
@@ -48,7 +48,7 @@ struct come_within {
     }
     template <class S, class U>
     bool resolve(const S& s, const U& t) const {
-        if constexpr (cores_in_order<S, U>) {
+        if constexpr (within_as_given<S, U>) {
             return resolve_within(s, t, distance);
         } else {
             return resolve_within(t, s, distance);
@@ -72,7 +72,7 @@ template <class Policy, class X, class Y, class Filter>
 consteval bool can_be_within() {
     if constexpr (can_both_be_asked<Policy, X, Y>()) {
         constexpr bool is = distance_decidable<typename shape_of_argument<X>::type, typename shape_of_argument<Y>::type>;
-        static_assert(is, "abut: `within` takes sets of points, segments, triangles, spheres and capsules");
+        static_assert(is, "abut: `within` takes sets of points, segments, triangles, spheres, capsules and boxes, and planes");
         return is && is_filter<Policy, Filter>();
     } else {
         return false;
@@ -100,8 +100,8 @@ auto pair_up_self_within(const Policy& on, const X& x, double distance, const Op
 ///
 /// `within`, `count_within`, `any_within` and `for_each_within` of two arguments: `pairs`, `count`, `any` and
 /// `for_each_pair` with a distance; `self_within` and `count_self_within` of one. Arguments are those of @ref queries , of
-/// points, segments, triangles, spheres and capsules, each with any of these: so they find the neighbours of points as well
-/// as which parts of two meshes are closer than a clearance.
+/// points, segments, triangles, spheres, capsules and boxes, each with any of these, and planes with any: so they find the
+/// neighbours of points as well as which parts of two meshes are closer than a clearance.
 ///
 /// The distance is a finite double, 0 or more, and taken exactly. A pair that is exactly so far apart belongs to the answer.
 /// `filtered`, the default, and `exact` decide that exactly, for every finite input; `fast` is approximate. With distance 0 the

@@ -5,6 +5,7 @@
 // point, normal and depth are rounded, within `contact_bound`. docs/contacts.md says what they mean for each pair of shapes.
 
 #include <abut/arithmetic/arithmetic.hpp>
+#include <abut/narrow/box_contact.hpp>
 #include <abut/narrow/directions.hpp>
 #include <abut/narrow/flat_contact.hpp>
 #include <abut/narrow/round_contact.hpp>
@@ -69,8 +70,8 @@ ABUT_HD constexpr auto contact_in_any_order(const S& s, const U& t) {
 
 }  // namespace detail
 
-/// The contact of two closed shapes, with ids 0, or none where they do not touch. It takes the pairs that `intersects`
-/// takes, in either order. Whether they touch is decided as by `intersects<A>`. The numbers are the same bits for each A and
+/// The contact of two closed shapes, with ids 0, or none where they do not touch. It takes the pairs that docs/contacts.md
+/// lists, in either order. Whether they touch is decided as by `intersects<A>`. The numbers are the same bits for each A and
 /// on every compiler and device, in constant expressions too.
 ///
 ///     constexpr auto c = abut::contact_of(abut::sphere<float>{{0, 0, 4}, 5},

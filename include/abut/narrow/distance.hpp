@@ -18,6 +18,7 @@
 #include <abut/narrow/nearest_ways.hpp>
 #include <abut/narrow/numbers.hpp>
 #include <abut/predicate/intersects.hpp>
+#include <abut/predicate/plane_core.hpp>
 #include <abut/shape/bounds.hpp>
 #include <abut/shape/core.hpp>
 #include <abut/shape/primitive.hpp>
@@ -126,24 +127,27 @@ private:
     }
 };
 
-/// A plane and a triangle that do not touch: how far, in lengths, and where. A plane of normal 0 that is nothing is
-/// infinitely far.
+/// A plane and a shape that do not touch: how far, in lengths, and where. A plane of normal 0 that is nothing is infinitely
+/// far.
 template <scalar T>
 struct measured_plane {
     double length = infinity<double>;
-    vec3<T> on_plane{}, on_triangle{};
+    vec3<T> on_plane{}, on_shape{};
 
-    ABUT_HD constexpr measured_plane(const plane<T>& s, const triangle<T>& t) : on_plane(t.a), on_triangle(t.a) {
+    template <has_height<T> S>
+    ABUT_HD constexpr measured_plane(const plane<T>& s, const S& t) {
         using namespace contact_math;
+        const auto core = core_over(s, t);
+        constexpr int last = decltype(core)::corners - 1;
+        on_plane = on_shape = core.at[0];
         if (is_zero(widened(s.normal))) return;
         const common_scale scale(s, t);
-        const corners corner = scale(t);
+        const corners corner{{scale(core.at[0]), scale(core.at[last > 0 ? 1 : 0]), scale(core.at[last])}};
         const plane_heights<3> over(s, corner.at, scale);
         int least_corner = 0;
         for (int i = 1; i < 3; ++i) {
             if (absolute(over.height[i].high) < absolute(over.height[least_corner].high)) least_corner = i;
         }
-        on_triangle = least_corner == 0 ? t.a : least_corner == 1 ? t.b : t.c;
         const two_doubles height = over.height[least_corner];
         const int e = over.exponent < -2040 ? -2040 : over.exponent > 2040 ? 2040 : over.exponent;
         length = scaled(absolute(height.high), e);
@@ -158,6 +162,14 @@ struct measured_plane {
             return y > far ? largest_finite<T> : y < -far ? -largest_finite<T> : rounded(static_cast<T>(y));
         };
         on_plane = {foot(from.x, over.normal.x), foot(from.y, over.normal.y), foot(from.z, over.normal.z)};
+        on_shape = least_corner == 0 ? core.at[0] : core.at[least_corner == 2 ? last : last > 0 ? 1 : 0];
+        if constexpr (has_radius<S>) {
+            const double radius = scale(t.radius);
+            const double in_heights = scaled(radius, scale.exponent - e < -2040 ? -2040 : scale.exponent - e);
+            length = scaled(plain_sum(absolute(height.high), -in_heights), e);
+            const point n = unit_vector(over.normal);
+            on_shape = scale.template back<T>(plain_step(from, height.high > 0 ? -radius : radius, n));
+        }
     }
 };
 
@@ -166,8 +178,9 @@ template <class S, class U>
 inline constexpr bool measured_in_order = requires(const S& s, const U& t, const length_unit<scalar_type_of<S>>& unit) {
     nearest_way_between(core_of(s), core_of(t), unit);
 };
-template <scalar T>
-inline constexpr bool measured_in_order<plane<T>, triangle<T>> = true;
+template <scalar T, class S>
+    requires has_height<S, T>
+inline constexpr bool measured_in_order<plane<T>, S> = true;
 
 /// A distance and a way as long, from the first shape to the second, in no unit.
 struct distance_and_way {
@@ -210,7 +223,7 @@ ABUT_NOINLINE ABUT_HD constexpr auto separation_apart(const S& s, const U& t) {
         });
     } else if constexpr (requires { s.normal; }) {
         const measured_plane<T> m(s, t);
-        return separation<T>{0, 0, m.on_plane, m.on_triangle, rounded_distance<T>(positive_distance(s, t, m.length))};
+        return separation<T>{0, 0, m.on_plane, m.on_shape, rounded_distance<T>(positive_distance(s, t, m.length))};
     } else {
         const measured_pair<T> m(s, t);
         return separation<T>{0, 0, m.point_on_a(s), m.point_on_b(t),
@@ -330,8 +343,8 @@ private:
 }  // namespace detail
 
 /// How far apart two closed shapes are: a `separation` with ids 0. It takes the pairs that `contact_of` takes, in either
-/// order: triangles, segments and points with triangles; spheres with triangles, segments and spheres; capsules, boxes and
-/// planes with triangles; and convex hulls with all of these but planes, and with each other. The distance is 0 exactly where the two touch, as `intersects` decides. Otherwise it is accurate
+/// order: points, segments, triangles, spheres, capsules and boxes with each other, planes with any of these, and convex hulls
+/// with all but planes. The distance is 0 exactly where the two touch, as `intersects` decides. Otherwise it is accurate
 /// to a few units in the last place of the shapes' farthest corners (docs/numerics.md). The same bits on every compiler and
 /// device, in constant expressions too. Shapes are finite and valid.
 ///

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Contacts of a plane or a box with a triangle that touches it.
+// Contacts of a plane or a box with what touches it.
 
 #include <abut/narrow/cut_polygon.hpp>
 #include <abut/narrow/directions.hpp>
 #include <abut/narrow/nearest.hpp>
 #include <abut/narrow/numbers.hpp>
+#include <abut/predicate/near_cores.hpp>
+#include <abut/predicate/plane_core.hpp>
+#include <abut/shape/core.hpp>
 #include <abut/shape/primitive.hpp>
 
 namespace abut::detail::contact_math {
@@ -144,6 +147,75 @@ ABUT_NOINLINE ABUT_HD constexpr contact<T> contact_between(const aabb<T>& s, con
     offer_both({0, 1, 0});
     offer_both({0, 0, 1});
     return assembled<T>(scale, middle_in_box(lower, upper, corner), way);
+}
+
+/// Segments and points are triangles with equal corners, of a box and of a plane.
+template <class S, scalar T>
+    requires(std::same_as<S, aabb<T>> || std::same_as<S, plane<T>>)
+ABUT_HD constexpr contact<T> contact_between(const S& s, const segment<T>& t) {
+    return contact_between(s, triangle<T>{t.a, t.b, t.b});
+}
+template <class S, scalar T>
+    requires(std::same_as<S, aabb<T>> || std::same_as<S, plane<T>>)
+ABUT_HD constexpr contact<T> contact_between(const S& s, const vec3<T>& p) {
+    return contact_between(s, triangle<T>{p, p, p});
+}
+
+/// The least move along an axis. The point is the middle of the common box.
+template <scalar T>
+ABUT_NOINLINE ABUT_HD constexpr contact<T> contact_between(const aabb<T>& s, const aabb<T>& t) {
+    using namespace contact_math;
+    const common_scale scale(s, t);
+    const point a[2] = {scale(s.lower), scale(s.upper)}, b[2] = {scale(t.lower), scale(t.upper)};
+    least_overlap way;
+    for (const point& n : {point{1, 0, 0}, point{0, 1, 0}, point{0, 0, 1}}) {
+        way.offer_both(n, extent_of(a, n, a[0]), extent_of(b, n, a[0]));
+    }
+    const point lower = greatest(a[0], b[0]), upper = least(a[1], b[1]);
+    return assembled<T>(scale, middle_of({lower, upper}), way);
+}
+
+/// Of a plane and a shape that reaches `radius` around some points: out to one side or the other, as for a triangle. The point
+/// is the middle of what its core has in the plane; or else the foot of its lowest or highest point.
+template <scalar T, int N>
+ABUT_HD constexpr contact<T> contact_with_plane(const plane<T>& s, const corner_hull<T, N>& core, T radius,
+                                                const contact_math::common_scale& scale) {
+    using namespace contact_math;
+    if (is_zero(widened(s.normal))) return {0, 0, core.at[0], {0, 0, 1}, largest_finite<T>};
+    const corners corner{{scale(core.at[0]), scale(core.at[N - 1]), scale(core.at[N - 1])}};
+    const plane_heights<3> over(s, corner.at, scale);
+    const auto& height = over.height;
+    const point n = as_stored_direction<T>(unit_vector(over.normal));
+    const double lowest = least(height[0].high, height[1].high), highest = greatest(height[0].high, height[1].high);
+    const double reach = scale(radius);
+    least_overlap way;
+    way.offer(negated(n), plain_sum(reach, -lowest));
+    way.offer(n, plain_sum(reach, highest));
+    point where{};
+    if (lowest <= 0 && highest >= 0) {
+        where = middle_at_zero(corner, height);
+    } else {
+        const int nearest = absolute(height[0].high) <= absolute(height[1].high) ? 0 : 1;
+        where = plain_step(corner.at[nearest], -height[nearest].high, n);
+    }
+    return assembled<T>(scale, where, way);
+}
+template <scalar T, class S>
+    requires(has_radius<S> && has_point_or_axis<S> && std::same_as<scalar_type_of<S>, T>)
+ABUT_NOINLINE ABUT_HD constexpr contact<T> contact_between(const plane<T>& s, const S& t) {
+    return contact_with_plane(s, core_of(t), t.radius, contact_math::common_scale(s, t));
+}
+/// On the way from the lowest corner to the highest, and amid the box along axes that are in the plane.
+template <scalar T>
+ABUT_NOINLINE ABUT_HD constexpr contact<T> contact_between(const plane<T>& s, const aabb<T>& t) {
+    auto core = core_over(s, t);
+    const auto to_middle = [](T along, T& a, T& b) {
+        if (along == 0) a = b = a / 2 + b / 2;
+    };
+    to_middle(s.normal.x, core.at[0].x, core.at[1].x);
+    to_middle(s.normal.y, core.at[0].y, core.at[1].y);
+    to_middle(s.normal.z, core.at[0].z, core.at[1].z);
+    return contact_with_plane(s, core, T(0), contact_math::common_scale(s, t));
 }
 
 }  // namespace abut::detail

@@ -78,18 +78,6 @@ ABUT_HD constexpr vec3<double> held(const vec3<double>& way, const aabb<T>& box,
 using contact_math::plain_difference;
 using contact_math::plain_dot;
 
-ABUT_HD constexpr vec3<double> plain_cross(const vec3<double>& a, const vec3<double>& b) {
-    const auto minor = [](double s, double t, double x, double y) {
-        return plain_sum(plain_product(s, t), -plain_product(x, y));
-    };
-    return {minor(a.y, b.z, a.z, b.y), minor(a.z, b.x, a.x, b.z), minor(a.x, b.y, a.y, b.x)};
-}
-/// p + t v
-ABUT_HD constexpr vec3<double> plain_step(const vec3<double>& p, double t, const vec3<double>& v) {
-    return {plain_sum(p.x, plain_product(t, v.x)), plain_sum(p.y, plain_product(t, v.y)),
-            plain_sum(p.z, plain_product(t, v.z))};
-}
-
 /// The point of a segment that is nearest to the origin, seen from the end that is nearer to it. So both triangles at an
 /// edge find the same bits.
 ABUT_HD constexpr vec3<double> foot_on_edge(const vec3<double>& nearer, const vec3<double>& farther) {

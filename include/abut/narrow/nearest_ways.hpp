@@ -27,6 +27,7 @@
 #include <abut/arithmetic/magnitude.hpp>
 #include <abut/narrow/nearest_point.hpp>
 #include <abut/narrow/numbers.hpp>
+#include <abut/predicate/box_within.hpp>
 #include <abut/shape/core.hpp>
 #include <abut/shape/primitive.hpp>
 #include <abut/shape/shape.hpp>
@@ -188,6 +189,15 @@ ABUT_HD constexpr nearest_way<T> nearest_way_between(const aabb<T>& box, const c
         }
         if constexpr (M == 3) found.template offer_face<false>(p, seen[0], of_b.face());
     }
+    return found.best;
+}
+
+/// Between two boxes that do not meet: points of both whose coordinates are those of the input.
+template <scalar T>
+ABUT_HD constexpr nearest_way<T> nearest_way_between(const aabb<T>& a, const aabb<T>& b, const length_unit<T>& unit) {
+    nearest_way_finder<T> found{unit};
+    const nearest_of_boxes<T> nearest(a, b);
+    found.offer_corners(nearest.on_a, nearest.on_b, way_between(nearest.on_a, nearest.on_b, unit));
     return found.best;
 }
 

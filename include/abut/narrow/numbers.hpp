@@ -247,3 +247,19 @@ ABUT_HD constexpr point unit_vector(const vec3<N>& v) {
 }
 
 }  // namespace abut::detail::contact_math
+
+namespace abut::detail {
+
+ABUT_HD constexpr vec3<double> plain_cross(const vec3<double>& a, const vec3<double>& b) {
+    const auto minor = [](double s, double t, double x, double y) {
+        return plain_sum(plain_product(s, t), -plain_product(x, y));
+    };
+    return {minor(a.y, b.z, a.z, b.y), minor(a.z, b.x, a.x, b.z), minor(a.x, b.y, a.y, b.x)};
+}
+/// p + t v
+ABUT_HD constexpr vec3<double> plain_step(const vec3<double>& p, double t, const vec3<double>& v) {
+    return {plain_sum(p.x, plain_product(t, v.x)), plain_sum(p.y, plain_product(t, v.y)),
+            plain_sum(p.z, plain_product(t, v.z))};
+}
+
+}  // namespace abut::detail

@@ -9,6 +9,9 @@
 #include <abut/narrow/nearest.hpp>
 #include <abut/narrow/numbers.hpp>
 #include <abut/narrow/triangle_contact.hpp>
+#include <abut/predicate/near_cores.hpp>
+#include <abut/predicate/plane_core.hpp>
+#include <abut/shape/core.hpp>
 #include <abut/shape/primitive.hpp>
 
 namespace abut::detail::contact_math {
@@ -108,6 +111,19 @@ ABUT_HD constexpr least_overlap way_out(const round_pair& pair, const segment<T>
 
 namespace abut::detail {
 
+/// Points, segments, spheres and capsules with each other, but for those below. Of cores with as many corners the shape
+/// without a radius comes first.
+template <class S, class U>
+concept pair_of_round_contact = (pair_without_faces<S, U> || (std::same_as<S, U> && std::same_as<S, vec3<scalar_type_of<S>>>)) &&
+                                !(corners_of_core<S> == corners_of_core<U> && has_radius<S> && !has_radius<U>);
+
+/// The segment that a shape is around, which may be a point.
+template <class S>
+ABUT_HD constexpr segment<scalar_type_of<S>> axis_around(const S& s) {
+    const auto core = core_of(s);
+    return {core.at[0], core.at[corners_of_core<S> - 1]};
+}
+
 // All of shapes that are known to touch, with ids 0.
 
 /// The triangle's point nearest to the centre.
@@ -149,6 +165,32 @@ ABUT_NOINLINE ABUT_HD constexpr contact<T> contact_between(const sphere<T>& s, c
     const point where{plain_sum(b.x, plain_product(middle, n.x)), plain_sum(b.y, plain_product(middle, n.y)),
                       plain_sum(b.z, plain_product(middle, n.z))};
     return assembled<T>(scale, where, way);
+}
+
+/// Of shapes around points and segments: from the points of both cores that are nearest to each other. The point is the
+/// middle of what both shapes have of the way between these.
+template <class S, class U>
+    requires pair_of_round_contact<S, U>
+ABUT_NOINLINE ABUT_HD constexpr auto contact_between(const S& s, const U& t) {
+    using namespace contact_math;
+    using T = scalar_type_of<S>;
+    const common_scale scale(s, t);
+    const segment<T> axis = axis_around(s), other = axis_around(t);
+    const triangle<T> flat{other.a, other.b, other.b};
+    round_pair pair(scale, capsule<T>{axis, radius_around_core(s)}, axis, flat);
+    const double radius_a = pair.radius, radius_b = scale(radius_around_core(t));
+    pair.radius = plain_sum(radius_a, radius_b);
+    const auto found = nearest_points<number_for<T>>(pair.axis[0], pair.axis[1], pair.t).nearest;
+    const point& on_b = found.at.on_b;
+    const double distance = root(one_double{plain_dot(rounded_off(found.away), rounded_off(found.away))}).high;
+    point where = on_b;
+    if (distance > 0) {
+        const double from = greatest(plain_sum(distance, -radius_a), -radius_b);
+        const double to = least(plain_sum(distance, radius_a), radius_b);
+        const double part = into_unit(one_double::of(plain_sum(from, to) / 2 / distance)).high;
+        where = plain_step(on_b, part, rounded_off(found.away));
+    }
+    return assembled<T>(scale, where, way_out<T>(pair, axis, flat, found.away, false));
 }
 
 /// Segments are triangles with two equal corners, points are spheres of radius 0.

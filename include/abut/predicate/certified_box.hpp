@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The floating-point half of the predicate between a box and a triangle: the thirteen axes of exact_box.hpp in plain
+// The floating-point half of the predicates between a box and a triangle or a segment: the axes of exact_box.hpp in plain
 // arithmetic (`fast`), and in double with bounds on the error that are never wrong (`filtered`).
 //
 // Coordinates are doubled and measured from the box's middle: w = 2 (v - lower) - size for a corner v, so that the box is
@@ -16,6 +16,9 @@
 // not less than that of the third, and at most A. Then w is within 2u (|w| + size) of the true one, a coordinate of f x w
 // within 5uFA, n_k within uFA, the box's shadow within 4uFA, and the sums of these add less than 5uFA: 17uFA in all. On the
 // axis n, with E = |e0| |e1| (sums of magnitudes again), the gap is within 20uEA. The code takes 32u of both.
+//
+// A segment has one edge f, whose gaps are |(f x w)_k| - (|f_i| size_j + |f_j| size_i). A is the sum of the magnitudes of
+// both w and of size, and so not less than F. The bound is the same.
 //
 // Flush to zero: an input, or a difference, that is taken for 0 is off by less than d = 2^-126 (float) or 2^-1021 (double).
 // A gap is off by less than 16dA + 500dd on an edge's axis, and by less than four times that, times (F + d), on n; `tiny` is
@@ -41,6 +44,16 @@
 
 namespace abut::detail {
 
+/// x - origin; in double, as `difference` says.
+template <scalar F, scalar T>
+ABUT_HD constexpr vec3<F> minus(const vec3<T>& x, const vec3<T>& origin) {
+    if constexpr (std::same_as<F, double>) {
+        return relative_to(origin, x);
+    } else {
+        return x - origin;
+    }
+}
+
 /// A box and a triangle in numbers of type F, as above. `F` is the input's type (`fast`), or double.
 template <scalar F>
 struct box_frame {
@@ -52,10 +65,10 @@ struct box_frame {
     template <scalar T>
     ABUT_HD constexpr box_frame(const aabb<T>& box, const triangle<T>& t)
         : w{},
-          e{minus(t.b, t.a), minus(t.c, t.b), minus(t.a, t.c)},
-          size(minus(box.upper, box.lower)),
+          e{minus<F>(t.b, t.a), minus<F>(t.c, t.b), minus<F>(t.a, t.c)},
+          size(minus<F>(box.upper, box.lower)),
           n(cross(e[0], e[1])) {
-        const vec3<F> a = minus(t.a, box.lower), b = minus(t.b, box.lower), c = minus(t.c, box.lower);
+        const vec3<F> a = minus<F>(t.a, box.lower), b = minus<F>(t.b, box.lower), c = minus<F>(t.c, box.lower);
         w[0] = (a + a) - size;
         w[1] = (b + b) - size;
         w[2] = (c + c) - size;
@@ -69,17 +82,6 @@ struct box_frame {
                 absolute(shadow.z + n.z) - width.z - (f.x * size.y + f.y * size.x)};
     }
     [[nodiscard]] ABUT_HD constexpr F normal_gap() const { return absolute(dot(n, w[0])) - dot(absolute(n), size); }
-
-private:
-    /// x - origin; in double, as `difference` says.
-    template <scalar T>
-    ABUT_HD static constexpr vec3<F> minus(const vec3<T>& x, const vec3<T>& origin) {
-        if constexpr (std::same_as<F, double>) {
-            return relative_to(origin, x);
-        } else {
-            return x - origin;
-        }
-    }
 };
 
 template <scalar F>
@@ -136,7 +138,52 @@ ABUT_HD constexpr verdict certified_box(const aabb<T>& box, const triangle<T>& t
     return only_ties(box, t, frame, bound, normal_bound) ? verdict::yes : verdict::unknown;
 }
 
+/// A box and a segment in numbers of type F.
+template <scalar F>
+struct box_beside_segment {
+    vec3<F> from, to;  ///< the ends, doubled, from the box's middle
+    vec3<F> edge, size;
+
+    template <scalar T>
+    ABUT_HD constexpr box_beside_segment(const aabb<T>& box, const segment<T>& t)
+        : from{}, to{}, edge(minus<F>(t.b, t.a)), size(minus<F>(box.upper, box.lower)) {
+        const vec3<F> a = minus<F>(t.a, box.lower), b = minus<F>(t.b, box.lower);
+        from = (a + a) - size;
+        to = (b + b) - size;
+    }
+    [[nodiscard]] ABUT_HD constexpr vec3<F> gaps() const {
+        const vec3<F> shadow = absolute(cross(edge, from)), f = absolute(edge);
+        return {shadow.x - (f.y * size.z + f.z * size.y), shadow.y - (f.z * size.x + f.x * size.z),
+                shadow.z - (f.x * size.y + f.y * size.x)};
+    }
+};
+
+template <scalar T>
+ABUT_HD constexpr verdict certified_box(const aabb<T>& box, const segment<T>& t) {
+    const aabb<T> around = bounds(t);
+    if (!overlaps(box, around)) return verdict::no;
+    constexpr double tiny = std::same_as<T, float> ? 0x1p-120 : 0x1p-1010, unit = std::same_as<T, float> ? 0x1p-120 : 1;
+    const box_beside_segment<double> both(box, t);
+    const double size = magnitudes(both.from) + magnitudes(both.to) + magnitudes(both.size);
+    if (std::same_as<T, double> && !(size < 0x1p300)) return verdict::unknown;
+    const double bound = 0x1p-47 * (magnitudes(both.edge) * size) + tiny * (size + unit);
+    const vec3<double> gaps = both.gaps();
+    if (greatest_coordinate(gaps) > bound) return verdict::no;
+    // Boxes that overlap do so surely but where inputs are denormal; and an edge with a zero coordinate makes axes that
+    // repeat the box's own.
+    const T values[] = {box.lower.x, box.lower.y, box.lower.z, box.upper.x, box.upper.y, box.upper.z,
+                        t.a.x,       t.a.y,       t.a.z,       t.b.x,       t.b.y,       t.b.z};
+    const bool x = t.a.x == t.b.x, y = t.a.y == t.b.y, z = t.a.z == t.b.z;
+    const bool meets = (gaps.x < -bound || y || z) && (gaps.y < -bound || z || x) && (gaps.z < -bound || x || y);
+    return meets && !any_subnormal(values) ? verdict::yes : verdict::unknown;
+}
+
 /// `fast`
+///@{
+template <scalar T>
+ABUT_HD constexpr bool approximate_box(const aabb<T>& box, const segment<T>& t) {
+    return overlaps(box, bounds(t)) && !(greatest_coordinate(box_beside_segment<T>(box, t).gaps()) > 0);
+}
 template <scalar T>
 ABUT_HD constexpr bool approximate_box(const aabb<T>& box, const triangle<T>& t) {
     if (!overlaps(box, bounds(t))) return false;
@@ -145,5 +192,6 @@ ABUT_HD constexpr bool approximate_box(const aabb<T>& box, const triangle<T>& t)
            !(greatest(greatest_coordinate(frame.edge_gaps(0)), greatest_coordinate(frame.edge_gaps(1)),
                       greatest_coordinate(frame.edge_gaps(2))) > 0);
 }
+///@}
 
 }  // namespace abut::detail

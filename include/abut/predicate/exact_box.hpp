@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The exact half of the predicate between a box and a triangle: thirteen axes (T. Akenine-Moeller, Fast 3D Triangle-Box
-// Overlap Testing, 2001), of degree 1 (the box's own), 2 (a box axis x an edge) and 3 (the triangle's normal). Both are
-// apart if and only if one of the axes has their shadows strictly apart; an axis that is 0 has no such shadows.
+// The exact half of the predicates between a box and a triangle or a segment: thirteen axes (T. Akenine-Moeller, Fast 3D
+// Triangle-Box Overlap Testing, 2001), of degree 1 (the box's own), 2 (a box axis x an edge) and 3 (the triangle's normal).
+// Both are apart if and only if one of the axes has their shadows strictly apart; an axis that is 0 has no such shadows. A
+// segment has one edge and no normal, and so six axes.
 //
 // Why thirteen are enough, also where the box has no extent in some direction and the triangle has no area. Apart means that
 // 0 is not in the closed polytope P = {x - y : x in the box, y in the triangle}. Let D be the directions of P's affine hull,
@@ -86,6 +87,31 @@ struct box_meets_triangle {
             }
         }
         return true;
+    }
+};
+
+/// Degree 2. A segment is a triangle whose third corner is the second.
+template <class N>
+ABUT_HD constexpr bool axis_meets_box(const vec3<N>& lower, const vec3<N>& upper, const vec3<N>& a, const vec3<N>& b) {
+    const coordinate_of_all<N> axis[3] = {
+        {lower.x, upper.x, {a.x, b.x, b.x}}, {lower.y, upper.y, {a.y, b.y, b.y}}, {lower.z, upper.z, {a.z, b.z, b.z}}};
+    for (int k = 0; k < 3; ++k) {
+        if (beyond(axis[k].corner[0], axis[k].corner[1], axis[k].corner[1], axis[k].lower, axis[k].upper)) return false;
+    }
+    for (int k = 0; k < 3; ++k) {
+        if (apart_beside_edge(axis[k], axis[k == 2 ? 0 : k + 1], 0)) return false;
+    }
+    return true;
+}
+
+/// The box's lower and upper corner, then the segment's ends.
+struct box_meets_segment {
+    static constexpr int degree = 2, points = 4;
+
+    template <class N>
+    ABUT_HD static constexpr bool holds(const N (&value)[12]) {
+        return axis_meets_box(vec3<N>{value[0], value[1], value[2]}, vec3<N>{value[3], value[4], value[5]},
+                              vec3<N>{value[6], value[7], value[8]}, vec3<N>{value[9], value[10], value[11]});
     }
 };
 

@@ -5,11 +5,18 @@
 // either order of arguments.
 
 #include <abut/arithmetic/arithmetic.hpp>
+#include <abut/predicate/aabb_aabb.hpp>
+#include <abut/predicate/aabb_capsule.hpp>
+#include <abut/predicate/aabb_segment.hpp>
+#include <abut/predicate/aabb_sphere.hpp>
 #include <abut/predicate/aabb_triangle.hpp>
-#include <abut/predicate/capsule_triangle.hpp>
 #include <abut/predicate/capsule_hull.hpp>
+#include <abut/predicate/capsule_triangle.hpp>
 #include <abut/predicate/hull_hull.hpp>
+#include <abut/predicate/near_cores.hpp>
+#include <abut/predicate/plane_core.hpp>
 #include <abut/predicate/plane_hull.hpp>
+#include <abut/predicate/plane_plane.hpp>
 #include <abut/predicate/plane_triangle.hpp>
 #include <abut/predicate/ray_triangle.hpp>
 #include <abut/predicate/segment_triangle.hpp>

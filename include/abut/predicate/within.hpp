@@ -1,149 +1,34 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// `within`: are two shapes no farther apart than a distance? The distance of shapes that are hulls of up to three corners,
-// or what is within a radius of such a hull, is compared with a number that is taken as it is. The squared distance is a
-// rational of the input, and so the answer is decided exactly. Not for how far apart they are: that is distance
-// (narrow/distance.hpp), which rounds.
+// `within`: are two shapes no farther apart than a distance? The distance of shapes that are hulls of up to three corners or
+// boxes, or what is within a radius of such a hull, from each other or from a plane, is compared with a number that is taken
+// as it is. The squared distance is a rational of the input, and so the answer is decided exactly. Not for how far apart they
+// are: that is distance (narrow/distance.hpp), which rounds.
 
 #include <concepts>
-#include <cstddef>
-#include <cstdint>
-#include <type_traits>
-#include <utility>
 
-#include <abut/arithmetic/align.hpp>
 #include <abut/arithmetic/arithmetic.hpp>
-#include <abut/arithmetic/error_free.hpp>
-#include <abut/arithmetic/exact_stages.hpp>
-#include <abut/predicate/certified_ball.hpp>
-#include <abut/predicate/certified_triangles.hpp>
-#include <abut/predicate/certified_within.hpp>
-#include <abut/predicate/exact_within.hpp>
+#include <abut/predicate/box_within.hpp>
 #include <abut/predicate/intersects.hpp>
+#include <abut/predicate/plane_core.hpp>
+#include <abut/predicate/within_stages.hpp>
 #include <abut/shape/core.hpp>
 
 namespace abut {
 
-/// Two shapes whose distance can be compared with a number: points, segments, triangles, spheres and capsules, of one
-/// scalar type.
-template <class S, class U>
-concept distance_decidable = std::same_as<scalar_type_of<S>, scalar_type_of<U>> && detail::corners_of_core<S> > 0 &&
-                             detail::corners_of_core<U> > 0;
-
 namespace detail {
 
-/// Predicates are written for the core of fewer corners first.
+/// Shapes in the order in which their stages are written.
 template <class S, class U>
-inline constexpr bool cores_in_order = corners_of_core<S> <= corners_of_core<U>;
-
-/// A float as a double, also where a processor is told to read denormals as 0.
-ABUT_HD constexpr double widened_exactly(float x) {
-    if (!is_subnormal(x)) return static_cast<double>(x);
-    const auto steps = static_cast<double>(__builtin_bit_cast(std::uint32_t, x) & 0x7fffffffu) * 0x1p-149;
-    return has_sign(x) ? -steps : steps;
-}
-ABUT_HD constexpr double widened_exactly(double x) { return x; }
-
-/// As exact_within.hpp expects them, in double, whatever the input's type is: the distance is one.
-template <class S, class U>
-ABUT_HD constexpr auto values_within(const S& s, const U& t, double distance) {
-    const auto a = core_of(s);
-    const auto b = core_of(t);
-    constexpr int n = decltype(a)::corners, m = decltype(b)::corners;
-    row_of<double, std::size_t{3 * (n + m) + 3}> row{};
-    double* end = row.value;
-    const auto append_point = [&end](const auto& p) {
-        end = append(append(append(end, widened_exactly(p.x)), widened_exactly(p.y)), widened_exactly(p.z));
-    };
-    for (int i = 0; i < n; ++i) append_point(a.at[i]);
-    for (int j = 0; j < m; ++j) append_point(b.at[j]);
-    append(append(append(end, widened_exactly(radius_around_core(s))), widened_exactly(radius_around_core(t))), distance);
-    return row;
-}
-
-/// Both radii and the distance, rounded: for `filtered` in double, for `fast` in the input's type.
-template <bool Certified, class S, class U>
-ABUT_HD constexpr auto radius_within(const S& s, const U& t, double distance) {
-    if constexpr (Certified) {
-        const double radii = rounded(static_cast<double>(radius_around_core(s))) +
-                             rounded(static_cast<double>(radius_around_core(t)));
-        return radii + rounded(distance);
-    } else {
-        return (radius_around_core(s) + radius_around_core(t)) + static_cast<scalar_type_of<S>>(distance);
-    }
-}
-
-template <bool Certified, class S, class U>
-ABUT_HD constexpr auto two_hulls_of(const S& s, const U& t, double distance) {
-    const auto radius = radius_within<Certified>(s, t, distance);
-    return two_hulls<Certified, std::remove_const_t<decltype(radius)>, corners_of_core<S>, corners_of_core<U>>(
-        core_of(s), core_of(t), radius);
-}
-
-/// From a point to a hull.
-template <class A, class S, class U, std::size_t... J>
-ABUT_HD constexpr verdict decide_from_point(const S& s, const U& t, double distance, std::index_sequence<J...>) {
-    constexpr bool certified = std::same_as<A, filtered>;
-    const auto center = core_of(s).at[0];
-    const auto hull = core_of(t);
-    const auto radius = radius_within<certified>(s, t, distance);
-    if constexpr (certified) {
-        return certified_relative<scalar_type_of<S>>(radius, relative_to(center, hull.at[J])...);
-    } else {
-        return to_verdict(approximate(radius, (hull.at[J] - center)...));
-    }
-}
-
-template <class A, class S, scalar T>
-ABUT_HD constexpr bool seem_to_touch(const S& s, const triangle<T>& t) {
-    if constexpr (std::same_as<A, fast>) {
-        return intersects<fast>(s, t);
-    } else {
-        return decide<filtered>(s, t) == verdict::yes;
-    }
-}
-/// Whether cores without radii touch, as signs in floating point tell: of `filtered` surely, where it says so.
-template <class A, scalar T>
-ABUT_HD constexpr bool seem_to_touch(const corner_hull<T, 3>& a, const corner_hull<T, 3>& b) {
-    return seem_to_touch<A>(triangle<T>{a.at[0], a.at[1], a.at[2]}, triangle<T>{b.at[0], b.at[1], b.at[2]});
-}
-template <class A, scalar T>
-ABUT_HD constexpr bool seem_to_touch(const corner_hull<T, 2>& a, const corner_hull<T, 3>& b) {
-    return seem_to_touch<A>(segment<T>{a.at[0], a.at[1]}, triangle<T>{b.at[0], b.at[1], b.at[2]});
-}
-template <class A, scalar T>
-ABUT_HD constexpr bool seem_to_touch(const corner_hull<T, 2>&, const corner_hull<T, 2>&) {
-    return false;  // but where they are in one plane, which is for the integers
-}
-
-// The stages, as those of `intersects`. Shapes come with their cores in order.
-
-/// The first one, in registers.
-template <arithmetic A, class S, class U>
-ABUT_HD constexpr verdict decide_within(const S& s, const U& t, double distance) {
-    constexpr int n = corners_of_core<S>, m = corners_of_core<U>;
-    if constexpr (std::same_as<A, exact>) {
-        return decide_in_limbs<hulls_within<n, m>>(values_within(s, t, distance).value);
-    } else if constexpr (n == 1) {
-        return decide_from_point<A>(s, t, distance, std::make_index_sequence<std::size_t{m}>{});
-    } else {
-        return near_by_corners(two_hulls_of<std::same_as<A, filtered>>(s, t, distance));
-    }
-}
-
-/// What that leaves of pairs without a point: all features, in floating point. `fast` always answers.
-template <arithmetic A, class S, class U>
-ABUT_NOINLINE ABUT_HD constexpr verdict decide_within_late(const S& s, const U& t, double distance) {
-    constexpr bool certified = std::same_as<A, filtered>;
-    if (seem_to_touch<A>(core_of(s), core_of(t))) return verdict::yes;
-    return near_by_ways(two_hulls_of<certified>(s, t, distance));
-}
+concept within_as_given = std::same_as<scalar_type_of<S>, scalar_type_of<U>> && requires(const S& s, const U& t) {
+    resolve_within(s, t, 0.0);
+};
 
 /// What the first stage left, in registers; `unknown` only where the exponents of all numbers span more than 124 bits.
 template <arithmetic A, class S, class U>
 ABUT_HD constexpr verdict decide_within_open(const S& s, const U& t, double distance) {
-    if constexpr (!std::same_as<A, exact> && corners_of_core<S> > 1) {
+    if constexpr (!std::same_as<A, exact> && requires { decide_within_late<A>(s, t, distance); }) {
         if (std::same_as<A, fast> || !__builtin_is_constant_evaluated()) {
             const verdict v = decide_within_late<A>(s, t, distance);
             if (std::same_as<A, fast> || v != verdict::unknown) return v;
@@ -152,16 +37,15 @@ ABUT_HD constexpr verdict decide_within_open(const S& s, const U& t, double dist
     return decide_within<exact>(s, t, distance);
 }
 
-/// The last one: decides every finite input.
-template <class S, class U>
-ABUT_NOINLINE ABUT_HD constexpr bool resolve_within(const S& s, const U& t, double distance) {
-    return decide_at_any_span<hulls_within<corners_of_core<S>, corners_of_core<U>>>(values_within(s, t, distance).value);
-}
-
 }  // namespace detail
 
+/// Two shapes whose distance can be compared with a number: points, segments, triangles, spheres, capsules and boxes, each
+/// with each, and a plane with any of these; of one scalar type.
+template <class S, class U>
+concept distance_decidable = detail::within_as_given<S, U> || detail::within_as_given<U, S>;
+
 /// Whether two closed shapes are no farther apart than `distance`, which is finite and 0 or more: points, segments,
-/// triangles, spheres and capsules with each other. With `filtered` and `exact` the answer is right for every finite input,
+/// triangles, spheres, capsules and boxes with each other, and a plane with any of them. With `filtered` and `exact` the answer is right for every finite input,
 /// with the distance taken exactly as the double that it is, and the same on each compiler and device; `fast` is
 /// approximate. With distance 0 it is `intersects`. Constant expressions are decided in integers.
 ///
@@ -173,7 +57,7 @@ template <arithmetic A = filtered, class S, class U>
         static_assert(distance_decidable<S, U>,
                       "abut::within does not support this pair of shapes (both of one scalar type)");
         return false;
-    } else if constexpr (!detail::cores_in_order<S, U>) {
+    } else if constexpr (!detail::within_as_given<S, U>) {
         return within<A>(t, s, distance);
     } else {
         if (!std::same_as<A, exact> && !__builtin_is_constant_evaluated()) {

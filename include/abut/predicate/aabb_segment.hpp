@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Does a segment touch a solid box with faces along the axes? The stages are those of sphere_triangle.hpp.
+
+#include <abut/arithmetic/arithmetic.hpp>
+#include <abut/arithmetic/exact_stages.hpp>
+#include <abut/predicate/certified_box.hpp>
+#include <abut/predicate/exact_box.hpp>
+#include <abut/shape/primitive.hpp>
+
+namespace abut {
+
+namespace detail {
+
+/// The lower and the upper corner of a box and the ends of a segment.
+template <scalar T>
+ABUT_HD constexpr auto values_of(const aabb<T>& box, const segment<T>& t) {
+    return in_a_row(box.lower, box.upper, t.a, t.b);
+}
+
+}  // namespace detail
+
+/// One stage of the decision, as for a sphere and a triangle. A box has lower <= upper.
+template <arithmetic A, scalar T>
+ABUT_HD constexpr verdict decide(const aabb<T>& box, const segment<T>& t) {
+    if constexpr (std::same_as<A, exact>) {
+        return decide_in_limbs<detail::box_meets_segment>(detail::values_of(box, t).value);
+    } else if constexpr (std::same_as<A, filtered>) {
+        return detail::certified_box(box, t);
+    } else {
+        return to_verdict(detail::approximate_box(box, t));
+    }
+}
+
+/// The last stage: decides every finite input.
+template <scalar T>
+ABUT_NOINLINE ABUT_HD constexpr bool resolve(const aabb<T>& box, const segment<T>& t) {
+    return decide_at_any_span<detail::box_meets_segment>(detail::values_of(box, t).value);
+}
+
+}  // namespace abut
