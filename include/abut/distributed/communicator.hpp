@@ -150,6 +150,16 @@ private:
     std::exception_ptr failure_;
 };
 
+/// Throws error on all ranks if they give different numbers for what they have to agree on. All ranks call it.
+inline void require_one(const own_communicator& ranks, double mine, const char* function, const char* what) {
+    const double ends[2] = {mine, -mine};
+    double most[2] = {};
+    check_mpi(MPI_Allreduce(ends, most, 2, MPI_DOUBLE, MPI_MAX, ranks.get()), "MPI_Allreduce");
+    if (most[0] == -most[1]) return;
+    throw error(std::string(function) + ": ranks give " + what + " from " + std::to_string(-most[1]) + " to " +
+                std::to_string(most[0]) + "; expected the same on all");
+}
+
 }  // namespace detail
 
 /// @defgroup distributed Many processes
