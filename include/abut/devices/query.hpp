@@ -180,9 +180,9 @@ std::uint64_t count_self_on_devices(const Team& team, const X& x, const char* fu
 ///
 /// `abut::cuda_devices` from `<abut/cuda_devices.hpp>` asks a query of several devices at a time. `replicate` puts a set on
 /// each of them, `divide` a part of it on each, and `make_bvh` makes a tree of either on each. `any`, `count`, `pairs`,
-/// `for_each_pair`, `contacts`, `self_pairs` and `count_self_pairs` take these, posed or not, and sets in host memory and
-/// single shapes, which are copied to each device for the call. `impacts` and queries of bodies take what each device has
-/// whole. Answers are those of one device, bit for bit.
+/// `for_each_pair`, `contacts`, `within` and `distance` take these, posed or not, and sets in host memory and single shapes,
+/// which are copied to each device for the call; so do `nearest`, `inside` and `raycast`, and what looks is not divided.
+/// `impacts`, self queries and queries of bodies take what each device has whole. Answers are those of one device, bit for bit.
 ///
 /// A filter runs on every device: what it points to has to be readable on each of them. `schedule_options::report` is left
 /// as it is.

@@ -169,8 +169,7 @@ inline void require_one(const own_communicator& ranks, double mine, const char* 
 /// all parts one after another, in the order of the ranks. So ids are 64 bits wide: those of a rank begin where those of the
 /// rank before end. Answers are those of one machine that has the whole sets.
 ///
-/// `any`, `count`, `pairs`, `for_each_pair` and `contacts` are here. They come with `<abut/mpi.hpp>` and the target
-/// `abut::mpi`. docs/distributed.md says how to use them.
+/// The queries come with `<abut/mpi.hpp>` and the target `abut::mpi`. docs/distributed.md says how to use them.
 ///
 /// @par Collective
 /// All ranks make each call, in the same order, with arguments of the same types and the same options. A part may be empty.
