@@ -47,6 +47,14 @@ void* operator new(std::size_t n, std::align_val_t align) {
     const auto a = static_cast<std::size_t>(align);
     return counted(std::aligned_alloc(a, (n + a) / a * a));
 }
+// The sanitizers have one of their own, which would not be given back by what follows.
+void* operator new(std::size_t n, const std::nothrow_t&) noexcept {
+    try {
+        return operator new(n);
+    } catch (const std::bad_alloc&) {
+        return nullptr;
+    }
+}
 void operator delete(void* p) noexcept { give_back(p); }
 void operator delete(void* p, std::size_t) noexcept { give_back(p); }
 void operator delete(void* p, std::align_val_t) noexcept { give_back(p); }

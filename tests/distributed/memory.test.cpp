@@ -31,6 +31,14 @@ std::atomic<long> requests_left{-1};  // 0: the next one fails, once; less: none
 
 void* operator new(std::size_t n) { return requested(n, 0); }
 void* operator new(std::size_t n, std::align_val_t align) { return requested(n, static_cast<std::size_t>(align)); }
+// The sanitizers have one of their own, which would not be given back by what follows.
+void* operator new(std::size_t n, const std::nothrow_t&) noexcept {
+    try {
+        return operator new(n);
+    } catch (const std::bad_alloc&) {
+        return nullptr;
+    }
+}
 void operator delete(void* p) noexcept { given_back(p); }
 void operator delete(void* p, std::size_t) noexcept { given_back(p); }
 void operator delete(void* p, std::align_val_t) noexcept { given_back(p); }
