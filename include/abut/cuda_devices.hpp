@@ -9,6 +9,7 @@
 #include <abut/devices/distance.hpp>
 #include <abut/devices/impacts.hpp>
 #include <abut/devices/inside.hpp>
+#include <abut/devices/list.hpp>
 #include <abut/devices/nearest.hpp>
 #include <abut/devices/query.hpp>
 #include <abut/devices/raycast.hpp>
