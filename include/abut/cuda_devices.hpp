@@ -6,7 +6,12 @@
 #include <abut/cuda.hpp>
 
 #include <abut/devices/bodies.hpp>
+#include <abut/devices/distance.hpp>
 #include <abut/devices/impacts.hpp>
+#include <abut/devices/inside.hpp>
+#include <abut/devices/list.hpp>
 #include <abut/devices/nearest.hpp>
 #include <abut/devices/query.hpp>
+#include <abut/devices/raycast.hpp>
+#include <abut/devices/within.hpp>
 #include <abut/execution/cuda_devices.hpp>

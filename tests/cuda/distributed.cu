@@ -100,6 +100,43 @@ TEST_CASE("distributed: cuda") {
     CHECK(found == expected);
 }
 
+TEST_CASE("distributed: what points and rays ask, and distances, cuda") {
+    const distributed on(world(), cuda{});
+    const auto& ranks = on.ranks();
+    const auto all = make_scene(1500);
+    const triangle_soup<float> whole(all.triangles);
+    const spheres<float> whole_b(all.spheres);
+    const triangle_soup<float> a(part_of(all.triangles, division::even, on.rank(), on.size()));
+    const spheres<float> b(part_of(all.spheres, division::uneven, on.rank(), on.size()));
+    const auto tree = make_bvh(on.local(), a);
+    std::vector<ray<float>> lines;
+    for (const vec3<float>& p : all.centers) lines.push_back({p, {p.y - 3, p.z - 3, p.x - 3}});
+    const rays<float> all_rays(lines), from(part_of(lines, division::uneven, on.rank(), on.size()));
+
+    std::vector<global_ray_hit<float>> first;
+    for (const auto& hit : raycast(serial{}, whole, all_rays)) {
+        first.push_back({hit.id == no_id ? no_global_id : std::uint64_t{hit.id}, hit.t});
+    }
+    CHECK((lists_of_all(ranks, raycast(on, tree, from).to_host()) == first));
+    CHECK((lists_of_all(ranks, raycast_any(on, tree, from).to_host()) == raycast_any(serial{}, whole, all_rays).to_host()));
+    std::vector<global_hit_of_ray<float>> hits;
+    for (const auto& hit : raycast_all(serial{}, whole, all_rays)) hits.push_back({hit.ray, hit.id, hit.t});
+    CHECK((lists_of_all(ranks, raycast_all(on, tree, from).to_host()) == hits && hits.size() > 1000));
+
+    std::vector<global_neighbor<float>> near;
+    for (const auto& n : nearest(serial{}, make_bvh(serial{}, whole), all.centers, 3)) near.push_back({n.id, n.point, n.distance});
+    const auto centers = part_of(all.centers, division::uneven, on.rank(), on.size());
+    CHECK((lists_of_all(ranks, nearest(on, tree, centers, 3).to_host()) == near));
+
+    std::vector<global_pair> close;
+    for (const index_pair& pair : within(serial{}, whole, whole_b, 0.1)) close.push_back({pair.a, pair.b});
+    CHECK(lists_of_all(ranks, within(on, tree, make_bvh(on.local(), b), 0.1).to_host()) == close);
+    const sphere<float> far{{20, 3, 3}, 1};
+    const auto apart = distance(serial{}, whole, far);
+    const auto found = distance(on, tree, spheres<float>(on.rank() == 0 ? std::vector<sphere<float>>{far} : std::vector<sphere<float>>{}));
+    CHECK(on_all(ranks, found && found->a == apart->a && found->distance == apart->distance && found->distance > 0));
+}
+
 TEST_CASE("distributed: impacts, cuda") {
     const distributed on(world(), cuda{});
     const auto all = make_scene(800);

@@ -103,7 +103,7 @@ TEST_CASE("devices: parts of a search have each item once, and as many rows as t
                 CHECK((k > 0 || first == 0));
                 CHECK((k + 1 < parts || last == n));
             }
-            const detail::points_of_part points{k, parts};
+            const detail::rows_of_part points{k, parts};
             for (const std::size_t n : {std::size_t{0}, std::size_t{5}, std::size_t{4096}, std::size_t{50'001}}) {
                 const std::size_t some = points.count(n);
                 CHECK((some == 0 || points(some - 1) < n));
@@ -111,7 +111,7 @@ TEST_CASE("devices: parts of a search have each item once, and as many rows as t
         }
         CHECK(std::all_of(items.begin(), items.end(), [](int n) { return n == 1; }));
         std::size_t all = 0;
-        for (std::size_t k = 0; k < parts; ++k) all += detail::points_of_part{k, parts}.count(50'001);
+        for (std::size_t k = 0; k < parts; ++k) all += detail::rows_of_part{k, parts}.count(50'001);
         CHECK(all == 50'001);
     }
 }

@@ -96,6 +96,11 @@ TEST_CASE("distributed: memory that ends on one rank") {
     std::vector<vec3<float>> points;
     for (const auto& ball : part_of(balls, division::even, on.rank(), on.size())) points.push_back(ball.center);
 
+    std::vector<ray<float>> lines;
+    for (const vec3<float>& p : points) lines.push_back({p, {0, 0, 1}});
+    const rays<float> up(lines);
+    const sphere<float> ball_far_away{{9, 9, 9}, 1};
+
     const auto tree = make_bvh(serial{}, mine);
     const auto tree_of_balls = make_bvh(serial{}, my_balls);
     for (const int bad : {0, on.size() - 1}) {
@@ -117,6 +122,13 @@ TEST_CASE("distributed: memory that ends on one rank") {
         check([&] { return pairs(on, mine, tree_of_balls); });
         check([&] { return contacts(on, tree, my_balls); });
         check([&] { return nearest(on, tree, points); });
+        check([&] { return nearest(on, tree, points, 3); });
+        check([&] { return inside(on, tree, points, {.known_closed = true}); });
+        check([&] { return raycast(on, tree, up); });
+        check([&] { return raycast_all(on, tree, up); });
+        check([&] { return within(on, tree, tree_of_balls, 0.25); });
+        check([&] { return distance(on, tree, tree_of_balls); });
+        check([&] { return distance(on, tree, ball_far_away); });
         check([&] { return impacts(on, step, mine); });
         check([&] { return redistribute(on, my_balls).ids; });
     }

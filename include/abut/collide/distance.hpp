@@ -9,6 +9,7 @@
 // moves time and no answer: which index there is, and in what order pairs are taken. Lists of pairs are in
 // list_distance.hpp.
 
+#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
@@ -133,6 +134,26 @@ struct walk_from_pairs {
     }
 };
 
+/// What of an ordered walk falls to a part of a search. Neighbours that are walked at a time all have work, or none.
+template <class Walk>
+struct ordered_walk_of_part : Walk {
+    static constexpr std::size_t together = 32;
+    search_part mine;
+    ABUT_CALLS_ANY
+    template <class Best>
+    ABUT_HD void operator()(std::size_t i, Best& best) const {
+        if (mine.has(i / together)) Walk::operator()(i, best);
+    }
+};
+template <class Walk>
+const Walk& walk_of_part(const Walk& walk, const whole_search&) {
+    return walk;
+}
+template <class Walk>
+ordered_walk_of_part<Walk> walk_of_part(const Walk& walk, const search_part& part) {
+    return {walk, part};
+}
+
 /// What shapes in the world see of an index, by the box around each: `box` for trees, `ball` for grids.
 template <scalar T>
 struct world_sight {
@@ -238,16 +259,16 @@ inline int depth_of_seeds(int concurrency, bool on_host) {
 template <class Policy, class Pairing, class Walk, class Reach, class Best>
 void walk_two_trees(const Policy& on, const Pairing& pairing, const Walk& walk, const Reach& reach, Best& best) {
     const auto both = pairing.view();
-    const auto from_depth = [&](int depth, bool once) {
+    constexpr bool is_shared = !std::same_as<std::remove_cvref_t<decltype(pairing.part)>, whole_search>;
+    const auto from_depth = [&](int depth, bool once, const auto& part) {
         const seeds_below<Walk> from(walk, depth);
-        for_each_ordered(on, from.count(),
-                         walk_from_pairs<Walk, Reach, std::remove_const_t<decltype(both)>>{walk, reach, both, from, once},
-                         best);
+        const walk_from_pairs<Walk, Reach, std::remove_const_t<decltype(both)>> below{walk, reach, both, from, once};
+        for_each_ordered(on, from.count(), walk_of_part(below, part), best);
     };
-    const int depth = depth_of_seeds(concurrency(on), host_policy<Policy>);
-    // Whoever begins without a bound looks in vain: many short looks find a good one.
-    if (depth > 0) from_depth(4, true);
-    from_depth(depth, false);
+    const int depth = std::max(depth_of_seeds(concurrency(on), host_policy<Policy>), is_shared ? 6 : 0);
+    // Whoever begins without a bound looks in vain: many short looks find a good one. It is worth the same to each part.
+    if (depth > 0) from_depth(4, true, whole_search{});
+    from_depth(depth, false, pairing.part);
 }
 
 /// The shapes of one operand look in the other.
@@ -258,9 +279,8 @@ void look_for_nearest_pair(const Policy& on, const Pairing& pairing, const Index
     const auto look = [&](const auto& walk, const auto& sight) {
         using walk_type = std::remove_cvref_t<decltype(walk)>;
         using sight_type = std::remove_cvref_t<decltype(sight)>;
-        for_each_ordered(
-            on, rows,
-            look_from_shapes<RowsAreB, walk_type, sight_type, std::remove_const_t<decltype(both)>>{walk, sight, both}, best);
+        const look_from_shapes<RowsAreB, walk_type, sight_type, std::remove_const_t<decltype(both)>> each{walk, sight, both};
+        for_each_ordered(on, rows, walk_of_part(each, pairing.part), best);
     };
     if constexpr (!Index::is_indexed) {
         look(walk_all_boxes<decltype(x.shapes())>{x.shapes()}, sight_of_list{});
@@ -341,29 +361,44 @@ whole_pair<View> pair_of_key(const Policy& on, const View& both, std::uint64_t k
     return pair;
 }
 
+/// The least key of two arguments' pairs that touch, or no_pair.
+template <class Policy, class Pairing>
+std::uint64_t first_touch(const Policy& on, Pairing& pairing) {
+    std::uint64_t key = no_pair;
+    download(on, first_touches(on, pairing, 1).data(), 1, &key);
+    return key;
+}
+/// Of two arguments of which no shapes touch: what is nearest of what is no farther than the bound, and its key.
+template <class Policy, class Pairing>
+execution::least_value nearest_pair(const Policy& on, const Pairing& pairing, double bound) {
+    execution::best_of_all<space_of<Policy>> best(on, bound);
+    look_for_nearest_pair(on, pairing, best);
+    return best.least();
+}
+/// How far apart the two shapes of a key are, and where. Ids are those of the pairing.
+template <class Policy, class Pairing>
+auto separation_of_key(const Policy& on, const Pairing& pairing, std::uint64_t key, bool touch) {
+    const auto pair = pair_of_key(on, pairing.view(), key);
+    auto found = separation_of(pair.a, pair.b, touch);
+    found.a = pairing.key.a(key);
+    found.b = pairing.key.b(key);
+    return found;
+}
+
 /// `distance` of arguments that have been looked at.
 template <class Policy, class X, class Y>
 auto distance_of(const Policy& on, const X& x, const Y& y, const distance_options& options, const char* function) {
     using T = scalar_type_of<typename shape_of_argument<X>::type>;
+    using answer = std::optional<separation<T>>;
     check(options, function);
     auto pairing = pair_up(on, x, y, query_options<before_first_touch<pair_key>>{}, function);
-    if (pairing.a.shapes().size() == 0 || pairing.b.shapes().size() == 0 || !(options.below > 0)) {
-        return std::optional<separation<T>>();
-    }
-    std::uint64_t key = no_pair;
-    download(on, first_touches(on, pairing, 1).data(), 1, &key);
+    if (pairing.a.shapes().size() == 0 || pairing.b.shapes().size() == 0 || !(options.below > 0)) return answer();
+    std::uint64_t key = first_touch(on, pairing);
     const bool touch = key != no_pair;
-    if (!touch) {
-        execution::best_of_all<space_of<Policy>> best(on, bound_below<T>(options.below));
-        look_for_nearest_pair(on, pairing, best);
-        key = best.least().key;
-    }
-    if (key == no_pair) return std::optional<separation<T>>();
-    const auto pair = pair_of_key(on, pairing.view(), key);
-    separation<T> found = separation_of(pair.a, pair.b, touch);
-    found.a = pairing.key.a(key);
-    found.b = pairing.key.b(key);
-    return is_below(found, options.below) ? std::optional<separation<T>>(found) : std::optional<separation<T>>();
+    if (!touch) key = nearest_pair(on, pairing, bound_below<T>(options.below)).key;
+    if (key == no_pair) return answer();
+    const separation<T> found = separation_of_key(on, pairing, key, touch);
+    return is_below(found, options.below) ? answer(found) : answer();
 }
 
 /// Whether `distance` takes both arguments.

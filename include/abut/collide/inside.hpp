@@ -114,25 +114,29 @@ consteval bool can_contain() {
     return false;
 }
 
+/// Writes where each point is, of shapes that bound a body.
+template <arithmetic A, class Policy, class Operand, class Queries>
+void look_upward(const Policy& on, const Operand& x, const Queries& queries, containment* out) {
+    const auto there = x.shapes();
+    const auto from = queries.shapes();
+    using T = typename std::remove_const_t<decltype(from)>::scalar_type;
+    if (there.size() == 0) return fill(on, out, from.size(), containment::outside);
+    const auto walk = ordered_walk_of(x);
+    const auto frame = frame_of(x, length_unit<T>{});
+    using walk_type = walk_upward<A, std::remove_const_t<decltype(walk)>, std::remove_const_t<decltype(frame)>,
+                                  std::remove_const_t<decltype(there)>, std::remove_const_t<decltype(from)>>;
+    execution::until_stopped until;
+    for_each_ordered(on, from.size(), walk_type{walk, frame, there, from, out}, until);
+}
+
 template <arithmetic A, class Policy, class X, class Points>
 auto inside_of(const Policy& on, const X& mesh, const Points& points, const inside_options& options, const char* function) {
     using T = scalar_type_of<typename shape_of_argument<X>::type>;
     const auto x = make_operand(on, mesh, function);
     const auto queries = make_points<T>(on, points, function);
-    const auto there = x.shapes();
-    const auto from = queries.shapes();
-    if (!options.known_closed) require_closed(on, there, function);
-    execution::buffer_of<Policy, containment> out(on, from.size());
-    if (there.size() == 0) {
-        fill(on, out.data(), from.size(), containment::outside);
-    } else {
-        const auto walk = ordered_walk_of(x);
-        const auto frame = frame_of(x, length_unit<T>{});
-        using walk_type = walk_upward<A, std::remove_const_t<decltype(walk)>, std::remove_const_t<decltype(frame)>,
-                                      std::remove_const_t<decltype(there)>, std::remove_const_t<decltype(from)>>;
-        execution::until_stopped until;
-        for_each_ordered(on, from.size(), walk_type{walk, frame, there, from, out.data()}, until);
-    }
+    if (!options.known_closed) require_closed(on, x.shapes(), function);
+    execution::buffer_of<Policy, containment> out(on, queries.shapes().size());
+    look_upward<A>(on, x, queries, out.data());
     synchronize(on);
     return result<containment, space_of<Policy>>(std::move(out));
 }

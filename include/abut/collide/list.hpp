@@ -109,12 +109,17 @@ struct bodies_side_by_side {
     }
 };
 
-/// A list, ready to be asked; errors are thrown in the name of `function`.
-template <class Policy, class IndexA, class IndexB, class Filter, schedule Schedule>
+/// Positions of entries in the caller's list: as they are.
+struct own_positions {
+    std::size_t operator()(std::size_t i) const { return i; }
+};
+
+/// A list, ready to be asked; errors are thrown in the name of `function`, and have the positions of entries.
+template <class Policy, class IndexA, class IndexB, class Filter, schedule Schedule, class Positions = own_positions>
 auto pair_up(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
-             const list_options<Filter, Schedule>& options, const char* function) {
+             const list_options<Filter, Schedule>& options, const char* function, const Positions& position = {}) {
     require_callable(on, options.filter, tagged_pair{});
-    const auto name = [](std::size_t i) { return "entry " + std::to_string(i) + " of the list"; };
+    const auto name = [&](std::size_t i) { return "entry " + std::to_string(position(i)) + " of the list"; };
     const auto side = [&]<class Index>(posed_object<Index> posed_pair<IndexA, IndexB>::*which) {
         const auto body = [&](std::size_t i) -> const posed_object<Index>& { return list[i].*which; };
         return place_bodies(on, gathered_bodies<Index>(list.size(), body), function, name);

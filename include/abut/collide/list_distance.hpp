@@ -87,12 +87,12 @@ struct write_separations {
     }
 };
 
-template <class Policy, class IndexA, class IndexB>
+template <class Policy, class IndexA, class IndexB, class Positions = own_positions>
 auto distances_of(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list, const distance_options& options,
-                  const char* function) {
+                  const char* function, const Positions& position = {}) {
     using T = typename IndexA::scalar_type;
     check(options, function);
-    auto pairing = pair_up(on, list, list_options<before_first_touch<list_key>>{}, function);
+    auto pairing = pair_up(on, list, list_options<before_first_touch<list_key>>{}, function, position);
     const std::size_t n = list.size();
     const auto touches = first_touches(on, pairing, n);
     const auto view = pairing.view();

@@ -278,6 +278,15 @@ auto look_for_nearest_few(const Policy& on, const Operand& x, const Queries& que
     return finish(order.data(), best.data());
 }
 
+inline void check_few(std::size_t count, const char* function) {
+    if (count == 0) throw error(std::string(function) + ": count is 0, expected 1 or more");
+}
+inline void check_neighbors(std::size_t points, std::size_t count, const char* function) {
+    if (points <= (std::size_t{1} << 40) / count) return;
+    throw capacity_error(std::string(function) + ": " + std::to_string(count) + " neighbours of " + std::to_string(points) +
+                         " points, expected fewer than 2^40 in all");
+}
+
 /// `nearest` of arguments that have been looked at, with `count` answers for each point.
 template <class Policy, class X, class Points, class Look>
 auto nearest_of(const Policy& on, const X& index, const Points& points, std::size_t count, const char* function,
@@ -372,14 +381,11 @@ template <execution_policy Policy, class X, class Points>
 template <execution_policy Policy, class X, class Points>
 [[nodiscard]] auto nearest(const Policy& on, const X& index, const Points& points, std::size_t count) {
     if constexpr (detail::can_be_near<Policy, X, Points>()) {
-        if (count == 0) throw error("abut::nearest: count is 0, expected 1 or more");
-        return detail::nearest_of(on, index, points, count, "abut::nearest",
+        constexpr const char* function = "abut::nearest";
+        detail::check_few(count, function);
+        return detail::nearest_of(on, index, points, count, function,
                                   [&](const auto& x, const auto& queries, const auto& unit, const auto& finish) {
-                                      if (queries.shapes().size() > (std::size_t{1} << 40) / count) {
-                                          throw capacity_error("abut::nearest: " + std::to_string(count) + " neighbours of " +
-                                                               std::to_string(queries.shapes().size()) +
-                                                               " points, expected fewer than 2^40 in all");
-                                      }
+                                      detail::check_neighbors(queries.shapes().size(), count, function);
                                       return detail::look_for_nearest_few(on, x, queries, unit, count, finish);
                                   });
     } else {

@@ -10,6 +10,7 @@
 #include <type_traits>
 #include <vector>
 
+#include <abut/collide/nearness.hpp>
 #include <abut/collide/operand.hpp>
 #include <abut/collide/options.hpp>
 #include <abut/execution/atomic.hpp>
@@ -47,6 +48,33 @@ struct part_bounds {
         return std::any_of(other.groups, other.groups + part_boxes, [this](const aabb<T>& box) { return reaches(box); });
     }
 };
+
+/// All that comes so near to a part (nearness.hpp): its boxes, grown.
+template <scalar T, class Frame>
+part_bounds<T> grown(part_bounds<T> part, const near_by<T, Frame>& near) {
+    const auto grow = [&](aabb<T>& box) {
+        if (box.lower.x <= box.upper.x) box = near_reach<T, Frame>{box, near.frame}.bounds();
+    };
+    grow(part.around);
+    for (aabb<T>& box : part.groups) grow(box);
+    return part;
+}
+template <scalar T>
+part_bounds<T> grown(const part_bounds<T>& part, const near_enough_to_touch&) {
+    return part;
+}
+/// Of pairs whose boxes touch: what comes near enough to a part.
+struct as_near_as_boxes {
+    template <scalar T>
+    const part_bounds<T>& operator()(const part_bounds<T>& part) const {
+        return part;
+    }
+};
+/// What comes as near as a distance along a straight line.
+template <scalar T>
+part_bounds<T> grown_by(const part_bounds<T>& part, T distance) {
+    return grown(part, near_in_distance<T>{distance_frame<T>(distance)});
+}
 
 /// Neighbours in a set, as many as this, have a box of their own.
 inline constexpr std::size_t block_size = 64;
@@ -220,6 +248,7 @@ struct pack_shape {
 template <class Policy, shape_view Shapes>
 class near_shapes {
 public:
+    using view = Shapes;
     using T = typename Shapes::scalar_type;
 
     explicit near_shapes(const Shapes& shapes) : shapes_(shapes) {}

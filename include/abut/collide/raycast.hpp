@@ -137,15 +137,12 @@ consteval bool can_be_met() {
     }
 }
 
-/// Both arguments of a query of rays where its policy works, and what a walk needs of them.
-template <class Policy, class X, class Lines>
+/// Both operands of a query of rays, and what a walk needs of them.
+template <class Operand, class Looking>
 struct lines_and_shapes {
-    using T = scalar_type_of<typename shape_of_argument<X>::type>;
-    decltype(make_operand(std::declval<const Policy&>(), std::declval<const X&>(), "")) x;
-    decltype(make_operand(std::declval<const Policy&>(), std::declval<const Lines&>(), "")) looking;
-
-    lines_and_shapes(const Policy& on, const X& index, const Lines& rays, const char* function)
-        : x(make_operand(on, index, function)), looking(make_operand(on, rays, function)) {}
+    using T = typename std::remove_cvref_t<decltype(std::declval<const Operand&>().shapes())>::scalar_type;
+    Operand x;
+    Looking looking;
 
     [[nodiscard]] std::size_t size() const { return looking.shapes().size(); }
     [[nodiscard]] bool has_nothing() const { return size() == 0 || x.shapes().size() == 0; }
@@ -157,35 +154,50 @@ struct lines_and_shapes {
                     decltype(looking.shapes())>{ordered_walk_of(x), frame_of(x, unit), x.shapes(), looking.shapes(), rest...};
     }
 };
+template <class Operand, class Looking>
+lines_and_shapes(const Operand&, const Looking&) -> lines_and_shapes<Operand, Looking>;
+
+/// Of arguments.
+template <class Policy, class X, class Lines>
+auto bring_lines_and_shapes(const Policy& on, const X& index, const Lines& rays, const char* function) {
+    auto x = make_operand(on, index, function);
+    return lines_and_shapes{std::move(x), make_operand(on, rays, function)};
+}
+
+/// Finds what each line meets first. finish(found) takes it: found[i] is of line i; with no shapes or no lines `found` is null.
+template <arithmetic A, class Policy, class Both, class Finish>
+auto look_for_first_hits(const Policy& on, const Both& both, const Finish& finish) {
+    if (both.has_nothing()) return finish(nullptr);
+    execution::best_of_each<space_of<Policy>> best(on, both.size());
+    for_each_ordered(on, both.size(), both.template walk<walk_along_lines, A>(), best);
+    return finish(best.data());
+}
+
+/// Writes whether each line meets anything.
+template <arithmetic A, class Policy, class Both>
+void look_for_any_hits(const Policy& on, const Both& both, std::uint8_t* out) {
+    if (both.has_nothing()) return fill(on, out, both.size(), std::uint8_t{0});
+    execution::until_stopped until;
+    for_each_ordered(on, both.size(), both.template walk<walk_to_any, A>(out), until);
+}
 
 template <arithmetic A, class Policy, class X, class Lines>
 auto raycast_of(const Policy& on, const X& index, const Lines& rays, const char* function) {
-    const lines_and_shapes<Policy, X, Lines> both(on, index, rays, function);
-    using T = typename lines_and_shapes<Policy, X, Lines>::T;
-    const std::size_t n = both.size();
-    execution::buffer_of<Policy, ray_hit<T>> out(on, n);
-    const auto finish = [&](const execution::least_value* found) {
-        for_each_index(on, n, write_hits<T>{found, out.data()});
+    const auto both = bring_lines_and_shapes(on, index, rays, function);
+    using T = typename std::remove_const_t<decltype(both)>::T;
+    return look_for_first_hits<A>(on, both, [&](const execution::least_value* found) {
+        execution::buffer_of<Policy, ray_hit<T>> out(on, both.size());
+        for_each_index(on, both.size(), write_hits<T>{found, out.data()});
         synchronize(on);
         return result<ray_hit<T>, space_of<Policy>>(std::move(out));
-    };
-    if (both.has_nothing()) return finish(nullptr);
-    execution::best_of_each<space_of<Policy>> best(on, n);
-    for_each_ordered(on, n, both.template walk<walk_along_lines, A>(), best);
-    return finish(best.data());
+    });
 }
 
 template <arithmetic A, class Policy, class X, class Lines>
 auto raycast_any_of(const Policy& on, const X& index, const Lines& rays, const char* function) {
-    const lines_and_shapes<Policy, X, Lines> both(on, index, rays, function);
-    const std::size_t n = both.size();
-    execution::buffer_of<Policy, std::uint8_t> out(on, n);
-    if (both.has_nothing()) {
-        fill(on, out.data(), n, std::uint8_t{0});
-    } else {
-        execution::until_stopped until;
-        for_each_ordered(on, n, both.template walk<walk_to_any, A>(out.data()), until);
-    }
+    const auto both = bring_lines_and_shapes(on, index, rays, function);
+    execution::buffer_of<Policy, std::uint8_t> out(on, both.size());
+    look_for_any_hits<A>(on, both, out.data());
     synchronize(on);
     return result<std::uint8_t, space_of<Policy>>(std::move(out));
 }

@@ -103,30 +103,35 @@ struct write_along_lines {
     }
 };
 
-/// Hit k, with the number of its ray.
-template <scalar T>
+/// Hit k, by name(line, time and id) as `Hit`.
+template <class Hit, class Name>
 struct write_all_hits {
     const std::uint64_t* first;
-    std::size_t rays;
+    std::size_t lines;
     const execution::least_value* hits;
-    hit_of_ray<T>* out;
+    Name name;
+    Hit* out;
 
     ABUT_HD void operator()(std::size_t k) const {
-        std::size_t low = 0, high = rays;  // the ray is the last one whose first hit is not behind k
+        std::size_t low = 0, high = lines;  // the line is the last one whose first hit is not behind k
         while (high - low > 1) {
             const std::size_t middle = low + (high - low) / 2;
             (first[middle] <= k ? low : high) = middle;
         }
-        out[k] = {static_cast<std::uint32_t>(low), static_cast<std::uint32_t>(hits[k].key), time_as<T>(hits[k].value)};
+        out[k] = name(low, hits[k]);
+    }
+};
+template <scalar T>
+struct name_hit {
+    ABUT_HD hit_of_ray<T> operator()(std::size_t ray, const execution::least_value& hit) const {
+        return {static_cast<std::uint32_t>(ray), static_cast<std::uint32_t>(hit.key), time_as<T>(hit.value)};
     }
 };
 
-template <arithmetic A, class Policy, class X, class Lines>
-auto raycast_all_of(const Policy& on, const X& index, const Lines& rays, const char* function) {
-    const lines_and_shapes<Policy, X, Lines> both(on, index, rays, function);
-    using T = typename lines_and_shapes<Policy, X, Lines>::T;
-    using answer = result<hit_of_ray<T>, space_of<Policy>>;
-    if (both.has_nothing()) return answer();
+/// All that each line meets, in order, as `name` gives it.
+template <arithmetic A, class Hit, class Policy, class Both, class Name>
+execution::buffer_of<Policy, Hit> look_for_all_hits(const Policy& on, const Both& both, const Name& name) {
+    if (both.has_nothing()) return {};
     const std::size_t n = both.size();
     execution::buffer_of<Policy, std::uint64_t> first(on, n + 1);
     execution::buffer_of<Policy, execution::least_value> few(on, kept_hits * n);
@@ -139,10 +144,18 @@ auto raycast_all_of(const Policy& on, const X& index, const Lines& rays, const c
     for_each_ordered(on, n,
                      both.template walk<write_along_lines, A>(std::as_const(first).data(), std::as_const(few).data(), hits.data()),
                      until);
-    execution::buffer_of<Policy, hit_of_ray<T>> out(on, total);
-    for_each_index(on, total, write_all_hits<T>{first.data(), n, hits.data(), out.data()});
+    execution::buffer_of<Policy, Hit> out(on, total);
+    for_each_index(on, total, write_all_hits<Hit, Name>{first.data(), n, hits.data(), name, out.data()});
     synchronize(on);
-    return answer(std::move(out));
+    return out;
+}
+
+template <arithmetic A, class Policy, class X, class Lines>
+auto raycast_all_of(const Policy& on, const X& index, const Lines& rays, const char* function) {
+    const auto both = bring_lines_and_shapes(on, index, rays, function);
+    using T = typename std::remove_const_t<decltype(both)>::T;
+    using hit = hit_of_ray<T>;
+    return result<hit, space_of<Policy>>(look_for_all_hits<A, hit>(on, both, name_hit<T>{}));
 }
 
 }  // namespace detail

@@ -73,10 +73,10 @@ auto bounds_of_parts(const Team& team, const X& x, const ShapesOn& shapes_on) {
 }
 
 /// What each device packs for each other one, [from][to]: of its part of b what comes near the other's part of a; nothing
-/// for those that are over. Complete when it returns.
-template <class Team, class ShapesOn, class Bounds, class IdsOn, class IsOver>
+/// for those that are over. reach(bounds) is what comes near enough to a part. Complete when it returns.
+template <class Team, class ShapesOn, class Bounds, class IdsOn, class IsOver, class Reach>
 auto pack_for_others(const Team& team, const ShapesOn& shapes_on, const IdsOn& ids, const Bounds& bounds_a,
-                     const Bounds& bounds_b, const IsOver& is_over) {
+                     const Bounds& bounds_b, const IsOver& is_over, const Reach& reach) {
     using local = typename Team::local_policy;
     using view = decltype(shapes_on(0));
     using packed = near_part<local, typename view::shape_type>;
@@ -85,7 +85,7 @@ auto pack_for_others(const Team& team, const ShapesOn& shapes_on, const IdsOn& i
         near_shapes<local, view> near(shapes_on(from));
         std::vector<packed> for_each(static_cast<std::size_t>(team.size()));
         for (int to = 0; to < team.size(); ++to) {
-            const auto& theirs = bounds_a[static_cast<std::size_t>(to)];
+            const auto theirs = reach(bounds_a[static_cast<std::size_t>(to)]);
             if (to == from || is_over(to) || !theirs.is_near(bounds_b[static_cast<std::size_t>(from)])) continue;
             const auto n = static_cast<std::size_t>(near.count(on, theirs));
             packed some{{on, n}, {on, n}};
@@ -100,9 +100,9 @@ auto pack_for_others(const Team& team, const ShapesOn& shapes_on, const IdsOn& i
 
 /// ask_each of two divided arguments. Devices pack before they search, or a device would wait until another has searched.
 /// Only where a search may be over soon they search their own parts first.
-template <class Team, class X, class Y, class Ask, class IsOver>
+template <class Team, class X, class Y, class Ask, class IsOver, class Reach>
 void ask_each_of_parts(const Team& team, const X& x, const Y& y, const char* function, const Ask& ask,
-                       const IsOver& is_over) {
+                       const IsOver& is_over, const Reach& reach) {
     using local = typename Team::local_policy;
     const auto operands = each_of(team, [&](int k) {
         auto b = make_operand(team[k], y[k], function);
@@ -115,7 +115,7 @@ void ask_each_of_parts(const Team& team, const X& x, const Y& y, const char* fun
     const auto bounds_b = bounds_of_parts(team, y, shapes_b);
     const auto pack = [&] {
         return pack_for_others(
-            team, shapes_b, [&](int k) { return ids_on(y, k); }, bounds_a, bounds_b, is_over);
+            team, shapes_b, [&](int k) { return ids_on(y, k); }, bounds_a, bounds_b, is_over, reach);
     };
     const auto search_own = [&](int k) { ask(k, x[k], y[k], search_part{}, ids_of_parts{ids_on(x, k), ids_on(y, k)}); };
     const auto search_near = [&](int k, auto& packed) {
@@ -152,13 +152,15 @@ void ask_each_of_parts(const Team& team, const X& x, const Y& y, const char* fun
 }
 
 /// Runs ask(k, a, b, part, ids) on each device, on a thread of its own: once or several times, so that all pairs that may
-/// touch are looked at, each once; no more of them once is_over(k).
-template <class Team, class X, class Y, class Ask, class IsOver = never_over>
-void ask_each(const Team& team, const X& x, const Y& y, const char* function, const Ask& ask, const IsOver& is_over = {}) {
+/// touch are looked at, each once; no more of them once is_over(k). Where pairs are wanted that do not touch, reach(bounds) is
+/// what comes near enough to a part of a. It is called when devices have searched their own parts, if they do that first.
+template <class Team, class X, class Y, class Ask, class IsOver = never_over, class Reach = as_near_as_boxes>
+void ask_each(const Team& team, const X& x, const Y& y, const char* function, const Ask& ask, const IsOver& is_over = {},
+              const Reach& reach = {}) {
     require_as_many(team, x, function);
     require_as_many(team, y, function);
     if constexpr (is_divided<X> && is_divided<Y>) {
-        ask_each_of_parts(team, x, y, function, ask, is_over);
+        ask_each_of_parts(team, x, y, function, ask, is_over, reach);
     } else {
         constexpr bool is_whole = !is_divided<X> && !is_divided<Y>;
         execution::on_each(team, [&](int k) {

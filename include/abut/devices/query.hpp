@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <abut/collide/contacts.hpp>
+#include <abut/collide/pair_kinds.hpp>
 #include <abut/collide/parts.hpp>
 #include <abut/collide/query.hpp>
 #include <abut/collide/self_pairs.hpp>
@@ -49,15 +50,16 @@ auto options_there(const query_options<Filter, Traversal, Schedule>& options, co
 }
 
 /// What ask(on, pairing) finds on each device, in order if the options say so.
-template <class Found, class Team, class X, class Y, class Options, class Ask>
-auto found_on_each(const Team& team, const X& x, const Y& y, const Options& options, const char* function, const Ask& ask) {
+template <class Found, class Team, class X, class Y, class Options, class Kind, class Ask>
+auto found_on_each(const Team& team, const X& x, const Y& y, const Options& options, const char* function, const Kind& kind,
+                   const Ask& ask) {
     using local = typename Team::local_policy;
     using list = result<Found, space_of<local>>;
     std::vector<std::vector<list>> found(static_cast<std::size_t>(team.size()));
     ask_each(team, x, y, function,
              [&](int k, const auto& a, const auto& b, const search_part& part, const ids_of_parts& ids) {
                  const local& on = team[k];
-                 list some = ask(on, in_part(pair_up(on, a, b, options_there(options, ids), function), part));
+                 list some = ask(on, in_part(kind.pair_up(on, a, b, options_there(options, ids), function), part));
                  if constexpr (is_divided<X> || is_divided<Y>) {  // ids ascend in each part, so the order stays
                      execution::buffer_of<local, Found> renamed(on, some.size());
                      for_each_index(on, some.size(), rename_found<Found>{some.data(), ids, renamed.data()});
@@ -65,7 +67,8 @@ auto found_on_each(const Team& team, const X& x, const Y& y, const Options& opti
                      some = list(std::move(renamed));
                  }
                  found[static_cast<std::size_t>(k)].push_back(std::move(some));
-             });
+             },
+             never_over{}, kind);
     const auto one = [&](int k) {
         return joined<local, Found>(team[k], std::move(found[static_cast<std::size_t>(k)]), options.sorted);
     };
@@ -86,10 +89,89 @@ consteval bool can_pair_on_devices() {
            can_pair<typename Team::local_policy, type_on_device<X>, type_on_device<Y>, Filter>();
 }
 
-template <arithmetic A, class Team, class X, class Y, class Options>
-auto pairs_on_each(const Team& team, const X& a, const Y& b, const Options& options, const char* function) {
-    return found_on_each<index_pair>(team, a, b, options, function,
-                                     [](const auto& on, const auto& pairing) { return pairs_of<A>(on, pairing); });
+template <arithmetic A, class Team, class X, class Y, class Options, class Kind = pairs_that_touch>
+auto pairs_on_each(const Team& team, const X& a, const Y& b, const Options& options, const char* function,
+                   const Kind& kind = {}) {
+    return found_on_each<index_pair>(team, a, b, options, function, kind, [&](const auto& on, const auto& pairing) {
+        return pairs_of<A>(on, pairing, kind.template names<A>());
+    });
+}
+
+template <arithmetic A, class Team, class X, class Y, class Options, class Kind = pairs_that_touch>
+bool any_on_devices(const Team& team, const X& a, const Y& b, const Options& options, const char* function,
+                    const Kind& kind = {}) {
+    std::atomic<bool> found{false};
+    ask_each(
+        team, a, b, function,
+        [&](int k, const auto& x, const auto& y, const auto& part, const ids_of_parts& ids) {
+            const auto both = in_part(kind.pair_up(team[k], x, y, options_there(options, ids), function), part);
+            if (any_of<A>(team[k], both, kind.template judge<A>())) found.store(true);
+        },
+        [&](int) { return found.load(); }, kind);
+    return found.load();
+}
+
+template <arithmetic A, class Team, class X, class Y, class Options, class Kind = pairs_that_touch>
+std::uint64_t count_on_devices(const Team& team, const X& a, const Y& b, const Options& options, const char* function,
+                               const Kind& kind = {}) {
+    std::atomic<std::uint64_t> sum{0};
+    ask_each(
+        team, a, b, function,
+        [&](int k, const auto& x, const auto& y, const auto& part, const ids_of_parts& ids) {
+            const auto both = in_part(kind.pair_up(team[k], x, y, options_there(options, ids), function), part);
+            sum += count_of<A>(team[k], both, kind.template judge<A>());
+        },
+        never_over{}, kind);
+    return sum.load();
+}
+
+template <arithmetic A, class Team, class X, class Y, class VisitorOf, class Options, class Kind = pairs_that_touch>
+void visit_on_devices(const Team& team, const X& a, const Y& b, const VisitorOf& visitor_of, const Options& options,
+                      const char* function, const Kind& kind = {}) {
+    using local = typename Team::local_policy;
+    using visitor = std::remove_cvref_t<decltype(visitor_of(0))>;
+    std::vector<visitor> visitors;
+    for (int k = 0; k < team.size(); ++k) visitors.push_back(visitor_of(k));
+    const auto stopped = each_of(team, [&](int k) {
+        execution::buffer_of<local, std::uint32_t> flag(team[k], 1);
+        fill(team[k], flag.data(), 1, std::uint32_t{0});
+        return flag;
+    });
+    const auto flag = [&](int k) { return const_cast<std::uint32_t*>(stopped[static_cast<std::size_t>(k)].data()); };
+    ask_each(
+        team, a, b, function,
+        [&](int k, const auto& x, const auto& y, const auto& part, const ids_of_parts& ids) {
+            const local& on = team[k];
+            const visitor_by_whole_ids<visitor, ids_of_parts> visits{visitors[static_cast<std::size_t>(k)], ids, flag(k)};
+            const auto both = in_part(kind.pair_up(on, x, y, options_there(options, ids), function), part);
+            visit_pairs_of<A>(on, both, visits, kind.template judge<A>());
+        },
+        [&](int k) {
+            std::uint32_t has_stopped = 0;
+            download(team[k], flag(k), 1, &has_stopped);
+            return has_stopped != 0;
+        },
+        kind);
+}
+
+/// Of a set that each device has, the pairs of its shapes, and their number. pair_up(on, x) pairs it with itself.
+template <arithmetic A, class Team, class X, class PairUp, class Judge>
+auto self_pairs_on_devices(const Team& team, const X& x, bool sorted, const char* function, const PairUp& pair_up,
+                           const Judge& names) {
+    std::vector<result<index_pair, space_of<typename Team::local_policy>>> found(static_cast<std::size_t>(team.size()));
+    ask_each_itself(team, x, function, [&](int k, const auto& there, const search_part& part) {
+        found[static_cast<std::size_t>(k)] = pairs_of<A>(team[k], in_part(pair_up(team[k], there), part), names);
+    });
+    return on_first(team, std::move(found), sorted);
+}
+template <arithmetic A, class Team, class X, class PairUp, class Judge>
+std::uint64_t count_self_on_devices(const Team& team, const X& x, const char* function, const PairUp& pair_up,
+                                    const Judge& judge) {
+    std::atomic<std::uint64_t> sum{0};
+    ask_each_itself(team, x, function, [&](int k, const auto& there, const search_part& part) {
+        sum += count_of<A>(team[k], in_part(pair_up(team[k], there), part), judge);
+    });
+    return sum.load();
 }
 
 }  // namespace detail
@@ -98,9 +180,9 @@ auto pairs_on_each(const Team& team, const X& a, const Y& b, const Options& opti
 ///
 /// `abut::cuda_devices` from `<abut/cuda_devices.hpp>` asks a query of several devices at a time. `replicate` puts a set on
 /// each of them, `divide` a part of it on each, and `make_bvh` makes a tree of either on each. `any`, `count`, `pairs`,
-/// `for_each_pair`, `contacts`, `self_pairs` and `count_self_pairs` take these, posed or not, and sets in host memory and
-/// single shapes, which are copied to each device for the call. `impacts` and queries of bodies take what each device has
-/// whole. Answers are those of one device, bit for bit.
+/// `for_each_pair`, `contacts`, `within` and `distance` take these, posed or not, and sets in host memory and single shapes,
+/// which are copied to each device for the call; so do `nearest`, `inside` and `raycast`, and what looks is not divided.
+/// `impacts`, self queries and queries of bodies take what each device has whole. Answers are those of one device, bit for bit.
 ///
 /// A filter runs on every device: what it points to has to be readable on each of them. `schedule_options::report` is left
 /// as it is.
@@ -131,17 +213,11 @@ template <arithmetic A = filtered, execution::policy_team Team, class X, class Y
           traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
 [[nodiscard]] bool any(const Team& team, const X& a, const Y& b,
                        const query_options<Filter, Traversal, Schedule>& options = {}) {
-    std::atomic<bool> found{false};
     if constexpr (detail::can_pair_on_devices<Team, X, Y, Filter, Traversal>()) {
-        detail::ask_each(
-            team, a, b, "abut::any",
-            [&](int k, const auto& x, const auto& y, const auto& part, const detail::ids_of_parts& ids) {
-                const auto both = detail::pair_up(team[k], x, y, detail::options_there(options, ids), "abut::any");
-                if (detail::any_of<A>(team[k], detail::in_part(both, part))) found.store(true);
-            },
-            [&](int) { return found.load(); });
+        return detail::any_on_devices<A>(team, a, b, options, "abut::any");
+    } else {
+        return false;
     }
-    return found.load();
 }
 
 /// Number of pairs that touch and that the filter wants. Stores none of them.
@@ -149,16 +225,11 @@ template <arithmetic A = filtered, execution::policy_team Team, class X, class Y
           traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
 [[nodiscard]] std::uint64_t count(const Team& team, const X& a, const Y& b,
                                   const query_options<Filter, Traversal, Schedule>& options = {}) {
-    std::atomic<std::uint64_t> sum{0};
     if constexpr (detail::can_pair_on_devices<Team, X, Y, Filter, Traversal>()) {
-        detail::ask_each(team, a, b, "abut::count",
-                         [&](int k, const auto& x, const auto& y, const auto& part, const detail::ids_of_parts& ids) {
-                             const auto both =
-                                 detail::pair_up(team[k], x, y, detail::options_there(options, ids), "abut::count");
-                             sum += detail::count_of<A>(team[k], detail::in_part(both, part));
-                         });
+        return detail::count_on_devices<A>(team, a, b, options, "abut::count");
+    } else {
+        return 0;
     }
-    return sum.load();
 }
 
 /// All pairs that touch, each once, with ids in the whole sets: a `result` of `index_pair`, 8 bytes each, in memory of the
@@ -198,28 +269,7 @@ void for_each_pair(const Team& team, const X& a, const Y& b, const VisitorOf& vi
     using visitor = std::remove_cvref_t<decltype(visitor_of(0))>;
     if constexpr (detail::can_pair_on_devices<Team, X, Y, Filter, Traversal>() &&
                   detail::is_visitor<local, visitor, index_pair>()) {
-        std::vector<visitor> visitors;
-        for (int k = 0; k < team.size(); ++k) visitors.push_back(visitor_of(k));
-        const auto stopped = detail::each_of(team, [&](int k) {
-            execution::buffer_of<local, std::uint32_t> flag(team[k], 1);
-            fill(team[k], flag.data(), 1, std::uint32_t{0});
-            return flag;
-        });
-        const auto flag = [&](int k) { return const_cast<std::uint32_t*>(stopped[static_cast<std::size_t>(k)].data()); };
-        detail::ask_each(
-            team, a, b, "abut::for_each_pair",
-            [&](int k, const auto& x, const auto& y, const auto& part, const detail::ids_of_parts& ids) {
-                const local& on = team[k];
-                const detail::visitor_by_whole_ids<visitor, detail::ids_of_parts> visits{
-                    visitors[static_cast<std::size_t>(k)], ids, flag(k)};
-                const auto both = detail::pair_up(on, x, y, detail::options_there(options, ids), "abut::for_each_pair");
-                detail::visit_pairs_of<A>(on, detail::in_part(both, part), visits);
-            },
-            [&](int k) {
-                std::uint32_t has_stopped = 0;
-                download(team[k], flag(k), 1, &has_stopped);
-                return has_stopped != 0;
-            });
+        detail::visit_on_devices<A>(team, a, b, visitor_of, options, "abut::for_each_pair");
     }
 }
 
@@ -232,7 +282,7 @@ template <arithmetic A = filtered, execution::policy_team Team, class X, class Y
         using T = scalar_type_of<typename detail::shape_of_argument<detail::type_on_device<X>>::type>;
         const query_options<Filter> query{.sorted = options.sorted, .filter = options.filter, .resident = options.resident};
         auto found =
-            detail::found_on_each<contact<T>>(team, a, b, query, "abut::contacts", [&](const auto& on, const auto& pairing) {
+            detail::found_on_each<contact<T>>(team, a, b, query, "abut::contacts", detail::pairs_that_touch{}, [&](const auto& on, const auto& pairing) {
                 return detail::contacts_of<A>(on, pairing, options.discard_sideways);
             });
         return detail::on_first(team, std::move(found), options.sorted);
@@ -245,30 +295,25 @@ template <arithmetic A = filtered, execution::policy_team Team, class X, class Y
 /// each device. A `result` of `index_pair` in memory of the first device.
 template <arithmetic A = filtered, execution::policy_team Team, class X, class Filter = keep_all>
 [[nodiscard]] auto self_pairs(const Team& team, const X& x, const self_options<Filter>& options = {}) {
-    using local = typename Team::local_policy;
-    std::vector<result<index_pair, space_of<local>>> found(static_cast<std::size_t>(team.size()));
-    if constexpr (detail::can_pair_itself<local, detail::type_on_device<X>, Filter>()) {
-        detail::ask_each_itself(team, x, "abut::self_pairs", [&](int k, const auto& there, const detail::search_part& part) {
-            found[static_cast<std::size_t>(k)] = detail::pairs_of<A>(
-                team[k], detail::in_part(detail::pair_up_faces(team[k], there, options, "abut::self_pairs"), part));
-        });
+    if constexpr (detail::can_pair_itself<typename Team::local_policy, detail::type_on_device<X>, Filter>()) {
+        constexpr const char* function = "abut::self_pairs";
+        const auto faces = [&](const auto& on, const auto& there) { return detail::pair_up_faces(on, there, options, function); };
+        return detail::self_pairs_on_devices<A>(team, x, options.sorted, function, faces, detail::touch_and_name<A>{});
+    } else {
+        return result<index_pair, space_of<typename Team::local_policy>>();
     }
-    return detail::on_first(team, std::move(found), options.sorted);
 }
 
 /// The number of pairs that self_pairs reports. Stores none of them.
 template <arithmetic A = filtered, execution::policy_team Team, class X, class Filter = keep_all>
 [[nodiscard]] std::uint64_t count_self_pairs(const Team& team, const X& x, const self_options<Filter>& options = {}) {
-    std::atomic<std::uint64_t> sum{0};
     if constexpr (detail::can_pair_itself<typename Team::local_policy, detail::type_on_device<X>, Filter>()) {
-        detail::ask_each_itself(
-            team, x, "abut::count_self_pairs", [&](int k, const auto& there, const detail::search_part& part) {
-                sum += detail::count_of<A>(
-                    team[k],
-                    detail::in_part(detail::pair_up_faces(team[k], there, options, "abut::count_self_pairs"), part));
-            });
+        constexpr const char* function = "abut::count_self_pairs";
+        const auto faces = [&](const auto& on, const auto& there) { return detail::pair_up_faces(on, there, options, function); };
+        return detail::count_self_on_devices<A>(team, x, function, faces, detail::touch<A>{});
+    } else {
+        return 0;
     }
-    return sum.load();
 }
 
 ///@}

@@ -150,6 +150,16 @@ private:
     std::exception_ptr failure_;
 };
 
+/// Throws error on all ranks if they give different numbers for what they have to agree on. All ranks call it.
+inline void require_one(const own_communicator& ranks, double mine, const char* function, const char* what) {
+    const double ends[2] = {mine, -mine};
+    double most[2] = {};
+    check_mpi(MPI_Allreduce(ends, most, 2, MPI_DOUBLE, MPI_MAX, ranks.get()), "MPI_Allreduce");
+    if (most[0] == -most[1]) return;
+    throw error(std::string(function) + ": ranks give " + what + " from " + std::to_string(-most[1]) + " to " +
+                std::to_string(most[0]) + "; expected the same on all");
+}
+
 }  // namespace detail
 
 /// @defgroup distributed Many processes
@@ -159,8 +169,7 @@ private:
 /// all parts one after another, in the order of the ranks. So ids are 64 bits wide: those of a rank begin where those of the
 /// rank before end. Answers are those of one machine that has the whole sets.
 ///
-/// `any`, `count`, `pairs`, `for_each_pair` and `contacts` are here. They come with `<abut/mpi.hpp>` and the target
-/// `abut::mpi`. docs/distributed.md says how to use them.
+/// The queries come with `<abut/mpi.hpp>` and the target `abut::mpi`. docs/distributed.md says how to use them.
 ///
 /// @par Collective
 /// All ranks make each call, in the same order, with arguments of the same types and the same options. A part may be empty.

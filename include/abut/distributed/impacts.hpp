@@ -59,21 +59,6 @@ part_bounds<T> bounds_of_mesh_part(const Policy& on, const moving_set<mesh<T, Sp
     return part;
 }
 
-/// All that comes so near, as near_in_coordinates tells.
-template <scalar T>
-part_bounds<T> grown(part_bounds<T> part, const near_in_coordinates<T>& near) {
-    const auto grow = [&](aabb<T>& box) {
-        if (box.lower.x <= box.upper.x) box = near_reach<T, near_frame<T>>{box, near.frame}.bounds();
-    };
-    grow(part.around);
-    for (aabb<T>& box : part.groups) grow(box);
-    return part;
-}
-template <scalar T>
-part_bounds<T> grown(const part_bounds<T>& part, const near_enough_to_touch&) {
-    return part;
-}
-
 template <shape_view Vertices>
 struct mark_vertices {
     comes_near<Vertices> near;

@@ -40,6 +40,11 @@ public:
             first += of_rank_[k].size;
         }
     }
+    /// What comes near enough to each part of another set, in room for as many.
+    template <class Reach>
+    void take_grown(const parts_of_set& other, const Reach& reach) {
+        std::transform(other.of_rank_.begin(), other.of_rank_.end(), of_rank_.begin(), reach);
+    }
     [[nodiscard]] const part_bounds<T>& operator[](int rank) const { return of_rank_[static_cast<std::size_t>(rank)]; }
     /// The id of a rank's first shape.
     [[nodiscard]] std::uint64_t first_of(int rank) const { return first_id_[static_cast<std::size_t>(rank)]; }
@@ -222,38 +227,39 @@ private:
     message_type<Id> id_type_;
 };
 
-/// Shapes that come near the parts of other ranks, with their ids. use(rank, shapes, ids) is called for what comes from a
-/// rank, in memory of the policy's that is used again after it.
-template <class Local, shape_view Shapes, class Use>
-class shape_parcels : public shape_rooms<Local, typename Shapes::shape_type, std::uint32_t> {
-    using rooms = shape_rooms<Local, typename Shapes::shape_type, std::uint32_t>;
+/// Shapes that parts of other ranks ask for, with their ids: `Chosen` counts and writes them (near_shapes in collide/parts.hpp).
+/// use(rank, shapes, ids) is called for what comes from a rank, in memory of the policy's that is used again after it.
+template <class Local, class Chosen, class Use>
+class shape_parcels : public shape_rooms<Local, typename Chosen::view::shape_type, std::uint32_t> {
+    using shape_type = typename Chosen::view::shape_type;
+    using rooms = shape_rooms<Local, shape_type, std::uint32_t>;
     using rooms::local_, rooms::out_, rooms::in_;
 
 public:
-    using T = typename Shapes::scalar_type;
+    using T = typename Chosen::T;
     using sizes = typename rooms::sizes;
 
-    shape_parcels(const Local& local, const Shapes& shapes, const parts_of_set<T>& looking, const Use& use)
-        : rooms(local), near_(shapes), looking_(looking), use_(use) {}
+    shape_parcels(const Local& local, Chosen chosen, const parts_of_set<T>& looking, const Use& use)
+        : rooms(local), chosen_(std::move(chosen)), looking_(looking), use_(use) {}
 
     [[nodiscard]] sizes measure(int to) {
         sizes size{};
-        size[0] = near_.count(local_, looking_[to]);
+        size[0] = chosen_.count(local_, looking_[to]);
         return size;
     }
     void pack(int to, const sizes& size) {
-        near_.write(local_, looking_[to], out_->shapes.there(), out_->ids.there());
+        chosen_.write(local_, looking_[to], out_->shapes.there(), out_->ids.there());
         out_->bring_here(local_, static_cast<std::size_t>(size[0]));
     }
     void unpack(int from, const sizes& size) {
         const auto n = static_cast<std::size_t>(size[0]);
         in_->bring_there(local_, n);
-        using view = shapes_view<typename Shapes::shape_type, space_of<Local>>;
-        use_(from, view(in_->shapes.there(), n), in_->ids.there());
+        const shapes_view<shape_type, space_of<Local>> came(in_->shapes.there(), n);
+        use_(from, came, in_->ids.there());
     }
 
 private:
-    near_shapes<Local, Shapes> near_;
+    Chosen chosen_;
     const parts_of_set<T>& looking_;
     const Use& use_;
 };

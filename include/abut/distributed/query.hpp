@@ -17,6 +17,7 @@
 #include <vector>
 
 #include <abut/collide/contacts.hpp>
+#include <abut/collide/pair_kinds.hpp>
 #include <abut/collide/query.hpp>
 #include <abut/distributed/communicator.hpp>
 #include <abut/distributed/parts.hpp>
@@ -183,6 +184,10 @@ consteval bool can_pair_globally() {
     }
 }
 
+struct share_nothing {
+    void operator()() const {}
+};
+
 /// An argument in the policy's memory, for several queries: copied under cuda once, if it is a set of the host's.
 template <class Policy, class X>
 auto brought_to(const Policy& on, const X& x) {
@@ -196,9 +201,12 @@ auto brought_to(const Policy& on, const X& x) {
 }
 
 /// Runs ask(rank, a, b, ids) of a rank's own parts, and then of what comes from each other rank: all pairs of its a-shapes
-/// with b-shapes that they may touch, each once. Returns the parts of a. All ranks call it; it throws on all or on none.
-template <class Local, class X, class Y, class Ask>
-auto ask_all_parts(const distributed<Local>& on, const X& x, const Y& y, const char* function, const Ask& ask) {
+/// with b-shapes that they may touch, each once. Where pairs are wanted that do not touch, reach(bounds) is what comes near
+/// enough to a part of a: the same on all ranks, which call share() first, when they have asked about their own parts, whether
+/// that failed or not. Returns the parts of a. All ranks call it; it throws on all or on none.
+template <class Local, class X, class Y, class Ask, class Reach = as_near_as_boxes, class Share = share_nothing>
+auto ask_all_parts(const distributed<Local>& on, const X& x, const Y& y, const char* function, const Ask& ask,
+                   const Reach& reach = {}, const Share& share = {}) {
     using T = scalar_type_of<typename shape_of_argument<X>::type>;
     const own_communicator& ranks = on.ranks();
     const Local& local = on.local();
@@ -212,11 +220,12 @@ auto ask_all_parts(const distributed<Local>& on, const X& x, const Y& y, const c
     };
     std::optional<decltype(bring())> here;
     part_bounds<T> part_a, part_b;
-    parts_of_set<T> parts_a, parts_b;
+    parts_of_set<T> parts_a, parts_b, looking;
     parcel_room<std::array<std::uint64_t, 1>> room;
     attempt([&] {
         parts_a.make_room(ranks.size());
         parts_b.make_room(ranks.size());
+        looking.make_room(ranks.size());
         room.make_room(ranks.size());
         here.emplace(bring());
         part_a = bounds_of_part(local, std::get<2>(*here).shapes());
@@ -236,8 +245,11 @@ auto ask_all_parts(const distributed<Local>& on, const X& x, const Y& y, const c
         if (!looks) looks.emplace(looked_in(local, a, std::type_identity<Y>{}));
         ask(rank, *looks, came, global_ids{first_a, parts_b.first_of(rank), ids});
     };
-    const auto goes = [&](int from, int to) { return parts_a[to].is_near(parts_b[from]); };
-    shape_parcels parcels(local, operand_b.shapes(), parts_a, use);
+    share();
+    looking.take_grown(parts_a, reach);
+    const auto goes = [&](int from, int to) { return looking[to].is_near(parts_b[from]); };
+    using near_b = near_shapes<Local, std::remove_cvref_t<decltype(operand_b.shapes())>>;
+    shape_parcels parcels(local, near_b(operand_b.shapes()), looking, use);
     exchange_parcels(on, attempt, room, goes, parcels);
     return parts_a;
 }
@@ -260,9 +272,9 @@ auto joined(const distributed<Local>& on, found_by_rank<Local, Global>& all, boo
 }
 
 /// What ask(a, b, options) finds of all parts, in this rank's order.
-template <class Global, class Local, class X, class Y, class Options, class Ask>
+template <class Global, class Local, class X, class Y, class Options, class Ask, class Reach = as_near_as_boxes>
 auto found_in_all_parts(const distributed<Local>& on, const X& a, const Y& b, const Options& options, const char* function,
-                        const Ask& ask) {
+                        const Ask& ask, const Reach& reach = {}) {
     found_by_rank<Local, Global> all;
     const Local& local = on.local();
     const auto parts = ask_all_parts(on, a, b, function, [&](int rank, const auto& x, const auto& y, const global_ids& ids) {
@@ -271,12 +283,49 @@ auto found_in_all_parts(const distributed<Local>& on, const X& a, const Y& b, co
         all.add(local, rank, found.size(), [&](Global* out, std::uint64_t* keys) {
             for_each_index(local, found.size(), name_all_globally<value, Global>{found.data(), ids, out, keys});
         });
-    });
+    }, reach);
     return joined(on, all, options.sorted, id_bits(static_cast<std::size_t>(parts[on.rank()].size)));
 }
 
-template <arithmetic A, class Local, class X, class Y, class Visitor, class Options>
-void visit_all_parts(const distributed<Local>& on, const X& a, const Y& b, const Visitor& visitor, const Options& options) {
+// Queries of all parts, of a kind of pairs (collide/pair_kinds.hpp).
+
+template <arithmetic A, class Local, class X, class Y, class Options, class Kind>
+bool any_of_parts(const distributed<Local>& on, const X& a, const Y& b, const Options& options, const char* function,
+                  const Kind& kind) {
+    bool found = false;
+    const auto ask = [&](int, const auto& x, const auto& y, const global_ids& ids) {
+        if (found) return;
+        const auto both = kind.pair_up(on.local(), x, y, options_here(options, ids), function);
+        found = any_of<A>(on.local(), both, kind.template judge<A>());
+    };
+    ask_all_parts(on, a, b, function, ask, kind);
+    return sum_of_ranks(on.ranks(), found ? 1 : 0) > 0;
+}
+
+template <arithmetic A, class Local, class X, class Y, class Options, class Kind>
+std::uint64_t count_of_parts(const distributed<Local>& on, const X& a, const Y& b, const Options& options,
+                             const char* function, const Kind& kind) {
+    std::uint64_t found = 0;
+    const auto ask = [&](int, const auto& x, const auto& y, const global_ids& ids) {
+        const auto both = kind.pair_up(on.local(), x, y, options_here(options, ids), function);
+        found += count_of<A>(on.local(), both, kind.template judge<A>());
+    };
+    ask_all_parts(on, a, b, function, ask, kind);
+    return sum_of_ranks(on.ranks(), found);
+}
+
+template <arithmetic A, class Local, class X, class Y, class Options, class Kind>
+auto pairs_of_parts(const distributed<Local>& on, const X& a, const Y& b, const Options& options, const char* function,
+                    const Kind& kind) {
+    const auto ask = [&](const auto& x, const auto& y, const auto& here) {
+        return pairs_of<A>(on.local(), kind.pair_up(on.local(), x, y, here, function), kind.template names<A>());
+    };
+    return found_in_all_parts<global_pair>(on, a, b, options, function, ask, kind);
+}
+
+template <arithmetic A, class Local, class X, class Y, class Visitor, class Options, class Kind>
+void visit_all_parts(const distributed<Local>& on, const X& a, const Y& b, const Visitor& visitor, const Options& options,
+                     const char* function, const Kind& kind) {
     const Local& local = on.local();
     attempts attempt;
     execution::buffer_of<Local, std::uint32_t> stopped;
@@ -285,12 +334,25 @@ void visit_all_parts(const distributed<Local>& on, const X& a, const Y& b, const
         fill(local, stopped.data(), 1, std::uint32_t{0});
     });
     attempt.settle(on.ranks());
-    ask_all_parts(on, a, b, "abut::for_each_pair", [&](int, const auto& x, const auto& y, const global_ids& ids) {
+    const auto ask = [&](int, const auto& x, const auto& y, const global_ids& ids) {
         std::uint32_t has_stopped = 0;
         download(local, stopped.data(), 1, &has_stopped);
         if (has_stopped != 0) return;
-        for_each_pair<A>(local, x, y, visitor_by_whole_ids<Visitor, global_ids>{visitor, ids, stopped.data()}, options_here(options, ids));
-    });
+        const visitor_by_whole_ids<Visitor, global_ids> visits{visitor, ids, stopped.data()};
+        visit_pairs_of<A>(local, kind.pair_up(local, x, y, options_here(options, ids), function), visits,
+                          kind.template judge<A>());
+    };
+    ask_all_parts(on, a, b, function, ask, kind);
+}
+
+/// Whether a visitor of ranks can be called.
+template <class Local, class Visitor>
+consteval bool is_global_visitor() {
+    constexpr bool is = answers<Local, Visitor, visit, global_pair>();
+    static_assert(is,
+                  "abut: a visitor of a distributed query is called as visitor(global_pair) const, and returns "
+                  "abut::visit::proceed or abut::visit::stop");
+    return is;
 }
 
 }  // namespace detail
@@ -305,14 +367,11 @@ template <arithmetic A = filtered, execution_policy Local, class X, class Y, cla
           traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
 [[nodiscard]] bool any(const distributed<Local>& on, const X& a, const Y& b,
                        const query_options<Filter, Traversal, Schedule>& options = {}) {
-    bool found = false;
     if constexpr (detail::can_pair_globally<Local, X, Y, Filter>()) {
-        detail::ask_all_parts(on, a, b, "abut::any", [&](int, const auto& x, const auto& y, const detail::global_ids& ids) {
-            found = found || any<A>(on.local(), x, y, detail::options_here(options, ids));
-        });
-        found = detail::sum_of_ranks(on.ranks(), found ? 1 : 0) > 0;
+        return detail::any_of_parts<A>(on, a, b, options, "abut::any", detail::pairs_that_touch{});
+    } else {
+        return false;
     }
-    return found;
 }
 
 /// Number of pairs that touch and that the filter wants, of all ranks: the same answer on each. As `any` otherwise.
@@ -320,15 +379,11 @@ template <arithmetic A = filtered, execution_policy Local, class X, class Y, cla
           traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
 [[nodiscard]] std::uint64_t count(const distributed<Local>& on, const X& a, const Y& b,
                                   const query_options<Filter, Traversal, Schedule>& options = {}) {
-    std::uint64_t found = 0;
     if constexpr (detail::can_pair_globally<Local, X, Y, Filter>()) {
-        detail::ask_all_parts(on, a, b, "abut::count",
-                              [&](int, const auto& x, const auto& y, const detail::global_ids& ids) {
-                                  found += count<A>(on.local(), x, y, detail::options_here(options, ids));
-                              });
-        found = detail::sum_of_ranks(on.ranks(), found);
+        return detail::count_of_parts<A>(on, a, b, options, "abut::count", detail::pairs_that_touch{});
+    } else {
+        return 0;
     }
-    return found;
 }
 
 /// All pairs of this rank's a-shapes that touch, each once: a `result` of `global_pair`, 16 bytes each, in the local
@@ -339,9 +394,7 @@ template <arithmetic A = filtered, execution_policy Local, class X, class Y, cla
 [[nodiscard]] auto pairs(const distributed<Local>& on, const X& a, const Y& b,
                          const query_options<Filter, Traversal, Schedule>& options = {}) {
     if constexpr (detail::can_pair_globally<Local, X, Y, Filter>()) {
-        return detail::found_in_all_parts<global_pair>(
-            on, a, b, options, "abut::pairs",
-            [&](const auto& x, const auto& y, const auto& here) { return pairs<A>(on.local(), x, y, here); });
+        return detail::pairs_of_parts<A>(on, a, b, options, "abut::pairs", detail::pairs_that_touch{});
     } else {
         return result<global_pair, space_of<Local>>();
     }
@@ -353,12 +406,8 @@ template <arithmetic A = filtered, execution_policy Local, class X, class Y, cla
           traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
 void for_each_pair(const distributed<Local>& on, const X& a, const Y& b, const Visitor& visitor,
                    const query_options<Filter, Traversal, Schedule>& options = {}) {
-    if constexpr (detail::can_pair_globally<Local, X, Y, Filter>()) {
-        constexpr bool is = detail::answers<Local, Visitor, visit, global_pair>();
-        static_assert(is,
-                      "abut: a visitor of a distributed query is called as visitor(global_pair) const, and returns "
-                      "abut::visit::proceed or abut::visit::stop");
-        if constexpr (is) detail::visit_all_parts<A>(on, a, b, visitor, options);
+    if constexpr (detail::can_pair_globally<Local, X, Y, Filter>() && detail::is_global_visitor<Local, Visitor>()) {
+        detail::visit_all_parts<A>(on, a, b, visitor, options, "abut::for_each_pair", detail::pairs_that_touch{});
     }
 }
 

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// How far apart parts of two sets are, one after another: what `distance` says of whole sets that lie on several devices or
+// ranks. First all parts are asked what touches, and where nothing does, what is nearest.
+
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include <abut/arithmetic/limits.hpp>
+#include <abut/collide/distance.hpp>
+#include <abut/collide/parts.hpp>
+#include <abut/shape/outward.hpp>
+
+namespace abut::detail {
+
+/// The nearest pair so far, with ids of the whole sets.
+template <scalar T>
+struct pair_apart {
+    double measure = infinity<double>;  ///< as it is compared: 0 of what touches
+    std::uint64_t a = static_cast<std::uint64_t>(-1), b = a;  ///< the largest numbers where there is none
+    separation<T> found{};                                    ///< its ids say nothing
+
+    [[nodiscard]] bool is_one() const { return a != static_cast<std::uint64_t>(-1); }
+    [[nodiscard]] bool comes_before(const pair_apart& other) const {
+        if (measure != other.measure) return measure < other.measure;
+        return a != other.a ? a < other.a : b < other.b;
+    }
+};
+
+/// The least of all parts, which threads ask at a time.
+template <scalar T>
+class least_apart {
+public:
+    /// Nothing that is not below `below` is looked for.
+    explicit least_apart(double below) : most_(bound_below<T>(below)) {}
+
+    /// What of a pairing touches: ids(a, b) names two shapes of its operands in the whole sets.
+    template <class Policy, class Pairing, class Ids>
+    void look_for_touch(const Policy& on, Pairing pairing, const Ids& ids) {
+        if (is_empty(pairing)) return;
+        offer(on, pairing, first_touch(on, pairing), 0, true, ids);
+    }
+    /// What of a pairing, of which nothing touches, is nearest.
+    template <class Policy, class Pairing, class Ids>
+    void look_for_nearest(const Policy& on, const Pairing& pairing, const Ids& ids) {
+        if (is_empty(pairing)) return;
+        const auto least = nearest_pair(on, pairing, bound());
+        offer(on, pairing, least.key, least.value, false, ids);
+    }
+
+    /// What is farther apart does not matter.
+    [[nodiscard]] double bound() const {
+        const std::scoped_lock lock(mutex_);
+        return best_.measure < most_ ? best_.measure : most_;
+    }
+    /// How far around shapes those may lie that are as near as that: rounded as the walks of distance.hpp round it.
+    [[nodiscard]] T reach() const { return rounded_up<T>(bound() * (1 + 64 * static_cast<double>(unit_roundoff<T>))); }
+    /// Something as near was found elsewhere.
+    void learn(double measure) {
+        const std::scoped_lock lock(mutex_);
+        most_ = measure < most_ ? measure : most_;
+    }
+    [[nodiscard]] pair_apart<T> best() const {
+        const std::scoped_lock lock(mutex_);
+        return best_;
+    }
+
+private:
+    template <class Pairing>
+    static bool is_empty(const Pairing& pairing) {
+        return pairing.a.shapes().size() == 0 || pairing.b.shapes().size() == 0;
+    }
+    template <class Policy, class Pairing, class Ids>
+    void offer(const Policy& on, const Pairing& pairing, std::uint64_t key, double measure, bool touch, const Ids& ids) {
+        if (key == no_pair) return;
+        const auto pair = ids(pairing.key.a(key), pairing.key.b(key));
+        pair_apart<T> one{measure, pair.a, pair.b, separation_of_key(on, pairing, key, touch)};
+        const std::scoped_lock lock(mutex_);
+        if (one.comes_before(best_)) best_ = one;
+    }
+
+    double most_;
+    mutable std::mutex mutex_;
+    pair_apart<T> best_;
+};
+
+/// A query's arguments, ready to be asked how far apart they are.
+template <class Policy, class X, class Y>
+auto pair_up_apart(const Policy& on, const X& x, const Y& y, const char* function) {
+    return pair_up(on, x, y, query_options<before_first_touch<pair_key>>{}, function);
+}
+
+}  // namespace abut::detail

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Lists of posed pairs on several devices. Each device has all indices. Entries are dealt out one by one, so that neighbours, which
+// are often alike, fall to different devices.
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <abut/collide/list.hpp>
+#include <abut/collide/list_distance.hpp>
+#include <abut/collide/merge.hpp>
+#include <abut/devices/divide.hpp>
+#include <abut/devices/merge.hpp>
+#include <abut/execution/team.hpp>
+
+namespace abut {
+
+/// An entry of a list for several devices: two indices that each device has, each under a pose. Write
+/// `posed_pair<decltype(gear)>{posed(gear, here), posed(gear, there)}`, where `gear` is what make_bvh of several devices made.
+/// @ingroup devices
+template <class IndexA, class IndexB>
+struct posed_pair<replicated<IndexA>, replicated<IndexB>> {
+    replicated<posed_object<IndexA>> a;  ///< the first one
+    replicated<posed_object<IndexB>> b;  ///< the second one
+};
+
+namespace detail {
+
+/// Positions of a device's entries in the whole list.
+struct entries_of_part {
+    std::uint32_t part, parts;
+    [[nodiscard]] ABUT_HD std::uint32_t operator()(std::size_t i) const {
+        return static_cast<std::uint32_t>(i * parts + part);
+    }
+};
+template <class Filter>
+struct filter_of_part {
+    Filter filter;
+    entries_of_part position;
+    ABUT_CALLS_ANY
+    ABUT_HD bool operator()(tagged_pair of) const {
+        of.pair = position(of.pair);
+        return filter(of);
+    }
+};
+template <class Visitor>
+struct visitor_of_part {
+    Visitor visitor;
+    entries_of_part position;
+    ABUT_CALLS_ANY
+    ABUT_HD visit operator()(tagged_pair of) const {
+        of.pair = position(of.pair);
+        return visitor(of);
+    }
+};
+template <class Found>
+struct rename_entries {
+    const Found* found;
+    entries_of_part position;
+    Found* out;
+    ABUT_HD void operator()(std::size_t i) const {
+        out[i] = found[i];
+        out[i].pair = position(found[i].pair);
+    }
+};
+template <class Found>
+struct put_entries {
+    const Found* found;
+    entries_of_part position;
+    Found* out;
+    ABUT_HD void operator()(std::size_t i) const { out[position(i)] = found[i]; }
+};
+struct by_entry {
+    template <class Found>
+    ABUT_HD bool operator()(const Found& x, const Found& y) const {
+        return x.pair != y.pair ? x.pair < y.pair : by_ids{}(x, y);
+    }
+};
+
+template <class Filter, schedule Schedule>
+auto options_of_part(const list_options<Filter, Schedule>& options, const entries_of_part& position) {
+    schedule_options scheduling = options.scheduling;
+    scheduling.report = nullptr;  // of one query, and here are several
+    if constexpr (std::same_as<Filter, keep_all>) {
+        auto here = options;
+        here.scheduling = scheduling;
+        return here;
+    } else {
+        return list_options<filter_of_part<Filter>, Schedule>{
+            options.sorted, {options.filter, position}, options.most_pairs, options.discard_sideways, scheduling};
+    }
+}
+
+/// Runs ask(k, entries, position) on each device, of the entries that fall to it.
+template <class Team, class IndexA, class IndexB, class Ask>
+void ask_entries(const Team& team, const std::vector<posed_pair<replicated<IndexA>, replicated<IndexB>>>& list,
+                 const char* function, const Ask& ask) {
+    for (const auto& entry : list) {
+        require_as_many(team, entry.a, function);
+        require_as_many(team, entry.b, function);
+    }
+    execution::on_each(team, [&](int k) {
+        const entries_of_part position{static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(team.size())};
+        std::vector<posed_pair<IndexA, IndexB>> mine;
+        for (std::size_t i = position(0); i < list.size(); i = position(mine.size())) {
+            mine.push_back({list[i].a[k], list[i].b[k]});
+        }
+        ask(k, std::as_const(mine), position);
+    });
+}
+
+/// What ask(policy, pairing) finds of each device's entries, as one list.
+template <class Found, class Team, class List, class Options, class Ask>
+auto found_of_entries(const Team& team, const List& list, const Options& options, const char* function, const Ask& ask) {
+    using local = typename Team::local_policy;
+    found_lists<local, Found> found(static_cast<std::size_t>(team.size()));
+    ask_entries(team, list, function, [&](int k, const auto& mine, const entries_of_part& position) {
+        const local& on = team[k];
+        const auto some = ask(on, pair_up(on, mine, options_of_part(options, position), function, position));
+        execution::buffer_of<local, Found> renamed(on, some.size());
+        for_each_index(on, some.size(), rename_entries<Found>{some.data(), position, renamed.data()});
+        synchronize(on);
+        found[static_cast<std::size_t>(k)] = result<Found, space_of<local>>(std::move(renamed));
+    });
+    return on_first(team, std::move(found), options.sorted, by_entry{});
+}
+
+template <class Team, class A, class B>
+consteval bool can_be_listed_on_devices() {
+    return can_be_listed<typename Team::local_policy, A, B>();
+}
+
+}  // namespace detail
+
+/// @addtogroup devices
+///@{
+
+/// Whether the shapes of any entry touch, as `any` of a list under one policy.
+template <arithmetic A = filtered, execution::policy_team Team, class IndexA, class IndexB, class Filter = keep_all,
+          schedule Schedule = schedule::shared_list>
+[[nodiscard]] bool any(const Team& team, const std::vector<posed_pair<replicated<IndexA>, replicated<IndexB>>>& list,
+                       const list_options<Filter, Schedule>& options = {}) {
+    std::atomic<bool> found{false};
+    if constexpr (detail::can_be_listed_on_devices<Team, IndexA, IndexB>()) {
+        constexpr const char* function = "abut::any";
+        detail::ask_entries(team, list, function, [&](int k, const auto& mine, const auto& position) {
+            const auto here = detail::options_of_part(options, position);
+            if (detail::any_of<A>(team[k], detail::pair_up(team[k], mine, here, function, position))) found.store(true);
+        });
+    }
+    return found.load();
+}
+
+/// Number of pairs of shapes that touch, of all entries.
+template <arithmetic A = filtered, execution::policy_team Team, class IndexA, class IndexB, class Filter = keep_all,
+          schedule Schedule = schedule::shared_list>
+[[nodiscard]] std::uint64_t count(const Team& team,
+                                  const std::vector<posed_pair<replicated<IndexA>, replicated<IndexB>>>& list,
+                                  const list_options<Filter, Schedule>& options = {}) {
+    std::atomic<std::uint64_t> sum{0};
+    if constexpr (detail::can_be_listed_on_devices<Team, IndexA, IndexB>()) {
+        constexpr const char* function = "abut::count";
+        detail::ask_entries(team, list, function, [&](int k, const auto& mine, const auto& position) {
+            const auto here = detail::options_of_part(options, position);
+            sum += detail::count_of<A>(team[k], detail::pair_up(team[k], mine, here, function, position));
+        });
+    }
+    return sum.load();
+}
+
+/// All pairs of shapes that touch, tagged with the entry's position, as `pairs` of a list under one policy: a `result` of
+/// `tagged_pair` in memory of the first device.
+template <arithmetic A = filtered, execution::policy_team Team, class IndexA, class IndexB, class Filter = keep_all,
+          schedule Schedule = schedule::shared_list>
+[[nodiscard]] auto pairs(const Team& team, const std::vector<posed_pair<replicated<IndexA>, replicated<IndexB>>>& list,
+                         const list_options<Filter, Schedule>& options = {}) {
+    if constexpr (detail::can_be_listed_on_devices<Team, IndexA, IndexB>()) {
+        return detail::found_of_entries<tagged_pair>(
+            team, list, options, "abut::pairs",
+            [](const auto& on, const auto& pairing) { return detail::pairs_of<A>(on, pairing); });
+    } else {
+        return result<tagged_pair, space_of<typename Team::local_policy>>();
+    }
+}
+
+/// Calls visitor_of(k)(tagged_pair) -> visit once for every such pair, on the k-th device, which has found it; otherwise as
+/// `for_each_pair` of two arguments on several devices.
+template <arithmetic A = filtered, execution::policy_team Team, class IndexA, class IndexB, class VisitorOf,
+          class Filter = keep_all, schedule Schedule = schedule::shared_list>
+void for_each_pair(const Team& team, const std::vector<posed_pair<replicated<IndexA>, replicated<IndexB>>>& list,
+                   const VisitorOf& visitor_of, const list_options<Filter, Schedule>& options = {}) {
+    using visitor = std::remove_cvref_t<decltype(visitor_of(0))>;
+    if constexpr (detail::can_be_listed_on_devices<Team, IndexA, IndexB>() &&
+                  detail::is_visitor<typename Team::local_policy, visitor, tagged_pair>()) {
+        constexpr const char* function = "abut::for_each_pair";
+        std::vector<visitor> visitors;
+        for (int k = 0; k < team.size(); ++k) visitors.push_back(visitor_of(k));
+        detail::ask_entries(team, list, function, [&](int k, const auto& mine, const auto& position) {
+            const auto here = detail::options_of_part(options, position);
+            const detail::visitor_of_part<visitor> visits{visitors[static_cast<std::size_t>(k)], position};
+            detail::visit_pairs_of<A>(team[k], detail::pair_up(team[k], mine, here, function, position), visits);
+        });
+    }
+}
+
+/// The contacts of all pairs of shapes that touch, as `contacts` of a list under one policy: a `result` of `tagged_contact` in
+/// memory of the first device.
+template <arithmetic A = filtered, execution::policy_team Team, class IndexA, class IndexB, class Filter = keep_all,
+          schedule Schedule = schedule::shared_list>
+[[nodiscard]] auto contacts(const Team& team, const std::vector<posed_pair<replicated<IndexA>, replicated<IndexB>>>& list,
+                            const list_options<Filter, Schedule>& options = {}) {
+    if constexpr (detail::can_be_listed_on_devices<Team, IndexA, IndexB>()) {
+        return detail::found_of_entries<tagged_contact<typename IndexA::scalar_type>>(
+            team, list, options, "abut::contacts", [&](const auto& on, const auto& pairing) {
+                return detail::contacts_of<A>(on, pairing, options.discard_sideways);
+            });
+    } else {
+        return result<tagged_contact<float>, space_of<typename Team::local_policy>>();
+    }
+}
+
+/// How far apart the two indices of each entry are, as `distance` of a list under one policy: a `result` of `separation`, one of
+/// each entry, in memory of the first device.
+template <execution::policy_team Team, class IndexA, class IndexB>
+[[nodiscard]] auto distance(const Team& team, const std::vector<posed_pair<replicated<IndexA>, replicated<IndexB>>>& list,
+                            const distance_options& options = {}) {
+    using local = typename Team::local_policy;
+    if constexpr (detail::can_be_listed_on_devices<Team, IndexA, IndexB>()) {
+        constexpr bool are = detail::measurable<typename IndexA::shape_type, typename IndexB::shape_type>;
+        static_assert(are, "abut: there is no distance of sets of these two shapes");
+        using found_type = separation<typename IndexA::scalar_type>;
+        std::vector<result<found_type, space_of<local>>> found(static_cast<std::size_t>(team.size()));
+        detail::ask_entries(team, list, "abut::distance", [&](int k, const auto& mine, const auto& position) {
+            found[static_cast<std::size_t>(k)] =
+                detail::distances_of(team[k], mine, options, "abut::distance", position);
+        });
+        execution::buffer_of<local, found_type> all(team[0], list.size());
+        for (int k = 0; k < team.size(); ++k) {
+            const auto& some = found[static_cast<std::size_t>(k)];
+            execution::buffer_of<local, found_type> came(team[0], some.size());
+            copy_across(team[k], some.data(), some.size(), team[0], came.data());
+            const detail::entries_of_part position{static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(team.size())};
+            for_each_index(team[0], some.size(), detail::put_entries<found_type>{came.data(), position, all.data()});
+            synchronize(team[0]);
+        }
+        return result<found_type, space_of<local>>(std::move(all));
+    } else {
+        return result<separation<float>, space_of<local>>();
+    }
+}
+
+///@}
+
+}  // namespace abut

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// within and the queries beside it, of sets whose parts lie on many ranks: those of query.hpp with a distance.
+
+#include <concepts>
+#include <cstdint>
+
+#include <abut/collide/pair_kinds.hpp>
+#include <abut/collide/within.hpp>
+#include <abut/distributed/communicator.hpp>
+#include <abut/distributed/query.hpp>
+
+namespace abut {
+
+namespace detail {
+
+/// Whether these queries of ranks take their arguments.
+template <class Local, class X, class Y, class Filter>
+consteval bool can_be_within_globally() {
+    if constexpr (can_be_within<Local, X, Y, keep_all>()) {
+        return can_pair_globally<Local, X, Y, Filter>();
+    } else {
+        return false;
+    }
+}
+
+/// Pairs that no rank asks about before all have found that they ask about the same.
+template <class Local>
+pairs_within agreed_pairs_within(const distributed<Local>& on, double distance, const char* function) {
+    attempts attempt;
+    attempt([&] { check_distance(distance, function); });
+    attempt.settle(on.ranks());
+    require_one(on.ranks(), distance, function, "distances");
+    return {distance};
+}
+
+/// Of a set with itself: each pair once.
+template <class Filter>
+struct ascending_ids {
+    Filter filter;
+    ABUT_CALLS_ANY
+    ABUT_HD bool operator()(std::uint64_t a, std::uint64_t b) const {
+        if constexpr (std::same_as<Filter, keep_all>) {
+            return a < b;
+        } else {
+            return a < b && filter(a, b);
+        }
+    }
+};
+template <class Filter, traversal Traversal, schedule Schedule>
+auto options_of_one_set(const query_options<Filter, Traversal, Schedule>& options) {
+    return query_options<ascending_ids<Filter>, Traversal, Schedule>{
+        options.sorted,     {options.filter}, options.most_pairs, options.resident, options.start_depth,
+        options.scheduling, options.front};
+}
+
+}  // namespace detail
+
+/// @addtogroup distributed
+///@{
+
+/// All pairs of this rank's a-shapes that are no farther apart than `distance`, each once: a `result` of `global_pair` in the
+/// local policy's memory, sorted by a, then b, unless the options say otherwise. The lists of all ranks, one after another, are
+/// the list of one machine. Arguments are this rank's parts, as those of `within` under the local policy; each rank gives the
+/// same distance. Shapes of b go to the ranks whose a-shapes they come so near.
+template <arithmetic A = filtered, execution_policy Local, class X, class Y, class Filter = keep_all,
+          traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
+[[nodiscard]] auto within(const distributed<Local>& on, const X& a, const Y& b, double distance,
+                          const query_options<Filter, Traversal, Schedule>& options = {}) {
+    if constexpr (detail::can_be_within_globally<Local, X, Y, Filter>()) {
+        return detail::pairs_of_parts<A>(on, a, b, options, "abut::within", detail::agreed_pairs_within(on, distance, "abut::within"));
+    } else {
+        return result<global_pair, space_of<Local>>();
+    }
+}
+
+/// Number of the pairs of `within` of all ranks: the same answer on each.
+template <arithmetic A = filtered, execution_policy Local, class X, class Y, class Filter = keep_all,
+          traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
+[[nodiscard]] std::uint64_t count_within(const distributed<Local>& on, const X& a, const Y& b, double distance,
+                                         const query_options<Filter, Traversal, Schedule>& options = {}) {
+    if constexpr (detail::can_be_within_globally<Local, X, Y, Filter>()) {
+        return detail::count_of_parts<A>(on, a, b, options, "abut::count_within", detail::agreed_pairs_within(on, distance, "abut::count_within"));
+    } else {
+        return 0;
+    }
+}
+
+/// Whether there is any such pair: the same answer on all ranks.
+template <arithmetic A = filtered, execution_policy Local, class X, class Y, class Filter = keep_all,
+          traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
+[[nodiscard]] bool any_within(const distributed<Local>& on, const X& a, const Y& b, double distance,
+                              const query_options<Filter, Traversal, Schedule>& options = {}) {
+    if constexpr (detail::can_be_within_globally<Local, X, Y, Filter>()) {
+        return detail::any_of_parts<A>(on, a, b, options, "abut::any_within", detail::agreed_pairs_within(on, distance, "abut::any_within"));
+    } else {
+        return false;
+    }
+}
+
+/// Calls visitor(global_pair) -> visit once for every such pair of this rank's a-shapes, as `for_each_pair` of ranks does.
+template <arithmetic A = filtered, execution_policy Local, class X, class Y, class Visitor, class Filter = keep_all,
+          traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
+void for_each_within(const distributed<Local>& on, const X& a, const Y& b, double distance, const Visitor& visitor,
+                     const query_options<Filter, Traversal, Schedule>& options = {}) {
+    if constexpr (detail::can_be_within_globally<Local, X, Y, Filter>() && detail::is_global_visitor<Local, Visitor>()) {
+        detail::visit_all_parts<A>(on, a, b, visitor, options, "abut::for_each_within", detail::agreed_pairs_within(on, distance, "abut::for_each_within"));
+    }
+}
+
+/// All pairs of shapes of one set that are no farther apart than `distance`, each once with a < b, of which a is this rank's: a
+/// `result` of `global_pair`. `x` is this rank's part.
+template <arithmetic A = filtered, execution_policy Local, class X, class Filter = keep_all,
+          traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
+[[nodiscard]] auto self_within(const distributed<Local>& on, const X& x, double distance,
+                               const query_options<Filter, Traversal, Schedule>& options = {}) {
+    if constexpr (detail::can_be_within_globally<Local, X, X, Filter>()) {
+        return detail::pairs_of_parts<A>(on, x, x, detail::options_of_one_set(options), "abut::self_within",
+                                         detail::agreed_pairs_within(on, distance, "abut::self_within"));
+    } else {
+        return result<global_pair, space_of<Local>>();
+    }
+}
+
+/// The number of the pairs of `self_within` of all ranks: the same answer on each.
+template <arithmetic A = filtered, execution_policy Local, class X, class Filter = keep_all,
+          traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
+[[nodiscard]] std::uint64_t count_self_within(const distributed<Local>& on, const X& x, double distance,
+                                              const query_options<Filter, Traversal, Schedule>& options = {}) {
+    if constexpr (detail::can_be_within_globally<Local, X, X, Filter>()) {
+        return detail::count_of_parts<A>(on, x, x, detail::options_of_one_set(options), "abut::count_self_within",
+                                         detail::agreed_pairs_within(on, distance, "abut::count_self_within"));
+    } else {
+        return 0;
+    }
+}
+
+///@}
+
+}  // namespace abut
