@@ -142,7 +142,8 @@ const char* wrong_with_distance(const S& s, const U& t, distance_tally& tally) {
         if (!(found.point_a == found.point_b)) return "what touches has two points";
         const wide off = std::max(distance_from(widest(found.point_a), s), distance_from(widest(found.point_a), t));
         // The foot of a round shape on a plane may lie where T has no number.
-        if (std::same_as<S, plane<T>> && detail::contact_math::magnitude_of(found.point_a) == largest_finite<T>) return nullptr;
+        const bool is_at_end = detail::contact_math::magnitude_of(found.point_a) == largest_finite<T>;
+        if (std::same_as<S, plane<T>> && is_at_end) return nullptr;
         return off > wide(contact_bound(s, t)) ? "the shared point is off the shapes" : nullptr;
     }
     if (!(found.distance > 0) || !(other.distance > 0)) return "what does not touch is at no distance";

@@ -2,8 +2,8 @@
 #pragma once
 
 // Contacts of boxes with spheres and capsules that touch them. As of round shapes with a triangle: they come apart soonest
-// straight away from each other's nearest points; where the axis (a sphere's: its centre) is in the box, along an axis of the
-// box or across one and the capsule's. Depth is the least move in any direction.
+// straight away from each other's nearest points; where the axis (a sphere's: its centre) is in the box, along an axis of
+// the box or across one and the capsule's. Depth is the least move in any direction.
 
 #include <concepts>
 
@@ -57,7 +57,8 @@ struct box_and_ball {
         for (int k = 0; k < 3; ++k) {
             const double start = coordinate(axis[0], k), way = plain_sum(coordinate(axis[1], k), -start);
             if (way == 0) continue;
-            const double x = plain_sum(coordinate(lower, k), -start) / way, y = plain_sum(coordinate(upper, k), -start) / way;
+            const double x = plain_sum(coordinate(lower, k), -start) / way;
+            const double y = plain_sum(coordinate(upper, k), -start) / way;
             from = greatest(least(x, y), from);
             to = least(greatest(x, y), to);
         }

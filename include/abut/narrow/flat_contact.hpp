@@ -175,8 +175,8 @@ ABUT_NOINLINE ABUT_HD constexpr contact<T> contact_between(const aabb<T>& s, con
     return assembled<T>(scale, middle_of({lower, upper}), way);
 }
 
-/// Of a plane and a shape that reaches `radius` around some points: out to one side or the other, as for a triangle. The point
-/// is the middle of what its core has in the plane; or else the foot of its lowest or highest point.
+/// Of a plane and a shape that reaches `radius` around some points: out to one side or the other, as for a triangle. The
+/// point is the middle of what its core has in the plane; or else the foot of its lowest or highest point.
 template <scalar T, int N>
 ABUT_HD constexpr contact<T> contact_with_plane(const plane<T>& s, const corner_hull<T, N>& core, T radius,
                                                 const contact_math::common_scale& scale) {

@@ -114,8 +114,9 @@ namespace abut::detail {
 /// Points, segments, spheres and capsules with each other, but for those below. Of cores with as many corners the shape
 /// without a radius comes first.
 template <class S, class U>
-concept pair_of_round_contact = (pair_without_faces<S, U> || (std::same_as<S, U> && std::same_as<S, vec3<scalar_type_of<S>>>)) &&
-                                !(corners_of_core<S> == corners_of_core<U> && has_radius<S> && !has_radius<U>);
+concept pair_of_round_contact =
+    (pair_without_faces<S, U> || (std::same_as<S, U> && std::same_as<S, vec3<scalar_type_of<S>>>)) &&
+    !(corners_of_core<S> == corners_of_core<U> && has_radius<S> && !has_radius<U>);
 
 /// The segment that a shape is around, which may be a point.
 template <class S>
