@@ -124,6 +124,27 @@ TEST_CASE("pairs without a triangle: every stage is right in every family") {
     }
 }
 
+TEMPLATE_TEST_CASE("pairs without a triangle: near contact far from the origin", "", float, double) {
+    using T = TestType;
+    test::stage_tally sum;
+    const auto examine = [&]<class S, class U>(S*, U*, std::uint64_t k) {
+        auto p = test::make_solid_pair<S, U>(test::sample_seed + 3, test::solid_family::offset_1e6, k);
+        test::draws d(test::sample_seed, 8899, k);
+        test::construction::bring_to_contact(d, p.s, p.t);
+        examine_solids(p.s, p.t, k, sum);
+    };
+    constexpr sphere<T>* a_sphere = nullptr;
+    constexpr capsule<T>* a_capsule = nullptr;
+    for (std::uint64_t k = 0; k < test::sample_count() / 10; ++k) {
+        examine(static_cast<plane<T>*>(nullptr), a_sphere, k);
+        examine(static_cast<plane<T>*>(nullptr), a_capsule, k);
+        examine(static_cast<aabb<T>*>(nullptr), a_capsule, k);
+    }
+    CHECK(sum.wrong == 0);
+    CHECK(sum.hits * 5 > sum.pairs);
+    CHECK(sum.hits * 5 < 4 * sum.pairs);
+}
+
 TEMPLATE_TEST_CASE("pairs without a triangle: right in every floating-point mode", "", float, double) {
     using T = TestType;
     for (const test::floating_mode& mode : test::floating_modes()) {
