@@ -7,7 +7,7 @@
 #include <cstddef>
 
 #include <abut/arithmetic/arithmetic.hpp>
-#include <abut/predicate/plane_triangle.hpp>
+#include <abut/predicate/plane_core.hpp>
 #include <abut/shape/hull.hpp>
 #include <abut/shape/primitive.hpp>
 
