@@ -4,8 +4,10 @@
 //
 // Two convex hulls at a time, in double on one core, each of 1,000 poses of the second one. Names:
 //
-//   intersects/HOW/BODY  HOW is an arithmetic; BODY a box, or an ellipsoid of so many points, turned at random, about half of
-//                        which touch; of box_touching all touch in a face, an edge or a corner and in no more, or are a step off
+//   intersects/HOW/BODY  HOW is an arithmetic; BODY a box, or an ellipsoid of so many points, turned at random, about half
+//   of
+//                        which touch; of box_touching all touch in a face, an edge or a corner and in no more, or are a step
+//                        off
 //   distance/abut/BODY   how far apart, and where
 //
 // The peer (bench/hulls/) is in the same run, where its package is there.

@@ -41,7 +41,8 @@ const bool added = [] {
             return [kind, shape = convex(b)](const abut::rigid<double>& pose) {
                 const fcl::CollisionRequestd request(1, false, 1, false, true, kind);
                 fcl::CollisionResultd result;
-                return fcl::collide(shape.get(), fcl::Transform3d::Identity(), shape.get(), transform(pose), request, result) > 0;
+                return fcl::collide(shape.get(), fcl::Transform3d::Identity(), shape.get(), transform(pose), request,
+                                    result) > 0;
             };
         });
         hulls_peer::add(std::string("distance/fcl_") + name, [kind](const hulls_peer::body& b) {
@@ -49,7 +50,8 @@ const bool added = [] {
                 fcl::DistanceRequestd request(true);
                 request.gjk_solver_type = kind;
                 fcl::DistanceResultd result;
-                return fcl::distance(shape.get(), fcl::Transform3d::Identity(), shape.get(), transform(pose), request, result) <= 0;
+                return fcl::distance(shape.get(), fcl::Transform3d::Identity(), shape.get(), transform(pose), request,
+                                     result) <= 0;
             };
         });
     }

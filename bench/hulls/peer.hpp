@@ -26,15 +26,28 @@ struct body {
 };
 
 inline body box() {
-    body b{"box", {}, {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                       {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}}};
+    body b{"box",
+           {},
+           {{0, 2, 1},
+            {1, 2, 3},
+            {4, 5, 6},
+            {5, 7, 6},
+            {0, 1, 4},
+            {1, 5, 4},
+            {2, 6, 3},
+            {3, 6, 7},
+            {0, 4, 2},
+            {2, 4, 6},
+            {1, 3, 5},
+            {3, 7, 5}}};
     for (int i = 0; i < 8; ++i) b.points.push_back({i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0});
     return b;
 }
 
 /// An ellipsoid, by an octahedron whose faces are divided: 6, 18, 66, 258 points.
 inline body ellipsoid(const char* name, int divisions) {
-    body b{name, {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
+    body b{name,
+           {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
            {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
     for (int i = 0; i < divisions; ++i) {
         std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
@@ -58,7 +71,8 @@ inline body ellipsoid(const char* name, int divisions) {
 }
 
 inline const std::vector<body>& bodies() {
-    static const std::vector<body> all{box(), ellipsoid("18_points", 1), ellipsoid("66_points", 2), ellipsoid("258_points", 3)};
+    static const std::vector<body> all{box(), ellipsoid("18_points", 1), ellipsoid("66_points", 2),
+                                       ellipsoid("258_points", 3)};
     return all;
 }
 
@@ -76,13 +90,15 @@ inline std::vector<abut::rigid<double>> poses(bool touching) {
         if (touching) {
             const auto step = [&random] { return std::floor(random(-2, 3)); };
             const double x = step(), y = step();
-            pose.translation = i % 3 == 0 ? abut::vec3<double>{2, x, y}
+            pose.translation = i % 3 == 0   ? abut::vec3<double>{2, x, y}
                                : i % 3 == 1 ? abut::vec3<double>{x, 2, y}
                                             : abut::vec3<double>{x, y, 2};
         } else {
-            const double a = random(0, 6.28), b = random(0, 6.28), r = random(1.2, 2.8), h = random(-1, 1), c = random(0, 6.28);
+            const double a = random(0, 6.28), b = random(0, 6.28), r = random(1.2, 2.8), h = random(-1, 1),
+                         c = random(0, 6.28);
             const double ca = std::cos(a), sa = std::sin(a), cb = std::cos(b), sb = std::sin(b), w = std::sqrt(1 - h * h);
-            pose = {{ca, -sa * cb, sa * sb, sa, ca * cb, -ca * sb, 0, sb, cb}, {r * w * std::cos(c), r * w * std::sin(c), r * h}};
+            pose = {{ca, -sa * cb, sa * sb, sa, ca * cb, -ca * sb, 0, sb, cb},
+                    {r * w * std::cos(c), r * w * std::sin(c), r * h}};
         }
         all.push_back(pose);
     }

@@ -14,7 +14,8 @@ using namespace abut;
 
 static_assert(shape_set<hulls<float>> && shape_view<hulls_view<double>> && placeable<hull<float>>);
 
-const std::vector<vec3<float>> two_tetrahedra{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {5, 0, 0}, {6, 0, 0}, {5, 1, 0}, {5, 0, 1}};
+const std::vector<vec3<float>> two_tetrahedra{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1},
+                                              {5, 0, 0}, {6, 0, 0}, {5, 1, 0}, {5, 0, 1}};
 
 }  // namespace
 
@@ -76,8 +77,10 @@ TEST_CASE("hulls: what is no set of hulls is refused") {
     };
     constexpr float infinite = std::numeric_limits<float>::infinity();
     CHECK(refused({{0, 0, 0}, {0, infinite, 0}}, {0, 2}) == "abut::hulls: point 1: y is not finite (inf)");
-    CHECK(refused({{0, 0, 0}}, {0, 1, 1}) == "abut::hulls: hull 1: it has no point: the next one begins at the same offset (1)");
-    CHECK(refused({{0, 0, 0}, {0, 0, 0}}, {0, 2, 1, 2}) == "abut::hulls: hull 1: the next one begins before it does, at 1 (2)");
+    CHECK(refused({{0, 0, 0}}, {0, 1, 1}) ==
+          "abut::hulls: hull 1: it has no point: the next one begins at the same offset (1)");
+    CHECK(refused({{0, 0, 0}, {0, 0, 0}}, {0, 2, 1, 2}) ==
+          "abut::hulls: hull 1: the next one begins before it does, at 1 (2)");
     CHECK(refused({{0, 0, 0}}, {1, 1}) == "abut::hulls: offset 0: the first one has to be 0 (1)");
     CHECK(refused({{0, 0, 0}, {0, 0, 0}}, {0, 1}) ==
           "abut::hulls: offset 1: the last one has to be the number of points, which is 2 (1)");

@@ -13,8 +13,8 @@
 #include "support/hull_pairs.hpp"
 #include "support/samples.hpp"
 
-// The distance of convex hulls against the definition, in 300 bits: hulls that do not meet are nearest to each other at a feature of
-// their differences, which is one of them, a line between two, or a triangle of three. All are tried.
+// The distance of convex hulls against the definition, in 300 bits: hulls that do not meet are nearest to each other at a
+// feature of their differences, which is one of them, a line between two, or a triangle of three. All are tried.
 
 namespace {
 
@@ -25,7 +25,8 @@ using test::wide_point;
 constexpr vec3<double> slab[8] = {{0, 0, 0}, {8, 0, 0}, {0, 8, 0}, {8, 8, 0}, {0, 0, 1}, {8, 0, 1}, {0, 8, 1}, {8, 8, 1}};
 constexpr vec3<double> spike[4] = {{4, 4, 5}, {3, 3, 9}, {5, 3, 9}, {4, 9, 9}};
 constexpr auto slab_and_spike = distance(hull<double>(slab, 8), hull<double>(spike, 4));
-static_assert(slab_and_spike.distance == 4 && slab_and_spike.point_a == vec3<double>{4, 4, 1} && slab_and_spike.point_b == vec3<double>{4, 4, 5});
+static_assert(slab_and_spike.distance == 4 && slab_and_spike.point_a == vec3<double>{4, 4, 1} &&
+              slab_and_spike.point_b == vec3<double>{4, 4, 5});
 static_assert(distance(sphere<double>{{-3, -4, 0.5}, 2}, hull<double>(slab, 8)).distance == 3);
 static_assert(distance(hull<double>(slab, 8), vec3<double>{4, 4, 0.5}).distance == 0);
 
@@ -74,8 +75,8 @@ wide hull_rounding_of(const vec3<T>& p) {
 }
 
 template <scalar T>
-const char* wrong_with_hulls(const separation<T>& found, const test::point_list<T>& a, const test::point_list<T>& b, T radius_a,
-                       bool touch, hull_distance_tally& sum) {
+const char* wrong_with_hulls(const separation<T>& found, const test::point_list<T>& a, const test::point_list<T>& b,
+                             T radius_a, bool touch, hull_distance_tally& sum) {
     wide farthest = 0;
     for (const wide_point& way : differences(a, b)) farthest = std::max(farthest, test::length_of(way));
     const wide unit = (farthest + wide(radius_a)) * wide(0x1p-53) + wide(test::construction::least_denormal<T>);
@@ -95,15 +96,16 @@ const char* wrong_with_hulls(const separation<T>& found, const test::point_list<
     if (touch) return found.point_a == found.point_b ? nullptr : "what touches has two points";
     const wide truth = sqrt(square_of_gap(differences(a, b))) - wide(radius_a);
     const wide last = wide(unit_roundoff<T>) * wide(found.distance);
-    const wide error = abs(wide(found.distance) - truth) - last, way = test::length_of(test::widest(found.point_b) - test::widest(found.point_a));
+    const wide error = abs(wide(found.distance) - truth) - last,
+               way = test::length_of(test::widest(found.point_b) - test::widest(found.point_a));
     sum.distance = std::max(sum.distance, static_cast<double>(error / unit));
     sum.point = std::max(sum.point, static_cast<double>((abs(way - truth) - in_a - in_b) / unit));
     return nullptr;
 }
 
-constexpr test::hull_family hull_families[] = {test::hull_family::general,  test::hull_family::far_away, test::hull_family::lattice,
-                                          test::hull_family::flat,     test::hull_family::line,     test::hull_family::touching,
-                                          test::hull_family::step_off, test::hull_family::exponents};
+constexpr test::hull_family hull_families[] = {
+    test::hull_family::general, test::hull_family::far_away, test::hull_family::lattice,  test::hull_family::flat,
+    test::hull_family::line,    test::hull_family::touching, test::hull_family::step_off, test::hull_family::exponents};
 
 }  // namespace
 
@@ -125,12 +127,14 @@ TEMPLATE_TEST_CASE("distance of hulls: as by definition, in every family", "", f
             // Shapes of one and two points, with a radius.
             const T radius = static_cast<T>(0.125);
             const sphere<T> ball{both.a[0], radius};
-            if (wrong == nullptr) wrong = wrong_with_hulls(distance(ball, b), {both.a[0]}, both.b, radius, intersects<exact>(b, ball), sum);
+            if (wrong == nullptr)
+                wrong = wrong_with_hulls(distance(ball, b), {both.a[0]}, both.b, radius, intersects<exact>(b, ball), sum);
             if (both.b.size() > 2 && wrong == nullptr) {
                 const triangle<T> t{both.b[0], both.b[1], both.b[2]};
                 const separation<T> to = distance(a, t), from = distance(t, a);
                 wrong = wrong_with_hulls(to, both.a, {t.a, t.b, t.c}, T(0), intersects<exact>(a, t), sum);
-                if (!(to == separation<T>{0, 0, from.point_b, from.point_a, from.distance})) wrong = "the other order has another answer";
+                if (!(to == separation<T>{0, 0, from.point_b, from.point_a, from.distance}))
+                    wrong = "the other order has another answer";
             }
             if (wrong != nullptr) FAIL_CHECK(wrong);
         }

@@ -15,8 +15,8 @@
 #include "support/rational.hpp"
 #include "support/samples.hpp"
 
-// Spheres, capsules and planes against hulls. The oracle: hulls meet, by linear programming; or else a ball reaches a hull of
-// three of the differences of their points, each of which is decided on the Gram matrix, in unbounded integers.
+// Spheres, capsules and planes against hulls. The oracle: hulls meet, by linear programming; or else a ball reaches a hull
+// of three of the differences of their points, each of which is decided on the Gram matrix, in unbounded integers.
 
 namespace {
 
@@ -102,9 +102,10 @@ round_case<T> make_round_case(std::uint64_t seed, test::hull_family f, std::uint
     return made;
 }
 
-constexpr test::hull_family families_around[] = {test::hull_family::general,  test::hull_family::far_away,  test::hull_family::lattice,
-                                          test::hull_family::flat,     test::hull_family::line,      test::hull_family::touching,
-                                          test::hull_family::step_off, test::hull_family::exponents, test::hull_family::denormal};
+constexpr test::hull_family families_around[] = {
+    test::hull_family::general,  test::hull_family::far_away,  test::hull_family::lattice,
+    test::hull_family::flat,     test::hull_family::line,      test::hull_family::touching,
+    test::hull_family::step_off, test::hull_family::exponents, test::hull_family::denormal};
 
 template <scalar T, class S>
 bool is_right(const S& s, const round_case<T>& c) {
@@ -137,7 +138,9 @@ TEMPLATE_TEST_CASE("capsule and hull: every stage is right in every family", "",
             filter += decide<filtered>(capsule<TestType>{{c.core.front(), c.core.back()}, c.radius},
                                        test::hull_over(c.points)) != verdict::unknown;
         }
-        const auto percent = [samples](std::uint64_t n) { return 100.0 * static_cast<double>(n) / static_cast<double>(samples); };
+        const auto percent = [samples](std::uint64_t n) {
+            return 100.0 * static_cast<double>(n) / static_cast<double>(samples);
+        };
         std::printf("| %s | %llu | %.1f | %.1f | %llu |\n", test::name_of(f), static_cast<unsigned long long>(samples),
                     percent(hits), percent(filter), static_cast<unsigned long long>(wrong));
         INFO(test::name_of(f));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Families of pairs of convex hulls, as lists of points: in general position, on small lattices, in one plane or on one line,
-// touching in a corner, an edge or a face and one step off it, of mixed exponents, denormal, and of many points.
+// Families of pairs of convex hulls, as lists of points: in general position, on small lattices, in one plane or on one
+// line, touching in a corner, an edge or a face and one step off it, of mixed exponents, denormal, and of many points.
 
 #include <algorithm>
 #include <cstdint>
@@ -32,7 +32,7 @@ enum class hull_family { general, far_away, lattice, flat, line, touching, step_
 inline constexpr int hull_family_count = 11;
 
 inline const char* name_of(hull_family f) {
-    const char* const names[] = {"general", "far away",           "lattice",  "flat",        "line", "touching",
+    const char* const names[] = {"general",  "far away",        "lattice",  "flat",        "line",       "touching",
                                  "step off", "mixed exponents", "denormal", "any numbers", "many points"};
     return names[static_cast<int>(f)];
 }
@@ -179,13 +179,15 @@ hull_pair<T> make_hull_pair(std::uint64_t seed, hull_family f, std::uint64_t ind
             if (d.below(2) == 0) b.pop_back();
             break;
         }
-        case hull_family::any_bits: break;
+        case hull_family::any_bits:
+            break;
     }
     hull_pair<T> made;
     const auto rounded = [&](const std::vector<point>& points) {
         point_list<T> list;
         for (const point& p : points) {
-            list.push_back(round_to<T>({p.x * unit_of_both + from.x, p.y * unit_of_both + from.y, p.z * unit_of_both + from.z}));
+            list.push_back(
+                round_to<T>({p.x * unit_of_both + from.x, p.y * unit_of_both + from.y, p.z * unit_of_both + from.z}));
         }
         return list;
     };

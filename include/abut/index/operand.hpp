@@ -74,7 +74,8 @@ consteval bool can_reside() {
         return false;
     } else if constexpr (shape<Set>) {
         constexpr bool whole = !refers_to_memory<Set> || std::same_as<space_of<Policy>, host_space>;
-        static_assert(whole, "abut: a hull alone lies in host memory and the policy works elsewhere; make a set, abut::hulls");
+        static_assert(whole,
+                      "abut: a hull alone lies in host memory and the policy works elsewhere; make a set, abut::hulls");
         return whole;
     } else {
         using space = typename Set::memory_space;

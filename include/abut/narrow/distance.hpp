@@ -322,31 +322,34 @@ private:
             };
             return tells(along) || tells(static_cast<double>(n) * sum_b - static_cast<double>(m) * sum_a);
         } else if constexpr (measured_hulls<S, U>) {
-            return is_slab_between(points_of(s).as_hull(), points_of(t).as_hull(), along,
-                                   bound + (static_cast<double>(radius_around_core(s)) + static_cast<double>(radius_around_core(t))));
+            return is_slab_between(
+                points_of(s).as_hull(), points_of(t).as_hull(), along,
+                bound + (static_cast<double>(radius_around_core(s)) + static_cast<double>(radius_around_core(t))));
         } else {
             return false;
         }
     }
     /// The same of convex hulls, and the given vector alone.
     template <scalar T>
-    ABUT_NOINLINE ABUT_HD static bool is_slab_between(const hull<T>& a, const hull<T>& b, const vec3<double>& along, double far) {
+    ABUT_NOINLINE ABUT_HD static bool is_slab_between(const hull<T>& a, const hull<T>& b, const vec3<double>& along,
+                                                      double far) {
         const vec3<double> back{-along.x, -along.y, -along.z};
         const hulls_in_floats<true, T> x(a, b);
         std::uint32_t i = 0, j = 0;
         x.look_back(back, i, j);
         const double gap = x.ahead(back, i, j), square = gap * gap, all = 3 * x.size() * x.size();
-        return gap > 0 && square > 0x1p-900 && square > dot(along, along) * greatest(0x1p-72 * all, (1 + 0x1p-10) * (far * far));
+        return gap > 0 && square > 0x1p-900 &&
+               square > dot(along, along) * greatest(0x1p-72 * all, (1 + 0x1p-10) * (far * far));
     }
 };
 
 }  // namespace detail
 
 /// How far apart two closed shapes are: a `separation` with ids 0. It takes the pairs that `contact_of` takes, in either
-/// order: points, segments, triangles, spheres, capsules and boxes with each other, planes with any of these, and convex hulls
-/// with all but planes. The distance is 0 exactly where the two touch, as `intersects` decides. Otherwise it is accurate
-/// to a few units in the last place of the shapes' farthest corners (docs/numerics.md). The same bits on every compiler and
-/// device, in constant expressions too. Shapes are finite and valid.
+/// order: points, segments, triangles, spheres, capsules and boxes with each other, planes with any of these, and convex
+/// hulls with all but planes. The distance is 0 exactly where the two touch, as `intersects` decides. Otherwise it is
+/// accurate to a few units in the last place of the shapes' farthest corners (docs/numerics.md). The same bits on every
+/// compiler and device, in constant expressions too. Shapes are finite and valid.
 ///
 ///     constexpr auto d = abut::distance(abut::sphere<float>{{0, 0, 4}, 1},
 ///                                       abut::triangle<float>{{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}});

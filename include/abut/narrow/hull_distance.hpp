@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// How far apart two convex hulls are, and where: hulls of points, the shapes that are hulls of their corners, and what is within
-// a radius of these. The search of predicate/gjk.hpp for the feature of all differences that is nearest to the origin, first in
-// doubles whose operations are rounded one by one, then in integers, which confirm it. The squared distance and the weights of
-// the points that it lies between are quotients of integers; they become doubles at the end. So nothing is lost where hulls are
-// thin, or nearly parallel, and the bits are the same on every compiler and device.
+// How far apart two convex hulls are, and where: hulls of points, the shapes that are hulls of their corners, and what is
+// within a radius of these. The search of predicate/gjk.hpp for the feature of all differences that is nearest to the
+// origin, first in doubles whose operations are rounded one by one, then in integers, which confirm it. The squared distance
+// and the weights of the points that it lies between are quotients of integers; they become doubles at the end. So nothing
+// is lost where hulls are thin, or nearly parallel, and the bits are the same on every compiler and device.
 //
-// Integers of two words for each degree do, for any input: what of a coordinate is below 2^-124 of the largest one is cut off.
-// That changes a distance by less than 2^-120 of the largest coordinate, which is far below what rounding does. It may take hulls
-// that do not touch for ones that do: so nothing here decides whether they do.
+// Integers of two words for each degree do, for any input: what of a coordinate is below 2^-124 of the largest one is cut
+// off. That changes a distance by less than 2^-120 of the largest coordinate, which is far below what rounding does. It may
+// take hulls that do not touch for ones that do: so nothing here decides whether they do.
 
 #include <concepts>
 #include <cstddef>
@@ -59,7 +59,8 @@ ABUT_HD constexpr double scaled_far(double x, int e) { return e < -2040 ? 0 : sc
 
 }  // namespace contact_math
 
-/// Two hulls in doubles whose operations are rounded one by one; where squares of squares would leave the range, in another unit.
+/// Two hulls in doubles whose operations are rounded one by one; where squares of squares would leave the range, in another
+/// unit.
 template <scalar T>
 class hulls_in_plain_doubles {
 public:
@@ -88,7 +89,9 @@ public:
         }
     }
     [[nodiscard]] ABUT_HD constexpr bool are_apart(const vec3<number>&, std::uint32_t, std::uint32_t) const { return false; }
-    ABUT_HD constexpr verdict holds_origin(const vec3<number> (&)[4], const difference_simplex&) const { return verdict::yes; }
+    ABUT_HD constexpr verdict holds_origin(const vec3<number> (&)[4], const difference_simplex&) const {
+        return verdict::yes;
+    }
     [[nodiscard]] ABUT_HD constexpr verdict when_lost(const difference_simplex&) const { return verdict::unknown; }
 
 private:
@@ -103,8 +106,8 @@ private:
     int down_ = 0;
 };
 
-/// Points of two hulls that are as near to each other as any, as means of the hulls' points, and their distance; or, where the
-/// hulls seem to touch, of one point of both, and 0.
+/// Points of two hulls that are as near to each other as any, as means of the hulls' points, and their distance; or, where
+/// the hulls seem to touch, of one point of both, and 0.
 template <scalar T>
 struct nearest_in_hulls {
     difference_simplex at;
@@ -124,7 +127,8 @@ struct nearest_in_hulls {
     }
     [[nodiscard]] ABUT_HD constexpr vec3<double> point_on_a(const hull<T>& a) const { return mean(a, at.a); }
     [[nodiscard]] ABUT_HD constexpr vec3<double> point_on_b(const hull<T>& b) const { return mean(b, at.b); }
-    /// From a's point to b's: of differences, which are rounded once, and so as long as the distance wherever rounding lets it.
+    /// From a's point to b's: of differences, which are rounded once, and so as long as the distance wherever rounding lets
+    /// it.
     [[nodiscard]] ABUT_HD constexpr vec3<double> way(const hull<T>& a, const hull<T>& b) const {
         vec3<double> sum{0, 0, 0};
         for (int k = 0; k < at.count; ++k) {
@@ -148,8 +152,8 @@ private:
     }
 
     ABUT_HD constexpr void measure(const vec3<number> (&w)[4], bool meet, int unit) {
-        using contact_math::magnitude_of;
         using contact_math::far_double;
+        using contact_math::magnitude_of;
         far_double share[4] = {{1, 0}, {0, 0}, {0, 0}, {0, 0}}, over{0, 0}, under{1, 0};
         const vec3<number> e = w[1 < at.count ? 1 : 0] - w[0];
         if (at.count == 1) {
@@ -204,7 +208,9 @@ private:
 
 /// A convex hull, and another one or a shape that is a hull of its corners, or what is within a radius of such a hull.
 template <class S, class U>
-concept measured_hulls = refers_to_memory<S> && requires(const U& t) { points_of(t); };
+concept measured_hulls = refers_to_memory<S> && requires(const U& t) {
+    points_of(t);
+};
 
 /// Two such shapes, whose cores are hulls.
 template <scalar T>
@@ -214,7 +220,10 @@ struct measured_hull_pair {
     const hull<T>&a, &b;
 
     ABUT_HD constexpr measured_hull_pair(const hull<T>& of_a, T around_a, const hull<T>& of_b, T around_b)
-        : nearest(of_a, of_b), radius_a(static_cast<double>(around_a)), radius_b(static_cast<double>(around_b)), a(of_a),
+        : nearest(of_a, of_b),
+          radius_a(static_cast<double>(around_a)),
+          radius_b(static_cast<double>(around_b)),
+          a(of_a),
           b(of_b) {}
 
     [[nodiscard]] ABUT_HD constexpr double distance() const {
@@ -228,7 +237,8 @@ struct measured_hull_pair {
 
 private:
     [[nodiscard]] ABUT_HD constexpr vec3<T> on_surface(vec3<double> p, double along) const {
-        if (along != 0) p = plain_step(p, along, contact_math::unit_vector(contact_math::as<contact_math::one_double>(way())));
+        if (along != 0)
+            p = plain_step(p, along, contact_math::unit_vector(contact_math::as<contact_math::one_double>(way())));
         return {rounded_within(p.x), rounded_within(p.y), rounded_within(p.z)};
     }
     [[nodiscard]] ABUT_HD static constexpr T rounded_within(double x) {

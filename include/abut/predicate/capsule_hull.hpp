@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Does a convex hull touch a solid ball or a capsule, that is: is it within the radius of the centre or of the axis? These are
-// hulls of one and two points. The search of gjk.hpp finds the feature of all differences that is nearest to the origin, and
-// the square of its distance, a quotient of degree 6 over 4 at most, is compared with that of the radius.
+// Does a convex hull touch a solid ball or a capsule, that is: is it within the radius of the centre or of the axis? These
+// are hulls of one and two points. The search of gjk.hpp finds the feature of all differences that is nearest to the origin,
+// and the square of its distance, a quotient of degree 6 over 4 at most, is compared with that of the radius.
 //
 // Why the certificates hold, with the names of hull_numbers.hpp; lengths |g| are Euclidean here.
 //
@@ -12,9 +12,9 @@
 //     (r + 21uM)^2 <= (1 + 2^-30) r^2 + 2^-65 M^2    by (x + y)^2 <= (1 + e) x^2 + (1 + 1/e) y^2.
 // The code takes 2^-29 and 2^-63.
 //
-// Touching. q is a combination of up to three computed differences, none longer than 2 sqrt(3) M, whose weights, as they stand
-// in their registers, are >= 0 and sum to 1 within 4u. So q is within 56uM of one of the true ones, as certified_ball.hpp
-// says, and (|q| + 56uM)^2 <= (1 + 2^-30) |q|^2 + 2^-62 M^2. The code takes 2^-29 and 2^-60.
+// Touching. q is a combination of up to three computed differences, none longer than 2 sqrt(3) M, whose weights, as they
+// stand in their registers, are >= 0 and sum to 1 within 4u. So q is within 56uM of one of the true ones, as
+// certified_ball.hpp says, and (|q| + 56uM)^2 <= (1 + 2^-30) |q|^2 + 2^-62 M^2. The code takes 2^-29 and 2^-60.
 
 #include <concepts>
 

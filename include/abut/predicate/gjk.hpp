@@ -50,9 +50,7 @@ struct difference_simplex {
 /// A number in a longer type: one of a type that has no lengths, as it is.
 template <class N>
     requires(!requires(const N& n) { n.count; })
-ABUT_HD constexpr N held_as(const N& x, const N*) {
-    return x;
-}
+ABUT_HD constexpr N held_as(const N& x, const N*) { return x; }
 template <int A, int B>
 ABUT_HD constexpr rolled_int<A> held_as(const rolled_int<B>& x, const rolled_int<A>*) {
     rolled_int<A> r;
@@ -151,8 +149,7 @@ private:
 /// They may have way_between_middles(), a way to begin with.
 template <class H>
 concept hulls_in_numbers = requires(const H& x, const vec3<typename nearest_feature<typename H::number>::cubic>& way,
-                                    std::uint32_t& i, const vec3<typename H::number> (&w)[4],
-                                    const difference_simplex& at) {
+                                    std::uint32_t& i, const vec3<typename H::number> (&w)[4], const difference_simplex& at) {
     { H::most_steps } -> std::convertible_to<int>;
     { x.difference(i, i) } -> std::same_as<vec3<typename H::number>>;
     { x.look_back(way, i, i) } -> std::same_as<void>;
@@ -164,8 +161,8 @@ concept hulls_in_numbers = requires(const H& x, const vec3<typename nearest_feat
 /// What is asked: whether hulls meet, or, if they do not, where they are nearest as well.
 enum class sought : bool { meeting, nearest };
 
-/// Whether hulls meet; `no` where they are apart. Begins at a simplex, any one, and leaves there what it came to: of hulls that
-/// are apart, and of which the nearest points are sought, the feature that these are on. Its corners are then in `w`.
+/// Whether hulls meet; `no` where they are apart. Begins at a simplex, any one, and leaves there what it came to: of hulls
+/// that are apart, and of which the nearest points are sought, the feature that these are on. Its corners are then in `w`.
 template <sought What, hulls_in_numbers Hulls>
 ABUT_HD constexpr verdict search_origin(const Hulls& x, difference_simplex& at, vec3<typename Hulls::number> (&w)[4]) {
     using number = typename Hulls::number;

@@ -47,8 +47,7 @@ ABUT_HD constexpr verdict decide(const hull<T>& a, const S& s) {
 
 /// What the filter left, in integers, with points compared in double first.
 template <arithmetic A, scalar T, detail::made_of_points<T> S>
-    requires std::same_as<A, filtered>
-ABUT_HD constexpr verdict decide_late(const hull<T>& a, const S& s) {
+requires std::same_as<A, filtered> ABUT_HD constexpr verdict decide_late(const hull<T>& a, const S& s) {
     const auto points = detail::points_of(s);
     return detail::decide_in_integers<2, true>(a, points.as_hull());
 }

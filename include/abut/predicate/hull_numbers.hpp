@@ -2,8 +2,8 @@
 #pragma once
 
 // Two convex hulls in the kinds of numbers that the search of gjk.hpp works in: the input's type (`fast`), double with
-// certificates (`filtered`), and integers of as many limbs as the input needs. The last begins where the one in double ended,
-// so that it mostly has to confirm.
+// certificates (`filtered`), and integers of as many limbs as the input needs. The last begins where the one in double
+// ended, so that it mostly has to confirm.
 //
 // Why the certificates hold. u = 2^-52, so that every bound holds in each rounding mode, with and without contraction.
 //
@@ -12,8 +12,8 @@
 // difference of a least and a greatest one within 12u |g| M. The code takes 16u.
 //
 // Touching. The origin is inside of a tetrahedron of differences if the four determinants of three of them, with alternating
-// signs, are all positive or all negative. A computed one is within 8u of the sum of its products' magnitudes; the code takes
-// 16u. And two equal points touch.
+// signs, are all positive or all negative. A computed one is within 8u of the sum of its products' magnitudes; the code
+// takes 16u. And two equal points touch.
 //
 // Underflow: a float that is read as 0 is off by less than 2^-126, and so a difference by less than 2^-125; products lose
 // less than 2^-1020. Overflow makes a comparison false, since what may overflow is compared with 2^1000 first.
@@ -73,7 +73,9 @@ ABUT_HD constexpr hull_points<T, 8> points_of(const aabb<T>& box) {
 
 /// Shapes that are hulls of points, of the scalar type T.
 template <class S, class T>
-concept made_of_points = std::same_as<scalar_type_of<S>, T> && requires(const S& s) { points_of(s).as_hull(); };
+concept made_of_points = std::same_as<scalar_type_of<S>, T> && requires(const S& s) {
+    points_of(s).as_hull();
+};
 
 /// Two hulls in numbers of type F: the input's own, for `fast`, or double with the certificates above.
 template <bool Certified, scalar T>
@@ -217,14 +219,15 @@ inline constexpr int spare_bits = 4;
 /// Limbs of a difference that are enough for any finite input.
 template <scalar T>
 inline constexpr int limbs_of_any = (float_format<T>::max_exponent - float_format<T>::min_exponent +
-                                     float_format<T>::digits + spare_bits + 63) / 64;
+                                     float_format<T>::digits + spare_bits + 63) /
+                                    64;
 
 /// Two hulls in integers, whose differences have no more than `Room` limbs. With coordinates below 2^w a difference of
 /// differences is below 2^(w + 2), and sums of products of d of them below 2^(d (w + 2) + d): so w + 4 bits for each factor
 /// leave room for the sum and its sign.
 ///
-/// Where they are `Sifted`, points are compared in double first, and only those that rounding leaves open in integers. The answer
-/// is the same.
+/// Where they are `Sifted`, points are compared in double first, and only those that rounding leaves open in integers. The
+/// answer is the same.
 template <int Room, scalar T, bool Sifted>
 class hulls_in_integers {
 public:
@@ -247,7 +250,9 @@ public:
     }
     /// A number of the input.
     [[nodiscard]] ABUT_HD constexpr number of(T x) const { return between(T(0), x); }
-    ABUT_HD constexpr verdict holds_origin(const vec3<number> (&)[4], const difference_simplex&) const { return verdict::yes; }
+    ABUT_HD constexpr verdict holds_origin(const vec3<number> (&)[4], const difference_simplex&) const {
+        return verdict::yes;
+    }
     [[nodiscard]] ABUT_HD constexpr verdict when_lost(const difference_simplex&) const { return verdict::unknown; }
 
 private:
@@ -295,10 +300,10 @@ private:
         }
         return best;
     }
-    /// Heights along a way in double, as seen from a first point, and by how much they may be off: a coordinate of the way is
-    /// within u = 2^-52 of itself, one of a difference too, and so a height is within 7u of its products' magnitudes. The code
-    /// takes 16u, twice that for the rounding of what is compared. The way's largest coordinate is brought to 1, and less than
-    /// 2^-695 of it is left out. What is not a number leaves all open.
+    /// Heights along a way in double, as seen from a first point, and by how much they may be off: a coordinate of the way
+    /// is within u = 2^-52 of itself, one of a difference too, and so a height is within 7u of its products' magnitudes. The
+    /// code takes 16u, twice that for the rounding of what is compared. The way's largest coordinate is brought to 1, and
+    /// less than 2^-695 of it is left out. What is not a number leaves all open.
     struct rough_scan {
         vec3<T> first;
         vec3<double> way{0, 0, 0};
@@ -306,7 +311,8 @@ private:
         ABUT_HD constexpr rough_scan(const vec3<T>& from, const vec3<rolled_int<3 * Room>>& along, int sense) : first(from) {
             if constexpr (Sifted) {
                 const int top = greatest(bits_of(along.x), bits_of(along.y), bits_of(along.z));
-                way = {rounded_part(along.x, top, sense), rounded_part(along.y, top, sense), rounded_part(along.z, top, sense)};
+                way = {rounded_part(along.x, top, sense), rounded_part(along.y, top, sense),
+                       rounded_part(along.z, top, sense)};
             }
         }
         ABUT_HD constexpr void measure(const vec3<T>& p, double& height, double& off) const {
@@ -331,7 +337,8 @@ private:
             for (int i = 0; i < n.count; ++i) {
                 const int e = 64 * i - top;
                 if (e <= -760 || n.limb[i] == 0) continue;  // a limb is below 2^(e + 64)
-                sum += static_cast<double>(n.limb[i]) * __builtin_bit_cast(double, static_cast<std::uint64_t>(e + 1023) << 52);
+                sum +=
+                    static_cast<double>(n.limb[i]) * __builtin_bit_cast(double, static_cast<std::uint64_t>(e + 1023) << 52);
             }
             return sign < 0 ? -sum : sum;
         }

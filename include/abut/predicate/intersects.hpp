@@ -59,9 +59,9 @@ concept decidable_pair = requires(const S& s, const U& t) {
 namespace detail {
 
 /// The shape as it lies in memory. g++ 12, when it vectorises, drops the rounding of double to float where the float is
-/// widened again: a caller's `static_cast<float>(x)` would reach the filter as x itself, and the integers as the float. And a
-/// caller's product may be contracted into the filter's differences. The barrier claims to write, so that the compiler reads
-/// from memory again; nothing is written or copied.
+/// widened again: a caller's `static_cast<float>(x)` would reach the filter as x itself, and the integers as the float. And
+/// a caller's product may be contracted into the filter's differences. The barrier claims to write, so that the compiler
+/// reads from memory again; nothing is written or copied.
 template <class Shape>
 ABUT_HD constexpr const Shape& as_stored(const Shape& shape) {
 #if defined(__GNUC__) && !ABUT_DEVICE_CODE
@@ -106,9 +106,10 @@ ABUT_HD constexpr bool intersects_exactly(const S& s, const U& t) {
 
 }  // namespace detail
 
-/// Whether two closed shapes have a point in common: triangles, segments, rays, points (vec3) and planes, and spheres, boxes,
-/// capsules and convex hulls, which are solid, as docs/numerics.md lists. With `filtered` and `exact` the answer is right for every finite
-/// input and the same on each compiler and device; `fast` is approximate. Constant expressions are decided in integers.
+/// Whether two closed shapes have a point in common: triangles, segments, rays, points (vec3) and planes, and spheres,
+/// boxes, capsules and convex hulls, which are solid, as docs/numerics.md lists. With `filtered` and `exact` the answer is
+/// right for every finite input and the same on each compiler and device; `fast` is approximate. Constant expressions are
+/// decided in integers.
 ///
 ///     static_assert(abut::intersects(abut::sphere<float>{{0, 0, 5}, 5},
 ///                                    abut::triangle<float>{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}));

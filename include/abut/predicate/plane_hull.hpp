@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Does a convex hull touch a plane? It does if and only if the triangle of its first point and two others does, for some two:
-// one that lies in the plane or on another side than the first.
+// Does a convex hull touch a plane? It does if and only if the triangle of its first point and two others does, for some
+// two: one that lies in the plane or on another side than the first.
 
 #include <cstddef>
 

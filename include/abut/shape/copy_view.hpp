@@ -62,7 +62,8 @@ struct set_parts {
         return made;
     }
     template <scalar T, memory_space Space>
-    static hulls<T, Space> hulls_of(execution::buffer<vec3<T>, Space> points, execution::buffer<std::uint32_t, Space> offsets) {
+    static hulls<T, Space> hulls_of(execution::buffer<vec3<T>, Space> points,
+                                    execution::buffer<std::uint32_t, Space> offsets) {
         hulls<T, Space> made;
         made.points_ = shared_array<vec3<T>, Space>(std::move(points));
         made.offsets_ = shared_array<std::uint32_t, Space>(std::move(offsets));

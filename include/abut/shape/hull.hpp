@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The convex hull of points as a shape. It refers to its points, which lie elsewhere, as those of a set do (hulls.hpp): so it
-// can have any number of them. No faces are made, and none are needed: whatever is asked of a hull is asked of its points.
+// The convex hull of points as a shape. It refers to its points, which lie elsewhere, as those of a set do (hulls.hpp): so
+// it can have any number of them. No faces are made, and none are needed: whatever is asked of a hull is asked of its
+// points.
 
 #include <concepts>
 #include <cstddef>
@@ -19,8 +20,8 @@ namespace abut {
 ///@{
 
 /// The convex hull of one point or more, in any order: solid where it has a volume, and else the polygon, segment or point
-/// that it is. Points inside of it and repeated ones change nothing. The points are the caller's, or those of a set: they have
-/// to outlive the hull and lie in memory of who reads it. A pose is kept, and applied to each point as it is read.
+/// that it is. Points inside of it and repeated ones change nothing. The points are the caller's, or those of a set: they
+/// have to outlive the hull and lie in memory of who reads it. A pose is kept, and applied to each point as it is read.
 template <scalar T>
 struct hull {
     const vec3<T>* points = nullptr;       ///< the first one
@@ -44,8 +45,7 @@ struct hull {
 private:
     [[nodiscard]] ABUT_HD const vec3<T>& far_point(std::size_t i) const {
         const void* const first = points;
-        return *static_cast<const vec3<T>*>(
-            static_cast<const void*>(static_cast<const unsigned char*>(first) + i * stride));
+        return *static_cast<const vec3<T>*>(static_cast<const void*>(static_cast<const unsigned char*>(first) + i * stride));
     }
 };
 

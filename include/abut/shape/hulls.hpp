@@ -110,8 +110,7 @@ void check(const Policy& on, const hulls_view<T, Space>& view, const char* funct
     require_access(on, view.offsets.data, function);
     see_writes_to(view.offsets.data);
     const auto points = static_cast<std::uint32_t>(view.points.count);
-    const std::size_t bad =
-        reduce(on, view.offsets.count, none_is_bad, minimum{}, bad_offset{view.offsets, points});
+    const std::size_t bad = reduce(on, view.offsets.count, none_is_bad, minimum{}, bad_offset{view.offsets, points});
     if (bad == none_is_bad) return;
     std::uint32_t offset[2] = {};
     download(on, &view.offsets[bad], bad < n ? 2 : 1, offset);
@@ -177,9 +176,9 @@ class hulls {
     static constexpr const char* name = "abut::hulls";
 
 public:
-    using scalar_type = T;                    ///< float or double
-    using shape_type = hull<T>;               ///< what a shape is
-    using memory_space = Space;               ///< where the memory lies
+    using scalar_type = T;                   ///< float or double
+    using shape_type = hull<T>;              ///< what a shape is
+    using memory_space = Space;              ///< where the memory lies
     using view_type = hulls_view<T, Space>;  ///< what algorithms read
 
     /// Without hulls.
@@ -213,8 +212,8 @@ public:
         }
         *this = hulls(on, std::span<const vec3<T>>(points), std::span<const std::uint32_t>(offsets));
     }
-    /// Of other libraries' arrays, containers or spans: of points that hold three T, or of T itself; of integers of any type.
-    /// Negative offsets are refused like those that are too large.
+    /// Of other libraries' arrays, containers or spans: of points that hold three T, or of T itself; of integers of any
+    /// type. Negative offsets are refused like those that are too large.
     template <detail::array_like P, detail::array_like O>
         requires std::same_as<Space, host_space>
     hulls(const P& points, const O& offsets) : hulls(serial{}, points, offsets) {}
@@ -224,7 +223,8 @@ public:
                  !(std::convertible_to<const P&, std::span<const vec3<T>>> &&
                    std::convertible_to<const O&, std::span<const std::uint32_t>>))
     hulls(const Policy& on, const P& points, const O& offsets) {
-        if constexpr (detail::is_row<vec3<T>, detail::element_of<P>>() && detail::holds_offsets<detail::element_of<O>>()) {
+        if constexpr (detail::is_row<vec3<T>, detail::element_of<P>>() &&
+                      detail::holds_offsets<detail::element_of<O>>()) {
             const std::span<const vec3<T>> all = detail::rows_as<vec3<T>>(points, name);
             const std::vector<std::uint32_t> from = detail::offsets_of(offsets, all.size(), name);
             *this = hulls(on, all, std::span<const std::uint32_t>(from));
