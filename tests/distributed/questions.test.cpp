@@ -132,12 +132,12 @@ TEST_CASE("distributed: segments in double, and more rays than a message takes")
     std::vector<segment<double>> ends;
     for (const auto& r : rays_around<double>(300, 84)) ends.push_back({r.origin, r.origin + 0.5 * r.direction});
     const divided_set from(ends, division::all_on_last, on.ranks());
-    check_all_ray_queries(on, a.part, a.whole, from.part, from.whole);
+    check_all_ray_queries(on, a.part, make_bvh(serial{}, a.whole), from.part, from.whole);
 
     const distributed alone(world(), serial{});
     const divided_set few(twice_on_lattice<float>(20, 85), division::even, on.ranks());
     const divided_set many(rays_around<float>(70'000, 86), division::all_on_first, on.ranks());
-    const auto expected = to_host(raycast(serial{}, few.whole, many.whole));
+    const auto expected = to_host(raycast(serial{}, make_bvh(serial{}, few.whole), many.whole));
     CHECK((lists_of_all(on.ranks(), to_host(raycast(alone, few.part, many.part))) == in_all_parts(expected)));
 }
 
@@ -233,14 +233,16 @@ void check_distance_of_parts(division how, division how_b) {
     const distributed on(world(), serial{});
     const divided_set a(twice_on_lattice<T>(150, 92), how, on.ranks());
     const auto tree = make_bvh(on.local(), a.part);
+    const auto whole_a = make_bvh(serial{}, a.whole);
     rigid<T> pose{};
     construction::set_rotation(pose, 0.8L, 0.1L, -0.5L, 0.2L);
     bool seen[2] = {false, false};  // sets that touch, and that do not
     for (const T away : {T(1), T(12), T(90)}) {
         CAPTURE(static_cast<int>(how), static_cast<int>(how_b), away, on.size());
         const divided_set b(balls_around<T>(100, away, 93), how_b, on.ranks());
+        const auto whole_b = make_bvh(serial{}, b.whole);
         const auto check = [&](const auto& x, const auto& y, const auto& whole) {
-            const auto expected = distance(serial{}, whole, b.whole);
+            const auto expected = distance(serial{}, whole, whole_b);
             const global_separation<T> named{expected->a, expected->b, expected->point_a, expected->point_b,
                                              expected->distance};
             seen[expected->distance > 0 ? 1 : 0] = true;
@@ -249,8 +251,8 @@ void check_distance_of_parts(division how, division how_b) {
             CHECK(on_all(on.ranks(), distance(on, x, y, {.below = far + 1}) == named));
             CHECK(on_all(on.ranks(), !distance(on, x, y, {.below = far})));
         };
-        check(tree, make_bvh(on.local(), b.part), a.whole);
-        check(posed(tree, pose), b.part, posed(a.whole, pose));
+        check(tree, make_bvh(on.local(), b.part), whole_a);
+        check(posed(tree, pose), b.part, posed(whole_a, pose));
     }
     CHECK((seen[0] && seen[1]));
 }

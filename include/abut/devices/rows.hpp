@@ -75,7 +75,7 @@ auto asked_on_each(const Team& team, const X& index, const Rows& rows, const cha
     });
 }
 
-/// A device's share of the rows, or of one device all: use(rows).
+/// use(rows) of a device's share of the rows, which is copied for it.
 template <class Team, class Rows, class Use>
 auto with_share_of_rows(const Team& team, int k, const Rows& rows, const Use& use) {
     const auto& on = team[k];
