@@ -4,14 +4,17 @@
 // How far apart parts of two sets are, one after another: what `distance` says of whole sets that lie on several devices or
 // ranks. First all parts are asked what touches, and where nothing does, what is nearest.
 
+#include <cstddef>
 #include <cstdint>
 #include <mutex>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 #include <abut/arithmetic/limits.hpp>
 #include <abut/collide/distance.hpp>
 #include <abut/collide/parts.hpp>
+#include <abut/config.hpp>
 #include <abut/shape/outward.hpp>
 
 namespace abut::detail {
@@ -28,6 +31,16 @@ struct pair_apart {
         if (measure != other.measure) return measure < other.measure;
         return a != other.a ? a < other.a : b < other.b;
     }
+};
+
+/// What two ids of a part are called in the whole sets.
+template <class Ids>
+struct name_pair {
+    using pair_type = std::remove_cvref_t<std::invoke_result_t<Ids, std::uint32_t, std::uint32_t>>;
+    Ids ids;
+    std::uint32_t a, b;
+    pair_type* out;
+    ABUT_HD void operator()(std::size_t) const { *out = ids(a, b); }
 };
 
 /// The least of all parts, which threads ask at a time.
@@ -76,10 +89,21 @@ private:
     template <class Policy, class Pairing, class Ids>
     void offer(const Policy& on, const Pairing& pairing, std::uint64_t key, double measure, bool touch, const Ids& ids) {
         if (key == no_pair) return;
-        const auto pair = ids(pairing.key.a(key), pairing.key.b(key));
+        const auto pair = named(on, ids, pairing.key.a(key), pairing.key.b(key));
         pair_apart<T> one{measure, pair.a, pair.b, separation_of_key(on, pairing, key, touch)};
         const std::scoped_lock lock(mutex_);
         if (one.comes_before(best_)) best_ = one;
+    }
+
+    /// The tables of ids lie where the policy works, so it reads them.
+    template <class Policy, class Ids>
+    static auto named(const Policy& on, const Ids& ids, std::uint32_t a, std::uint32_t b) {
+        using pair_type = typename name_pair<Ids>::pair_type;
+        execution::buffer_of<Policy, pair_type> there(on, 1);
+        pair_type pair{};
+        for_each_index(on, 1, name_pair<Ids>{ids, a, b, there.data()});
+        download(on, there.data(), 1, &pair);
+        return pair;
     }
 
     double most_;
