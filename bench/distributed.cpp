@@ -448,17 +448,18 @@ void time_local(rows& all, std::size_t shapes, int runs) {
     std::vector<abut::detail::measured_neighbor<float>> best(shapes);
     const double one = unit.of(1);
     for (auto& b : best) b = {one * one, 0, {}, 1};
-    std::vector<abut::detail::point_block<float>> blocks(boxes.size());
-    const abut::detail::write_point_blocks<points_view> write{all_points, best.data(), blocks.data()};
+    std::vector<abut::detail::block_looking<float>> blocks(boxes.size());
+    const abut::detail::write_blocks_looking<points_view> write{all_points, best.data(), 1, blocks.data()};
     time_steps(all, "local/made_block", runs, blocks.size(), [&](std::size_t k) {
         write(k);
         return blocks[k].worst > 0 ? 1U : 0U;
     });
-    std::vector<abut::detail::may_block_be_nearer<float>> may_blocks;
-    std::vector<abut::detail::may_be_nearer<points_view>> may_points;
+    const abut::detail::ask_nearest<float> question{unit};
+    std::vector<abut::detail::may_block_be_near<float>> may_blocks;
+    std::vector<abut::detail::may_be_changed<points_view, abut::detail::ask_nearest<float>>> may_points;
     for (const auto& part : parts) {
         may_blocks.push_back({blocks.data(), unit, part});
-        may_points.push_back({all_points, best.data(), unit, part});
+        may_points.push_back({all_points, question, best.data(), part});
     }
     time_blocks(all, "point", runs, shapes, may_blocks, may_points, [](std::size_t, std::size_t) { return true; });
 
