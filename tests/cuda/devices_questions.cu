@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // long to compile
 //
-// What points and rays ask of several devices, and lists of posed pairs. Where there is one, it is asked as two: all but the copies between different
-// devices is the same then.
+// What points and rays ask of several devices, and lists of posed pairs. Where there is one, it is asked as two: all but the
+// copies between different devices is the same then.
 
 #include <abut/cuda_devices.hpp>
 

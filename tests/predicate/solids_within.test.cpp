@@ -61,16 +61,9 @@ void examine_solids_within(const S& s, const U& t, double d, bool truth, std::ui
     const bool quick = within<fast>(s, t, d);
     const verdict by_filter = detail::decide_within<filtered>(s, t, d), late = late_within(s, t, d),
                   by_limbs = detail::decide_within<exact>(s, t, d);
-    ++sum.pairs;
-    sum.hits += truth;
-    sum.missed += truth && !quick;
-    sum.phantom += !truth && quick;
-    ++(by_filter != verdict::unknown  ? sum.filter
-       : late != verdict::unknown     ? sum.late
-       : by_limbs != verdict::unknown ? sum.two_limbs
-                                      : sum.any_span);
-    const auto contradicts = [truth](verdict v) { return v == to_verdict(!truth); };
-    bool wrong = contradicts(by_filter) || contradicts(late) || contradicts(by_limbs);
+    // How many digits the integers need is not asked here: two limbs, or more.
+    const int width = by_limbs != verdict::unknown ? 124 : 125;
+    bool wrong = sum.count(truth, quick, by_filter, late, by_limbs, width);
     wrong = wrong || within(s, t, d) != truth || within<exact>(t, s, d) != truth;
     if (by_limbs == verdict::unknown || index % 16 == 0) wrong = wrong || detail::resolve_within(s, t, d) != truth;
     sum.wrong += wrong;

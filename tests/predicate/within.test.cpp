@@ -71,17 +71,7 @@ void examine_within(const S& s, const U& t, double d, bool truth, std::uint64_t 
     const aligned<std::size_t{3 * (n + m) + 3}> integers(values.value);
     const int width = integers.width();
 
-    ++sum.pairs;
-    sum.hits += truth;
-    sum.missed += truth && !quick;
-    sum.phantom += !truth && quick;
-    ++(by_filter != verdict::unknown ? sum.filter
-       : late != verdict::unknown    ? sum.late
-       : width <= 59                 ? sum.one_limb
-       : width <= 124                ? sum.two_limbs
-                                     : sum.any_span);
-    const auto contradicts = [truth](verdict v) { return v == to_verdict(!truth); };
-    bool wrong = contradicts(by_filter) || contradicts(late) || contradicts(by_limbs);
+    bool wrong = sum.count(truth, quick, by_filter, late, by_limbs, width);
     wrong = wrong || (by_limbs == verdict::unknown) != (width > 124);
     wrong = wrong || within(s, t, d) != truth || within<exact>(t, s, d) != truth;
     if (by_limbs == verdict::unknown ? index % 4 == 0 : index % 16 == 0) {

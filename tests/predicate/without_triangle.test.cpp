@@ -82,17 +82,7 @@ void examine_solids(const S& s, const U& t, std::uint64_t index, test::stage_tal
     const int width = width_of_values(s, t);
     const bool truth = touch_by_oracle(s, t), quick = intersects<fast>(s, t);
     const verdict by_filter = decide<filtered>(s, t), late = test::late_verdict(s, t), by_limbs = decide<exact>(s, t);
-    ++sum.pairs;
-    sum.hits += truth;
-    sum.missed += truth && !quick;
-    sum.phantom += !truth && quick;
-    ++(by_filter != verdict::unknown ? sum.filter
-       : late != verdict::unknown    ? sum.late
-       : width <= 59                 ? sum.one_limb
-       : width <= 124                ? sum.two_limbs
-                                     : sum.any_span);
-    const auto contradicts = [truth](verdict v) { return v == to_verdict(!truth); };
-    bool wrong = contradicts(by_filter) || contradicts(late) || contradicts(by_limbs);
+    bool wrong = sum.count(truth, quick, by_filter, late, by_limbs, width);
     wrong = wrong || (by_limbs == verdict::unknown && width <= 124);
     wrong = wrong || intersects(s, t) != truth || intersects(t, s) != truth || intersects<exact>(t, s) != truth;
     if (by_limbs == verdict::unknown || index % 16 == 0) wrong = wrong || resolve(s, t) != truth;

@@ -29,6 +29,22 @@ struct stage_tally {
             wrong += o.wrong;
         return *this;
     }
+
+    /// One more pair: what `fast` says, and each stage, whose integers take `width` digits. Returns whether a stage but `fast`
+    /// is wrong.
+    bool count(bool truth, bool quick, verdict by_filter, verdict by_late, verdict by_limbs, int width) {
+        ++pairs;
+        hits += truth;
+        missed += truth && !quick;
+        phantom += !truth && quick;
+        ++(by_filter != verdict::unknown ? filter
+           : by_late != verdict::unknown ? late
+           : width <= 59                 ? one_limb
+           : width <= 124                ? two_limbs
+                                         : any_span);
+        const verdict lie = to_verdict(!truth);
+        return by_filter == lie || by_late == lie || by_limbs == lie;
+    }
 };
 
 /// What lies between the filter and the integers: not every pair of shapes has it.
@@ -49,23 +65,7 @@ void examine_stages(const S& s, const U& t, const T (&values)[V], bool truth, st
     const aligned<V> integers(values);
     const int width = integers.width();
 
-    ++sum.pairs;
-    sum.hits += truth;
-    sum.missed += truth && !quick;
-    sum.phantom += !truth && quick;
-    if (by_filter != verdict::unknown) {
-        ++sum.filter;
-    } else if (late != verdict::unknown) {
-        ++sum.late;
-    } else if (width <= 59) {
-        ++sum.one_limb;
-    } else if (width <= 124) {
-        ++sum.two_limbs;
-    } else {
-        ++sum.any_span;
-    }
-    const auto contradicts = [truth](verdict v) { return v == to_verdict(!truth); };
-    bool wrong = contradicts(by_filter) || contradicts(late) || contradicts(by_limbs);
+    bool wrong = sum.count(truth, quick, by_filter, late, by_limbs, width);
     wrong = wrong || (by_limbs == verdict::unknown) != (width > 124);
     wrong = wrong || decide<fast>(s, t) == to_verdict(!quick);
     wrong = wrong || intersects(s, t) != truth || intersects<exact>(t, s) != truth;

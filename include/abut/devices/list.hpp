@@ -38,24 +38,15 @@ struct entries_of_part {
         return static_cast<std::uint32_t>(i * parts + part);
     }
 };
-template <class Filter>
-struct filter_of_part {
-    Filter filter;
+/// A filter or a visitor, which is told of entries by their positions in the whole list.
+template <class Call>
+struct call_of_part {
+    Call call;
     entries_of_part position;
     ABUT_CALLS_ANY
-    ABUT_HD bool operator()(tagged_pair of) const {
+    ABUT_HD auto operator()(tagged_pair of) const {
         of.pair = position(of.pair);
-        return filter(of);
-    }
-};
-template <class Visitor>
-struct visitor_of_part {
-    Visitor visitor;
-    entries_of_part position;
-    ABUT_CALLS_ANY
-    ABUT_HD visit operator()(tagged_pair of) const {
-        of.pair = position(of.pair);
-        return visitor(of);
+        return call(of);
     }
 };
 template <class Found>
@@ -91,7 +82,7 @@ auto options_of_part(const list_options<Filter, Schedule>& options, const entrie
         here.scheduling = scheduling;
         return here;
     } else {
-        return list_options<filter_of_part<Filter>, Schedule>{
+        return list_options<call_of_part<Filter>, Schedule>{
             options.sorted, {options.filter, position}, options.most_pairs, options.discard_sideways, scheduling};
     }
 }
@@ -202,7 +193,7 @@ void for_each_pair(const Team& team, const std::vector<posed_pair<replicated<Ind
         for (int k = 0; k < team.size(); ++k) visitors.push_back(visitor_of(k));
         detail::ask_entries(team, list, function, [&](int k, const auto& mine, const auto& position) {
             const auto here = detail::options_of_part(options, position);
-            const detail::visitor_of_part<visitor> visits{visitors[static_cast<std::size_t>(k)], position};
+            const detail::call_of_part<visitor> visits{visitors[static_cast<std::size_t>(k)], position};
             detail::visit_pairs_of<A>(team[k], detail::pair_up(team[k], mine, here, function, position), visits);
         });
     }

@@ -281,10 +281,9 @@ template <arithmetic A = filtered, execution::policy_team Team, class X, class Y
     if constexpr (detail::can_touch<local, detail::type_on_device<X>, detail::type_on_device<Y>, Filter>()) {
         using T = scalar_type_of<typename detail::shape_of_argument<detail::type_on_device<X>>::type>;
         const query_options<Filter> query{.sorted = options.sorted, .filter = options.filter, .resident = options.resident};
-        auto found =
-            detail::found_on_each<contact<T>>(team, a, b, query, "abut::contacts", detail::pairs_that_touch{}, [&](const auto& on, const auto& pairing) {
-                return detail::contacts_of<A>(on, pairing, options.discard_sideways);
-            });
+        auto found = detail::found_on_each<contact<T>>(
+            team, a, b, query, "abut::contacts", detail::pairs_that_touch{},
+            [&](const auto& on, const auto& pairing) { return detail::contacts_of<A>(on, pairing, options.discard_sideways); });
         return detail::on_first(team, std::move(found), options.sorted);
     } else {
         return result<contact<float>, space_of<local>>();

@@ -69,7 +69,9 @@ template <arithmetic A = filtered, execution_policy Local, class X, class Y, cla
 [[nodiscard]] auto within(const distributed<Local>& on, const X& a, const Y& b, double distance,
                           const query_options<Filter, Traversal, Schedule>& options = {}) {
     if constexpr (detail::can_be_within_globally<Local, X, Y, Filter>()) {
-        return detail::pairs_of_parts<A>(on, a, b, options, "abut::within", detail::agreed_pairs_within(on, distance, "abut::within"));
+        constexpr const char* function = "abut::within";
+        return detail::pairs_of_parts<A>(on, a, b, options, function,
+                                         detail::agreed_pairs_within(on, distance, function));
     } else {
         return result<global_pair, space_of<Local>>();
     }
@@ -81,7 +83,9 @@ template <arithmetic A = filtered, execution_policy Local, class X, class Y, cla
 [[nodiscard]] std::uint64_t count_within(const distributed<Local>& on, const X& a, const Y& b, double distance,
                                          const query_options<Filter, Traversal, Schedule>& options = {}) {
     if constexpr (detail::can_be_within_globally<Local, X, Y, Filter>()) {
-        return detail::count_of_parts<A>(on, a, b, options, "abut::count_within", detail::agreed_pairs_within(on, distance, "abut::count_within"));
+        constexpr const char* function = "abut::count_within";
+        return detail::count_of_parts<A>(on, a, b, options, function,
+                                         detail::agreed_pairs_within(on, distance, function));
     } else {
         return 0;
     }
@@ -93,7 +97,9 @@ template <arithmetic A = filtered, execution_policy Local, class X, class Y, cla
 [[nodiscard]] bool any_within(const distributed<Local>& on, const X& a, const Y& b, double distance,
                               const query_options<Filter, Traversal, Schedule>& options = {}) {
     if constexpr (detail::can_be_within_globally<Local, X, Y, Filter>()) {
-        return detail::any_of_parts<A>(on, a, b, options, "abut::any_within", detail::agreed_pairs_within(on, distance, "abut::any_within"));
+        constexpr const char* function = "abut::any_within";
+        return detail::any_of_parts<A>(on, a, b, options, function,
+                                       detail::agreed_pairs_within(on, distance, function));
     } else {
         return false;
     }
@@ -105,7 +111,9 @@ template <arithmetic A = filtered, execution_policy Local, class X, class Y, cla
 void for_each_within(const distributed<Local>& on, const X& a, const Y& b, double distance, const Visitor& visitor,
                      const query_options<Filter, Traversal, Schedule>& options = {}) {
     if constexpr (detail::can_be_within_globally<Local, X, Y, Filter>() && detail::is_global_visitor<Local, Visitor>()) {
-        detail::visit_all_parts<A>(on, a, b, visitor, options, "abut::for_each_within", detail::agreed_pairs_within(on, distance, "abut::for_each_within"));
+        constexpr const char* function = "abut::for_each_within";
+        detail::visit_all_parts<A>(on, a, b, visitor, options, function,
+                                   detail::agreed_pairs_within(on, distance, function));
     }
 }
 

@@ -45,9 +45,9 @@ template <class S, class U>
 concept distance_decidable = detail::within_as_given<S, U> || detail::within_as_given<U, S>;
 
 /// Whether two closed shapes are no farther apart than `distance`, which is finite and 0 or more: points, segments,
-/// triangles, spheres, capsules and boxes with each other, and a plane with any of them. With `filtered` and `exact` the answer is right for every finite input,
-/// with the distance taken exactly as the double that it is, and the same on each compiler and device; `fast` is
-/// approximate. With distance 0 it is `intersects`. Constant expressions are decided in integers.
+/// triangles, spheres, capsules and boxes with each other, and a plane with any of them. With `filtered` and `exact` the
+/// answer is right for every finite input, with the distance taken exactly as the double that it is, and the same on each
+/// compiler and device; `fast` is approximate. With distance 0 it is `intersects`. Constant expressions are decided in integers.
 ///
 ///     static_assert(abut::within(abut::sphere<float>{{0, 0, 5}, 1}, abut::vec3<float>{0, 0, 1}, 3));
 /// @ingroup one_pair
