@@ -37,9 +37,7 @@ TEST_CASE("capsule and triangle: every stage is right in every family") {
                                        "touching: axis, corner", "touching: axis, edge"}});
 }
 
-TEST_CASE("capsule and triangle: right in every rounding mode") { test::check_rounding_modes<capsule>(); }
-
-TEST_CASE("capsule and triangle: right where denormals are flushed to zero") { test::check_flush_to_zero<capsule>(); }
+TEST_CASE("capsule and triangle: right in every floating-point mode") { test::check_every_mode<capsule>(); }
 
 TEST_CASE("capsule and triangle: one answer for every order, mirror and power of two") { test::check_one_answer<capsule>(); }
 

@@ -29,8 +29,6 @@ TEST_CASE("plane and triangle: every stage is right in every family") {
         {{"touching: corner", "touching: edge", "touching: face", "touching: along axes", "touching: corner, far off"}});
 }
 
-TEST_CASE("plane and triangle: right in every rounding mode") { test::check_rounding_modes<plane>(); }
-
-TEST_CASE("plane and triangle: right where denormals are flushed to zero") { test::check_flush_to_zero<plane>(); }
+TEST_CASE("plane and triangle: right in every floating-point mode") { test::check_every_mode<plane>(); }
 
 TEST_CASE("plane and triangle: one answer for every order, mirror and power of two") { test::check_one_answer<plane>(); }

@@ -2,28 +2,22 @@
 #pragma once
 
 // What the predicates of a triangle and a box, a plane or a capsule all promise: every stage right in every family, whatever
-// the rounding mode, and with denormals flushed to zero; and one answer for whatever order, mirror or power of two a pair is
+// the floating-point mode; and one answer for whatever order, mirror or power of two a pair is
 // given in.
 
-#include <cfenv>
 #include <cmath>
 #include <cstdint>
-
-#if defined(__SSE2__)
-#include <xmmintrin.h>
-#endif
 
 #include <abut/predicate/intersects.hpp>
 
 #include "support/catch.hpp"
+#include "support/modes.hpp"
 #include "support/other_shapes.hpp"
 #include "support/samples.hpp"
 #include "support/shape_oracles.hpp"
 #include "support/stages.hpp"
 
 namespace abut::test {
-
-inline constexpr unsigned flush_and_no_denormals = 0x8040;  // of the SSE control register
 
 template <scalar T>
 void examine_shapes(const aabb<T>& box, const triangle<T>& t, std::uint64_t index, stage_tally& sum) {
@@ -95,46 +89,27 @@ void check_every_stage(const char* title, const char* file_name, const touching_
         });
 }
 
-/// `change` sets a mode of the arithmetic, `restore` sets it back.
-template <template <class> class Shape, class Change, class Restore>
-void check_under(Change change, Restore restore) {
-    const auto check = [&]<class T>(T) {
-        std::uint64_t wrong = 0, certain_and_wrong = 0;
+template <template <class> class Shape>
+void check_every_mode() {
+    const auto check = []<class T>(T) {
         for (int i = 0; i < shape_family_count; ++i) {
-            for (std::uint64_t k = 0; k < sample_count() / 4; ++k) {
-                const auto [s, t] = make_shape_pair<Shape, T>(sample_seed, static_cast<shape_family>(i), k);
-                change();
-                const bool answer = intersects(s, t);
-                const verdict by_filter = decide<filtered>(s, t);
-                restore();
-                const bool truth = oracle::intersects(s, t);
-                wrong += answer != truth;
-                certain_and_wrong += by_filter == to_verdict(!truth);
-            }
+            const auto f = static_cast<shape_family>(i);
+            const auto wrong = in_threads<std::uint64_t>(
+                sample_count() / 4, [f](std::uint64_t first, std::uint64_t last, std::uint64_t& sum) {
+                    for (std::uint64_t k = first; k < last; ++k) {
+                        const auto p = make_shape_pair<Shape, T>(sample_seed, f, k);
+                        const bool truth = oracle::intersects(p.s, p.t);
+                        sum += modes_in_which([&] {
+                            return intersects(p.s, p.t) != truth || decide<filtered>(p.s, p.t) == to_verdict(!truth);
+                        });
+                    }
+                });
+            CAPTURE(i, sizeof(T));
+            CHECK(wrong == 0);
         }
-        CHECK(wrong == 0);
-        CHECK(certain_and_wrong == 0);
     };
     check(float{});
     check(double{});
-}
-
-template <template <class> class Shape>
-void check_rounding_modes() {
-    for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
-        CAPTURE(mode);
-        check_under<Shape>([mode] { std::fesetround(mode); }, [] { std::fesetround(FE_TONEAREST); });
-    }
-}
-
-template <template <class> class Shape>
-void check_flush_to_zero() {
-#if defined(__SSE2__)
-    const unsigned before = _mm_getcsr();
-    check_under<Shape>([before] { _mm_setcsr(before | flush_and_no_denormals); }, [before] { _mm_setcsr(before); });
-    // Both at once.
-    check_under<Shape>([before] { _mm_setcsr(before | flush_and_no_denormals | 0x6000); }, [before] { _mm_setcsr(before); });
-#endif
 }
 
 // --- one answer

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <abut/predicate/triangle_triangle.hpp>
 
-#include <cfenv>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 
-#if defined(__SSE2__)
-#include <xmmintrin.h>
-#endif
-
 #include "support/catch.hpp"
 #include "support/hulls.hpp"
+#include "support/modes.hpp"
 #include "support/samples.hpp"
 #include "support/stages.hpp"
 #include "support/triangle_families.hpp"
@@ -261,35 +257,10 @@ TEMPLATE_TEST_CASE("triangle and triangle: one answer after moves by representab
     });
 }
 
-// A function call, so that nothing moves out of or into the mode that is set around it.
-template <scalar T>
-ABUT_NOINLINE bool asked(const triangle<T>& s, const triangle<T>& t) {
-    return intersects(s, t);
-}
-
-TEMPLATE_TEST_CASE("triangle and triangle: right in every rounding mode", "", float, double) {
-    check_changes<TestType>("rounding modes", [](const auto& p, test::draws&, bool, changes& sum) {
+TEMPLATE_TEST_CASE("triangle and triangle: right in every floating-point mode", "", float, double) {
+    check_changes<TestType>("floating-point modes", [](const auto& p, test::draws&, bool, changes& sum) {
         const bool truth = test::oracle::intersects(p.a, p.b);
-        for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
-            std::fesetround(mode);
-            const bool answer = asked(p.a, p.b);
-            std::fesetround(FE_TONEAREST);
-            ++sum.asked;
-            sum.wrong += answer != truth;
-        }
-    });
-}
-
-#if defined(__SSE2__)
-TEMPLATE_TEST_CASE("triangle and triangle: right where denormals are flushed to zero", "", float, double) {
-    check_changes<TestType>("flush to zero", [](const auto& p, test::draws&, bool, changes& sum) {
-        const bool truth = test::oracle::intersects(p.a, p.b);
-        const unsigned before = _mm_getcsr();
-        _mm_setcsr(before | 0x8040);
-        const bool answer = asked(p.a, p.b);
-        _mm_setcsr(before);
         ++sum.asked;
-        sum.wrong += answer != truth;
+        sum.wrong += test::modes_in_which([&] { return intersects(p.a, p.b) != truth; });
     });
 }
-#endif

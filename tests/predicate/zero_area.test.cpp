@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <abut/predicate/zero_area.hpp>
 
-#include <cfenv>
 #include <cstdio>
 #include <iterator>
 #include <vector>
 
-#if defined(__SSE2__)
-#include <xmmintrin.h>
-#endif
-
 #include "support/catch.hpp"
 #include "support/flat_triangles.hpp"
+#include "support/modes.hpp"
 #include "support/rational.hpp"
 #include "support/samples.hpp"
 
@@ -99,40 +95,21 @@ TEMPLATE_TEST_CASE("zero area: every stage is right in every family", "", float,
     }
 }
 
-namespace {
-
-/// `enter` changes how the processor rounds, `leave` puts it back.
-template <class T, class Enter, class Leave>
-void check_under(const Enter& enter, const Leave& leave) {
+TEMPLATE_TEST_CASE("zero area: right in every floating-point mode", "", float, double) {
     for (int k = 0; k < test::flat_family_count; ++k) {
-        std::vector<triangle<T>> triangles;
+        std::vector<triangle<TestType>> triangles;
         std::vector<char> truth;
         for (std::uint64_t i = 0; i < test::sample_count() / 5; ++i) {
-            triangles.push_back(test::make_flat_triangle<T>(test::sample_seed + 1, static_cast<test::flat_family>(k), i));
+            triangles.push_back(
+                test::make_flat_triangle<TestType>(test::sample_seed + 1, static_cast<test::flat_family>(k), i));
             truth.push_back(truly_flat(triangles.back()));
         }
-        area_tally sum;
-        enter();
-        for (std::size_t i = 0; i < triangles.size(); ++i) examine(triangles[i], truth[i] != 0, sum);
-        leave();
+        const std::uint64_t wrong = test::modes_in_which([&] {
+            area_tally sum;
+            for (std::size_t i = 0; i < triangles.size(); ++i) examine(triangles[i], truth[i] != 0, sum);
+            return sum.wrong != 0;
+        });
         CAPTURE(k);
-        CHECK(sum.wrong == 0);
+        CHECK(wrong == 0);
     }
 }
-
-}  // namespace
-
-TEMPLATE_TEST_CASE("zero area: right in every rounding mode", "", float, double) {
-    for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
-        CAPTURE(mode);
-        check_under<TestType>([mode] { std::fesetround(mode); }, [] { std::fesetround(FE_TONEAREST); });
-    }
-}
-
-#if defined(__SSE2__)
-TEMPLATE_TEST_CASE("zero area: right where denormals are flushed to zero", "", float, double) {
-    const unsigned before = _mm_getcsr(), flushed = before | 0x8040;
-    check_under<TestType>([flushed] { _mm_setcsr(flushed); }, [before] { _mm_setcsr(before); });
-    check_under<TestType>([flushed] { _mm_setcsr(flushed | 0x6000); }, [before] { _mm_setcsr(before); });
-}
-#endif

@@ -4,6 +4,7 @@
 // Floating-point modes of a thread: rounding, and on x86 what becomes of denormal results and operands.
 
 #include <cfenv>
+#include <cstdint>
 #include <functional>
 #include <vector>
 #if defined(__SSE2__)
@@ -50,6 +51,19 @@ inline void in_mode(const floating_mode& mode, const std::function<void()>& body
     _mm_setcsr(before);
 #endif
     std::fesetround(rounding);
+}
+
+/// In how many of the modes `holds()` says true.
+template <class Question>
+std::uint64_t modes_in_which(const Question& holds) {
+    static const std::vector<floating_mode> modes = floating_modes();
+    std::uint64_t count = 0;
+    for (const floating_mode& mode : modes) {
+        bool answer = false;
+        in_mode(mode, [&] { answer = holds(); });
+        count += answer;
+    }
+    return count;
 }
 
 }  // namespace abut::test
