@@ -127,6 +127,7 @@ TEST_CASE("distributed: memory that ends on one rank") {
         check([&] { return raycast(on, tree, up); });
         check([&] { return raycast_all(on, tree, up); });
         check([&] { return within(on, tree, tree_of_balls, 0.25); });
+        check([&] { return self_pairs(on, tree); });
         check([&] { return distance(on, tree, tree_of_balls); });
         check([&] { return distance(on, tree, ball_far_away); });
         check([&] { return impacts(on, step, mine); });
