@@ -371,12 +371,12 @@ void visit_all_parts(const distributed<Local>& on, const X& a, const Y& b, const
 }
 
 /// Whether a visitor of ranks can be called.
-template <class Local, class Visitor>
+template <class Local, class Visitor, class Pair = global_pair>
 consteval bool is_global_visitor() {
-    constexpr bool is = answers<Local, Visitor, visit, global_pair>();
+    constexpr bool is = answers<Local, Visitor, visit, Pair>();
     static_assert(is,
-                  "abut: a visitor of a distributed query is called as visitor(global_pair) const, and returns "
-                  "abut::visit::proceed or abut::visit::stop");
+                  "abut: a visitor of a distributed query is called as visitor(pair) const, and returns abut::visit::proceed "
+                  "or abut::visit::stop; the pair is a global_pair, or a global_tagged_pair where the query is of a list");
     return is;
 }
 
