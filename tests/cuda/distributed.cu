@@ -131,6 +131,25 @@ TEST_CASE("distributed: what points and rays ask, and distances, cuda") {
     std::vector<global_pair> close;
     for (const index_pair& pair : within(serial{}, whole, whole_b, 0.1)) close.push_back({pair.a, pair.b});
     CHECK(lists_of_all(ranks, within(on, tree, make_bvh(on.local(), b), 0.1).to_host()) == close);
+    std::vector<global_pair> folds;
+    const self_options<> merged{.coincident = coincident_vertices::merged};
+    for (const index_pair& pair : self_pairs(serial{}, whole, merged)) folds.push_back({pair.a, pair.b});
+    CHECK((lists_of_all(ranks, self_pairs(on, tree, merged).to_host()) == folds && folds.size() > 50));
+
+    // Two entries of each rank's part.
+    rigid<float> here, there;
+    there.translation = {0.25f, -0.125f, 0};
+    const auto whole_tree = make_bvh(serial{}, a);
+    using listed = std::remove_const_t<decltype(tree)>;
+    using listed_alone = std::remove_const_t<decltype(whole_tree)>;
+    const std::vector<posed_pair<listed>> list(2, {posed(tree, here), posed(tree, there)});
+    const std::vector<posed_pair<listed_alone>> alone(2, {posed(whole_tree, here), posed(whole_tree, there)});
+    std::vector<global_tagged_pair> entries;
+    for (const tagged_pair& of : pairs(serial{}, alone)) {
+        entries.push_back({2 * static_cast<std::uint64_t>(on.rank()) + of.pair, of.a, of.b});
+    }
+    CHECK(on_all(ranks, pairs(on, list).to_host() == entries));
+
     const sphere<float> far{{20, 3, 3}, 1};
     const auto apart = distance(serial{}, whole, far);
     const auto found = distance(on, tree, spheres<float>(on.rank() == 0 ? std::vector<sphere<float>>{far} : std::vector<sphere<float>>{}));

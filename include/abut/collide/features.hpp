@@ -39,6 +39,11 @@ private:
     [[nodiscard]] ABUT_HD std::uint64_t mask() const { return (std::uint64_t{1} << id_bits) - 1; }
 };
 
+/// Whether vertex k of an impact is the first mesh's.
+ABUT_HD constexpr bool is_of_first(feature_pair kind, int k) {
+    return kind == feature_pair::vertex_face ? k == 0 : kind == feature_pair::face_vertex ? k != 0 : k < 2;
+}
+
 /// Whether a vertex and a face of one mesh, or two edges, have no vertex in common.
 ABUT_HD inline bool share_no_vertex(std::uint32_t v, const std::uint32_t* corner) {
     return (v != corner[0]) & (v != corner[1]) & (v != corner[2]);

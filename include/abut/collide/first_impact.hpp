@@ -129,11 +129,12 @@ struct time_of_impact_at {
     const impact<T>* all;
     ABUT_HD time_and_place operator()(std::size_t i) const { return {all[i].time, i}; }
 };
-/// An impact and the key of its pair.
+/// An impact and the key of its pair, of such keys.
 template <scalar T>
 struct keyed_impact {
     impact<T> found;
     std::uint64_t key;
+    feature_key keys;
 };
 /// The first of some, and its key where others look for parts of all.
 template <class Part, class Policy, scalar T, memory_space Space>
@@ -142,7 +143,7 @@ std::optional<keyed_impact<T>> first_of(const Policy& on, const keyed_impacts<T,
     const time_and_place first =
         reduce(on, n, time_and_place{infinity<double>, n}, earlier_of{}, time_of_impact_at<T>{all.found.data()});
     if (first.place == n) return std::nullopt;
-    keyed_impact<T> found{{}, 0};
+    keyed_impact<T> found{{}, 0, all.key};
     download(on, all.found.data() + first.place, 1, &found.found);
     if constexpr (!std::same_as<Part, whole_search>) download(on, all.keys.data() + first.place, 1, &found.key);
     return found;
@@ -168,19 +169,20 @@ auto first_of_step(const FirstUntil& first_until) {
 }
 /// The first impact of two indices, or `Within` one, until a time; or the first in a part of the search.
 template <motion_arithmetic A, bool Within, class Policy, class Index, class Fronts, class Part = whole_search>
-auto first_until(const Policy& on, const Index& x, const Index& y, double time, impact_options options,
-                 const Fronts& fronts, const char* function, const Part& part = {}) {
+auto first_until(const Policy& on, const Index& x, const Index& y, double time, impact_options options, const Fronts& fronts,
+                 const char* function, const Part& part = {}) {
     options.sorted = true;
     const auto during = [&](const Index& all) { return time >= 1 ? all : until(on, all, time); };
     const Index a = during(x);
-    const auto all = [&](const Index& b) { return impacts_of_indices<A, Within>(on, a, b, options, fronts, function, part); };
+    const auto all = [&](const Index& b) {
+        return impacts_of_indices<A, Within>(on, a, b, options, fronts, function, part);
+    };
     return first_of<Part>(on, Within ? all(a) : all(during(y)));
 }
 template <motion_arithmetic A, bool Within, class Policy, class Index, class Fronts>
 auto first_of_indices(const Policy& on, const Index& x, const Index& y, const impact_options& options, const Fronts& fronts,
                       const char* function) {
-    return first_of_step<A>(
-        [&](double time) { return first_until<A, Within>(on, x, y, time, options, fronts, function); });
+    return first_of_step<A>([&](double time) { return first_until<A, Within>(on, x, y, time, options, fronts, function); });
 }
 
 /// Of two arguments, and of one with itself.

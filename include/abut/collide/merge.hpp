@@ -24,7 +24,7 @@ struct by_ids {
 struct by_number {
     ABUT_HD bool operator()(std::uint64_t x, std::uint64_t y) const { return x < y; }
 };
-/// Lists in the order of their keys, one after another, become one. No pair is in two of them.
+/// Lists in the order of their keys, one after another, become one. Of equal keys those of earlier lists come first.
 template <class Order, class Key, class Found>
 struct merge_lists {
     Order comes_before;
@@ -41,9 +41,10 @@ struct merge_lists {
             if (lower <= i && i < upper) {
                 lower = i;
             } else {
+                const bool is_earlier = upper <= i;
                 while (lower < upper) {
                     const std::size_t middle = lower + (upper - lower) / 2;
-                    if (comes_before(keys[middle], mine)) {
+                    if (is_earlier ? !comes_before(mine, keys[middle]) : comes_before(keys[middle], mine)) {
                         lower = middle + 1;
                     } else {
                         upper = middle;
@@ -108,8 +109,7 @@ template <class Local, class Found>
 using found_lists = std::vector<result<Found, space_of<Local>>>;
 /// `lists` as one, if there are any.
 template <class Policy, class Found, class Order = by_ids>
-auto joined(const Policy& on, found_lists<Policy, Found> lists, bool sorted,
-            const Order& order = {}) {
+auto joined(const Policy& on, found_lists<Policy, Found> lists, bool sorted, const Order& order = {}) {
     if (lists.size() == 1) return std::move(lists.front());
     const auto first = beginnings_of(lists);
     execution::buffer_of<Policy, Found> all(on, first.back());

@@ -127,17 +127,25 @@ template <class X>
 inline constexpr bool is_divided = false;
 template <class X>
 inline constexpr bool is_divided<divided<X>> = true;
+/// A mesh in motion of which each device has a part (divide_mesh.hpp).
+template <class X>
+inline constexpr bool is_divided_mesh = false;
+/// What lies on the devices of a call.
+template <class X>
+inline constexpr bool is_on_devices = is_replicated<X> || is_divided<X> || is_divided_mesh<X>;
 /// Whether each device may be brought to another step without a look at the others.
 template <class X>
 inline constexpr bool refits_alone = true;
 /// What has shapes, and so may be posed.
 template <class X>
-concept has_shape_type = requires { typename shape_of_argument<X>::type; };
+concept has_shape_type = requires {
+    typename shape_of_argument<X>::type;
+};
 
 /// What a device is asked about.
 template <class X>
 const auto& on_device(const X& x, int k) {
-    if constexpr (is_replicated<X> || is_divided<X>) {
+    if constexpr (is_on_devices<X>) {
         return x[k];
     } else {
         return x;
@@ -166,7 +174,7 @@ search_part share_of(const Team& team, int k) {
 
 template <class Team, class X>
 void require_as_many(const Team& team, const X& x, const char* function) {
-    if constexpr (is_replicated<X> || is_divided<X>) {
+    if constexpr (is_on_devices<X>) {
         if (x.devices() != team.size()) {
             throw error(std::string(function) + ": the argument lies on " + std::to_string(x.devices()) +
                         " devices, the call is to " + std::to_string(team.size()));
@@ -250,6 +258,31 @@ auto divide_along_curve(const Team& team, const Source& source, const Shapes& al
     return divided<set>(std::move(sets), std::move(ids), std::move(bounds));
 }
 
+/// Calls divide(source, hand_over): `source` is the policy in whose memory a set lies, a policy of the host if that is host
+/// memory, and hand_over(p, n, policy, q) copies n elements from there to a device. Throws in the name of `function` if the
+/// set lies on a device that is none of these.
+template <class Team, class Set, class Divide>
+auto where_it_lies(const Team& team, const Set& set, const char* function, const Divide& divide) {
+    using local = typename Team::local_policy;
+    if constexpr (std::same_as<typename Set::memory_space, host_space> && !host_policy<local>) {
+        return divide(openmp{}, [](const auto* from, std::size_t n, const local& to, auto* there) {
+            upload(to, from, n, there);
+            synchronize(to);
+        });
+    } else {
+        int at = 0;
+        while (at < team.size() && set.size() > 0 && device_of(team[at]) != set.device()) ++at;
+        if (at == team.size()) {
+            throw error(std::string(function) + ": the set lies on device " + std::to_string(set.device()) +
+                        ", which is none of these devices");
+        }
+        const local& source = team[at];
+        return divide(source, [&](const auto* from, std::size_t n, const local& to, auto* there) {
+            copy_across(source, from, n, to, there);
+        });
+    }
+}
+
 }  // namespace detail
 
 /// @addtogroup devices
@@ -269,26 +302,9 @@ template <execution::policy_team Team, shape_set Set>
 /// of these.
 template <execution::policy_team Team, shape_set Set>
 [[nodiscard]] auto divide(const Team& team, const Set& set) {
-    using local = typename Team::local_policy;
-    if constexpr (std::same_as<typename Set::memory_space, host_space> && !host_policy<local>) {
-        const auto hand_over = [](const auto* from, std::size_t n, const local& to, auto* there) {
-            upload(to, from, n, there);
-            synchronize(to);
-        };
-        return detail::divide_along_curve(team, openmp{}, set.view(), hand_over);
-    } else {
-        int at = 0;
-        while (at < team.size() && set.size() > 0 && device_of(team[at]) != set.device()) ++at;
-        if (at == team.size()) {
-            throw error("abut::divide: the set lies on device " + std::to_string(set.device()) +
-                        ", which is none of these devices");
-        }
-        const local& source = team[at];
-        const auto hand_over = [&](const auto* from, std::size_t n, const local& to, auto* there) {
-            copy_across(source, from, n, to, there);
-        };
+    return detail::where_it_lies(team, set, "abut::divide", [&](const auto& source, const auto& hand_over) {
         return detail::divide_along_curve(team, source, set.view(), hand_over);
-    }
+    });
 }
 
 /// A tree on each device: of the same set, or of its part of a divided one. Trees of one set are the same on all devices.

@@ -14,10 +14,10 @@
 #include <utility>
 
 #include <abut/collide/impacts.hpp>
+#include <abut/collide/mesh_pieces.hpp>
 #include <abut/distributed/communicator.hpp>
 #include <abut/distributed/parts.hpp>
 #include <abut/distributed/query.hpp>
-#include <abut/execution/atomic.hpp>
 
 #include <mpi.h>
 
@@ -38,79 +38,18 @@ struct global_impact {
 
 namespace detail {
 
-template <scalar T, memory_space Space>
-moving_set<mesh<T, Space>> mesh_in_motion(const mesh<T, Space>& at_rest) {
-    return {at_rest, at_rest};
-}
-template <scalar T, memory_space Space>
-moving_set<mesh<T, Space>> mesh_in_motion(const moving_set<mesh<T, Space>>& set) {
-    return set;
-}
-template <class Index>
-    requires is_impact_index<Index>
-auto mesh_in_motion(const Index& index) { return index.mesh(); }
-
-/// The boxes of a part during the step, `size` being that of its vertices, which faces may have or not.
-template <class Policy, scalar T, memory_space Space>
-part_bounds<T> bounds_of_mesh_part(const Policy& on, const moving_set<mesh<T, Space>>& mesh) {
-    part_bounds<T> part = bounds_of_part(on, vertices(mesh).view());
-    const part_bounds<T> of_faces = bounds_of_part(on, mesh.view());
-    for (std::size_t k = 0; k < part_boxes; ++k) part.groups[k] = merge(part.groups[k], of_faces.groups[k]);
-    return part;
-}
-
-template <shape_view Vertices>
-struct mark_vertices {
-    comes_near<Vertices> near;
-    std::uint32_t* marks;
-    ABUT_HD void operator()(std::size_t i) const { marks[i] = near(i) ? 1 : 0; }
-};
-template <shape_view Faces>
-struct mark_corners {
-    comes_near<Faces> near;
-    std::uint32_t* marks;
-    ABUT_HD void operator()(std::size_t i) const {
-        if (!near(i)) return;
-        const std::uint32_t* const corner = corners_at(near.shapes.t0.faces, i);
-        for (int k = 0; k < 3; ++k) execution::atomic_store(marks + corner[k], 1);
-    }
-};
-struct is_marked {
-    const std::uint32_t* marks;
-    ABUT_HD bool operator()(std::size_t i) const { return marks[i] != 0; }
-};
-template <shape_view Faces>
-struct pack_face {
-    Faces faces;
-    const std::uint32_t *ids, *numbers;  ///< of faces; of vertices in the piece
-    face* out;
-    ABUT_HD void operator()(std::size_t i) const {
-        const std::uint32_t* const corner = corners_at(faces.t0.faces, ids[i]);
-        auto* const to = reinterpret_cast<std::uint32_t*>(out + i);
-        for (int k = 0; k < 3; ++k) to[k] = numbers[corner[k]];
-    }
-};
-
 /// Pieces of a mesh in motion that come near the parts of other ranks. use(rank, piece, ids) is called for what comes from a
 /// rank; ids are those of its vertices there, in memory of the policy's that is used again after it.
 template <class Local, scalar T, class Use>
 class mesh_parcels {
 public:
     using space = space_of<Local>;
-    using sizes = std::array<std::uint64_t, 2>;  ///< of vertices, of faces
+    using sizes = typename mesh_pieces<Local, T>::sizes;
 
     mesh_parcels(const Local& local, const moving_set<mesh<T, space>>& mesh, const parts_of_set<T>& looking, const Use& use)
-        : local_(local), mesh_(mesh), looking_(looking), use_(use) {}
+        : local_(local), pieces_(local, mesh), looking_(looking), use_(use) {}
 
-    [[nodiscard]] sizes measure(int to) {
-        mark(to);
-        const one_if<is_marked> vertex{{marks_.data()}};
-        const one_if<comes_near<faces_view>> near_face{{mesh_.view(), looking_[to]}};
-        sizes size{};
-        size[0] = reduce(local_, vertex_count(), std::uint64_t{0}, add_up_tallies{}, vertex);
-        size[1] = reduce(local_, mesh_.size(), std::uint64_t{0}, add_up_tallies{}, near_face);
-        return size;
-    }
+    [[nodiscard]] sizes measure(int to) { return pieces_.count_near(looking_[to]); }
     void make_room(const sizes& out, const sizes& in) {
         out_.emplace(local_, out);
         in_.emplace(local_, in);
@@ -118,16 +57,8 @@ public:
     }
     void pack(int to, const sizes& size) {
         const auto n = static_cast<std::size_t>(size[0]), m = static_cast<std::size_t>(size[1]);
-        const auto at_t0 = vertices(mesh_.t0()).view(), at_t1 = vertices(mesh_.t1()).view();
-        using points_type = std::remove_const_t<decltype(at_t0)>;
-        mark(to);
-        std::uint32_t* const ids = out_->ids.there();
-        compact(local_, vertex_count(), is_marked{marks_.data()}, ids);
-        exclusive_scan(local_, marks_.data(), vertex_count());  // marks become numbers
-        compact(local_, mesh_.size(), comes_near<faces_view>{mesh_.view(), looking_[to]}, face_ids_.data());
-        for_each_index(local_, m, pack_face<faces_view>{mesh_.view(), face_ids_.data(), marks_.data(), out_->faces.there()});
-        for_each_index(local_, n, pack_shape<points_type>{at_t0, ids, out_->at_t0.there()});
-        for_each_index(local_, n, pack_shape<points_type>{at_t1, ids, out_->at_t1.there()});
+        pieces_.write_near(looking_[to], {out_->at_t0.there(), out_->at_t1.there(), out_->ids.there(), out_->faces.there(),
+                                          face_ids_.data()});
         out_->at_t0.bring_here(local_, n);
         out_->at_t1.bring_here(local_, n);
         out_->ids.bring_here(local_, n);
@@ -150,8 +81,6 @@ public:
     }
 
 private:
-    using faces_view = typename moving_set<mesh<T, space>>::view_type;
-
     struct room {
         message_room<Local, vec3<T>> at_t0, at_t1;
         message_room<Local, std::uint32_t> ids;
@@ -163,15 +92,6 @@ private:
               faces(local, static_cast<std::size_t>(size[1])) {}
     };
 
-    [[nodiscard]] std::size_t vertex_count() const { return mesh_.t0().view().vertices.count; }
-    /// The vertices of a piece.
-    void mark(int to) {
-        if (marks_.size() == 0) marks_ = execution::buffer_of<Local, std::uint32_t>(local_, vertex_count() + 1);
-        const auto points = vertices(mesh_).view();
-        using points_type = std::remove_const_t<decltype(points)>;
-        for_each_index(local_, vertex_count(), mark_vertices<points_type>{{points, looking_[to]}, marks_.data()});
-        for_each_index(local_, mesh_.size(), mark_corners<faces_view>{{mesh_.view(), looking_[to]}, marks_.data()});
-    }
     template <class F>
     void hand_over(room& all, const sizes& size, const F& f) {
         f(all.at_t0.here(), size[0], point_type_.get());
@@ -181,12 +101,12 @@ private:
     }
 
     const Local& local_;
-    moving_set<mesh<T, space>> mesh_;
+    mesh_pieces<Local, T> pieces_;
     const parts_of_set<T>& looking_;
     const Use& use_;
     message_type<vec3<T>> point_type_;
     message_type<face> face_type_;
-    execution::buffer_of<Local, std::uint32_t> marks_, face_ids_;
+    execution::buffer_of<Local, std::uint32_t> face_ids_;
     std::optional<room> out_, in_;
 };
 
@@ -207,10 +127,7 @@ struct name_impacts_globally {
         out[i].time = f.time;
         auto* const global = reinterpret_cast<std::uint64_t*>(&out[i].vertices);
         for (int k = 0; k < 4; ++k) {
-            const bool is_a = f.kind == feature_pair::vertex_face   ? k == 0
-                              : f.kind == feature_pair::face_vertex ? k != 0
-                                                                    : k < 2;
-            global[k] = is_a ? ids.first_a + local[k] : ids(0, local[k]).b;
+            global[k] = is_of_first(f.kind, k) ? ids.first_a + local[k] : ids(0, local[k]).b;
         }
         keys[i] = static_cast<std::uint64_t>(f.kind) << 32 | key.a(found_keys[i]);
     }

@@ -35,12 +35,13 @@ struct set_parts {
         made.elements_ = shared_array<edge, Space>(std::move(edges));
         return made;
     }
-    /// The same edges over other vertices.
-    template <scalar T, memory_space Space>
-    static edge_mesh<T, Space> with_points(const edge_mesh<T, Space>& edges, const points<T, Space>& vertices) {
-        edge_mesh<T, Space> made;
+    /// The same faces or edges over other vertices.
+    template <shape_view View>
+    static indexed_set<View> with_points(const indexed_set<View>& elements,
+                                         const points<typename View::scalar_type, typename View::memory_space>& vertices) {
+        indexed_set<View> made;
         made.vertices_ = vertices.values_;
-        made.elements_ = edges.elements_;
+        made.elements_ = elements.elements_;
         return made;
     }
     /// The faces or edges of a set, wherever it lies. Waits for the copy.
