@@ -122,6 +122,10 @@ template <class X>
 struct shape_of_argument : shape_of_object<X> {};
 template <class Object>
 struct shape_of_argument<posed_object<Object>> : shape_of_object<Object> {};
+template <operand X>
+struct shape_of_argument<X> {
+    using type = typename decltype(std::declval<const X&>().shapes())::shape_type;
+};
 
 /// Whether make_operand takes it.
 template <class Policy, class X>
@@ -144,10 +148,13 @@ consteval bool have_one_scalar() {
     return one;
 }
 
-/// `x` for the policy, which can be asked; errors are thrown in the name of `function`.
+/// `x` for the policy, which can be asked; errors are thrown in the name of `function`. An operand stays as it is: it has
+/// been looked at where it was made.
 template <input Input = input::checked, class Policy, class X>
 auto make_operand(const Policy& on, const X& x, const char* function) {
-    if constexpr (is_posed<X>) {
+    if constexpr (operand<X>) {
+        return x;
+    } else if constexpr (is_posed<X>) {
         check(x.pose, function);
         using operand_type = decltype(make_operand<Input>(on, x.object, function));
         posed_operand<operand_type, typename X::scalar_type> placed{make_operand<Input>(on, x.object, function), x.pose, {}};

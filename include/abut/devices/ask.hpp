@@ -98,76 +98,129 @@ auto pack_for_others(const Team& team, const ShapesOn& shapes_on, const IdsOn& i
     });
 }
 
-/// ask_each of two divided arguments. Devices pack before they search, or a device would wait until another has searched.
-/// Only where a search may be over soon they search their own parts first.
-template <class Team, class X, class Y, class Ask, class IsOver, class Reach>
-void ask_each_of_parts(const Team& team, const X& x, const Y& y, const char* function, const Ask& ask,
-                       const IsOver& is_over, const Reach& reach) {
+/// Both arguments of a query of several devices. They are brought to each device and looked at once, however often it is
+/// asked.
+template <class Team, class X, class Y>
+class arguments_on_each {
     using local = typename Team::local_policy;
-    const auto operands = each_of(team, [&](int k) {
-        auto b = make_operand(team[k], y[k], function);
-        auto a = make_operand(team[k], x[k], function);
-        return operands_there<decltype(a), decltype(b)>{std::move(a), std::move(b)};
-    });
-    const auto shapes_a = [&](int k) { return operands[static_cast<std::size_t>(k)].a.shapes(); };
-    const auto shapes_b = [&](int k) { return operands[static_cast<std::size_t>(k)].b.shapes(); };
-    const auto bounds_a = bounds_of_parts(team, x, shapes_a);
-    const auto bounds_b = bounds_of_parts(team, y, shapes_b);
-    const auto pack = [&] {
-        return pack_for_others(
-            team, shapes_b, [&](int k) { return ids_on(y, k); }, bounds_a, bounds_b, is_over, reach);
-    };
-    const auto search_own = [&](int k) { ask(k, x[k], y[k], search_part{}, ids_of_parts{ids_on(x, k), ids_on(y, k)}); };
-    const auto search_near = [&](int k, auto& packed) {
-        using part = typename std::remove_cvref_t<decltype(packed)>::value_type::value_type;
-        using shape_type = typename decltype(part::shapes)::value_type;
-        const local& on = team[k];
-        std::optional<decltype(looked_in(on, x[k], std::type_identity<type_on_device<Y>>{}))> looks;
-        for (int step = 1; step < team.size() && !is_over(k); ++step) {
-            const int other = (k + step) % team.size();
-            part& there = packed[static_cast<std::size_t>(other)][static_cast<std::size_t>(k)];
-            const std::size_t n = there.ids.size();
-            if (n == 0) continue;
-            part here{{on, n}, {on, n}};
-            copy_across(team[other], there.shapes.data(), n, on, here.shapes.data());
-            copy_across(team[other], there.ids.data(), n, on, here.ids.data());
-            there = {};
-            if (!looks) looks.emplace(looked_in(on, x[k], std::type_identity<type_on_device<Y>>{}));
-            const shapes_view<shape_type, space_of<local>> view(here.shapes.data(), n);
-            ask(k, *looks, view, search_part{}, ids_of_parts{ids_on(x, k), part_ids{here.ids.data()}});
-            synchronize(on);
-        }
-    };
-    if constexpr (std::same_as<IsOver, never_over>) {
-        auto packed = pack();
-        execution::on_each(team, [&](int k) {
-            search_own(k);
-            search_near(k, packed);
-        });
-    } else {
-        execution::on_each(team, search_own);
-        auto packed = pack();
-        execution::on_each(team, [&](int k) { search_near(k, packed); });
-    }
-}
+    using type_x = type_on_device<X>;
+    using type_y = type_on_device<Y>;
+    template <class Argument>
+    using operand_of = decltype(make_operand(std::declval<const local&>(), std::declval<const Argument&>(), ""));
+    /// What shapes from elsewhere look in.
+    using type_looked_in =
+        decltype(looked_in(std::declval<const local&>(), std::declval<const type_x&>(), std::type_identity<type_y>{}));
 
-/// Runs ask(k, a, b, part, ids) on each device, on a thread of its own: once or several times, so that all pairs that may
-/// touch are looked at, each once; no more of them once is_over(k). Where pairs are wanted that do not touch, reach(bounds) is
-/// what comes near enough to a part of a. It is called when devices have searched their own parts, if they do that first.
+public:
+    /// Throws in the name of `function` if one lies on another number of devices. The arguments outlive this.
+    arguments_on_each(const Team& team, const X& x, const Y& y, const char* function)
+        : team_(team),
+          x_(x),
+          y_(y),
+          function_(function),
+          there_(static_cast<std::size_t>(team.size())),
+          looks_(there_.size()) {
+        require_as_many(team, x, function);
+        require_as_many(team, y, function);
+    }
+
+    /// Runs ask(k, a, b, part, ids) on each device, on a thread of its own, of operands: once or several times, so that all
+    /// pairs that may touch are looked at, each once; no more of them once is_over(k). Where pairs are wanted that do not
+    /// touch, reach(bounds) is what comes near enough to a part of a. It is called when devices have searched their own
+    /// parts, if they do that first.
+    template <class Ask, class IsOver = never_over, class Reach = as_near_as_boxes>
+    void operator()(const Ask& ask, const IsOver& is_over = {}, const Reach& reach = {}) {
+        constexpr bool is_whole = !is_divided<X> && !is_divided<Y>;
+        const auto search_own = [&](int k) {
+            const auto& [a, b] = there(k);
+            ask(k, a, b, is_whole ? share_of(team_, k) : search_part{}, ids_of_parts{ids_on(x_, k), ids_on(y_, k)});
+        };
+        if constexpr (is_divided<X> && is_divided<Y>) {
+            ask_parts(search_own, ask, is_over, reach);
+        } else {
+            execution::on_each(team_, search_own);
+        }
+    }
+
+private:
+    /// On the thread that drives the device.
+    const operands_there<operand_of<type_x>, operand_of<type_y>>& there(int k) {
+        auto& one = there_[static_cast<std::size_t>(k)];
+        if (!one) {
+            auto b = make_operand(team_[k], on_device(y_, k), function_);
+            auto a = make_operand(team_[k], on_device(x_, k), function_);
+            one.emplace(operands_there<operand_of<type_x>, operand_of<type_y>>{std::move(a), std::move(b)});
+        }
+        return *one;
+    }
+    const operand_of<type_looked_in>& looks(int k) {
+        auto& one = looks_[static_cast<std::size_t>(k)];
+        if (!one) {
+            const local& on = team_[k];
+            one.emplace(make_operand(on, looked_in(on, on_device(x_, k), std::type_identity<type_y>{}), function_));
+        }
+        return *one;
+    }
+
+    /// Of two divided arguments. Devices pack before they search, or a device would wait until another has searched. Only
+    /// where a search may be over soon they search their own parts first.
+    template <class SearchOwn, class Ask, class IsOver, class Reach>
+    void ask_parts(const SearchOwn& search_own, const Ask& ask, const IsOver& is_over, const Reach& reach) {
+        const auto shapes_b = [&](int k) { return there(k).b.shapes(); };
+        if (bounds_a_.empty()) {
+            execution::on_each(team_, [&](int k) { (void)there(k); });
+            bounds_a_ = bounds_of_parts(team_, x_, [&](int k) { return there(k).a.shapes(); });
+            bounds_b_ = bounds_of_parts(team_, y_, shapes_b);
+        }
+        const auto pack = [&] {
+            return pack_for_others(
+                team_, shapes_b, [&](int k) { return ids_on(y_, k); }, bounds_a_, bounds_b_, is_over, reach);
+        };
+        const auto search_near = [&](int k, auto& packed) {
+            using part = typename std::remove_cvref_t<decltype(packed)>::value_type::value_type;
+            using shape_type = typename decltype(part::shapes)::value_type;
+            const local& on = team_[k];
+            for (int step = 1; step < team_.size() && !is_over(k); ++step) {
+                const int other = (k + step) % team_.size();
+                part& from = packed[static_cast<std::size_t>(other)][static_cast<std::size_t>(k)];
+                const std::size_t n = from.ids.size();
+                if (n == 0) continue;
+                part here{{on, n}, {on, n}};
+                copy_across(team_[other], from.shapes.data(), n, on, here.shapes.data());
+                copy_across(team_[other], from.ids.data(), n, on, here.ids.data());
+                from = {};
+                const shapes_view<shape_type, space_of<local>> view(here.shapes.data(), n);
+                ask(k, looks(k), view, search_part{}, ids_of_parts{ids_on(x_, k), part_ids{here.ids.data()}});
+                synchronize(on);
+            }
+        };
+        if constexpr (std::same_as<IsOver, never_over>) {
+            auto packed = pack();
+            execution::on_each(team_, [&](int k) {
+                search_own(k);
+                search_near(k, packed);
+            });
+        } else {
+            execution::on_each(team_, search_own);
+            auto packed = pack();
+            execution::on_each(team_, [&](int k) { search_near(k, packed); });
+        }
+    }
+
+    const Team& team_;
+    const X& x_;
+    const Y& y_;
+    const char* function_;
+    std::vector<std::optional<operands_there<operand_of<type_x>, operand_of<type_y>>>> there_;
+    std::vector<std::optional<operand_of<type_looked_in>>> looks_;
+    std::vector<part_bounds<scalar_type_of<typename shape_of_argument<type_x>::type>>> bounds_a_, bounds_b_;
+};
+
+/// What is asked once; see arguments_on_each.
 template <class Team, class X, class Y, class Ask, class IsOver = never_over, class Reach = as_near_as_boxes>
 void ask_each(const Team& team, const X& x, const Y& y, const char* function, const Ask& ask, const IsOver& is_over = {},
               const Reach& reach = {}) {
-    require_as_many(team, x, function);
-    require_as_many(team, y, function);
-    if constexpr (is_divided<X> && is_divided<Y>) {
-        ask_each_of_parts(team, x, y, function, ask, is_over, reach);
-    } else {
-        constexpr bool is_whole = !is_divided<X> && !is_divided<Y>;
-        execution::on_each(team, [&](int k) {
-            ask(k, on_device(x, k), on_device(y, k), is_whole ? share_of(team, k) : search_part{},
-                ids_of_parts{ids_on(x, k), ids_on(y, k)});
-        });
-    }
+    arguments_on_each<Team, X, Y>(team, x, y, function)(ask, is_over, reach);
 }
 
 /// An argument of a self query; nothing of it is divided.

@@ -22,13 +22,12 @@ auto distance_on_devices(const Team& team, const X& x, const Y& y, const distanc
     using T = scalar_type_of<typename shape_of_argument<type_on_device<X>>::type>;
     check(options, function);
     least_apart<T> least(options.below);
-    ask_each(team, x, y, function,
-             [&](int k, const auto& a, const auto& b, const search_part& part, const ids_of_parts& ids) {
-                 least.look_for_touch(team[k], in_part(pair_up_apart(team[k], a, b, function), part), ids);
-             });
+    arguments_on_each<Team, X, Y> asked(team, x, y, function);
+    asked([&](int k, const auto& a, const auto& b, const search_part& part, const ids_of_parts& ids) {
+        least.look_for_touch(team[k], in_part(pair_up_apart(team[k], a, b, function), part), ids);
+    });
     if (!least.best().is_one() && options.below > 0) {
-        ask_each(
-            team, x, y, function,
+        asked(
             [&](int k, const auto& a, const auto& b, const search_part& part, const ids_of_parts& ids) {
                 least.look_for_nearest(team[k], in_part(pair_up_apart(team[k], a, b, function), part), ids);
             },
@@ -45,13 +44,14 @@ auto distance_on_devices(const Team& team, const X& x, const Y& y, const distanc
 
 }  // namespace detail
 
-/// How far apart two sets are, as `distance` says under one policy, bit for bit: a std::optional<separation<T>>. Arguments are
-/// those of `pairs` on several devices, of shapes that `distance` takes. Where both are divided, devices search their own
-/// parts first. Then shapes of b come to the devices whose a-shapes may be as near to them as what was found.
+/// How far apart two sets are, as `distance` says under one policy, bit for bit: a std::optional<separation<T>>. Arguments
+/// are those of `pairs` on several devices, of shapes that `distance` takes. Where both are divided, devices search their
+/// own parts first. Then shapes of b come to the devices whose a-shapes may be as near to them as what was found.
 /// @ingroup devices
 template <execution::policy_team Team, class X, class Y>
 [[nodiscard]] auto distance(const Team& team, const X& a, const Y& b, const distance_options& options = {}) {
-    if constexpr (detail::can_be_apart<typename Team::local_policy, detail::type_on_device<X>, detail::type_on_device<Y>>()) {
+    if constexpr (detail::can_be_apart<typename Team::local_policy, detail::type_on_device<X>,
+                                       detail::type_on_device<Y>>()) {
         return detail::distance_on_devices(team, a, b, options, "abut::distance");
     } else {
         return std::optional<separation<float>>();

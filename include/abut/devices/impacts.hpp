@@ -282,7 +282,8 @@ auto impacts_of_divided(const Team& team, const X& x, const Y& y, impact_options
         const auto& mine = parts[static_cast<std::size_t>(k)];
         found_lists<local, placed> of_parts;
         for (const auto& b : mine.b) {
-            const auto some = impacts_of_indices<A, false>(on, mine.a, b.index, options, no_fronts{}, function);
+            const auto some =
+                impacts_of_indices<A, false>(on, mine.a, b.index, options, no_fronts{}, function, search_part{});
             execution::buffer_of<local, placed> all(on, some.found.size());
             for_each_index(on, all.size(),
                            place_impacts<T>{some.found.data(), some.keys.data(), some.key, b.ids, all.data()});
