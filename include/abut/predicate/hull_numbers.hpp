@@ -187,11 +187,12 @@ template <scalar T>
 struct unit_of_hulls {
     int low = 1 << 20, high = -(1 << 20);
 
-    /// And of a radius, if there is one.
-    ABUT_HD constexpr unit_of_hulls(const hull<T>& a, const hull<T>& b, T radius = 0) {
+    /// And of a radius and a distance, if there are any.
+    ABUT_HD constexpr unit_of_hulls(const hull<T>& a, const hull<T>& b, T radius = 0, double distance = 0) {
         include(a);
         include(b);
         include(radius);
+        include(distance);
     }
     [[nodiscard]] ABUT_HD constexpr int width() const { return high > low ? high - low : 1; }
 
@@ -205,7 +206,8 @@ private:
             include(p.z);
         }
     }
-    ABUT_HD constexpr void include(T x) {
+    template <scalar F>
+    ABUT_HD constexpr void include(F x) {
         const binary_parts p = take_apart(x);
         if (p.mantissa == 0) return;
         low = p.exponent < low ? p.exponent : low;
@@ -248,8 +250,14 @@ public:
                                                    std::uint32_t j) const {
         return sign_of_dot(way, difference(i, j)) > 0;
     }
-    /// A number of the input.
-    [[nodiscard]] ABUT_HD constexpr number of(T x) const { return between(T(0), x); }
+    /// The sum of a radius and a distance.
+    [[nodiscard]] ABUT_HD constexpr number reach(T radius, double distance) const {
+        number r;
+        r.begin(limbs_);
+        add(r, radius, false);
+        add(r, distance, false);
+        return r;
+    }
     ABUT_HD constexpr verdict holds_origin(const vec3<number> (&)[4], const difference_simplex&) const {
         return verdict::yes;
     }
@@ -264,7 +272,8 @@ private:
         return r;
     }
     /// What of x is below the unit is cut off.
-    ABUT_HD constexpr void add(number& r, T x, bool negated) const {
+    template <scalar F>
+    ABUT_HD constexpr void add(number& r, F x, bool negated) const {
         const binary_parts p = take_apart(x);
         if (p.mantissa == 0) return;
         const int up = p.exponent - low_;

@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: MIT
+#include <abut/cuda.hpp>
+
+#include "collide/hull_cases.hpp"
+#include "support/catch.hpp"
+
+TEST_CASE("hulls: queries, cuda") { abut::test::check_hulls<float>(abut::cuda{}); }
