@@ -10,6 +10,7 @@
 
 #include <abut/abut.hpp>
 
+#include "collide/contact_cases.hpp"
 #include "collide/distance_cases.hpp"
 #include "collide/set_cases.hpp"
 #include "collide/within_cases.hpp"
@@ -109,6 +110,9 @@ void check_hulls(const Policy& on) {
     check_distances_of_hulls(on, a, random_hulls<T>(50, random, false));
     check_distances_of_hulls(on, a, triangle_soup<T>(shape_maker<triangle<T>>(random, true)(50)));
     const auto few = random_hulls<T>(40, random, true);
+    const rigid<T> here;
+    CHECK(check_contacts(on, few, here, random_hulls<T>(30, random, true), pose) > 50);
+    CHECK(check_contacts(on, few, pose, spheres<T>(shape_maker<sphere<T>>(random, false)(30)), here) > 50);
     check_hulls_within(on, few, random_hulls<T>(30, random, true), pose);
     check_hulls_within(on, few, boxes<T>(shape_maker<aabb<T>>(random, true)(30)), pose);
     CHECK(to_host(self_within(on, make_bvh(on, copy_to(on, few)), 0.5)) ==

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// long to compile
 #include <abut/cuda.hpp>
 
 #include "collide/hull_cases.hpp"

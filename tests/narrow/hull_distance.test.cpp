@@ -30,39 +30,6 @@ static_assert(slab_and_spike.distance == 4 && slab_and_spike.point_a == vec3<dou
 static_assert(distance(sphere<double>{{-3, -4, 0.5}, 2}, hull<double>(slab, 8)).distance == 3);
 static_assert(distance(hull<double>(slab, 8), vec3<double>{4, 4, 0.5}).distance == 0);
 
-wide square_of_gap(const std::vector<wide_point>& w) {
-    wide least = -1;
-    const auto offer = [&](const wide_point& q) {
-        const wide square = dot(q, q);
-        if (least < 0 || square < least) least = square;
-    };
-    for (std::size_t i = 0; i < w.size(); ++i) {
-        offer(w[i]);
-        for (std::size_t j = i + 1; j < w.size(); ++j) {
-            const wide_point e = w[j] - w[i];
-            const wide ee = dot(e, e), s = -dot(e, w[i]);
-            if (s > 0 && s < ee) offer(w[i] + (s / ee) * e);
-            for (std::size_t k = j + 1; k < w.size(); ++k) {
-                const wide_point f = w[k] - w[i];
-                const wide ff = dot(f, f), ef = dot(e, f), t = -dot(f, w[i]), d = ee * ff - ef * ef;
-                if (!(d > 0)) continue;
-                const wide u = (s * ff - t * ef) / d, v = (t * ee - s * ef) / d;
-                if (u > 0 && v > 0 && u + v < 1) offer(w[i] + u * e + v * f);
-            }
-        }
-    }
-    return least;
-}
-
-template <scalar T>
-std::vector<wide_point> differences(const test::point_list<T>& a, const test::point_list<T>& b) {
-    std::vector<wide_point> w;
-    for (const vec3<T>& p : a) {
-        for (const vec3<T>& q : b) w.push_back(test::widest(q) - test::widest(p));
-    }
-    return w;
-}
-
 struct hull_distance_tally {
     std::uint64_t pairs = 0, touching = 0;
     double distance = 0, point = 0;  ///< the worst ones, less the last rounding to T, in units of 2^-53 D (docs/numerics.md)
@@ -78,7 +45,7 @@ template <scalar T>
 const char* wrong_with_hulls(const separation<T>& found, const test::point_list<T>& a, const test::point_list<T>& b,
                              T radius_a, bool touch, hull_distance_tally& sum) {
     wide farthest = 0;
-    for (const wide_point& way : differences(a, b)) farthest = std::max(farthest, test::length_of(way));
+    for (const wide_point& way : test::differences(a, b)) farthest = std::max(farthest, test::length_of(way));
     const wide unit = (farthest + wide(radius_a)) * wide(0x1p-53) + wide(test::construction::least_denormal<T>);
     ++sum.pairs;
     sum.touching += touch;
@@ -87,14 +54,14 @@ const char* wrong_with_hulls(const separation<T>& found, const test::point_list<
     const auto off = [&](const vec3<T>& p, const test::point_list<T>& points, T radius) {
         // The differences of a hull that p is in have no nearest feature; then a corner of them is not behind.
         if (intersects(hull<T>(points.data(), points.size()), p)) return wide(0);
-        const wide d = sqrt(square_of_gap(differences<T>({p}, points))) - wide(radius);
+        const wide d = sqrt(test::square_of_gap(test::differences<T>({p}, points))) - wide(radius);
         return d > 0 ? d : wide(0);
     };
     const wide in_a = hull_rounding_of(found.point_a), in_b = hull_rounding_of(found.point_b);
     const wide off_points = std::max<wide>(off(found.point_a, a, radius_a) - in_a, off(found.point_b, b, T(0)) - in_b);
     sum.point = std::max(sum.point, static_cast<double>(off_points / unit));
     if (touch) return found.point_a == found.point_b ? nullptr : "what touches has two points";
-    const wide truth = sqrt(square_of_gap(differences(a, b))) - wide(radius_a);
+    const wide truth = sqrt(test::square_of_gap(test::differences(a, b))) - wide(radius_a);
     const wide last = wide(unit_roundoff<T>) * wide(found.distance);
     const wide error = abs(wide(found.distance) - truth) - last,
                way = test::length_of(test::widest(found.point_b) - test::widest(found.point_a));

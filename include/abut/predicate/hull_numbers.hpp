@@ -224,6 +224,33 @@ inline constexpr int limbs_of_any = (float_format<T>::max_exponent - float_forma
                                      float_format<T>::digits + spare_bits + 63) /
                                     64;
 
+/// The bits that the magnitude of an integer takes.
+template <int Room>
+ABUT_HD constexpr int bits_of(rolled_int<Room> n) {
+    n.drop_sign();
+    return bits_of_limbs(n.limb, n.count);
+}
+/// n 2^-top times a sense of 1 or -1: within u = 2^-52 of itself, but for less than 2^-695 that is left out.
+template <int Room>
+ABUT_HD constexpr double rounded_part(rolled_int<Room> n, int top, int sense) {
+    const int sign = n.sign() * sense;
+    n.drop_sign();
+    double sum = 0;
+    ABUT_ROLLED
+    for (int i = 0; i < n.count; ++i) {
+        const int e = 64 * i - top;
+        if (e <= -760 || n.limb[i] == 0) continue;  // a limb is below 2^(e + 64)
+        sum += static_cast<double>(n.limb[i]) * __builtin_bit_cast(double, static_cast<std::uint64_t>(e + 1023) << 52);
+    }
+    return sign < 0 ? -sum : sum;
+}
+/// A vector of integers, or its opposite for a sense of -1, with its largest coordinate brought to 1.
+template <int Room>
+ABUT_NOINLINE ABUT_HD constexpr vec3<double> rounded_way(const vec3<rolled_int<Room>>& v, int sense) {
+    const int top = greatest(bits_of(v.x), bits_of(v.y), bits_of(v.z));
+    return {rounded_part(v.x, top, sense), rounded_part(v.y, top, sense), rounded_part(v.z, top, sense)};
+}
+
 /// Two hulls in integers, whose differences have no more than `Room` limbs. With coordinates below 2^w a difference of
 /// differences is below 2^(w + 2), and sums of products of d of them below 2^(d (w + 2) + d): so w + 4 bits for each factor
 /// leave room for the sum and its sign.
@@ -318,11 +345,7 @@ private:
         vec3<double> way{0, 0, 0};
 
         ABUT_HD constexpr rough_scan(const vec3<T>& from, const vec3<rolled_int<3 * Room>>& along, int sense) : first(from) {
-            if constexpr (Sifted) {
-                const int top = greatest(bits_of(along.x), bits_of(along.y), bits_of(along.z));
-                way = {rounded_part(along.x, top, sense), rounded_part(along.y, top, sense),
-                       rounded_part(along.z, top, sense)};
-            }
+            if constexpr (Sifted) way = rounded_way(along, sense);
         }
         ABUT_HD constexpr void measure(const vec3<T>& p, double& height, double& off) const {
             constexpr double tiny = std::same_as<T, float> ? 0x1p-120 : 0x1p-960;
@@ -330,26 +353,6 @@ private:
             height = dot(way, r);
             off = 0x1p-48 * dot(absolute(way), absolute(r)) + (0x1p-690 * magnitudes(r) + tiny);
             if (!(off < 0x1p900)) off = infinity<double>;
-        }
-
-    private:
-        ABUT_HD static constexpr int bits_of(rolled_int<3 * Room> n) {
-            n.drop_sign();
-            return bits_of_limbs(n.limb, n.count);
-        }
-        /// n 2^-top times the sense.
-        ABUT_HD static constexpr double rounded_part(rolled_int<3 * Room> n, int top, int sense) {
-            const int sign = n.sign() * sense;
-            n.drop_sign();
-            double sum = 0;
-            ABUT_ROLLED
-            for (int i = 0; i < n.count; ++i) {
-                const int e = 64 * i - top;
-                if (e <= -760 || n.limb[i] == 0) continue;  // a limb is below 2^(e + 64)
-                sum +=
-                    static_cast<double>(n.limb[i]) * __builtin_bit_cast(double, static_cast<std::uint64_t>(e + 1023) << 52);
-            }
-            return sign < 0 ? -sum : sum;
         }
     };
 
