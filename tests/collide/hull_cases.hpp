@@ -12,6 +12,7 @@
 
 #include "collide/contact_cases.hpp"
 #include "collide/distance_cases.hpp"
+#include "collide/nearest_cases.hpp"
 #include "collide/set_cases.hpp"
 #include "collide/within_cases.hpp"
 #include "support/catch.hpp"
@@ -117,6 +118,10 @@ void check_hulls(const Policy& on) {
     check_hulls_within(on, few, boxes<T>(shape_maker<aabb<T>>(random, true)(30)), pose);
     CHECK(to_host(self_within(on, make_bvh(on, copy_to(on, few)), 0.5)) ==
           within_by_definition(few.view(), few.view(), 0.5, true));
+    std::vector<vec3<T>> asking;
+    for (int i = 0; i < 60; ++i) asking.push_back(random.template point<T>(-2, 2));
+    check_nearest(on, few, asking);
+    check_nearest_posed(on, few, asking, pose);
     CHECK(any_within(on, copy_to(on, few), plane<T>{{0, 0, 1}, 9}, 9));
     const auto none = hulls<T>();
     check_hulls_against(on, none, random_hulls<T>(3, random, false), pose);

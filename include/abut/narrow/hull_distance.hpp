@@ -19,7 +19,6 @@
 #include <abut/arithmetic/limits.hpp>
 #include <abut/arithmetic/magnitude.hpp>
 #include <abut/arithmetic/rolled_int.hpp>
-#include <abut/narrow/nearest_point.hpp>
 #include <abut/narrow/numbers.hpp>
 #include <abut/predicate/capsule_hull.hpp>
 #include <abut/predicate/gjk.hpp>
