@@ -9,6 +9,7 @@
 #include <abut/distributed/distance.hpp>
 #include <abut/distributed/impacts.hpp>
 #include <abut/distributed/inside.hpp>
+#include <abut/distributed/list.hpp>
 #include <abut/distributed/nearest.hpp>
 #include <abut/distributed/parts.hpp>
 #include <abut/distributed/query.hpp>

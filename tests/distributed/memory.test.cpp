@@ -103,6 +103,8 @@ TEST_CASE("distributed: memory that ends on one rank") {
 
     const auto tree = make_bvh(serial{}, mine);
     const auto tree_of_balls = make_bvh(serial{}, my_balls);
+    using tree_type = std::remove_const_t<decltype(tree)>;
+    const std::vector list(2, posed_pair<tree_type>{posed(tree, rigid<float>{}), posed(tree, rigid<float>{})});
     for (const int bad : {0, on.size() - 1}) {
         CAPTURE(bad);
         const auto check = [&](const auto& call) {
@@ -127,6 +129,8 @@ TEST_CASE("distributed: memory that ends on one rank") {
         check([&] { return raycast(on, tree, up); });
         check([&] { return raycast_all(on, tree, up); });
         check([&] { return within(on, tree, tree_of_balls, 0.25); });
+        check([&] { return self_pairs(on, tree); });
+        check([&] { return pairs(on, list); });
         check([&] { return distance(on, tree, tree_of_balls); });
         check([&] { return distance(on, tree, ball_far_away); });
         check([&] { return impacts(on, step, mine); });

@@ -171,6 +171,103 @@ TEST_CASE("distributed: placed parts of meshes") {
     check_pairs(on, posed(part, pose), tree, posed(whole, pose), whole);
 }
 
+namespace {
+
+/// Faces at random over vertices on a lattice, no two in one place: full of neighbours that fold, cross and coincide. They
+/// lie along one axis, so that parts lie side by side.
+template <scalar T>
+std::pair<std::vector<vec3<T>>, std::vector<face>> tangled_mesh(std::size_t n, unsigned seed) {
+    std::mt19937 random(seed);
+    std::vector<vec3<T>> vertices;
+    for (int x = 0; x < 24; ++x) {
+        for (int k = 0; k < 9; ++k) vertices.push_back({T(x), T(k / 3), T(k % 3)});
+    }
+    std::vector<face> faces;
+    for (std::size_t i = 0; i < n; ++i) {
+        const auto first = static_cast<std::uint32_t>(9 * (22 * i / n));
+        const auto v = [&] { return first + static_cast<std::uint32_t>(random() % 18); };
+        const std::uint32_t a = v(), b = v(), c = v();
+        faces.push_back({a, b, c});
+    }
+    return {vertices, faces};
+}
+
+/// The parts of a mesh one after another, each with vertices of its own.
+template <scalar T>
+mesh<T> with_vertices_of_parts(const std::vector<vec3<T>>& vertices, const std::vector<face>& faces, division how,
+                               int ranks) {
+    std::vector<vec3<T>> all;
+    std::vector<face> moved;
+    for (int rank = 0; rank < ranks; ++rank) {
+        const auto first = static_cast<std::uint32_t>(all.size());
+        all.insert(all.end(), vertices.begin(), vertices.end());
+        for (const auto& [a, b, c] : part_of(faces, how, rank, ranks)) moved.push_back({a + first, b + first, c + first});
+    }
+    return mesh<T>(all, moved);
+}
+
+/// self_pairs of this rank's part `x`, against what one machine says of the whole mesh.
+template <class Local, class X, class Whole>
+void check_self_pairs(const distributed<Local>& on, const X& x, const Whole& whole, coincident_vertices coincident) {
+    const auto expected = as_global(self_pairs(serial{}, whole, {.coincident = coincident}).to_host());
+    CHECK(expected.size() > 100);
+    CHECK(lists_of_all(on.ranks(), self_pairs(on, x, {.coincident = coincident}).to_host()) == expected);
+    CHECK(lists_of_all(on.ranks(), self_pairs<exact>(on, x, {.coincident = coincident}).to_host()) == expected);
+    CHECK(count_self_pairs(on, x, {.coincident = coincident}) == expected.size());
+    auto unsorted = lists_of_all(on.ranks(), self_pairs(on, x, {.sorted = false, .coincident = coincident}).to_host());
+    std::sort(unsorted.begin(), unsorted.end());
+    CHECK(unsorted == expected);
+    std::vector<global_pair> some;
+    std::copy_if(expected.begin(), expected.end(), std::back_inserter(some),
+                 [](const global_pair& pair) { return keep_some{}(pair.a, pair.b); });
+    const self_options<keep_some> options{.filter = {}, .coincident = coincident};
+    CHECK(lists_of_all(on.ranks(), self_pairs(on, x, options).to_host()) == some);
+    CHECK(count_self_pairs(on, x, options) == some.size());
+}
+
+template <scalar T>
+void check_self_pairs_of_parts(division how) {
+    const distributed on(world(), serial{});
+    CAPTURE(static_cast<int>(how), on.size());
+    const auto [vertices, faces] = tangled_mesh<T>(240, 8);
+    const mesh<T> whole(vertices, faces), part(vertices, part_of(faces, how, on.rank(), on.size()));
+    const mesh<T> side_by_side = with_vertices_of_parts(vertices, faces, how, on.size());
+    const auto tree = make_bvh(serial{}, part);
+    rigid<T> pose{};
+    construction::set_rotation(pose, 0.8L, 0.1L, -0.3L, 0.2L);
+    pose.translation = {T(0.25), T(-0.5), T(0.125)};
+
+    using enum coincident_vertices;
+    check_self_pairs(on, tree, whole, merged);
+    check_self_pairs(on, posed(tree, pose), posed(whole, pose), merged);
+    check_self_pairs(on, make_grid(serial{}, part), whole, merged);
+    check_self_pairs(on, tree, side_by_side, distinct);
+    check_self_pairs(on, part, side_by_side, distinct);
+    // No two vertices are in one place, so it is the same whichever are one.
+    CHECK(lists_of_all(on.ranks(), self_pairs(on, part, {.coincident = merged}).to_host()) ==
+          as_global(self_pairs(serial{}, whole).to_host()));
+}
+
+}  // namespace
+
+TEST_CASE("distributed: pairs of shapes of one set") {
+    for (const division how : divisions) check_self_pairs_of_parts<float>(how);
+    check_self_pairs_of_parts<double>(division::even);
+    const distributed on(world(), openmp{2});
+    const auto all = random_scene<float>(1300, true, 9);
+    const spheres<float> whole(all.spheres), part(part_of(all.spheres, division::even, on.rank(), on.size()));
+    const triangle_soup<float> soup(all.triangles),
+        part_of_soup(part_of(all.triangles, division::uneven, on.rank(), on.size()));
+    check_self_pairs(on, make_bvh(on.local(), part), whole, coincident_vertices::distinct);
+    check_self_pairs(on, part_of_soup.view(), soup, coincident_vertices::distinct);
+    check_self_pairs(on, make_bvh(on.local(), part_of_soup), soup, coincident_vertices::merged);
+    const self_options<keep_all, traversal::breadth_first> by_levels{.start_depth = 3};
+    CHECK(lists_of_all(on.ranks(), self_pairs(on, make_bvh(on.local(), part), by_levels).to_host()) ==
+          as_global(self_pairs(serial{}, whole).to_host()));
+    CHECK(count_self_pairs(on, spheres<float>()) == 0);
+    CHECK(count_self_pairs(on, sphere<float>{{0, 0, 0}, 1}) == static_cast<std::uint64_t>(on.size() * (on.size() - 1) / 2));
+}
+
 TEST_CASE("distributed: one shape of each rank, and nothing at all") {
     const distributed on(world(), serial{});
     const sphere<float> mine{{static_cast<float>(on.rank()), 0, 0}, 0.75f};
@@ -249,7 +346,28 @@ TEST_CASE("distributed: a failure of one rank reaches all") {
             CHECK(on_all(on.ranks(), thrown_by<std::range_error>([&] { (void)pairs(on, a, b, options); }, bad) == expected));
             CHECK(on_all(on.ranks(), thrown_by<std::range_error>([&] { (void)any(on, a, b, options); }, bad) != 3));
         }
+        {
+            auto broken = mine;
+            if (on.rank() == bad) broken[0].radius = -1;
+            const spheres_view<float> view(broken.data(), broken.size());
+            const auto ask = [&] { (void)self_pairs(on, view); };
+            CHECK(on_all(on.ranks(), thrown_by<invalid_geometry>(ask, bad) == expected));
+        }
+        {
+            // At a pair with a shape from elsewhere, of which the last rank has none.
+            const std::uint64_t last = cut(division::even, 300, on.rank() + 1, on.size());
+            const auto fails = [&](std::uint64_t, std::uint64_t id) -> bool {
+                if (on.rank() == bad && (bad + 1 == on.size() || id >= last)) throw std::range_error("a pair too many");
+                return true;
+            };
+            const self_options<decltype(fails)> options{.filter = fails};
+            const auto ask = [&] { (void)self_pairs(on, a, options); };
+            CHECK(on_all(on.ranks(), thrown_by<std::range_error>(ask, bad) == expected));
+            CHECK(on_all(on.ranks(),
+                         thrown_by<std::range_error>([&] { (void)count_self_pairs(on, a, options); }, bad) == expected));
+        }
         // The next call works.
+        CHECK(count_self_pairs(on, a) == count_self_pairs(serial{}, triangle_soup<float>(all.triangles)));
         CHECK(count(on, a, b) == count(serial{}, triangle_soup<float>(all.triangles), spheres<float>(all.spheres)));
     }
 }
@@ -269,7 +387,8 @@ TEST_CASE("distributed: a rank that comes late") {
             if (on.rank() == late && calls++ == 0) std::this_thread::sleep_for(std::chrono::milliseconds(20));
             return true;
         };
-        CHECK(lists_of_all(on.ranks(), pairs(on, a, b, query_options<decltype(dawdles)>{.filter = dawdles}).to_host()) == expected);
+        CHECK(lists_of_all(on.ranks(), pairs(on, a, b, query_options<decltype(dawdles)>{.filter = dawdles}).to_host()) ==
+              expected);
         CHECK(count(on, a, b) == expected.size());
     }
 }

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <limits>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "distributed/world.hpp"
@@ -265,6 +266,116 @@ TEST_CASE("distributed: how far sets of many parts are apart") {
     check_distance_of_parts<float>(division::all_on_first, division::all_on_last);  // no rank has both
     const distributed on(world(), serial{});
     CHECK(!distance(on, spheres<float>(), sphere<float>{{0, 0, 0}, 1}));
+}
+
+namespace {
+
+struct keep_some_entries {
+    bool operator()(const global_tagged_pair& of) const { return (of.pair + of.a + of.b) % 3 != 0; }
+};
+std::vector<global_tagged_pair> in_all_parts(const std::vector<tagged_pair>& all) {
+    std::vector<global_tagged_pair> out;
+    for (const tagged_pair& p : all) out.push_back({p.pair, p.a, p.b});
+    return out;
+}
+template <scalar T>
+std::vector<global_tagged_contact<T>> in_all_parts(const std::vector<tagged_contact<T>>& all) {
+    std::vector<global_tagged_contact<T>> out;
+    for (const auto& c : all) out.push_back({c.pair, c.a, c.b, c.point, c.normal, c.depth});
+    return out;
+}
+
+/// Entries of two balls, one ball and of an empty set, some of which touch.
+template <scalar T>
+auto list_of_balls(std::size_t entries) {
+    using tree = bvh<mesh<T>, host_space>;
+    const auto large = ball_surface<T>(2, 1.0), small = ball_surface<T>(1, 0.5);
+    const std::vector<tree> trees{make_bvh(serial{}, mesh<T>(large.vertices, large.faces)),
+                                  make_bvh(serial{}, mesh<T>(small.vertices, small.faces)), make_bvh(serial{}, mesh<T>())};
+    std::vector<posed_pair<tree>> list;
+    std::mt19937 random(96);
+    std::uniform_int_distribution<int> eighth(0, 20);
+    for (std::size_t i = 0; i < entries; ++i) {
+        rigid<T> here{}, other{};
+        construction::set_rotation(here, 0.8L, 0.1L, -0.5L, 0.2L);
+        other.translation = {T(eighth(random)) / 8, T(eighth(random)) / 16, T(0.03125)};
+        list.push_back({posed(trees[i % 2], here), posed(trees[i % 7 == 3 ? 2 : i % 3 == 0 ? 0 : 1], other)});
+    }
+    return list;
+}
+
+template <scalar T>
+void check_lists_of_parts(std::size_t entries, division how) {
+    const distributed on(world(), serial{});
+    CAPTURE(static_cast<int>(how), entries, on.size());
+    const auto list = list_of_balls<T>(entries);
+    const auto mine = part_of(list, how, on.rank(), on.size());
+    const auto expected = in_all_parts(to_host(pairs(serial{}, list)));
+    CHECK((entries < 40 || expected.size() > 400));
+    CHECK(lists_of_all(on.ranks(), to_host(pairs(on, mine))) == expected);
+    CHECK(lists_of_all(on.ranks(), to_host(pairs<exact>(on, mine))) == expected);
+    CHECK(count(on, mine) == expected.size());
+    CHECK(on_all(on.ranks(), any(on, mine) == !expected.empty()));
+    CHECK((lists_of_all(on.ranks(), to_host(contacts(on, mine))) == in_all_parts(to_host(contacts(serial{}, list)))));
+    CHECK((lists_of_all(on.ranks(), to_host(distance(on, mine))) == to_host(distance(serial{}, list))));
+    CHECK((lists_of_all(on.ranks(), to_host(distance(on, mine, {.below = 0.25}))) ==
+           to_host(distance(serial{}, list, {.below = 0.25}))));
+
+    std::vector<global_tagged_pair> some;
+    std::copy_if(expected.begin(), expected.end(), std::back_inserter(some), keep_some_entries{});
+    const list_options<keep_some_entries> options{.filter = {}};
+    CHECK(lists_of_all(on.ranks(), to_host(pairs(on, mine, options))) == some);
+    CHECK(count(on, mine, options) == some.size());
+    auto unsorted = lists_of_all(on.ranks(), to_host(pairs(on, mine, {.sorted = false})));
+    std::sort(unsorted.begin(), unsorted.end());
+    CHECK(unsorted == expected);
+    std::vector<global_tagged_pair> visited;
+    for_each_pair(on, mine, [&](const global_tagged_pair& of) { return visited.push_back(of), visit::proceed; });
+    std::sort(visited.begin(), visited.end());
+    CHECK(lists_of_all(on.ranks(), visited) == expected);
+    std::size_t visits = 0;
+    for_each_pair(on, mine, [&](const global_tagged_pair&) { return ++visits, visit::stop; });
+    CHECK(on_all(on.ranks(), visits <= 1));
+}
+
+}  // namespace
+
+TEST_CASE("distributed: lists of posed pairs whose entries many ranks have") {
+    for (const division how : divisions) check_lists_of_parts<float>(50, how);
+    for (const std::size_t entries : {0, 1, 5}) check_lists_of_parts<float>(entries, division::even);
+    check_lists_of_parts<double>(50, division::uneven);
+    const distributed on(world(), serial{});
+    CHECK(detail::entries_of_rank{std::uint64_t{1} << 33}.named(tagged_pair{1, 2, 3}).pair == (std::uint64_t{1} << 33) + 1);
+
+    // A pose that is none, on one rank, is named by its position in the list of all.
+    for (int bad = 0; bad < on.size(); ++bad) {
+        auto mine = part_of(list_of_balls<float>(20), division::even, on.rank(), on.size());
+        if (on.rank() == bad) mine[1].b.pose.rotation[0] = -2;
+        const std::string entry = "entry " + std::to_string(cut(division::even, 20, bad, on.size()) + 1) + " of the list";
+        const auto is_as_expected = [&](const auto& call) {
+            try {
+                call();
+            } catch (const distributed_error& e) {
+                return on.rank() != bad && e.rank() == bad && std::string(e.what()).find(entry) != std::string::npos;
+            } catch (const error& e) {
+                return on.rank() == bad && std::string(e.what()).find(entry) != std::string::npos;
+            }
+            return false;
+        };
+        CHECK(on_all(on.ranks(), is_as_expected([&] { (void)pairs(on, mine); })));
+        CHECK(on_all(on.ranks(), is_as_expected([&] { (void)any(on, mine); })));
+        CHECK(on_all(on.ranks(), is_as_expected([&] { (void)distance(on, mine); })));
+        const auto fails = [&](const global_tagged_pair&) -> bool {
+            if (on.rank() == bad) throw error(entry);
+            return true;
+        };
+        auto whole = list_of_balls<float>(20);
+        for (auto& one : whole) one.b = one.a;  // they touch
+        const auto good = part_of(whole, division::even, on.rank(), on.size());
+        const list_options<decltype(fails)> options{.filter = fails};
+        CHECK(on_all(on.ranks(), is_as_expected([&] { (void)count(on, good, options); })));
+        CHECK(count(on, good) == count(serial{}, whole));  // the next call works
+    }
 }
 
 TEST_CASE("distributed: a failure of one rank that asks reaches all") {

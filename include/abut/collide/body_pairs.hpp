@@ -158,8 +158,8 @@ struct near_bodies {
 template <class Policy, class Tree, class Part = whole_search>
 auto find_near(const Policy& on, const Tree& tree, const pair_key& key, bool sorted, const Part& part = {}) {
     using operand = indexed_operand<Tree>;
-    const self_pairing<operand, keep_all, traversal::both_at_once, default_schedule<traversal::both_at_once>, as_they_are>
-        pairing{{tree}, {}, key, {}};
+    const self_pairing<operand, keep_all, traversal::both_at_once, default_schedule<traversal::both_at_once>> pairing{
+        {tree}, key, {}};
     key_queue<Policy> near(on, std::max(8 * tree.size(), std::size_t{1} << 16));
     if constexpr (std::same_as<Part, whole_search>) {
         search(on, pairing, boxes_meet{}, near);
@@ -238,8 +238,8 @@ template <arithmetic A = filtered, execution_policy Policy, many_bodies Bodies, 
 
 /// Calls visitor(body_pair) -> visit once for every pair of shapes of two bodies that touches; see for_each_pair of two
 /// arguments.
-template <arithmetic A = filtered, execution_policy Policy, many_bodies Bodies, class Visitor,
-          class Filter = keep_all, schedule Schedule = schedule::shared_list>
+template <arithmetic A = filtered, execution_policy Policy, many_bodies Bodies, class Visitor, class Filter = keep_all,
+          schedule Schedule = schedule::shared_list>
 void for_each_pair(const Policy& on, const Bodies& all, const Visitor& visitor,
                    const body_options<Filter, Schedule>& options = {}) {
     if constexpr (detail::can_pair_bodies<Policy, Bodies>() && detail::is_visitor<Policy, Visitor, body_pair>()) {

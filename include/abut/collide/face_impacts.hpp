@@ -107,13 +107,11 @@ auto faces_of_one(const X& x, const feature_key& keys, const Nearness& near) {
     const int bits = id_bits(x.size());
     const face_view<X> faces{x.mesh().view(), x.parts().parts.data()};
     const auto overlap = box_overlap(operand, operand, near);
-    using pairs =
-        self_pairing<face_operand<X>, keep_all, traversal::both_at_once, schedule::static_partition, as_they_are, Nearness>;
+    using pairs = self_pairing<face_operand<X>, keep_all, traversal::both_at_once, schedule::static_partition, Nearness>;
     const auto make = [&](const auto& rule) {
         using expand = expand_faces<true, decltype(faces.faces), std::remove_cvref_t<decltype(rule)>,
                                     std::remove_const_t<decltype(overlap)>>;
-        return std::pair(pairs{operand, {}, {bits, bits}, {}, near},
-                         expand{faces, faces, {bits, bits}, keys, rule, overlap});
+        return std::pair(pairs{operand, {bits, bits}, {}, near}, expand{faces, faces, {bits, bits}, keys, rule, overlap});
     };
     if constexpr (X::keeps_orphans) {
         return make(x.orphans().rule(faces.faces.t0.faces));

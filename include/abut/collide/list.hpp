@@ -5,9 +5,11 @@
 // little work for a device. Each query says of each entry what it would say of its two indices alone. How pairs are found is
 // in list_pairing.hpp.
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <abut/collide/contacts.hpp>
@@ -113,6 +115,43 @@ struct bodies_side_by_side {
 struct own_positions {
     std::size_t operator()(std::size_t i) const { return i; }
 };
+
+// Entries of a longer list, as one of several devices or ranks has some. `Positions` says where entry i is in the whole
+// list, and position.named(found) what was found is there.
+
+/// A filter or a visitor, which is told of entries by what they are in the whole list.
+template <class Call, class Positions>
+struct call_of_part {
+    Call call;
+    Positions position;
+    ABUT_CALLS_ANY
+    ABUT_HD auto operator()(const tagged_pair& of) const { return call(position.named(of)); }
+};
+template <class Found, class Named, class Positions>
+struct name_entries {
+    const Found* found;
+    Positions position;
+    Named* out;
+    ABUT_HD void operator()(std::size_t i) const { out[i] = position.named(found[i]); }
+};
+/// What was found of some entries, with what these are in the whole list. Waits for it.
+template <class Policy, class Found, class Positions>
+auto found_of_part(const Policy& on, const result<Found, space_of<Policy>>& some, const Positions& position) {
+    using named = decltype(position.named(Found{}));
+    execution::buffer_of<Policy, named> all(on, some.size());
+    for_each_index(on, some.size(), name_entries<Found, named, Positions>{some.data(), position, all.data()});
+    synchronize(on);
+    return result<named, space_of<Policy>>(std::move(all));
+}
+template <class Filter, schedule Schedule, class Positions>
+auto options_of_part(const list_options<Filter, Schedule>& options, const Positions& position) {
+    if constexpr (std::same_as<Filter, keep_all>) {
+        return options;
+    } else {
+        return list_options<call_of_part<Filter, Positions>, Schedule>{
+            options.sorted, {options.filter, position}, options.most_pairs, options.discard_sideways, options.scheduling};
+    }
+}
 
 /// A list, ready to be asked; errors are thrown in the name of `function`, and have the positions of entries.
 template <class Policy, class IndexA, class IndexB, class Filter, schedule Schedule, class Positions = own_positions>

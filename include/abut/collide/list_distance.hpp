@@ -87,6 +87,18 @@ struct write_separations {
     }
 };
 
+/// Whether distance takes a list of these indices.
+template <class Policy, class IndexA, class IndexB>
+consteval bool can_be_measured() {
+    if constexpr (can_be_listed<Policy, IndexA, IndexB>()) {
+        constexpr bool are = measurable<typename IndexA::shape_type, typename IndexB::shape_type>;
+        static_assert(are, "abut: there is no distance of sets of these two shapes");
+        return are;
+    } else {
+        return false;
+    }
+}
+
 template <class Policy, class IndexA, class IndexB, class Positions = own_positions>
 auto distances_of(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list, const distance_options& options,
                   const char* function, const Positions& position = {}) {
@@ -120,12 +132,10 @@ auto distances_of(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>
 template <execution_policy Policy, class IndexA, class IndexB>
 [[nodiscard]] auto distance(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
                             const distance_options& options = {}) {
-    if constexpr (!detail::can_be_listed<Policy, IndexA, IndexB>()) {
-        return result<separation<float>, space_of<Policy>>();
-    } else {
-        constexpr bool are = detail::measurable<typename IndexA::shape_type, typename IndexB::shape_type>;
-        static_assert(are, "abut: there is no distance of sets of these two shapes");
+    if constexpr (detail::can_be_measured<Policy, IndexA, IndexB>()) {
         return detail::distances_of(on, list, options, "abut::distance");
+    } else {
+        return result<separation<float>, space_of<Policy>>();
     }
 }
 

@@ -94,6 +94,24 @@ struct posed_operand {
     [[nodiscard]] auto walk() const { return posed_walk<decltype(operand.walk())>(operand.walk(), pose, around); }
 };
 
+/// How an operand's shapes are seen: as they are.
+struct as_they_are {};
+/// An operand whose shapes are seen in another way: `Sight` makes of a view of them one of as many shapes, with the same
+/// boxes.
+template <operand X, class Sight>
+struct seen_operand : X {
+    Sight sight;
+    [[nodiscard]] auto shapes() const { return sight(X::shapes()); }
+};
+template <operand X, class Sight>
+auto see(X x, const Sight& sight) {
+    if constexpr (std::same_as<Sight, as_they_are>) {
+        return x;
+    } else {
+        return seen_operand<X, Sight>{std::move(x), sight};
+    }
+}
+
 template <class X>
 inline constexpr bool is_index = requires {
     sizeof(indexed_operand<X>);

@@ -281,8 +281,8 @@ void look(const Policy& on, const Walk& walk, const Rows& rows, const Ids& ids, 
 }
 
 /// Judges all pairs of a row and a column, in tiles.
-template <bool RowsAreB, class Policy, class Rows, class Columns, class Ids, class Run, class Nearness = near_enough_to_touch,
-          class Part = whole_search>
+template <bool RowsAreB, class Policy, class Rows, class Columns, class Ids, class Run,
+          class Nearness = near_enough_to_touch, class Part = whole_search>
 void compare(const Policy& on, const Rows& rows, const Columns& columns, const Ids& ids, const Run& run,
              const Nearness& near = {}, const Part& part = {}) {
     run([&](const auto& judge, auto&... sinks) {
@@ -539,6 +539,18 @@ consteval bool can_pair() {
     }
 }
 
+/// Two operands, ready to be paired.
+template <class Policy, operand A, operand B, class Filter, traversal Traversal, schedule Schedule,
+          class Nearness = near_enough_to_touch>
+auto pair_operands(const Policy& on, A a, B b, const query_options<Filter, Traversal, Schedule>& options,
+                   const Nearness& near = {}) {
+    using shape_a = typename decltype(a.shapes())::shape_type;
+    using shape_b = typename decltype(b.shapes())::shape_type;
+    const pair_key key{id_bits(a.shapes().size()), id_bits(b.shapes().size())};
+    require_functions_of_shapes<shape_a, shape_b>(on);
+    return pairing<A, B, Filter, Traversal, Schedule, Nearness>{std::move(a), std::move(b), key, options, near};
+}
+
 /// Both arguments of a query, ready to be paired; errors are thrown in the name of `function`.
 template <input Input = input::checked, class Policy, class X, class Y, class Filter, traversal Traversal, schedule Schedule,
           class Nearness = near_enough_to_touch>
@@ -547,12 +559,7 @@ auto pair_up(const Policy& on, const X& x, const Y& y, const query_options<Filte
     check_options(on, options, function);
     auto a = make_operand<Input>(on, x, function);
     auto b = make_operand<Input>(on, y, function);
-    using shape_a = typename decltype(a.shapes())::shape_type;
-    using shape_b = typename decltype(b.shapes())::shape_type;
-    const pair_key key{id_bits(a.shapes().size()), id_bits(b.shapes().size())};
-    require_functions_of_shapes<shape_a, shape_b>(on);
-    return pairing<decltype(a), decltype(b), Filter, Traversal, Schedule, Nearness>{std::move(a), std::move(b), key, options,
-                                                                                    near};
+    return pair_operands(on, std::move(a), std::move(b), options, near);
 }
 
 }  // namespace abut::detail

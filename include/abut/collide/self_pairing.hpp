@@ -41,31 +41,21 @@ struct ids_that_ascend {
     [[nodiscard]] ABUT_HD bool wanted(std::uint32_t i, std::uint32_t j) const { return i < j && both.wanted(i, j); }
 };
 
-/// How an operand's shapes are seen: as they are.
-struct as_they_are {
-    template <shape_view View>
-    View operator()(const View& shapes) const {
-        return shapes;
-    }
-};
-
-/// One operand that is asked about its pairs. `Sight` makes of a view of its shapes the one that is judged: of as many
-/// shapes, with the same boxes.
-template <operand X, class Filter, traversal Traversal, schedule Schedule, class Sight,
-          class Nearness = near_enough_to_touch, class Part = whole_search>
+/// One operand that is asked about its pairs.
+template <operand X, class Filter, traversal Traversal, schedule Schedule, class Nearness = near_enough_to_touch,
+          class Part = whole_search>
 struct self_pairing {
     X x;
-    Sight sight;
     pair_key key;
     query_options<Filter, Traversal, Schedule> options;
     Nearness near = {};
     Part part = {};
 
-    using view_of_shapes = decltype(std::declval<const Sight&>()(std::declval<const X&>().shapes()));
+    using view_of_shapes = decltype(std::declval<const X&>().shapes());
     using view_type = pair_view<view_of_shapes, view_of_shapes, Filter>;
 
     [[nodiscard]] view_type view() const {
-        const view_of_shapes shapes = sight(x.shapes());
+        const view_of_shapes shapes = x.shapes();
         return {shapes, shapes, key, options.filter};
     }
     /// Room that results are likely to need.
@@ -95,10 +85,10 @@ struct self_pairing {
 };
 
 /// A part of what a pairing searches.
-template <operand X, class Filter, traversal Traversal, schedule Schedule, class Sight, class Nearness>
-auto in_part(self_pairing<X, Filter, Traversal, Schedule, Sight, Nearness> all, const search_part& part) {
-    return self_pairing<X, Filter, Traversal, Schedule, Sight, Nearness, search_part>{
-        std::move(all.x), all.sight, all.key, all.options, all.near, part};
+template <operand X, class Filter, traversal Traversal, schedule Schedule, class Nearness>
+auto in_part(self_pairing<X, Filter, Traversal, Schedule, Nearness> all, const search_part& part) {
+    return self_pairing<X, Filter, Traversal, Schedule, Nearness, search_part>{std::move(all.x), all.key, all.options,
+                                                                               all.near, part};
 }
 
 /// Whether pair_up_self takes the argument, as it is, and the filter.
@@ -121,13 +111,13 @@ template <class Policy, class X, class Filter, traversal Traversal, schedule Sch
 auto pair_up_self(const Policy& on, const X& x, const query_options<Filter, Traversal, Schedule>& options,
                   const char* function, const Sight& sight = {}, const Nearness& near = {}) {
     check_options(on, options, function);
-    auto operand = make_operand(on, x, function);
-    const auto shapes = sight(operand.shapes());
+    auto operand = see(make_operand(on, x, function), sight);
+    const auto shapes = operand.shapes();
     const int bits = id_bits(shapes.size());
     using shape_type = typename decltype(shapes)::shape_type;
     require_functions_of_shapes<shape_type, shape_type>(on);
-    return self_pairing<decltype(operand), Filter, Traversal, Schedule, Sight, Nearness>{
-        std::move(operand), sight, {bits, bits}, options, near};
+    return self_pairing<decltype(operand), Filter, Traversal, Schedule, Nearness>{
+        std::move(operand), {bits, bits}, options, near};
 }
 
 }  // namespace abut::detail

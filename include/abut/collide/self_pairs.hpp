@@ -67,8 +67,8 @@ struct self_options {
 
 namespace detail {
 
-/// The triangles of a view as faces that know their vertices: of a mesh its own numbers; others share no vertices, and the
-/// number of each shape stands for its three.
+/// The triangles of a view as faces that know their vertices: of a mesh its own numbers; others share no vertices, and a
+/// number of each shape, from `first` on, stands for its three.
 template <shape_view V>
 struct faces_view {
     using scalar_type = typename V::scalar_type;
@@ -77,6 +77,7 @@ struct faces_view {
 
     V triangles;
     bool by_place;
+    std::uint32_t first;
 
     [[nodiscard]] ABUT_HD std::size_t size() const { return triangles.size(); }
     [[nodiscard]] ABUT_HD shape_type operator[](std::size_t i) const {
@@ -85,7 +86,7 @@ struct faces_view {
             const std::uint32_t* const vertex = corners_at(triangles.faces, i);
             return {triangles[i], {vertex[0], vertex[1], vertex[2]}};
         } else {
-            const auto own = static_cast<std::uint32_t>(i);
+            const auto own = first + static_cast<std::uint32_t>(i);
             return {triangles[i], {own, own, own}};
         }
     }
@@ -95,11 +96,12 @@ struct faces_view {
 /// Sees triangles as faces, and other shapes as they are.
 struct as_faces {
     bool by_place;
+    std::uint32_t first = 0;
 
     template <shape_view V>
     auto operator()(const V& shapes) const {
         if constexpr (std::same_as<typename V::shape_type, triangle<typename V::scalar_type>>) {
-            return faces_view<V>{shapes, by_place};
+            return faces_view<V>{shapes, by_place, first};
         } else {
             return shapes;
         }
@@ -112,14 +114,18 @@ struct as_faces {
     }
 };
 
+template <class Filter, traversal Traversal>
+query_options<Filter, Traversal> as_query_options(const self_options<Filter, Traversal>& options) {
+    return {.sorted = options.sorted,
+            .filter = options.filter,
+            .most_pairs = options.most_pairs,
+            .start_depth = options.start_depth,
+            .front = options.front};
+}
 template <class Policy, class X, class Filter, traversal Traversal>
 auto pair_up_faces(const Policy& on, const X& x, const self_options<Filter, Traversal>& options, const char* function) {
-    const query_options<Filter, Traversal> of_query{.sorted = options.sorted,
-                                                    .filter = options.filter,
-                                                    .most_pairs = options.most_pairs,
-                                                    .start_depth = options.start_depth,
-                                                    .front = options.front};
-    return pair_up_self(on, x, of_query, function, as_faces{options.coincident == coincident_vertices::merged});
+    return pair_up_self(on, x, as_query_options(options), function,
+                        as_faces{options.coincident == coincident_vertices::merged});
 }
 
 }  // namespace detail

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Lists of posed pairs on several devices. Each device has all indices. Entries are dealt out one by one, so that neighbours, which
-// are often alike, fall to different devices.
+// Lists of posed pairs on several devices. Each device has all indices. Entries are dealt out one by one, so that
+// neighbours, which are often alike, fall to different devices.
 
 #include <atomic>
 #include <cstddef>
@@ -21,7 +21,8 @@
 namespace abut {
 
 /// An entry of a list for several devices: two indices that each device has, each under a pose. Write
-/// `posed_pair<decltype(gear)>{posed(gear, here), posed(gear, there)}`, where `gear` is what make_bvh of several devices made.
+/// `posed_pair<decltype(gear)>{posed(gear, here), posed(gear, there)}`, where `gear` is what make_bvh of several devices
+/// made.
 /// @ingroup devices
 template <class IndexA, class IndexB>
 struct posed_pair<replicated<IndexA>, replicated<IndexB>> {
@@ -37,26 +38,10 @@ struct entries_of_part {
     [[nodiscard]] ABUT_HD std::uint32_t operator()(std::size_t i) const {
         return static_cast<std::uint32_t>(i * parts + part);
     }
-};
-/// A filter or a visitor, which is told of entries by their positions in the whole list.
-template <class Call>
-struct call_of_part {
-    Call call;
-    entries_of_part position;
-    ABUT_CALLS_ANY
-    ABUT_HD auto operator()(tagged_pair of) const {
-        of.pair = position(of.pair);
-        return call(of);
-    }
-};
-template <class Found>
-struct rename_entries {
-    const Found* found;
-    entries_of_part position;
-    Found* out;
-    ABUT_HD void operator()(std::size_t i) const {
-        out[i] = found[i];
-        out[i].pair = position(found[i].pair);
+    template <class Found>
+    [[nodiscard]] ABUT_HD Found named(Found of) const {
+        of.pair = (*this)(of.pair);
+        return of;
     }
 };
 template <class Found>
@@ -73,18 +58,12 @@ struct by_entry {
     }
 };
 
-template <class Filter, schedule Schedule>
-auto options_of_part(const list_options<Filter, Schedule>& options, const entries_of_part& position) {
-    schedule_options scheduling = options.scheduling;
-    scheduling.report = nullptr;  // of one query, and here are several
-    if constexpr (std::same_as<Filter, keep_all>) {
-        auto here = options;
-        here.scheduling = scheduling;
-        return here;
-    } else {
-        return list_options<call_of_part<Filter>, Schedule>{
-            options.sorted, {options.filter, position}, options.most_pairs, options.discard_sideways, scheduling};
-    }
+/// The same options for a device's entries.
+template <class Options>
+auto options_there(const Options& options, const entries_of_part& position) {
+    auto there = options_of_part(options, position);
+    there.scheduling.report = nullptr;  // of one query, and here are several
+    return there;
 }
 
 /// Runs ask(k, entries, position) on each device, of the entries that fall to it.
@@ -112,11 +91,8 @@ auto found_of_entries(const Team& team, const List& list, const Options& options
     found_lists<local, Found> found(static_cast<std::size_t>(team.size()));
     ask_entries(team, list, function, [&](int k, const auto& mine, const entries_of_part& position) {
         const local& on = team[k];
-        const auto some = ask(on, pair_up(on, mine, options_of_part(options, position), function, position));
-        execution::buffer_of<local, Found> renamed(on, some.size());
-        for_each_index(on, some.size(), rename_entries<Found>{some.data(), position, renamed.data()});
-        synchronize(on);
-        found[static_cast<std::size_t>(k)] = result<Found, space_of<local>>(std::move(renamed));
+        const auto some = ask(on, pair_up(on, mine, options_there(options, position), function, position));
+        found[static_cast<std::size_t>(k)] = found_of_part(on, some, position);
     });
     return on_first(team, std::move(found), options.sorted, by_entry{});
 }
@@ -140,7 +116,7 @@ template <arithmetic A = filtered, execution::policy_team Team, class IndexA, cl
     if constexpr (detail::can_be_listed_on_devices<Team, IndexA, IndexB>()) {
         constexpr const char* function = "abut::any";
         detail::ask_entries(team, list, function, [&](int k, const auto& mine, const auto& position) {
-            const auto here = detail::options_of_part(options, position);
+            const auto here = detail::options_there(options, position);
             if (detail::any_of<A>(team[k], detail::pair_up(team[k], mine, here, function, position))) found.store(true);
         });
     }
@@ -157,7 +133,7 @@ template <arithmetic A = filtered, execution::policy_team Team, class IndexA, cl
     if constexpr (detail::can_be_listed_on_devices<Team, IndexA, IndexB>()) {
         constexpr const char* function = "abut::count";
         detail::ask_entries(team, list, function, [&](int k, const auto& mine, const auto& position) {
-            const auto here = detail::options_of_part(options, position);
+            const auto here = detail::options_there(options, position);
             sum += detail::count_of<A>(team[k], detail::pair_up(team[k], mine, here, function, position));
         });
     }
@@ -192,15 +168,16 @@ void for_each_pair(const Team& team, const std::vector<posed_pair<replicated<Ind
         std::vector<visitor> visitors;
         for (int k = 0; k < team.size(); ++k) visitors.push_back(visitor_of(k));
         detail::ask_entries(team, list, function, [&](int k, const auto& mine, const auto& position) {
-            const auto here = detail::options_of_part(options, position);
-            const detail::call_of_part<visitor> visits{visitors[static_cast<std::size_t>(k)], position};
+            const auto here = detail::options_there(options, position);
+            const detail::call_of_part<visitor, detail::entries_of_part> visits{visitors[static_cast<std::size_t>(k)],
+                                                                                position};
             detail::visit_pairs_of<A>(team[k], detail::pair_up(team[k], mine, here, function, position), visits);
         });
     }
 }
 
-/// The contacts of all pairs of shapes that touch, as `contacts` of a list under one policy: a `result` of `tagged_contact` in
-/// memory of the first device.
+/// The contacts of all pairs of shapes that touch, as `contacts` of a list under one policy: a `result` of `tagged_contact`
+/// in memory of the first device.
 template <arithmetic A = filtered, execution::policy_team Team, class IndexA, class IndexB, class Filter = keep_all,
           schedule Schedule = schedule::shared_list>
 [[nodiscard]] auto contacts(const Team& team, const std::vector<posed_pair<replicated<IndexA>, replicated<IndexB>>>& list,
@@ -215,20 +192,17 @@ template <arithmetic A = filtered, execution::policy_team Team, class IndexA, cl
     }
 }
 
-/// How far apart the two indices of each entry are, as `distance` of a list under one policy: a `result` of `separation`, one of
-/// each entry, in memory of the first device.
+/// How far apart the two indices of each entry are, as `distance` of a list under one policy: a `result` of `separation`,
+/// one of each entry, in memory of the first device.
 template <execution::policy_team Team, class IndexA, class IndexB>
 [[nodiscard]] auto distance(const Team& team, const std::vector<posed_pair<replicated<IndexA>, replicated<IndexB>>>& list,
                             const distance_options& options = {}) {
     using local = typename Team::local_policy;
-    if constexpr (detail::can_be_listed_on_devices<Team, IndexA, IndexB>()) {
-        constexpr bool are = detail::measurable<typename IndexA::shape_type, typename IndexB::shape_type>;
-        static_assert(are, "abut: there is no distance of sets of these two shapes");
+    if constexpr (detail::can_be_measured<local, IndexA, IndexB>()) {
         using found_type = separation<typename IndexA::scalar_type>;
         std::vector<result<found_type, space_of<local>>> found(static_cast<std::size_t>(team.size()));
         detail::ask_entries(team, list, "abut::distance", [&](int k, const auto& mine, const auto& position) {
-            found[static_cast<std::size_t>(k)] =
-                detail::distances_of(team[k], mine, options, "abut::distance", position);
+            found[static_cast<std::size_t>(k)] = detail::distances_of(team[k], mine, options, "abut::distance", position);
         });
         execution::buffer_of<local, found_type> all(team[0], list.size());
         for (int k = 0; k < team.size(); ++k) {

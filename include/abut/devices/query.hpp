@@ -56,19 +56,20 @@ auto found_on_each(const Team& team, const X& x, const Y& y, const Options& opti
     using local = typename Team::local_policy;
     using list = result<Found, space_of<local>>;
     std::vector<std::vector<list>> found(static_cast<std::size_t>(team.size()));
-    ask_each(team, x, y, function,
-             [&](int k, const auto& a, const auto& b, const search_part& part, const ids_of_parts& ids) {
-                 const local& on = team[k];
-                 list some = ask(on, in_part(kind.pair_up(on, a, b, options_there(options, ids), function), part));
-                 if constexpr (is_divided<X> || is_divided<Y>) {  // ids ascend in each part, so the order stays
-                     execution::buffer_of<local, Found> renamed(on, some.size());
-                     for_each_index(on, some.size(), rename_found<Found>{some.data(), ids, renamed.data()});
-                     synchronize(on);
-                     some = list(std::move(renamed));
-                 }
-                 found[static_cast<std::size_t>(k)].push_back(std::move(some));
-             },
-             never_over{}, kind);
+    ask_each(
+        team, x, y, function,
+        [&](int k, const auto& a, const auto& b, const search_part& part, const ids_of_parts& ids) {
+            const local& on = team[k];
+            list some = ask(on, in_part(kind.pair_up(on, a, b, options_there(options, ids), function), part));
+            if constexpr (is_divided<X> || is_divided<Y>) {  // ids ascend in each part, so the order stays
+                execution::buffer_of<local, Found> renamed(on, some.size());
+                for_each_index(on, some.size(), rename_found<Found>{some.data(), ids, renamed.data()});
+                synchronize(on);
+                some = list(std::move(renamed));
+            }
+            found[static_cast<std::size_t>(k)].push_back(std::move(some));
+        },
+        never_over{}, kind);
     const auto one = [&](int k) {
         return joined<local, Found>(team[k], std::move(found[static_cast<std::size_t>(k)]), options.sorted);
     };
@@ -154,22 +155,23 @@ void visit_on_devices(const Team& team, const X& a, const Y& b, const VisitorOf&
         kind);
 }
 
-/// Of a set that each device has, the pairs of its shapes, and their number. pair_up(on, x) pairs it with itself.
-template <arithmetic A, class Team, class X, class PairUp, class Judge>
-auto self_pairs_on_devices(const Team& team, const X& x, bool sorted, const char* function, const PairUp& pair_up,
-                           const Judge& names) {
+/// Of a set that each device has, the pairs of its shapes, and their number.
+template <arithmetic A, class Team, class X, class Options, class Kind>
+auto self_pairs_on_devices(const Team& team, const X& x, const Options& options, const char* function, const Kind& kind) {
     std::vector<result<index_pair, space_of<typename Team::local_policy>>> found(static_cast<std::size_t>(team.size()));
     ask_each_itself(team, x, function, [&](int k, const auto& there, const search_part& part) {
-        found[static_cast<std::size_t>(k)] = pairs_of<A>(team[k], in_part(pair_up(team[k], there), part), names);
+        found[static_cast<std::size_t>(k)] = pairs_of<A>(
+            team[k], in_part(kind.pair_up(team[k], there, itself{}, options, function), part), kind.template names<A>());
     });
-    return on_first(team, std::move(found), sorted);
+    return on_first(team, std::move(found), options.sorted);
 }
-template <arithmetic A, class Team, class X, class PairUp, class Judge>
-std::uint64_t count_self_on_devices(const Team& team, const X& x, const char* function, const PairUp& pair_up,
-                                    const Judge& judge) {
+template <arithmetic A, class Team, class X, class Options, class Kind>
+std::uint64_t count_self_on_devices(const Team& team, const X& x, const Options& options, const char* function,
+                                    const Kind& kind) {
     std::atomic<std::uint64_t> sum{0};
     ask_each_itself(team, x, function, [&](int k, const auto& there, const search_part& part) {
-        sum += count_of<A>(team[k], in_part(pair_up(team[k], there), part), judge);
+        sum += count_of<A>(team[k], in_part(kind.pair_up(team[k], there, itself{}, options, function), part),
+                           kind.template judge<A>());
     });
     return sum.load();
 }
@@ -182,7 +184,8 @@ std::uint64_t count_self_on_devices(const Team& team, const X& x, const char* fu
 /// each of them, `divide` a part of it on each, and `make_bvh` makes a tree of either on each. `any`, `count`, `pairs`,
 /// `for_each_pair`, `contacts`, `within` and `distance` take these, posed or not, and sets in host memory and single shapes,
 /// which are copied to each device for the call; so do `nearest`, `inside` and `raycast`, and what looks is not divided.
-/// `impacts`, self queries and queries of bodies take what each device has whole. Answers are those of one device, bit for bit.
+/// `impacts`, self queries and queries of bodies take what each device has whole. Answers are those of one device, bit for
+/// bit.
 ///
 /// A filter runs on every device: what it points to has to be readable on each of them. `schedule_options::report` is left
 /// as it is.
@@ -282,8 +285,9 @@ template <arithmetic A = filtered, execution::policy_team Team, class X, class Y
         using T = scalar_type_of<typename detail::shape_of_argument<detail::type_on_device<X>>::type>;
         const query_options<Filter> query{.sorted = options.sorted, .filter = options.filter, .resident = options.resident};
         auto found = detail::found_on_each<contact<T>>(
-            team, a, b, query, "abut::contacts", detail::pairs_that_touch{},
-            [&](const auto& on, const auto& pairing) { return detail::contacts_of<A>(on, pairing, options.discard_sideways); });
+            team, a, b, query, "abut::contacts", detail::pairs_that_touch{}, [&](const auto& on, const auto& pairing) {
+                return detail::contacts_of<A>(on, pairing, options.discard_sideways);
+            });
         return detail::on_first(team, std::move(found), options.sorted);
     } else {
         return result<contact<float>, space_of<local>>();
@@ -295,9 +299,8 @@ template <arithmetic A = filtered, execution::policy_team Team, class X, class Y
 template <arithmetic A = filtered, execution::policy_team Team, class X, class Filter = keep_all>
 [[nodiscard]] auto self_pairs(const Team& team, const X& x, const self_options<Filter>& options = {}) {
     if constexpr (detail::can_pair_itself<typename Team::local_policy, detail::type_on_device<X>, Filter>()) {
-        constexpr const char* function = "abut::self_pairs";
-        const auto faces = [&](const auto& on, const auto& there) { return detail::pair_up_faces(on, there, options, function); };
-        return detail::self_pairs_on_devices<A>(team, x, options.sorted, function, faces, detail::touch_and_name<A>{});
+        return detail::self_pairs_on_devices<A>(team, x, detail::as_query_options(options), "abut::self_pairs",
+                                                detail::pairs_beyond_shared(options.coincident));
     } else {
         return result<index_pair, space_of<typename Team::local_policy>>();
     }
@@ -307,9 +310,8 @@ template <arithmetic A = filtered, execution::policy_team Team, class X, class F
 template <arithmetic A = filtered, execution::policy_team Team, class X, class Filter = keep_all>
 [[nodiscard]] std::uint64_t count_self_pairs(const Team& team, const X& x, const self_options<Filter>& options = {}) {
     if constexpr (detail::can_pair_itself<typename Team::local_policy, detail::type_on_device<X>, Filter>()) {
-        constexpr const char* function = "abut::count_self_pairs";
-        const auto faces = [&](const auto& on, const auto& there) { return detail::pair_up_faces(on, there, options, function); };
-        return detail::count_self_on_devices<A>(team, x, function, faces, detail::touch<A>{});
+        return detail::count_self_on_devices<A>(team, x, detail::as_query_options(options), "abut::count_self_pairs",
+                                                detail::pairs_beyond_shared(options.coincident));
     } else {
         return 0;
     }

@@ -30,8 +30,8 @@ consteval bool can_be_within_on_devices() {
 /// @addtogroup devices
 ///@{
 
-/// All pairs that are no farther apart than `distance`, as `within` finds them under one policy: a `result` of `index_pair` in
-/// memory of the first device, sorted by a, then b, unless the options say otherwise. Arguments are those of `pairs` on
+/// All pairs that are no farther apart than `distance`, as `within` finds them under one policy: a `result` of `index_pair`
+/// in memory of the first device, sorted by a, then b, unless the options say otherwise. Arguments are those of `pairs` on
 /// several devices, of shapes that `within` takes.
 template <arithmetic A = filtered, execution::policy_team Team, class X, class Y, class Filter = keep_all,
           traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
@@ -99,10 +99,7 @@ template <arithmetic A = filtered, execution::policy_team Team, class X, class F
     if constexpr (detail::can_be_within_on_devices<Team, X, X, Filter, Traversal>()) {
         constexpr const char* function = "abut::self_within";
         detail::check_distance(distance, function);
-        const auto pair_up = [&](const auto& on, const auto& there) {
-            return detail::pair_up_self_within(on, there, distance, options, function);
-        };
-        return detail::self_pairs_on_devices<A>(team, x, options.sorted, function, pair_up, detail::come_within<A>{distance});
+        return detail::self_pairs_on_devices<A>(team, x, options, function, detail::pairs_within{distance});
     } else {
         return result<index_pair, space_of<typename Team::local_policy>>();
     }
@@ -116,10 +113,7 @@ template <arithmetic A = filtered, execution::policy_team Team, class X, class F
     if constexpr (detail::can_be_within_on_devices<Team, X, X, Filter, Traversal>()) {
         constexpr const char* function = "abut::count_self_within";
         detail::check_distance(distance, function);
-        const auto pair_up = [&](const auto& on, const auto& there) {
-            return detail::pair_up_self_within(on, there, distance, options, function);
-        };
-        return detail::count_self_on_devices<A>(team, x, function, pair_up, detail::come_within<A>{distance});
+        return detail::count_self_on_devices<A>(team, x, options, function, detail::pairs_within{distance});
     } else {
         return 0;
     }

@@ -19,6 +19,7 @@
 #include <abut/collide/contacts.hpp>
 #include <abut/collide/pair_kinds.hpp>
 #include <abut/collide/query.hpp>
+#include <abut/collide/self_pairs.hpp>
 #include <abut/distributed/communicator.hpp>
 #include <abut/distributed/parts.hpp>
 #include <abut/execution/atomic.hpp>
@@ -170,15 +171,28 @@ auto options_here(const contact_options<Filter>& options, const global_ids& ids)
     return contact_options<decltype(filter)>{options.sorted, filter, options.resident, options.discard_sideways};
 }
 
-/// Whether a query of ranks takes its arguments.
+/// Whether a query of ranks takes its filter, and its arguments.
+template <class Local, class Filter>
+consteval bool is_global_filter() {
+    constexpr bool is = std::same_as<Filter, keep_all> || answers<Local, Filter, bool, std::uint64_t, std::uint64_t>();
+    static_assert(is,
+                  "abut: a filter of a distributed query is called as filter(a, b) const with two std::uint64_t, and "
+                  "returns bool");
+    return is;
+}
 template <class Local, class X, class Y, class Filter>
 consteval bool can_pair_globally() {
     if constexpr (can_pair<Local, X, Y, keep_all>()) {
-        constexpr bool is = std::same_as<Filter, keep_all> || answers<Local, Filter, bool, std::uint64_t, std::uint64_t>();
-        static_assert(is,
-                      "abut: a filter of a distributed query is called as filter(a, b) const with two std::uint64_t, and "
-                      "returns bool");
-        return is;
+        return is_global_filter<Local, Filter>();
+    } else {
+        return false;
+    }
+}
+
+template <class Local, class X, class Filter>
+consteval bool can_pair_itself_globally() {
+    if constexpr (can_pair_itself<Local, X, keep_all>()) {
+        return is_global_filter<Local, Filter>();
     } else {
         return false;
     }
@@ -201,22 +215,30 @@ auto brought_to(const Policy& on, const X& x) {
 }
 
 /// Runs ask(rank, a, b, ids) of a rank's own parts, and then of what comes from each other rank: all pairs of its a-shapes
-/// with b-shapes that they may touch, each once. Where pairs are wanted that do not touch, reach(bounds) is what comes near
-/// enough to a part of a: the same on all ranks, which call share() first, when they have asked about their own parts, whether
-/// that failed or not. Returns the parts of a. All ranks call it; it throws on all or on none.
+/// with b-shapes that they may touch, each once. Where y is `itself`, these are pairs of shapes of x: of its own part a rank
+/// asks by `itself`, and others come from the ranks above it alone, where all ids are greater. Where pairs are wanted that
+/// do not touch, reach(bounds) is what comes near enough to a part of a: the same on all ranks, which call share() first,
+/// when they have asked about their own parts, whether that failed or not. Returns the parts of a. All ranks call it; it
+/// throws on all or on none.
 template <class Local, class X, class Y, class Ask, class Reach = as_near_as_boxes, class Share = share_nothing>
 auto ask_all_parts(const distributed<Local>& on, const X& x, const Y& y, const char* function, const Ask& ask,
                    const Reach& reach = {}, const Share& share = {}) {
     using T = scalar_type_of<typename shape_of_argument<X>::type>;
+    constexpr bool is_alone = std::same_as<Y, itself>;
     const own_communicator& ranks = on.ranks();
     const Local& local = on.local();
     attempts attempt;
     const auto bring = [&] {
         auto a = brought_to(local, x);
-        auto b = brought_to(local, y);
         auto operand_a = make_operand(local, a, function);
-        auto operand_b = make_operand(local, b, function);
-        return std::tuple(std::move(a), std::move(b), std::move(operand_a), std::move(operand_b));
+        if constexpr (is_alone) {
+            auto operand_b = operand_a;
+            return std::tuple(std::move(a), y, std::move(operand_a), std::move(operand_b));
+        } else {
+            auto b = brought_to(local, y);
+            auto operand_b = make_operand(local, b, function);
+            return std::tuple(std::move(a), std::move(b), std::move(operand_a), std::move(operand_b));
+        }
     };
     std::optional<decltype(bring())> here;
     part_bounds<T> part_a, part_b;
@@ -229,7 +251,7 @@ auto ask_all_parts(const distributed<Local>& on, const X& x, const Y& y, const c
         room.make_room(ranks.size());
         here.emplace(bring());
         part_a = bounds_of_part(local, std::get<2>(*here).shapes());
-        part_b = bounds_of_part(local, std::get<3>(*here).shapes());
+        part_b = is_alone ? part_a : bounds_of_part(local, std::get<3>(*here).shapes());
     });
     attempt.settle(ranks);
     const auto& a = std::get<0>(*here);
@@ -247,7 +269,7 @@ auto ask_all_parts(const distributed<Local>& on, const X& x, const Y& y, const c
     };
     share();
     looking.take_grown(parts_a, reach);
-    const auto goes = [&](int from, int to) { return looking[to].is_near(parts_b[from]); };
+    const auto goes = [&](int from, int to) { return (!is_alone || from > to) && looking[to].is_near(parts_b[from]); };
     using near_b = near_shapes<Local, std::remove_cvref_t<decltype(operand_b.shapes())>>;
     shape_parcels parcels(local, near_b(operand_b.shapes()), looking, use);
     exchange_parcels(on, attempt, room, goes, parcels);
@@ -277,13 +299,16 @@ auto found_in_all_parts(const distributed<Local>& on, const X& a, const Y& b, co
                         const Ask& ask, const Reach& reach = {}) {
     found_by_rank<Local, Global> all;
     const Local& local = on.local();
-    const auto parts = ask_all_parts(on, a, b, function, [&](int rank, const auto& x, const auto& y, const global_ids& ids) {
-        const auto found = ask(x, y, options_here(options, ids));
-        using value = typename std::remove_cvref_t<decltype(found)>::value_type;
-        all.add(local, rank, found.size(), [&](Global* out, std::uint64_t* keys) {
-            for_each_index(local, found.size(), name_all_globally<value, Global>{found.data(), ids, out, keys});
-        });
-    }, reach);
+    const auto parts = ask_all_parts(
+        on, a, b, function,
+        [&](int rank, const auto& x, const auto& y, const global_ids& ids) {
+            const auto found = ask(x, y, options_here(options, ids));
+            using value = typename std::remove_cvref_t<decltype(found)>::value_type;
+            all.add(local, rank, found.size(), [&](Global* out, std::uint64_t* keys) {
+                for_each_index(local, found.size(), name_all_globally<value, Global>{found.data(), ids, out, keys});
+            });
+        },
+        reach);
     return joined(on, all, options.sorted, id_bits(static_cast<std::size_t>(parts[on.rank()].size)));
 }
 
@@ -346,12 +371,12 @@ void visit_all_parts(const distributed<Local>& on, const X& a, const Y& b, const
 }
 
 /// Whether a visitor of ranks can be called.
-template <class Local, class Visitor>
+template <class Local, class Visitor, class Pair = global_pair>
 consteval bool is_global_visitor() {
-    constexpr bool is = answers<Local, Visitor, visit, global_pair>();
+    constexpr bool is = answers<Local, Visitor, visit, Pair>();
     static_assert(is,
-                  "abut: a visitor of a distributed query is called as visitor(global_pair) const, and returns "
-                  "abut::visit::proceed or abut::visit::stop");
+                  "abut: a visitor of a distributed query is called as visitor(pair) const, and returns abut::visit::proceed "
+                  "or abut::visit::stop; the pair is a global_pair, or a global_tagged_pair where the query is of a list");
     return is;
 }
 
@@ -424,6 +449,40 @@ template <arithmetic A = filtered, execution_policy Local, class X, class Y, cla
             [&](const auto& x, const auto& y, const auto& here) { return contacts<A>(on.local(), x, y, here); });
     } else {
         return result<global_contact<float>, space_of<Local>>();
+    }
+}
+
+/// All pairs of shapes of one set that touch, each once with a < b, of which a is this rank's: a `result` of `global_pair`,
+/// 16 bytes each, in the local policy's memory; sorted by a, then b, unless the options say otherwise. The lists of all
+/// ranks, one after another, are the list of `self_pairs` on one machine. `x` is this rank's part, as the argument of
+/// `self_pairs` under the local policy; a filter is called with two std::uint64_t, a < b.
+///
+/// The mesh that is asked about is all parts one after another, each of which has vertices of its own. So neighbours on two
+/// ranks share none, and are reported, where vertices are `distinct`; where they are `merged`, neighbours share those in one
+/// place, and parts of a mesh give the list of the whole mesh. A face goes to the ranks below its own whose faces it comes
+/// near.
+template <arithmetic A = filtered, execution_policy Local, class X, class Filter = keep_all,
+          traversal Traversal = traversal::both_at_once>
+[[nodiscard]] auto self_pairs(const distributed<Local>& on, const X& x,
+                              const self_options<Filter, Traversal>& options = {}) {
+    if constexpr (detail::can_pair_itself_globally<Local, X, Filter>()) {
+        return detail::pairs_of_parts<A>(on, x, detail::itself{}, detail::as_query_options(options), "abut::self_pairs",
+                                         detail::pairs_beyond_shared(options.coincident));
+    } else {
+        return result<global_pair, space_of<Local>>();
+    }
+}
+
+/// The number of pairs that self_pairs of all ranks reports: the same on each. Stores none of them.
+template <arithmetic A = filtered, execution_policy Local, class X, class Filter = keep_all,
+          traversal Traversal = traversal::both_at_once>
+[[nodiscard]] std::uint64_t count_self_pairs(const distributed<Local>& on, const X& x,
+                                             const self_options<Filter, Traversal>& options = {}) {
+    if constexpr (detail::can_pair_itself_globally<Local, X, Filter>()) {
+        return detail::count_of_parts<A>(on, x, detail::itself{}, detail::as_query_options(options),
+                                         "abut::count_self_pairs", detail::pairs_beyond_shared(options.coincident));
+    } else {
+        return 0;
     }
 }
 

@@ -3,7 +3,6 @@
 
 // within and the queries beside it, of sets whose parts lie on many ranks: those of query.hpp with a distance.
 
-#include <concepts>
 #include <cstdint>
 
 #include <abut/collide/pair_kinds.hpp>
@@ -35,43 +34,22 @@ pairs_within agreed_pairs_within(const distributed<Local>& on, double distance, 
     return {distance};
 }
 
-/// Of a set with itself: each pair once.
-template <class Filter>
-struct ascending_ids {
-    Filter filter;
-    ABUT_CALLS_ANY
-    ABUT_HD bool operator()(std::uint64_t a, std::uint64_t b) const {
-        if constexpr (std::same_as<Filter, keep_all>) {
-            return a < b;
-        } else {
-            return a < b && filter(a, b);
-        }
-    }
-};
-template <class Filter, traversal Traversal, schedule Schedule>
-auto options_of_one_set(const query_options<Filter, Traversal, Schedule>& options) {
-    return query_options<ascending_ids<Filter>, Traversal, Schedule>{
-        options.sorted,     {options.filter}, options.most_pairs, options.resident, options.start_depth,
-        options.scheduling, options.front};
-}
-
 }  // namespace detail
 
 /// @addtogroup distributed
 ///@{
 
-/// All pairs of this rank's a-shapes that are no farther apart than `distance`, each once: a `result` of `global_pair` in the
-/// local policy's memory, sorted by a, then b, unless the options say otherwise. The lists of all ranks, one after another, are
-/// the list of one machine. Arguments are this rank's parts, as those of `within` under the local policy; each rank gives the
-/// same distance. Shapes of b go to the ranks whose a-shapes they come so near.
+/// All pairs of this rank's a-shapes that are no farther apart than `distance`, each once: a `result` of `global_pair` in
+/// the local policy's memory, sorted by a, then b, unless the options say otherwise. The lists of all ranks, one after
+/// another, are the list of one machine. Arguments are this rank's parts, as those of `within` under the local policy; each
+/// rank gives the same distance. Shapes of b go to the ranks whose a-shapes they come so near.
 template <arithmetic A = filtered, execution_policy Local, class X, class Y, class Filter = keep_all,
           traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
 [[nodiscard]] auto within(const distributed<Local>& on, const X& a, const Y& b, double distance,
                           const query_options<Filter, Traversal, Schedule>& options = {}) {
     if constexpr (detail::can_be_within_globally<Local, X, Y, Filter>()) {
         constexpr const char* function = "abut::within";
-        return detail::pairs_of_parts<A>(on, a, b, options, function,
-                                         detail::agreed_pairs_within(on, distance, function));
+        return detail::pairs_of_parts<A>(on, a, b, options, function, detail::agreed_pairs_within(on, distance, function));
     } else {
         return result<global_pair, space_of<Local>>();
     }
@@ -84,8 +62,7 @@ template <arithmetic A = filtered, execution_policy Local, class X, class Y, cla
                                          const query_options<Filter, Traversal, Schedule>& options = {}) {
     if constexpr (detail::can_be_within_globally<Local, X, Y, Filter>()) {
         constexpr const char* function = "abut::count_within";
-        return detail::count_of_parts<A>(on, a, b, options, function,
-                                         detail::agreed_pairs_within(on, distance, function));
+        return detail::count_of_parts<A>(on, a, b, options, function, detail::agreed_pairs_within(on, distance, function));
     } else {
         return 0;
     }
@@ -98,8 +75,7 @@ template <arithmetic A = filtered, execution_policy Local, class X, class Y, cla
                               const query_options<Filter, Traversal, Schedule>& options = {}) {
     if constexpr (detail::can_be_within_globally<Local, X, Y, Filter>()) {
         constexpr const char* function = "abut::any_within";
-        return detail::any_of_parts<A>(on, a, b, options, function,
-                                       detail::agreed_pairs_within(on, distance, function));
+        return detail::any_of_parts<A>(on, a, b, options, function, detail::agreed_pairs_within(on, distance, function));
     } else {
         return false;
     }
@@ -117,15 +93,16 @@ void for_each_within(const distributed<Local>& on, const X& a, const Y& b, doubl
     }
 }
 
-/// All pairs of shapes of one set that are no farther apart than `distance`, each once with a < b, of which a is this rank's: a
-/// `result` of `global_pair`. `x` is this rank's part.
+/// All pairs of shapes of one set that are no farther apart than `distance`, each once with a < b, of which a is this
+/// rank's: a `result` of `global_pair`. `x` is this rank's part.
 template <arithmetic A = filtered, execution_policy Local, class X, class Filter = keep_all,
           traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
 [[nodiscard]] auto self_within(const distributed<Local>& on, const X& x, double distance,
                                const query_options<Filter, Traversal, Schedule>& options = {}) {
     if constexpr (detail::can_be_within_globally<Local, X, X, Filter>()) {
-        return detail::pairs_of_parts<A>(on, x, x, detail::options_of_one_set(options), "abut::self_within",
-                                         detail::agreed_pairs_within(on, distance, "abut::self_within"));
+        constexpr const char* function = "abut::self_within";
+        return detail::pairs_of_parts<A>(on, x, detail::itself{}, options, function,
+                                         detail::agreed_pairs_within(on, distance, function));
     } else {
         return result<global_pair, space_of<Local>>();
     }
@@ -137,8 +114,9 @@ template <arithmetic A = filtered, execution_policy Local, class X, class Filter
 [[nodiscard]] std::uint64_t count_self_within(const distributed<Local>& on, const X& x, double distance,
                                               const query_options<Filter, Traversal, Schedule>& options = {}) {
     if constexpr (detail::can_be_within_globally<Local, X, X, Filter>()) {
-        return detail::count_of_parts<A>(on, x, x, detail::options_of_one_set(options), "abut::count_self_within",
-                                         detail::agreed_pairs_within(on, distance, "abut::count_self_within"));
+        constexpr const char* function = "abut::count_self_within";
+        return detail::count_of_parts<A>(on, x, detail::itself{}, options, function,
+                                         detail::agreed_pairs_within(on, distance, function));
     } else {
         return 0;
     }

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Lists of posed pairs on many ranks. Each rank has some of the entries, with the indices of both sides, and asks about
+// these. No shapes are sent: ranks tell each other how many entries they have, what they count, and whether one failed.
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <abut/collide/list.hpp>
+#include <abut/collide/list_distance.hpp>
+#include <abut/distributed/communicator.hpp>
+#include <abut/distributed/query.hpp>
+
+#include <mpi.h>
+
+namespace abut {
+
+/// @addtogroup distributed
+///@{
+
+/// A `tagged_pair` of a list of many parts.
+struct global_tagged_pair {
+    std::uint64_t pair;  ///< position in the list of all ranks
+    std::uint32_t a;     ///< id in the entry's first set
+    std::uint32_t b;     ///< id in its second one
+
+    friend constexpr bool operator==(const global_tagged_pair&, const global_tagged_pair&) = default;
+    friend constexpr auto operator<=>(const global_tagged_pair&, const global_tagged_pair&) = default;
+};
+
+/// A `tagged_contact` of a list of many parts.
+template <scalar T>
+struct global_tagged_contact {
+    std::uint64_t pair;  ///< position in the list of all ranks
+    std::uint32_t a;     ///< id in the entry's first set
+    std::uint32_t b;     ///< id in its second one
+    vec3<T> point;       ///< of both shapes, in the world
+    vec3<T> normal;      ///< of length 1, from b to a
+    T depth;             ///< 0 or more, in units of length
+
+    friend constexpr bool operator==(const global_tagged_contact&, const global_tagged_contact&) = default;
+};
+
+///@}
+
+namespace detail {
+
+/// Positions of a rank's entries in the list of all ranks.
+struct entries_of_rank {
+    std::uint64_t first;
+    [[nodiscard]] std::uint64_t operator()(std::size_t i) const { return first + i; }
+    [[nodiscard]] ABUT_HD global_tagged_pair named(const tagged_pair& of) const { return {first + of.pair, of.a, of.b}; }
+    template <scalar T>
+    [[nodiscard]] ABUT_HD global_tagged_contact<T> named(const tagged_contact<T>& of) const {
+        return {first + of.pair, of.a, of.b, of.point, of.normal, of.depth};
+    }
+};
+
+/// Where the entries of this rank are in the list of all of them, each of which gives how many it has.
+inline entries_of_rank positions_of_rank(const own_communicator& ranks, std::size_t entries) {
+    const std::uint64_t mine = entries;
+    std::uint64_t up_to_mine = 0;
+    check_mpi(MPI_Scan(&mine, &up_to_mine, 1, MPI_UINT64_T, MPI_SUM, ranks.get()), "MPI_Scan");
+    return {up_to_mine - mine};
+}
+
+/// Runs ask(position) of a rank's entries, on all ranks; it throws on all or on none.
+template <class Local, class List, class Ask>
+void ask_own_entries(const distributed<Local>& on, const List& list, const Ask& ask) {
+    const entries_of_rank position = positions_of_rank(on.ranks(), list.size());
+    attempts attempt;
+    attempt([&] { ask(position); });
+    attempt.settle(on.ranks());
+}
+
+/// What ask(pairing) finds of a rank's entries.
+template <class Global, class Local, class List, class Options, class Ask>
+auto found_of_own_entries(const distributed<Local>& on, const List& list, const Options& options, const char* function,
+                          const Ask& ask) {
+    result<Global, space_of<Local>> found;
+    ask_own_entries(on, list, [&](const entries_of_rank& position) {
+        const auto pairing = pair_up(on.local(), list, options_of_part(options, position), function, position);
+        found = found_of_part(on.local(), ask(pairing), position);
+    });
+    return found;
+}
+
+}  // namespace detail
+
+/// @addtogroup distributed
+///@{
+
+/// Whether the shapes of any entry touch: the same answer on all ranks. `list` is this rank's part of the list: entries of
+/// indices that this rank has, made under the local policy, as those of `any` of a list. It may be empty. The list that is
+/// asked about is all parts one after another, in the order of the ranks. A filter is called as filter(global_tagged_pair).
+/// Errors name an entry by its position there. A rank that has found a pair looks for no other.
+template <arithmetic A = filtered, execution_policy Local, class IndexA, class IndexB, class Filter = keep_all,
+          schedule Schedule = schedule::shared_list>
+[[nodiscard]] bool any(const distributed<Local>& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
+                       const list_options<Filter, Schedule>& options = {}) {
+    bool found = false;
+    if constexpr (detail::can_be_listed<Local, IndexA, IndexB>()) {
+        detail::ask_own_entries(on, list, [&](const detail::entries_of_rank& position) {
+            const auto here = detail::options_of_part(options, position);
+            found = detail::any_of<A>(on.local(), detail::pair_up(on.local(), list, here, "abut::any", position));
+        });
+        found = detail::sum_of_ranks(on.ranks(), found ? 1 : 0) > 0;
+    }
+    return found;
+}
+
+/// Number of pairs of shapes that touch, of the entries of all ranks: the same answer on each. Arguments as of `any` of a
+/// list.
+template <arithmetic A = filtered, execution_policy Local, class IndexA, class IndexB, class Filter = keep_all,
+          schedule Schedule = schedule::shared_list>
+[[nodiscard]] std::uint64_t count(const distributed<Local>& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
+                                  const list_options<Filter, Schedule>& options = {}) {
+    std::uint64_t found = 0;
+    if constexpr (detail::can_be_listed<Local, IndexA, IndexB>()) {
+        detail::ask_own_entries(on, list, [&](const detail::entries_of_rank& position) {
+            const auto here = detail::options_of_part(options, position);
+            found = detail::count_of<A>(on.local(), detail::pair_up(on.local(), list, here, "abut::count", position));
+        });
+        found = detail::sum_of_ranks(on.ranks(), found);
+    }
+    return found;
+}
+
+/// All pairs of shapes of this rank's entries that touch: a `result` of `global_tagged_pair`, 16 bytes each, in the local
+/// policy's memory; sorted by entry, then a, then b, unless the options say otherwise. Then the lists of all ranks, one
+/// after another, are the list of one machine. Arguments as of `any` of a list.
+template <arithmetic A = filtered, execution_policy Local, class IndexA, class IndexB, class Filter = keep_all,
+          schedule Schedule = schedule::shared_list>
+[[nodiscard]] auto pairs(const distributed<Local>& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
+                         const list_options<Filter, Schedule>& options = {}) {
+    if constexpr (detail::can_be_listed<Local, IndexA, IndexB>()) {
+        return detail::found_of_own_entries<global_tagged_pair>(
+            on, list, options, "abut::pairs", [&](const auto& pairing) { return detail::pairs_of<A>(on.local(), pairing); });
+    } else {
+        return result<global_tagged_pair, space_of<Local>>();
+    }
+}
+
+/// Calls visitor(global_tagged_pair) -> visit once for every such pair of this rank's entries, as `for_each_pair` of a list
+/// under the local policy does. `visit::stop` ends the visits of this rank; other ranks go on.
+template <arithmetic A = filtered, execution_policy Local, class IndexA, class IndexB, class Visitor,
+          class Filter = keep_all, schedule Schedule = schedule::shared_list>
+void for_each_pair(const distributed<Local>& on, const std::vector<posed_pair<IndexA, IndexB>>& list, const Visitor& visitor,
+                   const list_options<Filter, Schedule>& options = {}) {
+    if constexpr (detail::can_be_listed<Local, IndexA, IndexB>() &&
+                  detail::is_global_visitor<Local, Visitor, global_tagged_pair>()) {
+        detail::ask_own_entries(on, list, [&](const detail::entries_of_rank& position) {
+            const auto here = detail::options_of_part(options, position);
+            const detail::call_of_part<Visitor, detail::entries_of_rank> visits{visitor, position};
+            const auto pairing = detail::pair_up(on.local(), list, here, "abut::for_each_pair", position);
+            detail::visit_pairs_of<A>(on.local(), pairing, visits);
+        });
+    }
+}
+
+/// The contacts of all pairs of shapes of this rank's entries that touch: a `result` of `global_tagged_contact`, 48 bytes
+/// each in float and 72 in double, in the local policy's memory and in the order of `pairs`. Arguments as of `any` of a
+/// list.
+template <arithmetic A = filtered, execution_policy Local, class IndexA, class IndexB, class Filter = keep_all,
+          schedule Schedule = schedule::shared_list>
+[[nodiscard]] auto contacts(const distributed<Local>& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
+                            const list_options<Filter, Schedule>& options = {}) {
+    if constexpr (detail::can_be_listed<Local, IndexA, IndexB>()) {
+        return detail::found_of_own_entries<global_tagged_contact<typename IndexA::scalar_type>>(
+            on, list, options, "abut::contacts",
+            [&](const auto& pairing) { return detail::contacts_of<A>(on.local(), pairing, options.discard_sideways); });
+    } else {
+        return result<global_tagged_contact<float>, space_of<Local>>();
+    }
+}
+
+/// How far apart the two indices of each of this rank's entries are, as `distance` of a list under the local policy: a
+/// `result` of `separation`, one of each entry in their order, in the local policy's memory. Arguments as of `any` of a
+/// list.
+template <execution_policy Local, class IndexA, class IndexB>
+[[nodiscard]] auto distance(const distributed<Local>& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
+                            const distance_options& options = {}) {
+    if constexpr (detail::can_be_measured<Local, IndexA, IndexB>()) {
+        result<separation<typename IndexA::scalar_type>, space_of<Local>> found;
+        detail::ask_own_entries(on, list, [&](const detail::entries_of_rank& position) {
+            found = detail::distances_of(on.local(), list, options, "abut::distance", position);
+        });
+        return found;
+    } else {
+        return result<separation<float>, space_of<Local>>();
+    }
+}
+
+///@}
+
+}  // namespace abut
