@@ -60,12 +60,14 @@ template <arithmetic A = filtered, class S, class U>
     } else if constexpr (!detail::within_as_given<S, U>) {
         return within<A>(t, s, distance);
     } else {
+        const S& stored_s = detail::as_stored(s);
+        const U& stored_t = detail::as_stored(t);
         if (!std::same_as<A, exact> && !__builtin_is_constant_evaluated()) {
-            const verdict v = detail::decide_within<A>(detail::as_stored(s), detail::as_stored(t), distance);
+            const verdict v = detail::decide_within<A>(stored_s, stored_t, distance);
             if (v != verdict::unknown) return v == verdict::yes;
         }
-        const verdict v = detail::decide_within_open<A>(s, t, distance);
-        return v == verdict::unknown ? detail::resolve_within(s, t, distance) : v == verdict::yes;
+        const verdict v = detail::decide_within_open<A>(stored_s, stored_t, distance);
+        return v == verdict::unknown ? detail::resolve_within(stored_s, stored_t, distance) : v == verdict::yes;
     }
 }
 
