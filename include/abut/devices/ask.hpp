@@ -152,8 +152,8 @@ void ask_each_of_parts(const Team& team, const X& x, const Y& y, const char* fun
 }
 
 /// Runs ask(k, a, b, part, ids) on each device, on a thread of its own: once or several times, so that all pairs that may
-/// touch are looked at, each once; no more of them once is_over(k). Where pairs are wanted that do not touch, reach(bounds) is
-/// what comes near enough to a part of a. It is called when devices have searched their own parts, if they do that first.
+/// touch are looked at, each once; no more of them once is_over(k). Where pairs are wanted that do not touch, reach(bounds)
+/// is what comes near enough to a part of a. It is called when devices have searched their own parts, if they do that first.
 template <class Team, class X, class Y, class Ask, class IsOver = never_over, class Reach = as_near_as_boxes>
 void ask_each(const Team& team, const X& x, const Y& y, const char* function, const Ask& ask, const IsOver& is_over = {},
               const Reach& reach = {}) {

@@ -45,9 +45,9 @@ auto distance_on_devices(const Team& team, const X& x, const Y& y, const distanc
 
 }  // namespace detail
 
-/// How far apart two sets are, as `distance` says under one policy, bit for bit: a std::optional<separation<T>>. Arguments are
-/// those of `pairs` on several devices, of shapes that `distance` takes. Where both are divided, devices search their own
-/// parts first. Then shapes of b come to the devices whose a-shapes may be as near to them as what was found.
+/// How far apart two sets are, as `distance` says under one policy, bit for bit: a std::optional<separation<T>>. Arguments
+/// are those of `pairs` on several devices, of shapes that `distance` takes. Where both are divided, devices search their
+/// own parts first. Then shapes of b come to the devices whose a-shapes may be as near to them as what was found.
 /// @ingroup devices
 template <execution::policy_team Team, class X, class Y>
 [[nodiscard]] auto distance(const Team& team, const X& a, const Y& b, const distance_options& options = {}) {
