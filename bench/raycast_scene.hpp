@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Rays at a mesh, the same for each program and peer: `coherent` ones from a camera beside it, a row of pixels after the other,
-// and `scattered` ones from points on a ball around it to points inside that ball. And points in the box around it.
+// Rays at a mesh, the same for each program and peer: `coherent` ones from a camera beside it, a row of pixels after the
+// other, and `scattered` ones from points on a ball around it to points inside that ball. And points in the box around it.
 
 #include <array>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The peer for points: nanoflann's k-d tree in float on one thread, with leaves of 10 points, which its documentation names as
-// a good size. Each point asks for all within the radius, unsorted, and its pairs are kept in one list, whose memory is there
-// before. Squares are rounded: a pair that is at the radius but for rounding may be missed or be too much.
+// The peer for points: nanoflann's k-d tree in float on one thread, with leaves of 10 points, which its documentation names
+// as a good size. Each point asks for all within the radius, unsorted, and its pairs are kept in one list, whose memory is
+// there before. Squares are rounded: a pair that is at the radius but for rounding may be missed or be too much.
 
 #include <cstddef>
 #include <cstdint>

@@ -43,8 +43,8 @@
 #define ABUT_DEVICE_CODE 0
 #endif
 
-// ABUT_ROLLED stands before a loop that nvcc is not to unroll in a kernel: a turn of it is thousands of instructions that are
-// rarely run, and each takes time to compile.
+// ABUT_ROLLED stands before a loop that nvcc is not to unroll in a kernel: a turn of it is thousands of instructions that
+// are rarely run, and each takes time to compile.
 #if ABUT_DEVICE_CODE
 #define ABUT_ROLLED _Pragma("unroll 1")
 #else

@@ -10,8 +10,11 @@
 
 #include <abut/abut.hpp>
 
+#include "collide/contact_cases.hpp"
 #include "collide/distance_cases.hpp"
+#include "collide/nearest_cases.hpp"
 #include "collide/set_cases.hpp"
+#include "collide/within_cases.hpp"
 #include "support/catch.hpp"
 #include "support/poses.hpp"
 #include "support/scenes.hpp"
@@ -71,6 +74,19 @@ void check_distances_of_hulls(const Policy& on, const hulls<T>& a, const Set& b)
     }
 }
 
+/// Within a distance: indexed or not, posed, and among themselves.
+template <class Policy, class T, class Set>
+void check_hulls_within(const Policy& on, const hulls<T>& a, const Set& b, const rigid<T>& pose) {
+    std::size_t hits = 0;
+    for (const double distance : {0.0, 0.25, 1.5}) hits += check_within(on, a, b, distance);
+    CHECK(hits > 100);
+    const auto there_b = copy_to(on, b);
+    const auto tree = make_bvh(on, copy_to(on, a));
+    const auto placed = within_by_definition(posed_view<decltype(a.view())>{a.view(), pose}, b.view(), 0.375);
+    CHECK(to_host(within(on, posed(tree, pose), there_b, 0.375)) == placed);
+    CHECK(to_host(within(on, posed(tree, pose), make_bvh(on, there_b), 0.375)) == placed);
+}
+
 template <class T, class Policy>
 void check_hulls(const Policy& on) {
     constexpr std::uint64_t seed = 71;
@@ -94,6 +110,19 @@ void check_hulls(const Policy& on) {
     CHECK(count(on, copy_to(on, a), plane<T>{{0, 0, 1}, 0}) > 20);
     check_distances_of_hulls(on, a, random_hulls<T>(50, random, false));
     check_distances_of_hulls(on, a, triangle_soup<T>(shape_maker<triangle<T>>(random, true)(50)));
+    const auto few = random_hulls<T>(40, random, true);
+    const rigid<T> here;
+    CHECK(check_contacts(on, few, here, random_hulls<T>(30, random, true), pose) > 50);
+    CHECK(check_contacts(on, few, pose, spheres<T>(shape_maker<sphere<T>>(random, false)(30)), here) > 50);
+    check_hulls_within(on, few, random_hulls<T>(30, random, true), pose);
+    check_hulls_within(on, few, boxes<T>(shape_maker<aabb<T>>(random, true)(30)), pose);
+    CHECK(to_host(self_within(on, make_bvh(on, copy_to(on, few)), 0.5)) ==
+          within_by_definition(few.view(), few.view(), 0.5, true));
+    std::vector<vec3<T>> asking;
+    for (int i = 0; i < 60; ++i) asking.push_back(random.template point<T>(-2, 2));
+    check_nearest(on, few, asking);
+    check_nearest_posed(on, few, asking, pose);
+    CHECK(any_within(on, copy_to(on, few), plane<T>{{0, 0, 1}, 9}, 9));
     const auto none = hulls<T>();
     check_hulls_against(on, none, random_hulls<T>(3, random, false), pose);
 }

@@ -20,9 +20,9 @@ namespace {
 
 using inside_rational = boost::multiprecision::cpp_rational;
 
-/// Where p is in a closed surface, in rational numbers and by tetrahedra: of those from one point, `apex`, to each face it is
-/// in an odd number. No way is followed and nothing is seen along an axis. That p is on no side of theirs that ends in `apex`
-/// is checked.
+/// Where p is in a closed surface, in rational numbers and by tetrahedra: of those from one point, `apex`, to each face it
+/// is in an odd number. No way is followed and nothing is seen along an axis. That p is on no side of theirs that ends in
+/// `apex` is checked.
 template <class T>
 containment place_by_tetrahedra(const std::vector<vec3<T>>& vertices, const std::vector<face>& faces, const vec3<T>& p,
                           const std::array<inside_rational, 3>& apex) {

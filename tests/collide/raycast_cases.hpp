@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What `raycast` promises on every policy: of each ray or segment the triangle that it meets first, as times are computed for
-// one pair, and of equal times the least id; the same bits whatever the index, its layout and the pose. And `raycast_all` and
-// `raycast_any` of all of them. The truth is a plain loop over all triangles; that one pair is right is tests/narrow's matter. And that nothing slips through a closed mesh.
+// What `raycast` promises on every policy: of each ray or segment the triangle that it meets first, as times are computed
+// for one pair, and of equal times the least id; the same bits whatever the index, its layout and the pose. And
+// `raycast_all` and `raycast_any` of all of them. The truth is a plain loop over all triangles; that one pair is right is
+// tests/narrow's matter. And that nothing slips through a closed mesh.
 
 #include <algorithm>
 #include <cmath>
@@ -179,7 +180,8 @@ void check_raycast(const Policy& on) {
     }
 }
 
-/// A closed mesh, from within to its corners and to the middles of its sides, which need not be representable, and along axes.
+/// A closed mesh, from within to its corners and to the middles of its sides, which need not be representable, and along
+/// axes.
 template <class T, class Policy>
 void check_watertight(const Policy& on) {
     const auto data = ball_surface<T>(3, 1);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // long to compile
 //
-// A file of its own, since it is left out where FCL or tinyobjloader is not there. Eigen, which FCL includes, marks functions
-// for devices in a way that nvcc warns of, unless it is told not to.
-// nvcc: -DEIGEN_NO_CUDA
+// A file of its own, since it is left out where FCL or tinyobjloader is not there. Eigen, which FCL includes, marks
+// functions for devices in a way that nvcc warns of, unless it is told not to. nvcc: -DEIGEN_NO_CUDA
 #include <abut/cuda.hpp>
 
 #include "collide/fcl_mesh_cases.hpp"

@@ -5,7 +5,6 @@
 
 #include "../../docs/examples/cylinder.hpp"
 #include "collide/advise_cases.hpp"
-#include "collide/hull_cases.hpp"
 #include "collide/nearest_cases.hpp"
 #include "collide/set_cases.hpp"
 #include "shape/feature_cases.hpp"
@@ -41,8 +40,6 @@ TEST_CASE("queries: sets of other shapes, cuda") {
     test::check_pair_of_shapes<vec3<float>, triangle<float>>(abut::cuda{}, 62);
     test::check_pair_of_shapes<capsule<double>, triangle<double>>(abut::cuda{}, 63);
 }
-
-TEST_CASE("hulls: queries, cuda") { abut::test::check_hulls<float>(abut::cuda{}); }
 
 TEST_CASE("queries: a caller's own shape, cuda") {
     using namespace abut;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What points and rays ask of several devices, how far sets are apart there, and which shapes come within a distance: answers
-// are those of one policy, bit for bit, whatever lies where. Many shapes come twice, so that answers are told apart by ids
-// alone, which lie on different devices.
+// What points and rays ask of several devices, how far sets are apart there, and which shapes come within a distance:
+// answers are those of one policy, bit for bit, whatever lies where. Many shapes come twice, so that answers are told apart
+// by ids alone, which lie on different devices.
 
 #include <algorithm>
 #include <cstddef>

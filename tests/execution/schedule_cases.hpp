@@ -78,8 +78,8 @@ void check_schedule(const Policy& on) {
     }
 }
 
-/// On a busy machine the calling thread works alone for as long as it has lost by waiting (execution/parallel.hpp). A test of
-/// what threads do together lets it forget that.
+/// On a busy machine the calling thread works alone for as long as it has lost by waiting (execution/parallel.hpp). A test
+/// of what threads do together lets it forget that.
 inline void forget_lost_time() { execution::detail::lost_time_of_thread() = {}; }
 
 /// Candidates that all come of one item: blocks, or threads, that have nothing to begin with have to get something. Threads

@@ -267,7 +267,8 @@ TEST_CASE("ply: triangle strips, with restarts") {
     const std::string strips = "element tristrips 2\nproperty list int int vertex_indices\n";
     const std::string rows = "9 0 1 2 3 -1 3 2 1 -1\n6 0 1 1 2 3 4\n";
     const auto read = parse(ascii_head + vertices(5) + strips + end + square + "2 2 2\n" + rows);
-    // The second strip goes through vertex 1 twice: its first two triangles have no three corners, and they count for the turns of the others.
+    // The second strip goes through vertex 1 twice: its first two triangles have no three corners, and they count for the
+    // turns of the others.
     CHECK(read.faces == faces{{0, 1, 2}, {2, 1, 3}, {3, 2, 1}, {1, 2, 3}, {3, 2, 4}});
     bytes binary(binary_head(false) + vertices(3) + "element tristrips 1\nproperty list uchar int vertex_indices\n" + end,
                  false);

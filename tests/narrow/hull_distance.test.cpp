@@ -30,55 +30,58 @@ static_assert(slab_and_spike.distance == 4 && slab_and_spike.point_a == vec3<dou
 static_assert(distance(sphere<double>{{-3, -4, 0.5}, 2}, hull<double>(slab, 8)).distance == 3);
 static_assert(distance(hull<double>(slab, 8), vec3<double>{4, 4, 0.5}).distance == 0);
 
-wide square_of_gap(const std::vector<wide_point>& w) {
-    wide least = -1;
-    const auto offer = [&](const wide_point& q) {
-        const wide square = dot(q, q);
-        if (least < 0 || square < least) least = square;
-    };
-    for (std::size_t i = 0; i < w.size(); ++i) {
-        offer(w[i]);
-        for (std::size_t j = i + 1; j < w.size(); ++j) {
-            const wide_point e = w[j] - w[i];
-            const wide ee = dot(e, e), s = -dot(e, w[i]);
-            if (s > 0 && s < ee) offer(w[i] + (s / ee) * e);
-            for (std::size_t k = j + 1; k < w.size(); ++k) {
-                const wide_point f = w[k] - w[i];
-                const wide ff = dot(f, f), ef = dot(e, f), t = -dot(f, w[i]), d = ee * ff - ef * ef;
-                if (!(d > 0)) continue;
-                const wide u = (s * ff - t * ef) / d, v = (t * ee - s * ef) / d;
-                if (u > 0 && v > 0 && u + v < 1) offer(w[i] + u * e + v * f);
-            }
-        }
-    }
-    return least;
-}
-
 template <scalar T>
-std::vector<wide_point> differences(const test::point_list<T>& a, const test::point_list<T>& b) {
-    std::vector<wide_point> w;
-    for (const vec3<T>& p : a) {
-        for (const vec3<T>& q : b) w.push_back(test::widest(q) - test::widest(p));
-    }
-    return w;
+test::point_list<T> points_of_hull(const hull<T>& h) {
+    return {h.points, h.points + h.count};
 }
-
-struct hull_distance_tally {
-    std::uint64_t pairs = 0, touching = 0;
-    double distance = 0, point = 0;  ///< the worst ones, less the last rounding to T, in units of 2^-53 D (docs/numerics.md)
-};
-
 template <scalar T>
 wide hull_rounding_of(const vec3<T>& p) {
     const wide_point q = test::widest(p);
     return wide(unit_roundoff<T>) * (abs(q.x) + abs(q.y) + abs(q.z)) + 4 * wide(test::construction::least_denormal<T>);
 }
 
+/// The nearest point of a hull to points on the other one, which may be inside. Errors in units of 2^-53 D.
+template <scalar T>
+const char* wrong_with_nearest(const hull<T>& h, const test::point_list<T>& points, double& worst) {
+    for (const vec3<T>& p : points) {
+        const auto unit = detail::unit_for(bounds(h), p);
+        const vec3<double> way = detail::way_to(h, p, unit), to_box = detail::way_to(bounds(h), p, unit);
+        const double square = detail::plain_dot(way, way);
+        if (detail::plain_dot(to_box, to_box) > square) return "its box is farther than the hull";
+        const vec3<T> q = nearest_point(h, p);
+        if (!contains(bounds(h), bounds(q))) return "the nearest point is outside of the box";
+        if (intersects<exact>(h, p)) {
+            if (square != 0 || q != p) return "a point inside is not its own nearest one";
+            continue;
+        }
+        const auto w = test::differences<T>({p}, points_of_hull(h));
+        wide farthest = 0;
+        bool is_corner = false;
+        for (const wide_point& to : w) {
+            farthest = std::max(farthest, test::length_of(to));
+            is_corner = is_corner || dot(to, to) == test::square_of_gap(w);
+        }
+        const wide truth = sqrt(test::square_of_gap(w)), steps = farthest * wide(0x1p-53);
+        const wide found = test::length_of({wide(way.x), wide(way.y), wide(way.z)}) * wide(unit.length(1));
+        worst = std::max(worst, static_cast<double>(abs(found - truth) / steps));
+        const wide last = hull_rounding_of(q), off = test::distance_from(test::widest(q), h) - last;
+        worst = std::max(worst, static_cast<double>(off / steps));
+        if (is_corner && test::square_of_gap(test::differences<T>({q}, points_of_hull(h))) != 0) return "it is no corner";
+    }
+    return nullptr;
+}
+
+struct hull_distance_tally {
+    std::uint64_t pairs = 0, touching = 0;
+    double distance = 0, point = 0,
+           nearest = 0;  ///< the worst ones, less the last rounding to T, in units of 2^-53 D (docs/numerics.md)
+};
+
 template <scalar T>
 const char* wrong_with_hulls(const separation<T>& found, const test::point_list<T>& a, const test::point_list<T>& b,
                              T radius_a, bool touch, hull_distance_tally& sum) {
     wide farthest = 0;
-    for (const wide_point& way : differences(a, b)) farthest = std::max(farthest, test::length_of(way));
+    for (const wide_point& way : test::differences(a, b)) farthest = std::max(farthest, test::length_of(way));
     const wide unit = (farthest + wide(radius_a)) * wide(0x1p-53) + wide(test::construction::least_denormal<T>);
     ++sum.pairs;
     sum.touching += touch;
@@ -87,14 +90,14 @@ const char* wrong_with_hulls(const separation<T>& found, const test::point_list<
     const auto off = [&](const vec3<T>& p, const test::point_list<T>& points, T radius) {
         // The differences of a hull that p is in have no nearest feature; then a corner of them is not behind.
         if (intersects(hull<T>(points.data(), points.size()), p)) return wide(0);
-        const wide d = sqrt(square_of_gap(differences<T>({p}, points))) - wide(radius);
+        const wide d = sqrt(test::square_of_gap(test::differences<T>({p}, points))) - wide(radius);
         return d > 0 ? d : wide(0);
     };
     const wide in_a = hull_rounding_of(found.point_a), in_b = hull_rounding_of(found.point_b);
     const wide off_points = std::max<wide>(off(found.point_a, a, radius_a) - in_a, off(found.point_b, b, T(0)) - in_b);
     sum.point = std::max(sum.point, static_cast<double>(off_points / unit));
     if (touch) return found.point_a == found.point_b ? nullptr : "what touches has two points";
-    const wide truth = sqrt(square_of_gap(differences(a, b))) - wide(radius_a);
+    const wide truth = sqrt(test::square_of_gap(test::differences(a, b))) - wide(radius_a);
     const wide last = wide(unit_roundoff<T>) * wide(found.distance);
     const wide error = abs(wide(found.distance) - truth) - last,
                way = test::length_of(test::widest(found.point_b) - test::widest(found.point_a));
@@ -124,6 +127,7 @@ TEMPLATE_TEST_CASE("distance of hulls: as by definition, in every family", "", f
             const separation<T> found = distance(a, b), other = distance(b, a);
             const char* wrong = wrong_with_hulls(found, both.a, both.b, T(0), intersects<exact>(a, b), sum);
             if (wrong == nullptr) wrong = wrong_with_hulls(other, both.b, both.a, T(0), intersects<exact>(a, b), sum);
+            if (wrong == nullptr) wrong = wrong_with_nearest(a, both.b, sum.nearest);
             // Shapes of one and two points, with a radius.
             const T radius = static_cast<T>(0.125);
             const sphere<T> ball{both.a[0], radius};
@@ -138,12 +142,13 @@ TEMPLATE_TEST_CASE("distance of hulls: as by definition, in every family", "", f
             }
             if (wrong != nullptr) FAIL_CHECK(wrong);
         }
-        std::printf("  %s: %llu pairs, %llu touch, distance %.2f, points %.2f\n", test::name_of(f),
+        std::printf("  %s: %llu pairs, %llu touch, distance %.2f, points %.2f, nearest %.2f\n", test::name_of(f),
                     static_cast<unsigned long long>(sum.pairs), static_cast<unsigned long long>(sum.touching), sum.distance,
-                    sum.point);
+                    sum.point, sum.nearest);
         INFO(test::name_of(f));
         CHECK(sum.touching * 20 > sum.pairs);
         CHECK(sum.touching * 20 < sum.pairs * 19);
+        CHECK(sum.nearest < 4);
         CHECK(sum.distance < 16);
         CHECK(sum.point < 16);
     }

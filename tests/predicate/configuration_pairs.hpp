@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The pairs of triangles that the configurations give: each as it is written down, and, where both triangles have a part of the
-// line in which the planes cross, also with either or both reversed along that line. The tests ask about all of them, and
-// docs/viewer shows them.
+// The pairs of triangles that the configurations give: each as it is written down, and, where both triangles have a part of
+// the line in which the planes cross, also with either or both reversed along that line. The tests ask about all of them,
+// and docs/viewer shows them.
 
 #include <stdexcept>
 #include <string>

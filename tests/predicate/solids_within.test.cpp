@@ -12,8 +12,8 @@
 #include "support/solid_pairs.hpp"
 #include "support/stages.hpp"
 
-// Boxes and planes within a distance of other shapes: every stage against the oracle, for distances that are the least double
-// that is enough, a step below and above, and far away.
+// Boxes and planes within a distance of other shapes: every stage against the oracle, for distances that are the least
+// double that is enough, a step below and above, and far away.
 
 namespace {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What two triangles have in common, in numbers of 300 bits: half-spaces that one of them is made of cut it out of the other.
-// Signs are exact where coordinates span less than a hundred bits.
+// What two triangles have in common, in numbers of 300 bits: half-spaces that one of them is made of cut it out of the
+// other. Signs are exact where coordinates span less than a hundred bits.
 
 #include <algorithm>
 #include <vector>

@@ -17,6 +17,7 @@
 #include <abut/narrow/contact.hpp>
 #include <abut/predicate/intersects.hpp>
 #include <abut/predicate/zero_area.hpp>
+#include <abut/shape/hull.hpp>
 
 #include "catch.hpp"
 
@@ -77,6 +78,13 @@ wide_hull hull_of(const aabb<T>& box) {
     return h;
 }
 
+template <scalar T>
+wide_hull hull_of(const hull<T>& h) {
+    wide_hull r;
+    for (std::size_t i = 0; i < h.count; ++i) r.corners.push_back(widest(h[i]));
+    return r;
+}
+
 /// How far a has to go along n, of any length, to be apart from b.
 inline wide overlap_along(const wide_hull& a, const wide_hull& b, const wide_point& n) {
     return (b.upper(n) - a.lower(n)) / length_of(n);
@@ -116,6 +124,50 @@ wide distance_from(const wide_point& x, const aabb<T>& box) {
     return length_of({beyond(x.x, box.lower.x, box.upper.x), beyond(x.y, box.lower.y, box.upper.y),
                       beyond(x.z, box.lower.z, box.upper.z)});
 }
+/// Of the origin from the hull of some points that it is not in.
+inline wide square_of_gap(const std::vector<wide_point>& w) {
+    wide least = -1;
+    const auto offer = [&](const wide_point& q) {
+        const wide square = dot(q, q);
+        if (least < 0 || square < least) least = square;
+    };
+    for (std::size_t i = 0; i < w.size(); ++i) {
+        offer(w[i]);
+        for (std::size_t j = i + 1; j < w.size(); ++j) {
+            const wide_point e = w[j] - w[i];
+            const wide ee = dot(e, e), s = -dot(e, w[i]);
+            if (s > 0 && s < ee) offer(w[i] + (s / ee) * e);
+            for (std::size_t k = j + 1; k < w.size(); ++k) {
+                const wide_point f = w[k] - w[i];
+                const wide ff = dot(f, f), ef = dot(e, f), t = -dot(f, w[i]), d = ee * ff - ef * ef;
+                if (!(d > 0)) continue;
+                const wide u = (s * ff - t * ef) / d, v = (t * ee - s * ef) / d;
+                if (u > 0 && v > 0 && u + v < 1) offer(w[i] + u * e + v * f);
+            }
+        }
+    }
+    return least;
+}
+
+template <scalar T>
+std::vector<wide_point> differences(const std::vector<vec3<T>>& a, const std::vector<vec3<T>>& b) {
+    std::vector<wide_point> w;
+    for (const vec3<T>& p : a) {
+        for (const vec3<T>& q : b) w.push_back(widest(q) - widest(p));
+    }
+    return w;
+}
+
+/// x has coordinates of type T.
+template <scalar T>
+wide distance_from(const wide_point& x, const hull<T>& h) {
+    const vec3<T> p{static_cast<T>(x.x), static_cast<T>(x.y), static_cast<T>(x.z)};
+    if (intersects<exact>(h, p)) return 0;
+    std::vector<wide_point> w;
+    for (const wide_point& q : hull_of(h).corners) w.push_back(q - x);
+    return sqrt(square_of_gap(w));
+}
+
 template <class S>
 wide distance_from(const wide_point& x, const S& s) {
     return distance_from(x, hull_of(s));
@@ -148,6 +200,15 @@ capsule<T> moved_by(const capsule<T>& s, const vec3<T>& n, T by) {
 template <scalar T>
 aabb<T> moved_by(const aabb<T>& s, const vec3<T>& n, T by) {
     return {moved_by(s.lower, n, by), moved_by(s.upper, n, by)};
+}
+
+/// Of points that live until the next call.
+template <scalar T>
+hull<T> moved_by(const hull<T>& h, const vec3<T>& n, T by) {
+    static thread_local std::vector<vec3<T>> points;
+    points.clear();
+    for (std::size_t i = 0; i < h.count; ++i) points.push_back(moved_by(h[i], n, by));
+    return hull<T>(points.data(), points.size());
 }
 
 template <class S>
@@ -248,6 +309,24 @@ private:
     wide_hull a_, b_;
     wide least_ = -1;
 };
+
+/// Along face normals of two hulls whose cores touch, and across an edge of each: all planes through three corners and all
+/// lines through two, since other directions are no wrong ones.
+inline void offer_all_features(least_of& least, const wide_hull& a, const wide_hull& b) {
+    std::vector<wide_point> edges[2];
+    for (const wide_hull* h : {&a, &b}) {
+        const auto& p = h->corners;
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            for (std::size_t j = i + 1; j < p.size(); ++j) {
+                edges[h == &b].push_back(p[j] - p[i]);
+                for (std::size_t k = j + 1; k < p.size(); ++k) least.offer(cross(p[j] - p[i], p[k] - p[i]));
+            }
+        }
+    }
+    for (const wide_point& e : edges[0]) {
+        for (const wide_point& f : edges[1]) least.offer(cross(e, f));
+    }
+}
 
 /// Along face normals of either triangle.
 template <scalar T>

@@ -30,8 +30,8 @@ struct stage_tally {
         return *this;
     }
 
-    /// One more pair: what `fast` says, and each stage, whose integers take `width` digits. Returns whether a stage but `fast`
-    /// is wrong.
+    /// One more pair: what `fast` says, and each stage, whose integers take `width` digits. Returns whether a stage but
+    /// `fast` is wrong.
     bool count(bool truth, bool quick, verdict by_filter, verdict by_late, verdict by_limbs, int width) {
         ++pairs;
         hits += truth;
@@ -129,8 +129,8 @@ private:
 };
 
 /// Every stage against the oracle in each of `count` families, float and double. `name(f)` is a family's name, and
-/// `examine(T{}, f, index, tally)` tries every stage on one pair of it. Where the oracle takes long, one in `sparsely` of the
-/// samples will do.
+/// `examine(T{}, f, index, tally)` tries every stage on one pair of it. Where the oracle takes long, one in `sparsely` of
+/// the samples will do.
 template <class Family, class Name, class Examine>
 void check_every_family(const char* title, const char* file_name, bool late, int count, const Name& name,
                         const Examine& examine, std::uint64_t sparsely = 1) {

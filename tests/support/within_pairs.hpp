@@ -15,6 +15,7 @@
 #include <vector>
 
 #include <abut/shape/core.hpp>
+#include <abut/shape/hull.hpp>
 #include <abut/shape/primitive.hpp>
 
 #include "draws.hpp"
@@ -38,6 +39,13 @@ std::vector<vec3<scalar_type_of<S>>> corners_of(const S& s) {
     } else {
         return {std::begin(core.at), std::end(core.at)};
     }
+}
+
+template <scalar T>
+std::vector<vec3<T>> corners_of(const hull<T>& h) {
+    std::vector<vec3<T>> corners;
+    for (std::size_t i = 0; i < h.count; ++i) corners.push_back(h[i]);
+    return corners;
 }
 
 /// The distance of two shapes, less their radii, in a unit of 2^-shift.

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Polynomials with integer coefficients, their roots in [0, 1], and the signs of other polynomials at such a root, all of them
-// exact. For the few questions about moving features that floating point leaves open; on hosts alone. Degrees are small: all
-// that grows is the length of the coefficients.
+// Polynomials with integer coefficients, their roots in [0, 1], and the signs of other polynomials at such a root, all of
+// them exact. For the few questions about moving features that floating point leaves open; on hosts alone. Degrees are
+// small: all that grows is the length of the coefficients.
 //
-// Roots are isolated by bisection with Descartes' rule of signs (G. Collins, A. Akritas, Polynomial real root isolation using
-// Descartes' rule of signs, 1976). A root is known by its cell: the interval [j, j + 1) / 2^48 in which it is, or a finer one.
+// Roots are isolated by bisection with Descartes' rule of signs (G. Collins, A. Akritas, Polynomial real root isolation
+// using Descartes' rule of signs, 1976). A root is known by its cell: the interval [j, j + 1) / 2^48 in which it is, or a
+// finer one.
 
 #include <algorithm>
 #include <cstddef>

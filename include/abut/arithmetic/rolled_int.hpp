@@ -107,8 +107,8 @@ struct rolled_int {
     }
 };
 
-// Numbers as results: a product has the limbs of both factors, a sum those of its terms, which have one length and leave room
-// for it. Whoever computes polynomials of them leaves two bits of each number's first limb.
+// Numbers as results: a product has the limbs of both factors, a sum those of its terms, which have one length and leave
+// room for it. Whoever computes polynomials of them leaves two bits of each number's first limb.
 
 template <int A, int B>
 ABUT_HD constexpr rolled_int<A + B> operator*(const rolled_int<A>& a, const rolled_int<B>& b) {
@@ -209,8 +209,8 @@ ABUT_NOINLINE ABUT_HD constexpr double divide_magnitudes(std::uint64_t* a, std::
     if (bits_a == 0) return 0;
     if (bits_a < bits_b) move_up(a, n, bits_b - bits_a);
     if (bits_b < bits_a) move_up(b, n, bits_a - bits_b);
-    // The quotient, by its digits: the first stands for 2^weight, and one of the first two is 1. As many follow as a double of
-    // this magnitude has.
+    // The quotient, by its digits: the first stands for 2^weight, and one of the first two is 1. As many follow as a double
+    // of this magnitude has.
     int weight = bits_a - bits_b, last = lowest;
     if (weight < lowest) return weight == lowest - 1 && limbs_less(b, a, n) ? __builtin_bit_cast(double, std::uint64_t{1}) : 0;
     std::uint64_t quotient = 0;

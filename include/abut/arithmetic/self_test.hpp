@@ -3,8 +3,8 @@
 
 // What macros do not show, looked for at run time: flush-to-zero and denormals-are-zero modes (some libraries switch them on
 // when they are loaded; nvcc's -use_fast_math compiles them in), a rounding mode other than to nearest, and arithmetic that
-// breaks error-free transforms. Decisions (`intersects` with `filtered` or `exact`) and culling are right under all of these;
-// what depends on them are the transforms of error_free.hpp.
+// breaks error-free transforms. Decisions (`intersects` with `filtered` or `exact`) and culling are right under all of
+// these; what depends on them are the transforms of error_free.hpp.
 
 #include <cmath>
 

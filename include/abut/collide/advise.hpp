@@ -131,8 +131,8 @@ struct join_facts {
     }
 };
 
-/// The degree of what `fast` computes to decide a pair: how many differences of coordinates one of its products has. 0 for pairs
-/// of which rounds_nothing has no proof.
+/// The degree of what `fast` computes to decide a pair: how many differences of coordinates one of its products has. 0 for
+/// pairs of which rounds_nothing has no proof.
 template <class S, class U>
 inline constexpr int proven_degree = 0;
 template <scalar T>

@@ -420,17 +420,17 @@ consteval bool can_be_apart() {
 /// equally far apart, and of those that touch, it has the one with the least id in `a`, then in `b`. It is empty where a set
 /// is, and where nothing is nearer than `options.below`.
 ///
-/// Arguments are those of `any`, of shapes of which distance(s, t) takes pairs. Two trees are walked together, the nearest pairs
-/// of nodes first. Without a tree on either side each shape of one looks in the other.
+/// Arguments are those of `any`, of shapes of which distance(s, t) takes pairs. Two trees are walked together, the nearest
+/// pairs of nodes first. Without a tree on either side each shape of one looks in the other.
 ///
 /// The same bits on every policy, for every index and any number of threads. Distances are computed in double; those that
 /// differ by less than docs/numerics.md says may be taken for each other. Points and distance are those of `distance` of the
 /// two shapes.
 ///
 /// @par Memory
-/// As in @ref queries. Nothing is stored for each pair. Under `cuda` a walk of two trees keeps a stack of 289 pairs of nodes,
-/// 3.5 KB in float and 4.6 KB in double, in the device's local memory, which CUDA sets aside once for all threads that the
-/// device holds at a time.
+/// As in @ref queries. Nothing is stored for each pair. Under `cuda` a walk of two trees keeps a stack of 289 pairs of
+/// nodes, 3.5 KB in float and 4.6 KB in double, in the device's local memory, which CUDA sets aside once for all threads
+/// that the device holds at a time.
 ///
 /// @par Errors
 /// As in @ref queries, and `error` where `below` is NaN.

@@ -3,8 +3,8 @@
 
 // inside: which of many points are inside of a closed mesh; signed_distance: how far they are from its surface.
 //
-// By definition a point that is on no triangle is inside if the way up from it, moved aside by as little as need be, crosses an
-// odd number of triangles (narrow/crossing.hpp). The walk is that of a ray.
+// By definition a point that is on no triangle is inside if the way up from it, moved aside by as little as need be, crosses
+// an odd number of triangles (narrow/crossing.hpp). The walk is that of a ray.
 
 #include <concepts>
 #include <cstddef>
@@ -156,25 +156,26 @@ struct write_signed {
 
 }  // namespace detail
 
-/// For each of `points` whether it is inside of a closed mesh: a `result` of `containment`, in the order of the points. A point
-/// on a triangle, on an edge or on a corner is `on_surface`. Any other is inside if a way from it to infinity crosses the surface
-/// an odd number of times, whichever way the faces are turned. So a hollow in a solid is outside, and so is what two bodies in
-/// one mesh have in common.
+/// For each of `points` whether it is inside of a closed mesh: a `result` of `containment`, in the order of the points. A
+/// point on a triangle, on an edge or on a corner is `on_surface`. Any other is inside if a way from it to infinity crosses
+/// the surface an odd number of times, whichever way the faces are turned. So a hollow in a solid is outside, and so is what
+/// two bodies in one mesh have in common.
 ///
-/// Decided exactly, for every finite input, with `filtered` as with `exact`; the same on every policy. Ways that meet edges and
-/// corners fool nothing. Under a pose it is decided of the placed coordinates.
+/// Decided exactly, for every finite input, with `filtered` as with `exact`; the same on every policy. Ways that meet edges
+/// and corners fool nothing. Under a pose it is decided of the placed coordinates.
 ///
 /// `mesh` is a mesh, a mesh_view, or a tree of any layout over one, posed or not. `points` are as of `nearest`. Closed means
-/// that every edge is one of an even number of faces, by the numbers of its vertices. Vertices that lie in one place and have
-/// two numbers make a mesh that is not closed; `welded` joins them. What is closed is found out in each call; it takes a sort
-/// of all sides of the faces. `{.known_closed = true}` leaves it out.
+/// that every edge is one of an even number of faces, by the numbers of its vertices. Vertices that lie in one place and
+/// have two numbers make a mesh that is not closed; `welded` joins them. What is closed is found out in each call; it takes
+/// a sort of all sides of the faces. `{.known_closed = true}` leaves it out.
 ///
 /// @par Memory
-/// As in @ref queries. The result lies in the policy's memory, 1 byte a point. Scratch takes 72 bytes a face, while it is found
-/// out whether the mesh is closed.
+/// As in @ref queries. The result lies in the policy's memory, 1 byte a point. Scratch takes 72 bytes a face, while it is
+/// found out whether the mesh is closed.
 ///
 /// @par Errors
-/// - `invalid_geometry`: the mesh is not closed (the message has a face and how many faces one of its edges has); a view or a
+/// - `invalid_geometry`: the mesh is not closed (the message has a face and how many faces one of its edges has); a view or
+///   a
 ///   row of points holds no geometry, or a pose is no rotation.
 /// - `error`: a set or an index lies on another device.
 /// - `capacity_error`: a view or a row has 2^31 elements or more, or there are more than 1,431,655,765 faces.
@@ -196,14 +197,14 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Point
     }
 }
 
-/// For each of `points` what `nearest` says of it, with a distance that is below 0 where the point is `inside`, and 0 where it is
-/// on the surface.
+/// For each of `points` what `nearest` says of it, with a distance that is below 0 where the point is `inside`, and 0 where
+/// it is on the surface.
 ///
 /// Arguments and options are those of `inside`. The sign is exact; distances are those of `nearest`.
 ///
 /// @par Memory
-/// As in @ref queries. The result lies in the policy's memory, 20 bytes a point in float and 40 in double; scratch takes as much
-/// again, and what `inside` takes.
+/// As in @ref queries. The result lies in the policy's memory, 20 bytes a point in float and 40 in double; scratch takes as
+/// much again, and what `inside` takes.
 ///
 /// @par Errors
 /// Those of `inside`.

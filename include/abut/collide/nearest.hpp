@@ -4,8 +4,8 @@
 // nearest: for each of many points the nearest shape of a set, or the nearest few, the point on it, and the distance.
 //
 // By definition the answer is the shape with the least squared distance, as narrow/nearest_point.hpp computes it, and of
-// equal ones the one with the least id; the nearest few come in that order. Everything else here moves time and no answer: which index there is, in what order
-// the points are taken.
+// equal ones the one with the least id; the nearest few come in that order. Everything else here moves time and no answer:
+// which index there is, in what order the points are taken.
 
 #include <concepts>
 #include <cstddef>
@@ -227,8 +227,8 @@ void walk_alone_from_points(const Policy& on, const Operand& x, const Points& po
     for_each_ordered(on, points.size(), walk_type{walk, frame, there, points, judge, order}, best);
 }
 
-/// Finds the nearest shape of each point. finish(order, found) takes what was found: found[i] is the least squared distance of
-/// point order[i], or i where `order` is null; with no shapes or no points `found` is null.
+/// Finds the nearest shape of each point. finish(order, found) takes what was found: found[i] is the least squared distance
+/// of point order[i], or i where `order` is null; with no shapes or no points `found` is null.
 template <class Policy, class Operand, class Queries, scalar T, class Finish>
 auto look_for_nearest(const Policy& on, const Operand& x, const Queries& queries, const length_unit<T>& unit,
                   const Finish& finish) {
@@ -352,14 +352,14 @@ template <execution_policy Policy, class X, class Points>
     }
 }
 
-/// For each of `points` the `count` nearest shapes of `index`: a `result` of `neighbor`, `count` for each point, in the order
-/// of the points; those of point i stand at count * i and after. The nearest comes first; of equal distances the least id
-/// does. Where there are fewer shapes the last are as `nearest` gives where there are none: `no_id`, the point asked about, and
-/// infinity. What `index` and `points` may be, how accurate distances are, and that the answers are the same bits
+/// For each of `points` the `count` nearest shapes of `index`: a `result` of `neighbor`, `count` for each point, in the
+/// order of the points; those of point i stand at count * i and after. The nearest comes first; of equal distances the least
+/// id does. Where there are fewer shapes the last are as `nearest` gives where there are none: `no_id`, the point asked
+/// about, and infinity. What `index` and `points` may be, how accurate distances are, and that the answers are the same bits
 /// everywhere: as of the nearest one. With a cloud of points as the index these are the neighbours of points among points.
 ///
-/// It takes time in proportion to `count` for each shape that comes among the nearest so far: it is meant for counts up to some
-/// hundred. All within a distance: `within`.
+/// It takes time in proportion to `count` for each shape that comes among the nearest so far: it is meant for counts up to
+/// some hundred. All within a distance: `within`.
 ///
 /// @par Memory
 /// As in @ref queries; a vector or a span of points lies in host memory, and is copied under `cuda`. The result lies in the

@@ -78,8 +78,8 @@ auto box_overlap(const A& a, const B& b) {
     }
 }
 
-/// The same for boxes that may be so far apart. In units of a's frame lengths are off by less than 2^-7 (relative_pose.hpp): of
-/// A^T, which stretches the way between two shapes, and of the axes that boxes are compared along.
+/// The same for boxes that may be so far apart. In units of a's frame lengths are off by less than 2^-7 (relative_pose.hpp):
+/// of A^T, which stretches the way between two shapes, and of the axes that boxes are compared along.
 template <class A, class B, class Nearness>
 auto box_overlap(const A& a, const B& b, const Nearness& near) {
     if constexpr (std::same_as<Nearness, near_enough_to_touch>) {

@@ -105,8 +105,8 @@ struct query_options {
     argument resident = argument::automatic;
     /// Of traversal::breadth_first, and on a device of both_at_once by all schedules but the shared list: the depth at which
     /// it begins, 0 to most_start_depth. All nodes there of one tree are compared with all of the other one, whatever lies
-    /// above them; a leaf above that depth counts as one of them. 0 and 1 are the roots' children. A tree that is too small to
-    /// have so many levels if it were balanced begins at the last of those, and a node of wide_layout is two levels. On a
+    /// above them; a leaf above that depth counts as one of them. 0 and 1 are the roots' children. A tree that is too small
+    /// to have so many levels if it were balanced begins at the last of those, and a node of wide_layout is two levels. On a
     /// device a deep start saves steps that cannot fill it; on a host it saves nothing.
     int start_depth = 6;
     /// Of walks of two trees but breadth_first: the schedule's own options, and where it reports to.

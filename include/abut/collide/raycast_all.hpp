@@ -3,8 +3,8 @@
 
 // raycast_all: for each of many rays all triangles that it meets, in the order in which it meets them.
 //
-// The rays walk once to count what each meets, and those that meet more than a few walk again to write it where it belongs. So
-// memory is what the answer takes, and room for those few. Each ray then brings its own hits into order.
+// The rays walk once to count what each meets, and those that meet more than a few walk again to write it where it belongs.
+// So memory is what the answer takes, and room for those few. Each ray then brings its own hits into order.
 
 #include <cstddef>
 #include <cstdint>
@@ -160,15 +160,15 @@ auto raycast_all_of(const Policy& on, const X& index, const Lines& rays, const c
 
 }  // namespace detail
 
-/// All triangles of `index` that each of `rays` meets: a `result` of `hit_of_ray`, sorted by the ray's number, then by t, then
-/// by id. The first hit of a ray is that of `raycast`. A ray that meets nothing has none.
+/// All triangles of `index` that each of `rays` meets: a `result` of `hit_of_ray`, sorted by the ray's number, then by t,
+/// then by id. The first hit of a ray is that of `raycast`. A ray that meets nothing has none.
 ///
 /// Arguments, and what is decided exactly, are those of `raycast`. Order is that of the times as `raycast` compares them, in
 /// double, also where t is a float. A ray through an edge meets both faces at it.
 ///
 /// @par Memory
-/// As in @ref queries. The result lies in the policy's memory, 12 bytes a hit in float and 16 in double. Scratch takes 72 bytes a
-/// ray and 16 a hit. To take less, ask for some rays at a time: a view of a part of them will do.
+/// As in @ref queries. The result lies in the policy's memory, 12 bytes a hit in float and 16 in double. Scratch takes 72
+/// bytes a ray and 16 a hit. To take less, ask for some rays at a time: a view of a part of them will do.
 ///
 /// @par Errors
 /// Those of `raycast`.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Questions that many points or lines ask, each by itself, of shapes that may lie in parts, on several devices or ranks: what is
-// nearest, what a line meets first, whether it meets anything, whether a point is inside. Each part answers all that it is
-// asked, and answers of two parts become one, so that nothing depends on how shapes are divided.
+// Questions that many points or lines ask, each by itself, of shapes that may lie in parts, on several devices or ranks:
+// what is nearest, what a line meets first, whether it meets anything, whether a point is inside. Each part answers all that
+// it is asked, and answers of two parts become one, so that nothing depends on how shapes are divided.
 //
 // A question has
 //   answer                          what one part says of a row; a row has per_row() of them

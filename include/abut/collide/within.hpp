@@ -62,8 +62,7 @@ struct come_within {
 
 inline void check_distance(double distance, const char* function) {
     if (!(distance >= 0 && distance < infinity<double>)) {
-        throw error(std::string(function) + ": distance is " + shortest(distance) +
-                    "; expected a finite number, 0 or more");
+        throw error(std::string(function) + ": distance is " + shortest(distance) + "; expected a finite number, 0 or more");
     }
 }
 
@@ -72,7 +71,8 @@ template <class Policy, class X, class Y, class Filter>
 consteval bool can_be_within() {
     if constexpr (can_both_be_asked<Policy, X, Y>()) {
         constexpr bool is = distance_decidable<typename shape_of_argument<X>::type, typename shape_of_argument<Y>::type>;
-        static_assert(is, "abut: `within` takes sets of points, segments, triangles, spheres, capsules and boxes, and planes");
+        static_assert(
+            is, "abut: `within` takes sets of points, segments, triangles, spheres, capsules, boxes and hulls, and planes");
         return is && is_filter<Policy, Filter>();
     } else {
         return false;
@@ -91,7 +91,8 @@ template <class Policy, class X, class Options>
 auto pair_up_self_within(const Policy& on, const X& x, double distance, const Options& options, const char* function) {
     using T = scalar_type_of<typename shape_of_argument<X>::type>;
     check_distance(distance, function);
-    return pair_up_self(on, x, options, function, as_they_are{}, near_in_distance<T>{distance_frame<T>(rounded_up<T>(distance))});
+    return pair_up_self(on, x, options, function, as_they_are{},
+                        near_in_distance<T>{distance_frame<T>(rounded_up<T>(distance))});
 }
 
 }  // namespace detail
@@ -100,13 +101,13 @@ auto pair_up_self_within(const Policy& on, const X& x, double distance, const Op
 ///
 /// `within`, `count_within`, `any_within` and `for_each_within` of two arguments: `pairs`, `count`, `any` and
 /// `for_each_pair` with a distance; `self_within` and `count_self_within` of one. Arguments are those of @ref queries , of
-/// points, segments, triangles, spheres, capsules and boxes, each with any of these, and planes with any: so they find the
-/// neighbours of points as well as which parts of two meshes are closer than a clearance.
+/// points, segments, triangles, spheres, capsules, boxes and convex hulls, each with any of these, and planes with any: so
+/// they find the neighbours of points as well as which parts of two meshes are closer than a clearance.
 ///
 /// The distance is a finite double, 0 or more, and taken exactly. A pair that is exactly so far apart belongs to the answer.
-/// `filtered`, the default, and `exact` decide that exactly, for every finite input; `fast` is approximate. With distance 0 the
-/// answer is that of `pairs`. Answers do not depend on the policy, the number of threads or the index. Under a pose that is
-/// said of the placed coordinates, each rounded once, as in all queries (docs/numerics.md).
+/// `filtered`, the default, and `exact` decide that exactly, for every finite input; `fast` is approximate. With distance 0
+/// the answer is that of `pairs`. Answers do not depend on the policy, the number of threads or the index. Under a pose that
+/// is said of the placed coordinates, each rounded once, as in all queries (docs/numerics.md).
 ///
 /// @par Memory
 /// As in @ref queries.

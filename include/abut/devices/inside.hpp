@@ -59,10 +59,10 @@ auto inside_on_devices(const Team& team, const X& mesh, const Points& points, co
 /// @addtogroup devices
 ///@{
 
-/// For each of `points` whether it is inside of a closed mesh, as `inside` says under one policy: a `result` of `containment`
-/// in memory of the first device. `mesh` is a mesh or a tree of one that is replicated or divided, posed or not; `points` are
-/// as of `nearest`. Whether a replicated mesh is closed is found out on the first device. Of a divided one the caller has to
-/// know it: {.known_closed = true}, or else an `error` is thrown.
+/// For each of `points` whether it is inside of a closed mesh, as `inside` says under one policy: a `result` of
+/// `containment` in memory of the first device. `mesh` is a mesh or a tree of one that is replicated or divided, posed or
+/// not; `points` are as of `nearest`. Whether a replicated mesh is closed is found out on the first device. Of a divided one
+/// the caller has to know it: {.known_closed = true}, or else an `error` is thrown.
 template <arithmetic A = filtered, execution::policy_team Team, class X, class Points>
 [[nodiscard]] auto inside(const Team& team, const X& mesh, const Points& points, const inside_options& options = {}) {
     using answer = result<containment, space_of<typename Team::local_policy>>;

@@ -68,8 +68,8 @@ auto all_hits_of_devices(const Team& team, const std::vector<There>& there, cons
 
 /// For each of `rays` the triangle of `index` that it meets first, as `raycast` finds it under one policy, bit for bit: a
 /// `result` of `ray_hit` in memory of the first device. `index` is a set or a tree of triangles that is replicated or
-/// divided, posed or not; `rays` are rays or segments that are replicated, or a set of them in host memory, which is copied to
-/// each device. Where the index is divided, each device looks for all rays in its part, and holds 16 bytes for each of
+/// divided, posed or not; `rays` are rays or segments that are replicated, or a set of them in host memory, which is copied
+/// to each device. Where the index is divided, each device looks for all rays in its part, and holds 16 bytes for each of
 /// them, the first device twice.
 template <arithmetic A = filtered, execution::policy_team Team, class X, class Rays>
 [[nodiscard]] auto raycast(const Team& team, const X& index, const Rays& rays) {
@@ -90,8 +90,8 @@ template <arithmetic A = filtered, execution::policy_team Team, class X, class R
     }
 }
 
-/// For each of `rays` whether it meets any triangle of `index`, as under one policy: a `result` of `std::uint8_t` in memory of
-/// the first device, 1 or 0. Arguments are those of `raycast`.
+/// For each of `rays` whether it meets any triangle of `index`, as under one policy: a `result` of `std::uint8_t` in memory
+/// of the first device, 1 or 0. Arguments are those of `raycast`.
 template <arithmetic A = filtered, execution::policy_team Team, class X, class Rays>
 [[nodiscard]] auto raycast_any(const Team& team, const X& index, const Rays& rays) {
     using answer = result<std::uint8_t, space_of<typename Team::local_policy>>;
@@ -104,9 +104,9 @@ template <arithmetic A = filtered, execution::policy_team Team, class X, class R
     }
 }
 
-/// All triangles of `index` that each of `rays` meets, as under one policy: a `result` of `hit_of_ray` in memory of the first
-/// device, sorted by the ray's number, then by t, then by id. Arguments are those of `raycast`. The first device holds 48
-/// bytes for each hit besides the result.
+/// All triangles of `index` that each of `rays` meets, as under one policy: a `result` of `hit_of_ray` in memory of the
+/// first device, sorted by the ray's number, then by t, then by id. Arguments are those of `raycast`. The first device holds
+/// 48 bytes for each hit besides the result.
 template <arithmetic A = filtered, execution::policy_team Team, class X, class Rays>
 [[nodiscard]] auto raycast_all(const Team& team, const X& index, const Rays& rays) {
     using local = typename Team::local_policy;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Questions of many points or lines (collide/row_questions.hpp) to several devices. Where each device has all shapes, the rows are
-// shared out; where shapes are divided, each device answers all rows of its part, and the first one merges the answers.
+// Questions of many points or lines (collide/row_questions.hpp) to several devices. Where each device has all shapes, the
+// rows are shared out; where shapes are divided, each device answers all rows of its part, and the first one merges the
+// answers.
 
 #include <algorithm>
 #include <cstddef>

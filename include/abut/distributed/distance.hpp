@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// distance of sets whose parts lie on many ranks. First all look for what touches. Where nothing does, each rank measures its own
-// parts, and the least that any has found says which shapes may still be nearer and have to come.
+// distance of sets whose parts lie on many ranks. First all look for what touches. Where nothing does, each rank measures
+// its own parts, and the least that any has found says which shapes may still be nearer and have to come.
 
 #include <cstdint>
 #include <optional>
@@ -84,9 +84,9 @@ auto distance_of_parts(const distributed<Local>& on, const X& x, const Y& y, con
 }  // namespace detail
 
 /// How far apart two sets are, as `distance` says on one machine that has the whole sets, bit for bit: a
-/// std::optional<global_separation<T>>, the same on all ranks. Arguments are this rank's parts, as those of `distance` under the
-/// local policy; each rank gives the same options. Shapes of b go to the ranks whose a-shapes may be as near to them as what is
-/// known: all of them where no rank has shapes of both sets.
+/// std::optional<global_separation<T>>, the same on all ranks. Arguments are this rank's parts, as those of `distance` under
+/// the local policy; each rank gives the same options. Shapes of b go to the ranks whose a-shapes may be as near to them as
+/// what is known: all of them where no rank has shapes of both sets.
 /// @ingroup distributed
 template <execution_policy Local, class X, class Y>
 [[nodiscard]] auto distance(const distributed<Local>& on, const X& a, const Y& b, const distance_options& options = {}) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// inside and signed_distance of a closed mesh whose parts lie on many ranks. A part says whether the way up from a point crosses
-// an odd number of its triangles.
+// inside and signed_distance of a closed mesh whose parts lie on many ranks. A part says whether the way up from a point
+// crosses an odd number of its triangles.
 
 #include <cstddef>
 #include <string>
@@ -67,9 +67,9 @@ struct write_globally_signed {
 ///@{
 
 /// For each of this rank's `points` whether it is inside of the closed mesh that all parts are together: a `result` of
-/// `containment`, in the order of the points. `mesh` is this rank's part, a mesh or triangles, or a tree of them; `points` are as
-/// of `nearest`. Whether the mesh is closed no rank can see. So the caller has to know it, and says {.known_closed = true}, or
-/// else an `error` is thrown. Points go to the ranks that have something above them.
+/// `containment`, in the order of the points. `mesh` is this rank's part, a mesh or triangles, or a tree of them; `points`
+/// are as of `nearest`. Whether the mesh is closed no rank can see. So the caller has to know it, and says {.known_closed =
+/// true}, or else an `error` is thrown. Points go to the ranks that have something above them.
 template <arithmetic A = filtered, execution_policy Local, class X, class Points>
 [[nodiscard]] auto inside(const distributed<Local>& on, const X& mesh, const Points& points,
                           const inside_options& options = {}) {
@@ -81,8 +81,8 @@ template <arithmetic A = filtered, execution_policy Local, class X, class Points
     }
 }
 
-/// For each of this rank's `points` what `nearest` of ranks says of it, with a distance that is below 0 where the point is inside,
-/// and 0 where it is on the surface. Arguments and options are those of `inside`.
+/// For each of this rank's `points` what `nearest` of ranks says of it, with a distance that is below 0 where the point is
+/// inside, and 0 where it is on the surface. Arguments and options are those of `inside`.
 template <execution_policy Local, class X, class Points>
 [[nodiscard]] auto signed_distance(const distributed<Local>& on, const X& mesh, const Points& points,
                                    const inside_options& options = {}) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// nearest of sets whose parts lie on many ranks. The least is by the measure of narrow/nearest_point.hpp and then by the id, as
-// on one machine.
+// nearest of sets whose parts lie on many ranks. The least is by the measure of narrow/nearest_point.hpp and then by the id,
+// as on one machine.
 
 #include <cstddef>
 #include <cstdint>
@@ -94,8 +94,8 @@ template <execution_policy Local, class X, class Points>
 }
 
 /// For each of this rank's `points` the `count` nearest shapes of all parts, the nearest first: those of point i stand at
-/// count * i and after, and where there are fewer shapes the last are `no_global_id`. Arguments are as of the nearest one; each
-/// rank gives the same `count`. A message has at most 65,536 neighbours, or those of one point.
+/// count * i and after, and where there are fewer shapes the last are `no_global_id`. Arguments are as of the nearest one;
+/// each rank gives the same `count`. A message has at most 65,536 neighbours, or those of one point.
 /// @ingroup distributed
 template <execution_policy Local, class X, class Points>
 [[nodiscard]] auto nearest(const distributed<Local>& on, const X& index, const Points& points, std::size_t count) {

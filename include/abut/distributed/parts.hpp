@@ -227,8 +227,9 @@ private:
     message_type<Id> id_type_;
 };
 
-/// Shapes that parts of other ranks ask for, with their ids: `Chosen` counts and writes them (near_shapes in collide/parts.hpp).
-/// use(rank, shapes, ids) is called for what comes from a rank, in memory of the policy's that is used again after it.
+/// Shapes that parts of other ranks ask for, with their ids: `Chosen` counts and writes them (near_shapes in
+/// collide/parts.hpp). use(rank, shapes, ids) is called for what comes from a rank, in memory of the policy's that is used
+/// again after it.
 template <class Local, class Chosen, class Use>
 class shape_parcels : public shape_rooms<Local, typename Chosen::view::shape_type, std::uint32_t> {
     using shape_type = typename Chosen::view::shape_type;

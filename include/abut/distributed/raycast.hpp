@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// raycast, raycast_any and raycast_all of sets whose parts lie on many ranks. For the first two rays go to one rank after another,
-// as long as it may have something for them. For all hits they go to all ranks whose parts they pass, and lists come back.
+// raycast, raycast_any and raycast_all of sets whose parts lie on many ranks. For the first two rays go to one rank after
+// another, as long as it may have something for them. For all hits they go to all ranks whose parts they pass, and lists
+// come back.
 
 #include <array>
 #include <cstddef>
@@ -206,10 +207,10 @@ auto all_hits_of_ranks(const distributed<Local>& on, const Here& here) {
 /// @addtogroup distributed
 ///@{
 
-/// For each of this rank's `rays` the triangle of all parts that it meets first: a `result` of `global_ray_hit`, in the order of
-/// the rays, in the local policy's memory; 16 bytes each. `index` is this rank's part, and `rays` this rank's rays or segments;
-/// both as of `raycast` under the local policy. Rays go to ranks whose parts they may meet before what is known, at most
-/// 65,536 in a message. The answers are those of one machine, bit for bit.
+/// For each of this rank's `rays` the triangle of all parts that it meets first: a `result` of `global_ray_hit`, in the
+/// order of the rays, in the local policy's memory; 16 bytes each. `index` is this rank's part, and `rays` this rank's rays
+/// or segments; both as of `raycast` under the local policy. Rays go to ranks whose parts they may meet before what is
+/// known, at most 65,536 in a message. The answers are those of one machine, bit for bit.
 template <arithmetic A = filtered, execution_policy Local, class X, class Rays>
 [[nodiscard]] auto raycast(const distributed<Local>& on, const X& index, const Rays& rays) {
     if constexpr (detail::can_be_met<Local, X, Rays>()) {
@@ -227,8 +228,8 @@ template <arithmetic A = filtered, execution_policy Local, class X, class Rays>
     }
 }
 
-/// For each of this rank's `rays` whether it meets any triangle of all parts: a `result` of `std::uint8_t`, 1 or 0. Arguments
-/// are those of `raycast`. A ray that has met something goes nowhere else.
+/// For each of this rank's `rays` whether it meets any triangle of all parts: a `result` of `std::uint8_t`, 1 or 0.
+/// Arguments are those of `raycast`. A ray that has met something goes nowhere else.
 template <arithmetic A = filtered, execution_policy Local, class X, class Rays>
 [[nodiscard]] auto raycast_any(const distributed<Local>& on, const X& index, const Rays& rays) {
     using answer = result<std::uint8_t, space_of<Local>>;
@@ -242,8 +243,8 @@ template <arithmetic A = filtered, execution_policy Local, class X, class Rays>
 }
 
 /// All triangles of all parts that each of this rank's `rays` meets: a `result` of `global_hit_of_ray`, sorted by the ray's
-/// number, then by t, then by id. The lists of all ranks, one after another, are the list of one machine. Arguments are those of
-/// `raycast`.
+/// number, then by t, then by id. The lists of all ranks, one after another, are the list of one machine. Arguments are
+/// those of `raycast`.
 ///
 /// A rank holds the hits of others' rays in its part until all rays have come, 24 bytes each, besides its own, of which it
 /// holds 48 bytes more. Throws capacity_error for 2^31 such hits or more of one rank's rays in one other part.

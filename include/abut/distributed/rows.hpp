@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Questions of many points or lines (collide/row_questions.hpp) to shapes whose parts lie on many ranks. A rank asks its own part
-// first. Then its points or lines go to each other rank whose part may change what is known, and answers come back.
+// Questions of many points or lines (collide/row_questions.hpp) to shapes whose parts lie on many ranks. A rank asks its own
+// part first. Then its points or lines go to each other rank whose part may change what is known, and answers come back.
 
 #include <algorithm>
 #include <cstddef>
@@ -291,8 +291,8 @@ struct asked_here {
     std::vector<std::uint64_t> rows_of_rank;
 };
 
-/// The same, of arguments. make_rows(policy, rows, function) makes an operand of the rows; look(shapes, rows) may throw or keep
-/// something of both, before the ranks go on. All ranks call it; it throws on all or on none.
+/// The same, of arguments. make_rows(policy, rows, function) makes an operand of the rows; look(shapes, rows) may throw or
+/// keep something of both, before the ranks go on. All ranks call it; it throws on all or on none.
 template <class Local, class X, class Rows, class MakeRows, class Look>
 auto bring_rows_and_shapes(const distributed<Local>& on, const X& index, const Rows& rows, const char* function,
                            const MakeRows& make_rows, const Look& look) {

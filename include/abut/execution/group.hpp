@@ -131,8 +131,8 @@ public:
     }
 
     /// Called by all members in one step: put(number) by those for which `is` is true, with the numbers from `count` on, in
-    /// the order of the members. `count` goes on by how many these are, and is the same for all when the step ends; within the
-    /// step nothing else may read it.
+    /// the order of the members. `count` goes on by how many these are, and is the same for all when the step ends; within
+    /// the step nothing else may read it.
     ABUT_CALLS_ANY
     template <class Put>
         requires(Size == subgroup_size)

@@ -9,9 +9,9 @@
 //   best_of_all<Space>        the least of all indices; they share a bound
 //   until_stopped             for walks that keep what they find themselves, and may end before all is seen
 //
-// All but the last take sink.offer(value, key), and keep the least value and, of equal ones, the least key; sink.bound() is what values
-// have to stay below, or equal, to matter. Values are doubles, 0 or more. What is left does not depend on the order in which
-// values come, and so not on threads, as long as nothing at the bound is left out.
+// All but the last take sink.offer(value, key), and keep the least value and, of equal ones, the least key; sink.bound() is
+// what values have to stay below, or equal, to matter. Values are doubles, 0 or more. What is left does not depend on the
+// order in which values come, and so not on threads, as long as nothing at the bound is left out.
 
 #include <cstddef>
 #include <cstdint>

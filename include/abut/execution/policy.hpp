@@ -26,8 +26,8 @@
 //   for_each_group(on, n, f)                f(group) for all groups of neighbouring indices, 256 or 32 as f says, of which the
 //                                           last may have fewer (execution/group.hpp)
 //
-// These it gets, made of the ones above (execution/generic.hpp; for_each_ordered in host memory alone), and may supply better
-// ones:
+// These it gets, made of the ones above (execution/generic.hpp; for_each_ordered in host memory alone), and may supply
+// better ones:
 //
 //   concurrency(on)                         about how many indices are worked on at a time; a hint, 1 or more
 //   for_each_task(on, n, f)                 for_each_index for work that is long and of uneven length

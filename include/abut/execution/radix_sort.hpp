@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Radix sort for unsigned keys, by the loops of any policy: the standard library has no sort of keys with values that runs on
-// OpenMP, and std::sort takes 5 to 8 times as long on 32-bit codes.
+// Radix sort for unsigned keys, by the loops of any policy: the standard library has no sort of keys with values that runs
+// on OpenMP, and std::sort takes 5 to 8 times as long on 32-bit codes.
 //
 // One thread sorts by the least significant digit first. Threads do so together only where most keys agree in the highest
 // digit: threads that write to the same cache lines in each pass wait for each other. Else they divide the keys into buckets
@@ -62,8 +62,8 @@ struct count_digits {
     }
 };
 
-/// Where each part's keys of each digit go, in place of their counts; then how many keys the most frequent digit has. It goes
-/// row by row, since the counts of a part are kilobytes from those of the next.
+/// Where each part's keys of each digit go, in place of their counts; then how many keys the most frequent digit has. It
+/// goes row by row, since the counts of a part are kilobytes from those of the next.
 struct offset_digits {
     std::size_t values;
     equal_parts parts;

@@ -81,8 +81,8 @@ struct merge_volumes {
     }
 };
 
-/// Shapes that volumes are made around, as the triangles of their corners: segments and points have fewer, and a shape in motion
-/// is between where it begins and where it ends, as convex volumes are that hold both.
+/// Shapes that volumes are made around, as the triangles of their corners: segments and points have fewer, and a shape in
+/// motion is between where it begins and where it ends, as convex volumes are that hold both.
 template <class S>
 inline constexpr std::size_t triangles_of = 0;
 template <scalar T>

@@ -85,8 +85,8 @@ concept impact_like = requires(const I& i) {
 /// - `std::bad_alloc`.
 ///
 /// @par Synchronisation
-/// All calls run on the calling thread and return when they are done. One thread at a time may add to a scene; several may write
-/// it.
+/// All calls run on the calling thread and return when they are done. One thread at a time may add to a scene; several may
+/// write it.
 ///
 /// @par Example
 /// @snippet files.cpp scene

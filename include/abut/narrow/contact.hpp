@@ -8,6 +8,7 @@
 #include <abut/narrow/box_contact.hpp>
 #include <abut/narrow/directions.hpp>
 #include <abut/narrow/flat_contact.hpp>
+#include <abut/narrow/hull_contact.hpp>
 #include <abut/narrow/round_contact.hpp>
 #include <abut/narrow/triangle_contact.hpp>
 #include <abut/predicate/intersects.hpp>
@@ -47,11 +48,6 @@ private:
 };
 
 namespace detail {
-
-template <scalar T>
-ABUT_HD constexpr contact<T> reversed(const contact<T>& c) {
-    return {c.b, c.a, c.point, {-c.normal.x, -c.normal.y, -c.normal.z}, c.depth};
-}
 
 /// Pairs of shapes, in this order, of which contacts are written.
 template <class S, class U>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What the way up from a point, along z, meets of a triangle: what `inside` counts. The filter computes in double; its errors
-// are those of certified_faces.hpp. Of what it leaves open, integers know all (exact_hit_time.hpp).
+// What the way up from a point, along z, meets of a triangle: what `inside` counts. The filter computes in double; its
+// errors are those of certified_faces.hpp. Of what it leaves open, integers know all (exact_hit_time.hpp).
 
 #include <abut/arithmetic/arithmetic.hpp>
 #include <abut/arithmetic/exact_stages.hpp>

@@ -13,6 +13,7 @@
 #include <abut/arithmetic/magnitude.hpp>
 #include <abut/narrow/nearest.hpp>
 #include <abut/narrow/numbers.hpp>
+#include <abut/shape/hull.hpp>
 #include <abut/shape/primitive.hpp>
 
 namespace abut {
@@ -30,6 +31,15 @@ struct contact {
 
     friend constexpr bool operator==(const contact&, const contact&) = default;
 };
+
+namespace detail {
+
+template <scalar T>
+ABUT_HD constexpr contact<T> reversed(const contact<T>& c) {
+    return {c.b, c.a, c.point, {-c.normal.x, -c.normal.y, -c.normal.z}, c.depth};
+}
+
+}  // namespace detail
 
 namespace detail::contact_math {
 
@@ -57,6 +67,12 @@ ABUT_HD constexpr T magnitude_of(const capsule<T>& s) {
 template <scalar T>
 ABUT_HD constexpr T magnitude_of(const aabb<T>& s) {
     return greatest(magnitude_of(s.lower), magnitude_of(s.upper));
+}
+template <scalar T>
+ABUT_HD constexpr T magnitude_of(const hull<T>& h) {
+    T most = 0;
+    for (std::size_t i = 0; i < h.count; ++i) most = greatest(most, magnitude_of(h[i]));
+    return most;
 }
 /// Of a plane no point counts: it reaches everywhere.
 template <scalar T>

@@ -3,22 +3,22 @@
 
 // When a line meets a triangle, of any finite input, by quotients of integers that are rounded once.
 //
-// Let o be the line's origin, d its direction, and A, B, C the ways from o to the corners. The line meets the triangle where it
-// passes the three sides in no two opposite senses: where the signs of (A x B).d, (B x C).d and (C x A).d are none of them
-// opposite. Their sum is n.d, with the normal n. If it is not 0, the point that is met is at t = (A x B).C / n.d.
+// Let o be the line's origin, d its direction, and A, B, C the ways from o to the corners. The line meets the triangle where
+// it passes the three sides in no two opposite senses: where the signs of (A x B).d, (B x C).d and (C x A).d are none of
+// them opposite. Their sum is n.d, with the normal n. If it is not 0, the point that is met is at t = (A x B).C / n.d.
 //
-// If all three are 0, the line lies in the plane of the triangle, or the triangle has no area. What the line meets is then an
-// interval of t, whose ends are where it meets sides: at t = (A x e) / (d x e) for a side from A to A + e, in any coordinate in
-// which d x e is not 0, if A and A + e are not on one side of the line; or, for a side along the line, at the ends of that side.
-// A ray meets the interval first at 0, if the interval holds 0, or at its lesser end.
+// If all three are 0, the line lies in the plane of the triangle, or the triangle has no area. What the line meets is then
+// an interval of t, whose ends are where it meets sides: at t = (A x e) / (d x e) for a side from A to A + e, in any
+// coordinate in which d x e is not 0, if A and A + e are not on one side of the line; or, for a side along the line, at the
+// ends of that side. A ray meets the interval first at 0, if the interval holds 0, or at its lesser end.
 //
 // A direction of 0 asks whether o lies in the triangle. So it does if and only if a line from o to a corner meets it at 0.
 //
 // A point is inside of a closed mesh if the way up from it crosses an odd number of triangles. That has to be asked of a way
-// that meets neither edges nor corners. So o is moved aside by (e, e^2, 0), for an e that is as small as need be: a sign that is
-// 0 becomes that of what e changes, and if that is 0 that of what e^2 changes (H. Edelsbrunner, E. Muecke, Simulation of
-// Simplicity, 1990). Both faces at an edge ask about the same sign, so that the way crosses one of them or none or both as a
-// line that is really moved aside does.
+// that meets neither edges nor corners. So o is moved aside by (e, e^2, 0), for an e that is as small as need be: a sign
+// that is 0 becomes that of what e changes, and if that is 0 that of what e^2 changes (H. Edelsbrunner, E. Muecke,
+// Simulation of Simplicity, 1990). Both faces at an edge ask about the same sign, so that the way crosses one of them or
+// none or both as a line that is really moved aside does.
 
 #include <cstddef>
 #include <cstdint>
@@ -45,7 +45,8 @@ struct rolled_numbers {
 
 ABUT_HD constexpr int next_axis(int k) { return k == 2 ? 0 : k + 1; }
 
-/// What the way up from a point meets of a triangle: nothing, its inside, which it crosses, or the triangle at the point itself.
+/// What the way up from a point meets of a triangle: nothing, its inside, which it crosses, or the triangle at the point
+/// itself.
 enum class met_above : int { nothing, crossing, start, unknown };
 
 template <scalar T>

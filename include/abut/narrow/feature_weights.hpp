@@ -9,8 +9,8 @@
 
 namespace abut {
 
-/// Weights of four points, in the order of impact::vertices. Of a vertex and a face: 1 for the vertex, and three that add up to 1
-/// for the corners. Of two edges: two that add up to 1 for the ends of each. None is negative.
+/// Weights of four points, in the order of impact::vertices. Of a vertex and a face: 1 for the vertex, and three that add up
+/// to 1 for the corners. Of two edges: two that add up to 1 for the ends of each. None is negative.
 struct feature_weights {
     double of[4];  ///< 0 to 1 each
 };

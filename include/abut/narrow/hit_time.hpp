@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// When a ray meets a triangle: the least t >= 0 at which origin + t direction is in it; and a segment alike, as a + t (b - a).
+// When a ray meets a triangle: the least t >= 0 at which origin + t direction is in it; and a segment alike, as a + t (b -
+// a).
 //
 // `filtered` and `exact` give the true t, rounded to the nearest double; of two that are as near the lesser. So equal times
 // are equal numbers, however they were computed: two faces at an edge are met at one time by a ray through the edge. A pair

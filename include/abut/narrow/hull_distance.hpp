@@ -19,7 +19,6 @@
 #include <abut/arithmetic/limits.hpp>
 #include <abut/arithmetic/magnitude.hpp>
 #include <abut/arithmetic/rolled_int.hpp>
-#include <abut/narrow/nearest_point.hpp>
 #include <abut/narrow/numbers.hpp>
 #include <abut/predicate/capsule_hull.hpp>
 #include <abut/predicate/gjk.hpp>
@@ -52,6 +51,12 @@ ABUT_HD constexpr far_double magnitude_of(rolled_int<Room> n) {
     std::uint64_t top = n.limb[whole] >> part;
     if (part != 0 && whole + 1 < n.count) top |= n.limb[whole + 1] << (64 - part);
     return {static_cast<double>(top), cut};
+}
+
+/// The unit vector along one of integers: within 2^-50 of itself in each coordinate.
+template <int Room>
+ABUT_HD constexpr point unit_of(const vec3<rolled_int<Room>>& v) {
+    return unit_vector(as<one_double>(rounded_way(v, 1)));
 }
 
 /// x 2^e for any e.
@@ -117,13 +122,28 @@ struct nearest_in_hulls {
     ABUT_NOINLINE ABUT_HD constexpr nearest_in_hulls(const hull<T>& a, const hull<T>& b) {
         vec3<contact_math::one_double> rough[4];
         (void)search_origin<sought::nearest>(hulls_in_plain_doubles<T>(a, b), at, rough);
-        unit_of_hulls<T> unit(a, b);
-        constexpr int most = 64 * room - spare_bits;
-        if (unit.high - unit.low > most) unit.low = unit.high - most;
-        const hulls_in_integers<room, T, true> x(a, b, unit);
+        const unit_of_hulls<T> unit = unit_of(a, b);
+        const integers x(a, b, unit);
         vec3<number> w[4];
         const bool meet = search_origin<sought::nearest>(x, at, w) == verdict::yes;
         measure(w, meet, unit.low);
+    }
+    /// What the hulls are in integers.
+    using integers = hulls_in_integers<2, T, true>;
+    ABUT_HD static constexpr unit_of_hulls<T> unit_of(const hull<T>& a, const hull<T>& b) {
+        unit_of_hulls<T> unit(a, b);
+        constexpr int most = 64 * room - spare_bits;
+        if (unit.high - unit.low > most) unit.low = unit.high - most;
+        return unit;
+    }
+    /// The unit vector from b's point to a's, of hulls that do not touch: within 2^-50 in each coordinate, however near they
+    /// are.
+    [[nodiscard]] ABUT_HD constexpr vec3<double> direction(const integers& x) const {
+        vec3<number> w[4];
+        for (int k = 0; k < at.count; ++k) w[k] = x.difference(at.a[k], at.b[k]);
+        nearest_feature<number> feature;
+        (void)feature.find(w, at.count, (1u << at.count) - 1);
+        return contact_math::unit_of(feature.way);
     }
     [[nodiscard]] ABUT_HD constexpr vec3<double> point_on_a(const hull<T>& a) const { return mean(a, at.a); }
     [[nodiscard]] ABUT_HD constexpr vec3<double> point_on_b(const hull<T>& b) const { return mean(b, at.b); }

@@ -25,8 +25,10 @@
 #include <abut/arithmetic/magnitude.hpp>
 #include <abut/arithmetic/strict.hpp>
 #include <abut/arithmetic/vec.hpp>
+#include <abut/narrow/hull_distance.hpp>
 #include <abut/narrow/numbers.hpp>
 #include <abut/shape/bounds.hpp>
+#include <abut/shape/hull.hpp>
 #include <abut/shape/primitive.hpp>
 #include <abut/shape/shape.hpp>
 
@@ -100,9 +102,9 @@ struct face_of_edges {
 
     ABUT_HD constexpr face_of_edges(const vec3<double>& to_b, const vec3<double>& to_c)
         : ab(to_b), ac(to_c), n(plain_cross(to_b, to_c)), nn(plain_dot(n, n)) {}
-    /// Whether there is a foot on the face of a triangle whose corner a is there. The weight of c is that of a height, and may
-    /// be poor; that of b makes up for it along the triangle, whatever it is. Where the product of four lengths comes near
-    /// underflow, all lengths are taken 2^300 times.
+    /// Whether there is a foot on the face of a triangle whose corner a is there. The weight of c is that of a height, and
+    /// may be poor; that of b makes up for it along the triangle, whatever it is. Where the product of four lengths comes
+    /// near underflow, all lengths are taken 2^300 times.
     ABUT_HD constexpr bool has_foot(const vec3<double>& a, vec3<double>& foot) const {
         double of_c = 0;
         if (nn > 0x1p-900) {
@@ -225,6 +227,22 @@ ABUT_HD constexpr vec3<double> way_to(const aabb<T>& box, const vec3<T>& p, cons
     return held(vec3<double>{0, 0, 0}, box, p, unit);
 }
 
+/// Its nearest feature is found in integers; nothing if p is inside.
+template <scalar T>
+ABUT_NOINLINE ABUT_HD constexpr vec3<double> way_to(const hull<T>& h, const vec3<T>& p, const length_unit<T>& unit) {
+    const hull<T> here(&p, 1);
+    const nearest_in_hulls<T> found(here, h);
+    if (found.length == 0) return {0, 0, 0};
+    vec3<double> way{0, 0, 0}, lower{}, upper{};
+    for (int k = 0; k < found.at.count; ++k) {
+        const vec3<double> w = way_between(p, h[found.at.b[k]], unit);
+        way = plain_step(way, found.weight[k], w);
+        lower = k == 0 ? w : least(lower, w);
+        upper = k == 0 ? w : greatest(upper, w);
+    }
+    return held(way, lower, upper);
+}
+
 /// Shapes that the library measures by itself.
 template <class S>
 concept has_way_to = requires(const S& s, const vec3<scalar_type_of<S>>& p, const length_unit<scalar_type_of<S>>& unit) {
@@ -233,7 +251,8 @@ concept has_way_to = requires(const S& s, const vec3<scalar_type_of<S>>& p, cons
 
 /// p plus the way, in T, and in the shape's box.
 template <scalar T>
-ABUT_HD constexpr vec3<T> end_of_way(const vec3<T>& p, const vec3<double>& way, const aabb<T>& box, const length_unit<T>& unit) {
+ABUT_HD constexpr vec3<T> end_of_way(const vec3<T>& p, const vec3<double>& way, const aabb<T>& box,
+                                     const length_unit<T>& unit) {
     const auto one = [&](T x, double d) {
         return rounded(static_cast<T>(unit.length(plain_sum(unit.of(x), d))));  // in the unit, where nothing overflows
     };
@@ -243,6 +262,11 @@ ABUT_HD constexpr vec3<T> end_of_way(const vec3<T>& p, const vec3<double>& way, 
 template <class S, scalar T>
 ABUT_HD constexpr vec3<T> end_of_way(const S& s, const vec3<T>& p, const vec3<double>& way, const length_unit<T>& unit) {
     if constexpr (std::same_as<S, aabb<T>>) return least(greatest(p, s.lower), s.upper);
+    if constexpr (std::same_as<S, hull<T>>) {
+        for (std::size_t i = 0; i < s.count; ++i) {
+            if (way == way_between(p, s[i], unit)) return s[i];
+        }
+    }
     if constexpr (requires { s.b; }) {
         if (way == way_between(p, s.a, unit)) return s.a;
         if (way == way_between(p, s.b, unit)) return s.b;
@@ -266,9 +290,9 @@ ABUT_HD constexpr length_unit<T> unit_for(const aabb<T>& box, const vec3<T>& p) 
 
 }  // namespace detail
 
-/// The point of a shape that is nearest to `p`: of a point (vec3), segment, triangle, sphere, capsule or box; the last three
-/// are solid, and p itself is nearest where it is inside. It lies in the box around the shape. docs/numerics.md says how
-/// accurate it is. p and the shape are finite.
+/// The point of a shape that is nearest to `p`: of a point (vec3), segment, triangle, sphere, capsule, box or convex hull;
+/// the last four are solid, and p itself is nearest where it is inside. It lies in the box around the shape.
+/// docs/numerics.md says how accurate it is. p and the shape are finite.
 ///
 ///     const auto q = abut::nearest_point(abut::segment<float>{{0, 0, 0}, {4, 0, 0}}, {1, 2, 0});   // (1, 0, 0)
 /// @ingroup one_pair

@@ -3,9 +3,10 @@
 
 // When two moving features first touch: a vertex and a triangle, or two edges.
 //
-// For `filtered` and `exact` the time is by definition the largest multiple of 2^-40 that is not above the true one: so it is never
-// later, within 10^-12, and the same bits however it was found. In registers f is followed to its root in double; then its
-// signs on both sides of the multiple are made sure of in pairs of doubles. What these leave open is found in integers.
+// For `filtered` and `exact` the time is by definition the largest multiple of 2^-40 that is not above the true one: so it
+// is never later, within 10^-12, and the same bits however it was found. In registers f is followed to its root in double;
+// then its signs on both sides of the multiple are made sure of in pairs of doubles. What these leave open is found in
+// integers.
 
 #include <cstdint>
 
@@ -18,8 +19,8 @@ namespace abut {
 /// @addtogroup motion
 ///@{
 
-/// For times of impact alone: never misses a contact, never reports one later than it is, and reports more than there are, as
-/// conservative_bounds says.
+/// For times of impact alone: never misses a contact, never reports one later than it is, and reports more than there are,
+/// as conservative_bounds says.
 struct conservative {};
 
 /// How features are decided in motion.
@@ -79,7 +80,8 @@ ABUT_HD constexpr int sign_of_area(const moving_points<T>& p, int condition, int
     return sign_beyond(coordinate_along({n.x.high, n.y.high, n.z.high}, axis), error);
 }
 
-/// The only root of c[0] + c[1] x + c[2] x^2 + c[3] x^3 in [0, 1], where it changes its sign, by Newton's iteration in a bracket.
+/// The only root of c[0] + c[1] x + c[2] x^2 + c[3] x^3 in [0, 1], where it changes its sign, by Newton's iteration in a
+/// bracket.
 ABUT_HD constexpr double root_of_cubic(const double (&c)[4], double at_1) {
     double low = 0, high = 1, x = c[0] / (c[0] - at_1);
     for (int i = 0; i < 64; ++i) {
@@ -92,8 +94,8 @@ ABUT_HD constexpr double root_of_cubic(const double (&c)[4], double at_1) {
     return x;
 }
 
-/// The time as a multiple of 2^-40, given in which part of an interval it seems to be, and sign_at(t), which has one sign before
-/// it in the interval and the other after it.
+/// The time as a multiple of 2^-40, given in which part of an interval it seems to be, and sign_at(t), which has one sign
+/// before it in the interval and the other after it.
 template <class Sign>
 ABUT_HD constexpr time_in_bits count_of_time(std::uint32_t j, int depth, double part, const Sign& sign_at) {
     const std::int64_t one = std::int64_t{1} << time_bits, width = one >> depth, least_count = width * j;

@@ -57,16 +57,17 @@ ABUT_HD constexpr vec3<F> nearest_on_feature(const vec3<F> (&w)[4], int count, F
     return q;
 }
 
-/// A hull and a core of points with a radius around it.
+/// A hull and a core of points with something around it that reaches r far: of `filtered` off by up to 4u of that, and by
+/// what is lost where small numbers are read as 0.
 template <bool Certified, scalar T>
-ABUT_NOINLINE ABUT_HD constexpr verdict near_in_floats(const hull<T>& core, T radius, const hull<T>& h) {
+ABUT_NOINLINE ABUT_HD constexpr verdict near_in_floats(const hull<T>& core, typename hulls_in_floats<Certified, T>::number r,
+                                                       const hull<T>& h) {
     using hulls = hulls_in_floats<Certified, T>;
     using number = typename hulls::number;
     const hulls x(core, h);
     difference_simplex at;
     vec3<number> w[4];
     number weight[3];
-    const auto r = static_cast<number>(radius);
     const number rr = r * r;
     const verdict meeting = search_origin<sought::nearest>(x, at, w);
     if constexpr (Certified) {
@@ -103,15 +104,18 @@ ABUT_NOINLINE ABUT_HD constexpr bool is_feature_within(const vec3<rolled_int<Roo
     return (height * height - rr * dot(normal, normal)).sign() <= 0;
 }
 
+/// The same, of a core within a radius and a distance, in integers whose differences have up to `Room` limbs; `unknown`
+/// where they need more.
 template <int Room, bool Sifted, scalar T>
-ABUT_NOINLINE ABUT_HD constexpr verdict near_in_integers(const hull<T>& core, T radius, const hull<T>& h) {
-    const unit_of_hulls<T> unit(core, h, radius);
+ABUT_NOINLINE ABUT_HD constexpr verdict near_in_integers(const hull<T>& core, T radius, const hull<T>& h,
+                                                         double distance = 0) {
+    const unit_of_hulls<T> unit(core, h, radius, distance);
     if (unit.width() + spare_bits > 64 * Room) return verdict::unknown;
     difference_simplex at = guess_simplex<sought::nearest>(core, h);
     vec3<rolled_int<Room>> w[4];
     const hulls_in_integers<Room, T, Sifted> x(core, h, unit);
     if (search_origin<sought::nearest>(x, at, w) == verdict::yes) return verdict::yes;
-    return to_verdict(is_feature_within(w, at.count, x.of(radius)));
+    return to_verdict(is_feature_within(w, at.count, x.reach(radius, distance)));
 }
 
 template <scalar T>
@@ -133,7 +137,9 @@ ABUT_HD constexpr verdict decide(const S& s, const hull<T>& h) {
     if constexpr (std::same_as<A, exact>) {
         return detail::near_in_integers<2, false>(core.as_hull(), s.radius, h);
     } else {
-        return detail::near_in_floats<std::same_as<A, filtered>>(core.as_hull(), s.radius, h);
+        constexpr bool certified = std::same_as<A, filtered>;
+        using number = typename detail::hulls_in_floats<certified, T>::number;
+        return detail::near_in_floats<certified>(core.as_hull(), static_cast<number>(s.radius), h);
     }
 }
 

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Do a moving vertex and a moving triangle, or two moving edges, touch? In double, with bounds: `no` and `yes` are never wrong.
+// Do a moving vertex and a moving triangle, or two moving edges, touch? In double, with bounds: `no` and `yes` are never
+// wrong.
 //
-// u, v, w and f = w . (u x v) are those of exact_motion.hpp; all of what follows is asked of an interval of time. Polynomials
-// in t are known by their Bernstein coefficients on it, between the least and the greatest of which their values are.
+// u, v, w and f = w . (u x v) are those of exact_motion.hpp; all of what follows is asked of an interval of time.
+// Polynomials in t are known by their Bernstein coefficients on it, between the least and the greatest of which their values
+// are.
 //
 // No, for one of these reasons:
 // - f has no root there: its four coefficients are all above 0 or all below (M. Tang, D. Manocha, R. Tong, Fast continuous
 //   collision detection using deforming non-penetration filters, 2010).
-// - In the projection along an axis, the normal u x v keeps its sign, and one of the areas that have to have that sign where the
+// - In the projection along an axis, the normal u x v keeps its sign, and one of the areas that have to have that sign where
+//   the
 //   features touch has the other one. At a root of f all is in one plane, which the projection shows as it is.
 // - Of what separates the features in the middle of the interval, g: all differences between a point of one and a point of
 //   the other have g . x > 0 at both ends, and so at all times between.
@@ -20,15 +23,15 @@
 // for no, and does not speak against yes: coordinates tell that, when all three points have the same.
 //
 // Errors, as multiples of u = 2^-52, so that they hold in each rounding mode, with and without contraction. M is the largest
-// coordinate of a vector at both ends of the step. Differences of inputs are off by u M, and what lies between two of them in
-// time by 6u M. An area of two such vectors is off by 28u M M; of the middle coefficient, which is a sum of two, by 60u; sums
-// and differences of two or three areas by twice the sum of their bounds, 2^-45 M M for each, which is more. A determinant is
-// off by 144u M M M, the middle coefficients, times 3, by 474u; 2^-42 is four times that. g . x is off by 12u |g| M, g itself being
-// right by definition; 2^-46.
+// coordinate of a vector at both ends of the step. Differences of inputs are off by u M, and what lies between two of them
+// in time by 6u M. An area of two such vectors is off by 28u M M; of the middle coefficient, which is a sum of two, by 60u;
+// sums and differences of two or three areas by twice the sum of their bounds, 2^-45 M M for each, which is more. A
+// determinant is off by 144u M M M, the middle coefficients, times 3, by 474u; 2^-42 is four times that. g . x is off by 12u
+// |g| M, g itself being right by definition; 2^-46.
 //
 // M is not taken below 2^-60 for float, so that an error of a whole denormal number, in modes that read it as 0, is below
-// 2^-112 and so below all bounds; for double not below 2^-200, so that what a product loses by underflow is, too. Double beyond
-// 2^200 is left undecided, so that nothing overflows. NaN makes every comparison false.
+// 2^-112 and so below all bounds; for double not below 2^-200, so that what a product loses by underflow is, too. Double
+// beyond 2^200 is left undecided, so that nothing overflows. NaN makes every comparison false.
 
 #include <cstdint>
 
@@ -41,8 +44,8 @@
 
 namespace abut::detail {
 
-/// What two features are to each other at one time: two edges of a triangle from one corner, and from there to the vertex; or
-/// two edges, and from an end of the first to an end of the second.
+/// What two features are to each other at one time: two edges of a triangle from one corner, and from there to the vertex;
+/// or two edges, and from an end of the first to an end of the second.
 struct feature_frame {
     vec3<double> u, v, w;
 };
@@ -60,8 +63,8 @@ ABUT_HD constexpr vec3<double> in_between(const vec3<double>& a, const vec3<doub
     return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.z + t * (b.z - a.z)};
 }
 
-/// Where on two edges, u from a point and v from another, w farther on, the points are that are nearest to each other, in parts of
-/// the edges: C. Ericson, Real-Time Collision Detection (2005), 5.1.9. Of an edge without length it is anywhere.
+/// Where on two edges, u from a point and v from another, w farther on, the points are that are nearest to each other, in
+/// parts of the edges: C. Ericson, Real-Time Collision Detection (2005), 5.1.9. Of an edge without length it is anywhere.
 struct parts_of_edges {
     double of_u, of_v;
 };
@@ -189,14 +192,14 @@ public:
         int depth;
         int condition = 0;  ///< of search_in_plane
     };
-    /// Halves intervals. If one root is asked for, f has one alone in the interval that is found, and changes its sign there.
-    /// `shared` are the shared_coordinates, or 0.
+    /// Halves intervals. If one root is asked for, f has one alone in the interval that is found, and changes its sign
+    /// there. `shared` are the shared_coordinates, or 0.
     [[nodiscard]] ABUT_HD constexpr answer search(bool one_root, std::uint32_t shared) const {
         return search_by([&](const feature_frame& a, const feature_frame& b, int&) { return look(a, b, one_root, shared); });
     }
 
-    /// The same of features in one plane, across an axis, all the time, which do not touch at the start (exact_motion.hpp says
-    /// what happens then). In the interval that is found a point meets an edge, as `condition` says, and no other does.
+    /// The same of features in one plane, across an axis, all the time, which do not touch at the start (exact_motion.hpp
+    /// says what happens then). In the interval that is found a point meets an edge, as `condition` says, and no other does.
     [[nodiscard]] ABUT_HD constexpr answer search_in_plane(int axis) const {
         return search_by([&](const feature_frame& a, const feature_frame& b, int& condition) {
             return look_in_plane(a, b, axis, condition);
@@ -270,7 +273,8 @@ private:
         return at(static_cast<double>(j) / static_cast<double>(std::uint32_t{1} << depth));
     }
 
-    /// The earliest interval of which look(frame at its start, frame at its end, condition) says yes; none, if it says no of all.
+    /// The earliest interval of which look(frame at its start, frame at its end, condition) says yes; none, if it says no of
+    /// all.
     template <class Look>
     [[nodiscard]] ABUT_HD constexpr answer search_by(const Look& look) const {
         if (!can_bound()) return {verdict::unknown, 0, 0};
@@ -290,8 +294,8 @@ private:
         }
     }
 
-    /// Calls see(i, area, its error, p - a, p - b, and the same at the end) of each point p and edge from a to b of the other
-    /// feature, in the order of the conditions of `look`.
+    /// Calls see(i, area, its error, p - a, p - b, and the same at the end) of each point p and edge from a to b of the
+    /// other feature, in the order of the conditions of `look`.
     template <class See>
     ABUT_HD constexpr void for_each_condition(const feature_frame& a, const feature_frame& b, int axis, const See& see) const {
         const area_in_time n(a.u, a.v, b.u, b.v, axis), with_v(a.w, a.v, b.w, b.v, axis), with_u(a.w, a.u, b.w, b.u, axis);
@@ -309,8 +313,8 @@ private:
         }
     }
 
-    /// An interval at the start of which features do not touch, in one plane: no, if no point meets an edge there. A point is off
-    /// an edge where their area keeps its sign, and where a coordinate of it is on one side of both ends.
+    /// An interval at the start of which features do not touch, in one plane: no, if no point meets an edge there. A point
+    /// is off an edge where their area keeps its sign, and where a coordinate of it is on one side of both ends.
     [[nodiscard]] ABUT_HD constexpr verdict look_in_plane(const feature_frame& a, const feature_frame& b, int axis,
                                                           int& condition) const {
         const double lost = 0x1p-48 * (u_ + v_ + w_);

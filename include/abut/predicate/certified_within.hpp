@@ -6,7 +6,8 @@
 // this is the continuation: the same two certificates, for ways between two hulls.
 //
 // Corners are seen from the first one of a. v are the true ones and w the computed ones; u = 2^-52, so that every bound
-// holds in each rounding mode, with and without contraction; M = max |v|. Differences of inputs round once: |w - v| <= u |v|.
+// holds in each rounding mode, with and without contraction; M = max |v|. Differences of inputs round once: |w - v| <= u
+// |v|.
 //
 // Apart. For any g the hulls are at least min g . b - max g . a apart, times 1 / |g|. A computed g . w is within 5u |g| M of
 // g . v, and the difference of two within 13u |g| M. With m the computed one, they are farther apart than r where
@@ -26,8 +27,8 @@
 // Crossing hulls are told by the signs of certified_triangles.hpp.
 //
 // Overflow is as in certified_ball.hpp, and so is underflow, with other numbers: a float that is flushed before it becomes a
-// double takes less than 2^-126 from each coordinate and from both radii, so that a distance less r is off by less than
-// 10 2^-126. In the square of a sum of that and of an error above, each counts twice: with the factor 1 + 1/e that is less than
+// double takes less than 2^-126 from each coordinate and from both radii, so that a distance less r is off by less than 10
+// 2^-126. In the square of a sum of that and of an error above, each counts twice: with the factor 1 + 1/e that is less than
 // 2^-213. `tiny` is more. NaN makes every comparison false.
 
 #include <cstddef>

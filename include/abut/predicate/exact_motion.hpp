@@ -4,20 +4,20 @@
 // When do a moving vertex and a moving triangle, or two moving edges, first touch? Exactly, for every finite input; on hosts
 // alone. Time 2^40 times finer than the step is what is told of it.
 //
-// With u, v the two edges from a corner of a triangle, and w from that corner to the vertex, all of them linear in t, the four
-// points are in one plane when f = w . (u x v) is 0, and in no other case can they touch. So where f is not 0 for all t, the
-// features touch first at one of its roots, of which there are three at most. Likewise of two edges u and v, w from an end of the
-// first to an end of the second (X. Provot, Collision and self-collision handling in cloth model dedicated to design garments,
-// 1997).
+// With u, v the two edges from a corner of a triangle, and w from that corner to the vertex, all of them linear in t, the
+// four points are in one plane when f = w . (u x v) is 0, and in no other case can they touch. So where f is not 0 for all
+// t, the features touch first at one of its roots, of which there are three at most. Likewise of two edges u and v, w from
+// an end of the first to an end of the second (X. Provot, Collision and self-collision handling in cloth model dedicated to
+// design garments, 1997).
 //
 // Where f is 0 for all t, the features are always in one plane. If they do not touch at t = 0, they are apart right before
-// they first touch, and then a point of one is on the border of the other in that plane: the vertex, or an end of an edge, is
-// on a line through an edge, at a root of a coordinate of a cross product; or, where it is on that line for all t, it meets
-// an end of that edge, at a root of a difference of coordinates. All these roots are tried.
+// they first touch, and then a point of one is on the border of the other in that plane: the vertex, or an end of an edge,
+// is on a line through an edge, at a root of a coordinate of a cross product; or, where it is on that line for all t, it
+// meets an end of that edge, at a root of a difference of coordinates. All these roots are tried.
 //
 // Whether features touch at a root is a question of signs there: in a projection along an axis that keeps the plane's area,
-// of the areas that the vertex spans with the triangle's sides; and where no projection does, the triangle has no area or the
-// edges are parallel, and points are compared with edges coordinate by coordinate.
+// of the areas that the vertex spans with the triangle's sides; and where no projection does, the triangle has no area or
+// the edges are parallel, and points are compared with edges coordinate by coordinate.
 
 #include <cstdint>
 #include <vector>
@@ -47,8 +47,8 @@ public:
         }
     }
 
-    /// The first time at which the vertex, which is the first point, is in the face, as a multiple of 2^-40 that is not above
-    /// it; or -1.
+    /// The first time at which the vertex, which is the first point, is in the face, as a multiple of 2^-40 that is not
+    /// above it; or -1.
     [[nodiscard]] std::int64_t vertex_meets_face() const {
         const auto &p = point_[0], &a = point_[1], &b = point_[2], &c = point_[3];
         const vector u = b - a, v = c - a, w = p - a;

@@ -187,11 +187,12 @@ template <scalar T>
 struct unit_of_hulls {
     int low = 1 << 20, high = -(1 << 20);
 
-    /// And of a radius, if there is one.
-    ABUT_HD constexpr unit_of_hulls(const hull<T>& a, const hull<T>& b, T radius = 0) {
+    /// And of a radius and a distance, if there are any.
+    ABUT_HD constexpr unit_of_hulls(const hull<T>& a, const hull<T>& b, T radius = 0, double distance = 0) {
         include(a);
         include(b);
         include(radius);
+        include(distance);
     }
     [[nodiscard]] ABUT_HD constexpr int width() const { return high > low ? high - low : 1; }
 
@@ -205,7 +206,8 @@ private:
             include(p.z);
         }
     }
-    ABUT_HD constexpr void include(T x) {
+    template <scalar F>
+    ABUT_HD constexpr void include(F x) {
         const binary_parts p = take_apart(x);
         if (p.mantissa == 0) return;
         low = p.exponent < low ? p.exponent : low;
@@ -221,6 +223,33 @@ template <scalar T>
 inline constexpr int limbs_of_any = (float_format<T>::max_exponent - float_format<T>::min_exponent +
                                      float_format<T>::digits + spare_bits + 63) /
                                     64;
+
+/// The bits that the magnitude of an integer takes.
+template <int Room>
+ABUT_HD constexpr int bits_of(rolled_int<Room> n) {
+    n.drop_sign();
+    return bits_of_limbs(n.limb, n.count);
+}
+/// n 2^-top times a sense of 1 or -1: within u = 2^-52 of itself, but for less than 2^-695 that is left out.
+template <int Room>
+ABUT_HD constexpr double rounded_part(rolled_int<Room> n, int top, int sense) {
+    const int sign = n.sign() * sense;
+    n.drop_sign();
+    double sum = 0;
+    ABUT_ROLLED
+    for (int i = 0; i < n.count; ++i) {
+        const int e = 64 * i - top;
+        if (e <= -760 || n.limb[i] == 0) continue;  // a limb is below 2^(e + 64)
+        sum += static_cast<double>(n.limb[i]) * __builtin_bit_cast(double, static_cast<std::uint64_t>(e + 1023) << 52);
+    }
+    return sign < 0 ? -sum : sum;
+}
+/// A vector of integers, or its opposite for a sense of -1, with its largest coordinate brought to 1.
+template <int Room>
+ABUT_NOINLINE ABUT_HD constexpr vec3<double> rounded_way(const vec3<rolled_int<Room>>& v, int sense) {
+    const int top = greatest(bits_of(v.x), bits_of(v.y), bits_of(v.z));
+    return {rounded_part(v.x, top, sense), rounded_part(v.y, top, sense), rounded_part(v.z, top, sense)};
+}
 
 /// Two hulls in integers, whose differences have no more than `Room` limbs. With coordinates below 2^w a difference of
 /// differences is below 2^(w + 2), and sums of products of d of them below 2^(d (w + 2) + d): so w + 4 bits for each factor
@@ -248,8 +277,14 @@ public:
                                                    std::uint32_t j) const {
         return sign_of_dot(way, difference(i, j)) > 0;
     }
-    /// A number of the input.
-    [[nodiscard]] ABUT_HD constexpr number of(T x) const { return between(T(0), x); }
+    /// The sum of a radius and a distance.
+    [[nodiscard]] ABUT_HD constexpr number reach(T radius, double distance) const {
+        number r;
+        r.begin(limbs_);
+        add(r, radius, false);
+        add(r, distance, false);
+        return r;
+    }
     ABUT_HD constexpr verdict holds_origin(const vec3<number> (&)[4], const difference_simplex&) const {
         return verdict::yes;
     }
@@ -264,7 +299,8 @@ private:
         return r;
     }
     /// What of x is below the unit is cut off.
-    ABUT_HD constexpr void add(number& r, T x, bool negated) const {
+    template <scalar F>
+    ABUT_HD constexpr void add(number& r, F x, bool negated) const {
         const binary_parts p = take_apart(x);
         if (p.mantissa == 0) return;
         const int up = p.exponent - low_;
@@ -309,11 +345,7 @@ private:
         vec3<double> way{0, 0, 0};
 
         ABUT_HD constexpr rough_scan(const vec3<T>& from, const vec3<rolled_int<3 * Room>>& along, int sense) : first(from) {
-            if constexpr (Sifted) {
-                const int top = greatest(bits_of(along.x), bits_of(along.y), bits_of(along.z));
-                way = {rounded_part(along.x, top, sense), rounded_part(along.y, top, sense),
-                       rounded_part(along.z, top, sense)};
-            }
+            if constexpr (Sifted) way = rounded_way(along, sense);
         }
         ABUT_HD constexpr void measure(const vec3<T>& p, double& height, double& off) const {
             constexpr double tiny = std::same_as<T, float> ? 0x1p-120 : 0x1p-960;
@@ -321,26 +353,6 @@ private:
             height = dot(way, r);
             off = 0x1p-48 * dot(absolute(way), absolute(r)) + (0x1p-690 * magnitudes(r) + tiny);
             if (!(off < 0x1p900)) off = infinity<double>;
-        }
-
-    private:
-        ABUT_HD static constexpr int bits_of(rolled_int<3 * Room> n) {
-            n.drop_sign();
-            return bits_of_limbs(n.limb, n.count);
-        }
-        /// n 2^-top times the sense.
-        ABUT_HD static constexpr double rounded_part(rolled_int<3 * Room> n, int top, int sense) {
-            const int sign = n.sign() * sense;
-            n.drop_sign();
-            double sum = 0;
-            ABUT_ROLLED
-            for (int i = 0; i < n.count; ++i) {
-                const int e = 64 * i - top;
-                if (e <= -760 || n.limb[i] == 0) continue;  // a limb is below 2^(e + 64)
-                sum +=
-                    static_cast<double>(n.limb[i]) * __builtin_bit_cast(double, static_cast<std::uint64_t>(e + 1023) << 52);
-            }
-            return sign < 0 ? -sum : sum;
         }
     };
 

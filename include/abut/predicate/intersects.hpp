@@ -121,11 +121,13 @@ template <arithmetic A = filtered, class S, class U>
             const verdict v = decide<fast>(s, t);
             return v == verdict::unknown ? detail::decide_open<fast>(s, t) == verdict::yes : v == verdict::yes;
         } else {
+            const S& stored_s = detail::as_stored(s);
+            const U& stored_t = detail::as_stored(t);
             if (std::same_as<A, filtered> && !__builtin_is_constant_evaluated()) {
-                const verdict v = decide<filtered>(detail::as_stored(s), detail::as_stored(t));
+                const verdict v = decide<filtered>(stored_s, stored_t);
                 if (v != verdict::unknown) return v == verdict::yes;
             }
-            return detail::intersects_exactly<A>(s, t);
+            return detail::intersects_exactly<A>(stored_s, stored_t);
         }
     } else if constexpr (decidable_pair<U, S>) {
         return intersects<A>(t, s);

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// `within`: are two shapes no farther apart than a distance? The distance of shapes that are hulls of up to three corners or
-// boxes, or what is within a radius of such a hull, from each other or from a plane, is compared with a number that is taken
-// as it is. The squared distance is a rational of the input, and so the answer is decided exactly. Not for how far apart they
+// `within`: are two shapes no farther apart than a distance? The distance of shapes that are convex hulls of points, or what
+// is within a radius of such a hull, from each other or from a plane, is compared with a number that is taken as it is. The squared distance is a rational of the input, and so the answer is decided exactly. Not for how far apart they
 // are: that is distance (narrow/distance.hpp), which rounds.
 
 #include <concepts>
 
 #include <abut/arithmetic/arithmetic.hpp>
 #include <abut/predicate/box_within.hpp>
+#include <abut/predicate/hull_within.hpp>
 #include <abut/predicate/intersects.hpp>
 #include <abut/predicate/plane_core.hpp>
 #include <abut/predicate/within_stages.hpp>
@@ -39,13 +39,13 @@ ABUT_HD constexpr verdict decide_within_open(const S& s, const U& t, double dist
 
 }  // namespace detail
 
-/// Two shapes whose distance can be compared with a number: points, segments, triangles, spheres, capsules and boxes, each
-/// with each, and a plane with any of these; of one scalar type.
+/// Two shapes whose distance can be compared with a number: points, segments, triangles, spheres, capsules, boxes and convex
+/// hulls, each with each, and a plane with any of these; of one scalar type.
 template <class S, class U>
 concept distance_decidable = detail::within_as_given<S, U> || detail::within_as_given<U, S>;
 
 /// Whether two closed shapes are no farther apart than `distance`, which is finite and 0 or more: points, segments,
-/// triangles, spheres, capsules and boxes with each other, and a plane with any of them. With `filtered` and `exact` the
+/// triangles, spheres, capsules, boxes and convex hulls with each other, and a plane with any of them. With `filtered` and `exact` the
 /// answer is right for every finite input, with the distance taken exactly as the double that it is, and the same on each
 /// compiler and device; `fast` is approximate. With distance 0 it is `intersects`. Constant expressions are decided in integers.
 ///
@@ -60,12 +60,14 @@ template <arithmetic A = filtered, class S, class U>
     } else if constexpr (!detail::within_as_given<S, U>) {
         return within<A>(t, s, distance);
     } else {
+        const S& stored_s = detail::as_stored(s);
+        const U& stored_t = detail::as_stored(t);
         if (!std::same_as<A, exact> && !__builtin_is_constant_evaluated()) {
-            const verdict v = detail::decide_within<A>(detail::as_stored(s), detail::as_stored(t), distance);
+            const verdict v = detail::decide_within<A>(stored_s, stored_t, distance);
             if (v != verdict::unknown) return v == verdict::yes;
         }
-        const verdict v = detail::decide_within_open<A>(s, t, distance);
-        return v == verdict::unknown ? detail::resolve_within(s, t, distance) : v == verdict::yes;
+        const verdict v = detail::decide_within_open<A>(stored_s, stored_t, distance);
+        return v == verdict::unknown ? detail::resolve_within(stored_s, stored_t, distance) : v == verdict::yes;
     }
 }
 

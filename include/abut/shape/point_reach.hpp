@@ -17,9 +17,9 @@
 
 namespace abut {
 
-/// What a query reaches, less and less far (of grids a prune functor as well). `least_in(box)` orders boxes by how much what lies in them measures at least;
-/// `keeps(least)` is what the reach says of a box of that; and after `shrink_to(bound)` it may leave out what measures more
-/// than bound, and nothing else.
+/// What a query reaches, less and less far (of grids a prune functor as well). `least_in(box)` orders boxes by how much what
+/// lies in them measures at least; `keeps(least)` is what the reach says of a box of that; and after `shrink_to(bound)` it
+/// may leave out what measures more than bound, and nothing else.
 template <class R, class T>
 concept shrinking_reach = requires(R& reach, const aabb<T>& box, double bound) {
     { reach.least_in(box) } -> std::same_as<T>;

@@ -5,11 +5,11 @@
 // when the ray passes the two planes of a box in each coordinate.
 //
 // The direction is divided by a power of two, 2^e, that brings its largest coordinate to [1, 2); times become 2^e times as
-// long. The time at which a plane is passed is (plane - origin) times the inverse of a coordinate: three roundings of 2u each
-// in any mode, so it is off by less than 7u of itself, and of two such the lesser may seem the greater by 15u. The exit is
-// taken 32u later. What is flushed to zero moves a difference by less than 3 m, where m is the smallest normal number: the
-// origin's own reach, `slack`, is 4 m at least. Inverses are above 1/2, so times above 2 m are not flushed; 4 m is added.
-// Differences may overflow. An entry is held below an eighth of the largest number, which the true one is above if it
+// long. The time at which a plane is passed is (plane - origin) times the inverse of a coordinate: three roundings of 2u
+// each in any mode, so it is off by less than 7u of itself, and of two such the lesser may seem the greater by 15u. The exit
+// is taken 32u later. What is flushed to zero moves a difference by less than 3 m, where m is the smallest normal number:
+// the origin's own reach, `slack`, is 4 m at least. Inverses are above 1/2, so times above 2 m are not flushed; 4 m is
+// added. Differences may overflow. An entry is held below an eighth of the largest number, which the true one is above if it
 // overflows, and a limit that is not below that is none.
 //
 // Where the direction is 0 in a coordinate the origin has to lie between both planes. Where it is less than 2^-60 of the

@@ -34,8 +34,8 @@ struct same_frame {
     }
 };
 
-/// Boxes of one frame that may be so far apart, in each coordinate. Rounding is monotone: what is no larger than the distance is
-/// rounded to no more.
+/// Boxes of one frame that may be so far apart, in each coordinate. Rounding is monotone: what is no larger than the
+/// distance is rounded to no more.
 template <scalar T>
 struct near_frame {
     T distance;
