@@ -13,6 +13,7 @@
 #include "collide/contact_cases.hpp"
 #include "collide/distance_cases.hpp"
 #include "collide/nearest_cases.hpp"
+#include "collide/raycast_cases.hpp"
 #include "collide/set_cases.hpp"
 #include "collide/within_cases.hpp"
 #include "support/catch.hpp"
@@ -37,6 +38,15 @@ hulls<T> random_hulls(std::size_t n, uniform& random, bool on_lattice) {
         offsets.push_back(static_cast<std::uint32_t>(points.size()));
     }
     return {points, offsets};
+}
+
+template <class T>
+rigid<T> pose_of_hulls() {
+    rigid<T> pose;
+    pose.rotation[0] = pose.rotation[4] = T(0.8);
+    pose.rotation[1] = T(-0.6), pose.rotation[3] = T(0.6);
+    pose.translation = {T(0.5), T(-0.25), T(0.125)};
+    return pose;
 }
 
 /// By brute force, indexed on one side and on both, posed, and in the calls that store less.
@@ -87,15 +97,31 @@ void check_hulls_within(const Policy& on, const hulls<T>& a, const Set& b, const
     CHECK(to_host(within(on, posed(tree, pose), make_bvh(on, there_b), 0.375)) == placed);
 }
 
+/// Rays at corners and beside them, and segments, some of which end before; a tree, posed or not.
+template <class Policy, class T>
+void check_rays_at_hulls(const Policy& on, const hulls<T>& a, uniform& random, const rigid<T>& pose) {
+    std::vector<ray<T>> lines;
+    for (std::size_t i = 0; i < 80; ++i) {
+        const vec3<T> origin = random.template point<T>(-3, 3),
+                      corner = a.view().points[random.below(a.view().points.count)];
+        lines.push_back({origin, i % 3 == 0 ? random.template point<T>(-1, 1) : corner - origin});
+        if (i % 5 == 0) lines.back().direction.x = 0;
+    }
+    const auto tree = make_bvh(on, copy_to(on, a));
+    check_hits(on, tree, lines, hits_by_definition(a.view(), lines));
+    check_all_hits(on, tree, a.view(), lines);
+    const posed_view<typename hulls<T>::view_type> placed{a.view(), pose};
+    const auto parts = as_segments(lines);
+    check_hits(on, posed(tree, pose), parts, hits_by_definition(placed, parts));
+    CHECK(to_host(pairs(on, copy_to(on, rays<T>(lines)), tree)) == all_that_touch(rays<T>(lines).view(), a.view()));
+}
+
 template <class T, class Policy>
 void check_hulls(const Policy& on) {
     constexpr std::uint64_t seed = 71;
     std::printf("sets of hulls: seed %llu\n", static_cast<unsigned long long>(seed));
     uniform random(seed);
-    rigid<T> pose;
-    pose.rotation[0] = pose.rotation[4] = T(0.8);
-    pose.rotation[1] = T(-0.6), pose.rotation[3] = T(0.6);
-    pose.translation = {T(0.5), T(-0.25), T(0.125)};
+    const rigid<T> pose = pose_of_hulls<T>();
     for (const bool on_lattice : {false, true}) {
         CAPTURE(on_lattice);
         const auto a = random_hulls<T>(130, random, on_lattice), b = random_hulls<T>(90, random, on_lattice);
@@ -110,9 +136,18 @@ void check_hulls(const Policy& on) {
     CHECK(count(on, copy_to(on, a), plane<T>{{0, 0, 1}, 0}) > 20);
     check_distances_of_hulls(on, a, random_hulls<T>(50, random, false));
     check_distances_of_hulls(on, a, triangle_soup<T>(shape_maker<triangle<T>>(random, true)(50)));
+    const auto none = hulls<T>();
+    check_hulls_against(on, none, random_hulls<T>(3, random, false), pose);
+}
+
+/// What else there is of hulls: contacts, distances to compare with, nearest points and rays.
+template <class T, class Policy>
+void check_more_of_hulls(const Policy& on) {
+    uniform random(72);
+    const rigid<T> pose = pose_of_hulls<T>();
     const auto few = random_hulls<T>(40, random, true);
     const rigid<T> here;
-    CHECK(check_contacts(on, few, here, random_hulls<T>(30, random, true), pose) > 50);
+    CHECK(check_contacts(on, few, here, random_hulls<T>(40, random, true), pose) > 50);
     CHECK(check_contacts(on, few, pose, spheres<T>(shape_maker<sphere<T>>(random, false)(30)), here) > 50);
     check_hulls_within(on, few, random_hulls<T>(30, random, true), pose);
     check_hulls_within(on, few, boxes<T>(shape_maker<aabb<T>>(random, true)(30)), pose);
@@ -122,9 +157,8 @@ void check_hulls(const Policy& on) {
     for (int i = 0; i < 60; ++i) asking.push_back(random.template point<T>(-2, 2));
     check_nearest(on, few, asking);
     check_nearest_posed(on, few, asking, pose);
+    check_rays_at_hulls(on, few, random, pose);
     CHECK(any_within(on, copy_to(on, few), plane<T>{{0, 0, 1}, 9}, 9));
-    const auto none = hulls<T>();
-    check_hulls_against(on, none, random_hulls<T>(3, random, false), pose);
 }
 
 }  // namespace abut::test

@@ -21,6 +21,8 @@ const std::vector<vec3<float>> two_tetrahedra{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {
 
 TEST_CASE("hulls: queries, serial") { test::check_hulls<float>(serial{}); }
 TEST_CASE("hulls: queries, openmp") { test::check_hulls<double>(openmp{3}); }
+TEST_CASE("hulls: more queries, serial") { test::check_more_of_hulls<double>(serial{}); }
+TEST_CASE("hulls: more queries, openmp") { test::check_more_of_hulls<float>(openmp{3}); }
 
 TEST_CASE("hulls: against one shape, themselves, lists, and bodies") {
     const hulls<float> set(two_tetrahedra, std::vector<std::uint32_t>{0, 4, 8});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// expect: abut: raycast looks for triangles: a mesh, a triangle_soup, or a tree of one
+// expect: abut: raycast looks for triangles or hulls: a mesh, a triangle_soup, hulls, or a tree of one
 #include <abut/abut.hpp>
 
 int main() {

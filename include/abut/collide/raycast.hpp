@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// raycast: for each of many rays the triangle that it meets first, and when; raycast_any: whether it meets any.
+// raycast: for each of many rays the triangle or convex hull that it meets first, and when; raycast_any: whether it meets
+// any.
 //
-// By definition the first is the triangle with the least time, as narrow/hit_time.hpp gives it, and of equal ones the one
-// with the least id. The walk is that of `nearest`: nearer child first, and no farther than what is found. Whether there is
-// any is the same walk, which ends at the first hit. raycast_all.hpp has all of them.
+// By definition the first is the shape with the least time, as narrow/hit_time.hpp and hull_hit_time.hpp give it, and of
+// equal ones the one with the least id. The walk is that of `nearest`: nearer child first, and no farther than what is
+// found. Whether there is any is the same walk, which ends at the first hit. raycast_all.hpp has all of them.
 
 #include <concepts>
 #include <cstddef>
@@ -19,6 +20,7 @@
 #include <abut/execution/host.hpp>
 #include <abut/execution/ordered.hpp>
 #include <abut/narrow/hit_time.hpp>
+#include <abut/narrow/hull_hit_time.hpp>
 #include <abut/shape/ray_reach.hpp>
 #include <abut/traverse/ordered_walk.hpp>
 
@@ -126,8 +128,9 @@ consteval bool can_be_met() {
     } else {
         using shape_type = typename shape_of_argument<X>::type;
         using line_type = typename shape_of_argument<Lines>::type;
-        constexpr bool are = std::same_as<shape_type, triangle<scalar_type_of<shape_type>>>;
-        static_assert(are, "abut: raycast looks for triangles: a mesh, a triangle_soup, or a tree of one");
+        using T = scalar_type_of<shape_type>;
+        constexpr bool are = std::same_as<shape_type, triangle<T>> || std::same_as<shape_type, hull<T>>;
+        static_assert(are, "abut: raycast looks for triangles or hulls: a mesh, a triangle_soup, hulls, or a tree of one");
         constexpr bool has_walk = !is_grid<X>;
         static_assert(has_walk, "abut: raycast takes a tree, a set or one shape, and no grid");
         constexpr bool look = is_line<line_type>;
@@ -151,7 +154,8 @@ struct lines_and_shapes {
     [[nodiscard]] auto walk(const Rest&... rest) const {
         const length_unit<T> unit{};
         return Walk<A, decltype(ordered_walk_of(x)), decltype(frame_of(x, unit)), decltype(x.shapes()),
-                    decltype(looking.shapes())>{ordered_walk_of(x), frame_of(x, unit), x.shapes(), looking.shapes(), rest...};
+                    decltype(looking.shapes())>{ordered_walk_of(x), frame_of(x, unit), x.shapes(), looking.shapes(),
+                                                rest...};
     }
 };
 template <class Operand, class Looking>
@@ -164,7 +168,8 @@ auto bring_lines_and_shapes(const Policy& on, const X& index, const Lines& rays,
     return lines_and_shapes{std::move(x), make_operand(on, rays, function)};
 }
 
-/// Finds what each line meets first. finish(found) takes it: found[i] is of line i; with no shapes or no lines `found` is null.
+/// Finds what each line meets first. finish(found) takes it: found[i] is of line i; with no shapes or no lines `found` is
+/// null.
 template <arithmetic A, class Policy, class Both, class Finish>
 auto look_for_first_hits(const Policy& on, const Both& both, const Finish& finish) {
     if (both.has_nothing()) return finish(nullptr);
@@ -204,16 +209,16 @@ auto raycast_any_of(const Policy& on, const X& index, const Lines& rays, const c
 
 }  // namespace detail
 
-/// For each of `rays` the triangle of `index` that it meets first: a `result` of `ray_hit`, in the order of the rays. Of
-/// triangles that are met at one time it has the least id; where nothing is met, `no_id` and infinity.
+/// For each of `rays` the triangle or hull of `index` that it meets first: a `result` of `ray_hit`, in the order of the
+/// rays. Of those that are met at one time it has the least id; where nothing is met, `no_id` and infinity.
 ///
-/// `index` is a tree of any layout, a mesh, a triangle_soup, a view or one triangle, posed or not. `rays` are `rays` or
-/// `segments`: a set, a view, or one. Segments are met from their first end to their second, at times from 0 to 1. Triangles
-/// are met from both sides, and along their planes.
+/// `index` is a tree of any layout, a mesh, a triangle_soup, hulls, a view or one triangle or hull, posed or not. `rays` are
+/// `rays` or `segments`: a set, a view, or one. Segments are met from their first end to their second, at times from 0 to 1.
+/// Triangles are met from both sides, and along their planes; a hull, which is solid, at 0 where a ray begins in it.
 ///
-/// With `filtered` and `exact` whether a ray meets a triangle is decided exactly: none slips through a closed mesh, not
+/// With `filtered` and `exact` whether a ray meets a shape is decided exactly: none slips through a closed mesh, not
 /// through an edge and not through a vertex. Times are the true ones rounded to the nearest double, by which they are
-/// compared, and then to the scalar type; those above its largest number are that. So triangles that are met at one place
+/// compared, and then to the scalar type; those above its largest number are that. So shapes that are met at one place
 /// are met at one time. The same bits on every policy. `fast` is approximate.
 ///
 /// @par Memory
@@ -241,9 +246,9 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Rays>
     }
 }
 
-/// For each of `rays` whether it meets any triangle of `index`: a `result` of `std::uint8_t`, in the order of the rays, 1 or 0.
-/// It is 1 where `raycast` of the same arguments finds a hit, and takes less time: a ray ends at the first triangle that is
-/// found, which need not be the first one that it meets. Segments from a point to a light tell what lies in shadow.
+/// For each of `rays` whether it meets any shape of `index`: a `result` of `std::uint8_t`, in the order of the rays, 1 or
+/// 0. It is 1 where `raycast` of the same arguments finds a hit, and takes less time: a ray ends at the first shape that
+/// is found, which need not be the first one that it meets. Segments from a point to a light tell what lies in shadow.
 ///
 /// Arguments, and what is decided exactly, are those of `raycast`.
 ///

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// raycast_all: for each of many rays all triangles that it meets, in the order in which it meets them.
+// raycast_all: for each of many rays all triangles or hulls that it meets, in the order in which it meets them.
 //
 // The rays walk once to count what each meets, and those that meet more than a few walk again to write it where it belongs.
 // So memory is what the answer takes, and room for those few. Each ray then brings its own hits into order.
@@ -14,7 +14,7 @@
 
 namespace abut {
 
-/// One of the triangles that a ray meets.
+/// One of the shapes that a ray meets.
 /// @ingroup queries
 template <scalar T>
 struct hit_of_ray {
@@ -141,9 +141,9 @@ execution::buffer_of<Policy, Hit> look_for_all_hits(const Policy& on, const Both
     std::uint64_t total = 0;
     download(on, first.data() + n, 1, &total);
     execution::buffer_of<Policy, execution::least_value> hits(on, total);
-    for_each_ordered(on, n,
-                     both.template walk<write_along_lines, A>(std::as_const(first).data(), std::as_const(few).data(), hits.data()),
-                     until);
+    for_each_ordered(
+        on, n, both.template walk<write_along_lines, A>(std::as_const(first).data(), std::as_const(few).data(), hits.data()),
+        until);
     execution::buffer_of<Policy, Hit> out(on, total);
     for_each_index(on, total, write_all_hits<Hit, Name>{first.data(), n, hits.data(), name, out.data()});
     synchronize(on);
@@ -160,8 +160,8 @@ auto raycast_all_of(const Policy& on, const X& index, const Lines& rays, const c
 
 }  // namespace detail
 
-/// All triangles of `index` that each of `rays` meets: a `result` of `hit_of_ray`, sorted by the ray's number, then by t,
-/// then by id. The first hit of a ray is that of `raycast`. A ray that meets nothing has none.
+/// All triangles or hulls of `index` that each of `rays` meets: a `result` of `hit_of_ray`, sorted by the ray's number, then
+/// by t, then by id. The first hit of a ray is that of `raycast`. A ray that meets nothing has none.
 ///
 /// Arguments, and what is decided exactly, are those of `raycast`. Order is that of the times as `raycast` compares them, in
 /// double, also where t is a float. A ray through an edge meets both faces at it.

@@ -77,6 +77,21 @@ concept made_of_points = std::same_as<scalar_type_of<S>, T> && requires(const S&
     points_of(s).as_hull();
 };
 
+/// Of what differences lose where small numbers are read as 0.
+template <scalar T>
+inline constexpr double lost_of_differences = std::same_as<T, float> ? 0x1p-120 : 0x1p-1000;
+
+/// The sign of p . (q x r), of differences of input of type T, or 0 where it is not certain.
+template <scalar T>
+ABUT_HD constexpr int certain_side(const vec3<double>& p, const vec3<double>& q, const vec3<double>& r) {
+    const vec3<double> a = absolute(p), b = absolute(q), c = absolute(r);
+    const double sum = a.x * (b.y * c.z + b.z * c.y) + a.y * (b.z * c.x + b.x * c.z) + a.z * (b.x * c.y + b.y * c.x);
+    const double length = greatest(magnitudes(p), magnitudes(q), magnitudes(r)), lost = lost_of_differences<T>;
+    const double bound = 0x1p-48 * sum + (lost * 0x1p4 * length * length + 0x1p-960), volume = dot(p, cross(q, r));
+    if (!(length < 0x1p300)) return 0;
+    return volume > bound ? 1 : volume < -bound ? -1 : 0;
+}
+
 /// Two hulls in numbers of type F: the input's own, for `fast`, or double with the certificates above.
 template <bool Certified, scalar T>
 class hulls_in_floats {
@@ -110,7 +125,7 @@ public:
     [[nodiscard]] ABUT_HD constexpr bool are_apart(const vec3<number>& way, std::uint32_t i, std::uint32_t j) const {
         if constexpr (Certified) {
             const double length = magnitudes(way), reach = length * size_;
-            return reach < 0x1p1000 && ahead(way, i, j) > 0x1p-48 * reach + (tiny * length + 0x1p-1000);
+            return reach < 0x1p1000 && ahead(way, i, j) > 0x1p-48 * reach + (lost_of_differences<T> * length + 0x1p-1000);
         } else {
             return ahead(way, i, j) > 0;
         }
@@ -122,9 +137,9 @@ public:
             return verdict::yes;
         } else {
             if (at.count == 4) {
-                const int side = side_of(w[1], w[2], w[3]);
-                if (side != 0 && side_of(w[0], w[3], w[2]) == side && side_of(w[0], w[1], w[3]) == side &&
-                    side_of(w[0], w[2], w[1]) == side) {
+                const int side = certain_side<T>(w[1], w[2], w[3]);
+                if (side != 0 && certain_side<T>(w[0], w[3], w[2]) == side && certain_side<T>(w[0], w[1], w[3]) == side &&
+                    certain_side<T>(w[0], w[2], w[1]) == side) {
                     return verdict::yes;
                 }
             }
@@ -139,9 +154,6 @@ public:
     }
 
 private:
-    /// Of what differences lose where small numbers are read as 0.
-    static constexpr double tiny = std::same_as<T, float> ? 0x1p-120 : 0x1p-1000;
-
     ABUT_HD static constexpr vec3<number> seen(const vec3<T>& p, const vec3<T>& from) {
         if constexpr (Certified) {
             return relative_to(from, p);
@@ -165,15 +177,6 @@ private:
     }
     ABUT_HD static constexpr bool same_bits(const vec3<T>& p, const vec3<T>& q) {
         return same_bits(p.x, q.x) && same_bits(p.y, q.y) && same_bits(p.z, q.z);
-    }
-    /// The sign of p . (q x r), or 0 where it is not certain.
-    ABUT_HD static constexpr int side_of(const vec3<double>& p, const vec3<double>& q, const vec3<double>& r) {
-        const vec3<double> a = absolute(p), b = absolute(q), c = absolute(r);
-        const double sum = a.x * (b.y * c.z + b.z * c.y) + a.y * (b.z * c.x + b.x * c.z) + a.z * (b.x * c.y + b.y * c.x);
-        const double length = greatest(magnitudes(p), magnitudes(q), magnitudes(r));
-        const double bound = 0x1p-48 * sum + (tiny * 0x1p4 * length * length + 0x1p-960), volume = dot(p, cross(q, r));
-        if (!(length < 0x1p300)) return 0;
-        return volume > bound ? 1 : volume < -bound ? -1 : 0;
     }
 
     const hull<T>&a_, &b_;
@@ -290,6 +293,11 @@ public:
     }
     [[nodiscard]] ABUT_HD constexpr verdict when_lost(const difference_simplex&) const { return verdict::unknown; }
 
+    /// From one point of the input to another.
+    [[nodiscard]] ABUT_HD constexpr vec3<number> between(const vec3<T>& from, const vec3<T>& to) const {
+        return {between(from.x, to.x), between(from.y, to.y), between(from.z, to.z)};
+    }
+
 private:
     ABUT_HD constexpr number between(T from, T to) const {
         number r;
@@ -309,9 +317,6 @@ private:
         } else if (up > -63) {
             add_shifted(r.limb, limbs_, p.mantissa / (std::int64_t{1} << -up), 0, negated);
         }
-    }
-    ABUT_HD constexpr vec3<number> between(const vec3<T>& from, const vec3<T>& to) const {
-        return {between(from.x, to.x), between(from.y, to.y), between(from.z, to.z)};
     }
     /// The first of the points that lie farthest along a way, or for a sense of -1 against it.
     ABUT_NOINLINE ABUT_HD constexpr std::uint32_t farthest(const hull<T>& h, const vec3<rolled_int<3 * Room>>& way,

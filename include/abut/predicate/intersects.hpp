@@ -17,6 +17,7 @@
 #include <abut/predicate/plane_core.hpp>
 #include <abut/predicate/plane_hull.hpp>
 #include <abut/predicate/plane_plane.hpp>
+#include <abut/predicate/ray_hull.hpp>
 #include <abut/predicate/ray_triangle.hpp>
 #include <abut/predicate/segment_triangle.hpp>
 #include <abut/predicate/sphere_segment.hpp>
