@@ -116,8 +116,8 @@ private:
 namespace construction {
 
 /// Two triangles whose distance is a whole number times a power of two, with the nearest features of any kind. All corners
-/// of one are on one side of a plane with the normal n, all of the other beyond a parallel plane; |n| is whole. Each has one,
-/// two or three corners in its plane, around two points that n joins.
+/// of one are on one side of a plane with the normal n, all of the other beyond a parallel plane; |n| is whole. Each has
+/// one, two or three corners in its plane, around two points that n joins.
 template <scalar T>
 triangle_pair<T> at_whole_distance(draws& d) {
     struct whole {

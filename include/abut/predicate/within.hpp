@@ -2,8 +2,9 @@
 #pragma once
 
 // `within`: are two shapes no farther apart than a distance? The distance of shapes that are convex hulls of points, or what
-// is within a radius of such a hull, from each other or from a plane, is compared with a number that is taken as it is. The squared distance is a rational of the input, and so the answer is decided exactly. Not for how far apart they
-// are: that is distance (narrow/distance.hpp), which rounds.
+// is within a radius of such a hull, from each other or from a plane, is compared with a number that is taken as it is. The
+// squared distance is a rational of the input, and so the answer is decided exactly. Not for how far apart they are: that is
+// distance (narrow/distance.hpp), which rounds.
 
 #include <concepts>
 
@@ -45,9 +46,10 @@ template <class S, class U>
 concept distance_decidable = detail::within_as_given<S, U> || detail::within_as_given<U, S>;
 
 /// Whether two closed shapes are no farther apart than `distance`, which is finite and 0 or more: points, segments,
-/// triangles, spheres, capsules, boxes and convex hulls with each other, and a plane with any of them. With `filtered` and `exact` the
-/// answer is right for every finite input, with the distance taken exactly as the double that it is, and the same on each
-/// compiler and device; `fast` is approximate. With distance 0 it is `intersects`. Constant expressions are decided in integers.
+/// triangles, spheres, capsules, boxes and convex hulls with each other, and a plane with any of them. With `filtered` and
+/// `exact` the answer is right for every finite input, with the distance taken exactly as the double that it is, and the
+/// same on each compiler and device; `fast` is approximate. With distance 0 it is `intersects`. Constant expressions are
+/// decided in integers.
 ///
 ///     static_assert(abut::within(abut::sphere<float>{{0, 0, 5}, 1}, abut::vec3<float>{0, 0, 1}, 3));
 /// @ingroup one_pair
