@@ -143,6 +143,15 @@ void check_divided_impacts(const Team& team) {
     CHECK(to_host(impacts(team, divide_mesh(team, falls), divide_mesh(team, rises))) ==
           to_host(impacts(serial{}, falls, rises)));
 
+    // What only comes near: no part's boxes touch those of another.
+    const auto above = lifted(T(0.5)), below = lifted(T(-0.5));
+    const impact_options wide{.bounds = {.separation = 1.5}};
+    const auto near_each_other = to_host(impacts<conservative>(serial{}, above, below, wide));
+    CHECK(near_each_other.size() > 10);
+    CHECK(to_host(impacts<conservative>(team, divide_mesh(team, above), divide_mesh(team, below), wide)) == near_each_other);
+    CHECK(first_impact<conservative>(team, divide_mesh(team, above), divide_mesh(team, below), wide) ==
+          first_impact<conservative>(serial{}, above, below, wide));
+
     // Parts with vertices of their own.
     std::vector<moving_set<mesh<T>>> given_a, given_b;
     for (int k = 0; k < team.size(); ++k) {

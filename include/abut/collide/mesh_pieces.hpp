@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
+#include <utility>
 
 #include <abut/collide/impact_index.hpp>
 #include <abut/collide/parts.hpp>
