@@ -57,7 +57,7 @@ public:
         if (Room > 0 && !fits_) return line_meets::unknown;
         const auto n = static_cast<std::uint32_t>(h_.count);
         std::uint32_t right = 0, on_line = n;
-        while (right < n && is_on_line(right)) on_line = right++;
+        while (right < n && is_on_line(right)) ++right;
         if (is_lost_) return line_meets::unknown;
         if (right == n) return line_meets::lines;
         std::uint32_t left = right;
