@@ -80,7 +80,7 @@ private:
 
 /// Where the line enters; decided for every finite input.
 template <scalar T>
-ABUT_HD constexpr line_meets entry_of(const line_of<T>& l, const hull<T>& h, hull_triangle& at) {
+ABUT_NOINLINE ABUT_HD constexpr line_meets entry_of(const line_of<T>& l, const hull<T>& h, hull_triangle& at) {
     hull_entry<2, T> entry(l, h);
     line_meets found = entry.find();
     at = entry.at;
@@ -94,7 +94,7 @@ ABUT_HD constexpr line_meets entry_of(const line_of<T>& l, const hull<T>& h, hul
 
 /// When a ray or a segment meets a hull, or a negative number if it does not.
 template <arithmetic A, class Line, scalar T>
-ABUT_HD constexpr double hit_time(const Line& line, const hull<T>& h) {
+ABUT_NOINLINE ABUT_HD constexpr double hit_time(const Line& line, const hull<T>& h) {
     const line_of<T> l(line);
     hull_triangle at;
     const line_meets found = entry_of(l, h, at);
