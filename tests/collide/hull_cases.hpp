@@ -148,11 +148,15 @@ void check_more_of_hulls(const Policy& on) {
     const auto few = random_hulls<T>(40, random, true);
     const rigid<T> here;
     CHECK(check_contacts(on, few, here, random_hulls<T>(40, random, true), pose) > 50);
-    CHECK(check_contacts(on, few, pose, spheres<T>(shape_maker<sphere<T>>(random, false)(30)), here) > 50);
+    const auto tree = make_bvh(on, copy_to(on, few));
+    const spheres<T> balls(shape_maker<sphere<T>>(random, false)(30));
+    const auto with_balls = true_contacts(few.view(), balls.view());
+    CHECK(with_balls.size() > 50);
+    CHECK(same_bits(to_host(contacts(on, tree, copy_to(on, balls))), with_balls));
     check_hulls_within(on, few, random_hulls<T>(30, random, true), pose);
-    check_hulls_within(on, few, boxes<T>(shape_maker<aabb<T>>(random, true)(30)), pose);
-    CHECK(to_host(self_within(on, make_bvh(on, copy_to(on, few)), 0.5)) ==
-          within_by_definition(few.view(), few.view(), 0.5, true));
+    const boxes<T> some(shape_maker<aabb<T>>(random, true)(30));
+    CHECK(to_host(within(on, tree, copy_to(on, some), 0.25)) == within_by_definition(few.view(), some.view(), 0.25));
+    CHECK(to_host(self_within(on, tree, 0.5)) == within_by_definition(few.view(), few.view(), 0.5, true));
     std::vector<vec3<T>> asking;
     for (int i = 0; i < 60; ++i) asking.push_back(random.template point<T>(-2, 2));
     check_nearest(on, few, asking);

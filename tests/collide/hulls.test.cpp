@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <abut/abut.hpp>
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -37,6 +38,10 @@ TEST_CASE("hulls: against one shape, themselves, lists, and bodies") {
     const rigid<float> here, there{.translation = {0.5f, 0, 0}};
     const auto bodies = make_bodies(serial{}, std::vector{posed(tree, here), posed(tree, there)});
     CHECK(count(serial{}, bodies) == 2);
+    const auto how = to_host(contacts(serial{}, bodies));
+    REQUIRE(how.size() == 2);
+    // Half of the side of a tetrahedron, out of the long face of the other one.
+    CHECK(std::abs(how[0].depth - 0.5f / std::sqrt(3.0f)) < 1e-6f);
     std::size_t visited = 0;
     for_each_pair(serial{}, set, rods, [&visited](const index_pair&) {
         ++visited;

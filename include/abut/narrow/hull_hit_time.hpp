@@ -8,6 +8,7 @@
 // simplex method, 1977) they follow while the line goes through an edge or a corner, so that they end. Then the time is that
 // of the triangle, rounded once (hit_time.hpp).
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 
@@ -80,7 +81,7 @@ private:
 
 /// Where the line enters; decided for every finite input.
 template <scalar T>
-ABUT_HD constexpr line_meets entry_of(const line_of<T>& l, const hull<T>& h, hull_triangle& at) {
+ABUT_NOINLINE ABUT_HD constexpr line_meets entry_of(const line_of<T>& l, const hull<T>& h, hull_triangle& at) {
     hull_entry<2, T> entry(l, h);
     line_meets found = entry.find();
     at = entry.at;
@@ -94,7 +95,7 @@ ABUT_HD constexpr line_meets entry_of(const line_of<T>& l, const hull<T>& h, hul
 
 /// When a ray or a segment meets a hull, or a negative number if it does not.
 template <arithmetic A, class Line, scalar T>
-ABUT_HD constexpr double hit_time(const Line& line, const hull<T>& h) {
+ABUT_NOINLINE ABUT_HD constexpr double hit_time(const Line& line, const hull<T>& h) {
     const line_of<T> l(line);
     hull_triangle at;
     const line_meets found = entry_of(l, h, at);
@@ -115,10 +116,19 @@ ABUT_HD constexpr double hit_time(const Line& line, const hull<T>& h) {
     return least_time < infinity<double> ? least_time : -1;
 }
 
-/// Whether it does at all.
+/// Whether it does at all: the triangle that its line goes through first or later, or it begins or ends inside.
 template <arithmetic A, class Line, scalar T>
-ABUT_HD constexpr bool is_met(const Line& line, const hull<T>& h) {
-    return intersects<A>(line, h);
+ABUT_NOINLINE ABUT_HD constexpr bool is_met(const Line& line, const hull<T>& h) {
+    const line_of<T> l(line);
+    hull_triangle at;
+    line_meets found = line_and_hull<2, true, T>(h, l.origin, l.end, l.start).find(at);
+    if (found == line_meets::unknown) {
+        found = line_and_hull<limbs_of_any<T>, true, T>(h, l.origin, l.end, l.start).find(at);
+    }
+    if (found == line_meets::nothing) return false;
+    const auto is_line_met = [&](const triangle<T>& t) { return is_met<A>(line, t); };
+    if (found == line_meets::triangle ? is_line_met(triangle_of(h, at)) : any_line_of(h, is_line_met)) return true;
+    return intersects<A>(h, l.origin) || (std::same_as<Line, segment<T>> && intersects<A>(h, l.end));
 }
 
 }  // namespace abut::detail

@@ -57,7 +57,7 @@ public:
         if (Room > 0 && !fits_) return line_meets::unknown;
         const auto n = static_cast<std::uint32_t>(h_.count);
         std::uint32_t right = 0, on_line = n;
-        while (right < n && is_on_line(right)) on_line = right++;
+        while (right < n && is_on_line(right)) ++right;
         if (is_lost_) return line_meets::unknown;
         if (right == n) return line_meets::lines;
         std::uint32_t left = right;
@@ -186,7 +186,7 @@ ABUT_HD constexpr bool any_line_of(const hull<T>& h, const F& f) {
 
 /// By one line_and_hull; `ask` is a stage that a triangle or a point is asked in.
 template <int Room, bool Sifted, scalar T, class Ask>
-ABUT_HD constexpr verdict decide_ray(const ray<T>& r, const hull<T>& h, const Ask& ask) {
+ABUT_NOINLINE ABUT_HD constexpr verdict decide_ray(const ray<T>& r, const hull<T>& h, const Ask& ask) {
     line_and_hull<Room, Sifted, T> both(h, r.origin, r.direction, vec3<T>{0, 0, 0});
     hull_triangle t;
     const line_meets found = both.find(t);
