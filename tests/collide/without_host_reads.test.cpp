@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <cstdint>
-#include <type_traits>
+
+// Queries whose memory the host may not read, as on a device: what reads it where it must not ends here, and needs no device
+// to be found.
+
+#include <cmath>
 #include <vector>
 
 #include <abut/abut.hpp>
@@ -10,9 +13,6 @@
 #include "support/catch.hpp"
 #include "support/fenced.hpp"
 #include "support/scenes.hpp"
-
-// Queries whose memory the host may not read, as on a device: what reads it where it must not ends here, and needs no device
-// to be found.
 
 using namespace abut;
 
