@@ -2,19 +2,23 @@
 #pragma once
 
 // A policy whose memory the host can read only in loops and copies, as that of a device: between them it is closed to all,
-// and who reads it there ends the program. It runs on the calling thread. For POSIX systems, and for programs without CUDA,
-// whose memory space it takes. Memory is not used twice, so that who reads what was given back is seen as well.
+// and who reads it there ends the program. It runs on the calling thread; several of a team take turns. For POSIX systems,
+// and for programs without CUDA, whose memory space it takes. Memory is not used twice, so that who reads what was given
+// back is seen as well.
 
 #include <sys/mman.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <mutex>
 #include <new>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <abut/execution/generic.hpp>
+#include <abut/execution/ordered.hpp>
 #include <abut/execution/work_queue.hpp>
 
 namespace abut::test {
@@ -27,6 +31,7 @@ public:
         return one;
     }
     [[nodiscard]] void* take(std::size_t bytes) {
+        const std::scoped_lock mine(turn_);
         constexpr std::size_t page = 4096;
         const std::size_t whole = (bytes + page - 1) / page * page;
         if (whole > room - used_) throw std::bad_alloc();
@@ -36,10 +41,12 @@ public:
         return at;
     }
     void open() {
+        turn_.lock();
         if (depth_++ == 0) mprotect(first_, used_, PROT_READ | PROT_WRITE);
     }
     void close() {
         if (--depth_ == 0) mprotect(first_, used_, PROT_NONE);
+        turn_.unlock();
     }
 
 private:
@@ -54,6 +61,7 @@ private:
     unsigned char* first_ = nullptr;
     std::size_t used_ = 0;
     int depth_ = 0;
+    std::recursive_mutex turn_;
 };
 
 /// As long as it lives, the memory may be read and written.
@@ -120,16 +128,25 @@ class capped_queue<T, device_space> {
 public:
     using sink = typename work_queue<T, host_space>::sink;
     template <class Policy>
-    capped_queue(const Policy& on, std::size_t capacity) : items_(on, capacity) {}
+    capped_queue(const Policy& on, std::size_t capacity) : own_(on, capacity), items_(own_.data()), capacity_(capacity) {}
+    /// In memory of the caller's.
+    capped_queue(T* room, std::size_t capacity) : items_(room), capacity_(capacity) {}
     [[nodiscard]] std::uint64_t pushed() const { return pushed_; }
-    [[nodiscard]] const T* data() const { return items_.data(); }
+    [[nodiscard]] const T* data() const { return items_; }
     [[nodiscard]] sink make_sink() { return {}; }
     template <class Policy>
     void merge(const Policy&, std::vector<sink*>& sinks) {
+        store(sinks, [](std::size_t i, std::size_t) { return i; });
+    }
+
+protected:
+    /// Value i at place(i, capacity), if there is room for it.
+    template <class Place>
+    void store(std::vector<sink*>& sinks, const Place& place) {
         const test::opened_fence open;
         for (sink* s : sinks) {
             for (const T& value : s->values) {
-                if (pushed_ < items_.size()) items_.data()[pushed_] = value;
+                if (pushed_ < capacity_) items_[place(pushed_, capacity_)] = value;
                 ++pushed_;
             }
             s->values = {};
@@ -137,8 +154,22 @@ public:
     }
 
 private:
-    buffer<T, device_space> items_;
+    buffer<T, device_space> own_;
+    T* items_;
+    std::size_t capacity_;
     std::uint64_t pushed_ = 0;
+};
+
+template <class T>
+class capped_queue_from_end<T, device_space> : public capped_queue<T, device_space> {
+    using base = capped_queue<T, device_space>;
+
+public:
+    using base::base;
+    template <class Policy>
+    void merge(const Policy&, std::vector<typename base::sink*>& sinks) {
+        base::store(sinks, [](std::size_t i, std::size_t capacity) { return capacity - 1 - i; });
+    }
 };
 
 template <>
@@ -173,6 +204,33 @@ private:
     std::uint32_t word_ = 0;
 };
 
+template <class F>
+class work_visit<F, device_space> {
+public:
+    using sink = typename work_visit<F, host_space>::sink;
+    template <class Policy>
+    work_visit(const Policy&, const F& visitor) : visitor_(visitor) {}
+    [[nodiscard]] bool raised() const { return word_ != 0; }
+    [[nodiscard]] sink make_sink() { return {&visitor_, &word_}; }
+    template <class Policy>
+    void merge(const Policy&, std::vector<sink*>&) {}
+
+private:
+    F visitor_;
+    std::uint32_t word_ = 0;
+};
+
+template <>
+class best_of_all<device_space> : public best_of_all<host_space> {
+public:
+    template <class Policy>
+    explicit best_of_all(const Policy&, double bound = least_value{}.value) : best_of_all<host_space>(serial{}, bound) {}
+    template <class Policy>
+    void begin(const Policy&, std::size_t threads) {
+        best_of_all<host_space>::begin(serial{}, threads);
+    }
+};
+
 }  // namespace abut::execution
 
 namespace abut::test {
@@ -201,6 +259,12 @@ void for_each_group(const fenced& on, std::size_t n, const F& f) {
     constexpr std::size_t size = execution::group_size_of<F>;
     for_each_index(on, n / size + (n % size != 0), execution::detail::run_group<F>{f});
 }
+template <class Walk, class Best>
+void for_each_ordered(const fenced& on, std::size_t n, const Walk& walk, Best& best) {
+    best.begin(on, n);
+    for_each_index(on, n, execution::detail::walk_alone<Walk, Best>{walk, &best});
+    best.end(on);
+}
 template <class T>
 void upload(const fenced&, const T* from, std::size_t n, T* to) {
     copy_through_fence(to, from, n * sizeof(T));
@@ -211,6 +275,11 @@ void download(const fenced&, const T* from, std::size_t n, T* to) {
 }
 template <class T>
 void copy(const fenced&, const T* from, std::size_t n, T* to) {
+    copy_through_fence(to, from, n * sizeof(T));
+}
+/// Between two policies of a team.
+template <class T>
+void copy_across(const fenced&, const T* from, std::size_t n, const fenced&, T* to) {
     copy_through_fence(to, from, n * sizeof(T));
 }
 inline void require_access(const fenced&, const void*, const char*) {}
