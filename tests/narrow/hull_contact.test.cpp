@@ -102,32 +102,13 @@ constexpr test::hull_family families_in_contact[] = {
     test::hull_family::general,  test::hull_family::far_away,  test::hull_family::lattice,
     test::hull_family::flat,     test::hull_family::line,      test::hull_family::touching,
     test::hull_family::step_off, test::hull_family::exponents, test::hull_family::denormal};
-constexpr int kinds = 7;
+constexpr int kinds = test::kinds_around_points;
 
-/// Calls f(hull, other shape), of shape number `kind`: made of the points of b.
-template <scalar T, class F>
-void with_shapes_of_kind(int kind, const test::hull_pair<T>& points, test::draws& d, const F& f) {
-    const hull<T> h = test::hull_over(points.a);
-    const auto& b = points.b;
-    const auto p = [&b](std::size_t i) { return b[i % b.size()]; };
-    const auto size = static_cast<double>(detail::contact_math::magnitude_of(test::hull_over(b)));
-    const T radius = d.below(4) == 0 ? T(0) : static_cast<T>(size * (d.below(2) == 0 ? 1 : d.uniform(0, 0.5)));
-    switch (kind) {
-        case 0:
-            return f(h, test::hull_over(b));
-        case 1:
-            return f(h, triangle<T>{p(0), p(1), p(2)});
-        case 2:
-            return f(h, segment<T>{p(0), p(1)});
-        case 3:
-            return f(h, p(0));
-        case 4:
-            return f(h, sphere<T>{p(0), radius});
-        case 5:
-            return f(h, capsule<T>{{p(0), p(1)}, radius});
-        default:
-            return f(h, merge(bounds(p(0)), bounds(p(1))));
-    }
+/// A radius for a shape among these points.
+template <scalar T>
+T radius_among(const test::point_list<T>& points, test::draws& d) {
+    const auto size = static_cast<double>(detail::contact_math::magnitude_of(test::hull_over(points)));
+    return d.below(4) == 0 ? T(0) : static_cast<T>(size * (d.below(2) == 0 ? 1 : d.uniform(0, 0.5)));
 }
 
 }  // namespace
@@ -147,7 +128,8 @@ TEMPLATE_TEST_CASE("contacts of hulls: as by definition, in every family", "", f
             if (f == test::hull_family::lattice) flatten(both, k / 2 % 16);
             test::draws d(test::sample_seed, 9, k);
             const auto kind = static_cast<int>(k % (kinds + 3));
-            with_shapes_of_kind(kind < kinds ? kind : 0, both, d, [&](const auto& h, const auto& u) {
+            const T radius = radius_among(both.b, d);
+            test::with_shapes_of_kind(kind < kinds ? kind : 0, both, radius, [&](const auto& h, const auto& u) {
                 const auto found = contact_of(h, u);
                 INFO(test::name_of(f) << " " << k);
                 if (found.has_value() != intersects<exact>(h, u)) FAIL_CHECK("there is one exactly where they touch");

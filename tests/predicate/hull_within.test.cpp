@@ -61,34 +61,16 @@ struct question<T, plane<T>> {
     [[nodiscard]] bool truth(double d) const { return test::oracle::within_distance(other, h, d); }
 };
 
-constexpr int kinds = 8;
+constexpr int kinds = test::kinds_around_points + 1;
 
-/// Calls f(hull, other shape), of shape number `kind`: made of the points of b.
+/// Calls f(hull, other shape), of shape number `kind`: made of the points of b. The last is a plane.
 template <scalar T, class F>
 void with_pair_of_kind(int kind, const test::hull_pair<T>& points, std::uint64_t index, const F& f) {
-    const hull<T> h = test::hull_over(points.a);
-    const auto& b = points.b;
-    const auto p = [&b](std::size_t i) { return b[i % b.size()]; };
+    const vec3<T> p = points.b[0], q = points.b[1 % points.b.size()];
+    if (kind == test::kinds_around_points) return f(test::hull_over(points.a), plane<T>{p, static_cast<T>(dot(p, q))});
     test::draws d(test::sample_seed, 8, index);
     const T radius = d.below(3) == 0 ? T(0) : static_cast<T>(d.uniform(0, 0.5));
-    switch (kind) {
-        case 0:
-            return f(h, test::hull_over(b));
-        case 1:
-            return f(h, triangle<T>{p(0), p(1), p(2)});
-        case 2:
-            return f(h, segment<T>{p(0), p(1)});
-        case 3:
-            return f(h, p(0));
-        case 4:
-            return f(h, sphere<T>{p(0), radius});
-        case 5:
-            return f(h, capsule<T>{{p(0), p(1)}, radius});
-        case 6:
-            return f(h, merge(bounds(p(0)), bounds(p(1))));
-        default:
-            return f(h, plane<T>{p(0), static_cast<T>(dot(p(0), p(1)))});
-    }
+    test::with_shapes_of_kind(kind, points, radius, f);
 }
 
 struct hull_within_tally {

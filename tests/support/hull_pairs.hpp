@@ -5,11 +5,14 @@
 // line, touching in a corner, an edge or a face and one step off it, of mixed exponents, denormal, and of many points.
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
+#include <abut/shape/bounds.hpp>
 #include <abut/shape/hull.hpp>
+#include <abut/shape/primitive.hpp>
 
 #include "draws.hpp"
 
@@ -212,6 +215,32 @@ hull_pair<T> make_hull_pair(std::uint64_t seed, hull_family f, std::uint64_t ind
         std::swap(points->front(), (*points)[static_cast<std::size_t>(d.below(static_cast<int>(points->size())))]);
     }
     return made;
+}
+
+/// Kinds of shapes that a hull's points make.
+inline constexpr int kinds_around_points = 7;
+
+/// Calls f(hull of a, another shape) of a kind: made of points of b, with a radius if it has one.
+template <scalar T, class F>
+void with_shapes_of_kind(int kind, const hull_pair<T>& points, T radius, const F& f) {
+    const hull<T> h = hull_over(points.a);
+    const auto p = [&b = points.b](std::size_t i) { return b[i % b.size()]; };
+    switch (kind) {
+        case 0:
+            return f(h, hull_over(points.b));
+        case 1:
+            return f(h, triangle<T>{p(0), p(1), p(2)});
+        case 2:
+            return f(h, segment<T>{p(0), p(1)});
+        case 3:
+            return f(h, p(0));
+        case 4:
+            return f(h, sphere<T>{p(0), radius});
+        case 5:
+            return f(h, capsule<T>{{p(0), p(1)}, radius});
+        default:
+            return f(h, merge(bounds(p(0)), bounds(p(1))));
+    }
 }
 
 }  // namespace abut::test
