@@ -172,54 +172,26 @@ public:
     }
 };
 
-template <>
-class work_count<device_space> {
-public:
-    using sink = work_count<host_space>::sink;
-    template <class Policy>
-    explicit work_count(const Policy&) {}
-    [[nodiscard]] std::uint64_t total() const { return total_; }
-    [[nodiscard]] sink make_sink() { return {}; }
-    template <class Policy>
-    void merge(const Policy&, std::vector<sink*>& sinks) {
-        for (const sink* s : sinks) total_ += s->sum;
-    }
-
-private:
-    std::uint64_t total_ = 0;
-};
+// What these hold stays with the host, which alone merges it.
 
 template <>
-class work_flag<device_space> {
+class work_count<device_space> : public work_count<host_space> {
 public:
-    using sink = work_flag<host_space>::sink;
     template <class Policy>
-    explicit work_flag(const Policy&) {}
-    [[nodiscard]] bool raised() const { return word_ != 0; }
-    [[nodiscard]] sink make_sink() { return {&word_}; }
-    template <class Policy>
-    void merge(const Policy&, std::vector<sink*>&) {}
-
-private:
-    std::uint32_t word_ = 0;
+    explicit work_count(const Policy&) : work_count<host_space>(serial{}) {}
 };
-
+template <>
+class work_flag<device_space> : public work_flag<host_space> {
+public:
+    template <class Policy>
+    explicit work_flag(const Policy&) : work_flag<host_space>(serial{}) {}
+};
 template <class F>
-class work_visit<F, device_space> {
+class work_visit<F, device_space> : public work_visit<F, host_space> {
 public:
-    using sink = typename work_visit<F, host_space>::sink;
     template <class Policy>
-    work_visit(const Policy&, const F& visitor) : visitor_(visitor) {}
-    [[nodiscard]] bool raised() const { return word_ != 0; }
-    [[nodiscard]] sink make_sink() { return {&visitor_, &word_}; }
-    template <class Policy>
-    void merge(const Policy&, std::vector<sink*>&) {}
-
-private:
-    F visitor_;
-    std::uint32_t word_ = 0;
+    work_visit(const Policy&, const F& visitor) : work_visit<F, host_space>(serial{}, visitor) {}
 };
-
 template <>
 class best_of_all<device_space> : public best_of_all<host_space> {
 public:

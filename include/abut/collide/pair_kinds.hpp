@@ -44,7 +44,7 @@ struct pairs_that_touch : as_near_as_boxes {
 
 /// Of one set alone. Two parts have no vertices in common, unless these go by their places: all shapes that come from
 /// another part are no faces of a mesh, and their numbers are above those of all vertices and shapes of a set.
-struct pairs_beyond_shared : as_near_as_boxes {
+struct pairs_beyond_shared : pairs_that_touch {
     bool by_place;
 
     explicit pairs_beyond_shared(coincident_vertices coincident) : by_place(coincident == coincident_vertices::merged) {}
@@ -58,14 +58,6 @@ struct pairs_beyond_shared : as_near_as_boxes {
         check_options(on, options, function);
         return pair_operands(on, see(make_operand(on, a, function), as_faces{by_place}),
                              see(make_operand(on, came, function), as_faces{by_place, std::uint32_t{1} << 31}), options);
-    }
-    template <arithmetic A>
-    [[nodiscard]] touch<A> judge() const {
-        return {};
-    }
-    template <arithmetic A>
-    [[nodiscard]] touch_and_name<A> names() const {
-        return {};
     }
 };
 
