@@ -226,6 +226,11 @@ function(abut_program target)
         set_target_properties(${target} PROPERTIES CUDA_PTX_COMPILATION ON)
     else()
         add_executable(${target} ${ARGN})
+        if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+            # To clang a local name hides one of another source that is compiled with it.
+            set_target_properties(${target} PROPERTIES
+                                  UNITY_BUILD_CODE_BEFORE_INCLUDE "#pragma GCC diagnostic ignored \"-Wshadow\"")
+        endif()
     endif()
     target_link_libraries(${target} PRIVATE abut_development)
 endfunction()

@@ -107,25 +107,31 @@ quick_device=OFF
 if [ $quick = ON ] && ! cuda_device_present; then quick_device=ON; fi
 sanitized='-O0 -g1'
 # Six sources of a layer are compiled as one: most of it goes into what they share, headers and what is made of templates. A
-# compiler then takes up to 3.5 GB. clang takes them singly.
-together_gcc=$quick together_asan=ON
-if [ $asan = all ]; then layers='' sanitized='-O1 -g1' together_asan=OFF; fi
+# compiler then takes up to 3.5 GB.
+batch='-DCMAKE_UNITY_BUILD_BATCH_SIZE=6'
+together="-DCMAKE_UNITY_BUILD=$quick $batch" together_asan="-DCMAKE_UNITY_BUILD=ON $batch"
+if [ $asan = all ]; then layers='' sanitized='-O1 -g1' together_asan=''; fi
 
+# shellcheck disable=SC2086
 build_tree gcc default -DCMAKE_CXX_COMPILER=g++ -DABUT_CUDA=$cuda -DABUT_HEADER_COMPILERS="$compilers" -DABUT_BENCH=$bench_option \
     -DABUT_TEST_QUICK=$quick -DABUT_QUICK_EXAMPLES=$quick -DABUT_QUICK_DEVICE_CODE=$quick_device \
-    -DABUT_TEST_ELSEWHERE=$elsewhere_gcc \
-    -DCMAKE_UNITY_BUILD=$together_gcc -DCMAKE_UNITY_BUILD_BATCH_SIZE=6
+    -DABUT_TEST_ELSEWHERE=$elsewhere_gcc $together
+# shellcheck disable=SC2086
 build_tree asan asan -DCMAKE_CXX_COMPILER=g++ -DABUT_EXAMPLES=OFF -DABUT_TEST_PREFIX='asan/' -DABUT_TEST_LAYERS="$layers" \
     -DABUT_TEST_ELSEWHERE=$elsewhere_asan \
-    -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="$sanitized" -DCMAKE_UNITY_BUILD=$together_asan -DCMAKE_UNITY_BUILD_BATCH_SIZE=6
+    -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="$sanitized" $together_asan
 if [ $clang = yes ]; then
     # --headers has checked them with clang already.
     header_compilers=$(command -v clang++)
     if [ $headers = yes ]; then header_compilers=''; fi
-    build_tree clang clang -DABUT_TEST_QUICK=$quick -DABUT_TEST_PREFIX='clang/' -DABUT_HEADER_COMPILERS="$header_compilers"
+    # shellcheck disable=SC2086
+    build_tree clang clang -DABUT_TEST_QUICK=$quick -DABUT_TEST_PREFIX='clang/' -DABUT_HEADER_COMPILERS="$header_compilers" \
+        $together
 fi
 if [ $tsan = yes ]; then
-    build_tree tsan tsan -DABUT_EXAMPLES=OFF -DABUT_TEST_PREFIX='tsan/' -DABUT_TEST_LAYERS='execution;shape;index;collide;devices'
+    # shellcheck disable=SC2086
+    build_tree tsan tsan -DABUT_EXAMPLES=OFF -DABUT_TEST_PREFIX='tsan/' -DABUT_TEST_LAYERS='execution;shape;index;collide;devices' \
+        $together
 fi
 
 # --- one run of ctest over all trees -----------------------------------------------------------------------------------

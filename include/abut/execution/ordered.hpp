@@ -144,7 +144,7 @@ public:
         ABUT_HD void close() { out->offer(mine.value, mine.key); }
     };
 
-    template <execution_policy Policy>
+    template <host_policy Policy>
     explicit best_of_all(const Policy&, double bound = least_value{}.value)
         : word_(__builtin_bit_cast(std::uint64_t, bound)) {}
     /// The least of all loops so far.
