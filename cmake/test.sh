@@ -144,6 +144,8 @@ timeout=1200
 if [ $full = yes ]; then
     : "${ABUT_SAMPLES:=1000000}" "${ABUT_RESULTS:=$(pwd)/docs/results}"
     mkdir -p "$ABUT_RESULTS"
+    ABUT_COMMIT=$(git rev-parse --short HEAD 2>/dev/null || echo unknown)
+    export ABUT_COMMIT
     timeout=100000
 fi
 : "${ABUT_SAMPLES:=5000}"

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <stdexcept>
 #include <string>
 
@@ -91,13 +92,17 @@ public:
             file_ = std::fopen(path.c_str(), "w");
             if (file_ == nullptr) throw std::runtime_error("ABUT_RESULTS: cannot write " + path);
         }
+        const char* const commit = std::getenv("ABUT_COMMIT");
+        const std::time_t now = std::time(nullptr);
+        char date[16] = "";
+        std::strftime(date, sizeof date, "%Y-%m-%d", std::gmtime(&now));
         for (std::FILE* const out : {stdout, file_}) {
             if (out == nullptr) continue;
             std::fprintf(
                 out,
                 "%s, seed %llu; fast: missed / phantom per million; then the share of pairs that each stage decides "
-                "(%%)\n\n",
-                title, static_cast<unsigned long long>(sample_seed));
+                "(%%). Commit %s, %s\n\n",
+                title, static_cast<unsigned long long>(sample_seed), commit == nullptr ? "unknown" : commit, date);
             std::fprintf(out,
                          "| family | scalar | pairs | hits %% | fast | filter |%s 1 limb | 2 limbs | any span | wrong |\n",
                          late_ ? " late |" : "");
