@@ -54,4 +54,20 @@ TEST_CASE("queries: memory that only loops may read, and the host resolves") {
     const auto expected = test::all_that_touch(soup.view(), soup.view());
     CHECK(expected.size() > 100);
     CHECK(to_host(pairs(on, make_bvh(on, copy_to(on, soup)), soup)) == expected);
+
+    // Hulls refer to points, which it fetches too.
+    std::vector<vec3<double>> points;
+    std::vector<std::uint32_t> offsets(1, 0);
+    for (std::size_t i = 0; i + 1 < triangles.size(); i += 2) {
+        const triangle<double>&s = triangles[i], &t = triangles[i + 1];
+        points.insert(points.end(), {s.a, s.b, s.c, t.a, t.b, t.c});
+        offsets.push_back(static_cast<std::uint32_t>(points.size()));
+    }
+    const hulls<double> solids(points, offsets);
+    const auto there = copy_to(on, solids);
+    CHECK(to_host(pairs(on, make_bvh(on, there), soup)) == test::all_that_touch(solids.view(), soup.view()));
+    rigid<double> pose;
+    pose.translation = {1, 0, 0};
+    const posed_view<hulls<double>::view_type> placed{solids.view(), pose};
+    CHECK(to_host(pairs(on, there, posed(there, pose))) == test::all_that_touch(solids.view(), placed));
 }
