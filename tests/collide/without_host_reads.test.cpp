@@ -9,6 +9,7 @@
 #include <abut/abut.hpp>
 
 #include "collide/contact_cases.hpp"
+#include "collide/hull_cases.hpp"
 #include "collide/set_cases.hpp"
 #include "support/catch.hpp"
 #include "support/fenced.hpp"
@@ -17,6 +18,9 @@
 using namespace abut;
 
 static_assert(execution_policy<test::fenced>);
+
+template <>
+inline constexpr bool detail::takes_hulls<test::fenced> = true;
 
 TEST_CASE("queries: memory that only loops may read") {
     const test::fenced on;
@@ -71,3 +75,5 @@ TEST_CASE("queries: memory that only loops may read, and the host resolves") {
     const posed_view<hulls<double>::view_type> placed{solids.view(), pose};
     CHECK(to_host(pairs(on, there, posed(there, pose))) == test::all_that_touch(solids.view(), placed));
 }
+
+TEST_CASE("queries: hulls in memory that only loops may read") { test::check_hulls<float>(test::fenced{}); }

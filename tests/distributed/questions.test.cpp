@@ -342,7 +342,7 @@ void check_lists_of_parts(std::size_t entries, division how) {
 
 TEST_CASE("distributed: lists of posed pairs whose entries many ranks have") {
     for (const division how : divisions) check_lists_of_parts<float>(50, how);
-    for (const std::size_t entries : {0, 1, 5}) check_lists_of_parts<float>(entries, division::even);
+    for (const std::size_t entries : {0u, 1u, 5u}) check_lists_of_parts<float>(entries, division::even);
     check_lists_of_parts<double>(50, division::uneven);
     const distributed on(world(), serial{});
     CHECK(detail::entries_of_rank{std::uint64_t{1} << 33}.named(tagged_pair{1, 2, 3}).pair == (std::uint64_t{1} << 33) + 1);

@@ -349,18 +349,6 @@ inline void check(const distance_options& options, const char* function) {
     if (options.below != options.below) throw error(std::string(function) + ": below is NaN; expected a distance");
 }
 
-/// Two shapes of a pairing, in host memory.
-template <class Policy, class View>
-whole_pair<View> pair_of_key(const Policy& on, const View& both, std::uint64_t key) {
-    whole_pair<View> pair;
-    execution::buffer_of<Policy, std::uint64_t> keys(on, 1);
-    execution::buffer_of<Policy, whole_pair<View>> pairs(on, 1);
-    upload(on, &key, 1, keys.data());
-    for_each_index(on, 1, fetch_pair<View>{both, keys.data(), pairs.data()});
-    download(on, pairs.data(), 1, &pair);
-    return pair;
-}
-
 /// The least key of two arguments' pairs that touch, or no_pair.
 template <class Policy, class Pairing>
 std::uint64_t first_touch(const Policy& on, Pairing& pairing) {
@@ -378,8 +366,10 @@ execution::least_value nearest_pair(const Policy& on, const Pairing& pairing, do
 /// How far apart the two shapes of a key are, and where. Ids are those of the pairing.
 template <class Policy, class Pairing>
 auto separation_of_key(const Policy& on, const Pairing& pairing, std::uint64_t key, bool touch) {
-    const auto pair = pair_of_key(on, pairing.view(), key);
-    auto found = separation_of(pair.a, pair.b, touch);
+    execution::buffer_of<Policy, std::uint64_t> keys(on, 1);
+    upload(on, &key, 1, keys.data());
+    const fetched_pairs<typename Pairing::view_type> fetched(on, pairing.view(), keys.data(), 1);
+    auto found = separation_of(fetched[0].a, fetched[0].b, touch);
     found.a = pairing.key.a(key);
     found.b = pairing.key.b(key);
     return found;

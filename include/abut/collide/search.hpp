@@ -10,6 +10,7 @@
 // the host.
 
 #include <algorithm>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -64,20 +65,40 @@ struct resolve_whole {
     void operator()(std::size_t i) const { touch[i] = judge.resolve(pairs[i].a, pairs[i].b); }
 };
 
-/// Brings what a shape of a device refers to over to the host, and lets the shape refer to that, as long as it is kept.
-template <class Policy, class S>
-std::vector<unsigned char> bring_over([[maybe_unused]] const Policy& on, [[maybe_unused]] S& shape) {
-    std::vector<unsigned char> bytes;
-    if constexpr (refers_to_memory<S>) {
-        using point = std::remove_reference_t<decltype(*shape.points)>;
-        bytes.resize((shape.count - 1) * shape.stride + sizeof(point));
-        const void* const there = shape.points;
-        download(on, static_cast<const unsigned char*>(there), bytes.size(), bytes.data());
-        const void* const here = bytes.data();
-        shape.points = static_cast<point*>(here);
+/// Pairs by their keys, with their shapes, in host memory: with copies of what shapes of a device refer to.
+template <class View>
+class fetched_pairs {
+public:
+    template <class Policy>
+    fetched_pairs(const Policy& on, const View& both, const std::uint64_t* keys, std::size_t n) : pairs_(n) {
+        // Nothing may throw while the keys are being read.
+        execution::buffer_of<Policy, whole_pair<View>> gathered(on, n);
+        for_each_index(on, n, fetch_pair<View>{both, keys, gathered.data()});
+        download(on, gathered.data(), n, pairs_.data());
+        for (whole_pair<View>& p : pairs_) {
+            bring_over(on, p.a);
+            bring_over(on, p.b);
+        }
     }
-    return bytes;
-}
+    [[nodiscard]] const whole_pair<View>& operator[](std::size_t i) const { return pairs_[i]; }
+    [[nodiscard]] const whole_pair<View>* data() const { return pairs_.data(); }
+
+private:
+    template <class Policy, class S>
+    void bring_over([[maybe_unused]] const Policy& on, [[maybe_unused]] S& shape) {
+        if constexpr (refers_to_memory<S> && !std::same_as<space_of<Policy>, host_space>) {
+            using point = std::remove_reference_t<decltype(*shape.points)>;
+            std::vector<unsigned char>& bytes = referred_.emplace_back((shape.count - 1) * shape.stride + sizeof(point));
+            const void* const there = shape.points;
+            download(on, static_cast<const unsigned char*>(there), bytes.size(), bytes.data());
+            const void* const here = bytes.data();
+            shape.points = static_cast<point*>(here);
+        }
+    }
+
+    std::vector<whole_pair<View>> pairs_;
+    std::vector<std::vector<unsigned char>> referred_;
+};
 
 /// Resolves on all threads of the host what a device left there, most_pairs at a time, or a few of shapes that refer to
 /// memory, and reports what was found from the device.
@@ -89,17 +110,7 @@ void resolve_on_host(const Policy& on, const View& both, const Judge& judge, con
     }
     for (std::size_t first = 0; first < n && !execution::is_over(hits); first += most_pairs) {
         const std::size_t some = std::min(n - first, most_pairs);
-        std::vector<whole_pair<View>> pairs(some);  // first: nothing may throw while the keys are being read
-        execution::buffer_of<Policy, whole_pair<View>> gathered(on, some);
-        for_each_index(on, some, fetch_pair<View>{both, keys + first, gathered.data()});
-        download(on, gathered.data(), some, pairs.data());
-        std::vector<std::vector<unsigned char>> referred;
-        if constexpr (refers_to_memory<typename View::shape_type_a> || refers_to_memory<typename View::shape_type_b>) {
-            for (whole_pair<View>& p : pairs) {
-                referred.push_back(bring_over(on, p.a));
-                referred.push_back(bring_over(on, p.b));
-            }
-        }
+        const fetched_pairs<View> pairs(on, both, keys + first, some);
         std::vector<unsigned char> touch(some);
         for_each_task(openmp{}, some, resolve_whole<View, Judge>{pairs.data(), judge, touch.data()});
         std::vector<std::uint64_t> found;
