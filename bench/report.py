@@ -8,7 +8,9 @@ usage: report.py [--check]                  compares the pages with the results;
 
 In a page, lines between `<!-- NAME: begin -->` and `<!-- NAME: end -->` are a table of bench/report_*.py, and what is
 between `<!-- v: NAME -->` and `<!-- /v -->` is a value. A table of figures that stands elsewhere is an error, unless it is of
-constants, which no program measures: then the line `<!-- constants -->` is before it. cmake/report.sh runs the benchmarks.
+constants, which no program measures: then the line `<!-- constants -->` is before it. A number in a sentence that reads like
+a measurement (a time, a rate, a share, so many times faster) is an error as well, unless nobody measured it: a bound, a
+setting or an assumption has `<!-- stated -->` in its line. cmake/report.sh runs the benchmarks.
 """
 
 import argparse
@@ -24,7 +26,22 @@ import report_tables  # noqa: E402
 ROOT = Path(__file__).resolve().parent.parent
 BLOCK = re.compile(r"<!-- (?P<name>[\w-]+): begin -->\n(?P<text>.*?)<!-- (?P=name): end -->\n", re.S)
 VALUE = re.compile(r"<!-- v: (?P<name>[\w-]+) -->(?P<text>.*?)<!-- /v -->", re.S)
+CODE = re.compile(r"^ *```.*?^ *```$", re.S | re.M)
+CONSTANTS = re.compile(r"^<!-- constants -->\n(?:\|.*\n)+", re.M)
+STATED = "<!-- stated -->"
 MARK = re.compile(r"<!-- (?:[\w-]+: (?:begin|end)|v: [\w-]+|/v) -->")
+
+# What reads like a measurement. Spaces stand for any white space.
+NUMBER = r"(?:\d[\d.,^]*|half|third|quarters?|fifth|tenths?|hundredth|twice|two|three|four|five|six|seven|eight|nine|ten|dozen|" \
+    r"hundreds?|thousands?|few|some)"
+UNIT = r"(?:[num]s|[\u00b5\u03bc]s|s|(?:nano|micro|milli)?seconds?|minutes?|hours?|cycles|%|per cent|[kMGT]i?B/s|" \
+    r"(?:\w+ )?(?:a|per) second|\w*/s)"
+MEASURED = re.compile("|".join((
+    rf"\b{NUMBER}(?: |(?<=\d))(?:to {NUMBER} |or {NUMBER} )?"
+    rf"(?:(?:an? )?(?:hundred|thousand|million|billion) )?(?:of )?(?:an? )?{UNIT}(?!\w)",
+    rf"\b{NUMBER} times (?:as (?:fast|slow|quick|long|much time)|faster|slower|quicker|longer|the (?:time|speed))",
+    rf"\b{NUMBER} of the (?:time|speed|cost)\b", r"\b(?:twice|half) (?:as (?:fast|slow|quick|long)|the (?:time|speed))",
+)).replace(" ", r"\s+"))
 
 
 class Missing(Exception):
@@ -175,6 +192,20 @@ def loose_tables(text):
     return found
 
 
+def loose_numbers(text):
+    """The numbers of lines, and the words, of what reads like a measurement in sentences, and no program writes."""
+    def blank(match):  # keeps lines where they are
+        return "\n" * match[0].count("\n")
+
+    lines = text.split("\n")
+    for what in (BLOCK, VALUE, CODE, CONSTANTS, re.compile(r"`[^`\n]*`|\]\([^)\n]*\)")):
+        text = what.sub(blank, text)
+    for match in MEASURED.finditer(text):
+        first, last = text.count("\n", 0, match.start()), text.count("\n", 0, match.end())
+        if not any(STATED in line for line in lines[first:last + 1]):
+            yield first + 1, " ".join(match[0].split())
+
+
 def check(results):
     problems = []
     for path in pages():
@@ -188,6 +219,7 @@ def check(results):
         marks = MARK.findall(VALUE.sub("", BLOCK.sub("", text)))
         here += [f"{mark} has no partner" for mark in marks]
         here += [f"line {n}: a table of figures that no program writes" for n in loose_tables(text)]
+        here += [f"line {n}: {words!r} reads like a measurement, and no program writes it" for n, words in loose_numbers(text)]
         here += [f"{plot} is not there" for plot in re.findall(r"\]\(((?:docs/)?figures/[^)]*)\)",
                                                                text) if not (path.parent / plot).exists()]
         problems += [f"{path.relative_to(ROOT)}: {problem}" for problem in here]

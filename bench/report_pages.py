@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""The paragraphs of README, and the values of docs/choosing.md."""
+"""The paragraphs of README, the values of docs/choosing.md, and values within sentences."""
+
+import math
 
 from report_core import *  # noqa: F403
 from report_motion import motion_scenes
 from report_predicates import from_tests
-from report_queries import BUILDERS, LABELS, SPHERES, TRIANGLES
+from report_queries import BUILDERS, LABELS, SIZES, SPHERES, TRIANGLES, of_size
 
 
 # --- README -----------------------------------------------------------------------------------------------------------------
@@ -128,3 +130,75 @@ def needed(value):
 
 
 choosing()
+
+
+# --- values within sentences ------------------------------------------------------------------------------------------------
+
+def value(name):
+    def add(make):
+        VALUES[name] = make
+        return make
+    return add
+
+
+@value("devices-large-pairs")
+def devices_large_pairs(results):
+    return needed(results["cuda/devices_large"].get("devices_large/pairs/mesh/cuda"))
+
+
+@value("devices-team")
+def devices_team(results):
+    """By how many per cent one device, named by `cuda_devices`, differs from `cuda` in large scenes, at most."""
+    r = results["cuda/devices_large"]
+    return whole(math.ceil(max(100 * abs(r.get(n) / r.get(n.replace("one_device", "cuda")) - 1) for n in r.rows
+                               if n.endswith("/one_device"))))
+
+
+@value("devices-team-short")
+def devices_team_short(results):
+    """The same of short queries, in us."""
+    r = results["cuda/devices"]
+    return whole(math.ceil(max(1e3 * abs(r.get(n) - r.get(n.replace("one_device", "cuda")))
+                               for scene in ("trees", "look_up") for n in r.rows if n.endswith(f"/{scene}/one_device"))))
+
+
+@value("extremes-motion")
+def extremes_motion(results):
+    r = results["cpu/extremes"]
+    return needed(max(r.get(n, "filtered_ns") for kind in ("vertex_face", "edge_edge")
+                      for n in r.names(f"pair/{kind}/double/spread/")) / 1e6)
+
+
+@value("trade-funnel-off")
+def trade_funnel_off(results):
+    return f"{100 * results['cpu/trade_scenes'].get('ccd/cloth-funnel/float', 'time_error'):.0f}"
+
+
+def device_pays(row):
+    """The least size from which on a device takes less time than one core."""
+    def least(results):
+        faster = [of_size(results, "cuda", n).get(row("cuda", n)) < of_size(results, "cpu", n).get(row("serial", n)) for n in SIZES]
+        return f"{int(next(n for i, n in enumerate(SIZES) if all(faster[i:]))):,}"
+    return least
+
+
+VALUES["device-pays-walk"] = device_pays(lambda policy, n: f"boxes/posed/{policy}")
+VALUES["device-pays-build"] = device_pays(lambda policy, n: f"build/bvh/cuda/{n}" if policy == "cuda" else "build/bvh/serial")
+
+
+@value("build-over-refit-cpu")
+def build_over_refit_cpu(results):
+    r = results["cpu/builders"]
+    return f"{r.get('build/linear/serial') / r.get('refit/linear/serial'):.1f}"
+
+
+@value("build-over-refit-cuda")
+def build_over_refit_cuda(results):
+    r = results["cuda/builders"]
+    return f"{r.get('build/mesh') / r.get('refit/mesh'):.1f}"
+
+
+@value("kdop-conversion")
+def kdop_conversion(results):
+    r = results["cpu/builders"]
+    return f"{r.get('convert/kdop18/sah/serial') / r.get('convert/oriented/sah/serial'):.2f}"

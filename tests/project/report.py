@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Runs bench/report.py --check, and sees that it notices what it is there for: on copies with a digit changed, a table that no
-program writes, results that are gone, a block without an end, README at odds with them. And runs cmake/report.sh with programs
-that measure nothing.
+program writes, a measurement in a sentence, results that are gone, a block without an end, README at odds with them. And runs
+cmake/report.sh with programs that measure nothing.
 
 usage: report.py REPOSITORY
 """
@@ -44,6 +44,10 @@ MUTATIONS = {
     "a digit of README": lambda r: change_digit(r / "README.md", "cost-spheres"),
     "a table that no program writes": lambda r: append(r / "docs" / "building.md",
                                                        "\n| what | ms |\n| --- | ---: |\n| a query | 1.25 |\n"),
+    "a measurement in a sentence": lambda r: append(r / "docs" / "building.md", "\nA query takes 1.25\nms on this machine.\n"),
+    "a factor in a sentence": lambda r: append(r / "README.md", "\nIt is 17.4 times faster.\n"),
+    "a share in a sentence": lambda r: append(r / "docs" / "results" / "contacts.md", "\nIt keeps some 80 % of them.\n"),
+    "a rate in a sentence": lambda r: append(r / "docs" / "guide.md", "\nIt reads half a million inputs a second.\n"),
     "a block of an unknown name": lambda r: append(r / "docs" / "building.md",
                                                    "<!-- nobody: begin -->\n<!-- nobody: end -->\n"),
     "a block without an end": lambda r: replace(r / "docs" / "benchmarks.md", "<!-- trade-cpu: end -->\n", ""),
