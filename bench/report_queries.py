@@ -661,12 +661,11 @@ def footprint(results):
                      whole(r.get(name, "index_bytes") / 1024),
                      shown(r.get(name)), shown(cuda.get(name)), shown(compiled.get(name, "gcc_seconds")),
                      whole(compiled.get(name, "gcc_megabytes")),
-                     whole((compiled.get(name, "gcc_code") or 0) / 1024)] + [whole(compiled.get(name,
-                                                                                                f"nvcc_{k}"))
-                                                                             for k in ("seconds", "registers", "stack")])
+                     whole((compiled.get(name, "gcc_code") or 0) / 1024)] +
+                    [whole(compiled.get(name, f"nvcc_{k}")) for k in ("seconds", "kernels", "registers", "stack", "instructions")])
     head = ["scene: question", "elements", "bytes of each", "trees, KiB", "one core, ms", "device, ms", "g++, s", "g++, MB",
             "code, KiB",
-            "nvcc, s", "registers", "stack"]
+            "nvcc, s", "kernels", "registers", "stack", "instructions"]
     return filled(head, rows) + made_on(r) + made_on(cuda) + made_on(compiled)
 
 
