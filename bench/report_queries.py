@@ -7,6 +7,7 @@ from report_core import *  # noqa: F403
 # --- spheres against a mesh -------------------------------------------------------------------------------------------------
 
 SPHERES, TRIANGLES, VERTICES = 1703244, 62976, 31488
+SIZES = ("2766", "27674", "138376", "345944")
 LABELS = {"none": "brute force", "grid": "buckets (`make_grid`)", "bvh": "BVH (`make_bvh`)", "embree": "Embree"}
 
 
@@ -127,15 +128,22 @@ def spheres_sources(results):
     n = 2**20
     rows = [[f"Lee and Hsieh: {name}", shown(ms), ""] for name, ms in theirs["whole_scene_ms"].items()]
     rows += [[f"Lee and Hsieh: {name}", "", shown(ms)] for name, ms in theirs["spheres_2_20_ms"].items()]
+    rows.append(["Lee and Hsieh: that preparation, one core", "", shown(theirs["spheres_2_20_preparation_ms"])])
     for r in (cpu, cuda):
         for policy in policies(r):
-            for index in ("grid", "bvh"):
-                rows.append([f"abut: {LABELS[index]}, {policy}, with its build", shown(r.get(f"all/{index}/{policy}")), ""])
-                rows.append([f"abut: {LABELS[index]}, {policy}, query alone",
-                             shown(r.get(f"pairs/{index}/{policy}/{SPHERES}")),
-                             shown(r.get(f"pairs/{index}/{policy}/{n}"))])
+            for index in ("none", "grid", "bvh"):
+                both = [r.get(f"pairs/{index}/{policy}/{spheres}") for spheres in (SPHERES, n)]
+                if r.get(f"all/{index}/{policy}") is not None:
+                    rows.append([f"abut: {LABELS[index]}, {policy}, with its build", shown(r.get(f"all/{index}/{policy}")), ""])
+                if any(both):
+                    rows.append([f"abut: {LABELS[index]}, {policy}, query alone"] + [shown(t) for t in both])
+    most = max(int(name.split("/")[3]) for name in cpu.names("pairs/none/serial/"))
+    ours = [r.get(f"pairs/none/{policy}/{most}") for r, policy in ((cpu, "serial"), (cuda, "cuda"))]
+    faster = [[f"Lee and Hsieh, 2^20 spheres, {name}", shown(times)] for name, times in theirs["brute_force_speedup_2_20"].items()]
     return [f"The figures of the source, of its own machine ({theirs['machine']}), and ours, in ms:", ""] + \
-        table(["", "whole scene", "2^20 spheres"], rows)
+        table(["", "whole scene", "2^20 spheres"], rows) + \
+        ["Brute force, how many times as fast as on one core:", ""] + \
+        table(["", "times"], faster + [[f"abut, {most:,} spheres, device", quotient(*ours, 0)]])
 
 
 # --- nearest points and validation ------------------------------------------------------------------------------------------
@@ -451,14 +459,16 @@ def patches(results):
 
 @in_table("depths")
 def depths(results):
-    r, theirs = results["cpu/descents"], LITERATURE["backman_2011"]["box_tests_per_depth_345944"]
+    r, theirs = results["cpu/descents"], LITERATURE["backman_2011"]
+    tests = [theirs["box_tests_per_depth"][n] for n in SIZES]
     at = r.parts("depth/linear/", 2)
-    rows = [[d, whole(theirs.get(d) and float(theirs[d])), whole(r.get(f"depth/linear/{d}", "boxes")),
-             whole(r.get(f"depth/sah/{d}", "boxes"))]
-            for d in at]
-    rows.append(["all", whole(float(sum(theirs.values()))), whole(r.get("walk/linear/both_at_once", "boxes")),
-                 whole(r.get("walk/sah/both_at_once", "boxes"))])
-    return table(["depth", "source, from depth 6", "here, `linear`", "here, `sah`"], rows) + made_on(r)
+    rows = [[d] + [whole(of.get(d)) for of in tests] + [whole(r.get(f"depth/{b}/{d}", "boxes")) for b in ("linear", "sah")] for d in at]
+    rows.append(["all"] + [whole(theirs["sizes"][n]["box_tests"]) for n in SIZES] +
+                [whole(r.get(f"walk/{b}/both_at_once", "boxes")) for b in ("linear", "sah")])
+    rows.append(["pairs of triangles left"] + [whole(theirs["sizes"][n]["triangle_pairs"]) for n in SIZES] +
+                [whole(r.get(f"walk/{b}/both_at_once", "leaves")) for b in ("linear", "sah")])
+    return table(["depth"] + [f"source, {int(n):,} triangles" for n in SIZES] +
+                 [f"here, {int(SIZES[-1]):,}, `{b}`" for b in ("linear", "sah")], rows) + made_on(r)
 
 
 @in_table("meshes-cuda")
@@ -485,9 +495,6 @@ def meshes_cuda(results):
              shown(r.get(f"sort/cuda/{n}"))] for n in r.parts("build/bvh/cuda/", 3)]
     return lines + ["Build of a linear BVH:", ""] + table(["triangles", "build, ms", "sort of its codes alone"], rows) + \
         made_on(r, f"; {r.context.get('mesh', 'the mesh above')}" if "mesh" in r.context else "")
-
-
-SIZES = ("2766", "27674", "138376", "345944")
 
 
 def of_size(results, kind, n):
