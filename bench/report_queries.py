@@ -222,6 +222,40 @@ def distance_cuda(results):
     return ["Microseconds a pose:", ""] + table(["scene", "poses", "number"] + list(names.values()), rows) + made_on(r)
 
 
+# --- within a distance, and convex hulls ------------------------------------------------------------------------------------
+
+@in_table("within-cpu")
+def within_cpu(results):
+    r = results["cpu/within"]
+    names = {"trees": "`within` of two trees", "unsorted": "the same, not sorted", "count": "`count_within`", "self": "`self_within`",
+             "nanoflann": "nanoflann, rounded, not sorted", "floor": "to write the pairs once"}
+    clouds = [(c, n) for c in r.parts("points/trees/", 2) for n in r.parts(f"points/trees/{c}/", 3)]
+    rows = [["pairs"] + [whole(r.get(f"points/trees/{c}/{n}", "pairs")) for c, n in clouds]]
+    rows += [[f"{name}, ms"] + [shown(r.get(f"points/{call}/{c}/{n}")) for c, n in clouds] for call, name in names.items()]
+    calls = r.parts("mesh/", 1)
+    meshes = [[scene.replace("_", " ")] + [shown(r.get(f"mesh/{call}/{scene}")) for call in calls] for scene in r.parts("mesh/", 2)]
+    return ["Points with points, one core:", ""] + table([""] + [f"{c}, {n} neighbours" for c, n in clouds], rows) + \
+        ["Two meshes, ms; distances are shares of the mesh's width:", ""] + \
+        table(["scene"] + [f"`within`, {c.removeprefix('within_')}" if c.startswith("within_") else f"`{c}`" for c in calls], meshes) + \
+        made_on(r)
+
+
+@in_table("hulls-cpu")
+def hulls_cpu(results):
+    r = results["cpu/hulls"]
+    names = {"fast": "`intersects`, `fast`", "filtered": "`filtered`", "exact": "`exact`", "fcl_libccd": "FCL, libccd",
+             "fcl_indep": "FCL, its own"}
+    bodies = r.parts("intersects/", 2)
+    rows = [["touch, of 1,000"] + [whole(r.get(f"intersects/filtered/{b}", "hits")) for b in bodies]]
+    for question, label in (("intersects", ""), ("distance", "`distance`: ")):
+        for how, name in (names if question == "intersects" else {"abut": "abut", "fcl_libccd": names["fcl_libccd"],
+                                                                  "fcl_indep": names["fcl_indep"]}).items():
+            times = [r.get(f"{question}/{how}/{b}") for b in bodies]
+            if any(times):
+                rows.append([f"{label}{name}, ns"] + [shown(t and 1e3 * t) for t in times])  # of 1,000 pairs, in ms
+    return ["Two hulls at a time, one core, double:", ""] + table([""] + [b.replace("_", " ") for b in bodies], rows) + made_on(r)
+
+
 RAYS = {"coherent": "from a camera", "scattered": "scattered"}
 
 
@@ -356,8 +390,7 @@ def devices_large_cuda(results):
 
 @in_table("devices-divided-cuda")
 def devices_divided_cuda(results):
-    # A run of its own, where there is one: bench/results/cuda/devices_large.json has these rows too.
-    r = results["cuda/devices_divided" if "cuda/devices_divided" in results else "cuda/devices_large"]
+    r = results["cuda/devices_divided"]
     return ["ms, both arguments divided, and over `cuda` on one device, which has all:", ""] + \
         large_scenes(r, (("mesh_divided", "mesh", "two meshes"), ("corner_divided", "corner", "a crowded corner"))) + made_on(r)
 

@@ -53,6 +53,11 @@ MUTATIONS = {
     "a block without an end": lambda r: replace(r / "docs" / "benchmarks.md", "<!-- trade-cpu: end -->\n", ""),
     "results that are gone": lambda r: (r / "bench" / "results" / "cpu" / "trade.json").unlink(),
     "other results": lambda r: replace(r / "bench" / "results" / "cpu" / "trade.json", '"ns": ', '"ns": 7'),
+    "results that no row makes": lambda r: replace(r / "cmake" / "report.sh", "cuda devices_divided ", "cuda divided_devices "),
+    "a row without results": lambda r: replace(r / "cmake" / "report.sh", "cpu within ", "cpu another bench_another {}\ncpu within "),
+    "results of another program": lambda r: replace(r / "cmake" / "report.sh", "cpu ties bench_ties ", "cpu ties bench_trade "),
+    "results that are measured now": lambda r: shutil.copy(r / "bench" / "results" / "cpu" / "distance.json",
+                                                           r / "bench" / "results" / "cpu" / "within.json"),
     "a program that is gone": lambda r: (r / "bench" / "trade.cpp").unlink(),
     "a plot that is gone": lambda r: (r / "docs" / "figures" / "trade-cpu.svg").unlink(),
 }
@@ -116,7 +121,7 @@ def main():
         with tempfile.TemporaryDirectory() as folder:
             copy = Path(folder)
             shutil.copy(root / "README.md", copy)
-            for part in ("docs", "bench"):
+            for part in ("docs", "bench", "cmake"):
                 shutil.copytree(root / part, copy / part)
             mutate(copy)
             status, found = check(copy)
