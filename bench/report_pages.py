@@ -98,6 +98,13 @@ def cost_motion(results):
         the {cuda.context['device']}.""")
 
 
+def value(name):
+    def add(make):
+        VALUES[name] = make
+        return make
+    return add
+
+
 # --- docs/choosing.md -------------------------------------------------------------------------------------------------------
 
 def choosing():
@@ -106,6 +113,19 @@ def choosing():
             "cuda": ("cuda/meshes", "pairs/posed/cuda"), "cuda-small": ("cuda/meshes_2766", "pairs/posed/cuda"),
             "two-trees": ("cpu/builders", "pairs/posed/linear/standard"),
             "one-tree": ("cpu/builders", "one_sided/linear/standard"),
+            "openmp": ("cpu/meshes", "pairs/posed/openmp"), "serial-small": ("cpu/meshes_2766", "pairs/posed/serial"),
+            "impacts-conservative": ("cpu/motion", "stage/cloth-ball/float/self_impacts_conservative"),
+            "impacts-filtered": ("cpu/motion", "stage/cloth-ball/float/self_impacts"),
+            "spheres-grid": ("cuda/spheres_mesh", "all/grid/cuda"), "spheres-bvh": ("cuda/spheres_mesh", "all/bvh/cuda"),
+            "spheres-none-small": ("cuda/spheres_mesh", "break_even/none/4096/18432"),
+            "spheres-bvh-small": ("cuda/spheres_mesh", "break_even/bvh/4096/18432"),
+            "spheres-none-core": ("cpu/spheres_mesh", "break_even/none/8/8192"),
+            "spheres-bvh-core": ("cpu/spheres_mesh", "break_even/bvh/8/8192"),
+            "front": ("cuda/fronts", "cloth-funnel/2/self/boxes"),
+            "any": ("cuda/meshes", "any/posed/cuda"), "count": ("cuda/meshes", "count/posed/cuda"),
+            "unsorted": ("cuda/meshes", "unsorted/posed/cuda"), "pairs": ("cuda/meshes", "pairs/posed/cuda"),
+            "contacts": ("cuda/meshes", "contacts/posed/cuda"),
+            "equal-ms": ("cuda/footprint", "spheres/count, equal radii"), "own-ms": ("cuda/footprint", "spheres/count, own radii"),
             "both-at-once": ("cpu/descents", "walk/linear/both_at_once"),
             "larger-first": ("cpu/descents", "walk/linear/larger_first")}
     for builder in BUILDERS:
@@ -121,6 +141,29 @@ def choosing():
             VALUES[f"choosing-{a}-{kind}"] = lambda results, n=f"triangle_triangle/{kind}/float/{a}": needed(results["cpu/trade"].get(n, "ns"))
         VALUES[f"choosing-{a}-wrong"] = lambda results, n=f"triangle_triangle/touching/float/{a}": whole(
             results["cpu/trade"].get(n, "wrong_per_million"))
+    VALUES["choosing-double-cpu"] = lambda results: needed(results["cpu/trade"].get("triangle_triangle/random/double/filtered", "ns"))
+    for scalar in SCALARS:
+        VALUES[f"choosing-{scalar}-cuda"] = lambda results, n=f"triangle_triangle/random/{scalar}/filtered": needed(
+            1e6 * results["cuda/trade"].get(n) / results["cuda/trade"].get(n, "pairs"))
+    VALUES["choosing-front-without"] = lambda results: needed(results["cuda/fronts"].get("cloth-funnel/2/self/boxes", "without_ms"))
+    for radii in ("equal", "own"):
+        VALUES[f"choosing-{radii}-bytes"] = lambda results, n=f"spheres/count, {radii} radii": whole(
+            results["cuda/footprint"].get(n, "set_bytes") / results["cuda/footprint"].get(n, "elements"))
+
+
+@value("choosing-sah-pays")
+def sah_pays(results):
+    """How often a tree has to be asked until the better one has made up for its build."""
+    r = results["cpu/builders"]
+    job = [r.get(f"pairs/posed/{b}/standard") for b in ("linear", "sah")]
+    return whole(math.ceil((r.get("build/sah/serial") - r.get("build/linear/serial")) / (job[0] - job[1])))
+
+
+@value("choosing-wide-pays")
+def wide_pays(results):
+    r = results["cpu/builders"]
+    return whole(math.ceil(r.get("convert/wide/sah/serial") /
+                           (r.get("pairs/posed/sah/standard") - r.get("pairs/posed/sah/wide"))))
 
 
 def needed(value):
@@ -133,13 +176,6 @@ choosing()
 
 
 # --- values within sentences ------------------------------------------------------------------------------------------------
-
-def value(name):
-    def add(make):
-        VALUES[name] = make
-        return make
-    return add
-
 
 @value("devices-large-pairs")
 def devices_large_pairs(results):
