@@ -205,6 +205,27 @@ def extremes_motion(results):
                       for n in r.names(f"pair/{kind}/double/spread/")) / 1e6)
 
 
+def worst_at_rest(results):
+    """The pair at rest, of exponents far apart, that takes most on a device."""
+    r = results["cuda/extremes"]
+    return max((n for n in r.rows if "/spread/" in n and n.split("/")[1] in ("triangle_triangle", "sphere_triangle")),
+               key=lambda n: r.get(n, "filtered_ns"))
+
+
+for name, source, column in (("extremes-device", "cuda", "filtered_ns"), ("extremes-device-fast", "cuda", "fast_ns"),
+                             ("extremes-core", "cpu", "filtered_ns")):
+    VALUES[name] = lambda results, s=source, c=column: needed(results[f"{s}/extremes"].get(worst_at_rest(results), c))
+VALUES["trade-left"] = lambda results: shown(
+    100 * (1 - results["cpu/trade"].get("triangle_triangle/random/float/filtered", "filter_decides")))
+
+
+@value("motion-left")
+def motion_left(results):
+    r = results["cpu/motion"]
+    looks = [r.rows[n] for n in r.names("look/")]
+    return whole(sum(row["candidates"] * (row["open_late"] + row["no_time"]) for row in looks))
+
+
 @value("trade-funnel-off")
 def trade_funnel_off(results):
     return f"{100 * results['cpu/trade_scenes'].get('ccd/cloth-funnel/float', 'time_error'):.0f}"
