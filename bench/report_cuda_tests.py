@@ -5,9 +5,9 @@ usage: report_cuda_tests.py FOLDER --json=OUT.json --device=NAME --driver=VERSIO
                             [--flags=FLAGS]
 
 FOLDER has for a program its output, NAME.out, and its output under compute-sanitizer, NAME.memcheck, or one of them. And
-SHAPES.families, where test_cuda_predicates was run for the families of two shapes alone (sphere_triangle, say): rows of these go
-to a table of their own. OUT.json is bench/results/cuda/tests.json, tests_devices.json, or for families predicates.json; then
-`report.py --write` writes the pages.
+SHAPES.families, where test_cuda_predicates was run for the families of two shapes alone (sphere_triangle, say): rows of
+these go to a table of their own. OUT.json is bench/results/cuda/tests.json, tests_devices.json, or for families
+predicates.json; then `report.py --write` writes the pages.
 """
 
 import argparse
@@ -30,7 +30,9 @@ def assertions(text):
     rest = re.findall(r"^assertions:\s+(\d+)(.*)$", text, re.M)
     failed = [int(n) for _, more in rest for n in re.findall(r"(\d+) failed", more)]
     all_of_them = passed + [int(n) for n, _ in rest]
-    return {"assertions": max(all_of_them), "failed": max(failed, default=0), "processes": len(all_of_them)} if all_of_them else {}
+    if not all_of_them:
+        return {}
+    return {"assertions": max(all_of_them), "failed": max(failed, default=0), "processes": len(all_of_them)}
 
 
 def row_of(out, memcheck):
@@ -45,8 +47,10 @@ def row_of(out, memcheck):
     return row
 
 
-FAMILY = re.compile(r"^(?P<name>\S.*?) +(?P<scalar>float|double) +n (?P<pairs>\d+), hits +(?P<hits>[\d.]+) %, inputs that differ "
-                    r"(?P<inputs>\d+), decisions that differ (?P<decisions>\d+), filtered against exact (?P<arithmetics>\d+)$", re.M)
+FAMILY = re.compile(r"^(?P<name>\S.*?) +(?P<scalar>float|double) +n (?P<pairs>\d+), hits +(?P<hits>[\d.]+) %, "
+                    r"inputs that differ (?P<inputs>\d+), decisions that differ (?P<decisions>\d+), "
+                    r"filtered against exact (?P<arithmetics>\d+)$", re.M)
+COUNTS = ("pairs", "hits", "inputs", "decisions", "arithmetics")
 
 
 def rows_of(folder):
@@ -56,8 +60,7 @@ def rows_of(folder):
         rows[name] = row_of(*(t.read_text(encoding="utf-8", errors="replace") if t.exists() else None for t in texts))
     for path in sorted(folder.glob("*.families")):
         for m in FAMILY.finditer(path.read_text(encoding="utf-8", errors="replace")):
-            rows[f"{path.stem}/{m['name']}/{m['scalar']}"] = {key: float(m[key]) for key in ("pairs", "hits", "inputs", "decisions",
-                                                                                            "arithmetics")}
+            rows[f"{path.stem}/{m['name']}/{m['scalar']}"] = {key: float(m[key]) for key in COUNTS}
     return rows
 
 
@@ -75,7 +78,9 @@ def outcome(row):
         return f"passed: {row['assertions']} assertions{by}"
     if row.get("no_end"):
         return "did not end"
-    return f"passed: {row['memcheck_assertions']} assertions, under memcheck" if row.get("memcheck_failed") == 0 else "not run"
+    if row.get("memcheck_failed") == 0:
+        return f"passed: {row['memcheck_assertions']} assertions, under memcheck"
+    return "not run"
 
 
 def outcome_of_memcheck(row):
@@ -89,8 +94,8 @@ def outcome_of_memcheck(row):
 def tests(r):
     c = r.context
     rows = [[f"`{name}`", outcome(row), outcome_of_memcheck(row)] for name, row in r.rows.items()]
-    return [f"{c['device']}, driver {c['driver']}, CUDA {c['cuda']}, `{c['flags']}`; commit {c['commit'][:9]}, {c['date']}.", ""] + \
-        table(["test", "result", "memcheck"], rows, 3)
+    return [f"{c['device']}, driver {c['driver']}, CUDA {c['cuda']}, `{c['flags']}`; commit {c['commit'][:9]}, {c['date']}.",
+            ""] + table(["test", "result", "memcheck"], rows, 3)
 
 
 @in_table("cuda-tests")
@@ -111,8 +116,8 @@ def families(r, shapes):
         rows += [[n.split("/", 1)[1].rsplit("/", 1)[0], scalar, f"{r.get(n, 'pairs')}", f"{r.get(n, 'hits'):.1f}"] +
                  [whole(r.get(n, key)) for key in ("inputs", "decisions", "arithmetics")] for n in names]
     return [f"{', '.join(sums)}:", ""] + \
-        table(["family", "scalar", "pairs", "hits, %", "inputs that differ", "decisions that differ", "`filtered` against `exact`"],
-              rows, 2)
+        table(["family", "scalar", "pairs", "hits, %", "inputs that differ", "decisions that differ",
+               "`filtered` against `exact`"], rows, 2)
 
 
 @in_table("cuda-families-spheres")
@@ -137,8 +142,8 @@ def main():
     rows = rows_of(arguments.folder)
     if not rows:
         sys.exit(f"{arguments.folder}: expected files NAME.out, NAME.memcheck or SHAPES.families")
-    context = {"program": Path(__file__).name, **{key: getattr(arguments, key) for key in ("device", "driver", "cuda", "flags", "commit",
-                                                                                           "date")}}
+    said = {key: getattr(arguments, key) for key in ("device", "driver", "cuda", "flags", "commit", "date")}
+    context = {"program": Path(__file__).name, **said}
     lines = ",\n".join(f"  {json.dumps(name)}: {json.dumps(row)}" for name, row in rows.items())
     arguments.json.write_text(f'{{"context": {json.dumps(context)},\n "rows": {{\n{lines}\n}}}}\n', encoding="utf-8")
 

@@ -113,6 +113,6 @@ def trade_contacts(results):
             depths = [row[key] for key in ("deepest", "deepest_lost", "deepest_invented")]
             rows.append(name.split("/")[1:] + [whole(row["pairs"])] + [f"{d:.2g}" for d in depths] +
                         [whole(row["changed"]), whole(row["normal_degrees"])])
-    head = ["what moves", "", "contacts", "deepest", "deepest that is lost", "deepest that is invented", "other bits in both",
-            "sum of normals turns by, degrees"]
+    head = ["what moves", "", "contacts", "deepest", "deepest that is lost", "deepest that is invented",
+            "other bits in both", "sum of normals turns by, degrees"]
     return ["What it does to contacts; depths are thousandths of the mesh's extent:", ""] + table(head, rows, 2) + made_on(r)

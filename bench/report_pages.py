@@ -125,7 +125,8 @@ def choosing():
             "any": ("cuda/meshes", "any/posed/cuda"), "count": ("cuda/meshes", "count/posed/cuda"),
             "unsorted": ("cuda/meshes", "unsorted/posed/cuda"), "pairs": ("cuda/meshes", "pairs/posed/cuda"),
             "contacts": ("cuda/meshes", "contacts/posed/cuda"),
-            "equal-ms": ("cuda/footprint", "spheres/count, equal radii"), "own-ms": ("cuda/footprint", "spheres/count, own radii"),
+            "equal-ms": ("cuda/footprint", "spheres/count, equal radii"),
+            "own-ms": ("cuda/footprint", "spheres/count, own radii"),
             "both-at-once": ("cpu/descents", "walk/linear/both_at_once"),
             "larger-first": ("cpu/descents", "walk/linear/larger_first")}
     for builder in BUILDERS:
@@ -141,11 +142,13 @@ def choosing():
             VALUES[f"choosing-{a}-{kind}"] = lambda results, n=f"triangle_triangle/{kind}/float/{a}": needed(results["cpu/trade"].get(n, "ns"))
         VALUES[f"choosing-{a}-wrong"] = lambda results, n=f"triangle_triangle/touching/float/{a}": whole(
             results["cpu/trade"].get(n, "wrong_per_million"))
-    VALUES["choosing-double-cpu"] = lambda results: needed(results["cpu/trade"].get("triangle_triangle/random/double/filtered", "ns"))
+    VALUES["choosing-double-cpu"] = lambda results: needed(
+        results["cpu/trade"].get("triangle_triangle/random/double/filtered", "ns"))
     for scalar in SCALARS:
         VALUES[f"choosing-{scalar}-cuda"] = lambda results, n=f"triangle_triangle/random/{scalar}/filtered": needed(
             1e6 * results["cuda/trade"].get(n) / results["cuda/trade"].get(n, "pairs"))
-    VALUES["choosing-front-without"] = lambda results: needed(results["cuda/fronts"].get("cloth-funnel/2/self/boxes", "without_ms"))
+    VALUES["choosing-front-without"] = lambda results: needed(
+        results["cuda/fronts"].get("cloth-funnel/2/self/boxes", "without_ms"))
     for radii in ("equal", "own"):
         VALUES[f"choosing-{radii}-bytes"] = lambda results, n=f"spheres/count, {radii} radii": whole(
             results["cuda/footprint"].get(n, "set_bytes") / results["cuda/footprint"].get(n, "elements"))
@@ -234,13 +237,15 @@ def trade_funnel_off(results):
 def device_pays(row):
     """The least size from which on a device takes less time than one core."""
     def least(results):
-        faster = [of_size(results, "cuda", n).get(row("cuda", n)) < of_size(results, "cpu", n).get(row("serial", n)) for n in SIZES]
+        faster = [of_size(results, "cuda", n).get(row("cuda", n)) < of_size(results, "cpu", n).get(row("serial", n))
+                  for n in SIZES]
         return f"{int(next(n for i, n in enumerate(SIZES) if all(faster[i:]))):,}"
     return least
 
 
 VALUES["device-pays-walk"] = device_pays(lambda policy, n: f"boxes/posed/{policy}")
-VALUES["device-pays-build"] = device_pays(lambda policy, n: f"build/bvh/cuda/{n}" if policy == "cuda" else "build/bvh/serial")
+VALUES["device-pays-build"] = device_pays(
+    lambda policy, n: f"build/bvh/cuda/{n}" if policy == "cuda" else "build/bvh/serial")
 
 
 @value("build-over-refit-cpu")

@@ -213,8 +213,8 @@ def triangles_sources(results):
                      shown(cuda.get(f"one/count/filtered/float/1/cuda/{n}")),
                      shown(cuda.get(f"one/copied/filtered/float/1/cuda/{n}"))])
     return [f"One triangle against many, of the source ({theirs['machine']}) and here, float, `filtered`, in ms:", ""] + \
-        table(["triangles", "source, one core", "source, GPU", "source, 4 GPUs", "here, one core", "here, device", "here, with the copy"],
-              rows)
+        table(["triangles", "source, one core", "source, GPU", "source, 4 GPUs", "here, one core", "here, device",
+               "here, with the copy"], rows)
 
 
 # --- ties -------------------------------------------------------------------------------------------------------------------

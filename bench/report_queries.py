@@ -134,12 +134,14 @@ def spheres_sources(results):
             for index in ("none", "grid", "bvh"):
                 both = [r.get(f"pairs/{index}/{policy}/{spheres}") for spheres in (SPHERES, n)]
                 if r.get(f"all/{index}/{policy}") is not None:
-                    rows.append([f"abut: {LABELS[index]}, {policy}, with its build", shown(r.get(f"all/{index}/{policy}")), ""])
+                    built = shown(r.get(f"all/{index}/{policy}"))
+                    rows.append([f"abut: {LABELS[index]}, {policy}, with its build", built, ""])
                 if any(both):
                     rows.append([f"abut: {LABELS[index]}, {policy}, query alone"] + [shown(t) for t in both])
     most = max(int(name.split("/")[3]) for name in cpu.names("pairs/none/serial/"))
     ours = [r.get(f"pairs/none/{policy}/{most}") for r, policy in ((cpu, "serial"), (cuda, "cuda"))]
-    faster = [[f"Lee and Hsieh, 2^20 spheres, {name}", shown(times)] for name, times in theirs["brute_force_speedup_2_20"].items()]
+    faster = [[f"Lee and Hsieh, 2^20 spheres, {name}", shown(times)]
+              for name, times in theirs["brute_force_speedup_2_20"].items()]
     return [f"The figures of the source, of its own machine ({theirs['machine']}), and ours, in ms:", ""] + \
         table(["", "whole scene", "2^20 spheres"], rows) + \
         ["Brute force, how many times as fast as on one core:", ""] + \
@@ -227,17 +229,18 @@ def distance_cuda(results):
 @in_table("within-cpu")
 def within_cpu(results):
     r = results["cpu/within"]
-    names = {"trees": "`within` of two trees", "unsorted": "the same, not sorted", "count": "`count_within`", "self": "`self_within`",
-             "nanoflann": "nanoflann, rounded, not sorted", "floor": "to write the pairs once"}
+    names = {"trees": "`within` of two trees", "unsorted": "the same, not sorted", "count": "`count_within`",
+             "self": "`self_within`", "nanoflann": "nanoflann, rounded, not sorted", "floor": "to write the pairs once"}
     clouds = [(c, n) for c in r.parts("points/trees/", 2) for n in r.parts(f"points/trees/{c}/", 3)]
     rows = [["pairs"] + [whole(r.get(f"points/trees/{c}/{n}", "pairs")) for c, n in clouds]]
     rows += [[f"{name}, ms"] + [shown(r.get(f"points/{call}/{c}/{n}")) for c, n in clouds] for call, name in names.items()]
     calls = r.parts("mesh/", 1)
-    meshes = [[scene.replace("_", " ")] + [shown(r.get(f"mesh/{call}/{scene}")) for call in calls] for scene in r.parts("mesh/", 2)]
+    heads = [f"`within`, {c.removeprefix('within_')}" if c.startswith("within_") else f"`{c}`" for c in calls]
+    meshes = [[scene.replace("_", " ")] + [shown(r.get(f"mesh/{call}/{scene}")) for call in calls]
+              for scene in r.parts("mesh/", 2)]
     return ["Points with points, one core:", ""] + table([""] + [f"{c}, {n} neighbours" for c, n in clouds], rows) + \
         ["Two meshes, ms; distances are shares of the mesh's width:", ""] + \
-        table(["scene"] + [f"`within`, {c.removeprefix('within_')}" if c.startswith("within_") else f"`{c}`" for c in calls], meshes) + \
-        made_on(r)
+        table(["scene"] + heads, meshes) + made_on(r)
 
 
 @in_table("hulls-cpu")
@@ -253,7 +256,8 @@ def hulls_cpu(results):
             times = [r.get(f"{question}/{how}/{b}") for b in bodies]
             if any(times):
                 rows.append([f"{label}{name}, ns"] + [shown(t and 1e3 * t) for t in times])  # of 1,000 pairs, in ms
-    return ["Two hulls at a time, one core, double:", ""] + table([""] + [b.replace("_", " ") for b in bodies], rows) + made_on(r)
+    return ["Two hulls at a time, one core, double:", ""] + \
+        table([""] + [b.replace("_", " ") for b in bodies], rows) + made_on(r)
 
 
 RAYS = {"coherent": "from a camera", "scattered": "scattered"}
@@ -495,7 +499,8 @@ def depths(results):
     r, theirs = results["cpu/descents"], LITERATURE["backman_2011"]
     tests = [theirs["box_tests_per_depth"][n] for n in SIZES]
     at = r.parts("depth/linear/", 2)
-    rows = [[d] + [whole(of.get(d)) for of in tests] + [whole(r.get(f"depth/{b}/{d}", "boxes")) for b in ("linear", "sah")] for d in at]
+    rows = [[d] + [whole(of.get(d)) for of in tests] + [whole(r.get(f"depth/{b}/{d}", "boxes")) for b in ("linear", "sah")]
+            for d in at]
     rows.append(["all"] + [whole(theirs["sizes"][n]["box_tests"]) for n in SIZES] +
                 [whole(r.get(f"walk/{b}/both_at_once", "boxes")) for b in ("linear", "sah")])
     rows.append(["pairs of triangles left"] + [whole(theirs["sizes"][n]["triangle_pairs"]) for n in SIZES] +
@@ -702,7 +707,8 @@ def footprint(results):
                      shown(r.get(name)), shown(cuda.get(name)), shown(compiled.get(name, "gcc_seconds")),
                      whole(compiled.get(name, "gcc_megabytes")),
                      whole((compiled.get(name, "gcc_code") or 0) / 1024)] +
-                    [whole(compiled.get(name, f"nvcc_{k}")) for k in ("seconds", "kernels", "registers", "stack", "instructions")])
+                    [whole(compiled.get(name, f"nvcc_{k}"))
+                     for k in ("seconds", "kernels", "registers", "stack", "instructions")])
     head = ["scene: question", "elements", "bytes of each", "trees, KiB", "one core, ms", "device, ms", "g++, s", "g++, MB",
             "code, KiB",
             "nvcc, s", "kernels", "registers", "stack", "instructions"]
