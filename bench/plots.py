@@ -320,7 +320,8 @@ def scaling_triangles(results):
             if points:
                 axis.plot(*zip(*points), style, color=next(colour), marker=".", label=f"{label}, {policy}")
     theirs = LITERATURE["maffina_2012"]
-    for key, label, mark in (("one_core_ms", "Maffina 2012, one core", "o"), ("gpu_ms", "Maffina 2012, GTX 590", "s")):
+    for key, label, mark in (("one_core_ms", "Maffina 2012, one core", "o"), ("gpu_ms", "Maffina 2012, GTX 590", "s"),
+                             ("four_gpus_ms", "Maffina 2012, 4 GPUs", "D")):
         axis.plot([int(n) for n in theirs[key]], list(theirs[key].values()), mark, color=GREY, markersize=8,
                   fillstyle="none", label=label)
     log_log(axis, "triangles, against one", "count, 1 % hits, ms")
@@ -354,17 +355,19 @@ def scaling_meshes(results):
         log_log(axis, "triangles of each mesh", "ms")
         axis.set_title(title)
         axis.legend(fontsize=6.5)
-    depths = LITERATURE["backman_2011"]["box_tests_per_depth_345944"]
-    axes[2].plot([int(d) for d in depths], list(depths.values()), "o", color=GREY, fillstyle="none", label="Bäckman 2011")
+    for s, mark in zip(reversed(SIZES), "osd^"):
+        depths = LITERATURE["backman_2011"]["box_tests_per_depth"][s]
+        axes[2].plot([int(d) for d in depths], list(depths.values()), mark, color=GREY, fillstyle="none", markersize=4,
+                     label=f"Bäckman 2011, {int(s):,}")
     r = results["cpu/descents"]
     for index, builder in enumerate(r.parts("walk/", 1)):
         points = sorted((int(name.split("/")[2]), r.get(name, "boxes")) for name in r.names(f"depth/{builder}/"))
-        axes[2].plot(*zip(*points), color=SERIES[index], marker=".", label=f"abut, {builder}")
+        axes[2].plot(*zip(*points), color=SERIES[index], marker=".", label=f"abut, {int(SIZES[-1]):,}, {builder}")
     axes[2].set_yscale("log")
     axes[2].set_xlabel("depth")
     axes[2].set_ylabel("tests of boxes")
     axes[2].legend(fontsize=6.5)
-    axes[2].set_title("Tests per depth, 345,944 triangles")
+    axes[2].set_title("Tests per depth")
     return figure
 
 

@@ -101,3 +101,18 @@ def trade_frames(results):
             "times off by, of a frame", "two cloths differ after frame", "apart at the end, % of a side", "pairs through the ball: `fast`",
             "`filtered`"]
     return ["The same of scenes that move:", ""] + table(head, rows, 2) + made_on(r)
+
+
+@in_table("trade-contacts")
+def trade_contacts(results):
+    r = results["cpu/trade_scenes"]
+    rows = []
+    for name in r.names("frames/"):
+        row = r.rows[name]
+        if "deepest" in row:
+            depths = [row[key] for key in ("deepest", "deepest_lost", "deepest_invented")]
+            rows.append(name.split("/")[1:] + [whole(row["pairs"])] + [f"{d:.2g}" for d in depths] +
+                        [whole(row["changed"]), whole(row["normal_degrees"])])
+    head = ["what moves", "", "contacts", "deepest", "deepest that is lost", "deepest that is invented",
+            "other bits in both", "sum of normals turns by, degrees"]
+    return ["What it does to contacts; depths are thousandths of the mesh's extent:", ""] + table(head, rows, 2) + made_on(r)

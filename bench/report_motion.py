@@ -137,8 +137,12 @@ def motion_scaling(results):
     for s in motion_scenes(r):
         for kind, name in KINDS.items():
             parts = [r.get(f"{s}/{kind}/walk/part/{n}") for n in (8, 4, 2)] + [r.get(f"{s}/{kind}/walk/static_partition")]
-            rows.append([s, name] + [shown(t) for t in parts] + [quotient(parts[0], parts[-1], 1)])
-    return table(["scene", "ms", "1/8 of the blocks", "1/4", "1/2", "all", "gain"], rows, 2) + made_on(r)
+            theirs = LITERATURE["dasilva_2013"]["models"].get(s.split("/")[0], {}) if kind == "vertex_face" else {}
+            rows.append([s, name] + [shown(t) for t in parts] +
+                        [quotient(parts[0], parts[-1], 1), quotient(parts[1], parts[-1])] +
+                        [shown(theirs.get(f"{who}_speedup")) for who in ("stealing", "gproximity")])
+    return table(["scene", "ms", "1/8 of the blocks", "1/4", "1/2", "all", "gain from 1/8", "gain from 1/4",
+                  "da Silva 2013, stealing, 4 multiprocessors over 1", "its gProximity"], rows, 2) + made_on(r)
 
 
 @in_table("motion-sources")

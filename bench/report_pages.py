@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""The paragraphs of README, and the values of docs/choosing.md."""
+"""The paragraphs of README, the values of docs/choosing.md, and values within sentences."""
+
+import math
 
 from report_core import *  # noqa: F403
 from report_motion import motion_scenes
 from report_predicates import from_tests
-from report_queries import BUILDERS, LABELS, SPHERES, TRIANGLES
+from report_queries import BUILDERS, LABELS, SIZES, SPHERES, TRIANGLES, of_size
 
 
 # --- README -----------------------------------------------------------------------------------------------------------------
@@ -96,6 +98,13 @@ def cost_motion(results):
         the {cuda.context['device']}.""")
 
 
+def value(name):
+    def add(make):
+        VALUES[name] = make
+        return make
+    return add
+
+
 # --- docs/choosing.md -------------------------------------------------------------------------------------------------------
 
 def choosing():
@@ -104,6 +113,20 @@ def choosing():
             "cuda": ("cuda/meshes", "pairs/posed/cuda"), "cuda-small": ("cuda/meshes_2766", "pairs/posed/cuda"),
             "two-trees": ("cpu/builders", "pairs/posed/linear/standard"),
             "one-tree": ("cpu/builders", "one_sided/linear/standard"),
+            "openmp": ("cpu/meshes", "pairs/posed/openmp"), "serial-small": ("cpu/meshes_2766", "pairs/posed/serial"),
+            "impacts-conservative": ("cpu/motion", "stage/cloth-ball/float/self_impacts_conservative"),
+            "impacts-filtered": ("cpu/motion", "stage/cloth-ball/float/self_impacts"),
+            "spheres-grid": ("cuda/spheres_mesh", "all/grid/cuda"), "spheres-bvh": ("cuda/spheres_mesh", "all/bvh/cuda"),
+            "spheres-none-small": ("cuda/spheres_mesh", "break_even/none/4096/18432"),
+            "spheres-bvh-small": ("cuda/spheres_mesh", "break_even/bvh/4096/18432"),
+            "spheres-none-core": ("cpu/spheres_mesh", "break_even/none/8/8192"),
+            "spheres-bvh-core": ("cpu/spheres_mesh", "break_even/bvh/8/8192"),
+            "front": ("cuda/fronts", "cloth-funnel/2/self/boxes"),
+            "any": ("cuda/meshes", "any/posed/cuda"), "count": ("cuda/meshes", "count/posed/cuda"),
+            "unsorted": ("cuda/meshes", "unsorted/posed/cuda"), "pairs": ("cuda/meshes", "pairs/posed/cuda"),
+            "contacts": ("cuda/meshes", "contacts/posed/cuda"),
+            "equal-ms": ("cuda/footprint", "spheres/count, equal radii"),
+            "own-ms": ("cuda/footprint", "spheres/count, own radii"),
             "both-at-once": ("cpu/descents", "walk/linear/both_at_once"),
             "larger-first": ("cpu/descents", "walk/linear/larger_first")}
     for builder in BUILDERS:
@@ -119,6 +142,31 @@ def choosing():
             VALUES[f"choosing-{a}-{kind}"] = lambda results, n=f"triangle_triangle/{kind}/float/{a}": needed(results["cpu/trade"].get(n, "ns"))
         VALUES[f"choosing-{a}-wrong"] = lambda results, n=f"triangle_triangle/touching/float/{a}": whole(
             results["cpu/trade"].get(n, "wrong_per_million"))
+    VALUES["choosing-double-cpu"] = lambda results: needed(
+        results["cpu/trade"].get("triangle_triangle/random/double/filtered", "ns"))
+    for scalar in SCALARS:
+        VALUES[f"choosing-{scalar}-cuda"] = lambda results, n=f"triangle_triangle/random/{scalar}/filtered": needed(
+            1e6 * results["cuda/trade"].get(n) / results["cuda/trade"].get(n, "pairs"))
+    VALUES["choosing-front-without"] = lambda results: needed(
+        results["cuda/fronts"].get("cloth-funnel/2/self/boxes", "without_ms"))
+    for radii in ("equal", "own"):
+        VALUES[f"choosing-{radii}-bytes"] = lambda results, n=f"spheres/count, {radii} radii": whole(
+            results["cuda/footprint"].get(n, "set_bytes") / results["cuda/footprint"].get(n, "elements"))
+
+
+@value("choosing-sah-pays")
+def sah_pays(results):
+    """How often a tree has to be asked until the better one has made up for its build."""
+    r = results["cpu/builders"]
+    job = [r.get(f"pairs/posed/{b}/standard") for b in ("linear", "sah")]
+    return whole(math.ceil((r.get("build/sah/serial") - r.get("build/linear/serial")) / (job[0] - job[1])))
+
+
+@value("choosing-wide-pays")
+def wide_pays(results):
+    r = results["cpu/builders"]
+    return whole(math.ceil(r.get("convert/wide/sah/serial") /
+                           (r.get("pairs/posed/sah/standard") - r.get("pairs/posed/sah/wide"))))
 
 
 def needed(value):
@@ -128,3 +176,91 @@ def needed(value):
 
 
 choosing()
+
+
+# --- values within sentences ------------------------------------------------------------------------------------------------
+
+@value("devices-large-pairs")
+def devices_large_pairs(results):
+    return needed(results["cuda/devices_large"].get("devices_large/pairs/mesh/cuda"))
+
+
+@value("devices-team")
+def devices_team(results):
+    """By how many per cent one device, named by `cuda_devices`, differs from `cuda` in large scenes, at most."""
+    r = results["cuda/devices_large"]
+    return whole(math.ceil(max(100 * abs(r.get(n) / r.get(n.replace("one_device", "cuda")) - 1) for n in r.rows
+                               if n.endswith("/one_device"))))
+
+
+@value("devices-team-short")
+def devices_team_short(results):
+    """The same of short queries, in us."""
+    r = results["cuda/devices"]
+    return whole(math.ceil(max(1e3 * abs(r.get(n) - r.get(n.replace("one_device", "cuda")))
+                               for scene in ("trees", "look_up") for n in r.rows if n.endswith(f"/{scene}/one_device"))))
+
+
+@value("extremes-motion")
+def extremes_motion(results):
+    r = results["cpu/extremes"]
+    return needed(max(r.get(n, "filtered_ns") for kind in ("vertex_face", "edge_edge")
+                      for n in r.names(f"pair/{kind}/double/spread/")) / 1e6)
+
+
+def worst_at_rest(results):
+    """The pair at rest, of exponents far apart, that takes most on a device."""
+    r = results["cuda/extremes"]
+    return max((n for n in r.rows if "/spread/" in n and n.split("/")[1] in ("triangle_triangle", "sphere_triangle")),
+               key=lambda n: r.get(n, "filtered_ns"))
+
+
+for name, source, column in (("extremes-device", "cuda", "filtered_ns"), ("extremes-device-fast", "cuda", "fast_ns"),
+                             ("extremes-core", "cpu", "filtered_ns")):
+    VALUES[name] = lambda results, s=source, c=column: needed(results[f"{s}/extremes"].get(worst_at_rest(results), c))
+VALUES["trade-left"] = lambda results: shown(
+    100 * (1 - results["cpu/trade"].get("triangle_triangle/random/float/filtered", "filter_decides")))
+
+
+@value("motion-left")
+def motion_left(results):
+    r = results["cpu/motion"]
+    looks = [r.rows[n] for n in r.names("look/")]
+    return whole(sum(row["candidates"] * (row["open_late"] + row["no_time"]) for row in looks))
+
+
+@value("trade-funnel-off")
+def trade_funnel_off(results):
+    return f"{100 * results['cpu/trade_scenes'].get('ccd/cloth-funnel/float', 'time_error'):.0f}"
+
+
+def device_pays(row):
+    """The least size from which on a device takes less time than one core."""
+    def least(results):
+        faster = [of_size(results, "cuda", n).get(row("cuda", n)) < of_size(results, "cpu", n).get(row("serial", n))
+                  for n in SIZES]
+        return f"{int(next(n for i, n in enumerate(SIZES) if all(faster[i:]))):,}"
+    return least
+
+
+VALUES["device-pays-walk"] = device_pays(lambda policy, n: f"boxes/posed/{policy}")
+VALUES["device-pays-build"] = device_pays(
+    lambda policy, n: f"build/bvh/cuda/{n}" if policy == "cuda" else "build/bvh/serial")
+
+
+@value("build-over-refit-cpu")
+def build_over_refit_cpu(results):
+    r = results["cpu/builders"]
+    return f"{r.get('build/linear/serial') / r.get('refit/linear/serial'):.1f}"
+
+
+@value("build-over-refit-cuda")
+def build_over_refit_cuda(results):
+    r = results["cuda/builders"]
+    return f"{r.get('build/mesh') / r.get('refit/mesh'):.1f}"
+
+
+@value("kdop-conversion")
+def kdop_conversion(results):
+    r = results["cpu/builders"]
+    return f"{r.get('convert/kdop18/sah/serial') / r.get('convert/oriented/sah/serial'):.2f}"

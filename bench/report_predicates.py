@@ -208,13 +208,13 @@ def triangles_sources(results):
     cpu, cuda, theirs = results["cpu/triangles"], results["cuda/triangles"], LITERATURE["maffina_2012"]
     rows = []
     for n in theirs["one_core_ms"]:
-        rows.append([f"{int(n):,}", shown(theirs["one_core_ms"][n]), shown(theirs["gpu_ms"][n]),
+        rows.append([f"{int(n):,}"] + [shown(theirs[f"{what}_ms"][n]) for what in ("one_core", "gpu", "four_gpus")] + [
                      shown(cpu.get(f"one/count/filtered/float/1/serial/{n}")),
                      shown(cuda.get(f"one/count/filtered/float/1/cuda/{n}")),
                      shown(cuda.get(f"one/copied/filtered/float/1/cuda/{n}"))])
     return [f"One triangle against many, of the source ({theirs['machine']}) and here, float, `filtered`, in ms:", ""] + \
-        table(["triangles", "source, one core", "source, GPU", "here, one core", "here, device", "here, with the copy"],
-              rows)
+        table(["triangles", "source, one core", "source, GPU", "source, 4 GPUs", "here, one core", "here, device",
+               "here, with the copy"], rows)
 
 
 # --- ties -------------------------------------------------------------------------------------------------------------------

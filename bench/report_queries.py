@@ -7,6 +7,7 @@ from report_core import *  # noqa: F403
 # --- spheres against a mesh -------------------------------------------------------------------------------------------------
 
 SPHERES, TRIANGLES, VERTICES = 1703244, 62976, 31488
+SIZES = ("2766", "27674", "138376", "345944")
 LABELS = {"none": "brute force", "grid": "buckets (`make_grid`)", "bvh": "BVH (`make_bvh`)", "embree": "Embree"}
 
 
@@ -127,15 +128,24 @@ def spheres_sources(results):
     n = 2**20
     rows = [[f"Lee and Hsieh: {name}", shown(ms), ""] for name, ms in theirs["whole_scene_ms"].items()]
     rows += [[f"Lee and Hsieh: {name}", "", shown(ms)] for name, ms in theirs["spheres_2_20_ms"].items()]
+    rows.append(["Lee and Hsieh: that preparation, one core", "", shown(theirs["spheres_2_20_preparation_ms"])])
     for r in (cpu, cuda):
         for policy in policies(r):
-            for index in ("grid", "bvh"):
-                rows.append([f"abut: {LABELS[index]}, {policy}, with its build", shown(r.get(f"all/{index}/{policy}")), ""])
-                rows.append([f"abut: {LABELS[index]}, {policy}, query alone",
-                             shown(r.get(f"pairs/{index}/{policy}/{SPHERES}")),
-                             shown(r.get(f"pairs/{index}/{policy}/{n}"))])
+            for index in ("none", "grid", "bvh"):
+                both = [r.get(f"pairs/{index}/{policy}/{spheres}") for spheres in (SPHERES, n)]
+                if r.get(f"all/{index}/{policy}") is not None:
+                    built = shown(r.get(f"all/{index}/{policy}"))
+                    rows.append([f"abut: {LABELS[index]}, {policy}, with its build", built, ""])
+                if any(both):
+                    rows.append([f"abut: {LABELS[index]}, {policy}, query alone"] + [shown(t) for t in both])
+    most = max(int(name.split("/")[3]) for name in cpu.names("pairs/none/serial/"))
+    ours = [r.get(f"pairs/none/{policy}/{most}") for r, policy in ((cpu, "serial"), (cuda, "cuda"))]
+    faster = [[f"Lee and Hsieh, 2^20 spheres, {name}", shown(times)]
+              for name, times in theirs["brute_force_speedup_2_20"].items()]
     return [f"The figures of the source, of its own machine ({theirs['machine']}), and ours, in ms:", ""] + \
-        table(["", "whole scene", "2^20 spheres"], rows)
+        table(["", "whole scene", "2^20 spheres"], rows) + \
+        ["Brute force, how many times as fast as on one core:", ""] + \
+        table(["", "times"], faster + [[f"abut, {most:,} spheres, device", quotient(*ours, 0)]])
 
 
 # --- nearest points and validation ------------------------------------------------------------------------------------------
@@ -212,6 +222,42 @@ def distance_cuda(results):
     rows = [[SCENES[scene], kind, f"{poses:,}"] + [shown(t) for t in times]
             for scene, kind, poses, times in distance_rows(r, names)]
     return ["Microseconds a pose:", ""] + table(["scene", "poses", "number"] + list(names.values()), rows) + made_on(r)
+
+
+# --- within a distance, and convex hulls ------------------------------------------------------------------------------------
+
+@in_table("within-cpu")
+def within_cpu(results):
+    r = results["cpu/within"]
+    names = {"trees": "`within` of two trees", "unsorted": "the same, not sorted", "count": "`count_within`",
+             "self": "`self_within`", "nanoflann": "nanoflann, rounded, not sorted", "floor": "to write the pairs once"}
+    clouds = [(c, n) for c in r.parts("points/trees/", 2) for n in r.parts(f"points/trees/{c}/", 3)]
+    rows = [["pairs"] + [whole(r.get(f"points/trees/{c}/{n}", "pairs")) for c, n in clouds]]
+    rows += [[f"{name}, ms"] + [shown(r.get(f"points/{call}/{c}/{n}")) for c, n in clouds] for call, name in names.items()]
+    calls = r.parts("mesh/", 1)
+    heads = [f"`within`, {c.removeprefix('within_')}" if c.startswith("within_") else f"`{c}`" for c in calls]
+    meshes = [[scene.replace("_", " ")] + [shown(r.get(f"mesh/{call}/{scene}")) for call in calls]
+              for scene in r.parts("mesh/", 2)]
+    return ["Points with points, one core:", ""] + table([""] + [f"{c}, {n} neighbours" for c, n in clouds], rows) + \
+        ["Two meshes, ms; distances are shares of the mesh's width:", ""] + \
+        table(["scene"] + heads, meshes) + made_on(r)
+
+
+@in_table("hulls-cpu")
+def hulls_cpu(results):
+    r = results["cpu/hulls"]
+    names = {"fast": "`intersects`, `fast`", "filtered": "`filtered`", "exact": "`exact`", "fcl_libccd": "FCL, libccd",
+             "fcl_indep": "FCL, its own"}
+    bodies = r.parts("intersects/", 2)
+    rows = [["touch, of 1,000"] + [whole(r.get(f"intersects/filtered/{b}", "hits")) for b in bodies]]
+    for question, label in (("intersects", ""), ("distance", "`distance`: ")):
+        for how, name in (names if question == "intersects" else {"abut": "abut", "fcl_libccd": names["fcl_libccd"],
+                                                                  "fcl_indep": names["fcl_indep"]}).items():
+            times = [r.get(f"{question}/{how}/{b}") for b in bodies]
+            if any(times):
+                rows.append([f"{label}{name}, ns"] + [shown(t and 1e3 * t) for t in times])  # of 1,000 pairs, in ms
+    return ["Two hulls at a time, one core, double:", ""] + \
+        table([""] + [b.replace("_", " ") for b in bodies], rows) + made_on(r)
 
 
 RAYS = {"coherent": "from a camera", "scattered": "scattered"}
@@ -348,8 +394,7 @@ def devices_large_cuda(results):
 
 @in_table("devices-divided-cuda")
 def devices_divided_cuda(results):
-    # A run of its own, where there is one: bench/results/cuda/devices_large.json has these rows too.
-    r = results["cuda/devices_divided" if "cuda/devices_divided" in results else "cuda/devices_large"]
+    r = results["cuda/devices_divided"]
     return ["ms, both arguments divided, and over `cuda` on one device, which has all:", ""] + \
         large_scenes(r, (("mesh_divided", "mesh", "two meshes"), ("corner_divided", "corner", "a crowded corner"))) + made_on(r)
 
@@ -451,14 +496,17 @@ def patches(results):
 
 @in_table("depths")
 def depths(results):
-    r, theirs = results["cpu/descents"], LITERATURE["backman_2011"]["box_tests_per_depth_345944"]
+    r, theirs = results["cpu/descents"], LITERATURE["backman_2011"]
+    tests = [theirs["box_tests_per_depth"][n] for n in SIZES]
     at = r.parts("depth/linear/", 2)
-    rows = [[d, whole(theirs.get(d) and float(theirs[d])), whole(r.get(f"depth/linear/{d}", "boxes")),
-             whole(r.get(f"depth/sah/{d}", "boxes"))]
+    rows = [[d] + [whole(of.get(d)) for of in tests] + [whole(r.get(f"depth/{b}/{d}", "boxes")) for b in ("linear", "sah")]
             for d in at]
-    rows.append(["all", whole(float(sum(theirs.values()))), whole(r.get("walk/linear/both_at_once", "boxes")),
-                 whole(r.get("walk/sah/both_at_once", "boxes"))])
-    return table(["depth", "source, from depth 6", "here, `linear`", "here, `sah`"], rows) + made_on(r)
+    rows.append(["all"] + [whole(theirs["sizes"][n]["box_tests"]) for n in SIZES] +
+                [whole(r.get(f"walk/{b}/both_at_once", "boxes")) for b in ("linear", "sah")])
+    rows.append(["pairs of triangles left"] + [whole(theirs["sizes"][n]["triangle_pairs"]) for n in SIZES] +
+                [whole(r.get(f"walk/{b}/both_at_once", "leaves")) for b in ("linear", "sah")])
+    return table(["depth"] + [f"source, {int(n):,} triangles" for n in SIZES] +
+                 [f"here, {int(SIZES[-1]):,}, `{b}`" for b in ("linear", "sah")], rows) + made_on(r)
 
 
 @in_table("meshes-cuda")
@@ -485,9 +533,6 @@ def meshes_cuda(results):
              shown(r.get(f"sort/cuda/{n}"))] for n in r.parts("build/bvh/cuda/", 3)]
     return lines + ["Build of a linear BVH:", ""] + table(["triangles", "build, ms", "sort of its codes alone"], rows) + \
         made_on(r, f"; {r.context.get('mesh', 'the mesh above')}" if "mesh" in r.context else "")
-
-
-SIZES = ("2766", "27674", "138376", "345944")
 
 
 def of_size(results, kind, n):
@@ -661,12 +706,12 @@ def footprint(results):
                      whole(r.get(name, "index_bytes") / 1024),
                      shown(r.get(name)), shown(cuda.get(name)), shown(compiled.get(name, "gcc_seconds")),
                      whole(compiled.get(name, "gcc_megabytes")),
-                     whole((compiled.get(name, "gcc_code") or 0) / 1024)] + [whole(compiled.get(name,
-                                                                                                f"nvcc_{k}"))
-                                                                             for k in ("seconds", "registers", "stack")])
+                     whole((compiled.get(name, "gcc_code") or 0) / 1024)] +
+                    [whole(compiled.get(name, f"nvcc_{k}"))
+                     for k in ("seconds", "kernels", "registers", "stack", "instructions")])
     head = ["scene: question", "elements", "bytes of each", "trees, KiB", "one core, ms", "device, ms", "g++, s", "g++, MB",
             "code, KiB",
-            "nvcc, s", "registers", "stack"]
+            "nvcc, s", "kernels", "registers", "stack", "instructions"]
     return filled(head, rows) + made_on(r) + made_on(cuda) + made_on(compiled)
 
 

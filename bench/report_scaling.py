@@ -299,6 +299,8 @@ def share_of_own(query, term):
 
 VALUES["scaling-nearest-limit"] = lambda results: whole(
     Model(results["cpu/distributed"]).ranks_where("nearest", "looking through shapes", 10**6))
+VALUES["scaling-most-neighbours"] = lambda results: whole(
+    max(row["most_neighbours"] for name, row in results["cpu/distributed"].rows.items() if name.startswith("parts/")))
 VALUES["scaling-came-nearest"] = share_of_own("nearest", "shapes that came")
 VALUES["scaling-came-pairs"] = share_of_own("pairs", "shapes that came")
 VALUES["scaling-pairs-looking"] = share_of_own("pairs", "looking through shapes")

@@ -2,6 +2,7 @@
 """All tables and values of the pages: TABLES and VALUES of bench/report_core.py, filled."""
 
 from report_core import TABLES, VALUES, programs  # noqa: F401
+import report_cuda_tests  # noqa: F401
 import report_extremes  # noqa: F401
 import report_predicates  # noqa: F401
 import report_queries  # noqa: F401

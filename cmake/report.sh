@@ -58,6 +58,8 @@ cpu meshes bench_meshes $G $I --mesh=@D@/meshes/armadillo_345944.ply --benchmark
 cpu any bench_meshes $G $I --mesh=@D@/meshes/stanford-bunny.ply --benchmark_filter=any/[a-z_]*/.*/
 cpu nearest bench_nearest $G $I --benchmark_filter=/100000/
 cpu distance bench_distance $G $I --meshes=@D@/meshes
+cpu within bench_within $G $I --meshes=@D@/meshes
+cpu hulls bench_hulls $G $I
 cpu raycast bench_raycast $G $I --mesh=@D@/meshes/armadillo_345944.ply
 cpu descents bench_descents --json={} --mesh=@D@/meshes/armadillo_345944.ply
 cpu meshes_138376 bench_meshes $G $I --mesh=@D@/meshes/armadillo_138376.ply --benchmark_filter=^(build/bvh|pairs|boxes|contacts)/
@@ -77,6 +79,7 @@ cuda triangles bench_triangles_cuda {}
 cuda ties bench_ties_cuda {}
 cuda devices bench_devices_cuda {}
 cuda devices_large bench_devices_large_cuda {}
+cuda devices_divided bench_devices_large_cuda {} 1000000
 cuda nearest bench_nearest_cuda {}
 cuda distance bench_distance_cuda --meshes=@D@/meshes {}
 cuda raycast bench_raycast_cuda {} @D@/meshes/armadillo_345944.ply

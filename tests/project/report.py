@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: MIT
 """Runs bench/report.py --check, and sees that it notices what it is there for: on copies with a digit changed, a table that no
-program writes, results that are gone, a block without an end, README at odds with them. And runs cmake/report.sh with programs
-that measure nothing.
+program writes, a measurement in a sentence, results that are gone, a block without an end, README at odds with them. And
+runs cmake/report.sh with programs that measure nothing, and bench/report_cuda_tests.py of logs that are known.
 
 usage: report.py REPOSITORY
 """
 
+import json
 import re
 import shutil
 import subprocess
@@ -44,12 +45,25 @@ MUTATIONS = {
     "a digit of README": lambda r: change_digit(r / "README.md", "cost-spheres"),
     "a table that no program writes": lambda r: append(r / "docs" / "building.md",
                                                        "\n| what | ms |\n| --- | ---: |\n| a query | 1.25 |\n"),
+    "a measurement in a sentence": lambda r: append(r / "docs" / "building.md", "\nA query takes 1.25\nms here.\n"),
+    "a factor in a sentence": lambda r: append(r / "README.md", "\nIt is 17.4 times faster.\n"),
+    "a share in a sentence": lambda r: append(r / "docs" / "results" / "contacts.md", "\nIt keeps some 80 % of them.\n"),
+    "a rate in a sentence": lambda r: append(r / "docs" / "guide.md", "\nIt reads half a million inputs a second.\n"),
     "a block of an unknown name": lambda r: append(r / "docs" / "building.md",
                                                    "<!-- nobody: begin -->\n<!-- nobody: end -->\n"),
     "a block without an end": lambda r: replace(r / "docs" / "benchmarks.md", "<!-- trade-cpu: end -->\n", ""),
     "results that are gone": lambda r: (r / "bench" / "results" / "cpu" / "trade.json").unlink(),
     "other results": lambda r: replace(r / "bench" / "results" / "cpu" / "trade.json", '"ns": ', '"ns": 7'),
+    "results that no row makes": lambda r: replace(r / "cmake" / "report.sh", "cpu ties bench_ties ", "# "),
+    "a row without results": lambda r: replace(r / "cmake" / "report.sh", "cpu within ", "cpu x bench_x {}\ncpu within "),
+    "results of another program": lambda r: replace(r / "cmake" / "report.sh", "cpu ties bench_ties ", "cpu ties bench_x "),
+    "results that are said not to be measured": lambda r: replace(r / "bench" / "report.py", "NOT_MEASURED = {",
+                                                                'NOT_MEASURED = {"cpu/ties", '),
     "a program that is gone": lambda r: (r / "bench" / "trade.cpp").unlink(),
+    "a page of results that no test writes": lambda r: shutil.copy(r / "docs" / "results" / "sphere-sphere.md",
+                                                                   r / "docs" / "results" / "sphere-cylinder.md"),
+    "a digit of what a device said": lambda r: replace(r / "bench" / "results" / "cuda" / "tests.json", '"failed": 0',
+                                                       '"failed": 1'),
     "a plot that is gone": lambda r: (r / "docs" / "figures" / "trade-cpu.svg").unlink(),
 }
 
@@ -100,11 +114,42 @@ def try_script(root):
     return wrong
 
 
+# What programs of tests/cuda say, and the rows that it makes.
+LOGS = {"passes.out": "...\nAll tests passed (1 assertion in 1 test case)\n",
+        "passes.memcheck": "All tests passed (12 assertions in 3 test cases)\n\n========= ERROR SUMMARY: 0 errors\n",
+        "fails.out": "test cases:  3 |  2 passed | 1 failed\nassertions: 20 | 19 passed | 1 failed\n\n" * 2,
+        "fails.memcheck": "All tests passed (20 assertions in 3 test cases)\n========= ERROR SUMMARY: 1 error\n",
+        "ends.out": "terminate called\n", "ends.memcheck": "assertions: 7 | 5 passed | 2 failed\n",
+        "sphere_triangle.families": "needle 1e3         float  n 300, hits  70.5 %, inputs that differ 0, "
+                                    "decisions that differ 2, filtered against exact 1\n"}
+ROWS = {"passes": {"assertions": 1, "failed": 0, "processes": 1, "memcheck_assertions": 12, "memcheck_failed": 0,
+                   "memcheck_errors": 0},
+        "fails": {"assertions": 20, "failed": 1, "processes": 2, "memcheck_assertions": 20, "memcheck_failed": 0,
+                  "memcheck_errors": 1},
+        "ends": {"no_end": 1, "memcheck_assertions": 7, "memcheck_failed": 2, "memcheck_no_end": 1},
+        "sphere_triangle/needle 1e3/float": {"pairs": 300, "hits": 70.5, "inputs": 0, "decisions": 2, "arithmetics": 1}}
+
+
+def try_logs(root):
+    """What is wrong with bench/report_cuda_tests.py."""
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in LOGS.items():
+            (Path(folder) / name).write_text(text, encoding="utf-8")
+        out = Path(folder) / "tests.json"
+        said = {"device": "some device", "driver": "580.1", "cuda": "13.0", "commit": "0123abc", "date": "2026-01-31"}
+        subprocess.run([sys.executable, "-B", root / "bench" / "report_cuda_tests.py", folder, f"--json={out}",
+                        *(f"--{key}={value}" for key, value in said.items())], check=True)
+        made = json.loads(out.read_text(encoding="utf-8"))
+        wrong = [f"report_cuda_tests.py: expected {ROWS}, found {made['rows']}"] if made["rows"] != ROWS else []
+        return wrong + [f"report_cuda_tests.py: it does not say {key}"
+                        for key in said if made["context"].get(key) != said[key]]
+
+
 def main():
     root = Path(sys.argv[1]).resolve()
     status, says = check(root)
     print(says, end="")
-    wrong = try_script(root)
+    wrong = try_script(root) + try_logs(root)
     for line in wrong:
         print(line)
     failed = status != 0 or bool(wrong)
@@ -112,7 +157,7 @@ def main():
         with tempfile.TemporaryDirectory() as folder:
             copy = Path(folder)
             shutil.copy(root / "README.md", copy)
-            for part in ("docs", "bench"):
+            for part in ("docs", "bench", "cmake", "tests/predicate"):
                 shutil.copytree(root / part, copy / part)
             mutate(copy)
             status, found = check(copy)
