@@ -13,6 +13,17 @@
 
 namespace abut::test {
 
+template <class S>
+auto set_of(const std::vector<S>& shapes_of_kind) {
+    return shapes(shapes_of_kind);
+}
+template <class T>
+hulls<T> set_of(const std::vector<four_points<T>>& lists) {
+    std::vector<std::vector<vec3<T>>> points;
+    for (const four_points<T>& list : lists) points.emplace_back(list.at, list.at + 4);
+    return hulls<T>(points);
+}
+
 /// A step's pairs as two sets, and which pairs touch in truth: of all, or of each with its own alone.
 template <class Kind, class T>
 struct extreme_sets {
@@ -29,36 +40,48 @@ struct extreme_sets {
         }
         for (std::uint32_t i = 0; i < n; ++i) {
             for (std::uint32_t j = 0; j < n; ++j) {
-                if (touch_in_truth<T>({a[i], b[j]})) touching.push_back({i, j});
+                if (touch_in_truth<T>(pair{a[i], b[j]})) touching.push_back({i, j});
             }
         }
     }
 };
 
-/// All against all in both arithmetics: plain sets, and indices on one side and on both.
-template <class Kind, class T, class Policy>
+/// All against all in both arithmetics: plain sets, and an index on one side; `more` asks in further ways.
+template <class Kind, class T, bool more, class Policy>
 void check_extreme_queries(const Policy& on, std::uint32_t n) {
     std::size_t hits = 0, steps = 0;
     for (const extreme what : extremes) {
         for (const extreme_step& step : steps_of<T>(what)) {
             CAPTURE(Kind::name, name_of(what), step.value);
             const extreme_sets<Kind, T> sets(step, n);
-            const auto a = copy_to(on, shapes(sets.a));
-            const auto b = copy_to(on, shapes(sets.b));
-            CHECK(to_host(pairs<filtered>(on, a, b)) == sets.touching);
+            const auto a = copy_to(on, set_of(sets.a));
+            const auto b = copy_to(on, set_of(sets.b));
+            const auto b_tree = make_bvh(on, b);
             CHECK(to_host(pairs<exact>(on, a, b)) == sets.touching);
-            CHECK(to_host(pairs<filtered>(on, make_bvh(on, a), b)) == sets.touching);
-            CHECK(count<filtered>(on, make_bvh(on, a), make_bvh(on, b)) == sets.touching.size());
-            if constexpr (requires { make_grid(on, a); }) {
-                CHECK(to_host(pairs<filtered>(on, make_grid(on, a), b)) == sets.touching);
+            CHECK(to_host(pairs<filtered>(on, a, b_tree)) == sets.touching);
+            if constexpr (more) {
+                CHECK(count<filtered>(on, make_bvh(on, a), b_tree) == sets.touching.size());
+                CHECK(to_host(pairs<filtered>(on, a, b)) == sets.touching);
+                CHECK(to_host(pairs<filtered>(on, make_bvh(on, a), b)) == sets.touching);
+                if constexpr (requires { make_grid(on, a); }) {
+                    CHECK(to_host(pairs<filtered>(on, make_grid(on, a), b)) == sets.touching);
+                }
+                CHECK(any<filtered>(on, a, b_tree) == !sets.touching.empty());
             }
-            CHECK(any<filtered>(on, a, make_bvh(on, b)) == !sets.touching.empty());
             hits += sets.touching.size();
             ++steps;
         }
     }
     std::printf("%s, %zu steps of %u against %u: %zu hits\n", Kind::name, steps, n, n, hits);
     CHECK(hits > steps * n / 4);
+}
+
+/// Of all kinds.
+template <class T, class Policy>
+void check_all_extreme_queries(const Policy& on) {
+    for_each_kind(first_extreme_kinds{},
+                  [&]<class Kind>(Kind) { check_extreme_queries<Kind, T, true>(on, Kind::moving ? 6 : 20); });
+    for_each_kind(other_extreme_kinds{}, [&]<class Kind>(Kind) { check_extreme_queries<Kind, T, false>(on, 6); });
 }
 
 }  // namespace abut::test

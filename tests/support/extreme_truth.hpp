@@ -7,16 +7,26 @@
 #include "hulls.hpp"
 #include "motion_oracle.hpp"
 #include "rational.hpp"
+#include "ray_oracle.hpp"
+#include "shape_oracles.hpp"
+#include "solid_pairs.hpp"
 
 namespace abut::test {
 
+template <scalar T, class S, class U>
+    requires requires(S a, U b) { oracle::intersects(a, b); }
+bool touch_in_truth(const pair_of<S, U>& p) { return oracle::intersects(p.a, p.b); }
 template <scalar T>
-bool touch_in_truth(const pair_of<triangle<T>, triangle<T>>& p) {
-    return oracle::intersects(p.a, p.b);
+bool touch_in_truth(const pair_of<ray<T>, triangle<T>>& p) {
+    return first_time(p.a, p.b).has_value();
 }
 template <scalar T>
-bool touch_in_truth(const pair_of<sphere<T>, triangle<T>>& p) {
-    return oracle::intersects(p.a, p.b);
+bool touch_in_truth(const pair_of<aabb<T>, capsule<T>>& p) {
+    return oracle::within_distance(p.a, p.b, 0);
+}
+template <scalar T>
+bool touch_in_truth(const pair_of<four_points<T>, four_points<T>>& p) {
+    return oracle::hulls_intersect<T>({p.a.at, p.a.at + 4}, {p.b.at, p.b.at + 4});
 }
 template <scalar T>
 bool touch_in_truth(const pair_of<abut::motion<vec3<T>>, abut::motion<triangle<T>>>& p) {

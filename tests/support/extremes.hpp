@@ -16,6 +16,7 @@
 #include <abut/shape/primitive.hpp>
 
 #include "draws.hpp"
+#include "shape_families.hpp"
 #include "triangle_families.hpp"
 
 namespace abut::test {
@@ -90,6 +91,12 @@ struct pair_of {
     U b;
 };
 
+/// Of which a hull is made where it is asked about.
+template <scalar T>
+struct four_points {
+    vec3<T> at[4];
+};
+
 namespace construction {
 
 /// p, q, or what is between.
@@ -128,6 +135,12 @@ public:
         return limited<T>(scaled(d, length, 0));
     }
 
+    template <scalar T>
+    [[nodiscard]] ABUT_HD static T limited(double x) {
+        constexpr auto most = static_cast<double>(largest_number<T>);
+        return rounded_to<T>(x < -most ? -most : x > most ? most : x);
+    }
+
 private:
     [[nodiscard]] ABUT_HD int exponent(draws& d) const {
         if (step_.what != extreme::spread) return 0;
@@ -136,11 +149,6 @@ private:
     }
     [[nodiscard]] ABUT_HD double snapped(double x) const {
         return step_.what == extreme::snapped ? std::floor(std::fma(x, step_.value, 0.5)) / step_.value : x;
-    }
-    template <scalar T>
-    [[nodiscard]] ABUT_HD static T limited(double x) {
-        constexpr auto most = static_cast<double>(largest_number<T>);
-        return rounded_to<T>(x < -most ? -most : x > most ? most : x);
     }
     [[nodiscard]] ABUT_HD double scaled(draws& d, double x, int axis) const {
         if (step_.what == extreme::scaled) return x * step_.value;
@@ -209,11 +217,86 @@ ABUT_HD triangle<T> around_tie(draws& d, const tie_frame<T>& f) {
     return {f.at(m, p, 0), f.at(-m, q, 0), f.at(r, -m, 0)};
 }
 
+/// Where two shapes touch, for `touching_from`. In ties all that is made there has coordinates of whole units of 2^-20; in
+/// near ties, what is in the plane of contact is a gap away from 0 in one of them, or of what is round the centre or axis.
+ABUT_HD inline contact_frame extreme_contact(draws& d, const extreme_step& step, bool tie, int up) {
+    if (!tie) {
+        const point at = cube(d, 0.5), n = unit(cube(d, 1)), u = unit(cross_product(n, cube(d, 1))), v = cross_product(n, u);
+        const double height = d.uniform(0.01, 0.2), width = d.uniform(0.01, 0.2), depth = d.uniform(0.01, 0.2);
+        const point zero{0, 0, 0};
+        contact_frame c{at, along(zero, height, n), along(zero, width, u), along(zero, depth, v), height, height};
+        if (step.what == extreme::flattened) {
+            const extreme_frame f(d, step);
+            c.at = f.formed(c.at), c.u = f.formed(c.u), c.v = f.formed(c.v);
+            const point across = cross_product(c.u, c.v);
+            c.normal = along(zero, height * width * depth / (step.value * product(across, across)), across);
+            c.length = c.unit = length(c.normal);
+        }
+        return c;
+    }
+    contact_frame c = any_contact_frame(d, 0);
+    c.unit = (1 + d.below(1 << 12)) * 0x1p-20;
+    c.length *= c.unit;
+    for (point* const p : {&c.normal, &c.u, &c.v}) *p = along({0, 0, 0}, c.unit, *p);
+    const int x = d.below(1 << 18), y = d.below(1 << 18), z = d.below(1 << 18);
+    c.at = along({0, 0, 0}, 0x1p-20, {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)});
+    if (step.what == extreme::unresolved) {
+        constexpr point axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+        int k = d.below(3);
+        while (product(c.normal, axes[k]) == 0) k = (k + 1) % 3;
+        const point& axis = axes[k];
+        if (product(c.u, axis) != 0 || product(c.v, axis) != 0) c.u = c.v = cross_product(c.normal, axis);
+        c.at = along(c.at, up * product(c.normal, axis) - product(c.at, axis), axis);
+        c.gap = along({0, 0, 0}, d.below(2) == 0 ? -0x1p-140 : 0x1p-140, axis);
+    }
+    return c;
+}
+
+/// Shapes of doubles, where the step puts them.
+template <scalar T>
+class shape_placer {
+public:
+    ABUT_HD shape_placer(draws& d, const extreme_step& step) : d_(d), frame_(d, step) {}
+
+    ABUT_HD vec3<T> operator()(const point& p) const {
+        return frame_.template placed<T>(d_, {frame_.formed(p.x), frame_.formed(p.y), frame_.formed(p.z)});
+    }
+    ABUT_HD T operator()(double length) const { return frame_.template placed<T>(d_, frame_.formed(length)); }
+    ABUT_HD segment<T> operator()(const segment<double>& s) const { return {(*this)(s.a), (*this)(s.b)}; }
+    ABUT_HD triangle<T> operator()(const triangle<double>& t) const { return {(*this)(t.a), (*this)(t.b), (*this)(t.c)}; }
+    ABUT_HD aabb<T> operator()(const aabb<double>& b) const { return box_of((*this)(b.lower), (*this)(b.upper)); }
+    ABUT_HD sphere<T> operator()(const sphere<double>& s) const { return {(*this)(s.center), (*this)(s.radius)}; }
+    ABUT_HD capsule<T> operator()(const capsule<double>& s) const { return {(*this)(s.axis), (*this)(s.radius)}; }
+
+    /// A shape that touches the frame's point, as `touching_from` says.
+    template <template <class> class S>
+    ABUT_HD S<T> touching(const contact_frame& c, int side, int up) const {
+        if constexpr (std::same_as<S<T>, plane<T>>) {  // through that point after rounding, or nearly
+            const vec3<T> normal = round_to<T>(touching_from<plane<double>>(d_, c, side, up).normal), at = (*this)(c.at);
+            return {normal, extreme_frame::limited<T>(product(widened(normal), widened(at)))};
+        } else if constexpr (std::same_as<S<T>, ray<T>>) {
+            const auto way = [](T x, T y) { return y - x - (y - x) == 0 ? y - x : y / 2 - x / 2; };
+            const segment<T> s = touching<segment>(c, side, up);
+            return {s.a, {way(s.a.x, s.b.x), way(s.a.y, s.b.y), way(s.a.z, s.b.z)}};
+        } else if constexpr (std::same_as<S<T>, four_points<T>>) {
+            const segment<T> s = touching<segment>(c, side, up), t = touching<segment>(c, side, up);
+            return {{s.a, s.b, t.a, t.b}};
+        } else {
+            return (*this)(touching_from<S<double>>(d_, c, side, up));
+        }
+    }
+
+private:
+    draws& d_;
+    extreme_frame frame_;
+};
+
 }  // namespace construction
 
 /// The kinds of pairs: `make` draws one.
 struct extreme_triangles {
     static constexpr const char* name = "triangle_triangle";
+    static constexpr bool moving = false;
 
     template <scalar T>
     ABUT_HD static pair_of<triangle<T>, triangle<T>> make(draws& d, const extreme_step& step) {
@@ -240,6 +323,7 @@ struct extreme_triangles {
 
 struct extreme_balls {
     static constexpr const char* name = "sphere_triangle";
+    static constexpr bool moving = false;
 
     template <scalar T>
     ABUT_HD static pair_of<sphere<T>, triangle<T>> make(draws& d, const extreme_step& step) {
@@ -274,6 +358,7 @@ struct extreme_balls {
 
 struct extreme_vertex_face {
     static constexpr const char* name = "vertex_face";
+    static constexpr bool moving = true;
 
     template <scalar T>
     ABUT_HD static pair_of<abut::motion<vec3<T>>, abut::motion<triangle<T>>> make(draws& d, const extreme_step& step) {
@@ -306,6 +391,7 @@ struct extreme_vertex_face {
 
 struct extreme_edges {
     static constexpr const char* name = "edge_edge";
+    static constexpr bool moving = true;
 
     template <scalar T>
     ABUT_HD static pair_of<abut::motion<segment<T>>, abut::motion<segment<T>>> make(draws& d, const extreme_step& step) {
@@ -335,6 +421,65 @@ struct extreme_edges {
         return {{{q[0], q[1]}, {q[4], q[5]}}, {{q[2], q[3]}, {q[6], q[7]}}};
     }
 };
+
+/// Two shapes that touch in a point, or nearly; or some that lie anywhere. Of near ties both have the gap, or one alone.
+template <template <class> class S, template <class> class U>
+struct extreme_contacts {
+    template <scalar T>
+    ABUT_HD static pair_of<S<T>, U<T>> make(draws& d, const extreme_step& step) {
+        using namespace construction;
+        const bool tie = is_tie(d, step), apart = !tie && kind_of(d, step) == 0;
+        const int up = 1 + d.below(3);
+        contact_frame above = extreme_contact(
+                          d, step, tie, requires { U<T>{}.radius; } ? up : 0),
+                      below = above;
+        if (d.below(2) == 0) above.gap = {0, 0, 0};
+        if (apart) below = extreme_contact(d, step, false, up);
+        const shape_placer<T> place(d, step);
+        const auto a = place.template touching<S>(above, 1, 1 + d.below(3));
+        return {a, place.template touching<U>(below, -1, up)};
+    }
+};
+
+struct extreme_box_triangle : extreme_contacts<aabb, triangle> {
+    static constexpr const char* name = "box_triangle";
+};
+struct extreme_plane_triangle : extreme_contacts<plane, triangle> {
+    static constexpr const char* name = "plane_triangle";
+};
+struct extreme_capsule_triangle : extreme_contacts<capsule, triangle> {
+    static constexpr const char* name = "capsule_triangle";
+};
+struct extreme_segment_triangle : extreme_contacts<segment, triangle> {
+    static constexpr const char* name = "segment_triangle";
+};
+struct extreme_point_triangle : extreme_contacts<vec3, triangle> {
+    static constexpr const char* name = "point_triangle";
+};
+struct extreme_ray_triangle : extreme_contacts<ray, triangle> {
+    static constexpr const char* name = "ray_triangle";
+};
+struct extreme_spheres : extreme_contacts<sphere, sphere> {
+    static constexpr const char* name = "sphere_sphere";
+};
+struct extreme_box_capsule : extreme_contacts<aabb, capsule> {
+    static constexpr const char* name = "box_capsule";
+};
+struct extreme_hulls : extreme_contacts<four_points, four_points> {
+    static constexpr const char* name = "hull_hull";
+};
+
+template <class... Kinds>
+struct kind_list {};
+using first_extreme_kinds = kind_list<extreme_triangles, extreme_balls, extreme_vertex_face, extreme_edges>;
+using other_extreme_kinds =
+    kind_list<extreme_box_triangle, extreme_plane_triangle, extreme_capsule_triangle, extreme_segment_triangle,
+              extreme_point_triangle, extreme_ray_triangle, extreme_spheres, extreme_box_capsule, extreme_hulls>;
+
+template <class... Kinds, class F>
+void for_each_kind(kind_list<Kinds...>, const F& f) {
+    (f(Kinds{}), ...);
+}
 
 /// Pair `index` of a step.
 template <class Kind, scalar T>

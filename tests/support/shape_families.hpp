@@ -5,6 +5,7 @@
 // their own: box_pairs.hpp, plane_pairs.hpp, capsule_pairs.hpp; other_shapes.hpp puts a pair together.
 
 #include <cmath>
+#include <concepts>
 #include <cstdint>
 
 #include <abut/shape/bounds.hpp>
@@ -236,6 +237,70 @@ ABUT_HD point lattice_point_of(draws& d, triangle<T>& t) {
     double c[3];
     for (int k = 0; k < 3; ++k) c[k] = (u * x[0][k] + v * x[1][k] + (4 - u - v) * x[2][k]) / 4;
     return {c[0], c[1], c[2]};
+}
+
+/// Where two shapes touch, a normal, and two vectors across it.
+struct contact_frame {
+    point at, normal, u, v;
+    double length = 1;      ///< of the normal
+    double unit = 1;        ///< of extents of boxes; a plane's normal is that many times shorter
+    point gap = {0, 0, 0};  ///< added to each point in the end
+};
+
+/// On a lattice, with a normal of whole length.
+ABUT_HD inline contact_frame any_contact_frame(draws& d, int shift) {
+    constexpr double frames[][9] = {{0, 0, 1, 1, 0, 0, 0, 1, 0},   {1, 2, 2, 2, -1, 0, 0, 1, -1},
+                                    {2, 3, 6, 3, -2, 0, 0, 2, -1}, {0, 3, 4, 1, 0, 0, 0, 4, -3},
+                                    {6, 6, 7, 1, -1, 0, 0, 7, -6}, {1, 4, 8, 4, -1, 0, 0, 2, -1}};
+    constexpr double lengths[] = {1, 3, 7, 5, 11, 9};
+    const int which = d.below(6), turn = d.below(3), sign = d.below(2) == 0 ? -1 : 1;
+    const auto turned = [turn](const double* w) { return point{w[turn], w[(turn + 1) % 3], w[(turn + 2) % 3]}; };
+    const int x = d.below(9) - 4 + shift, y = d.below(9) - 4 - shift, z = d.below(9) - 4;
+    const point at{static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)}, n = turned(frames[which]);
+    return {at, along({0, 0, 0}, sign, n), turned(frames[which] + 3), turned(frames[which] + 6), lengths[which]};
+}
+
+/// A shape that touches the frame's point, on the side of its normal, or on the other one; where it is round, its centre
+/// or axis is `up` normals away.
+template <class S>
+ABUT_HD S touching_from(draws& d, const contact_frame& f, int side, int up) {
+    using T = scalar_type_of<S>;
+    const auto moved_by = [&](int along_n, int along_u, int along_v) {
+        const point p = along(along(along(f.at, side * along_n, f.normal), along_u, f.u), along_v, f.v);
+        return round_to<T>(along(p, 1, f.gap));
+    };
+    const int i = d.below(5) - 2, j = d.below(5) - 2, back = d.below(4), away = d.below(3);
+    // A segment through a point above, across the normal, or away from it.
+    const auto axis_at = [&](int height) {
+        return away == 0 ? segment<T>{moved_by(height, 0, 0), moved_by(height + 1 + back, i, j)}
+                         : segment<T>{moved_by(height, i, j), moved_by(height, -back * i, -back * j)};
+    };
+    if constexpr (std::same_as<S, vec3<T>>) {
+        return moved_by(0, 0, 0);
+    } else if constexpr (std::same_as<S, segment<T>>) {
+        return axis_at(0);
+    } else if constexpr (std::same_as<S, triangle<T>>) {
+        const segment<T> axis = axis_at(0);
+        return {axis.a, axis.b, moved_by(away, j, back)};
+    } else if constexpr (std::same_as<S, sphere<T>>) {
+        return {moved_by(up, 0, 0), rounded_to<T>(up * f.length)};
+    } else if constexpr (std::same_as<S, capsule<T>>) {
+        return {axis_at(up), rounded_to<T>(up * f.length)};
+    } else if constexpr (std::same_as<S, plane<T>>) {
+        const point n{f.normal.x / f.unit, f.normal.y / f.unit, f.normal.z / f.unit};
+        return {round_to<T>(n), rounded_to<T>(product(n, f.at))};
+    } else {
+        S box;
+        const auto set = [&](double at, double n, T& lower, T& upper) {
+            const int before = d.below(5), behind = d.below(5);
+            lower = rounded_to<T>(side * n > 0 ? at : std::fma(-before, f.unit, at));
+            upper = rounded_to<T>(side * n < 0 ? at : std::fma(behind, f.unit, at));
+        };
+        set(f.at.x, f.normal.x, box.lower.x, box.upper.x);
+        set(f.at.y, f.normal.y, box.lower.y, box.upper.y);
+        set(f.at.z, f.normal.z, box.lower.z, box.upper.z);
+        return box;
+    }
 }
 
 }  // namespace construction

@@ -301,72 +301,6 @@ S any_solid(draws& d, solid_family f) {
     return s;
 }
 
-/// A point on a lattice, and a normal of whole length with two vectors across it.
-struct contact_frame {
-    struct whole {
-        int x, y, z;
-    };
-    whole at, n, u, v;
-    int length;
-};
-inline contact_frame any_contact_frame(draws& d, int shift) {
-    using whole = contact_frame::whole;
-    constexpr whole frames[][3] = {{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}},   {{1, 2, 2}, {2, -1, 0}, {0, 1, -1}},
-                                   {{2, 3, 6}, {3, -2, 0}, {0, 2, -1}}, {{0, 3, 4}, {1, 0, 0}, {0, 4, -3}},
-                                   {{6, 6, 7}, {1, -1, 0}, {0, 7, -6}}, {{1, 4, 8}, {4, -1, 0}, {0, 2, -1}}};
-    constexpr int lengths[] = {1, 3, 7, 5, 11, 9};
-    const int which = d.below(6), turn = d.below(3), sign = d.below(2) == 0 ? -1 : 1;
-    const auto turned = [turn](const whole& w) {
-        return turn == 0 ? w : turn == 1 ? whole{w.y, w.z, w.x} : whole{w.z, w.x, w.y};
-    };
-    const int x = d.below(9) - 4 + shift, y = d.below(9) - 4 - shift, z = d.below(9) - 4;
-    const whole n = turned(frames[which][0]);
-    return {
-        {x, y, z}, {sign * n.x, sign * n.y, sign * n.z}, turned(frames[which][1]), turned(frames[which][2]), lengths[which]};
-}
-
-/// A shape that touches the frame's point, on the side of its normal, or on the other one.
-template <class S>
-S touching_from(draws& d, const contact_frame& f, int side) {
-    using T = scalar_type_of<S>;
-    const auto moved_by = [&](int along_n, int along_u, int along_v) {
-        const auto coordinate = [&](int at, int n, int u, int v) {
-            return static_cast<T>(at + side * along_n * n + along_u * u + along_v * v);
-        };
-        return vec3<T>{coordinate(f.at.x, f.n.x, f.u.x, f.v.x), coordinate(f.at.y, f.n.y, f.u.y, f.v.y),
-                       coordinate(f.at.z, f.n.z, f.u.z, f.v.z)};
-    };
-    const int up = 1 + d.below(3), i = d.below(5) - 2, j = d.below(5) - 2, back = d.below(4), away = d.below(3);
-    // A segment through a point above, across the normal, or away from it.
-    const auto axis_at = [&](int height) {
-        return away == 0 ? segment<T>{moved_by(height, 0, 0), moved_by(height + 1 + back, i, j)}
-                         : segment<T>{moved_by(height, i, j), moved_by(height, -back * i, -back * j)};
-    };
-    if constexpr (std::same_as<S, vec3<T>>) {
-        return moved_by(0, 0, 0);
-    } else if constexpr (std::same_as<S, segment<T>>) {
-        return axis_at(0);
-    } else if constexpr (std::same_as<S, triangle<T>>) {
-        const segment<T> axis = axis_at(0);
-        return {axis.a, axis.b, moved_by(away, j, back)};
-    } else if constexpr (std::same_as<S, sphere<T>>) {
-        return {moved_by(up, 0, 0), static_cast<T>(up * f.length)};
-    } else if constexpr (std::same_as<S, capsule<T>>) {
-        return {axis_at(up), static_cast<T>(up * f.length)};
-    } else if constexpr (std::same_as<S, plane<T>>) {
-        const vec3<T> n{static_cast<T>(f.n.x), static_cast<T>(f.n.y), static_cast<T>(f.n.z)};
-        return {n, static_cast<T>(f.n.x * f.at.x + f.n.y * f.at.y + f.n.z * f.at.z)};
-    } else {
-        const auto interval = [&](int at, int n) {
-            const int before = d.below(5), behind = d.below(5), along = side * n;
-            return std::array<T, 2>{static_cast<T>(along > 0 ? at : at - before),
-                                    static_cast<T>(along < 0 ? at : at + behind)};
-        };
-        const auto x = interval(f.at.x, f.n.x), y = interval(f.at.y, f.n.y), z = interval(f.at.z, f.n.z);
-        return {{x[0], y[0], z[0]}, {x[1], y[1], z[1]}};
-    }
-}
-
 /// One of the numbers moves by one step at most.
 template <class S>
 void nudge_number(draws& d, S& s) {
@@ -465,7 +399,8 @@ solid_pair<S, U> make_solid_pair(std::uint64_t seed, solid_family f, std::uint64
         return p;
     }
     const make::contact_frame frame = make::any_contact_frame(d, f == solid_family::contact_far_off ? 1 << 14 : 0);
-    solid_pair<S, U> p{make::touching_from<S>(d, frame, 1), make::touching_from<U>(d, frame, -1)};
+    const auto above = make::touching_from<S>(d, frame, 1, 1 + d.below(3));
+    solid_pair<S, U> p{above, make::touching_from<U>(d, frame, -1, 1 + d.below(3))};
     const int which = d.below(4);
     if (which == 1) make::nudge_number(d, p.s);
     if (which >= 2) make::nudge_number(d, p.t);
