@@ -20,7 +20,7 @@ namespace abut::test {
 
 TEMPLATE_TEST_CASE("first_impact: a coordinate stays within its bounds until a time", "", float, double) {
     using T = TestType;
-    using rational = boost::multiprecision::cpp_rational;
+    using fraction = boost::multiprecision::cpp_rational;
     constexpr double largest = static_cast<double>(largest_finite<T>);
     std::size_t narrower = 0;
     for (std::uint64_t i = 0; i < sample_count(); ++i) {
@@ -37,11 +37,11 @@ TEMPLATE_TEST_CASE("first_impact: a coordinate stays within its bounds until a t
         const double time = std::ceil(d.uniform(0, 1) * std::ldexp(1.0, shift)) / std::ldexp(1.0, shift);
         const detail::coordinate_until<T> in(a, b, time);
         CAPTURE(i, a, b, time, in.lower, in.upper);
-        const rational p(a), q(b), t(time);
+        const fraction p(a), q(b), t(time);
         bool inside = true;
-        for (const rational& part : {rational(0), rational(1) / 3, rational(1)}) {
-            const rational then = p + t * part * (q - p);
-            inside &= rational(in.lower) <= then && then <= rational(in.upper);
+        for (const fraction& part : {fraction(0), fraction(1) / 3, fraction(1)}) {
+            const fraction then = p + t * part * (q - p);
+            inside &= fraction(in.lower) <= then && then <= fraction(in.upper);
         }
         if (!inside) FAIL_CHECK("a coordinate leaves its bounds");
         if (in.lower < std::min(a, b) || in.upper > std::max(a, b)) FAIL_CHECK("bounds outside of the whole step's");
