@@ -9,6 +9,9 @@
 #include "collide/set_cases.hpp"
 #include "shape/feature_cases.hpp"
 #include "support/catch.hpp"
+#include "support/pair_orders.hpp"
+
+static_assert(abut::test::pairs_have_their_orders<float> && abut::test::pairs_have_their_orders<double>);
 
 TEST_CASE("nearest: cuda") {
     abut::test::check_all_nearest<float>(abut::cuda{});

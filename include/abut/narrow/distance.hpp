@@ -323,7 +323,7 @@ private:
             return tells(along) || tells(static_cast<double>(n) * sum_b - static_cast<double>(m) * sum_a);
         } else if constexpr (measured_hulls<S, U>) {
             return is_slab_between(
-                points_of(s).as_hull(), points_of(t).as_hull(), along,
+                core_points_of(s).as_hull(), core_points_of(t).as_hull(), along,
                 bound + (static_cast<double>(radius_around_core(s)) + static_cast<double>(radius_around_core(t))));
         } else {
             return false;
