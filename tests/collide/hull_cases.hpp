@@ -165,6 +165,9 @@ void check_more_of_hulls(const Policy& on) {
     check_nearest_posed(on, few, asking, pose);
     check_rays_at_hulls(on, few, random, pose);
     CHECK(any_within(on, copy_to(on, few), plane<T>{{0, 0, 1}, 9}, 9));
+    const plane<T> above{{1, 2, 2}, 40};
+    const shapes<plane<T>> planes(std::vector<plane<T>>{above});
+    check_same(distance(on, tree, above), distance_by_definition(few.view(), planes.view()));
 }
 
 /// Bodies of hulls; and a list whose entries have hulls and spheres.
