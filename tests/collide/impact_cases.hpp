@@ -703,6 +703,34 @@ void check_small_impacts(const Policy& on) {
     for (const auto& i : met) CHECK(i.time == std::floor(std::ldexp(1.0, 40) / 3) * 0x1p-40);
 }
 
+/// Many vertices fall onto two faces, more than first_impact times at once: all at one time, or the last of them first.
+template <class T, class Policy>
+void check_first_of_many(const Policy& on) {
+    const std::vector<vec3<T>> corners{{-1, -1, 0}, {99, -1, 0}, {-1, 99, 0}, {99, 99, 0}};
+    const frame<T> floor{corners, corners, {{0, 1, 2}, {3, 2, 1}}};
+    for (const bool level : {true, false}) {
+        for (const int side : {1, -1}) {  // a walk comes to the first or to the last vertices early
+            CAPTURE(level, side);
+            frame<T> rain;
+            for (int i = 0; i < 900; ++i) {
+                const T x = static_cast<T>(15 + side * (i % 30 - 15)), y = static_cast<T>(15 + side * (i / 30 - 15));
+                const T height = level ? T(1) : T(4) - static_cast<T>(i) / 300;
+                rain.t0.push_back({x, y, height});
+                rain.t1.push_back({x, y, height - 4});
+            }
+            const auto falls = rain.as_set();
+            const auto rests = floor.at_rest();
+            const auto all = to_host(impacts(on, falls, rests));
+            REQUIRE(all.size() >= 900);
+            const auto first = first_impact(on, falls, rests);
+            CHECK(first == first_of(all));
+            REQUIRE(first.has_value());
+            CHECK(first->time == (level ? 0.25 : std::floor(std::ldexp(static_cast<double>(rain.t0[899].z), 38)) * 0x1p-40));
+            CHECK(first->vertices[0] == (level ? 0u : 899u));
+        }
+    }
+}
+
 /// Bodies of some thousand faces, against the answer of another policy.
 template <class T>
 struct large_scene {

@@ -17,6 +17,8 @@ TEMPLATE_TEST_CASE("impacts: serial and openmp", "", float, double) {
     check_all_impacts<TestType>(openmp{.threads = 3}, 1, 3);
     check_small_impacts<TestType>(serial{});
     check_small_impacts<TestType>(openmp{.threads = 3});
+    check_first_of_many<TestType>(serial{});
+    check_first_of_many<TestType>(openmp{.threads = 3});
 }
 
 TEMPLATE_TEST_CASE("impacts: of bodies of thousands of faces", "", float, double) {

@@ -9,6 +9,7 @@ using abut::test::ways;
 TEST_CASE("impacts: cuda, float") {
     abut::test::check_all_impacts<float, ways::conservative_too>(abut::cuda{});
     abut::test::check_small_impacts<float, ways::conservative_too>(abut::cuda{});
+    abut::test::check_first_of_many<float>(abut::cuda{});
 }
 
 TEST_CASE("impacts: cuda, float, thousands of faces") { abut::test::check_large_impacts<float>(abut::cuda{}); }

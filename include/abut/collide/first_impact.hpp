@@ -4,6 +4,9 @@
 // first_impact, first_self_impact: the earliest of the impacts. A time up to which it is looked for prunes the walk: boxes
 // are made around that part of the step alone. The walk finds all pairs that touch in it, and others whose boxes are near
 // already. So what is found is the first, or tells how far to look; where nothing is found, the part grows.
+//
+// Of the pairs that a walk finds, few are timed: each has a time before which it is known not to touch, which is cheap, and
+// they are taken in the order of these until what is found is earlier than all that are left.
 
 #include <algorithm>
 #include <array>
@@ -136,8 +139,15 @@ struct keyed_impact {
     std::uint64_t key;
     feature_key keys;
 };
-/// The first of some, and its key where others look for parts of all.
-template <class Part, class Policy, scalar T, memory_space Space>
+/// Keeps the earlier of two, and of equal ones that with the smaller key.
+template <scalar T>
+void keep_earlier(std::optional<keyed_impact<T>>& first, const std::optional<keyed_impact<T>>& one) {
+    if (!one) return;
+    const double a = first ? first->found.time : infinity<double>, b = one->found.time;
+    if (b < a || (b == a && one->key < first->key)) first = one;
+}
+/// The first of some.
+template <class Policy, scalar T, memory_space Space>
 std::optional<keyed_impact<T>> first_of(const Policy& on, const keyed_impacts<T, Space>& all) {
     const std::size_t n = all.found.size();
     const time_and_place first =
@@ -145,8 +155,88 @@ std::optional<keyed_impact<T>> first_of(const Policy& on, const keyed_impacts<T,
     if (first.place == n) return std::nullopt;
     keyed_impact<T> found{{}, 0, all.key};
     download(on, all.found.data() + first.place, 1, &found.found);
-    if constexpr (!std::same_as<Part, whole_search>) download(on, all.keys.data() + first.place, 1, &found.key);
+    download(on, all.keys.data() + first.place, 1, &found.key);
     return found;
+}
+
+/// The judge of what may be first: a time before which two features do not touch, a multiple of 2^-20.
+struct no_sooner_in_motion {
+    static constexpr int bits = 20;
+
+    template <class S, class U>
+    ABUT_HD verdict decide(const S& s, const U& t) const {
+        return abut::decide<filtered>(s, t);
+    }
+    template <class S, class U>
+    ABUT_HD double time(const S& s, const U& t) const {
+        return motion_filter<is_moving_edge<S>>(points_of(s, t)).conservative_time(0, 0x1p-20);
+    }
+    template <class S, class U>
+    double time_on_host(const S& s, const U& t) const {
+        return time(s, t);
+    }
+};
+/// Such times as numbers to sort by.
+struct rank_of_time {
+    const double* times;
+    std::uint64_t* ranks;
+    ABUT_HD void operator()(std::size_t i) const { ranks[i] = static_cast<std::uint64_t>(times[i] * 0x1p20); }
+};
+struct copy_keys {
+    const std::uint64_t* from;
+    std::uint64_t* to;
+    ABUT_HD void operator()(std::size_t i) const { to[i] = from[i]; }
+};
+template <class View>
+struct time_keys {
+    View both;
+    const std::uint64_t* keys;
+    double* times;
+    ABUT_HD void operator()(std::size_t i) const {
+        const time_in_motion<filtered> judge{};
+        times[i] = both.with_shapes(keys[i], time_by<time_in_motion<filtered>>{judge});
+    }
+};
+template <class View>
+struct time_keys_on_host {
+    View both;
+    const std::uint64_t* keys;
+    double* times;
+    void operator()(std::size_t i) const {
+        const time_in_motion<filtered> judge{};
+        times[i] = both.with_shapes(keys[i], time_on_host_by<time_in_motion<filtered>>{judge});
+    }
+};
+
+/// The first of what a search finds, in `filtered`.
+template <class Policy, class View, class Search>
+auto first_by_bounds(const Policy& on, const View& both, const Search& search) {
+    using numbers = execution::buffer_of<Policy, std::uint64_t>;
+    timed_pairs<Policy> bounded(on, no_sooner_in_motion{}, search);
+    const std::size_t n = bounded.keys.size();
+    numbers ranks(on, n);
+    for_each_index(on, n, rank_of_time{bounded.times.data(), ranks.data()});
+    sort_by_key(on, ranks, bounded.keys, no_sooner_in_motion::bits + 1);
+    std::optional<keyed_impact<typename View::scalar_type>> first;
+    std::size_t some = 64;
+    for (std::size_t begin = 0; begin < n; begin += some, some = std::min(4 * some, n)) {
+        some = std::min(some, n - begin);
+        if (first) {
+            std::uint64_t rank = 0;
+            download(on, ranks.data() + begin, 1, &rank);
+            if (static_cast<double>(rank) * 0x1p-20 > first->found.time + last_time_bit) break;
+        }
+        timed_pairs<Policy> pairs(on, some);
+        for_each_index(on, some, copy_keys{bounded.keys.data() + begin, pairs.keys.data()});
+        sort_keys(on, pairs.keys, both.key.bits());
+        if constexpr (host_policy<Policy>) {
+            for_each_task(on, some, time_keys_on_host<View>{both, pairs.keys.data(), pairs.times.data()});
+        } else {
+            for_each_index(on, some, time_keys<View>{both, pairs.keys.data(), pairs.times.data()});
+        }
+        keep_earlier(first, first_of(on, impacts_at<filtered>(on, {}, both, std::move(pairs), true)));
+    }
+    return first;
 }
 
 /// How much of the step is looked at first, and how much more where nothing touches in it. Where nothing touches at all, the
@@ -174,10 +264,17 @@ auto first_until(const Policy& on, const Index& x, const Index& y, double time, 
     options.sorted = true;
     const auto during = [&](const Index& all) { return time >= 1 ? all : until(on, all, time); };
     const Index a = during(x);
-    const auto all = [&](const Index& b) {
-        return impacts_of_indices<A, Within>(on, a, b, options, fronts, function, part);
+    const auto first = [&](const Index& b) {
+        return with_search_of_indices<A, Within>(on, a, b, options, fronts, function, part,
+                                                 [&](const auto& both, const auto& search) {
+                                                     if constexpr (std::same_as<A, filtered>) {
+                                                         return first_by_bounds(on, both, search);
+                                                     } else {
+                                                         return first_of(on, impacts_of<A>(on, options, both, search));
+                                                     }
+                                                 });
     };
-    return first_of<Part>(on, Within ? all(a) : all(during(y)));
+    return Within ? first(a) : first(during(y));
 }
 template <motion_arithmetic A, bool Within, class Policy, class Index, class Fronts>
 auto first_of_indices(const Policy& on, const Index& x, const Index& y, const impact_options& options, const Fronts& fronts,

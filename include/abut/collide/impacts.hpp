@@ -257,28 +257,41 @@ struct keyed_impacts {
     feature_key key;
 };
 
-/// The impacts that search(judge, hits) finds.
-template <motion_arithmetic A, class Policy, class View, class Search>
-auto impacts_of(const Policy& on, const impact_options& options, const View& both, const Search& search) {
+/// What a search found: keys of pairs, and their times.
+template <class Policy>
+struct timed_pairs {
+    execution::buffer_of<Policy, std::uint64_t> keys;
+    execution::buffer_of<Policy, double> times;
+
+    /// What search(judge, hits) finds.
+    template <class Judge, class Search>
+    timed_pairs(const Policy& on, const Judge& judge, const Search& search) : keys(on, 0), times(on, 0) {
+        timed_queue<Policy> hits(on, std::size_t{1} << 20);  // where it proves too small, a loop runs again
+        search(judge, hits);
+        const std::size_t n = hits.size();
+        keys = execution::buffer_of<Policy, std::uint64_t>(on, n);
+        times = execution::buffer_of<Policy, double>(on, n);
+        for_each_index(on, n, split_hits{hits.data(), keys.data(), times.data()});
+        (void)hits.take();  // gives its memory back
+    }
+    timed_pairs(const Policy& on, std::size_t n) : keys(on, n), times(on, n) {}
+};
+
+/// The impacts of pairs, in their order; those without a time are left out, where `some_are_none` says that there may be some.
+template <motion_arithmetic A, class Policy, class View>
+auto impacts_at(const Policy& on, const conservative_bounds& bounds, const View& both, timed_pairs<Policy>&& pairs,
+                bool some_are_none) {
     using T = typename View::scalar_type;
     using space = space_of<Policy>;
-    timed_queue<Policy> hits(on, std::size_t{1} << 20);  // where it proves too small, a loop runs again
-    search(time_in_motion<A>{options.bounds}, hits);
-    const std::size_t n = hits.size();
-    execution::buffer_of<Policy, std::uint64_t> keys(on, n);
-    execution::buffer_of<Policy, double> times(on, n);
-    for_each_index(on, n, split_hits{hits.data(), keys.data(), times.data()});
-    (void)hits.take();  // gives its memory back
-    if (options.sorted) sort_by_key(on, keys, times, both.key.bits());
+    const std::size_t n = pairs.keys.size();
     execution::buffer_of<Policy, impact<T>> all(on, n);
     key_queue<Policy> open(on, 1024);
-    for_each_index(on, n, write_impact<View>{both, keys.data(), times.data(), all.data()}, open);
-    bool some_are_none = false;
+    for_each_index(on, n, write_impact<View>{both, pairs.keys.data(), pairs.times.data(), all.data()}, open);
     if constexpr (!host_policy<Policy>) {
-        if (open.size() > 0) some_are_none = time_on_host<A>(on, both, keys.data(), open, options.bounds, all.data());
+        if (open.size() > 0) some_are_none |= time_on_host<A>(on, both, pairs.keys.data(), open, bounds, all.data());
     }
-    keyed_impacts<T, space> of_all{result<impact<T>, space>(std::move(all)), result<std::uint64_t, space>(std::move(keys)),
-                                   both.key};
+    keyed_impacts<T, space> of_all{result<impact<T>, space>(std::move(all)),
+                                   result<std::uint64_t, space>(std::move(pairs.keys)), both.key};
     if (some_are_none) {
         const is_impact<T> is{of_all.found.data()};
         of_all.keys = answers_with(on, of_all.keys, is);
@@ -287,24 +300,41 @@ auto impacts_of(const Policy& on, const impact_options& options, const View& bot
     return of_all;
 }
 
-/// The impacts of two indices, or `Within` one; or a part of them.
-template <motion_arithmetic A, bool Within, class Policy, class Index, class Fronts, class Part = whole_search>
-auto impacts_of_indices(const Policy& on, const Index& x, const Index& y, const impact_options& options,
-                        const Fronts& fronts, const char* function, const Part& part = {}) {
+/// The impacts that search(judge, hits) finds.
+template <motion_arithmetic A, class Policy, class View, class Search>
+auto impacts_of(const Policy& on, const impact_options& options, const View& both, const Search& search) {
+    timed_pairs<Policy> pairs(on, time_in_motion<A>{options.bounds}, search);
+    if (options.sorted) sort_by_key(on, pairs.keys, pairs.times, both.key.bits());
+    return impacts_at<A>(on, options.bounds, both, std::move(pairs), false);
+}
+
+/// use(both, search) with the features of two indices, or `Within` one, and the search of them, or of a part of them.
+template <motion_arithmetic A, bool Within, class Policy, class Index, class Fronts, class Part, class Use>
+auto with_search_of_indices(const Policy& on, const Index& x, const Index& y, const impact_options& options,
+                            const Fronts& fronts, const char* function, const Part& part, const Use& use) {
     const auto near = nearness_of<A, typename Index::scalar_type>(options.bounds, function);
     if constexpr (Index::rule == pair_rule::feature_trees) {
         const feature_pairing<Within, Index, std::remove_const_t<decltype(near)>, Fronts, Part> pairing(x, y, near, fronts,
                                                                                                         function, part);
-        return impacts_of<A>(on, options, pairing.view(),
-                             [&](const auto& judge, timed_queue<Policy>& hits) { search_times(on, pairing, judge, hits); });
+        return use(pairing.view(),
+                   [&](const auto& judge, timed_queue<Policy>& hits) { search_times(on, pairing, judge, hits); });
     } else {
         static_assert(std::same_as<Part, whole_search>, "abut: several devices take indices of pair_rule::feature_trees");
         static_assert(std::same_as<Fronts, no_fronts>, "abut: fronts are of trees over features, pair_rule::feature_trees");
         const auto both = features_of_two<Within>(x, y, function);
-        return impacts_of<A>(on, options, both, [&](const auto& judge, timed_queue<Policy>& hits) {
+        return use(both, [&](const auto& judge, timed_queue<Policy>& hits) {
             time_by_faces<Within>(on, x, y, both, judge, near, hits);
         });
     }
+}
+
+/// The impacts of two indices, or `Within` one; or a part of them.
+template <motion_arithmetic A, bool Within, class Policy, class Index, class Fronts, class Part = whole_search>
+auto impacts_of_indices(const Policy& on, const Index& x, const Index& y, const impact_options& options,
+                        const Fronts& fronts, const char* function, const Part& part = {}) {
+    return with_search_of_indices<A, Within>(
+        on, x, y, options, fronts, function, part,
+        [&](const auto& both, const auto& search) { return impacts_of<A>(on, options, both, search); });
 }
 
 /// Both arguments of an impact query as indices.

@@ -101,12 +101,7 @@ auto first_on_devices(const Team& team, const std::vector<Index>& x, const std::
             return first_until<A, Within>(team[k], x[i], y[i], time, options, no_fronts{}, function, share_of(team, k));
         });
         auto first = found.front();
-        for (const auto& one : found) {
-            if (!one) continue;
-            const bool earlier = !first || one->found.time < first->found.time ||
-                                 (one->found.time == first->found.time && one->key < first->key);
-            if (earlier) first = one;
-        }
+        for (const auto& one : found) keep_earlier(first, one);
         return first;
     });
 }
