@@ -20,7 +20,8 @@
 #   --full      1,000,000 samples for each family and scalar instead of 5,000; tables go to docs/results; all of it at -O3
 #   --all       all of these but --full
 # Environment: ABUT_SAMPLES (samples for each family and scalar), ABUT_RESULTS (folder for tables), ABUT_REQUIRE_CUDA=1
-# (no nvcc is a failure), ABUT_REQUIRE (what no test may be skipped for want of: data, device; test.sh adds what is there).
+# (no nvcc is a failure), ABUT_REQUIRE (what no test may be skipped for want of: data, device, validator, viewer; test.sh adds
+# what is there).
 set -eu
 
 usage() { sed -n '/^# usage/,/^set/s/^# \{0,1\}//p' "$0"; }
@@ -71,6 +72,12 @@ installed=$(installed_of $wanted)
 require=${ABUT_REQUIRE:-}
 if [ -d ../shared/data ]; then require="$require data"; fi
 if cuda_device_present; then require="$require device"; fi
+if [ -d build/npm/node_modules/gltf-validator ]; then
+    require="$require validator"
+    # npm, which has brought that, brings what the page is made of.
+    # shellcheck disable=SC2086
+    if [ -z "$(missing_of $viewer_packages)" ]; then require="$require viewer"; fi
+fi
 export ABUT_REQUIRE="$require"
 
 # --- build trees -------------------------------------------------------------------------------------------------------

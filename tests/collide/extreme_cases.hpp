@@ -52,7 +52,7 @@ void check_extreme_queries(const Policy& on, std::uint32_t n) {
     std::size_t hits = 0, steps = 0;
     for (const extreme what : extremes) {
         for (const extreme_step& step : steps_of<T>(what)) {
-            CAPTURE(Kind::name, name_of(what), step.value);
+            CAPTURE(Kind::name(), name_of(what), step.value);
             const extreme_sets<Kind, T> sets(step, n);
             const auto a = copy_to(on, set_of(sets.a));
             const auto b = copy_to(on, set_of(sets.b));
@@ -72,16 +72,19 @@ void check_extreme_queries(const Policy& on, std::uint32_t n) {
             ++steps;
         }
     }
-    std::printf("%s, %zu steps of %u against %u: %zu hits\n", Kind::name, steps, n, n, hits);
+    std::printf("%s, %zu steps of %u against %u: %zu hits\n", Kind::name().c_str(), steps, n, n, hits);
     CHECK(hits > steps * n / 4);
 }
 
-/// Of all kinds.
+/// Of all kinds; hulls on hosts alone.
 template <class T, class Policy>
 void check_all_extreme_queries(const Policy& on) {
     for_each_kind(first_extreme_kinds{},
                   [&]<class Kind>(Kind) { check_extreme_queries<Kind, T, true>(on, Kind::moving ? 6 : 20); });
     for_each_kind(other_extreme_kinds{}, [&]<class Kind>(Kind) { check_extreme_queries<Kind, T, false>(on, 6); });
+    if constexpr (host_policy<Policy>) {
+        for_each_kind(host_extreme_kinds{}, [&]<class Kind>(Kind) { check_extreme_queries<Kind, T, false>(on, 6); });
+    }
 }
 
 }  // namespace abut::test

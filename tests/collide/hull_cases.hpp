@@ -6,10 +6,12 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <type_traits>
 #include <vector>
 
 #include <abut/abut.hpp>
 
+#include "collide/body_cases.hpp"
 #include "collide/contact_cases.hpp"
 #include "collide/distance_cases.hpp"
 #include "collide/nearest_cases.hpp"
@@ -163,6 +165,33 @@ void check_more_of_hulls(const Policy& on) {
     check_nearest_posed(on, few, asking, pose);
     check_rays_at_hulls(on, few, random, pose);
     CHECK(any_within(on, copy_to(on, few), plane<T>{{0, 0, 1}, 9}, 9));
+    const plane<T> above{{1, 2, 2}, 40};
+    const shapes<plane<T>> planes(std::vector<plane<T>>{above});
+    check_same(distance(on, tree, above), distance_by_definition(few.view(), planes.view()));
+}
+
+/// Bodies of hulls; and a list whose entries have hulls and spheres.
+template <class T, class Policy>
+void check_scenes_of_hulls(const Policy& on) {
+    uniform random(73);
+    const auto some = random_hulls<T>(25, random, true);
+    scene_of_bodies<Policy, hulls<T>> scene(on, {some, random_hulls<T>(1, random, false), random_hulls<T>(12, random, true)});
+    const spheres<T> balls(shape_maker<sphere<T>>(random, true)(40));
+    const auto tree = make_bvh(on, some);
+    const auto ball_tree = make_bvh(on, balls);
+    std::vector<posed_pair<std::remove_const_t<decltype(tree)>, std::remove_const_t<decltype(ball_tree)>>> list;
+    std::vector<tagged_pair> expected;
+    for (std::uint32_t i = 0; i < 12; ++i) {
+        draws d(73, 96, i);
+        const auto pose = make_pose<T>(d, 1);
+        scene.add(i % 3, pose);
+        list.push_back({posed(tree, pose), posed(ball_tree, rigid<T>{})});
+        const posed_view<typename hulls<T>::view_type> placed{some.view(), pose};
+        for (const index_pair& p : all_that_touch(placed, balls.view())) expected.push_back({i, p.a, p.b});
+    }
+    CHECK(check_bodies(on, scene) > 100);
+    CHECK(expected.size() > 100);
+    CHECK((to_host(pairs(on, list)) == expected));
 }
 
 }  // namespace abut::test

@@ -19,9 +19,6 @@ using namespace abut;
 
 static_assert(execution_policy<test::fenced>);
 
-template <>
-inline constexpr bool detail::takes_hulls<test::fenced> = true;
-
 TEST_CASE("queries: memory that only loops may read") {
     const test::fenced on;
     test::uniform random(20261125);

@@ -14,6 +14,10 @@ TEST_CASE("meshes against meshes: FCL finds the same pairs in general position: 
 
 TEST_CASE("meshes against meshes: FCL finds the same pairs of real files: cuda") { check_fcl_files(cuda{}); }
 
+TEMPLATE_TEST_CASE("meshes against meshes: the robot of FCL's tests in its room: cuda", "", float, double) {
+    check_robot_file<TestType>(cuda{}, 20);
+}
+
 TEST_CASE("meshes against meshes: a scan against itself: cuda") { check_scan_file<double>(cuda{}, 12); }
 
 }  // namespace abut::test

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <abut/cuda.hpp>
 
+#include <limits>
 #include <vector>
 
 #include "../../docs/examples/cylinder.hpp"
@@ -9,6 +10,9 @@
 #include "collide/set_cases.hpp"
 #include "shape/feature_cases.hpp"
 #include "support/catch.hpp"
+#include "support/pair_orders.hpp"
+
+static_assert(abut::test::pairs_have_their_orders<float> && abut::test::pairs_have_their_orders<double>);
 
 TEST_CASE("nearest: cuda") {
     abut::test::check_all_nearest<float>(abut::cuda{});
@@ -48,6 +52,15 @@ TEST_CASE("queries: a caller's own shape, cuda") {
     for (int i = 0; i < 200; ++i) cylinders.push_back({random.point<float>(-1, 1), 0.2f, 0.5f});
     const triangle_soup<float> soup(test::random_triangles<float>(300, random));
     CHECK(test::check_sets_of(abut::cuda{}, shapes<plant::cylinder<float>>(cylinders), soup) > 100);
+}
+
+TEST_CASE("sets: of shapes in motion, on the host in a .cu file") {
+    using namespace abut;
+    const vec3<float> o{0, 0, 0}, bad{0, 0, std::numeric_limits<float>::infinity()};
+    CHECK_THROWS_WITH(shapes(std::vector<motion<vec3<float>>>{{o, bad}}),
+                      "abut::shapes: at t = 1: shape 0: z is not finite (inf)");
+    CHECK_THROWS_WITH(shapes(std::vector<motion<vec3<float>>>{{bad, o}}),
+                      "abut::shapes: at t = 0: shape 0: z is not finite (inf)");
 }
 
 TEMPLATE_TEST_CASE("features: cuda", "", float, double) {

@@ -106,6 +106,39 @@ const char* wrong_with_hulls(const separation<T>& found, const test::point_list<
     return nullptr;
 }
 
+/// A plane and a hull, against the exact heights of its points. Errors in units of 2^-53 of the farthest point's distance from
+/// the origin and the plane.
+template <scalar T>
+const char* wrong_with_plane(const plane<T>& s, const test::point_list<T>& points, hull_distance_tally& sum) {
+    const hull<T> h = test::hull_over(points);
+    const separation<T> found = distance(s, h), other = distance(h, s);
+    const bool touch = intersects<exact>(s, h);
+    ++sum.pairs;
+    sum.touching += touch;
+    if (!(found == separation<T>{0, 0, other.point_b, other.point_a, other.distance})) return "the other order has another answer";
+    if (touch != (found.distance == 0)) return "it is 0 where they do not touch, or is not where they do";
+    const wide_point n = test::widest(s.normal);
+    const auto height = [&](const vec3<T>& p) -> wide {
+        return abs(dot(n, test::widest(p)) - wide(s.offset)) / test::length_of(n);
+    };
+    wide least = height(points[0]), far = 0;
+    bool is_point = false;
+    for (const vec3<T>& p : points) {
+        least = std::min(least, height(p));
+        far = std::max(far, test::length_of(test::widest(p)));
+        is_point = is_point || p == found.point_b;
+    }
+    const wide unit = (far + least) * wide(0x1p-53) + wide(test::construction::least_denormal<T>);
+    const wide off = height(found.point_a) - hull_rounding_of(found.point_a);
+    sum.point = std::max(sum.point, static_cast<double>(off / unit));
+    if (touch) return found.point_a == found.point_b ? nullptr : "what touches has two points";
+    if (!is_point) return "the point of the hull is none of its points";
+    const wide error = abs(wide(found.distance) - least) - wide(unit_roundoff<T>) * wide(found.distance);
+    sum.distance = std::max(sum.distance, static_cast<double>(error / unit));
+    sum.nearest = std::max(sum.nearest, static_cast<double>((height(found.point_b) - least) / unit));
+    return nullptr;
+}
+
 constexpr test::hull_family hull_families[] = {
     test::hull_family::general, test::hull_family::far_away, test::hull_family::lattice,  test::hull_family::flat,
     test::hull_family::line,    test::hull_family::touching, test::hull_family::step_off, test::hull_family::exponents};
@@ -151,5 +184,34 @@ TEMPLATE_TEST_CASE("distance of hulls: as by definition, in every family", "", f
         CHECK(sum.nearest < 4);
         CHECK(sum.distance < 16);
         CHECK(sum.point < 16);
+    }
+}
+
+TEMPLATE_TEST_CASE("distance of hulls and planes: as by definition, in every family", "", float, double) {
+    using T = TestType;
+    std::printf("distances of hulls and planes, seed %llu: errors in units of 2^-53 D\n",
+                static_cast<unsigned long long>(test::sample_seed));
+    for (const test::hull_family f : hull_families) {
+        hull_distance_tally sum;
+        for (std::uint64_t k = 0; k < test::sample_count() / 20; ++k) {
+            const auto both = test::make_hull_pair<T>(test::sample_seed + 5, f, k);
+            // Through a point of the other hull, or that far along an axis.
+            const vec3<T> at = both.b[0], from = both.b[both.b.size() / 2];
+            plane<T> s{k % 2 == 0 ? at - from : vec3<T>{T(k % 3 == 0), T(k % 3 == 1), T(k % 3 == 2)}, T(0)};
+            s.offset = dot(s.normal, at);
+            if (!is_valid(s)) continue;
+            INFO(test::name_of(f) << " " << k);
+            if (test::length_of(test::widest(s.normal)) == 0) continue;
+            if (const char* wrong = wrong_with_plane(s, both.a, sum)) FAIL_CHECK(wrong);
+        }
+        std::printf("  %s: %llu pairs, %llu touch, distance %.2f, point of the plane %.2f, of the hull %.2f\n", test::name_of(f),
+                    static_cast<unsigned long long>(sum.pairs), static_cast<unsigned long long>(sum.touching), sum.distance,
+                    sum.point, sum.nearest);
+        INFO(test::name_of(f));
+        CHECK(sum.pairs > sum.touching);
+        CHECK(sum.touching > 0);
+        CHECK(sum.distance < 16);
+        CHECK(sum.point < 16);
+        CHECK(sum.nearest < 16);
     }
 }

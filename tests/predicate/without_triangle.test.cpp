@@ -7,6 +7,7 @@
 
 #include "support/catch.hpp"
 #include "support/modes.hpp"
+#include "support/pair_orders.hpp"
 #include "support/samples.hpp"
 #include "support/solid_pairs.hpp"
 #include "support/stages.hpp"
@@ -45,6 +46,7 @@ static_assert(intersects(plane<float>{{0, 0, 0}, 0}, plane<float>{{1, 2, 3}, 4})
               !intersects(plane<float>{{1, 2, 3}, 4}, plane<float>{{-2, -4, -6}, 8}) &&
               intersects(plane<float>{{1, 2, 3}, 4}, plane<float>{{1, 2, 4}, 4}));
 
+static_assert(test::pairs_have_their_orders<float> && test::pairs_have_their_orders<double>);
 static_assert(decidable_pair<aabb<float>, capsule<float>> && !decidable_pair<aabb<float>, capsule<double>>);
 static_assert(!decidable_pair<ray<float>, aabb<float>> && !decidable_pair<aabb<float>, ray<float>>);
 

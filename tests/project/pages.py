@@ -5,6 +5,9 @@
 pages.py check ROOT               links and anchors exist; docs/README.md names every page; no block of code is left untested
 pages.py write ROOT KIND OUT PAGE...    writes the blocks of these pages into one source; KIND is cpp or cu
 pages.py run ROOT KIND PROGRAM PAGE...  runs that program, and compares what it prints with what the pages say
+pages.py commands ROOT PAGE       runs the blocks ```sh of a page, line by line, in a folder where abut is a copy of the sources and
+                                  program.cpp and program.cu are the page's first programs; what a line compiles has to print
+                                  what the page says. Lines of nvcc are left out where no device is, and that is said
 
 How a block ```cpp is compiled, the HTML comment on the line before it says. Its words, with commas between, are:
 
@@ -19,8 +22,10 @@ A block ``` without a language, right after a block of code, is what that code p
 in which FILES lie.
 """
 
+import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -249,6 +254,56 @@ def run(root, kind, program, pages):
     print(f"{compared} blocks print what the pages say")
 
 
+# --- commands -----------------------------------------------------------------------------------------------------------
+
+
+def has_device():
+    if shutil.which("nvcc") is None or shutil.which("nvidia-smi") is None:
+        return False
+    return subprocess.run(["nvidia-smi", "-L"], capture_output=True, text=True).stdout.startswith("GPU ")
+
+
+def commands(root, page):
+    blocks = blocks_of(root, page)
+    programs = {b.kind: b for b in reversed(blocks) if b.language == "cpp" and b.is_program}
+    lines = [(b, line) for b in blocks if b.language == "sh" for line in b.text.replace("\\\n", " ").splitlines()]
+    count = compared = 0
+    with tempfile.TemporaryDirectory() as folder:
+        folder = pathlib.Path(folder)
+        (folder / "abut").mkdir()
+        for name in ("CMakeLists.txt", "LICENSE", "README.md"):
+            if (root / name).exists():
+                shutil.copy(root / name, folder / "abut")
+        for name in ("cmake", "include"):
+            if (root / name).exists():
+                shutil.copytree(root / name, folder / "abut" / name)
+        for kind, block in programs.items():
+            (folder / f"program.{kind}").write_text(block.text, encoding="utf-8")
+        (folder / "home").mkdir()
+        environment = {**os.environ, "HOME": str(folder / "home")}
+        for block, line in lines:
+            if line.startswith("nvcc ") and not has_device():
+                print(f"{block.where}: left out, since no device is here: {line}")
+                continue
+            done = subprocess.run(["sh", "-eu", "-c", line], capture_output=True, text=True, cwd=folder, env=environment)
+            if done.returncode != 0:
+                fail(f"{block.where}: this ended with {done.returncode}: {line}\n{done.stdout}{done.stderr}")
+            count += 1
+            compiled = re.search(r"program\.(cpp|cu) .*-o (\S+)", line)
+            if compiled is None:
+                continue
+            said = subprocess.run([folder / compiled[2]], capture_output=True, text=True, cwd=folder).stdout
+            expected = programs[compiled[1]].prints
+            if said != expected:
+                fail(f"{programs[compiled[1]].where}: the page says that it prints\n{expected}but it prints\n{said}")
+            compared += 1
+        if "--prefix" in "".join(line for _, line in lines) and not list(folder.glob("home/**/abut-config.cmake")):
+            fail(f"{page}: nothing was installed where the page says")
+    if not count or not compared:
+        fail(f"{page}: expected commands, and one that compiles a program")
+    print(f"{page}: commands that ran: {count}, of which compiled a program that prints what the page says: {compared}")
+
+
 def main():
     command, root = sys.argv[1], pathlib.Path(sys.argv[2])
     if command == "check":
@@ -257,6 +312,8 @@ def main():
         write(root, sys.argv[3], sys.argv[4], sys.argv[5:])
     elif command == "run":
         run(root, sys.argv[3], sys.argv[4], sys.argv[5:])
+    elif command == "commands":
+        commands(root, sys.argv[3])
     else:
         fail(f"unknown command {command}")
 

@@ -38,6 +38,34 @@ RUN = {
     "a block that was not run": ("true", "this was not run"),
     "a crash after the last block": (f"printf '{MARK}1\\n' 0; exit 3", "ended with 3"),
 }
+# A page whose commands are run.
+ASKS = """```sh
+g++ -I abut/include program.cpp -o program
+```
+
+```cpp
+#include <cstdio>
+
+int main() {
+    std::printf("1\\n");
+}
+```
+
+```
+1
+```
+
+```sh
+mkdir "$HOME/there"
+```
+"""
+COMMANDS = {
+    "a command that fails": ('mkdir "$HOME/there"', "mkdir none/there", "this ended with 1: mkdir none/there"),
+    "a program that cannot be compiled": ("<cstdio>", "<cstdoi>", "this ended with 1: g++"),
+    "a program that prints something else": ("\n1\n", "\n2\n", "the page says that it prints"),
+    "a folder for what is installed": ("mkdir", "true --prefix", "nothing was installed"),
+    "no command": ("```sh", "```text", "expected commands"),
+}
 
 
 def pages(root, *arguments):
@@ -70,7 +98,12 @@ def main():
             program.write_text(f"#!/bin/sh\n{script}\n", encoding="utf-8")
             program.chmod(0o755)
             expect(what, pages(root, "run", "cpp", program, "README.md"), message)
-    print(f"{len(CHECKED) + len(RUN)} flaws are noticed")
+        page.write_text(ASKS, encoding="utf-8")
+        expect("nothing in commands", pages(root, "commands", "README.md"), None)
+        for what, (right, wrong, message) in COMMANDS.items():
+            page.write_text(ASKS.replace(right, wrong), encoding="utf-8")
+            expect(what, pages(root, "commands", "README.md"), message)
+    print(f"{len(CHECKED) + len(RUN) + len(COMMANDS)} flaws are noticed")
 
 
 main()

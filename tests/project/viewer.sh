@@ -4,22 +4,30 @@
 # usage: sh viewer.sh [PROGRAM]
 #
 # Builds the page of docs/viewer and tests it: its types, its reader alone, and the page in a real browser. PROGRAM is the
-# example mesh_vs_mesh, whose scene is then read and shown too. Where node, npm or chromium is missing it is skipped. Nothing is
-# installed but npm's packages, into build/viewer.
+# example mesh_vs_mesh, whose scene is then read and shown too. Where node, npm or chromium is missing it is skipped, or fails if
+# ABUT_REQUIRE names viewer. Nothing is installed but npm's packages, into build/viewer.
 set -eu
 cd "$(dirname "$0")/../.."
+
+skip() {
+    case " ${ABUT_REQUIRE:-} " in
+        *' viewer '*) printf 'ABUT_REQUIRE asks for the viewer: %s\n' "$*" >&2; exit 1 ;;
+    esac
+    printf 'abut skips: %s\n' "$*"
+    exit 0
+}
 
 chromium=''
 for name in chromium chromium-browser google-chrome; do
     if command -v "$name" >/dev/null 2>&1; then chromium=$(command -v "$name"); break; fi
 done
-if [ -z "$chromium" ]; then printf 'abut skips: there is no chromium\n'; exit 0; fi
+if [ -z "$chromium" ]; then skip 'there is no chromium'; fi
 if sh docs/viewer/build.sh; then :; else
     status=$?
-    if [ $status = 77 ]; then printf 'abut skips: no page can be built here\n'; exit 0; fi
+    if [ $status = 77 ]; then skip 'no page can be built here'; fi
     exit $status
 fi
-if [ ! -s build/viewer/predicate.wasm ]; then printf 'abut skips: nothing here compiles for WebAssembly\n'; exit 0; fi
+if [ ! -s build/viewer/predicate.wasm ]; then skip 'nothing here compiles for WebAssembly'; fi
 
 ABUT_VIEWER=$(pwd)/build/viewer
 ABUT_CHROMIUM=$chromium

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <type_traits>
+#include <vector>
+
+#include <abut/shape/moving_shape.hpp>
 
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
@@ -201,6 +204,18 @@ TEMPLATE_TEST_CASE("sets: of each shape, what is none is refused by its name", "
             shapes<other::brick>(std::vector<other::brick>{{{13, 0, 0}}});
         },
         "abut::shapes", 0, 13, "abut::shapes: shape 0: is_valid refuses it; its least x is (13)");
+    // Of a shape in motion the message says at which of its two times.
+    const segment<T> rest{o, o}, broken{o, bad};
+    check_refused(
+        [&] {
+            shapes(std::vector<motion<segment<T>>>{{rest, rest}, {broken, rest}});
+        },
+        "abut::shapes: at t = 0", 1, inf, "abut::shapes: at t = 0: shape 1: z is not finite (inf)");
+    check_refused(
+        [&] {
+            shapes(std::vector<motion<segment<T>>>{{rest, broken}});
+        },
+        "abut::shapes: at t = 1", 0, inf, "abut::shapes: at t = 1: shape 0: z is not finite (inf)");
     const other::wall wall{20};
     check_refused([&] { detail::check(serial{}, wall, "abut::any"); }, "abut::any", 13, 13,
                   "abut::any: shape 13: is_valid refuses it; its least x is (13)");

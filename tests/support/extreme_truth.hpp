@@ -25,6 +25,10 @@ bool touch_in_truth(const pair_of<aabb<T>, capsule<T>>& p) {
     return oracle::within_distance(p.a, p.b, 0);
 }
 template <scalar T>
+bool touch_in_truth(const pair_of<aabb<T>, segment<T>>& p) {
+    return oracle::within_distance(p.a, p.b, 0);
+}
+template <scalar T>
 bool touch_in_truth(const pair_of<four_points<T>, four_points<T>>& p) {
     return oracle::hulls_intersect<T>({p.a.at, p.a.at + 4}, {p.b.at, p.b.at + 4});
 }

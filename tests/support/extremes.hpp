@@ -7,7 +7,9 @@
 // and devices alike and bit for bit; draws.hpp says how.
 
 #include <cmath>
+#include <concepts>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <abut/arithmetic/arithmetic.hpp>
@@ -295,7 +297,7 @@ private:
 
 /// The kinds of pairs: `make` draws one.
 struct extreme_triangles {
-    static constexpr const char* name = "triangle_triangle";
+    static std::string name() { return "triangle_triangle"; }
     static constexpr bool moving = false;
 
     template <scalar T>
@@ -322,7 +324,7 @@ struct extreme_triangles {
 };
 
 struct extreme_balls {
-    static constexpr const char* name = "sphere_triangle";
+    static std::string name() { return "sphere_triangle"; }
     static constexpr bool moving = false;
 
     template <scalar T>
@@ -357,7 +359,7 @@ struct extreme_balls {
 };
 
 struct extreme_vertex_face {
-    static constexpr const char* name = "vertex_face";
+    static std::string name() { return "vertex_face"; }
     static constexpr bool moving = true;
 
     template <scalar T>
@@ -390,7 +392,7 @@ struct extreme_vertex_face {
 };
 
 struct extreme_edges {
-    static constexpr const char* name = "edge_edge";
+    static std::string name() { return "edge_edge"; }
     static constexpr bool moving = true;
 
     template <scalar T>
@@ -422,9 +424,27 @@ struct extreme_edges {
     }
 };
 
+/// On the host only.
+template <template <class> class S>
+std::string word_of() {
+    using shape = S<double>;
+    return std::same_as<shape, vec3<double>>     ? "point"
+           : std::same_as<shape, ray<double>>      ? "ray"
+           : std::same_as<shape, segment<double>>  ? "segment"
+           : std::same_as<shape, triangle<double>> ? "triangle"
+           : std::same_as<shape, plane<double>>    ? "plane"
+           : std::same_as<shape, sphere<double>>   ? "sphere"
+           : std::same_as<shape, capsule<double>>  ? "capsule"
+           : std::same_as<shape, aabb<double>>     ? "box"
+                                                     : "hull";
+}
+
 /// Two shapes that touch in a point, or nearly; or some that lie anywhere. Of near ties both have the gap, or one alone.
 template <template <class> class S, template <class> class U>
 struct extreme_contacts {
+    static std::string name() { return word_of<S>() + '_' + word_of<U>(); }
+    static constexpr bool moving = false;
+
     template <scalar T>
     ABUT_HD static pair_of<S<T>, U<T>> make(draws& d, const extreme_step& step) {
         using namespace construction;
@@ -441,40 +461,15 @@ struct extreme_contacts {
     }
 };
 
-struct extreme_box_triangle : extreme_contacts<aabb, triangle> {
-    static constexpr const char* name = "box_triangle";
-};
-struct extreme_plane_triangle : extreme_contacts<plane, triangle> {
-    static constexpr const char* name = "plane_triangle";
-};
-struct extreme_capsule_triangle : extreme_contacts<capsule, triangle> {
-    static constexpr const char* name = "capsule_triangle";
-};
-struct extreme_segment_triangle : extreme_contacts<segment, triangle> {
-    static constexpr const char* name = "segment_triangle";
-};
-struct extreme_point_triangle : extreme_contacts<vec3, triangle> {
-    static constexpr const char* name = "point_triangle";
-};
-struct extreme_ray_triangle : extreme_contacts<ray, triangle> {
-    static constexpr const char* name = "ray_triangle";
-};
-struct extreme_spheres : extreme_contacts<sphere, sphere> {
-    static constexpr const char* name = "sphere_sphere";
-};
-struct extreme_box_capsule : extreme_contacts<aabb, capsule> {
-    static constexpr const char* name = "box_capsule";
-};
-struct extreme_hulls : extreme_contacts<four_points, four_points> {
-    static constexpr const char* name = "hull_hull";
-};
-
 template <class... Kinds>
 struct kind_list {};
 using first_extreme_kinds = kind_list<extreme_triangles, extreme_balls, extreme_vertex_face, extreme_edges>;
 using other_extreme_kinds =
-    kind_list<extreme_box_triangle, extreme_plane_triangle, extreme_capsule_triangle, extreme_segment_triangle,
-              extreme_point_triangle, extreme_ray_triangle, extreme_spheres, extreme_box_capsule, extreme_hulls>;
+    kind_list<extreme_contacts<aabb, triangle>, extreme_contacts<plane, triangle>, extreme_contacts<capsule, triangle>,
+              extreme_contacts<segment, triangle>, extreme_contacts<vec3, triangle>, extreme_contacts<ray, triangle>,
+              extreme_contacts<sphere, sphere>, extreme_contacts<aabb, capsule>, extreme_contacts<aabb, segment>>;
+/// Which no device takes.
+using host_extreme_kinds = kind_list<extreme_contacts<four_points, four_points>>;
 
 template <class... Kinds, class F>
 void for_each_kind(kind_list<Kinds...>, const F& f) {

@@ -3,6 +3,8 @@
 
 // How many samples a test draws, and how it spreads them over the machine's cores.
 
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <thread>
@@ -17,6 +19,13 @@ inline std::uint64_t sample_count() {
     const char* const text = std::getenv("ABUT_SAMPLES");
     const long long n = text == nullptr ? 0 : std::atoll(text);
     return n > 0 ? static_cast<std::uint64_t>(n) : 5000;
+}
+
+/// Whether at least that share of all is counted, but for what chance takes from a sample of that size: four standard
+/// deviations. So it says yes of small samples that a large one would be refused for, and never no by chance.
+inline bool is_share_above(double least, std::size_t counted, std::size_t total) {
+    const auto all = static_cast<double>(total);
+    return static_cast<double>(counted) >= least * all - 4 * std::sqrt(least * (1 - least) * all);
 }
 
 /// Runs `body(first, last, tally)` on pieces of [0, count) in as many threads as there are cores, each with a tally of its

@@ -292,7 +292,7 @@ ABUT_HD S touching_from(draws& d, const contact_frame& f, int side, int up) {
     } else {
         S box;
         const auto set = [&](double at, double n, T& lower, T& upper) {
-            const int before = d.below(5), behind = d.below(5);
+            const double before = d.below(5), behind = d.below(5);
             lower = rounded_to<T>(side * n > 0 ? at : std::fma(-before, f.unit, at));
             upper = rounded_to<T>(side * n < 0 ? at : std::fma(behind, f.unit, at));
         };

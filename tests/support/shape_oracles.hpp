@@ -108,7 +108,8 @@ bool intersects(const plane<T>& p, const triangle<T>& t) {
     const auto exactly = [](T x) { return cpp_rational(static_cast<double>(x)); };
     const cpp_rational offset = exactly(p.offset);
     bool below = false, above = false;
-    for (const vec3<T>& v : {t.a, t.b, t.c}) {
+    const vec3<T> corners[] = {t.a, t.b, t.c};  // nvcc takes no list in a loop of a template
+    for (const vec3<T>& v : corners) {
         const cpp_rational height =
             exactly(v.z) * exactly(p.normal.z) + exactly(v.y) * exactly(p.normal.y) + exactly(v.x) * exactly(p.normal.x);
         below = below || height <= offset;
@@ -120,7 +121,8 @@ bool intersects(const plane<T>& p, const triangle<T>& t) {
 template <scalar T>
 bool intersects(const capsule<T>& s, const triangle<T>& t) {
     std::vector<T> values;
-    for (const vec3<T>& v : {s.axis.a, s.axis.b, t.a, t.b, t.c}) values.insert(values.end(), {v.x, v.y, v.z});
+    const vec3<T> points[] = {s.axis.a, s.axis.b, t.a, t.b, t.c};
+    for (const vec3<T>& v : points) values.insert(values.end(), {v.x, v.y, v.z});
     values.push_back(s.radius);
     const std::vector<integer> v = to_integers(values);
     std::vector<integer_point> w;

@@ -35,9 +35,8 @@ public:
     template <scalar T>
     box_and_axis(const aabb<T>& box, const segment<T>& axis, const std::vector<double>& radii) {
         std::vector<double> values;
-        for (const vec3<T>& p : {box.lower, box.upper, axis.a, axis.b}) {
-            for (const T x : {p.x, p.y, p.z}) values.push_back(static_cast<double>(x));
-        }
+        const vec3<T> points[] = {box.lower, box.upper, axis.a, axis.b};  // nvcc takes no list in a loop of a template
+        for (const vec3<T>& p : points) values.insert(values.end(), {p.x, p.y, p.z});
         values.insert(values.end(), radii.begin(), radii.end());
         const std::vector<integer> v = to_integers(values);
         for (std::size_t k = 0; k < 3; ++k) {
@@ -87,9 +86,7 @@ private:
 template <scalar T>
 bool plane_and_points(const plane<T>& p, const std::vector<vec3<T>>& points, const std::vector<double>& radii) {
     std::vector<double> values;
-    const auto add = [&](const vec3<T>& q) {
-        for (const T x : {q.x, q.y, q.z}) values.push_back(static_cast<double>(x));
-    };
+    const auto add = [&](const vec3<T>& q) { values.insert(values.end(), {q.x, q.y, q.z}); };
     add(p.normal);
     values.push_back(static_cast<double>(p.offset));
     values.push_back(1);
@@ -126,11 +123,8 @@ template <scalar T>
 bool within_distance(const aabb<T>& a, const aabb<T>& b, double distance) {
     // A point against their difference.
     std::vector<double> values;
-    for (const aabb<T>& box : {a, b}) {
-        for (const T x : {box.lower.x, box.lower.y, box.lower.z, box.upper.x, box.upper.y, box.upper.z}) {
-            values.push_back(static_cast<double>(x));
-        }
-    }
+    const vec3<T> points[] = {a.lower, a.upper, b.lower, b.upper};
+    for (const vec3<T>& p : points) values.insert(values.end(), {p.x, p.y, p.z});
     values.push_back(distance);
     const std::vector<integer> v = to_integers(values);
     integer square = 0;

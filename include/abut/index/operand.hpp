@@ -6,7 +6,6 @@
 #include <concepts>
 #include <cstddef>
 #include <string>
-#include <type_traits>
 
 #include <abut/error.hpp>
 #include <abut/execution/policy.hpp>
@@ -46,18 +45,6 @@ struct refused {
 template <class X>
 concept array_of_shapes = array_like<X> && shape<element_of<X>>;
 
-template <class Set>
-auto shape_in_set() {
-    if constexpr (shape<Set>) {
-        return std::type_identity<Set>{};
-    } else {
-        return std::type_identity<typename Set::shape_type>{};
-    }
-}
-/// What a shape is, of an owner or a view, or the shape itself.
-template <class Set>
-using shape_of_set = typename decltype(shape_in_set<Set>())::type;
-
 // What calls ask of the types of their arguments before they touch them: true, or else one line of the compiler says what is
 // wrong. The calls do nothing then, so that no other line follows.
 
@@ -68,10 +55,6 @@ consteval bool lies_there() {
     static_assert(there, "abut: the index lies in other memory than the policy works in; make it with the same policy");
     return there;
 }
-
-/// Whether a policy takes shapes that refer to points. A device does not yet: spheres against hulls were wrong on one.
-template <class Policy>
-inline constexpr bool takes_hulls = std::same_as<space_of<Policy>, host_space>;
 
 /// Whether make_resident takes it.
 template <class Policy, class Set>
@@ -89,12 +72,11 @@ consteval bool can_reside() {
             "abut: expected a set (mesh, triangle_soup, spheres, ...), a view of one, or one shape; a type is a shape "
             "if it is plain data and has bounds(shape) in its namespace, as docs/extending.md says");
         return false;
-    } else if constexpr (refers_to_memory<shape_of_set<Set>> && !takes_hulls<Policy>) {
-        static_assert(takes_hulls<Policy>,
-                      "abut: convex hulls are for host policies; on devices their queries have been seen to fail");
-        return false;
     } else if constexpr (shape<Set>) {
-        return true;
+        constexpr bool whole = !refers_to_memory<Set> || std::same_as<space_of<Policy>, host_space>;
+        static_assert(whole,
+                      "abut: a hull alone lies in host memory and the policy works elsewhere; make a set, abut::hulls");
+        return whole;
     } else {
         using space = typename Set::memory_space;
         constexpr bool there = std::same_as<space, space_of<Policy>>, on_host = std::same_as<space, host_space>;

@@ -19,8 +19,10 @@
 #include <abut/narrow/numbers.hpp>
 #include <abut/predicate/intersects.hpp>
 #include <abut/predicate/plane_core.hpp>
+#include <abut/predicate/plane_hull.hpp>
 #include <abut/shape/bounds.hpp>
 #include <abut/shape/core.hpp>
+#include <abut/shape/hull.hpp>
 #include <abut/shape/primitive.hpp>
 #include <abut/shape/shape.hpp>
 
@@ -171,6 +173,13 @@ struct measured_plane {
             on_shape = scale.template back<T>(plain_step(from, height.high > 0 ? -radius : radius, n));
         }
     }
+    /// From the nearest triangle of the fan that has all points of a hull.
+    ABUT_HD constexpr measured_plane(const plane<T>& s, const hull<T>& h) : measured_plane(s, fan_triangle(h, 0)) {
+        for (std::size_t i = 1; i < fan_size(h); ++i) {
+            const measured_plane other(s, fan_triangle(h, i));
+            if (other.length < length) *this = other;
+        }
+    }
 };
 
 /// Pairs of shapes, in this order, that are measured.
@@ -181,6 +190,8 @@ inline constexpr bool measured_in_order = requires(const S& s, const U& t, const
 template <scalar T, class S>
     requires has_height<S, T>
 inline constexpr bool measured_in_order<plane<T>, S> = true;
+template <scalar T>
+inline constexpr bool measured_in_order<plane<T>, hull<T>> = true;
 
 /// A distance and a way as long, from the first shape to the second, in no unit.
 struct distance_and_way {
@@ -323,7 +334,7 @@ private:
             return tells(along) || tells(static_cast<double>(n) * sum_b - static_cast<double>(m) * sum_a);
         } else if constexpr (measured_hulls<S, U>) {
             return is_slab_between(
-                points_of(s).as_hull(), points_of(t).as_hull(), along,
+                core_points_of(s).as_hull(), core_points_of(t).as_hull(), along,
                 bound + (static_cast<double>(radius_around_core(s)) + static_cast<double>(radius_around_core(t))));
         } else {
             return false;
@@ -346,8 +357,8 @@ private:
 }  // namespace detail
 
 /// How far apart two closed shapes are: a `separation` with ids 0. It takes the pairs that `contact_of` takes, in either
-/// order: points, segments, triangles, spheres, capsules and boxes with each other, planes with any of these, and convex
-/// hulls with all but planes. The distance is 0 exactly where the two touch, as `intersects` decides. Otherwise it is
+/// order: points, segments, triangles, spheres, capsules, boxes and convex hulls with each other, and planes with any of
+/// these. The distance is 0 exactly where the two touch, as `intersects` decides. Otherwise it is
 /// accurate to a few units in the last place of the shapes' farthest corners (docs/numerics.md). The same bits on every
 /// compiler and device, in constant expressions too. Shapes are finite and valid.
 ///

@@ -287,7 +287,7 @@ ABUT_NOINLINE ABUT_HD constexpr contact<T> contact_of_hulls(const hull<T>& a, co
 /// The least move in any direction. The point is one of both cores, or where these do not touch the hull's nearest one.
 template <scalar T, has_core_points<T> S>
 ABUT_HD constexpr contact<T> contact_between(const hull<T>& h, const S& s) {
-    const auto core = points_of(s);
+    const auto core = core_points_of(s);
     return contact_of_hulls(h, core.as_hull(), radius_around_core(s), contact_math::common_scale(h, s));
 }
 /// In one order, so that the other one has the same contact reversed.

@@ -229,7 +229,7 @@ private:
 /// A convex hull, and another one or a shape that is a hull of its corners, or what is within a radius of such a hull.
 template <class S, class U>
 concept measured_hulls = refers_to_memory<S> && requires(const U& t) {
-    points_of(t);
+    core_points_of(t);
 };
 
 /// Two such shapes, whose cores are hulls.
@@ -270,8 +270,8 @@ private:
 /// Calls f of the measured pair, whose hulls live as long as that takes.
 template <class S, class U, class F>
 ABUT_HD constexpr auto with_measured_hulls(const S& s, const U& t, const F& f) {
-    const auto points_a = points_of(s);
-    const auto points_b = points_of(t);
+    const auto points_a = core_points_of(s);
+    const auto points_b = core_points_of(t);
     return f(measured_hull_pair<scalar_type_of<S>>(points_a.as_hull(), radius_around_core(s), points_b.as_hull(),
                                                    radius_around_core(t)));
 }

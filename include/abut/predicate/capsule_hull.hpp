@@ -118,14 +118,24 @@ ABUT_NOINLINE ABUT_HD constexpr verdict near_in_integers(const hull<T>& core, T 
     return to_verdict(is_feature_within(w, at.count, x.reach(radius, distance)));
 }
 
+/// The points whose hull is the core of a shape: of a ball its centre, of a capsule the ends of its axis, and of what is a hull of
+/// points all of them. The first two are not named points_of: nvcc 13.0 asks for that name where it is used, and not where
+/// made_of_points is defined, and so would take a ball for a point.
+///@{
+template <class S>
+    requires made_of_points<S, scalar_type_of<S>>
+ABUT_HD constexpr auto core_points_of(const S& s) {
+    return points_of(s);
+}
 template <scalar T>
-ABUT_HD constexpr hull_points<T, 1> points_of(const sphere<T>& s) {
+ABUT_HD constexpr hull_points<T, 1> core_points_of(const sphere<T>& s) {
     return {{s.center}};
 }
 template <scalar T>
-ABUT_HD constexpr hull_points<T, 2> points_of(const capsule<T>& s) {
+ABUT_HD constexpr hull_points<T, 2> core_points_of(const capsule<T>& s) {
     return {{s.axis.a, s.axis.b}};
 }
+///@}
 
 }  // namespace detail
 
@@ -133,7 +143,7 @@ ABUT_HD constexpr hull_points<T, 2> points_of(const capsule<T>& s) {
 template <arithmetic A, scalar T, class S>
     requires(std::same_as<S, sphere<T>> || std::same_as<S, capsule<T>>)
 ABUT_HD constexpr verdict decide(const S& s, const hull<T>& h) {
-    const auto core = detail::points_of(s);
+    const auto core = detail::core_points_of(s);
     if constexpr (std::same_as<A, exact>) {
         return detail::near_in_integers<2, false>(core.as_hull(), s.radius, h);
     } else {
@@ -147,7 +157,7 @@ ABUT_HD constexpr verdict decide(const S& s, const hull<T>& h) {
 template <arithmetic A, scalar T, class S>
     requires(std::same_as<A, filtered> && (std::same_as<S, sphere<T>> || std::same_as<S, capsule<T>>))
 ABUT_HD constexpr verdict decide_late(const S& s, const hull<T>& h) {
-    const auto core = detail::points_of(s);
+    const auto core = detail::core_points_of(s);
     return detail::near_in_integers<2, true>(core.as_hull(), s.radius, h);
 }
 
@@ -155,7 +165,7 @@ ABUT_HD constexpr verdict decide_late(const S& s, const hull<T>& h) {
 template <scalar T, class S>
     requires(std::same_as<S, sphere<T>> || std::same_as<S, capsule<T>>)
 ABUT_NOINLINE ABUT_HD constexpr bool resolve(const S& s, const hull<T>& h) {
-    const auto core = detail::points_of(s);
+    const auto core = detail::core_points_of(s);
     return detail::near_in_integers<detail::limbs_of_any<T>, true>(core.as_hull(), s.radius, h) == verdict::yes;
 }
 

@@ -23,7 +23,7 @@ namespace abut::detail {
 /// Shapes of the scalar type T whose cores are hulls of points.
 template <class S, class T>
 concept has_core_points = std::same_as<scalar_type_of<S>, T> && requires(const S& s) {
-    points_of(s).as_hull();
+    core_points_of(s).as_hull();
 };
 
 /// The first stage: in floating point; or of `exact` in integers, and unknown only where the exponents of all numbers span
@@ -31,7 +31,7 @@ concept has_core_points = std::same_as<scalar_type_of<S>, T> && requires(const S
 ///@{
 template <arithmetic A, scalar T, has_core_points<T> S>
 ABUT_HD constexpr verdict decide_within(const hull<T>& h, const S& s, double distance) {
-    const auto core = points_of(s);
+    const auto core = core_points_of(s);
     if constexpr (std::same_as<A, exact>) {
         return near_in_integers<2, false>(core.as_hull(), radius_around_core(s), h, distance);
     } else {
@@ -53,7 +53,7 @@ ABUT_HD constexpr verdict decide_within(const plane<T>& p, const hull<T>& h, dou
 template <arithmetic A, scalar T, has_core_points<T> S>
 requires std::same_as<A, filtered> ABUT_HD constexpr verdict decide_within_late(const hull<T>& h, const S& s,
                                                                                 double distance) {
-    const auto core = points_of(s);
+    const auto core = core_points_of(s);
     return near_in_integers<2, true>(core.as_hull(), radius_around_core(s), h, distance);
 }
 
@@ -61,7 +61,7 @@ requires std::same_as<A, filtered> ABUT_HD constexpr verdict decide_within_late(
 ///@{
 template <scalar T, has_core_points<T> S>
 ABUT_NOINLINE ABUT_HD constexpr bool resolve_within(const hull<T>& h, const S& s, double distance) {
-    const auto core = points_of(s);
+    const auto core = core_points_of(s);
     return near_in_integers<limbs_of_any<double>, true>(core.as_hull(), radius_around_core(s), h, distance) == verdict::yes;
 }
 template <scalar T>

@@ -106,8 +106,9 @@ template <scalar T>
 template <shape S>
 [[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const S& s) {
     if constexpr (requires { s.t0, s.t1; }) {
-        is_valid(s.t0) ? refuse(function + ": at t = 1", element, i, s.t1)
-                       : refuse(function + ": at t = 0", element, i, s.t0);
+        // Of a conditional expression nvcc does not see that it never returns.
+        if (!is_valid(s.t0)) refuse(function + ": at t = 0", element, i, s.t0);
+        refuse(function + ": at t = 1", element, i, s.t1);
     } else {
         const aabb<scalar_type_of<S>> box = bounds(s);
         if (!is_valid(box)) refuse(function, element, i, box);
