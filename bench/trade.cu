@@ -3,7 +3,7 @@
 // usage: bench_trade_cuda [OUT.json [others]]
 //
 // bench/trade.cpp on CUDA: the same pairs and rows, 4,194,304 of each, one a thread, by a plain kernel that calls
-// `intersects`; of others than triangles neither convex hulls nor features in motion, which are for hosts. The truth is the
+// `intersects`; of others than triangles neither convex hulls nor features in motion. The truth is the
 // host's `exact`, of the first 65,536, which bench/trade.cpp compares with unbounded integers. Counters registers, and
 // local_bytes, which is stack and spills of a thread.
 

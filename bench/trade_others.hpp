@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Pairs without a triangle for bench/trade.cpp and bench/trade.cu, in the same three kinds of input, and on hosts and devices
+// Pairs without a triangle for bench/trade.cpp and bench/trade.cu, in the same three kinds of input, on hosts and devices
 // alike. Here `touching` holds shapes with a point in common, and others of which a radius is a step of the scalar type less
 // or more.
 
