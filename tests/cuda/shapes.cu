@@ -58,9 +58,9 @@ TEST_CASE("sets: of shapes in motion, on the host in a .cu file") {
     using namespace abut;
     const vec3<float> o{0, 0, 0}, bad{0, 0, std::numeric_limits<float>::infinity()};
     CHECK_THROWS_WITH(shapes(std::vector<motion<vec3<float>>>{{o, bad}}),
-                      "abut::shapes: at t = 1: shape 0: z is not finite (inf)");
+                      "abut::moving: at t = 1: point 0: z is not finite (inf)");
     CHECK_THROWS_WITH(shapes(std::vector<motion<vec3<float>>>{{bad, o}}),
-                      "abut::shapes: at t = 0: shape 0: z is not finite (inf)");
+                      "abut::moving: at t = 0: point 0: z is not finite (inf)");
 }
 
 TEMPLATE_TEST_CASE("features: cuda", "", float, double) {

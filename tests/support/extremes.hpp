@@ -266,7 +266,10 @@ public:
     ABUT_HD T operator()(double length) const { return frame_.template placed<T>(d_, frame_.formed(length)); }
     ABUT_HD segment<T> operator()(const segment<double>& s) const { return {(*this)(s.a), (*this)(s.b)}; }
     ABUT_HD triangle<T> operator()(const triangle<double>& t) const { return {(*this)(t.a), (*this)(t.b), (*this)(t.c)}; }
-    ABUT_HD aabb<T> operator()(const aabb<double>& b) const { return box_of((*this)(b.lower), (*this)(b.upper)); }
+    ABUT_HD aabb<T> operator()(const aabb<double>& b) const {
+        const vec3<T> lower = (*this)(b.lower);  // before the other one: both draw
+        return box_of(lower, (*this)(b.upper));
+    }
     ABUT_HD sphere<T> operator()(const sphere<double>& s) const { return {(*this)(s.center), (*this)(s.radius)}; }
     ABUT_HD capsule<T> operator()(const capsule<double>& s) const { return {(*this)(s.axis), (*this)(s.radius)}; }
 
