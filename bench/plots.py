@@ -16,7 +16,7 @@ from matplotlib.lines import Line2D  # noqa: E402
 from report_core import ARITHMETICS, LITERATURE, SCALARS  # noqa: E402
 from report_extremes import EXTREMES, PAIR_KINDS  # noqa: E402
 from report_motion import motion_scenes  # noqa: E402
-from report_predicates import INPUTS, PREDICATES  # noqa: E402
+from report_predicates import IN_MOTION, IN_TIME, INPUTS, OTHERS, PREDICATES  # noqa: E402
 from report_queries import ANY_SCENES, BUILDERS, SIZES, SPHERES, of_size, policies  # noqa: E402
 from report_scaling import DEALS, Model, rank_counts, sizes  # noqa: E402
 
@@ -85,12 +85,13 @@ def beside(figure, handles):
 
 # --- speed against wrong answers --------------------------------------------------------------------------------------------
 
-def trade(r, million_a_second):
-    figure, axes = grid(len(PREDICATES), sharey=True)
-    for axis, (predicate, name) in zip(axes, PREDICATES.items()):
+def trade(r, million_a_second, predicates=PREDICATES, arithmetics=ARITHMETICS):
+    predicates = {p: name for p, name in predicates.items() if r.names(p + "/")}
+    figure, axes = grid(len(predicates), sharey=True)
+    for axis, (predicate, name) in zip(axes, predicates.items()):
         for scalar in SCALARS:
             for kind in INPUTS:
-                for a in ARITHMETICS:
+                for a in arithmetics:
                     at = f"{predicate}/{kind}/{scalar}/{a}"
                     if at not in r.rows:
                         continue
@@ -111,7 +112,7 @@ def trade(r, million_a_second):
         axis.set_xlabel("million pairs a second")
     for axis in axes[::3]:
         axis.set_ylabel("wrong answers per million")
-    handles = [Line2D([], [], marker="o", linestyle="", color=COLOURS[a], label=a) for a in ARITHMETICS]
+    handles = [Line2D([], [], marker="o", linestyle="", color=COLOURS[a], label=a) for a in arithmetics]
     handles += [Line2D([], [], marker=m, linestyle="", color=GREY, label=k) for k, m in MARKS.items()]
     handles += [Line2D([], [], marker="o", linestyle="", color=GREY, fillstyle=f, label=s) for s,
                 f in (("float", "full"), ("double", "none"))]
@@ -128,6 +129,16 @@ def trade_cpu(results):
 @plot("trade-cuda")
 def trade_cuda(results):
     return trade(results["cuda/trade"], lambda r, name: r.get(name, "pairs") / r.get(name) / 1e3)
+
+
+@plot("trade-others-cpu")
+def trade_others_cpu(results):
+    return trade(results["cpu/trade_others"], lambda r, name: 1e3 / r.get(name, "ns"), {**OTHERS, **IN_MOTION}, IN_TIME)
+
+
+@plot("trade-others-cuda")
+def trade_others_cuda(results):
+    return trade(results["cuda/trade_others"], lambda r, name: r.get(name, "pairs") / r.get(name) / 1e3, OTHERS)
 
 
 @plot("trade-motion")

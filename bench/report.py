@@ -47,7 +47,7 @@ MEASURED = re.compile("|".join((
 
 # Results that nobody has committed yet, though cmake/report.sh has a row for them; and those that come without one: of
 # bench/footprint.py and bench/report_cuda_tests.py.
-NOT_MEASURED = {"cpu/bodies", "cpu/hulls", "cpu/within", "cuda/distance"}
+NOT_MEASURED = {"cpu/bodies", "cpu/hulls", "cpu/trade_others", "cpu/within", "cuda/distance", "cuda/trade_others"}
 WITHOUT_ROW = {"cpu/footprint_build", "cuda/predicates", "cuda/tests", "cuda/tests_devices"}
 
 
@@ -302,7 +302,7 @@ def page(out, results):
         except (Missing, KeyError, TypeError, ValueError, ZeroDivisionError, IndexError, StopIteration):
             continue  # it shows what was not measured
         if results.asked > before:  # else it is of files of the tests, and not of this machine
-            lines += [f"## {name}", "", text]
+            lines += [f"## {name}", "", text.replace("](figures/", "](")]  # they lie beside it
     out.write_text("\n".join(lines), encoding="utf-8")
     print(f"written: {out}")
 

@@ -9,12 +9,17 @@ from report_core import *  # noqa: F403
 PREDICATES = {"triangle_triangle": "triangle, triangle", "segment_triangle": "segment, triangle",
               "sphere_triangle": "sphere, triangle", "capsule_triangle": "capsule, triangle",
               "box_triangle": "box, triangle", "plane_triangle": "plane, triangle"}
+# Of bench/trade_others.hpp, and features in motion.
+OTHERS = {"sphere_sphere": "sphere, sphere", "capsule_capsule": "capsule, capsule", "box_sphere": "box, sphere",
+          "box_capsule": "box, capsule", "hull_hull": "hull, hull"}
+IN_MOTION = {"vertex_face": "vertex, face in motion", "edge_edge": "edge, edge in motion"}
+IN_TIME = ("fast", "conservative", "filtered", "exact")
 INPUTS = ("random", "touching", "lattice")
 
 
-def trade(r, ns):
+def trade(r, ns, predicates=PREDICATES):
     rows = []
-    for predicate, name in PREDICATES.items():
+    for predicate, name in predicates.items():
         for kind in INPUTS:
             for scalar in SCALARS:
                 at = f"{predicate}/{kind}/{scalar}/"
@@ -44,6 +49,35 @@ def trade_cuda(results):
     pairs = r.get("triangle_triangle/random/float/fast", "pairs")
     return ["Time of a pair, all pairs of a row at once, one a thread; and wrong answers per million:", ""] + \
         trade(r, lambda r, n: r.get(n) and 1e6 * r.get(n) / pairs) + made_on(r, f"; {pairs:,} pairs a row")
+
+
+@in_table("trade-others-cpu")
+def trade_others_cpu(results):
+    r = results["cpu/trade_others"]
+    rows = []
+    for predicate, name in IN_MOTION.items():
+        for kind in INPUTS:
+            for scalar in SCALARS:
+                at = f"{predicate}/{kind}/{scalar}/"
+                rows.append([f"{name}, {kind}", scalar] + [shown(r.get(at + a, "ns")) for a in IN_TIME] +
+                            [f"{whole(r.get(at + a, 'missed_per_million'))} / {whole(r.get(at + a, 'phantom_per_million'))}"
+                             for a in IN_TIME])
+    pairs = r.get("sphere_sphere/random/float/fast", "pairs")
+    return ["![Throughput against wrong answers per million, other pairs, one core](figures/trade-others-cpu.svg)", "",
+            "Time of a pair on one core, and wrong answers per million:", ""] + \
+        trade(r, lambda r, n: r.get(n, "ns"), OTHERS) + \
+        ["Time of impact of a pair, and whether there is one: missed and phantom per million:", ""] + \
+        table(["pairs", ""] + [f"`{a}`, ns" for a in IN_TIME] + [f"`{a}`: missed / phantom" for a in IN_TIME], rows, 2) + \
+        made_on(r, f"; {pairs:,} pairs a row")
+
+
+@in_table("trade-others-cuda")
+def trade_others_cuda(results):
+    r = results["cuda/trade_others"]
+    pairs = r.get("sphere_sphere/random/float/fast", "pairs")
+    return ["![Throughput against wrong answers per million, other pairs, device](figures/trade-others-cuda.svg)", "",
+            "Time of a pair, all pairs of a row at once, one a thread; and wrong answers per million:", ""] + \
+        trade(r, lambda r, n: r.get(n) and 1e6 * r.get(n) / pairs, OTHERS) + made_on(r, f"; {pairs:,} pairs a row")
 
 
 @in_table("trade-stages")

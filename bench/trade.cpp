@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// usage: bench_trade [--json=OUT.json] [--pairs=N] [--runs=N]
+// usage: bench_trade [--json=OUT.json] [--pairs=N] [--runs=N] [--which=triangles|others]
 //
 // Speed against wrong answers, of one pair at a time on one core: N pairs (65,536) of each predicate and input of
-// bench/trade_pairs.hpp. Names: PREDICATE/INPUT/SCALAR/ARITHMETIC, where ARITHMETIC is fast, filtered, exact, or resolve,
-// the last stage of both alone, on a sixty-fourth of the pairs. In a row:
+// bench/trade_pairs.hpp, or with `others` of bench/trade_others.hpp, which have no triangle, of hulls, and of features in
+// motion. Names: PREDICATE/INPUT/SCALAR/ARITHMETIC, where ARITHMETIC is fast, filtered, exact, or resolve, the last stage of
+// both alone, on a sixty-fourth of the pairs; in motion fast, conservative, filtered and exact, which tell times of impact,
+// exact those of an eighth of the pairs. In a row:
 //
 //   ns                     of processor time for a pair, the median of N runs (9), in which the arithmetics take turns
 //   hits                   the share that touches
@@ -20,10 +22,17 @@
 #include <string>
 #include <vector>
 
+#include <abut/narrow/time_of_impact.hpp>
+
+#include "../tests/support/hull_pairs.hpp"
 #include "../tests/support/hulls.hpp"
+#include "../tests/support/motion_families.hpp"
+#include "../tests/support/motion_oracle.hpp"
 #include "../tests/support/rational.hpp"
 #include "../tests/support/shape_oracles.hpp"
+#include "../tests/support/solid_pairs.hpp"
 #include "results.hpp"
+#include "trade_others.hpp"
 #include "trade_pairs.hpp"
 
 namespace {
@@ -50,6 +59,60 @@ struct size {
     int runs;
 };
 
+/// Two convex hulls, of some ten points at most. `touching` holds hulls in contact and others a step off it.
+struct hull_hull {
+    static constexpr const char* name = "hull_hull";
+    template <abut::scalar T>
+    static auto make(trade::input in, std::uint64_t i) {
+        using abut::test::hull_family;
+        const auto touching = i % 2 == 0 ? hull_family::touching : hull_family::step_off;
+        auto p = abut::test::make_hull_pair<T>(trade::seed,
+                                               in == trade::input::random     ? hull_family::general
+                                               : in == trade::input::touching ? touching
+                                                                              : hull_family::lattice,
+                                               i);
+        using list = abut::test::point_list<T>;
+        return trade::pair<list, list>{std::move(p.a), std::move(p.b)};
+    }
+};
+
+/// What `intersects` takes of what a predicate makes.
+template <class S>
+const S& shape_of(const S& s) {
+    return s;
+}
+template <abut::scalar T>
+abut::hull<T> shape_of(const abut::test::point_list<T>& points) {
+    return abut::test::hull_over(points);
+}
+/// Whether shapes touch, by an oracle that shares no formula with the library.
+template <class S, class U>
+bool touch_in_truth(const S& s, const U& t) {
+    if constexpr (requires { abut::test::oracle::intersects(s, t); }) {
+        return abut::test::oracle::intersects(s, t);
+    } else {
+        return abut::test::oracle::within_distance(s, t, 0);
+    }
+}
+template <abut::scalar T>
+bool touch_in_truth(const abut::test::point_list<T>& a, const abut::test::point_list<T>& b) {
+    return abut::test::oracle::hulls_intersect<T>(a, b);
+}
+
+/// Answers of the first n pairs compared with the truth, in a row.
+template <class Pairs, class Decide>
+bench::counters row_of(const Pairs& pairs, const std::vector<bool>& truth, std::size_t n, std::vector<double> ns,
+                       const Decide& decide) {
+    trade::tally tally;
+    for (std::size_t i = 0; i < n; ++i) tally.add(decide(pairs[i]), truth[i]);
+    return {{"ns", median(std::move(ns))},
+            {"pairs", static_cast<double>(n)},
+            {"hits", tally.share(tally.hits)},
+            {"wrong_per_million", 1e6 * tally.share(tally.missed + tally.phantom)},
+            {"missed_per_million", 1e6 * tally.share(tally.missed)},
+            {"phantom_per_million", 1e6 * tally.share(tally.phantom)}};
+}
+
 template <class Predicate, abut::scalar T>
 void add(bench::results& out, trade::input in, const size& of) {
     const std::size_t few = std::max<std::size_t>(of.pairs / 64, 1);
@@ -59,13 +122,13 @@ void add(bench::results& out, trade::input in, const size& of) {
     for (std::uint64_t i = 0; i < of.pairs; ++i) {
         pairs.push_back(Predicate::template make<T>(in, i));
         const auto& [s, t] = pairs.back();
-        truth.push_back(abut::test::oracle::intersects(s, t));
-        decided += abut::decide<abut::filtered>(s, t) != abut::verdict::unknown;
+        truth.push_back(touch_in_truth(s, t));
+        decided += abut::decide<abut::filtered>(shape_of(s), shape_of(t)) != abut::verdict::unknown;
     }
-    const auto fast = [](const auto& p) { return abut::intersects<abut::fast>(p.s, p.t); };
-    const auto filtered = [](const auto& p) { return abut::intersects<abut::filtered>(p.s, p.t); };
-    const auto exact = [](const auto& p) { return abut::intersects<abut::exact>(p.s, p.t); };
-    const auto resolve = [](const auto& p) { return abut::resolve(p.s, p.t); };
+    const auto fast = [](const auto& p) { return abut::intersects<abut::fast>(shape_of(p.s), shape_of(p.t)); };
+    const auto filtered = [](const auto& p) { return abut::intersects<abut::filtered>(shape_of(p.s), shape_of(p.t)); };
+    const auto exact = [](const auto& p) { return abut::intersects<abut::exact>(shape_of(p.s), shape_of(p.t)); };
+    const auto resolve = [](const auto& p) { return abut::resolve(shape_of(p.s), shape_of(p.t)); };
     std::vector<double> times[4];
     for (int run = 0; run < of.runs; ++run) {
         times[0].push_back(ns_a_pair(pairs, of.pairs, fast));
@@ -74,14 +137,7 @@ void add(bench::results& out, trade::input in, const size& of) {
         times[3].push_back(ns_a_pair(pairs, few, resolve));
     }
     const auto note = [&](const char* arithmetic, const std::vector<double>& ns, std::size_t n, const auto& decide) {
-        trade::tally tally;
-        for (std::size_t i = 0; i < n; ++i) tally.add(decide(pairs[i]), truth[i]);
-        bench::counters row{{"ns", median(ns)},
-                            {"pairs", static_cast<double>(n)},
-                            {"hits", tally.share(tally.hits)},
-                            {"wrong_per_million", 1e6 * tally.share(tally.missed + tally.phantom)},
-                            {"missed_per_million", 1e6 * tally.share(tally.missed)},
-                            {"phantom_per_million", 1e6 * tally.share(tally.phantom)}};
+        bench::counters row = row_of(pairs, truth, n, ns, decide);
         if (decided > 0) row.emplace_back("filter_decides", decided / static_cast<double>(of.pairs));
         out.add(bench::joined({Predicate::name, trade::name_of(in), trade::scalar_name<T>, arithmetic}), row);
     };
@@ -91,20 +147,76 @@ void add(bench::results& out, trade::input in, const size& of) {
     note("resolve", times[3], few, resolve);
 }
 
+/// A vertex and a face in motion, or two edges: whether they touch in the step.
+template <abut::test::motion_kind Kind, abut::scalar T>
+void add_motion(bench::results& out, const char* name, trade::input in, const size& of) {
+    using abut::test::motion_family;
+    const auto meeting = [](std::uint64_t i) { return i % 2 == 0 ? motion_family::random : motion_family::crossing; };
+    const auto nearly = [](std::uint64_t i) { return i % 2 == 0 ? motion_family::nudged : motion_family::crossing_border; };
+    std::vector<abut::test::motion<T>> pairs;
+    std::vector<bool> truth;
+    for (std::uint64_t i = 0; i < of.pairs; ++i) {
+        const motion_family family = in == trade::input::random     ? meeting(i)
+                                     : in == trade::input::touching ? nearly(i)
+                                                                    : motion_family::lattice_4;
+        pairs.push_back(abut::test::make_motion<T>(trade::seed, Kind, family, i));
+        truth.push_back(abut::test::oracle::first_contact(Kind, pairs.back()).hit);
+    }
+    const auto touch_by = []<abut::motion_arithmetic A>(A) {
+        return [](const abut::test::motion<T>& m) {
+            const auto &p = m.t0, &q = m.t1;
+            if constexpr (Kind == abut::test::motion_kind::vertex_face) {
+                return abut::time_of_impact<A>(
+                           abut::motion<abut::vec3<T>>{p[0], q[0]},
+                           abut::motion<abut::triangle<T>>{{p[1], p[2], p[3]}, {q[1], q[2], q[3]}}) >= 0;
+            } else {
+                return abut::time_of_impact<A>(abut::motion<abut::segment<T>>{{p[0], p[1]}, {q[0], q[1]}},
+                                               abut::motion<abut::segment<T>>{{p[2], p[3]}, {q[2], q[3]}}) >= 0;
+            }
+        };
+    };
+    const auto measure = [&](const char* arithmetic, std::size_t n, const auto& decide) {
+        std::vector<double> times;
+        for (int run = 0; run < of.runs; ++run) times.push_back(ns_a_pair(pairs, n, decide));
+        out.add(bench::joined({name, trade::name_of(in), trade::scalar_name<T>, arithmetic}),
+                row_of(pairs, truth, n, times, decide));
+    };
+    measure("fast", of.pairs, touch_by(abut::fast{}));
+    measure("conservative", of.pairs, touch_by(abut::conservative{}));
+    measure("filtered", of.pairs, touch_by(abut::filtered{}));
+    measure("exact", std::max<std::size_t>(of.pairs / 8, 1), touch_by(abut::exact{}));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     try {
         const std::string path = bench::take_argument(argc, argv, "--json");
+        const std::string which = bench::take_argument(argc, argv, "--which", "triangles");
         const size of{std::stoull(bench::take_argument(argc, argv, "--pairs", "65536")),
                       std::stoi(bench::take_argument(argc, argv, "--runs", "9"))};
         bench::results out("bench_trade");
-        trade::for_each_predicate([&]<class Predicate>(Predicate) {
+        const auto add_both = [&]<class Predicate>(Predicate) {
             for (const trade::input in : trade::inputs) {
                 add<Predicate, float>(out, in, of);
                 add<Predicate, double>(out, in, of);
             }
-        });
+        };
+        if (which == "triangles") {
+            trade::for_each_predicate(add_both);
+        } else if (which == "others") {
+            trade::for_each_other_predicate(add_both);
+            add_both(hull_hull{});
+            for (const trade::input in : trade::inputs) {
+                using abut::test::motion_kind;
+                add_motion<motion_kind::vertex_face, float>(out, "vertex_face", in, of);
+                add_motion<motion_kind::vertex_face, double>(out, "vertex_face", in, of);
+                add_motion<motion_kind::edge_edge, float>(out, "edge_edge", in, of);
+                add_motion<motion_kind::edge_edge, double>(out, "edge_edge", in, of);
+            }
+        } else {
+            throw abut::error("--which is " + which + "; expected triangles or others");
+        }
         if (!path.empty()) out.write(path);
         return 0;
     } catch (const std::exception& problem) {

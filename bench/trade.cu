@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// usage: bench_trade_cuda [OUT.json]
+// usage: bench_trade_cuda [OUT.json [others]]
 //
 // bench/trade.cpp on CUDA: the same pairs and rows, 4,194,304 of each, one a thread, by a plain kernel that calls
-// `intersects`. The truth is the host's `exact`, of the first 65,536, which bench/trade.cpp compares with unbounded
-// integers. Counters registers, and local_bytes, which is stack and spills of a thread.
+// `intersects`; of others than triangles neither convex hulls nor features in motion. The truth is the
+// host's `exact`, of the first 65,536, which bench/trade.cpp compares with unbounded integers. Counters registers, and
+// local_bytes, which is stack and spills of a thread.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,6 +15,7 @@
 #include <abut/cuda.hpp>
 
 #include "cuda_table.hpp"
+#include "trade_others.hpp"
 #include "trade_pairs.hpp"
 
 namespace {
@@ -82,12 +84,17 @@ void add(const abut::cuda& on, bench::table& out, trade::input in) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    return bench::run("bench_trade_cuda", argc, argv, [](const abut::cuda& on, bench::table& out) {
-        trade::for_each_predicate([&]<class Predicate>(Predicate) {
+    return bench::run("bench_trade_cuda", argc, argv, [&](const abut::cuda& on, bench::table& out) {
+        const auto add_both = [&]<class Predicate>(Predicate) {
             for (const trade::input in : trade::inputs) {
                 add<Predicate, float>(on, out, in);
                 add<Predicate, double>(on, out, in);
             }
-        });
+        };
+        if (argc > 2 && std::string(argv[2]) == "others") {
+            trade::for_each_other_predicate(add_both);
+        } else {
+            trade::for_each_predicate(add_both);
+        }
     });
 }

@@ -46,6 +46,7 @@ END
     else
         cat <<END
 cpu trade bench_trade --json={}
+cpu trade_others bench_trade --json={} --which=others
 cpu motion bench_motion $G --scene=@D@/ccd/cloth-ball --scene=@D@/ccd/cloth-funnel --scene=@D@/ccd/armadillo-rollers
 cpu pair_rules bench_pair_rules $G $I --scenes=@D@/ccd --benchmark_filter=-n-body
 cpu triangles bench_triangles $G $I --triangles=20000000
@@ -74,6 +75,7 @@ cpu cores bench_cores $G --benchmark_filter=/quiet|/modelled/16|^(validate|build
 cpu distributed bench_distributed --json={}
 cuda footprint bench_footprint_cuda {}
 cuda trade bench_trade_cuda {}
+cuda trade_others bench_trade_cuda {} others
 cuda spheres_mesh bench_spheres_mesh_cuda {}
 cuda triangles bench_triangles_cuda {}
 cuda ties bench_ties_cuda {}

@@ -61,7 +61,7 @@ wide least_move(const hull<T>& h, const U& u, bool cores_meet) {
 
 template <scalar T, class U>
 bool do_cores_meet(const hull<T>& h, const U& u) {
-    const auto core = detail::points_of(u);
+    const auto core = detail::core_points_of(u);
     return intersects<exact>(h, core.as_hull());
 }
 

@@ -277,7 +277,8 @@ struct timed_pairs {
     timed_pairs(const Policy& on, std::size_t n) : keys(on, n), times(on, n) {}
 };
 
-/// The impacts of pairs, in their order; those without a time are left out, where `some_are_none` says that there may be some.
+/// The impacts of pairs, in their order. Where `some_are_none` says so, there may be pairs without a time, which are left
+/// out.
 template <motion_arithmetic A, class Policy, class View>
 auto impacts_at(const Policy& on, const conservative_bounds& bounds, const View& both, timed_pairs<Policy>&& pairs,
                 bool some_are_none) {
