@@ -61,6 +61,7 @@ void query_lists() {
     for (const auto& hit : abut::to_host(abut::pairs(on, list))) {
         expect(hit.pair == 0);  // the entry; hit.a and hit.b are faces
     }
+    expect(abut::to_host(abut::within(on, list, 5)).back().pair == 1);  // whose two are 5 apart
     //! [lists]
     expect(abut::count(on, list) == abut::contacts(on, list).size());
 }
@@ -81,6 +82,7 @@ void query_bodies() {
     auto scene = abut::make_bodies(on, bodies);  // for more than one question
     scene = abut::refit(on, scene, std::vector{here, far, near});
     for (const auto& touch : abut::to_host(abut::contacts(on, scene))) expect(touch.body_b == 2);
+    expect(abut::count_within(on, scene, 5) > abut::count(on, scene));  // bodies 0 and 1, and 1 and 2
     //! [many_bodies]
     expect(abut::count(on, bodies) == abut::count(on, scene) && abut::count(on, scene) > 0);
 }

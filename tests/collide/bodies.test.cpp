@@ -63,7 +63,7 @@ TEST_CASE("many bodies: what does not fit is refused") {
     };
     // 13 bits for 8,128 pairs, and 26 for each of two ids.
     CHECK(said_of(std::size_t{1} << 26, 128) ==
-          "abut::count: a list of 8128 pairs of bodies whose boxes meet with up to 67108864 and 67108864 shapes; expected "
+          "abut::count: a list of 8128 pairs of bodies whose boxes are near with up to 67108864 and 67108864 shapes; expected "
           "positions and ids of 64 bits together");
     const std::size_t many = (std::size_t{1} << 30) + 1;
     CHECK(said_of(many, 3) == "abut::count: a body has 1073741825 shapes; one of many has at most 1073741824");

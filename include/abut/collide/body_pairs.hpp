@@ -23,7 +23,8 @@ namespace abut {
 
 /// @defgroup many_bodies Which bodies of a scene touch
 ///
-/// `any`, `count`, `pairs`, `for_each_pair` and `contacts` of many bodies: which shapes of one body touch which of another.
+/// `any`, `count`, `pairs`, `for_each_pair` and `contacts` of many bodies: which shapes of one body touch which of another;
+/// `within`, `count_within`, `any_within` and `for_each_within`: which are no farther than a distance from which.
 /// A body is `posed(index, pose)`, of an index made by `make_bvh`. Any number of bodies may share an index, and they may be
 /// over empty sets. Queries take a `std::vector` of posed indices, of which they make `bodies` for the call. A scene that is
 /// asked more than once is made once, by make_bodies, and brought to other poses by `refit`.
@@ -34,16 +35,16 @@ namespace abut {
 ///
 /// @par Memory
 /// Indices and `bodies` lie in the policy's memory, and a list of posed indices in host memory. A `result` lies in the
-/// policy's memory, 16 bytes a pair, and 44 a contact in float and 72 in double. Each pair of bodies whose boxes meet takes
-/// 80 bytes in the policy's memory in float, and 144 in double, for the call. Bodies that are far apart cost one box each in
-/// a tree.
+/// policy's memory, 16 bytes a pair, and 44 a contact in float and 72 in double. Each pair of bodies whose boxes meet, or
+/// are no farther apart than the distance, takes 80 bytes in the policy's memory in float, and 144 in double, for the call.
+/// Bodies that are farther apart cost one box each in a tree.
 ///
 /// @par Errors
 /// - `invalid_geometry`, whose message names the body: a pose is no rotation, or placed coordinates overflow. Poses
 ///   are looked at when bodies are made and when they are refitted.
-/// - `error`: an index, or bodies, lie on another device.
+/// - `error`: an index, or bodies, lie on another device; a distance is negative, infinite or NaN.
 /// - `capacity_error`: there are 2^31 bodies or more; an index has more than 2^30 shapes (2^29 in wide_layout); or
-///   the bits of two ids and of the number of pairs of bodies whose boxes meet are more than 64.
+///   the bits of two ids and of the number of pairs of bodies whose boxes are near are more than 64.
 /// - `std::bad_alloc`, `cuda_error`.
 ///
 /// @par Synchronisation
@@ -130,11 +131,13 @@ struct names_of_bodies {
     }
 };
 
-/// The judge of boxes.
-struct boxes_meet {
+/// The judge of boxes, which are near each other as a frame tells (traverse/pair_walk.hpp).
+template <class Frame>
+struct judge_boxes {
+    Frame frame;
     template <scalar T>
     ABUT_HD verdict decide(const aabb<T>& a, const aabb<T>& b) const {
-        return to_verdict(overlaps(a, b));
+        return to_verdict(frame(a, b));
     }
     template <scalar T>
     ABUT_HD verdict finish(const aabb<T>& a, const aabb<T>& b) const {
@@ -142,11 +145,11 @@ struct boxes_meet {
     }
     template <scalar T>
     bool resolve(const aabb<T>& a, const aabb<T>& b) const {
-        return overlaps(a, b);
+        return frame(a, b);
     }
 };
 
-/// The pairs of bodies whose boxes meet, as numbers of two leaves.
+/// The pairs of bodies whose boxes are near, as numbers of two leaves.
 struct near_bodies {
     const std::uint64_t* keys;
     pair_key key;
@@ -154,42 +157,48 @@ struct near_bodies {
     ABUT_HD index_pair operator()(std::size_t i) const { return {with_shapes[key.a(keys[i])], with_shapes[key.b(keys[i])]}; }
 };
 
-/// The keys of all pairs of boxes that meet; ascending if they are to be.
-template <class Policy, class Tree, class Part = whole_search>
-auto find_near(const Policy& on, const Tree& tree, const pair_key& key, bool sorted, const Part& part = {}) {
+/// The keys of all pairs of boxes that are near each other; ascending if they are to be.
+template <class Policy, class Tree, class Part = whole_search, class Nearness = near_enough_to_touch>
+auto find_near(const Policy& on, const Tree& tree, const pair_key& key, bool sorted, const Part& part = {},
+               const Nearness& near = {}) {
     using operand = indexed_operand<Tree>;
-    const self_pairing<operand, keep_all, traversal::both_at_once, default_schedule<traversal::both_at_once>> pairing{
-        {tree}, key, {}};
-    key_queue<Policy> near(on, std::max(8 * tree.size(), std::size_t{1} << 16));
+    constexpr schedule schedule_of_all = default_schedule<traversal::both_at_once>;
+    const self_pairing<operand, keep_all, traversal::both_at_once, schedule_of_all, Nearness> pairing{{tree}, key, {}, near};
+    const auto frame = box_overlap(pairing.x, pairing.x, near);
+    const judge_boxes<std::remove_const_t<decltype(frame)>> judge{frame};
+    key_queue<Policy> found(on, std::max(8 * tree.size(), std::size_t{1} << 16));
     if constexpr (std::same_as<Part, whole_search>) {
-        search(on, pairing, boxes_meet{}, near);
+        search(on, pairing, judge, found);
     } else {
-        search(on, in_part(pairing, part), boxes_meet{}, near);
+        search(on, in_part(pairing, part), judge, found);
     }
-    auto keys = near.take();
+    auto keys = found.take();
     if (sorted) sort_keys(on, keys, key.bits());
     return keys;
 }
 
 /// Bodies, ready to be asked, of all pairs that are near each other or of a part of those; errors are thrown in the name of
 /// `function`. Keys of results ascend as bodies do if entries are `sorted`.
-template <class Policy, class Index, class Filter, schedule Schedule, class Part = whole_search>
+template <class Policy, class Index, class Filter, schedule Schedule, class Part = whole_search,
+          class Nearness = near_enough_to_touch>
 auto pair_up_bodies(const Policy& on, const bodies<Index>& all, const body_options<Filter, Schedule>& options, bool sorted,
-                    const char* function, const Part& part = {}) {
+                    const char* function, const Part& part = {}, const Nearness& near = {}) {
     require_callable(on, options.filter, body_pair{});
     require_same_device(on, all, function);
     const body_state<Index>& state = parts_of_bodies::of(all);
     const int bits = id_bits(state.tree.size());
     const pair_key key{bits, bits};
-    const auto keys = find_near(on, state.tree, key, sorted, part);
+    const auto keys = find_near(on, state.tree, key, sorted, part, near);
     const near_bodies entries{keys.data(), key, state.with_shapes->data()};
     return pair_up_entries<names_of_bodies>(on, state.placed, state.placed, keys.size(), entries, options, function,
-                                            "pairs of bodies whose boxes meet");
+                                            "pairs of bodies whose boxes are near", near);
 }
-template <class Policy, class Index, class Filter, schedule Schedule>
+template <class Policy, class Index, class Filter, schedule Schedule, class Part = whole_search,
+          class Nearness = near_enough_to_touch>
 auto pair_up_bodies(const Policy& on, const std::vector<posed_object<Index>>& list,
-                    const body_options<Filter, Schedule>& options, bool sorted, const char* function) {
-    return pair_up_bodies(on, bodies_of(on, list, function), options, sorted, function);
+                    const body_options<Filter, Schedule>& options, bool sorted, const char* function, const Part& part = {},
+                    const Nearness& near = {}) {
+    return pair_up_bodies(on, bodies_of(on, list, function), options, sorted, function, part, near);
 }
 
 /// Whether queries take the bodies.

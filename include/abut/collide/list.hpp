@@ -22,8 +22,9 @@ namespace abut {
 /// @defgroup lists Queries of a list of posed pairs
 ///
 /// `any`, `count`, `pairs`, `for_each_pair` and `contacts` of many pairs of posed indices in one call. Each says of an entry
-/// what it would say of the entry's two indices alone. For many bodies, of which each pair alone is too little work for a
-/// device, where the caller knows which may meet. Where not, see @ref many_bodies.
+/// what it would say of the entry's two indices alone. So do `within`, `count_within`, `any_within` and `for_each_within`
+/// with a distance, and `distance`. For many bodies, of which each pair alone is too little work for a device, where the
+/// caller knows which may meet. Where not, see @ref many_bodies.
 ///
 /// @par Memory
 /// Indices lie in the policy's memory, and the list itself in host memory. A `result` lies in the policy's memory, sorted by
@@ -32,7 +33,7 @@ namespace abut {
 ///
 /// @par Errors
 /// - `invalid_geometry`, whose message names the entry: a pose is no rotation, or placed coordinates overflow.
-/// - `error`: an index lies on another device.
+/// - `error`: an index lies on another device; a distance is negative, infinite or NaN.
 /// - `capacity_error`: the bits of a position and of two ids are more than 64 (split the list then), or an index has more
 ///   than 2^30 shapes (2^29 in wide_layout).
 /// - `std::bad_alloc`, `cuda_error`.
@@ -154,9 +155,11 @@ auto options_of_part(const list_options<Filter, Schedule>& options, const Positi
 }
 
 /// A list, ready to be asked; errors are thrown in the name of `function`, and have the positions of entries.
-template <class Policy, class IndexA, class IndexB, class Filter, schedule Schedule, class Positions = own_positions>
+template <class Policy, class IndexA, class IndexB, class Filter, schedule Schedule, class Positions = own_positions,
+          class Nearness = near_enough_to_touch>
 auto pair_up(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
-             const list_options<Filter, Schedule>& options, const char* function, const Positions& position = {}) {
+             const list_options<Filter, Schedule>& options, const char* function, const Positions& position = {},
+             const Nearness& near = {}) {
     require_callable(on, options.filter, tagged_pair{});
     const auto name = [&](std::size_t i) { return "entry " + std::to_string(position(i)) + " of the list"; };
     const auto side = [&]<class Index>(posed_object<Index> posed_pair<IndexA, IndexB>::*which) {
@@ -164,7 +167,7 @@ auto pair_up(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& li
         return place_bodies(on, gathered_bodies<Index>(list.size(), body), function, name);
     };
     return pair_up_entries<names_of_entries>(on, side(&posed_pair<IndexA, IndexB>::a), side(&posed_pair<IndexA, IndexB>::b),
-                                             list.size(), bodies_side_by_side{}, options, function, "entries");
+                                             list.size(), bodies_side_by_side{}, options, function, "entries", near);
 }
 
 }  // namespace detail

@@ -13,6 +13,7 @@
 #include <type_traits>
 #include <utility>
 
+#include <abut/collide/nearness.hpp>
 #include <abut/collide/options.hpp>
 #include <abut/collide/pairing.hpp>
 #include <abut/collide/placed.hpp>
@@ -41,7 +42,7 @@ struct alignas(16) list_member {
 };
 
 /// Finds out how an entry lies. `Entries` says which two bodies it is of: entries(i) is an index_pair.
-template <class IndexA, class IndexB, class Entries>
+template <class IndexA, class IndexB, class Entries, class Nearness>
 struct make_member {
     using T = typename IndexA::scalar_type;
     placed_view<IndexA> a;
@@ -49,6 +50,7 @@ struct make_member {
     Entries entries;
     index_pair* bodies;
     list_member<T>* members;
+    Nearness near;
 
     ABUT_HD void operator()(std::size_t i) const {
         const index_pair of = entries(i);
@@ -57,7 +59,7 @@ struct make_member {
             make_relative_pose(a.poses[of.a], a.objects[object_a].bounds, b.poses[of.b], b.objects[object_b].bounds);
         bodies[i] = of;
         members[i] = {object_a,      object_b,    {r.rotation[0], r.rotation[1], r.rotation[2]},
-                      r.translation, r.deviation, r.slack};
+                      r.translation, r.deviation, near.slack(r.slack)};
     }
 };
 
@@ -187,7 +189,7 @@ struct expand_entry {
 };
 
 /// A tree of one shape has no nodes to walk: that shape looks in the other tree.
-template <class View, class TreeA, class TreeB>
+template <class View, class TreeA, class TreeB, class Nearness>
 struct look_up_entry {
     using T = typename View::T;
     using candidate = std::uint64_t;
@@ -197,6 +199,7 @@ struct look_up_entry {
 
     View list;
     some_entries looked;  ///< one tree is of one shape, and the other one has some
+    Nearness near;
 
     /// To find out takes as long as to begin.
     [[nodiscard]] ABUT_HD static bool may_find(std::size_t) { return true; }
@@ -227,11 +230,11 @@ private:
         const auto& object_b = list.b.objects[m.object_b];
         if (object_b.tree.size() == 1) {
             const posed_walk<bvh_walk<TreeA>> walk({object_a.tree}, list.a.poses[of.a], object_a.bounds);
-            auto reach = near_enough_to_touch{}.reach(list.b.shape(of.b, m.object_b, 0));
+            auto reach = near.reach(list.b.shape(of.b, m.object_b, 0));
             return f(walk, reach, std::true_type{});
         }
         const posed_walk<bvh_walk<TreeB>> walk({object_b.tree}, list.b.poses[of.b], object_b.bounds);
-        auto reach = near_enough_to_touch{}.reach(list.a.shape(of.a, m.object_a, 0));
+        auto reach = near.reach(list.a.shape(of.a, m.object_a, 0));
         return f(walk, reach, std::false_type{});
     }
 };
@@ -255,7 +258,7 @@ execution::scheduled<Schedule> scheduled_by(const Options<Filter, Schedule>& opt
 }
 
 /// A list that is asked about the pairs of its entries.
-template <class Policy, class Names, class IndexA, class IndexB, class Options>
+template <class Policy, class Names, class IndexA, class IndexB, class Options, class Nearness>
 struct list_pairing {
     using T = typename IndexA::scalar_type;
     using tree_a = typename IndexA::view_type;
@@ -269,6 +272,7 @@ struct list_pairing {
     placed_bodies<IndexB> b;
     Options options;
     list_key key;
+    Nearness near;
     execution::buffer_of<Policy, index_pair> bodies = {};       ///< of each entry
     execution::buffer_of<Policy, list_member<T>> members = {};  ///< likewise
     bool all_walked = true;                                     ///< each entry is; then the next two are empty
@@ -288,17 +292,18 @@ struct list_pairing {
         const auto how = scheduled_by(options);
         run([&](const auto& judge, auto&... sinks) { return for_each_descendant(on, how, step, judge, sinks...); });
         if (looked.size() == 0) return;
-        const look_up_entry<view_type, tree_a, tree_b> each{view(), {looked.data(), looked.size()}};
+        const look_up_entry<view_type, tree_a, tree_b, Nearness> each{view(), {looked.data(), looked.size()}, near};
         run([&](const auto& judge, auto&... sinks) { return for_each_candidate(on, looked.size(), each, judge, sinks...); });
     }
 };
 
 /// `n` entries of bodies that have been checked, ready to be asked; entries(i) says which two bodies entry i is of, in the
 /// policy's memory. Errors are thrown in the name of `function`, of entries called `noun`.
-template <class Names, class Policy, class IndexA, class IndexB, class Entries, class Options>
+template <class Names, class Policy, class IndexA, class IndexB, class Entries, class Options, class Nearness>
 auto pair_up_entries(const Policy& on, const placed_bodies<IndexA>& a, const placed_bodies<IndexB>& b, std::size_t n,
-                     const Entries& entries, const Options& options, const char* function, const char* noun) {
-    using pairing = list_pairing<Policy, Names, IndexA, IndexB, Options>;
+                     const Entries& entries, const Options& options, const char* function, const char* noun,
+                     const Nearness& near) {
+    using pairing = list_pairing<Policy, Names, IndexA, IndexB, Options, Nearness>;
     using T = typename pairing::T;
     const std::size_t most_a = a.objects->most_shapes, most_b = b.objects->most_shapes;
     const list_key key{id_bits(n), {id_bits(most_a), id_bits(most_b)}};
@@ -312,11 +317,12 @@ auto pair_up_entries(const Policy& on, const placed_bodies<IndexA>& a, const pla
         throw capacity_error(std::string(function) + ": a body has " + std::to_string(std::max(most_a, most_b)) +
                              " shapes; one of many has at most " + std::to_string(most));
     }
-    pairing list{a, b, options, key};
+    pairing list{a, b, options, key, near};
     list.bodies = execution::buffer_of<Policy, index_pair>(on, n);
     list.members = execution::buffer_of<Policy, list_member<T>>(on, n);
-    for_each_index(
-        on, n, make_member<IndexA, IndexB, Entries>{a.view(), b.view(), entries, list.bodies.data(), list.members.data()});
+    for_each_index(on, n,
+                   make_member<IndexA, IndexB, Entries, Nearness>{a.view(), b.view(), entries, list.bodies.data(),
+                                                                  list.members.data(), near});
     list.all_walked = a.objects->all_have_nodes && b.objects->all_have_nodes;
     if (!list.all_walked) {
         using view = typename pairing::view_type;

@@ -20,6 +20,11 @@ struct near_enough_to_touch {
     [[nodiscard]] ABUT_HD auto reach(const S& s) const {
         return reach_of(s);
     }
+    /// What walks of two posed trees allow for, where the rounding of a relative pose has its share.
+    template <scalar T>
+    [[nodiscard]] ABUT_HD T slack(T of_rounding) const {
+        return of_rounding;
+    }
 };
 /// All boxes that come so near to one, as a frame tells: so it is the same pairs that a walk of two trees finds.
 template <scalar T, class Frame>
@@ -41,6 +46,11 @@ struct near_by {
     template <class S>
     [[nodiscard]] ABUT_HD auto reach(const S& s) const {
         return near_reach<T, Frame>{bounds(s), frame};
+    }
+    /// In units of a's frame lengths are off by less than 2^-7 (relative_pose.hpp): of A^T, which stretches the way between
+    /// two shapes, and of the axes that boxes are compared along.
+    [[nodiscard]] ABUT_HD T slack(T of_rounding) const {
+        return add_up(of_rounding, add_up(frame.distance, frame.distance / 64));
     }
 };
 /// In each coordinate; and along a straight line.
@@ -78,16 +88,14 @@ auto box_overlap(const A& a, const B& b) {
     }
 }
 
-/// The same for boxes that may be so far apart. In units of a's frame lengths are off by less than 2^-7 (relative_pose.hpp):
-/// of A^T, which stretches the way between two shapes, and of the axes that boxes are compared along.
+/// The same for boxes that may be so far apart.
 template <class A, class B, class Nearness>
 auto box_overlap(const A& a, const B& b, const Nearness& near) {
     if constexpr (std::same_as<Nearness, near_enough_to_touch>) {
         return box_overlap(a, b);
     } else if constexpr (A::is_posed || B::is_posed) {
         auto frames = box_overlap(a, b);
-        const auto distance = near.frame.distance;
-        frames.b_to_a.slack = add_up(frames.b_to_a.slack, add_up(distance, distance / 64));
+        frames.b_to_a.slack = near.slack(frames.b_to_a.slack);
         return frames;
     } else {
         return near.frame;

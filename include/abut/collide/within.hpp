@@ -60,20 +60,34 @@ struct come_within {
     }
 };
 
+/// Whether the judge takes sets of these shapes.
+template <class S, class U>
+consteval bool can_come_within() {
+    constexpr bool is = distance_decidable<S, U>;
+    static_assert(
+        is, "abut: `within` takes sets of points, segments, triangles, spheres, capsules, boxes and hulls, and planes");
+    return is;
+}
+
 inline void check_distance(double distance, const char* function) {
     if (!(distance >= 0 && distance < infinity<double>)) {
         throw error(std::string(function) + ": distance is " + shortest(distance) + "; expected a finite number, 0 or more");
     }
 }
 
+/// How near shapes are that are no farther apart than a distance, which is checked.
+template <scalar T>
+near_in_distance<T> near_within(double distance, const char* function) {
+    check_distance(distance, function);
+    return near_in_distance<T>{distance_frame<T>(rounded_up<T>(distance))};
+}
+
 /// Whether these queries take both arguments and the filter.
 template <class Policy, class X, class Y, class Filter>
 consteval bool can_be_within() {
     if constexpr (can_both_be_asked<Policy, X, Y>()) {
-        constexpr bool is = distance_decidable<typename shape_of_argument<X>::type, typename shape_of_argument<Y>::type>;
-        static_assert(
-            is, "abut: `within` takes sets of points, segments, triangles, spheres, capsules, boxes and hulls, and planes");
-        return is && is_filter<Policy, Filter>();
+        return can_come_within<typename shape_of_argument<X>::type, typename shape_of_argument<Y>::type>() &&
+               is_filter<Policy, Filter>();
     } else {
         return false;
     }
@@ -84,15 +98,12 @@ template <class Policy, class X, class Y, class Options>
 auto pair_up_within(const Policy& on, const X& x, const Y& y, double distance, const Options& options,
                     const char* function) {
     using T = scalar_type_of<typename shape_of_argument<X>::type>;
-    check_distance(distance, function);
-    return pair_up(on, x, y, options, function, near_in_distance<T>{distance_frame<T>(rounded_up<T>(distance))});
+    return pair_up(on, x, y, options, function, near_within<T>(distance, function));
 }
 template <class Policy, class X, class Options>
 auto pair_up_self_within(const Policy& on, const X& x, double distance, const Options& options, const char* function) {
     using T = scalar_type_of<typename shape_of_argument<X>::type>;
-    check_distance(distance, function);
-    return pair_up_self(on, x, options, function, as_they_are{},
-                        near_in_distance<T>{distance_frame<T>(rounded_up<T>(distance))});
+    return pair_up_self(on, x, options, function, as_they_are{}, near_within<T>(distance, function));
 }
 
 }  // namespace detail
@@ -102,7 +113,8 @@ auto pair_up_self_within(const Policy& on, const X& x, double distance, const Op
 /// `within`, `count_within`, `any_within` and `for_each_within` of two arguments: `pairs`, `count`, `any` and
 /// `for_each_pair` with a distance; `self_within` and `count_self_within` of one. Arguments are those of @ref queries , of
 /// points, segments, triangles, spheres, capsules, boxes and convex hulls, each with any of these, and planes with any: so
-/// they find the neighbours of points as well as which parts of two meshes are closer than a clearance.
+/// they find the neighbours of points as well as which parts of two meshes are closer than a clearance. Lists of posed pairs
+/// (@ref lists ) and scenes of many bodies (@ref many_bodies ) have them too.
 ///
 /// The distance is a finite double, 0 or more, and taken exactly. A pair that is exactly so far apart belongs to the answer.
 /// `filtered`, the default, and `exact` decide that exactly, for every finite input; `fast` is approximate. With distance 0

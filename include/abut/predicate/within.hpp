@@ -15,6 +15,7 @@
 #include <abut/predicate/plane_core.hpp>
 #include <abut/predicate/within_stages.hpp>
 #include <abut/shape/core.hpp>
+#include <abut/shape/shape.hpp>
 
 namespace abut {
 
@@ -53,7 +54,7 @@ concept distance_decidable = detail::within_as_given<S, U> || detail::within_as_
 ///
 ///     static_assert(abut::within(abut::sphere<float>{{0, 0, 5}, 1}, abut::vec3<float>{0, 0, 1}, 3));
 /// @ingroup one_pair
-template <arithmetic A = filtered, class S, class U>
+template <arithmetic A = filtered, shape S, shape U>
 [[nodiscard]] ABUT_HD constexpr bool within(const S& s, const U& t, double distance) {
     if constexpr (!distance_decidable<S, U>) {
         static_assert(distance_decidable<S, U>,
