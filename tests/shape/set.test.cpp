@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <vector>
 
+#include <abut/shape/motion.hpp>
 #include <abut/shape/moving_shape.hpp>
 
 #include "support/catch.hpp"
@@ -210,12 +211,12 @@ TEMPLATE_TEST_CASE("sets: of each shape, what is none is refused by its name", "
         [&] {
             shapes(std::vector<motion<segment<T>>>{{rest, rest}, {broken, rest}});
         },
-        "abut::shapes: at t = 0", 1, inf, "abut::shapes: at t = 0: shape 1: z is not finite (inf)");
+        "abut::moving: at t = 0", 1, inf, "abut::moving: at t = 0: segment 1: z is not finite (inf)");
     check_refused(
         [&] {
             shapes(std::vector<motion<segment<T>>>{{rest, broken}});
         },
-        "abut::shapes: at t = 1", 0, inf, "abut::shapes: at t = 1: shape 0: z is not finite (inf)");
+        "abut::moving: at t = 1", 0, inf, "abut::moving: at t = 1: segment 0: z is not finite (inf)");
     const other::wall wall{20};
     check_refused([&] { detail::check(serial{}, wall, "abut::any"); }, "abut::any", 13, 13,
                   "abut::any: shape 13: is_valid refuses it; its least x is (13)");
