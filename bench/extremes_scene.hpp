@@ -247,7 +247,7 @@ private:
         row.emplace_back("undecided", share(1));
         row.emplace_back("unresolved", share(2));
         all_right_ = all_right_ && filtered_wrong == 0 && exact_wrong == 0 && last_stage_wrong == 0;
-        out_.add(bench::joined({"pair", Kind::name, scalar_name<T>, name_of(step)}), row);
+        out_.add(bench::joined({"pair", Kind::name(), scalar_name<T>, name_of(step)}), row);
     }
 
     /// All pairs that touch, all against all in integers.
