@@ -182,11 +182,6 @@ struct rank_of_time {
     std::uint64_t* ranks;
     ABUT_HD void operator()(std::size_t i) const { ranks[i] = static_cast<std::uint64_t>(times[i] * 0x1p20); }
 };
-struct copy_keys {
-    const std::uint64_t* from;
-    std::uint64_t* to;
-    ABUT_HD void operator()(std::size_t i) const { to[i] = from[i]; }
-};
 template <class View>
 struct time_keys {
     View both;
@@ -227,7 +222,7 @@ auto first_by_bounds(const Policy& on, const View& both, const Search& search) {
             if (static_cast<double>(rank) * 0x1p-20 > first->found.time + last_time_bit) break;
         }
         timed_pairs<Policy> pairs(on, some);
-        for_each_index(on, some, copy_keys{bounded.keys.data() + begin, pairs.keys.data()});
+        copy(on, bounded.keys.data() + begin, some, pairs.keys.data());
         sort_keys(on, pairs.keys, both.key.bits());
         if constexpr (host_policy<Policy>) {
             for_each_task(on, some, time_keys_on_host<View>{both, pairs.keys.data(), pairs.times.data()});
