@@ -76,15 +76,13 @@ void check_extreme_queries(const Policy& on, std::uint32_t n) {
     CHECK(hits > steps * n / 4);
 }
 
-/// Of all kinds; hulls on hosts alone.
+/// Of all kinds.
 template <class T, class Policy>
 void check_all_extreme_queries(const Policy& on) {
     for_each_kind(first_extreme_kinds{},
                   [&]<class Kind>(Kind) { check_extreme_queries<Kind, T, true>(on, Kind::moving ? 6 : 20); });
     for_each_kind(other_extreme_kinds{}, [&]<class Kind>(Kind) { check_extreme_queries<Kind, T, false>(on, 6); });
-    if constexpr (host_policy<Policy>) {
-        for_each_kind(host_extreme_kinds{}, [&]<class Kind>(Kind) { check_extreme_queries<Kind, T, false>(on, 6); });
-    }
+    for_each_kind(hull_extreme_kinds{}, [&]<class Kind>(Kind) { check_extreme_queries<Kind, T, false>(on, 6); });
 }
 
 }  // namespace abut::test

@@ -73,7 +73,7 @@ TEMPLATE_TEST_CASE("pairs at extremes", "", float, double) {
 
 TEMPLATE_TEST_CASE("pairs of other shapes at extremes", "", float, double) {
     for_each_kind(test::other_extreme_kinds{}, []<class Kind>(Kind) { check_extreme_pairs<Kind, TestType>(3); });
-    for_each_kind(test::host_extreme_kinds{}, []<class Kind>(Kind) { check_extreme_pairs<Kind, TestType>(3); });
+    for_each_kind(test::hull_extreme_kinds{}, []<class Kind>(Kind) { check_extreme_pairs<Kind, TestType>(3); });
 }
 
 TEMPLATE_TEST_CASE("queries at extremes: serial", "", float, double) { test::check_all_extreme_queries<TestType>(serial{}); }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // long to compile
 //
-// Each kind of pairs of support/extremes.hpp that a device decides alone, in a kernel of its own. Hulls it does not take, and of
-// features in motion the last stage is the host's: extremes.cu asks about them.
+// Each kind of pairs of support/extremes.hpp that a device makes and decides alone, in a kernel of its own. The points of hulls lie
+// elsewhere, and of features in motion the last stage is the host's: extremes.cu asks about both.
 #include <abut/cuda.hpp>
 
 #include <cstdio>

@@ -471,8 +471,8 @@ using other_extreme_kinds =
     kind_list<extreme_contacts<aabb, triangle>, extreme_contacts<plane, triangle>, extreme_contacts<capsule, triangle>,
               extreme_contacts<segment, triangle>, extreme_contacts<vec3, triangle>, extreme_contacts<ray, triangle>,
               extreme_contacts<sphere, sphere>, extreme_contacts<aabb, capsule>, extreme_contacts<aabb, segment>>;
-/// Which no device takes.
-using host_extreme_kinds = kind_list<extreme_contacts<four_points, four_points>>;
+/// Of shapes whose points lie elsewhere: not for a kernel that makes its own pairs.
+using hull_extreme_kinds = kind_list<extreme_contacts<four_points, four_points>>;
 
 template <class... Kinds, class F>
 void for_each_kind(kind_list<Kinds...>, const F& f) {
