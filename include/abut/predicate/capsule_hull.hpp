@@ -118,9 +118,9 @@ ABUT_NOINLINE ABUT_HD constexpr verdict near_in_integers(const hull<T>& core, T 
     return to_verdict(is_feature_within(w, at.count, x.reach(radius, distance)));
 }
 
-/// The points whose hull is the core of a shape: of a ball its centre, of a capsule the ends of its axis, and of what is a hull of
-/// points all of them. The first two are not named points_of: nvcc 13.0 asks for that name where it is used, and not where
-/// made_of_points is defined, and so would take a ball for a point.
+/// The points whose hull is the core of a shape: of a ball its centre, of a capsule the ends of its axis, and of what is a
+/// hull of points all of them. The first two are not named points_of: nvcc 13.0 also finds functions that are declared after
+/// made_of_points, and so would take a ball for a point.
 ///@{
 template <class S>
     requires made_of_points<S, scalar_type_of<S>>
