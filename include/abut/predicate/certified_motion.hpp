@@ -215,7 +215,8 @@ public:
         for (int looked = 0;; ++looked) {
             const double width = 1.0 / static_cast<double>(std::uint64_t{1} << depth), from = static_cast<double>(j) * width;
             const feature_frame a = at(from), b = at(from + width);
-            const bool apart = separation > 0 ? is_apart(a, b, separation) : look(a, b, false, 0) == verdict::no;
+            const bool apart = (separation > 0 ? is_apart(a, b, separation) : look(a, b, false, 0) == verdict::no) ||
+                               is_apart_across(a, b, separation);
             if (!apart) {
                 if (width <= tolerance || depth == 50 || looked >= 1 << 14) return from;
                 j *= 2;
@@ -393,20 +394,27 @@ private:
         } else {
             g = nearest_to_origin(w, w - u, w - v);
         }
+        return is_apart_along(g, a, b, separation);
+    }
+    /// The same by the direction across both edges, or the face. Where edges are nearly parallel, or a face is narrow, where
+    /// they are nearest is known to few digits, and this direction to many.
+    [[nodiscard]] ABUT_HD constexpr bool is_apart_across(const feature_frame& a, const feature_frame& b, double separation) const {
+        const vec3<double> n = cross(a.u + b.u, a.v + b.v);
+        return is_apart_along(((dot(n, a.w + b.w) > 0) == Edges ? -1.0 : 1.0) * n, a, b, separation);
+    }
+    [[nodiscard]] ABUT_HD constexpr bool is_apart_along(const vec3<double>& g, const feature_frame& a, const feature_frame& b,
+                                                        double separation) const {
         double lost = 0x1p-46 * magnitudes(g) * (u_ + v_ + w_) + 0x1p-1000;
         if (separation > 0) lost += separation * (1 + 0x1p-40) * length_above(g);
-        if constexpr (Edges) {
-            // Of the differences s u - r v - w, 0 <= s, r <= 1, which is the least along g?
-            const auto least_along = [&g](const feature_frame& x) {
+        const auto least_along = [&g](const feature_frame& x) {
+            if constexpr (Edges) {
+                // Of the differences s u - r v - w, 0 <= s, r <= 1, which is the least along g?
                 return least(dot(g, x.u), 0.0) - greatest(dot(g, x.v), 0.0) - dot(g, x.w);
-            };
-            return least(least_along(a), least_along(b)) > lost;
-        } else {
-            const auto least_along = [&g](const feature_frame& x) {
+            } else {
                 return least(dot(g, x.w), dot(g, x.w - x.u), dot(g, x.w - x.v));
-            };
-            return least(least_along(a), least_along(b)) > lost;
-        }
+            }
+        };
+        return least(least_along(a), least_along(b)) > lost;
     }
 
     feature_frame t0_, t1_;
