@@ -85,6 +85,15 @@ def beside(figure, handles):
 
 # --- speed against wrong answers --------------------------------------------------------------------------------------------
 
+def few_ticks(low, high):
+    """Round numbers for an axis of logarithms: two at least, without labels that meet."""
+    for steps in ((1, 3), (1, 2, 5), (1, 3, 5, 7), (1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8)):
+        ticks = [s * 10.0**e for e in range(-12, 13) for s in steps if low <= s * 10.0**e <= high]
+        if len(ticks) > 1:
+            return ticks
+    return [low, high]
+
+
 def trade(r, million_a_second, predicates=PREDICATES, arithmetics=ARITHMETICS):
     predicates = {p: name for p, name in predicates.items() if r.names(p + "/")}
     figure, axes = grid(len(predicates), sharey=True)
@@ -107,7 +116,7 @@ def trade(r, million_a_second, predicates=PREDICATES, arithmetics=ARITHMETICS):
         axis.minorticks_off()
         low, high = axis.get_xlim()
         axis.set_xlim(low, high)
-        axis.xaxis.set_major_locator(matplotlib.ticker.LogLocator(10, (1, 3), numticks=20))
+        axis.set_xticks(few_ticks(low, high))
         axis.xaxis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda v, _: f"{v:,g}"))
         axis.set_xlabel("million pairs a second")
     for axis in axes[::3]:
