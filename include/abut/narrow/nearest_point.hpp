@@ -227,12 +227,13 @@ ABUT_HD constexpr vec3<double> way_to(const aabb<T>& box, const vec3<T>& p, cons
     return held(vec3<double>{0, 0, 0}, box, p, unit);
 }
 
-/// Its nearest feature is found in integers; nothing if p is inside.
+/// Its nearest feature is found in integers; nothing if p is inside. Where p is that near that integers leave it out, the way
+/// is still no shorter than that to the box, on which walks rely.
 template <scalar T>
 ABUT_NOINLINE ABUT_HD constexpr vec3<double> way_to(const hull<T>& h, const vec3<T>& p, const length_unit<T>& unit) {
     const hull<T> here(&p, 1);
     const nearest_in_hulls<T> found(here, h);
-    if (found.length == 0) return {0, 0, 0};
+    if (found.length == 0) return held(vec3<double>{0, 0, 0}, bounds(h), p, unit);
     vec3<double> way{0, 0, 0}, lower{}, upper{};
     for (int k = 0; k < found.at.count; ++k) {
         const vec3<double> w = way_between(p, h[found.at.b[k]], unit);
