@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: MIT
-"""Turns what the programs of tests/cuda said on a device into results, and these into the tables of docs/results/cuda-*.md.
+"""Turns what the programs of tests/cuda said on a device into results, and these into the tables of docs/results/cuda-h200.md.
 
 usage: report_cuda_tests.py FOLDER --json=OUT.json --device=NAME --driver=VERSION --cuda=VERSION --commit=HASH [--date=DATE]
                             [--flags=FLAGS]
 
 FOLDER has for a program its output, NAME.out, and its output under compute-sanitizer, NAME.memcheck, or one of them. And
 SHAPES.families, where test_cuda_predicates was run for the families of two shapes alone (sphere_triangle, say): rows of
-these go to a table of their own. OUT.json is bench/results/cuda/tests.json, tests_devices.json, or for families
-predicates.json; then `report.py --write` writes the pages.
+these go to a table of their own. OUT.json is bench/results/cuda/tests.json, or for families predicates.json;
+then `report.py --write` writes the pages.
 """
 
 import argparse
@@ -101,11 +101,6 @@ def tests(r):
 @in_table("cuda-tests")
 def cuda_tests(results):
     return tests(results["cuda/tests"])
-
-
-@in_table("cuda-tests-devices")
-def cuda_tests_devices(results):
-    return tests(results["cuda/tests_devices"])
 
 
 def families(r, shapes):

@@ -217,6 +217,8 @@ def families(r):
                         [quotient(rates[0], rates[1])] + [share(r.get(name("filtered", family), s)) for s in stages])
         which = ", and which stage of `filtered` decides them, in %:" if stages else ":"
         lines += [f"The families of `tests/support/triangle_families.hpp`, {scalar}, in million pairs a second{which}", ""]
+        if "late" in stages:
+            lines += ["(\"late\" is the stage between the filter and the integers; a limb is a 64-bit word of an integer.)", ""]
         lines += table(["family", "hits, %"] + [f"`{a}`" for a in there] + ["time of `filtered` / `fast`"] +
                        [STAGES[s] for s in stages], rows)
     return lines

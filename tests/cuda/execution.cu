@@ -161,11 +161,7 @@ TEST_CASE("errors: cuda_error names the call and carries CUDA's text") {
 
 TEST_CASE("errors: data of another device is refused, in one line") {
     int devices = 0;
-    REQUIRE(cudaGetDeviceCount(&devices) == cudaSuccess);
-    if (devices < 2) {
-        std::printf("this takes two devices, and there is one\n");
-        return;
-    }
+    if (cudaGetDeviceCount(&devices) != cudaSuccess || devices < 2) ABUT_SKIP("two devices", "this takes two devices");
     const abut::cuda here{.device = 0}, there{.device = 1};
     const triangle_soup<float> host = some_triangles();
     const auto set = copy_to(here, host);

@@ -22,8 +22,8 @@ using Catch::Approx;
 #include "needs.hpp"
 
 /// Leaves a test case (at its top level, before any assertion) for want of something: "data", "device", or what nobody may
-/// require: "time", "order of bytes" or "file system". ctest reports it as skipped, with the reason in its log. Where
-/// ABUT_REQUIRE names what is missing, it is a failure.
+/// require: "time", "two devices", "order of bytes" or "file system". ctest reports it as skipped, with the reason in its
+/// log. Where ABUT_REQUIRE names what is missing, it is a failure.
 #define ABUT_SKIP(missing, reason)                                         \
     do {                                                                   \
         if (abut::test::is_required(missing)) FAIL("missing: " << reason); \
