@@ -17,7 +17,7 @@ from report_core import ARITHMETICS, LITERATURE, SCALARS  # noqa: E402
 from report_extremes import EXTREMES, PAIR_KINDS  # noqa: E402
 from report_motion import motion_scenes  # noqa: E402
 from report_predicates import IN_MOTION, IN_TIME, INPUTS, OTHERS, PREDICATES  # noqa: E402
-from report_queries import ANY_SCENES, BUILDERS, SIZES, SPHERES, of_size, policies  # noqa: E402
+from report_queries import ANY_SCENES, BUILDERS, SIZES, SPHERES, descents_of, of_size, policies  # noqa: E402
 from report_scaling import DEALS, Model, rank_counts, sizes  # noqa: E402
 
 GREY = "#888888"
@@ -379,10 +379,10 @@ def scaling_meshes(results):
         depths = LITERATURE["backman_2011"]["box_tests_per_depth"][s]
         axes[2].plot([int(d) for d in depths], list(depths.values()), mark, color=GREY, fillstyle="none", markersize=4,
                      label=f"Bäckman 2011, {int(s):,}")
-    r = results["cpu/descents"]
-    for index, builder in enumerate(r.parts("walk/", 1)):
-        points = sorted((int(name.split("/")[2]), r.get(name, "boxes")) for name in r.names(f"depth/{builder}/"))
-        axes[2].plot(*zip(*points), color=SERIES[index], marker=".", label=f"abut, {int(SIZES[-1]):,}, {builder}")
+    for index, n in enumerate(reversed(SIZES)):
+        r = descents_of(results, n)
+        points = sorted((int(name.split("/")[2]), r.get(name, "boxes")) for name in r.names("depth/sah/"))
+        axes[2].plot(*zip(*points), color=SERIES[index], marker=".", label=f"abut, {int(n):,}, sah")
     axes[2].set_yscale("log")
     axes[2].set_xlabel("depth")
     axes[2].set_ylabel("tests of boxes")

@@ -38,7 +38,7 @@ void add_rays(const char* query, const std::string& name, const Ask& ask, const 
                 const auto found = ask(rays);
                 state.PauseTiming();
                 hits = 0;
-                for (const auto& hit : found) hits += is_hit(hit);
+                for (const auto& hit : found) hits += is_hit(hit) ? 1u : 0u;
                 state.ResumeTiming();
             }
             raycast_peer::note(state, rays.size(), hits);

@@ -476,6 +476,10 @@ TRAVERSALS = {"one_first": "one first", "larger_first": "larger first", "alterna
               "breadth_first": "breadth first, from the roots"}
 
 
+def descents_of(results, n):
+    return results["cpu/descents" if n == SIZES[-1] else f"cpu/descents_{n}"]
+
+
 @in_table("descents")
 def descents(results):
     r = results["cpu/descents"]
@@ -496,17 +500,17 @@ def patches(results):
 
 @in_table("depths")
 def depths(results):
-    r, theirs = results["cpu/descents"], LITERATURE["backman_2011"]
+    theirs = LITERATURE["backman_2011"]
     tests = [theirs["box_tests_per_depth"][n] for n in SIZES]
-    at = r.parts("depth/linear/", 2)
-    rows = [[d] + [whole(of.get(d)) for of in tests] + [whole(r.get(f"depth/{b}/{d}", "boxes")) for b in ("linear", "sah")]
-            for d in at]
+    ours = [(descents_of(results, n), n, "sah") for n in SIZES] + [(descents_of(results, SIZES[-1]), SIZES[-1], "linear")]
+    at = descents_of(results, SIZES[-1]).parts("depth/linear/", 2)
+    rows = [[d] + [whole(of.get(d)) for of in tests] + [whole(r.get(f"depth/{b}/{d}", "boxes")) for r, _, b in ours] for d in at]
     rows.append(["all"] + [whole(theirs["sizes"][n]["box_tests"]) for n in SIZES] +
-                [whole(r.get(f"walk/{b}/both_at_once", "boxes")) for b in ("linear", "sah")])
+                [whole(r.get(f"walk/{b}/both_at_once", "boxes")) for r, _, b in ours])
     rows.append(["pairs of triangles left"] + [whole(theirs["sizes"][n]["triangle_pairs"]) for n in SIZES] +
-                [whole(r.get(f"walk/{b}/both_at_once", "leaves")) for b in ("linear", "sah")])
-    return table(["depth"] + [f"source, {int(n):,} triangles" for n in SIZES] +
-                 [f"here, {int(SIZES[-1]):,}, `{b}`" for b in ("linear", "sah")], rows) + made_on(r)
+                [whole(r.get(f"walk/{b}/both_at_once", "leaves")) for r, _, b in ours])
+    return table(["depth"] + [f"source, {int(n):,} triangles" for n in SIZES] + [f"here, {int(n):,}, `{b}`" for _, n, b in ours],
+                 rows) + made_on(results["cpu/descents"])
 
 
 @in_table("meshes-cuda")

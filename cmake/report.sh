@@ -63,6 +63,9 @@ cpu within bench_within $G $I --meshes=@D@/meshes
 cpu hulls bench_hulls $G $I
 cpu raycast bench_raycast $G $I --mesh=@D@/meshes/armadillo_345944.ply
 cpu descents bench_descents --json={} --mesh=@D@/meshes/armadillo_345944.ply
+cpu descents_138376 bench_descents --json={} --mesh=@D@/meshes/armadillo_138376.ply
+cpu descents_27674 bench_descents --json={} --mesh=@D@/meshes/armadillo_27674.ply
+cpu descents_2766 bench_descents --json={} --mesh=@D@/meshes/armadillo_2766.ply
 cpu meshes_138376 bench_meshes $G $I --mesh=@D@/meshes/armadillo_138376.ply --benchmark_filter=^(build/bvh|pairs|boxes|contacts)/
 cpu meshes_27674 bench_meshes $G $I --mesh=@D@/meshes/armadillo_27674.ply --benchmark_filter=^(build/bvh|pairs|boxes|contacts)/
 cpu meshes_2766 bench_meshes $G $I --mesh=@D@/meshes/armadillo_2766.ply --benchmark_filter=^(build/bvh|pairs|boxes|contacts)/
