@@ -257,7 +257,7 @@ void run(rows& all, MPI_Comm comm, std::size_t shapes, bool timed) {
     const abut::shapes<abut::sphere<float>> set_b(b);
     ask(all, on, comm, "random/" + end, timed, set_a, set_b, centers_of(b));
     struct part {
-        abut::redistributed_part<abut::triangle<float>, abut::host_space> moved;
+        abut::redistributed_part<abut::triangle_soup<float>> moved;
         [[nodiscard]] std::size_t size() const { return moved.set.size(); }
     };
     const auto part_a =

@@ -80,6 +80,7 @@ TEST_CASE("distributed: memory that ends on one rank") {
     std::vector<vec3<float>> vertices, moved;
     std::vector<face> faces;
     std::vector<sphere<float>> balls;
+    std::vector<std::vector<vec3<float>>> lists;
     for (std::uint32_t i = 0; i < 60; ++i) {
         const float x = place(random), y = place(random), z = place(random);
         for (const vec3<float>& v :
@@ -89,9 +90,12 @@ TEST_CASE("distributed: memory that ends on one rank") {
         }
         faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
         balls.push_back({{z, x, y}, 0.3f});
+        lists.push_back(std::vector<vec3<float>>(i % 5 + 1, {y, z, x}));
+        lists.back().front().x += 0.5f;
     }
     const mesh<float> mine(vertices, part_of(faces, division::even, on.rank(), on.size()));
     const spheres<float> my_balls(part_of(balls, division::even, on.rank(), on.size()));
+    const hulls<float> my_hulls(part_of(lists, division::even, on.rank(), on.size()));
     const auto step = moving(mine, mine.with_vertices(serial{}, moved));
     std::vector<vec3<float>> points;
     for (const auto& ball : part_of(balls, division::even, on.rank(), on.size())) points.push_back(ball.center);
@@ -135,6 +139,8 @@ TEST_CASE("distributed: memory that ends on one rank") {
         check([&] { return distance(on, tree, ball_far_away); });
         check([&] { return impacts(on, step, mine); });
         check([&] { return redistribute(on, my_balls).ids; });
+        check([&] { return pairs(on, mine, my_hulls); });
+        check([&] { return redistribute(on, my_hulls).ids; });
     }
 }
 

@@ -64,31 +64,6 @@ std::vector<sphere<T>> balls_around(std::size_t n, T away, unsigned seed) {
     return all;
 }
 
-std::uint64_t as_global_id(std::uint32_t id) { return id == no_id ? no_global_id : id; }
-template <scalar T>
-std::vector<global_neighbor<T>> in_all_parts(const std::vector<neighbor<T>>& all) {
-    std::vector<global_neighbor<T>> out;
-    for (const auto& n : all) out.push_back({as_global_id(n.id), n.point, n.distance});
-    return out;
-}
-template <scalar T>
-std::vector<global_ray_hit<T>> in_all_parts(const std::vector<ray_hit<T>>& all) {
-    std::vector<global_ray_hit<T>> out;
-    for (const auto& h : all) out.push_back({as_global_id(h.id), h.t});
-    return out;
-}
-template <scalar T>
-std::vector<global_hit_of_ray<T>> in_all_parts(const std::vector<hit_of_ray<T>>& all) {
-    std::vector<global_hit_of_ray<T>> out;
-    for (const auto& h : all) out.push_back({h.ray, h.id, h.t});
-    return out;
-}
-std::vector<global_pair> in_all_parts(const std::vector<index_pair>& all) {
-    std::vector<global_pair> out;
-    for (const index_pair& p : all) out.push_back({p.a, p.b});
-    return out;
-}
-
 /// This rank's part of a set that all ranks know, and the set.
 template <class Shape>
 struct divided_set {
@@ -273,17 +248,6 @@ namespace {
 struct keep_some_entries {
     bool operator()(const global_tagged_pair& of) const { return (of.pair + of.a + of.b) % 3 != 0; }
 };
-std::vector<global_tagged_pair> in_all_parts(const std::vector<tagged_pair>& all) {
-    std::vector<global_tagged_pair> out;
-    for (const tagged_pair& p : all) out.push_back({p.pair, p.a, p.b});
-    return out;
-}
-template <scalar T>
-std::vector<global_tagged_contact<T>> in_all_parts(const std::vector<tagged_contact<T>>& all) {
-    std::vector<global_tagged_contact<T>> out;
-    for (const auto& c : all) out.push_back({c.pair, c.a, c.b, c.point, c.normal, c.depth});
-    return out;
-}
 
 /// Entries of two balls, one ball and of an empty set, some of which touch.
 template <scalar T>

@@ -83,4 +83,48 @@ inline bool on_all(const detail::own_communicator& ranks, bool mine) {
     return all != 0;
 }
 
+// What one machine finds, with the ids of a set of many parts.
+
+inline std::uint64_t as_global_id(std::uint32_t id) { return id == no_id ? no_global_id : id; }
+template <scalar T>
+std::vector<global_neighbor<T>> in_all_parts(const std::vector<neighbor<T>>& all) {
+    std::vector<global_neighbor<T>> out;
+    for (const auto& n : all) out.push_back({as_global_id(n.id), n.point, n.distance});
+    return out;
+}
+template <scalar T>
+std::vector<global_ray_hit<T>> in_all_parts(const std::vector<ray_hit<T>>& all) {
+    std::vector<global_ray_hit<T>> out;
+    for (const auto& h : all) out.push_back({as_global_id(h.id), h.t});
+    return out;
+}
+template <scalar T>
+std::vector<global_hit_of_ray<T>> in_all_parts(const std::vector<hit_of_ray<T>>& all) {
+    std::vector<global_hit_of_ray<T>> out;
+    for (const auto& h : all) out.push_back({h.ray, h.id, h.t});
+    return out;
+}
+inline std::vector<global_pair> in_all_parts(const std::vector<index_pair>& all) {
+    std::vector<global_pair> out;
+    for (const index_pair& p : all) out.push_back({p.a, p.b});
+    return out;
+}
+template <scalar T>
+std::vector<global_contact<T>> in_all_parts(const std::vector<contact<T>>& all) {
+    std::vector<global_contact<T>> out;
+    for (const auto& c : all) out.push_back({c.a, c.b, c.point, c.normal, c.depth});
+    return out;
+}
+inline std::vector<global_tagged_pair> in_all_parts(const std::vector<tagged_pair>& all) {
+    std::vector<global_tagged_pair> out;
+    for (const tagged_pair& p : all) out.push_back({p.pair, p.a, p.b});
+    return out;
+}
+template <scalar T>
+std::vector<global_tagged_contact<T>> in_all_parts(const std::vector<tagged_contact<T>>& all) {
+    std::vector<global_tagged_contact<T>> out;
+    for (const auto& c : all) out.push_back({c.pair, c.a, c.b, c.point, c.normal, c.depth});
+    return out;
+}
+
 }  // namespace abut::test

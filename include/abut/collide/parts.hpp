@@ -234,14 +234,24 @@ struct write_ids_in_blocks {
     ABUT_HD void operator()(std::size_t i) const { ids[i] = static_cast<std::uint32_t>(in.id(ids[i])); }
 };
 
+/// Shapes as they are, those of some ids.
 template <shape_view Shapes>
 struct pack_shape {
     static_assert(!refers_to_memory<typename Shapes::shape_type>,
-                  "abut: hulls refer to their points, and are not sent to another rank or device; give each the whole set");
+                  "abut: hulls refer to their points, and sets of them are not divided among devices: replicate(devices, set) "
+                  "gives each the whole set");
     Shapes shapes;
     const std::uint32_t* ids;
     typename Shapes::shape_type* out;
     ABUT_HD void operator()(std::size_t i) const { out[i] = shapes[ids[i]]; }
+};
+
+/// How many points hulls have of which the test is true.
+template <class Test, shape_view Hulls>
+struct points_if {
+    in_blocks<Test> in;
+    Hulls hulls;
+    ABUT_HD std::uint64_t operator()(std::size_t place) const { return in(place) ? hulls[in.id(place)].count : 0; }
 };
 
 /// Which shapes of a part come near another part.
@@ -253,17 +263,24 @@ public:
 
     explicit near_shapes(const Shapes& shapes) : shapes_(shapes) {}
 
+    /// All of the part.
+    [[nodiscard]] const Shapes& shapes() const { return shapes_; }
     /// How many come near.
     [[nodiscard]] std::uint64_t count(const Policy& on, const part_bounds<T>& there) {
         const std::size_t blocks = near_blocks(on, there);
         return reduce(on, blocks * block_size, std::uint64_t{0}, add_up_tallies{}, one_if<near_in_blocks>{near(there)});
     }
-    /// Writes as many, in the order of their ids, and these, in the policy's memory.
-    void write(const Policy& on, const part_bounds<T>& there, typename Shapes::shape_type* shapes, std::uint32_t* ids) {
+    /// How many points these have, of hulls.
+    [[nodiscard]] std::uint64_t count_points(const Policy& on, const part_bounds<T>& there) {
+        const std::size_t blocks = near_blocks(on, there);
+        return reduce(on, blocks * block_size, std::uint64_t{0}, add_up_tallies{},
+                      points_if<comes_near<Shapes>, Shapes>{near(there), shapes_});
+    }
+    /// Writes the ids of as many, ascending, in the policy's memory.
+    void write_ids(const Policy& on, const part_bounds<T>& there, std::uint32_t* ids) {
         const std::size_t blocks = near_blocks(on, there);
         const std::size_t n = compact(on, blocks * block_size, near(there), ids);
         for_each_index(on, n, write_ids_in_blocks<comes_near<Shapes>>{near(there), ids});
-        for_each_index(on, n, pack_shape<Shapes>{shapes_, ids, shapes});
     }
 
 private:

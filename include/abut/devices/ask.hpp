@@ -82,14 +82,16 @@ auto pack_for_others(const Team& team, const ShapesOn& shapes_on, const IdsOn& i
     using packed = near_part<local, typename view::shape_type>;
     return each_of(team, [&](int from) {
         const local& on = team[from];
-        near_shapes<local, view> near(shapes_on(from));
+        const view shapes = shapes_on(from);
+        near_shapes<local, view> near(shapes);
         std::vector<packed> for_each(static_cast<std::size_t>(team.size()));
         for (int to = 0; to < team.size(); ++to) {
             const auto theirs = reach(bounds_a[static_cast<std::size_t>(to)]);
             if (to == from || is_over(to) || !theirs.is_near(bounds_b[static_cast<std::size_t>(from)])) continue;
             const auto n = static_cast<std::size_t>(near.count(on, theirs));
             packed some{{on, n}, {on, n}};
-            near.write(on, theirs, some.shapes.data(), some.ids.data());
+            near.write_ids(on, theirs, some.ids.data());
+            for_each_index(on, n, pack_shape<view>{shapes, some.ids.data(), some.shapes.data()});
             for_each_index(on, n, gather_ids{ids(from), some.ids.data()});
             for_each[static_cast<std::size_t>(to)] = std::move(some);
         }

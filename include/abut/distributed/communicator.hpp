@@ -178,9 +178,9 @@ inline void require_one(const own_communicator& ranks, double mine, const char* 
 ///
 /// @par Memory
 /// Parts lie in the memory of the local policy. Besides its own parts a rank holds one message in and one out: shapes of b
-/// that one other rank has and that come near its own a-shapes, at most that rank's part, and 4 bytes of id for each. Under
-/// `cuda` messages lie on the host as well. Results are as large as those of the same query on one machine, of a rank's own
-/// a-shapes.
+/// that one other rank has and that come near its own a-shapes, at most that rank's part, and 4 bytes of id for each; of
+/// hulls their points, and 4 bytes more for each. Under `cuda` messages lie on the host as well. Results are as large as
+/// those of the same query on one machine, of a rank's own a-shapes.
 ///
 /// @par Errors
 /// What one rank throws is thrown there, as by the same query under the local policy; all others throw `distributed_error`.

@@ -15,8 +15,7 @@
 
 #include <abut/collide/parts.hpp>
 #include <abut/distributed/communicator.hpp>
-#include <abut/execution/buffer.hpp>
-#include <abut/shape/view.hpp>
+#include <abut/distributed/packed_shapes.hpp>
 
 #include <mpi.h>
 
@@ -55,28 +54,6 @@ private:
 };
 
 // --- what goes where ---------------------------------------------------------------------------------------------------
-
-/// Room for values of a message: in the policy's memory, and where that is not the host's, on the host as well.
-template <class Policy, class T>
-class message_room {
-public:
-    message_room(const Policy& on, std::size_t n) : there_(on, n), here_(serial{}, host_policy<Policy> ? 0 : n) {}
-
-    /// In the policy's memory.
-    [[nodiscard]] T* there() { return there_.data(); }
-    /// For MPI.
-    [[nodiscard]] T* here() { return host_policy<Policy> ? there_.data() : here_.data(); }
-    void bring_here(const Policy& on, std::size_t n) {
-        if constexpr (!host_policy<Policy>) download(on, there_.data(), n, here_.data());
-    }
-    void bring_there(const Policy& on, std::size_t n) {
-        if constexpr (!host_policy<Policy>) upload(on, here_.data(), n, there_.data());
-    }
-
-private:
-    execution::buffer_of<Policy, T> there_;
-    execution::buffer<T, host_space> here_;
-};
 
 /// What exchange_parcels keeps of each rank: the sizes of parcels to it and from it, and what is under way.
 template <class Sizes>
@@ -184,12 +161,12 @@ void exchange_parcels(const distributed<Local>& on, attempts& attempt, parcel_ro
 template <class Local, class Shape, class Id>
 class shape_rooms {
 public:
-    using sizes = std::array<std::uint64_t, 1>;
+    using sizes = typename packed_shapes<Local, Shape>::sizes;
 
     explicit shape_rooms(const Local& local) : local_(local) {}
     void make_room(const sizes& out, const sizes& in) {
-        out_.emplace(local_, static_cast<std::size_t>(out[0]));
-        in_.emplace(local_, static_cast<std::size_t>(in[0]));
+        out_.emplace(local_, out);
+        in_.emplace(local_, in);
     }
     template <class F>
     void send(const sizes& size, const F& f) {
@@ -202,16 +179,17 @@ public:
 
 protected:
     struct room {
-        message_room<Local, Shape> shapes;
+        packed_shapes<Local, Shape> shapes;
         message_room<Local, Id> ids;
-        room(const Local& local, std::size_t n) : shapes(local, n), ids(local, n) {}
-        void bring_here(const Local& local, std::size_t n) {
-            shapes.bring_here(local, n);
-            ids.bring_here(local, n);
+        room(const Local& local, const sizes& size, in_message is = in_message::yes)
+            : shapes(local, size, is), ids(local, static_cast<std::size_t>(size[0]), is) {}
+        void bring_here(const Local& local, const sizes& size) {
+            shapes.bring_here(local, size);
+            ids.bring_here(local, static_cast<std::size_t>(size[0]));
         }
-        void bring_there(const Local& local, std::size_t n) {
-            shapes.bring_there(local, n);
-            ids.bring_there(local, n);
+        void bring_there(const Local& local, const sizes& size) {
+            shapes.bring_there(local, size);
+            ids.bring_there(local, static_cast<std::size_t>(size[0]));
         }
     };
     const Local& local_;
@@ -220,14 +198,14 @@ protected:
 private:
     template <class F>
     void hand_over(room& all, const sizes& size, const F& f) {
-        f(all.shapes.here(), size[0], shape_type_.get());
+        all.shapes.hand_over(size, element_type_, f);
         f(all.ids.here(), size[0], id_type_.get());
     }
-    message_type<Shape> shape_type_;
+    message_type<typename packed_shapes<Local, Shape>::element> element_type_;
     message_type<Id> id_type_;
 };
 
-/// Shapes that parts of other ranks ask for, with their ids: `Chosen` counts and writes them (near_shapes in
+/// Shapes that parts of other ranks ask for, with their ids: `Chosen` counts them and writes these (near_shapes in
 /// collide/parts.hpp). use(rank, shapes, ids) is called for what comes from a rank, in memory of the policy's that is used
 /// again after it.
 template <class Local, class Chosen, class Use>
@@ -244,19 +222,17 @@ public:
         : rooms(local), chosen_(std::move(chosen)), looking_(looking), use_(use) {}
 
     [[nodiscard]] sizes measure(int to) {
-        sizes size{};
-        size[0] = chosen_.count(local_, looking_[to]);
-        return size;
+        return packed_shapes<Local, shape_type>::measure(local_, chosen_, looking_[to]);
     }
     void pack(int to, const sizes& size) {
-        chosen_.write(local_, looking_[to], out_->shapes.there(), out_->ids.there());
-        out_->bring_here(local_, static_cast<std::size_t>(size[0]));
+        std::uint32_t* const ids = out_->ids.there();
+        chosen_.write_ids(local_, looking_[to], ids);
+        out_->shapes.pack(local_, chosen_.shapes(), ids, static_cast<std::size_t>(size[0]));
+        out_->bring_here(local_, size);
     }
     void unpack(int from, const sizes& size) {
-        const auto n = static_cast<std::size_t>(size[0]);
-        in_->bring_there(local_, n);
-        const shapes_view<shape_type, space_of<Local>> came(in_->shapes.there(), n);
-        use_(from, came, in_->ids.there());
+        in_->bring_there(local_, size);
+        use_(from, in_->shapes.view(size), in_->ids.there());
     }
 
 private:

@@ -198,6 +198,12 @@ consteval bool can_pair_itself_globally() {
     }
 }
 
+/// The shape of a query's second argument; of the first one where it is asked about alone.
+template <class X, class Y>
+struct shape_of_second : shape_of_argument<Y> {};
+template <class X>
+struct shape_of_second<X, itself> : shape_of_argument<X> {};
+
 struct share_nothing {
     void operator()() const {}
 };
@@ -243,7 +249,7 @@ auto ask_all_parts(const distributed<Local>& on, const X& x, const Y& y, const c
     std::optional<decltype(bring())> here;
     part_bounds<T> part_a, part_b;
     parts_of_set<T> parts_a, parts_b, looking;
-    parcel_room<std::array<std::uint64_t, 1>> room;
+    parcel_room<sizes_of_shapes<typename shape_of_second<X, Y>::type>> room;
     attempt([&] {
         parts_a.make_room(ranks.size());
         parts_b.make_room(ranks.size());

@@ -91,12 +91,12 @@ public:
     using T = typename Lines::scalar_type;
 
     explicit lines_that_pass(const Lines& lines) : lines_(lines) {}
+    [[nodiscard]] const Lines& shapes() const { return lines_; }
     [[nodiscard]] std::uint64_t count(const Policy& on, const part_bounds<T>& there) const {
         return reduce(on, lines_.size(), std::uint64_t{0}, add_up_tallies{}, one_if<line_passes<Lines>>{{lines_, there}});
     }
-    void write(const Policy& on, const part_bounds<T>& there, typename Lines::shape_type* lines, std::uint32_t* ids) const {
-        const std::size_t n = compact(on, lines_.size(), line_passes<Lines>{lines_, there}, ids);
-        for_each_index(on, n, pack_shape<Lines>{lines_, ids, lines});
+    void write_ids(const Policy& on, const part_bounds<T>& there, std::uint32_t* ids) const {
+        (void)compact(on, lines_.size(), line_passes<Lines>{lines_, there}, ids);
     }
 
 private:

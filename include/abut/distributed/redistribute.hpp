@@ -5,7 +5,6 @@
 // Parts are then far from each other, and little has to be sent.
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -16,6 +15,7 @@
 #include <abut/collide/options.hpp>
 #include <abut/distributed/communicator.hpp>
 #include <abut/distributed/parts.hpp>
+#include <abut/distributed/packed_shapes.hpp>
 #include <abut/index/morton.hpp>
 #include <abut/index/operand.hpp>
 #include <abut/shape/features.hpp>
@@ -27,10 +27,10 @@ namespace abut {
 
 /// A rank's part of a set that was divided anew.
 /// @ingroup distributed
-template <shape Shape, memory_space Space>
+template <shape_set Set>
 struct redistributed_part {
-    shapes<Shape, Space> set;          ///< its shapes, along the curve
-    result<std::uint64_t, Space> ids;  ///< of each, its id in the set as it was
+    Set set;                                                 ///< its shapes, along the curve
+    result<std::uint64_t, typename Set::memory_space> ids;  ///< of each, its id in the set as it was
 };
 
 namespace detail {
@@ -132,12 +132,23 @@ private:
 template <class Local, shape_view Shapes>
 class part_parcels : public shape_rooms<Local, typename Shapes::shape_type, std::uint64_t> {
     using rooms = shape_rooms<Local, typename Shapes::shape_type, std::uint64_t>;
-    using room = typename rooms::room;
     using rooms::local_, rooms::out_, rooms::in_;
 
 public:
     using shape_type = typename Shapes::shape_type;
+    using packed = packed_shapes<Local, shape_type>;
     using sizes = typename rooms::sizes;
+    /// Shapes and ids that stay.
+    struct part {
+        sizes size{};
+        typename rooms::room values;
+        part(const Local& local, const sizes& n) : size(n), values(local, n, in_message::no) {}
+        /// Writes those of another room, from `at` on, which is advanced.
+        void put(const Local& local, typename rooms::room& from, const sizes& n, sizes& at) {
+            copy(local, from.ids.there(), static_cast<std::size_t>(n[0]), values.ids.there() + at[0]);
+            values.shapes.put(local, from.shapes, n, at);
+        }
+    };
 
     part_parcels(const Local& local, const Shapes& shapes, const std::uint32_t* order, std::uint64_t first_id,
                  const std::vector<std::uint64_t>& first)
@@ -145,56 +156,45 @@ public:
 
     [[nodiscard]] sizes measure(int to) const {
         const auto k = static_cast<std::size_t>(to);
-        sizes size{};
-        size[0] = first_[k + 1] - first_[k];
-        return size;
+        return packed::measure(local_, shapes_, order_ + first_[k], static_cast<std::size_t>(first_[k + 1] - first_[k]));
     }
     void pack(int to, const sizes& size) {
-        write(to, *out_);
-        out_->bring_here(local_, static_cast<std::size_t>(size[0]));
+        write(to, size, *out_);
+        out_->bring_here(local_, size);
     }
     void unpack(int from, const sizes& size) {
-        const auto n = static_cast<std::size_t>(size[0]);
-        in_->bring_there(local_, n);
-        part came{buffer_of_shapes(local_, n), buffer_of_ids(local_, n)};
-        copy(local_, in_->shapes.there(), n, came.shapes.data());
-        copy(local_, in_->ids.there(), n, came.ids.data());
+        in_->bring_there(local_, size);
+        part came(local_, size);
+        sizes at{};
+        came.put(local_, *in_, size, at);
         synchronize(local_);
-        from_[static_cast<std::size_t>(from)] = std::move(came);
+        from_[static_cast<std::size_t>(from)].emplace(std::move(came));
     }
 
     /// All that came, in the order of the ranks, with what stays here.
-    auto all(int me) {
-        const auto stays = static_cast<std::size_t>(measure(me)[0]);
-        room mine(local_, stays);
-        write(me, mine);
-        std::size_t total = stays;
-        for (const part& p : from_) total += p.ids.size();
-        part whole{buffer_of_shapes(local_, total), buffer_of_ids(local_, total)};
-        std::size_t at = 0;
-        for (std::size_t rank = 0; rank < from_.size(); ++rank) {
-            const bool is_me = rank == static_cast<std::size_t>(me);
-            const std::size_t n = is_me ? stays : from_[rank].ids.size();
-            copy(local_, is_me ? mine.shapes.there() : from_[rank].shapes.data(), n, whole.shapes.data() + at);
-            copy(local_, is_me ? mine.ids.there() : from_[rank].ids.data(), n, whole.ids.data() + at);
-            at += n;
+    part all(int me, const char* function) {
+        part stays(local_, measure(me));
+        write(me, stays.size, stays.values);
+        from_[static_cast<std::size_t>(me)].emplace(std::move(stays));
+        sizes total{}, at{};
+        for (const auto& one : from_) {
+            for (std::size_t k = 0; one && k < total.size(); ++k) total[k] += one->size[k];
+        }
+        for (const std::uint64_t n : total) check_count(static_cast<std::size_t>(n), function);
+        part whole(local_, total);
+        for (auto& one : from_) {
+            if (one) whole.put(local_, one->values, one->size, at);
         }
         synchronize(local_);
         from_.clear();
-        return std::pair(std::move(whole.shapes), std::move(whole.ids));
+        return whole;
     }
 
 private:
-    using buffer_of_shapes = execution::buffer_of<Local, shape_type>;
-    using buffer_of_ids = execution::buffer_of<Local, std::uint64_t>;
-    struct part {
-        buffer_of_shapes shapes;
-        buffer_of_ids ids;
-    };
-    void write(int to, room& out) {
+    void write(int to, const sizes& size, typename rooms::room& out) {
         const std::uint32_t* const order = order_ + first_[static_cast<std::size_t>(to)];
-        const auto n = static_cast<std::size_t>(measure(to)[0]);
-        for_each_index(local_, n, pack_shape<Shapes>{shapes_, order, out.shapes.there()});
+        const auto n = static_cast<std::size_t>(size[0]);
+        out.shapes.pack(local_, shapes_, order, n);
         for_each_index(local_, n, write_global_ids{order, first_id_, out.ids.there()});
     }
 
@@ -202,7 +202,7 @@ private:
     const std::uint32_t* order_;
     std::uint64_t first_id_;
     const std::vector<std::uint64_t>& first_;
-    std::vector<part> from_;
+    std::vector<std::optional<part>> from_;
 };
 
 template <class Local, class Set>
@@ -217,7 +217,7 @@ auto redistributed(const distributed<Local>& on, const Set& set, const char* fun
     using T = typename view_type::scalar_type;
     part_bounds<T> mine;
     parts_of_set<T> parts;
-    parcel_room<std::array<std::uint64_t, 1>> room;
+    parcel_room<sizes_of_shapes<shape_type>> room;
     division_of_codes division;
     attempt([&] {
         parts.make_room(ranks.size());
@@ -246,18 +246,18 @@ auto redistributed(const distributed<Local>& on, const Set& set, const char* fun
     exchange_parcels(
         on, attempt, room, [](int, int) { return true; }, *parcels);
 
-    redistributed_part<shape_type, space_of<Local>> part;
+    redistributed_part<typename packed_shapes<Local, shape_type>::set> part;
     attempt([&] {
-        const auto [came, ids] = parcels->all(ranks.rank());
-        const std::size_t n = ids.size();
-        using came_view = shapes_view<shape_type, space_of<Local>>;
-        const curve_of_part<Local> order(local, came_view(came.data(), n), around);
-        execution::buffer_of<Local, shape_type> sorted(local, n);
-        execution::buffer_of<Local, std::uint64_t> sorted_ids(local, n);
-        for_each_index(local, n, pack_shape<came_view>{came_view(came.data(), n), order.order.data(), sorted.data()});
-        for_each_index(local, n, gather_global_ids{ids.data(), order.order.data(), sorted_ids.data()});
+        auto came = parcels->all(ranks.rank(), function);
+        const auto all = came.values.shapes.view(came.size);
+        const std::size_t n = all.size();
+        const curve_of_part<Local> order(local, all, around);
+        packed_shapes<Local, shape_type> sorted(local, came.size, in_message::no);
+        sorted.pack(local, all, order.order.data(), n);
+        execution::buffer_of<Local, std::uint64_t> ids(local, n);
+        for_each_index(local, n, gather_global_ids{came.values.ids.there(), order.order.data(), ids.data()});
         synchronize(local);
-        part = {set_parts::shapes_of(std::move(sorted)), result<std::uint64_t, space_of<Local>>(std::move(sorted_ids))};
+        part = {sorted.take(), result<std::uint64_t, space_of<Local>>(std::move(ids))};
     });
     attempt.settle(ranks);
     return part;
@@ -267,12 +267,13 @@ auto redistributed(const distributed<Local>& on, const Set& set, const char* fun
 
 /// Divides a set anew: each rank gets as many shapes as the others, or one more, and they are neighbours along a Morton
 /// curve (63 bits) through the middles of their boxes. `set` is this rank's part: a set or a view. Returns a
-/// `redistributed_part`: its new part, shapes as they are (faces become triangles, spheres of one radius spheres), and for
-/// each the id that it had, 8 bytes each, in the local policy's memory. Equal places keep the order of their ids. Other
-/// shapes, as queries need less to be sent then; it does not change answers but for the ids, which are positions in the new
-/// parts.
+/// `redistributed_part`: its new part, shapes as they are (faces become triangles, spheres of one radius spheres), or `hulls`
+/// of hulls, and for each the id that it had, 8 bytes each, in the local policy's memory. Equal places keep the order of
+/// their ids. Other shapes, as queries need less to be sent then; it does not change answers but for the ids, which are
+/// positions in the new parts.
 ///
-/// Besides the result a rank holds its codes twice, 8 bytes each, and its shapes three times while they come.
+/// Besides the result a rank holds its codes twice, 8 bytes each, and its shapes three times while they come. Throws
+/// capacity_error where a rank gets 2^31 points of hulls or more.
 /// @ingroup distributed
 template <execution_policy Local, class Set>
 [[nodiscard]] auto redistribute(const distributed<Local>& on, const Set& set) {
