@@ -180,6 +180,12 @@ void query_inside() {
     const auto near = abut::signed_distance(on, tetrahedron, points);
     expect(near[0].distance < 0 && near[1].distance == 5 && near[2].distance == 0);
     //! [signed_distance]
+    //! [winding_number]
+    const std::vector<abut::face> three{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}};  // one face is missing
+    const abut::mesh<float> open({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}}, three);
+    const auto around = abut::winding_number(on, abut::make_bvh(on, open), points, {.tolerance = 1e-6});
+    expect(around[0] > 0.6 && around[1] < 0.1);
+    //! [winding_number]
 }
 
 void query_mesh() {

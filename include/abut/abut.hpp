@@ -26,6 +26,7 @@
 #include <abut/collide/reduce_contacts.hpp>
 #include <abut/collide/self_pairs.hpp>
 #include <abut/collide/validate.hpp>
+#include <abut/collide/winding_number.hpp>
 #include <abut/collide/within.hpp>
 #include <abut/config.hpp>
 #include <abut/error.hpp>

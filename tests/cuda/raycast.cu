@@ -3,6 +3,7 @@
 
 #include "collide/inside_cases.hpp"
 #include "collide/raycast_cases.hpp"
+#include "collide/winding_cases.hpp"
 #include "support/catch.hpp"
 
 TEST_CASE("raycast: cuda") {
@@ -19,4 +20,10 @@ TEST_CASE("inside: cuda") {
     const abut::cuda on;
     abut::test::check_inside<float>(on);
     abut::test::check_inside<double>(on, 1);
+}
+
+TEST_CASE("winding number: cuda") {
+    const abut::cuda on;
+    abut::test::check_winding<float>(on);
+    abut::test::check_winding_bits<double>(on);
 }

@@ -117,27 +117,29 @@ auto frame_of(const Operand& x, const length_unit<T>& unit) {
     }
 }
 
-/// The largest coordinate of all points and all shapes, of those that there are.
-template <class Policy, class Operand, shape_view Points>
-double largest_coordinate(const Policy& on, const Operand& x, const Points& points) {
-    using T = typename Points::scalar_type;
-    const auto box_of = [&](const auto& shapes) {
-        using shapes_type = std::remove_cvref_t<decltype(shapes)>;
-        return reduce(on, shapes.size(), empty_box<T>(), merge_boxes{}, box_of_shape<shapes_type>{shapes});
-    };
-    const auto of_box = [](const aabb<T>& box) {
-        const vec3<T> most = greatest(absolute(box.lower), absolute(box.upper));
-        return static_cast<double>(greatest(most.x, most.y, most.z));
-    };
-    double largest = 0;
-    if (points.size() > 0) largest = of_box(box_of(points));
-    if (x.shapes().size() == 0) return largest;
-    if constexpr (Operand::is_posed && Operand::is_indexed) {
-        return greatest(largest, 2 * farthest(x.around) + magnitudes(x.pose.translation));
-    } else if constexpr (Operand::is_indexed) {
-        return greatest(largest, of_box(x.bounds(on)));
+/// The largest coordinate in a box.
+template <scalar T>
+double largest_coordinate(const aabb<T>& box) {
+    const vec3<T> most = greatest(absolute(box.lower), absolute(box.upper));
+    return static_cast<double>(greatest(most.x, most.y, most.z));
+}
+/// That of some shapes; 0 of none.
+template <class Policy, shape_view Shapes>
+double largest_coordinate(const Policy& on, const Shapes& shapes) {
+    using T = typename Shapes::scalar_type;
+    if (shapes.size() == 0) return 0;
+    return largest_coordinate(reduce(on, shapes.size(), empty_box<T>(), merge_boxes{}, box_of_shape<Shapes>{shapes}));
+}
+/// No less than that of an operand's shapes.
+template <class Policy, operand X>
+double largest_coordinate(const Policy& on, const X& x) {
+    if (x.shapes().size() == 0) return 0;
+    if constexpr (X::is_posed && X::is_indexed) {
+        return 2 * farthest(x.around) + magnitudes(x.pose.translation);
+    } else if constexpr (X::is_indexed) {
+        return largest_coordinate(x.bounds(on));
     } else {
-        return greatest(largest, of_box(box_of(x.shapes())));
+        return largest_coordinate(on, x.shapes());
     }
 }
 
@@ -155,7 +157,8 @@ length_unit<T> unit_of_magnitude([[maybe_unused]] double largest) {
 template <class Policy, class Operand, shape_view Points>
 auto common_unit([[maybe_unused]] const Policy& on, [[maybe_unused]] const Operand& x, [[maybe_unused]] const Points& points) {
     using T = typename Points::scalar_type;
-    return unit_of_magnitude<T>(std::same_as<T, float> ? 0 : largest_coordinate(on, x, points));
+    return unit_of_magnitude<T>(std::same_as<T, float> ? 0
+                                                   : greatest(largest_coordinate(on, points), largest_coordinate(on, x)));
 }
 
 template <class X>
