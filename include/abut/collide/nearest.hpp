@@ -142,6 +142,11 @@ double largest_coordinate(const Policy& on, const X& x) {
         return largest_coordinate(on, x.shapes());
     }
 }
+/// Of an operand and of points.
+template <class Policy, operand X, shape_view Points>
+double largest_coordinate(const Policy& on, const X& x, const Points& points) {
+    return greatest(largest_coordinate(on, points), largest_coordinate(on, x));
+}
 
 /// A unit for coordinates of that magnitude and below.
 template <scalar T>
@@ -157,8 +162,7 @@ length_unit<T> unit_of_magnitude([[maybe_unused]] double largest) {
 template <class Policy, class Operand, shape_view Points>
 auto common_unit([[maybe_unused]] const Policy& on, [[maybe_unused]] const Operand& x, [[maybe_unused]] const Points& points) {
     using T = typename Points::scalar_type;
-    return unit_of_magnitude<T>(std::same_as<T, float> ? 0
-                                                   : greatest(largest_coordinate(on, points), largest_coordinate(on, x)));
+    return unit_of_magnitude<T>(std::same_as<T, float> ? 0 : largest_coordinate(on, x, points));
 }
 
 template <class X>
