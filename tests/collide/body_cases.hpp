@@ -18,6 +18,7 @@
 #include "support/catch.hpp"
 #include "support/poses.hpp"
 #include "support/scenes.hpp"
+#include "support/surfaces.hpp"
 #include "support/touching.hpp"
 
 namespace abut::test {
@@ -26,13 +27,6 @@ namespace abut::test {
 struct some_bodies {
     ABUT_HD bool operator()(body_pair p) const { return (p.body_a + 2 * p.body_b + p.a + 3 * p.b) % 5 != 0; }
 };
-
-template <scalar T>
-std::vector<triangle<T>> triangles_of(const std::vector<vec3<T>>& vertices, const std::vector<face>& faces) {
-    std::vector<triangle<T>> all;
-    for (const face& f : faces) all.push_back({vertices[f[0]], vertices[f[1]], vertices[f[2]]});
-    return all;
-}
 
 /// A scene of bodies: sets on the host, the policy's trees over them, and which set each body has.
 template <class Policy, class Set>

@@ -31,13 +31,6 @@ std::vector<vec3<T>> points_to_wind(const std::vector<triangle<T>>& triangles, u
     return points;
 }
 
-template <class T>
-std::vector<triangle<T>> triangles_of(const std::vector<vec3<T>>& vertices, const std::vector<face>& faces) {
-    std::vector<triangle<T>> triangles;
-    for (const face& f : faces) triangles.push_back({vertices[f[0]], vertices[f[1]], vertices[f[2]]});
-    return triangles;
-}
-
 template <class T, class Policy>
 void check_winding_bits(const Policy& on) {
     uniform random(471);

@@ -20,6 +20,14 @@ struct surface_data {
     std::vector<face> faces;
 };
 
+/// Faces as triangles.
+template <scalar T>
+std::vector<triangle<T>> triangles_of(const std::vector<vec3<T>>& vertices, const std::vector<face>& faces) {
+    std::vector<triangle<T>> all;
+    for (const face& f : faces) all.push_back({vertices[f[0]], vertices[f[1]], vertices[f[2]]});
+    return all;
+}
+
 /// A sphere from a solid with corners on the unit sphere, each of whose triangles is cut in four `levels` times.
 template <scalar T>
 surface_data<T> refined_ball(std::vector<vec3<double>> points, std::vector<face> faces, int levels, double radius) {
