@@ -33,21 +33,10 @@ double greatest_difference(const std::vector<double>& a, const std::vector<doubl
 /// A cube from 0 to 1, facing outward.
 template <class T>
 test::surface_data<T> cube_facing_outward() {
+    const test::cube_surface cube(1);
     std::vector<vec3<T>> corners;
-    for (int k = 0; k < 8; ++k) corners.push_back({T(k & 1), T(k >> 1 & 1), T(k >> 2)});
-    return {corners,
-            {{0, 2, 1},
-             {1, 2, 3},
-             {4, 5, 6},
-             {5, 7, 6},
-             {0, 1, 4},
-             {1, 5, 4},
-             {2, 6, 3},
-             {3, 6, 7},
-             {0, 4, 2},
-             {2, 4, 6},
-             {1, 3, 5},
-             {3, 7, 5}}};
+    for (const auto& v : cube.vertices) corners.push_back({T(v[0]) / 2, T(v[1]) / 2, T(v[2]) / 2});
+    return {corners, cube.faces};
 }
 
 }  // namespace
