@@ -170,6 +170,11 @@ TEMPLATE_TEST_CASE("sets in motion: what is refused", "", float, double) {
     refused(with({.separation = far}), {"abut::impacts", "separation"});
     refused(with({.tolerance = -1}), {"abut::impacts", "tolerance"});
     refused(with({.tolerance = nan}), {"abut::impacts", "tolerance"});
+    // A separation that would not be kept.
+    const impact_options apart{.bounds = {.separation = 0.125}};
+    refused([&] { (void)impacts(on, m, m, apart); }, {"abut::impacts", "separation is 0.125", "conservative"});
+    refused([&] { (void)self_impacts<exact>(on, index, apart); }, {"abut::self_impacts", "conservative"});
+    refused([&] { (void)first_impact<fast>(on, m, m, apart); }, {"abut::first_impact", "conservative"});
 }
 
 }  // namespace abut::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// expect: abut: this view is over host memory and the policy works elsewhere; make a set of it first
+// expect: abut: this view is over host memory and the policy works elsewhere; make a set of it first; or, where its arrays lie in device memory
 // errors: 1
 #include <abut/cuda.hpp>
 

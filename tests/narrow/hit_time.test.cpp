@@ -79,6 +79,10 @@ TEST_CASE("hit time: where pairs of doubles tell, and where they do not") {
     CHECK(hit_time<filtered>(segment<float>{{1, 1, 1}, {1, 1, -1}}, floor) == 0.5);
     CHECK(hit_time<filtered>(segment<float>{{1, 1, 1}, {1, 1, 0.5f}}, floor) == -1);
     CHECK(hit_time<fast>(ray<float>{{1, 1, 3}, {0, 0, -2}}, floor) == 1.5);
+    // A segment of one point, by a side that it would meet at a time of some 2^-1270 if it went to a corner.
+    const triangle<double> thin{{0x1p-742, 0x1p366, 0}, {0x1p-7, -0x1p-693, 0}, {-0x1p-226, 0x1p-904, 0}};
+    CHECK(hit_time<filtered>(segment<double>{{0, 0, 0}, {0, 0, 0}}, thin) == -1);
+    CHECK(hit_time<filtered>(ray<double>{{0, 0, 0}, thin.a}, thin) == 0);  // the true time, rounded
     // Above the largest number it is that.
     const triangle<double> far{{-1, -1, 0x1p1000}, {1, -1, 0x1p1000}, {0, 3, 0x1p1000}};
     CHECK(hit_time<filtered>(ray<double>{{0, 0, 0}, {0, 0, 0x1p-1000}}, far) == largest_finite<double>);

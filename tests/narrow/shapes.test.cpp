@@ -57,4 +57,17 @@ TEMPLATE_TEST_CASE("contacts of boxes, planes and capsules with triangles are wh
     check_shape_families<capsule, T>("capsule");
 }
 
+// What is left of the triangle in the corner is so thin that rounded ends of cuts are off by many units of roundoff.
+TEST_CASE("contacts of boxes with a sliver of a triangle") {
+    const triangle<double> t{{-0x1.123824587b3ecp+4, 0x1.50355542ae159p+5, -0x1.29b75f34a91fbp+6},
+                             {-0x1.fb56165b41f0ep+4, 0x1.50c834c57195bp+5, 0x1.c4285e9524116p+5},
+                             {0x1.8ea5ff32df7b5p+6, -0x1.6af1460d42be5p+5, -0x1.26b0a2a635d12p+6}};
+    const aabb<double> box{{-0x1.594f38ed2ba15p+4, 0x1.505ac614cdf8dp+5, -0x1.4d729840ae2ddp+5},
+                           {-0x1.3e5b67c5b75bp+4, 0x1.52126b032f975p+5, -0x1.4861d60fdc9cap+5}};
+    const auto c = contact_of(box, t);
+    REQUIRE(c);
+    contact_tally tally;
+    CHECK(wrong_with(box, t, *c, tally) == nullptr);
+}
+
 }  // namespace abut::test

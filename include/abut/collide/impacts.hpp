@@ -49,7 +49,8 @@ namespace abut {
 ///
 /// @par Errors
 /// - `error`: a set or an index lies on another device, or two meshes of one step do not go together. With `conservative`
-///   also a separation that is negative or above the largest number of the scalar, and a tolerance that is negative or NaN.
+///   also a separation that is negative or above the largest number of the scalar, and a tolerance that is negative or NaN;
+///   with any other arithmetic a separation that is not 0.
 /// - `capacity_error`: more than 2^31 features of a kind, and as of `edges`.
 /// - `std::bad_alloc`, `cuda_error`.
 ///
@@ -81,7 +82,7 @@ struct impact_options {
     /// order of their vertices. Without it the order is any, and may differ from call to call. The first impact is the same
     /// with and without it.
     bool sorted = true;
-    /// Of `conservative` alone.
+    /// Of `conservative` alone. Others take no notice of a tolerance, and throw `error` for a separation.
     conservative_bounds bounds = {};
 };
 
@@ -136,6 +137,10 @@ auto nearness_of(const conservative_bounds& bounds, const char* function) {
         const T rounded = static_cast<T>(bounds.separation);
         return near_in_coordinates<T>{{static_cast<double>(rounded) < bounds.separation ? next_up(rounded) : rounded}};
     } else {
+        if (!(bounds.separation == 0)) {
+            throw error(std::string(function) + ": separation is " + std::to_string(bounds.separation) +
+                        "; expected 0, since `conservative` alone keeps one: " + function + "<abut::conservative>");
+        }
         return near_enough_to_touch{};
     }
 }

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -48,6 +49,9 @@ namespace abut {
 /// Two indices over sets (make_bvh), each under a pose: posed(index, pose). Any number of entries may share an index.
 template <class IndexA, class IndexB = IndexA>
 struct posed_pair {
+    static_assert(!std::is_const_v<IndexA> && !std::is_const_v<IndexB>,
+                  "abut: posed_pair of the type of a const index: leave out const where the index is made, or write "
+                  "posed_pair<std::remove_const_t<decltype(index)>>");
     posed_object<IndexA> a;  ///< the first one
     posed_object<IndexB> b;  ///< the second one
 };

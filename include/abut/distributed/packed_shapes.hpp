@@ -67,12 +67,12 @@ public:
     /// Of shapes that are chosen for a part.
     template <class Chosen, scalar T>
     static sizes measure(const Policy& on, Chosen& chosen, const part_bounds<T>& there) {
-        return {chosen.count(on, there)};
+        return of_length(chosen.count(on, there));
     }
     /// Of shapes with n ids.
     template <shape_view Shapes>
     static sizes measure(const Policy&, const Shapes&, const std::uint32_t*, std::size_t n) {
-        return {n};
+        return of_length(n);
     }
     /// Writes the shapes with n ids.
     template <shape_view Shapes>
@@ -98,6 +98,11 @@ public:
 
 private:
     static std::size_t length(const sizes& size) { return static_cast<std::size_t>(size[0]); }
+    static sizes of_length(std::uint64_t n) {
+        sizes size;  // not {n}: nvcc 13.0 hands that to the host's compiler without braces
+        size[0] = n;
+        return size;
+    }
     message_room<Policy, Shape> shapes_;
 };
 

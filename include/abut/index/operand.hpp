@@ -83,7 +83,8 @@ consteval bool can_reside() {
         static_assert(there || on_host,
                       "abut: a host policy cannot read a set in device memory; copy_to(policy, set) brings it over");
         static_assert(there || !on_host || !shape_view<Set>,
-                      "abut: this view is over host memory and the policy works elsewhere; make a set of it first");
+                      "abut: this view is over host memory and the policy works elsewhere; make a set of it first; or, where "
+                      "its arrays lie in device memory, say so in its type: mesh_view<T, abut::device_space>, say");
         return there || (on_host && !shape_view<Set>);
     }
 }

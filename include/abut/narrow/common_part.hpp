@@ -135,10 +135,11 @@ struct triangle_side {
     double length;
     point corner;
 
-    [[nodiscard]] ABUT_HD constexpr double beyond(const point& p) const {
-        return length > 0 ? dot(outwards, between<two_doubles>(corner, p)).high / length : 0;
+    [[nodiscard]] ABUT_HD constexpr one_double beyond(const vec3<one_double>& p) const {
+        const auto to_p = between<two_doubles>(corner, rounded_off(p));
+        return one_double::of(length > 0 ? dot(outwards, to_p).high / length : 0);
     }
-    [[nodiscard]] ABUT_HD constexpr point onto(const point& p) const { return p; }
+    [[nodiscard]] ABUT_HD constexpr const vec3<one_double>& onto(const vec3<one_double>& p) const { return p; }
 };
 
 /// The middle of what a triangle, which may be a segment, has of another one in its plane.
@@ -146,7 +147,7 @@ template <scalar T>
 ABUT_NOINLINE ABUT_HD constexpr point middle_in_plane(const corners& a, const triangle<T>& t, const corners& b,
                                                       const vec3<two_doubles>& normal_b) {
     constexpr double slack = 4 * static_cast<double>(unit_roundoff<T>);
-    cut_polygon left{{a.at[0], a.at[1], a.at[2]}, 3};
+    cut_polygon<one_double> left(a);
     for (int i = 0; i < 3; ++i) {
         const vec3<two_doubles> outwards = cross(edge_of(t, i).direction, normal_b);
         left.cut(triangle_side{outwards, root(dot(outwards, outwards)).high, b.at[i]}, slack);

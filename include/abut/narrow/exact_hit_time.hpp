@@ -104,8 +104,8 @@ public:
             ABUT_ROLLED
             for (int i = 0; i < 3; ++i) meet_side(to_[i], to_[next_axis(i)]);
         }
-        const double time = begins_before_ && ends_after_ ? 0 : least_ < infinity<double> ? least_ : -1;
-        return has_direction_ || time == 0 ? time : -1;
+        if (begins_before_ && ends_after_) return 0;
+        return has_direction_ && least_ < infinity<double> ? least_ : -1;
     }
 
     /// Of a line along z, from the point upward.

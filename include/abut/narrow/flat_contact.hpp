@@ -70,19 +70,24 @@ struct plane_heights {
     }
 };
 
-ABUT_HD constexpr double& coordinate(point& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
-ABUT_HD constexpr double coordinate(const point& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
+template <class P>
+ABUT_HD constexpr auto& coordinate(P& p, int axis) {
+    return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+}
 
 /// One side of a box: what is greater than the limit along an axis is beyond it, or what is less if the sign is -1.
+template <class N>
 struct box_side {
     int axis;
-    double sign, limit;
+    bool is_lower;
+    double limit;
 
-    [[nodiscard]] ABUT_HD constexpr double beyond(const point& p) const {
-        return sign * plain_sum(coordinate(p, axis), -limit);
+    [[nodiscard]] ABUT_HD constexpr N beyond(const vec3<N>& p) const {
+        const N over = coordinate(p, axis) - N::of(limit);
+        return is_lower ? -over : over;
     }
-    [[nodiscard]] ABUT_HD constexpr point onto(point p) const {
-        coordinate(p, axis) = limit;
+    [[nodiscard]] ABUT_HD constexpr vec3<N> onto(vec3<N> p) const {
+        coordinate(p, axis) = N::of(limit);
         return p;
     }
 };
@@ -91,16 +96,37 @@ ABUT_HD constexpr double into_range(double x, double lower, double upper) {
     return x < lower ? lower : x > upper ? upper : x;
 }
 
-/// A point of a box and a triangle that touch.
-ABUT_HD constexpr point middle_in_box(const point& lower, const point& upper, const corners& t) {
-    cut_polygon left{{t.at[0], t.at[1], t.at[2]}, 3};
+/// A point of a box, and how far off a triangle it may be that touches the box: as far as it had to be moved into the box.
+struct point_in_box {
+    point at;
+    double moved;
+};
+
+/// The middle of what a triangle has in a box.
+template <class N>
+ABUT_NOINLINE ABUT_HD constexpr point_in_box middle_in_box_by(const point& lower, const point& upper, const corners& t,
+                                                              double slack) {
+    cut_polygon<N> left(t);
     for (int axis = 0; axis < 3; ++axis) {
-        left.cut(box_side{axis, 1, coordinate(upper, axis)}, 0x1p-51);
-        left.cut(box_side{axis, -1, coordinate(lower, axis)}, 0x1p-51);
+        left.cut(box_side<N>{axis, false, coordinate(upper, axis)}, slack);
+        left.cut(box_side<N>{axis, true, coordinate(lower, axis)}, slack);
     }
     const point middle = left.middle();
-    return {into_range(middle.x, lower.x, upper.x), into_range(middle.y, lower.y, upper.y),
-            into_range(middle.z, lower.z, upper.z)};
+    const point in{into_range(middle.x, lower.x, upper.x), into_range(middle.y, lower.y, upper.y),
+                   into_range(middle.z, lower.z, upper.z)};
+    return {in, largest_of(plain_difference(in, middle))};
+}
+
+/// A point of a box and a triangle that touch. Where they have but a sliver in common, along which a cut goes, roundings
+/// move the cut's end by many times as much as they are. Of doubles that may be more than contact_bound, and is done again
+/// in sums of two.
+template <scalar T>
+ABUT_HD constexpr point middle_in_box(const point& lower, const point& upper, const corners& t) {
+    constexpr double slack = 0x1p-51;
+    const point_in_box found = middle_in_box_by<one_double>(lower, upper, t, slack);
+    if (std::same_as<T, float> || !(found.moved > slack)) return found.at;
+    const point_in_box again = middle_in_box_by<two_doubles>(lower, upper, t, 0x1p-90);
+    return again.moved < found.moved ? again.at : found.at;
 }
 
 }  // namespace abut::detail::contact_math
@@ -146,7 +172,7 @@ ABUT_NOINLINE ABUT_HD constexpr contact<T> contact_between(const aabb<T>& s, con
     offer_both({1, 0, 0});
     offer_both({0, 1, 0});
     offer_both({0, 0, 1});
-    return assembled<T>(scale, middle_in_box(lower, upper, corner), way);
+    return assembled<T>(scale, middle_in_box<T>(lower, upper, corner), way);
 }
 
 /// Segments and points are triangles with equal corners, of a box and of a plane.

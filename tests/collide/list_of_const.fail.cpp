@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+// expect: abut: posed_pair of the type of a const index: leave out const where the index is made
+#include <abut/abut.hpp>
+
+int main() {
+    const abut::serial on;
+    const auto tree = abut::make_bvh(on, abut::triangle_soup<float>());
+    const std::vector<abut::posed_pair<decltype(tree)>> list{{abut::posed(tree, {}), abut::posed(tree, {})}};
+    return abut::any(on, list);
+}
