@@ -4,18 +4,21 @@
 usage: report.py [--check]                  compares the pages with the results; fails where they differ
        report.py --write                    writes the pages and docs/figures
        report.py --take FOLDER [--write]    first takes the files FOLDER/cpu/NAME.json and FOLDER/cuda/NAME.json that benchmarks left
+       report.py --stale                    lists results of programs whose sources have changed since, by git
        report.py --page OUT.md FOLDER       writes a page of its own, with plots beside it, from such a folder alone
 
 In a page, lines between `<!-- NAME: begin -->` and `<!-- NAME: end -->` are a table of bench/report_*.py, and what is
 between `<!-- v: NAME -->` and `<!-- /v -->` is a value. A table of figures that stands elsewhere is an error, unless it is of
 constants, which no program measures: then the line `<!-- constants -->` is before it. A number in a sentence that reads like
-a measurement (a time, a rate, a share, so many times faster) is an error as well, unless nobody measured it: a bound, a
-setting or an assumption has `<!-- stated -->` in its line. cmake/report.sh runs the benchmarks.
+a measurement (a time, a rate, a share, so many of so many, bytes, so many times faster) is an error as well, unless nobody
+measured it: a bound, a setting, a size by design or an assumption has `<!-- stated -->` in its line. cmake/report.sh runs the
+benchmarks.
 """
 
 import argparse
 import json
 import re
+import subprocess
 import sys
 from pathlib import Path
 
@@ -36,9 +39,12 @@ NUMBER = r"(?:\d[\d.,^]*|half|third|quarters?|fifth|tenths?|hundredth|twice|two|
     r"dozen|hundreds?|thousands?|few|some)"
 UNIT = r"(?:[num]s|[\u00b5\u03bc]s|s|(?:nano|micro|milli)?seconds?|minutes?|hours?|cycles|%|per cent|[kMGT]i?B/s|" \
     r"(?:\w+ )?(?:a|per) second|\w*/s)"
+MEMORY = r"(?:bytes?(?! order)|B|[kMGT]i?B)"
 MEASURED = re.compile("|".join((
     rf"\b{NUMBER}(?: |(?<=\d))(?:to {NUMBER} |or {NUMBER} )?"
     rf"(?:(?:an? )?(?:hundred|thousand|million|billion) )?(?:of )?(?:an? )?{UNIT}(?!\w)",
+    rf"\b{NUMBER}(?<=\w)(?: |(?<=\d)){MEMORY}(?!\w)",
+    r"\b\d[\d,.]* of (?:the |all )?\d",
     rf"\b{NUMBER} times (?:as (?:fast|slow|quick|long|much time)|faster|slower|quicker|longer|the (?:time|speed))",
     rf"\b{NUMBER} of the (?:time|speed|cost)\b",
     r"\b(?:twice|half) (?:as (?:fast|slow|quick|long)|the (?:time|speed)|that of)",
@@ -49,6 +55,8 @@ MEASURED = re.compile("|".join((
 # bench/footprint.py and bench/report_cuda_tests.py.
 NOT_MEASURED = {"cpu/bodies", "cpu/hulls", "cpu/trade_others", "cpu/within"}
 WITHOUT_ROW = {"cpu/footprint_build", "cuda/predicates", "cuda/tests"}
+# Results that were committed before each had to say of which commit and day it is.
+UNDATED = {"cuda/predicates"}
 
 
 class Missing(Exception):
@@ -131,11 +139,17 @@ def read(path):
         sys.exit(f"{path}: not the results of a finished run: {problem!r}")
 
 
+def undated(context):
+    return any(context.get(key, "unknown") == "unknown" for key in ("commit", "date"))
+
+
 def take(folder, into):
-    """Brings what benchmarks left to where it is committed, small."""
+    """Brings what benchmarks left to where it is committed, small; nothing if some do not say of which commit they are."""
     found = sorted(p for kind in ("cpu", "cuda") for p in (folder / kind).glob("*.json"))
     if not found:
         sys.exit(f"{folder}: expected files cpu/NAME.json or cuda/NAME.json")
+    if nameless := [str(path) for path in found if undated(read(path)["context"])]:
+        sys.exit(f"{', '.join(nameless)}: of an unknown commit or date, not taken; programs find the commit in ABUT_COMMIT")
     for path in found:
         data = read(path)
         to = into / path.parent.name / path.name
@@ -240,8 +254,57 @@ def rows_and_results(results):
             yield f"bench/results/{name}.json is of {program}, and cmake/report.sh runs {rows[name]}"
 
 
+def undated_results(results):
+    nameless = {f"{path.parent.name}/{path.stem}" for path in results.path.glob("*/*.json") if undated(read(path)["context"])}
+    for name in sorted(nameless - UNDATED):
+        yield f"bench/results/{name}.json: of an unknown commit or date"
+    for name in sorted(UNDATED - nameless):
+        yield f"bench/report.py: {name} does not belong into its list of undated results"
+
+
+def sources_of(program):
+    """A program and all that it includes of this repository, by the text alone."""
+    found, todo = set(), [ROOT / "bench" / program]
+    while todo:
+        path = todo.pop()
+        if path in found or not path.exists():
+            continue
+        found.add(path)
+        for quoted, name in re.findall(r'^\s*#\s*include\s+(["<])([^">]+)[">]', path.read_text(encoding="utf-8"), re.M):
+            todo += [(path.parent / name).resolve()] if quoted == '"' else []
+            todo.append(ROOT / "include" / name)
+    return found
+
+
+def stale(results):
+    """Lines about results of which a source was changed after their commit; of those that nobody can tell as well."""
+    def git(*arguments):
+        return subprocess.run(["git", "-C", str(ROOT), *arguments], capture_output=True, text=True)
+
+    try:
+        shallow = git("rev-parse", "--is-shallow-repository")
+    except OSError:
+        return ["there is no git: which results are stale is not known"]
+    if shallow.stdout.strip() != "false":
+        return ["there is no history of git here: which results are stale is not known"]
+    lines, sources = [], {}
+    names = sorted(f"{path.parent.name}/{path.stem}" for path in results.path.glob("*/*.json"))
+    for name, program in zip(names, report_tables.programs(results)):
+        commit, date = (results[name].context.get(key, "unknown") for key in ("commit", "date"))
+        if program not in sources:
+            sources[program] = [str(path.relative_to(ROOT)) for path in sorted(sources_of(program))]
+        # What a device's tests said, and what compiling costs, is of the whole library.
+        paths = sources[program] if not program.endswith(".py") else ["include"]
+        later = git("log", "--format=%h", f"{commit.rstrip('+')}..HEAD", "--", *paths)
+        if later.returncode != 0:
+            lines.append(f"{name}: commit {commit} is not in this history")
+        elif changes := later.stdout.split():
+            lines.append(f"{name}: of {commit}, {date}; later commits that changed its sources: {len(changes)}, the last {changes[0]}")
+    return lines
+
+
 def check(results):
-    problems = list(rows_and_results(results))
+    problems = list(rows_and_results(results)) + list(undated_results(results))
     for path in pages():
         text, here = path.read_text(encoding="utf-8"), []
         made = expected(text, results, here)
@@ -312,11 +375,15 @@ def main():
     parser.add_argument("--check", action="store_true")
     parser.add_argument("--write", action="store_true")
     parser.add_argument("--take", type=Path, metavar="FOLDER")
+    parser.add_argument("--stale", action="store_true")
     parser.add_argument("--page", type=Path, nargs=2, metavar=("OUT.md", "FOLDER"))
     arguments = parser.parse_args()
     committed = ROOT / "bench" / "results"
     if arguments.page:
         page(arguments.page[0], Folder(arguments.page[1]))
+        return
+    if arguments.stale:
+        print("\n".join(stale(Folder(committed))) or "none")
         return
     if arguments.take:
         take(arguments.take, committed)

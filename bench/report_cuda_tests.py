@@ -1,18 +1,19 @@
 # SPDX-License-Identifier: MIT
 """Turns what the programs of tests/cuda said on a device into results, and these into the tables of docs/results/cuda-h200.md.
 
-usage: report_cuda_tests.py FOLDER --json=OUT.json --device=NAME --driver=VERSION --cuda=VERSION --commit=HASH [--date=DATE]
+usage: report_cuda_tests.py FOLDER --json=OUT.json --device=NAME --driver=VERSION --cuda=VERSION [--commit=HASH] [--date=DATE]
                             [--flags=FLAGS]
 
 FOLDER has for a program its output, NAME.out, and its output under compute-sanitizer, NAME.memcheck, or one of them. And
 SHAPES.families, where test_cuda_predicates was run for the families of two shapes alone (sphere_triangle, say): rows of
-these go to a table of their own. OUT.json is bench/results/cuda/tests.json, or for families predicates.json;
-then `report.py --write` writes the pages.
+these go to a table of their own. The commit is that of the programs, by default what ABUT_COMMIT says; the date is today's.
+OUT.json is bench/results/cuda/tests.json, or for families predicates.json; then `report.py --write` writes the pages.
 """
 
 import argparse
 import datetime
 import json
+import os
 import re
 import sys
 from pathlib import Path
@@ -129,11 +130,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=Path)
     parser.add_argument("--json", type=Path, required=True)
-    for name in ("device", "driver", "cuda", "commit"):
+    for name in ("device", "driver", "cuda"):
         parser.add_argument(f"--{name}", required=True)
+    parser.add_argument("--commit", default=os.environ.get("ABUT_COMMIT", "unknown"))
     parser.add_argument("--date", default=datetime.date.today().isoformat())
     parser.add_argument("--flags", default="-arch=sm_90")
     arguments = parser.parse_args()
+    if "unknown" in (arguments.commit, arguments.date):
+        sys.exit("report_cuda_tests.py: of which commit and day are the programs? Expected --commit or ABUT_COMMIT")
     rows = rows_of(arguments.folder)
     if not rows:
         sys.exit(f"{arguments.folder}: expected files NAME.out, NAME.memcheck or SHAPES.families")

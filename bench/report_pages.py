@@ -229,6 +229,15 @@ def motion_left(results):
     return whole(sum(row["candidates"] * (row["open_late"] + row["no_time"]) for row in looks))
 
 
+@value("motion-ruled-out")
+def motion_ruled_out(results):
+    """Per cent of the candidates to which the first look says no."""
+    r = results["cpu/motion"]
+    looks = [r.rows[n] for n in r.names("look/")]
+    no = sum(row["candidates"] * sum(row[f"no_by_{k}"] for k in ("volume", "direction", "areas")) for row in looks)
+    return f"{100 * no / sum(row['candidates'] for row in looks):.0f}"
+
+
 @value("trade-funnel-off")
 def trade_funnel_off(results):
     return f"{100 * results['cpu/trade_scenes'].get('ccd/cloth-funnel/float', 'time_error'):.0f}"

@@ -297,6 +297,16 @@ def share_of_own(query, term):
     return percent
 
 
+def boxes_of_a_rank(results):
+    """Bytes of boxes that a query of two sets gathers for each rank."""
+    r = results["cpu/distributed"]
+    most, less = (r.get(f"pairs/curve/{sizes(r)[-1]}/{k}", "gathered_bytes") for k in (8, 4))
+    return (most - less) / 4
+
+
+VALUES["scaling-boxes-query"] = lambda results: whole(boxes_of_a_rank(results))
+VALUES["scaling-boxes-set"] = lambda results: whole(boxes_of_a_rank(results) / 2)
+VALUES["scaling-boxes-all"] = lambda results: f"{1e-6 * 10**4 * boxes_of_a_rank(results):.0f}"
 VALUES["scaling-nearest-limit"] = lambda results: whole(
     Model(results["cpu/distributed"]).ranks_where("nearest", "looking through shapes", 10**6))
 VALUES["scaling-most-neighbours"] = lambda results: whole(

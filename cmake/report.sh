@@ -172,6 +172,8 @@ if [ -z "$from" ]; then
         ABUT_COMMIT=$(git rev-parse --short=9 HEAD 2>/dev/null || echo unknown)
         if [ -n "$(git status --porcelain -- include bench 2>/dev/null)" ]; then ABUT_COMMIT=$ABUT_COMMIT+; fi
     fi
+    [ $docs = no ] || [ "$ABUT_COMMIT" != unknown ] ||
+        fail '--into-docs wants results that say of which commit they are: there is no git here, so set ABUT_COMMIT'
     : "${ABUT_FLAGS:=-O3 -DNDEBUG}"
     export ABUT_COMMIT ABUT_FLAGS
     # More ranks than cores, and also by root: Open MPI wants to be told, and others take no notice.

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: MIT
 """Runs bench/report.py --check, and sees that it notices what it is there for: on copies with a digit changed, a table that no
 program writes, a measurement in a sentence, results that are gone, a block without an end, README at odds with them. And
-runs cmake/report.sh with programs that measure nothing, and bench/report_cuda_tests.py of logs that are known.
+runs cmake/report.sh with programs that measure nothing, bench/report_cuda_tests.py of logs that are known, and report.py
+--take and --stale.
 
 usage: report.py REPOSITORY
 """
 
 import json
+import os
 import re
 import shutil
 import subprocess
@@ -49,6 +51,10 @@ MUTATIONS = {
     "a factor in a sentence": lambda r: append(r / "README.md", "\nIt is 17.4 times faster.\n"),
     "a share in a sentence": lambda r: append(r / "docs" / "results" / "contacts.md", "\nIt keeps some 80 % of them.\n"),
     "a rate in a sentence": lambda r: append(r / "docs" / "guide.md", "\nIt reads half a million inputs a second.\n"),
+    "bytes in a sentence": lambda r: append(r / "docs" / "building.md", "\nA tree of it takes 3.5 MiB here.\n"),
+    "so many of so many in a sentence": lambda r: append(r / "docs" / "building.md", "\nIt finds 1,234 of the 5,678.\n"),
+    "a number that the source has no more": lambda r: replace(r / "tests" / "project" / "viewer" / "read.test.mjs",
+                                                              "const tries = 4000", "const tries = 4001"),
     "a block of an unknown name": lambda r: append(r / "docs" / "building.md",
                                                    "<!-- nobody: begin -->\n<!-- nobody: end -->\n"),
     "a block without an end": lambda r: replace(r / "docs" / "benchmarks.md", "<!-- trade-cpu: end -->\n", ""),
@@ -64,6 +70,9 @@ MUTATIONS = {
                                                                    r / "docs" / "results" / "sphere-cylinder.md"),
     "a digit of what a device said": lambda r: replace(r / "bench" / "results" / "cuda" / "tests.json", '"failed": 0',
                                                        '"failed": 1'),
+    "results of an unknown commit": lambda r: replace(r / "bench" / "results" / "cpu" / "ties.json", '"commit": "',
+                                                      '"commit": "unknown", "was": "'),
+    "results of no date": lambda r: replace(r / "bench" / "results" / "cpu" / "ties.json", '"date": "', '"day": "'),
     "a plot that is gone": lambda r: (r / "docs" / "figures" / "trade-cpu.svg").unlink(),
 }
 
@@ -114,6 +123,60 @@ def try_script(root):
     return wrong
 
 
+def report(root, *arguments):
+    return subprocess.run([sys.executable, "-B", str(root / "bench" / "report.py"), *arguments], capture_output=True, text=True)
+
+
+def try_take(root):
+    """What is wrong with --take."""
+    with tempfile.TemporaryDirectory() as folder:
+        copy, new = Path(folder) / "copy", Path(folder) / "new"
+        shutil.copytree(root / "bench", copy / "bench")
+        (new / "cpu").mkdir(parents=True)
+        made, taken = new / "cpu" / "ties.json", copy / "bench" / "results" / "cpu" / "ties.json"
+        taken.unlink()
+        wrong = []
+        for what, says, status in (("an unknown commit", ('"commit": "', '"commit": "unknown", "was": "'), 1),
+                                   ("an unknown date", ('"date": "', '"day": "'), 1), ("a commit and a date", ("", ""), 0)):
+            shutil.copy(root / "bench" / "results" / "cpu" / "ties.json", made)
+            replace(made, *says)
+            done = report(copy, "--take", str(new))
+            if done.returncode != status or taken.exists() != (status == 0):
+                wrong.append(f"report.py --take of {what}: {done.returncode}, {done.stdout}{done.stderr}")
+        return wrong
+
+
+def try_stale(root):
+    """What is wrong with --stale."""
+    if shutil.which("git") is None:
+        return []
+    with tempfile.TemporaryDirectory() as folder:
+        copy, name = Path(folder), ["-c", "user.name=a", "-c", "user.email=a@b.invalid"]
+
+        def git(*arguments):
+            return subprocess.run(["git", "-C", folder, *arguments], capture_output=True, text=True, check=True).stdout.strip()
+
+        for part in ("bench", "include", "tests/support"):
+            shutil.copytree(root / part, copy / part)
+        for path in (copy / "bench" / "results").glob("*/*.json"):
+            if path.stem not in ("ties", "distance"):
+                path.unlink()
+        said = [report(copy, "--stale")]
+        git("init", "-q")
+        git("add", "-A")
+        git(*name, "commit", "-qm", "all")
+        for path in (copy / "bench" / "results" / "cpu").glob("*.json"):
+            replace(path, '"commit": "', f'"commit": "{git("rev-parse", "--short=9", "HEAD")}", "was": "')
+        said.append(report(copy, "--stale"))
+        append(copy / "bench" / "distance_scene.hpp", "\n")  # of bench/distance.cpp alone
+        git(*name, "commit", "-qam", "more")
+        said.append(report(copy, "--stale"))
+        expected = (r"there is no history of git here.*\n", r"cuda/distance: commit \w+ is not .*\ncuda/ties: .*\n",
+                    r"cpu/distance: of \w+, .*: 1, the last \w+\ncuda/distance: .*\ncuda/ties: .*\n")
+        return [f"report.py --stale: expected {text!r}, found {done.returncode}: {done.stdout}{done.stderr}"
+                for text, done in zip(expected, said) if done.returncode != 0 or not re.fullmatch(text, done.stdout)]
+
+
 # What programs of tests/cuda say, and the rows that it makes.
 LOGS = {"passes.out": "...\nAll tests passed (1 assertion in 1 test case)\n",
         "passes.memcheck": "All tests passed (12 assertions in 3 test cases)\n\n========= ERROR SUMMARY: 0 errors\n",
@@ -141,15 +204,21 @@ def try_logs(root):
                         *(f"--{key}={value}" for key, value in said.items())], check=True)
         made = json.loads(out.read_text(encoding="utf-8"))
         wrong = [f"report_cuda_tests.py: expected {ROWS}, found {made['rows']}"] if made["rows"] != ROWS else []
-        return wrong + [f"report_cuda_tests.py: it does not say {key}"
-                        for key in said if made["context"].get(key) != said[key]]
+        wrong += [f"report_cuda_tests.py: it does not say {key}" for key in said if made["context"].get(key) != said[key]]
+        for commit, status in (("unknown", 1), ("0123abc", 0)):  # of the environment
+            done = subprocess.run([sys.executable, "-B", root / "bench" / "report_cuda_tests.py", folder, f"--json={out}",
+                                   *(f"--{key}={said[key]}" for key in ("device", "driver", "cuda"))],
+                                  env={**os.environ, "ABUT_COMMIT": commit}, capture_output=True, text=True)
+            if done.returncode != status:
+                wrong.append(f"report_cuda_tests.py: of commit {commit} it ends with {done.returncode}")
+        return wrong
 
 
 def main():
     root = Path(sys.argv[1]).resolve()
     status, says = check(root)
     print(says, end="")
-    wrong = try_script(root) + try_logs(root)
+    wrong = try_script(root) + try_logs(root) + try_take(root) + try_stale(root)
     for line in wrong:
         print(line)
     failed = status != 0 or bool(wrong)
@@ -157,7 +226,7 @@ def main():
         with tempfile.TemporaryDirectory() as folder:
             copy = Path(folder)
             shutil.copy(root / "README.md", copy)
-            for part in ("docs", "bench", "cmake", "tests/predicate"):
+            for part in ("docs", "bench", "cmake", "tests/predicate", "tests/project/viewer"):
                 shutil.copytree(root / part, copy / part)
             mutate(copy)
             status, found = check(copy)
