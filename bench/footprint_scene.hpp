@@ -2,13 +2,17 @@
 #pragma once
 
 // Scenes from the least to the richest, to see what each step costs: what is not asked for costs nothing. A scene is one
-// query; its program is compiled with nothing else where FOOTPRINT_SCENE says which (bench/footprint.py does that).
+// query; its program is compiled with nothing else where FOOTPRINT_SCENE says which (bench/footprint.py does that). Without
+// that a scene has its elementary tests as well, so that they can be timed: of all pairs whose boxes meet, with neither
+// tests of boxes nor the walk that finds the pairs.
 
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -79,6 +83,23 @@ double bytes_of(const Mesh& mesh) {
     return static_cast<double>(sizeof(abut::vec3<float>) * mesh.view().vertices.count + sizeof(abut::face) * mesh.size());
 }
 
+/// The torus of the scenes in motion, whose one side is pushed through the other in the middle.
+inline auto pushed_torus() {
+    auto torus = scene::torus<float>(96, 82);
+    const abut::mesh<float> before(torus.vertices, torus.faces);
+    auto later = torus.vertices;
+    for (auto& v : later) {
+        if (v.x > 0) v.x -= 130 * std::exp(-v.y * v.y / 1000);
+    }
+    return abut::moving(before, before.with_vertices(abut::serial{}, later));
+}
+
+inline std::vector<abut::sphere<float>> balls_of_own_radii(const std::vector<abut::vec3<float>>& centers) {
+    std::vector<abut::sphere<float>> all;
+    for (std::size_t i = 0; i < centers.size(); ++i) all.push_back({centers[i], static_cast<float>(1 + i % 5)});
+    return all;
+}
+
 /// A query that can be asked again, with the sizes of what it asks about.
 struct prepared {
     std::function<double()> ask;
@@ -120,9 +141,8 @@ prepared prepare(const Policy& on) {
             }
         };
         if constexpr (own) {
-            std::vector<abut::sphere<float>> all;
-            for (std::size_t i = 0; i < n; ++i) all.push_back({centers[i], static_cast<float>(1 + i % 5)});
-            return with_spheres(abut::spheres<float>(all).copied_to(on), number(n * sizeof(abut::sphere<float>)));
+            return with_spheres(abut::spheres<float>(balls_of_own_radii(centers)).copied_to(on),
+                                number(n * sizeof(abut::sphere<float>)));
         } else {
             return with_spheres(abut::equal_spheres<float>(centers, 3).copied_to(on), number(n * sizeof(abut::vec3<float>)));
         }
@@ -153,15 +173,9 @@ prepared prepare(const Policy& on) {
             return {ask, of};
         }
     } else {
-        // A torus whose one side is pushed through the other in the middle.
-        auto torus = scene::torus<float>(96, 82);
-        const abut::mesh<float> before(torus.vertices, torus.faces);
-        auto later = torus.vertices;
-        for (auto& v : later) {
-            if (v.x > 0) v.x -= 130 * std::exp(-v.y * v.y / 1000);
-        }
-        const auto step = abut::moving(before, before.with_vertices(abut::serial{}, later)).copied_to(on);
-        const auto index = abut::make_impact_index(on, step);
+        const auto torus = pushed_torus();
+        const auto index = abut::make_impact_index(on, torus.copied_to(on));
+        const auto& before = torus.t0();
         const sizes of{number(before.size()), 2 * bytes_of(before) - number(sizeof(abut::face) * before.size()), 0, 0};
         const auto ask = [=] {
             if constexpr (Scene == moving_first)
@@ -175,13 +189,154 @@ prepared prepare(const Policy& on) {
     }
 }
 
-/// visit(name, scene) for all scenes, or for the one that is compiled alone.
+#ifndef FOOTPRINT_SCENE
+// What is asked about a pair.
+struct touch_test {
+    template <class S, class U>
+    ABUT_HD double operator()(const S& s, const U& t) const {
+        return abut::intersects(s, t) ? 1 : 0;
+    }
+};
+struct contact_test {
+    template <class S, class U>
+    ABUT_HD double operator()(const S& s, const U& t) const {
+        const auto contact = abut::contact_of(s, t);
+        return contact ? static_cast<double>(contact->depth) : -1;
+    }
+};
+template <abut::motion_arithmetic A>
+struct time_test {
+    template <class S, class U>
+    ABUT_HD double operator()(const S& s, const U& t) const {
+        const abut::detail::time_in_motion<A> judge{};
+        return judge.decide(s, t) == abut::verdict::no ? -1 : judge.time(s, t);
+    }
+};
+
+template <class S, class U>
+struct shape_pair {
+    S s;
+    U t;
+};
+template <class Test, class Pair>
+struct test_pair {
+    const Pair* pairs;
+    std::size_t count;
+    double* answers;
+    ABUT_HD void operator()(std::size_t i) const {
+        const Pair& pair = pairs[i % count];
+        answers[i] = Test{}(pair.s, pair.t);
+    }
+};
+
+/// Tests that can be run again. On a device there are a million or so, all pairs again and again: a launch for a few
+/// thousand would measure the launch.
+struct tests {
+    double count = 0;
+    std::function<void()> run;
+};
+template <class Test, class Policy, class Pair>
+tests tests_of(const Policy& on, const std::vector<Pair>& pairs) {
+    struct room {
+        abut::execution::buffer_of<Policy, Pair> pairs;
+        abut::execution::buffer_of<Policy, double> answers;
+    };
+    const std::size_t n = pairs.size(), all = abut::host_policy<Policy> ? n : n * ((std::size_t{1} << 20) / n + 1);
+    const auto there = std::make_shared<room>(room{{on, n}, {on, all}});
+    upload(on, pairs.data(), n, there->pairs.data());
+    synchronize(on);
+    const test_pair<Test, Pair> test{there->pairs.data(), n, there->answers.data()};
+    return {static_cast<double>(all), [=] {
+                (void)there;
+                for_each_index(on, all, test);
+            }};
+}
+
+/// The shapes of two views in host memory whose boxes meet, of pairs that are wanted.
+template <class A, class B, class Wanted>
+auto pairs_near(const A& a, const B& b, const Wanted& wanted) {
+    const auto boxes_of = [](const auto& shapes) {
+        std::vector<abut::aabb<float>> boxes;
+        for (std::size_t i = 0; i < shapes.size(); ++i) boxes.push_back(bounds(shapes[i]));
+        return boxes;
+    };
+    const auto of_a = boxes_of(a), of_b = boxes_of(b);
+    const abut::serial on;
+    const abut::boxes_view<float> view_a(of_a.data(), of_a.size()), view_b(of_b.data(), of_b.size());
+    const auto found = abut::pairs(on, abut::make_bvh(on, view_a), view_b);
+    std::vector<shape_pair<std::remove_cvref_t<decltype(a[0])>, std::remove_cvref_t<decltype(b[0])>>> near;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const abut::index_pair ids = found.data()[i];
+        if (wanted(ids.a, ids.b)) near.push_back({a[ids.a], b[ids.b]});
+    }
+    return near;
+}
+
+/// The tests of a scene; of one that asks for `any`, where no boxes meet, those that `count` has.
+template <int Scene, class Policy>
+std::vector<tests> scene_tests(const Policy& on) {
+    const auto all = [](std::uint32_t, std::uint32_t) { return true; };
+    const auto placed = [](const auto& view) {
+        using view_type = std::remove_cvref_t<decltype(view)>;
+        if constexpr (Scene == spheres_posed || Scene == spheres_contacts || Scene == meshes_posed ||
+                      Scene == meshes_contacts) {
+            return abut::posed_view<view_type>{view, pose};
+        } else {
+            return view;
+        }
+    };
+    using test = std::conditional_t<Scene == spheres_contacts || Scene == meshes_contacts, contact_test, touch_test>;
+    const abut::serial host;
+    if constexpr (Scene <= spheres_contacts) {
+        const auto mesh = torus_mesh(host);
+        const auto centers = scene::centers<float>(balls);
+        if constexpr (Scene >= spheres_own_radii) {
+            const abut::spheres<float> set(balls_of_own_radii(centers));
+            return {tests_of<test>(on, pairs_near(placed(mesh.view()), set.view(), all))};
+        } else {
+            const abut::equal_spheres<float> set(centers, 3);
+            return {tests_of<test>(on, pairs_near(mesh.view(), set.view(), all))};
+        }
+    } else if constexpr (Scene <= meshes_contacts) {
+        const auto a = torus_mesh(host), b = torus_mesh(host, 30);
+        return {tests_of<test>(on, pairs_near(a.view(), placed(b.view()), all))};
+    } else {
+        using timed = time_test<std::conditional_t<Scene == moving_conservative, abut::conservative, abut::filtered>>;
+        const auto index = abut::make_impact_index(host, pushed_torus());
+        const auto faces = index.mesh().t0().view().faces;
+        const auto edges = index.edges().set().t0().view().edges;
+        const auto vertex_face =
+            pairs_near(index.vertices().set().view(), index.faces().set().view(), [&](std::uint32_t v, std::uint32_t f) {
+                return abut::detail::share_no_vertex(v, abut::detail::corners_at(faces, f));
+            });
+        const auto edge_edge =
+            pairs_near(index.edges().set().view(), index.edges().set().view(), [&](std::uint32_t i, std::uint32_t j) {
+                return i < j &&
+                       abut::detail::share_no_vertex(abut::detail::corners_at(edges, i), abut::detail::corners_at(edges, j));
+            });
+        return {tests_of<timed>(on, vertex_face), tests_of<timed>(on, edge_edge)};
+    }
+}
+
+inline double count_of(const std::vector<tests>& all) {
+    double n = 0;
+    for (const tests& t : all) n += t.count;
+    return n;
+}
+inline void run(const std::vector<tests>& all) {
+    for (const tests& t : all) t.run();
+}
+#endif
+
+/// visit(name, scene, tests) for all scenes, or visit(name, scene) for the one that is compiled alone.
 template <class Policy, class Visit>
 void for_each_scene(const Policy& on, const Visit& visit) {
 #ifdef FOOTPRINT_SCENE
     visit(name_of[FOOTPRINT_SCENE], prepare<FOOTPRINT_SCENE>(on));
 #else
-    [&]<std::size_t... I>(std::index_sequence<I...>) { (visit(name_of[I], prepare<static_cast<int>(I)>(on)), ...); }
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+        (visit(name_of[I], prepare<static_cast<int>(I)>(on), scene_tests<static_cast<int>(I)>(on)), ...);
+    }
     (std::make_index_sequence<scenes>{});
 #endif
 }

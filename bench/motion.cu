@@ -13,6 +13,8 @@
 //   KIND/walk/part/N              the best schedule on an N-th of the blocks
 //   KIND/ARITHMETIC               one elementary test of each candidate in its first stage, and its second, of what the
 //                                 first left, with the time. Counters: items, left, found
+//   KIND/ARITHMETIC/wrong         missed_per_million and phantom_per_million: answers that differ from those of the host's
+//                                 `exact`, of candidates at even steps, 65,536 at most
 //   halves/from_roots             self_impacts of the first half of the step, and of the second, with refits
 //   halves/from_fronts            the same, each from the fronts that the other left. Counters: pairs of nodes that they
 //   hold,
@@ -21,10 +23,12 @@
 //
 // Each figure is the median of 21 runs by CUDA events around the whole call.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <type_traits>
+#include <unordered_map>
 #include <vector>
 
 #include <abut/cuda.hpp>
@@ -75,6 +79,64 @@ struct time_candidate {
     }
 };
 
+/// Candidates, every so many, with the shapes that they are of, and whether these touch.
+template <class View>
+struct sampled {
+    using s_type = decltype(View().shape_a(0));
+    using t_type = decltype(View().shape_b(0));
+    struct pair {
+        std::uint64_t key;
+        s_type s;
+        t_type t;
+    };
+    struct copy_pair {
+        View both;
+        const std::uint64_t* keys;
+        std::size_t step;
+        pair* pairs;
+        ABUT_HD void operator()(std::size_t i) const {
+            const std::uint64_t key = keys[i * step];
+            pairs[i] = {key, both.shape_a(key), both.shape_b(key)};
+        }
+    };
+
+    std::vector<pair> pairs;
+    std::vector<bool> truth;
+
+    sampled(const abut::cuda& on, const View& both, const key_queue& near, std::size_t count) {
+        constexpr std::size_t most = std::size_t{1} << 16;
+        if (count == 0) return;
+        const std::size_t step = (count + most - 1) / most;
+        pairs.resize((count + step - 1) / step);
+        abut::execution::buffer_of<abut::cuda, pair> copies(on, pairs.size());
+        for_each_index(on, pairs.size(), copy_pair{both, near.data(), step, copies.data()});
+        copies.read(pairs.data());
+        for (const pair& p : pairs) truth.push_back(time_in_motion<abut::exact>{}.time_on_host(p.s, p.t) >= 0);
+    }
+
+    /// Of what touches by a judge, and what it leaves to the host.
+    template <class Judge>
+    counters wrong(const std::vector<timed_key>& hits, const Judge& judge) const {
+        std::unordered_map<std::uint64_t, double> times;
+        for (const timed_key& hit : hits) times[hit.key] = hit.time;
+        std::size_t missed = 0, phantom = 0;
+        for (std::size_t i = 0; i < pairs.size(); ++i) {
+            const auto at = times.find(pairs[i].key);
+            double time = at == times.end() ? time_in_bits::none : at->second;
+            if (time == time_in_bits::unknown) time = judge.time_on_host(pairs[i].s, pairs[i].t);
+            missed += truth[i] && time < 0;
+            phantom += time >= 0 && !truth[i];
+        }
+        const auto per_million = [&](std::size_t n) {
+            return 1e6 * static_cast<double>(n) / static_cast<double>(pairs.size());
+        };
+        return {{"sample", static_cast<double>(pairs.size())},
+                {"hits", static_cast<double>(std::count(truth.begin(), truth.end(), true))},
+                {"missed_per_million", per_million(missed)},
+                {"phantom_per_million", per_million(phantom)}};
+    }
+};
+
 template <class Pairing>
 std::uint64_t count_candidates(const abut::cuda& on, const Pairing& pairing) {
     abut::execution::work_count<device_space> count(on);
@@ -94,15 +156,16 @@ counters reported(std::uint64_t candidates, const abut::schedule_report& r) {
             {"idle_share", r.idle_share}};
 }
 
-template <abut::motion_arithmetic A, class Pairing>
-void add_tests(const abut::cuda& on, table& out, const std::string& name, const Pairing& pairing, const key_queue& near,
-               std::size_t count) {
-    const auto both = pairing.view();
-    using view = std::remove_const_t<decltype(both)>;
+template <abut::motion_arithmetic A, class View>
+void add_tests(const abut::cuda& on, table& out, const std::string& name, const View& both, const key_queue& near,
+               std::size_t count, const sampled<View>& sample) {
     using judge = time_in_motion<A>;
     std::size_t left = 0;
     const auto first = [&](key_queue& open) {
-        for_each_index(on, count, try_candidate<view, judge>{both, {}, near.data()}, open);
+        for_each_index(on, count, try_candidate<View, judge>{both, {}, near.data()}, open);
+    };
+    const auto second = [&](const key_queue& open, timed_queue<abut::cuda>& hits) {
+        for_each_index(on, open.size(), time_candidate<View, judge>{both, {}, open.data()}, hits);
     };
     out.add(joined({name, "first"}), 0, [&]() -> counters {
         key_queue open(on, count + 1);
@@ -110,14 +173,23 @@ void add_tests(const abut::cuda& on, table& out, const std::string& name, const 
         left = open.size();
         return {{"items", static_cast<double>(count)}, {"left", static_cast<double>(left)}};
     });
-    if (left == 0) return;
     key_queue open(on, count + 1);
     first(open);
-    out.add(joined({name, "second"}), 0, [&]() -> counters {
-        timed_queue<abut::cuda> hits(on, std::size_t{1} << 20);
-        for_each_index(on, open.size(), time_candidate<view, judge>{both, {}, open.data()}, hits);
-        return {{"items", static_cast<double>(open.size())}, {"found", static_cast<double>(hits.size())}};
-    });
+    timed_queue<abut::cuda> touching(on, left + 1);
+    if (left > 0) {
+        second(open, touching);
+        out.add(joined({name, "second"}), 0, [&]() -> counters {
+            timed_queue<abut::cuda> hits(on, std::size_t{1} << 20);
+            second(open, hits);
+            return {{"items", static_cast<double>(open.size())}, {"found", static_cast<double>(hits.size())}};
+        });
+    }
+    if (sample.pairs.empty()) return;
+    abut::execution::buffer_of<abut::cuda, timed_key> copy_of(on, touching.size());
+    copy(on, touching.data(), touching.size(), copy_of.data());
+    std::vector<timed_key> hits(touching.size());
+    copy_of.read(hits.data());
+    out.note(joined({name, "wrong"}), sample.wrong(hits, judge{}));
 }
 
 template <class Make>
@@ -149,9 +221,11 @@ void add_kind(const abut::cuda& on, table& out, const std::string& name, const M
     }
     key_queue near(on, count + 1);
     pairing.judge_candidates(on, [&](const auto& loop) { loop(gather_candidate{}, near); });
-    add_tests<abut::fast>(on, out, joined({name, "fast"}), pairing, near, count);
-    add_tests<abut::filtered>(on, out, joined({name, "filtered"}), pairing, near, count);
-    add_tests<abut::conservative>(on, out, joined({name, "conservative"}), pairing, near, count);
+    const auto both = pairing.view();
+    const sampled sample(on, both, near, count);
+    add_tests<abut::fast>(on, out, joined({name, "fast"}), both, near, count, sample);
+    add_tests<abut::filtered>(on, out, joined({name, "filtered"}), both, near, count, sample);
+    add_tests<abut::conservative>(on, out, joined({name, "conservative"}), both, near, count, sample);
 }
 
 template <abut::scalar T>

@@ -16,7 +16,7 @@ from matplotlib.lines import Line2D  # noqa: E402
 from report_core import ARITHMETICS, LITERATURE, SCALARS  # noqa: E402
 from report_extremes import EXTREMES, PAIR_KINDS  # noqa: E402
 from report_motion import motion_scenes  # noqa: E402
-from report_predicates import IN_MOTION, IN_TIME, INPUTS, OTHERS, PREDICATES  # noqa: E402
+from report_predicates import IN_MOTION, IN_TIME, INPUTS, OTHERS, PREDICATES, WITHIN  # noqa: E402
 from report_queries import ANY_SCENES, BUILDERS, SIZES, SPHERES, descents_of, of_size, policies  # noqa: E402
 from report_scaling import DEALS, Model, rank_counts, sizes  # noqa: E402
 
@@ -96,7 +96,7 @@ def few_ticks(low, high):
 
 def trade(r, million_a_second, predicates=PREDICATES, arithmetics=ARITHMETICS):
     predicates = {p: name for p, name in predicates.items() if r.names(p + "/")}
-    figure, axes = grid(len(predicates), sharey=True)
+    figure, axes = grid(len(predicates), min(3, len(predicates)), sharey=True)
     for axis, (predicate, name) in zip(axes, predicates.items()):
         for scalar in SCALARS:
             for kind in INPUTS:
@@ -142,7 +142,7 @@ def trade_cuda(results):
 
 @plot("trade-others-cpu")
 def trade_others_cpu(results):
-    return trade(results["cpu/trade_others"], lambda r, name: 1e3 / r.get(name, "ns"), {**OTHERS, **IN_MOTION}, IN_TIME)
+    return trade(results["cpu/trade_others"], lambda r, name: 1e3 / r.get(name, "ns"), {**OTHERS, **WITHIN, **IN_MOTION}, IN_TIME)
 
 
 @plot("trade-others-cuda")
@@ -150,35 +150,67 @@ def trade_others_cuda(results):
     return trade(results["cuda/trade_others"], lambda r, name: r.get(name, "pairs") / r.get(name) / 1e3, OTHERS)
 
 
-@plot("trade-motion")
-def trade_motion(results):
-    r = results["cpu/motion"]
+def motion(r, scenes, points):
+    """points(r, kind, scene, scalar, arithmetic) are million candidates a second, missed and phantom per million; or nothing."""
     figure, axes = grid(2, 2, height=3.2, sharey=True)
-    marks = dict(zip(r.parts("time/", 1), "oXs^D"))
+    marks = dict(zip(scenes, "oXs^Dv"))
+    drawn = 0
     for axis, kind, title in zip(axes, ("vertex_face", "edge_edge"), ("vertex, face", "edge, edge")):
-        for name in r.names("time/"):
-            _, scene, scalar, what, a = name.split("/")
-            missed, phantom = (r.get(name, f"{key}_per_million") for key in ("missed", "phantom"))
-            if what == kind and missed is not None:
-                axis.plot(r.get(name, "items_per_second") / 1e6, max(missed + phantom, 0.3), marks[scene], color=COLOURS[a],
-                          clip_on=False,
-                          fillstyle="full" if scalar == "float" else "none", markersize=7)
+        for scene, mark in marks.items():
+            for scalar in SCALARS:
+                for a in IN_TIME:
+                    speed, missed, phantom = points(r, kind, scene, scalar, a)
+                    if speed is None or missed is None:
+                        continue
+                    axis.plot(speed, max(missed + phantom, 0.3), mark, color=COLOURS[a], clip_on=False,
+                              fillstyle="full" if scalar == "float" else "none", markersize=7)
+                    drawn += 1
         axis.set_title(title)
         axis.set_yscale("log")
         axis.set_ylim(0.2, 1e6)
         axis.set_yticks([0.3, 10, 1e3, 1e5], ["0", "10", "1,000", "100,000"])
         axis.minorticks_off()
         axis.set_xlim(0)
+        axis.xaxis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda v, _: f"{v:,g}"))
         axis.set_xlabel("million candidates a second")
+    if drawn == 0:
+        raise LookupError("no answers were compared")
     axes[0].set_ylabel("wrong answers per million")
     handles = [Line2D([], [], marker="o", linestyle="", color=COLOURS[a], label=a) for a in ("fast", "conservative",
                                                                                              "filtered")]
     handles += [Line2D([], [], marker=m, linestyle="", color=GREY, label=s) for s, m in marks.items()]
     handles += [Line2D([], [], marker="o", linestyle="", color=GREY, fillstyle=f, label=s) for s,
                 f in (("float", "full"), ("double", "none"))]
-    below(figure, handles, 8)
+    below(figure, handles, 5 if len(handles) > 8 else 8)
     figure.suptitle(f"Features in motion, candidates of scenes: {of_machine(r)}", color=GREY)
     return figure
+
+
+@plot("trade-within-cuda")
+def trade_within_cuda(results):
+    return trade(results["cuda/trade_within"], lambda r, name: r.get(name, "pairs") / r.get(name) / 1e3, WITHIN)
+
+
+@plot("trade-motion")
+def trade_motion(results):
+    r = results["cpu/motion"]
+
+    def points(r, kind, scene, scalar, a):
+        at = f"time/{scene}/{scalar}/{kind}/{a}"
+        speed = r.get(at, "items_per_second")
+        return speed and speed / 1e6, r.get(at, "missed_per_million"), r.get(at, "phantom_per_million")
+    return motion(r, r.parts("time/", 1), points)
+
+
+@plot("trade-motion-cuda")
+def trade_motion_cuda(results):
+    def points(r, kind, scene, scalar, a):
+        at = f"{scene}/{scalar}/{kind}/{a}/"
+        first = r.get(at + "first")
+        speed = first and r.get(at + "first", "items") / (first + (r.get(at + "second") or 0)) / 1e3
+        return speed, r.get(at + "wrong", "missed_per_million"), r.get(at + "wrong", "phantom_per_million")
+    r = results["cuda/motion"]
+    return motion(r, list(dict.fromkeys(s.split("/")[0] for s in motion_scenes(r))), points)
 
 
 def cost(r, time):

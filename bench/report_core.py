@@ -64,10 +64,10 @@ def table(head, rows, left=1):
     return lines + ["| " + " | ".join(row) + " |" for row in rows] + [""]
 
 
-def filled(head, rows):
+def filled(head, rows, left=1):
     """A table of those columns that hold something."""
-    keep = [i for i in range(len(head)) if any(row[i] for row in rows)]
-    return table([head[i] for i in keep], [[row[i] for i in keep] for row in rows])
+    keep = [i for i in range(len(head)) if i < left or any(row[i] for row in rows)]
+    return table([head[i] for i in keep], [[row[i] for i in keep] for row in rows], left)
 
 
 def made_on(r, more=""):

@@ -101,13 +101,18 @@ def motion_cuda_tests(results):
             for a in ("fast", "filtered", "conservative"):
                 at = f"{s}/{kind}/{a}/"
                 second = shown(r.get(at + "second"))
+                missed, phantom = (r.get(at + "wrong", f"{key}_per_million") for key in ("missed", "phantom"))
                 cells += [shown(r.get(at + "first")) + (f" + {second}" if second else ""),
                           whole(r.get(at + "first", "left")),
-                          whole(r.get(at + "second", "found"))]
+                          whole(r.get(at + "second", "found")),
+                          "" if missed is None else f"{whole(missed)} / {whole(phantom)}"]
             rows.append([s, name] + cells)
     head = [f"`{a}`: {what}" for a in ("fast", "filtered", "conservative") for what in ("first + second, ms", "left",
-                                                                                        "found")]
-    return table(["scene", ""] + head, rows, 2) + made_on(r)
+                                                                                        "found", "missed / phantom")]
+    plot = ["![Throughput against wrong answers per million, in motion, device](figures/trade-motion-cuda.svg)", ""]
+    compared = any(n.endswith("/wrong") for n in r.rows)
+    return (plot if compared else []) + filled(["scene", ""] + head, rows, 2) + \
+        made_on(r, "; missed and phantom are per million candidates, by `exact`" if compared else "")
 
 
 SCHEDULES = ("shared_list", "static_partition", "work_stealing", "lazy_work_stealing")

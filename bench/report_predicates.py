@@ -11,7 +11,8 @@ PREDICATES = {"triangle_triangle": "triangle, triangle", "segment_triangle": "se
               "box_triangle": "box, triangle", "plane_triangle": "plane, triangle"}
 # Of bench/trade_others.hpp, and features in motion.
 OTHERS = {"sphere_sphere": "sphere, sphere", "capsule_capsule": "capsule, capsule", "box_sphere": "box, sphere",
-          "box_capsule": "box, capsule", "hull_hull": "hull, hull"}
+          "box_capsule": "box, capsule", "ray_triangle": "ray, triangle", "hull_hull": "hull, hull"}
+WITHIN = {"triangles_within": "triangles within a distance", "capsules_within": "capsules within a distance"}
 IN_MOTION = {"vertex_face": "vertex, face in motion", "edge_edge": "edge, edge in motion"}
 IN_TIME = ("fast", "conservative", "filtered", "exact")
 INPUTS = ("random", "touching", "lattice")
@@ -65,19 +66,27 @@ def trade_others_cpu(results):
     pairs = r.get("sphere_sphere/random/float/fast", "pairs")
     return ["![Throughput against wrong answers per million, other pairs, one core](figures/trade-others-cpu.svg)", "",
             "Time of a pair on one core, and wrong answers per million:", ""] + \
-        trade(r, lambda r, n: r.get(n, "ns"), OTHERS) + \
+        trade(r, lambda r, n: r.get(n, "ns"), {**OTHERS, **WITHIN}) + \
         ["Time of impact of a pair, and whether there is one: missed and phantom per million:", ""] + \
         table(["pairs", ""] + [f"`{a}`, ns" for a in IN_TIME] + [f"`{a}`: missed / phantom" for a in IN_TIME], rows, 2) + \
         made_on(r, f"; {pairs:,} pairs a row")
 
 
+def on_a_device(r, what, figure, predicates):
+    pairs = r.get(next(iter(r.names(next(iter(predicates)) + "/"))), "pairs")
+    return [f"![Throughput against wrong answers per million, {what}, device](figures/{figure}.svg)", "",
+            "Time of a pair, all pairs of a row at once, one a thread; and wrong answers per million:", ""] + \
+        trade(r, lambda r, n: r.get(n) and 1e6 * r.get(n) / pairs, predicates) + made_on(r, f"; {pairs:,} pairs a row")
+
+
 @in_table("trade-others-cuda")
 def trade_others_cuda(results):
-    r = results["cuda/trade_others"]
-    pairs = r.get("sphere_sphere/random/float/fast", "pairs")
-    return ["![Throughput against wrong answers per million, other pairs, device](figures/trade-others-cuda.svg)", "",
-            "Time of a pair, all pairs of a row at once, one a thread; and wrong answers per million:", ""] + \
-        trade(r, lambda r, n: r.get(n) and 1e6 * r.get(n) / pairs, OTHERS) + made_on(r, f"; {pairs:,} pairs a row")
+    return on_a_device(results["cuda/trade_others"], "other pairs", "trade-others-cuda", OTHERS)
+
+
+@in_table("trade-within-cuda")
+def trade_within_cuda(results):
+    return on_a_device(results["cuda/trade_within"], "distances", "trade-within-cuda", WITHIN)
 
 
 @in_table("trade-stages")

@@ -708,14 +708,15 @@ def footprint(results):
         each = r.get(name, "elements")
         rows.append([name.replace("/", ": ", 1), whole(each), f"{r.get(name, 'set_bytes') / each:.0f}",
                      whole(r.get(name, "index_bytes") / 1024),
-                     shown(r.get(name)), shown(cuda.get(name)), shown(compiled.get(name, "gcc_seconds")),
+                     shown(r.get(name)), shown(cuda.get(name)), shown(r.get(name, "test_ns")),
+                     shown(1e6 * test / cuda.get(f"{name}/test", "tests")) if (test := cuda.get(f"{name}/test")) else "",
+                     shown(compiled.get(name, "gcc_seconds")),
                      whole(compiled.get(name, "gcc_megabytes")),
                      whole((compiled.get(name, "gcc_code") or 0) / 1024)] +
                     [whole(compiled.get(name, f"nvcc_{k}"))
                      for k in ("seconds", "kernels", "registers", "stack", "instructions")])
-    head = ["scene: question", "elements", "bytes of each", "trees, KiB", "one core, ms", "device, ms", "g++, s", "g++, MB",
-            "code, KiB",
-            "nvcc, s", "kernels", "registers", "stack", "instructions"]
+    head = ["scene: question", "elements", "bytes of each", "trees, KiB", "one core, ms", "device, ms", "one core: a test, ns",
+            "device: a test, ns", "g++, s", "g++, MB", "code, KiB", "nvcc, s", "kernels", "registers", "stack", "instructions"]
     return filled(head, rows) + made_on(r) + made_on(cuda) + made_on(compiled)
 
 

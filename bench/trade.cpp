@@ -3,10 +3,10 @@
 // usage: bench_trade [--json=OUT.json] [--pairs=N] [--runs=N] [--which=triangles|others]
 //
 // Speed against wrong answers, of one pair at a time on one core: N pairs (65,536) of each predicate and input of
-// bench/trade_pairs.hpp, or with `others` of bench/trade_others.hpp, which have no triangle, of hulls, and of features in
-// motion. Names: PREDICATE/INPUT/SCALAR/ARITHMETIC, where ARITHMETIC is fast, filtered, exact, or resolve, the last stage of
-// both alone, on a sixty-fourth of the pairs; in motion fast, conservative, filtered and exact, which tell times of impact,
-// exact those of an eighth of the pairs. In a row:
+// bench/trade_pairs.hpp, or with `others` of bench/trade_others.hpp (pairs without a triangle, rays, distances), of hulls,
+// and of features in motion. Names: PREDICATE/INPUT/SCALAR/ARITHMETIC, where ARITHMETIC is fast, filtered, exact, or
+// resolve, the last stage of both alone, on a sixty-fourth of the pairs; in motion fast, conservative, filtered and exact,
+// which tell times of impact, exact those of an eighth of the pairs. In a row:
 //
 //   ns                     of processor time for a pair, the median of N runs (9), in which the arithmetics take turns
 //   hits                   the share that touches
@@ -29,8 +29,10 @@
 #include "../tests/support/motion_families.hpp"
 #include "../tests/support/motion_oracle.hpp"
 #include "../tests/support/rational.hpp"
+#include "../tests/support/ray_oracle.hpp"
 #include "../tests/support/shape_oracles.hpp"
 #include "../tests/support/solid_pairs.hpp"
+#include "../tests/support/within_pairs.hpp"
 #include "results.hpp"
 #include "trade_others.hpp"
 #include "trade_pairs.hpp"
@@ -76,27 +78,65 @@ struct hull_hull {
     }
 };
 
-/// What `intersects` takes of what a predicate makes.
-template <class S>
-const S& shape_of(const S& s) {
-    return s;
+template <class T>
+using two_hulls = trade::pair<abut::test::point_list<T>, abut::test::point_list<T>>;
+
+// What is asked about a pair, of which hulls own their points.
+
+template <abut::arithmetic A, class Pair>
+bool answer_of(const Pair& p) {
+    return trade::answer<A>(p);
 }
-template <abut::scalar T>
-abut::hull<T> shape_of(const abut::test::point_list<T>& points) {
-    return abut::test::hull_over(points);
+template <abut::arithmetic A, abut::scalar T>
+bool answer_of(const two_hulls<T>& p) {
+    return abut::intersects<A>(abut::test::hull_over(p.s), abut::test::hull_over(p.t));
 }
-/// Whether shapes touch, by an oracle that shares no formula with the library.
-template <class S, class U>
-bool touch_in_truth(const S& s, const U& t) {
-    if constexpr (requires { abut::test::oracle::intersects(s, t); }) {
-        return abut::test::oracle::intersects(s, t);
+
+/// Whether the filter decides.
+template <class Pair>
+bool filter_decides(const Pair& p) {
+    if constexpr (requires { p.distance; }) {
+        return abut::detail::decide_within<abut::filtered>(p.s, p.t, p.distance) != abut::verdict::unknown;
     } else {
-        return abut::test::oracle::within_distance(s, t, 0);
+        return abut::decide<abut::filtered>(p.s, p.t) != abut::verdict::unknown;
     }
 }
 template <abut::scalar T>
-bool touch_in_truth(const abut::test::point_list<T>& a, const abut::test::point_list<T>& b) {
-    return abut::test::oracle::hulls_intersect<T>(a, b);
+bool filter_decides(const two_hulls<T>& p) {
+    return abut::decide<abut::filtered>(abut::test::hull_over(p.s), abut::test::hull_over(p.t)) != abut::verdict::unknown;
+}
+
+/// The last stage alone.
+template <class Pair>
+bool resolved(const Pair& p) {
+    if constexpr (requires { p.distance; }) {
+        return abut::detail::resolve_within(p.s, p.t, p.distance);
+    } else {
+        return abut::resolve(p.s, p.t);
+    }
+}
+template <abut::scalar T>
+bool resolved(const two_hulls<T>& p) {
+    return abut::resolve(abut::test::hull_over(p.s), abut::test::hull_over(p.t));
+}
+
+/// By an oracle that shares no formula with the library.
+template <class Pair>
+bool truth_of(const Pair& p) {
+    namespace oracle = abut::test::oracle;
+    if constexpr (requires { p.distance; }) {
+        return abut::test::exact_gap(p.s, p.t).compared_with(p.distance) <= 0;
+    } else if constexpr (requires { p.s.direction; }) {
+        return abut::test::first_time(p.s, p.t).has_value();
+    } else if constexpr (requires { oracle::intersects(p.s, p.t); }) {
+        return oracle::intersects(p.s, p.t);
+    } else {
+        return oracle::within_distance(p.s, p.t, 0);
+    }
+}
+template <abut::scalar T>
+bool truth_of(const two_hulls<T>& p) {
+    return abut::test::oracle::hulls_intersect<T>(p.s, p.t);
 }
 
 /// Answers of the first n pairs compared with the truth, in a row.
@@ -121,14 +161,13 @@ void add(bench::results& out, trade::input in, const size& of) {
     double decided = 0;
     for (std::uint64_t i = 0; i < of.pairs; ++i) {
         pairs.push_back(Predicate::template make<T>(in, i));
-        const auto& [s, t] = pairs.back();
-        truth.push_back(touch_in_truth(s, t));
-        decided += abut::decide<abut::filtered>(shape_of(s), shape_of(t)) != abut::verdict::unknown;
+        truth.push_back(truth_of(pairs.back()));
+        decided += filter_decides(pairs.back());
     }
-    const auto fast = [](const auto& p) { return abut::intersects<abut::fast>(shape_of(p.s), shape_of(p.t)); };
-    const auto filtered = [](const auto& p) { return abut::intersects<abut::filtered>(shape_of(p.s), shape_of(p.t)); };
-    const auto exact = [](const auto& p) { return abut::intersects<abut::exact>(shape_of(p.s), shape_of(p.t)); };
-    const auto resolve = [](const auto& p) { return abut::resolve(shape_of(p.s), shape_of(p.t)); };
+    const auto fast = [](const auto& p) { return answer_of<abut::fast>(p); };
+    const auto filtered = [](const auto& p) { return answer_of<abut::filtered>(p); };
+    const auto exact = [](const auto& p) { return answer_of<abut::exact>(p); };
+    const auto resolve = [](const auto& p) { return resolved(p); };
     std::vector<double> times[4];
     for (int run = 0; run < of.runs; ++run) {
         times[0].push_back(ns_a_pair(pairs, of.pairs, fast));
@@ -166,9 +205,8 @@ void add_motion(bench::results& out, const char* name, trade::input in, const si
         return [](const abut::test::motion<T>& m) {
             const auto &p = m.t0, &q = m.t1;
             if constexpr (Kind == abut::test::motion_kind::vertex_face) {
-                return abut::time_of_impact<A>(
-                           abut::motion<abut::vec3<T>>{p[0], q[0]},
-                           abut::motion<abut::triangle<T>>{{p[1], p[2], p[3]}, {q[1], q[2], q[3]}}) >= 0;
+                return abut::time_of_impact<A>(abut::motion<abut::vec3<T>>{p[0], q[0]},
+                                               abut::motion<abut::triangle<T>>{{p[1], p[2], p[3]}, {q[1], q[2], q[3]}}) >= 0;
             } else {
                 return abut::time_of_impact<A>(abut::motion<abut::segment<T>>{{p[0], p[1]}, {q[0], q[1]}},
                                                abut::motion<abut::segment<T>>{{p[2], p[3]}, {q[2], q[3]}}) >= 0;
@@ -206,6 +244,7 @@ int main(int argc, char** argv) {
             trade::for_each_predicate(add_both);
         } else if (which == "others") {
             trade::for_each_other_predicate(add_both);
+            trade::for_each_distance_predicate(add_both);
             add_both(hull_hull{});
             for (const trade::input in : trade::inputs) {
                 using abut::test::motion_kind;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Pairs without a triangle for bench/trade.cpp and bench/trade.cu, in the same three kinds of input, on hosts and devices
-// alike. Here `touching` holds shapes with a point in common, and others of which a radius is a step of the scalar type less
-// or more.
+// Pairs without a triangle, rays, and pairs that are asked about a distance, for bench/trade.cpp, bench/trade.cu and
+// bench/trade_within.cu, in the same three kinds of input, on hosts and devices alike. Here `touching` holds shapes with a
+// point in common, and others of which a radius, or the distance, is a step of the scalar type less or more; and rays that
+// are aimed at a corner or a side.
 
 #include <cstdint>
 
@@ -63,6 +64,56 @@ struct box_capsule : two_solids<abut::aabb, abut::capsule> {
     static constexpr const char* name = "box_capsule";
 };
 
+/// From a corner of one triangle along its side, and the other triangle; or towards the border of the other.
+struct ray_triangle {
+    static constexpr const char* name = "ray_triangle";
+    template <abut::scalar T>
+    ABUT_HD static pair<abut::ray<T>, abut::triangle<T>> make(input in, std::uint64_t i) {
+        const auto p = abut::test::make_triangle_pair<T>(
+            seed, in == input::lattice ? triangle_family::lattice_4 : triangle_family::random, i);
+        const auto towards = [&](const abut::vec3<T>& to) { return abut::ray<T>{p.a.a, to - p.a.a}; };
+        if (in != input::touching) return {towards(p.a.b), p.b};
+        if (i % 2 == 0) return {towards(p.b.a), p.b};
+        return {towards(T(0.5) * p.b.a + T(0.5) * p.b.b), p.b};
+    }
+};
+
+/// Two triangles and a distance. `touching` ones are as far apart, to a step; half of them are a tenth as large, with
+/// coordinates rounded.
+struct triangles_within {
+    static constexpr const char* name = "triangles_within";
+    template <abut::scalar T>
+    ABUT_HD static spaced_pair<abut::triangle<T>, abut::triangle<T>> make(input in, std::uint64_t i) {
+        namespace make = abut::test::construction;
+        abut::test::draws d(seed, 8860 + static_cast<std::uint64_t>(in), i);
+        if (in != input::touching) {
+            const auto p = two_triangles<T>(in, i);
+            const T distance = in == input::lattice ? static_cast<T>(d.below(3)) : make::rounded_to<T>(d.uniform(0, 1));
+            return {p.a, p.b, distance};
+        }
+        make::contact_frame frame = make::any_contact_frame(d, 0);
+        const auto a = make::touching_from<abut::triangle<T>>(d, frame, 1, 0);
+        const int apart = 1 + d.below(3);
+        frame.at = make::along(frame.at, -apart, frame.normal);
+        const auto b = make::touching_from<abut::triangle<T>>(d, frame, -1, 0);
+        const T distance = make::moved(static_cast<T>(apart * frame.length), d.below(3) - 1);
+        if (i % 2 == 0) return {a, b, distance};
+        const T tenth = T(1) / T(10);
+        return {make::scaled(tenth, a), make::scaled(tenth, b), tenth * distance};
+    }
+};
+
+/// Two capsules of two_solids, of which the second one's radius is halved; the other half is the distance.
+struct capsules_within {
+    static constexpr const char* name = "capsules_within";
+    template <abut::scalar T>
+    ABUT_HD static spaced_pair<abut::capsule<T>, abut::capsule<T>> make(input in, std::uint64_t i) {
+        auto p = capsule_capsule::make<T>(in, i);
+        p.t.radius /= 2;
+        return {p.s, p.t, p.t.radius};
+    }
+};
+
 /// Calls add(Predicate{}) for each.
 template <class Add>
 void for_each_other_predicate(const Add& add) {
@@ -70,6 +121,12 @@ void for_each_other_predicate(const Add& add) {
     add(capsule_capsule{});
     add(box_sphere{});
     add(box_capsule{});
+    add(ray_triangle{});
+}
+template <class Add>
+void for_each_distance_predicate(const Add& add) {
+    add(triangles_within{});
+    add(capsules_within{});
 }
 
 }  // namespace trade

@@ -11,6 +11,7 @@
 #include <cstdint>
 
 #include <abut/predicate/intersects.hpp>
+#include <abut/predicate/within.hpp>
 
 #include "../tests/support/families.hpp"
 #include "../tests/support/other_shapes.hpp"
@@ -112,6 +113,24 @@ void for_each_predicate(const Add& add) {
     add(capsule_triangle{});
     add(box_triangle{});
     add(plane_triangle{});
+}
+
+/// Two shapes that are asked whether they are no farther apart than a distance.
+template <class S, class U>
+struct spaced_pair {
+    S s;
+    U t;
+    double distance;
+};
+
+/// The question of a pair.
+template <abut::arithmetic A, class Pair>
+ABUT_HD bool answer(const Pair& p) {
+    if constexpr (requires { p.distance; }) {
+        return abut::within<A>(p.s, p.t, p.distance);
+    } else {
+        return abut::intersects<A>(p.s, p.t);
+    }
 }
 
 template <class A>
