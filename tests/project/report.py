@@ -105,7 +105,8 @@ def try_script(root):
             program.chmod(0o755)
 
         def run(what, status, expected, *arguments):
-            done = subprocess.run(["sh", copy / "cmake" / "report.sh", *arguments], capture_output=True, text=True, cwd=folder)
+            done = subprocess.run(["sh", copy / "cmake" / "report.sh", *arguments], capture_output=True, text=True, cwd=folder,
+                                  env={k: v for k, v in os.environ.items() if k != "ABUT_COMMIT"})
             if done.returncode != status or expected not in done.stdout + done.stderr:
                 wrong.append(f"report.sh, {what}: expected {status} and {expected!r}, found {done.returncode}: "
                              f"{done.stdout}{done.stderr}")
@@ -117,6 +118,7 @@ def try_script(root):
         page = report.read_text(encoding="utf-8") if report.exists() else ""
         if "## trade-cpu" not in page or "## sphere-families" in page:
             wrong.append("report.sh: the page has not what was measured here, or more")
+        run("pages of results that do not say their commit", 1, "set ABUT_COMMIT", *some, "my data", "--into-docs")
         run("a program that fails", 1, "cpu/trade_scenes: FAILED (3)", *some, "all programs")
         run("a benchmark that is not there", 1, "--only tarde: there are ", "--bin", "all programs", "--only", "tarde")
         run("results that are not there", 1, "expected files cpu/NAME.json", "--from", "nowhere")
