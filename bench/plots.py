@@ -14,7 +14,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.lines import Line2D  # noqa: E402
 
 from report_core import ARITHMETICS, LITERATURE, SCALARS  # noqa: E402
-from report_extremes import EXTREMES, PAIR_KINDS  # noqa: E402
+from report_extremes import EXTREMES, PAIR_KINDS, other_kinds  # noqa: E402
 from report_motion import motion_scenes  # noqa: E402
 from report_predicates import IN_MOTION, IN_TIME, INPUTS, OTHERS, PREDICATES, WITHIN  # noqa: E402
 from report_queries import ANY_SCENES, BUILDERS, SIZES, SPHERES, descents_of, of_size, policies  # noqa: E402
@@ -284,28 +284,74 @@ def families_cuda(results):
     return family_cost(results["cuda/triangles"])
 
 
+BY_POWER = ("scaled", "moved", "flattened", "snapped")
+# Of narrow columns.
+SHORT_TITLES = {"moved": "moved from\nthe origin", "flattened": "flattened", "snapped": "snapped\nto a lattice",
+                "spread": "spread of\nexponents", "undecided": "undecided by\nthe filter", "unresolved": "left to the\nlast stage"}
+
+
+def at_steps(r, kind, scalar, what):
+    """What `filtered` takes, by the value of the step; the range of double is more than an axis can hold, and its powers of
+    ten are not."""
+    points = [(float(n.split("/")[-1]), r.get(n, "filtered_ns")) for n in r.names(f"pair/{kind}/{scalar}/{what}/")]
+    if what in BY_POWER:
+        points = [(math.log10(x), y) for x, y in points if x > 0]
+    return sorted((x, y) for x, y in points if y)
+
+
+def of_steps(what):
+    return "power of ten" if what in BY_POWER else "powers of two" if what == "spread" else "share"
+
+
 def extremes(r):
     figure, axes = grid(len(EXTREMES), 3, height=2.6)
-    by_power = ("scaled", "moved", "flattened", "snapped")
     for axis, (what, title) in zip(axes, EXTREMES.items()):
         for index, kind in enumerate(PAIR_KINDS):
             for scalar, style in zip(SCALARS, ("-", "--")):
-                points = [(float(n.split("/")[-1]), r.get(n, "filtered_ns")) for n in r.names(f"pair/{kind}/{scalar}/{what}/")]
-                # The range of double is more than an axis can hold; its powers of ten are not.
-                if what in by_power:
-                    points = [(math.log10(x), y) for x, y in points if x > 0]
-                points = sorted((x, y) for x, y in points if y)
+                points = at_steps(r, kind, scalar, what)
                 if points:
                     axis.plot(*zip(*points), style, marker=".", color=SERIES[index])
         axis.set_title(title)
         axis.set_yscale("log")
         axis.set_xscale("log" if what == "spread" else "linear")
-        axis.set_xlabel("power of ten" if what in by_power else "powers of two" if what == "spread" else "share")
+        axis.set_xlabel(of_steps(what))
         axis.minorticks_off()
         axis.set_ylabel("filtered, ns a pair")
     handles = [Line2D([], [], color=SERIES[i], label=name) for i, name in enumerate(PAIR_KINDS.values())]
     handles += [Line2D([], [], color=GREY, linestyle=s, label=t) for s, t in zip(("-", "--"), SCALARS)]
     below(figure, handles, 6)
+    figure.suptitle(f"What filtered takes at the extremes: {of_machine(r)}", color=GREY)
+    return figure
+
+
+def extremes_of_others(r):
+    """A row for each kind, and a column for each extreme: two of what is scaled, since the range of double is so much wider."""
+    kinds = other_kinds(r)
+    if not kinds:
+        raise LookupError("no other kinds")
+    columns = [("scaled", (scalar,), f"scaled,\n{scalar}") for scalar in SCALARS]
+    columns += [(what, SCALARS, title) for what, title in SHORT_TITLES.items()]
+    figure, axes = plt.subplots(len(kinds), len(columns), figsize=(12.8, 1.05 * len(kinds) + 0.9), squeeze=False, sharey=True,
+                                sharex="col", constrained_layout=True)
+    for row, (kind, name) in zip(axes, kinds.items()):
+        for axis, (what, scalars, _) in zip(row, columns):
+            for scalar, style, colour in zip(SCALARS, ("-", "--"), SERIES):
+                points = at_steps(r, kind, scalar, what) if scalar in scalars else ()
+                if points:
+                    axis.plot(*zip(*points), style, marker=".", markersize=4, linewidth=1.2, color=colour)
+            axis.set_yscale("log")
+            axis.set_xscale("log" if what == "spread" else "linear")
+            axis.yaxis.set_major_locator(matplotlib.ticker.LogLocator(10, numticks=20))
+            axis.minorticks_off()
+            axis.tick_params(labelsize=8, left=False, bottom=False)
+        row[0].set_ylabel(name.replace(", ", ",\n", 1).replace(" (", "\n("), rotation=0, ha="right", va="center")
+    for axis, (what, _, title) in zip(axes[0], columns):
+        axis.set_title(title)
+    for axis, (what, _, _) in zip(axes[-1], columns):
+        axis.set_xlabel(of_steps(what))
+    handles = [Line2D([], [], color=c, linestyle=s, label=t) for c, s, t in zip(SERIES, ("-", "--"), SCALARS)]
+    below(figure, handles, 2)
+    figure.supylabel("filtered, ns a pair", color=GREY, fontsize=10)
     figure.suptitle(f"What filtered takes at the extremes: {of_machine(r)}", color=GREY)
     return figure
 
@@ -318,6 +364,16 @@ def extremes_cpu(results):
 @plot("extremes-cuda")
 def extremes_cuda(results):
     return extremes(results["cuda/extremes"])
+
+
+@plot("extremes-others-cpu")
+def extremes_others_cpu(results):
+    return extremes_of_others(results["cpu/extremes"])
+
+
+@plot("extremes-others-cuda")
+def extremes_others_cuda(results):
+    return extremes_of_others(results["cuda/extremes"])
 
 
 # --- scaling ----------------------------------------------------------------------------------------------------------------

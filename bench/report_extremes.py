@@ -6,9 +6,18 @@ from report_core import *  # noqa: F403
 
 PAIR_KINDS = {"triangle_triangle": "triangle, triangle", "sphere_triangle": "sphere, triangle", "vertex_face": "vertex, face in motion",
               "edge_edge": "edge, edge in motion"}
+OTHER_KINDS = {"box_triangle": "box, triangle", "plane_triangle": "plane, triangle", "capsule_triangle": "capsule, triangle",
+               "segment_triangle": "segment, triangle", "point_triangle": "point, triangle", "ray_triangle": "ray, triangle",
+               "sphere_sphere": "sphere, sphere", "box_capsule": "box, capsule", "box_segment": "box, segment",
+               "hull_hull": "hull, hull (4 points each)"}
 EXTREMES = {"scaled": "scaled", "moved": "moved from the origin", "flattened": "flattened", "snapped": "snapped to a lattice",
             "spread": "spread of exponents", "undecided": "share undecided by the filter",
             "unresolved": "share left to the last stage"}
+
+
+def other_kinds(r):
+    """Those that were measured."""
+    return {kind: name for kind, name in OTHER_KINDS.items() if r.names(f"pair/{kind}/")}
 
 
 def worst(r, rows, key):
@@ -17,15 +26,21 @@ def worst(r, rows, key):
     return max(found) if found else (None, "")
 
 
+def total(r, rows, key):
+    """None where it was not measured."""
+    found = [r.get(n, key) for n in rows if r.get(n, key) is not None]
+    return sum(found) if found else None
+
+
 def pairs_at_extremes(r):
     rows = []
-    for kind, name in PAIR_KINDS.items():
+    for kind, name in {**PAIR_KINDS, **OTHER_KINDS}.items():
         for scalar in SCALARS:
             steps = r.names(f"pair/{kind}/{scalar}/")
             if not steps:
                 continue
             compared = sum(r.get(n, "sample") or 0 for n in steps)
-            wrong = [sum(r.get(n, f"{a}_wrong") or 0 for n in steps) for a in ARITHMETICS]
+            wrong = [total(r, steps, f"{a}_wrong") for a in ARITHMETICS]
             ns, at = worst(r, steps, "filtered_ns")
             fast = [r.get(n, "fast_ns") for n in steps]
             rows.append([name, scalar, whole(len(steps)), whole(compared)] + [whole(w) for w in wrong] +
@@ -50,16 +65,20 @@ def scenes_at_extremes(r):
     return table(head + ["`filtered` / `fast`, worst", "where"], rows, 2)
 
 
+def at_extremes(r, where, caption):
+    """The second figure is there once the other kinds were measured."""
+    figure = [f"![{caption}](figures/extremes-others-{where}.svg)", ""] if other_kinds(r) else []
+    return ["Single pairs:", ""] + pairs_at_extremes(r) + figure + ["Whole queries:", ""] + scenes_at_extremes(r) + made_on(r)
+
+
 @in_table("extremes-cpu")
 def extremes_cpu(results):
-    r = results["cpu/extremes"]
-    return ["Single pairs:", ""] + pairs_at_extremes(r) + ["Whole queries:", ""] + scenes_at_extremes(r) + made_on(r)
+    return at_extremes(results["cpu/extremes"], "cpu", "What filtered takes at the extremes, other pairs")
 
 
 @in_table("extremes-cuda")
 def extremes_cuda(results):
-    r = results["cuda/extremes"]
-    return ["Single pairs:", ""] + pairs_at_extremes(r) + ["Whole queries:", ""] + scenes_at_extremes(r) + made_on(r)
+    return at_extremes(results["cuda/extremes"], "cuda", "What filtered takes at the extremes on a device, other pairs")
 
 
 @in_table("trade-scenes")

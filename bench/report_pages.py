@@ -211,7 +211,7 @@ def extremes_motion(results):
 def worst_at_rest(results):
     """The pair at rest, of exponents far apart, that takes most on a device."""
     r = results["cuda/extremes"]
-    return max((n for n in r.rows if "/spread/" in n and n.split("/")[1] in ("triangle_triangle", "sphere_triangle")),
+    return max((n for n in r.rows if "/spread/" in n and n.split("/")[1] not in ("vertex_face", "edge_edge")),
                key=lambda n: r.get(n, "filtered_ns"))
 
 

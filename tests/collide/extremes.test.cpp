@@ -12,15 +12,6 @@ using namespace abut;
 
 namespace {
 
-template <class S>
-const S& shape_of(const S& s) {
-    return s;
-}
-template <class T>
-hull<T> shape_of(const test::four_points<T>& s) {
-    return {s.at, 4};
-}
-
 /// Each pair by itself. `many` is how many pairs make up for one of those that take long to decide in truth.
 template <class Kind, class T>
 void check_extreme_pairs(std::uint64_t many) {
@@ -34,8 +25,8 @@ void check_extreme_pairs(std::uint64_t many) {
             for (std::uint64_t i = 0; i < n; ++i) {
                 const auto p = test::make_extreme_pair<Kind, T>(test::sample_seed, step, i);
                 const bool touches = test::touch_in_truth<T>(p);
-                const auto& a = shape_of(p.a);
-                const auto& b = shape_of(p.b);
+                const auto& a = test::shape_of(p.a);
+                const auto& b = test::shape_of(p.b);
                 wrong_filtered += intersects<filtered>(a, b) != touches;
                 wrong_exact += intersects<exact>(b, a) != touches;
                 wrong_last += resolve(a, b) != touches;

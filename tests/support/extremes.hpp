@@ -14,6 +14,7 @@
 
 #include <abut/arithmetic/arithmetic.hpp>
 #include <abut/config.hpp>
+#include <abut/shape/hull.hpp>
 #include <abut/shape/moving_shape.hpp>
 #include <abut/shape/primitive.hpp>
 
@@ -98,6 +99,16 @@ template <scalar T>
 struct four_points {
     vec3<T> at[4];
 };
+
+/// What predicates are asked about.
+template <class S>
+ABUT_HD const S& shape_of(const S& s) {
+    return s;
+}
+template <scalar T>
+ABUT_HD hull<T> shape_of(const four_points<T>& s) {
+    return {s.at, 4};
+}
 
 namespace construction {
 
