@@ -6,8 +6,8 @@
 //
 //   pair/KIND/SCALAR/STEP    KIND is the name of one there; hulls, whose points lie elsewhere, and what is long to compile
 //                            are for hosts alone. fast_ns, filtered_ns and exact_ns are times of a pair among many;
-//                            *_worst_ns of the slowest of a sample, on hosts. hits, fast_wrong, filtered_wrong, exact_wrong and
-//                            last_stage_wrong count the sample, which unbounded integers decide as well. undecided and
+//                            *_worst_ns of the slowest of a sample, on hosts. hits, fast_wrong, filtered_wrong, exact_wrong
+//                            and last_stage_wrong count the sample, which unbounded integers decide as well. undecided and
 //                            unresolved are the shares of all pairs that the filter leaves, and that integers in registers
 //                            leave to the last stage.
 //   scene/KIND/SCALAR/STEP   a query of two tori with trees (meshes), or of a torus with a tree and balls at its surface
@@ -66,9 +66,8 @@ inline constexpr bool is_moving<test::pair_of<abut::motion<S>, abut::motion<U>>>
 
 /// These two have the longest exact stages by far: nvcc would take twice as long for all of the program.
 template <class Kind>
-inline constexpr bool is_long_to_compile =
-    std::same_as<Kind, test::extreme_contacts<abut::capsule, abut::triangle>> ||
-    std::same_as<Kind, test::extreme_contacts<abut::ray, abut::triangle>>;
+inline constexpr bool is_long_to_compile = std::same_as<Kind, test::extreme_contacts<abut::capsule, abut::triangle>> ||
+                                           std::same_as<Kind, test::extreme_contacts<abut::ray, abut::triangle>>;
 
 template <class Kind, abut::scalar T>
 struct make_pair {
