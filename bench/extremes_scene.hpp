@@ -64,7 +64,7 @@ inline constexpr bool is_moving = false;
 template <class S, class U>
 inline constexpr bool is_moving<test::pair_of<abut::motion<S>, abut::motion<U>>> = true;
 
-/// These two have the longest exact stages by far: nvcc would take twice as long for all of the program.
+/// Of these two the exact stages are the longest by far, and nvcc takes the longest for them.
 template <class Kind>
 inline constexpr bool is_long_to_compile = std::same_as<Kind, test::extreme_contacts<abut::capsule, abut::triangle>> ||
                                            std::same_as<Kind, test::extreme_contacts<abut::ray, abut::triangle>>;
@@ -152,7 +152,7 @@ public:
     template <abut::scalar T>
     void run() {
         const auto of_kind = [this]<class Kind>(Kind) {
-            if constexpr (on_host || !is_long_to_compile<Kind>) pairs_of<Kind, T>();
+            if constexpr (on_host || !is_long_to_compile<Kind>) this->template pairs_of<Kind, T>();
         };
         test::for_each_kind(test::first_extreme_kinds{}, of_kind);
         test::for_each_kind(test::other_extreme_kinds{}, of_kind);
