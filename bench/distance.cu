@@ -4,8 +4,10 @@
 //
 // bench/distance.cpp on CUDA: the same scenes, float, the trees resident on the device. Names:
 //
-//   distance/SCENE/KIND/bvh    each pose in a call of its own; ms of all poses
-//   distance/SCENE/KIND/list   all poses in one call
+//   distance/SCENE/KIND/bvh             each pose in a call of its own; ms of all poses
+//   distance/SCENE/KIND/list            all poses in one call
+//   distance/SCENE/KIND/oriented        as bvh, with trees of oriented boxes
+//   distance/SCENE/KIND/oriented_list   as list, with these
 //
 // Each figure is the median of 21 runs after two that are not counted (fewer of long ones), taken with CUDA events around
 // the whole call.
@@ -29,25 +31,32 @@ using distance_scene::scene;
 
 using device_mesh = abut::mesh<float, abut::device_space>;
 
-void add(const abut::cuda& on, const scene& s, table& out) {
-    const auto a = make_bvh(on, device_mesh(on, s.a.vertices, s.a.faces)),
-               b = make_bvh(on, device_mesh(on, s.b.vertices, s.b.faces));
+/// The rows of trees of one kind: `each` of a call for each pose, `all` of one for all of them.
+template <class Tree>
+void add(const abut::cuda& on, const scene& s, const Tree& a, const Tree& b, const char* each, const char* all, table& out) {
     const auto add_kind = [&](const char* kind, const std::vector<pose>& poses) {
         if (poses.empty()) return;
         const auto n = static_cast<double>(poses.size());
-        out.add(joined({"distance", s.name, kind, "bvh"}), 0, [&] {
+        out.add(joined({"distance", s.name, kind, each}), 0, [&] {
             double sum = 0;
             for (const pose& p : poses) sum += static_cast<double>(abut::distance(on, a, posed(b, p))->distance);
             return counters{{"poses", n}, {"mean_distance", sum / n}};
         });
-        std::vector<abut::posed_pair<std::remove_const_t<decltype(a)>>> list;
+        std::vector<abut::posed_pair<Tree>> list;
         for (const pose& p : poses) list.push_back({posed(a, pose{}), posed(b, p)});
-        out.add(joined({"distance", s.name, kind, "list"}), 0, [&] {
+        out.add(joined({"distance", s.name, kind, all}), 0, [&] {
             return counters{{"poses", static_cast<double>(abut::distance(on, list).size())}};
         });
     };
     add_kind("apart", s.apart);
     add_kind("touching", s.touching);
+}
+
+void add(const abut::cuda& on, const scene& s, table& out) {
+    const auto a = make_bvh(on, device_mesh(on, s.a.vertices, s.a.faces)),
+               b = make_bvh(on, device_mesh(on, s.b.vertices, s.b.faces));
+    add(on, s, a, b, "bvh", "list", out);
+    add(on, s, oriented(on, a), oriented(on, b), "oriented", "oriented_list", out);
 }
 
 }  // namespace

@@ -218,10 +218,11 @@ def distance_cpu(results):
 @in_table("distance-cuda")
 def distance_cuda(results):
     r = results["cuda/distance"]
-    names = {"bvh": "a call for each pose", "list": "all poses in one call"}
+    names = {"bvh": "a call for each pose", "list": "all poses in one call", "oriented": "`oriented`, a call for each pose",
+             "oriented_list": "`oriented`, all in one call"}
     rows = [[SCENES[scene], kind, f"{poses:,}"] + [shown(t) for t in times]
             for scene, kind, poses, times in distance_rows(r, names)]
-    return ["Microseconds a pose:", ""] + table(["scene", "poses", "number"] + list(names.values()), rows) + made_on(r)
+    return ["Microseconds a pose:", ""] + filled(["scene", "poses", "number"] + list(names.values()), rows) + made_on(r)
 
 
 # --- within a distance, and convex hulls ------------------------------------------------------------------------------------

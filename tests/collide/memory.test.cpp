@@ -149,6 +149,12 @@ void check_calls_out_of_memory(const Policy& on) {
     const mesh<float> ring(surface.vertices, surface.faces);
     const auto tree = make_bvh(on, soup), other_tree = make_bvh(on, other);
     const auto ring_tree = make_bvh(on, ring);
+    const auto ball_tree = make_bvh(on, balls);
+    const rigid<float> aside{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {0.1f, 0, 0}};
+    const rigid<float> far{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {3, 0.5f, 0.25f}};
+    std::vector<ray<float>> lines;
+    for (const auto& p : places) lines.push_back({p, {0.25f, 0.5f, 1}});
+    const rays<float> rays(lines);
     const auto grid = make_grid(on, soup);
 
     const auto built = [&](const auto& make) {
@@ -193,11 +199,26 @@ void check_calls_out_of_memory(const Policy& on) {
         return to_host(pairs(on, std::vector<entry>(5, entry{posed(tree, {}), posed(other_tree, {})})));
     });
     check_out_of_memory("bodies", [&] {
-        const rigid<float> aside{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {0.1f, 0, 0}};
         const std::vector<posed_object<decltype(make_bvh(on, ring))>> bodies{posed(ring_tree, {}), posed(ring_tree, aside)};
         return count(on, bodies);
     });
     check_out_of_memory("nearest", [&] { return to_host(nearest(on, tree, some)).size(); });
+    check_out_of_memory("the three nearest", [&] { return to_host(nearest(on, tree, some, 3)).size(); });
+    check_out_of_memory("distance", [&] { return distance(on, ring_tree, ball_tree)->distance; });
+    check_out_of_memory("distance of oriented trees", [&] {
+        return distance(on, oriented(on, ring_tree), posed(oriented(on, ring_tree), far))->distance;
+    });
+    check_out_of_memory("within", [&] { return to_host(within(on, tree, other_tree, 0.1)); });
+    check_out_of_memory("raycast", [&] { return to_host(raycast(on, ring_tree, rays)).size(); });
+    check_out_of_memory("raycast_any", [&] { return to_host(raycast_any(on, ring_tree, rays)); });
+    check_out_of_memory("raycast_all", [&] { return to_host(raycast_all(on, ring_tree, rays)).size(); });
+    check_out_of_memory("inside", [&] { return to_host(inside(on, ring_tree, some)); });
+    check_out_of_memory("signed_distance", [&] { return to_host(signed_distance(on, ring_tree, some)).size(); });
+    check_out_of_memory("winding_number", [&] { return to_host(winding_number(on, ring_tree, some)); });
+    check_out_of_memory("hulls", [&] {
+        const hulls<float> parts(places, std::vector<std::uint32_t>{0, 40, 80, 120, 200});
+        return to_host(pairs(on, make_bvh(on, parts), tree));
+    });
     check_out_of_memory("validate", [&] { return validate(on, ring).edges; });
     check_out_of_memory("edges", [&] { return edges(on, ring).size(); });
     auto moved = surface.vertices;

@@ -3,6 +3,7 @@
 
 #include "collide/distance_cases.hpp"
 #include "collide/within_cases.hpp"
+#include "out_of_memory.hpp"
 #include "support/catch.hpp"
 
 TEST_CASE("distance: cuda") {
@@ -48,4 +49,16 @@ TEST_CASE("within: a scene of many triangles and its vertices, cuda and serial s
               to_host(self_within(host, make_bvh(host, cloud), distance)));
         if (distance > 0.1) CHECK(expected.size() > 1000);
     }
+}
+
+TEST_CASE("distance and within: out of memory, cuda") {
+    const abut::cuda on;
+    const abut::test::torus<float> ring(512, 256, 2, 0.5f);
+    const abut::mesh<float> mesh(ring.vertices, ring.faces);
+    const abut::rigid<float> aside{{0.6f, -0.8f, 0, 0.8f, 0.6f, 0, 0, 0, 1}, {5.5f, 0.25f, 0.125f}};
+    abut::test::check_out_of_device_memory("distance and within", on, [&] {
+        const auto tree = make_bvh(on, mesh);
+        const auto apart = distance(on, tree, posed(tree, aside));
+        return count_within(on, tree, posed(tree, aside), 1.25 * apart->distance);
+    });
 }

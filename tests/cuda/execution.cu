@@ -2,12 +2,12 @@
 #include <abut/cuda.hpp>
 
 #include <algorithm>
-#include <stdexcept>
 #include <thread>
 #include <vector>
 
 #include "execution/verb_cases.hpp"
 #include "index/index_cases.hpp"
+#include "out_of_memory.hpp"
 #include "support/catch.hpp"
 
 using namespace abut;
@@ -72,67 +72,15 @@ TEST_CASE("memory: running out is std::bad_alloc, and nothing leaks") {
     CHECK(reduce(on, 10, std::uint64_t{0}, test::sum{}, test::identity{}) == 45);  // all is well after
 }
 
-namespace {
-
-/// Takes all memory of the device but some bytes, until the end of the scope.
-class hog {
-public:
-    explicit hog(std::size_t but) {
-        std::size_t free = 0, total = 0;
-        // Not REQUIRE: of Catch2 3's in a constructor, cudafe++ of CUDA 13.0 does not come back.
-        if (cudaMemGetInfo(&free, &total) != cudaSuccess) throw std::runtime_error("cudaMemGetInfo failed");
-        // The system gives memory in pages of 2 MiB, and may keep some of what it calls free.
-        for (std::size_t take = free > but ? free - but : 0; take > std::size_t{1} << 21; take -= std::size_t{1} << 21) {
-            if (cudaMalloc(&taken_, take) == cudaSuccess) break;
-            cudaGetLastError();
-        }
-    }
-    hog(const hog&) = delete;
-    hog& operator=(const hog&) = delete;
-    ~hog() { cudaFree(taken_); }
-
-private:
-    void* taken_ = nullptr;
-};
-
-}  // namespace
-
 TEST_CASE("memory: running out in the middle of a build, a refit and a query is std::bad_alloc, and all is well after") {
     const abut::cuda on;
     test::uniform random(33);
     const triangle_soup<float> host(test::random_triangles<float>(400'000, random)),
         other(test::random_triangles<float>(2000, random));
-    const auto work = [&] {
+    test::check_out_of_device_memory("pairs", on, [&] {
         const auto tree = refit(on, make_bvh(on, host), host);
         return to_host(pairs(on, tree, make_bvh(on, other))).size();
-    };
-    const std::size_t expected = work();
-    CHECK(expected > 0);
-    release_memory(on);
-    const memory_use before = memory_in_use(on);
-    std::size_t failures = 0, successes = 0;
-    for (std::size_t left = 0; successes < 2 && left < std::size_t{1} << 30; left += std::size_t{8} << 20) {
-        CAPTURE(left);
-        {
-            const hog taken(left);
-            try {
-                const std::size_t found = work();  // not within CHECK, which would catch what is thrown
-                CHECK(found == expected);
-                ++successes;
-            } catch (const std::bad_alloc&) {
-                ++failures;
-            }
-            synchronize(on);
-            CHECK(cudaGetLastError() == cudaSuccess);
-            CHECK(memory_in_use(on).used == before.used);
-            release_memory(on);
-        }
-        CHECK(work() == expected);
-        release_memory(on);
-    }
-    std::printf("out of memory: %zu times\n", failures);
-    CHECK(failures > 3);
-    CHECK(successes == 2);
+    });
 }
 
 TEST_CASE("errors: cuda_error names the call and carries CUDA's text") {

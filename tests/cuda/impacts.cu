@@ -2,6 +2,7 @@
 #include <abut/cuda.hpp>
 
 #include "collide/impact_cases.hpp"
+#include "out_of_memory.hpp"
 #include "support/catch.hpp"
 
 using abut::test::ways;
@@ -20,4 +21,15 @@ TEST_CASE("vertices and faces in motion in a query: cuda") {
     for (const auto& c : abut::test::impact_cases<float>()) {
         if (!c.follows) abut::test::check_moving_pairs(abut::cuda{}, c);
     }
+}
+
+TEST_CASE("impacts: out of memory, cuda") {
+    const abut::cuda on;
+    const abut::test::torus<float> ring(512, 256, 2, 0.5f);
+    const abut::mesh<float> mesh(ring.vertices, ring.faces);
+    auto flat = ring.vertices;
+    for (auto& v : flat) v.y = v.y * 0.5f;
+    abut::test::check_out_of_device_memory("self_impacts", on, [&] {
+        return to_host(self_impacts(on, moving(mesh, mesh.with_vertices(abut::serial{}, flat)))).size();
+    });
 }

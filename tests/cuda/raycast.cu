@@ -4,6 +4,7 @@
 #include "collide/inside_cases.hpp"
 #include "collide/raycast_cases.hpp"
 #include "collide/winding_cases.hpp"
+#include "out_of_memory.hpp"
 #include "support/catch.hpp"
 
 TEST_CASE("raycast: cuda") {
@@ -26,4 +27,15 @@ TEST_CASE("winding number: cuda") {
     const abut::cuda on;
     abut::test::check_winding<float>(on);
     abut::test::check_winding_bits<double>(on);
+}
+
+TEST_CASE("raycast: out of memory, cuda") {
+    const abut::cuda on;
+    const abut::test::torus<float> ring(512, 256, 2, 0.5f);
+    const abut::mesh<float> mesh(ring.vertices, ring.faces);
+    std::vector<abut::ray<float>> rays;
+    for (const auto& v : ring.vertices) rays.push_back({{v.x, v.y, 2}, {0, 0, -1}});
+    abut::test::check_out_of_device_memory("raycast", on, [&] {
+        return to_host(raycast(on, make_bvh(on, mesh), abut::rays<float>(rays))).size();
+    });
 }
