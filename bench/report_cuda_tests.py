@@ -6,7 +6,8 @@ usage: report_cuda_tests.py FOLDER --json=OUT.json --device=NAME --driver=VERSIO
 
 FOLDER has for a program its output, NAME.out, and its output under compute-sanitizer, NAME.memcheck, or one of them. And
 SHAPES.families, where test_cuda_predicates was run for the families of two shapes alone (sphere_triangle, say): rows of
-these go to a table of their own. The commit is that of the programs, by default what ABUT_COMMIT says; the date is today's.
+these go to a table of their own. The commit is that of the programs, by default what ABUT_COMMIT says; of programs of another
+one NAME.commit says which. The date is today's.
 OUT.json is bench/results/cuda/tests.json, or for families predicates.json; then `report.py --write` writes the pages.
 """
 
@@ -94,7 +95,9 @@ def outcome_of_memcheck(row):
 
 def tests(r):
     c = r.context
-    rows = [[f"`{name}`", outcome(row), outcome_of_memcheck(row)] for name, row in r.rows.items()]
+    other = c.get("commits", {})
+    rows = [[f"`{name}`" + (f", {other[name][:9]}" if name in other else ""), outcome(row), outcome_of_memcheck(row)]
+            for name, row in r.rows.items()]
     return [f"{c['device']}, driver {c['driver']}, CUDA {c['cuda']}, `{c['flags']}`; commit {c['commit'][:9]}, {c['date']}.",
             ""] + table(["test", "result", "memcheck"], rows, 3)
 
@@ -142,7 +145,8 @@ def main():
     if not rows:
         sys.exit(f"{arguments.folder}: expected files NAME.out, NAME.memcheck or SHAPES.families")
     said = {key: getattr(arguments, key) for key in ("device", "driver", "cuda", "flags", "commit", "date")}
-    context = {"program": Path(__file__).name, **said}
+    other = {p.stem: p.read_text(encoding="utf-8").strip() for p in sorted(arguments.folder.glob("*.commit"))}
+    context = {"program": Path(__file__).name, **said, **({"commits": other} if other else {})}
     lines = ",\n".join(f"  {json.dumps(name)}: {json.dumps(row)}" for name, row in rows.items())
     arguments.json.write_text(f'{{"context": {json.dumps(context)},\n "rows": {{\n{lines}\n}}}}\n', encoding="utf-8")
 
