@@ -517,6 +517,16 @@ void check_some_bodies(const Team& team, std::uint32_t bodies) {
         auto unsorted = to_host(pairs(team, all, {.sorted = false}));
         std::sort(unsorted.begin(), unsorted.end());
         CHECK((unsorted == expected));
+        const auto near = to_host(within(serial{}, alone, 0.0625));
+        CHECK((bodies < 60 || near.size() > expected.size() + 200));
+        CHECK((to_host(within(team, all, 0.0625)) == near));
+        CHECK(count_within(team, all, 0.0625) == near.size());
+        CHECK(any_within(team, all, 0.0625) == !near.empty());
+        visits.assign(visits.size(), 0);
+        for_each_within(team, all, 0.0625, [&](int k) { return count_bodies{&visits[static_cast<std::size_t>(k)]}; });
+        CHECK(std::accumulate(visits.begin(), visits.end(), std::size_t{0}) == near.size());
+        CHECK((to_host(within(team, all, 0.0625, with_filter)) == to_host(within(serial{}, alone, 0.0625, with_filter))));
+        CHECK(message_of([&] { (void)count_within(team, all, -1); }).find("abut::count_within") == 0);
         for (rigid<T>& pose : later) pose.translation.x += static_cast<T>(9 * (&pose - later.data()));
         CHECK(!any(team, refit(team, all, later)));
     }

@@ -72,6 +72,20 @@ void check_list_of(const Team& team, std::uint32_t entries) {
         std::sort(unsorted.begin(), unsorted.end());
         CHECK((unsorted == expected));
     }
+    constexpr double near = 0.0625;
+    const auto expected_within = to_host(within(serial{}, alone, near));
+    CHECK((entries < 40 || expected_within.size() > expected.size() + 200));
+    CHECK((to_host(within(team, list, near)) == expected_within));
+    CHECK(count_within(team, list, near) == expected_within.size());
+    CHECK(any_within(team, list, near) == !expected_within.empty());
+    CHECK((to_host(within(team, list, near, some)) == to_host(within(serial{}, alone, near, some))));
+    if constexpr (host_policy<typename Team::local_policy>) {
+        std::vector<std::uint64_t> counts(entries), in_order(entries);
+        for_each_within(team, list, near, [&](int) { return count_by_entry{counts.data()}; });
+        for (const tagged_pair& of : expected_within) ++in_order[of.pair];
+        CHECK(counts == in_order);
+    }
+    CHECK(message_of([&] { (void)within(team, list, -1); }).find("abut::within") == 0);
     if (entries < 2) return;
     rigid<T> mirror;
     mirror.rotation[0] = -1;

@@ -300,6 +300,20 @@ void check_lists_of_parts(std::size_t entries, division how) {
     std::size_t visits = 0;
     for_each_pair(on, mine, [&](const global_tagged_pair&) { return ++visits, visit::stop; });
     CHECK(on_all(on.ranks(), visits <= 1));
+
+    constexpr double near = 0.0625;
+    const auto expected_within = in_all_parts(to_host(within(serial{}, list, near)));
+    CHECK((entries < 40 || expected_within.size() > expected.size() + 200));
+    CHECK(lists_of_all(on.ranks(), to_host(within(on, mine, near))) == expected_within);
+    CHECK(count_within(on, mine, near) == expected_within.size());
+    CHECK(on_all(on.ranks(), any_within(on, mine, near) == !expected_within.empty()));
+    some.clear();
+    std::copy_if(expected_within.begin(), expected_within.end(), std::back_inserter(some), keep_some_entries{});
+    CHECK(lists_of_all(on.ranks(), to_host(within(on, mine, near, options))) == some);
+    visited.clear();
+    for_each_within(on, mine, near, [&](const global_tagged_pair& of) { return visited.push_back(of), visit::proceed; });
+    std::sort(visited.begin(), visited.end());
+    CHECK(lists_of_all(on.ranks(), visited) == expected_within);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 //   judge<A>()                             decides whether they are
 //   names<A>()                             the same, and knows their ids
 //   operator()(bounds)                     where shapes have to be to make such a pair with one of a part
+//   nearness<T>(function)                  how near boxes have to come; of lists and of bodies, which pair up by it
 
 #include <concepts>
 #include <cstdint>
@@ -38,6 +39,10 @@ struct pairs_that_touch : as_near_as_boxes {
     }
     template <arithmetic A>
     [[nodiscard]] touch_and_name<A> names() const {
+        return {};
+    }
+    template <scalar T>
+    [[nodiscard]] near_enough_to_touch nearness(const char*) const {
         return {};
     }
 };
@@ -84,6 +89,10 @@ struct pairs_within {
     template <scalar T>
     part_bounds<T> operator()(const part_bounds<T>& part) const {
         return grown_by(part, rounded_up<T>(distance));
+    }
+    template <scalar T>
+    [[nodiscard]] auto nearness(const char* function) const {
+        return near_within<T>(distance, function);
     }
 };
 

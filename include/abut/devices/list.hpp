@@ -13,7 +13,9 @@
 
 #include <abut/collide/list.hpp>
 #include <abut/collide/list_distance.hpp>
+#include <abut/collide/list_within.hpp>
 #include <abut/collide/merge.hpp>
+#include <abut/collide/pair_kinds.hpp>
 #include <abut/devices/divide.hpp>
 #include <abut/devices/merge.hpp>
 #include <abut/execution/team.hpp>
@@ -84,17 +86,64 @@ void ask_entries(const Team& team, const std::vector<posed_pair<replicated<Index
     });
 }
 
+/// A device's entries, ready to be asked for pairs of a kind (pair_kinds.hpp).
+template <class Policy, class IndexA, class IndexB, class Options, class Kind>
+auto pair_up_mine(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& mine, const Options& options,
+                  const char* function, const entries_of_part& position, const Kind& kind) {
+    return pair_up(on, mine, options_there(options, position), function, position,
+                   kind.template nearness<typename IndexA::scalar_type>(function));
+}
+
 /// What ask(policy, pairing) finds of each device's entries, as one list.
-template <class Found, class Team, class List, class Options, class Ask>
-auto found_of_entries(const Team& team, const List& list, const Options& options, const char* function, const Ask& ask) {
+template <class Found, class Team, class List, class Options, class Kind, class Ask>
+auto found_of_entries(const Team& team, const List& list, const Options& options, const char* function, const Kind& kind,
+                      const Ask& ask) {
     using local = typename Team::local_policy;
     found_lists<local, Found> found(static_cast<std::size_t>(team.size()));
     ask_entries(team, list, function, [&](int k, const auto& mine, const entries_of_part& position) {
         const local& on = team[k];
-        const auto some = ask(on, pair_up(on, mine, options_there(options, position), function, position));
+        const auto some = ask(on, pair_up_mine(on, mine, options, function, position, kind));
         found[static_cast<std::size_t>(k)] = found_of_part(on, some, position);
     });
     return on_first(team, std::move(found), options.sorted, by_entry{});
+}
+
+template <arithmetic A, class Team, class List, class Options, class Kind>
+bool any_of_entries(const Team& team, const List& list, const Options& options, const char* function, const Kind& kind) {
+    std::atomic<bool> found{false};
+    ask_entries(team, list, function, [&](int k, const auto& mine, const auto& position) {
+        const auto pairing = pair_up_mine(team[k], mine, options, function, position, kind);
+        if (any_of<A>(team[k], pairing, kind.template judge<A>())) found.store(true);
+    });
+    return found.load();
+}
+template <arithmetic A, class Team, class List, class Options, class Kind>
+std::uint64_t count_of_entries(const Team& team, const List& list, const Options& options, const char* function,
+                               const Kind& kind) {
+    std::atomic<std::uint64_t> sum{0};
+    ask_entries(team, list, function, [&](int k, const auto& mine, const auto& position) {
+        const auto pairing = pair_up_mine(team[k], mine, options, function, position, kind);
+        sum += count_of<A>(team[k], pairing, kind.template judge<A>());
+    });
+    return sum.load();
+}
+template <arithmetic A, class Team, class List, class Options, class Kind>
+auto pairs_of_entries(const Team& team, const List& list, const Options& options, const char* function, const Kind& kind) {
+    return found_of_entries<tagged_pair>(team, list, options, function, kind, [&](const auto& on, const auto& pairing) {
+        return pairs_of<A>(on, pairing, kind.template names<A>());
+    });
+}
+template <arithmetic A, class Team, class List, class VisitorOf, class Options, class Kind>
+void visit_entries(const Team& team, const List& list, const VisitorOf& visitor_of, const Options& options,
+                   const char* function, const Kind& kind) {
+    using visitor = std::remove_cvref_t<decltype(visitor_of(0))>;
+    std::vector<visitor> visitors;
+    for (int k = 0; k < team.size(); ++k) visitors.push_back(visitor_of(k));
+    ask_entries(team, list, function, [&](int k, const auto& mine, const auto& position) {
+        const auto pairing = pair_up_mine(team[k], mine, options, function, position, kind);
+        const call_of_part<visitor, entries_of_part> visits{visitors[static_cast<std::size_t>(k)], position};
+        visit_pairs_of<A>(team[k], pairing, visits, kind.template judge<A>());
+    });
 }
 
 template <class Team, class A, class B>
@@ -112,15 +161,11 @@ template <arithmetic A = filtered, execution::policy_team Team, class IndexA, cl
           schedule Schedule = schedule::shared_list>
 [[nodiscard]] bool any(const Team& team, const std::vector<posed_pair<replicated<IndexA>, replicated<IndexB>>>& list,
                        const list_options<Filter, Schedule>& options = {}) {
-    std::atomic<bool> found{false};
     if constexpr (detail::can_be_listed_on_devices<Team, IndexA, IndexB>()) {
-        constexpr const char* function = "abut::any";
-        detail::ask_entries(team, list, function, [&](int k, const auto& mine, const auto& position) {
-            const auto here = detail::options_there(options, position);
-            if (detail::any_of<A>(team[k], detail::pair_up(team[k], mine, here, function, position))) found.store(true);
-        });
+        return detail::any_of_entries<A>(team, list, options, "abut::any", detail::pairs_that_touch{});
+    } else {
+        return false;
     }
-    return found.load();
 }
 
 /// Number of pairs of shapes that touch, of all entries.
@@ -129,15 +174,11 @@ template <arithmetic A = filtered, execution::policy_team Team, class IndexA, cl
 [[nodiscard]] std::uint64_t count(const Team& team,
                                   const std::vector<posed_pair<replicated<IndexA>, replicated<IndexB>>>& list,
                                   const list_options<Filter, Schedule>& options = {}) {
-    std::atomic<std::uint64_t> sum{0};
     if constexpr (detail::can_be_listed_on_devices<Team, IndexA, IndexB>()) {
-        constexpr const char* function = "abut::count";
-        detail::ask_entries(team, list, function, [&](int k, const auto& mine, const auto& position) {
-            const auto here = detail::options_there(options, position);
-            sum += detail::count_of<A>(team[k], detail::pair_up(team[k], mine, here, function, position));
-        });
+        return detail::count_of_entries<A>(team, list, options, "abut::count", detail::pairs_that_touch{});
+    } else {
+        return 0;
     }
-    return sum.load();
 }
 
 /// All pairs of shapes that touch, tagged with the entry's position, as `pairs` of a list under one policy: a `result` of
@@ -147,9 +188,7 @@ template <arithmetic A = filtered, execution::policy_team Team, class IndexA, cl
 [[nodiscard]] auto pairs(const Team& team, const std::vector<posed_pair<replicated<IndexA>, replicated<IndexB>>>& list,
                          const list_options<Filter, Schedule>& options = {}) {
     if constexpr (detail::can_be_listed_on_devices<Team, IndexA, IndexB>()) {
-        return detail::found_of_entries<tagged_pair>(
-            team, list, options, "abut::pairs",
-            [](const auto& on, const auto& pairing) { return detail::pairs_of<A>(on, pairing); });
+        return detail::pairs_of_entries<A>(team, list, options, "abut::pairs", detail::pairs_that_touch{});
     } else {
         return result<tagged_pair, space_of<typename Team::local_policy>>();
     }
@@ -164,15 +203,7 @@ void for_each_pair(const Team& team, const std::vector<posed_pair<replicated<Ind
     using visitor = std::remove_cvref_t<decltype(visitor_of(0))>;
     if constexpr (detail::can_be_listed_on_devices<Team, IndexA, IndexB>() &&
                   detail::is_visitor<typename Team::local_policy, visitor, tagged_pair>()) {
-        constexpr const char* function = "abut::for_each_pair";
-        std::vector<visitor> visitors;
-        for (int k = 0; k < team.size(); ++k) visitors.push_back(visitor_of(k));
-        detail::ask_entries(team, list, function, [&](int k, const auto& mine, const auto& position) {
-            const auto here = detail::options_there(options, position);
-            const detail::call_of_part<visitor, detail::entries_of_part> visits{visitors[static_cast<std::size_t>(k)],
-                                                                                position};
-            detail::visit_pairs_of<A>(team[k], detail::pair_up(team[k], mine, here, function, position), visits);
-        });
+        detail::visit_entries<A>(team, list, visitor_of, options, "abut::for_each_pair", detail::pairs_that_touch{});
     }
 }
 
@@ -184,7 +215,7 @@ template <arithmetic A = filtered, execution::policy_team Team, class IndexA, cl
                             const list_options<Filter, Schedule>& options = {}) {
     if constexpr (detail::can_be_listed_on_devices<Team, IndexA, IndexB>()) {
         return detail::found_of_entries<tagged_contact<typename IndexA::scalar_type>>(
-            team, list, options, "abut::contacts", [&](const auto& on, const auto& pairing) {
+            team, list, options, "abut::contacts", detail::pairs_that_touch{}, [&](const auto& on, const auto& pairing) {
                 return detail::contacts_of<A>(on, pairing, options.discard_sideways);
             });
     } else {
@@ -216,6 +247,67 @@ template <execution::policy_team Team, class IndexA, class IndexB>
         return result<found_type, space_of<local>>(std::move(all));
     } else {
         return result<separation<float>, space_of<local>>();
+    }
+}
+
+/// All pairs of shapes that are no farther apart than `distance`, of all entries, as `within` of a list under one policy: a
+/// `result` of `tagged_pair` in memory of the first device.
+template <arithmetic A = filtered, execution::policy_team Team, class IndexA, class IndexB, class Filter = keep_all,
+          schedule Schedule = schedule::shared_list>
+[[nodiscard]] auto within(const Team& team, const std::vector<posed_pair<replicated<IndexA>, replicated<IndexB>>>& list,
+                          double distance, const list_options<Filter, Schedule>& options = {}) {
+    if constexpr (detail::can_be_listed_within<typename Team::local_policy, IndexA, IndexB>()) {
+        constexpr const char* function = "abut::within";
+        detail::check_distance(distance, function);
+        return detail::pairs_of_entries<A>(team, list, options, function, detail::pairs_within{distance});
+    } else {
+        return result<tagged_pair, space_of<typename Team::local_policy>>();
+    }
+}
+
+/// Number of the pairs of `within`, of all entries. Stores none of them.
+template <arithmetic A = filtered, execution::policy_team Team, class IndexA, class IndexB, class Filter = keep_all,
+          schedule Schedule = schedule::shared_list>
+[[nodiscard]] std::uint64_t count_within(const Team& team,
+                                         const std::vector<posed_pair<replicated<IndexA>, replicated<IndexB>>>& list,
+                                         double distance, const list_options<Filter, Schedule>& options = {}) {
+    if constexpr (detail::can_be_listed_within<typename Team::local_policy, IndexA, IndexB>()) {
+        constexpr const char* function = "abut::count_within";
+        detail::check_distance(distance, function);
+        return detail::count_of_entries<A>(team, list, options, function, detail::pairs_within{distance});
+    } else {
+        return 0;
+    }
+}
+
+/// Whether two shapes of any entry are no farther apart than `distance`. Each device stops soon after the first pair that it
+/// finds.
+template <arithmetic A = filtered, execution::policy_team Team, class IndexA, class IndexB, class Filter = keep_all,
+          schedule Schedule = schedule::shared_list>
+[[nodiscard]] bool any_within(const Team& team,
+                              const std::vector<posed_pair<replicated<IndexA>, replicated<IndexB>>>& list, double distance,
+                              const list_options<Filter, Schedule>& options = {}) {
+    if constexpr (detail::can_be_listed_within<typename Team::local_policy, IndexA, IndexB>()) {
+        constexpr const char* function = "abut::any_within";
+        detail::check_distance(distance, function);
+        return detail::any_of_entries<A>(team, list, options, function, detail::pairs_within{distance});
+    } else {
+        return false;
+    }
+}
+
+/// Calls visitor_of(k)(tagged_pair) -> visit once for every pair of `within`, on the k-th device, which has found it;
+/// otherwise as `for_each_pair` of a list on several devices.
+template <arithmetic A = filtered, execution::policy_team Team, class IndexA, class IndexB, class VisitorOf,
+          class Filter = keep_all, schedule Schedule = schedule::shared_list>
+void for_each_within(const Team& team, const std::vector<posed_pair<replicated<IndexA>, replicated<IndexB>>>& list,
+                     double distance, const VisitorOf& visitor_of, const list_options<Filter, Schedule>& options = {}) {
+    using visitor = std::remove_cvref_t<decltype(visitor_of(0))>;
+    if constexpr (detail::can_be_listed_within<typename Team::local_policy, IndexA, IndexB>() &&
+                  detail::is_visitor<typename Team::local_policy, visitor, tagged_pair>()) {
+        constexpr const char* function = "abut::for_each_within";
+        detail::check_distance(distance, function);
+        detail::visit_entries<A>(team, list, visitor_of, options, function, detail::pairs_within{distance});
     }
 }
 

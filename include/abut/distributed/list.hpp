@@ -11,6 +11,8 @@
 
 #include <abut/collide/list.hpp>
 #include <abut/collide/list_distance.hpp>
+#include <abut/collide/list_within.hpp>
+#include <abut/collide/pair_kinds.hpp>
 #include <abut/distributed/communicator.hpp>
 #include <abut/distributed/query.hpp>
 
@@ -76,16 +78,61 @@ void ask_own_entries(const distributed<Local>& on, const List& list, const Ask& 
     attempt.settle(on.ranks());
 }
 
+/// A rank's entries, ready to be asked for pairs of a kind (pair_kinds.hpp).
+template <class Local, class IndexA, class IndexB, class Options, class Kind>
+auto pair_up_own(const Local& on, const std::vector<posed_pair<IndexA, IndexB>>& list, const Options& options,
+                 const char* function, const entries_of_rank& position, const Kind& kind) {
+    return pair_up(on, list, options_of_part(options, position), function, position,
+                   kind.template nearness<typename IndexA::scalar_type>(function));
+}
+
 /// What ask(pairing) finds of a rank's entries.
-template <class Global, class Local, class List, class Options, class Ask>
+template <class Global, class Local, class List, class Options, class Kind, class Ask>
 auto found_of_own_entries(const distributed<Local>& on, const List& list, const Options& options, const char* function,
-                          const Ask& ask) {
+                          const Kind& kind, const Ask& ask) {
     result<Global, space_of<Local>> found;
     ask_own_entries(on, list, [&](const entries_of_rank& position) {
-        const auto pairing = pair_up(on.local(), list, options_of_part(options, position), function, position);
+        const auto pairing = pair_up_own(on.local(), list, options, function, position, kind);
         found = found_of_part(on.local(), ask(pairing), position);
     });
     return found;
+}
+
+template <arithmetic A, class Local, class List, class Options, class Kind>
+bool any_of_own_entries(const distributed<Local>& on, const List& list, const Options& options, const char* function,
+                        const Kind& kind) {
+    bool found = false;
+    ask_own_entries(on, list, [&](const entries_of_rank& position) {
+        const auto pairing = pair_up_own(on.local(), list, options, function, position, kind);
+        found = any_of<A>(on.local(), pairing, kind.template judge<A>());
+    });
+    return sum_of_ranks(on.ranks(), found ? 1 : 0) > 0;
+}
+template <arithmetic A, class Local, class List, class Options, class Kind>
+std::uint64_t count_of_own_entries(const distributed<Local>& on, const List& list, const Options& options,
+                                   const char* function, const Kind& kind) {
+    std::uint64_t found = 0;
+    ask_own_entries(on, list, [&](const entries_of_rank& position) {
+        const auto pairing = pair_up_own(on.local(), list, options, function, position, kind);
+        found = count_of<A>(on.local(), pairing, kind.template judge<A>());
+    });
+    return sum_of_ranks(on.ranks(), found);
+}
+template <arithmetic A, class Local, class List, class Options, class Kind>
+auto pairs_of_own_entries(const distributed<Local>& on, const List& list, const Options& options, const char* function,
+                          const Kind& kind) {
+    return found_of_own_entries<global_tagged_pair>(on, list, options, function, kind, [&](const auto& pairing) {
+        return pairs_of<A>(on.local(), pairing, kind.template names<A>());
+    });
+}
+template <arithmetic A, class Local, class List, class Visitor, class Options, class Kind>
+void visit_own_entries(const distributed<Local>& on, const List& list, const Visitor& visitor, const Options& options,
+                       const char* function, const Kind& kind) {
+    ask_own_entries(on, list, [&](const entries_of_rank& position) {
+        const call_of_part<Visitor, entries_of_rank> visits{visitor, position};
+        const auto pairing = pair_up_own(on.local(), list, options, function, position, kind);
+        visit_pairs_of<A>(on.local(), pairing, visits, kind.template judge<A>());
+    });
 }
 
 }  // namespace detail
@@ -101,15 +148,11 @@ template <arithmetic A = filtered, execution_policy Local, class IndexA, class I
           schedule Schedule = schedule::shared_list>
 [[nodiscard]] bool any(const distributed<Local>& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
                        const list_options<Filter, Schedule>& options = {}) {
-    bool found = false;
     if constexpr (detail::can_be_listed<Local, IndexA, IndexB>()) {
-        detail::ask_own_entries(on, list, [&](const detail::entries_of_rank& position) {
-            const auto here = detail::options_of_part(options, position);
-            found = detail::any_of<A>(on.local(), detail::pair_up(on.local(), list, here, "abut::any", position));
-        });
-        found = detail::sum_of_ranks(on.ranks(), found ? 1 : 0) > 0;
+        return detail::any_of_own_entries<A>(on, list, options, "abut::any", detail::pairs_that_touch{});
+    } else {
+        return false;
     }
-    return found;
 }
 
 /// Number of pairs of shapes that touch, of the entries of all ranks: the same answer on each. Arguments as of `any` of a
@@ -118,15 +161,11 @@ template <arithmetic A = filtered, execution_policy Local, class IndexA, class I
           schedule Schedule = schedule::shared_list>
 [[nodiscard]] std::uint64_t count(const distributed<Local>& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
                                   const list_options<Filter, Schedule>& options = {}) {
-    std::uint64_t found = 0;
     if constexpr (detail::can_be_listed<Local, IndexA, IndexB>()) {
-        detail::ask_own_entries(on, list, [&](const detail::entries_of_rank& position) {
-            const auto here = detail::options_of_part(options, position);
-            found = detail::count_of<A>(on.local(), detail::pair_up(on.local(), list, here, "abut::count", position));
-        });
-        found = detail::sum_of_ranks(on.ranks(), found);
+        return detail::count_of_own_entries<A>(on, list, options, "abut::count", detail::pairs_that_touch{});
+    } else {
+        return 0;
     }
-    return found;
 }
 
 /// All pairs of shapes of this rank's entries that touch: a `result` of `global_tagged_pair`, 16 bytes each, in the local
@@ -137,8 +176,7 @@ template <arithmetic A = filtered, execution_policy Local, class IndexA, class I
 [[nodiscard]] auto pairs(const distributed<Local>& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
                          const list_options<Filter, Schedule>& options = {}) {
     if constexpr (detail::can_be_listed<Local, IndexA, IndexB>()) {
-        return detail::found_of_own_entries<global_tagged_pair>(
-            on, list, options, "abut::pairs", [&](const auto& pairing) { return detail::pairs_of<A>(on.local(), pairing); });
+        return detail::pairs_of_own_entries<A>(on, list, options, "abut::pairs", detail::pairs_that_touch{});
     } else {
         return result<global_tagged_pair, space_of<Local>>();
     }
@@ -152,12 +190,7 @@ void for_each_pair(const distributed<Local>& on, const std::vector<posed_pair<In
                    const list_options<Filter, Schedule>& options = {}) {
     if constexpr (detail::can_be_listed<Local, IndexA, IndexB>() &&
                   detail::is_global_visitor<Local, Visitor, global_tagged_pair>()) {
-        detail::ask_own_entries(on, list, [&](const detail::entries_of_rank& position) {
-            const auto here = detail::options_of_part(options, position);
-            const detail::call_of_part<Visitor, detail::entries_of_rank> visits{visitor, position};
-            const auto pairing = detail::pair_up(on.local(), list, here, "abut::for_each_pair", position);
-            detail::visit_pairs_of<A>(on.local(), pairing, visits);
-        });
+        detail::visit_own_entries<A>(on, list, visitor, options, "abut::for_each_pair", detail::pairs_that_touch{});
     }
 }
 
@@ -170,7 +203,7 @@ template <arithmetic A = filtered, execution_policy Local, class IndexA, class I
                             const list_options<Filter, Schedule>& options = {}) {
     if constexpr (detail::can_be_listed<Local, IndexA, IndexB>()) {
         return detail::found_of_own_entries<global_tagged_contact<typename IndexA::scalar_type>>(
-            on, list, options, "abut::contacts",
+            on, list, options, "abut::contacts", detail::pairs_that_touch{},
             [&](const auto& pairing) { return detail::contacts_of<A>(on.local(), pairing, options.discard_sideways); });
     } else {
         return result<global_tagged_contact<float>, space_of<Local>>();
@@ -191,6 +224,55 @@ template <execution_policy Local, class IndexA, class IndexB>
         return found;
     } else {
         return result<separation<float>, space_of<Local>>();
+    }
+}
+
+/// All pairs of shapes of this rank's entries that are no farther apart than `distance`: as `pairs` of a list, and of each
+/// entry what `within` says of its two indices. All ranks give the same distance.
+template <arithmetic A = filtered, execution_policy Local, class IndexA, class IndexB, class Filter = keep_all,
+          schedule Schedule = schedule::shared_list>
+[[nodiscard]] auto within(const distributed<Local>& on, const std::vector<posed_pair<IndexA, IndexB>>& list, double distance,
+                          const list_options<Filter, Schedule>& options = {}) {
+    if constexpr (detail::can_be_listed_within<Local, IndexA, IndexB>()) {
+        return detail::pairs_of_own_entries<A>(on, list, options, "abut::within", detail::pairs_within{distance});
+    } else {
+        return result<global_tagged_pair, space_of<Local>>();
+    }
+}
+
+/// Number of the pairs of `within`, of the entries of all ranks: the same answer on each.
+template <arithmetic A = filtered, execution_policy Local, class IndexA, class IndexB, class Filter = keep_all,
+          schedule Schedule = schedule::shared_list>
+[[nodiscard]] std::uint64_t count_within(const distributed<Local>& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
+                                         double distance, const list_options<Filter, Schedule>& options = {}) {
+    if constexpr (detail::can_be_listed_within<Local, IndexA, IndexB>()) {
+        return detail::count_of_own_entries<A>(on, list, options, "abut::count_within", detail::pairs_within{distance});
+    } else {
+        return 0;
+    }
+}
+
+/// Whether two shapes of any entry are no farther apart than `distance`: the same answer on all ranks.
+template <arithmetic A = filtered, execution_policy Local, class IndexA, class IndexB, class Filter = keep_all,
+          schedule Schedule = schedule::shared_list>
+[[nodiscard]] bool any_within(const distributed<Local>& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
+                              double distance, const list_options<Filter, Schedule>& options = {}) {
+    if constexpr (detail::can_be_listed_within<Local, IndexA, IndexB>()) {
+        return detail::any_of_own_entries<A>(on, list, options, "abut::any_within", detail::pairs_within{distance});
+    } else {
+        return false;
+    }
+}
+
+/// Calls visitor(global_tagged_pair) -> visit once for every pair of `within` of this rank's entries, as `for_each_pair` of
+/// a list does.
+template <arithmetic A = filtered, execution_policy Local, class IndexA, class IndexB, class Visitor,
+          class Filter = keep_all, schedule Schedule = schedule::shared_list>
+void for_each_within(const distributed<Local>& on, const std::vector<posed_pair<IndexA, IndexB>>& list, double distance,
+                     const Visitor& visitor, const list_options<Filter, Schedule>& options = {}) {
+    if constexpr (detail::can_be_listed_within<Local, IndexA, IndexB>() &&
+                  detail::is_global_visitor<Local, Visitor, global_tagged_pair>()) {
+        detail::visit_own_entries<A>(on, list, visitor, options, "abut::for_each_within", detail::pairs_within{distance});
     }
 }
 
