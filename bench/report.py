@@ -12,7 +12,7 @@ between `<!-- v: NAME -->` and `<!-- /v -->` is a value. A table of figures that
 constants, which no program measures: then the line `<!-- constants -->` is before it. A number in a sentence that reads like
 a measurement (a time, a rate, a share, so many of so many, bytes, so many times faster) is an error as well, unless nobody
 measured it: a bound, a setting, a size by design or an assumption has `<!-- stated -->` in its line. cmake/report.sh runs the
-benchmarks.
+benchmarks. Pages of docs/results that tests write whole (tests/support/stages.hpp) end with a checksum instead.
 """
 
 import argparse
@@ -32,6 +32,7 @@ VALUE = re.compile(r"<!-- v: (?P<name>[\w-]+) -->(?P<text>.*?)<!-- /v -->", re.S
 CODE = re.compile(r"^ *```.*?^ *```$", re.S | re.M)
 CONSTANTS = re.compile(r"^<!-- constants -->\n(?:\|.*\n)+", re.M)
 STATED = "<!-- stated -->"
+CHECKSUM = re.compile(r"\n<!-- checksum: ([0-9a-f]{16}) -->\n\Z")
 MARK = re.compile(r"<!-- (?:[\w-]+: (?:begin|end)|v: [\w-]+|/v) -->")
 
 # What reads like a measurement. Spaces stand for any white space.
@@ -159,11 +160,28 @@ def take(folder, into):
         print(f"results of {data['context'].get('program', path.stem)}: {to}")
 
 
-def pages():
-    """All but those that tests write whole, which name them."""
+def results_pages():
+    """The pages of docs/results, in two lists: those that tests write whole, which name them, and the others."""
     tests = "".join(path.read_text(encoding="utf-8") for path in sorted((ROOT / "tests" / "predicate").glob("*.cpp")))
-    results = [p for p in sorted((ROOT / "docs" / "results").glob("*.md")) if f'"{p.name}"' not in tests]
-    return [ROOT / "README.md"] + sorted((ROOT / "docs").glob("*.md")) + results
+    of_tests, others = [], []
+    for path in sorted((ROOT / "docs" / "results").glob("*.md")):
+        (of_tests if f'"{path.name}"' in tests else others).append(path)
+    return of_tests, others
+
+
+def pages():
+    return [ROOT / "README.md"] + sorted((ROOT / "docs").glob("*.md")) + results_pages()[1]
+
+
+def as_written(text):
+    """Whether a page is as a test wrote it: its last line has the checksum of all others, FNV-1a of 64 bits."""
+    match = CHECKSUM.search(text)
+    if match is None:
+        return False
+    made = 0xcbf29ce484222325
+    for byte in text[:match.start()].encode("utf-8"):
+        made = (made ^ byte) * 0x100000001b3 % 2**64
+    return int(match[1], 16) == made
 
 
 def expected(text, results, problems):
@@ -321,6 +339,9 @@ def check(results):
         here += [f"{plot} is not there" for plot in re.findall(r"\]\(((?:docs/)?figures/[^)]*)\)",
                                                                text) if not (path.parent / plot).exists()]
         problems += [f"{path.relative_to(ROOT)}: {problem}" for problem in here]
+    for path in results_pages()[0]:
+        if not as_written(path.read_text(encoding="utf-8")):
+            problems.append(f"{path.relative_to(ROOT)}: not as the test wrote it, by the checksum in its last line")
     for source in report_tables.programs(results):
         if not (ROOT / "bench" / source).exists():
             problems.append(f"bench/{source}: the program of some results is not there")

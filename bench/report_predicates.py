@@ -227,7 +227,9 @@ def families(r):
         which = ", and which stage of `filtered` decides them, in %:" if stages else ":"
         lines += [f"The families of `tests/support/triangle_families.hpp`, {scalar}, in million pairs a second{which}", ""]
         if "late" in stages:
-            lines += ["(\"late\" is the stage between the filter and the integers; a limb is a 64-bit word of an integer.)", ""]
+            lines += ["(\"late\" is the stage between the filter and the integers. Of these, \"64 bits\" are of one word, and limbs are "
+                      "words for each degree of the polynomial. \"any span\" is the last stage: numbers may be as far apart as "
+                      "the type allows. See [stage](glossary.md#stage).)", ""]
         lines += table(["family", "hits, %"] + [f"`{a}`" for a in there] + ["time of `filtered` / `fast`"] +
                        [STAGES[s] for s in stages], rows)
     return lines

@@ -430,6 +430,9 @@ def validate_cuda(results):
 
 # --- mesh against mesh ------------------------------------------------------------------------------------------------------
 
+KINDS = {"baked": "pre-transformed", "posed": "posed"}  # of the turned mesh: in names of results, and in tables
+
+
 @in_table("meshes-cpu")
 def meshes_cpu(results):
     r, layouts = results["cpu/meshes"], results["cpu/builders"]
@@ -450,7 +453,7 @@ def meshes_cpu(results):
         if r.get(at) is not None:
             rows.append([f"{name}, unsorted", shown(r.get(f"build/{peer}/serial")), shown(r.get(at)), "",
                          whole(r.get(at, "pairs"))])
-    return table(["ms", "build of one tree", "baked", "posed", "pairs"], rows) + made_on(r)
+    return table(["ms", "build of one tree", "pre-transformed", "posed", "pairs"], rows) + made_on(r)
 
 
 ANY_SCENES = {"hit": "hit", "graze": "graze", "near_miss": "near miss", "shells": "shells"}
@@ -464,10 +467,10 @@ def any_scenes(results):
                        ("sah_oriented", "SAH, oriented"),
                        ("sah_kdop18", "SAH, 18 planes"), ("embree_low", "Embree, low quality"),
                        ("embree_medium", "Embree, medium quality"), ("fcl_obb", "FCL, oriented boxes")):
-        for kind in ("baked", "posed"):
+        for kind in KINDS:
             times = [r.get(f"any/{s}/{kind}/{tree}") for s in ANY_SCENES]
             if times[0] is not None:
-                rows.append([f"{name}, {kind}"] + [shown(None if t is None else 1e3 * t) for t in times])
+                rows.append([f"{name}, {KINDS[kind]}"] + [shown(None if t is None else 1e3 * t) for t in times])
     pairs = [whole(r.get(f"any/{s}/baked/linear", "pairs")) for s in ANY_SCENES]
     return table(["us"] + list(ANY_SCENES.values()), [["pairs that touch"] + pairs] + rows) + made_on(r)
 
@@ -520,7 +523,7 @@ def meshes_cuda(results):
     asked = {"pairs": "pairs, sorted", "unsorted": "unsorted", "fast_unsorted": "`fast`, unsorted", "count": "count",
              "any": "any",
              "boxes": "box pairs alone", "contacts": "contacts"}
-    rows = [[kind] + [shown(r.get(f"{q}/{kind}/cuda")) for q in asked] for kind in ("baked", "posed")]
+    rows = [[shows] + [shown(r.get(f"{q}/{kind}/cuda")) for q in asked] for kind, shows in KINDS.items()]
     near = ["pairs", "unsorted", "fast", "count", None, "boxes", None]
     beside = [shown(r.get(f"near/{q}/cuda")) if q else "" for q in near]
     rows.append([f"nearly on itself, {whole(r.get('near/pairs/cuda', 'pairs'))} pairs"] + beside)
@@ -529,7 +532,7 @@ def meshes_cuda(results):
               f"{shown(r.get('pairs/baked_with_build/cuda'))} ms.", ""]
     rows = [[n.split("/", 1)[1].removesuffix("/cuda").replace("_", " ").replace("/", ", from depth "),
              shown(r.get(n))] for n in r.names("traversal/")]
-    lines += ["By other traversals, baked and unsorted:", ""] + table(["traversal", "ms"], rows)
+    lines += ["By other traversals, pre-transformed and unsorted:", ""] + table(["traversal", "ms"], rows)
     rows = [[n.split("/")[1], shown(r.get(n)), whole(r.get(n, "pairs"))] for n in r.names("batch/") if "one_by_one" not in n]
     rows.append([f"{rows[-1][0]}, one by one", shown(r.get("batch/1000/one_by_one/cuda")),
                  whole(r.get("batch/1000/one_by_one/cuda", "pairs"))])
@@ -638,7 +641,7 @@ def layouts_queries(results):
     for quality in ("low", "medium"):
         if r.get(f"unsorted/embree_{quality}/serial") is not None:
             rows.append([f"Embree, {quality} quality", shown(r.get(f"unsorted/embree_{quality}/serial"))] + [""] * 4)
-    return table(["ms", "baked, unsorted", "baked", "posed", "bare", "bytes a triangle"], rows) + made_on(r)
+    return table(["ms", "pre-transformed, unsorted", "pre-transformed", "posed", "bare", "bytes a triangle"], rows) + made_on(r)
 
 
 @in_table("volumes")
@@ -650,11 +653,11 @@ def volumes(results):
         cells = [shown(r.get(f"convert/{name}/sah/serial")), shown(r.get(f"unsorted/baked/sah/{name}")),
                  shown(r.get(f"pairs/posed/sah/{name}"))]
         for s in ANY_SCENES:
-            pair = [in_any and any_r.get(f"any/{s}/{kind}/{in_any}") for kind in ("baked", "posed")]
+            pair = [in_any and any_r.get(f"any/{s}/{kind}/{in_any}") for kind in KINDS]
             cells.append(" / ".join(shown(1e3 * t) for t in pair) if all(pair) else "")
         rows.append([f"`{name}`"] + cells)
-    return table(["", "conversion, ms", "pairs, baked, unsorted, ms", "posed, ms"] + [f"any, {s}, baked / posed, us" for s in
-                                                                                    ANY_SCENES.values()], rows) + made_on(r)
+    return table(["", "conversion, ms", "pairs, pre-transformed, unsorted, ms", "posed, ms"] +
+                 [f"any, {s}, pre-transformed / posed, us" for s in ANY_SCENES.values()], rows) + made_on(r)
 
 
 @in_table("builders-cuda")

@@ -4,6 +4,7 @@
 // What the stages of a predicate say of the pairs of a family, against the truth; and the table of it, on stdout and as
 // Markdown in the folder that ABUT_RESULTS names.
 
+#include <cstdarg>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -83,6 +84,8 @@ inline double percent(std::uint64_t part, std::uint64_t whole) {
     return 100.0 * static_cast<double>(part) / static_cast<double>(whole);
 }
 
+/// The page is Markdown, and its last line holds a checksum of all others, FNV-1a of 64 bits: bench/report.py looks whether
+/// anybody has changed a digit.
 class stage_table {
 public:
     /// `file_name` without a folder; `title` says which shapes, and `late` whether they have a stage `decide_late`.
@@ -96,41 +99,58 @@ public:
         const std::time_t now = std::time(nullptr);
         char date[16] = "";
         std::strftime(date, sizeof date, "%Y-%m-%d", std::gmtime(&now));
-        for (std::FILE* const out : {stdout, file_}) {
-            if (out == nullptr) continue;
-            std::fprintf(
-                out,
-                "%s, seed %llu; fast: missed / phantom per million; then the share of pairs that each stage decides "
-                "(%%). Commit %s, %s\n\n",
-                title, static_cast<unsigned long long>(sample_seed), commit == nullptr ? "unknown" : commit, date);
-            std::fprintf(out,
-                         "| family | scalar | pairs | hits %% | fast | filter |%s 1 limb | 2 limbs | any span | wrong |\n",
-                         late_ ? " late |" : "");
-            std::fprintf(out, "| --- | --- | --- | --- | --- | --- |%s --- | --- | --- | --- |\n", late_ ? " --- |" : "");
-        }
+        put("# %s\n\n", title);
+        put("Pairs that were built to break the arithmetic, one family for each way, compared with an\n"
+            "[oracle](../glossary.md#oracle). Seed %llu, commit %s, %s.\n\n",
+            static_cast<unsigned long long>(sample_seed), commit == nullptr ? "unknown" : commit, date);
+        put("The column of `fast` has its wrong answers of a million, [missed](../glossary.md#missed) / "
+            "[phantom](../glossary.md#phantom). Those after it have the\n"
+            "share of pairs in %% that each [stage](../glossary.md#stage) of `filtered` decides: the floating-point "
+            "[filter](../glossary.md#filter)%s, integers\n"
+            "of 1 and 2 [limbs](../glossary.md#word), and the last stage, for numbers of any [span](../glossary.md#span). "
+            "The last column counts the pairs about\n"
+            "which one of these, `filtered` or `exact` is wrong.\n\n",
+            late_ ? ", the late stage" : "");
+        put("| family | scalar | pairs | hits %% | fast | filter |%s 1 limb | 2 limbs | any span | wrong |\n",
+            late_ ? " late |" : "");
+        put("| --- | --- | --- | --- | --- | --- |%s --- | --- | --- | --- |\n", late_ ? " --- |" : "");
     }
     ~stage_table() {
-        if (file_ != nullptr) std::fclose(file_);
+        if (file_ == nullptr) return;
+        std::fprintf(file_, "\n<!-- checksum: %016llx -->\n", static_cast<unsigned long long>(sum_));
+        std::fclose(file_);
     }
     stage_table(const stage_table&) = delete;
     stage_table& operator=(const stage_table&) = delete;
 
     void add(const char* family, const char* type, const stage_tally& t) {
-        for (std::FILE* const out : {stdout, file_}) {
-            if (out == nullptr) continue;
-            std::fprintf(out, "| %s | %s | %llu | %.1f | %.0f / %.0f | %.3f |", family, type,
-                         static_cast<unsigned long long>(t.pairs), percent(t.hits, t.pairs),
-                         1e4 * percent(t.missed, t.pairs), 1e4 * percent(t.phantom, t.pairs), percent(t.filter, t.pairs));
-            if (late_) std::fprintf(out, " %.3f |", percent(t.late, t.pairs));
-            std::fprintf(out, " %.3f | %.3f | %.3f | %llu |\n", percent(t.one_limb, t.pairs), percent(t.two_limbs, t.pairs),
-                         percent(t.any_span, t.pairs), static_cast<unsigned long long>(t.wrong));
-            std::fflush(out);
-        }
+        put("| %s | %s | %llu | %.1f | %.0f / %.0f | %.3f |", family, type, static_cast<unsigned long long>(t.pairs),
+            percent(t.hits, t.pairs), 1e4 * percent(t.missed, t.pairs), 1e4 * percent(t.phantom, t.pairs),
+            percent(t.filter, t.pairs));
+        if (late_) put(" %.3f |", percent(t.late, t.pairs));
+        put(" %.3f | %.3f | %.3f | %llu |\n", percent(t.one_limb, t.pairs), percent(t.two_limbs, t.pairs),
+            percent(t.any_span, t.pairs), static_cast<unsigned long long>(t.wrong));
     }
 
 private:
+    /// To stdout, and to the page.
+    [[gnu::format(printf, 2, 3)]] void put(const char* format, ...) {
+        char text[2048];
+        std::va_list values;
+        va_start(values, format);
+        std::vsnprintf(text, sizeof text, format, values);
+        va_end(values);
+        std::fputs(text, stdout);
+        std::fflush(stdout);
+        if (file_ == nullptr) return;
+        for (const char* c = text; *c != 0; ++c) sum_ = (sum_ ^ static_cast<unsigned char>(*c)) * 0x100000001b3u;
+        std::fputs(text, file_);
+        std::fflush(file_);
+    }
+
     bool late_;
     std::FILE* file_ = nullptr;
+    std::uint64_t sum_ = 0xcbf29ce484222325u;
 };
 
 /// Every stage against the oracle in each of `count` families, float and double. `name(f)` is a family's name, and
