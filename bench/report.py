@@ -10,9 +10,10 @@ usage: report.py [--check]                  compares the pages with the results;
 In a page, lines between `<!-- NAME: begin -->` and `<!-- NAME: end -->` are a table of bench/report_*.py, and what is
 between `<!-- v: NAME -->` and `<!-- /v -->` is a value. A table of figures that stands elsewhere is an error, unless it is of
 constants, which no program measures: then the line `<!-- constants -->` is before it. A number in a sentence that reads like
-a measurement (a time, a rate, a share, so many of so many, bytes, so many times faster) is an error as well, unless nobody
-measured it: a bound, a setting, a size by design or an assumption has `<!-- stated -->` in its line. cmake/report.sh runs the
-benchmarks. Pages of docs/results that tests write whole (tests/support/stages.hpp) end with a checksum instead.
+a measurement (a time, a rate, a share, so many of so many, about so many, bytes, so many times faster, so many families) is an
+error as well, unless nobody measured it: a bound, a setting, a size by design or an assumption has `<!-- stated -->` in its
+line. cmake/report.sh runs the benchmarks. Pages of docs/results that tests write whole (tests/support/stages.hpp) end with a
+checksum instead.
 """
 
 import argparse
@@ -37,15 +38,20 @@ MARK = re.compile(r"<!-- (?:[\w-]+: (?:begin|end)|v: [\w-]+|/v) -->")
 
 # What reads like a measurement. Spaces stand for any white space.
 NUMBER = r"(?:\d[\d.,^]*|half|third|quarters?|fifth|tenths?|hundredth|twice|two|three|four|five|six|seven|eight|nine|ten|" \
+    r"eleven|twelve|(?:thir|four|fif|six|seven|eigh|nine)teen|(?:twen|thir|for|fif|six|seven|eigh|nine)ty(?:-[a-z]+)?|" \
     r"dozen|hundreds?|thousands?|few|some)"
 UNIT = r"(?:[num]s|[\u00b5\u03bc]s|s|(?:nano|micro|milli)?seconds?|minutes?|hours?|cycles|%|per cent|[kMGT]i?B/s|" \
     r"(?:\w+ )?(?:a|per) second|\w*/s)"
-MEMORY = r"(?:bytes?(?! order)|B|[kMGT]i?B)"
+MEMORY = r"(?:(?:kilo|mega|giga)?bytes?(?! order)|B|[kMGT]i?B)"
 MEASURED = re.compile("|".join((
     rf"\b{NUMBER}(?: |(?<=\d))(?:to {NUMBER} |or {NUMBER} )?"
     rf"(?:(?:an? )?(?:hundred|thousand|million|billion) )?(?:of )?(?:an? )?{UNIT}(?!\w)",
     rf"\b{NUMBER}(?<=\w)(?: |(?<=\d)){MEMORY}(?!\w)",
     r"\b\d[\d,.]* of (?:the |all )?\d",
+    r"\b\d[\d.]*e-?\d+ of ",
+    r"\ba few (?:tenths|hundredths|thousandths)",
+    r"\babout \d[\d,.]*(?![\d^e])",
+    rf"(?i:\b{NUMBER} families\b)",
     rf"\b{NUMBER} times (?:as (?:fast|slow|quick|long|much time)|faster|slower|quicker|longer|the (?:time|speed))",
     rf"\b{NUMBER} of the (?:time|speed|cost)\b",
     r"\b(?:twice|half) (?:as (?:fast|slow|quick|long)|the (?:time|speed)|that of)",

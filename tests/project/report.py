@@ -55,6 +55,13 @@ MUTATIONS = {
     "so many of so many in a sentence": lambda r: append(r / "docs" / "building.md", "\nIt finds 1,234 of the 5,678.\n"),
     "a number that the source has no more": lambda r: replace(r / "tests" / "project" / "viewer" / "read.test.mjs",
                                                               "const tries = 4000", "const tries = 4001"),
+    "a family that the source has more": lambda r: replace(r / "tests" / "support" / "flat_triangles.hpp", "    random, ",
+                                                           "    more,\n    random, "),
+    "a number word in a sentence": lambda r: append(r / "docs" / "building.md", "\nIt takes twenty-three seconds.\n"),
+    "kilobytes in a sentence": lambda r: append(r / "docs" / "building.md", "\nIt takes thirty kilobytes.\n"),
+    "a count of families in a sentence": lambda r: append(r / "docs" / "building.md", "\nTwenty-one families are tried.\n"),
+    "a part in a sentence": lambda r: append(r / "docs" / "building.md", "\nIt is 5e-6 of the diagonal.\n"),
+    "a number with about in a sentence": lambda r: append(r / "docs" / "building.md", "\nIt sends about 160 and 13.\n"),
     "a block of an unknown name": lambda r: append(r / "docs" / "building.md",
                                                    "<!-- nobody: begin -->\n<!-- nobody: end -->\n"),
     "a block without an end": lambda r: replace(r / "docs" / "benchmarks.md", "<!-- trade-cpu: end -->\n", ""),
@@ -231,7 +238,7 @@ def main():
         with tempfile.TemporaryDirectory() as folder:
             copy = Path(folder)
             shutil.copy(root / "README.md", copy)
-            for part in ("docs", "bench", "cmake", "tests/predicate", "tests/project/viewer"):
+            for part in ("docs", "bench", "cmake", "tests/predicate", "tests/support", "tests/project/viewer"):
                 shutil.copytree(root / part, copy / part)
             mutate(copy)
             status, found = check(copy)
