@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 """Keeps README.md and docs/ true: their links, and the code that they show.
 
-pages.py check ROOT               links and anchors exist; docs/README.md names every page; no block of code is left untested
+pages.py check ROOT               links and anchors exist; docs/README.md names every page; no block of code is left untested;
+                                  scripts, their options, and options and presets of CMake that a page uses are there
 pages.py write ROOT KIND OUT PAGE...    writes the blocks of these pages into one source; KIND is cpp or cu
 pages.py run ROOT KIND PROGRAM PAGE...  runs that program, and compares what it prints with what the pages say
 pages.py commands ROOT PAGE       runs the blocks ```sh of a page, line by line, in a folder where abut is a copy of the sources and
@@ -145,6 +146,41 @@ def anchors_of(root, page):
     return anchors | set(re.findall(r"<a (?:id|name)=\"(.*?)\"", text))
 
 
+def commands_in(root, page):
+    """What a page says to type: lines of its blocks ```sh, and code within sentences."""
+    for block in blocks_of(root, page):
+        if block.language == "sh":
+            yield from block.text.replace("\\\n", " ").splitlines()
+    text = re.sub(r"^ *```.*?^ *```", "", (root / page).read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+    yield from (" ".join(code.split()) for code in re.findall(r"`([^`]+)`", text))
+
+
+def wrong_commands(root, page):
+    """Scripts, and options of them and of CMake, that are not there. A script has the options that its first comment names."""
+    presets = root / "CMakePresets.json"
+    presets = set(re.findall(r'"name": "(.*?)"', presets.read_text(encoding="utf-8"))) if presets.exists() else set()
+    lists = "".join(path.read_text(encoding="utf-8") for where in ("", "cmake/", "tests/", "bench/", "docs/examples/")
+                    for path in sorted(root.glob(f"{where}CMakeLists.txt")) + sorted(root.glob(f"{where}*.cmake")))
+    for line in commands_in(root, page):
+        line = line.split("#")[0]
+        for script, rest in re.findall(r"(?<![\w.])sh ((?:cmake|docs)/[\w./-]+)([^|&;]*)", line):
+            path = root / script
+            if not path.is_file():
+                yield f"there is no {script}"
+                continue
+            text = path.read_text(encoding="utf-8")
+            usage = "".join(re.findall(r"^#.*\n", text.partition("\nset ")[0] + "\n", re.MULTILINE))
+            for option in re.findall(r"(?<!\S)--?[a-z][\w-]*", rest):
+                if not re.search(rf"(?<![\w-]){option}(?![\w-])", text if option == "--help" else usage):
+                    yield f"{script} does not say that it has {option}"
+        if re.match(r"(?:cmake|ctest) ", line):
+            for option in re.findall(r"-D(ABUT_\w+)", line):
+                if not re.search(rf"\b{option}\b", lists):
+                    yield f"CMake has no option {option}"
+            for preset in set(re.findall(r"--preset[ =]([\w-]+)", line)) - presets:
+                yield f"CMakePresets.json has no {preset}"
+
+
 def check(root):
     links = blocks = 0
     broken = []
@@ -154,6 +190,7 @@ def check(root):
             if block.language == "cmake" and not block.paths:
                 broken.append(f"{block.where}: no file is named that a test builds with these lines")
             blocks += block.language == "cpp"
+        broken += [f"{page}: {problem}" for problem in wrong_commands(root, page)]
         text = without_code((root / page).read_text(encoding="utf-8"))
         for target in re.findall(r"\]\(([^)\s]+)\)", text):
             if re.match(r"[a-z]+:", target):

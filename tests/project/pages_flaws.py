@@ -19,7 +19,16 @@ std::printf("1");
 ```
 1
 ```
+
+`sh cmake/do.sh --fast` does it, or:
+
+```sh
+sh cmake/do.sh --fast part.obj  # not --slow
+sh cmake/do.sh --help
+cmake --preset quick -DABUT_HERE=ON && ctest --preset quick
+```
 """
+SCRIPT = "#!/bin/sh\n# usage: sh cmake/do.sh [--fast] FILE\nset -eu\ncase $1 in --help | --slow) ;; esac\n"
 CHECKED = {
     "a link to no file": ("docs/README.md#title", "docs/none.md", "there is no docs/none.md"),
     "a link to no heading": ("(#title)", "(#titel)", "has no heading #titel"),
@@ -29,7 +38,13 @@ CHECKED = {
     "a file that is not there": ("```cpp", "<!-- docs/none.cpp -->\n```cpp", "there is no docs/none.cpp"),
     "a file that holds something else": ("```cpp", "<!-- docs/README.md -->\n```cpp", "no part of docs/README.md"),
     "lines for CMake of no file": ("```cpp", "```cmake\n```\n\n```cpp", "no file is named"),
-    "a block without an end": ("\n1\n```\n", "\n1\n", "does not end"),
+    "a script that is not there": ("sh cmake/do.sh --help", "sh cmake/did.sh", "there is no cmake/did.sh"),
+    "a script that is not there, in a sentence": ("`sh cmake/do.sh", "`sh cmake/did.sh", "there is no cmake/did.sh"),
+    "an option that a script does not name": ("--fast part.obj", "--slow part.obj", "does not say that it has --slow"),
+    "a part of an option": ("do.sh --fast` does", "do.sh --fas` does", "does not say that it has --fas"),
+    "an option that CMake does not have": ("ABUT_HERE", "ABUT_HER", "CMake has no option ABUT_HER"),
+    "a preset that is not there": ("ctest --preset quick", "ctest --preset quack", "has no quack"),
+    "a block without an end": ("ctest --preset quick\n```\n", "ctest --preset quick\n", "does not end"),
 }
 MARK = "\\036%d\\n"  # as docs/snippets/context.hpp prints it
 RUN = {
@@ -84,6 +99,10 @@ def main():
         root = pathlib.Path(folder)
         (root / "docs").mkdir()
         (root / "docs/README.md").write_text("# Title\n", encoding="utf-8")
+        (root / "cmake").mkdir()
+        (root / "cmake/do.sh").write_text(SCRIPT, encoding="utf-8")
+        (root / "CMakeLists.txt").write_text('option(ABUT_HERE "" ON)\n', encoding="utf-8")
+        (root / "CMakePresets.json").write_text('{"name": "quick"}\n', encoding="utf-8")
         page = root / "README.md"
         page.write_text(GOOD, encoding="utf-8")
         expect("nothing", pages(root, "check"), None)
