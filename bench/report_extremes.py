@@ -32,6 +32,11 @@ def total(r, rows, key):
     return sum(found) if found else None
 
 
+def step(name):
+    """A row's step, EXTREME VALUE."""
+    return name.split("/", 3)[-1].replace("/", " ")
+
+
 def pairs_at_extremes(r):
     rows = []
     for kind, name in {**PAIR_KINDS, **OTHER_KINDS}.items():
@@ -43,11 +48,12 @@ def pairs_at_extremes(r):
             wrong = [total(r, steps, f"{a}_wrong") for a in ARITHMETICS]
             ns, at = worst(r, steps, "filtered_ns")
             fast = [r.get(n, "fast_ns") for n in steps]
+            slowest, there = worst(r, steps, "filtered_worst_ns")
             rows.append([name, scalar, whole(len(steps)), whole(compared)] + [whole(w) for w in wrong] +
-                        [shown(sorted(fast)[len(fast) // 2]), shown(ns), at.split("/", 3)[-1].replace("/", " ")])
+                        [shown(sorted(fast)[len(fast) // 2]), shown(ns), step(at), shown(slowest and slowest / 1000), step(there)])
     head = ["pairs", "", "steps", "compared", "`fast` wrong", "`filtered` wrong", "`exact` wrong", "`fast`, median of steps, ns",
-            "`filtered`, worst step, ns", "where"]
-    return table(head, rows, 2)
+            "`filtered`, worst step, ns", "where", "`filtered`, slowest pair, us", "where"]
+    return filled(head, rows, 2)
 
 
 def scenes_at_extremes(r):
