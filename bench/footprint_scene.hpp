@@ -241,7 +241,7 @@ tests tests_of(const Policy& on, const std::vector<Pair>& pairs) {
         abut::execution::buffer_of<Policy, Pair> pairs;
         abut::execution::buffer_of<Policy, double> answers;
     };
-    const std::size_t n = pairs.size(), all = abut::host_policy<Policy> ? n : n * ((std::size_t{1} << 20) / n + 1);
+    const std::size_t n = pairs.size(), all = abut::host_policy<Policy> || n == 0 ? n : n * ((std::size_t{1} << 20) / n + 1);
     const auto there = std::make_shared<room>(room{{on, n}, {on, all}});
     upload(on, pairs.data(), n, there->pairs.data());
     synchronize(on);

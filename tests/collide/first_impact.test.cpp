@@ -55,6 +55,35 @@ TEMPLATE_TEST_CASE("first_impact: a coordinate stays within its bounds until a t
     CHECK(narrower > sample_count() / 60);
 }
 
+TEST_CASE("first_impact: the first part is left out where boxes are hardly smaller in it") {
+    const serial on;
+    const torus<float> ring(12, 8, 1, 0.4f);
+    const auto small_after = [&](float way, float scale = 1) {
+        auto t0 = ring.vertices, t1 = ring.vertices;
+        for (auto& v : t0) v = scale * v;
+        for (auto& v : t1) v = scale * vec3<float>{v.x + way, v.y + way, v.z};
+        const mesh<float> at_t0(t0, ring.faces);
+        const auto index = make_impact_index(on, moving(at_t0, at_t0.with_vertices(on, t1)));
+        const bool is = detail::is_first_part_small<true>(on, index, index);
+        CHECK(is == detail::is_first_part_small<false>(on, index, index));
+        CHECK(first_self_impact(on, index).has_value() == !to_host(self_impacts(on, index)).empty());
+        return is;
+    };
+    CHECK(!small_after(0));
+    CHECK(!small_after(0.01f));
+    CHECK(small_after(10));
+    CHECK(small_after(10, 1e30f));
+    // Vertices of no face, and nothing.
+    const std::vector<vec3<float>> from{{0, 0, 0}}, to{{1, 2, 3}};
+    const mesh<float> dust(from, std::vector<face>{}), none;
+    const auto flight = make_impact_index(on, moving(dust, dust.with_vertices(on, to))), rest = make_impact_index(on, dust);
+    CHECK(detail::is_first_part_small<true>(on, flight, flight));
+    CHECK(detail::is_first_part_small<false>(on, rest, flight));
+    const auto empty = make_impact_index(on, none);
+    CHECK(!first_self_impact(on, empty).has_value());
+    CHECK(detail::is_first_part_small<true>(on, empty, empty));
+}
+
 TEST_CASE("first_impact: boxes of a part of the step are in those of the whole") {
     const large_scene<double> s(7, 0.07);
     const serial on;

@@ -382,6 +382,9 @@ TEST_CASE("distributed: a failure of one rank that asks reaches all") {
     CHECK(on_all(on.ranks(), outcome_of([&] { (void)nearest(on, a.part, points, mine ? 0 : 2); }) == expected));
     CHECK(on_all(on.ranks(), outcome_of([&] { (void)inside(on, a.part, points, {.known_closed = !mine}); }) == expected));
     CHECK(on_all(on.ranks(), outcome_of([&] { (void)within(on, a.part, a.part, mine ? -1 : 1); }) == expected));
+    const auto list = part_of(list_of_balls<float>(20), division::even, on.rank(), on.size());
+    CHECK(on_all(on.ranks(), outcome_of([&] { (void)within(on, list, mine ? -1 : 1); }) == expected));
+    CHECK(on_all(on.ranks(), outcome_of([&] { (void)count_within(on, list, mine ? -1 : 1); }) == expected));
     const double below = mine ? std::numeric_limits<double>::quiet_NaN() : 1;
     CHECK(on_all(on.ranks(), outcome_of([&] { (void)distance(on, a.part, a.part, {.below = below}); }) == expected));
     CHECK_THROWS_AS((void)within(on, a.part, a.part, 1 + (mine && bad > 0 ? 1 : 0) + (bad > 0 ? 0 : -2)), error);

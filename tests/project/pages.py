@@ -173,7 +173,7 @@ def wrong_commands(root, page):
             for option in re.findall(r"(?<!\S)--?[a-z][\w-]*", rest):
                 if not re.search(rf"(?<![\w-]){option}(?![\w-])", text if option == "--help" else usage):
                     yield f"{script} does not say that it has {option}"
-        if re.match(r"(?:cmake|ctest) ", line):
+        if re.search(r"(?:^|&& *|; *)(?:cmake|ctest) ", line):
             for option in re.findall(r"-D(ABUT_\w+)", line):
                 if not re.search(rf"\b{option}\b", lists):
                     yield f"CMake has no option {option}"

@@ -4,8 +4,8 @@
 // first_impact, first_self_impact: the earliest of the impacts. A time up to which it is looked for prunes the walk: boxes
 // are made around that part of the step alone. The walk finds all pairs that touch in it, and others whose boxes are near
 // already. So what is found is the first, or tells how far to look; where nothing is found, the part grows. Where boxes are
-// hardly smaller in a part, since shapes move by little of their size, a walk of it takes what one of the whole step takes,
-// and the whole step is looked at.
+// hardly smaller in a part, since most shapes move by little of their size, a walk of it takes what one of the whole step
+// takes, and the whole step is looked at.
 //
 // Of the pairs that a walk finds, few are timed: each has a time before which it is known not to touch, which is cheap, and
 // they are taken in the order of these until what is found is earlier than all that are left.
@@ -241,7 +241,7 @@ auto first_by_bounds(const Policy& on, const View& both, const Search& search) {
 }
 
 /// How much of the step is looked at first, and how much more where nothing touches in it. Where nothing touches at all, the
-/// step is looked at twice.
+/// step is looked at twice, or once if the first part is left out.
 inline constexpr double first_part_of_step = 0x1p-4, growth_of_part = 16;
 
 /// Half the surfaces of boxes, around the whole step and around its first part.
@@ -272,9 +272,9 @@ private:
         return half_surface(half_sides<double>(merge(merge(box_of(corner[0]), box_of(corner[1])), box_of(corner[2]))));
     }
 };
-/// Whether boxes in the first part of the step are so much smaller that few are near others there, by a sample of them. The
-/// answer moves speed alone.
-template <class Policy, class Index>
+/// Whether the boxes of both, or of x alone `Within` one, are so much smaller in the first part of the step that few are near
+/// others there, by a sample of them. The answer moves speed alone.
+template <bool Within, class Policy, class Index>
 bool is_first_part_small(const Policy& on, const Index& x, const Index& y) {
     constexpr std::size_t sample = 4096;
     // On a core, steps of 1.0 and 1.7 took half the time without their part, and one of 2.8 thrice.
@@ -283,13 +283,14 @@ bool is_first_part_small(const Policy& on, const Index& x, const Index& y) {
     const auto add = [&](const Index& index) {
         const auto t0 = index.mesh().t0().view();
         const std::size_t n = t0.faces.count > 0 ? t0.faces.count : t0.vertices.count, step = n / sample + 1;
-        const surfaces_in_motion<typename Index::scalar_type> all{t0.faces, t0.vertices, index.mesh().t1().view().vertices, step};
+        const auto t1 = index.mesh().t1().view().vertices;
+        const surfaces_in_motion<typename Index::scalar_type> all{t0.faces, t0.vertices, t1, step};
         const auto sum = reduce(on, n / step, surfaces_of_step{}, add_surfaces_of_step{}, all);
         whole += static_cast<double>(step) * sum.whole;
         part += static_cast<double>(step) * sum.part;
     };
     add(x);
-    add(y);
+    if constexpr (!Within) add(y);
     return !(whole < much * part);
 }
 
@@ -329,7 +330,10 @@ auto first_until(const Policy& on, const Index& x, const Index& y, double time, 
 template <motion_arithmetic A, bool Within, class Policy, class Index, class Fronts>
 auto first_of_indices(const Policy& on, const Index& x, const Index& y, const impact_options& options, const Fronts& fronts,
                       const char* function) {
-    const double first_part = is_first_part_small(on, x, y) ? first_part_of_step : 1;
+    double first_part = 1;
+    if constexpr (std::same_as<A, filtered> || std::same_as<A, exact>) {
+        if (is_first_part_small<Within>(on, x, y)) first_part = first_part_of_step;
+    }
     return first_of_step<A>([&](double time) { return first_until<A, Within>(on, x, y, time, options, fronts, function); },
                             first_part);
 }
@@ -362,10 +366,9 @@ auto first_within(const Policy& on, const X& a, const impact_options& options, c
 
 /// The earliest of the impacts of two meshes as a std::optional<impact<T>>, which is empty if there are none: of several at
 /// one time, the first in the order of `impacts`. What is found so far prunes the search: it looks at a first part of the
-/// step, and at more where nothing touches in it; at the whole step at once where shapes move by little of their size. For
-/// parts the trees are refitted, except with `fast` and `conservative`; so
-/// under cuda the stream of an index's first such query has to outlive the index (see `refit`). Arguments, times and errors
-/// are those of `impacts`.
+/// step, and at more where nothing touches in it; or at the whole step at once, where most shapes move by little of their
+/// size. For parts the trees are refitted; so under cuda the stream of an index's first such query has to outlive the index
+/// (see `refit`). `fast` and `conservative` look at the whole step. Arguments, times and errors are those of `impacts`.
 ///
 ///     if (const auto first = abut::first_impact(on, step, ball)) stop_at(first->time);
 template <motion_arithmetic A = filtered, execution_policy Policy, class X, class Y>

@@ -131,14 +131,14 @@ auto nearness_of(const conservative_bounds& bounds, const char* function) {
     if constexpr (std::same_as<A, conservative>) {
         if (!(bounds.separation >= 0 && bounds.separation <= static_cast<double>(largest_finite<T>) &&
               bounds.tolerance >= 0)) {
-            throw error(std::string(function) + ": separation is " + std::to_string(bounds.separation) + ", tolerance " +
-                        std::to_string(bounds.tolerance) + "; expected 0 or more, and finite");
+            throw error(std::string(function) + ": separation is " + shortest(bounds.separation) + ", tolerance " +
+                        shortest(bounds.tolerance) + "; expected 0 or more, and finite");
         }
         const T rounded = static_cast<T>(bounds.separation);
         return near_in_coordinates<T>{{static_cast<double>(rounded) < bounds.separation ? next_up(rounded) : rounded}};
     } else {
         if (!(bounds.separation == 0)) {
-            throw error(std::string(function) + ": separation is " + std::to_string(bounds.separation) +
+            throw error(std::string(function) + ": separation is " + shortest(bounds.separation) +
                         "; expected 0, since `conservative` alone keeps one: " + function + "<abut::conservative>");
         }
         return near_enough_to_touch{};

@@ -124,9 +124,13 @@ template <scalar T>
 ABUT_HD constexpr point middle_in_box(const point& lower, const point& upper, const corners& t) {
     constexpr double slack = 0x1p-51;
     const point_in_box found = middle_in_box_by<one_double>(lower, upper, t, slack);
-    if (std::same_as<T, float> || !(found.moved > slack)) return found.at;
-    const point_in_box again = middle_in_box_by<two_doubles>(lower, upper, t, 0x1p-90);
-    return again.moved < found.moved ? again.at : found.at;
+    if constexpr (std::same_as<T, double>) {
+        if (found.moved > slack) {
+            const point_in_box again = middle_in_box_by<two_doubles>(lower, upper, t, 0x1p-90);
+            if (again.moved < found.moved) return again.at;
+        }
+    }
+    return found.at;
 }
 
 }  // namespace abut::detail::contact_math
