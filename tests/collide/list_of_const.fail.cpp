@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // expect: abut: posed_pair of the type of a const index: leave out const where the index is made
+// errors: 2
 #include <abut/abut.hpp>
 
 int main() {

@@ -52,8 +52,8 @@ struct posed_pair {
     static_assert(!std::is_const_v<IndexA> && !std::is_const_v<IndexB>,
                   "abut: posed_pair of the type of a const index: leave out const where the index is made, or write "
                   "posed_pair<std::remove_const_t<decltype(index)>>");
-    posed_object<IndexA> a;  ///< the first one
-    posed_object<IndexB> b;  ///< the second one
+    posed_object<std::remove_const_t<IndexA>> a;  ///< the first one
+    posed_object<std::remove_const_t<IndexB>> b;  ///< the second one
 };
 
 /// Two shapes that touch: `pair` is the position in the list, `a` and `b` are ids in its sets.
