@@ -60,15 +60,15 @@ def cost_triangles(results):
 
 @in_table("cost-meshes")
 def cost_meshes(results):
-    cpu, layouts, cuda = results["cpu/meshes"], results["cpu/builders"], results["cuda/meshes"]
+    cpu, cuda = results["cpu/meshes"], results["cuda/meshes"]
     batch = "batch/1000/cuda"
     embree = [cpu.get(f"unsorted/embree_{q}/serial") for q in ("low", "medium")]
     peers_say = f" Embree with the same test at its leaves takes {shown(min(embree))} on one core, unsorted." if all(embree) else ""
     if cpu.get("unsorted/fcl_obb/serial"):
         peers_say += f" FCL takes {shown(cpu.get('unsorted/fcl_obb/serial'))}."
     return paragraph(f"""**Two meshes** of 345,944 triangles with a tree each have {whole(cpu.get('pairs/baked/serial', 'pairs'))} pairs. Sorted and
-        exact, they take {shown(cpu.get('pairs/baked/serial'))} ms on one core, {shown(layouts.get('pairs/baked/sah/wide'))} with wide
-        trees, and {shown(cuda.get('pairs/baked/cuda'))} on the {cuda.context['device']}.{peers_say} A tree takes
+        exact, they take {shown(cpu.get('pairs/baked/serial'))} ms on one core, and
+        {shown(cuda.get('pairs/baked/cuda'))} on the {cuda.context['device']}.{peers_say} A tree takes
         {shown(cpu.get('build/bvh/serial'))} ms to build on the core, and {shown(cuda.get('build/bvh/cuda/345944'))} on the device. 1,000
         posed pairs of meshes of 2,766 triangles, in one call on the device, take {shown(cuda.get(batch))} ms. They have
         {whole(cuda.get(batch, 'pairs'))} pairs of triangles.""")

@@ -31,7 +31,7 @@ inline constexpr bool is_tree<bvh<Set, Space, Layout>> = true;
 /// Whether bodies can be of all these indices.
 template <class Policy, class Index, class... More>
 consteval bool can_be_listed() {
-    // Of a const index posed_pair has said what is wrong.
+    // Of a const index posed_pair or posed_object has said what is wrong.
     static_assert(is_tree<Index> || std::is_const_v<Index>,
                   "abut: a list of pairs or of bodies holds indices made by make_bvh");
     if constexpr (!is_tree<Index>) {

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include <abut/execution/policy.hpp>
@@ -21,6 +22,9 @@ namespace abut {
 /// A set or an index, and its pose. Shares the object's storage, as a copy of it does.
 template <class Object>
 struct posed_object {
+    static_assert(!std::is_const_v<Object>,
+                  "abut: posed_object of the type of a const index: leave out const where the index is made, or write "
+                  "posed_object<std::remove_const_t<decltype(index)>>");
     using scalar_type = typename Object::scalar_type;    ///< float or double
     using memory_space = typename Object::memory_space;  ///< where the memory lies
 
