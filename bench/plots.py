@@ -16,7 +16,7 @@ from matplotlib.lines import Line2D  # noqa: E402
 from report_core import ARITHMETICS, LITERATURE, SCALARS  # noqa: E402
 from report_extremes import EXTREMES, PAIR_KINDS, other_kinds  # noqa: E402
 from report_motion import motion_scenes  # noqa: E402
-from report_predicates import IN_MOTION, IN_TIME, INPUTS, OTHERS, PREDICATES, WITHIN  # noqa: E402
+from report_predicates import HULLS, IN_MOTION, IN_TIME, INPUTS, OTHERS, PREDICATES, SOLIDS, WITHIN  # noqa: E402
 from report_queries import ANY_SCENES, BUILDERS, SIZES, SPHERES, descents_of, of_size, policies  # noqa: E402
 from report_scaling import DEALS, Model, rank_counts, sizes  # noqa: E402
 
@@ -96,6 +96,8 @@ def few_ticks(low, high):
 
 def trade(r, million_a_second, predicates=PREDICATES, arithmetics=ARITHMETICS):
     predicates = {p: name for p, name in predicates.items() if r.names(p + "/")}
+    if not predicates:
+        raise LookupError("none of these pairs was measured")
     figure, axes = grid(len(predicates), min(3, len(predicates)), sharey=True)
     for axis, (predicate, name) in zip(axes, predicates.items()):
         for scalar in SCALARS:
@@ -145,6 +147,16 @@ def trade_others_cpu(results):
     return trade(results["cpu/trade_others"], lambda r, name: 1e3 / r.get(name, "ns"), {**OTHERS, **WITHIN, **IN_MOTION}, IN_TIME)
 
 
+@plot("trade-solids-cpu")
+def trade_solids_cpu(results):
+    return trade(results["cpu/trade_others"], lambda r, name: 1e3 / r.get(name, "ns"), SOLIDS)
+
+
+@plot("trade-hulls-cpu")
+def trade_hulls_cpu(results):
+    return trade(results["cpu/trade_others"], lambda r, name: 1e3 / r.get(name, "ns"), HULLS)
+
+
 @plot("trade-others-cuda")
 def trade_others_cuda(results):
     return trade(results["cuda/trade_others"], lambda r, name: r.get(name, "pairs") / r.get(name) / 1e3, OTHERS)
@@ -184,6 +196,11 @@ def motion(r, scenes, points):
     below(figure, handles, 5 if len(handles) > 8 else 8)
     figure.suptitle(f"Features in motion, candidates of scenes: {of_machine(r)}", color=GREY)
     return figure
+
+
+@plot("trade-solids-cuda")
+def trade_solids_cuda(results):
+    return trade(results["cuda/trade_solids"], lambda r, name: r.get(name, "pairs") / r.get(name) / 1e3, SOLIDS)
 
 
 @plot("trade-within-cuda")

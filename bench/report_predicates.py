@@ -13,6 +13,16 @@ PREDICATES = {"triangle_triangle": "triangle, triangle", "segment_triangle": "se
 OTHERS = {"sphere_sphere": "sphere, sphere", "capsule_capsule": "capsule, capsule", "box_sphere": "box, sphere",
           "box_capsule": "box, capsule", "ray_triangle": "ray, triangle", "hull_hull": "hull, hull"}
 WITHIN = {"triangles_within": "triangles within a distance", "capsules_within": "capsules within a distance"}
+# The other pairs of shapes, of bench/trade_others.hpp as well, and those with a hull.
+SOLIDS = {"point_point": "point, point", "point_segment": "point, segment", "point_triangle": "point, triangle",
+          "point_sphere": "point, sphere", "point_capsule": "point, capsule", "segment_segment": "segment, segment",
+          "sphere_segment": "sphere, segment", "segment_capsule": "segment, capsule", "sphere_capsule": "sphere, capsule",
+          "box_point": "box, point", "box_segment": "box, segment", "box_box": "box, box", "plane_point": "plane, point",
+          "plane_segment": "plane, segment", "plane_sphere": "plane, sphere", "plane_capsule": "plane, capsule",
+          "plane_box": "plane, box", "plane_plane": "plane, plane"}
+HULLS = {"hull_point": "hull, point", "hull_segment": "hull, segment", "hull_triangle": "hull, triangle",
+         "hull_sphere": "hull, sphere", "hull_capsule": "hull, capsule", "hull_box": "hull, box", "hull_plane": "hull, plane",
+         "hull_ray": "hull, ray"}
 IN_MOTION = {"vertex_face": "vertex, face in motion", "edge_edge": "edge, edge in motion"}
 IN_TIME = ("fast", "conservative", "filtered", "exact")
 INPUTS = ("random", "touching", "lattice")
@@ -64,9 +74,15 @@ def trade_others_cpu(results):
                             [f"{whole(r.get(at + a, 'missed_per_million'))} / {whole(r.get(at + a, 'phantom_per_million'))}"
                              for a in IN_TIME])
     pairs = r.get("sphere_sphere/random/float/fast", "pairs")
+    more = []
+    for figure, what, predicates in (("solids", "points, segments, boxes and planes", SOLIDS),
+                                     ("hulls", "convex hulls", HULLS)):
+        if any(r.names(p + "/") for p in predicates):  # results of before have none
+            more += [f"![Throughput against wrong answers per million, {what}, one core](figures/trade-{figure}-cpu.svg)", "",
+                     f"The same of {what}:", ""] + trade(r, lambda r, n: r.get(n, "ns"), predicates)
     return ["![Throughput against wrong answers per million, other pairs, one core](figures/trade-others-cpu.svg)", "",
             "Time of a pair on one core, and wrong answers per million:", ""] + \
-        trade(r, lambda r, n: r.get(n, "ns"), {**OTHERS, **WITHIN}) + \
+        trade(r, lambda r, n: r.get(n, "ns"), {**OTHERS, **WITHIN}) + more + \
         ["Time of impact of a pair, and whether there is one: missed and phantom per million:", ""] + \
         table(["pairs", ""] + [f"`{a}`, ns" for a in IN_TIME] + [f"`{a}`: missed / phantom" for a in IN_TIME], rows, 2) + \
         made_on(r, f"; {pairs:,} pairs a row")
@@ -82,6 +98,11 @@ def on_a_device(r, what, figure, predicates):
 @in_table("trade-others-cuda")
 def trade_others_cuda(results):
     return on_a_device(results["cuda/trade_others"], "other pairs", "trade-others-cuda", OTHERS)
+
+
+@in_table("trade-solids-cuda")
+def trade_solids_cuda(results):
+    return on_a_device(results["cuda/trade_solids"], "points, segments, boxes and planes", "trade-solids-cuda", SOLIDS)
 
 
 @in_table("trade-within-cuda")

@@ -3,8 +3,8 @@
 // usage: bench_trade [--json=OUT.json] [--pairs=N] [--runs=N] [--which=triangles|others]
 //
 // Speed against wrong answers, of one pair at a time on one core: N pairs (65,536) of each predicate and input of
-// bench/trade_pairs.hpp, or with `others` of bench/trade_others.hpp (pairs without a triangle, rays, distances), of hulls,
-// and of features in motion. Names: PREDICATE/INPUT/SCALAR/ARITHMETIC, where ARITHMETIC is fast, filtered, exact, or
+// bench/trade_pairs.hpp, or with `others` of bench/trade_others.hpp (pairs without a triangle, points, rays, distances), of
+// hulls, and of features in motion. Names: PREDICATE/INPUT/SCALAR/ARITHMETIC, where ARITHMETIC is fast, filtered, exact, or
 // resolve, the last stage of both alone, on a sixty-fourth of the pairs; in motion fast, conservative, filtered and exact,
 // which tell times of impact, exact those of an eighth of the pairs. In a row:
 //
@@ -15,11 +15,14 @@
 //   filter_decides         the share that floating point with an error bound decides
 
 #include <algorithm>
+#include <concepts>
 #include <cstdint>
 #include <cstdio>
 #include <ctime>
 #include <exception>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <abut/narrow/time_of_impact.hpp>
@@ -78,18 +81,95 @@ struct hull_hull {
     }
 };
 
-template <class T>
-using two_hulls = trade::pair<abut::test::point_list<T>, abut::test::point_list<T>>;
+/// A hull of six points, and another shape as in bench/trade_others.hpp: half of the touching ones are a tenth as large,
+/// with numbers rounded.
+template <template <class> class Other>
+struct hull_and {
+    template <abut::scalar T>
+    static trade::pair<abut::test::point_list<T>, Other<T>> make(trade::input in, std::uint64_t i) {
+        namespace make = abut::test::construction;
+        abut::test::draws d(trade::seed, 8870 + static_cast<std::uint64_t>(in), i);
+        abut::test::point_list<T> points;
+        const auto add = [&points](const abut::triangle<T>& t) { points.insert(points.end(), {t.a, t.b, t.c}); };
+        if (in != trade::input::touching) {
+            for (int k = 0; k < 2; ++k) add(trade::solid_of<abut::triangle, T>(d, in));
+            return {std::move(points), trade::solid_of<Other, T>(d, in)};
+        }
+        const make::contact_frame frame = make::any_contact_frame(d, 0);
+        for (int k = 0; k < 2; ++k) add(make::touching_from<abut::triangle<T>>(d, frame, 1, 0));
+        auto other = make::touching_from<Other<T>>(d, frame, -1, 1 + d.below(3));
+        trade::step_off(d, other);
+        if (i % 2 == 1) {
+            const T tenth = T(1) / T(10);
+            for (abut::vec3<T>& p : points) p = tenth * p;
+            other = make::scaled(tenth, other);
+        }
+        return {std::move(points), other};
+    }
+};
+struct hull_point : hull_and<abut::vec3> {
+    static constexpr const char* name = "hull_point";
+};
+struct hull_segment : hull_and<abut::segment> {
+    static constexpr const char* name = "hull_segment";
+};
+struct hull_triangle : hull_and<abut::triangle> {
+    static constexpr const char* name = "hull_triangle";
+};
+struct hull_sphere : hull_and<abut::sphere> {
+    static constexpr const char* name = "hull_sphere";
+};
+struct hull_capsule : hull_and<abut::capsule> {
+    static constexpr const char* name = "hull_capsule";
+};
+struct hull_box : hull_and<abut::aabb> {
+    static constexpr const char* name = "hull_box";
+};
+struct hull_plane : hull_and<abut::plane> {
+    static constexpr const char* name = "hull_plane";
+};
 
-// What is asked about a pair, of which hulls own their points.
+/// From one end of a segment through the other one.
+struct hull_ray {
+    static constexpr const char* name = "hull_ray";
+    template <abut::scalar T>
+    static trade::pair<abut::test::point_list<T>, abut::ray<T>> make(trade::input in, std::uint64_t i) {
+        auto p = hull_segment::make<T>(in, i);
+        return {std::move(p.s), {p.t.a, p.t.b - p.t.a}};
+    }
+};
+
+/// What is asked about: hulls own their points here.
+///@{
+template <class S>
+const S& seen(const S& s) {
+    return s;
+}
+template <abut::scalar T>
+abut::hull<T> seen(const abut::test::point_list<T>& points) {
+    return abut::test::hull_over(points);
+}
+///@}
+
+/// Calls f with the shapes in the order in which the pair has stages.
+template <class Pair, class F>
+auto in_order(const Pair& p, const F& f) {
+    const auto& s = seen(p.s);
+    const auto& t = seen(p.t);
+    if constexpr (abut::decidable_pair<std::remove_cvref_t<decltype(s)>, std::remove_cvref_t<decltype(t)>>) {
+        return f(s, t);
+    } else {
+        return f(t, s);
+    }
+}
 
 template <abut::arithmetic A, class Pair>
 bool answer_of(const Pair& p) {
-    return trade::answer<A>(p);
-}
-template <abut::arithmetic A, abut::scalar T>
-bool answer_of(const two_hulls<T>& p) {
-    return abut::intersects<A>(abut::test::hull_over(p.s), abut::test::hull_over(p.t));
+    if constexpr (requires { p.distance; }) {
+        return trade::answer<A>(p);
+    } else {
+        return abut::intersects<A>(seen(p.s), seen(p.t));
+    }
 }
 
 /// Whether the filter decides.
@@ -98,12 +178,9 @@ bool filter_decides(const Pair& p) {
     if constexpr (requires { p.distance; }) {
         return abut::detail::decide_within<abut::filtered>(p.s, p.t, p.distance) != abut::verdict::unknown;
     } else {
-        return abut::decide<abut::filtered>(p.s, p.t) != abut::verdict::unknown;
+        return in_order(
+            p, [](const auto& s, const auto& t) { return abut::decide<abut::filtered>(s, t) != abut::verdict::unknown; });
     }
-}
-template <abut::scalar T>
-bool filter_decides(const two_hulls<T>& p) {
-    return abut::decide<abut::filtered>(abut::test::hull_over(p.s), abut::test::hull_over(p.t)) != abut::verdict::unknown;
 }
 
 /// The last stage alone.
@@ -112,12 +189,25 @@ bool resolved(const Pair& p) {
     if constexpr (requires { p.distance; }) {
         return abut::detail::resolve_within(p.s, p.t, p.distance);
     } else {
-        return abut::resolve(p.s, p.t);
+        return in_order(p, [](const auto& s, const auto& t) { return abut::resolve(s, t); });
     }
 }
+
+/// Whether a ray meets a hull: as a segment, which ends where the hull has no point.
 template <abut::scalar T>
-bool resolved(const two_hulls<T>& p) {
-    return abut::resolve(abut::test::hull_over(p.s), abut::test::hull_over(p.t));
+bool ray_meets(const abut::ray<T>& r, const abut::test::point_list<T>& points) {
+    using abut::test::integer_point;
+    std::vector<T> values{r.origin.x, r.origin.y, r.origin.z, r.direction.x, r.direction.y, r.direction.z};
+    for (const abut::vec3<T>& p : points) values.insert(values.end(), {p.x, p.y, p.z});
+    const std::vector<abut::test::integer> v = abut::test::to_integers(values);
+    abut::test::integer beyond = 1;
+    std::vector<integer_point> corners;
+    for (std::size_t i = 6; i < v.size(); i += 3) {
+        corners.push_back({v[i], v[i + 1], v[i + 2]});
+        for (std::size_t k = 0; k < 3; ++k) beyond += abs(abut::test::integer(v[i + k] - v[k]));
+    }
+    const integer_point end{v[0] + beyond * v[3], v[1] + beyond * v[4], v[2] + beyond * v[5]};
+    return abut::test::hulls_meet({{v[0], v[1], v[2]}, end}, corners);
 }
 
 /// By an oracle that shares no formula with the library.
@@ -128,15 +218,28 @@ bool truth_of(const Pair& p) {
         return abut::test::exact_gap(p.s, p.t).compared_with(p.distance) <= 0;
     } else if constexpr (requires { p.s.direction; }) {
         return abut::test::first_time(p.s, p.t).has_value();
+    } else if constexpr (requires { p.s.offset, p.t.offset; }) {
+        return oracle::planes_meet(p.s, p.t);
     } else if constexpr (requires { oracle::intersects(p.s, p.t); }) {
         return oracle::intersects(p.s, p.t);
     } else {
         return oracle::within_distance(p.s, p.t, 0);
     }
 }
-template <abut::scalar T>
-bool truth_of(const two_hulls<T>& p) {
-    return abut::test::oracle::hulls_intersect<T>(p.s, p.t);
+template <abut::scalar T, class S>
+bool truth_of(const trade::pair<abut::test::point_list<T>, S>& p) {
+    namespace oracle = abut::test::oracle;
+    if constexpr (std::same_as<S, abut::test::point_list<T>>) {
+        return oracle::hulls_intersect<T>(p.s, p.t);
+    } else if constexpr (requires { p.t.direction; }) {
+        return ray_meets(p.t, p.s);
+    } else if constexpr (requires { p.t.offset; }) {
+        return oracle::plane_and_points(p.t, p.s, {0.0});
+    } else if constexpr (requires { p.t.radius; }) {
+        return oracle::within_distance(seen(p.s), p.t, 0);
+    } else {
+        return oracle::hulls_intersect<T>(p.s, abut::test::corners_of(p.t));
+    }
 }
 
 /// Answers of the first n pairs compared with the truth, in a row.
@@ -245,7 +348,16 @@ int main(int argc, char** argv) {
         } else if (which == "others") {
             trade::for_each_other_predicate(add_both);
             trade::for_each_distance_predicate(add_both);
+            trade::for_each_solid_predicate(add_both);
             add_both(hull_hull{});
+            add_both(hull_point{});
+            add_both(hull_segment{});
+            add_both(hull_triangle{});
+            add_both(hull_sphere{});
+            add_both(hull_capsule{});
+            add_both(hull_box{});
+            add_both(hull_plane{});
+            add_both(hull_ray{});
             for (const trade::input in : trade::inputs) {
                 using abut::test::motion_kind;
                 add_motion<motion_kind::vertex_face, float>(out, "vertex_face", in, of);

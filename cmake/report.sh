@@ -79,6 +79,7 @@ cpu distributed bench_distributed --json={}
 cuda footprint bench_footprint_cuda {}
 cuda trade bench_trade_cuda {}
 cuda trade_others bench_trade_cuda {} others
+cuda trade_solids bench_trade_solids_cuda {}
 cuda trade_within bench_trade_within_cuda {}
 cuda spheres_mesh bench_spheres_mesh_cuda {}
 cuda triangles bench_triangles_cuda {}

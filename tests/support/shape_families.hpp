@@ -212,6 +212,18 @@ ABUT_HD triangle<T> scaled(T by, const triangle<T>& t) {
     return {by * t.a, by * t.b, by * t.c};
 }
 template <scalar T>
+ABUT_HD vec3<T> scaled(T by, const vec3<T>& p) {
+    return by * p;
+}
+template <scalar T>
+ABUT_HD segment<T> scaled(T by, const segment<T>& s) {
+    return {by * s.a, by * s.b};
+}
+template <scalar T>
+ABUT_HD sphere<T> scaled(T by, const sphere<T>& s) {
+    return {by * s.center, by * s.radius};
+}
+template <scalar T>
 ABUT_HD aabb<T> scaled(T by, const aabb<T>& box) {
     return {by * box.lower, by * box.upper};
 }
