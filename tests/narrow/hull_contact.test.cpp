@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
+#include <iterator>
 #include <vector>
 
 #include "support/catch.hpp"
@@ -111,6 +112,27 @@ T radius_among(const test::point_list<T>& points, test::draws& d) {
     return d.below(4) == 0 ? T(0) : static_cast<T>(size * (d.below(2) == 0 ? 1 : d.uniform(0, 0.5)));
 }
 
+/// Pair k of a family, if it touches.
+template <scalar T>
+void check_pair(test::hull_family f, std::uint64_t k, test::contact_tally& tally, std::uint64_t& deep) {
+    auto both = test::make_hull_pair<T>(test::sample_seed + 5, f, k);
+    if (both.a.size() > 6) both.a.resize(6);
+    if (both.b.size() > 5) both.b.resize(5);
+    if (f == test::hull_family::lattice) flatten(both, k / 2 % 16);
+    test::draws d(test::sample_seed, 9, k);
+    const auto kind = static_cast<int>(k % (kinds + 3));
+    const T radius = radius_among(both.b, d);
+    test::with_shapes_of_kind(kind < kinds ? kind : 0, both, radius, [&](const auto& h, const auto& u) {
+        const auto found = contact_of(h, u);
+        INFO(test::name_of(f) << " " << k);
+        if (found.has_value() != intersects<exact>(h, u)) FAIL_CHECK("there is one exactly where they touch");
+        if (!found) return;
+        const char* const wrong = wrong_with_pair(h, u, *found, tally);
+        deep += found->depth > contact_bound(h, u);
+        if (wrong != nullptr) FAIL_CHECK(wrong);
+    });
+}
+
 }  // namespace
 
 TEMPLATE_TEST_CASE("contacts of hulls: as by definition, in every family", "", float, double) {
@@ -121,30 +143,27 @@ TEMPLATE_TEST_CASE("contacts of hulls: as by definition, in every family", "", f
     for (const test::hull_family f : families_in_contact) {
         test::contact_tally tally;
         const std::uint64_t samples = test::sample_count() / (f == test::hull_family::exponents ? 80 : 20);
-        for (std::uint64_t k = 0; k < samples; ++k) {
-            auto both = test::make_hull_pair<T>(test::sample_seed + 5, f, k);
-            if (both.a.size() > 6) both.a.resize(6);
-            if (both.b.size() > 5) both.b.resize(5);
-            if (f == test::hull_family::lattice) flatten(both, k / 2 % 16);
-            test::draws d(test::sample_seed, 9, k);
-            const auto kind = static_cast<int>(k % (kinds + 3));
-            const T radius = radius_among(both.b, d);
-            test::with_shapes_of_kind(kind < kinds ? kind : 0, both, radius, [&](const auto& h, const auto& u) {
-                const auto found = contact_of(h, u);
-                INFO(test::name_of(f) << " " << k);
-                if (found.has_value() != intersects<exact>(h, u)) FAIL_CHECK("there is one exactly where they touch");
-                if (!found) return;
-                const char* const wrong = wrong_with_pair(h, u, *found, tally);
-                deep += found->depth > contact_bound(h, u);
-                if (wrong != nullptr) FAIL_CHECK(wrong);
-            });
-        }
+        for (std::uint64_t k = 0; k < samples; ++k) check_pair<T>(f, k, tally, deep);
         INFO(test::name_of(f));
         CHECK(tally.touching * 12 > samples);
         test::check_total(test::name_of(f), tally, 5);
         total += tally;
     }
     CHECK(deep * 5 > total.touching);
+}
+
+TEST_CASE("contacts of hulls: pairs whose normals were longer or shorter than is promised") {
+    constexpr struct {
+        test::hull_family family;
+        std::uint64_t k;
+    } once_wrong[] = {{test::hull_family::general, 8434},   {test::hull_family::general, 14675},
+                      {test::hull_family::far_away, 12434}, {test::hull_family::far_away, 33314},
+                      {test::hull_family::exponents, 3240}, {test::hull_family::exponents, 5744},
+                      {test::hull_family::exponents, 8896}, {test::hull_family::exponents, 10630}};
+    test::contact_tally tally;
+    std::uint64_t deep = 0;
+    for (const auto& pair : once_wrong) check_pair<double>(pair.family, pair.k, tally, deep);
+    CHECK(tally.touching == std::size(once_wrong));
 }
 
 TEMPLATE_TEST_CASE("contacts of hulls: with planes", "", float, double) {

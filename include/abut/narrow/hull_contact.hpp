@@ -271,8 +271,8 @@ ABUT_NOINLINE ABUT_HD constexpr contact<T> contact_of_hulls(const hull<T>& a, co
     const auto& nearest = measured.nearest;
     const typename nearest_in_hulls<T>::integers x(a, b, nearest.unit_of(a, b));
     const bool meet = radius == 0 || nearest.length == 0;
-    const point n =
-        as_stored_direction<T>(meet ? expanding_polytope<T>(a, b, x, nearest.at, scale).least_way() : nearest.direction(x));
+    const point way_out = meet ? expanding_polytope<T>(a, b, x, nearest.at, scale).least_way() : nearest.direction(x);
+    const point n = as_stored_direction<T>(unit_vector(as<two_doubles>(way_out)));
     const point origin = scale(b[0]);
     const double of_b = plain_sum(greatest_height(b, n, origin, scale), scale(radius));
     least_overlap way;
