@@ -151,6 +151,30 @@ TEMPLATE_TEST_CASE("capsule and hull: every stage is right in every family", "",
     }
 }
 
+// Differences of two parallel edges lie in a plane, in which rounding must not find a tetrahedron that holds the origin.
+TEMPLATE_TEST_CASE("capsule and hull: fast is wrong next to contact alone", "", float, double) {
+    using T = TestType;
+    std::uint64_t wrong = 0, hits = 0;
+    const std::uint64_t samples = 4 * test::sample_count();
+    for (std::uint64_t k = 0; k < samples; ++k) {
+        const auto both = test::make_hull_pair<T>(
+            test::sample_seed + 3, k % 2 == 0 ? test::hull_family::lattice : test::hull_family::general, k);
+        test::draws d(test::sample_seed, 11, k);
+        const auto h = test::hull_over(both.b);
+        const auto capsule_of = [&](double radius) {
+            return capsule<T>{{both.a.front(), both.a.back()}, static_cast<T>(radius)};
+        };
+        const double radius = d.uniform(0.01, 1);
+        const bool truth = intersects<exact>(capsule_of(radius), h);
+        hits += truth;
+        if (intersects<fast>(capsule_of(radius), h) == truth) continue;
+        wrong += intersects<exact>(capsule_of(0.999 * radius), h) == intersects<exact>(capsule_of(1.001 * radius), h);
+    }
+    CHECK(wrong == 0);
+    CHECK(hits * 20 > samples);
+    CHECK(hits * 20 < 19 * samples);
+}
+
 TEMPLATE_TEST_CASE("capsule and hull: right in every rounding mode, and where denormals are flushed", "", float, double) {
     std::vector<round_case<TestType>> cases;
     for (const test::hull_family f : families_around) {
