@@ -148,14 +148,17 @@ TEST_CASE("deque: each item goes to the owner or to one thief, once") {
     std::uint64_t stolen = 0, restarts = 0;
     unsigned seed = 20261230;
     std::printf("deque: seed %u\n", seed);
-    for (const std::uint32_t capacity : {1u, 2u, 7u, 64u, 1000u}) {
-        for (const bool is_lazy : {false, true}) {
-            CAPTURE(capacity, is_lazy, seed);
-            const deque_run run{capacity, 30'000, 3, is_lazy};
-            const auto result = run(seed++);
-            CHECK(std::all_of(result.seen.begin(), result.seen.end(), [](std::uint32_t n) { return n == 1; }));
-            stolen += result.stolen;
-            restarts += result.restarts;
+    // On busy cores thieves come too seldom to get into each other's way: then again.
+    for (int round = 0; round < 20 && (stolen <= 1000 || restarts <= 100); ++round) {
+        for (const std::uint32_t capacity : {1u, 2u, 7u, 64u, 1000u}) {
+            for (const bool is_lazy : {false, true}) {
+                CAPTURE(capacity, is_lazy, seed);
+                const deque_run run{capacity, 30'000, 3, is_lazy};
+                const auto result = run(seed++);
+                CHECK(std::all_of(result.seen.begin(), result.seen.end(), [](std::uint32_t n) { return n == 1; }));
+                stolen += result.stolen;
+                restarts += result.restarts;
+            }
         }
     }
     CHECK(stolen > 1000);
