@@ -2,6 +2,7 @@
 #include <abut/predicate/capsule_hull.hpp>
 
 #include <abut/predicate/intersects.hpp>
+#include <abut/predicate/within.hpp>
 
 #include <cmath>
 #include <cstdint>
@@ -164,15 +165,43 @@ TEMPLATE_TEST_CASE("capsule and hull: fast is wrong next to contact alone", "", 
         const auto capsule_of = [&](double radius) {
             return capsule<T>{{both.a.front(), both.a.back()}, static_cast<T>(radius)};
         };
-        const double radius = d.uniform(0.01, 1);
-        const bool truth = intersects<exact>(capsule_of(radius), h);
-        hits += truth;
-        if (intersects<fast>(capsule_of(radius), h) == truth) continue;
-        wrong += intersects<exact>(capsule_of(0.999 * radius), h) == intersects<exact>(capsule_of(1.001 * radius), h);
+        const double radius = d.below(4) == 0 ? 0 : d.uniform(0, 1);
+        const bool answer = intersects<fast>(capsule_of(radius), h);
+        hits += intersects<exact>(capsule_of(radius), h);
+        const double below = 0.999 * radius - 1e-5, above = 1.001 * radius + 1e-5;
+        wrong += answer ? !intersects<exact>(capsule_of(above), h) : below >= 0 && intersects<exact>(capsule_of(below), h);
     }
     CHECK(wrong == 0);
     CHECK(hits * 20 > samples);
     CHECK(hits * 20 < 19 * samples);
+}
+
+// The middle of a box is on many triangles and tetrahedra of its corners.
+TEMPLATE_TEST_CASE("capsule and hull: fast misses nothing that begins in the middle of a box", "", float, double) {
+    using T = TestType;
+    std::uint64_t missed = 0;
+    const std::uint64_t samples = test::sample_count() / 4;
+    for (std::uint64_t k = 0; k < samples; ++k) {
+        test::draws d(test::sample_seed, 12, k);
+        namespace make = test::construction;
+        const auto across = make::unit(make::cube(d, 1)), aside = make::unit(make::cube(d, 1));
+        const auto third = make::unit(cross(across, aside)), second = cross(third, across);
+        const make::point middle = k % 2 == 0 ? make::point{} : make::cube(d, 2);
+        const double sizes[3] = {d.uniform(0.1, 1), d.uniform(0.1, 1), d.uniform(0.1, 1)};
+        const auto at = [&](double x, double y, double z) {
+            const auto along = make::along(make::along(middle, x * sizes[0], across), y * sizes[1], second);
+            return make::round_to<T>(make::along(along, z * sizes[2], third));
+        };
+        test::point_list<T> corners;
+        for (int c = 0; c < 8; ++c) corners.push_back(at(c % 2 == 0 ? 1 : -1, c / 2 % 2 == 0 ? 1 : -1, c / 4 == 0 ? 1 : -1));
+        const hull<T> h = test::hull_over(corners);
+        const double radii[] = {0, 1e-6, 1e-3};
+        const auto radius = static_cast<T>(radii[k % 3]);
+        missed += !intersects<fast>(capsule<T>{{at(0, 0, 0), at(0.5, 0, 0)}, radius}, h);
+        missed += !intersects<fast>(sphere<T>{at(0, 0, 0), radius}, h);
+        missed += !within<fast>(h, hull<T>(&corners[1], 4), 0.0);
+    }
+    CHECK(missed == 0);
 }
 
 TEMPLATE_TEST_CASE("capsule and hull: right in every rounding mode, and where denormals are flushed", "", float, double) {

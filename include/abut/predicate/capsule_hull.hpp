@@ -57,19 +57,6 @@ ABUT_HD constexpr vec3<F> nearest_on_feature(const vec3<F> (&w)[4], int count, F
     return q;
 }
 
-/// Whether the origin is in a tetrahedron, and by more than products round.
-template <scalar F>
-ABUT_HD constexpr bool clearly_holds_origin(const vec3<F> (&w)[4]) {
-    const auto side_of = [&w](int i, int j, int k) {
-        const vec3<F> a = absolute(w[i]), b = absolute(w[j]), c = absolute(w[k]);
-        const F sum = a.x * (b.y * c.z + b.z * c.y) + a.y * (b.z * c.x + b.x * c.z) + a.z * (b.x * c.y + b.y * c.x);
-        const F volume = dot(w[i], cross(w[j], w[k])), bound = 32 * unit_roundoff<F> * sum;
-        return volume > bound ? 1 : volume < -bound ? -1 : 0;
-    };
-    const int side = side_of(1, 2, 3);
-    return side != 0 && side_of(0, 3, 2) == side && side_of(0, 1, 3) == side && side_of(0, 2, 1) == side;
-}
-
 /// A hull and a core of points with something around it that reaches r far: of `filtered` off by up to 4u of that, and by
 /// what is lost where small numbers are read as 0.
 template <bool Certified, scalar T>
@@ -95,16 +82,20 @@ ABUT_NOINLINE ABUT_HD constexpr verdict near_in_floats(const hull<T>& core, type
         const double m = x.ahead(q, i, j), reach = (1 + 0x1p-29) * rr + (0x1p-63 * mm + tiny);
         return m > 0 && m * m > reach * (dot(q, q) + tiny) + 0x1p-1000 ? verdict::no : verdict::unknown;
     } else {
-        // Two corners of each of two parallel edges make a tetrahedron that is flat, which rounding alone may find the origin in.
-        if (at.count == 4 && clearly_holds_origin(w)) return verdict::yes;
-        vec3<T> q = nearest_on_feature(w, at.count == 4 ? 3 : at.count, weight);
-        for (int k = 0; k < 3 && at.count == 4 && dot(q, q) > rr; ++k) {
-            const vec3<T> left_out = w[k];  // the next face is without that corner
-            w[k] = w[3];
-            w[3] = left_out;
-            q = nearest_on_feature(w, 3, weight);
-        }
-        return to_verdict(dot(q, q) <= rr);
+        // The feature that the search came to, of a tetrahedron the face before its last corner. Where the origin is on it, q is
+        // what differences were rounded by.
+        const vec3<T> q = nearest_on_feature(w, at.count < 4 ? at.count : 3, weight);
+        const T qq = dot(q, q);
+        T size = 0;
+        for (int k = 0; k < at.count; ++k) size = greatest(size, magnitudes(w[k]));
+        const T rounding = 8 * unit_roundoff<T> * size;
+        if (at.count < 4 || qq <= rr) return to_verdict(qq <= rr + rounding * rounding);
+        // Rounding finds the origin as well in a flat tetrahedron, as two parallel edges make it. But then all differences are
+        // ahead, as far as q is.
+        std::uint32_t i = 0, j = 0;
+        x.look_back(q, i, j);
+        const T m = x.ahead(q, i, j);
+        return to_verdict(!(m > 0 && m * m > rr * qq));
     }
 }
 
