@@ -121,7 +121,7 @@ def families(r, shapes):
 
 @in_table("cuda-families-spheres")
 def families_of_spheres(results):
-    return families(results["cuda/predicates"], "sphere_triangle")
+    return families(results["cuda/predicates_spheres"], "sphere_triangle")
 
 
 @in_table("cuda-families-triangles")

@@ -76,10 +76,9 @@ def trade_others_cpu(results):
     pairs = r.get("sphere_sphere/random/float/fast", "pairs")
     more = []
     for figure, what, predicates in (("solids", "points, segments, boxes and planes", SOLIDS),
-                                     ("hulls", "convex hulls", HULLS)):
-        if any(r.names(p + "/") for p in predicates):  # results of before have none
-            more += [f"![Throughput against wrong answers per million, {what}, one core](figures/trade-{figure}-cpu.svg)", "",
-                     f"The same of {what}:", ""] + trade(r, lambda r, n: r.get(n, "ns"), predicates)
+                                     ("hulls", "convex hulls and other shapes", HULLS)):
+        more += [f"![Throughput against wrong answers per million, {what}, one core](figures/trade-{figure}-cpu.svg)", "",
+                 f"The same of {what}:", ""] + trade(r, lambda r, n: r.get(n, "ns"), predicates)
     return ["![Throughput against wrong answers per million, other pairs, one core](figures/trade-others-cpu.svg)", "",
             "Time of a pair on one core, and wrong answers per million:", ""] + \
         trade(r, lambda r, n: r.get(n, "ns"), {**OTHERS, **WITHIN}) + more + \

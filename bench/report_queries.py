@@ -614,16 +614,14 @@ def builders(results):
     rows = []
     for b in BUILDERS:
         at, wide = f"pairs/baked/{b}/standard", f"pairs/baked/{b}/wide"
-        rows.append([f"`{b}`", shown(r.get(f"build/{b}/serial")), shown(r.get(f"build/{b}/openmp")),
-                     shown(r.get(f"refit/{b}/serial")),
-                     shown(r.get(f"convert/wide/{b}/serial"))] +
+        rows.append([f"`{b}`"] + [shown(r.get(f"{what}/{b}/serial")) for what in ("build", "refit", "convert/wide")] +
                     [f"{r.get(at, key):.1f} / {r.get(wide, key):.1f}" for key in ("sah_cost", "mean_depth",
                                                                                   "greatest_depth")])
     for quality in ("low", "medium"):
         if r.get(f"build/embree_{quality}/serial") is not None:
-            rows.append([f"Embree, {quality} quality", shown(r.get(f"build/embree_{quality}/serial"))] + [""] * 6)
-    return table(["ms", "build", "`openmp`", "refit", "conversion to `wide`", "`sah_cost`: as built / `wide`", "mean depth",
-                  "greatest depth"], rows) + made_on(r, f"; {r.context.get('threads')} threads for `openmp`")
+            rows.append([f"Embree, {quality} quality", shown(r.get(f"build/embree_{quality}/serial"))] + [""] * 5)
+    return table(["ms", "build", "refit", "conversion to `wide`", "`sah_cost`: as built / `wide`", "mean depth", "greatest depth"],
+                 rows) + made_on(r)
 
 
 @in_table("layouts")

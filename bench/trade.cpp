@@ -3,7 +3,7 @@
 // usage: bench_trade [--json=OUT.json] [--pairs=N] [--runs=N] [--which=triangles|others]
 //
 // Speed against wrong answers, of one pair at a time on one core: N pairs (65,536) of each predicate and input of
-// bench/trade_pairs.hpp, or with `others` of bench/trade_others.hpp (pairs without a triangle, points, rays, distances), of
+// bench/trade_pairs.hpp, or with `others` of bench/trade_others.hpp (all other pairs, distances), of
 // hulls, and of features in motion. Names: PREDICATE/INPUT/SCALAR/ARITHMETIC, where ARITHMETIC is fast, filtered, exact, or
 // resolve, the last stage of both alone, on a sixty-fourth of the pairs; in motion fast, conservative, filtered and exact,
 // which tell times of impact, exact those of an eighth of the pairs. In a row:

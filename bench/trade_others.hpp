@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Pairs without a triangle, points, rays, and pairs that are asked about a distance, for bench/trade.cpp, bench/trade.cu,
-// bench/trade_solids.cu and bench/trade_within.cu, in the same three kinds of input, on hosts and devices alike. Here
-// `touching` holds shapes with a point in common, and others of which one number is a step of the scalar type less or more:
-// a radius, the offset of a plane, the distance, or else a coordinate (of boxes all of them); and rays that are aimed at a
-// corner or a side.
+// The pairs that trade_pairs.hpp lacks, but for hulls, and pairs that are asked about a distance, for bench/trade.cpp,
+// bench/trade.cu, bench/trade_solids.cu and bench/trade_within.cu, in the same three kinds of input, on hosts and devices
+// alike. Here `touching` holds shapes with a point in common, and others of which one number is a step of the scalar type
+// less or more: a radius, the offset of a plane, the distance, or else a coordinate (of boxes all of them); and rays that
+// are aimed at a corner or a side.
 
 #include <concepts>
 #include <cstddef>
