@@ -49,7 +49,7 @@ def machine_code(path):
     return int(output_of("size", path).splitlines()[1].split()[0])
 
 
-def device_code(said, path):
+def device_code(said, cubin):
     """Of the kernel of ours that takes most registers; `said` is what ptxas says of all."""
     kernels, name, stack = {}, None, 0
     for line in said.splitlines():
@@ -62,10 +62,15 @@ def device_code(said, path):
     own = [k for k in kernels if "4abut" in k and "3cub" not in k.split("4abut")[0]]
     most = max(own, key=kernels.get)
     found = {"registers": kernels[most][0], "stack": kernels[most][1], "kernels": len(own)}
-    if shutil.which("cuobjdump"):  # a part of the toolkit that is not always there
-        sass = output_of("cuobjdump", "-sass", "-fun", most, path)
-        found["instructions"] = len(re.findall(r"^\s*/\*[0-9a-f]{4,}\*/\s+(?!NOP)", sass, re.M))
-    return found
+    return found | {"instructions": instructions(cubin, most)}
+
+
+def instructions(cubin, kernel):
+    """Of 16 bytes each, but for those that do nothing, which fill up the end."""
+    sections = output_of("readelf", "-SW", cubin)
+    at, size = (int(x, 16) for x in re.search(rf" \.text\.{kernel} +PROGBITS +\w+ (\w+) (\w+)", sections).groups())
+    code = Path(cubin).read_bytes()[at:at + size]
+    return sum(code[i:i + 2] != b"\x18\x79" for i in range(0, size, 16))
 
 
 def measure(scene, folder, cuda):
@@ -75,9 +80,10 @@ def measure(scene, folder, cuda):
     row["gcc"], _ = compiled(["g++", *options, str(BENCH / "footprint.cpp"), "-o", made])
     row["gcc"]["code"] = machine_code(made)
     if cuda:
+        kept = tempfile.mkdtemp(dir=folder)
         row["nvcc"], said = compiled(
-            ["nvcc", "-arch=sm_90", "-Xptxas=-v", *options, str(BENCH / "footprint.cu"), "-o", made + ".cu.o"])
-        row["nvcc"] |= device_code(said, made + ".cu.o")
+            ["nvcc", "-arch=sm_90", "-Xptxas=-v", "-keep", f"-keep-dir={kept}", *options, str(BENCH / "footprint.cu"), "-o", made + ".cu.o"])
+        row["nvcc"] |= device_code(said, next(Path(kept).glob("*.cubin")))
     return {f"{compiler}_{key}": value for compiler, values in row.items() for key, value in values.items()}
 
 

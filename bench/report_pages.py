@@ -55,7 +55,7 @@ def cost_triangles(results):
         {cuda.context['device']}, and {times} times what `fast` takes. Reading the same bytes takes
         {shown(cuda.get(f'read/float/cuda/{n}'))} ms. Maffina 2012 took {whole(theirs['gpu_ms'][n])} ms on a GTX 590, and
         {whole(theirs['one_core_ms'][n])} ms on one core. Pairs that all differ, with 1.7 % hits (with 20 %): one core decides
-        {both('filtered')} million a second. In the same run: `fast` {both('fast')}{others}.""")
+        {both('filtered')} million a second ({cpu.context['machine']}). In the same run: `fast` {both('fast')}{others}.""")
 
 
 @in_table("cost-meshes")
@@ -66,9 +66,11 @@ def cost_meshes(results):
     peers_say = f" Embree with the same test at its leaves takes {shown(min(embree))} on one core, unsorted." if all(embree) else ""
     if cpu.get("unsorted/fcl_obb/serial"):
         peers_say += f" FCL takes {shown(cpu.get('unsorted/fcl_obb/serial'))}."
+    baked, posed = [[shown(r.get(f"pairs/{how}/{policy}")) for r, policy in ((cpu, "serial"), (cuda, "cuda"))]
+                    for how in ("baked", "posed")]
     return paragraph(f"""**Two meshes** of 345,944 triangles with a tree each have {whole(cpu.get('pairs/baked/serial', 'pairs'))} pairs. Sorted and
-        exact, they take {shown(cpu.get('pairs/baked/serial'))} ms on one core, and
-        {shown(cuda.get('pairs/baked/cuda'))} on the {cuda.context['device']}.{peers_say} A tree takes
+        exact, they take {baked[0]} ms on one core ({cpu.context['machine']}), and {baked[1]} on the {cuda.context['device']}; under a
+        pose {posed[0]} and {posed[1]}.{peers_say} A tree takes
         {shown(cpu.get('build/bvh/serial'))} ms to build on the core, and {shown(cuda.get('build/bvh/cuda/345944'))} on the device. 1,000
         posed pairs of meshes of 2,766 triangles, in one call on the device, take {shown(cuda.get(batch))} ms. They have
         {whole(cuda.get(batch, 'pairs'))} pairs of triangles.""")
@@ -94,7 +96,7 @@ def cost_motion(results):
     at = next(s for s in motion_scenes(cuda) if s.startswith("cloth-ball/"))
     return paragraph(f"""**In motion.** A cloth of {whole(cuda.get(f'{at}/build', 'faces'))} triangles folds over a ball. One step of it against
         itself has {whole(cuda.get(f'{at}/impacts', 'impacts'))} impacts. With their times they take
-        {shown(cpu.get('stage/cloth-ball/float/self_impacts'))} ms on one core, and {shown(cuda.get(f'{at}/frame'))} ms, with the refit, on
+        {shown(cpu.get('stage/cloth-ball/float/self_impacts'))} ms on one core ({cpu.context['machine']}), and {shown(cuda.get(f'{at}/frame'))} ms, with the refit, on
         the {cuda.context['device']}.""")
 
 
@@ -142,6 +144,9 @@ def choosing():
             VALUES[f"choosing-{a}-{kind}"] = lambda results, n=f"triangle_triangle/{kind}/float/{a}": needed(results["cpu/trade"].get(n, "ns"))
         VALUES[f"choosing-{a}-wrong"] = lambda results, n=f"triangle_triangle/touching/float/{a}": whole(
             results["cpu/trade"].get(n, "wrong_per_million"))
+        for shape in ("sphere", "box"):
+            VALUES[f"choosing-{shape}-{a}"] = lambda results, n=f"{shape}_{shape}/random/float/{a}": needed(
+                results["cpu/trade_others"].get(n, "ns"))
     VALUES["choosing-double-cpu"] = lambda results: needed(
         results["cpu/trade"].get("triangle_triangle/random/double/filtered", "ns"))
     for scalar in SCALARS:

@@ -705,7 +705,7 @@ def fronts_cuda(results):
 @in_table("footprint")
 def footprint(results):
     r, cuda, compiled = results["cpu/footprint"], results["cuda/footprint"], results["cpu/footprint_build"]
-    rows = []
+    rows, of_nvcc = [], ("seconds", "kernels", "registers", "stack", "instructions")
     for name in r.rows:
         each = r.get(name, "elements")
         rows.append([name.replace("/", ": ", 1), whole(each), f"{r.get(name, 'set_bytes') / each:.0f}",
@@ -715,8 +715,10 @@ def footprint(results):
                      shown(compiled.get(name, "gcc_seconds")),
                      whole(compiled.get(name, "gcc_megabytes")),
                      whole((compiled.get(name, "gcc_code") or 0) / 1024)] +
-                    [whole(compiled.get(name, f"nvcc_{k}"))
-                     for k in ("seconds", "kernels", "registers", "stack", "instructions")])
+                    [whole(compiled.get(name, f"nvcc_{k}")) for k in of_nvcc])
+        measured = [compiled.get(name, f"nvcc_{k}") is not None for k in of_nvcc]
+        if any(measured) and not all(measured):
+            raise KeyError(f"{name}: {of_nvcc[measured.index(False)]}")
     head = ["scene: question", "elements", "bytes of each", "trees, KiB", "one core, ms", "device, ms", "one core: a test, ns",
             "device: a test, ns", "g++, s", "g++, MB", "code, KiB", "nvcc, s", "kernels", "registers", "stack", "instructions"]
     return filled(head, rows) + made_on(r) + made_on(cuda) + made_on(compiled)
