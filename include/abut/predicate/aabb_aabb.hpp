@@ -21,9 +21,15 @@ ABUT_HD constexpr bool at_most(T x, T y) {
     return ordered_bits(x) <= ordered_bits(y);
 }
 
-/// `overlaps` of finite boxes, in every mode of the processor.
+/// `overlaps` of finite boxes, in every mode of the processor: a number that it takes for less than another is less. Where
+/// denormal numbers are read as 0, it takes some for equal that are not.
 template <scalar T>
 ABUT_HD constexpr bool overlaps_by_bits(const aabb<T>& a, const aabb<T>& b) {
+    const auto same = [](T x, T y) { return static_cast<unsigned>(x == y); };
+    const unsigned any_same = same(a.lower.x, b.upper.x) | same(b.lower.x, a.upper.x) | same(a.lower.y, b.upper.y) |
+                              same(b.lower.y, a.upper.y) | same(a.lower.z, b.upper.z) | same(b.lower.z, a.upper.z);
+    const bool seem_to = overlaps(a, b);
+    if ((any_same & static_cast<unsigned>(seem_to)) == 0) return seem_to;
     return at_most(a.lower.x, b.upper.x) && at_most(b.lower.x, a.upper.x) && at_most(a.lower.y, b.upper.y) &&
            at_most(b.lower.y, a.upper.y) && at_most(a.lower.z, b.upper.z) && at_most(b.lower.z, a.upper.z);
 }
