@@ -82,7 +82,8 @@ def measure(scene, folder, cuda):
     if cuda:
         kept = tempfile.mkdtemp(dir=folder)
         row["nvcc"], said = compiled(
-            ["nvcc", "-arch=sm_90", "-Xptxas=-v", "-keep", f"-keep-dir={kept}", *options, str(BENCH / "footprint.cu"), "-o", made + ".cu.o"])
+            ["nvcc", "-arch=sm_90", "-Xptxas=-v", "-keep", f"-keep-dir={kept}", *options, str(BENCH / "footprint.cu"), "-o",
+             made + ".cu.o"])
         row["nvcc"] |= device_code(said, next(Path(kept).glob("*.cubin")))
     return {f"{compiler}_{key}": value for compiler, values in row.items() for key, value in values.items()}
 

@@ -96,8 +96,6 @@ def few_ticks(low, high):
 
 def trade(r, million_a_second, predicates=PREDICATES, arithmetics=ARITHMETICS):
     predicates = {p: name for p, name in predicates.items() if r.names(p + "/")}
-    if not predicates:
-        raise LookupError("none of these pairs was measured")
     figure, axes = grid(len(predicates), min(3, len(predicates)), sharey=True)
     for axis, (predicate, name) in zip(axes, predicates.items()):
         for scalar in SCALARS:
@@ -162,6 +160,11 @@ def trade_others_cuda(results):
     return trade(results["cuda/trade_others"], lambda r, name: r.get(name, "pairs") / r.get(name) / 1e3, OTHERS)
 
 
+@plot("trade-solids-cuda")
+def trade_solids_cuda(results):
+    return trade(results["cuda/trade_solids"], lambda r, name: r.get(name, "pairs") / r.get(name) / 1e3, SOLIDS)
+
+
 def motion(r, scenes, points):
     """points(r, kind, scene, scalar, arithmetic) are million candidates a second, missed and phantom per million; or nothing."""
     figure, axes = grid(2, 2, height=3.2, sharey=True)
@@ -196,11 +199,6 @@ def motion(r, scenes, points):
     below(figure, handles, 5 if len(handles) > 8 else 8)
     figure.suptitle(f"Features in motion, candidates of scenes: {of_machine(r)}", color=GREY)
     return figure
-
-
-@plot("trade-solids-cuda")
-def trade_solids_cuda(results):
-    return trade(results["cuda/trade_solids"], lambda r, name: r.get(name, "pairs") / r.get(name) / 1e3, SOLIDS)
 
 
 @plot("trade-within-cuda")

@@ -96,8 +96,8 @@ def cost_motion(results):
     at = next(s for s in motion_scenes(cuda) if s.startswith("cloth-ball/"))
     return paragraph(f"""**In motion.** A cloth of {whole(cuda.get(f'{at}/build', 'faces'))} triangles folds over a ball. One step of it against
         itself has {whole(cuda.get(f'{at}/impacts', 'impacts'))} impacts. With their times they take
-        {shown(cpu.get('stage/cloth-ball/float/self_impacts'))} ms on one core ({cpu.context['machine']}), and {shown(cuda.get(f'{at}/frame'))} ms, with the refit, on
-        the {cuda.context['device']}.""")
+        {shown(cpu.get('stage/cloth-ball/float/self_impacts'))} ms on one core ({cpu.context['machine']}), and
+        {shown(cuda.get(f'{at}/frame'))} ms, with the refit, on the {cuda.context['device']}.""")
 
 
 def value(name):

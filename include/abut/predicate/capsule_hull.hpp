@@ -86,10 +86,13 @@ ABUT_NOINLINE ABUT_HD constexpr verdict near_in_floats(const hull<T>& core, type
         // what differences were rounded by.
         const vec3<T> q = nearest_on_feature(w, at.count < 4 ? at.count : 3, weight);
         const T qq = dot(q, q);
-        T size = 0;
-        for (int k = 0; k < at.count; ++k) size = greatest(size, magnitudes(w[k]));
-        const T rounding = 8 * unit_roundoff<T> * size;
-        if (at.count < 4 || qq <= rr) return to_verdict(qq <= rr + rounding * rounding);
+        if (qq <= rr) return verdict::yes;
+        if (at.count < 4) {
+            T size = 0;
+            for (int k = 0; k < at.count; ++k) size = greatest(size, magnitudes(w[k]));
+            const T rounding = 8 * unit_roundoff<T> * size;
+            return to_verdict(qq <= rr + rounding * rounding);
+        }
         // Rounding finds the origin as well in a flat tetrahedron, as two parallel edges make it. But then all differences are
         // ahead, as far as q is.
         std::uint32_t i = 0, j = 0;
