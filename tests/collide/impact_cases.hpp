@@ -400,9 +400,9 @@ inline constexpr int frames_of_scene = 6;
 template <class T>
 const std::vector<impact_case<T>>& impact_cases() {
     static const std::vector<impact_case<T>> all = [] {
-        std::vector<impact_case<T>> made;
         const std::uint64_t scenes = sample_count() / 50 + 9;
-        for (std::uint64_t scene = 0; scene < scenes; ++scene) {
+        std::vector<impact_case<T>> made(scenes * frames_of_scene);
+        const auto make = [&made](std::uint64_t scene) {
             const auto kind = static_cast<bodies>(scene % bodies_count);
             draws d(20270301, 200 + static_cast<std::uint64_t>(kind), scene);
             const int size = scene % 50 == 0 ? 2 : static_cast<int>(scene / bodies_count % 2);
@@ -430,9 +430,12 @@ const std::vector<impact_case<T>>& impact_cases() {
                 c.between = impacts_by_loops(c.a, c.b);
                 c.self_a = self_impacts_by_loops(c.a);
                 c.self_b = self_impacts_by_loops(c.b);
-                made.push_back(std::move(c));
+                made[scene * frames_of_scene + static_cast<std::uint64_t>(k)] = std::move(c);
             }
-        }
+        };
+        in_threads<std::size_t>(scenes, [&](std::uint64_t first, std::uint64_t last, std::size_t& count) {
+            for (std::uint64_t scene = first; scene < last; ++scene) make(scene), ++count;
+        });
         return made;
     }();
     return all;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 
 #include "support/catch.hpp"
@@ -18,6 +19,14 @@ namespace {
 struct share_tally {
     std::size_t wrong = 0, near_edges = 0, total = 0;
     double worst = 0;
+
+    share_tally& operator+=(const share_tally& other) {
+        wrong += other.wrong;
+        near_edges += other.near_edges;
+        total += other.total;
+        worst = std::max(worst, other.worst);
+        return *this;
+    }
 
     template <class T>
     void look(const triangle<T>& t, const vec3<T>& p) {
@@ -35,6 +44,62 @@ struct share_tally {
         }
     }
 };
+
+struct share_tallies {
+    share_tally far, close, at_edge, scaled;
+
+    share_tallies& operator+=(const share_tallies& other) {
+        far += other.far;
+        close += other.close;
+        at_edge += other.at_edge;
+        scaled += other.scaled;
+        return *this;
+    }
+};
+
+template <class T>
+void look_at_many(std::uint64_t begin, std::uint64_t end, share_tallies& sum) {
+    constexpr int largest = std::numeric_limits<T>::max_exponent - 1, least = std::numeric_limits<T>::min_exponent - 20;
+    for (std::uint64_t i = begin; i < end; ++i) {
+        test::uniform random(462'000'000 + i);
+        const auto triangles = test::random_triangles<T>(1, random);
+        const triangle<T> t = triangles[0];
+        sum.far.look(t, random.point<T>(-2, 2));
+        // Above a place of the triangle, or of its rim, by less and less. Needles are some of them.
+        const triangle<T> needle{t.a, t.b,
+                                 t.a + static_cast<T>(random()) * (t.b - t.a) + static_cast<T>(1e-4) * (t.c - t.a)};
+        const int down = -static_cast<int>(random.below(40));
+        for (const triangle<T>& s : {t, needle}) {
+            const vec3<double> a = detail::widened(s.a), ab = detail::widened(s.b) - a, ac = detail::widened(s.c) - a;
+            const double along = random(), across = random() * (1 - along);
+            const auto above = [&](double u, double v) {
+                const vec3<double> n = random.point<double>(-1, 1), q = a + u * ab + v * ac + std::ldexp(1.0, down) * n;
+                return vec3<T>{static_cast<T>(q.x), static_cast<T>(q.y), static_cast<T>(q.z)};
+            };
+            sum.close.look(s, above(along, across));
+            sum.at_edge.look(s, above(along, 0));
+            sum.at_edge.look(s, above(0, 0));
+        }
+        // Coordinates of many magnitudes, as many as the digits of the oracle are good for, and both ends of the range.
+        constexpr int spread = 240;
+        const int lowest = least + static_cast<int>(random() * (largest - least - spread));
+        const auto many = [&] {
+            const auto x = [&] {
+                return std::ldexp(static_cast<T>(random(-1, 1)), lowest + static_cast<int>(random() * spread));
+            };
+            const T x0 = x(), x1 = x();
+            return vec3<T>{x0, x1, x()};
+        };
+        const vec3<T> first = many(), second = many(), third = many();
+        sum.scaled.look({first, second, third}, many());
+        for (const int e : {largest - 1, least}) {
+            const auto at_scale = [&](const vec3<T>& v) {
+                return vec3<T>{std::ldexp(v.x / 4, e), std::ldexp(v.y / 4, e), std::ldexp(v.z / 4, e)};
+            };
+            sum.scaled.look({at_scale(t.a), at_scale(t.b), at_scale(t.c)}, at_scale(random.point<T>(-1, 1)));
+        }
+    }
+}
 
 }  // namespace
 
@@ -64,48 +129,8 @@ TEST_CASE("solid angle: angles in turns") {
 }
 
 TEMPLATE_TEST_CASE("solid angle: against angles between planes", "", float, double) {
-    using T = TestType;
-    test::uniform random(462);
-    constexpr int largest = std::numeric_limits<T>::max_exponent - 1, least = std::numeric_limits<T>::min_exponent - 20;
-    share_tally far, close, at_edge, scaled;
-    for (std::size_t i = 0; i < test::sample_count() / 5; ++i) {
-        const auto triangles = test::random_triangles<T>(1, random);
-        const triangle<T> t = triangles[0];
-        far.look(t, random.point<T>(-2, 2));
-        // Above a place of the triangle, or of its rim, by less and less. Needles are some of them.
-        const triangle<T> needle{t.a, t.b,
-                                 t.a + static_cast<T>(random()) * (t.b - t.a) + static_cast<T>(1e-4) * (t.c - t.a)};
-        const int down = -static_cast<int>(random.below(40));
-        for (const triangle<T>& s : {t, needle}) {
-            const vec3<double> a = detail::widened(s.a), ab = detail::widened(s.b) - a, ac = detail::widened(s.c) - a;
-            const double along = random(), across = random() * (1 - along);
-            const auto above = [&](double u, double v) {
-                const vec3<double> n = random.point<double>(-1, 1), q = a + u * ab + v * ac + std::ldexp(1.0, down) * n;
-                return vec3<T>{static_cast<T>(q.x), static_cast<T>(q.y), static_cast<T>(q.z)};
-            };
-            close.look(s, above(along, across));
-            at_edge.look(s, above(along, 0));
-            at_edge.look(s, above(0, 0));
-        }
-        // Coordinates of many magnitudes, as many as the digits of the oracle are good for, and both ends of the range.
-        constexpr int spread = 240;
-        const int lowest = least + static_cast<int>(random() * (largest - least - spread));
-        const auto many = [&] {
-            const auto x = [&] {
-                return std::ldexp(static_cast<T>(random(-1, 1)), lowest + static_cast<int>(random() * spread));
-            };
-            const T x0 = x(), x1 = x();
-            return vec3<T>{x0, x1, x()};
-        };
-        const vec3<T> first = many(), second = many(), third = many();
-        scaled.look({first, second, third}, many());
-        for (const int e : {largest - 1, least}) {
-            const auto at_scale = [&](const vec3<T>& v) {
-                return vec3<T>{std::ldexp(v.x / 4, e), std::ldexp(v.y / 4, e), std::ldexp(v.z / 4, e)};
-            };
-            scaled.look({at_scale(t.a), at_scale(t.b), at_scale(t.c)}, at_scale(random.point<T>(-1, 1)));
-        }
-    }
+    const auto [far, close, at_edge, scaled] =
+        test::in_threads<share_tallies>(test::sample_count() / 5, look_at_many<TestType>);
     for (const share_tally& tally : {far, close, at_edge, scaled}) {
         CAPTURE(tally.worst, tally.total, tally.near_edges);
         CHECK(tally.wrong == 0);

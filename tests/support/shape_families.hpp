@@ -10,6 +10,7 @@
 
 #include <abut/shape/bounds.hpp>
 #include <abut/shape/primitive.hpp>
+#include <abut/shape/shape.hpp>
 
 #include "draws.hpp"
 
