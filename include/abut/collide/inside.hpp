@@ -51,21 +51,35 @@ struct walk_upward {
     Points points;
     containment* out;
 
-    ABUT_CALLS_ANY
-    template <class Sink>
-    ABUT_HD void operator()(std::size_t i, Sink& sink) const {
-        const vec3<T> p = points[i];
-        auto reach = reach_of_line(frame, p, vec3<T>{0, 0, 1}, infinity<double>);
+    struct look {
+        vec3<T> p;
         bool is_odd = false, is_on = false;
-        walk(reach, sink, [&](std::uint32_t id) {
+
+        ABUT_HD auto reach(const walk_upward& all) const {
+            return reach_of_line(all.frame, p, vec3<T>{0, 0, 1}, infinity<double>);
+        }
+        ABUT_CALLS_ANY
+        template <class Sink>
+        ABUT_HD void operator()(const walk_upward& all, std::uint32_t id, Sink& sink) {
             if (is_on) return;
-            const met_above found = crossing_of<A>(p, shapes[id]);
+            const met_above found = crossing_of<A>(p, all.shapes[id]);
             is_odd ^= found == met_above::crossing;
             is_on = found == met_above::start;
             if (is_on) sink.stop();
-        });
-        out[i] = is_on ? containment::on_surface : is_odd ? containment::inside : containment::outside;
+        }
+        ABUT_HD void end(const walk_upward& all, std::size_t i) const {
+            all.out[i] = is_on ? containment::on_surface : is_odd ? containment::inside : containment::outside;
+        }
+    };
+    ABUT_HD look start(std::size_t i) const { return {points[i]}; }
+
+    ABUT_CALLS_ANY
+    template <class Sink>
+    ABUT_HD void operator()(std::size_t i, Sink& sink) const {
+        walk_from(*this, i, sink);
     }
+    [[nodiscard]] bool pays_in_steps() const requires goes_in_steps<Walk> { return walk.pays_in_steps(); }
+    [[nodiscard]] auto in_steps() const requires goes_in_steps<Walk> { return steps_from(*this); }
 };
 
 /// The first face at an edge of an odd number of faces, if half-edge i is that edge's first; and how many they are.
@@ -217,7 +231,8 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Point
 ///
 /// @ingroup queries
 template <execution_policy Policy, class X, class Points>
-[[nodiscard]] auto signed_distance(const Policy& on, const X& mesh, const Points& points, const inside_options& options = {}) {
+[[nodiscard]] auto signed_distance(const Policy& on, const X& mesh, const Points& points,
+                                   const inside_options& options = {}) {
     if constexpr (detail::can_contain<filtered, Policy, X, Points>()) {
         constexpr const char* function = "abut::signed_distance";
         using T = scalar_type_of<typename detail::shape_of_argument<X>::type>;

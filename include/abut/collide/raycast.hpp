@@ -38,16 +38,17 @@ struct ray_hit {
 
 namespace detail {
 
-/// Walks through an index along a line: visit(id) for all shapes whose boxes it passes through before the sink's bound.
-ABUT_CALLS_ANY
-template <class Walk, class Frame, class Line, class Sink, class Visitor>
-ABUT_HD void walk_along(const Walk& walk, const Frame& frame, const Line& line, Sink& sink, const Visitor& visit) {
+/// Functors for for_each_ordered (traverse/ordered_walk.hpp) that walk through an index along each of many lines, to all
+/// shapes whose boxes it passes through before the sink's bound.
+
+/// How far a line reaches.
+template <class Frame, class Line>
+ABUT_HD auto reach_along(const Frame& frame, const Line& line) {
     const line_of<scalar_type_of<Line>> l(line);
-    auto reach = reach_of_line(frame, l.origin, l.direction(), l.last);
-    walk(reach, sink, visit);
+    return reach_of_line(frame, l.origin, l.direction(), l.last);
 }
 
-/// A walk through an index along each line.
+/// Of each line what it meets first.
 template <arithmetic A, class Walk, class Frame, shape_view Shapes, shape_view Lines>
 struct walk_along_lines {
     Walk walk;
@@ -55,18 +56,30 @@ struct walk_along_lines {
     Shapes shapes;
     Lines lines;
 
+    struct look {
+        typename Lines::shape_type line;
+
+        ABUT_HD auto reach(const walk_along_lines& all) const { return reach_along(all.frame, line); }
+        ABUT_CALLS_ANY
+        template <class Best>
+        ABUT_HD void operator()(const walk_along_lines& all, std::uint32_t id, Best& best) const {
+            const double time = hit_time<A>(line, all.shapes[id]);
+            if (time >= 0) best.offer(time, id);
+        }
+        ABUT_HD void end(const walk_along_lines&, std::size_t) const {}
+    };
+    ABUT_HD look start(std::size_t i) const { return {lines[i]}; }
+
     ABUT_CALLS_ANY
     template <class Best>
     ABUT_HD void operator()(std::size_t i, Best& best) const {
-        const auto line = lines[i];
-        walk_along(walk, frame, line, best, [&](std::uint32_t id) {
-            const double time = hit_time<A>(line, shapes[id]);
-            if (time >= 0) best.offer(time, id);
-        });
+        walk_from(*this, i, best);
     }
+    [[nodiscard]] bool pays_in_steps() const requires goes_in_steps<Walk> { return walk.pays_in_steps(); }
+    [[nodiscard]] auto in_steps() const requires goes_in_steps<Walk> { return steps_from(*this); }
 };
 
-/// The same, which ends at what a line meets at all.
+/// Of each line whether it meets anything: the same, which ends at what it meets at all.
 template <arithmetic A, class Walk, class Frame, shape_view Shapes, shape_view Lines>
 struct walk_to_any {
     Walk walk;
@@ -75,18 +88,29 @@ struct walk_to_any {
     Lines lines;
     std::uint8_t* out;
 
+    struct look {
+        typename Lines::shape_type line;
+        bool met = false;
+
+        ABUT_HD auto reach(const walk_to_any& all) const { return reach_along(all.frame, line); }
+        ABUT_CALLS_ANY
+        template <class Sink>
+        ABUT_HD void operator()(const walk_to_any& all, std::uint32_t id, Sink& sink) {
+            if (met || !is_met<A>(line, all.shapes[id])) return;
+            met = true;
+            sink.stop();
+        }
+        ABUT_HD void end(const walk_to_any& all, std::size_t i) const { all.out[i] = met ? 1 : 0; }
+    };
+    ABUT_HD look start(std::size_t i) const { return {lines[i]}; }
+
     ABUT_CALLS_ANY
     template <class Sink>
     ABUT_HD void operator()(std::size_t i, Sink& sink) const {
-        const auto line = lines[i];
-        bool met = false;
-        walk_along(walk, frame, line, sink, [&](std::uint32_t id) {
-            if (met || !is_met<A>(line, shapes[id])) return;
-            met = true;
-            sink.stop();
-        });
-        out[i] = met ? 1 : 0;
+        walk_from(*this, i, sink);
     }
+    [[nodiscard]] bool pays_in_steps() const requires goes_in_steps<Walk> { return walk.pays_in_steps(); }
+    [[nodiscard]] auto in_steps() const requires goes_in_steps<Walk> { return steps_from(*this); }
 };
 
 /// A time as it is reported: no infinity.

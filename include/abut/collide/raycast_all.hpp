@@ -40,18 +40,30 @@ struct count_along_lines {
     std::uint64_t* counts;
     execution::least_value* few;
 
+    struct look {
+        typename Lines::shape_type line;
+        execution::least_value* few;
+        std::uint64_t count = 0;
+
+        ABUT_HD auto reach(const count_along_lines& all) const { return reach_along(all.frame, line); }
+        ABUT_CALLS_ANY
+        template <class Sink>
+        ABUT_HD void operator()(const count_along_lines& all, std::uint32_t id, Sink&) {
+            const double time = hit_time<A>(line, all.shapes[id]);
+            if (time >= 0 && count < kept_hits) few[count] = {time, id};
+            if (time >= 0) ++count;
+        }
+        ABUT_HD void end(const count_along_lines& all, std::size_t i) const { all.counts[i] = count; }
+    };
+    ABUT_HD look start(std::size_t i) const { return {lines[i], few + kept_hits * i}; }
+
     ABUT_CALLS_ANY
     template <class Sink>
     ABUT_HD void operator()(std::size_t i, Sink& sink) const {
-        const auto line = lines[i];
-        std::uint64_t count = 0;
-        walk_along(walk, frame, line, sink, [&](std::uint32_t id) {
-            const double time = hit_time<A>(line, shapes[id]);
-            if (time >= 0 && count < kept_hits) few[kept_hits * i + count] = {time, id};
-            if (time >= 0) ++count;
-        });
-        counts[i] = count;
+        walk_from(*this, i, sink);
     }
+    [[nodiscard]] bool pays_in_steps() const requires goes_in_steps<Walk> { return walk.pays_in_steps(); }
+    [[nodiscard]] auto in_steps() const requires goes_in_steps<Walk> { return steps_from(*this); }
 };
 
 /// Brings a line's hits into their order, where they lie: as they come they nearly are (Shell, 1959).
@@ -93,7 +105,8 @@ struct write_along_lines {
         }
         const auto line = lines[i];
         std::uint64_t count = 0;
-        walk_along(walk, frame, line, sink, [&](std::uint32_t id) {
+        auto reach = reach_along(frame, line);
+        walk(reach, sink, [&](std::uint32_t id) {
             const double time = hit_time<A>(line, shapes[id]);
             if (time >= 0 && count < counted) mine[count++] = {time, id};
         });

@@ -15,6 +15,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 #include <abut/execution/atomic.hpp>
@@ -211,23 +212,80 @@ void for_each_ordered(const Policy& on, std::size_t n, const Walk& walk, Best& b
     best.end(on);
 }
 
+namespace detail {
+
+/// A thread's share, begin to end, one index after the other.
+template <class Walk, class Sink>
+void walk_in_order(const Walk& walk, Sink sink, std::size_t begin, std::size_t end) {
+    constexpr std::size_t ahead = 8;
+    for (std::size_t i = begin; i < end; ++i) {
+        if constexpr (requires { walk.prefetch(i); }) {
+            if (i + ahead < end) walk.prefetch(i + ahead);
+        }
+        sink.begin(i);
+        walk(i, sink);
+        sink.end(i);
+    }
+    sink.close();
+}
+
+/// The same, eight indices at a time, a step of each in turn. walk.in_steps() is one of them: its begin(i, sink),
+/// step(sink), which is false after the last, and end(i). Four to twelve at a time take the same time.
+template <class Walk, class Sink>
+void walk_in_turns(const Walk& walk, const Sink& sink, std::size_t begin, std::size_t end) {
+    constexpr std::size_t together = 8;
+    struct one_walk {
+        decltype(std::declval<const Walk&>().in_steps()) steps;
+        Sink sink;
+        std::size_t i = 0;
+
+        one_walk(const Walk& walk, const Sink& empty) : steps(walk.in_steps()), sink(empty) {}
+        void begin(std::size_t index) {
+            i = index;
+            sink.begin(i);
+            steps.begin(i, sink);
+        }
+        bool step() {
+            if (steps.step(sink)) return true;
+            steps.end(i);
+            sink.end(i);
+            return false;
+        }
+    };
+    std::optional<one_walk> room[together];
+    one_walk* walks[together];
+    std::size_t count = 0;
+    for (; count < together && begin < end; ++count) {
+        walks[count] = &room[count].emplace(walk, sink);
+        walks[count]->begin(begin++);
+    }
+    while (count > 0) {
+        for (std::size_t k = 0; k < count;) {
+            if (walks[k]->step()) {
+                ++k;
+            } else if (begin < end) {
+                walks[k++]->begin(begin++);
+            } else {
+                walks[k]->sink.close();
+                walks[k] = walks[--count];
+            }
+        }
+    }
+}
+
+}  // namespace detail
+
 template <range_policy Policy, class Walk, class Best>
 void for_each_ordered(const Policy& on, std::size_t n, const Walk& walk, Best& best) {
-    constexpr std::size_t ahead = 8;
     std::size_t grain = 256;
     if constexpr (requires { Walk::grain; }) grain = Walk::grain;  // of long walks
     best.begin(on, static_cast<std::size_t>(concurrency(on)));
     for_each_range(on, n, grain, [&](int thread, std::size_t begin, std::size_t end) {
-        auto sink = best.make_sink(static_cast<std::size_t>(thread));
-        for (std::size_t i = begin; i < end; ++i) {
-            if constexpr (requires { walk.prefetch(i); }) {
-                if (i + ahead < end) walk.prefetch(i + ahead);
-            }
-            sink.begin(i);
-            walk(i, sink);
-            sink.end(i);
+        const auto sink = best.make_sink(static_cast<std::size_t>(thread));
+        if constexpr (requires { walk.in_steps(); }) {
+            if (walk.pays_in_steps()) return detail::walk_in_turns(walk, sink, begin, end);
         }
-        sink.close();
+        detail::walk_in_order(walk, sink, begin, end);
     });
     best.end(on);
 }

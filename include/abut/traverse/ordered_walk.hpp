@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
+#include <utility>
 
 #include <abut/arithmetic/limits.hpp>
 #include <abut/arithmetic/magnitude.hpp>
@@ -16,6 +18,7 @@
 #include <abut/index/grid.hpp>
 #include <abut/shape/bounds.hpp>
 #include <abut/shape/point_reach.hpp>
+#include <abut/shape/view.hpp>
 #include <abut/traverse/grid_walk.hpp>
 
 namespace abut {
@@ -49,84 +52,202 @@ concept looks_at_four = requires(const typename Tree::node_type& node) {
     Tree::all_planes(node, 0, false);
 };
 
-/// Nearest child first; the others wait with their distances, and are dropped when their turn comes if the reach has shrunk
-/// below that. Leaves wait like nodes. A walk without branches on what is nearer and what is kept was tried, also with four
-/// nodes at a time: it took half as long again on one core, which guesses right more often than not.
+/// Where a walk through a tree is: at a node or a leaf, nearest child first; the others wait with their distances, and are
+/// dropped when their turn comes if the reach has shrunk below that. Leaves wait like nodes. A walk without branches on what
+/// is nearer and what is kept was tried, also with four nodes at a time: it took half as long again on one core, which
+/// guesses right more often than not.
+template <bvh_layout Tree>
+struct place_in_tree {
+    using T = typename Tree::scalar_type;
+    struct entry {
+        bvh_child child;
+        T least;
+    };
+    entry at;
+    int waiting;
+    entry pending[bvh_max_depth * (Tree::width - 1) + 1];  // not initialised
+
+    ABUT_HD void begin(const Tree& tree) {
+        at = {tree.root(), T(0)};
+        waiting = 0;
+    }
+
+    /// From an inner node on. False where nothing is left.
+    template <class Reach>
+    ABUT_HD bool descend(const Tree& tree, const Reach& reach) {
+        const auto& node = tree.fetch(at.child.index());
+        if constexpr (looks_at_four<Reach, Tree>) {
+            // The nearest goes on; the others wait, the farthest below. Often there is one alone.
+            T least_of[4];
+            const auto planes = [&](int axis, bool upper) { return tree.all_planes(node, axis, upper); };
+            unsigned kept = reach.least_in_four(planes, least_of) & ((1u << tree.children(node)) - 1);
+            if (kept == 0) return next(reach);
+            const auto take = [&] {
+                const auto slot = static_cast<int>(lowest_bit(kept));
+                kept &= kept - 1;
+                return entry{tree.child(node, slot), least_of[slot]};
+            };
+            at = take();
+            const int first = waiting;
+            while (kept != 0) {
+                entry other = take();
+                if (other.least < at.least) {
+                    const entry before = at;
+                    at = other;
+                    other = before;
+                }
+                int k = waiting++;
+                for (; k > first && other.least > pending[k - 1].least; --k) pending[k] = pending[k - 1];
+                pending[k] = other;
+                tree.prefetch(other.child);
+            }
+        } else {
+            at = {tree.child(node, 0), least_in_slot(reach, tree, node, 0)};
+            tree.prefetch(at.child);
+            for (int slot = 1; slot < tree.children(node); ++slot) {
+                entry other{tree.child(node, slot), least_in_slot(reach, tree, node, slot)};
+                tree.prefetch(other.child);
+                if (other.least < at.least) {
+                    const entry before = at;
+                    at = other;
+                    other = before;
+                }
+                pending[waiting] = other;
+                waiting += reach.keeps(other.least);
+            }
+        }
+        return true;
+    }
+
+    /// To what waits. False where nothing is left.
+    template <class Reach>
+    ABUT_HD bool next(const Reach& reach) {
+        do {
+            if (waiting == 0) return false;
+            at = pending[--waiting];
+        } while (!reach.keeps(at.least));
+        return true;
+    }
+};
+
 template <bvh_layout Tree>
 struct ordered_tree_walk {
     using T = typename Tree::scalar_type;
     Tree tree;
 
+    /// Whether walks of many indices at once are faster in steps: in a tree that a core's own cache does not hold.
+    [[nodiscard]] bool pays_in_steps() const { return tree.size() >= std::size_t{1} << 16; }
+
     ABUT_CALLS_ANY
     template <shrinking_reach<T> Reach, class Best, class Visitor>
     ABUT_HD void operator()(Reach& reach, Best& best, const Visitor& visitor) const {
-        struct entry {
-            bvh_child child;
-            T least;
-        };
-        entry pending[bvh_max_depth * (Tree::width - 1) + 1];  // not initialised
-        int waiting = 0;
+        place_in_tree<Tree> place;
         double bound = infinity<double>;
         tighten(reach, best, bound);
-        entry at{tree.root(), T(0)};
+        place.begin(tree);
         for (;;) {
-            while (reach.keeps(at.least) && !at.child.is_leaf()) {
-                const auto& node = tree.fetch(at.child.index());
-                if constexpr (looks_at_four<Reach, Tree>) {
-                    // The nearest goes on; the others wait, the farthest below. Often there is one alone.
-                    T least_of[4];
-                    const auto planes = [&](int axis, bool upper) { return tree.all_planes(node, axis, upper); };
-                    unsigned kept = reach.least_in_four(planes, least_of) & ((1u << tree.children(node)) - 1);
-                    if (kept == 0) {
-                        do {
-                            if (waiting == 0) return;
-                            at = pending[--waiting];
-                        } while (!reach.keeps(at.least));
-                        continue;
-                    }
-                    const auto take = [&] {
-                        const auto slot = static_cast<int>(lowest_bit(kept));
-                        kept &= kept - 1;
-                        return entry{tree.child(node, slot), least_of[slot]};
-                    };
-                    at = take();
-                    const int first = waiting;
-                    while (kept != 0) {
-                        entry other = take();
-                        if (other.least < at.least) {
-                            const entry before = at;
-                            at = other;
-                            other = before;
-                        }
-                        int k = waiting++;
-                        for (; k > first && other.least > pending[k - 1].least; --k) pending[k] = pending[k - 1];
-                        pending[k] = other;
-                        tree.prefetch(other.child);
-                    }
-                    continue;
-                }
-                at = {tree.child(node, 0), least_in_slot(reach, tree, node, 0)};
-                tree.prefetch(at.child);
-                for (int slot = 1; slot < tree.children(node); ++slot) {
-                    entry other{tree.child(node, slot), least_in_slot(reach, tree, node, slot)};
-                    tree.prefetch(other.child);
-                    if (other.least < at.least) {
-                        const entry before = at;
-                        at = other;
-                        other = before;
-                    }
-                    pending[waiting] = other;
-                    waiting += reach.keeps(other.least);
-                }
+            while (reach.keeps(place.at.least) && !place.at.child.is_leaf()) {
+                if (!place.descend(tree, reach)) return;
             }
-            if (reach.keeps(at.least)) visitor(at.child.index());
+            if (reach.keeps(place.at.least)) visitor(place.at.child.index());
             tighten(reach, best, bound);
-            do {
-                if (waiting == 0) return;
-                at = pending[--waiting];
-            } while (!reach.keeps(at.least));
+            if (!place.next(reach)) return;
         }
     }
+};
+
+/// The same walk on a host in steps, each of which asks memory for what the next one reads. A core that takes the steps of
+/// several walks in turn works on one while memory answers another: O. Kocberber, B. Falsafi, B. Grot, Asynchronous memory
+/// access chaining (2015).
+template <bvh_layout Tree>
+class steps_through_tree {
+public:
+    explicit steps_through_tree(const Tree& tree) : tree_(tree) {}
+
+    template <class Reach, class Best>
+    void begin(Reach& reach, const Best& best) {
+        bound_ = infinity<double>;
+        tighten(reach, best, bound_);
+        place_.begin(tree_);
+        is_asked_for_ = false;
+    }
+
+    /// One node, or one shape: visitor(id). False after the last.
+    template <shape_view Shapes, class Reach, class Best, class Visitor>
+    bool step(const Shapes& shapes, Reach& reach, const Best& best, const Visitor& visitor) {
+        const bvh_child child = place_.at.child;
+        if (!reach.keeps(place_.at.least)) {
+            if (!place_.next(reach)) return false;
+        } else if (!child.is_leaf()) {
+            if (!place_.descend(tree_, reach)) return false;
+        } else if (!is_asked_for_) {
+            prefetch_shape(shapes, child.index(), 1);
+            is_asked_for_ = true;
+            return true;
+        } else {
+            visitor(child.index());
+            tighten(reach, best, bound_);
+            if (!place_.next(reach)) return false;
+        }
+        is_asked_for_ = false;
+        if (place_.at.child.is_leaf()) {
+            prefetch_shape(shapes, place_.at.child.index(), 0);
+        } else {
+            tree_.prefetch(place_.at.child);
+        }
+        return true;
+    }
+
+private:
+    Tree tree_;
+    place_in_tree<Tree> place_;
+    double bound_;
+    bool is_asked_for_;
+};
+
+/// Whether a walk can go in steps: through a tree that is made for a processor. Binary nodes are too little work for a step.
+template <class Walk>
+inline constexpr bool goes_in_steps = false;
+template <bvh_layout Tree>
+inline constexpr bool goes_in_steps<ordered_tree_walk<Tree>> = (Tree::width > 2);
+
+/// One index's walk in a functor for for_each_ordered that has `walk` and `shapes`. all.start(i) is what looks from index i:
+/// its look.reach(all), look(all, id, sink) at shapes that it comes to, and look.end(all, i) after the last.
+ABUT_CALLS_ANY
+template <class All, class Sink>
+ABUT_HD void walk_from(const All& all, std::size_t i, Sink& sink) {
+    auto look = all.start(i);
+    auto reach = look.reach(all);
+    all.walk(reach, sink, [&](std::uint32_t id) { look(all, id, sink); });
+    look.end(all, i);
+}
+
+/// The same in steps.
+template <class All>
+class steps_from {
+    using look_type = decltype(std::declval<const All&>().start(0));
+    using reach_type = decltype(std::declval<const look_type&>().reach(std::declval<const All&>()));
+
+public:
+    explicit steps_from(const All& all) : all_(&all), steps_(all.walk.tree) {}
+
+    template <class Sink>
+    void begin(std::size_t i, const Sink& sink) {
+        look_ = all_->start(i);
+        reach_ = look_.reach(*all_);
+        steps_.begin(reach_, sink);
+    }
+    template <class Sink>
+    bool step(Sink& sink) {
+        return steps_.step(all_->shapes, reach_, sink, [&](std::uint32_t id) { look_(*all_, id, sink); });
+    }
+    void end(std::size_t i) { look_.end(*all_, i); }
+
+private:
+    const All* all_;
+    look_type look_;
+    reach_type reach_;
+    steps_through_tree<std::remove_cvref_t<decltype(std::declval<const All&>().walk.tree)>> steps_;
 };
 
 /// A part of a ball that shrinks: what of it is in a box.
@@ -165,7 +286,8 @@ struct ordered_grid_walk {
             const aabb<T> box = is_last ? reach.bounds() : bounds(sphere<T>{reach.center, radius});
             reach_in_box<Reach, T> within{reach, box};
             typename grid_walk<Grid>::cursor at;
-            walk.for_each(within, at, [] { return false; }, shrinks);
+            walk.for_each(
+                within, at, [] { return false; }, shrinks);
             if (is_last || radius >= reach.radius() || contains(box, frame.bounds)) return;
         }
     }
