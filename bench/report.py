@@ -62,8 +62,6 @@ MEASURED = re.compile("|".join((
 # bench/footprint.py and bench/report_cuda_tests.py.
 NOT_MEASURED = set()
 WITHOUT_ROW = {"cpu/footprint_build", "cuda/predicates", "cuda/predicates_spheres", "cuda/tests"}
-# Results that were committed before each had to say of which commit and day it is.
-UNDATED = {"cuda/predicates_spheres"}
 
 
 class Missing(Exception):
@@ -280,10 +278,8 @@ def rows_and_results(results):
 
 def undated_results(results):
     nameless = {f"{path.parent.name}/{path.stem}" for path in results.path.glob("*/*.json") if undated(read(path)["context"])}
-    for name in sorted(nameless - UNDATED):
+    for name in sorted(nameless):
         yield f"bench/results/{name}.json: of an unknown commit or date"
-    for name in sorted(UNDATED - nameless):
-        yield f"bench/report.py: {name} does not belong into its list of undated results"
 
 
 def sources_of(program):

@@ -86,6 +86,8 @@ def outcome(row):
 
 
 def outcome_of_memcheck(row):
+    if not row:
+        return "not run"
     if "memcheck_errors" not in row:
         return "did not end" if row.get("memcheck_no_end") else "not run: see below"
     failed = row.get("memcheck_failed")
