@@ -231,8 +231,7 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Point
 ///
 /// @ingroup queries
 template <execution_policy Policy, class X, class Points>
-[[nodiscard]] auto signed_distance(const Policy& on, const X& mesh, const Points& points,
-                                   const inside_options& options = {}) {
+[[nodiscard]] auto signed_distance(const Policy& on, const X& mesh, const Points& points, const inside_options& options = {}) {
     if constexpr (detail::can_contain<filtered, Policy, X, Points>()) {
         constexpr const char* function = "abut::signed_distance";
         using T = scalar_type_of<typename detail::shape_of_argument<X>::type>;

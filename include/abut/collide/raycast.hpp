@@ -38,10 +38,7 @@ struct ray_hit {
 
 namespace detail {
 
-/// Functors for for_each_ordered (traverse/ordered_walk.hpp) that walk through an index along each of many lines, to all
-/// shapes whose boxes it passes through before the sink's bound.
-
-/// How far a line reaches.
+/// How far a line reaches: through the boxes that it passes before the sink's bound.
 template <class Frame, class Line>
 ABUT_HD auto reach_along(const Frame& frame, const Line& line) {
     const line_of<scalar_type_of<Line>> l(line);

@@ -230,7 +230,8 @@ void walk_in_order(const Walk& walk, Sink sink, std::size_t begin, std::size_t e
 }
 
 /// The same, eight indices at a time, a step of each in turn. walk.in_steps() is one of them: its begin(i, sink),
-/// step(sink), which is false after the last, and end(i). Four to twelve at a time take the same time.
+/// step(sink), which is false after the last, and end(i). Four to twelve at a time took the same time. A thread has a sink
+/// for each, all of which are closed.
 template <class Walk, class Sink>
 void walk_in_turns(const Walk& walk, const Sink& sink, std::size_t begin, std::size_t end) {
     constexpr std::size_t together = 8;

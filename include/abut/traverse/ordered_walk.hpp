@@ -52,10 +52,8 @@ concept looks_at_four = requires(const typename Tree::node_type& node) {
     Tree::all_planes(node, 0, false);
 };
 
-/// Where a walk through a tree is: at a node or a leaf, nearest child first; the others wait with their distances, and are
-/// dropped when their turn comes if the reach has shrunk below that. Leaves wait like nodes. A walk without branches on what
-/// is nearer and what is kept was tried, also with four nodes at a time: it took half as long again on one core, which
-/// guesses right more often than not.
+/// Where a walk through a tree is: at a node or a leaf, while `waiting` others wait in a room, with their distances. The
+/// room is apart, since compilers for devices keep no part of a struct in registers that has an array in it.
 template <bvh_layout Tree>
 struct place_in_tree {
     using T = typename Tree::scalar_type;
@@ -65,7 +63,7 @@ struct place_in_tree {
     };
     entry at;
     int waiting;
-    entry pending[bvh_max_depth * (Tree::width - 1) + 1];  // not initialised
+    using room = entry[bvh_max_depth * (Tree::width - 1) + 1];
 
     ABUT_HD void begin(const Tree& tree) {
         at = {tree.root(), T(0)};
@@ -74,14 +72,14 @@ struct place_in_tree {
 
     /// From an inner node on. False where nothing is left.
     template <class Reach>
-    ABUT_HD bool descend(const Tree& tree, const Reach& reach) {
+    ABUT_HD bool descend(const Tree& tree, const Reach& reach, room& pending) {
         const auto& node = tree.fetch(at.child.index());
         if constexpr (looks_at_four<Reach, Tree>) {
             // The nearest goes on; the others wait, the farthest below. Often there is one alone.
             T least_of[4];
             const auto planes = [&](int axis, bool upper) { return tree.all_planes(node, axis, upper); };
             unsigned kept = reach.least_in_four(planes, least_of) & ((1u << tree.children(node)) - 1);
-            if (kept == 0) return next(reach);
+            if (kept == 0) return next(reach, pending);
             const auto take = [&] {
                 const auto slot = static_cast<int>(lowest_bit(kept));
                 kept &= kept - 1;
@@ -121,7 +119,7 @@ struct place_in_tree {
 
     /// To what waits. False where nothing is left.
     template <class Reach>
-    ABUT_HD bool next(const Reach& reach) {
+    ABUT_HD bool next(const Reach& reach, const room& pending) {
         do {
             if (waiting == 0) return false;
             at = pending[--waiting];
@@ -130,6 +128,9 @@ struct place_in_tree {
     }
 };
 
+/// A walk through a tree, nearest child first. The others wait, and are dropped when their turn comes if the reach has
+/// shrunk below their distance. Leaves wait like nodes. A walk without branches on what is nearer and what is kept was tried,
+/// also with four nodes at a time: it took half as long again on one core, which guesses right more often than not.
 template <bvh_layout Tree>
 struct ordered_tree_walk {
     using T = typename Tree::scalar_type;
@@ -142,16 +143,17 @@ struct ordered_tree_walk {
     template <shrinking_reach<T> Reach, class Best, class Visitor>
     ABUT_HD void operator()(Reach& reach, Best& best, const Visitor& visitor) const {
         place_in_tree<Tree> place;
+        typename place_in_tree<Tree>::room pending;  // not initialised
         double bound = infinity<double>;
         tighten(reach, best, bound);
         place.begin(tree);
         for (;;) {
             while (reach.keeps(place.at.least) && !place.at.child.is_leaf()) {
-                if (!place.descend(tree, reach)) return;
+                if (!place.descend(tree, reach, pending)) return;
             }
             if (reach.keeps(place.at.least)) visitor(place.at.child.index());
             tighten(reach, best, bound);
-            if (!place.next(reach)) return;
+            if (!place.next(reach, pending)) return;
         }
     }
 };
@@ -177,9 +179,9 @@ public:
     bool step(const Shapes& shapes, Reach& reach, const Best& best, const Visitor& visitor) {
         const bvh_child child = place_.at.child;
         if (!reach.keeps(place_.at.least)) {
-            if (!place_.next(reach)) return false;
+            if (!place_.next(reach, pending_)) return false;
         } else if (!child.is_leaf()) {
-            if (!place_.descend(tree_, reach)) return false;
+            if (!place_.descend(tree_, reach, pending_)) return false;
         } else if (!is_asked_for_) {
             prefetch_shape(shapes, child.index(), 1);
             is_asked_for_ = true;
@@ -187,7 +189,7 @@ public:
         } else {
             visitor(child.index());
             tighten(reach, best, bound_);
-            if (!place_.next(reach)) return false;
+            if (!place_.next(reach, pending_)) return false;
         }
         is_asked_for_ = false;
         if (place_.at.child.is_leaf()) {
@@ -201,6 +203,7 @@ public:
 private:
     Tree tree_;
     place_in_tree<Tree> place_;
+    typename place_in_tree<Tree>::room pending_;
     double bound_;
     bool is_asked_for_;
 };
@@ -222,7 +225,7 @@ ABUT_HD void walk_from(const All& all, std::size_t i, Sink& sink) {
     look.end(all, i);
 }
 
-/// The same in steps.
+/// The same in steps. Refers to the functor.
 template <class All>
 class steps_from {
     using look_type = decltype(std::declval<const All&>().start(0));
@@ -286,8 +289,7 @@ struct ordered_grid_walk {
             const aabb<T> box = is_last ? reach.bounds() : bounds(sphere<T>{reach.center, radius});
             reach_in_box<Reach, T> within{reach, box};
             typename grid_walk<Grid>::cursor at;
-            walk.for_each(
-                within, at, [] { return false; }, shrinks);
+            walk.for_each(within, at, [] { return false; }, shrinks);
             if (is_last || radius >= reach.radius() || contains(box, frame.bounds)) return;
         }
     }
