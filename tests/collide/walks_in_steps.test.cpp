@@ -25,7 +25,8 @@ template <class Index, class Lines, class T>
 void check_steps(const Index& index, const Lines& lines, const shapes<vec3<T>>& from) {
     const auto both = detail::bring_lines_and_shapes(serial{}, index, lines, "test");
     const std::size_t n = both.size();
-    const auto in_both_ways = [n](const auto& walk, auto& best, const auto& read) {
+    const auto in_both_ways = [n](const auto& all, auto& best, const auto& read) {
+        const detail::from_each walk{all};
         static_assert(requires { walk.in_steps(); });
         CHECK(!walk.pays_in_steps());
         best.begin(serial{}, 1);

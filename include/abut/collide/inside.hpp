@@ -72,14 +72,6 @@ struct walk_upward {
         }
     };
     ABUT_HD look start(std::size_t i) const { return {points[i]}; }
-
-    ABUT_CALLS_ANY
-    template <class Sink>
-    ABUT_HD void operator()(std::size_t i, Sink& sink) const {
-        walk_from(*this, i, sink);
-    }
-    [[nodiscard]] bool pays_in_steps() const requires goes_in_steps<Walk> { return walk.pays_in_steps(); }
-    [[nodiscard]] auto in_steps() const requires goes_in_steps<Walk> { return steps_from(*this); }
 };
 
 /// The first face at an edge of an odd number of faces, if half-edge i is that edge's first; and how many they are.
@@ -140,7 +132,7 @@ void look_upward(const Policy& on, const Operand& x, const Queries& queries, con
     using walk_type = walk_upward<A, std::remove_const_t<decltype(walk)>, std::remove_const_t<decltype(frame)>,
                                   std::remove_const_t<decltype(there)>, std::remove_const_t<decltype(from)>>;
     execution::until_stopped until;
-    for_each_ordered(on, from.size(), walk_type{walk, frame, there, from, out}, until);
+    for_each_ordered(on, from.size(), from_each{walk_type{walk, frame, there, from, out}}, until);
 }
 
 template <arithmetic A, class Policy, class X, class Points>

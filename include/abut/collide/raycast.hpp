@@ -66,14 +66,6 @@ struct walk_along_lines {
         ABUT_HD void end(const walk_along_lines&, std::size_t) const {}
     };
     ABUT_HD look start(std::size_t i) const { return {lines[i]}; }
-
-    ABUT_CALLS_ANY
-    template <class Best>
-    ABUT_HD void operator()(std::size_t i, Best& best) const {
-        walk_from(*this, i, best);
-    }
-    [[nodiscard]] bool pays_in_steps() const requires goes_in_steps<Walk> { return walk.pays_in_steps(); }
-    [[nodiscard]] auto in_steps() const requires goes_in_steps<Walk> { return steps_from(*this); }
 };
 
 /// Of each line whether it meets anything: the same, which ends at what it meets at all.
@@ -100,14 +92,6 @@ struct walk_to_any {
         ABUT_HD void end(const walk_to_any& all, std::size_t i) const { all.out[i] = met ? 1 : 0; }
     };
     ABUT_HD look start(std::size_t i) const { return {lines[i]}; }
-
-    ABUT_CALLS_ANY
-    template <class Sink>
-    ABUT_HD void operator()(std::size_t i, Sink& sink) const {
-        walk_from(*this, i, sink);
-    }
-    [[nodiscard]] bool pays_in_steps() const requires goes_in_steps<Walk> { return walk.pays_in_steps(); }
-    [[nodiscard]] auto in_steps() const requires goes_in_steps<Walk> { return steps_from(*this); }
 };
 
 /// A time as it is reported: no infinity.
@@ -195,7 +179,7 @@ template <arithmetic A, class Policy, class Both, class Finish>
 auto look_for_first_hits(const Policy& on, const Both& both, const Finish& finish) {
     if (both.has_nothing()) return finish(nullptr);
     execution::best_of_each<space_of<Policy>> best(on, both.size());
-    for_each_ordered(on, both.size(), both.template walk<walk_along_lines, A>(), best);
+    for_each_ordered(on, both.size(), from_each{both.template walk<walk_along_lines, A>()}, best);
     return finish(best.data());
 }
 
@@ -204,7 +188,7 @@ template <arithmetic A, class Policy, class Both>
 void look_for_any_hits(const Policy& on, const Both& both, std::uint8_t* out) {
     if (both.has_nothing()) return fill(on, out, both.size(), std::uint8_t{0});
     execution::until_stopped until;
-    for_each_ordered(on, both.size(), both.template walk<walk_to_any, A>(out), until);
+    for_each_ordered(on, both.size(), from_each{both.template walk<walk_to_any, A>(out)}, until);
 }
 
 template <arithmetic A, class Policy, class X, class Lines>

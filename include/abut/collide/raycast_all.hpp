@@ -56,14 +56,6 @@ struct count_along_lines {
         ABUT_HD void end(const count_along_lines& all, std::size_t i) const { all.counts[i] = count; }
     };
     ABUT_HD look start(std::size_t i) const { return {lines[i], few + kept_hits * i}; }
-
-    ABUT_CALLS_ANY
-    template <class Sink>
-    ABUT_HD void operator()(std::size_t i, Sink& sink) const {
-        walk_from(*this, i, sink);
-    }
-    [[nodiscard]] bool pays_in_steps() const requires goes_in_steps<Walk> { return walk.pays_in_steps(); }
-    [[nodiscard]] auto in_steps() const requires goes_in_steps<Walk> { return steps_from(*this); }
 };
 
 /// Brings a line's hits into their order, where they lie: as they come they nearly are (Shell, 1959).
@@ -149,7 +141,7 @@ execution::buffer_of<Policy, Hit> look_for_all_hits(const Policy& on, const Both
     execution::buffer_of<Policy, std::uint64_t> first(on, n + 1);
     execution::buffer_of<Policy, execution::least_value> few(on, kept_hits * n);
     execution::until_stopped until;
-    for_each_ordered(on, n, both.template walk<count_along_lines, A>(first.data(), few.data()), until);
+    for_each_ordered(on, n, from_each{both.template walk<count_along_lines, A>(first.data(), few.data())}, until);
     exclusive_scan(on, first.data(), n);
     std::uint64_t total = 0;
     download(on, first.data() + n, 1, &total);

@@ -129,8 +129,8 @@ struct place_in_tree {
 };
 
 /// A walk through a tree, nearest child first. The others wait, and are dropped when their turn comes if the reach has
-/// shrunk below their distance. Leaves wait like nodes. A walk without branches on what is nearer and what is kept was tried,
-/// also with four nodes at a time: it took half as long again on one core, which guesses right more often than not.
+/// shrunk below their distance. Leaves wait like nodes. A walk without branches on what is nearer and what is kept was
+/// tried, also with four nodes at a time: it took half as long again on one core, which guesses right more often than not.
 template <bvh_layout Tree>
 struct ordered_tree_walk {
     using T = typename Tree::scalar_type;
@@ -214,18 +214,7 @@ inline constexpr bool goes_in_steps = false;
 template <bvh_layout Tree>
 inline constexpr bool goes_in_steps<ordered_tree_walk<Tree>> = (Tree::width > 2);
 
-/// One index's walk in a functor for for_each_ordered that has `walk` and `shapes`. all.start(i) is what looks from index i:
-/// its look.reach(all), look(all, id, sink) at shapes that it comes to, and look.end(all, i) after the last.
-ABUT_CALLS_ANY
-template <class All, class Sink>
-ABUT_HD void walk_from(const All& all, std::size_t i, Sink& sink) {
-    auto look = all.start(i);
-    auto reach = look.reach(all);
-    all.walk(reach, sink, [&](std::uint32_t id) { look(all, id, sink); });
-    look.end(all, i);
-}
-
-/// The same in steps. Refers to the functor.
+/// One index after another walks in steps. `all` is that of from_each, and is referred to.
 template <class All>
 class steps_from {
     using look_type = decltype(std::declval<const All&>().start(0));
@@ -252,6 +241,26 @@ private:
     reach_type reach_;
     steps_through_tree<std::remove_cvref_t<decltype(std::declval<const All&>().walk.tree)>> steps_;
 };
+
+/// A functor for for_each_ordered: a walk from each index. `all` has `walk` and `shapes`; all.start(i) is what looks from
+/// index i: its look.reach(all), look(all, id, sink) at shapes that it comes to, and look.end(all, i) after the last.
+template <class All>
+struct from_each {
+    All all;
+
+    ABUT_CALLS_ANY
+    template <class Sink>
+    ABUT_HD void operator()(std::size_t i, Sink& sink) const {
+        auto look = all.start(i);
+        auto reach = look.reach(all);
+        all.walk(reach, sink, [&](std::uint32_t id) { look(all, id, sink); });
+        look.end(all, i);
+    }
+    [[nodiscard]] bool pays_in_steps() const requires goes_in_steps<decltype(All::walk)> { return all.walk.pays_in_steps(); }
+    [[nodiscard]] auto in_steps() const requires goes_in_steps<decltype(All::walk)> { return steps_from(all); }
+};
+template <class All>
+from_each(const All&) -> from_each<All>;
 
 /// A part of a ball that shrinks: what of it is in a box.
 template <class Reach, scalar T>
