@@ -14,6 +14,7 @@ using namespace abut;
 
 TEMPLATE_TEST_CASE("raycast: serial", "", float, double) {
     test::check_raycast<TestType>(serial{});
+    test::check_near_times<TestType>(serial{});
     test::check_watertight<TestType>(serial{});
     test::check_raycast_scales<TestType>(serial{});
 }

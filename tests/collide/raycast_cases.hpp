@@ -180,6 +180,43 @@ void check_raycast(const Policy& on) {
     }
 }
 
+/// Many triangles that a line meets at nearly one time, or at one: planes a few units of the last place apart, each in several
+/// orders of its corners. In doubles times are told apart, or not, by the last bit.
+template <class T, class Policy>
+void check_near_times(const Policy& on) {
+    uniform random(96);
+    std::vector<triangle<T>> triangles;
+    const T step = std::numeric_limits<T>::epsilon() / 2;
+    for (int i = 0; i < 60; ++i) {
+        const T z = 1 - step * static_cast<T>(random.below(4));
+        const triangle<T> t{{T(-3), random.below(2) == 0 ? T(-1) : T(-2), z}, {T(3), T(-1), z + step}, {T(0), T(4), z}};
+        triangles.push_back(i % 3 == 0 ? triangle<T>{t.b, t.c, t.a} : i % 3 == 1 ? triangle<T>{t.c, t.b, t.a} : t);
+    }
+    const triangle_soup<T> soup(triangles);
+    std::vector<ray<T>> rays;
+    for (int i = 0; i < 200; ++i) rays.push_back({random.point<T>(-0.3, 0.3), random.point<T>(-0.3, 0.3) + vec3<T>{0, 0, 1}});
+    rays.push_back({{0, 0, 0}, {0, 0, -1}});
+    const auto expected = hits_by_definition(soup.view(), rays);
+    const auto tree = make_bvh(on, copy_to(on, soup));
+    check_hits(on, tree, rays, expected);
+    check_hits<exact>(on, tree, rays, expected);
+    check_hits(on, copy_to(on, soup), as_segments(rays), hits_by_definition(soup.view(), as_segments(rays)));
+    if constexpr (host_policy<Policy>) {
+        check_hits(on, wide(on, tree), rays, expected);
+        // Who compares them with times of other parts needs them as doubles.
+        const shapes<ray<T>> lines(rays);
+        const auto both = detail::bring_lines_and_shapes(on, tree, lines, "test");
+        detail::look_for_first_hits<filtered>(on, both, false, [&](const execution::least_value* found) {
+            std::size_t wrong = 0;
+            for (std::size_t i = 0; i + 1 < rays.size(); ++i) {
+                wrong += found[i].key != expected[i].id ||
+                         found[i].value != detail::hit_time<exact>(rays[i], triangles[expected[i].id]);
+            }
+            CHECK(wrong == 0);
+        });
+    }
+}
+
 /// A closed mesh, from within to its corners and to the middles of its sides, which need not be representable, and along
 /// axes.
 template <class T, class Policy>

@@ -38,7 +38,7 @@ void check_steps(const Index& index, const Lines& lines, const shapes<vec3<T>>& 
         CHECK((read() == expected));
     };
     execution::best_of_each<host_space> best(serial{}, n);
-    in_both_ways(both.template walk<detail::walk_along_lines, filtered>(), best,
+    in_both_ways(both.template walk<detail::walk_along_lines, filtered>(false), best,
                  [&] { return std::vector<execution::least_value>(best.data(), best.data() + n); });
     execution::until_stopped until;
     std::vector<std::uint8_t> met(n);

@@ -8,5 +8,5 @@
 #include "support/catch.hpp"
 
 TEMPLATE_TEST_CASE("queries at extremes: cuda", "", float, double) {
-    abut::test::check_all_extreme_queries<TestType>(abut::cuda{});
+    abut::test::check_first_extreme_queries<TestType>(abut::cuda{});
 }

@@ -11,6 +11,8 @@ TEST_CASE("raycast: cuda") {
     const abut::cuda on;
     abut::test::check_raycast<float>(on);
     abut::test::check_raycast<double>(on);
+    abut::test::check_near_times<float>(on);
+    abut::test::check_near_times<double>(on);
     abut::test::check_watertight<float>(on);
     abut::test::check_watertight<double>(on);
     abut::test::check_raycast_scales<float>(on);

@@ -15,9 +15,9 @@ using namespace abut;
 using detail::hit_time;
 
 struct time_tally {
-    std::uint64_t pairs = 0, hits = 0, in_pairs = 0, wrong = 0;
+    std::uint64_t pairs = 0, hits = 0, in_pairs = 0, in_doubles = 0, wrong = 0;
     time_tally& operator+=(const time_tally& o) {
-        pairs += o.pairs, hits += o.hits, in_pairs += o.in_pairs, wrong += o.wrong;
+        pairs += o.pairs, hits += o.hits, in_pairs += o.in_pairs, in_doubles += o.in_doubles, wrong += o.wrong;
         return *this;
     }
 };
@@ -26,15 +26,21 @@ template <class Line, scalar T>
 void examine(const Line& line, const triangle<T>& t, time_tally& sum) {
     const auto truth = test::first_time(line, t);
     const double by_filter = hit_time<filtered>(line, t), by_integers = hit_time<exact>(line, t);
+    const detail::time_bounds bounds = detail::hit_time_bounds<filtered>(line, t);
     ++sum.pairs;
     sum.hits += truth.has_value();
     sum.wrong += by_filter != by_integers || (by_filter >= 0) != truth.has_value();
+    sum.wrong += !(bounds.first <= by_filter && by_filter <= bounds.last) || (bounds.first >= 0) != truth.has_value();
     if (!truth) return;
     // A time may be above the largest number.
     const bool is_right = by_filter == largest_finite<double> ? *truth * 2 > test::exactly(by_filter)
                                                               : test::is_rounded(by_filter, *truth);
     sum.wrong += !is_right;
     const bool crosses = decide<filtered>(line, t) == verdict::yes;
+    if (!bounds.is_one()) {
+        ++sum.in_doubles;
+        sum.wrong += !(test::exactly(bounds.first) <= *truth && *truth <= test::exactly(bounds.last));
+    }
     sum.in_pairs += crosses && detail::crossing_in_pairs(detail::line_of<T>(line), t) >= 0;
 }
 
@@ -43,7 +49,7 @@ void examine(const Line& line, const triangle<T>& t, time_tally& sum) {
 TEMPLATE_TEST_CASE("hit time: rounded to nearest in every family", "", float, double) {
     using T = TestType;
     const std::uint64_t samples = (test::sample_count() + 49) / 50;
-    std::uint64_t in_pairs = 0, hits = 0;
+    std::uint64_t in_pairs = 0, in_doubles = 0, hits = 0;
     for (int i = 0; i < test::triangle_family_count; ++i) {
         const auto f = static_cast<test::triangle_family>(i);
         const auto sum = test::in_threads<time_tally>(samples, [&](std::uint64_t first, std::uint64_t last, time_tally& all) {
@@ -57,10 +63,12 @@ TEMPLATE_TEST_CASE("hit time: rounded to nearest in every family", "", float, do
         INFO(test::name_of(f));
         CHECK(sum.wrong == 0);
         CHECK(sum.hits * 40 > sum.pairs);
-        in_pairs += sum.in_pairs, hits += sum.hits;
+        in_pairs += sum.in_pairs, in_doubles += sum.in_doubles, hits += sum.hits;
     }
     CHECK(in_pairs * 10 > hits);
     CHECK(in_pairs * 2 < hits);
+    CHECK(in_doubles * 10 > hits);
+    CHECK(in_doubles * 2 < hits);
 }
 
 TEST_CASE("hit time: where pairs of doubles tell, and where they do not") {

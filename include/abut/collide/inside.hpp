@@ -67,7 +67,8 @@ struct walk_upward {
             is_on = found == met_above::start;
             if (is_on) sink.stop();
         }
-        ABUT_HD void end(const walk_upward& all, std::size_t i) const {
+        template <class Sink>
+        ABUT_HD void end(const walk_upward& all, std::size_t i, Sink&) const {
             all.out[i] = is_on ? containment::on_surface : is_odd ? containment::inside : containment::outside;
         }
     };

@@ -45,25 +45,54 @@ ABUT_HD auto reach_along(const Frame& frame, const Line& line) {
     return reach_of_line(frame, l.origin, l.direction(), l.last);
 }
 
-/// Of each line what it meets first.
+/// A time as it is reported: no infinity.
+template <scalar T>
+ABUT_HD T time_as(double time) {
+    const double most = static_cast<double>(largest_finite<T>);
+    return static_cast<T>(time < most ? time : most);
+}
+
+/// Of each line what it meets first. Times are rounded where two shapes are met at nearly the same one, and at the end.
 template <arithmetic A, class Walk, class Frame, shape_view Shapes, shape_view Lines>
 struct walk_along_lines {
     Walk walk;
     Frame frame;
     Shapes shapes;
     Lines lines;
+    bool in_scalars;  ///< whether the times are asked for as numbers of the scalar type alone
 
     struct look {
         typename Lines::shape_type line;
+        double earliest = infinity<double>;  ///< the least that the time of the first so far may be; the sink has the most
 
         ABUT_HD auto reach(const walk_along_lines& all) const { return reach_along(all.frame, line); }
         ABUT_CALLS_ANY
         template <class Best>
-        ABUT_HD void operator()(const walk_along_lines& all, std::uint32_t id, Best& best) const {
-            const double time = hit_time<A>(line, all.shapes[id]);
-            if (time >= 0) best.offer(time, id);
+        ABUT_HD void operator()(const walk_along_lines& all, std::uint32_t id, Best& best) {
+            time_bounds time = hit_time_bounds<A>(line, all.shapes[id]);
+            if (time.first < 0 || time.first > best.bound()) return;
+            if (!(time.last < earliest)) {
+                round(all, best);
+                if (!time.is_one()) time.first = time.last = hit_time_apart<A>(line, all.shapes[id]);
+                if (!execution::least_value{time.first, id}.comes_before(best.known())) return;
+            }
+            earliest = time.first;
+            best.offer(time.last, id);
         }
-        ABUT_HD void end(const walk_along_lines&, std::size_t) const {}
+        template <class Best>
+        ABUT_HD void end(const walk_along_lines& all, std::size_t, Best& best) {
+            using T = typename Lines::scalar_type;
+            if (!all.in_scalars || time_as<T>(earliest) != time_as<T>(best.known().value)) round(all, best);
+        }
+
+    private:
+        template <class Best>
+        ABUT_HD void round(const walk_along_lines& all, Best& best) {
+            const execution::least_value last = best.known();
+            if (earliest == last.value) return;
+            earliest = hit_time_apart<A>(line, all.shapes[static_cast<std::uint32_t>(last.key)]);
+            best.offer(earliest, last.key);
+        }
     };
     ABUT_HD look start(std::size_t i) const { return {lines[i]}; }
 };
@@ -89,17 +118,13 @@ struct walk_to_any {
             met = true;
             sink.stop();
         }
-        ABUT_HD void end(const walk_to_any& all, std::size_t i) const { all.out[i] = met ? 1 : 0; }
+        template <class Sink>
+        ABUT_HD void end(const walk_to_any& all, std::size_t i, Sink&) const {
+            all.out[i] = met ? 1 : 0;
+        }
     };
     ABUT_HD look start(std::size_t i) const { return {lines[i]}; }
 };
-
-/// A time as it is reported: no infinity.
-template <scalar T>
-ABUT_HD T time_as(double time) {
-    const double most = static_cast<double>(largest_finite<T>);
-    return static_cast<T>(time < most ? time : most);
-}
 
 template <scalar T>
 struct write_hits {
@@ -174,12 +199,12 @@ auto bring_lines_and_shapes(const Policy& on, const X& index, const Lines& rays,
 }
 
 /// Finds what each line meets first. finish(found) takes it: found[i] is of line i; with no shapes or no lines `found` is
-/// null.
+/// null. in_scalars: its values are as good as the times, rounded, when they are turned to scalars.
 template <arithmetic A, class Policy, class Both, class Finish>
-auto look_for_first_hits(const Policy& on, const Both& both, const Finish& finish) {
+auto look_for_first_hits(const Policy& on, const Both& both, bool in_scalars, const Finish& finish) {
     if (both.has_nothing()) return finish(nullptr);
     execution::best_of_each<space_of<Policy>> best(on, both.size());
-    for_each_ordered(on, both.size(), from_each{both.template walk<walk_along_lines, A>()}, best);
+    for_each_ordered(on, both.size(), from_each{both.template walk<walk_along_lines, A>(in_scalars)}, best);
     return finish(best.data());
 }
 
@@ -195,7 +220,7 @@ template <arithmetic A, class Policy, class X, class Lines>
 auto raycast_of(const Policy& on, const X& index, const Lines& rays, const char* function) {
     const auto both = bring_lines_and_shapes(on, index, rays, function);
     using T = typename std::remove_const_t<decltype(both)>::T;
-    return look_for_first_hits<A>(on, both, [&](const execution::least_value* found) {
+    return look_for_first_hits<A>(on, both, true, [&](const execution::least_value* found) {
         execution::buffer_of<Policy, ray_hit<T>> out(on, both.size());
         for_each_index(on, both.size(), write_hits<T>{found, out.data()});
         synchronize(on);

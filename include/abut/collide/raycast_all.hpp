@@ -53,7 +53,10 @@ struct count_along_lines {
             if (time >= 0 && count < kept_hits) few[count] = {time, id};
             if (time >= 0) ++count;
         }
-        ABUT_HD void end(const count_along_lines& all, std::size_t i) const { all.counts[i] = count; }
+        template <class Sink>
+        ABUT_HD void end(const count_along_lines& all, std::size_t i, Sink&) const {
+            all.counts[i] = count;
+        }
     };
     ABUT_HD look start(std::size_t i) const { return {lines[i], few + kept_hits * i}; }
 };

@@ -159,7 +159,7 @@ struct ask_first_hit {
     template <class Policy, class Operand, class Rows, class Ids>
     void ask(const Policy& on, const Operand& x, const Rows& rows, const Ids& ids, answer* out) const {
         const lines_and_shapes both{x, rows};
-        look_for_first_hits<A>(on, both, [&](const execution::least_value* found) {
+        look_for_first_hits<A>(on, both, false, [&](const execution::least_value* found) {
             for_each_index(on, both.size(), write_named<Ids>{found, ids, out});
             synchronize(on);
         });

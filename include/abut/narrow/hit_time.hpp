@@ -8,9 +8,13 @@
 // are equal numbers, however they were computed: two faces at an edge are met at one time by a ray through the edge. A pair
 // of doubles tells nearly always how t is rounded. Where it does not, integers do (narrow/exact_hit_time.hpp).
 //
-// The pairs. Let p be the product of the sums of magnitudes of three vectors whose determinant is computed: sums of products
-// of pairs are off by less than 32 2^-106 p in all, of which 2^-98 is taken, for the numerator and the denominator. Vectors
-// have magnitudes between 2^-200 and 2^200, so nothing underflows that matters beside that.
+// Which of two shapes is met first needs less: single doubles tell two times between which t lies (`hit_time_bounds`), and
+// only where these overlap is t rounded.
+//
+// Errors. Let p be the product of the sums of magnitudes of three vectors whose determinant is computed: sums of products of
+// pairs are off by less than 32 2^-106 p in all, of which 2^-98 is taken, for the numerator and the denominator. In doubles
+// they are off by less than 20 2^-53 p (predicate/certified_triangles.hpp), of which 2^-48 is taken. Vectors have magnitudes
+// between 2^-200 and 2^200, so nothing underflows that matters beside that.
 
 #include <cstdint>
 
@@ -38,28 +42,58 @@ struct line_of {
     [[nodiscard]] ABUT_HD constexpr vec3<T> direction() const { return end - start; }
 };
 
+/// When a line crosses a plane, and by what share of itself that may be off: by a half or more where nothing is known.
+template <class N>
+struct plane_crossing {
+    N time;
+    double relative;
+};
+
+/// In numbers N, whose determinants are off by `error` times the product of magnitudes.
+template <class N, scalar T>
+ABUT_HD constexpr plane_crossing<N> cross_plane(const line_of<T>& l, const triangle<T>& t, double error) {
+    using contact_math::between;
+    using contact_math::rounded_off;
+    if (std::same_as<T, float> && any_subnormal(in_a_row(l.origin, t.a, t.b, t.c, l.end, l.start).value)) return {{}, 1};
+    const vec3<double> a = widened(t.a);
+    const auto to_a = between<N>(widened(l.origin), a), f = between<N>(a, widened(t.b)), g = between<N>(a, widened(t.c)),
+               along = between<N>(widened(l.start), widened(l.end));
+    const double apart = magnitudes(rounded_off(to_a)), length = magnitudes(rounded_off(along)),
+                 side = magnitudes(rounded_off(f)), other = magnitudes(rounded_off(g));
+    if (!(least(apart, length, side, other) > 0x1p-200 && greatest(apart, length, side, other) < 0x1p200)) return {{}, 1};
+    const auto n = cross(f, g);
+    const N height = dot(n, to_a), speed = dot(n, along), time = height / speed;
+    const double off = error * (side * other);
+    const double relative = off * apart / absolute(height.high) + off * length / absolute(speed.high) + error;
+    return {time, relative < 0.5 ? 2 * relative : 1};
+}
+
 /// The time at which the line crosses the plane, or a negative number if pairs of doubles do not tell how it is rounded.
 template <scalar T>
 ABUT_HD constexpr double crossing_in_pairs(const line_of<T>& l, const triangle<T>& t) {
-    using number = contact_math::two_doubles;
-    using contact_math::between;
-    using contact_math::rounded_off;
-    if (std::same_as<T, float> && any_subnormal(in_a_row(l.origin, t.a, t.b, t.c, l.end, l.start).value)) return -1;
-    const vec3<double> a = widened(t.a);
-    const auto to_a = between<number>(widened(l.origin), a), f = between<number>(a, widened(t.b)),
-               g = between<number>(a, widened(t.c)), along = between<number>(widened(l.start), widened(l.end));
-    const double apart = magnitudes(rounded_off(to_a)), length = magnitudes(rounded_off(along)),
-                 side = magnitudes(rounded_off(f)), other = magnitudes(rounded_off(g));
-    if (!(least(apart, length, side, other) > 0x1p-200 && greatest(apart, length, side, other) < 0x1p200)) return -1;
-    const auto n = cross(f, g);
-    const number height = dot(n, to_a), speed = dot(n, along), time = height / speed;
-    const double error = 0x1p-98 * (side * other);
-    const double relative = error * apart / absolute(height.high) + error * length / absolute(speed.high) + 0x1p-98;
-    if (!(relative < 0x1p-60)) return -1;
-    const double lost = 2 * relative * time.high;
+    const auto [time, relative] = cross_plane<contact_math::two_doubles>(l, t, 0x1p-98);
+    if (!(relative < 0x1p-59)) return -1;
+    const double lost = relative * time.high;
     const bool is_certain = plain_sum(time.high, plain_sum(time.low, lost)) == time.high &&
                             plain_sum(time.high, plain_sum(time.low, -lost)) == time.high;
     return is_certain && time.high > smallest_normal<double> && time.high <= largest_finite<double> ? time.high : -1;
+}
+
+/// Two times between which a shape is met, or a negative `first` if it is not met.
+struct time_bounds {
+    double first, last;
+
+    [[nodiscard]] ABUT_HD constexpr bool is_one() const { return first == last; }
+};
+
+/// The same in doubles: two times between which the line crosses the plane, or negative ones if nothing is known.
+template <scalar T>
+ABUT_HD constexpr time_bounds crossing_in_doubles(const line_of<T>& l, const triangle<T>& t) {
+    const auto [time, relative] = cross_plane<contact_math::one_double>(l, t, 0x1p-48);
+    if (!(relative < 0x1p-8)) return {-1, -1};
+    const double lost = plain_product(relative, time.high);
+    const time_bounds between{plain_sum(time.high, -lost), plain_sum(time.high, lost)};
+    return between.first > smallest_normal<double> && between.last <= largest_finite<double> ? between : time_bounds{-1, -1};
 }
 
 /// The same by integers.
@@ -90,6 +124,29 @@ ABUT_HD constexpr double hit_time(const Line& line, const triangle<T>& t) {
         }
         return exact_hit_time(line, t);
     }
+}
+
+/// hit_time, not inlined: for where it is seldom asked for.
+template <arithmetic A, class Line, class Shape>
+ABUT_NOINLINE ABUT_HD constexpr double hit_time_apart(const Line& line, const Shape& shape) {
+    return hit_time<A>(line, shape);
+}
+
+/// Bounds of what hit_time gives; nearly always in single doubles.
+template <arithmetic A, class Line, class Shape>
+ABUT_HD constexpr time_bounds hit_time_bounds(const Line& line, const Shape& shape) {
+    if constexpr (std::same_as<A, filtered> && std::same_as<Shape, triangle<scalar_type_of<Line>>>) {
+        if (!__builtin_is_constant_evaluated()) {
+            const verdict v = decide<filtered>(as_stored(line), as_stored(shape));
+            if (v == verdict::no) return {-1, -1};
+            if (v == verdict::yes) {
+                const time_bounds times = crossing_in_doubles(line_of<scalar_type_of<Line>>(line), shape);
+                if (times.first >= 0) return times;
+            }
+        }
+    }
+    const double time = hit_time<A>(line, shape);
+    return {time, time};
 }
 
 /// Whether it does at all.

@@ -233,7 +233,10 @@ public:
     bool step(Sink& sink) {
         return steps_.step(all_->shapes, reach_, sink, [&](std::uint32_t id) { look_(*all_, id, sink); });
     }
-    void end(std::size_t i) { look_.end(*all_, i); }
+    template <class Sink>
+    void end(std::size_t i, Sink& sink) {
+        look_.end(*all_, i, sink);
+    }
 
 private:
     const All* all_;
@@ -243,7 +246,7 @@ private:
 };
 
 /// A functor for for_each_ordered: a walk from each index. `all` has `walk` and `shapes`; all.start(i) is what looks from
-/// index i: its look.reach(all), look(all, id, sink) at shapes that it comes to, and look.end(all, i) after the last.
+/// index i: its look.reach(all), look(all, id, sink) at shapes that it comes to, and look.end(all, i, sink) after the last.
 template <class All>
 struct from_each {
     All all;
@@ -254,7 +257,7 @@ struct from_each {
         auto look = all.start(i);
         auto reach = look.reach(all);
         all.walk(reach, sink, [&](std::uint32_t id) { look(all, id, sink); });
-        look.end(all, i);
+        look.end(all, i, sink);
     }
     [[nodiscard]] bool pays_in_steps() const requires goes_in_steps<decltype(All::walk)> { return all.walk.pays_in_steps(); }
     [[nodiscard]] auto in_steps() const requires goes_in_steps<decltype(All::walk)> { return steps_from(all); }
