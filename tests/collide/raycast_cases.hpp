@@ -209,6 +209,7 @@ void check_near_times(const Policy& on) {
         detail::look_for_first_hits<filtered>(on, both, false, [&](const execution::least_value* found) {
             std::size_t wrong = 0;
             for (std::size_t i = 0; i + 1 < rays.size(); ++i) {
+                REQUIRE(expected[i].id != no_id);
                 wrong += found[i].key != expected[i].id ||
                          found[i].value != detail::hit_time<exact>(rays[i], triangles[expected[i].id]);
             }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // long to compile
 //
-// Queries at extremes, of hulls: the scenes of tests/collide/extremes.test.cpp, where host policies give the same exact answers.
+// Queries at extremes, of hulls; scenes are those of
+// tests/collide/extremes.test.cpp, where host policies give the same exact answers.
 #include <abut/cuda.hpp>
 
 #include "collide/extreme_cases.hpp"

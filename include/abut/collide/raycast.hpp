@@ -59,11 +59,11 @@ struct walk_along_lines {
     Frame frame;
     Shapes shapes;
     Lines lines;
-    bool in_scalars;  ///< whether the times are asked for as numbers of the scalar type alone
+    bool in_scalars;  ///< whether times need only become the right scalars: then they may be off by less than that tells
 
     struct look {
         typename Lines::shape_type line;
-        double earliest = infinity<double>;  ///< the least that the time of the first so far may be; the sink has the most
+        double earliest = infinity<double>;  ///< the least time that the first shape so far may have; the sink has the most
 
         ABUT_HD auto reach(const walk_along_lines& all) const { return reach_along(all.frame, line); }
         ABUT_CALLS_ANY
@@ -199,7 +199,7 @@ auto bring_lines_and_shapes(const Policy& on, const X& index, const Lines& rays,
 }
 
 /// Finds what each line meets first. finish(found) takes it: found[i] is of line i; with no shapes or no lines `found` is
-/// null. in_scalars: its values are as good as the times, rounded, when they are turned to scalars.
+/// null. in_scalars: values need only become the right scalars; they may not be the times, rounded to doubles.
 template <arithmetic A, class Policy, class Both, class Finish>
 auto look_for_first_hits(const Policy& on, const Both& both, bool in_scalars, const Finish& finish) {
     if (both.has_nothing()) return finish(nullptr);

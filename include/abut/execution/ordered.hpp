@@ -10,8 +10,9 @@
 //   until_stopped             for walks that keep what they find themselves, and may end before all is seen
 //
 // All but the last take sink.offer(value, key), and keep the least value and, of equal ones, the least key; sink.bound() is
-// what values have to stay below, or equal, to matter, and the first kind's sink.known() what it has. Values are doubles, 0 or more. What is left does not depend on the
-// order in which values come, and so not on threads, as long as nothing at the bound is left out.
+// what values have to stay below, or equal, to matter, and the first kind's sink.known() what it has. Values are doubles, 0
+// or more. What is left does not depend on the order in which values come, and so not on threads, as long as nothing at the
+// bound is left out.
 
 #include <cstddef>
 #include <cstdint>
@@ -231,8 +232,8 @@ void walk_in_order(const Walk& walk, Sink sink, std::size_t begin, std::size_t e
 }
 
 /// The same, eight indices at a time, a step of each in turn. walk.in_steps() is one of them: its begin(i, sink),
-/// step(sink), which is false after the last, and end(i, sink). Four to twelve at a time took the same time. A thread has a sink
-/// for each, all of which are closed.
+/// step(sink), which is false after the last, and end(i, sink). Four to twelve at a time took the same time. A thread has a
+/// sink for each, all of which are closed.
 template <class Walk, class Sink>
 void walk_in_turns(const Walk& walk, const Sink& sink, std::size_t begin, std::size_t end) {
     constexpr std::size_t together = 8;

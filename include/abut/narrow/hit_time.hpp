@@ -42,7 +42,7 @@ struct line_of {
     [[nodiscard]] ABUT_HD constexpr vec3<T> direction() const { return end - start; }
 };
 
-/// When a line crosses a plane, and by what share of itself that may be off: by a half or more where nothing is known.
+/// When a line crosses a plane, and by what share of itself that may be off: 1 where nothing is known.
 template <class N>
 struct plane_crossing {
     N time;
@@ -127,26 +127,29 @@ ABUT_HD constexpr double hit_time(const Line& line, const triangle<T>& t) {
 }
 
 /// hit_time, not inlined: for where it is seldom asked for.
-template <arithmetic A, class Line, class Shape>
-ABUT_NOINLINE ABUT_HD constexpr double hit_time_apart(const Line& line, const Shape& shape) {
-    return hit_time<A>(line, shape);
+template <arithmetic A, class Line, scalar T>
+ABUT_NOINLINE ABUT_HD constexpr double hit_time_apart(const Line& line, const triangle<T>& t) {
+    return hit_time<A>(line, t);
 }
 
 /// Bounds of what hit_time gives; nearly always in single doubles.
-template <arithmetic A, class Line, class Shape>
-ABUT_HD constexpr time_bounds hit_time_bounds(const Line& line, const Shape& shape) {
-    if constexpr (std::same_as<A, filtered> && std::same_as<Shape, triangle<scalar_type_of<Line>>>) {
+template <arithmetic A, class Line, scalar T>
+ABUT_HD constexpr time_bounds hit_time_bounds(const Line& line, const triangle<T>& t) {
+    if constexpr (std::same_as<A, filtered>) {
         if (!__builtin_is_constant_evaluated()) {
-            const verdict v = decide<filtered>(as_stored(line), as_stored(shape));
+            const verdict v = decide<filtered>(as_stored(line), as_stored(t));
             if (v == verdict::no) return {-1, -1};
             if (v == verdict::yes) {
-                const time_bounds times = crossing_in_doubles(line_of<scalar_type_of<Line>>(line), shape);
+                const time_bounds times = crossing_in_doubles(line_of<T>(line), t);
                 if (times.first >= 0) return times;
             }
         }
+        const double time = hit_time_apart<A>(line, t);
+        return {time, time};
+    } else {
+        const double time = hit_time<A>(line, t);
+        return {time, time};
     }
-    const double time = hit_time<A>(line, shape);
-    return {time, time};
 }
 
 /// Whether it does at all.

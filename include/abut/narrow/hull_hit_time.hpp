@@ -131,4 +131,17 @@ ABUT_NOINLINE ABUT_HD constexpr bool is_met(const Line& line, const hull<T>& h) 
     return intersects<A>(h, l.origin) || (std::same_as<Line, segment<T>> && intersects<A>(h, l.end));
 }
 
+/// As of a triangle; the time of a hull is rounded at once.
+///@{
+template <arithmetic A, class Line, scalar T>
+ABUT_HD constexpr double hit_time_apart(const Line& line, const hull<T>& h) {
+    return hit_time<A>(line, h);
+}
+template <arithmetic A, class Line, scalar T>
+ABUT_HD constexpr time_bounds hit_time_bounds(const Line& line, const hull<T>& h) {
+    const double time = hit_time<A>(line, h);
+    return {time, time};
+}
+///@}
+
 }  // namespace abut::detail
