@@ -49,8 +49,10 @@ struct shape_pairs {
 template <class T, class Pairs>
 void check_families() {
     const auto n = static_cast<std::size_t>(test::sample_count());
-    REQUIRE(test::first_family() < Pairs::families);
-    for (int f = test::first_family(); f < Pairs::families; ++f) {
+    const int first = test::first_family();
+    REQUIRE(first >= 0);
+    REQUIRE(first < Pairs::families);
+    for (int f = first; f < Pairs::families; ++f) {
         const std::size_t hits = test::check_decisions<T>(Pairs{static_cast<decltype(Pairs::family)>(f)}, n).hits;
         CHECK(test::is_share_above(0.05, hits, n));
         CHECK(test::is_share_above(0.05, n - hits, n));

@@ -21,8 +21,8 @@ inline std::uint64_t sample_count() {
     return n > 0 ? static_cast<std::uint64_t>(n) : 5000;
 }
 
-/// The family that tests of families on a device begin with: the environment's ABUT_FIRST_FAMILY, or 0. A long run that was cut off goes
-/// on from there.
+/// The family that tests of families on a device begin with: the environment's ABUT_FIRST_FAMILY, or 0. A long run that was
+/// cut off goes on from there.
 inline int first_family() {
     const char* const text = std::getenv("ABUT_FIRST_FAMILY");
     return text == nullptr ? 0 : std::atoi(text);
