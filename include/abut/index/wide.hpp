@@ -28,8 +28,7 @@ namespace abut {
 /// all of whose children are leaves has fewer than four. Slots without a child hold the empty box.
 template <scalar T>
 struct alignas(sizeof(T) == 4 ? 64 : 32) wide_node {
-    T lower[3][4];        ///< by axis, then by child
-    T upper[3][4];        ///< likewise
+    T planes[6][4];       ///< lower x, y and z of all children, then upper x, y and z
     bvh_child child[4];   ///< the children
     std::uint32_t count;  ///< of children
 };
@@ -45,16 +44,16 @@ struct wide_view : bvh_view_base<T, Space, wide_node<T>, 4> {
     [[nodiscard]] ABUT_HD const node_type& fetch(std::uint32_t node) const { return this->nodes[node]; }
     [[nodiscard]] ABUT_HD static int children(const node_type& n) { return static_cast<int>(n.count); }
     [[nodiscard]] ABUT_HD static aabb<T> bounds(const node_type& n, int slot) {
-        return {{n.lower[0][slot], n.lower[1][slot], n.lower[2][slot]},
-                {n.upper[0][slot], n.upper[1][slot], n.upper[2][slot]}};
+        return {{n.planes[0][slot], n.planes[1][slot], n.planes[2][slot]},
+                {n.planes[3][slot], n.planes[4][slot], n.planes[5][slot]}};
     }
     [[nodiscard]] ABUT_HD static bvh_child child(const node_type& n, int slot) { return n.child[slot]; }
     ///@}
     /// The boxes of all four slots, as lanes of four numbers.
-    [[nodiscard]] ABUT_HD static auto all_bounds(const node_type& n) { return detail::box_lanes<T>::load(n.lower, n.upper); }
-    /// The lower or the upper bounds of all four slots along an axis, likewise.
-    [[nodiscard]] ABUT_HD static auto all_planes(const node_type& n, int axis, bool upper) {
-        return detail::lanes<T>::load(upper ? n.upper[axis] : n.lower[axis]);
+    [[nodiscard]] ABUT_HD static auto all_bounds(const node_type& n) { return detail::box_lanes<T>::load(n.planes); }
+    /// One of the six planes of all four slots, by its number in a node, likewise.
+    [[nodiscard]] ABUT_HD static auto four_planes(const node_type& n, int plane) {
+        return detail::lanes<T>::load(n.planes[plane]);
     }
 };
 
@@ -116,12 +115,9 @@ struct widen_tree {
                 box[k] = empty_box<T>();
                 to.child[k] = bvh_child::leaf(0);
             }
-            const T lower[] = {box[k].lower.x, box[k].lower.y, box[k].lower.z},
-                    upper[] = {box[k].upper.x, box[k].upper.y, box[k].upper.z};
-            for (int axis = 0; axis < 3; ++axis) {
-                to.lower[axis][k] = lower[axis];
-                to.upper[axis][k] = upper[axis];
-            }
+            const vec3<T>&lower = box[k].lower, &upper = box[k].upper;
+            const T planes[] = {lower.x, lower.y, lower.z, upper.x, upper.y, upper.z};
+            for (int plane = 0; plane < 6; ++plane) to.planes[plane][k] = planes[plane];
         }
         return to;
     }

@@ -17,10 +17,10 @@ struct box_lanes {
     using lanes_type = lanes<T, Register>;
     vec3<lanes_type> lower, upper;
 
-    /// From coordinates by axis.
-    ABUT_INLINE ABUT_HD static box_lanes load(const T (&lower)[3][4], const T (&upper)[3][4]) {
-        return {{lanes_type::load(lower[0]), lanes_type::load(lower[1]), lanes_type::load(lower[2])},
-                {lanes_type::load(upper[0]), lanes_type::load(upper[1]), lanes_type::load(upper[2])}};
+    /// From their planes: lower x, y and z of all, then upper x, y and z.
+    ABUT_INLINE ABUT_HD static box_lanes load(const T (&planes)[6][4]) {
+        return {{lanes_type::load(planes[0]), lanes_type::load(planes[1]), lanes_type::load(planes[2])},
+                {lanes_type::load(planes[3]), lanes_type::load(planes[4]), lanes_type::load(planes[5])}};
     }
     /// One box four times.
     ABUT_INLINE ABUT_HD static box_lanes all(const aabb<T>& box) {

@@ -44,6 +44,9 @@ ABUT_HD constexpr int exponent_of_normal(T x) {
 }
 
 template <scalar T>
+class ray_reach_of_four;
+
+template <scalar T>
 struct ray_reach {
     vec3<T> below, above;  ///< the origin, moved up and down by its slack
     vec3<T> inverse;       ///< of the direction's coordinates; 0 where they say nothing
@@ -54,7 +57,7 @@ struct ray_reach {
     bool is_narrow;  ///< whether it is 0 in any coordinate
 
     static constexpr T most = largest_finite<T> / 8;
-    static constexpr bool takes_four = true;
+    using of_four = ray_reach_of_four<T>;  ///< the same where boxes come by fours
 
     ray_reach() = default;
     /// last: the time at which it ends, or infinity. slack: by how much a point of it may be off.
@@ -102,37 +105,6 @@ struct ray_reach {
         if (entry > exit * grown + tiny || (is_narrow && !overlaps(around, box))) return infinity<T>;
         return entry;
     }
-    /// The same of four boxes: planes(axis, upper) are their lower or their upper bounds along an axis. Which of the two the
-    /// ray passes first is the same for all boxes. A bit for each box that is kept; of the others the times mean nothing.
-    template <class Planes>
-    ABUT_INLINE ABUT_HD unsigned least_in_four(const Planes& planes, T (&to)[4]) const {
-        using many = decltype(planes(0, false));
-        const auto all = [](T x) { return many::all(x); };
-        constexpr T grown = 1 + 32 * unit_roundoff<T>, tiny = 4 * smallest_normal<T>;
-        const auto along = [&](int axis, T vec3<T>::*x, many& entry, many& exit) {
-            const T factor = inverse.*x;
-            const bool back = factor < 0;
-            const many in = (planes(axis, back) - all(back ? above.*x : below.*x)) * all(factor);
-            const many out = (planes(axis, !back) - all(back ? below.*x : above.*x)) * all(factor);
-            entry = greatest(in, entry);
-            exit = least(out + all(far.*x), exit);
-        };
-        many entry = all(T(0)), exit = all(infinity<T>);
-        along(0, &vec3<T>::x, entry, exit);
-        along(1, &vec3<T>::y, entry, exit);
-        along(2, &vec3<T>::z, entry, exit);
-        entry = least(entry, all(most));
-        auto apart = (entry > exit * all(grown) + all(tiny)) | (entry > all(limit));
-        if (is_narrow) {
-            const auto beside = [&](int axis, T vec3<T>::*x) {
-                return (planes(axis, false) > all(around.upper.*x)) | (all(around.lower.*x) > planes(axis, true));
-            };
-            apart = apart | (beside(0, &vec3<T>::x) | beside(1, &vec3<T>::y) | beside(2, &vec3<T>::z));
-        }
-        entry.store(to);
-        const decltype(apart) row[1] = {apart};
-        return ~bits_of(row) & 0xfu;
-    }
     [[nodiscard]] ABUT_HD bool keeps(T least) const { return !(least > limit); }
     ABUT_HD bool operator()(const aabb<T>& box) const { return keeps(least_in(box)); }
     [[nodiscard]] ABUT_HD aabb<T> bounds() const { return around; }
@@ -143,6 +115,63 @@ struct ray_reach {
         const double scaled = times_power_of_two(bound, exponent) * grown + 4 * static_cast<double>(smallest_normal<T>);
         limit = scaled < static_cast<double>(most) ? static_cast<T>(scaled) : most;
     }
+};
+
+/// The same reach for four boxes at a time, which has each of its numbers four times, so that a node costs no more than its
+/// boxes. For processors.
+template <scalar T>
+class ray_reach_of_four {
+    using many = lanes<T>;
+
+public:
+    static constexpr bool takes_four = true;
+    ray_reach_of_four() = default;
+    ABUT_HD explicit ray_reach_of_four(const ray_reach<T>& one) : one_(one) {
+        const auto prepare = [&](int axis, T vec3<T>::*x) {
+            const T factor = one.inverse.*x;
+            const bool back = factor < 0;
+            enters_[axis] = back ? axis + 3 : axis;
+            leaves_[axis] = back ? axis : axis + 3;
+            factor_[axis] = many::all(factor);
+            in_[axis] = many::all(back ? one.above.*x : one.below.*x);
+            out_[axis] = many::all(back ? one.below.*x : one.above.*x);
+            far_[axis] = many::all(one.far.*x);
+        };
+        prepare(0, &vec3<T>::x);
+        prepare(1, &vec3<T>::y);
+        prepare(2, &vec3<T>::z);
+    }
+
+    /// When it enters each of four boxes: planes(k) are their lower x, y and z, and then their upper ones. Which of two the
+    /// ray passes first is the same for all boxes. A bit for each box that is kept; of the others the times mean nothing.
+    template <class Planes>
+    ABUT_INLINE ABUT_HD unsigned least_in_four(const Planes& planes, T (&to)[4]) const {
+        const auto all = [](T x) { return many::all(x); };
+        constexpr T grown = 1 + 32 * unit_roundoff<T>, tiny = 4 * smallest_normal<T>;
+        many entry = all(T(0)), exit = all(infinity<T>);
+        for (int k = 0; k < 3; ++k) {
+            entry = greatest((planes(enters_[k]) - in_[k]) * factor_[k], entry);
+            exit = least((planes(leaves_[k]) - out_[k]) * factor_[k] + far_[k], exit);
+        }
+        entry = least(entry, all(ray_reach<T>::most));
+        auto apart = (entry > exit * all(grown) + all(tiny)) | (entry > all(one_.limit));
+        if (one_.is_narrow) {
+            const auto beside = [&](int axis, T vec3<T>::*x) {
+                return (planes(axis) > all(one_.around.upper.*x)) | (all(one_.around.lower.*x) > planes(axis + 3));
+            };
+            apart = apart | (beside(0, &vec3<T>::x) | beside(1, &vec3<T>::y) | beside(2, &vec3<T>::z));
+        }
+        entry.store(to);
+        const decltype(apart) row[1] = {apart};
+        return ~bits_of(row) & 0xfu;
+    }
+    [[nodiscard]] ABUT_HD bool keeps(T least) const { return one_.keeps(least); }
+    ABUT_HD void shrink_to(double bound) { one_.shrink_to(bound); }
+
+private:
+    ray_reach<T> one_;
+    many in_[3], out_[3], factor_[3], far_[3];
+    int enters_[3], leaves_[3];  ///< which planes of a box the ray passes first and last
 };
 
 /// What a frame sees of a line in the world (point_reach.hpp).

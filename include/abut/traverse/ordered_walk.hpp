@@ -45,12 +45,23 @@ ABUT_HD auto least_in_slot(const Reach& reach, const Tree& tree, const typename 
     }
 }
 
-/// Whether a reach looks at the four boxes of a node at once.
+/// Whether a reach has a form that looks at the four boxes of a node at once.
 template <class Reach, class Tree>
 concept looks_at_four = requires(const typename Tree::node_type& node) {
-    requires Reach::takes_four;
-    Tree::all_planes(node, 0, false);
+    typename Reach::of_four;
+    Tree::four_planes(node, 0);
 };
+/// The form of a reach that goes through a tree.
+///@{
+template <class Tree, class Reach>
+ABUT_HD Reach& reach_through(Reach& reach) {
+    return reach;
+}
+template <class Tree, class Reach> requires looks_at_four<Reach, Tree>
+ABUT_HD auto reach_through(Reach& reach) {
+    return typename Reach::of_four(reach);
+}
+///@}
 
 /// Where a walk through a tree is: at a node or a leaf, while `waiting` others wait in a room, with their distances. The
 /// room is apart, since compilers for devices keep no part of a struct in registers that has an array in it.
@@ -74,10 +85,10 @@ struct place_in_tree {
     template <class Reach>
     ABUT_HD bool descend(const Tree& tree, const Reach& reach, room& pending) {
         const auto& node = tree.fetch(at.child.index());
-        if constexpr (looks_at_four<Reach, Tree>) {
+        if constexpr (requires { Reach::takes_four; }) {
             // The nearest goes on; the others wait, the farthest below. Often there is one alone.
             T least_of[4];
-            const auto planes = [&](int axis, bool upper) { return tree.all_planes(node, axis, upper); };
+            const auto planes = [&](int plane) { return tree.four_planes(node, plane); };
             unsigned kept = reach.least_in_four(planes, least_of) & ((1u << tree.children(node)) - 1);
             if (kept == 0) return next(reach, pending);
             const auto take = [&] {
@@ -141,7 +152,8 @@ struct ordered_tree_walk {
 
     ABUT_CALLS_ANY
     template <shrinking_reach<T> Reach, class Best, class Visitor>
-    ABUT_HD void operator()(Reach& reach, Best& best, const Visitor& visitor) const {
+    ABUT_HD void operator()(Reach& from, Best& best, const Visitor& visitor) const {
+        auto&& reach = reach_through<Tree>(from);
         place_in_tree<Tree> place;
         typename place_in_tree<Tree>::room pending;  // not initialised
         double bound = infinity<double>;
@@ -217,8 +229,10 @@ inline constexpr bool goes_in_steps<ordered_tree_walk<Tree>> = (Tree::width > 2)
 /// One index after another walks in steps. `all` is that of from_each, and is referred to.
 template <class All>
 class steps_from {
+    using tree_type = std::remove_cvref_t<decltype(std::declval<const All&>().walk.tree)>;
     using look_type = decltype(std::declval<const All&>().start(0));
-    using reach_type = decltype(std::declval<const look_type&>().reach(std::declval<const All&>()));
+    using given_type = decltype(std::declval<const look_type&>().reach(std::declval<const All&>()));
+    using reach_type = std::remove_cvref_t<decltype(reach_through<tree_type>(std::declval<given_type&>()))>;
 
 public:
     explicit steps_from(const All& all) : all_(&all), steps_(all.walk.tree) {}
@@ -226,7 +240,8 @@ public:
     template <class Sink>
     void begin(std::size_t i, const Sink& sink) {
         look_ = all_->start(i);
-        reach_ = look_.reach(*all_);
+        given_type given = look_.reach(*all_);
+        reach_ = reach_through<tree_type>(given);
         steps_.begin(reach_, sink);
     }
     template <class Sink>
@@ -242,7 +257,7 @@ private:
     const All* all_;
     look_type look_;
     reach_type reach_;
-    steps_through_tree<std::remove_cvref_t<decltype(std::declval<const All&>().walk.tree)>> steps_;
+    steps_through_tree<tree_type> steps_;
 };
 
 /// A functor for for_each_ordered: a walk from each index. `all` has `walk` and `shapes`; all.start(i) is what looks from
