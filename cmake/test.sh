@@ -8,7 +8,7 @@
 #   g++, Release, warnings as errors: all tests, the examples, each header alone, the syntax of bench/*.cpp, the
 #   include graph, an outside project;
 #   the .cu files, if nvcc 13.0 or newer is there; where no device is present they are compiled to PTX alone, without
-#   optimisation, but for those that take minutes, and reported as skipped;
+#   optimisation, but for those that take minutes, and each counts as a test that is skipped;
 #   the address and undefined behaviour sanitizers on execution, traverse and io, with hardly any optimisation. io is tested
 #   by them alone, and traverse/modes.test.cpp without them: --asan and --full build both both ways.
 # More, each beside what is above:
