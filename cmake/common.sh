@@ -8,6 +8,12 @@ fail() { printf '%s: %s\n' "${0##*/}" "$*" >&2; exit 1; }
 # shellcheck disable=SC2034
 jobs=$(nproc 2>/dev/null || echo 2)
 
+# is_required WHAT: whether ABUT_REQUIRE, words with spaces between, names it.
+is_required() {
+    case " ${ABUT_REQUIRE:-} " in *" $1 "*) return 0 ;; esac
+    return 1
+}
+
 as_root() {
     if [ "$(id -u)" = 0 ]; then
         env DEBIAN_FRONTEND=noninteractive "$@"
@@ -54,11 +60,15 @@ need_packages() {
     as_root apt-get install -y -qq --no-install-recommends $missing >/dev/null || fail "apt-get could not install: $missing"
 }
 
-# want_packages PACKAGE...: the same, but a distribution that lacks one of them is no failure: what needs it is left out.
+# want_packages PACKAGE...: the same, but a distribution that lacks one is no failure: what needs it is left out. Where
+# ABUT_REQUIRE names packages, it is one.
 want_packages() {
     missing=$(missing_of "$@")
     [ -n "$missing" ] || return 0
-    command -v apt-get >/dev/null 2>&1 || return 0
+    if ! command -v apt-get >/dev/null 2>&1; then
+        if is_required packages; then fail "ABUT_REQUIRE asks for packages: no apt-get here to install: $missing"; fi
+        return 0
+    fi
     update_lists
     # shellcheck disable=SC2086
     in_lists=$(apt-cache --no-all-versions show $missing 2>/dev/null | sed -n 's/^Package: //p')
@@ -66,6 +76,8 @@ want_packages() {
     for package in $missing; do
         if printf '%s\n' "$in_lists" | grep -Fqx "$package"; then
             known="$known $package"
+        elif is_required packages; then
+            fail "ABUT_REQUIRE asks for packages: this distribution has no package $package"
         else
             printf 'this distribution has no package %s; what needs it is left out\n' "$package"
         fi

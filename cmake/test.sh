@@ -21,7 +21,7 @@
 #   --all       all of these but --full
 # Environment: ABUT_SAMPLES (samples for each family and scalar), ABUT_RESULTS (folder for tables), ABUT_REQUIRE_CUDA=1
 # (no nvcc is a failure), ABUT_REQUIRE (what no test may be skipped for want of: data, device, validator, viewer; test.sh adds
-# what is there).
+# what is there. With packages, what apt-get and npm could not install is a failure too).
 set -eu
 
 usage() { sed -n '/^# usage/,/^set/s/^# \{0,1\}//p' "$0"; }
@@ -44,6 +44,10 @@ done
 cd "$(dirname "$0")/.."
 . cmake/common.sh
 
+if is_required data && [ ! -d "${ABUT_DATA:-../shared/data}" ]; then
+    fail "ABUT_REQUIRE asks for data: there is no folder ${ABUT_DATA:-../shared/data}"
+fi
+
 # --- packages ----------------------------------------------------------------------------------------------------------
 
 need_packages g++ cmake ninja-build python3 catch2 librapidcheck-dev libboost-dev
@@ -55,8 +59,14 @@ want_packages $wanted ccache $viewer_packages
 # The Khronos validator of glTF, for the tests of its writer.
 if command -v npm >/dev/null 2>&1 && [ ! -d build/npm/node_modules/gltf-validator ]; then
     mkdir -p build/npm
-    npm install --prefix build/npm --no-audit --no-fund --loglevel=error gltf-validator@2.0.0-dev.3.10 >build/npm.log 2>&1 ||
+    npm install --prefix build/npm --no-audit --no-fund --loglevel=error gltf-validator@2.0.0-dev.3.10 \
+        >build/npm.log 2>&1 || {
+        if is_required packages; then
+            cat build/npm.log
+            fail 'ABUT_REQUIRE asks for packages: npm could not install gltf-validator'
+        fi
         printf 'npm could not install gltf-validator; what needs it is skipped\n'
+    }
 fi
 if [ $clang = yes ] || [ $tsan = yes ] || [ $headers = yes ]; then
     need_packages clang
