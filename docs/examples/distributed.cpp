@@ -33,8 +33,9 @@ int run(std::uint64_t n) {
     std::vector<abut::sphere<float>> balls;
     for (std::uint64_t i = first; i < last; ++i) {
         const abut::vec3<float> p = point(i, 0), u = point(i, 3), v = point(i, 6);
-        triangles.push_back({p, p + 0.05f * u, p + 0.05f * v});
-        balls.push_back({point(i, 9), 0.01f + 0.01f * draw(i, 12)});
+        // Times a power of two is exact, so that it is the same whether or not a compiler makes an fma of it.
+        triangles.push_back({p, p + 0x1p-4f * u, p + 0x1p-4f * v});
+        balls.push_back({point(i, 9), 0.01f * (1 + draw(i, 12))});
     }
 
     // They lie anywhere. Divided anew, each rank has neighbours.
