@@ -7,7 +7,7 @@ usage: report_cuda_tests.py FOLDER --json=OUT.json --device=NAME --driver=VERSIO
 FOLDER has for a program its output, NAME.out, and its output under compute-sanitizer, NAME.memcheck, or one of them. And
 SHAPES.families, where test_cuda_predicates was run for the families of two shapes alone (sphere_triangle, say): rows of
 these go to a table of their own. The commit is that of the programs, by default what ABUT_COMMIT says; of programs of another
-one NAME.commit says which. The date is today's.
+one NAME.commit says which, and families of another one are in SHAPES.COMMIT.families. The date is today's.
 OUT.json is bench/results/cuda/tests.json, or for families predicates.json; then `report.py --write` writes the pages.
 """
 
@@ -56,14 +56,20 @@ COUNTS = ("pairs", "hits", "inputs", "decisions", "arithmetics")
 
 
 def rows_of(folder):
-    rows = {}
+    """The rows, and the commits of those that have one of their own."""
+    rows, commits = {}, {p.stem: p.read_text(encoding="utf-8").strip() for p in sorted(folder.glob("*.commit"))}
     for name in sorted({p.stem for p in folder.iterdir() if p.suffix in (".out", ".memcheck")}):
         texts = [folder / f"{name}{suffix}" for suffix in (".out", ".memcheck")]
         rows[name] = row_of(*(t.read_text(encoding="utf-8", errors="replace") if t.exists() else None for t in texts))
-    for path in sorted(folder.glob("*.families")):
+    # Those of another commit come last: they replace what the same program said before.
+    for path in sorted(folder.glob("*.families"), key=lambda p: (p.stem.count("."), p.stem)):
+        shapes, _, commit = path.stem.partition(".")
         for m in FAMILY.finditer(path.read_text(encoding="utf-8", errors="replace")):
-            rows[f"{path.stem}/{m['name']}/{m['scalar']}"] = {key: float(m[key]) for key in COUNTS}
-    return rows
+            name = f"{shapes}/{m['name']}/{m['scalar']}"
+            rows[name] = {key: float(m[key]) for key in COUNTS}
+            if commit:
+                commits[name] = commit
+    return rows, commits
 
 
 # --- tables -----------------------------------------------------------------------------------------------------------------
@@ -95,13 +101,17 @@ def outcome_of_memcheck(row):
         (f"; {checks(failed)} failed, see below" if failed else "")
 
 
+def made_there(c, more=""):
+    return [f"{c['device']}, driver {c['driver']}, CUDA {c['cuda']}, `{c['flags']}`; commit {c['commit'][:9]}, "
+            f"{c['date']}{more}.", ""]
+
+
 def tests(r):
     c = r.context
     other = c.get("commits", {})
     rows = [[f"`{name}`" + (f", {other[name][:9]}" if name in other else ""), outcome(row), outcome_of_memcheck(row)]
             for name, row in r.rows.items()]
-    return [f"{c['device']}, driver {c['driver']}, CUDA {c['cuda']}, `{c['flags']}`; commit {c['commit'][:9]}, {c['date']}.",
-            ""] + table(["test", "result", "memcheck"], rows, 3)
+    return made_there(c) + table(["test", "result", "memcheck"], rows, 3)
 
 
 @in_table("cuda-tests")
@@ -109,14 +119,23 @@ def cuda_tests(results):
     return tests(results["cuda/tests"])
 
 
+def of_other_commits(commits, names):
+    """Which of these rows, from the first to the last of each commit and scalar, are of another commit."""
+    said = ""
+    for commit, scalar in dict.fromkeys((commits[n], n.rsplit("/", 1)[1]) for n in names if n in commits):
+        of_it = [n.split("/")[1] for n in names if commits.get(n) == commit and n.endswith(f"/{scalar}")]
+        said += f"; in {scalar} {' to '.join(f'`{n}`' for n in dict.fromkeys((of_it[0], of_it[-1])))} of commit {commit[:9]}"
+    return said
+
+
 def families(r, shapes):
-    rows, sums = [], []
+    rows, sums, commits = [], [], r.context.get("commits", {})
     for scalar in SCALARS:
         names = [n for n in r.names(f"{shapes}/") if n.endswith(f"/{scalar}")]
         sums.append(f"{sum(r.get(n, 'pairs') for n in names) / 1e6:,.0f} million pairs in {scalar}")
         rows += [[n.split("/", 1)[1].rsplit("/", 1)[0], scalar, f"{r.get(n, 'pairs')}", f"{r.get(n, 'hits'):.1f}"] +
                  [whole(r.get(n, key)) for key in ("inputs", "decisions", "arithmetics")] for n in names]
-    return [f"{', '.join(sums)}:", ""] + \
+    return made_there(r.context, of_other_commits(commits, r.names(f"{shapes}/"))) + [f"{', '.join(sums)}:", ""] + \
         table(["family", "scalar", "pairs", "hits, %", "inputs that differ", "decisions that differ",
                "`filtered` against `exact`"], rows, 2)
 
@@ -143,11 +162,10 @@ def main():
     arguments = parser.parse_args()
     if "unknown" in (arguments.commit, arguments.date):
         sys.exit("report_cuda_tests.py: of which commit and day are the programs? Expected --commit or ABUT_COMMIT")
-    rows = rows_of(arguments.folder)
+    rows, other = rows_of(arguments.folder)
     if not rows:
         sys.exit(f"{arguments.folder}: expected files NAME.out, NAME.memcheck or SHAPES.families")
     said = {key: getattr(arguments, key) for key in ("device", "driver", "cuda", "flags", "commit", "date")}
-    other = {p.stem: p.read_text(encoding="utf-8").strip() for p in sorted(arguments.folder.glob("*.commit"))}
     context = {"program": Path(__file__).name, **said, **({"commits": other} if other else {})}
     lines = ",\n".join(f"  {json.dumps(name)}: {json.dumps(row)}" for name, row in rows.items())
     arguments.json.write_text(f'{{"context": {json.dumps(context)},\n "rows": {{\n{lines}\n}}}}\n', encoding="utf-8")

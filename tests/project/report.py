@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Runs bench/report.py --check, and sees that it notices what it is there for: on copies with a digit changed, a table that no
 program writes, a measurement in a sentence, results that are gone, a block without an end, README at odds with them. And
-runs cmake/report.sh with programs that measure nothing, bench/report_cuda_tests.py of logs that are known, and report.py
---take and --stale.
+runs cmake/report.sh with programs that measure nothing, bench/report_cuda_tests.py and bench/report_runs.py of logs that are
+known, and report.py --take and --stale.
 
 usage: report.py REPOSITORY
 """
@@ -79,6 +79,7 @@ MUTATIONS = {
     "a page of a test without its end": lambda r: replace(r / "docs" / "results" / "within.md", "<!-- checksum: ", "<!-- "),
     "a digit of what a device said": lambda r: replace(r / "bench" / "results" / "cuda" / "tests.json", '"failed": 0',
                                                        '"failed": 1'),
+    "a digit of what ctest said": lambda r: change_digit(r / "docs" / "building.md", "runs"),
     "results of an unknown commit": lambda r: replace(r / "bench" / "results" / "cpu" / "ties.json", '"commit": "',
                                                       '"commit": "unknown", "was": "'),
     "results of no date": lambda r: replace(r / "bench" / "results" / "cpu" / "ties.json", '"date": "', '"day": "'),
@@ -195,13 +196,16 @@ LOGS = {"passes.out": "...\nAll tests passed (1 assertion in 1 test case)\n",
         "fails.memcheck": "All tests passed (20 assertions in 3 test cases)\n========= ERROR SUMMARY: 1 error\n",
         "ends.out": "terminate called\n", "ends.commit": "89abcde\n", "ends.memcheck": "assertions: 7 | 5 passed | 2 failed\n",
         "sphere_triangle.families": "needle 1e3         float  n 300, hits  70.5 %, inputs that differ 0, "
-                                    "decisions that differ 2, filtered against exact 1\n"}
+                                    "decisions that differ 2, filtered against exact 1\n",
+        "sphere_triangle.fedcba9.families": "radius 0           double n 9, hits   1.0 %, inputs that differ 0, "
+                                            "decisions that differ 0, filtered against exact 0\n"}
 ROWS = {"passes": {"assertions": 1, "failed": 0, "processes": 1, "memcheck_assertions": 12, "memcheck_failed": 0,
                    "memcheck_errors": 0},
         "fails": {"assertions": 20, "failed": 1, "processes": 2, "memcheck_assertions": 20, "memcheck_failed": 0,
                   "memcheck_errors": 1},
         "ends": {"no_end": 1, "memcheck_assertions": 7, "memcheck_failed": 2, "memcheck_no_end": 1},
-        "sphere_triangle/needle 1e3/float": {"pairs": 300, "hits": 70.5, "inputs": 0, "decisions": 2, "arithmetics": 1}}
+        "sphere_triangle/needle 1e3/float": {"pairs": 300, "hits": 70.5, "inputs": 0, "decisions": 2, "arithmetics": 1},
+        "sphere_triangle/radius 0/double": {"pairs": 9, "hits": 1, "inputs": 0, "decisions": 0, "arithmetics": 0}}
 
 
 def try_write(root):
@@ -229,7 +233,7 @@ def try_logs(root):
                         *(f"--{key}={value}" for key, value in said.items())], check=True)
         made = json.loads(out.read_text(encoding="utf-8"))
         wrong = [f"report_cuda_tests.py: expected {ROWS}, found {made['rows']}"] if made["rows"] != ROWS else []
-        said_too = {**said, "commits": {"ends": "89abcde"}}
+        said_too = {**said, "commits": {"ends": "89abcde", "sphere_triangle/radius 0/double": "fedcba9"}}
         wrong += [f"report_cuda_tests.py: it does not say {key}" for key in said_too if made["context"].get(key) != said_too[key]]
         for commit, status in (("unknown", 1), ("0123abc", 0)):  # of the environment
             done = subprocess.run([sys.executable, "-B", root / "bench" / "report_cuda_tests.py", folder, f"--json={out}",
@@ -240,11 +244,41 @@ def try_logs(root):
         return wrong
 
 
+# What ctest says of runs in parts, of one that failed, and of one that was cut off; and what it makes of each.
+CTEST = {"all": ["1/9 Test #1: a ... Passed\n\n100% tests passed, 0 tests failed out of 9\n\nTotal Test time (real) = 1 sec\n\n"
+                 "The following tests did not run:\n\t  3 - cuda/a b (Skipped)\n\t 12 - c (Skipped)\n",
+                 "100% tests passed, 0 tests failed out of 1\n"],
+         "some": ["33% tests passed, 2 tests failed out of 3\n\nThe following tests did not run:\n\t  3 - a (Skipped)\n\n"
+                  "The following tests FAILED:\n\t  1 - b (Failed)\n\t  2 - c (Skipped) (Timeout)\n"],
+         "none": ["1/9 Test #1: a ... Passed\n"]}
+RUNS = {"all": {"passed": 8, "failed": 0, "skipped": 2}, "some": {"passed": 0, "failed": 2, "skipped": 1}}
+
+
+def try_runs(root):
+    """What is wrong with bench/report_runs.py."""
+    wrong = []
+    with tempfile.TemporaryDirectory() as folder:
+        out = Path(folder) / "runs.json"
+        for run, commit in (("some", "0123abc"), ("all", "0123abc"), ("none", "0123abc"), ("all", "unknown"), ("some", "89abcde")):
+            logs = [Path(folder) / f"{i}.log" for i in range(len(CTEST[run]))]
+            for log, text in zip(logs, CTEST[run]):
+                log.write_text(text, encoding="utf-8")
+            done = subprocess.run([sys.executable, "-B", root / "bench" / "report_runs.py", *logs, f"--run={run}",
+                                   "--compiler=g++", f"--json={out}", f"--commit={commit}"], capture_output=True, text=True)
+            if (done.returncode == 0) != (run in RUNS and commit != "unknown"):
+                wrong.append(f"report_runs.py: {run} of {commit} ends with {done.returncode}: {done.stderr}")
+        made = json.loads(out.read_text(encoding="utf-8"))
+        commits = {run: of["commit"] for run, of in made["context"]["runs"].items()}
+        if made["rows"] != RUNS or commits != {"some": "89abcde", "all": "0123abc"}:
+            wrong.append(f"report_runs.py: expected {RUNS}, found {made}")
+    return wrong
+
+
 def main():
     root = Path(sys.argv[1]).resolve()
     status, says = check(root)
     print(says, end="")
-    wrong = try_script(root) + try_logs(root) + try_take(root) + try_write(root) + try_stale(root)
+    wrong = try_script(root) + try_logs(root) + try_runs(root) + try_take(root) + try_write(root) + try_stale(root)
     for line in wrong:
         print(line)
     failed = status != 0 or bool(wrong)
