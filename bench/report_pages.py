@@ -100,6 +100,20 @@ def cost_motion(results):
         {shown(cuda.get(f'{at}/frame'))} ms, with the refit, on the {cuda.context['device']}.""")
 
 
+# --- docs/benchmarks.md -----------------------------------------------------------------------------------------------------
+
+@in_table("results-pairs")
+def results_pairs(results):
+    """How many pairs of each family the pages have that tests write whole."""
+    pages = {}
+    for path in sorted((ROOT / "docs" / "results").glob("*.md")):
+        if "\n<!-- checksum: " in path.read_text(encoding="utf-8"):
+            counts = {int(row["pairs"]) for both in from_tests(path.name).values() for row in both.values()}
+            pages.setdefault(" to ".join(whole(n) for n in sorted({min(counts), max(counts)})), []).append(path.stem)
+    parts = [f"{pairs} in {', '.join(f'[{name}](results/{name}.md)' for name in names)}" for pairs, names in pages.items()]
+    return paragraph(f"Pairs of each family and scalar: {'; '.join(parts)}.")
+
+
 def value(name):
     def add(make):
         VALUES[name] = make
