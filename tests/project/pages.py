@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 """Keeps README.md and docs/ true: their links, and the code that they show.
 
-pages.py check ROOT               links and anchors exist; docs/README.md names every page; no block of code is left untested;
+pages.py check ROOT               links and anchors exist; docs/README.md names every page; no block of code is left
+                                  untested, and what one declares a later one uses;
                                   scripts, their options, and options and presets of CMake that a page uses are there
 pages.py write ROOT KIND OUT PAGE...    writes the blocks of these pages into one source; KIND is cpp or cu
 pages.py run ROOT KIND PROGRAM PAGE...  runs that program, and compares what it prints with what the pages say
@@ -181,6 +182,19 @@ def wrong_commands(root, page):
                 yield f"CMakePresets.json has no {preset}"
 
 
+def unused(root, page):
+    """Blocks of declarations that nothing runs: no later block uses what they declare, and they assert nothing."""
+    blocks = [b for b in blocks_of(root, page) if b.language == "cpp"]
+    for block in blocks:
+        if "file scope" not in block.words or "static_assert(" in block.text:
+            continue
+        names = re.findall(r"^(?:struct|class) (\w+)|^(?!struct|class)\w[^(\n]*?(\w+)\(", block.text, re.MULTILINE)
+        later = "".join(b.text for b in blocks
+                        if b.number > block.number and b.kind == block.kind and "file scope" not in b.words)
+        if not any(re.search(rf"\b{a or b}\b", later) for a, b in names):
+            yield f"{block.where}: no later block uses what this one declares"
+
+
 def check(root):
     links = blocks = 0
     broken = []
@@ -191,6 +205,7 @@ def check(root):
                 broken.append(f"{block.where}: no file is named that a test builds with these lines")
             blocks += block.language == "cpp"
         broken += [f"{page}: {problem}" for problem in wrong_commands(root, page)]
+        broken += unused(root, page)
         text = without_code((root / page).read_text(encoding="utf-8"))
         for target in re.findall(r"\]\(([^)\s]+)\)", text):
             if re.match(r"[a-z]+:", target):

@@ -44,6 +44,7 @@ CHECKED = {
     "a part of an option": ("do.sh --fast` does", "do.sh --fas` does", "does not say that it has --fas"),
     "an option that CMake does not have": ("ABUT_HERE", "ABUT_HER", "CMake has no option ABUT_HER"),
     "a preset that is not there": ("ctest --preset quick", "ctest --preset quack", "has no quack"),
+    "code that no block runs": ("```cpp", "<!-- file scope -->\n```cpp\nint f() {}\n```\n\n```cpp", "no later block uses"),
     "a block without an end": ("ctest --preset quick\n```\n", "ctest --preset quick\n", "does not end"),
 }
 MARK = "\\036%d\\n"  # as docs/snippets/context.hpp prints it
