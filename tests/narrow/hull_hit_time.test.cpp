@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "support/catch.hpp"
-#include "support/hull_pairs.hpp"
+#include "support/hull_families.hpp"
 #include "support/hulls.hpp"
 #include "support/modes.hpp"
 #include "support/ray_oracle.hpp"
@@ -51,61 +51,6 @@ std::optional<rational> true_time(const Line& line, const test::point_list<T>& p
     return least;
 }
 
-template <scalar T>
-struct line_case {
-    test::point_list<T> points;
-    ray<T> r;
-    segment<T> s;
-};
-
-/// Lines at random, through corners and between them, along edges and in planes of faces, from inside, and of no direction.
-template <scalar T>
-line_case<T> make_line_case(std::uint64_t seed, test::hull_family f, std::uint64_t index) {
-    auto both = test::make_hull_pair<T>(seed, f, index);
-    test::draws d(seed, 12, index);
-    if (both.a.size() > 6) both.a.resize(6);
-    const auto any = [&](const test::point_list<T>& points) {
-        return points[static_cast<std::size_t>(d.below(static_cast<int>(points.size())))];
-    };
-    const auto middle = [](const vec3<T>& p, const vec3<T>& q) {
-        return vec3<T>{p.x / 2 + q.x / 2, p.y / 2 + q.y / 2, p.z / 2 + q.z / 2};
-    };
-    vec3<T> origin = any(both.b), to = any(both.a);
-    vec3<T> along = to - origin;
-    switch (index % 9) {
-        case 0:
-            break;
-        case 1:
-            along = middle(to, any(both.a)) - origin;
-            break;
-        case 2:
-            along = middle(middle(to, any(both.a)), any(both.a)) - origin;
-            break;
-        case 3:
-            along = any(both.a) - to;
-            origin = any(both.a) - T(2) * along;
-            break;
-        case 4:
-            along = any(both.a) - to;
-            origin = middle(any(both.a), any(both.a)) - along;
-            break;
-        case 5:
-            origin = middle(to, any(both.a));
-            break;
-        case 6:
-            along = any(both.b) - origin;
-            break;
-        case 7:
-            along = T(d.below(2)) * along;
-            break;
-        default:
-            along = vec3<T>{T(0), T(d.below(3) - 1), T(1)};
-            origin = to - T(3) * along;
-            break;
-    }
-    return {both.a, {origin, along}, {origin, origin + T(index % 2 == 0 ? 1 : 0.5) * along}};
-}
-
 template <scalar T, class Line>
 const char* wrong_with_time(const Line& line, const test::point_list<T>& points, const vec3<T>& origin, bool& hit) {
     const auto truth = true_time(line, points, origin);
@@ -129,20 +74,15 @@ const char* wrong_with_ray(const ray<T>& r, const test::point_list<T>& points, b
     return resolve(r, h) == truth && decide_late<fast>(r, h) != verdict::unknown ? nullptr : "the last stage is wrong";
 }
 
-constexpr test::hull_family families_hit[] = {
-    test::hull_family::general,  test::hull_family::far_away,  test::hull_family::lattice,
-    test::hull_family::flat,     test::hull_family::line,      test::hull_family::touching,
-    test::hull_family::step_off, test::hull_family::exponents, test::hull_family::denormal};
-
 }  // namespace
 
 TEMPLATE_TEST_CASE("rays and hulls: times are the true ones, rounded once, in every family", "", float, double) {
     using T = TestType;
-    for (const test::hull_family f : families_hit) {
+    for (const test::hull_family f : test::families_of_few_points) {
         std::uint64_t hits = 0, lines = 0, unknown = 0;
         const std::uint64_t samples = test::sample_count() / (f == test::hull_family::exponents ? 150 : 50);
         for (std::uint64_t k = 0; k < samples; ++k) {
-            const auto c = make_line_case<T>(test::sample_seed, f, k);
+            const auto c = test::make_line_case<T>(test::sample_seed, f, k);
             bool hit = false;
             const char* wrong = wrong_with_time(c.r, c.points, c.r.origin, hit);
             hits += hit;
@@ -167,9 +107,9 @@ TEMPLATE_TEST_CASE("rays and hulls: times are the true ones, rounded once, in ev
 TEMPLATE_TEST_CASE("rays and hulls: right in every rounding mode, and where denormals are flushed", "", float, double) {
     using T = TestType;
     std::uint64_t wrong = 0;
-    for (const test::hull_family f : families_hit) {
+    for (const test::hull_family f : test::families_of_few_points) {
         for (std::uint64_t k = 0; k < 27; ++k) {
-            const auto c = make_line_case<T>(test::sample_seed + 1, f, k);
+            const auto c = test::make_line_case<T>(test::sample_seed + 1, f, k);
             const hull<T> h = test::hull_over(c.points);
             const bool truth = intersects<exact>(c.r, h);
             for (const test::floating_mode& mode : test::floating_modes()) {

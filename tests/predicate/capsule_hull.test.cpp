@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "support/catch.hpp"
-#include "support/hull_pairs.hpp"
+#include "support/hull_families.hpp"
 #include "support/hulls.hpp"
 #include "support/modes.hpp"
 #include "support/rational.hpp"
@@ -66,50 +66,18 @@ bool ball_reaches(const test::point_list<T>& core, T radius, const test::point_l
     return false;
 }
 
-/// A radius: at random, a small whole number, 0, or as near to tangent as `fast` can tell, and a step off.
 template <scalar T>
-T draw_radius(test::draws& d, const test::point_list<T>& core, const test::point_list<T>& points) {
-    const int kind = d.below(4);
-    if (kind == 0) return T(0);
-    if (kind == 1) return static_cast<T>(d.below(6));
-    if (kind == 2) return static_cast<T>(d.uniform(0, 1));
-    T below = 0, above = 0x1p40;
-    for (int i = 0; i < 90 && below < above; ++i) {
-        const T middle = below / 2 + above / 2;
-        if (middle == below || middle == above) break;
-        const capsule<T> s{{core.front(), core.back()}, middle};
-        (intersects<fast>(s, test::hull_over(points)) ? above : below) = middle;
-    }
-    return above == 0 ? above : test::construction::moved(above, d.below(5) - 2);
-}
-
-template <scalar T>
-struct round_case {
-    test::point_list<T> core, points;
-    T radius;
+struct judged_case : test::round_case<T> {
     bool truth;
 };
-
 template <scalar T>
-round_case<T> make_round_case(std::uint64_t seed, test::hull_family f, std::uint64_t index) {
-    auto both = test::make_hull_pair<T>(seed, f, index);
-    test::draws d(seed, 7, index);
-    both.a.resize(both.a.size() > 1 ? static_cast<std::size_t>(1 + d.below(2)) : 1);
-    if (both.b.size() > 6) both.b.resize(6);
-    round_case<T> made{both.a, both.b, T(0), false};
-    made.radius = draw_radius(d, both.a, both.b);
-    if (!(made.radius >= 0)) made.radius = 0;
-    made.truth = ball_reaches(made.core, made.radius, made.points);
-    return made;
+judged_case<T> judged_round_case(std::uint64_t seed, test::hull_family f, std::uint64_t index) {
+    const auto made = test::make_round_case<T>(seed, f, index);
+    return {made, ball_reaches(made.core, made.radius, made.points)};
 }
 
-constexpr test::hull_family families_around[] = {
-    test::hull_family::general,  test::hull_family::far_away,  test::hull_family::lattice,
-    test::hull_family::flat,     test::hull_family::line,      test::hull_family::touching,
-    test::hull_family::step_off, test::hull_family::exponents, test::hull_family::denormal};
-
 template <scalar T, class S>
-bool is_right(const S& s, const round_case<T>& c) {
+bool is_right(const S& s, const judged_case<T>& c) {
     const hull<T> h = test::hull_over(c.points);
     const verdict by_filter = decide<filtered>(s, h), by_limbs = decide<exact>(s, h);
     bool right = by_filter != to_verdict(!c.truth) && by_limbs != to_verdict(!c.truth);
@@ -118,7 +86,7 @@ bool is_right(const S& s, const round_case<T>& c) {
 }
 
 template <scalar T>
-bool is_right(const round_case<T>& c) {
+bool is_right(const judged_case<T>& c) {
     bool right = is_right(capsule<T>{{c.core.front(), c.core.back()}, c.radius}, c);
     if (c.core.size() == 1) right = right && is_right(sphere<T>{c.core.front(), c.radius}, c);
     return right;
@@ -129,11 +97,11 @@ bool is_right(const round_case<T>& c) {
 TEMPLATE_TEST_CASE("capsule and hull: every stage is right in every family", "", float, double) {
     std::printf("capsules and hulls, seed %llu\n| family | pairs | hits %% | filter %% | wrong |\n",
                 static_cast<unsigned long long>(test::sample_seed));
-    for (const test::hull_family f : families_around) {
+    for (const test::hull_family f : test::families_of_few_points) {
         std::uint64_t wrong = 0, hits = 0, filter = 0;
         const std::uint64_t samples = test::sample_count() / 20 / (f == test::hull_family::exponents ? 4 : 1);
         for (std::uint64_t k = 0; k < samples; ++k) {
-            const auto c = make_round_case<TestType>(test::sample_seed, f, k);
+            const auto c = judged_round_case<TestType>(test::sample_seed, f, k);
             wrong += !is_right(c);
             hits += c.truth;
             filter += decide<filtered>(capsule<TestType>{{c.core.front(), c.core.back()}, c.radius},
@@ -205,9 +173,9 @@ TEMPLATE_TEST_CASE("capsule and hull: fast misses nothing that begins in the mid
 }
 
 TEMPLATE_TEST_CASE("capsule and hull: right in every rounding mode, and where denormals are flushed", "", float, double) {
-    std::vector<round_case<TestType>> cases;
-    for (const test::hull_family f : families_around) {
-        for (std::uint64_t k = 0; k < 20; ++k) cases.push_back(make_round_case<TestType>(test::sample_seed + 2, f, k));
+    std::vector<judged_case<TestType>> cases;
+    for (const test::hull_family f : test::families_of_few_points) {
+        for (std::uint64_t k = 0; k < 20; ++k) cases.push_back(judged_round_case<TestType>(test::sample_seed + 2, f, k));
     }
     for (const test::floating_mode& mode : test::floating_modes()) {
         std::size_t wrong = 0;
@@ -223,12 +191,10 @@ TEMPLATE_TEST_CASE("plane and hull: as the heights of the points say", "", float
     std::uint64_t wrong = 0, hits = 0, touches = 0;
     const std::uint64_t samples = test::sample_count() / 4;
     for (std::uint64_t k = 0; k < samples; ++k) {
-        const auto f = k % 2 == 0 ? test::hull_family::lattice : test::hull_family::general;
-        const auto both = test::make_hull_pair<TestType>(test::sample_seed, f, k);
-        const vec3<TestType>&n = both.a.front(), &on = both.b.front();
-        const plane<TestType> p{n, k % 3 == 0 ? TestType(3) : static_cast<TestType>(dot(n, on))};
-        std::vector<TestType> values{1, p.offset, n.x, n.y, n.z};
-        for (const vec3<TestType>& q : both.b) values.insert(values.end(), {q.x, q.y, q.z});
+        const auto c = test::make_plane_case<TestType>(test::sample_seed, k);
+        const plane<TestType>& p = c.p;
+        std::vector<TestType> values{1, p.offset, p.normal.x, p.normal.y, p.normal.z};
+        for (const vec3<TestType>& q : c.points) values.insert(values.end(), {q.x, q.y, q.z});
         const std::vector<test::integer> v = test::to_integers(values);
         bool above = false, below = false, in = false;
         for (std::size_t i = 5; i < v.size(); i += 3) {
@@ -236,7 +202,7 @@ TEMPLATE_TEST_CASE("plane and hull: as the heights of the points say", "", float
             above = above || height > 0, below = below || height < 0, in = in || height == 0;
         }
         const bool truth = in || (above && below);
-        const hull<TestType> h = test::hull_over(both.b);
+        const hull<TestType> h = test::hull_over(c.points);
         hits += truth;
         touches += truth && !(above && below);
         wrong += intersects(p, h) != truth || intersects<exact>(h, p) != truth || resolve(p, h) != truth;

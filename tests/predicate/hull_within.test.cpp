@@ -3,17 +3,13 @@
 
 #include <abut/predicate/within.hpp>
 
-#include <algorithm>
 #include <cstdint>
 #include <cstdio>
-#include <vector>
 
 #include "support/catch.hpp"
-#include "support/hull_pairs.hpp"
-#include "support/hulls.hpp"
+#include "support/hull_families.hpp"
 #include "support/modes.hpp"
 #include "support/samples.hpp"
-#include "support/solid_pairs.hpp"
 
 // Convex hulls within a distance of each other and of other shapes: every stage against the oracle, for distances that are
 // the least double that is enough, a step below and above, and far away. The oracle: hulls meet, by linear programming; or
@@ -38,40 +34,7 @@ static_assert(within(tent, tent, 0) && distance_decidable<capsule<double>, hull<
               distance_decidable<hull<float>, aabb<float>> && !distance_decidable<hull<float>, vec3<double>> &&
               !distance_decidable<hull<float>, ray<float>>);
 
-/// A hull and another shape: which are within a distance of each other.
-template <class T, class U>
-struct question {
-    const hull<T>& h;
-    const U& other;
-    bool meet;
-
-    question(const hull<T>& a, const U& b)
-        : h(a), other(b), meet(test::oracle::hulls_intersect(test::corners_of(a), test::corners_of(b))) {}
-    [[nodiscard]] double least_distance() const { return meet ? 0 : test::exact_gap(h, other).least_double(); }
-    [[nodiscard]] bool truth(double d) const { return meet || test::exact_gap(h, other).compared_with(d) <= 0; }
-};
-template <class T>
-struct question<T, plane<T>> {
-    const hull<T>& h;
-    const plane<T>& other;
-
-    [[nodiscard]] double least_distance() const {
-        return test::construction::least_number<double>([this](double d) { return truth(d); });
-    }
-    [[nodiscard]] bool truth(double d) const { return test::oracle::within_distance(other, h, d); }
-};
-
-constexpr int kinds = test::kinds_around_points + 1;
-
-/// Calls f(hull, other shape), of shape number `kind`: made of the points of b. The last is a plane.
-template <scalar T, class F>
-void with_pair_of_kind(int kind, const test::hull_pair<T>& points, std::uint64_t index, const F& f) {
-    const vec3<T> p = points.b[0], q = points.b[1 % points.b.size()];
-    if (kind == test::kinds_around_points) return f(test::hull_over(points.a), plane<T>{p, static_cast<T>(dot(p, q))});
-    test::draws d(test::sample_seed, 8, index);
-    const T radius = d.below(3) == 0 ? T(0) : static_cast<T>(d.uniform(0, 0.5));
-    test::with_shapes_of_kind(kind, points, radius, f);
-}
+constexpr int kinds = test::kinds_beside_hulls;
 
 struct hull_within_tally {
     std::uint64_t pairs = 0, hits = 0, filter = 0, wrong = 0;
@@ -101,7 +64,7 @@ verdict first_stage(const H& h, const U& u, double d) {
 
 template <class T, class U>
 void examine_hull_within(const hull<T>& h, const U& other, std::uint64_t index, hull_within_tally& sum) {
-    const question<T, U> ask{h, other};
+    const test::hull_question<T, U> ask{h, other};
     const double d = test::distance_near(ask.least_distance(), index);
     const bool truth = ask.truth(d);
     const verdict lie = to_verdict(!truth), by_filter = first_stage<filtered>(h, other, d);
@@ -121,27 +84,6 @@ void examine_hull_within(const hull<T>& h, const U& other, std::uint64_t index, 
     sum.wrong += wrong;
 }
 
-constexpr test::hull_family families_apart[] = {
-    test::hull_family::general,  test::hull_family::far_away,  test::hull_family::lattice,
-    test::hull_family::flat,     test::hull_family::line,      test::hull_family::touching,
-    test::hull_family::step_off, test::hull_family::exponents, test::hull_family::denormal};
-
-template <scalar T>
-test::hull_pair<T> make_few_points(std::uint64_t seed, test::hull_family f, std::uint64_t index) {
-    auto both = test::make_hull_pair<T>(seed, f, index);
-    if (both.a.size() > 5) both.a.resize(5);
-    if (both.b.size() > 4) both.b.resize(4);
-    // Not too many meet: those that do are asked of `intersects`.
-    if (index % 4 != 0 && f != test::hull_family::exponents) {
-        T width = 0;
-        for (const auto* points : {&both.a, &both.b}) {
-            for (const vec3<T>& p : *points) width = std::max(width, detail::absolute(p.x - both.a[0].x));
-        }
-        for (vec3<T>& p : both.b) p.x += width;
-    }
-    return both;
-}
-
 }  // namespace
 
 TEMPLATE_TEST_CASE("within, hulls: every stage is right in every family", "", float, double) {
@@ -149,15 +91,15 @@ TEMPLATE_TEST_CASE("within, hulls: every stage is right in every family", "", fl
     std::printf("hulls within a distance, seed %llu\n| family | pairs | hits %% | filter %% | wrong |\n",
                 static_cast<unsigned long long>(test::sample_seed));
     std::uint64_t hits[kinds] = {}, all[kinds] = {};
-    for (const test::hull_family f : families_apart) {
+    for (const test::hull_family f : test::families_of_few_points) {
         hull_within_tally sum;
         const std::uint64_t samples = test::sample_count() / (f == test::hull_family::exponents ? 64 : 12);
         for (std::uint64_t k = 0; k < samples; ++k) {
             const auto kind = static_cast<int>(k % kinds);
-            const auto both = make_few_points<T>(test::sample_seed + 7, f, k);
+            const auto both = test::make_few_points<T>(test::sample_seed + 7, f, k);
             const std::uint64_t before = sum.hits;
-            with_pair_of_kind(kind, both, k,
-                              [&](const auto& h, const auto& other) { examine_hull_within(h, other, k / kinds, sum); });
+            test::with_shape_beside_hull(
+                kind, both, k, [&](const auto& h, const auto& other) { examine_hull_within(h, other, k / kinds, sum); });
             hits[kind] += sum.hits - before;
             ++all[kind];
         }
@@ -182,11 +124,11 @@ TEMPLATE_TEST_CASE("within, hulls: right in every floating-point mode, and with 
     using T = TestType;
     std::uint64_t wrong = 0, hits = 0, pairs = 0;
     const auto modes = test::floating_modes();
-    for (const test::hull_family f : families_apart) {
+    for (const test::hull_family f : test::families_of_few_points) {
         for (std::uint64_t k = 0; k < 5 * kinds; ++k) {
-            const auto both = make_few_points<T>(test::sample_seed + 8, f, k);
-            with_pair_of_kind(static_cast<int>(k % kinds), both, k, [&](const auto& h, const auto& other) {
-                const question<T, std::remove_cvref_t<decltype(other)>> ask{h, other};
+            const auto both = test::make_few_points<T>(test::sample_seed + 8, f, k);
+            test::with_shape_beside_hull(static_cast<int>(k % kinds), both, k, [&](const auto& h, const auto& other) {
+                const test::hull_question<T, std::remove_cvref_t<decltype(other)>> ask{h, other};
                 const double d = test::distance_near(ask.least_distance(), k);
                 const bool truth = ask.truth(d);
                 for (const test::floating_mode& mode : modes) {

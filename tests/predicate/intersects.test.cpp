@@ -49,13 +49,6 @@ static_assert(!decidable_pair<sphere<float>, triangle<double>>);  // mixed scala
 static_assert(!decidable_pair<triangle<float>, triangle<double>> && !decidable_pair<segment<float>, triangle<double>>);
 static_assert(!decidable_pair<triangle<double>, sphere<float>>);
 
-/// The point of a ball farthest along x, rounded: within a step of its surface. Its centre where that overflows.
-template <scalar T>
-vec3<T> end_along_x(const sphere<T>& s) {
-    const volatile T x = s.center.x + s.radius;
-    return x - x == 0 ? vec3<T>{x, s.center.y, s.center.z} : s.center;
-}
-
 /// Each family of spheres and triangles, read as pairs of other shapes.
 template <class Examine>
 void check_families(const char* title, const char* file_name, const Examine& examine) {
@@ -87,8 +80,7 @@ void examine_point(const vec3<T>& p, const triangle<T>& t, std::uint64_t k, test
 TEST_CASE("sphere and segment: every stage is right in every family") {
     check_families("Sphere against segment", "sphere-segment.md",
                    []<class T>(const test::sphere_triangle_pair<T>& p, std::uint64_t k, test::stage_tally& sum) {
-                       // An edge of the triangle; of some, one end is within a step of the ball's surface.
-                       const segment<T> e{k % 4 == 0 ? end_along_x(p.s) : p.t.a, p.t.b};
+                       const segment<T> e = test::segment_beside_ball(p, k);
                        test::examine_stages<detail::ball_meets_segment>(p.s, e, detail::values_of(p.s, e).value,
                                                                         test::oracle::intersects(p.s, e), k, sum);
                    });
@@ -97,10 +89,7 @@ TEST_CASE("sphere and segment: every stage is right in every family") {
 TEST_CASE("sphere and sphere: every stage is right in every family") {
     check_families("Sphere against sphere", "sphere-sphere.md",
                    []<class T>(const test::sphere_triangle_pair<T>& p, std::uint64_t k, test::stage_tally& sum) {
-                       // The other ball's radius is 0, or a share of the first one's, which it then lacks. Some touch from
-                       // outside, within a step.
-                       const T share = k % 2 == 0 ? T(0) : p.s.radius / 4;
-                       const sphere<T> s{p.s.center, p.s.radius - share}, o{k % 8 < 2 ? end_along_x(p.s) : p.t.a, share};
+                       const auto [s, o] = test::two_balls(p, k);
                        test::examine_stages<detail::ball_meets_ball>(s, o, detail::values_of(s, o).value,
                                                                      test::oracle::intersects(s, o), k, sum);
                    });
@@ -119,13 +108,10 @@ TEST_CASE("point and triangle: a sphere of radius 0") {
     CHECK(wrong == 0);
 }
 
-// Of triangle pairs: the first one's corners in turn, and the edges between them.
-
 TEST_CASE("segment and triangle: every stage is right in every family of triangles") {
     check_triangle_families("Segment against triangle", "segment-triangle.md", true,
                             []<class T>(const test::triangle_pair<T>& p, std::uint64_t k, test::stage_tally& sum) {
-                                const triangle<T> turned = test::reordered(p.a, static_cast<int>(k % 6));
-                                const segment<T> e{turned.a, turned.b};
+                                const segment<T> e = test::segment_beside_triangle(p, k);
                                 const auto values = detail::values_of(detail::as_triangle(e), p.b);
                                 test::examine_stages<detail::triangle_meets_triangle>(
                                     e, p.b, values.value, test::oracle::intersects(e, p.b), k, sum);
@@ -135,15 +121,7 @@ TEST_CASE("segment and triangle: every stage is right in every family of triangl
 TEST_CASE("point and triangle: every stage is right in every family of triangles") {
     check_triangle_families("Point against triangle", "point-triangle.md", false,
                             []<class T>(const test::triangle_pair<T>& p, std::uint64_t k, test::stage_tally& sum) {
-                                // A corner of the other triangle; or one of its own, there or a step away along x; or the
-                                // middle of an edge, rounded.
-                                const triangle<T> own = test::reordered(p.b, static_cast<int>(k / 4 % 3));
-                                vec3<T> point = test::reordered(p.a, static_cast<int>(k / 4 % 3)).a;
-                                if (k % 4 == 1) point = own.a;
-                                if (k % 4 == 2) point = {test::construction::moved(own.a.x, 1), own.a.y, own.a.z};
-                                if (k % 4 == 3) point = T(0.5) * own.a + T(0.5) * own.b;
-                                const bool finite = point.x - point.x == 0;
-                                examine_point(finite ? point : own.a, p.b, k, sum);
+                                examine_point(test::point_beside_triangle(p, k), p.b, k, sum);
                             });
 }
 

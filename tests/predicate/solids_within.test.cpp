@@ -2,9 +2,7 @@
 #include <abut/predicate/within.hpp>
 
 #include <atomic>
-#include <bit>
 #include <cstdint>
-#include <limits>
 
 #include "support/catch.hpp"
 #include "support/modes.hpp"
@@ -26,25 +24,6 @@ static_assert(within(triangle<float>{{-9, -9, 3}, {9, -9, 3}, {0, 9, 3}}, aabb<f
 static_assert(within(plane<float>{{2, 3, 6}, 0}, sphere<float>{{2, 3, 6}, 1}, 6) &&
               !within(sphere<float>{{2, 3, 6}, 1}, plane<float>{{2, 3, 6}, 0}, 0x1.7ffffffffffffp2));
 static_assert(!distance_decidable<plane<float>, plane<float>> && !distance_decidable<ray<float>, aabb<float>>);
-
-/// The least double that is enough, or infinity.
-template <class S, class U>
-double least_distance(const S& s, const U& t) {
-    std::uint64_t low = 0, high = std::bit_cast<std::uint64_t>(std::numeric_limits<double>::infinity());
-    while (low < high) {
-        const std::uint64_t middle = low + (high - low) / 2;
-        if (test::oracle::within_distance(s, t, std::bit_cast<double>(middle))) {
-            high = middle;
-        } else {
-            low = middle + 1;
-        }
-    }
-    return std::bit_cast<double>(low);
-}
-template <class T>
-double least_distance(const aabb<T>& s, const triangle<T>& t) {
-    return test::oracle::intersects(s, t) ? 0 : test::exact_gap(s, t).least_double();
-}
 
 template <class S, class U>
 verdict late_within(const S& s, const U& t, double d) {
@@ -81,7 +60,7 @@ TEST_CASE("within, boxes and planes: every stage is right in every family") {
             test::with_within_pair<T>(
                 kind, test::sample_seed + 5, family, k / test::within_pair_kinds,
                 [&](const auto& s, const auto& t) {
-                    const double d = test::distance_near(least_distance(s, t), k / test::within_pair_kinds);
+                    const double d = test::distance_near(test::oracle::least_distance(s, t), k / test::within_pair_kinds);
                     const bool truth = test::oracle::within_distance(s, t, d);
                     examine_solids_within(s, t, d, truth, k, sum);
                     hits[kind] += truth;
@@ -107,7 +86,7 @@ TEMPLATE_TEST_CASE("within, boxes and planes: right in every floating-point mode
                 test::with_within_pair<T>(
                     static_cast<int>(k % test::within_pair_kinds), test::sample_seed + 6,
                     static_cast<test::solid_family>(i), k, [&](const auto& s, const auto& t) {
-                        const double d = test::distance_near(least_distance(s, t), k);
+                        const double d = test::distance_near(test::oracle::least_distance(s, t), k);
                         const bool truth = test::oracle::within_distance(s, t, d);
                         bool answer = !truth;
                         verdict by_filter{}, late{};

@@ -336,4 +336,34 @@ ABUT_HD sphere_triangle_pair<T> make_pair(std::uint64_t seed_value, family f, st
     return {};
 }
 
+// --- other shapes, of a pair and its index ----------------------------------------------------------------------------
+
+namespace construction {
+
+/// The point of a ball farthest along x, rounded: within a step of its surface. Its centre where that overflows.
+template <scalar T>
+ABUT_HD vec3<T> end_along_x(const sphere<T>& s) {
+    const volatile T x = s.center.x + s.radius;
+    return x - x == 0 ? vec3<T>{x, s.center.y, s.center.z} : s.center;
+}
+
+}  // namespace construction
+
+/// An edge of the triangle; of some, one end is within a step of the ball's surface.
+template <scalar T>
+ABUT_HD segment<T> segment_beside_ball(const sphere_triangle_pair<T>& p, std::uint64_t k) {
+    return {k % 4 == 0 ? construction::end_along_x(p.s) : p.t.a, p.t.b};
+}
+
+template <scalar T>
+struct ball_pair {
+    sphere<T> s, o;
+};
+/// The other ball's radius is 0, or a share of the first one's, which it then lacks. Some touch from outside, within a step.
+template <scalar T>
+ABUT_HD ball_pair<T> two_balls(const sphere_triangle_pair<T>& p, std::uint64_t k) {
+    const T share = k % 2 == 0 ? T(0) : p.s.radius / 4;
+    return {{p.s.center, p.s.radius - share}, {k % 8 < 2 ? construction::end_along_x(p.s) : p.t.a, share}};
+}
+
 }  // namespace abut::test

@@ -12,6 +12,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <abut/shape/core.hpp>
@@ -146,6 +147,27 @@ bool within_distance(const plane<T>& p, const S& s, double distance) {
 template <scalar T>
 bool within_distance(const plane<T>& p, const aabb<T>& box, double distance) {
     return plane_and_points(p, corners_of(box), {distance});
+}
+///@}
+
+/// The least double that is enough, or infinity.
+///@{
+template <class S, class U>
+double least_distance(const S& s, const U& t) {
+    std::uint64_t low = 0, high = std::bit_cast<std::uint64_t>(std::numeric_limits<double>::infinity());
+    while (low < high) {
+        const std::uint64_t middle = low + (high - low) / 2;
+        if (within_distance(s, t, std::bit_cast<double>(middle))) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    return std::bit_cast<double>(low);
+}
+template <class T>
+double least_distance(const aabb<T>& s, const triangle<T>& t) {
+    return intersects(s, t) ? 0 : exact_gap(s, t).least_double();
 }
 ///@}
 

@@ -692,4 +692,25 @@ ABUT_HD triangle_pair<T> make_triangle_pair(std::uint64_t seed_value, triangle_f
     return {};
 }
 
+// --- other shapes, of a pair and its index, which are tried against its second triangle -------------------------------
+
+/// The edges of the first triangle in turn.
+template <scalar T>
+ABUT_HD segment<T> segment_beside_triangle(const triangle_pair<T>& p, std::uint64_t k) {
+    const triangle<T> turned = reordered(p.a, static_cast<int>(k % 6));
+    return {turned.a, turned.b};
+}
+
+/// A corner of the first triangle; or one of the second's own, there or a step away along x; or the middle of an edge,
+/// rounded.
+template <scalar T>
+ABUT_HD vec3<T> point_beside_triangle(const triangle_pair<T>& p, std::uint64_t k) {
+    const triangle<T> own = reordered(p.b, static_cast<int>(k / 4 % 3));
+    vec3<T> point = reordered(p.a, static_cast<int>(k / 4 % 3)).a;
+    if (k % 4 == 1) point = own.a;
+    if (k % 4 == 2) point = {construction::moved(own.a.x, 1), own.a.y, own.a.z};
+    if (k % 4 == 3) point = T(0.5) * own.a + T(0.5) * own.b;
+    return point.x - point.x == 0 ? point : own.a;
+}
+
 }  // namespace abut::test
