@@ -16,7 +16,8 @@ from matplotlib.lines import Line2D  # noqa: E402
 from report_core import ARITHMETICS, LITERATURE, SCALARS  # noqa: E402
 from report_extremes import EXTREMES, PAIR_KINDS, other_kinds  # noqa: E402
 from report_motion import motion_scenes  # noqa: E402
-from report_predicates import HULLS, IN_MOTION, IN_TIME, INPUTS, OTHERS, PREDICATES, SOLIDS, WITHIN  # noqa: E402
+from report_predicates import HULLS, IN_MOTION, IN_TIME, INPUTS, OTHERS, PREDICATES, SOLIDS, WITHIN, \
+    family_ratios, kinds_with_families  # noqa: E402
 from report_queries import ANY_SCENES, BUILDERS, SIZES, SPHERES, descents_of, of_size, policies  # noqa: E402
 from report_scaling import DEALS, Model, rank_counts, sizes  # noqa: E402
 
@@ -292,6 +293,31 @@ def family_cost(r):
 @plot("families-cpu")
 def families_cpu(results):
     return family_cost(results["cpu/triangles"])
+
+
+@plot("families-kinds")
+def families_kinds(results):
+    """From the least to the greatest of all families of a kind of pairs, and the middle one."""
+    r = results["cpu/families"]
+    kinds = kinds_with_families(r)
+    figure, axes = plt.subplots(1, 2, figsize=(9.6, 0.24 * len(kinds) + 1.2), sharey=True, sharex=True, constrained_layout=True)
+    for axis, scalar in zip(axes, SCALARS):
+        for a, shift in (("filtered", -0.15), ("exact", 0.15)):
+            of_kinds = [sorted(ratio for ratio, _ in family_ratios(r, kind, scalar, a)) for kind in kinds]
+            at = [row + shift for row in range(len(kinds))]
+            axis.hlines(at, [x[0] for x in of_kinds], [x[-1] for x in of_kinds], color=COLOURS[a], linewidth=1.5)
+            axis.plot([x[len(x) // 2] for x in of_kinds], at, ".", color=COLOURS[a])
+        axis.axvline(1, color=COLOURS["fast"], linewidth=1.2)
+        axis.set_xscale("log")
+        axis.xaxis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda v, _: f"{v:,g}"))
+        axis.set_xlabel("time over that of fast")
+        axis.set_title(scalar)
+    axes[0].set_yticks(range(len(kinds)), [kind.replace("_", " ") for kind in kinds])
+    axes[0].set_ylim(len(kinds), -1)
+    handles = [Line2D([], [], color=COLOURS[a], marker=".", label=a) for a in ("filtered", "exact")]
+    below(figure, handles, 2)
+    figure.suptitle(f"Pairs of all kinds: least, middle and greatest of the families of the tests, {of_machine(r)}", color=GREY)
+    return figure
 
 
 @plot("families-cuda")

@@ -284,6 +284,35 @@ def triangles_sources(results):
                "here, with the copy"], rows)
 
 
+# --- families of all kinds of pairs -----------------------------------------------------------------------------------------
+
+def kinds_with_families(r):
+    return list(dict.fromkeys(name.split("/")[0] for name in r.rows))
+
+
+def family_ratios(r, kind, scalar, arithmetic):
+    """Time over that of fast, and the row's name, of each family."""
+    return [(r.get(name, f"{arithmetic}_over_fast"), name) for name in r.rows if name.startswith(f"{kind}/{scalar}/")]
+
+
+@in_table("families-cpu")
+def families_cpu(results):
+    r = results["cpu/families"]
+    rows = []
+    for kind in kinds_with_families(r):
+        cells = [kind.replace("_", " ")]
+        for scalar in SCALARS:
+            for a in ("filtered", "exact"):
+                ratios = sorted(ratio for ratio, _ in family_ratios(r, kind, scalar, a))
+                cells.append(" / ".join(shown(ratios[k]) for k in (0, len(ratios) // 2, -1)))
+            worst = max((r.get(name, "filtered"), name.split("/")[2]) for _, name in family_ratios(r, kind, scalar, "filtered"))
+            cells.append(f"{shown(worst[0] / 1000)}, {worst[1]}")
+        rows.append(cells)
+    head = ["pairs"] + [f"{s}: {c}" for s in SCALARS for c in ("`filtered` / `fast`", "`exact` / `fast`",
+                                                               "slowest of `filtered`, us a pair")]
+    return ["Least, middle and greatest of all families:", ""] + table(head, rows) + made_on(r)
+
+
 # --- ties -------------------------------------------------------------------------------------------------------------------
 
 @in_table("ties-cpu")

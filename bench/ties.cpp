@@ -9,15 +9,12 @@
 //                       scenes
 //   count/SCALAR/NAME   whole queries, with two trees, on one thread
 //
-// A row runs `fast`, `filtered` and `exact` in turn, so that all three see the same machine. Its counters are the medians of
-// their processor times in ns, of a pair or of the whole query; filtered_over_fast; hits; and, for pairs, filter_leaves: the
-// share that the error bound leaves to the stages behind it. Without --mesh a torus stands in for the mesh.
+// Rows are those of bench/in_turn.hpp, of a pair or of the whole query. Those of pairs have filter_leaves as well: the share
+// that the error bound leaves to the stages behind it. Without --mesh a torus stands in for the mesh.
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <ctime>
 #include <exception>
 #include <string>
 #include <vector>
@@ -25,6 +22,7 @@
 #include <abut/abut.hpp>
 
 #include "google.hpp"
+#include "in_turn.hpp"
 #include "mesh_file.hpp"
 #include "ties_scene.hpp"
 
@@ -33,38 +31,8 @@ namespace {
 namespace scene = ties_scene;
 namespace test = abut::test;
 
-template <class T>
-constexpr const char* scalar_name = sizeof(T) == 4 ? "float" : "double";
-
-double median(std::vector<double>& times) {
-    std::sort(times.begin(), times.end());
-    return times[times.size() / 2];
-}
-
-/// `ask(A{})` returns the number of hits.
-template <class Ask>
-void in_turn(benchmark::State& state, std::size_t items, const Ask& ask) {
-    std::vector<double> fast, filtered, exact;
-    std::uint64_t hits = 0, by_integers = 0;
-    const auto timed = [&]<class A>(A, std::vector<double>& times) {
-        const std::clock_t start = std::clock();
-        const std::uint64_t found = ask(A{});
-        const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-        times.push_back(1e9 * seconds / static_cast<double>(items));
-        return found;
-    };
-    for (auto _ : state) {
-        benchmark::DoNotOptimize(timed(abut::fast{}, fast));
-        hits = timed(abut::filtered{}, filtered);
-        by_integers = timed(abut::exact{}, exact);
-    }
-    if (hits != by_integers) state.SkipWithError("filtered and exact disagree");
-    state.counters["fast"] = median(fast);
-    state.counters["filtered"] = median(filtered);
-    state.counters["exact"] = median(exact);
-    state.counters["filtered_over_fast"] = median(filtered) / median(fast);
-    state.counters["hits"] = static_cast<double>(hits) / static_cast<double>(items);
-}
+using bench::in_turn;
+using bench::scalar_name;
 
 template <abut::scalar T>
 void decide_pairs(benchmark::State& state, const std::vector<test::triangle_pair<T>>& pairs) {

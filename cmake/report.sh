@@ -52,6 +52,7 @@ cpu pair_rules bench_pair_rules $G $I --scenes=@D@/ccd --benchmark_filter=-n-bod
 cpu triangles bench_triangles $G $I --triangles=20000000
 cpu builders bench_builders $G $I --mesh=@D@/meshes/armadillo_345944.ply
 cpu validate bench_validate $G
+cpu families bench_families $G
 cpu ties bench_ties $G --mesh=@D@/meshes/armadillo_27674.ply
 cpu fronts bench_fronts --json={} --frames=20
 cpu spheres_mesh bench_spheres_mesh $G $I
