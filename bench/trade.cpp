@@ -27,7 +27,6 @@
 
 #include <abut/narrow/time_of_impact.hpp>
 
-#include "../tests/support/hull_pairs.hpp"
 #include "../tests/support/hulls.hpp"
 #include "../tests/support/motion_families.hpp"
 #include "../tests/support/motion_oracle.hpp"
@@ -37,6 +36,7 @@
 #include "../tests/support/solid_pairs.hpp"
 #include "../tests/support/within_pairs.hpp"
 #include "results.hpp"
+#include "trade_hulls.hpp"
 #include "trade_others.hpp"
 #include "trade_pairs.hpp"
 
@@ -62,81 +62,6 @@ double median(std::vector<double> times) {
 struct size {
     std::size_t pairs;
     int runs;
-};
-
-/// Two convex hulls, of some ten points at most. `touching` holds hulls in contact and others a step off it.
-struct hull_hull {
-    static constexpr const char* name = "hull_hull";
-    template <abut::scalar T>
-    static auto make(trade::input in, std::uint64_t i) {
-        using abut::test::hull_family;
-        const auto touching = i % 2 == 0 ? hull_family::touching : hull_family::step_off;
-        auto p = abut::test::make_hull_pair<T>(trade::seed,
-                                               in == trade::input::random     ? hull_family::general
-                                               : in == trade::input::touching ? touching
-                                                                              : hull_family::lattice,
-                                               i);
-        using list = abut::test::point_list<T>;
-        return trade::pair<list, list>{std::move(p.a), std::move(p.b)};
-    }
-};
-
-/// A hull of six points, and another shape as in bench/trade_others.hpp: half of the touching ones are a tenth as large,
-/// with numbers rounded.
-template <template <class> class Other>
-struct hull_and {
-    template <abut::scalar T>
-    static trade::pair<abut::test::point_list<T>, Other<T>> make(trade::input in, std::uint64_t i) {
-        namespace make = abut::test::construction;
-        abut::test::draws d(trade::seed, 8870 + static_cast<std::uint64_t>(in), i);
-        abut::test::point_list<T> points;
-        const auto add = [&points](const abut::triangle<T>& t) { points.insert(points.end(), {t.a, t.b, t.c}); };
-        if (in != trade::input::touching) {
-            for (int k = 0; k < 2; ++k) add(trade::solid_of<abut::triangle, T>(d, in));
-            return {std::move(points), trade::solid_of<Other, T>(d, in)};
-        }
-        const make::contact_frame frame = make::any_contact_frame(d, 0);
-        for (int k = 0; k < 2; ++k) add(make::touching_from<abut::triangle<T>>(d, frame, 1, 0));
-        auto other = make::touching_from<Other<T>>(d, frame, -1, 1 + d.below(3));
-        trade::step_off(d, other);
-        if (i % 2 == 1) {
-            const T tenth = T(1) / T(10);
-            for (abut::vec3<T>& p : points) p = tenth * p;
-            other = make::scaled(tenth, other);
-        }
-        return {std::move(points), other};
-    }
-};
-struct hull_point : hull_and<abut::vec3> {
-    static constexpr const char* name = "hull_point";
-};
-struct hull_segment : hull_and<abut::segment> {
-    static constexpr const char* name = "hull_segment";
-};
-struct hull_triangle : hull_and<abut::triangle> {
-    static constexpr const char* name = "hull_triangle";
-};
-struct hull_sphere : hull_and<abut::sphere> {
-    static constexpr const char* name = "hull_sphere";
-};
-struct hull_capsule : hull_and<abut::capsule> {
-    static constexpr const char* name = "hull_capsule";
-};
-struct hull_box : hull_and<abut::aabb> {
-    static constexpr const char* name = "hull_box";
-};
-struct hull_plane : hull_and<abut::plane> {
-    static constexpr const char* name = "hull_plane";
-};
-
-/// From one end of a segment through the other one.
-struct hull_ray {
-    static constexpr const char* name = "hull_ray";
-    template <abut::scalar T>
-    static trade::pair<abut::test::point_list<T>, abut::ray<T>> make(trade::input in, std::uint64_t i) {
-        auto p = hull_segment::make<T>(in, i);
-        return {std::move(p.s), {p.t.a, p.t.b - p.t.a}};
-    }
 };
 
 /// What is asked about: hulls own their points here.
@@ -349,15 +274,7 @@ int main(int argc, char** argv) {
             trade::for_each_other_predicate(add_both);
             trade::for_each_distance_predicate(add_both);
             trade::for_each_solid_predicate(add_both);
-            add_both(hull_hull{});
-            add_both(hull_point{});
-            add_both(hull_segment{});
-            add_both(hull_triangle{});
-            add_both(hull_sphere{});
-            add_both(hull_capsule{});
-            add_both(hull_box{});
-            add_both(hull_plane{});
-            add_both(hull_ray{});
+            trade::for_each_hull_predicate(add_both);
             for (const trade::input in : trade::inputs) {
                 using abut::test::motion_kind;
                 add_motion<motion_kind::vertex_face, float>(out, "vertex_face", in, of);

@@ -36,6 +36,30 @@ struct decide_pair {
     ABUT_HD void operator()(std::size_t i) const { touches[i] = static_cast<std::uint8_t>(answer<A>(pairs[i])); }
 };
 
+/// A row of the first n pairs, which decide(i) decides into touches[i]; the truth of as many as it is known of.
+template <class Decide>
+void add_row(const abut::cuda& on, bench::table& out, const std::string& name, std::size_t n, const std::vector<bool>& truth,
+             const abut::execution::buffer_of<abut::cuda, std::uint8_t>& touches, const Decide& decide) {
+    cudaFuncAttributes kernel{};
+    bench::check(cudaFuncGetAttributes(&kernel, abut::execution::detail::for_each_kernel<Decide>), "cudaFuncGetAttributes");
+    for_each_index(on, n, decide);
+    std::vector<std::uint8_t> answers(n);
+    touches.read(answers.data());
+    tally all;
+    for (std::size_t i = 0; i < truth.size(); ++i) all.add(answers[i] != 0, truth[i]);
+    const bench::counters says{{"pairs", static_cast<double>(n)},
+                               {"hits", all.share(all.hits)},
+                               {"wrong_per_million", 1e6 * all.share(all.missed + all.phantom)},
+                               {"missed_per_million", 1e6 * all.share(all.missed)},
+                               {"phantom_per_million", 1e6 * all.share(all.phantom)},
+                               {"registers", static_cast<double>(kernel.numRegs)},
+                               {"local_bytes", static_cast<double>(kernel.localSizeBytes)}};
+    out.add(name, 0, [&] {
+        for_each_index(on, n, decide);
+        return says;
+    });
+}
+
 template <class Predicate, abut::scalar T>
 void add(const abut::cuda& on, bench::table& out, input in) {
     abut::execution::buffer_of<abut::cuda, pair_of<Predicate, T>> pairs(on, pair_count);
@@ -46,28 +70,8 @@ void add(const abut::cuda& on, bench::table& out, input in) {
         truth.push_back(answer<abut::exact>(Predicate::template make<T>(in, i)));
     }
     const auto note = [&]<abut::arithmetic A>(A) {
-        const decide_pair<Predicate, A, T> decide{pairs.data(), touches.data()};
-        cudaFuncAttributes kernel{};
-        bench::check(cudaFuncGetAttributes(&kernel, abut::execution::detail::for_each_kernel<decide_pair<Predicate, A, T>>),
-                     "cudaFuncGetAttributes");
-        for_each_index(on, pair_count, decide);
-        std::vector<std::uint8_t> answers(pair_count);
-        touches.read(answers.data());
-        tally all;
-        for (std::size_t i = 0; i < truth_count; ++i) all.add(answers[i] != 0, truth[i]);
-        const double n = static_cast<double>(pair_count);
-        const bench::counters says{{"pairs", n},
-                                   {"hits", all.share(all.hits)},
-                                   {"wrong_per_million", 1e6 * all.share(all.missed + all.phantom)},
-                                   {"missed_per_million", 1e6 * all.share(all.missed)},
-                                   {"phantom_per_million", 1e6 * all.share(all.phantom)},
-                                   {"registers", static_cast<double>(kernel.numRegs)},
-                                   {"local_bytes", static_cast<double>(kernel.localSizeBytes)}};
         const std::string name = bench::joined({Predicate::name, name_of(in), scalar_name<T>, arithmetic_name<A>});
-        out.add(name, 0, [&] {
-            for_each_index(on, pair_count, decide);
-            return says;
-        });
+        add_row(on, out, name, pair_count, truth, touches, decide_pair<Predicate, A, T>{pairs.data(), touches.data()});
     };
     note(abut::fast{});
     note(abut::filtered{});
