@@ -57,11 +57,11 @@ inline constexpr int shape_family_count = 30;
 
 inline const char* name_of(shape_family f) {
     constexpr const char* names[shape_family_count] = {
-        "random",         "offset 1e3",     "offset 1e6", "scaled 1e-30", "scaled 1e-13",    "scaled 1e13",
-        "scaled 1e30",    "small triangle", "large triangle", "needle 1e3", "needle 1e6",    "needle 1e9",
-        "degenerate",     "no extent",      "touching 0", "touching 1",   "touching 2",      "touching 3",
-        "touching 4",     "lattice 4",      "lattice 16", "lattice 256",  "tenths 4",        "tenths 16",
-        "tenths 256",     "denormal",       "largest",    "mixed exponents", "any scale",    "all bit patterns"};
+        "random",          "offset 1e3",     "offset 1e6",     "scaled 1e-30",    "scaled 1e-13",  "scaled 1e13",
+        "scaled 1e30",     "small triangle", "large triangle", "needle 1e3",      "needle 1e6",    "needle 1e9",
+        "degenerate",      "no extent",      "touching 0",     "touching 1",      "touching 2",    "touching 3",
+        "touching 4",      "lattice 4",      "lattice 16",     "lattice 256",     "0.1 lattice 4", "0.1 lattice 16",
+        "0.1 lattice 256", "denormal",       "largest",        "mixed exponents", "any scale",     "all bit patterns"};
     return names[static_cast<int>(f)];
 }
 

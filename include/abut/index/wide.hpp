@@ -50,11 +50,11 @@ struct wide_view : bvh_view_base<T, Space, wide_node<T>, 4> {
     [[nodiscard]] ABUT_HD static bvh_child child(const node_type& n, int slot) { return n.child[slot]; }
     ///@}
     /// The boxes of all four slots, as lanes of four numbers.
-    [[nodiscard]] ABUT_HD static auto all_bounds(const node_type& n) { return detail::box_lanes<T>::load(n.planes); }
-    /// One of the six planes of all four slots, by its number in a node, likewise.
-    [[nodiscard]] ABUT_HD static auto four_planes(const node_type& n, int plane) {
-        return detail::lanes<T>::load(n.planes[plane]);
+    [[nodiscard]] ABUT_INLINE ABUT_HD static auto all_bounds(const node_type& n) {
+        return detail::box_lanes<T>::load(n.planes);
     }
+    /// The six planes of all four slots, as they lie in the node.
+    [[nodiscard]] ABUT_HD static auto all_planes(const node_type& n) -> const T (&)[6][4] { return n.planes; }
 };
 
 /// 128 bytes a node in single precision, 224 in double, for two to three shapes.

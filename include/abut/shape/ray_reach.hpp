@@ -43,7 +43,7 @@ ABUT_HD constexpr int exponent_of_normal(T x) {
            format::digits - 2;
 }
 
-template <scalar T>
+template <scalar T, class Register = typename register_of<T>::type>
 class ray_reach_of_four;
 
 template <scalar T>
@@ -118,10 +118,11 @@ struct ray_reach {
 };
 
 /// The same reach for four boxes at a time, which has each of its numbers four times, so that a node costs no more than its
-/// boxes. For processors.
-template <scalar T>
+/// boxes. For processors. As with lanes, what two compilers make of it has two names; and both lay it out alike, for other
+/// classes hold one.
+template <scalar T, class Register>
 class ray_reach_of_four {
-    using many = lanes<T>;
+    using many = lanes<T, Register>;
 
 public:
     static constexpr bool takes_four = true;
@@ -132,34 +133,35 @@ public:
             const bool back = factor < 0;
             enters_[axis] = back ? axis + 3 : axis;
             leaves_[axis] = back ? axis : axis + 3;
-            factor_[axis] = many::all(factor);
-            in_[axis] = many::all(back ? one.above.*x : one.below.*x);
-            out_[axis] = many::all(back ? one.below.*x : one.above.*x);
-            far_[axis] = many::all(one.far.*x);
+            many::all(factor).store(factor_[axis]);
+            many::all(back ? one.above.*x : one.below.*x).store(in_[axis]);
+            many::all(back ? one.below.*x : one.above.*x).store(out_[axis]);
+            many::all(one.far.*x).store(far_[axis]);
         };
         prepare(0, &vec3<T>::x);
         prepare(1, &vec3<T>::y);
         prepare(2, &vec3<T>::z);
     }
 
-    /// When it enters each of four boxes: planes(k) are their lower x, y and z, and then their upper ones. Which of two the
-    /// ray passes first is the same for all boxes. A bit for each box that is kept; of the others the times mean nothing.
-    template <class Planes>
-    ABUT_INLINE ABUT_HD unsigned least_in_four(const Planes& planes, T (&to)[4]) const {
-        const auto all = [](T x) { return many::all(x); };
+    /// When it enters each of four boxes, by their planes: lower x, y and z, and then upper ones. Which of two the ray passes
+    /// first is the same for all boxes. A bit for each box that is kept; of the others the times mean nothing.
+    ABUT_INLINE ABUT_HD unsigned least_in_four(const T (&planes)[6][4], T (&to)[4]) const {
         constexpr T grown = 1 + 32 * unit_roundoff<T>, tiny = 4 * smallest_normal<T>;
-        many entry = all(T(0)), exit = all(infinity<T>);
+        many entry = many::all(T(0)), exit = many::all(infinity<T>);
         for (int k = 0; k < 3; ++k) {
-            entry = greatest((planes(enters_[k]) - in_[k]) * factor_[k], entry);
-            exit = least((planes(leaves_[k]) - out_[k]) * factor_[k] + far_[k], exit);
+            const many factor = many::load(factor_[k]);
+            entry = greatest((many::load(planes[enters_[k]]) - many::load(in_[k])) * factor, entry);
+            exit = least((many::load(planes[leaves_[k]]) - many::load(out_[k])) * factor + many::load(far_[k]), exit);
         }
-        entry = least(entry, all(ray_reach<T>::most));
-        auto apart = (entry > exit * all(grown) + all(tiny)) | (entry > all(one_.limit));
+        entry = least(entry, many::all(ray_reach<T>::most));
+        auto apart = (entry > exit * many::all(grown) + many::all(tiny)) | (entry > many::all(one_.limit));
         if (one_.is_narrow) {
-            const auto beside = [&](int axis, T vec3<T>::*x) {
-                return (planes(axis) > all(one_.around.upper.*x)) | (all(one_.around.lower.*x) > planes(axis + 3));
-            };
-            apart = apart | (beside(0, &vec3<T>::x) | beside(1, &vec3<T>::y) | beside(2, &vec3<T>::z));
+            const vec3<T>&lower = one_.around.lower, &upper = one_.around.upper;
+            const T below[] = {lower.x, lower.y, lower.z}, above[] = {upper.x, upper.y, upper.z};
+            for (int k = 0; k < 3; ++k) {
+                const many first = many::load(planes[k]), last = many::load(planes[k + 3]);
+                apart = apart | (first > many::all(above[k])) | (many::all(below[k]) > last);
+            }
         }
         entry.store(to);
         const decltype(apart) row[1] = {apart};
@@ -170,7 +172,7 @@ public:
 
 private:
     ray_reach<T> one_;
-    many in_[3], out_[3], factor_[3], far_[3];
+    alignas(16) T in_[3][4], out_[3][4], factor_[3][4], far_[3][4];
     int enters_[3], leaves_[3];  ///< which planes of a box the ray passes first and last
 };
 

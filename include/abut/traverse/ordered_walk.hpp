@@ -49,7 +49,7 @@ ABUT_HD auto least_in_slot(const Reach& reach, const Tree& tree, const typename 
 template <class Reach, class Tree>
 concept looks_at_four = requires(const typename Tree::node_type& node) {
     typename Reach::of_four;
-    Tree::four_planes(node, 0);
+    Tree::all_planes(node);
 };
 /// The form of a reach that goes through a tree.
 ///@{
@@ -88,8 +88,7 @@ struct place_in_tree {
         if constexpr (requires { Reach::takes_four; }) {
             // The nearest goes on; the others wait, the farthest below. Often there is one alone.
             T least_of[4];
-            const auto planes = [&](int plane) { return tree.four_planes(node, plane); };
-            unsigned kept = reach.least_in_four(planes, least_of) & ((1u << tree.children(node)) - 1);
+            unsigned kept = reach.least_in_four(tree.all_planes(node), least_of) & ((1u << tree.children(node)) - 1);
             if (kept == 0) return next(reach, pending);
             const auto take = [&] {
                 const auto slot = static_cast<int>(lowest_bit(kept));

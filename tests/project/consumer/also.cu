@@ -4,4 +4,8 @@
 
 #include <abut/cuda.hpp>
 
+#include "also.hpp"
+
 static_assert(abut::execution_policy<abut::cuda>);
+
+std::vector<std::uint32_t> hits_by_cu() { return hits_of_rays<abut::exact>(); }
