@@ -3,7 +3,8 @@
 // usage: bench_families --benchmark_out=cpu.json
 //
 // What an answer that is right costs over `fast`, of each kind of pairs, in each family of the tests: pairs decided one by
-// one. The families of two triangles are bench_triangles's. Names:
+// one, but for a hull and a ray, hulls within a distance, and faces of one mesh. The families of two triangles are
+// bench_triangles's. A pair with a hull is timed with the making of the other shape of points. Names:
 //
 //   KIND/SCALAR/FAMILY    KIND is two shapes, as sphere_triangle; within_ before them: whether they are within a distance;
 //                         motion_ before a vertex and a face or two edges: whether they touch in a step
@@ -16,6 +17,7 @@
 #include <exception>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <abut/abut.hpp>

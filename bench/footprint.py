@@ -24,6 +24,15 @@ BENCH = Path(__file__).resolve().parent
 INCLUDE = BENCH.parent / "include"
 
 
+def machine():
+    """The processor's name, as bench/results.hpp says it."""
+    try:
+        found = re.search(r"^model name\s*: (.*)$", Path("/proc/cpuinfo").read_text(encoding="utf-8"), re.M)
+    except OSError:
+        found = None
+    return found.group(1) if found else os.uname().machine
+
+
 def scene_names():
     text = (BENCH / "footprint_scene.hpp").read_text(encoding="utf-8")
     return re.findall(r'"([^"]+)"', re.search(r"name_of\[scenes\] = \{(.*?)\};", text, re.S).group(1))
@@ -102,7 +111,7 @@ def main():
         print(f"{name:40}", *(f"{key} {value}" for key, value in row.items()))
     if asked.json:
         nvcc = ", nvcc " + re.search(r"release ([\d.]+)", output_of("nvcc", "--version")).group(1) if cuda else ""
-        context = {"program": "footprint.py", "machine": os.uname().machine, "cores": str(os.cpu_count()),
+        context = {"program": "footprint.py", "machine": machine(), "cores": str(os.cpu_count()),
                    "compiler": "g++ " + output_of("g++", "-dumpfullversion").strip() + nvcc, "flags": "-O2",
                    "commit": os.environ.get("ABUT_COMMIT", "unknown"), "date": datetime.date.today().isoformat()}
         Path(asked.json).write_text(json.dumps({"context": context, "rows": rows}, indent=1) + "\n", encoding="utf-8")

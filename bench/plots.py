@@ -17,7 +17,7 @@ from report_core import ARITHMETICS, LITERATURE, SCALARS  # noqa: E402
 from report_extremes import EXTREMES, PAIR_KINDS, other_kinds  # noqa: E402
 from report_motion import motion_scenes  # noqa: E402
 from report_predicates import HULLS, IN_MOTION, IN_TIME, INPUTS, OTHERS, PREDICATES, SOLIDS, WITHIN, \
-    family_ratios, kinds_with_families  # noqa: E402
+    WITH_HULLS, family_ratios, kinds_with_families  # noqa: E402
 from report_queries import ANY_SCENES, BUILDERS, SIZES, SPHERES, descents_of, of_size, policies  # noqa: E402
 from report_scaling import DEALS, Model, rank_counts, sizes  # noqa: E402
 
@@ -164,6 +164,11 @@ def trade_others_cuda(results):
 @plot("trade-solids-cuda")
 def trade_solids_cuda(results):
     return trade(results["cuda/trade_solids"], lambda r, name: r.get(name, "pairs") / r.get(name) / 1e3, SOLIDS)
+
+
+@plot("trade-hulls-cuda")
+def trade_hulls_cuda(results):
+    return trade(results["cuda/trade_hulls"], lambda r, name: r.get(name, "pairs") / r.get(name) / 1e3, WITH_HULLS)
 
 
 def motion(r, scenes, points):

@@ -23,6 +23,7 @@ SOLIDS = {"point_point": "point, point", "point_segment": "point, segment", "poi
 HULLS = {"hull_point": "hull, point", "hull_segment": "hull, segment", "hull_triangle": "hull, triangle",
          "hull_sphere": "hull, sphere", "hull_capsule": "hull, capsule", "hull_box": "hull, box", "hull_plane": "hull, plane",
          "hull_ray": "hull, ray"}
+WITH_HULLS = {"hull_hull": OTHERS["hull_hull"], **HULLS}
 IN_MOTION = {"vertex_face": "vertex, face in motion", "edge_edge": "edge, edge in motion"}
 IN_TIME = ("fast", "conservative", "filtered", "exact")
 INPUTS = ("random", "touching", "lattice")
@@ -107,6 +108,11 @@ def trade_solids_cuda(results):
 @in_table("trade-within-cuda")
 def trade_within_cuda(results):
     return on_a_device(results["cuda/trade_within"], "distances", "trade-within-cuda", WITHIN)
+
+
+@in_table("trade-hulls-cuda")
+def trade_hulls_cuda(results):
+    return on_a_device(results["cuda/trade_hulls"], "convex hulls and other shapes", "trade-hulls-cuda", WITH_HULLS)
 
 
 @in_table("trade-stages")

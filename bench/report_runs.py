@@ -26,9 +26,10 @@ SKIPPED = re.compile(r"^\s*\d+ - .* \(Skipped\)$", re.M)
 
 def counts(text):
     """Passed, failed and skipped tests; nothing where ctest did not come to its end."""
-    last = LAST.search(text)
-    if last is None:
+    found = list(LAST.finditer(text))  # what a test prints may look like one
+    if not found:
         return None
+    last = found[-1]
     failed, skipped = int(last["failed"] or 0), len(SKIPPED.findall(text, last.end()))
     return {"passed": int(last["all"]) - failed - skipped, "failed": failed, "skipped": skipped}
 

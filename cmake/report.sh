@@ -82,6 +82,7 @@ cuda trade bench_trade_cuda {}
 cuda trade_others bench_trade_cuda {} others
 cuda trade_solids bench_trade_solids_cuda {}
 cuda trade_within bench_trade_within_cuda {}
+cuda trade_hulls bench_trade_hulls_cuda {}
 cuda spheres_mesh bench_spheres_mesh_cuda {}
 cuda triangles bench_triangles_cuda {}
 cuda ties bench_ties_cuda {}
