@@ -560,7 +560,7 @@ def scaling_distributed(results):
         work = [r.get(f"pairs/{deal}/{large}/{k}", "work_ms") for k in counts]
         axis.plot(counts, work, color=SERIES[index], marker="s", fillstyle="none", label=f"{DEALS[deal]}: work of a rank")
         clock = [(k, t) for k in counts if (t := r.get(f"pairs/{deal}/{large}/{k}"))]
-        axis.plot(*zip(*clock), "o", color=SERIES[index], label=f"{DEALS[deal]}: by the clock, on a busy machine")
+        axis.plot(*zip(*clock), "o", color=SERIES[index], label=f"{DEALS[deal]}: by the clock")
     one = r.get(f"pairs/curve/{large}/1", "work_ms")
     axis.plot(counts, [one / k for k in counts], ":", color=GREY, label="1 / ranks")
     axis.plot(counts, [1e3 * m.seconds("pairs", large / k, k) for k in counts], "--", color=GREY, label="model, along the curve")
@@ -568,7 +568,7 @@ def scaling_distributed(results):
     axis.set_xticks(counts, [str(k) for k in counts])
     axis.yaxis.set_major_locator(matplotlib.ticker.LogLocator(10, (1, 2, 5)))
     axis.yaxis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda v, _: f"{v:,g}"))
-    axis.set_title(f"Measured: {large:,} triangles and spheres, 2 cores")
+    axis.set_title(f"Measured: {large:,} triangles and spheres, {r.context['cores']} cores")
 
     axis = axes[1]
     many = [(int(n.split("/")[1]), int(n.split("/")[2]), r.rows[n]) for n in r.names("parts/")]
