@@ -224,6 +224,34 @@ struct gather_many {
     };
 };
 
+/// Additions in registers, about as many at a time as a core can do: how much faster so many processors are than one, where
+/// nothing waits for memory. Two that share a core are not two here, and one alone may run at a higher frequency.
+struct arithmetic {
+    template <class Policy>
+    struct on_policy {
+        static constexpr std::size_t tasks = 960;
+        explicit on_policy(const Policy& on) : sums(on, tasks) {}
+        std::size_t operator()(const Policy& on) {
+            for_each_task(on, tasks, add{sums.data()});
+            return sums.data()[tasks / 2];
+        }
+        struct add {
+            std::uint64_t* out;
+            void operator()(std::size_t i) const {
+                std::uint64_t a[8] = {i, 1, 2, 3, 4, 5, 6, 7};
+                for (int turn = 0; turn < 10'000; ++turn) {
+                    for (std::uint64_t& x : a) {
+                        x += x << 1;
+                        asm volatile("" : "+r"(x));  // so that no compiler finds the sum by itself
+                    }
+                }
+                out[i] = a[0] + a[1] + a[2] + a[3] + a[4] + a[5] + a[6] + a[7];
+            }
+        };
+        abut::execution::buffer<std::uint64_t, abut::host_space> sums;
+    };
+};
+
 // --- runs --------------------------------------------------------------------------------------------------------------
 
 template <class Operation, class Policy>
@@ -282,6 +310,7 @@ void add(const std::string& name) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    add<arithmetic>("arithmetic");
     add<validate>("validate");
     add<build>("build");
     add<build_and_pairs>("build_and_pairs");

@@ -132,7 +132,7 @@ class Model:
 
 # --- cores
 
-OPERATIONS = {"build": "`make_bvh` of 345,960 triangles", "build_and_pairs": "`make_bvh` and sorted `pairs`, spheres in a mesh",
+OPERATIONS = {"arithmetic": "additions in registers", "build": "`make_bvh` of 345,960 triangles", "build_and_pairs": "`make_bvh` and sorted `pairs`, spheres in a mesh",
               "pairs": "sorted `pairs` of these", "unsorted": "unsorted `pairs` of these",
               "meshes_unsorted": "unsorted `pairs` of two meshes", "meshes_count": "`count` of two meshes",
               "validate": "`validate` of 27,648 triangles", "sort_keys": "sort of 345,944 keys",

@@ -27,7 +27,7 @@ void for_each_index(const Policy& on, std::size_t n, const F& f, Queue& queue, Q
         const auto loop = [&](std::size_t begin, std::size_t end, const auto& over, auto&... sinks) {
             for (std::size_t i = begin; i < end && !over(); ++i) f(i, sinks...);
         };
-        detail::gather(on, n, range_grain, loop, queue, queues...);
+        detail::gather(on, n, detail::grain_of(on, n), loop, queue, queues...);
     }
 }
 
@@ -61,7 +61,7 @@ struct candidate_loop {
 template <range_policy Policy, class Walk, class Judge, class... Queues>
     requires candidate_walk<Walk, sink_of<Queues>...> && candidate_judge<Judge, typename Walk::candidate, sink_of<Queues>...>
 std::uint64_t for_each_candidate(const Policy& on, std::size_t n, const Walk& walk, const Judge& judge, Queues&... queues) {
-    detail::gather(on, n, range_grain, detail::candidate_loop<Walk, Judge>{walk, judge}, queues...);
+    detail::gather(on, n, detail::grain_of(on, n), detail::candidate_loop<Walk, Judge>{walk, judge}, queues...);
     return 0;
 }
 

@@ -14,8 +14,6 @@
 
 namespace abut::execution {
 
-inline constexpr std::size_t descent_grain = 32;
-
 namespace detail {
 
 /// One function for all walks: the code that enlarges a vector stands in it once, and not once for each child of a node.
@@ -159,11 +157,11 @@ std::uint64_t for_each_descendant(const Policy& on, const Expand& expand, const 
     // Who only wants to know whether there is one starts soon.
     constexpr bool any_will_do = (is_flag<sink_of<Queues>> || ...);
     const std::size_t threads = static_cast<std::size_t>(concurrency(on));
-    const std::size_t enough = threads == 1 ? 1 : any_will_do ? 4 * threads : 4096;
+    const std::size_t enough = threads == 1 ? 1 : (any_will_do ? 4 : 128) * threads, grain = any_will_do ? 1 : 4;
     auto start = detail::first_levels(expand, enough);
     const std::size_t n = start.candidates.size() + start.items.size();
     const detail::descent_loop<Expand, Judge, any_will_do> loop{expand, judge, start};
-    detail::gather(on, n, any_will_do ? 1 : descent_grain, loop, queues...);
+    detail::gather(on, n, grain, loop, queues...);
     return 0;
 }
 

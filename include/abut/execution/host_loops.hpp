@@ -17,13 +17,24 @@
 
 namespace abut::execution {
 
-inline constexpr std::size_t range_grain = 1024;
+namespace detail {
+
+/// Indices of a range, where n are looped over. There are many ranges for each thread, since some take longer than others;
+/// but not more than that, since all threads write to what they share where a range ends. Few indices are one range.
+template <class Policy>
+std::size_t grain_of(const Policy& on, std::size_t n) {
+    constexpr std::size_t few = 1024, for_each_thread = 16, least = 256, most = 4096;
+    if (n <= few) return few;
+    return std::clamp(n / for_each_thread / static_cast<std::size_t>(concurrency(on)), least, most);
+}
+
+}  // namespace detail
 
 template <range_policy Policy, class F>
 void for_each_index(const Policy& on, std::size_t n, const F& f) {
     static_assert(index_functor<F>, "abut: for_each_index: the functor is no index_functor (execution/roles.hpp)");
     if constexpr (index_functor<F>) {
-        for_each_range(on, n, range_grain, [&](int, std::size_t begin, std::size_t end) {
+        for_each_range(on, n, detail::grain_of(on, n), [&](int, std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) f(i);
         });
     }
