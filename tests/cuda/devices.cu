@@ -29,6 +29,7 @@ TEST_CASE("several devices: cuda") {
     }
     test::device_cases::check_stops<float>(cuda_devices({0, 0}));
     test::device_cases::check_corner<float>(cuda_devices({0, 0}));
+    test::device_cases::check_large<float>(cuda_devices({0, 0, 0}));
     test::device_cases::check_nearest<double>(cuda_devices({0, 0, 0}));
 
     const cuda_devices all;
@@ -37,6 +38,7 @@ TEST_CASE("several devices: cuda") {
         test::device_cases::check_each_way<float>(all);
         test::device_cases::check_nearest<double>(all);
         test::device_cases::check_corner<float>(all);
+        test::device_cases::check_large<float>(all);
         // The first of them is not the one that is current, and stays so.
         const cuda_devices turned({1, 0});
         test::device_cases::check_each_way<float>(turned);

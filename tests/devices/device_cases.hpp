@@ -280,6 +280,30 @@ void check_corner(const Team& team) {
     CHECK(most * static_cast<std::size_t>(team.size()) <= sum + sum / 4);
 }
 
+/// Parts so large that others look at them closely: tiles of a square, and balls on another one that crosses it aslant.
+template <scalar T, class Team>
+void check_large(const Team& team) {
+    constexpr std::size_t side = 900;  // so that each of three parts is large
+    constexpr T step = T(1) / 1024;
+    std::vector<triangle<T>> tiles(side * side);
+    std::vector<sphere<T>> balls(side * side);
+    for (std::size_t k = 0; k < side * side; ++k) {
+        const T x = static_cast<T>(k % side) * step, y = static_cast<T>(k / side) * step;
+        tiles[k] = {{x, y, 0}, {x + step / 2, y, 0}, {x, y + step / 2, step / 4}};
+        balls[k] = {{x, (x + y) / 2, y - T(0.375)}, step / 2};
+    }
+    const triangle_soup<T> a(tiles);
+    const spheres<T> b(balls);
+    const auto parts_a = make_bvh(team, divide(team, a));
+    for (int k = 0; k < team.size(); ++k) {
+        CHECK(abut::detail::close_boxes(team[k], abut::detail::make_operand(team[k], parts_a[k], "check_large")).size() >
+              200);
+    }
+    const auto expected = to_host(pairs(serial{}, make_bvh(serial{}, a), make_bvh(serial{}, b)));
+    CHECK(expected.size() > 500);
+    check_pairs(team, parts_a, make_bvh(team, divide(team, b)), expected);
+}
+
 /// Nothing, fewer shapes than devices, and what comes from nowhere.
 template <scalar T, class Team>
 void check_small(const Team& team) {
@@ -571,6 +595,7 @@ void check_devices(const Team& team) {
     device_cases::check_scenes<T>(team);
     device_cases::check_meshes<T>(team);
     device_cases::check_corner<T>(team);
+    if (team.size() < 4) device_cases::check_large<T>(team);
     device_cases::check_small<T>(team);
     device_cases::check_stops<T>(team);
     device_cases::check_nearest<T>(team);

@@ -7,7 +7,7 @@
 //                                          and then of a and another part of the same set
 //   judge<A>()                             decides whether they are
 //   names<A>()                             the same, and knows their ids
-//   operator()(bounds)                     where shapes have to be to make such a pair with one of a part
+//   operator()(bounds)                     where shapes have to be to make such a pair with one of a part, or in a box
 //   nearness<T>(function)                  how near boxes have to come; of lists and of bodies, which pair up by it
 
 #include <concepts>
@@ -89,6 +89,10 @@ struct pairs_within {
     template <scalar T>
     part_bounds<T> operator()(const part_bounds<T>& part) const {
         return grown_by(part, rounded_up<T>(distance));
+    }
+    template <scalar T>
+    aabb<T> operator()(const aabb<T>& box) const {
+        return grown_by(box, rounded_up<T>(distance));
     }
     template <scalar T>
     [[nodiscard]] auto nearness(const char* function) const {

@@ -16,12 +16,16 @@
 #include <abut/execution/atomic.hpp>
 #include <abut/execution/buffer.hpp>
 #include <abut/execution/group.hpp>
+#include <abut/index/bvh.hpp>
 #include <abut/index/curve_order.hpp>
 #include <abut/index/lbvh.hpp>
 #include <abut/shape/bounds.hpp>
 #include <abut/shape/equal_elements.hpp>
 #include <abut/shape/posed.hpp>
+#include <abut/shape/reach.hpp>
 #include <abut/shape/view.hpp>
+#include <abut/traverse/bvh_walk.hpp>
+#include <abut/traverse/even_nodes.hpp>
 #include <abut/traverse/traversal.hpp>
 
 namespace abut::detail {
@@ -49,31 +53,66 @@ struct part_bounds {
     }
 };
 
-/// All that comes so near to a part (nearness.hpp): its boxes, grown.
+/// All that comes so near to a part (nearness.hpp), or to a box: the boxes, grown.
+template <scalar T, class Frame>
+aabb<T> grown(const aabb<T>& box, const near_by<T, Frame>& near) {
+    return box.lower.x <= box.upper.x ? near_reach<T, Frame>{box, near.frame}.bounds() : box;
+}
 template <scalar T, class Frame>
 part_bounds<T> grown(part_bounds<T> part, const near_by<T, Frame>& near) {
-    const auto grow = [&](aabb<T>& box) {
-        if (box.lower.x <= box.upper.x) box = near_reach<T, Frame>{box, near.frame}.bounds();
-    };
-    grow(part.around);
-    for (aabb<T>& box : part.groups) grow(box);
+    part.around = grown(part.around, near);
+    for (aabb<T>& box : part.groups) box = grown(box, near);
     return part;
 }
-template <scalar T>
-part_bounds<T> grown(const part_bounds<T>& part, const near_enough_to_touch&) {
-    return part;
+template <class Bounds>
+const Bounds& grown(const Bounds& bounds, const near_enough_to_touch&) {
+    return bounds;
 }
-/// Of pairs whose boxes touch: what comes near enough to a part.
+/// Of pairs whose boxes touch: what comes near enough to a part, or to a box.
 struct as_near_as_boxes {
-    template <scalar T>
-    const part_bounds<T>& operator()(const part_bounds<T>& part) const {
-        return part;
+    template <class Bounds>
+    const Bounds& operator()(const Bounds& bounds) const {
+        return bounds;
     }
 };
 /// What comes as near as a distance along a straight line.
-template <scalar T>
-part_bounds<T> grown_by(const part_bounds<T>& part, T distance) {
-    return grown(part, near_in_distance<T>{distance_frame<T>(distance)});
+template <class Bounds, scalar T>
+Bounds grown_by(const Bounds& bounds, T distance) {
+    return grown(bounds, near_in_distance<T>{distance_frame<T>(distance)});
+}
+
+/// A part as another one knows it that looks closely: by boxes around a few hundred shapes each, too, where there are some.
+template <scalar T, memory_space Space>
+struct close_bounds {
+    part_bounds<T> part;
+    bvh_view<T, Space> boxes;  ///< a tree over these boxes; of none where nothing but the part is known
+
+    /// As part_bounds::reaches.
+    [[nodiscard]] ABUT_HD bool reaches(const aabb<T>& box) const {
+        if (!part.reaches(box)) return false;
+        if (boxes.size() == 0) return true;
+        const bvh_walk<bvh_view<T, Space>> walk{boxes};
+        box_reach<T> reach(box);
+        typename bvh_walk<bvh_view<T, Space>>::cursor at;
+        bool reached = false;
+        walk.for_each(reach, at, [] { return false; }, [&](std::uint32_t) {
+            reached = true;
+            return visit::stop;
+        });
+        return reached;
+    }
+};
+
+/// The boxes of about so many nodes of a tree, on the host: between them they hold all shapes.
+template <class Policy, bvh_layout Tree>
+auto boxes_of_nodes(const Policy& on, const Tree& tree, std::size_t nodes) {
+    using box = aabb<typename Tree::scalar_type>;
+    const auto cut = cut_evenly(on, tree, nodes);
+    execution::buffer_of<Policy, box> boxes(on, cut.size());
+    for_each_index(on, cut.size(), write_node_boxes<Tree>{tree, cut.data(), boxes.data()});
+    std::vector<box> here(cut.size());
+    download(on, boxes.data(), boxes.size(), here.data());
+    return here;
 }
 
 /// Neighbours in a set, as many as this, have a box of their own.
@@ -201,17 +240,17 @@ auto bounds_of_part(const Policy& on, const Shapes& shapes) {
 }
 
 /// Shapes that may touch one of another part's.
-template <shape_view Shapes>
+template <shape_view Shapes, class There>
 struct comes_near {
     Shapes shapes;
-    part_bounds<typename Shapes::scalar_type> there;
+    There there;
     ABUT_HD bool operator()(std::size_t i) const { return there.reaches(bounds(shapes[i])); }
 };
 
-template <scalar T>
+template <scalar T, class There>
 struct is_block_near {
     const aabb<T>* boxes;
-    part_bounds<T> there;
+    There there;
     ABUT_HD bool operator()(std::size_t k) const { return there.reaches(boxes[k]); }
 };
 
@@ -254,7 +293,7 @@ struct points_if {
     ABUT_HD std::uint64_t operator()(std::size_t place) const { return in(place) ? hulls[in.id(place)].count : 0; }
 };
 
-/// Which shapes of a part come near another part.
+/// Which shapes of a part come near another part, `there`: part_bounds or close_bounds.
 template <class Policy, shape_view Shapes>
 class near_shapes {
 public:
@@ -266,28 +305,41 @@ public:
     /// All of the part.
     [[nodiscard]] const Shapes& shapes() const { return shapes_; }
     /// How many come near.
-    [[nodiscard]] std::uint64_t count(const Policy& on, const part_bounds<T>& there) {
+    template <class There>
+    [[nodiscard]] std::uint64_t count(const Policy& on, const There& there) {
         const std::size_t blocks = near_blocks(on, there);
-        return reduce(on, blocks * block_size, std::uint64_t{0}, add_up_tallies{}, one_if<near_in_blocks>{near(there)});
+        return reduce(on, blocks * block_size, std::uint64_t{0}, add_up_tallies{}, one_if<near_in_blocks<There>>{near(there)});
     }
     /// How many points these have, of hulls.
-    [[nodiscard]] std::uint64_t count_points(const Policy& on, const part_bounds<T>& there) {
+    template <class There>
+    [[nodiscard]] std::uint64_t count_points(const Policy& on, const There& there) {
         const std::size_t blocks = near_blocks(on, there);
         return reduce(on, blocks * block_size, std::uint64_t{0}, add_up_tallies{},
-                      points_if<comes_near<Shapes>, Shapes>{near(there), shapes_});
+                      points_if<comes_near<Shapes, There>, Shapes>{near(there), shapes_});
     }
     /// Writes the ids of as many, ascending, in the policy's memory.
-    void write_ids(const Policy& on, const part_bounds<T>& there, std::uint32_t* ids) {
+    template <class There>
+    void write_ids(const Policy& on, const There& there, std::uint32_t* ids) {
+        write_ids_of(on, there, near_blocks(on, there), ids);
+    }
+    /// The ids of all that come near, ascending, without a count before: with 4 bytes for each shape of a block that does.
+    template <class There>
+    [[nodiscard]] execution::buffer_of<Policy, std::uint32_t> ids(const Policy& on, const There& there) {
         const std::size_t blocks = near_blocks(on, there);
-        const std::size_t n = compact(on, blocks * block_size, near(there), ids);
-        for_each_index(on, n, write_ids_in_blocks<comes_near<Shapes>>{near(there), ids});
+        execution::buffer_of<Policy, std::uint32_t> all(on, blocks * block_size);
+        const std::size_t n = write_ids_of(on, there, blocks, all.data());
+        execution::buffer_of<Policy, std::uint32_t> found(on, n);
+        copy(on, all.data(), n, found.data());
+        return found;
     }
 
 private:
-    using near_in_blocks = in_blocks<comes_near<Shapes>>;
+    template <class There>
+    using near_in_blocks = in_blocks<comes_near<Shapes, There>>;
 
     /// Finds the blocks of which shapes may come near.
-    [[nodiscard]] std::size_t near_blocks(const Policy& on, const part_bounds<T>& there) {
+    template <class There>
+    [[nodiscard]] std::size_t near_blocks(const Policy& on, const There& there) {
         const std::size_t blocks = blocks_of(shapes_.size());
         if (boxes_.size() == 0 && blocks > 0) {
             boxes_ = execution::buffer_of<Policy, aabb<T>>(on, blocks);
@@ -295,9 +347,16 @@ private:
             using group_type = write_boxes_by_groups<Shapes>;
             for_each_group(on, blocks * group_type::members, group_type{shapes_, boxes_.data()});
         }
-        return compact(on, blocks, is_block_near<T>{boxes_.data(), there}, near_.data());
+        return compact(on, blocks, is_block_near<T, There>{boxes_.data(), there}, near_.data());
     }
-    [[nodiscard]] near_in_blocks near(const part_bounds<T>& there) const {
+    template <class There>
+    std::size_t write_ids_of(const Policy& on, const There& there, std::size_t blocks, std::uint32_t* ids) {
+        const std::size_t n = compact(on, blocks * block_size, near(there), ids);
+        for_each_index(on, n, write_ids_in_blocks<comes_near<Shapes, There>>{near(there), ids});
+        return n;
+    }
+    template <class There>
+    [[nodiscard]] near_in_blocks<There> near(const There& there) const {
         return {{shapes_, there}, near_.data(), shapes_.size()};
     }
 

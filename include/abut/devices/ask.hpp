@@ -5,6 +5,7 @@
 // what is divided is searched where it lies. Where both arguments are divided, shapes of b come to the devices whose
 // a-shapes they come near.
 
+#include <algorithm>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -72,11 +73,34 @@ auto bounds_of_parts(const Team& team, const X& x, const ShapesOn& shapes_on) {
     });
 }
 
+/// Boxes that others look at closely (close_bounds): around nodes of a large part's tree, where its nodes tell how many shapes
+/// they have. Of small parts, and where a part has no such tree, there are none.
+template <class Policy, class Operand>
+auto close_boxes(const Policy& on, const Operand& x) {
+    using T = typename decltype(x.shapes())::scalar_type;
+    // A box of a thousand shapes keeps all but a few thousandths of another surface away. More boxes took longer to look at
+    // than they saved.
+    constexpr std::size_t shapes_in_box = 1024, least_boxes = 256, most_boxes = 16384;
+    const std::size_t boxes = std::min(x.shapes().size() / shapes_in_box, most_boxes);
+    if constexpr (Operand::has_tree && !Operand::is_posed) {
+        if (boxes >= least_boxes && is_along_curve(x)) return boxes_of_nodes(on, x.tree(), boxes);
+    }
+    return std::vector<aabb<T>>();
+}
+
+/// A tree over boxes of the host.
+template <class Policy, scalar T>
+auto tree_of_boxes(const Policy& on, const std::vector<aabb<T>>& boxes) {
+    execution::buffer_of<Policy, aabb<T>> there(on, boxes.size());
+    upload(on, boxes.data(), boxes.size(), there.data());
+    return make_bvh(on, set_parts::shapes_of(std::move(there)));
+}
+
 /// What each device packs for each other one, [from][to]: of its part of b what comes near the other's part of a; nothing
-/// for those that are over. reach(bounds) is what comes near enough to a part. Complete when it returns.
-template <class Team, class ShapesOn, class Bounds, class IdsOn, class IsOver, class Reach>
+/// for those that are over. reach(bounds) is what comes near enough to a part, or to a box. Complete when it returns.
+template <class Team, class ShapesOn, class Bounds, class Close, class IdsOn, class IsOver, class Reach>
 auto pack_for_others(const Team& team, const ShapesOn& shapes_on, const IdsOn& ids, const Bounds& bounds_a,
-                     const Bounds& bounds_b, const IsOver& is_over, const Reach& reach) {
+                     const Close& close_a, const Bounds& bounds_b, const IsOver& is_over, const Reach& reach) {
     using local = typename Team::local_policy;
     using view = decltype(shapes_on(0));
     using packed = near_part<local, typename view::shape_type>;
@@ -88,9 +112,13 @@ auto pack_for_others(const Team& team, const ShapesOn& shapes_on, const IdsOn& i
         for (int to = 0; to < team.size(); ++to) {
             const auto theirs = reach(bounds_a[static_cast<std::size_t>(to)]);
             if (to == from || is_over(to) || !theirs.is_near(bounds_b[static_cast<std::size_t>(from)])) continue;
-            const auto n = static_cast<std::size_t>(near.count(on, theirs));
-            packed some{{on, n}, {on, n}};
-            near.write_ids(on, theirs, some.ids.data());
+            auto boxes = close_a[static_cast<std::size_t>(to)];
+            for (auto& box : boxes) box = reach(box);
+            const auto tree = tree_of_boxes(on, boxes);
+            packed some;
+            some.ids = near.ids(on, close_bounds{theirs, tree.view()});
+            const std::size_t n = some.ids.size();
+            some.shapes = execution::buffer_of<local, typename view::shape_type>(on, n);
             for_each_index(on, n, pack_shape<view>{shapes, some.ids.data(), some.shapes.data()});
             for_each_index(on, n, gather_ids{ids(from), some.ids.data()});
             for_each[static_cast<std::size_t>(to)] = std::move(some);
@@ -107,6 +135,7 @@ class arguments_on_each {
     using local = typename Team::local_policy;
     using type_x = type_on_device<X>;
     using type_y = type_on_device<Y>;
+    using scalar = scalar_type_of<typename shape_of_argument<type_x>::type>;
     template <class Argument>
     using operand_of = decltype(make_operand(std::declval<const local&>(), std::declval<const Argument&>(), ""));
     /// What shapes from elsewhere look in.
@@ -173,10 +202,11 @@ private:
             execution::on_each(team_, [&](int k) { (void)there(k); });
             bounds_a_ = bounds_of_parts(team_, x_, [&](int k) { return there(k).a.shapes(); });
             bounds_b_ = bounds_of_parts(team_, y_, shapes_b);
+            close_a_ = each_of(team_, [&](int k) { return close_boxes(team_[k], there(k).a); });
         }
         const auto pack = [&] {
             return pack_for_others(
-                team_, shapes_b, [&](int k) { return ids_on(y_, k); }, bounds_a_, bounds_b_, is_over, reach);
+                team_, shapes_b, [&](int k) { return ids_on(y_, k); }, bounds_a_, close_a_, bounds_b_, is_over, reach);
         };
         const auto search_near = [&](int k, auto& packed) {
             using part = typename std::remove_cvref_t<decltype(packed)>::value_type::value_type;
@@ -215,7 +245,8 @@ private:
     const char* function_;
     std::vector<std::optional<operands_there<operand_of<type_x>, operand_of<type_y>>>> there_;
     std::vector<std::optional<operand_of<type_looked_in>>> looks_;
-    std::vector<part_bounds<scalar_type_of<typename shape_of_argument<type_x>::type>>> bounds_a_, bounds_b_;
+    std::vector<part_bounds<scalar>> bounds_a_, bounds_b_;
+    std::vector<std::vector<aabb<scalar>>> close_a_;
 };
 
 /// What is asked once; see arguments_on_each.

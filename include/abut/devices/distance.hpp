@@ -32,7 +32,7 @@ auto distance_on_devices(const Team& team, const X& x, const Y& y, const distanc
                 least.look_for_nearest(team[k], in_part(pair_up_apart(team[k], a, b, function), part), ids);
             },
             [](int) { return false; },  // and their own parts first, so that little comes near enough
-            [&](const part_bounds<T>& bounds) { return grown_by(bounds, least.reach()); });
+            [&](const auto& bounds) { return grown_by(bounds, least.reach()); });
     }
     const pair_apart<T> best = least.best();
     separation<T> found = best.found;

@@ -71,7 +71,7 @@ auto distance_of_parts(const distributed<Local>& on, const X& x, const Y& y, con
             [&](int, const auto& a, const auto& b, const global_ids& ids) {
                 least.look_for_nearest(local, pair_up_apart(local, a, b, function), ids);
             },
-            [&](const part_bounds<T>& bounds) { return grown_by(bounds, least.reach()); },
+            [&](const auto& bounds) { return grown_by(bounds, least.reach()); },
             [&] { least.learn(least_of_ranks(on.ranks(), least.bound())); });
         best = least_of_ranks(on.ranks(), least.best());
     }

@@ -74,14 +74,30 @@ struct find_even_nodes {
     }
 };
 
-/// The nodes of one tree, in no order.
+/// About so many nodes of one tree, in no order.
 template <class Policy, bvh_layout Tree>
-execution::buffer_of<Policy, std::uint32_t> cut_evenly(const Policy& on, const Tree& tree) {
-    const nodes_below<Tree> below(tree, even_nodes);
-    execution::work_queue<std::uint32_t, space_of<Policy>> found(on, 8 * even_nodes), none(on, 1);
+execution::buffer_of<Policy, std::uint32_t> cut_evenly(const Policy& on, const Tree& tree, std::size_t nodes = even_nodes) {
+    const nodes_below<Tree> below(tree, nodes);
+    execution::work_queue<std::uint32_t, space_of<Policy>> found(on, 8 * nodes), none(on, 1);
     for_each_index(on, below.places(), find_even_nodes<Tree, Tree>{below, below, below.places()}, found, none);
     return found.take();
 }
+
+/// The boxes of such nodes.
+template <bvh_layout Tree>
+struct write_node_boxes {
+    using box = aabb<typename Tree::scalar_type>;
+    Tree tree;
+    const std::uint32_t* nodes;
+    box* boxes;
+    ABUT_HD void operator()(std::size_t i) const {
+        const bool is_leaf = (nodes[i] & bvh_child::leaf_bit) != 0;
+        const std::uint32_t at = nodes[i] & ~bvh_child::leaf_bit;
+        const auto& node = tree.fetch(is_leaf ? at / 2 : at);
+        const box lower = tree.bounds(node, is_leaf ? static_cast<int>(at % 2) : 0);
+        boxes[i] = is_leaf ? lower : merge(lower, tree.bounds(node, 1));
+    }
+};
 
 /// The nodes of a walk's trees, in no order; of one tree with itself, `a` alone.
 template <class Policy>
