@@ -13,5 +13,6 @@
 #include <abut/devices/nearest.hpp>
 #include <abut/devices/query.hpp>
 #include <abut/devices/raycast.hpp>
+#include <abut/devices/winding_number.hpp>
 #include <abut/devices/within.hpp>
 #include <abut/execution/cuda_devices.hpp>

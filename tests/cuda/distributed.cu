@@ -2,7 +2,8 @@
 // long to compile
 //
 // Ranks that work on a device, each on the same one here: the answers of one machine. The host's tests are in
-// tests/distributed; here it is that parts, messages and results lie in device memory.
+// tests/distributed; here it is that parts, messages and results lie in device memory. Once messages go through the host, and
+// once MPI reads devices.
 #include <abut/cuda.hpp>
 #include <abut/mpi.hpp>
 
@@ -11,6 +12,7 @@
 #include <random>
 #include <vector>
 
+#include "cuda/aware_mpi.hpp"
 #include "distributed/world.hpp"
 #include "support/catch.hpp"
 
@@ -50,6 +52,8 @@ shapes_of_scene make_scene(std::size_t n) {
 }  // namespace
 
 TEST_CASE("distributed: cuda") {
+    mpi_is_aware = GENERATE(false, true);
+    messages_on_devices = 0;
     const distributed on(world(), cuda{});
     const auto all = make_scene(3000);
     const triangle_soup<float> whole_a(all.triangles);
@@ -98,9 +102,12 @@ TEST_CASE("distributed: cuda") {
     }
     std::sort(found.begin(), found.end());
     CHECK(found == expected);
+    CHECK((messages_on_devices > 0) == (mpi_is_aware && on.size() > 1));
 }
 
 TEST_CASE("distributed: what points and rays ask, and distances, cuda") {
+    mpi_is_aware = GENERATE(false, true);
+    messages_on_devices = 0;
     const distributed on(world(), cuda{});
     const auto& ranks = on.ranks();
     const auto all = make_scene(1500);
@@ -153,9 +160,12 @@ TEST_CASE("distributed: what points and rays ask, and distances, cuda") {
     const auto apart = distance(serial{}, whole, far);
     const auto found = distance(on, tree, spheres<float>(on.rank() == 0 ? std::vector<sphere<float>>{far} : std::vector<sphere<float>>{}));
     CHECK(on_all(ranks, found && found->a == apart->a && found->distance == apart->distance && found->distance > 0));
+    CHECK((messages_on_devices > 0) == (mpi_is_aware && on.size() > 1));
 }
 
 TEST_CASE("distributed: impacts, cuda") {
+    mpi_is_aware = GENERATE(false, true);
+    messages_on_devices = 0;
     const distributed on(world(), cuda{});
     const auto all = make_scene(800);
     std::vector<vec3<float>> vertices, moved;
@@ -189,6 +199,7 @@ TEST_CASE("distributed: impacts, cuda") {
     auto found = lists_of_all(on.ranks(), impacts(on, mine, mine.t1()).to_host());
     std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.kind < b.kind; });
     CHECK(found == expected);
+    CHECK((messages_on_devices > 0) == (mpi_is_aware && on.size() > 1));
 }
 
 }  // namespace abut::test

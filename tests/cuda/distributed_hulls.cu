@@ -11,12 +11,15 @@
 #include <random>
 #include <vector>
 
+#include "cuda/aware_mpi.hpp"
 #include "distributed/world.hpp"
 #include "support/catch.hpp"
 
 namespace abut::test {
 
 TEST_CASE("distributed: convex hulls, cuda") {
+    mpi_is_aware = GENERATE(false, true);
+    messages_on_devices = 0;
     const distributed on(world(), cuda{});
     const auto& ranks = on.ranks();
     std::mt19937 random(42);
@@ -54,6 +57,7 @@ TEST_CASE("distributed: convex hulls, cuda") {
     for (const global_pair& p : lists_of_all(ranks, to_host(pairs(on, tree, anew.set)))) found.push_back({p.a, ids[p.b]});
     std::sort(found.begin(), found.end());
     CHECK(found == expected);
+    CHECK((messages_on_devices > 0) == (mpi_is_aware && on.size() > 1));
 }
 
 }  // namespace abut::test

@@ -154,6 +154,20 @@ void check_queries(const Team& team, const A& a, const B& b, const WholeA& whole
     CHECK(sum == sum_of(expected));
 }
 
+/// The pairs of shapes of one set that is divided, against those of the whole.
+template <class Team, class X, class Whole>
+void check_self_pairs(const Team& team, const X& x, const Whole& whole) {
+    const auto expected = to_host(self_pairs(serial{}, whole));
+    CHECK(expected.size() > 40);
+    CHECK(to_host(self_pairs(team, x)) == expected);
+    CHECK(count_self_pairs(team, x) == expected.size());
+    auto unsorted = to_host(self_pairs(team, x, {.sorted = false}));
+    std::sort(unsorted.begin(), unsorted.end());
+    CHECK(unsorted == expected);
+    const self_options<keep_some> some{.filter = {}};
+    CHECK(to_host(self_pairs(team, x, some)) == to_host(self_pairs(serial{}, whole, some)));
+}
+
 /// Parts that devices are given: as the shapes lie, of different sizes, one of them empty if there are three.
 template <class Shape, class Team>
 auto given_parts(const Team& team, const std::vector<Shape>& all) {
@@ -229,6 +243,24 @@ void check_scenes(const Team& team) {
         CHECK(to_host(self_pairs(team, tree_a)) == to_host(self_pairs(serial{}, a)));
         CHECK(to_host(self_pairs(team, there_b)) == to_host(self_pairs(serial{}, b)));
         CHECK(count_self_pairs(team, tree_a) == self_pairs(serial{}, a).size());
+        check_self_pairs(team, forest_a, a);
+        check_self_pairs(team, forest_b, b);
+        check_self_pairs(team, make_bvh(team, given_a), a);
+        check_self_pairs(team, make_bvh(team, given_b), b);
+        CHECK(to_host(self_pairs(team, part_a)) == to_host(self_pairs(serial{}, a)));
+
+        auto later = all.triangles;
+        for (std::size_t i = 0; i < later.size(); ++i) {
+            for (vec3<T>* const p : {&later[i].a, &later[i].b, &later[i].c}) p->x += T(0.5) * static_cast<T>(i % 3);
+        }
+        const triangle_soup<T> later_a(later);
+        const auto moved = refit(team, make_bvh(team, given_a), given_parts(team, later));
+        check_pairs(team, moved, forest_b, to_host(pairs(serial{}, later_a, b)));
+        CHECK(to_host(self_pairs(team, moved)) == to_host(self_pairs(serial{}, later_a)));
+        CHECK(message_of([&] { (void)refit(team, forest_a, divide(team, later_a)); }) ==
+              "abut::refit: part 0 of the step has other shapes than that of the trees; expected parts with the same array of "
+              "ids, or both without one");
+        CHECK(to_host(self_pairs(team, posed(forest_a, pose))) == to_host(self_pairs(serial{}, posed(a, pose))));
     }
 }
 
@@ -243,7 +275,17 @@ void check_meshes(const Team& team) {
     CHECK(expected.size() > 100);
     check_pairs(team, tree_a, tree_b, expected);
     check_pairs(team, make_bvh(team, divide(team, a)), make_bvh(team, divide(team, b)), expected);
+    auto both = data;
+    const auto first = static_cast<std::uint32_t>(data.vertices.size());
+    for (const auto& v : other.vertices) both.vertices.push_back({v.x + T(0.5), v.y, v.z});
+    for (const auto& [i, j, k] : other.faces) both.faces.push_back({first + i, first + j, first + k});
+    const mesh<T> balls(both.vertices, both.faces);
     CHECK(to_host(self_pairs(team, tree_a)) == to_host(self_pairs(serial{}, a)));
+    // Divided faces know the places of their vertices and not their numbers.
+    const self_options<> by_places{.coincident = coincident_vertices::merged};
+    const auto folded = to_host(self_pairs(serial{}, balls, by_places));
+    CHECK(folded.size() > 50);
+    CHECK(to_host(self_pairs(team, make_bvh(team, divide(team, balls)), by_places)) == folded);
 
     // Each device gets its share of the work of surfaces that touch everywhere.
     const auto there = pairs_by_device(team, tree_a, tree_a);
@@ -584,6 +626,7 @@ void check_each_way(const Team& team) {
         CHECK(to_host(pairs(team, posed(make_bvh(team, divide(team, a)), pose), make_bvh(team, b))) ==
               to_host(pairs(serial{}, posed(whole_a, pose), whole_b)));
         CHECK(to_host(self_pairs(team, make_bvh(team, a))) == to_host(self_pairs(serial{}, whole_a)));
+        CHECK(to_host(self_pairs(team, make_bvh(team, divide(team, a)))) == to_host(self_pairs(serial{}, whole_a)));
     }
 }
 

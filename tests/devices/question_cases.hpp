@@ -17,6 +17,7 @@
 #include <abut/devices/inside.hpp>
 #include <abut/devices/nearest.hpp>
 #include <abut/devices/raycast.hpp>
+#include <abut/devices/winding_number.hpp>
 #include <abut/devices/within.hpp>
 
 #include "devices/device_cases.hpp"
@@ -152,6 +153,21 @@ void check_inside_on(const Team& team) {
     CHECK_THROWS_AS((void)inside(team, make_bvh(team, open), from), invalid_geometry);
 }
 
+template <scalar T, class Team>
+void check_winding_on(const Team& team) {
+    const mesh<T> body = two_balls<T>();
+    std::vector<vec3<T>> from;
+    for (const auto& p : some_points<T>(9'000, 43)) from.push_back({T(0.25) * (p.x - 4), T(0.25) * (p.y - 4), T(0.25) * (p.z - 4)});
+    const auto tree = make_bvh(team, body);
+    const auto whole = make_bvh(serial{}, body);
+    CHECK((to_host(winding_number(team, tree, from)) == to_host(winding_number(serial{}, whole, from))));
+    CHECK((to_host(winding_number(team, tree, replicate(team, points<T>(from)), {.tolerance = 0})) ==
+           to_host(winding_number(serial{}, whole, from, {.tolerance = 0}))));
+    CHECK(winding_number(team, tree, std::vector<vec3<T>>()).size() == 0);
+    CHECK(message_of([&] { (void)winding_number(team, tree, from, {.tolerance = -1}); }) ==
+          message_of([&] { (void)winding_number(serial{}, whole, from, {.tolerance = -1}); }));
+}
+
 /// Pairs within a distance by all ways to ask for them.
 template <class Team, class A, class B>
 void check_pairs_within(const Team& team, const A& a, const B& b, double distance, const std::vector<index_pair>& expected) {
@@ -185,6 +201,8 @@ void check_within(const Team& team) {
                to_host(within(serial{}, posed(a, pose), b, distance))));
         CHECK((to_host(self_within(team, tree_b, distance)) == to_host(self_within(serial{}, b, distance))));
         CHECK(count_self_within(team, tree_b, distance) == self_within(serial{}, b, distance).size());
+        CHECK((to_host(self_within(team, forest_b, distance)) == to_host(self_within(serial{}, b, distance))));
+        CHECK(count_self_within(team, forest_b, distance) == self_within(serial{}, b, distance).size());
     }
     const query_options<keep_some> some{.filter = {}};
     CHECK((to_host(within(team, forest_a, forest_b, 1.0, some)) == to_host(within(serial{}, a, b, 1.0, some))));
@@ -274,6 +292,7 @@ void check_questions(const Team& team) {
     device_cases::check_raycast_on<T>(team);
     device_cases::check_nearest_few<T>(team);
     device_cases::check_inside_on<T>(team);
+    device_cases::check_winding_on<T>(team);
     device_cases::check_within<T>(team);
     device_cases::check_distance_on<T>(team);
 }

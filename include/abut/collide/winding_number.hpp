@@ -139,6 +139,32 @@ consteval bool can_wind() {
     }
 }
 
+/// The answers of all points to `out`, in the policy's memory; complete when it returns.
+template <class Policy, class Operand, class Rows>
+void wind_around(const Policy& on, const Operand& x, const Rows& rows, double tolerance, double* out) {
+    const auto there = x.shapes();
+    const auto from = rows.shapes();
+    using shapes_type = std::remove_const_t<decltype(there)>;
+    using points_type = std::remove_const_t<decltype(from)>;
+    using T = typename shapes_type::scalar_type;
+    if constexpr (Operand::has_tree) {
+        if (tolerance > 0 && there.size() > 1 && from.size() > 0) {
+            const auto tree = x.tree();
+            const double largest = largest_coordinate(on, x);
+            const auto unit = unit_of_far_field<T>(largest);
+            const auto moments = moments_of_nodes(on, tree, index_of(x).stored().nodes.size(), there, unit, largest);
+            const auto order = order_of_points<Operand>(on, from);
+            using around_tree = wind_around_tree<std::remove_const_t<decltype(tree)>, shapes_type, points_type>;
+            for_each_task(on, from.size(),
+                          around_tree{tree, there, from, moments.data(), unit, tolerance, order.data(), out});
+            synchronize(on);
+            return;
+        }
+    }
+    for_each_task(on, from.size(), wind_around_all<shapes_type, points_type>{there, from, out});
+    synchronize(on);
+}
+
 template <class Policy, class X, class Points>
 auto winding_number_of(const Policy& on, const X& mesh, const Points& points, const winding_options& options,
                        const char* function) {
@@ -146,28 +172,8 @@ auto winding_number_of(const Policy& on, const X& mesh, const Points& points, co
     using T = scalar_type_of<typename shape_of_argument<X>::type>;
     const auto x = make_operand(on, mesh, function);
     const auto queries = make_points<T>(on, points, function);
-    const auto there = x.shapes();
-    const auto from = queries.shapes();
-    execution::buffer_of<Policy, double> out(on, from.size());
-    using shapes_type = std::remove_const_t<decltype(there)>;
-    using points_type = std::remove_const_t<decltype(from)>;
-    using operand_type = std::remove_const_t<decltype(x)>;
-    if constexpr (operand_type::has_tree) {
-        if (options.tolerance > 0 && there.size() > 1 && from.size() > 0) {
-            const auto tree = x.tree();
-            const double largest = largest_coordinate(on, x);
-            const auto unit = unit_of_far_field<T>(largest);
-            const auto moments = moments_of_nodes(on, tree, index_of(x).stored().nodes.size(), there, unit, largest);
-            const auto order = order_of_points<operand_type>(on, from);
-            using around_tree = wind_around_tree<std::remove_const_t<decltype(tree)>, shapes_type, points_type>;
-            for_each_task(on, from.size(),
-                          around_tree{tree, there, from, moments.data(), unit, options.tolerance, order.data(), out.data()});
-            synchronize(on);
-            return result<double, space_of<Policy>>(std::move(out));
-        }
-    }
-    for_each_task(on, from.size(), wind_around_all<shapes_type, points_type>{there, from, out.data()});
-    synchronize(on);
+    execution::buffer_of<Policy, double> out(on, queries.shapes().size());
+    wind_around(on, x, queries, options.tolerance, out.data());
     return result<double, space_of<Policy>>(std::move(out));
 }
 

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include <abut/collide/pair_kinds.hpp>
 #include <abut/collide/pairing.hpp>
 #include <abut/collide/parts.hpp>
 #include <abut/devices/divide.hpp>
@@ -96,11 +97,11 @@ auto tree_of_boxes(const Policy& on, const std::vector<aabb<T>>& boxes) {
     return make_bvh(on, set_parts::shapes_of(std::move(there)));
 }
 
-/// What each device packs for each other one, [from][to]: of its part of b what comes near the other's part of a; nothing
-/// for those that are over. reach(bounds) is what comes near enough to a part, or to a box. Complete when it returns.
-template <class Team, class ShapesOn, class Bounds, class Close, class IdsOn, class IsOver, class Reach>
+/// What each device packs for each other one, [from][to], if goes(from, to): of its part of b what comes near the other's
+/// part of a. reach(bounds) is what comes near enough to a part, or to a box. Complete when it returns.
+template <class Team, class ShapesOn, class Bounds, class Close, class IdsOn, class Goes, class Reach>
 auto pack_for_others(const Team& team, const ShapesOn& shapes_on, const IdsOn& ids, const Bounds& bounds_a,
-                     const Close& close_a, const Bounds& bounds_b, const IsOver& is_over, const Reach& reach) {
+                     const Close& close_a, const Bounds& bounds_b, const Goes& goes, const Reach& reach) {
     using local = typename Team::local_policy;
     using view = decltype(shapes_on(0));
     using packed = near_part<local, typename view::shape_type>;
@@ -110,8 +111,9 @@ auto pack_for_others(const Team& team, const ShapesOn& shapes_on, const IdsOn& i
         near_shapes<local, view> near(shapes);
         std::vector<packed> for_each(static_cast<std::size_t>(team.size()));
         for (int to = 0; to < team.size(); ++to) {
+            if (to == from || !goes(from, to)) continue;
             const auto theirs = reach(bounds_a[static_cast<std::size_t>(to)]);
-            if (to == from || is_over(to) || !theirs.is_near(bounds_b[static_cast<std::size_t>(from)])) continue;
+            if (!theirs.is_near(bounds_b[static_cast<std::size_t>(from)])) continue;
             auto boxes = close_a[static_cast<std::size_t>(to)];
             for (auto& box : boxes) box = reach(box);
             const auto tree = tree_of_boxes(on, boxes);
@@ -126,6 +128,20 @@ auto pack_for_others(const Team& team, const ShapesOn& shapes_on, const IdsOn& i
         synchronize(on);
         return for_each;
     });
+}
+
+/// What `other` has packed for device k, which has it then.
+template <class Team, class Part>
+Part fetched(const Team& team, int other, int k, Part& from) {
+    const auto& on = team[k];
+    const std::size_t n = from.ids.size();
+    Part here{{on, n}, {on, n}};
+    if (n > 0) {
+        copy_across(team[other], from.shapes.data(), n, on, here.shapes.data());
+        copy_across(team[other], from.ids.data(), n, on, here.ids.data());
+    }
+    from = {};
+    return here;
 }
 
 /// Both arguments of a query of several devices. They are brought to each device and looked at once, however often it is
@@ -206,7 +222,8 @@ private:
         }
         const auto pack = [&] {
             return pack_for_others(
-                team_, shapes_b, [&](int k) { return ids_on(y_, k); }, bounds_a_, close_a_, bounds_b_, is_over, reach);
+                team_, shapes_b, [&](int k) { return ids_on(y_, k); }, bounds_a_, close_a_, bounds_b_,
+                [&](int, int to) { return !is_over(to); }, reach);
         };
         const auto search_near = [&](int k, auto& packed) {
             using part = typename std::remove_cvref_t<decltype(packed)>::value_type::value_type;
@@ -214,14 +231,10 @@ private:
             const local& on = team_[k];
             for (int step = 1; step < team_.size() && !is_over(k); ++step) {
                 const int other = (k + step) % team_.size();
-                part& from = packed[static_cast<std::size_t>(other)][static_cast<std::size_t>(k)];
-                const std::size_t n = from.ids.size();
-                if (n == 0) continue;
-                part here{{on, n}, {on, n}};
-                copy_across(team_[other], from.shapes.data(), n, on, here.shapes.data());
-                copy_across(team_[other], from.ids.data(), n, on, here.ids.data());
-                from = {};
-                const shapes_view<shape_type, space_of<local>> view(here.shapes.data(), n);
+                const part here =
+                    fetched(team_, other, k, packed[static_cast<std::size_t>(other)][static_cast<std::size_t>(k)]);
+                if (here.ids.size() == 0) continue;
+                const shapes_view<shape_type, space_of<local>> view(here.shapes.data(), here.shapes.size());
                 ask(k, looks(k), view, search_part{}, ids_of_parts{ids_on(x_, k), part_ids{here.ids.data()}});
                 synchronize(on);
             }
@@ -256,12 +269,46 @@ void ask_each(const Team& team, const X& x, const Y& y, const char* function, co
     arguments_on_each<Team, X, Y>(team, x, y, function)(ask, is_over, reach);
 }
 
-/// An argument of a self query; nothing of it is divided.
+/// An argument of a self query that each device has whole.
 template <class Team, class X, class Ask>
 void ask_each_itself(const Team& team, const X& x, const char* function, const Ask& ask) {
-    static_assert(!is_divided<X>, "abut: self queries of several devices take a replicated set or index");
     require_as_many(team, x, function);
     execution::on_each(team, [&](int k) { ask(k, on_device(x, k), share_of(team, k)); });
+}
+
+/// Ids of two shapes of one set, the lesser first.
+struct ordered_ids {
+    part_ids a, b;
+    [[nodiscard]] ABUT_HD index_pair operator()(std::uint32_t i, std::uint32_t j) const {
+        const std::uint32_t x = a(i), y = b(j);
+        return x < y ? index_pair{x, y} : index_pair{y, x};
+    }
+};
+
+/// The argument of a self query that is divided: ask(k, part, itself, ids) about the pairs of a part, and ask(k, part, view,
+/// ids) about it and what comes near it of the parts of the devices after it.
+template <class Team, class X, class Kind, class Ask>
+void ask_parts_themselves(const Team& team, const X& x, const char* function, const Kind& kind, const Ask& ask) {
+    using local = typename Team::local_policy;
+    require_as_many(team, x, function);
+    const auto there = each_of(team, [&](int k) { return make_operand(team[k], x[k], function); });
+    const auto shapes_on = [&](int k) { return there[static_cast<std::size_t>(k)].shapes(); };
+    const auto bounds = bounds_of_parts(team, x, shapes_on);
+    const auto close = each_of(team, [&](int k) { return close_boxes(team[k], there[static_cast<std::size_t>(k)]); });
+    auto packed = pack_for_others(
+        team, shapes_on, [&](int k) { return x.ids(k); }, bounds, close, bounds, [](int from, int to) { return from > to; },
+        kind);
+    execution::on_each(team, [&](int k) {
+        ask(k, x[k], itself{}, ordered_ids{x.ids(k), x.ids(k)});
+        for (int other = k + 1; other < team.size(); ++other) {
+            const auto here = fetched(team, other, k, packed[static_cast<std::size_t>(other)][static_cast<std::size_t>(k)]);
+            if (here.ids.size() == 0) continue;
+            using shape_type = typename decltype(here.shapes)::value_type;
+            const shapes_view<shape_type, space_of<local>> view(here.shapes.data(), here.shapes.size());
+            ask(k, x[k], view, ordered_ids{x.ids(k), part_ids{here.ids.data()}});
+            synchronize(team[k]);
+        }
+    });
 }
 
 }  // namespace abut::detail

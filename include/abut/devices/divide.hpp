@@ -337,6 +337,26 @@ template <execution::policy_team Team, class X, class Step>
     return replicated(detail::each_of(team, [&](int k) { return refit(team[k], all[k], detail::on_device(step, k)); }));
 }
 
+/// Trees of parts, each brought to its part of another step, as `refit` of one policy does. Parts of the step hold the same
+/// shapes: they are the caller's own, as those of the tree (the constructors of `divided`). What `divide` makes of another
+/// step has other shapes in its parts, and is refused by an `error`. Waits for all.
+template <execution::policy_team Team, class X, class Step>
+    requires detail::refits_alone<X>
+[[nodiscard]] auto refit(const Team& team, const divided<X>& all, const divided<Step>& step) {
+    detail::require_as_many(team, all, "abut::refit");
+    detail::require_as_many(team, step, "abut::refit");
+    for (int k = 0; k < team.size(); ++k) {
+        if (all.ids(k).list != step.ids(k).list) {
+            throw error("abut::refit: part " + std::to_string(k) +
+                        " of the step has other shapes than that of the trees; expected parts with the same array of ids, or "
+                        "both without one");
+        }
+    }
+    auto trees = detail::each_of(team, [&](int k) { return refit(team[k], all[k], step[k]); });
+    auto bounds = detail::bounds_of_trees(trees);
+    return divided<typename decltype(trees)::value_type>(std::move(trees), all, std::move(bounds));
+}
+
 /// The set or tree on each device, moved by a pose.
 ///@{
 template <detail::has_shape_type X>

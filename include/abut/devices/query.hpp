@@ -5,6 +5,7 @@
 // is asked, merge.hpp makes one list of what they find.
 
 #include <atomic>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -25,10 +26,10 @@ namespace abut {
 
 namespace detail {
 
-template <class Found>
+template <class Found, class Ids>
 struct rename_found {
     const Found* found;
-    ids_of_parts ids;
+    Ids ids;
     Found* out;
     ABUT_HD void operator()(std::size_t i) const {
         Found renamed = found[i];
@@ -39,9 +40,43 @@ struct rename_found {
     }
 };
 
+/// What was found of a device's shapes, with ids of the whole sets.
+template <class Policy, class Found, class Ids>
+auto renamed(const Policy& on, const result<Found, space_of<Policy>>& found, const Ids& ids) {
+    execution::buffer_of<Policy, Found> out(on, found.size());
+    for_each_index(on, found.size(), rename_found<Found, Ids>{found.data(), ids, out.data()});
+    synchronize(on);
+    return result<Found, space_of<Policy>>(std::move(out));
+}
+
+/// Pairs of ids as numbers in their order, and back.
+struct number_pairs {
+    const index_pair* pairs;
+    std::uint64_t* numbers;
+    ABUT_HD void operator()(std::size_t i) const { numbers[i] = std::uint64_t{pairs[i].a} << 32 | pairs[i].b; }
+};
+struct pairs_of_numbers {
+    const std::uint64_t* numbers;
+    index_pair* pairs;
+    ABUT_HD void operator()(std::size_t i) const {
+        pairs[i] = {static_cast<std::uint32_t>(numbers[i] >> 32), static_cast<std::uint32_t>(numbers[i])};
+    }
+};
+/// Brings pairs in order. `shapes` is the number of the shapes whose ids these are.
+template <class Policy>
+auto in_order(const Policy& on, const result<index_pair, space_of<Policy>>& found, std::size_t shapes) {
+    execution::buffer_of<Policy, std::uint64_t> numbers(on, found.size());
+    execution::buffer_of<Policy, index_pair> out(on, found.size());
+    for_each_index(on, found.size(), number_pairs{found.data(), numbers.data()});
+    sort_keys(on, numbers, 32 + id_bits(shapes));
+    for_each_index(on, found.size(), pairs_of_numbers{numbers.data(), out.data()});
+    synchronize(on);
+    return result<index_pair, space_of<Policy>>(std::move(out));
+}
+
 /// The same options for the shapes of a device.
-template <class Filter, traversal Traversal, schedule Schedule>
-auto options_there(const query_options<Filter, Traversal, Schedule>& options, const ids_of_parts& ids) {
+template <class Filter, traversal Traversal, schedule Schedule, class Ids>
+auto options_there(const query_options<Filter, Traversal, Schedule>& options, const Ids& ids) {
     auto filter = filter_here(options.filter, ids);
     schedule_options scheduling = options.scheduling;
     scheduling.report = nullptr;  // of one query, and here are several
@@ -62,10 +97,7 @@ auto found_on_each(const Team& team, const X& x, const Y& y, const Options& opti
             const local& on = team[k];
             list some = ask(on, in_part(kind.pair_up(on, a, b, options_there(options, ids), function), part));
             if constexpr (is_divided<X> || is_divided<Y>) {  // ids ascend in each part, so the order stays
-                execution::buffer_of<local, Found> renamed(on, some.size());
-                for_each_index(on, some.size(), rename_found<Found>{some.data(), ids, renamed.data()});
-                synchronize(on);
-                some = list(std::move(renamed));
+                some = renamed(on, some, ids);
             }
             found[static_cast<std::size_t>(k)].push_back(std::move(some));
         },
@@ -155,24 +187,51 @@ void visit_on_devices(const Team& team, const X& a, const Y& b, const VisitorOf&
         kind);
 }
 
-/// Of a set that each device has, the pairs of its shapes, and their number.
+/// Of one set the pairs of its shapes, and their number.
 template <arithmetic A, class Team, class X, class Options, class Kind>
 auto self_pairs_on_devices(const Team& team, const X& x, const Options& options, const char* function, const Kind& kind) {
-    std::vector<result<index_pair, space_of<typename Team::local_policy>>> found(static_cast<std::size_t>(team.size()));
-    ask_each_itself(team, x, function, [&](int k, const auto& there, const search_part& part) {
-        found[static_cast<std::size_t>(k)] = pairs_of<A>(
-            team[k], in_part(kind.pair_up(team[k], there, itself{}, options, function), part), kind.template names<A>());
-    });
+    using local = typename Team::local_policy;
+    using list = result<index_pair, space_of<local>>;
+    std::vector<list> found(static_cast<std::size_t>(team.size()));
+    if constexpr (is_divided<X>) {
+        std::vector<std::vector<list>> of_parts(found.size());
+        ask_parts_themselves(
+            team, x, function, kind, [&](int k, const auto& part, const auto& other, const ordered_ids& ids) {
+                const local& on = team[k];
+                using other_type = std::remove_cvref_t<decltype(other)>;
+                const auto both = kind.pair_up(on, part, other, options_there(options, ids), function);
+                list some = renamed(on, pairs_of<A>(on, both, kind.template names<A>()), ids);
+                // Of one part ids ascend, so the order stays.
+                if (options.sorted && !std::same_as<other_type, itself>) some = in_order(on, some, x.size());
+                of_parts[static_cast<std::size_t>(k)].push_back(std::move(some));
+            });
+        found = each_of(team, [&](int k) {
+            return joined<local, index_pair>(team[k], std::move(of_parts[static_cast<std::size_t>(k)]), options.sorted);
+        });
+    } else {
+        ask_each_itself(team, x, function, [&](int k, const auto& there, const search_part& part) {
+            found[static_cast<std::size_t>(k)] = pairs_of<A>(
+                team[k], in_part(kind.pair_up(team[k], there, itself{}, options, function), part), kind.template names<A>());
+        });
+    }
     return on_first(team, std::move(found), options.sorted);
 }
 template <arithmetic A, class Team, class X, class Options, class Kind>
 std::uint64_t count_self_on_devices(const Team& team, const X& x, const Options& options, const char* function,
                                     const Kind& kind) {
     std::atomic<std::uint64_t> sum{0};
-    ask_each_itself(team, x, function, [&](int k, const auto& there, const search_part& part) {
-        sum += count_of<A>(team[k], in_part(kind.pair_up(team[k], there, itself{}, options, function), part),
-                           kind.template judge<A>());
-    });
+    if constexpr (is_divided<X>) {
+        ask_parts_themselves(
+            team, x, function, kind, [&](int k, const auto& part, const auto& other, const ordered_ids& ids) {
+                const auto both = kind.pair_up(team[k], part, other, options_there(options, ids), function);
+                sum += count_of<A>(team[k], both, kind.template judge<A>());
+            });
+    } else {
+        ask_each_itself(team, x, function, [&](int k, const auto& there, const search_part& part) {
+            sum += count_of<A>(team[k], in_part(kind.pair_up(team[k], there, itself{}, options, function), part),
+                               kind.template judge<A>());
+        });
+    }
     return sum.load();
 }
 
@@ -184,8 +243,8 @@ std::uint64_t count_self_on_devices(const Team& team, const X& x, const Options&
 /// each of them, `divide` a part of it on each, and `make_bvh` makes a tree of either on each. `any`, `count`, `pairs`,
 /// `for_each_pair`, `contacts`, `within` and `distance` take these, posed or not, and sets in host memory and single shapes,
 /// which are copied to each device for the call; so do `nearest`, `inside` and `raycast`, and what looks is not divided.
-/// `impacts`, self queries and queries of bodies take what each device has whole. Answers are those of one device, bit for
-/// bit.
+/// Self queries take what is replicated or divided, and queries of bodies what each device has whole. Answers are those of one
+/// device, bit for bit.
 ///
 /// A filter runs on every device: what it points to has to be readable on each of them. `schedule_options::report` is left
 /// as it is.
@@ -295,7 +354,9 @@ template <arithmetic A = filtered, execution::policy_team Team, class X, class Y
 }
 
 /// The pairs of shapes of one set that touch, as `self_pairs` finds them under one policy: of a set or an index that lies on
-/// each device. A `result` of `index_pair` in memory of the first device.
+/// each device, or is divided. A `result` of `index_pair` in memory of the first device. Faces of a mesh that `divide` has
+/// divided are triangles, which share no vertices by their numbers: {.coincident = coincident_vertices::merged} tells
+/// neighbours by their places.
 template <arithmetic A = filtered, execution::policy_team Team, class X, class Filter = keep_all>
 [[nodiscard]] auto self_pairs(const Team& team, const X& x, const self_options<Filter>& options = {}) {
     if constexpr (detail::can_pair_itself<typename Team::local_policy, detail::type_on_device<X>, Filter>()) {

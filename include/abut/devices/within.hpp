@@ -91,7 +91,7 @@ void for_each_within(const Team& team, const X& a, const Y& b, double distance, 
 }
 
 /// All pairs of shapes of `x` that are no farther apart than `distance`, as `self_within` finds them under one policy: of a
-/// set or an index that lies on each device. A `result` of `index_pair` in memory of the first device.
+/// set or an index that lies on each device, or is divided. A `result` of `index_pair` in memory of the first device.
 template <arithmetic A = filtered, execution::policy_team Team, class X, class Filter = keep_all,
           traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
 [[nodiscard]] auto self_within(const Team& team, const X& x, double distance,

@@ -16,6 +16,9 @@
 #include <abut/execution/policy.hpp>
 
 #include <mpi.h>
+#if __has_include(<mpi-ext.h>)
+#include <mpi-ext.h>
+#endif
 
 namespace abut {
 
@@ -46,6 +49,18 @@ inline void check_mpi(int code, const char* call) {
     int length = 0;
     MPI_Error_string(code, text, &length);
     throw error(std::string("abut::distributed: ") + call + ": " + text);
+}
+
+/// Whether MPI itself reads and writes memory of CUDA devices, as far as it says so: Open MPI, and MPICH from 4.0 on.
+inline bool mpi_reads_devices() {
+#if defined(OMPI_HAVE_MPI_EXT_CUDA)
+    return MPIX_Query_cuda_support() == 1;
+#elif defined(MPIX_GPU_SUPPORT_CUDA)
+    int is = 0;
+    return MPIX_GPU_query_support(MPIX_GPU_SUPPORT_CUDA, &is) == MPI_SUCCESS && is != 0;
+#else
+    return false;
+#endif
 }
 
 /// A communicator of the library's own, shared by its copies: messages of the caller's and of the library never meet.

@@ -75,9 +75,12 @@ public:
     void unpack(int from, const sizes& size) {
         const auto n = static_cast<std::size_t>(size[0]), m = static_cast<std::size_t>(size[1]);
         using points = std::span<const vec3<T>>;
-        const mesh<T, space> at_t0(local_, points(in_->at_t0.here(), n), std::span<const face>(in_->faces.here(), m));
+        const mesh<T, space> at_t0(local_, points(in_->at_t0.on_host(local_, n), n),
+                                   std::span<const face>(in_->faces.on_host(local_, m), m));
         in_->ids.bring_there(local_, n);
-        use_(from, moving_set(at_t0, at_t0.with_vertices(local_, points(in_->at_t1.here(), n))), in_->ids.there());
+        use_(from, moving_set(at_t0, at_t0.with_vertices(local_, points(in_->at_t1.on_host(local_, n), n))),
+             in_->ids.there());
+        synchronize(local_);
     }
 
 private:

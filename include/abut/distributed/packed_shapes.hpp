@@ -4,6 +4,7 @@
 // Shapes one after another in memory of their own, to be sent to another rank: most as they are, hulls as points and where
 // each one's begin. What came is a view of a set again.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -28,27 +29,46 @@ enum class in_message : bool {
     yes
 };
 
-/// Room for values of a message: in the policy's memory, and where that is not the host's, on the host as well.
+/// Room for values of a message: in the policy's memory, and where MPI does not reach that, on the host as well. Whoever uses
+/// what came waits for the policy before the room is used again.
 template <class Policy, class T>
 class message_room {
 public:
     message_room(const Policy& on, std::size_t n, in_message is = in_message::yes)
-        : there_(on, n), here_(serial{}, host_policy<Policy> || is == in_message::no ? 0 : n) {}
+        : direct_(host_policy<Policy> || mpi_reads_devices()),
+          there_(on, n),
+          here_(serial{}, direct_ || is == in_message::no ? 0 : n) {
+        if (direct_) synchronize(on);
+    }
 
     /// In the policy's memory.
     [[nodiscard]] T* there() { return there_.data(); }
-    /// For MPI.
-    [[nodiscard]] T* here() { return host_policy<Policy> ? there_.data() : here_.data(); }
+    /// For MPI, which may write there from the beginning, and read there after bring_here.
+    [[nodiscard]] T* here() { return direct_ ? there_.data() : here_.data(); }
     void bring_here(const Policy& on, std::size_t n) {
-        if constexpr (!host_policy<Policy>) download(on, there_.data(), n, here_.data());
+        direct_ ? synchronize(on) : download(on, there_.data(), n, here_.data());
     }
     void bring_there(const Policy& on, std::size_t n) {
-        if constexpr (!host_policy<Policy>) upload(on, here_.data(), n, there_.data());
+        if (!direct_) upload(on, here_.data(), n, there_.data());
+    }
+    /// What came, as the host reads it.
+    [[nodiscard]] const T* on_host(const Policy& on, std::size_t n) {
+        if constexpr (host_policy<Policy>) return there_.data();
+        if (direct_) {
+            here_ = execution::buffer<T, host_space>(serial{}, n);
+            download(on, there_.data(), n, here_.data());
+        }
+        return here_.data();
+    }
+    /// Values of any kind, where none were written: they are sent and not used.
+    void clear(std::size_t n) {
+        if (host_policy<Policy> || !direct_) std::fill_n(here(), n, T{});
     }
     /// What is in the policy's memory, for good.
     [[nodiscard]] execution::buffer_of<Policy, T> take() { return std::move(there_); }
 
 private:
+    bool direct_;  ///< MPI reaches the policy's memory
     execution::buffer_of<Policy, T> there_;
     execution::buffer<T, host_space> here_;
 };
@@ -87,7 +107,7 @@ public:
 
     void bring_here(const Policy& on, const sizes& size) { shapes_.bring_here(on, length(size)); }
     void bring_there(const Policy& on, const sizes& size) { shapes_.bring_there(on, length(size)); }
-    /// f(address on the host, number, MPI type) for each array; `type` is that of an element.
+    /// f(address for MPI, number, MPI type) for each array; `type` is that of an element.
     template <class F>
     void hand_over(const sizes& size, const message_type<element>& type, const F& f) {
         f(shapes_.here(), size[0], type.get());

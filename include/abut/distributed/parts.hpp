@@ -233,6 +233,7 @@ public:
     void unpack(int from, const sizes& size) {
         in_->bring_there(local_, size);
         use_(from, in_->shapes.view(size), in_->ids.there());
+        synchronize(local_);
     }
 
 private:

@@ -143,6 +143,7 @@ public:
         const auto n = static_cast<std::size_t>(size[0]);
         in_->bring_there(local_, n);
         use_(in_->there(), n);
+        synchronize(local_);
     }
 
 private:
