@@ -218,9 +218,9 @@ private:
             execution::on_each(team_, [&](int k) { (void)there(k); });
             bounds_a_ = bounds_of_parts(team_, x_, [&](int k) { return there(k).a.shapes(); });
             bounds_b_ = bounds_of_parts(team_, y_, shapes_b);
-            close_a_ = each_of(team_, [&](int k) { return close_boxes(team_[k], there(k).a); });
         }
         const auto pack = [&] {
+            if (close_a_.empty()) close_a_ = each_of(team_, [&](int k) { return close_boxes(team_[k], there(k).a); });
             return pack_for_others(
                 team_, shapes_b, [&](int k) { return ids_on(y_, k); }, bounds_a_, close_a_, bounds_b_,
                 [&](int, int to) { return !is_over(to); }, reach);
