@@ -62,6 +62,10 @@ private:
             return {p, number(0, 0.4)};
         } else if constexpr (std::same_as<Shape, capsule<T>>) {
             return {{p, near(p)}, number(0, 0.25)};
+        } else if constexpr (std::same_as<Shape, cylinder<T>>) {
+            return {{p, near(p)}, number(0, 0.25)};
+        } else if constexpr (std::same_as<Shape, cone<T>>) {
+            return {p, near(p), number(0, 0.5)};
         } else if constexpr (std::same_as<Shape, aabb<T>>) {
             return bounds(segment<T>{p, near(p)});
         } else {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// In how many orders each pair of kinds of shapes can be decided, as the compiler at hand finds the functions. Where one finds
-// more of them than another, a pair may be decided as what it is not.
+// In how many orders each pair of kinds of shapes can be decided, as the compiler at hand finds the functions. Where one
+// finds more of them than another, a pair may be decided as what it is not.
 
 #include <abut/abut.hpp>
 
@@ -33,11 +33,11 @@ struct kinds_of_shapes {
     }
 };
 
-/// In both orders: 8 kinds with themselves, a point and a sphere, and a segment and a capsule. In one order: the other 26 pairs of
-/// these kinds, and a ray and a triangle or a hull.
+/// In both orders: 8 kinds with themselves, a point and a sphere, and a segment and a capsule. In one order: the other 26
+/// pairs of these kinds, a ray and a triangle or a hull, and a cylinder or a cone with each of 6 kinds.
 template <scalar T>
 inline constexpr bool pairs_have_their_orders =
-    kinds_of_shapes<sphere<T>, triangle<T>, segment<T>, vec3<T>, aabb<T>, plane<T>, capsule<T>, ray<T>, hull<T>>::count() ==
-    pair_orders{2 * (26 + 2), 8 + 2 * 2};
+    kinds_of_shapes<sphere<T>, triangle<T>, segment<T>, vec3<T>, aabb<T>, plane<T>, capsule<T>, ray<T>, hull<T>, cylinder<T>,
+                    cone<T>>::count() == pair_orders{2 * (26 + 2 + 12), 8 + 2 * 2};
 
 }  // namespace abut::test

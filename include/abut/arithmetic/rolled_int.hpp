@@ -47,7 +47,9 @@ ABUT_NOINLINE ABUT_HD constexpr void add_shifted(std::uint64_t* r, int n, std::i
     for (int i = shift / 64; i < n; ++i) {
         const int k = i - shift / 64;
         const uint128 t = static_cast<uint128>(r[i]) + carry +
-                          (k == 0 ? lower_limb(bits) : k == 1 ? upper_limb(bits) : mask_if(moved < 0));
+                          (k == 0   ? lower_limb(bits)
+                           : k == 1 ? upper_limb(bits)
+                                    : mask_if(moved < 0));
         r[i] = lower_limb(t);
         carry = upper_limb(t);
     }
@@ -108,8 +110,8 @@ struct rolled_int {
 };
 
 // Numbers as results: a product has the limbs of both factors, a sum those of its terms, which have one length and leave
-// room for it. Whoever computes polynomials of them leaves two bits of each number's first limb. All are returned out of line:
-// nvcc 13.0 gives what one inlined call returns the memory of what another one returned and is still read.
+// room for it. Whoever computes polynomials of them leaves two bits of each number's first limb. All are returned out of
+// line: nvcc 13.0 gives what one inlined call returns the memory of what another one returned and is still read.
 
 template <int A, int B>
 ABUT_NOINLINE ABUT_HD constexpr rolled_int<A + B> operator*(const rolled_int<A>& a, const rolled_int<B>& b) {
@@ -135,6 +137,15 @@ ABUT_NOINLINE ABUT_HD constexpr rolled_int<A> operator-(const rolled_int<A>& a, 
     rolled_int<A> r;
     r.begin(a.count);
     subtract(r.limb, a.limb, b.limb, a.count);
+    return r;
+}
+
+template <int A>
+ABUT_NOINLINE ABUT_HD constexpr rolled_int<A> operator+(const rolled_int<A>& a, const rolled_int<A>& b) {
+    rolled_int<A> r;
+    r.begin(a.count);
+    r.add(a);
+    r.add(b);
     return r;
 }
 
@@ -171,6 +182,35 @@ ABUT_NOINLINE ABUT_HD constexpr rolled_int<A + B> dot(const vec3<rolled_int<A>>&
 template <int A, int B>
 ABUT_HD constexpr int sign_of_dot(const vec3<rolled_int<A>>& a, const vec3<rolled_int<B>>& b) {
     return dot(a, b).sign();
+}
+
+/// a^2 or |a|^2
+///@{
+template <int A>
+ABUT_HD constexpr rolled_int<2 * A> square(const rolled_int<A>& a) {
+    return a * a;
+}
+template <int A>
+ABUT_HD constexpr rolled_int<2 * A> square(const vec3<rolled_int<A>>& a) {
+    return dot(a, a);
+}
+///@}
+
+/// Whether Predicate::holds of any finite values: for polynomials of a higher degree than sums of terms can be kept for
+/// (decide_at_any_span in exact_stages.hpp), with a stack of kilobytes for each.
+template <class Predicate, scalar T, std::size_t V>
+ABUT_HD constexpr bool decide_at_any_length(const T (&value)[V]) {
+    using format = float_format<T>;
+    constexpr int spare = 4, most = format::max_exponent + format::digits - format::min_exponent;
+    const aligned<V> x(value);
+    const int width = x.width() > 0 ? x.width() : 0, limbs = (width + spare + 63) / 64;
+    rolled_int<(most + spare + 63) / 64> number[V];
+    ABUT_ROLLED
+    for (int i = 0; i < int{V}; ++i) {
+        number[i].begin(limbs);
+        number[i].add(x, i);
+    }
+    return Predicate::holds(number);
 }
 
 // Magnitudes: n limbs without a sign.
@@ -218,7 +258,8 @@ ABUT_NOINLINE ABUT_HD constexpr double divide_magnitudes(std::uint64_t* a, std::
     // The quotient, by its digits: the first stands for 2^weight, and one of the first two is 1. As many follow as a double
     // of this magnitude has.
     int weight = bits_a - bits_b, last = lowest;
-    if (weight < lowest) return weight == lowest - 1 && limbs_less(b, a, n) ? __builtin_bit_cast(double, std::uint64_t{1}) : 0;
+    if (weight < lowest)
+        return weight == lowest - 1 && limbs_less(b, a, n) ? __builtin_bit_cast(double, std::uint64_t{1}) : 0;
     std::uint64_t quotient = 0;
     for (;; --weight) {
         const bool is_one = !limbs_less(a, b, n);

@@ -19,6 +19,7 @@
 #include <abut/predicate/plane_plane.hpp>
 #include <abut/predicate/ray_hull.hpp>
 #include <abut/predicate/ray_triangle.hpp>
+#include <abut/predicate/revolution.hpp>
 #include <abut/predicate/segment_triangle.hpp>
 #include <abut/predicate/sphere_segment.hpp>
 #include <abut/predicate/sphere_sphere.hpp>

@@ -83,6 +83,17 @@ template <scalar T>
 ABUT_HD constexpr aabb<T> bounds(const capsule<T>& s) {
     return merge(bounds(sphere<T>{s.axis.a, s.radius}), bounds(sphere<T>{s.axis.b, s.radius}));
 }
+/// Around the capsule that a cylinder is a part of: so the box holds also what `place` makes of the cylinder, whose axis may
+/// turn where its ends are rounded. Much too large for a flat disc alone.
+template <scalar T>
+ABUT_HD constexpr aabb<T> bounds(const cylinder<T>& s) {
+    return bounds(capsule<T>{s.axis, s.radius});
+}
+/// Around the apex and a ball, which the base is a part of, for the same reason.
+template <scalar T>
+ABUT_HD constexpr aabb<T> bounds(const cone<T>& s) {
+    return merge(bounds(s.apex), bounds(sphere<T>{s.base_center, s.radius}));
+}
 
 /// All of space: few planes have a smaller box.
 template <scalar T>

@@ -101,6 +101,14 @@ template <scalar T>
     if (!is_valid(s.axis)) refuse(function, element, i, s.axis);
     refuse_radius(function, element, i, s.radius);
 }
+template <scalar T>
+[[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const cylinder<T>& s) {
+    refuse(function, element, i, capsule<T>{s.axis, s.radius});
+}
+template <scalar T>
+[[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const cone<T>& s) {
+    refuse(function, element, i, capsule<T>{{s.apex, s.base_center}, s.radius});
+}
 /// Of a shape in motion: what is wrong at one of its two times. Of a shape of the caller's own: what is wrong with its box,
 /// or else that its own is_valid says no.
 template <shape S>
@@ -133,6 +141,10 @@ template <scalar T>
 inline constexpr shape_name name_of<segment<T>>{"segment", "abut::segments"};
 template <scalar T>
 inline constexpr shape_name name_of<capsule<T>>{"capsule", "abut::capsules"};
+template <scalar T>
+inline constexpr shape_name name_of<cylinder<T>>{"cylinder", "abut::cylinders"};
+template <scalar T>
+inline constexpr shape_name name_of<cone<T>>{"cone", "abut::cones"};
 template <scalar T>
 inline constexpr shape_name name_of<aabb<T>>{"box", "abut::boxes"};
 

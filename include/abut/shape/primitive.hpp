@@ -60,6 +60,25 @@ struct capsule {
     T radius;         ///< 0 or more
 };
 
+/// All points within `radius` of a point of the axis, at right angles to it: a solid, with flat ends. An axis without length is
+/// at right angles to every direction, which leaves the ball around it. Radius 0 is the axis itself; a negative radius is
+/// no cylinder.
+template <scalar T>
+struct cylinder {
+    segment<T> axis;  ///< from the centre of one end to that of the other
+    T radius;         ///< 0 or more
+};
+
+/// The hull of the apex and of a disc, the base, at right angles to the axis from the apex to the base's centre: a solid. An
+/// axis without length leaves the ball around it, as of a cylinder. Radius 0 is the axis itself; a negative radius is no
+/// cone.
+template <scalar T>
+struct cone {
+    vec3<T> apex;         ///< its tip
+    vec3<T> base_center;  ///< the base's centre
+    T radius;             ///< of the base; 0 or more
+};
+
 /// All origin + t direction with t >= 0. The direction has any length; with direction 0 it is the point `origin`.
 template <scalar T>
 struct ray {

@@ -69,8 +69,9 @@ struct box_reach {
 // so a product by 7 m times its other factor, or by m where it vanishes itself. Added up, that is below 26 m times the one
 // factor, 19 m times the other, and 12 m. Where `size` is so large that something may overflow, every box is kept.
 
-/// A segment, or a capsule: by its box, and by the three axes that are orthogonal to it and to a coordinate axis, on which a
-/// segment is a point. A segment that runs across a scene touches few of the boxes in its own box.
+/// A segment, or what is within a radius of it: by its box, and by the three axes that are orthogonal to it and to a
+/// coordinate axis, on which a segment is a point. A segment that runs across a scene touches few of the boxes in its own
+/// box.
 template <scalar T>
 struct swept_reach {
     aabb<T> query;
@@ -119,8 +120,9 @@ struct plane_reach {
 
 }  // namespace detail
 
-/// How far a shape of the library reaches: a ball by its distance from the box, a segment and a capsule by the line of their
-/// axis, a plane by the sides of its corners, all with a slack for rounding; the others by their box, exactly.
+/// How far a shape of the library reaches: a ball by its distance from the box, a segment, a capsule, a cylinder and a cone
+/// by the line of their axis, a plane by the sides of its corners, all with a slack for rounding; the others by their box,
+/// exactly.
 ///@{
 template <scalar T>
 ABUT_HD auto reach_of(const sphere<T>& s) {
@@ -145,6 +147,14 @@ ABUT_HD auto reach_of(const segment<T>& s) {
 template <scalar T>
 ABUT_HD auto reach_of(const capsule<T>& s) {
     return detail::swept_reach<T>(s.axis, s.radius, bounds(s));
+}
+template <scalar T>
+ABUT_HD auto reach_of(const cylinder<T>& s) {
+    return detail::swept_reach<T>(s.axis, s.radius, bounds(s));
+}
+template <scalar T>
+ABUT_HD auto reach_of(const cone<T>& s) {
+    return detail::swept_reach<T>({s.apex, s.base_center}, s.radius, bounds(s));
 }
 template <scalar T>
 ABUT_HD auto reach_of(const plane<T>& p) {

@@ -21,7 +21,8 @@
 //     A^T B - R                 9.3 e Q                         nine entries of three products and two sums
 //     A^T (t - s) - d           6.5 e |d|
 //     D p                       1.75 dev(A) P                   dev: the largest entry of D, as it is measured
-// Balls and capsules are placed by their centres, and their radius is not stretched. A is S U with a rotation U and S of
+// Balls and capsules are placed by their centres, and their radius is not stretched. (Of cylinders and cones the same is true
+// of the capsule, or the hull of a point and a ball, whose box is theirs.) A is S U with a rotation U and S of
 // A's singular values: a point at v from the centre in the world is at U^T v in the frame, but for (S - 1) v. As the squares
 // of singular values are 1 within 3 dev(A), they are 1 within 1.51 dev(A): with b's part 1.6 (dev(A) P + dev(B) Q) more.
 //

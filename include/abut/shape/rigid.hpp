@@ -105,6 +105,14 @@ template <scalar T>
 ABUT_HD constexpr capsule<T> place(const rigid<T>& pose, const capsule<T>& s) {
     return {place(pose, s.axis), s.radius};
 }
+template <scalar T>
+ABUT_HD constexpr cylinder<T> place(const rigid<T>& pose, const cylinder<T>& s) {
+    return {place(pose, s.axis), s.radius};
+}
+template <scalar T>
+ABUT_HD constexpr cone<T> place(const rigid<T>& pose, const cone<T>& s) {
+    return {place(pose, s.apex), place(pose, s.base_center), s.radius};
+}
 ///@}
 
 /// Whether no point of the box can overflow where it is placed. False also where that is not certain: then look at each.

@@ -86,6 +86,10 @@ template <scalar T>
 inline constexpr std::size_t numbers_of_shape<aabb<T>> = 6;
 template <scalar T>
 inline constexpr std::size_t numbers_of_shape<capsule<T>> = 7;
+template <scalar T>
+inline constexpr std::size_t numbers_of_shape<cylinder<T>> = 7;
+template <scalar T>
+inline constexpr std::size_t numbers_of_shape<cone<T>> = 7;
 template <class T, std::size_t n>
 inline constexpr std::size_t numbers_of_shape<std::array<T, n>> = n;
 

@@ -96,6 +96,14 @@ template <scalar T>
 ABUT_HD constexpr bool is_valid(const capsule<T>& s) {
     return is_valid(s.axis) && detail::is_finite(s.radius) && s.radius >= 0;
 }
+template <scalar T>
+ABUT_HD constexpr bool is_valid(const cylinder<T>& s) {
+    return is_valid(s.axis) && detail::is_finite(s.radius) && s.radius >= 0;
+}
+template <scalar T>
+ABUT_HD constexpr bool is_valid(const cone<T>& s) {
+    return is_valid(s.apex) && is_valid(s.base_center) && detail::is_finite(s.radius) && s.radius >= 0;
+}
 ///@}
 /// A shape that does not say otherwise is valid if its box is.
 template <shape S>

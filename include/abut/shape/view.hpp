@@ -109,7 +109,7 @@ struct shapes_view {
     }
 };
 
-/// Views of triangles, balls, points, segments, capsules, boxes or rays, each with all its numbers.
+/// Views of triangles, balls, points, segments, capsules, cylinders, cones, boxes or rays, each with all its numbers.
 ///@{
 template <scalar T, memory_space Space = host_space>
 using triangle_soup_view = shapes_view<triangle<T>, Space>;
@@ -121,6 +121,10 @@ template <scalar T, memory_space Space = host_space>
 using segments_view = shapes_view<segment<T>, Space>;
 template <scalar T, memory_space Space = host_space>
 using capsules_view = shapes_view<capsule<T>, Space>;
+template <scalar T, memory_space Space = host_space>
+using cylinders_view = shapes_view<cylinder<T>, Space>;
+template <scalar T, memory_space Space = host_space>
+using cones_view = shapes_view<cone<T>, Space>;
 template <scalar T, memory_space Space = host_space>
 using boxes_view = shapes_view<aabb<T>, Space>;
 template <scalar T, memory_space Space = host_space>

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Numbers that are known but for an error, and the running error analysis that bounds it (J. H. Wilkinson, Error analysis
+// revisited, 1986): each operation adds to the errors of its operands what its own rounding may add. So a polynomial that is
+// written once for integers is a filter as well, without a bound derived by hand. About five times as slow as plain numbers.
+//
+// The bound. Let u = 2^-52, at least the relative error of an operation in any rounding mode, and as well of a product and a
+// sum that are contracted into one. A sum v of two numbers is off by their errors and u|v|, a product by |a| e_b + |b| e_a +
+// e_a e_b and u|v|. The errors are rounded themselves, at each of fewer than 2^10 operations by a factor of no less than
+// 1 - 3u: a sign is told if the value exceeds its error by 2^-30 of it.
+//
+// Nothing overflows or underflows. Values are scaled, exactly, to the largest that a polynomial of the predicate's degree n
+// leaves room for: below 2^(900 / n + 1). Values that are not 0 and far below that are left undecided: for if s is the
+// least, a difference of two that are not equal is at least s 2^-53, with an error of at least s 2^-105; so by induction an
+// error that is not 0 of a number of degree k is at least (s 2^-105)^k, as it is not less than that of each term, or than
+// the product of both errors, or of an error and a value; and that is above 2^-960. What a flush to zero takes from a value,
+// less than 2^-1022, is nothing beside it. And where the error is 0, the value is a number as it was given, or an exact 0: a
+// difference of equal numbers, or a product or sum of such zeros. Those are frequent where shapes lie along the axes.
+
+#include <cstddef>
+#include <cstdint>
+
+#include <abut/arithmetic/align.hpp>
+#include <abut/arithmetic/arithmetic.hpp>
+#include <abut/arithmetic/error_free.hpp>
+#include <abut/arithmetic/limits.hpp>
+#include <abut/arithmetic/magnitude.hpp>
+#include <abut/arithmetic/plain_sign.hpp>
+#include <abut/arithmetic/strict.hpp>
+#include <abut/arithmetic/vec.hpp>
+
+namespace abut::detail {
+
+/// A number within `error` of `value`.
+struct estimate {
+    double value, error;
+
+    static constexpr double roundoff = 0x1p-52;
+
+    ABUT_HD friend constexpr estimate operator+(const estimate& a, const estimate& b) {
+        const double v = a.value + b.value;
+        return {v, (a.error + b.error) + roundoff * absolute(v)};
+    }
+    ABUT_HD friend constexpr estimate operator-(const estimate& a, const estimate& b) {
+        const double v = a.value - b.value;
+        return {v, (a.error + b.error) + roundoff * absolute(v)};
+    }
+    ABUT_HD friend constexpr estimate operator*(const estimate& a, const estimate& b) {
+        const double v = a.value * b.value, size = absolute(a.value);
+        return {v, (size * b.error + a.error * (absolute(b.value) + b.error)) + roundoff * absolute(v)};
+    }
+};
+
+/// a^2 or |a|^2
+///@{
+ABUT_HD constexpr estimate square(const estimate& a) { return a * a; }
+ABUT_HD constexpr estimate square(const vec3<estimate>& a) { return dot(a, a); }
+///@}
+
+/// What `sign_or_unknown` says besides -1, 0 and 1.
+inline constexpr int unknown_sign = 2;
+
+/// The sign of a number; of an estimate, where its error leaves one.
+///@{
+template <class N>
+ABUT_HD constexpr int sign_or_unknown(const N& a) {
+    using abut::sign;
+    return sign(a);
+}
+ABUT_HD constexpr int sign_or_unknown(const estimate& a) {
+    const double error = (1 + 0x1p-30) * a.error;
+    return a.value > error ? 1 : a.value < -error ? -1 : a.error == 0 ? 0 : unknown_sign;
+}
+///@}
+
+// Questions in three-valued logic, of exact numbers and of estimates.
+
+template <class N>
+ABUT_HD constexpr verdict is_positive(const N& a) {
+    const int s = sign_or_unknown(a);
+    return s == unknown_sign ? verdict::unknown : to_verdict(s > 0);
+}
+template <class N>
+ABUT_HD constexpr verdict is_negative(const N& a) {
+    const int s = sign_or_unknown(a);
+    return s == unknown_sign ? verdict::unknown : to_verdict(s < 0);
+}
+template <class N>
+ABUT_HD constexpr verdict is_not_negative(const N& a) {
+    const int s = sign_or_unknown(a);
+    return s == unknown_sign ? verdict::unknown : to_verdict(s >= 0);
+}
+
+template <class N>
+ABUT_HD constexpr verdict is_not_positive(const N& a) {
+    const int s = sign_or_unknown(a);
+    return s == unknown_sign ? verdict::unknown : to_verdict(s <= 0);
+}
+
+/// |a|^2 <= |b|^2, of numbers or vectors of one degree.
+template <class A, class B>
+ABUT_HD constexpr verdict is_no_longer(const A& a, const B& b) {
+    using abut::square;  // of plain numbers, which the names of this namespace hide
+    return is_not_negative(square(b) - square(a));
+}
+
+/// |a|^2 > |b|^2, alike.
+template <class A, class B>
+ABUT_HD constexpr verdict is_longer(const A& a, const B& b) {
+    using abut::square;
+    return is_positive(square(a) - square(b));
+}
+
+/// a && b(), which is not asked where a is no.
+template <class Question>
+ABUT_HD constexpr verdict and_then(verdict a, const Question& b) {
+    return a == verdict::no ? verdict::no : a && b();
+}
+/// a || b(), which is not asked where a is yes.
+template <class Question>
+ABUT_HD constexpr verdict or_else(verdict a, const Question& b) {
+    return a == verdict::yes ? verdict::yes : a || b();
+}
+
+/// Question::ask of the values, where doubles can tell. In double also of floats.
+template <class Question, scalar T, std::size_t V>
+ABUT_HD constexpr verdict ask_estimates(const T (&value)[V]) {
+    constexpr int top = 900 / Question::degree, span = 960 / Question::degree + top - 106;
+    double most = 0, least_of_all = infinity<double>;
+    for (int i = 0; i < int{V}; ++i) {
+        const double size = absolute(static_cast<double>(value[i]));
+        most = greatest(size, most);
+        least_of_all = least(is_zero(value[i]) ? least_of_all : size, least_of_all);
+    }
+    // Of denormal numbers, which may be read as 0, those of double are too small as well.
+    const bool is_in_range = most > 0x1p-600 && most < 0x1p900 && least_of_all > power_of_two<double>(-span) * most;
+    if (!is_in_range || (std::same_as<T, float> && !(least_of_all >= static_cast<double>(smallest_normal<T>)))) {
+        return verdict::unknown;
+    }
+    const int exponent = static_cast<int>(__builtin_bit_cast(std::uint64_t, most) >> 52) - 1023;
+    const double unit = power_of_two<double>(top - exponent);
+    estimate number[V]{};
+    for (int i = 0; i < int{V}; ++i) number[i] = {static_cast<double>(value[i]) * unit, 0};
+    return Question::ask(number);
+}
+
+/// A question as a predicate of the exact stages, without its `degree`: in words these ask only polynomials of degree 6 or
+/// less.
+template <class Question>
+struct asked_exactly {
+    template <class N, std::size_t V>
+    ABUT_HD static constexpr bool holds(const N (&value)[V]) {
+        return Question::ask(value) == verdict::yes;
+    }
+};
+
+}  // namespace abut::detail

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The oracle for cylinders and cones, in rationals. It shares no formula with the library: a polygon (a point, a segment, a
+// triangle or the face of a box) is cut by the two planes of the solid's ends, and the quadratic F that is not negative in
+// the solid is evaluated where it is greatest: at a corner of what is left, inside a side, or where its gradient is 0. For
+// if no border of what is left meets the solid, then the solid has a whole ellipse of the polygon's plane, whose centre that
+// is, or nothing. For balls and planes the distance is computed with so many digits that what seems 0 is 0.
+
+#include <concepts>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <boost/multiprecision/cpp_int.hpp>
+
+#include <abut/shape/primitive.hpp>
+
+#include "rational.hpp"
+
+namespace abut::test {
+
+using fraction = boost::multiprecision::cpp_rational;
+
+struct fraction_point {
+    fraction x, y, z;
+    friend fraction_point operator+(const fraction_point& a, const fraction_point& b) {
+        return {a.x + b.x, a.y + b.y, a.z + b.z};
+    }
+    friend fraction_point operator-(const fraction_point& a, const fraction_point& b) {
+        return {a.x - b.x, a.y - b.y, a.z - b.z};
+    }
+    friend fraction_point operator*(const fraction& s, const fraction_point& a) { return {s * a.x, s * a.y, s * a.z}; }
+    friend fraction inner(const fraction_point& a, const fraction_point& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+};
+
+/// A cylinder or a cone whose first end is the origin, and which has an axis.
+struct exact_solid {
+    bool is_cone;
+    fraction_point d;
+    fraction r, dd;
+
+    [[nodiscard]] fraction height(const fraction_point& x) const { return inner(x, d); }
+    /// The polar form of F, and of the cylinder's its part of degree 2; `c` is what that lacks.
+    [[nodiscard]] fraction form(const fraction_point& x, const fraction_point& y) const {
+        const fraction across = inner(x, y) * dd - height(x) * height(y);
+        return is_cone ? fraction(r * r * height(x) * height(y) - across * dd) : fraction(-across);
+    }
+    [[nodiscard]] fraction constant() const { return is_cone ? fraction(0) : fraction(r * r * dd); }
+    [[nodiscard]] fraction value(const fraction_point& x) const { return form(x, x) + constant(); }
+};
+
+/// What a convex polygon has on the side of a plane where sign * (height - level) >= 0.
+inline std::vector<fraction_point> part_of(const std::vector<fraction_point>& polygon, const exact_solid& s,
+                                           const fraction& level, int side) {
+    std::vector<fraction_point> part;
+    const std::size_t n = polygon.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        const fraction_point &a = polygon[i], &b = polygon[(i + 1) % n];
+        const fraction u = side * (s.height(a) - level), v = side * (s.height(b) - level);
+        if (u >= 0) part.push_back(a);
+        if ((u < 0 && v > 0) || (u > 0 && v < 0)) part.push_back(a + fraction(u / (u - v)) * (b - a));
+    }
+    return part;
+}
+
+/// Of a convex polygon, its corners in order; one of two corners is a segment.
+inline bool polygon_meets(std::vector<fraction_point> polygon, const exact_solid& s) {
+    polygon = part_of(polygon, s, 0, 1);
+    polygon = part_of(polygon, s, s.dd, -1);
+    const std::size_t n = polygon.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        const fraction_point &a = polygon[i], &b = polygon[(i + 1) % n];
+        if (s.value(a) >= 0) return true;
+        const fraction_point e = b - a;
+        const fraction bend = s.form(e, e), slope = s.form(a, e);
+        if (bend >= 0) continue;
+        const fraction t = -slope / bend;
+        if (t > 0 && t < 1 && s.value(a + t * e) >= 0) return true;
+    }
+    // Where the gradient along the plane is 0, strictly inside of a triangle of the fan.
+    for (std::size_t i = 2; i < n; ++i) {
+        const fraction_point &o = polygon[0], e = polygon[i - 1] - o, f = polygon[i] - o;
+        const fraction ee = s.form(e, e), ef = s.form(e, f), ff = s.form(f, f), oe = s.form(o, e), of = s.form(o, f);
+        const fraction determinant = ee * ff - ef * ef;
+        if (determinant == 0) continue;
+        const fraction u = (ef * of - ff * oe) / determinant, v = (ef * oe - ee * of) / determinant;
+        if (u >= 0 && v >= 0 && u + v <= 1 && s.value(o + u * e + v * f) >= 0) return true;
+    }
+    return false;
+}
+
+namespace oracle {
+
+template <scalar T>
+const segment<T>& axis_of(const cylinder<T>& s) {
+    return s.axis;
+}
+template <scalar T>
+segment<T> axis_of(const cone<T>& s) {
+    return {s.apex, s.base_center};
+}
+
+/// Numbers of a solid and of some points, as fractions of one unit, seen from the solid's first end.
+template <template <class> class Solid, scalar T>
+std::vector<fraction_point> seen_from(const Solid<T>& s, const std::vector<vec3<T>>& points, exact_solid& solid) {
+    const segment<T> axis = axis_of(s);
+    std::vector<T> numbers{axis.a.x, axis.a.y, axis.a.z, axis.b.x, axis.b.y, axis.b.z, s.radius};
+    for (const vec3<T>& p : points) numbers.insert(numbers.end(), {p.x, p.y, p.z});
+    const std::vector<integer> v = to_integers(numbers);
+    const auto point = [&](std::size_t i) {
+        return fraction_point{fraction(v[i] - v[0]), fraction(v[i + 1] - v[1]), fraction(v[i + 2] - v[2])};
+    };
+    solid = {std::same_as<Solid<T>, cone<T>>, point(3), fraction(v[6]), 0};
+    solid.dd = inner(solid.d, solid.d);
+    std::vector<fraction_point> seen;
+    for (std::size_t i = 7; i < v.size(); i += 3) seen.push_back(point(i));
+    return seen;
+}
+
+template <template <class> class Solid, scalar T>
+    requires(std::same_as<Solid<T>, cylinder<T>> || std::same_as<Solid<T>, cone<T>>)
+bool polygon_meets_solid(const Solid<T>& s, const std::vector<vec3<T>>& corners) {
+    exact_solid solid;
+    const auto polygon = seen_from(s, corners, solid);
+    if (solid.dd == 0) {
+        std::vector<integer_point> w;
+        for (const fraction_point& p : polygon) w.push_back({numerator(p.x), numerator(p.y), numerator(p.z)});
+        return hull_reaches(w, numerator(fraction(solid.r * solid.r)));
+    }
+    return polygon_meets(polygon, solid);
+}
+
+template <template <class> class Solid, scalar T>
+bool meets(const Solid<T>& s, const vec3<T>& p) {
+    return polygon_meets_solid(s, {p});
+}
+template <template <class> class Solid, scalar T>
+bool meets(const Solid<T>& s, const segment<T>& t) {
+    return polygon_meets_solid(s, {t.a, t.b});
+}
+template <template <class> class Solid, scalar T>
+bool meets(const Solid<T>& s, const triangle<T>& t) {
+    return polygon_meets_solid(s, {t.a, t.b, t.c});
+}
+
+/// The faces of the box, and an end of the axis.
+template <template <class> class Solid, scalar T>
+bool meets(const Solid<T>& s, const aabb<T>& box) {
+    const vec3<T>&l = box.lower, &u = box.upper;
+    const vec3<T> end = axis_of(s).a;
+    if (l.x <= end.x && end.x <= u.x && l.y <= end.y && end.y <= u.y && l.z <= end.z && end.z <= u.z) return true;
+    for (int side = 0; side < 2; ++side) {
+        const T x = side == 0 ? l.x : u.x, y = side == 0 ? l.y : u.y, z = side == 0 ? l.z : u.z;
+        if (polygon_meets_solid(s, {{x, l.y, l.z}, {x, u.y, l.z}, {x, u.y, u.z}, {x, l.y, u.z}}) ||
+            polygon_meets_solid(s, {{l.x, y, l.z}, {u.x, y, l.z}, {u.x, y, u.z}, {l.x, y, u.z}}) ||
+            polygon_meets_solid(s, {{l.x, l.y, z}, {u.x, l.y, z}, {u.x, u.y, z}, {l.x, u.y, z}})) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Numbers of so many binary digits that two which are computed from input of the type T differ before the last quarter of
+/// them, or not at all; but for exponents that are drawn from all that doubles have, where no two meet by chance.
+template <scalar T>
+using long_float =
+    boost::multiprecision::number<boost::multiprecision::cpp_bin_float<std::same_as<T, float> ? 5000 : 9000,
+                                                                       boost::multiprecision::digit_base_2, void, int>,
+                                  boost::multiprecision::et_off>;
+
+template <class N>
+bool is_at_most(const N& a, const N& b) {
+    return a <= b + ldexp(abs(b), -std::numeric_limits<N>::digits * 3 / 4);
+}
+
+/// The distance of (x, y) from the segment from (a, b) to (c, d).
+template <class N>
+N distance_in_plane(const N& x, const N& y, const N& a, const N& b, const N& c, const N& d) {
+    const N length = (c - a) * (c - a) + (d - b) * (d - b);
+    N t = length == 0 ? N(0) : N(((x - a) * (c - a) + (y - b) * (d - b)) / length);
+    if (t < 0) t = 0;
+    if (t > 1) t = 1;
+    const N p = x - a - t * (c - a), q = y - b - t * (d - b);
+    return sqrt(N(p * p + q * q));
+}
+
+/// In the half plane of the axis and the centre: its distance from the sides of a rectangle or a triangle, if it is not
+/// inside.
+template <template <class> class Solid, scalar T>
+bool meets(const Solid<T>& s, const sphere<T>& ball) {
+    using N = long_float<T>;
+    const vec3<T> origin = axis_of(s).a;
+    std::vector<T> numbers{origin.x,      origin.y,      origin.z,      axis_of(s).b.x, axis_of(s).b.y, axis_of(s).b.z,
+                           ball.center.x, ball.center.y, ball.center.z, s.radius,       ball.radius};
+    const std::vector<integer> v = to_integers(numbers);
+    const integer d[3] = {v[3] - v[0], v[4] - v[1], v[5] - v[2]}, w[3] = {v[6] - v[0], v[7] - v[1], v[8] - v[2]};
+    const integer dd = d[0] * d[0] + d[1] * d[1] + d[2] * d[2], ww = w[0] * w[0] + w[1] * w[1] + w[2] * w[2],
+                  dw = d[0] * w[0] + d[1] * w[1] + d[2] * w[2];
+    const N r(v[9]), reach(v[10]);
+    if (dd == 0) return ww <= (v[9] + v[10]) * (v[9] + v[10]);
+    const N height = sqrt(N(dd)), x = N(dw) / height, y = sqrt(N(integer(ww * dd - dw * dw))) / height, zero(0);
+    if constexpr (std::same_as<Solid<T>, cone<T>>) {
+        if (x >= 0 && is_at_most(x, height) && is_at_most(N(y * height), N(x * r))) return true;
+        return is_at_most(distance_in_plane(x, y, height, zero, height, r), reach) ||
+               is_at_most(distance_in_plane(x, y, zero, zero, height, r), reach);
+    } else {
+        if (x >= 0 && is_at_most(x, height) && is_at_most(y, r)) return true;
+        return is_at_most(distance_in_plane(x, y, zero, zero, zero, r), reach) ||
+               is_at_most(distance_in_plane(x, y, height, zero, height, r), reach) ||
+               is_at_most(distance_in_plane(x, y, zero, r, height, r), reach);
+    }
+}
+
+/// The least and the greatest height over the plane, of both ends or of the base and the apex.
+template <template <class> class Solid, scalar T>
+bool meets(const Solid<T>& s, const plane<T>& p) {
+    using N = long_float<T>;
+    const auto exactly = [](T x) { return fraction(static_cast<double>(x)); };
+    const segment<T> axis = axis_of(s);
+    const fraction_point n{exactly(p.normal.x), exactly(p.normal.y), exactly(p.normal.z)},
+        first{exactly(axis.a.x), exactly(axis.a.y), exactly(axis.a.z)},
+        last{exactly(axis.b.x), exactly(axis.b.y), exactly(axis.b.z)};
+    const fraction_point d = last - first;
+    const fraction dd = inner(d, d), at_first = inner(n, first) - exactly(p.offset),
+                   at_last = inner(n, last) - exactly(p.offset);
+    const fraction across = dd == 0 ? inner(n, n) : fraction(inner(n, n) - inner(n, d) * inner(n, d) / dd);
+    const N rim = N(exactly(s.radius)) * sqrt(N(across)), zero(0);
+    const N reach_first = std::same_as<Solid<T>, cone<T>> && dd != 0 ? zero : rim;
+    const N high_first = N(at_first) + reach_first, high_last = N(at_last) + rim;
+    const N low_first = N(at_first) - reach_first, low_last = N(at_last) - rim;
+    const N slack = ldexp(N(abs(N(at_first)) + abs(N(at_last)) + rim), -std::numeric_limits<N>::digits * 3 / 4);
+    return (high_first >= -slack || high_last >= -slack) && (low_first <= slack || low_last <= slack);
+}
+
+}  // namespace oracle
+
+}  // namespace abut::test
