@@ -109,7 +109,7 @@ ABUT_HD constexpr bool intersects_exactly(const S& s, const U& t) {
 }  // namespace detail
 
 /// Whether two closed shapes have a point in common: triangles, segments, rays, points (vec3) and planes, and spheres,
-/// boxes, capsules and convex hulls, which are solid, as docs/numerics.md lists. With `filtered` and `exact` the answer is
+/// boxes, capsules, cylinders, cones and convex hulls, which are solid, as docs/numerics.md lists. With `filtered` and `exact` the answer is
 /// right for every finite input and the same on each compiler and device; `fast` is approximate. Constant expressions are
 /// decided in integers.
 ///
