@@ -16,6 +16,7 @@
 #include "support/families.hpp"
 #include "support/hull_families.hpp"
 #include "support/ray_oracle.hpp"
+#include "support/revolution_pairs.hpp"
 #include "support/samples.hpp"
 #include "support/shared_faces.hpp"
 #include "support/solid_pairs.hpp"
@@ -149,6 +150,35 @@ void check_solids(const Policy& on) {
         });
         return counts;
     });
+}
+
+// --- cylinders and cones ------------------------------------------------------------------------------------------------
+
+/// With points, segments, triangles, boxes, balls and planes.
+template <class Solid, class Policy>
+void check_revolutions(const Policy& on) {
+    using T = scalar_type_of<Solid>;
+    constexpr bool is_cone = std::same_as<Solid, cone<T>>;
+    const auto name = [](int f) { return name_of(static_cast<revolution_family>(f)); };
+    const auto check = [&](const auto& beside) {
+        using other = decltype(beside(revolution_case<T>{}, std::uint64_t{}));
+        check_each_family<T>(revolution_family_count, 0.02, name, [&](int f) {
+            std::vector<copied_pair<Solid, other>> pairs;
+            for (std::uint64_t k = 0; k < (sample_count() + 5) / 6; ++k) {
+                const auto c = make_revolution_case<T>(sample_seed + 3, static_cast<revolution_family>(f), k, is_cone);
+                const copied_pair<Solid, other> p{solid_of<Solid>(c.axis, c.radius), beside(c, k), 0};
+                if (is_valid(p.s) && is_valid(p.t)) pairs.push_back(p);
+            }
+            return decide_copied<whether_they_meet, T>(on, pairs);
+        });
+    };
+    using pair = revolution_case<T>;
+    check([](const pair& c, std::uint64_t) { return c.corner[0]; });
+    check([](const pair& c, std::uint64_t) { return segment<T>{c.corner[0], c.corner[1]}; });
+    check([](const pair& c, std::uint64_t) { return triangle<T>{c.corner[0], c.corner[1], c.corner[2]}; });
+    check([](const pair& c, std::uint64_t) { return bounds(segment<T>{c.corner[0], c.corner[1]}); });
+    check([](const pair& c, std::uint64_t k) { return ball_beside(c, is_cone, k); });
+    check([](const pair& c, std::uint64_t k) { return plane_beside(c, k); });
 }
 
 // --- within a distance --------------------------------------------------------------------------------------------------
