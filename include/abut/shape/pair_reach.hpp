@@ -84,6 +84,8 @@ ABUT_HD T twice_reach_along(const vec3<T>& n, const obb<T>& box) {
 template <scalar T>
 struct near_boxes : distance_limit<T> {
     ABUT_HD void turn_to(const vec3<double>&) {}
+    [[nodiscard]] ABUT_HD const aabb<T>& see_of_a(const aabb<T>& a) const { return a; }
+    [[nodiscard]] ABUT_HD const aabb<T>& see_of_b(const aabb<T>& b) const { return b; }
     ABUT_HD T least_between(const aabb<T>& a, const aabb<T>& b) const {
         return square_of_gaps(greatest(a.lower - b.upper, b.lower - a.upper));
     }
@@ -123,47 +125,86 @@ struct near_posed_boxes : distance_limit<T> {
         n_of_b = n.x * r[0] + n.y * r[1] + n.z * r[2];
         twice_apart = 2 * dot(n, b_to_a.translation);
     }
-    ABUT_HD T least_between(const aabb<T>& a, const aabb<T>& b) const {
-        const T gap = (twice_apart - twice_reach_along(n, a)) - twice_reach_along(-T(1) * n_of_b, b);
+    /// A box of a, and one of b, with what is asked of it in each pair.
+    ///@{
+    struct seen_of_a {
+        vec3<T> off, wide;  ///< off: twice from its middle to b's origin
+        T reach;
+    };
+    struct seen_of_b {
+        vec3<T> middle, wide, wide_in_a;  ///< twice the middle, from b's origin in a's frame
+        T reach;
+    };
+    [[nodiscard]] ABUT_HD seen_of_a see_of_a(const aabb<T>& a) const {
+        return {(b_to_a.translation + b_to_a.translation) - (a.lower + a.upper), a.upper - a.lower, twice_reach_along(n, a)};
+    }
+    [[nodiscard]] ABUT_HD seen_of_b see_of_b(const aabb<T>& b) const {
+        const vec3<T> wide = b.upper - b.lower;
+        return {in_a(b.lower + b.upper), wide, magnitude_in_a(wide), twice_reach_along(-T(1) * n_of_b, b)};
+    }
+    ///@}
+    ABUT_HD T least_between(const aabb<T>& a, const aabb<T>& b) const { return least_between(see_of_a(a), see_of_b(b)); }
+    ABUT_HD T least_between(const seen_of_a& a, const seen_of_b& b) const {
+        const T gap = (twice_apart - a.reach) - b.reach;
         const T along_n = gap > 0 ? gap * gap : 0;
         if (along_n > this->limit) return along_n;
         const vec3<T>(&r)[3] = b_to_a.rotation, (&m)[3] = b_to_a.magnitude;
-        const vec3<T> middle = b.lower + b.upper, wide_a = a.upper - a.lower, wide_b = b.upper - b.lower;
-        const vec3<T> d = vec3<T>{dot(r[0], middle), dot(r[1], middle), dot(r[2], middle)} +
-                          ((b_to_a.translation + b_to_a.translation) - (a.lower + a.upper));
-        const T along_a =
-            square_of_gaps(absolute(d) - (wide_a + vec3<T>{dot(m[0], wide_b), dot(m[1], wide_b), dot(m[2], wide_b)}));
+        const vec3<T> d = b.middle + a.off;
+        const T along_a = square_of_gaps(absolute(d) - (a.wide + b.wide_in_a));
         if (along_a > this->limit) return along_a;
         const T along_b = square_of_gaps(absolute(d.x * r[0] + d.y * r[1] + d.z * r[2]) -
-                                         (wide_a.x * m[0] + wide_a.y * m[1] + wide_a.z * m[2] + wide_b));
+                                         (a.wide.x * m[0] + a.wide.y * m[1] + a.wide.z * m[2] + b.wide));
         return greatest(along_n, along_a, along_b);
     }
     /// Oriented boxes: along the direction, or the way between their middles, or the axes of one of them. Their corners may
     /// lie beyond the boxes that the slack was made for, no farther than three times as far.
-    ABUT_HD T least_between(const obb<T>& a, const obb<T>& b) const {
-        const T gap = (twice_apart - twice_reach_along(n, a)) - twice_reach_along(-T(1) * n_of_b, b);
+    ///@{
+    struct oriented_of_a {
+        vec3<T> axes[3], half_widths, off;  ///< off: from its center to b's origin
+        T reach;
+    };
+    struct oriented_of_b {
+        vec3<T> axes[3], half_widths, center;  ///< in a's frame
+        T reach;
+    };
+    [[nodiscard]] ABUT_HD oriented_of_a see_of_a(const obb<T>& a) const {
+        return {{a.axes[0], a.axes[1], a.axes[2]}, a.half_widths, b_to_a.translation - a.center, twice_reach_along(n, a)};
+    }
+    [[nodiscard]] ABUT_HD oriented_of_b see_of_b(const obb<T>& b) const {
+        return {{in_a(b.axes[0]), in_a(b.axes[1]), in_a(b.axes[2])},
+                b.half_widths,
+                in_a(b.center),
+                twice_reach_along(-T(1) * n_of_b, b)};
+    }
+    ABUT_HD T least_between(const obb<T>& a, const obb<T>& b) const { return least_between(see_of_a(a), see_of_b(b)); }
+    ABUT_HD T least_between(const oriented_of_a& a, const oriented_of_b& b) const {
+        const T gap = (twice_apart - a.reach) - b.reach;
         const T along_n = gap > 0 ? gap * gap : 0;
         if (along_n > this->limit) return along_n;
-        const vec3<T>(&r)[3] = b_to_a.rotation;
-        const auto to_a = [&r](const vec3<T>& v) { return vec3<T>{dot(r[0], v), dot(r[1], v), dot(r[2], v)}; };
-        const vec3<T> axes_b[3] = {to_a(b.axes[0]), to_a(b.axes[1]), to_a(b.axes[2])};
-        const vec3<T> w = to_a(b.center) + (b_to_a.translation - a.center), &h = a.half_widths, &k = b.half_widths;
-        vec3<T> gaps_a, gaps_b;
-        T half = 0;  // of both boxes along w
-        const auto along_axes = [&](int i, T& gap_a, T& gap_b, T h_i, T k_i) {
-            const T of_a = absolute(dot(w, a.axes[i])), of_b = absolute(dot(w, axes_b[i]));
-            half += of_a * h_i + of_b * k_i;
-            gap_a = of_a - (h_i + absolute(dot(a.axes[i], axes_b[0])) * k.x + absolute(dot(a.axes[i], axes_b[1])) * k.y +
-                            absolute(dot(a.axes[i], axes_b[2])) * k.z);
-            gap_b = of_b - (k_i + absolute(dot(axes_b[i], a.axes[0])) * h.x + absolute(dot(axes_b[i], a.axes[1])) * h.y +
-                            absolute(dot(axes_b[i], a.axes[2])) * h.z);
+        const vec3<T> w = b.center + a.off, &h = a.half_widths, &k = b.half_widths;
+        const auto along = [](const vec3<T>& v, const vec3<T>(&axes)[3]) {
+            return absolute(vec3<T>{dot(v, axes[0]), dot(v, axes[1]), dot(v, axes[2])});
         };
-        along_axes(0, gaps_a.x, gaps_b.x, h.x, k.x);
-        along_axes(1, gaps_a.y, gaps_b.y, h.y, k.y);
-        along_axes(2, gaps_a.z, gaps_b.z, h.z, k.z);
-        const T ww = dot(w, w) * T(1 + 0x1p-18), of_w = dot(w, w) - half;
-        const T along_w = of_w > 0 ? of_w * (of_w / ww) : 0;
-        return greatest(4 * greatest(along_w, square_of_gaps(gaps_a), square_of_gaps(gaps_b)), along_n);
+        const vec3<T> of_a = along(w, a.axes), of_b = along(w, b.axes);
+        const T ww = dot(w, w), of_w = ww - (dot(of_a, h) + dot(of_b, k));
+        const T along_w = 4 * (of_w > 0 ? of_w * (of_w / (ww * T(1 + 0x1p-18))) : 0);
+        if (along_w > this->limit) return along_w;
+        const vec3<T> of_x = along(a.axes[0], b.axes), of_y = along(a.axes[1], b.axes), of_z = along(a.axes[2], b.axes);
+        const T along_a = 4 * square_of_gaps(of_a - (h + vec3<T>{dot(of_x, k), dot(of_y, k), dot(of_z, k)}));
+        if (along_a > this->limit) return along_a;
+        const T along_b = 4 * square_of_gaps(of_b - (k + (h.x * of_x + h.y * of_y + h.z * of_z)));
+        return greatest(greatest(along_w, along_a), greatest(along_b, along_n));
+    }
+    ///@}
+
+private:
+    [[nodiscard]] ABUT_HD vec3<T> in_a(const vec3<T>& v) const {
+        const vec3<T>(&r)[3] = b_to_a.rotation;
+        return {dot(r[0], v), dot(r[1], v), dot(r[2], v)};
+    }
+    [[nodiscard]] ABUT_HD vec3<T> magnitude_in_a(const vec3<T>& v) const {
+        const vec3<T>(&m)[3] = b_to_a.magnitude;
+        return {dot(m[0], v), dot(m[1], v), dot(m[2], v)};
     }
 };
 

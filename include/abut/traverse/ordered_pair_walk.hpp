@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include <abut/arithmetic/limits.hpp>
 #include <abut/index/bvh.hpp>
@@ -116,11 +117,15 @@ private:
         const auto& of_a = a.fetch(at_a.node);
         const auto& of_b = b.fetch(at_b.node);
         const int first = waiting, end_a = at_a.end_of_slots(a.children(of_a)), end_b = at_b.end_of_slots(b.children(of_b));
+        const int first_b = at_b.first_slot();
+        using seen_of_b = std::remove_cvref_t<decltype(reach.see_of_b(what_bounds<Reach>(b, of_b, 0)))>;
+        seen_of_b seen[B::width];  // not initialised
+        for (int j = first_b; j < end_b; ++j) seen[j - first_b] = reach.see_of_b(what_bounds<Reach>(b, of_b, j));
         for (int i = at_a.first_slot(); i < end_a; ++i) {
-            const auto box = what_bounds<Reach>(a, of_a, i);
+            const auto seen_of_a = reach.see_of_a(what_bounds<Reach>(a, of_a, i));
             const std::uint32_t child_a = link_to(a.child(of_a, i), A::width * at_a.node + static_cast<std::uint32_t>(i));
-            for (int j = at_b.first_slot(); j < end_b; ++j) {
-                const T least = reach.least_between(box, what_bounds<Reach>(b, of_b, j));
+            for (int j = first_b; j < end_b; ++j) {
+                const T least = reach.least_between(seen_of_a, seen[j - first_b]);
                 if (!reach.keeps(least)) continue;
                 const std::uint32_t child_b =
                     link_to(b.child(of_b, j), B::width * at_b.node + static_cast<std::uint32_t>(j));
