@@ -21,10 +21,12 @@ namespace abut {
 /// A prune functor for pairs of boxes that tightens. `least_between(a, b)` orders pairs of boxes by how far apart what lies
 /// in them is at least; `keeps(least)` is what the reach says of such a pair; and after `shrink_to(bound)` it may leave out
 /// what is farther apart than bound, and nothing else. `turn_to(way)` tells it a way in the world, from what lies in a to
-/// what lies in b, along which gaps are likely to be wide.
+/// what lies in b, along which gaps are likely to be wide. `see_of_a(box)` and `see_of_b(box)` are what `least_between` takes
+/// as well, for boxes that are in several pairs before the reach turns.
 template <class R, class T>
 concept shrinking_pair_reach = requires(R& reach, const aabb<T>& box, double bound) {
     { reach.least_between(box, box) } -> std::same_as<T>;
+    { reach.least_between(reach.see_of_a(box), reach.see_of_b(box)) } -> std::same_as<T>;
     { reach.keeps(T{}) } -> std::same_as<bool>;
     reach.shrink_to(bound);
     reach.turn_to(vec3<double>{});
