@@ -43,6 +43,7 @@ TEST_CASE("queries: sets of other shapes, cuda") {
     test::check_pair_of_shapes<sphere<float>, sphere<float>>(abut::cuda{}, 61);
     test::check_pair_of_shapes<vec3<float>, triangle<float>>(abut::cuda{}, 62);
     test::check_pair_of_shapes<capsule<double>, triangle<double>>(abut::cuda{}, 63);
+    test::check_pair_of_shapes<cylinder<float>, triangle<float>>(abut::cuda{}, 66);
 }
 
 TEST_CASE("queries: a caller's own shape, cuda") {

@@ -16,11 +16,13 @@ using namespace abut;
 
 static_assert(shape_set<mesh<float>> && shape_set<edge_mesh<float>> && shape_set<equal_spheres<double>> &&
               shape_set<triangle_soup<double>> && shape_set<spheres<float>> && shape_set<points<float>> &&
-              shape_set<segments<double>> && shape_set<capsules<float>> && shape_set<boxes<float>> &&
+              shape_set<segments<double>> && shape_set<capsules<float>> && shape_set<cylinders<float>> &&
+              shape_set<cones<double>> && shape_set<boxes<float>> &&
               shape_set<shapes<plane<double>>>);
 static_assert(shape_view<mesh_view<double>> && shape_view<spheres_view<float>> && shape_view<single_view<sphere<float>>> &&
               shape_view<edge_mesh_view<float>> && shape_view<points_view<double>> && shape_view<segments_view<float>> &&
-              shape_view<capsules_view<float>> && shape_view<boxes_view<double>>);
+              shape_view<capsules_view<float>> && shape_view<cylinders_view<double>> && shape_view<cones_view<float>> &&
+              shape_view<boxes_view<double>>);
 static_assert(!shape_set<int> && !shape_set<mesh_view<float>> && !shape_view<mesh<float>>);
 static_assert(std::is_trivially_copyable_v<mesh_view<float>> && std::is_trivially_copyable_v<equal_spheres_view<double>>);
 static_assert(std::same_as<triangle_soup<float>, shapes<triangle<float>>>);
@@ -96,7 +98,8 @@ static_assert(!boundable<other::without_scalar> && !boundable<other::without_bou
 static_assert(boundable<other::not_plain> && !shape<other::not_plain> && boundable<other::not_default> &&
               !shape<other::not_default>);
 static_assert(!shape<mesh<float>> && !shape<mesh_view<float>> && !shape<rigid<float>> && !shape<std::vector<float>>);
-static_assert(placeable<triangle<float>> && placeable<vec3<double>> && placeable<capsule<float>> && placeable<other::brick>);
+static_assert(placeable<triangle<float>> && placeable<vec3<double>> && placeable<capsule<float>> && placeable<cylinder<double>> &&
+              placeable<cone<float>> && placeable<other::brick>);
 static_assert(!placeable<aabb<float>> && !placeable<plane<float>> && !placeable<other::pebble<float>>);
 static_assert(shape_view<other::wall> && !shape_view<other::wall_of_nothing>);
 

@@ -248,10 +248,12 @@ struct revolution_meets_triangle {
                          edge[3] = {corner[1] - corner[0], corner[2] - corner[1], corner[0] - corner[2]};
         if (lies_beyond(a, d) || lies_beyond(p, first - last)) return verdict::no;
         verdict met = verdict::no;
+        ABUT_ROLLED
         for (int i = 0; i < 3; ++i) met = or_else(met, [&] { return Solid::has_point(a[i], p[i], d, r); });
         if (met == verdict::yes) return met;
         const auto n = cross(edge[0], edge[1]);
         met = or_else(met, [&] { return axis_meets_face(a, p[0], n, d); });
+        ABUT_ROLLED
         for (int i = 0; i < 3; ++i) {
             const int j = i == 2 ? 0 : i + 1;
             met = or_else(met, [&] { return meets_inside_of_segment<Solid>(a[i], a[j], p[i], p[j], edge[i], d, r); });
