@@ -3,7 +3,7 @@
 
 // Numbers that are known but for an error, and the running error analysis that bounds it (J. H. Wilkinson, Error analysis
 // revisited, 1986): each operation adds to the errors of its operands what its own rounding may add. So a polynomial that is
-// written once for integers is a filter as well, without a bound derived by hand. About five times as slow as plain numbers.
+// written once for integers is a filter as well, without a bound derived by hand. It costs several times what plain numbers do.
 //
 // The bound. Let u = 2^-52, at least the relative error of an operation in any rounding mode, and as well of a product and a
 // sum that are contracted into one. A sum v of two numbers is off by their errors and u|v|, a product by |a| e_b + |b| e_a +
