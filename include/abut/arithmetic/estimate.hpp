@@ -3,7 +3,8 @@
 
 // Numbers that are known but for an error, and the running error analysis that bounds it (J. H. Wilkinson, Error analysis
 // revisited, 1986): each operation adds to the errors of its operands what its own rounding may add. So a polynomial that is
-// written once for integers is a filter as well, without a bound derived by hand. It costs several times what plain numbers do.
+// written once for integers is a filter as well, without a bound derived by hand. It costs several times what plain numbers
+// do.
 //
 // The bound. Let u = 2^-52, at least the relative error of an operation in any rounding mode, and as well of a product and a
 // sum that are contracted into one. A sum v of two numbers is off by their errors and u|v|, a product by |a| e_b + |b| e_a +
@@ -126,19 +127,21 @@ ABUT_HD constexpr verdict or_else(verdict a, const Question& b) {
 /// Question::ask of the values, where doubles can tell. In double also of floats.
 template <class Question, scalar T, std::size_t V>
 ABUT_HD constexpr verdict ask_estimates(const T (&value)[V]) {
+    using format = float_format<T>;
+    using word = typename format::word;
     constexpr int top = 900 / Question::degree, span = 960 / Question::degree + top - 106;
-    double most = 0, least_of_all = infinity<double>;
+    constexpr int bias = 2 - format::digits - format::min_exponent, far = 600;
+    // By their bits, without a sign; less 1, which makes 0 the greatest of all.
+    word most = 0, least_of_all = static_cast<word>(-1);
     for (int i = 0; i < int{V}; ++i) {
-        const double size = absolute(static_cast<double>(value[i]));
-        most = greatest(size, most);
-        least_of_all = least(is_zero(value[i]) ? least_of_all : size, least_of_all);
+        const word size = static_cast<word>(__builtin_bit_cast(word, value[i]) << 1), less = static_cast<word>(size - 1);
+        most = size > most ? size : most;
+        least_of_all = less < least_of_all ? less : least_of_all;
     }
-    // Of denormal numbers, which may be read as 0, those of double are too small as well.
-    const bool is_in_range = most > 0x1p-600 && most < 0x1p900 && least_of_all > power_of_two<double>(-span) * most;
-    if (!is_in_range || (std::same_as<T, float> && !(least_of_all >= static_cast<double>(smallest_normal<T>)))) {
-        return verdict::unknown;
-    }
-    const int exponent = static_cast<int>(__builtin_bit_cast(std::uint64_t, most) >> 52) - 1023;
+    const int high = static_cast<int>(most >> format::digits), low = static_cast<int>(least_of_all >> format::digits);
+    // Denormal numbers may be read as 0.
+    const int exponent = high - bias;
+    if (low < 1 || high - low >= span || exponent > far || exponent < -far) return verdict::unknown;
     const double unit = power_of_two<double>(top - exponent);
     estimate number[V]{};
     for (int i = 0; i < int{V}; ++i) number[i] = {static_cast<double>(value[i]) * unit, 0};
