@@ -47,9 +47,7 @@ ABUT_NOINLINE ABUT_HD constexpr void add_shifted(std::uint64_t* r, int n, std::i
     for (int i = shift / 64; i < n; ++i) {
         const int k = i - shift / 64;
         const uint128 t = static_cast<uint128>(r[i]) + carry +
-                          (k == 0   ? lower_limb(bits)
-                           : k == 1 ? upper_limb(bits)
-                                    : mask_if(moved < 0));
+                          (k == 0 ? lower_limb(bits) : k == 1 ? upper_limb(bits) : mask_if(moved < 0));
         r[i] = lower_limb(t);
         carry = upper_limb(t);
     }
@@ -110,8 +108,8 @@ struct rolled_int {
 };
 
 // Numbers as results: a product has the limbs of both factors, a sum those of its terms, which have one length and leave
-// room for it. Whoever computes polynomials of them leaves two bits of each number's first limb. All are returned out of
-// line: nvcc 13.0 gives what one inlined call returns the memory of what another one returned and is still read.
+// room for it. Whoever computes polynomials of them leaves two bits of each number's first limb. All are returned out of line:
+// nvcc 13.0 gives what one inlined call returns the memory of what another one returned and is still read.
 
 template <int A, int B>
 ABUT_NOINLINE ABUT_HD constexpr rolled_int<A + B> operator*(const rolled_int<A>& a, const rolled_int<B>& b) {
@@ -258,8 +256,7 @@ ABUT_NOINLINE ABUT_HD constexpr double divide_magnitudes(std::uint64_t* a, std::
     // The quotient, by its digits: the first stands for 2^weight, and one of the first two is 1. As many follow as a double
     // of this magnitude has.
     int weight = bits_a - bits_b, last = lowest;
-    if (weight < lowest)
-        return weight == lowest - 1 && limbs_less(b, a, n) ? __builtin_bit_cast(double, std::uint64_t{1}) : 0;
+    if (weight < lowest) return weight == lowest - 1 && limbs_less(b, a, n) ? __builtin_bit_cast(double, std::uint64_t{1}) : 0;
     std::uint64_t quotient = 0;
     for (;; --weight) {
         const bool is_one = !limbs_less(a, b, n);
