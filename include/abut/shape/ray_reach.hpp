@@ -15,6 +15,8 @@
 // Where the direction is 0 in a coordinate the origin has to lie between both planes. Where it is less than 2^-60 of the
 // largest, the planes say nothing.
 
+#include <cstddef>
+
 #include <abut/arithmetic/align.hpp>
 #include <abut/arithmetic/error_free.hpp>
 #include <abut/arithmetic/lanes.hpp>
@@ -43,6 +45,26 @@ ABUT_HD constexpr int exponent_of_normal(T x) {
            format::digits - 2;
 }
 
+/// A power of two that brings the largest coordinate of a direction, a normal number, to [1, 2).
+template <scalar T>
+struct direction_scale {
+    int exponent;
+    T first, second;  ///< in two steps, since 2^-e need not be a normal number
+
+    ABUT_HD explicit direction_scale(T largest)
+        : exponent(exponent_of_normal(largest)), first(power_of_two<T>(-exponent / 2)),
+          second(power_of_two<T>(-exponent - -exponent / 2)) {}
+    [[nodiscard]] ABUT_HD T divide(T x) const { return plain_product(plain_product(x, first), second); }
+};
+
+/// A ray or a segment as a frame sees it.
+template <scalar T>
+struct line_in_frame {
+    vec3<T> origin, direction;
+    double last;  ///< the time at which it ends, or infinity
+    T slack;      ///< by how much a point of it may be off
+};
+
 template <scalar T, class Register = typename register_of<T>::type>
 class ray_reach_of_four;
 
@@ -67,9 +89,8 @@ struct ray_reach {
         const vec3<T> size = absolute(direction);
         const T largest = greatest(size.x, size.y, size.z);
         const bool is_safe = largest >= smallest_normal<T>;  // nothing is asked of a direction of denormal numbers
-        if (is_safe) exponent = exponent_of_normal(largest);
-        // In two steps, since 2^-e need not be a normal number.
-        const T first = power_of_two<T>(-exponent / 2), second = power_of_two<T>(-exponent - -exponent / 2);
+        const direction_scale<T> scale(is_safe ? largest : T(1));
+        exponent = scale.exponent;
         const T reach = slack + 4 * smallest_normal<T>;
         const auto prepare = [&](T vec3<T>::*x) {
             below.*x = origin.*x + reach;
@@ -81,7 +102,7 @@ struct ray_reach {
                 is_narrow = true;
                 return;
             }
-            const T scaled = plain_product(plain_product(direction.*x, first), second);
+            const T scaled = scale.divide(direction.*x);
             if (!is_safe || !(absolute(scaled) >= T(0x1p-60))) return;
             inverse.*x = 1 / scaled;
             far.*x = 0;
@@ -91,6 +112,8 @@ struct ray_reach {
         prepare(&vec3<T>::z);
         shrink_to(last);
     }
+
+    ABUT_HD explicit ray_reach(const line_in_frame<T>& l) : ray_reach(l.origin, l.direction, l.last, l.slack) {}
 
     /// When it enters the box, or a time above every limit.
     ABUT_HD T least_in(const aabb<T>& box) const {
@@ -110,10 +133,14 @@ struct ray_reach {
     [[nodiscard]] ABUT_HD aabb<T> bounds() const { return around; }
     /// bound: a time, in the direction's own length.
     ABUT_HD void shrink_to(double bound) {
-        constexpr double grown = 1 + 32 * static_cast<double>(unit_roundoff<T>);
         if (bound == infinity<double>) return;
+        limit = limit_of(bound, exponent);
+    }
+    /// The limit for such a bound, where times are 2^exponent times as long.
+    ABUT_HD static T limit_of(double bound, int exponent) {
+        constexpr double grown = 1 + 32 * static_cast<double>(unit_roundoff<T>);
         const double scaled = times_power_of_two(bound, exponent) * grown + 4 * static_cast<double>(smallest_normal<T>);
-        limit = scaled < static_cast<double>(most) ? static_cast<T>(scaled) : most;
+        return scaled < static_cast<double>(most) ? static_cast<T>(scaled) : most;
     }
 };
 
@@ -130,31 +157,37 @@ public:
     ABUT_HD explicit ray_reach_of_four(const ray_reach<T>& one) : one_(one) {
         const auto prepare = [&](int axis, T vec3<T>::*x) {
             const T factor = one.inverse.*x;
-            const bool back = factor < 0;
-            enters_[axis] = back ? axis + 3 : axis;
-            leaves_[axis] = back ? axis : axis + 3;
+            const bool back = factor < 0, tells = !is_zero(factor);
+            enters_[axis] = 4u * static_cast<unsigned>(back ? axis + 3 : axis);
+            leaves_[axis] = 4u * static_cast<unsigned>(back ? axis : axis + 3);
             many::all(factor).store(factor_[axis]);
-            many::all(back ? one.above.*x : one.below.*x).store(in_[axis]);
-            many::all(back ? one.below.*x : one.above.*x).store(out_[axis]);
-            many::all(one.far.*x).store(far_[axis]);
+            many::all(!tells ? 0 : back ? one.above.*x : one.below.*x).store(in_[axis]);
+            many::all(!tells ? infinity<T> : back ? one.below.*x : one.above.*x).store(out_[axis]);
         };
         prepare(0, &vec3<T>::x);
         prepare(1, &vec3<T>::y);
         prepare(2, &vec3<T>::z);
+        many::all(ray_reach<T>::most).store(most_);
+        many::all(one.limit).store(limit_);
     }
 
-    /// When it enters each of four boxes, by their planes: lower x, y and z, and then upper ones. Which of two the ray passes
-    /// first is the same for all boxes. A bit for each box that is kept; of the others the times mean nothing.
+    /// When it enters each of four boxes, by their planes: lower x, y and z, and then upper ones, at a multiple of 16 bytes.
+    /// Which of two the ray passes first is the same for all boxes. A bit for each box that is kept; of the others the times
+    /// mean nothing.
+    ///
+    /// Where planes say nothing they are entered at 0 and left at a time that is no number, than which any other is less.
+    /// The exit is the limit at most, and so a little more is kept than by the limit itself.
     ABUT_INLINE ABUT_HD unsigned least_in_four(const T (&planes)[6][4], T (&to)[4]) const {
         constexpr T grown = 1 + 32 * unit_roundoff<T>, tiny = 4 * smallest_normal<T>;
-        many entry = many::all(T(0)), exit = many::all(infinity<T>);
+        const T* const from = planes[0];
+        many entry = many::all(T(0)), exit = many::load_aligned(limit_);
         for (int k = 0; k < 3; ++k) {
-            const many factor = many::load(factor_[k]);
-            entry = greatest((many::load(planes[enters_[k]]) - many::load(in_[k])) * factor, entry);
-            exit = least((many::load(planes[leaves_[k]]) - many::load(out_[k])) * factor + many::load(far_[k]), exit);
+            const many factor = many::load_aligned(factor_[k]);
+            entry = greatest((many::load_aligned(from + enters_[k]) - many::load_aligned(in_[k])) * factor, entry);
+            exit = least((many::load_aligned(from + leaves_[k]) - many::load_aligned(out_[k])) * factor, exit);
         }
-        entry = least(entry, many::all(ray_reach<T>::most));
-        auto apart = (entry > exit * many::all(grown) + many::all(tiny)) | (entry > many::all(one_.limit));
+        entry = least(entry, many::load_aligned(most_));
+        auto apart = entry > exit * many::all(grown) + many::all(tiny);
         if (one_.is_narrow) {
             const vec3<T>&lower = one_.around.lower, &upper = one_.around.upper;
             const T below[] = {lower.x, lower.y, lower.z}, above[] = {upper.x, upper.y, upper.z};
@@ -168,24 +201,28 @@ public:
         return ~bits_of(row) & 0xfu;
     }
     [[nodiscard]] ABUT_HD bool keeps(T least) const { return one_.keeps(least); }
-    ABUT_HD void shrink_to(double bound) { one_.shrink_to(bound); }
+    ABUT_HD void shrink_to(double bound) {
+        one_.shrink_to(bound);
+        many::all(one_.limit).store(limit_);
+    }
 
 private:
+    alignas(16) T in_[3][4], out_[3][4], factor_[3][4];
+    alignas(16) T limit_[4], most_[4];  ///< `most` from memory: g++ takes four instructions for the lesser of a constant
+    std::size_t enters_[3], leaves_[3];  ///< where the planes of boxes begin that the ray passes first and last
     ray_reach<T> one_;
-    alignas(16) T in_[3][4], out_[3][4], factor_[3][4], far_[3][4];
-    int enters_[3], leaves_[3];  ///< which planes of a box the ray passes first and last
 };
 
 /// What a frame sees of a line in the world (point_reach.hpp).
 template <scalar T>
-ABUT_HD ray_reach<T> reach_of_line(const world_frame<T>&, const vec3<T>& origin, const vec3<T>& direction, double last) {
-    return {origin, direction, last};
+ABUT_HD line_in_frame<T> line_seen(const world_frame<T>&, const vec3<T>& origin, const vec3<T>& direction, double last) {
+    return {origin, direction, last, 0};
 }
 /// The origin is brought there as a ball's centre is, and what that may be off is its slack. The direction is off by no more
 /// than a share of its length that is 5 times the pose's deviation, and rounding: at a time at which the line is near the
 /// object, that is this share of how far both are apart.
 template <scalar T>
-ABUT_HD ray_reach<T> reach_of_line(const object_frame<T>& frame, const vec3<T>& origin, const vec3<T>& direction,
+ABUT_HD line_in_frame<T> line_seen(const object_frame<T>& frame, const vec3<T>& origin, const vec3<T>& direction,
                                    double last) {
     const auto seen = frame.ball_around(origin);
     const rigid<T>& pose = frame.pose;
@@ -199,6 +236,12 @@ ABUT_HD ray_reach<T> reach_of_line(const object_frame<T>& frame, const vec3<T>& 
                           magnitudes(turned) < static_cast<double>(largest_finite<T>) / 4;
     if (!is_known) return {origin, {1, 1, 1}, infinity<double>, infinity<T>};
     return {seen.center, to_scalar<T>(turned), last, static_cast<T>(slack)};
+}
+
+/// What a line reaches that a frame sees.
+template <class Frame, scalar T>
+ABUT_HD ray_reach<T> reach_of_line(const Frame& frame, const vec3<T>& origin, const vec3<T>& direction, double last) {
+    return ray_reach<T>(line_seen(frame, origin, direction, last));
 }
 
 }  // namespace detail
