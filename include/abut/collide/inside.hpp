@@ -20,7 +20,7 @@
 #include <abut/narrow/crossing.hpp>
 #include <abut/shape/half_edges.hpp>
 #include <abut/shape/ray_reach.hpp>
-#include <abut/traverse/ordered_walk.hpp>
+#include <abut/traverse/from_each.hpp>
 
 namespace abut {
 
@@ -41,6 +41,12 @@ struct inside_options {
 
 namespace detail {
 
+/// How a frame sees the ray up from a point.
+template <class Frame, scalar T>
+ABUT_HD auto line_upward(const Frame& frame, const vec3<T>& p) {
+    return line_seen(frame, p, vec3<T>{0, 0, 1}, infinity<double>);
+}
+
 /// A walk up from each of many points.
 template <arithmetic A, class Walk, class Frame, shape_view Shapes, shape_view Points>
 struct walk_upward {
@@ -55,9 +61,7 @@ struct walk_upward {
         vec3<T> p;
         bool is_odd = false, is_on = false;
 
-        ABUT_HD auto reach(const walk_upward& all) const {
-            return reach_of_line(all.frame, p, vec3<T>{0, 0, 1}, infinity<double>);
-        }
+        ABUT_HD auto reach(const walk_upward& all) const { return ray_reach<T>(line_upward(all.frame, p)); }
         ABUT_CALLS_ANY
         template <class Sink>
         ABUT_HD void operator()(const walk_upward& all, std::uint32_t id, Sink& sink) {
@@ -73,6 +77,7 @@ struct walk_upward {
         }
     };
     ABUT_HD look start(std::size_t i) const { return {points[i]}; }
+    ABUT_HD auto seen(std::size_t i) const { return line_upward(frame, points[i]); }
 };
 
 /// The first face at an edge of an odd number of faces, if half-edge i is that edge's first; and how many they are.

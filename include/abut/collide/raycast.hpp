@@ -22,7 +22,7 @@
 #include <abut/narrow/hit_time.hpp>
 #include <abut/narrow/hull_hit_time.hpp>
 #include <abut/shape/ray_reach.hpp>
-#include <abut/traverse/ordered_walk.hpp>
+#include <abut/traverse/from_each.hpp>
 
 namespace abut {
 
@@ -38,11 +38,16 @@ struct ray_hit {
 
 namespace detail {
 
-/// How far a line reaches: through the boxes that it passes before the sink's bound.
+/// How a frame sees a line.
+template <class Frame, class Line>
+ABUT_HD auto line_along(const Frame& frame, const Line& line) {
+    const line_of<scalar_type_of<Line>> l(line);
+    return line_seen(frame, l.origin, l.direction(), l.last);
+}
+/// How far it reaches: through the boxes that it passes before the sink's bound.
 template <class Frame, class Line>
 ABUT_HD auto reach_along(const Frame& frame, const Line& line) {
-    const line_of<scalar_type_of<Line>> l(line);
-    return reach_of_line(frame, l.origin, l.direction(), l.last);
+    return ray_reach<scalar_type_of<Line>>(line_along(frame, line));
 }
 
 /// A time as it is reported: no infinity.
@@ -95,6 +100,7 @@ struct walk_along_lines {
         }
     };
     ABUT_HD look start(std::size_t i) const { return {lines[i]}; }
+    ABUT_HD auto seen(std::size_t i) const { return line_along(frame, lines[i]); }
 };
 
 /// Of each line whether it meets anything: the same, which ends at what it meets at all.
@@ -124,6 +130,7 @@ struct walk_to_any {
         }
     };
     ABUT_HD look start(std::size_t i) const { return {lines[i]}; }
+    ABUT_HD auto seen(std::size_t i) const { return line_along(frame, lines[i]); }
 };
 
 template <scalar T>

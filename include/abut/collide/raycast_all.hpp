@@ -59,6 +59,7 @@ struct count_along_lines {
         }
     };
     ABUT_HD look start(std::size_t i) const { return {lines[i], few + kept_hits * i}; }
+    ABUT_HD auto seen(std::size_t i) const { return line_along(frame, lines[i]); }
 };
 
 /// Brings a line's hits into their order, where they lie: as they come they nearly are (Shell, 1959).

@@ -14,6 +14,7 @@
 // or more. What is left does not depend on the order in which values come, and so not on threads, as long as nothing at the
 // bound is left out.
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -216,11 +217,62 @@ void for_each_ordered(const Policy& on, std::size_t n, const Walk& walk, Best& b
 
 namespace detail {
 
-/// A thread's share, begin to end, one index after the other.
+/// The indices of a thread's share, begin to end. A walk may have in_bundles(): that is offered some neighbouring indices at
+/// a time, walks from all of them at once, or from none if that does not pay, and tells which. Where it often does not, it
+/// is asked less often.
+template <class Walk>
+class share_of_indices {
+public:
+    share_of_indices(const Walk& walk, std::size_t begin, std::size_t end)
+        : bundles_(bundles_of(walk)), next_(begin), end_(end), looked_at_(begin) {}
+
+    /// Takes the next index to walk from. False where none is left.
+    template <class Sink>
+    bool take(std::size_t& i, [[maybe_unused]] Sink& sink) {
+        if constexpr (!std::same_as<bundles_type, none>) {
+            while (next_ == looked_at_ && next_ < end_) look_at_bundle(sink);
+        }
+        if (next_ == end_) return false;
+        i = next_++;
+        return true;
+    }
+
+private:
+    struct none {};
+    static auto bundles_of([[maybe_unused]] const Walk& walk) {
+        if constexpr (requires { walk.in_bundles(); }) {
+            return walk.in_bundles();
+        } else {
+            return none{};
+        }
+    }
+    using bundles_type = decltype(bundles_of(std::declval<const Walk&>()));
+
+    template <class Sink>
+    void look_at_bundle(Sink& sink) {
+        constexpr std::size_t size = 32, longest = 8;
+        const std::size_t left = end_ - next_, last = next_ + (left < size ? left : size);
+        if (bundles_(next_, last, sink)) {
+            next_ = looked_at_ = last;
+            apart_ = 1;
+        } else {
+            looked_at_ = next_ + (left < apart_ * size ? left : apart_ * size);
+            if (apart_ < longest) apart_ *= 2;
+        }
+    }
+
+    [[no_unique_address]] bundles_type bundles_;
+    std::size_t next_, end_;
+    std::size_t looked_at_;  ///< up to here bundles have been offered
+    std::size_t apart_ = 1;  ///< how far apart, in bundles
+};
+
+/// One index after the other.
 template <class Walk, class Sink>
 void walk_in_order(const Walk& walk, Sink sink, std::size_t begin, std::size_t end) {
     constexpr std::size_t ahead = 8;
-    for (std::size_t i = begin; i < end; ++i) {
+    share_of_indices<Walk> share(walk, begin, end);
+    for (std::size_t i = 0; share.take(i, sink);) {
         if constexpr (requires { walk.prefetch(i); }) {
             if (i + ahead < end) walk.prefetch(i + ahead);
         }
@@ -257,17 +309,23 @@ void walk_in_turns(const Walk& walk, const Sink& sink, std::size_t begin, std::s
     };
     std::optional<one_walk> room[together];
     one_walk* walks[together];
-    std::size_t count = 0;
-    for (; count < together && begin < end; ++count) {
-        walks[count] = &room[count].emplace(walk, sink);
-        walks[count]->begin(begin++);
+    share_of_indices<Walk> share(walk, begin, end);
+    std::size_t count = 0, i = 0;
+    while (count < together) {
+        one_walk& one = room[count].emplace(walk, sink);
+        if (!share.take(i, one.sink)) {
+            one.sink.close();
+            break;
+        }
+        one.begin(i);
+        walks[count++] = &one;
     }
     while (count > 0) {
         for (std::size_t k = 0; k < count;) {
             if (walks[k]->step()) {
                 ++k;
-            } else if (begin < end) {
-                walks[k++]->begin(begin++);
+            } else if (share.take(i, walks[k]->sink)) {
+                walks[k++]->begin(i);
             } else {
                 walks[k]->sink.close();
                 walks[k] = walks[--count];

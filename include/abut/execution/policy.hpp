@@ -44,7 +44,8 @@
 //                                           sink.bound(), which shrinks meanwhile, tells what is still worth looking at: all
 //                                           that is not above. `best` is of each index or of all (execution/ordered.hpp). A
 //                                           walk that takes long says so by its `grain`, how many go together; one that
-//                                           can stop where it waits for memory, by in_steps() and pays_in_steps()
+//                                           can stop where it waits for memory, by in_steps() and pays_in_steps(); and one
+//                                           that can take neighbours as one, by in_bundles()
 //   for_each_tiled(on, n, m, tile, queue...)
 //                                           judges all pairs of n rows and m columns that pass. Rows stream by; columns are
 //                                           kept close to the cores, in tiles. What a judge leaves open waits in room of a

@@ -8,8 +8,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
-#include <utility>
 
 #include <abut/arithmetic/limits.hpp>
 #include <abut/arithmetic/magnitude.hpp>
@@ -168,116 +166,6 @@ struct ordered_tree_walk {
         }
     }
 };
-
-/// The same walk on a host in steps, each of which asks memory for what the next one reads. A core that takes the steps of
-/// several walks in turn works on one while memory answers another: O. Kocberber, B. Falsafi, B. Grot, Asynchronous memory
-/// access chaining (2015).
-template <bvh_layout Tree>
-class steps_through_tree {
-public:
-    explicit steps_through_tree(const Tree& tree) : tree_(tree) {}
-
-    template <class Reach, class Best>
-    void begin(Reach& reach, const Best& best) {
-        bound_ = infinity<double>;
-        tighten(reach, best, bound_);
-        place_.begin(tree_);
-        is_asked_for_ = false;
-    }
-
-    /// One node, or one shape: visitor(id). False after the last.
-    template <shape_view Shapes, class Reach, class Best, class Visitor>
-    bool step(const Shapes& shapes, Reach& reach, const Best& best, const Visitor& visitor) {
-        const bvh_child child = place_.at.child;
-        if (!reach.keeps(place_.at.least)) {
-            if (!place_.next(reach, pending_)) return false;
-        } else if (!child.is_leaf()) {
-            if (!place_.descend(tree_, reach, pending_)) return false;
-        } else if (!is_asked_for_) {
-            prefetch_shape(shapes, child.index(), 1);
-            is_asked_for_ = true;
-            return true;
-        } else {
-            visitor(child.index());
-            tighten(reach, best, bound_);
-            if (!place_.next(reach, pending_)) return false;
-        }
-        is_asked_for_ = false;
-        if (place_.at.child.is_leaf()) {
-            prefetch_shape(shapes, place_.at.child.index(), 0);
-        } else {
-            tree_.prefetch(place_.at.child);
-        }
-        return true;
-    }
-
-private:
-    Tree tree_;
-    place_in_tree<Tree> place_;
-    typename place_in_tree<Tree>::room pending_;
-    double bound_;
-    bool is_asked_for_;
-};
-
-/// Whether a walk can go in steps: through a tree that is made for a processor. Binary nodes are too little work for a step.
-template <class Walk>
-inline constexpr bool goes_in_steps = false;
-template <bvh_layout Tree>
-inline constexpr bool goes_in_steps<ordered_tree_walk<Tree>> = (Tree::width > 2);
-
-/// One index after another walks in steps. `all` is that of from_each, and is referred to.
-template <class All>
-class steps_from {
-    using tree_type = std::remove_cvref_t<decltype(std::declval<const All&>().walk.tree)>;
-    using look_type = decltype(std::declval<const All&>().start(0));
-    using given_type = decltype(std::declval<const look_type&>().reach(std::declval<const All&>()));
-    using reach_type = std::remove_cvref_t<decltype(reach_through<tree_type>(std::declval<given_type&>()))>;
-
-public:
-    explicit steps_from(const All& all) : all_(&all), steps_(all.walk.tree) {}
-
-    template <class Sink>
-    void begin(std::size_t i, const Sink& sink) {
-        look_ = all_->start(i);
-        given_type given = look_.reach(*all_);
-        reach_ = reach_through<tree_type>(given);
-        steps_.begin(reach_, sink);
-    }
-    template <class Sink>
-    bool step(Sink& sink) {
-        return steps_.step(all_->shapes, reach_, sink, [&](std::uint32_t id) { look_(*all_, id, sink); });
-    }
-    template <class Sink>
-    void end(std::size_t i, Sink& sink) {
-        look_.end(*all_, i, sink);
-    }
-
-private:
-    const All* all_;
-    look_type look_;
-    reach_type reach_;
-    steps_through_tree<tree_type> steps_;
-};
-
-/// A functor for for_each_ordered: a walk from each index. `all` has `walk` and `shapes`; all.start(i) is what looks from
-/// index i: its look.reach(all), look(all, id, sink) at shapes that it comes to, and look.end(all, i, sink) after the last.
-template <class All>
-struct from_each {
-    All all;
-
-    ABUT_CALLS_ANY
-    template <class Sink>
-    ABUT_HD void operator()(std::size_t i, Sink& sink) const {
-        auto look = all.start(i);
-        auto reach = look.reach(all);
-        all.walk(reach, sink, [&](std::uint32_t id) { look(all, id, sink); });
-        look.end(all, i, sink);
-    }
-    [[nodiscard]] bool pays_in_steps() const requires goes_in_steps<decltype(All::walk)> { return all.walk.pays_in_steps(); }
-    [[nodiscard]] auto in_steps() const requires goes_in_steps<decltype(All::walk)> { return steps_from(all); }
-};
-template <class All>
-from_each(const All&) -> from_each<All>;
 
 /// A part of a ball that shrinks: what of it is in a box.
 template <class Reach, scalar T>

@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Ordered walks from each of many indices (ordered_walk.hpp), and how a host takes several of them at once through a tree
+// that is made for a processor: in steps in turn, or, of lines that go nearly the same way, from common entries.
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <utility>
+
+#include <abut/arithmetic/lanes.hpp>
+#include <abut/arithmetic/limits.hpp>
+#include <abut/arithmetic/magnitude.hpp>
+#include <abut/index/bvh.hpp>
+#include <abut/shape/bounds.hpp>
+#include <abut/shape/box_measure.hpp>
+#include <abut/shape/line_bundle.hpp>
+#include <abut/shape/view.hpp>
+#include <abut/traverse/ordered_walk.hpp>
+
+namespace abut::detail {
+
+/// The same walk on a host in steps, each of which asks memory for what the next one reads. A core that takes the steps of
+/// several walks in turn works on one while memory answers another: O. Kocberber, B. Falsafi, B. Grot, Asynchronous memory
+/// access chaining (2015).
+template <bvh_layout Tree>
+class steps_through_tree {
+public:
+    explicit steps_through_tree(const Tree& tree) : tree_(tree) {}
+
+    template <class Reach, class Best>
+    void begin(Reach& reach, const Best& best) {
+        bound_ = infinity<double>;
+        tighten(reach, best, bound_);
+        place_.begin(tree_);
+        is_asked_for_ = false;
+    }
+
+    /// One node, or one shape: visitor(id). False after the last.
+    template <shape_view Shapes, class Reach, class Best, class Visitor>
+    bool step(const Shapes& shapes, Reach& reach, const Best& best, const Visitor& visitor) {
+        const bvh_child child = place_.at.child;
+        if (!reach.keeps(place_.at.least)) {
+            if (!place_.next(reach, pending_)) return false;
+        } else if (!child.is_leaf()) {
+            if (!place_.descend(tree_, reach, pending_)) return false;
+        } else if (!is_asked_for_) {
+            prefetch_shape(shapes, child.index(), 1);
+            is_asked_for_ = true;
+            return true;
+        } else {
+            visitor(child.index());
+            tighten(reach, best, bound_);
+            if (!place_.next(reach, pending_)) return false;
+        }
+        is_asked_for_ = false;
+        if (place_.at.child.is_leaf()) {
+            prefetch_shape(shapes, place_.at.child.index(), 0);
+        } else {
+            tree_.prefetch(place_.at.child);
+        }
+        return true;
+    }
+
+private:
+    Tree tree_;
+    place_in_tree<Tree> place_;
+    typename place_in_tree<Tree>::room pending_;
+    double bound_;
+    bool is_asked_for_;
+};
+
+/// Whether a walk can go in steps: through a tree that is made for a processor. Binary nodes are too little work for a step.
+template <class Walk>
+inline constexpr bool goes_in_steps = false;
+template <bvh_layout Tree>
+inline constexpr bool goes_in_steps<ordered_tree_walk<Tree>> = (Tree::width > 2);
+
+/// One index after another walks in steps. `all` is that of from_each, and is referred to.
+template <class All>
+class steps_from {
+    using tree_type = std::remove_cvref_t<decltype(std::declval<const All&>().walk.tree)>;
+    using look_type = decltype(std::declval<const All&>().start(0));
+    using given_type = decltype(std::declval<const look_type&>().reach(std::declval<const All&>()));
+    using reach_type = std::remove_cvref_t<decltype(reach_through<tree_type>(std::declval<given_type&>()))>;
+
+public:
+    explicit steps_from(const All& all) : all_(&all), steps_(all.walk.tree) {}
+
+    template <class Sink>
+    void begin(std::size_t i, const Sink& sink) {
+        look_ = all_->start(i);
+        given_type given = look_.reach(*all_);
+        reach_ = reach_through<tree_type>(given);
+        steps_.begin(reach_, sink);
+    }
+    template <class Sink>
+    bool step(Sink& sink) {
+        return steps_.step(all_->shapes, reach_, sink, [&](std::uint32_t id) { look_(*all_, id, sink); });
+    }
+    template <class Sink>
+    void end(std::size_t i, Sink& sink) {
+        look_.end(*all_, i, sink);
+    }
+
+private:
+    const All* all_;
+    look_type look_;
+    reach_type reach_;
+    steps_through_tree<tree_type> steps_;
+};
+
+/// Where the walks of some lines begin that are asked together: at nodes and shapes below the root, which one of them at
+/// least may reach, in groups of four. All lines go down from the root as one, as far as that leaves out boxes and there is
+/// room: A. Reshetov, A. Soupikov, J. Hurley, Multi-level ray tracing algorithm (2005).
+template <bvh_layout Tree>
+class bundle_entries {
+public:
+    using T = typename Tree::scalar_type;
+    static constexpr int most = 16;
+
+    /// False where so little is left out that the lines had better begin at the root.
+    bool find(const Tree& tree, const bundle_reach<T>& lines) {
+        part queue[3 * most + 1] = {{tree.root_bounds(), tree.root()}};
+        int first = 0, last = 1, opened = 0, looked_at = 0, left_out = 0;
+        count_ = 0;
+        while (first < last) {
+            const part at = queue[first++];
+            if (at.child.is_leaf() || opened == most) {
+                put(at);
+                continue;
+            }
+            const auto& node = tree.fetch(at.child.index());
+            const int children = tree.children(node);
+            unsigned kept = lines.reached(tree.all_planes(node)) & ((1u << children) - 1);
+            int reached = 0;
+            for (unsigned bits = kept; bits != 0; bits &= bits - 1) ++reached;
+            ++opened;
+            looked_at += children;
+            if (reached == Tree::width || count_ + (last - first) + reached > most) {
+                put(at);
+                continue;
+            }
+            left_out += children - reached;
+            for (; kept != 0; kept &= kept - 1) {
+                const auto slot = static_cast<int>(lowest_bit(kept));
+                queue[last++] = {tree.bounds(node, slot), tree.child(node, slot)};
+            }
+        }
+        for (int k = count_; k % 4 != 0; ++k) {
+            for (T(&row)[4] : planes_[k / 4]) row[k % 4] = row[0];
+        }
+        return 2 * left_out >= looked_at;
+    }
+
+    [[nodiscard]] int count() const { return count_; }
+    [[nodiscard]] int groups() const { return (count_ + 3) / 4; }
+    [[nodiscard]] auto planes(int group) const -> const T (&)[6][4] { return planes_[group]; }
+    /// A bit for each entry of a group.
+    [[nodiscard]] unsigned all_of(int group) const { return (1u << least(count_ - 4 * group, 4)) - 1; }
+    [[nodiscard]] bvh_child child(int group, int slot) const { return child_[4 * group + slot]; }
+
+private:
+    struct part {
+        aabb<T> box;
+        bvh_child child;
+    };
+
+    void put(const part& one) {
+        const vec3<T>&lower = one.box.lower, &upper = one.box.upper;
+        const T box[] = {lower.x, lower.y, lower.z, upper.x, upper.y, upper.z};
+        for (int k = 0; k < 6; ++k) planes_[count_ / 4][k][count_ % 4] = box[k];
+        child_[count_++] = one.child;
+    }
+
+    alignas(16) T planes_[most / 4][6][4];  // not initialised
+    bvh_child child_[most];
+    int count_ = 0;
+};
+
+/// Walks of some lines that are asked together, one after another, from their entries on, if neighbours are less far apart
+/// than shapes are long: what one line has read the next one then finds near. Lines that are farther apart wait for memory,
+/// and are taken in turns sooner. Otherwise these walks are those of ordered_tree_walk; but all is in one loop, with a stack
+/// of its own.
+template <class All>
+class bundle_walk {
+    using tree_type = std::remove_cvref_t<decltype(std::declval<const All&>().walk.tree)>;
+    using T = typename tree_type::scalar_type;
+    using entry = typename place_in_tree<tree_type>::entry;
+
+public:
+    explicit bundle_walk(const All& all) : all_(&all) {
+        const aabb<T> box = all.walk.tree.root_bounds();
+        const vec3<double> side = widened(box.upper) - widened(box.lower);
+        middle_ = 0.5 * (widened(box.lower) + widened(box.upper));
+        size_of_shape_ = std::sqrt(half_surface(side) / static_cast<double>(all.walk.tree.size()));
+    }
+
+    /// False, and nothing is done, where lines from first to last are too few, or go too different ways, to be asked
+    /// together.
+    template <class Sink>
+    ABUT_NOINLINE bool operator()(std::size_t first, std::size_t last, Sink& sink) {
+        constexpr std::size_t few = 8;
+        if (last - first < few) return false;
+        line_bounds<T> between(all_->seen(first));
+        for (std::size_t i = first + 1; i < last; ++i) between.add(all_->seen(i));
+        if (!(apart(between, last - first) <= size_of_shape_)) return false;
+        const bundle_reach<T> lines(between);
+        if (lines.coordinates_told() < 2 || !entries_.find(all_->walk.tree, lines)) return false;
+        for (std::size_t i = first; i < last; ++i) {
+            sink.begin(i);
+            auto look = all_->start(i);
+            if (entries_.count() > 0) {
+                auto given = look.reach(*all_);
+                auto reach = reach_through<tree_type>(given);
+                walk(reach, sink, [&](std::uint32_t id) { look(*all_, id, sink); });
+            }
+            look.end(*all_, i, sink);
+            sink.end(i);
+        }
+        return true;
+    }
+
+private:
+    /// How far apart neighbours are, about, where they are as far away as the middle of the tree. No number for some lines.
+    [[nodiscard]] double apart(const line_bounds<T>& lines, std::size_t count) const {
+        const auto middle = [](const aabb<T>& box) { return 0.5 * (widened(box.lower) + widened(box.upper)); };
+        const auto longest = [](const vec3<double>& v) { return greatest(absolute(v.x), absolute(v.y), absolute(v.z)); };
+        const auto sides = [](const aabb<T>& box) { return widened(box.upper) - widened(box.lower); };
+        const double time = longest(middle_ - middle(lines.origins)) / longest(middle(lines.directions));
+        return longest(sides(lines.origins) + time * sides(lines.directions)) / static_cast<double>(count - 1);
+    }
+
+    template <class Reach, class Best, class Visitor>
+    ABUT_INLINE void walk(Reach& reach, const Best& best, const Visitor& visitor) {
+        const tree_type& tree = all_->walk.tree;
+        double bound = infinity<double>;
+        tighten(reach, best, bound);
+        T least_of[4];
+        waiting_ = 0;
+        for (int group = 0; group < entries_.groups(); ++group) {
+            unsigned kept = reach.least_in_four(entries_.planes(group), least_of) & entries_.all_of(group);
+            for (; kept != 0; kept &= kept - 1) {
+                const auto slot = static_cast<int>(lowest_bit(kept));
+                wait({entries_.child(group, slot), least_of[slot]}, 0);
+            }
+        }
+        while (waiting_ > 0) {
+            entry at = pending_[--waiting_];
+            if (!reach.keeps(at.least)) continue;
+            while (!at.child.is_leaf()) {
+                const auto& node = tree.fetch(at.child.index());
+                unsigned kept = reach.least_in_four(tree.all_planes(node), least_of) & ((1u << tree.children(node)) - 1);
+                if (kept == 0) break;
+                const auto take = [&] {
+                    const auto slot = static_cast<int>(lowest_bit(kept));
+                    kept &= kept - 1;
+                    return entry{tree.child(node, slot), least_of[slot]};
+                };
+                at = take();
+                const int below = waiting_;
+                while (kept != 0) {
+                    entry other = take();
+                    if (other.least < at.least) std::swap(at, other);
+                    wait(other, below);
+                    if (other.child.is_leaf()) {
+                        prefetch_shape(all_->shapes, other.child.index(), 0);
+                    } else {
+                        tree.prefetch(other.child);
+                    }
+                }
+            }
+            if (!at.child.is_leaf()) continue;
+            visitor(at.child.index());
+            tighten(reach, best, bound);
+        }
+    }
+
+    /// Puts an entry among those that wait from number `below` on, the farthest first.
+    ABUT_INLINE void wait(const entry& one, int below) {
+        int k = waiting_++;
+        for (; k > below && one.least > pending_[k - 1].least; --k) pending_[k] = pending_[k - 1];
+        pending_[k] = one;
+    }
+
+    const All* all_;
+    vec3<double> middle_;   ///< of the tree
+    double size_of_shape_;  ///< about how long one is, if all lie on a surface like that of the box around them
+    bundle_entries<tree_type> entries_;
+    int waiting_ = 0;
+    entry pending_[bvh_max_depth * (tree_type::width - 1) + 1 + bundle_entries<tree_type>::most];
+};
+
+/// A functor for for_each_ordered: a walk from each index. `all` has `walk` and `shapes`; all.start(i) is what looks from
+/// index i: its look.reach(all), look(all, id, sink) at shapes that it comes to, and look.end(all, i, sink) after the last.
+/// all.seen(i) is the line along which it looks.
+template <class All>
+struct from_each {
+    All all;
+
+    ABUT_CALLS_ANY
+    template <class Sink>
+    ABUT_HD void operator()(std::size_t i, Sink& sink) const {
+        auto look = all.start(i);
+        auto reach = look.reach(all);
+        all.walk(reach, sink, [&](std::uint32_t id) { look(all, id, sink); });
+        look.end(all, i, sink);
+    }
+    [[nodiscard]] bool pays_in_steps() const requires goes_in_steps<decltype(All::walk)> { return all.walk.pays_in_steps(); }
+    [[nodiscard]] auto in_steps() const requires goes_in_steps<decltype(All::walk)> { return steps_from(all); }
+    [[nodiscard]] auto in_bundles() const requires goes_in_steps<decltype(All::walk)> { return bundle_walk(all); }
+};
+template <class All>
+from_each(const All&) -> from_each<All>;
+
+}  // namespace abut::detail

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+//
+// A bundle of lines reaches every box that one of its lines reaches: a line is exact, of a box that it passes through, in
+// every mode of the processor, and at the ends of the range.
+#include <abut/shape/line_bundle.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include <abut/predicate/intersects.hpp>
+
+#include "support/catch.hpp"
+#include "support/modes.hpp"
+#include "support/scenes.hpp"
+
+using namespace abut;
+
+namespace {
+
+template <class T>
+struct some_lines {
+    std::vector<ray<T>> rays;
+    double last;
+};
+
+/// A bundle of a kind: nearly parallel, from one point, along an axis or in a plane, and with signs that differ.
+template <class T>
+some_lines<T> bundle_of(std::size_t kind, T scale, test::uniform& random) {
+    const vec3<T> origin = random.point<T>(-2, 2), way = random.point<T>(-1, 1);
+    const double spread = std::pow(10.0, random(-6, 0)), apart = kind % 2 == 0 ? 0 : spread;
+    const T length = kind % 3 == 0 ? T(1) : kind % 3 == 1 ? T(1e-3) : T(1) / scale;
+    some_lines<T> made{{}, random.below(3) == 0 ? 1 : std::numeric_limits<double>::infinity()};
+    for (int i = 0; i < 12; ++i) {
+        vec3<T> o = origin + random.point<T>(-apart, apart), d = way + random.point<T>(-spread, spread);
+        if (kind % 5 == 1) d.x = 0;
+        if (kind % 5 == 2) d = {0, 0, i % 3 == 0 ? T(1) : T(2)};
+        if (kind % 5 == 3 && i % 4 == 0) d.y = std::numeric_limits<T>::denorm_min();
+        if (kind % 7 == 4) o.z = T(i % 2 == 0 ? 0 : -0.0);
+        const vec3<T> longer = length * d;
+        const bool fits = std::isfinite(longer.x) && std::isfinite(longer.y) && std::isfinite(longer.z);
+        made.rays.push_back({scale * o, fits ? longer : d});
+    }
+    return made;
+}
+
+template <class T>
+detail::line_in_frame<T> as_line(const ray<T>& r, double last) {
+    return {r.origin, r.direction, last, 0};
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("bundles of lines: what a line reaches its bundle reaches", "", float, double) {
+    using T = TestType;
+    const T smallest = std::numeric_limits<T>::min(), largest = std::numeric_limits<T>::max();
+    test::uniform random(521);
+    std::size_t lost = 0, lost_points = 0, reached = 0, left_out = 0;
+    for (const T scale : {T(1), T(1e-20), T(1e20), smallest * 64, smallest, smallest / 64, largest / 16}) {
+        for (std::size_t kind = 0; kind < 210; ++kind) {
+            const auto lines = bundle_of<T>(kind, scale, random);
+            alignas(16) T planes[6][4];
+            aabb<T> boxes[4];
+            for (int k = 0; k < 4; ++k) {
+                // Boxes around points of a line, and of no width in some coordinates; and boxes anywhere.
+                const auto& r = lines.rays[random.below(lines.rays.size())];
+                const vec3<T> width = scale * random.point<T>(0, std::pow(10.0, random(-5, 0)));
+                const T time = static_cast<T>(random(0, 2));
+                vec3<T> at = r.origin + time * (lines.last == 1 ? r.direction : scale * r.direction);
+                const bool fits = std::isfinite(at.x) && std::isfinite(at.y) && std::isfinite(at.z);
+                if (k == 3 || !fits) at = scale * random.point<T>(-3, 3);
+                boxes[k] = {at - width, at + width};
+                if (kind % 4 == 0) boxes[k].upper.y = boxes[k].lower.y;
+                const vec3<T>&lower = boxes[k].lower, &upper = boxes[k].upper;
+                const T box[] = {lower.x, lower.y, lower.z, upper.x, upper.y, upper.z};
+                for (int plane = 0; plane < 6; ++plane) planes[plane][k] = box[plane];
+            }
+            for (const auto& mode : test::floating_modes()) {
+                test::in_mode(mode, [&] {
+                    detail::line_bounds<T> between(as_line(lines.rays[0], lines.last));
+                    for (const auto& r : lines.rays) between.add(as_line(r, lines.last));
+                    const unsigned together = detail::bundle_reach<T>(between).reached(planes);
+                    for (const auto& r : lines.rays) {
+                        const detail::ray_reach<T> alone(as_line(r, lines.last));
+                        const detail::ray_reach_of_four<T> alone_by_fours(alone);
+                        T entries[4];
+                        const unsigned by_fours = alone_by_fours.least_in_four(planes, entries);
+                        for (unsigned k = 0; k < 4; ++k) {
+                            const bool is_kept = alone(boxes[k]), by_bundle = (together >> k & 1) != 0;
+                            lost += is_kept && !by_bundle;
+                            lost += is_kept && (by_fours >> k & 1) == 0;
+                            reached += is_kept;
+                            left_out += !by_bundle;
+                        }
+                    }
+                });
+            }
+            // By definition, in the default mode.
+            detail::line_bounds<T> between(as_line(lines.rays[0], lines.last));
+            for (const auto& r : lines.rays) between.add(as_line(r, lines.last));
+            const unsigned together = detail::bundle_reach<T>(between).reached(planes);
+            for (unsigned k = 0; k < 4; ++k) {
+                if ((together >> k & 1) != 0 || lines.last == 1) continue;
+                const vec3<T>&low = boxes[k].lower, &high = boxes[k].upper;
+                const triangle<T> within{low, high, {low.x, high.y, low.z}};
+                const triangle<T> across{{high.x, low.y, low.z}, {low.x, low.y, high.z}, high};
+                for (const auto& r : lines.rays) lost_points += intersects(r, within) || intersects(r, across);
+            }
+        }
+    }
+    CHECK(lost == 0);
+    CHECK(lost_points == 0);
+    CHECK(reached > 10000);
+    CHECK(left_out > 10000);
+}
+
+TEMPLATE_TEST_CASE("bundles of lines: in how many coordinates planes say anything", "", float, double) {
+    using T = TestType;
+    const auto told = [](const std::vector<vec3<T>>& directions) {
+        detail::line_bounds<T> between({{0, 0, 0}, directions[0], 1, 0});
+        for (const auto& d : directions) between.add({{0, 0, 0}, d, 1, 0});
+        return detail::bundle_reach<T>(between).coordinates_told();
+    };
+    CHECK(told({{1, 2, 3}, {2, 1, 1}}) == 3);
+    CHECK(told({{1, 2, -3}, {2, 1, -1}}) == 3);
+    CHECK(told({{1, 2, 3}, {-2, 1, 1}}) == 2);
+    CHECK(told({{1, 2, 3}, {-2, -1, -1}}) == 0);
+    CHECK(told({{0, 0, 3}, {0, 0, 1}}) == 3);
+    CHECK(told({{0, 0, 3}, {0, 1, 1}}) == 2);
+    CHECK(told({{0, 0, 0}, {0, 0, 0}}) == 3);
+    CHECK(told({{std::numeric_limits<T>::denorm_min(), 0, 0}}) == 2);
+    CHECK(told({{std::numeric_limits<T>::infinity(), 1, 1}, {1, 1, 1}}) == 0);
+}
