@@ -57,6 +57,30 @@ TEMPLATE_TEST_CASE("raycast: nothing is culled that rounding or flushing moves",
     }
 }
 
+TEMPLATE_TEST_CASE("raycast: segments longer than the largest number", "", float, double) {
+    using T = TestType;
+    const T large = std::numeric_limits<T>::max() / T(1.125);
+    test::uniform random(97);
+    std::vector<triangle<T>> triangles{{{0, -large, -large}, {0, large, -large}, {0, 0, large}}};
+    for (int i = 0; i < 20; ++i) {
+        const T z = static_cast<T>(i - 10);
+        triangles.push_back({{-1, -1, z - T(0.5)}, {1, -1, z + T(0.5)}, {0, 2, z}});
+    }
+    std::vector<segment<T>> lines;
+    for (int i = 0; i < 40; ++i) {
+        const vec3<T> end = large * random.point<T>(-1, 1);
+        lines.push_back({T(-1) * end, i % 2 == 0 ? end : vec3<T>{large, end.y, end.z}});
+    }
+    for (int i = 0; i < 40; ++i) lines.push_back({{-large, large / -2, 0}, {large, large / 2, 0}});
+    const triangle_soup<T> soup(triangles);
+    const auto expected = test::hits_by_definition(soup.view(), lines);
+    CHECK(test::share_of_hits(expected) > 0.5);
+    const auto tree = make_bvh(serial{}, soup);
+    test::check_hits(serial{}, soup, lines, expected);
+    test::check_hits(serial{}, tree, lines, expected);
+    test::check_hits(serial{}, wide(serial{}, tree), lines, expected);
+}
+
 TEST_CASE("raycast: nothing to meet, and nothing that looks") {
     const mesh<float> none;
     const triangle<float> floor{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};

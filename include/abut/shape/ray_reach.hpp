@@ -88,7 +88,8 @@ struct ray_reach {
         constexpr T none = infinity<T>;
         const vec3<T> size = absolute(direction);
         const T largest = greatest(size.x, size.y, size.z);
-        const bool is_safe = largest >= smallest_normal<T>;  // nothing is asked of a direction of denormal numbers
+        // Nothing is asked of a direction of denormal numbers, or of a segment's that overflows.
+        const bool is_safe = largest >= smallest_normal<T> && largest <= largest_finite<T>;
         const direction_scale<T> scale(is_safe ? largest : T(1));
         exponent = scale.exponent;
         const T reach = slack + 4 * smallest_normal<T>;
