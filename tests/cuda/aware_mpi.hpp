@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <map>
 #include <vector>
 
@@ -18,6 +19,13 @@ namespace abut::test {
 /// What MPI says of itself, and how many messages of a device it has had.
 inline bool mpi_is_aware = false;
 inline std::uint64_t messages_on_devices = 0;
+
+/// From here on.
+inline void make_mpi_aware(bool is) {
+    mpi_is_aware = is;
+    messages_on_devices = 0;
+    setenv("ABUT_MPI_READS_DEVICES", is ? "1" : "0", 1);
+}
 
 struct staged_message {
     std::vector<std::byte> here;

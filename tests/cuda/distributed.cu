@@ -52,8 +52,7 @@ shapes_of_scene make_scene(std::size_t n) {
 }  // namespace
 
 TEST_CASE("distributed: cuda") {
-    mpi_is_aware = GENERATE(false, true);
-    messages_on_devices = 0;
+    make_mpi_aware(GENERATE(false, true));
     const distributed on(world(), cuda{});
     const auto all = make_scene(3000);
     const triangle_soup<float> whole_a(all.triangles);
@@ -106,8 +105,7 @@ TEST_CASE("distributed: cuda") {
 }
 
 TEST_CASE("distributed: what points and rays ask, and distances, cuda") {
-    mpi_is_aware = GENERATE(false, true);
-    messages_on_devices = 0;
+    make_mpi_aware(GENERATE(false, true));
     const distributed on(world(), cuda{});
     const auto& ranks = on.ranks();
     const auto all = make_scene(1500);
@@ -164,8 +162,7 @@ TEST_CASE("distributed: what points and rays ask, and distances, cuda") {
 }
 
 TEST_CASE("distributed: impacts, cuda") {
-    mpi_is_aware = GENERATE(false, true);
-    messages_on_devices = 0;
+    make_mpi_aware(GENERATE(false, true));
     const distributed on(world(), cuda{});
     const auto all = make_scene(800);
     std::vector<vec3<float>> vertices, moved;

@@ -18,8 +18,7 @@
 namespace abut::test {
 
 TEST_CASE("distributed: convex hulls, cuda") {
-    mpi_is_aware = GENERATE(false, true);
-    messages_on_devices = 0;
+    make_mpi_aware(GENERATE(false, true));
     const distributed on(world(), cuda{});
     const auto& ranks = on.ranks();
     std::mt19937 random(42);

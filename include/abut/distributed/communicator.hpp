@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <memory>
@@ -51,8 +52,12 @@ inline void check_mpi(int code, const char* call) {
     throw error(std::string("abut::distributed: ") + call + ": " + text);
 }
 
-/// Whether MPI itself reads and writes memory of CUDA devices, as far as it says so: Open MPI, and MPICH from 4.0 on.
+/// Whether messages lie in memory of CUDA devices: where MPI says that it reads that (Open MPI, and MPICH from 4.0 on), and
+/// the environment says by ABUT_MPI_READS_DEVICES=1 that it does so with memory of a pool, as the library's is: some that
+/// read devices do not.
 inline bool mpi_reads_devices() {
+    const char* const wanted = std::getenv("ABUT_MPI_READS_DEVICES");
+    if (wanted == nullptr || std::strcmp(wanted, "1") != 0) return false;
 #if defined(OMPI_HAVE_MPI_EXT_CUDA)
     return MPIX_Query_cuda_support() == 1;
 #elif defined(MPIX_GPU_SUPPORT_CUDA)

@@ -64,6 +64,13 @@ public:
         out_->ids.bring_here(local_, n);
         out_->faces.bring_here(local_, m);
     }
+    /// What could not be packed is sent all the same.
+    void give_up() {
+        out_->at_t0.give_up();
+        out_->at_t1.give_up();
+        out_->ids.give_up();
+        out_->faces.give_up();
+    }
     template <class F>
     void send(const sizes& size, const F& f) {
         hand_over(*out_, size, f);

@@ -29,7 +29,7 @@ enum class in_message : bool {
     yes
 };
 
-/// Room for values of a message: in the policy's memory, and where MPI does not reach that, on the host as well. Whoever uses
+/// Room for values of a message: in the policy's memory, and where that is not the host's, on the host as well. Whoever uses
 /// what came waits for the policy before the room is used again.
 template <class Policy, class T>
 class message_room {
@@ -37,7 +37,7 @@ public:
     message_room(const Policy& on, std::size_t n, in_message is = in_message::yes)
         : direct_(host_policy<Policy> || mpi_reads_devices()),
           there_(on, n),
-          here_(serial{}, direct_ || is == in_message::no ? 0 : n) {
+          here_(serial{}, host_policy<Policy> || is == in_message::no ? 0 : n) {
         if (direct_) synchronize(on);
     }
 
@@ -54,21 +54,22 @@ public:
     /// What came, as the host reads it.
     [[nodiscard]] const T* on_host(const Policy& on, std::size_t n) {
         if constexpr (host_policy<Policy>) return there_.data();
-        if (direct_) {
-            here_ = execution::buffer<T, host_space>(serial{}, n);
-            download(on, there_.data(), n, here_.data());
-        }
+        if (direct_) download(on, there_.data(), n, here_.data());
         return here_.data();
     }
-    /// Values of any kind, where none were written: they are sent and not used.
-    void clear(std::size_t n) {
-        if (host_policy<Policy> || !direct_) std::fill_n(here(), n, T{});
+    /// Where nothing could be written: values of any kind are sent, from memory of the host.
+    ///@{
+    void give_up() { direct_ = host_policy<Policy>; }
+    void give_up(std::size_t n) {
+        give_up();
+        std::fill_n(here(), n, T{});
     }
+    ///@}
     /// What is in the policy's memory, for good.
     [[nodiscard]] execution::buffer_of<Policy, T> take() { return std::move(there_); }
 
 private:
-    bool direct_;  ///< MPI reaches the policy's memory
+    bool direct_;  ///< MPI is given addresses in the policy's memory
     execution::buffer_of<Policy, T> there_;
     execution::buffer<T, host_space> here_;
 };
@@ -105,6 +106,7 @@ public:
         at[0] += size[0];
     }
 
+    void give_up() { shapes_.give_up(); }
     void bring_here(const Policy& on, const sizes& size) { shapes_.bring_here(on, length(size)); }
     void bring_there(const Policy& on, const sizes& size) { shapes_.bring_there(on, length(size)); }
     /// f(address for MPI, number, MPI type) for each array; `type` is that of an element.
@@ -194,6 +196,10 @@ public:
         for (const std::size_t k : {0u, 1u}) at[k] += size[k];
     }
 
+    void give_up() {
+        offsets_.give_up();
+        points_.give_up();
+    }
     void bring_here(const Policy& on, const sizes& size) {
         offsets_.bring_here(on, length(size) + 1);
         points_.bring_here(on, static_cast<std::size_t>(size[1]));

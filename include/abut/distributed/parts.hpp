@@ -143,6 +143,7 @@ void exchange_parcels(const distributed<Local>& on, attempts& attempt, parcel_ro
         if (out != sizes{}) {
             attempt([&] { parcels.pack(target, out); });
             is_whole_out = attempt.failed() ? 0 : 1;
+            if (attempt.failed()) parcels.give_up();
             open.emplace_back();
             check_mpi(MPI_Isend(&is_whole_out, 1, MPI_INT, target, tag_is_whole, ranks.get(), &open.back()), "MPI_Isend");
             parcels.send(out, [&](const void* data, std::uint64_t n, MPI_Datatype type) {
@@ -194,6 +195,13 @@ protected:
     };
     const Local& local_;
     std::optional<room> out_, in_;
+
+public:
+    /// What could not be packed is sent all the same.
+    void give_up() {
+        out_->shapes.give_up();
+        out_->ids.give_up();
+    }
 
 private:
     template <class F>

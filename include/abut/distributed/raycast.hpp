@@ -131,6 +131,7 @@ public:
         synchronize(local_);
         mine = {};
     }
+    void give_up() { out_->give_up(); }
     template <class F>
     void send(const sizes& size, const F& f) {
         f(out_->here(), size[0], type_.get());

@@ -239,7 +239,7 @@ private:
                     for_each_index(local_, asked, pack_shape<view>{rows, looking_.ids() + first, rooms_->asked.there()});
                     rooms_->asked.bring_here(local_, asked);
                 });
-                if (attempt.failed()) rooms_->asked.clear(asked);
+                if (attempt.failed()) rooms_->asked.give_up(asked);
                 send(rooms_->asked.here(), asked, row_type_.get(), target, tag_rows);
             }
             wait();
