@@ -64,16 +64,17 @@ struct heap {
 namespace {
 
 using namespace abut;
-using plant::cylinder;
+template <scalar T>
+using pillar = plant::cylinder<T>;  // abut has a cylinder of its own
 using pair_list = std::vector<index_pair>;
 
-static_assert(shape<cylinder<float>> && shape<cylinder<double>> && !placeable<cylinder<float>>);
-static_assert(decidable_pair<cylinder<float>, triangle<float>> && !decidable_pair<triangle<float>, cylinder<float>>);
-static_assert(!decidable_pair<cylinder<float>, triangle<double>> && !decidable_pair<cylinder<float>, sphere<float>>);
+static_assert(shape<pillar<float>> && shape<pillar<double>> && !placeable<pillar<float>>);
+static_assert(decidable_pair<pillar<float>, triangle<float>> && !decidable_pair<triangle<float>, pillar<float>>);
+static_assert(!decidable_pair<pillar<float>, triangle<double>> && !decidable_pair<pillar<float>, sphere<float>>);
 static_assert(placeable<stones::pebble> && shape_view<stones::heap> && decidable_pair<stones::pebble, stones::pebble>);
-static_assert(intersects(cylinder<float>{{0, 0, 0}, 1, 2}, triangle<float>{{1, -1, 1}, {1, 1, 1}, {3, 0, 1}}));
+static_assert(intersects(pillar<float>{{0, 0, 0}, 1, 2}, triangle<float>{{1, -1, 1}, {1, 1, 1}, {3, 0, 1}}));
 
-// --- the oracle: clips the triangle to the cylinder's heights, and measures what is left from above, in rationals
+// --- the oracle: clips the triangle to the pillar's heights, and measures what is left from above, in rationals
 // ------------
 
 using rational = boost::multiprecision::cpp_rational;
@@ -117,7 +118,7 @@ bool reaches(const std::vector<rational_point>& polygon, const rational& square)
 }
 
 template <class T>
-bool oracle(const cylinder<T>& c, const triangle<T>& t) {
+bool oracle(const pillar<T>& c, const triangle<T>& t) {
     std::vector<rational_point> polygon;
     for (const vec3<T>& p : {t.a, t.b, t.c}) {
         polygon.push_back(
@@ -131,7 +132,7 @@ struct tally {
     std::size_t hits = 0, misses = 0, filtered_out = 0;
 
     template <class T>
-    void compare(const cylinder<T>& c, const triangle<T>& t) {
+    void compare(const pillar<T>& c, const triangle<T>& t) {
         const bool expected = oracle(c, t);
         (expected ? hits : misses) += 1;
         const verdict filter = decide<filtered>(c, t);
@@ -154,7 +155,7 @@ void check_on_lattice(int count, tally& sum) {
     };
     for (int i = 0; i < count; ++i) {
         const auto point = [&] { return vec3<T>{whole(-6, 6), whole(-6, 6), whole(-4, 4)}; };
-        const cylinder<T> c{{whole(-1, 1), whole(-1, 1), whole(-1, 0)}, whole(0, 5), whole(0, 3)};
+        const pillar<T> c{{whole(-1, 1), whole(-1, 1), whole(-1, 0)}, whole(0, 5), whole(0, 3)};
         triangle<T> t{point(), point(), point()};
         if (i % 5 == 0) t.b = t.a;
         if (i % 7 == 0) t.c = {t.b.x, t.b.y, whole(-4, 4)};  // upright
@@ -171,7 +172,7 @@ void check_at_random(int count, double scale, tally& sum) {
             const vec3<T> p = random.point<T>(-3, 3);
             return vec3<T>{static_cast<T>(p.x * scale), static_cast<T>(p.y * scale), static_cast<T>(p.z * scale)};
         };
-        const cylinder<T> c{point(), static_cast<T>(random(0, 2) * scale), static_cast<T>(random(0, 3) * scale)};
+        const pillar<T> c{point(), static_cast<T>(random(0, 2) * scale), static_cast<T>(random(0, 3) * scale)};
         sum.compare(c, triangle<T>{point(), point(), point()});
     }
 }
@@ -205,8 +206,8 @@ std::size_t check_queries(const Policy& on, const X& a, const Y& b) {
 }
 
 template <class T>
-std::vector<cylinder<T>> random_cylinders(std::size_t n, test::uniform& random) {
-    std::vector<cylinder<T>> all;
+std::vector<pillar<T>> random_cylinders(std::size_t n, test::uniform& random) {
+    std::vector<pillar<T>> all;
     for (std::size_t i = 0; i < n; ++i) {
         const vec3<T> foot = random.point<T>(-1, 1);
         all.push_back({foot, static_cast<T>(random(0, 0.3)), static_cast<T>(i % 9 == 0 ? 0 : random(0, 0.8))});
@@ -217,32 +218,32 @@ std::vector<cylinder<T>> random_cylinders(std::size_t n, test::uniform& random) 
 template <class T, class Policy>
 void check_cylinders(const Policy& on) {
     test::uniform random(47);
-    const shapes<cylinder<T>> cylinders(random_cylinders<T>(150, random));
+    const shapes<pillar<T>> pillars(random_cylinders<T>(150, random));
     const triangle_soup<T> soup(test::random_triangles<T>(200, random));
-    CHECK(check_queries(on, cylinders, soup) > 200);
+    CHECK(check_queries(on, pillars, soup) > 200);
     const test::torus<T> ring(16, 8, 0.6, 0.3);
-    CHECK(check_queries(on, mesh<T>(ring.vertices, ring.faces), cylinders) > 100);
-    // One cylinder, and the caller's own array of them.
-    const cylinder<T> one{{0, 0, T(-0.5)}, T(0.5), 1};
+    CHECK(check_queries(on, mesh<T>(ring.vertices, ring.faces), pillars) > 100);
+    // One pillar, and the caller's own array of them.
+    const pillar<T> one{{0, 0, T(-0.5)}, T(0.5), 1};
     pair_list with_one;
-    for (const index_pair& p : truth(soup.view(), single_view<cylinder<T>>{one})) with_one.push_back(p);
+    for (const index_pair& p : truth(soup.view(), single_view<pillar<T>>{one})) with_one.push_back(p);
     CHECK(with_one.size() > 10);
     CHECK(to_host(pairs(on, soup, one)) == with_one);
     CHECK(to_host(pairs(on, make_bvh(on, soup), one)) == with_one);
     struct tree {
         int age;
-        cylinder<T> stem;
+        pillar<T> stem;
     };
     std::vector<tree> forest;
-    for (const cylinder<T>& c : random_cylinders<T>(40, random)) forest.push_back({7, c});
-    const shapes_view<cylinder<T>> stems(&forest[0].stem, forest.size(), sizeof(tree));
+    for (const pillar<T>& c : random_cylinders<T>(40, random)) forest.push_back({7, c});
+    const shapes_view<pillar<T>> stems(&forest[0].stem, forest.size(), sizeof(tree));
     CHECK(to_host(pairs(on, soup, make_bvh(on, stems))) == truth(soup.view(), stems));
 }
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("extending: a solid cylinder's answers are exact", "", float, double) {
-    std::printf("cylinders against triangles: seeds 41, 43\n");
+TEMPLATE_TEST_CASE("extending: a solid pillar's answers are exact", "", float, double) {
+    std::printf("pillars against triangles: seeds 41, 43\n");
     tally lattice, random;
     check_on_lattice<TestType>(20'000, lattice);
     check_at_random<TestType>(3'000, 1, random);
@@ -258,17 +259,17 @@ TEMPLATE_TEST_CASE("extending: a solid cylinder's answers are exact", "", float,
     tally wide;
     for (int i = -2; i <= 2; ++i) {
         const TestType k = static_cast<TestType>(i) * tiny;
-        wide.compare(cylinder<TestType>{{0, 0, 0}, tiny, huge}, {{k, -huge, 1}, {k, huge, 1}, {k, 0, 1}});
-        wide.compare(cylinder<TestType>{{0, 0, 0}, huge, tiny}, {{huge, -huge, k}, {huge, huge, k}, {huge * 2, 0, k}});
-        wide.compare(cylinder<TestType>{{0, 0, 0}, tiny, tiny}, {{-huge, k, -huge}, {huge, k, huge}, {0, huge, 0}});
+        wide.compare(pillar<TestType>{{0, 0, 0}, tiny, huge}, {{k, -huge, 1}, {k, huge, 1}, {k, 0, 1}});
+        wide.compare(pillar<TestType>{{0, 0, 0}, huge, tiny}, {{huge, -huge, k}, {huge, huge, k}, {huge * 2, 0, k}});
+        wide.compare(pillar<TestType>{{0, 0, 0}, tiny, tiny}, {{-huge, k, -huge}, {huge, k, huge}, {0, huge, 0}});
     }
     CHECK(wide.hits >= 5);
     CHECK(wide.misses >= 5);
 }
 
-TEST_CASE("extending: cylinders in queries, serial") { check_cylinders<double>(serial{}); }
+TEST_CASE("extending: pillars in queries, serial") { check_cylinders<double>(serial{}); }
 
-TEST_CASE("extending: cylinders in queries, openmp") {
+TEST_CASE("extending: pillars in queries, openmp") {
     for (const int threads : {1, 2, 7}) {
         CAPTURE(threads);
         check_cylinders<float>(openmp{.threads = threads});
@@ -311,8 +312,8 @@ TEST_CASE("extending: a view of one's own, posed shapes, and shapes of one kind 
                       "abut::any: posed shape 0: x is not finite (inf)");
 }
 
-TEST_CASE("extending: a cylinder that is none is refused by its own is_valid") {
-    const std::vector<cylinder<float>> bad{{{0, 0, 0}, 1, 1}, {{3, 0, 0}, 1, -1}};
-    CHECK_THROWS_WITH(shapes<cylinder<float>>(bad), "abut::shapes: shape 1: lower z is above upper z (0)");
-    CHECK_THROWS_AS(make_grid(serial{}, cylinder<double>{{0, 0, 0}, -1, 1}), invalid_geometry);
+TEST_CASE("extending: a pillar that is none is refused by its own is_valid") {
+    const std::vector<pillar<float>> bad{{{0, 0, 0}, 1, 1}, {{3, 0, 0}, 1, -1}};
+    CHECK_THROWS_WITH(shapes<pillar<float>>(bad), "abut::shapes: shape 1: lower z is above upper z (0)");
+    CHECK_THROWS_AS(make_grid(serial{}, pillar<double>{{0, 0, 0}, -1, 1}), invalid_geometry);
 }
