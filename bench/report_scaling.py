@@ -159,7 +159,7 @@ def cores(results):
 
 @in_table("cores-busy")
 def cores_busy(results):
-    r = results["cpu/cores"]
+    r = results["cpu/cores_busy"]
     rows = []
     for operation, name in OPERATIONS.items():
         serial = r.get(f"{operation}/serial/busy")

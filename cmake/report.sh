@@ -75,7 +75,8 @@ cpu extremes bench_extremes --json={}
 cpu trade_scenes bench_trade_scenes --json={} --data=@D@
 cpu footprint bench_footprint --json={}
 cpu bodies bench_bodies $G $I
-cpu cores bench_cores $G --benchmark_filter=/quiet|/modelled/16|^(validate|build|sort_few_keys)/
+cpu cores bench_cores $G --benchmark_filter=/quiet|/modelled/16
+cpu cores_busy bench_cores $G --benchmark_filter=^(validate|build|sort_few_keys)/.*/busy
 cpu distributed bench_distributed --json={}
 cuda footprint bench_footprint_cuda {}
 cuda trade bench_trade_cuda {}
