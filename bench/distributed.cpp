@@ -50,6 +50,8 @@
 
 namespace {
 
+using part_bounds = abut::detail::part_bounds<float>;
+
 double processor_ms() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// What this rank has said to others, and its processor time in calls that wait for them.
@@ -319,8 +321,8 @@ void count_parts(rows& all, std::size_t shapes, const std::vector<std::size_t>& 
             double here = 0, near = 0;
             for (std::size_t to = 0; to < parts; ++to) {
                 if (to == from || !parts_a[to].is_near(parts_b[from])) continue;
-                using comes_near = abut::detail::comes_near<std::remove_const_t<decltype(part)>>;
-                const ids blocks = which(boxes.size(), abut::detail::is_block_near<float>{boxes.data(), parts_a[to]});
+                using comes_near = abut::detail::comes_near<std::remove_const_t<decltype(part)>, part_bounds>;
+                const ids blocks = which(boxes.size(), abut::detail::is_block_near<float, part_bounds>{boxes.data(), parts_a[to]});
                 const abut::detail::in_blocks<comes_near> comes{{part, parts_a[to]}, blocks.data(), part.size()};
                 double some = 0;
                 for (std::size_t i = 0; i < blocks.size() * abut::detail::block_size; ++i) some += comes(i) ? 1 : 0;
@@ -429,8 +431,8 @@ void time_local(rows& all, std::size_t shapes, int runs) {
     using view_type = std::remove_const_t<decltype(view)>;
     const auto parts = bounds_of_parts(view, 1000);  // few of them are near to one
     const auto boxes = boxes_of_blocks(view);
-    std::vector<abut::detail::is_block_near<float>> near_blocks;
-    std::vector<abut::detail::comes_near<view_type>> near_shapes;
+    std::vector<abut::detail::is_block_near<float, part_bounds>> near_blocks;
+    std::vector<abut::detail::comes_near<view_type, part_bounds>> near_shapes;
     for (const auto& part : parts) {
         near_blocks.push_back({boxes.data(), part});
         near_shapes.push_back({view, part});
