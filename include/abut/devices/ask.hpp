@@ -79,8 +79,8 @@ auto bounds_of_parts(const Team& team, const X& x, const ShapesOn& shapes_on) {
 template <class Policy, class Operand>
 auto close_boxes(const Policy& on, const Operand& x) {
     using T = typename decltype(x.shapes())::scalar_type;
-    // A box of a thousand shapes keeps all but a few thousandths of another surface away. More boxes took longer to look at
-    // than they saved.
+    // Another surface that crosses a box brings about as many shapes into it as are in it already. So boxes are small beside
+    // what crosses, and few enough to be handed over through the host.
     constexpr std::size_t shapes_in_box = 1024, least_boxes = 256, most_boxes = 16384;
     const std::size_t boxes = std::min(x.shapes().size() / shapes_in_box, most_boxes);
     if constexpr (Operand::has_tree && !Operand::is_posed) {
