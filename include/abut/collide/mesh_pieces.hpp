@@ -124,11 +124,11 @@ private:
     [[nodiscard]] std::size_t vertex_count() const { return mesh_.t0().view().vertices.count; }
     [[nodiscard]] strided<face> faces() const { return mesh_.t0().view().faces; }
     [[nodiscard]] auto near_faces(const part_bounds<T>& there) const {
-        return comes_near{mesh_.view(), there};
+        return comes_near<typename mesh_type::view_type, part_bounds<T>>{mesh_.view(), there};
     }
     [[nodiscard]] auto near_vertices(const part_bounds<T>& there) const {
         const auto points = vertices(mesh_).view();
-        return comes_near{points, there};
+        return comes_near<std::remove_const_t<decltype(points)>, part_bounds<T>>{points, there};
     }
     /// The vertices of a piece.
     template <class Face, class Vertex>

@@ -105,6 +105,7 @@ auto pack_for_others(const Team& team, const ShapesOn& shapes_on, const IdsOn& i
     using local = typename Team::local_policy;
     using view = decltype(shapes_on(0));
     using packed = near_part<local, typename view::shape_type>;
+    using close_bounds_there = close_bounds<typename view::scalar_type, space_of<local>>;
     return each_of(team, [&](int from) {
         const local& on = team[from];
         const view shapes = shapes_on(from);
@@ -118,7 +119,7 @@ auto pack_for_others(const Team& team, const ShapesOn& shapes_on, const IdsOn& i
             for (auto& box : boxes) box = reach(box);
             const auto tree = tree_of_boxes(on, boxes);
             packed some;
-            some.ids = near.ids(on, close_bounds{theirs, tree.view()});
+            some.ids = near.ids(on, close_bounds_there{theirs, tree.view()});
             const std::size_t n = some.ids.size();
             some.shapes = execution::buffer_of<local, typename view::shape_type>(on, n);
             for_each_index(on, n, pack_shape<view>{shapes, some.ids.data(), some.shapes.data()});
