@@ -81,7 +81,8 @@ Bounds grown_by(const Bounds& bounds, T distance) {
     return grown(bounds, near_in_distance<T>{distance_frame<T>(distance)});
 }
 
-/// A part as another one knows it that looks closely: by boxes around a few hundred shapes each, too, where there are some.
+/// A part as another one knows it that looks closely: by boxes around a thousand shapes or more each, too, where there are
+/// some.
 template <scalar T, memory_space Space>
 struct close_bounds {
     part_bounds<T> part;
