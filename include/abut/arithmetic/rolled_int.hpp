@@ -109,7 +109,8 @@ struct rolled_int {
 
 // Numbers as results: a product has the limbs of both factors, a sum those of its terms, which have one length and leave
 // room for it. Whoever computes polynomials of them leaves two bits of each number's first limb. All are returned out of line:
-// nvcc 13.0 gives what one inlined call returns the memory of what another one returned and is still read.
+// nvcc 13.0 gives what one inlined call returns the memory of what another one returned and is still read. So whatever returns
+// such numbers has an overload here: the templates of vec.hpp are inlined.
 
 template <int A, int B>
 ABUT_NOINLINE ABUT_HD constexpr rolled_int<A + B> operator*(const rolled_int<A>& a, const rolled_int<B>& b) {
@@ -182,14 +183,34 @@ ABUT_HD constexpr int sign_of_dot(const vec3<rolled_int<A>>& a, const vec3<rolle
     return dot(a, b).sign();
 }
 
+/// s v
+template <int A, int B>
+ABUT_NOINLINE ABUT_HD constexpr vec3<rolled_int<A + B>> scale(const rolled_int<A>& s, const vec3<rolled_int<B>>& v) {
+    vec3<rolled_int<A + B>> r;
+    const auto write = [](rolled_int<A + B>& to, const auto& p, const auto& q) {
+        to.begin(p.count + q.count);
+        to.add(p, q);
+    };
+    write(r.x, s, v.x);
+    write(r.y, s, v.y);
+    write(r.z, s, v.z);
+    return r;
+}
+
+/// The i-th three numbers in a row, as a point.
+template <int A, std::size_t V>
+ABUT_NOINLINE ABUT_HD constexpr vec3<rolled_int<A>> point_at(const rolled_int<A> (&value)[V], int i) {
+    return {value[3 * i], value[3 * i + 1], value[3 * i + 2]};
+}
+
 /// a^2 or |a|^2
 ///@{
 template <int A>
-ABUT_HD constexpr rolled_int<2 * A> square(const rolled_int<A>& a) {
+ABUT_NOINLINE ABUT_HD constexpr rolled_int<2 * A> square(const rolled_int<A>& a) {
     return a * a;
 }
 template <int A>
-ABUT_HD constexpr rolled_int<2 * A> square(const vec3<rolled_int<A>>& a) {
+ABUT_NOINLINE ABUT_HD constexpr rolled_int<2 * A> square(const vec3<rolled_int<A>>& a) {
     return dot(a, a);
 }
 ///@}
