@@ -489,6 +489,8 @@ void check_impacts(const Team& team) {
     const auto parts_a = divide_mesh(team, a), parts_b = divide_mesh(team, b);
     CHECK(to_host(impacts(team, parts_a, make_impact_index(team, parts_b))) == expected);
     CHECK(first_impact(team, parts_a, parts_b) == first_impact(serial{}, a, b));
+    CHECK(to_host(self_impacts(team, parts_a)) == within);
+    CHECK(first_self_impact(team, parts_a) == first_self_impact(serial{}, a));
 
     const auto later = shaken(ball_surface<T>(3, 1.0), vec3<T>{0, T(0.5), 0}, 3);
     const auto moved = refit(team, index_a, later);

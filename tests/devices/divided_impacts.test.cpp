@@ -173,7 +173,81 @@ void check_divided_impacts(const Team& team) {
     CHECK(to_host(impacts(team, divide_mesh(team, one), index_a)) == to_host(impacts(serial{}, one, a)));
 }
 
+/// One mesh with itself: two surfaces that pass through each other, and a sheet that folds onto itself.
+template <scalar T, class Team>
+void check_divided_self_impacts(const Team& team) {
+    const auto a = shaken(odd_surface<T>(2, 1.0), vec3<T>{T(0.5), 0, 0}, 1);
+    const auto b = shaken(odd_surface<T>(2, 0.75), vec3<T>{T(-0.5), T(0.25), 0}, 2);
+    const auto both = one_after_another(std::vector{a, b});
+    const auto expected = to_host(self_impacts(serial{}, both));
+    CAPTURE(team.size(), expected.size());
+    CHECK(expected.size() > to_host(impacts(serial{}, a, b)).size());
+    const auto parts = divide_mesh(team, both);
+    CHECK(to_host(self_impacts(team, parts)) == expected);
+    const auto index = make_impact_index(team, parts);
+    CHECK(to_host(self_impacts(team, index, {.sorted = false})) == expected);
+    CHECK(to_host(self_impacts<exact>(team, index)) == expected);
+    CHECK(to_host(self_impacts(team, divide_mesh(team, both.t0()))) == to_host(self_impacts(serial{}, both.t0())));
+    const impact_options near{.bounds = {.tolerance = 0x1p-10, .separation = 0.0625}};
+    CHECK(to_host(self_impacts<conservative>(team, index, near)) == to_host(self_impacts<conservative>(serial{}, both, near)));
+    const auto first = first_self_impact(serial{}, both);
+    CHECK(first.has_value());
+    CHECK(first_self_impact(team, parts) == first);
+    CHECK(first_self_impact<exact>(team, index) == first);
+    CHECK(first_self_impact<conservative>(team, index, near) == first_self_impact<conservative>(serial{}, both, near));
+
+    // A sheet folds along its middle: late, so that what shares a vertex, which always touches, must not be taken for it.
+    constexpr std::uint32_t side = 17;
+    std::vector<vec3<T>> flat, folded;
+    std::vector<face> faces;
+    for (std::uint32_t i = 0; i < side * side; ++i) {
+        const T x = T(i % side) - T(8), y = T(i / side) - T(8);
+        flat.push_back({x, y, x * x / T(64)});
+        folded.push_back(x > 0 ? vec3<T>{T(0.25) - x, y + T(0.125), T(1) - x / T(16)} : flat.back());
+        if (i % side + 1 < side && i / side + 1 < side) {
+            faces.push_back({i, i + 1, i + side + 1});
+            faces.push_back({i, i + side + 1, i + side});
+        }
+    }
+    const mesh<T> at_t0(flat, faces);
+    const auto folds = moving(at_t0, at_t0.with_vertices(serial{}, folded));
+    const auto meets = first_self_impact(serial{}, folds);
+    CHECK((meets && meets->time > 0.25));
+    const auto sheet = divide_mesh(team, folds);
+    CHECK(first_self_impact(team, sheet) == meets);
+    const auto of_sheet = to_host(self_impacts(serial{}, folds));
+    CHECK(of_sheet.size() > 100);
+    CHECK(to_host(self_impacts(team, sheet)) == of_sheet);
+
+    // Parts with vertices of their own, one of them empty.
+    std::vector<moving_set<mesh<T>>> given;
+    for (int k = 0; k < team.size(); ++k) {
+        given.push_back(
+            k == 1 ? moving_set<mesh<T>>()
+                   : shaken(ball_surface<T>(2, 1.0), vec3<T>{T(0.25) * T(k), 0, 0}, static_cast<unsigned>(k + 3)));
+    }
+    const divided_mesh there(given);
+    const auto whole = one_after_another(given);
+    CHECK(to_host(self_impacts(team, there)) == to_host(self_impacts(serial{}, whole)));
+    CHECK(first_self_impact(team, there) == first_self_impact(serial{}, whole));
+
+    // Nothing, and fewer faces than there are parts.
+    const mesh<T> one(std::vector<vec3<T>>{{-2, -2, 0}, {2, -2, 0}, {0, 2, 0}}, std::vector<face>{{0, 1, 2}});
+    CHECK(self_impacts(team, divide_mesh(team, mesh<T>())).size() == 0);
+    CHECK(self_impacts(team, divide_mesh(team, one)).size() == 0);
+    CHECK(first_self_impact(team, divide_mesh(team, one)) == std::nullopt);
+}
+
 }  // namespace
+
+TEST_CASE("devices: impacts of a divided mesh with itself") {
+    const int n = GENERATE(1, 2, 3, 5);
+    check_divided_self_impacts<float>(host_team<serial>(n));
+}
+
+TEST_CASE("devices: impacts of a divided mesh with itself, in double, on several threads each") {
+    check_divided_self_impacts<double>(host_team<openmp>(3, openmp{.threads = 2}));
+}
 
 TEST_CASE("devices: impacts of divided meshes") {
     const int n = GENERATE(1, 2, 3, 5);
@@ -194,6 +268,10 @@ TEST_CASE("devices: impacts of divided meshes: errors") {
           "abut::first_impact: the argument lies on 2 devices, the call is to 3");
     CHECK(message_of([&] { (void)make_impact_index(three, parts); }) ==
           "abut::make_impact_index: the argument lies on 2 devices, the call is to 3");
+    CHECK(message_of([&] { (void)self_impacts(three, parts); }) ==
+          "abut::self_impacts: the argument lies on 2 devices, the call is to 3");
+    CHECK(message_of([&] { (void)first_self_impact(three, parts); }) ==
+          "abut::first_self_impact: the argument lies on 2 devices, the call is to 3");
     const impact_options bad{.bounds = {.separation = -1}};
     CHECK(message_of([&] { (void)impacts<conservative>(two, parts, parts, bad); }).find("separation is -1") !=
           std::string::npos);

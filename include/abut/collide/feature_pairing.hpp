@@ -157,11 +157,22 @@ struct given_fronts {
     front *vertex_face, *face_vertex, *edge_edge;
 };
 
+/// The pairs that a part of a search asks about, where it does not ask about all.
+template <class Part, class Pairs>
+auto asked_of_part(const Part& part, const Pairs& both) {
+    if constexpr (requires { part.asked_of(both); }) {
+        return part.asked_of(both);
+    } else {
+        return both;
+    }
+}
+
 /// The features of two meshes, or `Within` one, that are asked about their pairs; as `pairing` of two operands.
 template <bool Within, class Index, class Nearness, class Fronts, class Part = whole_search>
 struct feature_pairing {
     using T = typename Index::scalar_type;
-    using view_type = feature_pairs<T, typename Index::memory_space>;
+    using all_pairs = feature_pairs<T, typename Index::memory_space>;
+    using view_type = decltype(asked_of_part(std::declval<const Part&>(), std::declval<const all_pairs&>()));
     static constexpr int depth_on_device = 6, depth_of_parts = 8;
 
     const Index &x, &y;
@@ -174,7 +185,7 @@ struct feature_pairing {
                     const Part& of_all = {})
         : x(of_x),
           y(of_y),
-          both(features(of_x), features(of_y), Within, function),
+          both(asked_of_part(of_all, all_pairs(features(of_x), features(of_y), Within, function))),
           near(how_near),
           fronts(from),
           part(of_all) {}
