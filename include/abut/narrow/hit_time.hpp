@@ -36,7 +36,8 @@ struct line_of {
     vec3<T> origin, end, start;
     double last;  ///< time
 
-    ABUT_HD constexpr line_of(const ray<T>& r) : origin(r.origin), end(r.direction), start{0, 0, 0}, last(infinity<double>) {}
+    ABUT_HD constexpr line_of(const ray<T>& r)
+        : origin(r.origin), end(r.direction), start{0, 0, 0}, last(infinity<double>) {}
     ABUT_HD constexpr line_of(const segment<T>& s) : origin(s.a), end(s.b), start(s.a), last(1) {}
 
     [[nodiscard]] ABUT_HD constexpr vec3<T> direction() const { return end - start; }
@@ -96,6 +97,16 @@ ABUT_HD constexpr time_bounds crossing_in_doubles(const line_of<T>& l, const tri
     return between.first > smallest_normal<double> && between.last <= largest_finite<double> ? between : time_bounds{-1, -1};
 }
 
+/// The same of what the filter of a ray and a triangle knows.
+ABUT_HD constexpr time_bounds crossing_of(const plane_approach& met) {
+    const double relative =
+        2 * (met.error_of_height / absolute(met.height) + met.error_of_speed / absolute(met.speed) + 0x1p-48);
+    if (!(relative < 0x1p-7)) return {-1, -1};
+    const double time = met.height / met.speed, lost = plain_product(relative, time);
+    const time_bounds between{plain_sum(time, -lost), plain_sum(time, lost)};
+    return between.first > smallest_normal<double> && between.last <= largest_finite<double> ? between : time_bounds{-1, -1};
+}
+
 /// The same by integers.
 template <class Line, scalar T>
 ABUT_NOINLINE ABUT_HD constexpr double exact_hit_time(const Line& line, const triangle<T>& t) {
@@ -137,12 +148,18 @@ template <arithmetic A, class Line, scalar T>
 ABUT_HD constexpr time_bounds hit_time_bounds(const Line& line, const triangle<T>& t) {
     if constexpr (std::same_as<A, filtered>) {
         if (!__builtin_is_constant_evaluated()) {
-            const verdict v = decide<filtered>(as_stored(line), as_stored(t));
-            if (v == verdict::no) return {-1, -1};
-            if (v == verdict::yes) {
-                const time_bounds times = crossing_in_doubles(line_of<T>(line), t);
-                if (times.first >= 0) return times;
+            time_bounds times{-1, -1};
+            if constexpr (std::same_as<Line, ray<T>>) {
+                plane_approach met{};
+                const verdict v = decide_by_sides(as_stored(line), as_stored(t), met);
+                if (v == verdict::no) return times;
+                if (v == verdict::yes) times = crossing_of(met);
+            } else {
+                const verdict v = decide<filtered>(as_stored(line), as_stored(t));
+                if (v == verdict::no) return times;
+                if (v == verdict::yes) times = crossing_in_doubles(line_of<T>(line), t);
             }
+            if (times.first >= 0) return times;
         }
         const double time = hit_time_apart<A>(line, t);
         return {time, time};
