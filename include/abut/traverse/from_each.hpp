@@ -113,23 +113,23 @@ private:
 };
 
 /// Where the walks of some lines begin that are asked together: at nodes and shapes below the root, which one of them at
-/// least may reach, in groups of four. All lines go down from the root as one, as far as that leaves out boxes and there is
-/// room: A. Reshetov, A. Soupikov, J. Hurley, Multi-level ray tracing algorithm (2005).
+/// least may reach, in groups of four, the nearest first. All lines go down from the root as one, as far as that leaves out
+/// boxes and there is room: A. Reshetov, A. Soupikov, J. Hurley, Multi-level ray tracing algorithm (2005).
 template <bvh_layout Tree>
 class bundle_entries {
 public:
     using T = typename Tree::scalar_type;
     static constexpr int most = 16;
 
-    /// False where so little is left out that the lines had better begin at the root.
-    bool find(const Tree& tree, const bundle_reach<T>& lines) {
+    /// False where so little is left out that the lines had better begin at the root. Near is what comes first along a way.
+    bool find(const Tree& tree, const bundle_reach<T>& lines, const vec3<T>& way) {
         part queue[3 * most + 1] = {{tree.root_bounds(), tree.root()}};
         int first = 0, last = 1, opened = 0, looked_at = 0, left_out = 0;
         count_ = 0;
         while (first < last) {
             const part at = queue[first++];
             if (at.child.is_leaf() || opened == most) {
-                put(at);
+                found_[count_++] = at;
                 continue;
             }
             const auto& node = tree.fetch(at.child.index());
@@ -140,7 +140,7 @@ public:
             ++opened;
             looked_at += children;
             if (reached == Tree::width || count_ + (last - first) + reached > most) {
-                put(at);
+                found_[count_++] = at;
                 continue;
             }
             left_out += children - reached;
@@ -149,7 +149,14 @@ public:
                 queue[last++] = {tree.bounds(node, slot), tree.child(node, slot)};
             }
         }
+        sort_along(way);
+        for (int k = 0; k < count_; ++k) {
+            const vec3<T>&lower = found_[k].box.lower, &upper = found_[k].box.upper;
+            const T box[] = {lower.x, lower.y, lower.z, upper.x, upper.y, upper.z};
+            for (int plane = 0; plane < 6; ++plane) planes_[k / 4][plane][k % 4] = box[plane];
+        }
         for (int k = count_; k % 4 != 0; ++k) {
+            found_[k] = found_[k - 1];
             for (T(&row)[4] : planes_[k / 4]) row[k % 4] = row[0];
         }
         return 2 * left_out >= looked_at;
@@ -160,7 +167,7 @@ public:
     [[nodiscard]] auto planes(int group) const -> const T (&)[6][4] { return planes_[group]; }
     /// A bit for each entry of a group.
     [[nodiscard]] unsigned all_of(int group) const { return (1u << least(count_ - 4 * group, 4)) - 1; }
-    [[nodiscard]] bvh_child child(int group, int slot) const { return child_[4 * group + slot]; }
+    [[nodiscard]] bvh_child child(int group, int slot) const { return found_[4 * group + slot].child; }
 
 private:
     struct part {
@@ -168,22 +175,30 @@ private:
         bvh_child child;
     };
 
-    void put(const part& one) {
-        const vec3<T>&lower = one.box.lower, &upper = one.box.upper;
-        const T box[] = {lower.x, lower.y, lower.z, upper.x, upper.y, upper.z};
-        for (int k = 0; k < 6; ++k) planes_[count_ / 4][k][count_ % 4] = box[k];
-        child_[count_++] = one.child;
+    void sort_along(const vec3<T>& way) {
+        T places[most];
+        for (int k = 0; k < count_; ++k) {
+            const part one = found_[k];
+            const T place = dot(one.box.lower + one.box.upper, way);
+            int at = k;
+            for (; at > 0 && places[at - 1] > place; --at) {
+                found_[at] = found_[at - 1];
+                places[at] = places[at - 1];
+            }
+            found_[at] = one;
+            places[at] = place;
+        }
     }
 
     alignas(16) T planes_[most / 4][6][4];  // not initialised
-    bvh_child child_[most];
+    part found_[most];
     int count_ = 0;
 };
 
 /// Walks of some lines that are asked together, one after another, from their entries on, if neighbours are less far apart
 /// than shapes are long: what one line has read the next one then finds near. Lines that are farther apart wait for memory,
-/// and are taken in turns sooner. Otherwise these walks are those of ordered_tree_walk; but all is in one loop, with a stack
-/// of its own.
+/// and are taken in turns sooner. Four entries are looked at at a time, and what is below them is done with before the next
+/// four, which are farther away. Otherwise these walks are those of ordered_tree_walk, with a stack of their own.
 template <class All>
 class bundle_walk {
     using tree_type = std::remove_cvref_t<decltype(std::declval<const All&>().walk.tree)>;
@@ -208,7 +223,9 @@ public:
         for (std::size_t i = first + 1; i < last; ++i) between.add(all_->seen(i));
         if (!(apart(between, last - first) <= size_of_shape_)) return false;
         const bundle_reach<T> lines(between);
-        if (lines.coordinates_told() < 2 || !entries_.find(all_->walk.tree, lines)) return false;
+        if (lines.coordinates_told() < 2 || !entries_.find(all_->walk.tree, lines, all_->seen(first).direction)) {
+            return false;
+        }
         for (std::size_t i = first; i < last; ++i) {
             sink.begin(i);
             auto look = all_->start(i);
@@ -241,12 +258,19 @@ private:
         T least_of[4];
         waiting_ = 0;
         for (int group = 0; group < entries_.groups(); ++group) {
-            unsigned kept = reach.least_in_four(entries_.planes(group), least_of) & entries_.all_of(group);
-            for (; kept != 0; kept &= kept - 1) {
-                const auto slot = static_cast<int>(lowest_bit(kept));
-                wait({entries_.child(group, slot), least_of[slot]}, 0);
+            const unsigned kept = reach.least_in_four(entries_.planes(group), least_of) & entries_.all_of(group);
+            for (int slot = 3; slot >= 0; --slot) {  // the nearest last
+                pending_[waiting_] = {entries_.child(group, slot), least_of[slot]};
+                waiting_ += static_cast<int>(kept >> slot & 1);
             }
+            take_waiting(tree, reach, best, bound, visitor);
         }
+    }
+    /// Until none waits.
+    template <class Reach, class Best, class Visitor>
+    ABUT_INLINE void take_waiting(const tree_type& tree, Reach& reach, const Best& best, double& bound,
+                                  const Visitor& visitor) {
+        T least_of[4];
         while (waiting_ > 0) {
             entry at = pending_[--waiting_];
             if (!reach.keeps(at.least)) continue;
@@ -290,7 +314,7 @@ private:
     double size_of_shape_;  ///< about how long one is, if all lie on a surface like that of the box around them
     bundle_entries<tree_type> entries_;
     int waiting_ = 0;
-    entry pending_[bvh_max_depth * (tree_type::width - 1) + 1 + bundle_entries<tree_type>::most];
+    entry pending_[bvh_max_depth * (tree_type::width - 1) + 1 + 4];
 };
 
 /// A functor for for_each_ordered: a walk from each index. `all` has `walk` and `shapes`; all.start(i) is what looks from
