@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: MIT
 // long to compile
 //
-// Every stage of all pairs of a cylinder or a cone and another shape.
+// Every stage of all pairs of a cylinder or a cone and another shape, and their distances.
 #include <abut/cuda.hpp>
 
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include "collide/revolution_distance_cases.hpp"
 #include "cuda/predicate_cases.hpp"
 #include "support/catch.hpp"
 
@@ -12,4 +18,71 @@ using namespace abut;
 TEMPLATE_TEST_CASE("cylinders and cones: cuda decides every family as the host does", "", cylinder<float>, cylinder<double>,
                    cone<float>, cone<double>) {
     test::check_revolutions<TestType>(abut::cuda{});
+}
+
+namespace {
+
+template <class S, class U>
+struct measure_pairs {
+    using T = scalar_type_of<S>;
+    const test::copied_pair<S, U>* pairs;
+    separation<T>* apart;
+    ABUT_HD void operator()(std::size_t i) const { apart[i] = distance(pairs[i].s, pairs[i].t); }
+};
+
+/// Pairs that the host makes are measured where the policy works, and by the host: the same bits.
+template <class Solid, class Policy, class Beside>
+void check_measured(const Policy& on, const Beside& beside) {
+    using T = scalar_type_of<Solid>;
+    using other = decltype(beside(test::revolution_case<T>{}, std::uint64_t{}));
+    constexpr bool is_cone = std::same_as<Solid, cone<T>>;
+    std::vector<test::copied_pair<Solid, other>> pairs;
+    for (int f = 0; f < test::revolution_family_count; ++f) {
+        for (std::uint64_t k = 0; k < (test::sample_count() + 49) / 50; ++k) {
+            const auto family = static_cast<test::revolution_family>(f);
+            const auto c = test::make_revolution_case<T>(test::sample_seed + 4, family, k, is_cone);
+            const test::copied_pair<Solid, other> p{test::solid_of<Solid>(c.axis, c.radius), beside(c, k), 0};
+            if (is_valid(p.s) && is_valid(p.t)) pairs.push_back(p);
+        }
+    }
+    const std::size_t n = pairs.size();
+    std::vector<separation<T>> here(n), there(n);
+    for_each_index(openmp{}, n, measure_pairs<Solid, other>{pairs.data(), here.data()});
+    const auto copies = test::copied(on, pairs);
+    execution::buffer_of<Policy, separation<T>> apart(on, n);
+    for_each_index(on, n, measure_pairs<Solid, other>{copies.data(), apart.data()});
+    apart.read(there.data());
+    std::size_t unlike = 0, touching = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        unlike += std::memcmp(&here[i], &there[i], sizeof here[i]) != 0;
+        touching += here[i].distance == 0;
+    }
+    CHECK(unlike == 0);
+    CHECK(touching > n / 50);
+    CHECK(touching < n);
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("distance of cylinders and cones: cuda measures every family as the host does", "", cylinder<float>,
+                   cylinder<double>, cone<float>, cone<double>) {
+    using T = scalar_type_of<TestType>;
+    using pair = test::revolution_case<T>;
+    constexpr bool is_cone = std::same_as<TestType, cone<T>>;
+    const abut::cuda on;
+    check_measured<TestType>(on, [](const pair& c, std::uint64_t) { return c.corner[0]; });
+    check_measured<TestType>(on, [](const pair& c, std::uint64_t) { return segment<T>{c.corner[0], c.corner[1]}; });
+    check_measured<TestType>(on, [](const pair& c, std::uint64_t) {
+        return triangle<T>{c.corner[0], c.corner[1], c.corner[2]};
+    });
+    check_measured<TestType>(on, [](const pair& c, std::uint64_t) { return bounds(segment<T>{c.corner[0], c.corner[1]}); });
+    check_measured<TestType>(on, [](const pair& c, std::uint64_t k) { return test::ball_beside(c, is_cone, k); });
+    check_measured<TestType>(on, [](const pair& c, std::uint64_t k) { return test::plane_beside(c, k); });
+}
+
+TEST_CASE("distance and nearest: sets of cylinders and cones, cuda") {
+    const abut::cuda on;
+    test::check_distance_of<cylinder<float>, triangle<float>>(on, 291);
+    test::check_distance_of_posed_solids<cone<float>>(on, 292);
+    test::check_nearest_of<cylinder<float>>(on, 293);
 }

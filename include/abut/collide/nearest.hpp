@@ -322,9 +322,9 @@ auto nearest_of(const Policy& on, const X& index, const Points& points, std::siz
 /// has `no_id`, the point asked about, and infinity.
 ///
 /// `index` is a bvh of any layout, a grid, a set, a view or one shape, posed or not. Its shapes have `nearest_point`:
-/// triangles, segments, points, and spheres, capsules and boxes, which are solid, so that the distance inside is 0. `points`
-/// is a set of points, a view, one point (vec3), or a vector or span of points in host memory, of another library's type as
-/// well (shape/rows.hpp).
+/// triangles, segments, points, and spheres, capsules, cylinders, cones, boxes and hulls, which are solid, so that the
+/// distance inside is 0. `points` is a set of points, a view, one point (vec3), or a vector or span of points in host
+/// memory, of another library's type as well (shape/rows.hpp).
 ///
 /// The same bits on every policy, for every index and any number of threads. Distances are computed in double; those that
 /// differ by less than docs/numerics.md says may be taken for each other. Without an index every point looks at every shape;

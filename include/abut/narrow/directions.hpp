@@ -65,6 +65,14 @@ ABUT_HD constexpr T magnitude_of(const capsule<T>& s) {
     return greatest(magnitude_of(s.axis), s.radius);
 }
 template <scalar T>
+ABUT_HD constexpr T magnitude_of(const cylinder<T>& s) {
+    return greatest(magnitude_of(s.axis), s.radius);
+}
+template <scalar T>
+ABUT_HD constexpr T magnitude_of(const cone<T>& s) {
+    return greatest(magnitude_of(s.apex), magnitude_of(s.base_center), s.radius);
+}
+template <scalar T>
 ABUT_HD constexpr T magnitude_of(const aabb<T>& s) {
     return greatest(magnitude_of(s.lower), magnitude_of(s.upper));
 }

@@ -17,6 +17,8 @@
 #include <abut/narrow/nearest_point.hpp>
 #include <abut/narrow/nearest_ways.hpp>
 #include <abut/narrow/numbers.hpp>
+#include <abut/narrow/revolution_plane.hpp>
+#include <abut/narrow/revolution_ways.hpp>
 #include <abut/predicate/intersects.hpp>
 #include <abut/predicate/plane_core.hpp>
 #include <abut/predicate/plane_hull.hpp>
@@ -44,10 +46,14 @@ struct separation {
 
 namespace detail {
 
-/// How far around its core a shape reaches, in a unit.
+/// How far around its core a shape reaches, in a unit. A cylinder or a cone is its own core.
 template <class S, scalar T>
 ABUT_HD constexpr double core_radius(const S& s, const length_unit<T>& unit) {
-    return unit.of(radius_around_core(s));
+    if constexpr (solid_of_revolution<S>) {
+        return 0;
+    } else {
+        return unit.of(radius_around_core(s));
+    }
 }
 
 /// A unit for two shapes: what products of four lengths stay in.
@@ -91,8 +97,8 @@ ABUT_HD constexpr double positive_distance(const S& s, const U& t, double measur
     return greatest(measured, gap_of_boxes(bounds(s), bounds(t)), 0x1p-1074);
 }
 
-/// Two shapes that do not touch, measured.
-template <scalar T>
+/// Two shapes that do not touch, measured. If `Touching`, they do, and what is found is a point of both, twice.
+template <scalar T, bool Touching = false>
 struct measured_pair {
     nearest_way<T> nearest;  ///< of the cores
     length_unit<T> unit;
@@ -102,7 +108,11 @@ struct measured_pair {
     template <class S, class U>
     ABUT_HD constexpr measured_pair(const S& s, const U& t)
         : unit(common_unit(s, t)), radius_a(core_radius(s, unit)), radius_b(core_radius(t, unit)) {
-        nearest = nearest_way_between(core_of(s), core_of(t), unit);
+        if constexpr (solid_of_revolution<S>) {
+            nearest = nearest_way_from<Touching>(s, core_of(t), unit);
+        } else {
+            nearest = nearest_way_between(core_of(s), core_of(t), unit);
+        }
         length = contact_math::root(contact_math::one_double{nearest.square}).high;
     }
     [[nodiscard]] ABUT_HD constexpr double distance() const {
@@ -116,6 +126,15 @@ struct measured_pair {
     [[nodiscard]] ABUT_HD constexpr vec3<T> point_on_b(const U& t) const {
         return on_shape(t, nearest.from_b, nearest.to_b, -radius_b);
     }
+    /// If they touch: of a flat shape, or the point of a solid that is nearest to a ball's centre.
+    template <class S, class U>
+    [[nodiscard]] ABUT_HD constexpr vec3<T> shared_point(const S& s, const U& t) const {
+        if constexpr (std::same_as<U, sphere<T>>) {
+            return point_on_a(s);
+        } else {
+            return point_on_b(t);
+        }
+    }
 
 private:
     template <class S>
@@ -123,6 +142,9 @@ private:
         if (along != 0 && length > 0) to = plain_step(to, along / length, nearest.way);
         if constexpr (std::same_as<S, aabb<T>>) {
             return end_of_way<T>(from, to, s, unit);
+        } else if constexpr (solid_of_revolution<S>) {  // it may reach to where T has no number
+            constexpr T far = largest_finite<T>;
+            return least(greatest(end_of_way(s, from, to, unit), vec3<T>{-far, -far, -far}), vec3<T>{far, far, far});
         } else {
             return end_of_way(s, from, to, unit);
         }
@@ -193,6 +215,14 @@ inline constexpr bool measured_in_order<plane<T>, S> = true;
 template <scalar T>
 inline constexpr bool measured_in_order<plane<T>, hull<T>> = true;
 
+/// A cylinder or a cone and a shape with which it is decided: in this order, measured.
+template <class S, class U>
+inline constexpr bool measured_revolution = revolution_pair<S, U>;
+template <class S, class U>
+inline constexpr bool measured_revolution_over_plane = measured_revolution<S, U>&& requires(const U& t) {
+    t.normal;
+};
+
 /// A distance and a way as long, from the first shape to the second, in no unit.
 struct distance_and_way {
     double distance = infinity<double>;
@@ -208,6 +238,9 @@ ABUT_NOINLINE ABUT_HD constexpr distance_and_way distance_apart(const S& s, cons
         });
     } else if constexpr (requires { s.normal; }) {
         return {positive_distance(s, t, measured_plane(s, t).length)};
+    } else if constexpr (measured_revolution_over_plane<S, U>) {
+        if (t.normal == vec3<scalar_type_of<S>>{0, 0, 0}) return {};
+        return {positive_distance(s, t, revolution_over_plane(s, t, common_unit(s, t)).distance())};
     } else {
         const measured_pair<scalar_type_of<S>> m(s, t);
         return {positive_distance(s, t, m.distance()), m.nearest.way};
@@ -235,6 +268,12 @@ ABUT_NOINLINE ABUT_HD constexpr auto separation_apart(const S& s, const U& t) {
     } else if constexpr (requires { s.normal; }) {
         const measured_plane<T> m(s, t);
         return separation<T>{0, 0, m.on_plane, m.on_shape, rounded_distance<T>(positive_distance(s, t, m.length))};
+    } else if constexpr (measured_revolution_over_plane<S, U>) {
+        const vec3<T> end = axis_of(s).b;
+        if (t.normal == vec3<T>{0, 0, 0}) return separation<T>{0, 0, end, end, infinity<T>};
+        const revolution_over_plane<T> m(s, t, common_unit(s, t));
+        return separation<T>{0, 0, m.point_on_solid(), m.point_on_plane(),
+                             rounded_distance<T>(positive_distance(s, t, m.distance()))};
     } else {
         const measured_pair<T> m(s, t);
         return separation<T>{0, 0, m.point_on_a(s), m.point_on_b(t),
@@ -248,9 +287,11 @@ ABUT_HD constexpr separation<T> reversed(const separation<T>& s) {
 }
 
 template <class S, class U>
-inline constexpr bool measured_as_given = (contact_pair<S, U> && measured_in_order<S, U>) || measured_hulls<S, U>;
+inline constexpr bool measured_as_given =
+    (contact_pair<S, U> && measured_in_order<S, U>) || measured_hulls<S, U> || measured_revolution<S, U>;
 
-/// Whether two shapes have a distance, in either order: those that can be decided and have contacts, and convex hulls.
+/// Whether two shapes have a distance, in either order: those that can be decided and have contacts, convex hulls, and
+/// cylinders and cones with what they can be decided with.
 template <class S, class U>
 concept measurable = measured_as_given<S, U> || measured_as_given<U, S>;
 
@@ -261,10 +302,18 @@ ABUT_HD constexpr auto separation_of(const S& s, const U& t, bool touch) {
     if constexpr (!measured_as_given<S, U>) {
         return reversed(separation_of(t, s, touch));
     } else {
+        if constexpr (solid_of_revolution<S>) {
+            if (is_point(axis_of(s))) return separation_of(ball_around(s), t, touch);
+        }
         if (!touch) return separation_apart(s, t);
         vec3<T> shared{};
         if constexpr (measured_hulls<S, U>) {
             shared = with_measured_hulls(s, t, [](const auto& m) { return m.shared_point(); });
+        } else if constexpr (measured_revolution_over_plane<S, U>) {
+            const bool is_all = t.normal == vec3<T>{0, 0, 0};
+            shared = is_all ? axis_of(s).b : revolution_over_plane<T>(s, t, common_unit(s, t)).shared_point();
+        } else if constexpr (solid_of_revolution<S>) {
+            shared = measured_pair<T, true>(s, t).shared_point(s, t);
         } else {
             shared = contact_between(s, t).point;
         }
@@ -288,6 +337,9 @@ struct measure_apart {
             const distance_and_way found = look(t, s, bound, opposite(along));
             return {found.distance, opposite(found.way)};
         } else {
+            if constexpr (solid_of_revolution<S>) {
+                if (is_point(axis_of(s))) return look(ball_around(s), t, bound, along);
+            }
             if (is_surely_beyond(s, t, bound, along)) return {};
             return distance_apart(s, t);
         }
@@ -304,7 +356,9 @@ private:
     /// nothing.
     template <class S, class U>
     ABUT_HD static bool is_surely_beyond(const S& s, const U& t, double bound, const vec3<double>& along) {
-        if constexpr (requires { core_of(s).corners + core_of(t).corners; }) {
+        if constexpr (solid_of_revolution<S>) {  // by the capsule around it
+            return is_surely_beyond(capsule_around(s), t, bound, along);
+        } else if constexpr (requires { core_of(s).corners + core_of(t).corners; }) {
             const auto a = core_of(s);
             const auto b = core_of(t);
             constexpr int n = decltype(a)::corners, m = decltype(b)::corners;
@@ -358,9 +412,10 @@ private:
 
 /// How far apart two closed shapes are: a `separation` with ids 0. It takes the pairs that `contact_of` takes, in either
 /// order: points, segments, triangles, spheres, capsules, boxes and convex hulls with each other, and planes with any of
-/// these. The distance is 0 exactly where the two touch, as `intersects` decides. Otherwise it is
-/// accurate to a few units in the last place of the shapes' farthest corners (docs/numerics.md). The same bits on every
-/// compiler and device, in constant expressions too. Shapes are finite and valid.
+/// these; and cylinders and cones with points, segments, triangles, boxes, spheres and planes. The distance is 0 exactly
+/// where the two touch, as `intersects` decides. Otherwise it is accurate to a few units in the last place of the shapes'
+/// farthest corners (docs/numerics.md). The same bits on every compiler and device, in constant expressions too. Shapes are
+/// finite and valid.
 ///
 ///     constexpr auto d = abut::distance(abut::sphere<float>{{0, 0, 4}, 1},
 ///                                       abut::triangle<float>{{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}});

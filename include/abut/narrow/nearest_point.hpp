@@ -26,7 +26,9 @@
 #include <abut/arithmetic/strict.hpp>
 #include <abut/arithmetic/vec.hpp>
 #include <abut/narrow/hull_distance.hpp>
+#include <abut/narrow/length_unit.hpp>
 #include <abut/narrow/numbers.hpp>
+#include <abut/narrow/revolution_foot.hpp>
 #include <abut/shape/bounds.hpp>
 #include <abut/shape/hull.hpp>
 #include <abut/shape/primitive.hpp>
@@ -35,35 +37,6 @@
 namespace abut {
 
 namespace detail {
-
-/// What lengths are measured in: a power of two that keeps squares, and products of four lengths, from overflow and
-/// underflow. Floats need none, being computed in double.
-template <scalar T>
-struct length_unit {
-    ABUT_HD static constexpr double of(T x) { return static_cast<double>(x); }
-    ABUT_HD static constexpr double length(double x) { return x; }
-};
-template <>
-struct length_unit<double> {
-    double per_length = 1, unit = 1;
-
-    length_unit() = default;
-    /// For coordinates that are nowhere larger in magnitude than `largest`: they come below 2^250.
-    ABUT_HD explicit constexpr length_unit(double largest) {
-        if (!(largest > 0)) return;
-        const int e = 249 - contact_math::exponent_of(largest), k = e < -1000 ? -1000 : e > 1000 ? 1000 : e;
-        per_length = contact_math::power_of_two(k);
-        unit = contact_math::power_of_two(-k);
-    }
-    [[nodiscard]] ABUT_HD constexpr double of(double x) const { return plain_product(x, per_length); }
-    [[nodiscard]] ABUT_HD constexpr double length(double x) const { return plain_product(x, unit); }
-};
-
-template <scalar T>
-ABUT_HD constexpr vec3<double> way_between(const vec3<T>& from, const vec3<T>& to, const length_unit<T>& unit) {
-    return {plain_sum(unit.of(to.x), -unit.of(from.x)), plain_sum(unit.of(to.y), -unit.of(from.y)),
-            plain_sum(unit.of(to.z), -unit.of(from.z))};
-}
 
 /// x in a box. With a box around the way's end, in the frame of the query.
 ABUT_HD constexpr vec3<double> held(const vec3<double>& x, const vec3<double>& lower, const vec3<double>& upper) {
@@ -226,9 +199,16 @@ template <scalar T>
 ABUT_HD constexpr vec3<double> way_to(const aabb<T>& box, const vec3<T>& p, const length_unit<T>& unit) {
     return held(vec3<double>{0, 0, 0}, box, p, unit);
 }
+template <solid_of_revolution S, scalar T>
+ABUT_HD constexpr vec3<double> way_to(const S& s, const vec3<T>& p, const length_unit<T>& unit) {
+    const segment<T> axis = axis_of(s);
+    if (is_point(axis)) return way_to(ball_around(s), p, unit);
+    const vec3<double> way = way_from_solid(revolution_profile(s, unit), way_between(axis.a, p, unit)).way;
+    return held(vec3<double>{-way.x, -way.y, -way.z}, bounds(s), p, unit);
+}
 
-/// Its nearest feature is found in integers; nothing if p is inside. Where p is that near that integers leave it out, the way
-/// is still no shorter than that to the box, on which walks rely.
+/// Its nearest feature is found in integers; nothing if p is inside. Where p is that near that integers leave it out, the
+/// way is still no shorter than that to the box, on which walks rely.
 template <scalar T>
 ABUT_NOINLINE ABUT_HD constexpr vec3<double> way_to(const hull<T>& h, const vec3<T>& p, const length_unit<T>& unit) {
     const hull<T> here(&p, 1);
@@ -291,8 +271,8 @@ ABUT_HD constexpr length_unit<T> unit_for(const aabb<T>& box, const vec3<T>& p) 
 
 }  // namespace detail
 
-/// The point of a shape that is nearest to `p`: of a point (vec3), segment, triangle, sphere, capsule, box or convex hull;
-/// the last four are solid, and p itself is nearest where it is inside. It lies in the box around the shape.
+/// The point of a shape that is nearest to `p`: of a point (vec3), segment, triangle, sphere, capsule, cylinder, cone, box
+/// or convex hull; the last six are solid, and p itself is nearest where it is inside. It lies in the box around the shape.
 /// docs/numerics.md says how accurate it is. p and the shape are finite.
 ///
 ///     const auto q = abut::nearest_point(abut::segment<float>{{0, 0, 0}, {4, 0, 0}}, {1, 2, 0});   // (1, 0, 0)

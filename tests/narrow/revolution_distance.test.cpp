@@ -1,0 +1,500 @@
+// SPDX-License-Identifier: MIT
+#include <abut/narrow/distance.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "support/catch.hpp"
+#include "support/contact_oracles.hpp"
+#include "support/draws.hpp"
+#include "support/revolution_pairs.hpp"
+#include "support/samples.hpp"
+
+// The oracle: the least way between a cylinder or a cone and a hull, in 300 bits, by their farthest points along directions
+// alone (Gilbert, Johnson and Keerthi). The nearest point of the simplex that was found so far is never too near, and what
+// the farthest points say of its direction is never too far, so that the distance lies between the two whatever the search
+// does. It shares no formula with the library, which has no directions but a face's normal.
+
+namespace abut::test {
+
+namespace {
+
+constexpr std::uint64_t gap_seed = 20261126;
+
+// --- a solid in 300 bits --------------------------------------------------------------------------------------------------
+
+struct wide_solid {
+    wide_point first, last, d;
+    wide radius, dd;
+    bool is_cone;
+
+    /// The farthest point along n, which is not 0.
+    [[nodiscard]] wide_point farthest(const wide_point& n) const {
+        if (dd == 0) return first + (radius / length_of(n)) * n;
+        const wide along = dot(n, d);
+        const wide_point across = n - (along / dd) * d;
+        const wide size = length_of(across);
+        const auto on_rim = [&](const wide_point& center) {
+            // What rounding leaves across is not orthogonal to the axis.
+            return size > ldexp(length_of(n), -200) ? center + (radius / size) * across : center;
+        };
+        if (!is_cone) return on_rim(along > 0 ? last : first);
+        const wide_point rim = on_rim(last);
+        return dot(n, rim) > dot(n, first) ? rim : first;
+    }
+    /// How far a point is from the farthest of the solid.
+    [[nodiscard]] wide farthest_from(const wide_point& x) const {
+        const auto from_rim = [&](const wide_point& center, const wide& r) -> wide {
+            const wide_point w = x - center;
+            if (dd == 0) return length_of(w) + r;
+            const wide s = dot(w, d), square = dot(w, w) - s * s / dd;
+            const wide rho = square > 0 ? wide(sqrt(square)) : wide(0);
+            return sqrt(wide((rho + r) * (rho + r) + s * s / dd));
+        };
+        return std::max<wide>(from_rim(first, is_cone && dd != 0 ? wide(0) : radius), from_rim(last, radius));
+    }
+};
+template <scalar T>
+wide_solid solid_in_bits(const vec3<T>& first, const vec3<T>& last, T radius, bool is_cone) {
+    const wide_point d = widest(last) - widest(first);
+    return {widest(first), widest(last), d, wide(radius), dot(d, d), is_cone};
+}
+template <scalar T>
+wide_solid in_bits(const cylinder<T>& s) {
+    return solid_in_bits(s.axis.a, s.axis.b, s.radius, false);
+}
+template <scalar T>
+wide_solid in_bits(const cone<T>& s) {
+    return solid_in_bits(s.apex, s.base_center, s.radius, true);
+}
+
+/// Of a point from the solid: from the sides of a rectangle or a triangle, if it is not inside.
+wide distance_from_solid(const wide_point& x, const wide_solid& s) {
+    if (s.dd == 0) return std::max<wide>(length_of(x - s.first) - s.radius, 0);
+    const wide h = sqrt(s.dd), height = dot(x - s.first, s.d) / h;
+    const wide_point across = x - s.first - (height / h) * s.d;
+    const wide rho = length_of(across);
+    const wide here = s.is_cone ? wide(s.radius * height / h) : s.radius;
+    if (height >= 0 && height <= h && rho <= here) return 0;
+    const auto from_side = [&](const wide& a, const wide& b, const wide& c, const wide& d) -> wide {
+        const wide square = (c - a) * (c - a) + (d - b) * (d - b);
+        wide t = square == 0 ? wide(0) : wide(((height - a) * (c - a) + (rho - b) * (d - b)) / square);
+        t = t < 0 ? wide(0) : t > 1 ? wide(1) : t;
+        const wide p = height - a - t * (c - a), q = rho - b - t * (d - b);
+        return sqrt(wide(p * p + q * q));
+    };
+    const wide base = from_side(h, 0, h, s.radius);
+    if (s.is_cone) return std::min(base, from_side(0, 0, h, s.radius));
+    return std::min({base, from_side(0, 0, 0, s.radius), from_side(0, s.radius, h, s.radius)});
+}
+
+// --- the search -----------------------------------------------------------------------------------------------------------
+
+struct wide_bounds {
+    wide lower = 0, upper = 0;
+};
+
+/// The point nearest to the origin of the hull of up to four, of which those are left that it needs.
+wide_point nearest_of(std::vector<wide_point>& w) {
+    wide least = -1;
+    wide_point nearest{};
+    std::vector<wide_point> needed;
+    const auto offer = [&](const wide_point& q, std::vector<wide_point> of) {
+        const wide square = dot(q, q);
+        if (least < 0 || square < least) least = square, nearest = q, needed = std::move(of);
+    };
+    for (std::size_t i = 0; i < w.size(); ++i) {
+        offer(w[i], {w[i]});
+        for (std::size_t j = i + 1; j < w.size(); ++j) {
+            const wide_point e = w[j] - w[i];
+            const wide ee = dot(e, e), s = -dot(e, w[i]);
+            if (s > 0 && s < ee) offer(w[i] + (s / ee) * e, {w[i], w[j]});
+            for (std::size_t k = j + 1; k < w.size(); ++k) {
+                const wide_point f = w[k] - w[i];
+                const wide ff = dot(f, f), ef = dot(e, f), t = -dot(f, w[i]), d = ee * ff - ef * ef;
+                if (!(d > 0)) continue;
+                const wide u = (s * ff - t * ef) / d, v = (t * ee - s * ef) / d;
+                if (u > 0 && v > 0 && u + v < 1) offer(w[i] + u * e + v * f, {w[i], w[j], w[k]});
+            }
+        }
+    }
+    w = std::move(needed);
+    return nearest;
+}
+
+wide_point farthest_corner(const std::vector<wide_point>& corners, const wide_point& n) {
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < corners.size(); ++i) {
+        if (dot(n, corners[i]) > dot(n, corners[best])) best = i;
+    }
+    return corners[best];
+}
+
+wide_bounds gap_between(const wide_solid& s, const std::vector<wide_point>& corners, const wide& size) {
+    std::vector<wide_point> simplex{corners[0] - s.first};
+    wide_bounds found{0, length_of(simplex[0])};
+    for (int step = 0; step < 200; ++step) {
+        const wide_point v = nearest_of(simplex), back{-v.x, -v.y, -v.z};
+        const wide length = length_of(v);
+        found.upper = std::min(found.upper, length);
+        if (!(length > 0)) return found;
+        const wide_point w = farthest_corner(corners, back) - s.farthest(v);
+        found.lower = std::max<wide>(found.lower, dot(v, w) / length);
+        if (found.upper - found.lower <= ldexp(size, -60)) return found;
+        simplex.push_back(w);
+    }
+    return found;
+}
+
+/// What is known of two shapes that do not touch: bounds of their distance, and that of their farthest points.
+struct wide_gap {
+    wide_bounds distance;
+    wide farthest;
+};
+template <class S, class U>
+wide_gap exact_gap(const S& s, const U& t) {
+    const wide_solid solid = in_bits(s);
+    const wide_hull h = hull_of(t);
+    wide far = 0;
+    for (const wide_point& p : h.corners) far = std::max(far, solid.farthest_from(p));
+    far += h.radius;
+    const wide_bounds gap = gap_between(solid, h.corners, far);
+    return {{gap.lower - h.radius, gap.upper - h.radius}, far};
+}
+template <class S, scalar T>
+wide_gap exact_gap(const S& s, const plane<T>& p) {
+    const wide_solid solid = in_bits(s);
+    const wide_point n = widest(p.normal), back{-n.x, -n.y, -n.z};
+    const wide high = dot(n, solid.farthest(n)) - wide(p.offset), low = dot(n, solid.farthest(back)) - wide(p.offset);
+    const wide gap = std::max<wide>(low, -high) / length_of(n);
+    return {{gap, gap}, solid.farthest_from({0, 0, 0}) + gap};
+}
+
+template <class S>
+wide distance_from_shape(const wide_point& x, const S& s) {
+    if constexpr (detail::solid_of_revolution<S>) {
+        return distance_from_solid(x, in_bits(s));
+    } else if constexpr (requires { s.normal; }) {
+        return abs(dot(widest(s.normal), x) - wide(s.offset)) / length_of(widest(s.normal));
+    } else {
+        return distance_from(x, s);
+    }
+}
+
+// --- what has to hold -----------------------------------------------------------------------------------------------------
+
+/// Worst figures, in units of 2^-53 of the distance of the farthest points; of shared points as a share of contact_bound.
+struct gap_tally {
+    std::uint64_t pairs = 0, touching = 0, open = 0;
+    double distance = 0, point = 0, shared = 0;
+
+    gap_tally& operator+=(const gap_tally& t) {
+        pairs += t.pairs, touching += t.touching, open += t.open;
+        distance = std::max(distance, t.distance);
+        point = std::max(point, t.point);
+        shared = std::max(shared, t.shared);
+        return *this;
+    }
+};
+
+constexpr double most_steps = 16;
+
+template <scalar T>
+wide rounding_of(const vec3<T>& p) {
+    const wide_point q = widest(p);
+    return wide(unit_roundoff<T>) * (abs(q.x) + abs(q.y) + abs(q.z)) + 4 * wide(std::numeric_limits<T>::denorm_min());
+}
+template <scalar T>
+bool is_at_end(const vec3<T>& p) {
+    return detail::contact_math::magnitude_of(p) == largest_finite<T>;
+}
+
+template <class S, class U>
+const char* wrong_with_gap(const S& s, const U& t, gap_tally& tally) {
+    using T = scalar_type_of<S>;
+    const separation<T> found = distance(s, t), other = distance(t, s);
+    ++tally.pairs;
+    if (found.a != 0 || found.b != 0) return "ids are not 0";
+    if (!(other == separation<T>{0, 0, found.point_b, found.point_a, found.distance})) return "the other order is unlike";
+    if (intersects<exact>(s, t)) {
+        ++tally.touching;
+        if (found.distance != 0) return "what touches is apart";
+        if (!(found.point_a == found.point_b)) return "what touches has two points";
+        const wide_point x = widest(found.point_a);
+        if (is_at_end(found.point_a)) return nullptr;  // it may lie where T has no number
+        wide off = distance_from_shape(x, s);
+        if constexpr (std::same_as<U, plane<T>>) {
+            if (t.normal == vec3<T>{0, 0, 0}) return nullptr;
+        }
+        off = std::max(off, distance_from_shape(x, t));
+        tally.shared = std::max(tally.shared, static_cast<double>(off / wide(contact_bound(s, t))));
+        return off > wide(contact_bound(s, t)) ? "the shared point is off the shapes" : nullptr;
+    }
+    if (!(found.distance > 0)) return "what does not touch is at no distance";
+    if constexpr (std::same_as<U, plane<T>>) {
+        if (t.normal == vec3<T>{0, 0, 0}) return found.distance == infinity<T> ? nullptr : "a plane that is nothing is near";
+    }
+    const wide_gap gap = exact_gap(s, t);
+    const wide step = wide(0x1p-53) * gap.farthest;
+    tally.open += gap.distance.upper - gap.distance.lower > step / 4;
+    if (gap.distance.upper > wide(largest_finite<T>) + step) return nullptr;  // T may have no number for it
+    const auto within = [&](const wide& off, const wide& allowed, double& worst) {
+        if (off > allowed && step > 0) worst = std::max(worst, static_cast<double>((off - allowed) / step));
+        return off <= allowed + most_steps * step;
+    };
+    const wide measured(found.distance);
+    const wide rounded = wide(unit_roundoff<T>) * gap.distance.upper + wide(std::numeric_limits<T>::denorm_min());
+    const auto off_bounds = [&](const wide& x) {
+        return std::max<wide>({gap.distance.lower - x, x - gap.distance.upper, wide(0)});
+    };
+    if (!within(off_bounds(measured), rounded, tally.distance)) return "the distance is off";
+    if (is_at_end(found.point_a) || is_at_end(found.point_b)) return nullptr;  // they may lie where T has no number
+    const wide on_a = rounding_of(found.point_a), on_b = rounding_of(found.point_b);
+    if (!within(distance_from_shape(widest(found.point_a), s), on_a, tally.point)) return "the first point is off";
+    if (!within(distance_from_shape(widest(found.point_b), t), on_b, tally.point)) return "the second point is off";
+    const wide between = length_of(widest(found.point_b) - widest(found.point_a));
+    if (!within(off_bounds(between), on_a + on_b, tally.point)) return "the points are not so far apart";
+    return nullptr;
+}
+
+template <class S, class U>
+void check_gap(const std::string& name, std::uint64_t i, const S& s, const U& t, gap_tally& tally) {
+    if (!is_valid(s) || !is_valid(t)) return;
+    if (const char* const wrong = wrong_with_gap(s, t, tally)) {
+        CAPTURE(name, i);
+        FAIL_CHECK(wrong);
+    }
+}
+
+void check_total(const char* name, const gap_tally& tally) {
+    std::printf("distance, %s: %llu pairs, %llu touch, %llu open; off by %.2f, points by %.2f, shared ones %.2f\n", name,
+                static_cast<unsigned long long>(tally.pairs), static_cast<unsigned long long>(tally.touching),
+                static_cast<unsigned long long>(tally.open), tally.distance, tally.point, tally.shared);
+    CHECK(tally.open * 50 <= tally.pairs);
+}
+
+std::uint64_t some_samples(std::uint64_t part) { return std::max<std::uint64_t>(sample_count() / part, 1); }
+
+// --- edges along what a solid has
+// ------------------------------------------------------------------------------------------
+
+/// A solid, and an edge that is parallel to a line on it but for an angle down to 2^-60: to its axis, its side, an end, or
+/// the tangent of a rim; at a distance down to 2^-50, from a solid that may be as thin or flat.
+template <class Solid>
+revolution_case<scalar_type_of<Solid>> nearly_parallel(std::uint64_t i) {
+    using namespace construction;
+    using T = scalar_type_of<Solid>;
+    constexpr bool is_cone = std::same_as<Solid, cone<T>>;
+    draws d(gap_seed, is_cone ? 78 : 77, i);
+    const auto small = [&](int most) { return std::ldexp(d.uniform(0.5, 1), -d.below(most)); };
+    const point axis = unit(cube(d, 1)), out = unit(cross_product(axis, cube(d, 1))), round = cross_product(axis, out);
+    const point first = cube(d, d.below(2) == 0 ? 0 : 1);
+    const double height = d.below(3) == 0 ? small(40) : d.uniform(0.5, 2), radius = d.below(3) == 0 ? small(50) : small(2);
+    const int kind = d.below(4);
+    const double t = kind == 3 ? (d.below(2) == 0 && !is_cone ? 0 : 1) : kind == 2 ? 1 : d.uniform(-0.1, 1.1);
+    const double here = is_cone ? t * radius : radius;
+    const point side = is_cone ? along(unit(along({0, 0, 0}, height, axis)), radius / height, out) : axis;
+    point on = along(along(first, t * height, axis), kind == 2 ? d.uniform(0, 1) * here : here, out);
+    const point way = kind == 0 ? axis : kind == 1 ? side : kind == 2 ? cross_product(axis, cube(d, 1)) : round;
+    const point normal = kind == 2 ? axis
+                         : is_cone ? along(along({0, 0, 0}, 1, out), -radius / height, axis)
+                                   : along(out, kind == 3 ? d.uniform(0, 1) : 0, axis);
+    on = along(on, small(51), unit(normal));
+    const double angle = small(61), shift = d.uniform(-1, 1), length = d.below(3) == 0 ? small(40) : 1;
+    revolution_case<T> c{};
+    c.axis = {round_to<T>(first), round_to<T>(along(first, height, axis))};
+    c.radius = rounded_to<T>(radius);
+    const point direction = along(unit(way), angle, cube(d, 1));
+    c.corner[0] = round_to<T>(along(on, length * shift, direction));
+    c.corner[1] = round_to<T>(along(on, length * (shift + 1), direction));
+    c.corner[2] = round_to<T>(along(along(on, d.uniform(-1, 1), direction), small(51), along(normal, 1, cube(d, 1))));
+    return c;
+}
+
+/// A triangle as thin as 2^-50, and a solid over a place inside of it, or through it: with an end or a rim over it, the
+/// side, or the axis through it, at an angle down to 2^-50.
+template <class Solid>
+revolution_case<scalar_type_of<Solid>> over_needle(std::uint64_t i) {
+    using namespace construction;
+    using T = scalar_type_of<Solid>;
+    draws d(gap_seed, std::same_as<Solid, cone<T>> ? 80 : 79, i);
+    const auto small = [&](int most) { return std::ldexp(d.uniform(0.5, 1), -d.below(most)); };
+    const point none{0, 0, 0}, a = cube(d, d.below(2) == 0 ? 0 : 1), e = unit(cube(d, 1)),
+                               across = unit(cross_product(e, cube(d, 1))), normal = cross_product(e, across);
+    const double width = small(51), u = d.uniform(0, 1);
+    const point c = along(along(a, d.uniform(-0.2, 1.2), e), width, across);
+    point at = along(along(a, u, e), d.uniform(0, 1 - u), along(c, -1, a));
+    const double height = d.below(3) == 0 ? small(40) : d.uniform(0.5, 2), radius = d.below(3) == 0 ? small(50) : small(2);
+    const int kind = d.below(4);
+    const point flat = unit(along(along(none, d.uniform(-1, 1), e), d.uniform(-1, 1), across));
+    point axis = kind == 0 ? along(normal, d.below(2) == 0 ? small(50) : 1, cube(d, 1)) : kind == 1 ? cube(d, 1) : flat;
+    axis = unit(along(axis, small(50), kind > 1 ? normal : cube(d, 1)));
+    const double gap = d.below(8) == 0 ? 0 : small(51) * (d.below(3) == 0 ? -1 : 1);
+    at = along(at, gap, normal);
+    point first = at;
+    if (kind == 1) first = along(at, -radius, unit(cross_product(cross_product(axis, normal), axis)));
+    if (kind == 2) first = along(along(at, radius, normal), -d.uniform(0, height), axis);
+    if (kind == 3) first = along(at, -d.uniform(0, height), axis);
+    point last = along(first, height, axis);
+    if (d.below(2) == 0) std::swap(first, last);
+    revolution_case<T> s{};
+    s.axis = {round_to<T>(first), round_to<T>(last)};
+    s.radius = rounded_to<T>(radius);
+    s.corner[0] = round_to<T>(a);
+    s.corner[1] = round_to<T>(along(a, 1, e));
+    s.corner[2] = round_to<T>(c);
+    return s;
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("nearest_point: of cylinders and cones, in each family, against 300 bits", "", cylinder<float>,
+                   cylinder<double>, cone<float>, cone<double>) {
+    using T = scalar_type_of<TestType>;
+    constexpr bool is_cone = std::same_as<TestType, cone<T>>;
+    double worst = 0, worst_point = 0;
+    std::uint64_t inside = 0, points = 0;
+    for (int i = 0; i < revolution_family_count; ++i) {
+        const auto f = static_cast<revolution_family>(i);
+        for (std::uint64_t k = 0; k < some_samples(50); ++k) {
+            const auto c = make_revolution_case<T>(gap_seed + 1, f, k, is_cone);
+            const auto s = solid_of<TestType>(c.axis, c.radius);
+            const vec3<T> p = c.corner[k % 3];
+            if (!is_valid(s) || !is_valid(p)) continue;
+            CAPTURE(name_of(f), k);
+            const auto unit = detail::unit_for(bounds(s), p);
+            const vec3<double> way = detail::way_to(s, p, unit);
+            const double square = detail::plain_dot(way, way);
+            // The way to the box is no longer, as computed, bit for bit; nor is that to a box around the box.
+            const aabb<T> box = bounds(s), around = merge(box, aabb<T>{c.corner[0], c.corner[0]});
+            const vec3<double> to_box = detail::way_to(box, p, unit), to_around = detail::way_to(around, p, unit);
+            CHECK(detail::plain_dot(to_box, to_box) <= square);
+            CHECK(detail::plain_dot(to_around, to_around) <= detail::plain_dot(to_box, to_box));
+            const vec3<T> q = nearest_point(s, p);
+            CHECK(contains(box, bounds(q)));
+            const wide_solid solid = in_bits(s);
+            const wide step = wide(0x1p-53) * solid.farthest_from(widest(p)), exact = distance_from_solid(widest(p), solid);
+            if (!(step > 0)) continue;
+            ++points;
+            inside += exact == 0;
+            const wide measured = wide(std::sqrt(square)) * wide(unit.length(1));
+            worst = std::max(worst, static_cast<double>(abs(measured - exact) / step));
+            if (!is_valid(q) || is_at_end(q)) continue;  // where T has no number
+            const wide off = distance_from_solid(widest(q), solid) - rounding_of(q);
+            if (off > 0) worst_point = std::max(worst_point, static_cast<double>(off / step));
+        }
+    }
+    std::printf("nearest_point: %llu points, %llu inside; off by %.2f, points by %.2f\n",
+                static_cast<unsigned long long>(points), static_cast<unsigned long long>(inside), worst, worst_point);
+    CHECK(inside > points / 30);
+    CHECK(worst < 8);
+    CHECK(worst_point < 8);
+}
+
+TEST_CASE("distance: of cylinders and cones, by hand, and in constant expressions") {
+    using vec = vec3<double>;
+    constexpr cylinder<double> rod{{{0, 0, 0}, {0, 0, 2}}, 1};
+    constexpr cone<double> tip{{0, 0, 4}, {0, 0, 0}, 3};
+    static_assert(distance(rod, vec{3, 0, 1}) == separation<double>{0, 0, {1, 0, 1}, {3, 0, 1}, 2});
+    static_assert(distance(vec{0, 0, 5}, rod) == separation<double>{0, 0, {0, 0, 5}, {0, 0, 2}, 3});
+    static_assert(distance(rod, vec{4, 0, 6}).distance == 5);
+    static_assert(distance(rod, segment<double>{{3, -5, 1}, {3, 5, 1}}).distance == 2);
+    static_assert(distance(rod, triangle<double>{{-5, -5, 4}, {5, -5, 4}, {0, 9, 4}}).distance == 2);
+    static_assert(distance(rod, triangle<double>{{-5, -5, 1}, {5, -5, 1}, {0, 9, 1}}).distance == 0);
+    static_assert(distance(aabb<double>{{4, -1, -1}, {5, 1, 1}}, rod).distance == 3);
+    static_assert(distance(sphere<double>{{5, 0, 1}, 1}, rod).distance == 3);
+    static_assert(distance(rod, plane<double>{{0, 0, 2}, 10}) == separation<double>{0, 0, {0, 0, 2}, {0, 0, 5}, 3});
+    static_assert(distance(rod, plane<double>{{2, 0, 0}, 10}) == separation<double>{0, 0, {1, 0, 0}, {5, 0, 0}, 4});
+    static_assert(distance(rod, plane<double>{{0, 0, 0}, 1}).distance == infinity<double>);
+    static_assert(distance(tip, vec{0, 0, 6}) == separation<double>{0, 0, {0, 0, 4}, {0, 0, 6}, 2});
+    static_assert(distance(tip, vec{0, 0, -2}).distance == 2);
+    static_assert(distance(tip, plane<double>{{4, 0, 3}, 22}).distance == 2);
+    CHECK(distance(tip, vec{4, 0, 3}).distance == Approx(2.6));
+    // Without length they are balls, and with a radius of 0 segments.
+    static_assert(distance(cylinder<double>{{{0, 0, 0}, {0, 0, 0}}, 1}, vec{0, 3, 4}).distance == 4);
+    static_assert(distance(cone<double>{{0, 0, 0}, {0, 0, 0}, 1}, aabb<double>{{3, -1, -1}, {4, 1, 1}}).distance == 2);
+    static_assert(distance(cone<double>{{0, 0, 0}, {0, 0, 2}, 0}, vec{3, 0, 1}).distance == 3);
+    CHECK(nearest_point(rod, vec{4, 0, 1}) == vec{1, 0, 1});
+    CHECK(nearest_point(rod, vec{0, 0.5, 1}) == vec{0, 0.5, 1});
+    CHECK(nearest_point(tip, vec{0, 0, 7}) == vec{0, 0, 4});
+    static_assert(approachable<cylinder<float>> && approachable<cone<double>>);
+    static_assert(detail::measurable<triangle<float>, cone<float>> && detail::measurable<cylinder<double>, plane<double>>);
+    static_assert(!detail::measurable<cylinder<float>, cylinder<float>> &&
+                  !detail::measurable<cone<float>, capsule<float>> && !detail::measurable<cone<float>, vec3<double>>);
+    // A disc that is as flat as numbers are, far below the other's size.
+    constexpr double least = std::numeric_limits<double>::denorm_min();
+    CHECK(distance(cylinder<double>{{{0, 0, 0}, {0, 0, least}}, 1}, vec{0, 0, 1}).distance == 1);
+    CHECK(distance(cylinder<double>{{{0, 0, 0}, {0, 0, least}}, 1}, vec{3, 0, 0}).distance == 2);
+    CHECK(distance(cone<double>{{0, 0, least}, {0, 0, 0}, 1}, vec{0.5, 0, 1}).distance == 1);
+}
+
+TEMPLATE_TEST_CASE("distance: cylinders and cones over thin triangles, against 300 bits", "", cylinder<float>,
+                   cylinder<double>, cone<float>, cone<double>) {
+    gap_tally triangles;
+    for (std::uint64_t k = 0; k < some_samples(10); ++k) {
+        const auto c = over_needle<TestType>(k);
+        const auto s = solid_of<TestType>(c.axis, c.radius);
+        check_gap("over a needle", k, s,
+                  triangle<scalar_type_of<TestType>>{c.corner[k % 3], c.corner[(k + 1) % 3], c.corner[(k + 2) % 3]},
+                  triangles);
+    }
+    check_total("triangles, thin", triangles);
+}
+
+TEMPLATE_TEST_CASE("distance: of cylinders and cones, in each family, against 300 bits", "", cylinder<float>,
+                   cylinder<double>, cone<float>, cone<double>) {
+    using T = scalar_type_of<TestType>;
+    constexpr bool is_cone = std::same_as<TestType, cone<T>>;
+    std::printf("distance: seed %llu\n", static_cast<unsigned long long>(gap_seed));
+    gap_tally points, segments, triangles, boxes, balls, planes;
+    for (int i = 0; i < revolution_family_count; ++i) {
+        const auto f = static_cast<revolution_family>(i);
+        const std::string name = name_of(f);
+        for (std::uint64_t k = 0; k < some_samples(250); ++k) {
+            const auto c = make_revolution_case<T>(gap_seed, f, k, is_cone);
+            const auto s = solid_of<TestType>(c.axis, c.radius);
+            const triangle<T> t{c.corner[0], c.corner[1], c.corner[2]};
+            check_gap(name, k, s, t.a, points);
+            check_gap(name, k, s, segment<T>{t.a, t.b}, segments);
+            check_gap(name, k, s, t, triangles);
+            check_gap(name, k, s, k % 2 == 0 ? bounds(t) : bounds(segment<T>{t.a, t.b}), boxes);
+            check_gap(name, k, s, ball_beside(c, is_cone, k), balls);
+            check_gap(name, k, s, plane_beside(c, k), planes);
+        }
+    }
+    check_total("points", points);
+    check_total("segments", segments);
+    check_total("triangles", triangles);
+    check_total("boxes", boxes);
+    check_total("balls", balls);
+    check_total("planes", planes);
+    for (const gap_tally& t : {points, segments, triangles, boxes, balls, planes}) {
+        CHECK(t.touching > t.pairs / 20);
+        CHECK(t.touching < t.pairs * 19 / 20);
+    }
+}
+
+TEMPLATE_TEST_CASE("distance: edges that are nearly parallel to a cylinder or a cone, against 300 bits", "", cylinder<float>,
+                   cylinder<double>, cone<float>, cone<double>) {
+    using T = scalar_type_of<TestType>;
+    gap_tally segments, triangles, boxes;
+    for (std::uint64_t k = 0; k < some_samples(20); ++k) {
+        const auto c = nearly_parallel<TestType>(k);
+        const auto s = solid_of<TestType>(c.axis, c.radius);
+        check_gap("nearly parallel", k, s, segment<T>{c.corner[0], c.corner[1]}, segments);
+        check_gap("nearly parallel", k, s, triangle<T>{c.corner[0], c.corner[1], c.corner[2]}, triangles);
+        if (k % 4 == 0) check_gap("nearly parallel", k, s, bounds(segment<T>{c.corner[0], c.corner[1]}), boxes);
+    }
+    check_total("segments, nearly parallel", segments);
+    check_total("triangles, nearly parallel", triangles);
+    check_total("boxes, nearly parallel", boxes);
+}
+
+}  // namespace abut::test
