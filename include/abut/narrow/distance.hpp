@@ -233,7 +233,7 @@ struct distance_and_way {
 template <class S, class U>
 ABUT_NOINLINE ABUT_HD constexpr distance_and_way distance_apart(const S& s, const U& t) {
     if constexpr (measured_hulls<S, U>) {
-        return with_measured_hulls(s, t, [&](const auto& m) {
+        return with_measured_hulls(s, t, false, [&](const auto& m) {
             return distance_and_way{positive_distance(s, t, m.distance()), m.way()};
         });
     } else if constexpr (requires { s.normal; }) {
@@ -261,7 +261,7 @@ template <class S, class U>
 ABUT_NOINLINE ABUT_HD constexpr auto separation_apart(const S& s, const U& t) {
     using T = scalar_type_of<S>;
     if constexpr (measured_hulls<S, U>) {
-        return with_measured_hulls(s, t, [&](const auto& m) {
+        return with_measured_hulls(s, t, false, [&](const auto& m) {
             return separation<T>{0, 0, m.point_on_a(), m.point_on_b(),
                                  rounded_distance<T>(positive_distance(s, t, m.distance()))};
         });
@@ -308,7 +308,7 @@ ABUT_HD constexpr auto separation_of(const S& s, const U& t, bool touch) {
         if (!touch) return separation_apart(s, t);
         vec3<T> shared{};
         if constexpr (measured_hulls<S, U>) {
-            shared = with_measured_hulls(s, t, [](const auto& m) { return m.shared_point(); });
+            shared = with_measured_hulls(s, t, true, [](const auto& m) { return m.shared_point(); });
         } else if constexpr (measured_revolution_over_plane<S, U>) {
             const bool is_all = t.normal == vec3<T>{0, 0, 0};
             shared = is_all ? axis_of(s).b : revolution_over_plane<T>(s, t, common_unit(s, t)).shared_point();

@@ -7,6 +7,14 @@
 // and the weights of the points that it lies between are quotients of integers; they become doubles at the end. So nothing
 // is lost where hulls are thin, or nearly parallel, and the bits are the same on every compiler and device.
 //
+// Where it is known whether the shapes touch, the doubles often do. Any vector v tells that no two points of the hulls are
+// nearer to each other than its least product with a difference of their points, over |v|. And where v is a mean of
+// differences, two points are as near as |v|. Where both numbers nearly agree, |v| is the distance, however thin a feature
+// is. Let u be 2^-53 and D the largest difference. The mean is off by less than 6u D; two points that are farthest along v
+// are told by products that are off by 4u |v| D, each of which can mistake two points by twice that, and their difference's
+// product is off by as much again: 20u D in all. If the two numbers are 4u D apart at most, |v| is off by less than 32u D.
+// And of hulls that touch, a mean that is no longer than 4u D tells a point of each that are no farther apart than 10u D.
+//
 // Integers of two words for each degree do, for any input: what of a coordinate is below 2^-124 of the largest one is cut
 // off. That changes a distance by less than 2^-120 of the largest coordinate, which is far below what rounding does. It may
 // take hulls that do not touch for ones that do: so nothing here decides whether they do.
@@ -99,6 +107,24 @@ public:
     }
     [[nodiscard]] ABUT_HD constexpr verdict when_lost(const difference_simplex&) const { return verdict::unknown; }
 
+    /// The least product of v with a difference, but for rounding. Points are seen from one of the other hull, from which
+    /// none is farther than the largest difference.
+    [[nodiscard]] ABUT_HD constexpr number least_product(const vec3<number>& v) const {
+        number back{infinity<double>}, front{-infinity<double>};
+        std::uint32_t i = 0, j = 0;
+        for (std::size_t k = 0; k < a_.count; ++k) {
+            const number x = dot(v, seen(a_[k], b_[0]));
+            if (x < back) back = x, i = static_cast<std::uint32_t>(k);
+        }
+        for (std::size_t k = 0; k < b_.count; ++k) {
+            const number x = dot(v, seen(b_[k], origin_));
+            if (front < x) front = x, j = static_cast<std::uint32_t>(k);
+        }
+        return dot(v, difference(i, j));
+    }
+    /// A length in units of the hulls.
+    [[nodiscard]] ABUT_HD constexpr double length_of(const number& x) const { return contact_math::scaled(x.high, -down_); }
+
 private:
     ABUT_HD constexpr vec3<number> seen(const vec3<T>& p, const vec3<T>& from) const {
         vec3<double> x = widened(p), y = widened(from);
@@ -111,6 +137,9 @@ private:
     int down_ = 0;
 };
 
+/// What is known of two shapes before they are measured.
+enum class whether_they_touch : unsigned char { unknown, no, yes };
+
 /// Points of two hulls that are as near to each other as any, as means of the hulls' points, and their distance; or, where
 /// the hulls seem to touch, of one point of both, and 0.
 template <scalar T>
@@ -119,9 +148,15 @@ struct nearest_in_hulls {
     double weight[4] = {1, 0, 0, 0};
     double length = 0;
 
-    ABUT_NOINLINE ABUT_HD constexpr nearest_in_hulls(const hull<T>& a, const hull<T>& b) {
+    /// Where it is known whether the shapes touch, another feature may be taken that is as near, but for rounding.
+    ABUT_NOINLINE ABUT_HD constexpr nearest_in_hulls(const hull<T>& a, const hull<T>& b,
+                                                     whether_they_touch known = whether_they_touch::unknown) {
         vec3<contact_math::one_double> rough[4];
-        (void)search_origin<sought::nearest>(hulls_in_plain_doubles<T>(a, b), at, rough);
+        const hulls_in_plain_doubles<T> doubles(a, b);
+        const verdict seems = search_origin<sought::nearest>(doubles, at, rough);
+        const bool may_do =
+            known != whether_they_touch::unknown && !(known == whether_they_touch::no && seems == verdict::yes);
+        if (may_do && measure_in_doubles(doubles, rough, known)) return;
         const unit_of_hulls<T> unit = unit_of(a, b);
         const integers x(a, b, unit);
         vec3<number> w[4];
@@ -171,6 +206,46 @@ private:
         return plain_step(first, 1, sum);
     }
 
+    /// From the search in doubles. False, with nothing changed, where these do not tell enough.
+    ABUT_HD constexpr bool measure_in_doubles(const hulls_in_plain_doubles<T>& x,
+                                              const vec3<contact_math::one_double> (&w)[4], whether_they_touch known) {
+        using contact_math::one_double;
+        one_double share[4] = {{1}, {0}, {0}, {0}};
+        if (at.count == 2) {
+            const auto e = w[1] - w[0];
+            share[0] = dot(e, w[1]);
+            share[1] = -dot(e, w[0]);
+        } else if (at.count == 3) {
+            const auto normal = cross(w[1] - w[0], w[2] - w[0]);
+            for (int k = 0; k < 3; ++k) share[k] = dot(normal, cross(w[k == 2 ? 0 : k + 1], w[k == 0 ? 2 : k - 1]));
+        } else if (at.count == 4) {
+            for (int k = 0; k < 4; ++k) {
+                const one_double volume = dot(w[(k + 1) & 3], cross(w[(k + 2) & 3], w[(k + 3) & 3]));
+                share[k] = k % 2 == 0 ? volume : -volume;
+            }
+        }
+        const one_double sum = (share[0] + share[1]) + (share[2] + share[3]);
+        vec3<one_double> v = w[0];
+        double largest = 0, part[4] = {};
+        for (int k = 0; k < at.count; ++k) {
+            const one_double p = share[k] / sum;
+            part[k] = p.high;
+            if (!(p.high >= 0 && p.high <= 1)) return false;
+            if (k > 0) v = v + vec3<one_double>{p * (w[k].x - w[0].x), p * (w[k].y - w[0].y), p * (w[k].z - w[0].z)};
+            largest = greatest(largest, dot(w[k], w[k]).high);
+        }
+        if (!(largest > 0x1p-600 && largest < 0x1p900)) return false;
+        const one_double far = root(dot(v, v));
+        const double size = root(one_double{largest}).high;
+        length = 0;
+        if (known == whether_they_touch::no || far.high > 0x1p-51 * size) {
+            // Integers measure what is much less than D.
+            if (!(far.high > 0x1p-10 * size && (far - x.least_product(v) / far).high <= 0x1p-51 * size)) return false;
+            length = x.length_of(far);
+        }
+        for (int k = 0; k < at.count; ++k) weight[k] = part[k];
+        return true;
+    }
     ABUT_HD constexpr void measure(const vec3<number> (&w)[4], bool meet, int unit) {
         using contact_math::far_double;
         using contact_math::magnitude_of;
@@ -239,8 +314,9 @@ struct measured_hull_pair {
     double radius_a, radius_b;
     const hull<T>&a, &b;
 
-    ABUT_HD constexpr measured_hull_pair(const hull<T>& of_a, T around_a, const hull<T>& of_b, T around_b)
-        : nearest(of_a, of_b),
+    ABUT_HD constexpr measured_hull_pair(const hull<T>& of_a, T around_a, const hull<T>& of_b, T around_b,
+                                         whether_they_touch known = whether_they_touch::unknown)
+        : nearest(of_a, of_b, known),
           radius_a(static_cast<double>(around_a)),
           radius_b(static_cast<double>(around_b)),
           a(of_a),
@@ -267,13 +343,14 @@ private:
     }
 };
 
-/// Calls f of the measured pair, whose hulls live as long as that takes.
+/// Calls f of the measured pair, of which it is known whether it touches. The hulls live as long as that takes.
 template <class S, class U, class F>
-ABUT_HD constexpr auto with_measured_hulls(const S& s, const U& t, const F& f) {
+ABUT_HD constexpr auto with_measured_hulls(const S& s, const U& t, bool touch, const F& f) {
     const auto points_a = core_points_of(s);
     const auto points_b = core_points_of(t);
     return f(measured_hull_pair<scalar_type_of<S>>(points_a.as_hull(), radius_around_core(s), points_b.as_hull(),
-                                                   radius_around_core(t)));
+                                                   radius_around_core(t),
+                                                   touch ? whether_they_touch::yes : whether_they_touch::no));
 }
 
 }  // namespace abut::detail
