@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // long to compile
 //
-// Every stage of all pairs of a cylinder or a cone and another shape, and their distances.
+// Every stage of all pairs of a cylinder or a cone and another shape, their distances and contacts.
 #include <abut/cuda.hpp>
 
 #include <cstddef>
@@ -27,7 +27,12 @@ struct measure_pairs {
     using T = scalar_type_of<S>;
     const test::copied_pair<S, U>* pairs;
     separation<T>* apart;
-    ABUT_HD void operator()(std::size_t i) const { apart[i] = distance(pairs[i].s, pairs[i].t); }
+    contact<T>* how;
+    ABUT_HD void operator()(std::size_t i) const {
+        apart[i] = distance(pairs[i].s, pairs[i].t);
+        const auto found = contact_of(pairs[i].s, pairs[i].t);
+        how[i] = found ? *found : contact<T>{};
+    }
 };
 
 /// Pairs that the host makes are measured where the policy works, and by the host: the same bits.
@@ -47,14 +52,18 @@ void check_measured(const Policy& on, const Beside& beside) {
     }
     const std::size_t n = pairs.size();
     std::vector<separation<T>> here(n), there(n);
-    for_each_index(openmp{}, n, measure_pairs<Solid, other>{pairs.data(), here.data()});
+    std::vector<contact<T>> how_here(n), how_there(n);
+    for_each_index(openmp{}, n, measure_pairs<Solid, other>{pairs.data(), here.data(), how_here.data()});
     const auto copies = test::copied(on, pairs);
     execution::buffer_of<Policy, separation<T>> apart(on, n);
-    for_each_index(on, n, measure_pairs<Solid, other>{copies.data(), apart.data()});
+    execution::buffer_of<Policy, contact<T>> how(on, n);
+    for_each_index(on, n, measure_pairs<Solid, other>{copies.data(), apart.data(), how.data()});
     apart.read(there.data());
+    how.read(how_there.data());
     std::size_t unlike = 0, touching = 0;
     for (std::size_t i = 0; i < n; ++i) {
         unlike += std::memcmp(&here[i], &there[i], sizeof here[i]) != 0;
+        unlike += std::memcmp(&how_here[i], &how_there[i], sizeof how_here[i]) != 0;
         touching += here[i].distance == 0;
     }
     CHECK(unlike == 0);
@@ -64,8 +73,8 @@ void check_measured(const Policy& on, const Beside& beside) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("distance of cylinders and cones: cuda measures every family as the host does", "", cylinder<float>,
-                   cylinder<double>, cone<float>, cone<double>) {
+TEMPLATE_TEST_CASE("distances and contacts of cylinders and cones: cuda measures every family as the host does", "",
+                   cylinder<float>, cylinder<double>, cone<float>, cone<double>) {
     using T = scalar_type_of<TestType>;
     using pair = test::revolution_case<T>;
     constexpr bool is_cone = std::same_as<TestType, cone<T>>;

@@ -9,6 +9,7 @@
 #include <abut/narrow/directions.hpp>
 #include <abut/narrow/flat_contact.hpp>
 #include <abut/narrow/hull_contact.hpp>
+#include <abut/narrow/revolution_contact.hpp>
 #include <abut/narrow/round_contact.hpp>
 #include <abut/narrow/triangle_contact.hpp>
 #include <abut/predicate/intersects.hpp>

@@ -12,11 +12,13 @@
 #include <abut/arithmetic/error_free.hpp>
 #include <abut/arithmetic/limits.hpp>
 #include <abut/arithmetic/magnitude.hpp>
+#include <abut/narrow/common_unit.hpp>
 #include <abut/narrow/contact.hpp>
 #include <abut/narrow/hull_distance.hpp>
 #include <abut/narrow/nearest_point.hpp>
 #include <abut/narrow/nearest_ways.hpp>
 #include <abut/narrow/numbers.hpp>
+#include <abut/narrow/revolution_contact.hpp>
 #include <abut/narrow/revolution_plane.hpp>
 #include <abut/narrow/revolution_ways.hpp>
 #include <abut/predicate/intersects.hpp>
@@ -56,17 +58,6 @@ ABUT_HD constexpr double core_radius(const S& s, const length_unit<T>& unit) {
     }
 }
 
-/// A unit for two shapes: what products of four lengths stay in.
-template <class S, class U>
-ABUT_HD constexpr auto common_unit(const S& s, const U& t) {
-    using T = scalar_type_of<S>;
-    if constexpr (std::same_as<T, float>) {
-        return length_unit<float>{};
-    } else {
-        return length_unit<double>(greatest(contact_math::magnitude_of(s), contact_math::magnitude_of(t)));
-    }
-}
-
 /// The distance of two boxes in double, with a relative error of a few units of roundoff, also where squares would leave the
 /// range.
 template <scalar T>
@@ -97,8 +88,8 @@ ABUT_HD constexpr double positive_distance(const S& s, const U& t, double measur
     return greatest(measured, gap_of_boxes(bounds(s), bounds(t)), 0x1p-1074);
 }
 
-/// Two shapes that do not touch, measured. If `Touching`, they do, and what is found is a point of both, twice.
-template <scalar T, bool Touching = false>
+/// Two shapes that do not touch, measured.
+template <scalar T>
 struct measured_pair {
     nearest_way<T> nearest;  ///< of the cores
     length_unit<T> unit;
@@ -109,7 +100,7 @@ struct measured_pair {
     ABUT_HD constexpr measured_pair(const S& s, const U& t)
         : unit(common_unit(s, t)), radius_a(core_radius(s, unit)), radius_b(core_radius(t, unit)) {
         if constexpr (solid_of_revolution<S>) {
-            nearest = nearest_way_from<Touching>(s, core_of(t), unit);
+            nearest = nearest_way_from<false>(s, core_of(t), unit);
         } else {
             nearest = nearest_way_between(core_of(s), core_of(t), unit);
         }
@@ -125,15 +116,6 @@ struct measured_pair {
     template <class U>
     [[nodiscard]] ABUT_HD constexpr vec3<T> point_on_b(const U& t) const {
         return on_shape(t, nearest.from_b, nearest.to_b, -radius_b);
-    }
-    /// If they touch: of a flat shape, or the point of a solid that is nearest to a ball's centre.
-    template <class S, class U>
-    [[nodiscard]] ABUT_HD constexpr vec3<T> shared_point(const S& s, const U& t) const {
-        if constexpr (std::same_as<U, sphere<T>>) {
-            return point_on_a(s);
-        } else {
-            return point_on_b(t);
-        }
     }
 
 private:
@@ -219,9 +201,7 @@ inline constexpr bool measured_in_order<plane<T>, hull<T>> = true;
 template <class S, class U>
 inline constexpr bool measured_revolution = revolution_pair<S, U>;
 template <class S, class U>
-inline constexpr bool measured_revolution_over_plane = measured_revolution<S, U>&& requires(const U& t) {
-    t.normal;
-};
+concept measured_revolution_over_plane = measured_revolution<S, U> && std::same_as<U, plane<scalar_type_of<U>>>;
 
 /// A distance and a way as long, from the first shape to the second, in no unit.
 struct distance_and_way {
@@ -309,11 +289,8 @@ ABUT_HD constexpr auto separation_of(const S& s, const U& t, bool touch) {
         vec3<T> shared{};
         if constexpr (measured_hulls<S, U>) {
             shared = with_measured_hulls(s, t, true, [](const auto& m) { return m.shared_point(); });
-        } else if constexpr (measured_revolution_over_plane<S, U>) {
-            const bool is_all = t.normal == vec3<T>{0, 0, 0};
-            shared = is_all ? axis_of(s).b : revolution_over_plane<T>(s, t, common_unit(s, t)).shared_point();
         } else if constexpr (solid_of_revolution<S>) {
-            shared = measured_pair<T, true>(s, t).shared_point(s, t);
+            shared = shared_point_of(s, t);
         } else {
             shared = contact_between(s, t).point;
         }

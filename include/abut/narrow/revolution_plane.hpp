@@ -64,6 +64,16 @@ public:
         return {foot(from.x, over_.normal.x, aside_.x, normal_.x), foot(from.y, over_.normal.y, aside_.y, normal_.y),
                 foot(from.z, over_.normal.z, aside_.z, normal_.z)};
     }
+    /// Of the lowest and the highest point, at the common scale unless they are far from touching.
+    [[nodiscard]] ABUT_HD constexpr contact_math::extent heights() const {
+        contact_math::extent e{infinity<double>, -infinity<double>};
+        for (int i = 0; i < 2; ++i) {
+            const double height = over_.height[i].high;
+            e = {least(e.lower, plain_sum(height, -reach(i))), greatest(e.upper, plain_sum(height, reach(i)))};
+        }
+        return e;
+    }
+    [[nodiscard]] ABUT_HD constexpr const vec3<double>& normal() const { return normal_; }
     /// If they touch: where the plane passes between the lowest and the highest point.
     [[nodiscard]] ABUT_HD constexpr vec3<T> shared_point() const {
         using namespace contact_math;
