@@ -269,7 +269,8 @@ TEST_CASE("distance: of cylinders and cones, by hand, and in constant expression
     static_assert(distance(vec{0, 0, 5}, rod) == separation<double>{0, 0, {0, 0, 5}, {0, 0, 2}, 3});
     static_assert(distance(rod, vec{4, 0, 6}).distance == 5);
     static_assert(distance(rod, segment<double>{{3, -5, 1}, {3, 5, 1}}).distance == 2);
-    static_assert(distance(rod, triangle<double>{{-5, -5, 4}, {5, -5, 4}, {0, 9, 4}}).distance == 2);
+    static_assert(distance(rod, triangle<double>{{-5, -5, 4}, {5, -5, 4}, {0, 9, 4}}) ==
+                  separation<double>{0, 0, {0, 0, 2}, {0, 0, 4}, 2});
     static_assert(distance(rod, triangle<double>{{-5, -5, 1}, {5, -5, 1}, {0, 9, 1}}).distance == 0);
     static_assert(distance(aabb<double>{{4, -1, -1}, {5, 1, 1}}, rod).distance == 3);
     static_assert(distance(sphere<double>{{5, 0, 1}, 1}, rod).distance == 3);

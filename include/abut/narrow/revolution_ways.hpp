@@ -222,7 +222,7 @@ public:
         }
     }
     /// From the solid's farthest points along a normal of length 1, and against it, to what they find on a face: a way, if
-    /// `way_to(z, way)` finds one.
+    /// `way_to(z, way)` finds one. Centres come first, as the better of points that are as near.
     template <class Way>
     ABUT_HD constexpr void offer_face(const vec3<double>& normal, const Way& way_to) {
         using namespace contact_math;
@@ -231,8 +231,8 @@ public:
         for (int end = 0; end < 2; ++end) {
             const point center = plain_step(none, end == 0 ? 0 : solid_.height, solid_.axis);
             const double reach = end == 0 && solid_.is_cone ? 0 : solid_.radius;
-            for (int side = -1; side <= (reach > 0 ? 1 : -1); ++side) {
-                const point z = plain_step(center, side * reach, aside);
+            for (int k = 0; k < (reach > 0 ? 3 : 1); ++k) {
+                const point z = plain_step(center, k == 0 ? 0 : k == 1 ? -reach : reach, aside);
                 point way{};
                 if (way_to(z, way)) offer(z, way, first_, plain_step(z, 1, way));
             }
