@@ -27,6 +27,7 @@
 #include "../tests/support/motion_families.hpp"
 #include "../tests/support/other_shapes.hpp"
 #include "../tests/support/ray_oracle.hpp"
+#include "../tests/support/revolution_pairs.hpp"
 #include "../tests/support/solid_pairs.hpp"
 #include "../tests/support/triangle_families.hpp"
 #include "../tests/support/within_pairs.hpp"
@@ -50,6 +51,8 @@ constexpr const char* name_of_shape() {
     if constexpr (std::is_same_v<S, abut::plane<T>>) return "plane";
     if constexpr (std::is_same_v<S, abut::aabb<T>>) return "box";
     if constexpr (std::is_same_v<S, abut::ray<T>>) return "ray";
+    if constexpr (std::is_same_v<S, abut::cylinder<T>>) return "cylinder";
+    if constexpr (std::is_same_v<S, abut::cone<T>>) return "cone";
     return "hull";
 }
 template <abut::scalar T, class S, class U>
@@ -249,12 +252,50 @@ void add_motion(const char* kind) {
     }
 }
 
+/// A cylinder or a cone with each other shape that it is decided with. beside(case, k) is that.
+template <class Solid, class Beside>
+void add_revolutions_beside(const Beside& beside) {
+    using T = abut::scalar_type_of<Solid>;
+    using other = decltype(beside(test::revolution_case<T>{}, std::uint64_t{}));
+    for (int f = 0; f < test::revolution_family_count; ++f) {
+        const auto family = static_cast<test::revolution_family>(f);
+        add<T>(
+            name_of_kind<T, Solid, other>(), test::name_of(family), {256, 5},
+            [=](std::uint64_t k) {
+                for (;; k += 256) {  // the first that is valid
+                    const auto c = test::make_revolution_case<T>(seed, family, k, std::is_same_v<Solid, abut::cone<T>>);
+                    const pair_of<Solid, other> p{test::solid_of<Solid>(c.axis, c.radius), beside(c, k)};
+                    if (is_valid(p.s) && is_valid(p.t)) return p;
+                }
+            },
+            whether_they_meet);
+    }
+}
+template <class Solid>
+void add_revolutions() {
+    using T = abut::scalar_type_of<Solid>;
+    using pair = test::revolution_case<T>;
+    constexpr bool is_cone = std::is_same_v<Solid, abut::cone<T>>;
+    add_revolutions_beside<Solid>([](const pair& c, std::uint64_t) { return c.corner[0]; });
+    add_revolutions_beside<Solid>([](const pair& c, std::uint64_t) { return abut::segment<T>{c.corner[0], c.corner[1]}; });
+    add_revolutions_beside<Solid>([](const pair& c, std::uint64_t) {
+        return abut::triangle<T>{c.corner[0], c.corner[1], c.corner[2]};
+    });
+    add_revolutions_beside<Solid>([](const pair& c, std::uint64_t) {
+        return bounds(abut::segment<T>{c.corner[0], c.corner[1]});
+    });
+    add_revolutions_beside<Solid>([](const pair& c, std::uint64_t k) { return test::ball_beside(c, is_cone, k); });
+    add_revolutions_beside<Solid>([](const pair& c, std::uint64_t k) { return test::plane_beside(c, k); });
+}
+
 template <abut::scalar T>
 void add_all() {
     add_beside_triangles<T>();
     add_solids<T>();
     add_round_within<T>();
     add_hulls<T>();
+    add_revolutions<abut::cylinder<T>>();
+    add_revolutions<abut::cone<T>>();
     add_motion<test::motion_kind::vertex_face, T>("motion_vertex_face");
     add_motion<test::motion_kind::edge_edge, T>("motion_edge_edge");
 }
