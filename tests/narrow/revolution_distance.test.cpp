@@ -178,7 +178,9 @@ const char* wrong_with_gap(const S& s, const U& t, gap_tally& tally) {
     const wide_gap gap = exact_gap(s, t);
     const wide step = wide(0x1p-53) * gap.farthest;
     tally.open += gap.distance.upper - gap.distance.lower > step / 4;
-    if (gap.distance.upper > wide(largest_finite<T>) + step) return nullptr;  // T may have no number for it
+    // T may have no number for it, or none for what is off by less than is allowed.
+    if (gap.distance.upper > wide(largest_finite<T>) + step) return nullptr;
+    if (found.distance == infinity<T> && gap.distance.upper + most_steps * step > wide(largest_finite<T>)) return nullptr;
     const auto within = [&](const wide& off, const wide& allowed, double& worst) {
         if (off > allowed && step > 0) worst = std::max(worst, static_cast<double>((off - allowed) / step));
         return off <= allowed + most_steps * step;
@@ -359,6 +361,15 @@ TEMPLATE_TEST_CASE("distance: edges that are nearly parallel to a cylinder or a 
     check_total("segments, nearly parallel", segments);
     check_total("triangles, nearly parallel", triangles);
     check_total("boxes, nearly parallel", boxes);
+}
+
+TEST_CASE("nearest_point: a cylinder that reaches to where the scalar has no number") {
+    const cylinder<double> far{{{1.79e308, 1e307, 0}, {1.7901e308, 1.01e307, 0}}, 5e307};
+    const auto p = nearest_point(far, vec3<double>{1.79e308, -1e308, 0});
+    CHECK((p.x == largest_finite<double> && p.y < 1e307 && p.y > 8e306 && p.z == 0));
+    const cylinder<float> far_too{{{3.4e38f, 1e37f, 0}, {3.4001e38f, 1.01e37f, 0}}, 5e37f};
+    const auto q = nearest_point(far_too, vec3<float>{3.4e38f, -1e38f, 0});
+    CHECK((q.x == largest_finite<float> && q.y < 1e37f && q.z == 0));
 }
 
 }  // namespace abut::test

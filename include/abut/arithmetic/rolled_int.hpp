@@ -109,8 +109,8 @@ struct rolled_int {
 
 // Numbers as results: a product has the limbs of both factors, a sum those of its terms, which have one length and leave
 // room for it. Whoever computes polynomials of them leaves two bits of each number's first limb. All are returned out of line:
-// nvcc 13.0 gives what one inlined call returns the memory of what another one returned and is still read. So whatever returns
-// such numbers has an overload here: the templates of vec.hpp are inlined.
+// nvcc 13.0 may give what one inlined call returns the memory of what another one returned and is still read. So templates of
+// vec.hpp, which are inlined, have an overload here.
 
 template <int A, int B>
 ABUT_NOINLINE ABUT_HD constexpr rolled_int<A + B> operator*(const rolled_int<A>& a, const rolled_int<B>& b) {

@@ -124,9 +124,6 @@ private:
         if (along != 0 && length > 0) to = plain_step(to, along / length, nearest.way);
         if constexpr (std::same_as<S, aabb<T>>) {
             return end_of_way<T>(from, to, s, unit);
-        } else if constexpr (solid_of_revolution<S>) {  // it may reach to where T has no number
-            constexpr T far = largest_finite<T>;
-            return least(greatest(end_of_way(s, from, to, unit), vec3<T>{-far, -far, -far}), vec3<T>{far, far, far});
         } else {
             return end_of_way(s, from, to, unit);
         }
@@ -381,7 +378,7 @@ private:
         x.look_back(back, i, j);
         const double gap = x.ahead(back, i, j), square = gap * gap, all = 3 * x.size() * x.size();
         return gap > 0 && square > 0x1p-900 &&
-               square > dot(along, along) * greatest(0x1p-72 * all, (1 + 0x1p-10) * (far * far));
+               square > dot(along, along) * greatest(0x1p-72 * all, (1 + 0x1p-9) * (far * far));
     }
 };
 

@@ -10,10 +10,11 @@
 // Where it is known whether the shapes touch, the doubles often do. Any vector v tells that no two points of the hulls are
 // nearer to each other than its least product with a difference of their points, over |v|. And where v is a mean of
 // differences, two points are as near as |v|. Where both numbers nearly agree, |v| is the distance, however thin a feature
-// is. Let u be 2^-53 and D the largest difference. The mean is off by less than 6u D; two points that are farthest along v
-// are told by products that are off by 4u |v| D, each of which can mistake two points by twice that, and their difference's
-// product is off by as much again: 20u D in all. If the two numbers are 4u D apart at most, |v| is off by less than 32u D.
-// And of hulls that touch, a mean that is no longer than 4u D tells a point of each that are no farther apart than 10u D.
+// is. Let u be 2^-53 and D the largest difference. The mean is off by less than 9u D, so that much may be missing in the
+// upper bound. Two points that are farthest along v are told by products that are off by 4u |v| D, each of which can mistake
+// two points by twice that, and their difference's product is off by as much again: 20u D in the lower bound. If the two are
+// 4u D apart at most, the distance is no less than |v| - 28u D and no more than |v| + 9u D. And of hulls that touch, a mean
+// that is no longer than 4u D tells a point of each that are no farther apart than 13u D.
 //
 // Integers of two words for each degree do, for any input: what of a coordinate is below 2^-124 of the largest one is cut
 // off. That changes a distance by less than 2^-120 of the largest coordinate, which is far below what rounding does. It may

@@ -230,14 +230,17 @@ concept has_way_to = requires(const S& s, const vec3<scalar_type_of<S>>& p, cons
     way_to(s, p, unit);
 };
 
-/// p plus the way, in T, and in the shape's box.
+/// p plus the way, in T, and in the shape's box, as far as T has numbers: a cylinder may reach farther, and its rim may be
+/// the nearest there.
 template <scalar T>
 ABUT_HD constexpr vec3<T> end_of_way(const vec3<T>& p, const vec3<double>& way, const aabb<T>& box,
                                      const length_unit<T>& unit) {
     const auto one = [&](T x, double d) {
         return rounded(static_cast<T>(unit.length(plain_sum(unit.of(x), d))));  // in the unit, where nothing overflows
     };
-    return least(greatest(vec3<T>{one(p.x, way.x), one(p.y, way.y), one(p.z, way.z)}, box.lower), box.upper);
+    constexpr T far = largest_finite<T>;
+    const vec3<T> lower = greatest(box.lower, vec3<T>{-far, -far, -far}), upper = least(box.upper, vec3<T>{far, far, far});
+    return least(greatest(vec3<T>{one(p.x, way.x), one(p.y, way.y), one(p.z, way.z)}, lower), upper);
 }
 /// Where the way leads to a corner it is the corner, and of a box nothing is rounded.
 template <class S, scalar T>
