@@ -194,9 +194,6 @@ void check_total(const char* name, const distance_tally& tally) {
     CHECK(tally.touching < tally.pairs * 9 / 10);
 }
 
-/// A hundredth of ABUT_SAMPLES in `part`, at least: oracles take their time.
-std::uint64_t some_samples(std::uint64_t part) { return std::max<std::uint64_t>(sample_count() / part, 1); }
-
 }  // namespace
 
 TEMPLATE_TEST_CASE("distance: of triangles, segments and points with triangles, in each family, against 300 bits", "", float,

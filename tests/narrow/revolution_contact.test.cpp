@@ -238,8 +238,6 @@ revolution_case<scalar_type_of<Solid>> through(std::uint64_t i) {
     return c;
 }
 
-std::uint64_t some_samples(std::uint64_t part) { return std::max<std::uint64_t>(sample_count() / part, 1); }
-
 }  // namespace
 
 TEMPLATE_TEST_CASE("contacts of cylinders and cones are what they say, in each family", "", cylinder<float>,

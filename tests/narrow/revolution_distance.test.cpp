@@ -216,8 +216,6 @@ void check_total(const char* name, const gap_tally& tally) {
     CHECK(tally.open * 50 <= tally.pairs);
 }
 
-std::uint64_t some_samples(std::uint64_t part) { return std::max<std::uint64_t>(sample_count() / part, 1); }
-
 }  // namespace
 
 TEMPLATE_TEST_CASE("nearest_point: of cylinders and cones, in each family, against 300 bits", "", cylinder<float>,

@@ -35,6 +35,9 @@ inline bool is_share_above(double least, std::size_t counted, std::size_t total)
     return static_cast<double>(counted) >= least * all - 4 * std::sqrt(least * (1 - least) * all);
 }
 
+/// Fewer samples, a `part` of them, where an oracle takes its time; one at least.
+inline std::uint64_t some_samples(std::uint64_t part) { return std::max<std::uint64_t>(sample_count() / part, 1); }
+
 /// Runs `body(first, last, tally)` on pieces of [0, count) in as many threads as there are cores, each with a tally of its
 /// own, and adds the tallies up.
 template <class Tally, class Body>
