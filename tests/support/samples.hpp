@@ -3,8 +3,10 @@
 
 // How many samples a test draws, and how it spreads them over the machine's cores.
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstdint>
 #include <cstdlib>
 #include <thread>
