@@ -194,11 +194,9 @@ inline constexpr bool measured_in_order<plane<T>, S> = true;
 template <scalar T>
 inline constexpr bool measured_in_order<plane<T>, hull<T>> = true;
 
-/// A cylinder or a cone and a shape with which it is decided: in this order, measured.
+/// A cylinder or a cone and a plane, in this order.
 template <class S, class U>
-inline constexpr bool measured_revolution = revolution_pair<S, U>;
-template <class S, class U>
-concept measured_revolution_over_plane = measured_revolution<S, U> && std::same_as<U, plane<scalar_type_of<U>>>;
+concept measured_revolution_over_plane = revolution_pair<S, U> && std::same_as<U, plane<scalar_type_of<U>>>;
 
 /// A distance and a way as long, from the first shape to the second, in no unit.
 struct distance_and_way {
@@ -265,7 +263,7 @@ ABUT_HD constexpr separation<T> reversed(const separation<T>& s) {
 
 template <class S, class U>
 inline constexpr bool measured_as_given =
-    (contact_pair<S, U> && measured_in_order<S, U>) || measured_hulls<S, U> || measured_revolution<S, U>;
+    (contact_pair<S, U> && measured_in_order<S, U>) || measured_hulls<S, U> || revolution_pair<S, U>;
 
 /// Whether two shapes have a distance, in either order: those that can be decided and have contacts, convex hulls, and
 /// cylinders and cones with what they can be decided with.

@@ -87,14 +87,19 @@ struct time_bounds {
     [[nodiscard]] ABUT_HD constexpr bool is_one() const { return first == last; }
 };
 
+/// Around a time that may be off by a share of itself, or negative ones where that leaves the range.
+ABUT_HD constexpr time_bounds bounds_around(double time, double relative) {
+    const double lost = plain_product(relative, time);
+    const time_bounds between{plain_sum(time, -lost), plain_sum(time, lost)};
+    return between.first > smallest_normal<double> && between.last <= largest_finite<double> ? between : time_bounds{-1, -1};
+}
+
 /// The same in doubles: two times between which the line crosses the plane, or negative ones if nothing is known.
 template <scalar T>
 ABUT_HD constexpr time_bounds crossing_in_doubles(const line_of<T>& l, const triangle<T>& t) {
     const auto [time, relative] = cross_plane<contact_math::one_double>(l, t, 0x1p-48);
     if (!(relative < 0x1p-8)) return {-1, -1};
-    const double lost = plain_product(relative, time.high);
-    const time_bounds between{plain_sum(time.high, -lost), plain_sum(time.high, lost)};
-    return between.first > smallest_normal<double> && between.last <= largest_finite<double> ? between : time_bounds{-1, -1};
+    return bounds_around(time.high, relative);
 }
 
 /// The same of what the filter of a ray and a triangle knows.
@@ -102,9 +107,7 @@ ABUT_HD constexpr time_bounds crossing_of(const plane_approach& met) {
     const double relative =
         2 * (met.error_of_height / absolute(met.height) + met.error_of_speed / absolute(met.speed) + 0x1p-48);
     if (!(relative < 0x1p-7)) return {-1, -1};
-    const double time = met.height / met.speed, lost = plain_product(relative, time);
-    const time_bounds between{plain_sum(time, -lost), plain_sum(time, lost)};
-    return between.first > smallest_normal<double> && between.last <= largest_finite<double> ? between : time_bounds{-1, -1};
+    return bounds_around(met.height / met.speed, relative);
 }
 
 /// The same by integers.

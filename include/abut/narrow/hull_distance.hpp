@@ -81,7 +81,7 @@ public:
     using number = contact_math::one_double;
     static constexpr int most_steps = 64;
 
-    ABUT_HD constexpr hulls_in_plain_doubles(const hull<T>& a, const hull<T>& b) : a_(a), b_(b), origin_(a[0]) {
+    ABUT_HD constexpr hulls_in_plain_doubles(const hull<T>& a, const hull<T>& b) : a_(a), b_(b) {
         double largest = 0;
         for (std::size_t i = 0; i < a.count; ++i) largest = greatest(largest, contact_math::largest_of(widened(a[i])));
         for (std::size_t j = 0; j < b.count; ++j) largest = greatest(largest, contact_math::largest_of(widened(b[j])));
@@ -91,14 +91,16 @@ public:
     [[nodiscard]] ABUT_HD constexpr vec3<number> difference(std::uint32_t i, std::uint32_t j) const {
         return seen(a_[i], b_[j]);
     }
+    /// Points are seen from one of the other hull, from which none is farther than the largest difference.
     ABUT_HD constexpr void look_back(const vec3<number>& way, std::uint32_t& i, std::uint32_t& j) const {
+        const vec3<T> one_of_a = a_[0], one_of_b = b_[0];
         number back{infinity<double>}, front{-infinity<double>};
         for (std::size_t k = 0; k < a_.count; ++k) {
-            const number x = dot(way, seen(a_[k], origin_));
+            const number x = dot(way, seen(a_[k], one_of_b));
             if (x < back) back = x, i = static_cast<std::uint32_t>(k);
         }
         for (std::size_t k = 0; k < b_.count; ++k) {
-            const number x = dot(way, seen(b_[k], origin_));
+            const number x = dot(way, seen(b_[k], one_of_a));
             if (front < x) front = x, j = static_cast<std::uint32_t>(k);
         }
     }
@@ -108,19 +110,10 @@ public:
     }
     [[nodiscard]] ABUT_HD constexpr verdict when_lost(const difference_simplex&) const { return verdict::unknown; }
 
-    /// The least product of v with a difference, but for rounding. Points are seen from one of the other hull, from which
-    /// none is farther than the largest difference.
+    /// The least product of v with a difference, but for rounding.
     [[nodiscard]] ABUT_HD constexpr number least_product(const vec3<number>& v) const {
-        number back{infinity<double>}, front{-infinity<double>};
         std::uint32_t i = 0, j = 0;
-        for (std::size_t k = 0; k < a_.count; ++k) {
-            const number x = dot(v, seen(a_[k], b_[0]));
-            if (x < back) back = x, i = static_cast<std::uint32_t>(k);
-        }
-        for (std::size_t k = 0; k < b_.count; ++k) {
-            const number x = dot(v, seen(b_[k], origin_));
-            if (front < x) front = x, j = static_cast<std::uint32_t>(k);
-        }
+        look_back(v, i, j);
         return dot(v, difference(i, j));
     }
     /// A length in units of the hulls.
@@ -134,12 +127,8 @@ private:
     }
 
     const hull<T>&a_, &b_;
-    vec3<T> origin_;
     int down_ = 0;
 };
-
-/// What is known of two shapes before they are measured.
-enum class whether_they_touch : unsigned char { unknown, no, yes };
 
 /// Points of two hulls that are as near to each other as any, as means of the hulls' points, and their distance; or, where
 /// the hulls seem to touch, of one point of both, and 0.
@@ -150,13 +139,11 @@ struct nearest_in_hulls {
     double length = 0;
 
     /// Where it is known whether the shapes touch, another feature may be taken that is as near, but for rounding.
-    ABUT_NOINLINE ABUT_HD constexpr nearest_in_hulls(const hull<T>& a, const hull<T>& b,
-                                                     whether_they_touch known = whether_they_touch::unknown) {
+    ABUT_NOINLINE ABUT_HD constexpr nearest_in_hulls(const hull<T>& a, const hull<T>& b, verdict known = verdict::unknown) {
         vec3<contact_math::one_double> rough[4];
         const hulls_in_plain_doubles<T> doubles(a, b);
         const verdict seems = search_origin<sought::nearest>(doubles, at, rough);
-        const bool may_do =
-            known != whether_they_touch::unknown && !(known == whether_they_touch::no && seems == verdict::yes);
+        const bool may_do = known != verdict::unknown && !(known == verdict::no && seems == verdict::yes);
         if (may_do && measure_in_doubles(doubles, rough, known)) return;
         const unit_of_hulls<T> unit = unit_of(a, b);
         const integers x(a, b, unit);
@@ -209,7 +196,7 @@ private:
 
     /// From the search in doubles. False, with nothing changed, where these do not tell enough.
     ABUT_HD constexpr bool measure_in_doubles(const hulls_in_plain_doubles<T>& x,
-                                              const vec3<contact_math::one_double> (&w)[4], whether_they_touch known) {
+                                              const vec3<contact_math::one_double> (&w)[4], verdict known) {
         using contact_math::one_double;
         one_double share[4] = {{1}, {0}, {0}, {0}};
         if (at.count == 2) {
@@ -239,7 +226,7 @@ private:
         const one_double far = root(dot(v, v));
         const double size = root(one_double{largest}).high;
         length = 0;
-        if (known == whether_they_touch::no || far.high > 0x1p-51 * size) {
+        if (known == verdict::no || far.high > 0x1p-51 * size) {
             // Integers measure what is much less than D.
             if (!(far.high > 0x1p-10 * size && (far - x.least_product(v) / far).high <= 0x1p-51 * size)) return false;
             length = x.length_of(far);
@@ -316,7 +303,7 @@ struct measured_hull_pair {
     const hull<T>&a, &b;
 
     ABUT_HD constexpr measured_hull_pair(const hull<T>& of_a, T around_a, const hull<T>& of_b, T around_b,
-                                         whether_they_touch known = whether_they_touch::unknown)
+                                         verdict known = verdict::unknown)
         : nearest(of_a, of_b, known),
           radius_a(static_cast<double>(around_a)),
           radius_b(static_cast<double>(around_b)),
@@ -350,8 +337,7 @@ ABUT_HD constexpr auto with_measured_hulls(const S& s, const U& t, bool touch, c
     const auto points_a = core_points_of(s);
     const auto points_b = core_points_of(t);
     return f(measured_hull_pair<scalar_type_of<S>>(points_a.as_hull(), radius_around_core(s), points_b.as_hull(),
-                                                   radius_around_core(t),
-                                                   touch ? whether_they_touch::yes : whether_they_touch::no));
+                                                   radius_around_core(t), to_verdict(touch)));
 }
 
 }  // namespace abut::detail

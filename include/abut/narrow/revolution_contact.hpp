@@ -47,9 +47,7 @@ namespace abut::detail {
 template <solid_of_revolution S, class U, scalar T>
 ABUT_HD constexpr vec3<T> point_of_both(const S& s, const U& t, const nearest_way<T>& nearest, const length_unit<T>& unit) {
     if constexpr (std::same_as<U, sphere<T>>) {  // of the solid, the one nearest to the centre
-        constexpr T far = largest_finite<T>;
-        const vec3<T> on_solid = end_of_way(s, nearest.from_a, nearest.to_a, unit);
-        return least(greatest(on_solid, vec3<T>{-far, -far, -far}), vec3<T>{far, far, far});
+        return end_of_way(s, nearest.from_a, nearest.to_a, unit);
     } else if constexpr (std::same_as<U, aabb<T>>) {
         return end_of_way<T>(nearest.from_b, nearest.to_b, t, unit);
     } else {
