@@ -119,12 +119,6 @@ struct distance_tally {
 
 constexpr double most_steps = 16;
 
-template <scalar T>
-wide rounding_of(const vec3<T>& p) {
-    const wide_point q = widest(p);
-    return wide(unit_roundoff<T>) * (abs(q.x) + abs(q.y) + abs(q.z)) + 4 * wide(std::numeric_limits<T>::denorm_min());
-}
-
 template <class S, class U>
 const char* wrong_with_distance(const S& s, const U& t, distance_tally& tally) {
     using T = scalar_type_of<S>;

@@ -245,7 +245,7 @@ TEMPLATE_TEST_CASE("contacts of cylinders and cones are what they say, in each f
     using T = scalar_type_of<TestType>;
     constexpr bool is_cone = std::same_as<TestType, cone<T>>;
     std::printf("contacts: seed %llu\n", static_cast<unsigned long long>(contact_seed));
-    contact_figures points, segments, triangles, boxes, balls, planes;
+    std::array<contact_figures, kinds_beside.size()> sums;
     for (int i = 0; i < revolution_family_count + 3; ++i) {
         const bool is_thin = i == revolution_family_count, is_parallel = i == revolution_family_count + 1,
                    is_through = i == revolution_family_count + 2;
@@ -260,22 +260,13 @@ TEMPLATE_TEST_CASE("contacts of cylinders and cones are what they say, in each f
                                ? through<TestType>(k)
                                : make_revolution_case<T>(contact_seed, static_cast<revolution_family>(i), k, is_cone);
             const auto s = solid_of<TestType>(c.axis, c.radius);
-            const triangle<T> t{c.corner[0], c.corner[1], c.corner[2]};
-            check(name, k, s, t.a, points);
-            check(name, k, s, segment<T>{t.a, t.b}, segments);
-            check(name, k, s, t, triangles);
-            check(name, k, s, k % 2 == 0 ? bounds(t) : bounds(segment<T>{t.a, t.b}), boxes);
-            check(name, k, s, ball_beside(c, is_cone, k), balls);
-            check(name, k, s, plane_beside(c, k), planes);
+            each_beside(c, k, is_cone, [&](std::size_t kind, const auto& t) { check(name, k, s, t, sums[kind]); });
         }
     }
-    check_figures("points", points);
-    check_figures("segments", segments);
-    check_figures("triangles", triangles);
-    check_figures("boxes", boxes);
-    check_figures("balls", balls);
-    check_figures("planes", planes);
-    for (const contact_figures& sum : {points, segments, triangles, boxes, balls, planes}) CHECK(sum.touching > 20);
+    for (std::size_t kind = 0; kind < sums.size(); ++kind) {
+        check_figures(kinds_beside[kind], sums[kind]);
+        CHECK(sums[kind].touching > 20);
+    }
 }
 
 TEST_CASE("contacts of cylinders and cones: by hand, and in constant expressions") {

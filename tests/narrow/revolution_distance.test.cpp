@@ -2,6 +2,7 @@
 #include <abut/narrow/distance.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <concepts>
 #include <cstdint>
@@ -140,11 +141,6 @@ struct gap_tally {
 
 constexpr double most_steps = 16;
 
-template <scalar T>
-wide rounding_of(const vec3<T>& p) {
-    const wide_point q = widest(p);
-    return wide(unit_roundoff<T>) * (abs(q.x) + abs(q.y) + abs(q.z)) + 4 * wide(std::numeric_limits<T>::denorm_min());
-}
 template <scalar T>
 bool is_at_end(const vec3<T>& p) {
     return detail::contact_math::magnitude_of(p) == largest_finite<T>;
@@ -317,29 +313,19 @@ TEMPLATE_TEST_CASE("distance: of cylinders and cones, in each family, against 30
     using T = scalar_type_of<TestType>;
     constexpr bool is_cone = std::same_as<TestType, cone<T>>;
     std::printf("distance: seed %llu\n", static_cast<unsigned long long>(gap_seed));
-    gap_tally points, segments, triangles, boxes, balls, planes;
+    std::array<gap_tally, kinds_beside.size()> tallies;
     for (int i = 0; i < revolution_family_count; ++i) {
         const auto f = static_cast<revolution_family>(i);
         const std::string name = name_of(f);
         for (std::uint64_t k = 0; k < some_samples(250); ++k) {
             const auto c = make_revolution_case<T>(gap_seed, f, k, is_cone);
             const auto s = solid_of<TestType>(c.axis, c.radius);
-            const triangle<T> t{c.corner[0], c.corner[1], c.corner[2]};
-            check_gap(name, k, s, t.a, points);
-            check_gap(name, k, s, segment<T>{t.a, t.b}, segments);
-            check_gap(name, k, s, t, triangles);
-            check_gap(name, k, s, k % 2 == 0 ? bounds(t) : bounds(segment<T>{t.a, t.b}), boxes);
-            check_gap(name, k, s, ball_beside(c, is_cone, k), balls);
-            check_gap(name, k, s, plane_beside(c, k), planes);
+            each_beside(c, k, is_cone, [&](std::size_t kind, const auto& t) { check_gap(name, k, s, t, tallies[kind]); });
         }
     }
-    check_total("points", points);
-    check_total("segments", segments);
-    check_total("triangles", triangles);
-    check_total("boxes", boxes);
-    check_total("balls", balls);
-    check_total("planes", planes);
-    for (const gap_tally& t : {points, segments, triangles, boxes, balls, planes}) {
+    for (std::size_t kind = 0; kind < tallies.size(); ++kind) {
+        const gap_tally& t = tallies[kind];
+        check_total(kinds_beside[kind], t);
         CHECK(t.touching > t.pairs / 25);
         CHECK(t.touching < t.pairs * 19 / 20);
     }

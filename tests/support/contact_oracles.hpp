@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,6 +35,13 @@ wide_point widest(const vec3<T>& p) {
 }
 
 inline wide length_of(const wide_point& v) { return sqrt(dot(v, v)); }
+
+/// By how much a point may be off that is rounded to its scalar.
+template <scalar T>
+wide rounding_of(const vec3<T>& p) {
+    const wide_point q = widest(p);
+    return wide(unit_roundoff<T>) * (abs(q.x) + abs(q.y) + abs(q.z)) + 4 * wide(std::numeric_limits<T>::denorm_min());
+}
 
 /// The corners of a shape, and the radius around them.
 struct wide_hull {

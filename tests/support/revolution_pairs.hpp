@@ -4,12 +4,15 @@
 // Cylinders and cones beside three points, which are the corners of a triangle, the ends of a segment or a point. In general
 // position, on lattices, touching exactly and within a step, of every size, degenerate.
 
+#include <array>
 #include <cmath>
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
 #include <abut/arithmetic/limits.hpp>
+#include <abut/shape/bounds.hpp>
 #include <abut/shape/primitive.hpp>
 #include <abut/shape/shape.hpp>
 
@@ -363,6 +366,22 @@ Solid solid_of(const segment<scalar_type_of<Solid>>& axis, scalar_type_of<Solid>
     } else {
         return {axis, radius};
     }
+}
+
+/// What tests put beside a cylinder or a cone, by name and in the order of each_beside.
+inline constexpr std::array<const char*, 6> kinds_beside{"points", "segments", "triangles", "boxes", "balls", "planes"};
+
+/// f(kind, shape) of one of each kind beside case k.
+template <scalar T, class F>
+void each_beside(const revolution_case<T>& c, std::uint64_t k, bool is_cone, const F& f) {
+    const triangle<T> t{c.corner[0], c.corner[1], c.corner[2]};
+    const segment<T> side{t.a, t.b};
+    f(std::size_t{0}, t.a);
+    f(std::size_t{1}, side);
+    f(std::size_t{2}, t);
+    f(std::size_t{3}, k % 2 == 0 ? bounds(t) : bounds(side));
+    f(std::size_t{4}, ball_beside(c, is_cone, k));
+    f(std::size_t{5}, plane_beside(c, k));
 }
 
 }  // namespace abut::test
