@@ -4,6 +4,8 @@
 #include <abut/narrow/distance.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <cstdio>
 #include <vector>
@@ -12,6 +14,7 @@
 #include "support/contact_oracles.hpp"
 #include "support/hull_pairs.hpp"
 #include "support/samples.hpp"
+#include "support/scenes.hpp"
 
 // The distance of convex hulls against the definition, in 300 bits: hulls that do not meet are nearest to each other at a
 // feature of their differences, which is one of them, a line between two, or a triangle of three. All are tried.
@@ -111,8 +114,8 @@ const char* wrong_with_hulls(const separation<T>& found, const test::point_list<
     return nullptr;
 }
 
-/// A plane and a hull, against the exact heights of its points. Errors in units of 2^-53 of the farthest point's distance from
-/// the origin and the plane.
+/// A plane and a hull, against the exact heights of its points. Errors in units of 2^-53 of the farthest point's distance
+/// from the origin and the plane.
 template <scalar T>
 const char* wrong_with_plane(const plane<T>& s, const test::point_list<T>& points, hull_distance_tally& sum) {
     const hull<T> h = test::hull_over(points);
@@ -120,7 +123,8 @@ const char* wrong_with_plane(const plane<T>& s, const test::point_list<T>& point
     const bool touch = intersects<exact>(s, h);
     ++sum.pairs;
     sum.touching += touch;
-    if (!(found == separation<T>{0, 0, other.point_b, other.point_a, other.distance})) return "the other order has another answer";
+    if (!(found == separation<T>{0, 0, other.point_b, other.point_a, other.distance}))
+        return "the other order has another answer";
     if (touch != (found.distance == 0)) return "it is 0 where they do not touch, or is not where they do";
     const wide_point n = test::widest(s.normal);
     const auto height = [&](const vec3<T>& p) -> wide {
@@ -192,6 +196,34 @@ TEMPLATE_TEST_CASE("distance of hulls: as by definition, in every family", "", f
     }
 }
 
+// In doubles the normal of a needle is any, and so is the point that seems to be the nearest.
+TEMPLATE_TEST_CASE("distance of hulls: needles and blades", "", float, double) {
+    using T = TestType;
+    test::uniform random(77);
+    hull_distance_tally sum;
+    constexpr int digits = std::same_as<T, float> ? 20 : 50;
+    for (std::uint64_t k = 0; k < test::sample_count() / 10; ++k) {
+        const auto needle = [&](const vec3<T>& at, std::size_t count) {
+            test::point_list<T> points{at + random.point<T>(-1, 1), at + random.point<T>(-1, 1)};
+            while (points.size() < count) {
+                const T share = random.point<T>(0, 1).x,
+                        thin = static_cast<T>(std::ldexp(1.0, -static_cast<int>(k % digits)));
+                points.push_back(points[0] + share * (points[1] - points[0]) + thin * random.point<T>(-1, 1));
+            }
+            return points;
+        };
+        const auto a = needle({0, 0, 0}, 2 + k % 3), b = needle({T(1.5), T(0.5), 0}, 2 + k / 3 % 3);
+        const hull<T> x = test::hull_over(a), y = test::hull_over(b);
+        const char* wrong = wrong_with_hulls(distance(x, y), a, b, T(0), intersects<exact>(x, y), sum);
+        INFO(k);
+        if (wrong != nullptr) FAIL_CHECK(wrong);
+    }
+    std::printf("needles: %llu pairs, distance %.2f, points %.2f\n", static_cast<unsigned long long>(sum.pairs),
+                sum.distance, sum.point);
+    CHECK(sum.distance < 16);
+    CHECK(sum.point < 16);
+}
+
 TEMPLATE_TEST_CASE("nearest point of a hull: one that integers leave out is as far as the box", "", float, double) {
     using T = TestType;
     const T step = test::construction::least_denormal<T>;
@@ -222,9 +254,9 @@ TEMPLATE_TEST_CASE("distance of hulls and planes: as by definition, in every fam
             if (test::length_of(test::widest(s.normal)) == 0) continue;
             if (const char* wrong = wrong_with_plane(s, both.a, sum)) FAIL_CHECK(wrong);
         }
-        std::printf("  %s: %llu pairs, %llu touch, distance %.2f, point of the plane %.2f, of the hull %.2f\n", test::name_of(f),
-                    static_cast<unsigned long long>(sum.pairs), static_cast<unsigned long long>(sum.touching), sum.distance,
-                    sum.point, sum.nearest);
+        std::printf("  %s: %llu pairs, %llu touch, distance %.2f, point of the plane %.2f, of the hull %.2f\n",
+                    test::name_of(f), static_cast<unsigned long long>(sum.pairs),
+                    static_cast<unsigned long long>(sum.touching), sum.distance, sum.point, sum.nearest);
         INFO(test::name_of(f));
         CHECK(sum.pairs > sum.touching);
         CHECK(sum.touching > 0);
