@@ -14,6 +14,7 @@ TEST_CASE("distance: openmp on 1, 3 and 17 threads") {
         test::check_distance_by_hand<float>(openmp{threads});
         test::check_distance_of_meshes<float>(openmp{threads});
         test::check_distance_of_lists<float>(openmp{threads});
+        test::check_first_of_many_touches<float>(openmp{threads});
     }
 }
 
@@ -39,4 +40,5 @@ TEST_CASE("distance: wide trees and those of other builders") {
     test::check_same(distance(openmp{3}, wide(on, tree), posed(tree, pose)), expected);
     const auto sah = make_bvh(on, a, {.builder = bvh_builder::sah});
     test::check_same(distance(on, sah, posed(make_bvh(on, a, {.builder = bvh_builder::mean_split}), pose)), expected);
+    test::check_first_of_many_touches<float, true>(on);
 }

@@ -337,9 +337,64 @@ void check_distance_scales(const Policy& on) {
     CHECK(counts.touching < counts.asked - 2);
 }
 
+/// Where much touches, the least ids of all pairs that do, of trees that have walked by them before and of those that have
+/// not, of trees made of others, and in lists. Ids lie anywhere along the surfaces.
+template <class T, bool EveryLayout = false, class Policy>
+void check_first_of_many_touches(const Policy& on) {
+    uniform random(96);
+    torus<T> ring(40, 24, 2, T(0.5)), small(30, 20, T(1.5), T(0.75));
+    for (auto* faces : {&ring.faces, &small.faces}) {
+        for (std::size_t i = faces->size() - 1; i > 0; --i) {
+            std::swap((*faces)[i], (*faces)[static_cast<std::size_t>(random(0, 1) * static_cast<double>(i))]);
+        }
+    }
+    const mesh<T> host_a(ring.vertices, ring.faces), host_b(small.vertices, small.faces);
+    const auto a = copy_to(on, host_a), b = copy_to(on, host_b);
+    std::vector<rigid<T>> poses(4, rigid<T>{{0, -1, 0, 1, 0, 0, 0, 0, 1}, {0, 0, 0}});
+    poses[1].translation = {T(1.5), T(0.25), T(0.125)};
+    poses[2].translation = {T(3.25), 0, T(0.5)};
+    poses[3].translation = {9, 0, 0};
+    std::vector<index_pair> expected;
+    for (const rigid<T>& pose : poses) {
+        const auto all = to_host(pairs(serial{}, make_bvh(serial{}, host_a), posed(make_bvh(serial{}, host_b), pose)));
+        expected.push_back(all.empty() ? index_pair{no_id, no_id} : *all.begin());
+    }
+    CHECK(expected[1] != expected[2]);
+    CHECK(expected[3].a == no_id);
+    const auto check = [&](const auto& tree_a, const auto& tree_b) {
+        for (const std::size_t k : {3u, 0u, 1u, 2u, 0u, 3u}) {
+            CAPTURE(k);
+            const auto found = distance(on, tree_a, posed(tree_b, poses[k]));
+            REQUIRE(found);
+            CHECK((found->distance == 0) == (expected[k].a != no_id));
+            if (found->distance == 0) CHECK((index_pair{found->a, found->b} == expected[k]));
+        }
+        using index_a = std::remove_cvref_t<decltype(tree_a)>;
+        using index_b = std::remove_cvref_t<decltype(tree_b)>;
+        std::vector<posed_pair<index_a, index_b>> list;
+        for (const rigid<T>& pose : poses) list.push_back({posed(tree_a, rigid<T>{}), posed(tree_b, pose)});
+        const auto found = to_host(distance(on, list));
+        for (std::size_t k = 0; k < poses.size(); ++k) {
+            CAPTURE(k);
+            CHECK((found[k].distance == 0) == (expected[k].a != no_id));
+            if (found[k].distance == 0) CHECK((index_pair{found[k].a, found[k].b} == expected[k]));
+        }
+    };
+    const auto tree_a = make_bvh(on, a), tree_b = make_bvh(on, b);
+    check(tree_a, tree_b);
+    if constexpr (EveryLayout) {
+        check(make_bvh(on, a, {.builder = bvh_builder::sah}), refit(on, tree_b, b));
+        check(refit(on, make_bvh(on, a), a), quantised(on, tree_b));
+        check(leafless(on, tree_a), leafless(on, tree_b));
+        check(oriented(on, tree_a), oriented(on, tree_b));
+        check(wide(on, tree_a), tree_b);
+    }
+}
+
 template <class T, class Policy>
 void check_all_distances(const Policy& on) {
-    std::printf("distance: seeds 91 to 95\n");
+    std::printf("distance: seeds 91 to 96\n");
+    check_first_of_many_touches<T>(on);
     check_distance_by_hand<T>(on);
     check_distance_below<T>(on);
     check_distance_of_lists<T>(on);

@@ -15,15 +15,21 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 #include <abut/collide/nearest.hpp>
 #include <abut/collide/pairing.hpp>
+#include <abut/collide/placed.hpp>
 #include <abut/collide/search.hpp>
 #include <abut/error.hpp>
 #include <abut/execution/atomic.hpp>
 #include <abut/execution/ordered.hpp>
+#include <abut/execution/work_queue.hpp>
+#include <abut/index/least_ids.hpp>
 #include <abut/narrow/distance.hpp>
 #include <abut/shape/pair_reach.hpp>
 #include <abut/traverse/frontier.hpp>
@@ -46,11 +52,13 @@ inline constexpr std::uint64_t no_pair = static_cast<std::uint64_t>(-1);
 // --- what touches: the least key
 // --------------------------------------------------------------------------------------------
 
-/// A filter: pairs before the first one that is known to touch. So where much touches, little of it is decided.
+/// A filter: pairs before the first one that is known to touch. So where much touches, little of it is decided; and where
+/// the trees' least ids are given, little of the trees is walked (pairing.hpp).
 template <class Key>
 struct before_first_touch {
     Key key{};
     const std::uint64_t* first = nullptr;  ///< of each entry
+    const std::uint32_t *const *least_a = nullptr, *const *least_b = nullptr;
     ABUT_HD bool operator()(std::uint32_t a, std::uint32_t b) const {
         return key.pack(a, b) < execution::atomic_load(first);
     }
@@ -63,6 +71,7 @@ struct before_first_touch {
 /// Takes pairs that touch.
 template <class Key>
 struct keep_first_touch {
+    static constexpr bool eager = true;
     Key key;
     std::uint64_t* first;
     ABUT_HD bool operator()(std::uint64_t pair) const {
@@ -73,13 +82,53 @@ struct keep_first_touch {
     }
 };
 
+/// The trees of an operand or of bodies, if they have least ids.
+///@{
+template <class Operand>
+auto trees_with_least_ids(const Operand& x) requires requires {
+    x.tree_with_least_ids();
+}
+{ return std::span(&x.tree_with_least_ids(), 1); }
+template <class Index>
+auto trees_with_least_ids(const placed_bodies<Index>& x) requires layout_with_least_ids<typename Index::view_type> {
+    return std::span(std::as_const(x.objects->indices));
+}
+///@}
+
+/// The least ids of all trees of one side, where somebody has made them. By trees; null for trees without nodes.
+template <class Policy, class Trees>
+std::vector<const std::uint32_t*> all_least_ids(const Policy& on, const Trees& trees) {
+    std::vector<const std::uint32_t*> all;
+    for (const auto& tree : trees) all.push_back(least_ids_of(on, tree));
+    return all;
+}
+
 /// For each of n entries the least key of a pair that touches, or no_pair. Of two arguments there is one entry.
+///
+/// A host walks by the trees' least ids. Before it makes them it asks whether anything touches at all: if nothing does, it
+/// has no use for them. A device opens thousands of pairs of nodes at a time, before it knows any that touches.
 template <class Policy, class Pairing>
 auto first_touches(const Policy& on, Pairing& pairing, std::size_t n) {
     using key_type = decltype(pairing.key);
     execution::buffer_of<Policy, std::uint64_t> first(on, n);
     fill(on, first.data(), n, no_pair);
-    pairing.options.filter = before_first_touch<key_type>{pairing.key, first.data()};
+    auto& filter = pairing.options.filter;
+    filter = {pairing.key, first.data()};
+    std::vector<const std::uint32_t*> least_a, least_b;
+    if constexpr (host_policy<Policy> && requires { trees_with_least_ids(pairing.a), trees_with_least_ids(pairing.b); }) {
+        const auto a = trees_with_least_ids(pairing.a);
+        const auto b = trees_with_least_ids(pairing.b);
+        const auto are_made = [](const auto& trees) {
+            return std::all_of(trees.begin(), trees.end(), [](const auto& tree) { return has_least_ids(tree); });
+        };
+        if (!are_made(a) || !are_made(b)) {
+            execution::work_flag<host_space> any(on);
+            search(on, pairing, touch<filtered>{}, any);
+            if (!any.raised()) return first;
+        }
+        least_a = all_least_ids(on, a), least_b = all_least_ids(on, b);
+        filter.least_a = least_a.data(), filter.least_b = least_b.data();
+    }
     const keep_first_touch<key_type> keeps{pairing.key, first.data()};
     execution::work_visit<keep_first_touch<key_type>, space_of<Policy>> hits(on, keeps);
     search(on, pairing, touch<filtered>{}, hits);

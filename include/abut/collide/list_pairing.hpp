@@ -150,7 +150,7 @@ struct some_entries {
     }
 };
 
-/// One step down the two trees of an entry.
+/// One step down the two trees of an entry. A filter that is asked of subtrees (pairing.hpp) has tables by objects.
 template <class View, class TreeA, class TreeB>
 struct expand_entry {
     using T = typename View::T;
@@ -183,8 +183,23 @@ struct expand_entry {
         const list_member<T> m = list.members[at.entry];
         const walk both{list.a.objects[m.object_a].tree, list.b.objects[m.object_b].tree, m.frames()};
         const ids_of_entry<View> ids{list, at.entry};
+        if (!may_be_wanted(ids, m, both, at.nodes)) return;
         both.expand(at.nodes, add_entry_item<item, sink>{emitter, at.entry},
                     push_pair<false, sink, ids_of_entry<View>>{emitter, ids});
+    }
+
+private:
+    [[nodiscard]] ABUT_INLINE ABUT_HD bool may_be_wanted([[maybe_unused]] const ids_of_entry<View>& ids,
+                                                         [[maybe_unused]] const list_member<T>& m,
+                                                         [[maybe_unused]] const walk& both,
+                                                         [[maybe_unused]] const typename walk::item& at) const {
+        if constexpr (requires { list.filter.least_a; }) {
+            if (list.filter.least_a == nullptr) return true;
+            return ids.wanted(least_id_below(both.a, at.a, list.filter.least_a[m.object_a]),
+                              least_id_below(both.b, at.b, list.filter.least_b[m.object_b]));
+        } else {
+            return true;
+        }
     }
 };
 

@@ -11,6 +11,7 @@
 
 #include <abut/index/bvh.hpp>
 #include <abut/index/grid.hpp>
+#include <abut/index/least_ids.hpp>
 #include <abut/index/operand.hpp>
 #include <abut/shape/posed.hpp>
 #include <abut/traverse/bvh_walk.hpp>
@@ -49,6 +50,11 @@ struct indexed_operand<bvh<Set, Space, Layout>> {
     /// Whether node k lies between leaves k and k + 1 of an order.
     [[nodiscard]] bool is_along_curve() const requires std::same_as<Layout, standard_layout> {
         return index.stored().along_curve;
+    }
+    /// Of layouts that have them (index/least_ids.hpp).
+    [[nodiscard]] const auto& tree_with_least_ids() const requires
+        layout_with_least_ids<typename bvh<Set, Space, Layout>::view_type> {
+        return index;
     }
     /// Around all shapes, of which there are some.
     template <class Policy>
@@ -92,6 +98,8 @@ struct posed_operand {
     [[nodiscard]] topology shape_of_tree() const requires has_topology<Operand> { return operand.shape_of_tree(); }
     [[nodiscard]] bool is_along_curve() const requires has_topology<Operand> { return operand.is_along_curve(); }
     [[nodiscard]] auto walk() const { return posed_walk<decltype(operand.walk())>(operand.walk(), pose, around); }
+    [[nodiscard]] const auto& tree_with_least_ids() const requires requires { operand.tree_with_least_ids(); }
+    { return operand.tree_with_least_ids(); }
 };
 
 /// How an operand's shapes are seen: as they are.

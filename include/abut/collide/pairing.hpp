@@ -322,6 +322,10 @@ struct push_pair {
 };
 
 /// One step down two trees, of which the rows' is the walk's first.
+///
+/// A filter may leave out, with a pair, all pairs of ids that are no less. Such a one is asked of subtrees as well, by their
+/// least ids: its `least_a[0]` and `least_b[0]` say these of each node of the trees (index/least_ids.hpp). Both tables may
+/// be null.
 template <bool RowsAreB, class Walk, class Ids>
 struct expand_pair {
     using item = typename Walk::item;
@@ -337,7 +341,21 @@ struct expand_pair {
     template <class Emitter>
     ABUT_INLINE ABUT_HD void operator()(const item& at, Emitter&& emitter) const {
         using sink = std::remove_reference_t<Emitter>;
+        if (!may_be_wanted(at)) return;
         walk.expand(at, add_item<sink>{emitter}, push_pair<RowsAreB, sink, Ids>{emitter, ids});
+    }
+
+private:
+    [[nodiscard]] ABUT_INLINE ABUT_HD bool may_be_wanted([[maybe_unused]] const item& at) const {
+        if constexpr (requires { ids.filter.least_a; }) {
+            if (ids.filter.least_a == nullptr) return true;
+            const std::uint32_t* const of_rows = (RowsAreB ? ids.filter.least_b : ids.filter.least_a)[0];
+            const std::uint32_t* const of_others = (RowsAreB ? ids.filter.least_a : ids.filter.least_b)[0];
+            return is_wanted_by_row<RowsAreB>(ids, least_id_below(walk.a, at.a, of_rows),
+                                              least_id_below(walk.b, at.b, of_others));
+        } else {
+            return true;
+        }
     }
 };
 

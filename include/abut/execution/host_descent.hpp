@@ -154,8 +154,8 @@ struct descent_loop {
 template <range_policy Policy, expander Expand, class Judge, class... Queues>
     requires candidate_judge<Judge, typename Expand::candidate, sink_of<Queues>...>
 std::uint64_t for_each_descendant(const Policy& on, const Expand& expand, const Judge& judge, Queues&... queues) {
-    // Who only wants to know whether there is one starts soon.
-    constexpr bool any_will_do = (is_flag<sink_of<Queues>> || ...);
+    // Who only wants to know whether there is one starts soon, and so does who is spared work by the first.
+    constexpr bool any_will_do = (is_eager<sink_of<Queues>> || ...);
     const std::size_t threads = static_cast<std::size_t>(concurrency(on));
     const std::size_t enough = threads == 1 ? 1 : (any_will_do ? 4 : 128) * threads, grain = any_will_do ? 1 : 4;
     auto start = detail::first_levels(expand, enough);

@@ -144,7 +144,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t most = (is_flag<Sinks> || ...) ? 1 : 256;
+    static constexpr std::size_t most = (is_eager<Sinks> || ...) ? 1 : 256;
     std::size_t count_ = 0;
     Candidate values_[most];
 };

@@ -153,7 +153,7 @@ std::uint64_t for_each_descendant(const Policy& on, const scheduled<Schedule>& h
     const auto workers = static_cast<std::uint32_t>(concurrency(on));
     if constexpr (Schedule == schedule::work_stealing) {
         if (workers > 1) {
-            constexpr bool any_will_do = (is_flag<sink_of<Queues>> || ...);
+            constexpr bool any_will_do = (is_eager<sink_of<Queues>> || ...);
             const auto seeds = static_cast<std::uint32_t>(expand.seeds());
             const std::uint32_t capacity = how.queue_capacity > 0 ? how.queue_capacity : 4096;
             detail::work_left all{seeds, 0};

@@ -42,6 +42,10 @@ concept is_flag = requires(S& sink) {
     sink.raise();
 };
 
+/// What it takes spares work, so candidates for it are judged as soon as they are found.
+template <class S>
+concept is_eager = is_flag<S> || requires { requires S::eager; };
+
 /// May tell a loop to end early.
 template <class S>
 concept may_stop = requires(const S& sink) {

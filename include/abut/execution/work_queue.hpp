@@ -10,7 +10,8 @@
 //   work_count<Space>      sink.add(k): the sum
 //   work_flag<Space>       sink.raise(), sink.raised(): any; lets others stop early
 //   work_visit<F, Space>   sink.push(value): calls f(value) -> bool at once, which says whether to go on; sink.raised()
-//                          tells that a call said no. Calls are concurrent, and each value is handed on once
+//                          tells that a call said no. Calls are concurrent, and each value is handed on once. On the
+//                          host candidates are judged as soon as they are found if `F::eager` is true
 //
 // and of work_queue a form that has an end:
 //
@@ -232,6 +233,7 @@ template <class F>
 class work_visit<F, host_space> {
 public:
     struct sink {
+        static constexpr bool eager = requires { requires F::eager; };
         const F* visitor;
         std::uint32_t* word;
         template <class T>

@@ -68,16 +68,16 @@ namespace detail {
 /// Volumes merged from below, to be folded up (index/walk_order.hpp): what a node holds goes to where it hangs.
 template <bounding_volume V>
 struct merge_volumes {
-    static constexpr std::uint32_t leaf_value = 0;
     bounded_node<V>* nodes;
     const std::uint32_t* above;
     [[nodiscard]] ABUT_HD bool is_leaf(std::size_t node, std::uint32_t slot) const {
         return nodes[node].child[slot].is_leaf();
     }
+    [[nodiscard]] ABUT_HD static std::uint32_t leaf_value(std::size_t, std::uint32_t) { return 0; }
     ABUT_HD std::uint32_t join(std::uint32_t node, std::uint32_t, std::uint32_t) const {
         const std::uint32_t link = above[node];
         if (link != no_link) nodes[link / 2].volume[link % 2] = merge(nodes[node].volume[0], nodes[node].volume[1]);
-        return leaf_value;
+        return 0;
     }
 };
 

@@ -112,6 +112,13 @@ struct bvh_view_base {
     }
 };
 
+/// The least ids below a tree's nodes (index/least_ids.hpp), for all trees of its topology.
+template <memory_space Space>
+struct shared_least_ids {
+    std::mutex making;                             ///< held by who looks or makes
+    execution::buffer<std::uint32_t, Space> made;  ///< none before somebody asks
+};
+
 /// What owns a tree of a layout that has nodes and a root and nothing else.
 template <class Layout, scalar T, memory_space Space>
 struct bvh_storage {
@@ -119,6 +126,8 @@ struct bvh_storage {
     using view = typename Layout::template view<T, Space>;
     execution::buffer<typename view::stored_node, Space> nodes;  ///< one fewer than shapes where nodes have two children
     execution::buffer<bvh_root<T>, Space> root;                  ///< one; none where there are no shapes
+    /// Made by the first `distance` that needs them.
+    std::shared_ptr<shared_least_ids<Space>> least_ids = std::make_shared<shared_least_ids<Space>>();
 
     /// The view of a tree of so many shapes.
     [[nodiscard]] view view_of(std::size_t shapes) const { return {{nodes.data(), root.data(), shapes}}; }
@@ -168,6 +177,8 @@ struct standard_layout {
         std::shared_ptr<shared_refit_plan<Space>> plan = std::make_shared<shared_refit_plan<Space>>();
         /// Whether node k lies between leaves k and k + 1 of an order, as the linear builder makes them.
         bool along_curve = false;
+        /// Shared alike; made by the first `distance` that needs them.
+        std::shared_ptr<shared_least_ids<Space>> least_ids = std::make_shared<shared_least_ids<Space>>();
 
         /// The view of a tree of so many shapes.
         [[nodiscard]] view<T, Space> view_of(std::size_t shapes) const { return {{nodes.data(), root.data(), shapes}}; }
@@ -257,7 +268,7 @@ public:
     [[nodiscard]] view_type view() const { return tree_->view_of(set_.size()); }
     /// The CUDA device that the tree lies on; -1 for the host.
     [[nodiscard]] int device() const { return tree_->root.device(); }
-    /// Memory of the tree itself, in bytes, without what refit keeps.
+    /// Memory of the tree itself, in bytes, without what refit and distance keep.
     [[nodiscard]] std::size_t bytes() const { return tree_->bytes(); }
     /// What owns the nodes.
     [[nodiscard]] const storage& stored() const { return *tree_; }

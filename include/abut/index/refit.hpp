@@ -320,6 +320,7 @@ std::shared_ptr<const Storage> refit_storage(const Policy& on, const Storage& ol
     fresh->root = execution::buffer_of<Policy, bvh_root<T>>(on, n > 0 ? 1 : 0);
     fresh->nodes = execution::buffer_of<Policy, bvh_node<T>>(on, n > 0 ? n - 1 : 0);
     fresh->plan = old.plan;
+    fresh->least_ids = old.least_ids;
     fresh->along_curve = old.along_curve;
     if (n == 1) {
         for_each_index(on, 1, refit_single<Shapes>{shapes, fresh->root.data()});

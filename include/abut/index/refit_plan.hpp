@@ -62,7 +62,6 @@ ABUT_HD constexpr bool ends_group(std::uint32_t border) {
 
 /// Trees restricted to groups, by borders. Keys are groups above turns, by which borders are sorted.
 struct group_trees {
-    static constexpr std::uint32_t leaf_value = 0;
     static constexpr int turn_bits = 7;
     static constexpr std::uint32_t turns = 1u << turn_bits, no_turn = turns - 1;
     static_assert(bvh_max_depth < no_turn);
@@ -72,6 +71,7 @@ struct group_trees {
     [[nodiscard]] ABUT_HD bool is_leaf(std::size_t border, std::uint32_t slot) const {
         return !ends_group(static_cast<std::uint32_t>(border)) && below[2 * border + slot] == no_link;
     }
+    [[nodiscard]] ABUT_HD static std::uint32_t leaf_value(std::size_t, std::uint32_t) { return 0; }
     [[nodiscard]] ABUT_HD static std::uint32_t key(std::uint32_t border, std::uint32_t turn) {
         return border / execution::group_size << turn_bits | turn;
     }

@@ -18,10 +18,10 @@ namespace abut::detail {
 /// A link says where a child hangs: 2 * node + slot. This is none, and also none of other numbers.
 inline constexpr std::uint32_t no_link = static_cast<std::uint32_t>(-1);
 
-/// Writes the link of each inner node.
-template <scalar T>
+/// Writes the link of each inner node. Nodes have two children.
+template <class Node>
 struct write_links {
-    const bvh_node<T>* nodes;
+    const Node* nodes;
     bvh_child root;
     std::uint32_t* above;
     ABUT_HD void operator()(std::size_t i) const {
@@ -35,7 +35,8 @@ struct write_links {
 };
 
 /// From the leaves of trees to their roots: of the two that come to a node the second one goes on. `Tree` says
-/// `is_leaf(node, slot)`, `above[node]`, `leaf_value`, and what a node is worth: `join(node, left, right)`.
+/// `is_leaf(node, slot)`, `above[node]`, and what leaves and nodes are worth: `leaf_value(node, slot)` and
+/// `join(node, left, right)`, which are not `no_link`.
 template <class Tree>
 struct fold_up {
     Tree tree;
@@ -44,7 +45,7 @@ struct fold_up {
     ABUT_HD void operator()(std::size_t i) const {
         for (std::uint32_t slot = 0; slot < 2; ++slot) {
             if (!tree.is_leaf(i, slot)) continue;
-            std::uint32_t link = 2 * static_cast<std::uint32_t>(i) + slot, value = Tree::leaf_value;
+            std::uint32_t link = 2 * static_cast<std::uint32_t>(i) + slot, value = tree.leaf_value(i, slot);
             while (link != no_link) {
                 const std::uint32_t node = link / 2;
                 const std::uint32_t other = execution::atomic_exchange_acq_rel(&reached[node], value);
@@ -68,13 +69,13 @@ struct node_range {
 
 template <scalar T>
 struct count_shapes {
-    static constexpr std::uint32_t leaf_value = 1;
     const bvh_node<T>* nodes;
     const std::uint32_t* above;
     node_range* ranges;
     [[nodiscard]] ABUT_HD bool is_leaf(std::size_t node, std::uint32_t slot) const {
         return nodes[node].child[slot].is_leaf();
     }
+    [[nodiscard]] ABUT_HD static std::uint32_t leaf_value(std::size_t, std::uint32_t) { return 1; }
     [[nodiscard]] ABUT_HD std::uint32_t join(std::uint32_t node, std::uint32_t left, std::uint32_t right) const {
         ranges[node].left = left;
         return ranges[node].count = left + right;
@@ -131,7 +132,7 @@ template <class Policy, scalar T>
 walk_order<space_of<Policy>> order_by_walk(const Policy& on, const bvh_node<T>* nodes, std::size_t count, bvh_child root) {
     walk_order<space_of<Policy>> order{{on, count}, {on, count}, {on, count}, {on, count + 1}};
     execution::buffer_of<Policy, std::uint32_t> reached(on, count);
-    for_each_index(on, count, write_links<T>{nodes, root, order.above.data()});
+    for_each_index(on, count, write_links<bvh_node<T>>{nodes, root, order.above.data()});
     fill(on, reached.data(), count, no_link);
     for_each_index(on, count, fold_up<count_shapes<T>>{{nodes, order.above.data(), order.ranges.data()}, reached.data()});
     for_each_descendant(on, place_shapes<T>{nodes, root, order.ranges.data(), order.node_at.data(), order.leaves.data()},

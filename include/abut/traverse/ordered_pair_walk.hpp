@@ -51,7 +51,7 @@ struct ordered_pair_walk {
             const entry at = pending[--waiting];
             if (!reach.keeps(at.least)) continue;
             if (is_pair_of_leaves(at.nodes)) {
-                visitor(shape_of(a, at.nodes.a), shape_of(b, at.nodes.b));
+                visitor(shape_of_leaf(a, at.nodes.a), shape_of_leaf(b, at.nodes.b));
                 tighten(reach, best, bound);
             } else {
                 open(at.nodes, reach, pending, waiting);
@@ -72,7 +72,7 @@ struct ordered_pair_walk {
             if (kept == 0) return;
             at = pending[kept - 1].nodes;
         }
-        visitor(shape_of(a, at.a), shape_of(b, at.b));
+        visitor(shape_of_leaf(a, at.a), shape_of_leaf(b, at.b));
     }
 
 private:
@@ -82,11 +82,6 @@ private:
     };
 
     [[nodiscard]] ABUT_HD static bool is_pair_of_leaves(const item& at) { return (at.a & at.b & bvh_child::leaf_bit) != 0; }
-    template <class Tree>
-    [[nodiscard]] ABUT_HD static std::uint32_t shape_of(const Tree& tree, std::uint32_t leaf) {
-        const node_or_leaf at(leaf, Tree::width);
-        return tree.child(tree.fetch(at.node), static_cast<int>(at.slot)).index();
-    }
     template <class Tree>
     [[nodiscard]] ABUT_HD static aabb<T> bounds_of(const Tree& tree, std::uint32_t bits) {
         const node_or_leaf at(bits, Tree::width);

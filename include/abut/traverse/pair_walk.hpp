@@ -145,6 +145,18 @@ struct node_or_leaf {
     [[nodiscard]] ABUT_HD int end_of_slots(int children) const { return is_leaf ? static_cast<int>(slot) + 1 : children; }
 };
 
+/// The shape of a leaf that goes by the link to it.
+template <bvh_layout Tree>
+[[nodiscard]] ABUT_HD std::uint32_t shape_of_leaf(const Tree& tree, std::uint32_t leaf) {
+    const node_or_leaf at(leaf, Tree::width);
+    return tree.child(tree.fetch(at.node), static_cast<int>(at.slot)).index();
+}
+/// The least id below half a pair, where `of_nodes` says it of each node.
+template <bvh_layout Tree>
+[[nodiscard]] ABUT_HD std::uint32_t least_id_below(const Tree& tree, std::uint32_t half, const std::uint32_t* of_nodes) {
+    return (half & bvh_child::leaf_bit) == 0 ? of_nodes[half] : shape_of_leaf(tree, half);
+}
+
 /// Down both trees at once: an inner node has its children's boxes, so a step is two fetches and four tests (sixteen, in
 /// rows of four, where nodes have four children), and no box has to be kept. In which order steps are taken is the policy's
 /// to choose: depth first in a thread of the host, a block's newest items at a time on a device (execution/cuda_expand.hpp).
