@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <limits>
+
 #include <abut/collide/distance.hpp>
 
 #include "collide/distance_cases.hpp"
@@ -41,4 +43,28 @@ TEST_CASE("distance: wide trees and those of other builders") {
     const auto sah = make_bvh(on, a, {.builder = bvh_builder::sah});
     test::check_same(distance(on, sah, posed(make_bvh(on, a, {.builder = bvh_builder::mean_split}), pose)), expected);
     test::check_first_of_many_touches<float, true>(on);
+}
+
+TEST_CASE("distance: surfaces of one distance everywhere, where more pairs of nodes are near than may wait") {
+    const test::torus<float> outer(44, 20, 2, 0.5f), inner(40, 22, 2, 0.49f);
+    const mesh<float> a(outer.vertices, outer.faces), b(inner.vertices, inner.faces);
+    double least = std::numeric_limits<double>::infinity();
+    index_pair nearest{};
+    for (std::uint32_t i = 0; i < a.size(); ++i) {
+        for (std::uint32_t j = 0; j < b.size(); ++j) {
+            const double d = detail::measure_apart{}.measure(a.view()[i], b.view()[j], least);
+            if (d < least) least = d, nearest = {i, j};
+        }
+    }
+    const serial on;
+    REQUIRE_FALSE(any(on, make_bvh(on, a), make_bvh(on, b)));
+    const auto check = [&](const auto& policy, const auto& tree_a, const auto& tree_b) {
+        const auto found = distance(policy, tree_a, tree_b);
+        REQUIRE(found);
+        CHECK((index_pair{found->a, found->b} == nearest));
+        CHECK(found->distance == static_cast<float>(least));
+    };
+    check(on, make_bvh(on, a), make_bvh(on, b));
+    check(openmp{3}, make_bvh(on, a), make_bvh(on, b));
+    check(on, oriented(on, make_bvh(on, a)), posed(oriented(on, make_bvh(on, b)), rigid<float>{}));
 }

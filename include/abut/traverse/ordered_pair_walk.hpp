@@ -19,9 +19,10 @@
 
 namespace abut::detail {
 
-/// A pair of nodes makes the pairs of their children. Of these the nearest is next, and the others wait with their
-/// distances; they are dropped when their turn comes if the reach has shrunk below that. Pairs of leaves wait like nodes.
-/// Trees of two shapes or more: a leaf alone has no link.
+/// A pair of nodes makes the pairs of their children, which wait with their distances. Of all that wait the nearest pair is
+/// next, while there is room: so hardly more is opened than has to be. What comes when there is none is walked depth first,
+/// the nearest pair of children before the others. What is farther than the reach when its turn comes is dropped. Pairs of
+/// leaves wait like nodes. Trees of two shapes or more: a leaf alone has no link.
 template <bvh_layout A, bvh_layout B>
 struct ordered_pair_walk {
     using T = typename A::scalar_type;
@@ -43,18 +44,21 @@ struct ordered_pair_walk {
     ABUT_CALLS_ANY
     template <shrinking_pair_reach<T> Reach, class Best, class Visitor>
     ABUT_HD void operator()(const item& from, Reach& reach, const Best& best, const Visitor& visitor) const {
-        entry pending[bvh_max_depth * (A::width * B::width - 1) + 1];  // not initialised
         double bound = infinity<double>;
         tighten(reach, best, bound);
-        pending[0] = {from, least_of(from, reach)};
-        for (int waiting = 1; waiting > 0;) {
-            const entry at = pending[--waiting];
-            if (!reach.keeps(at.least)) continue;
+        if (!(bound < infinity<double>)) descend(from, reach, best, visitor);
+        nearest_first pending;
+        pending.add({from, least_of(from, reach)});
+        while (pending.count > 0) {
+            const entry at = pending.take();
+            if (!reach.keeps(at.least)) return;
             if (is_pair_of_leaves(at.nodes)) {
                 visitor(shape_of_leaf(a, at.nodes.a), shape_of_leaf(b, at.nodes.b));
                 tighten(reach, best, bound);
+            } else if (pending.has_room()) {
+                open(at.nodes, reach, pending);
             } else {
-                open(at.nodes, reach, pending, waiting);
+                walk_depth_first(at, reach, best, bound, visitor);
             }
         }
     }
@@ -65,21 +69,96 @@ struct ordered_pair_walk {
     ABUT_HD void descend(item at, Reach& reach, const Best& best, const Visitor& visitor) const {
         double bound = infinity<double>;
         tighten(reach, best, bound);
-        entry pending[A::width * B::width];
         while (!is_pair_of_leaves(at)) {
-            int kept = 0;
-            open(at, reach, pending, kept);
-            if (kept == 0) return;
-            at = pending[kept - 1].nodes;
+            only_nearest next;
+            open(at, reach, next);
+            if (!next.is) return;
+            at = next.found.nodes;
         }
         visitor(shape_of_leaf(a, at.a), shape_of_leaf(b, at.b));
     }
 
 private:
+    static constexpr int most_children = A::width * B::width;
     struct entry {
         item nodes;
         T least;
     };
+    /// The nearest alone.
+    struct only_nearest {
+        entry found{};
+        bool is = false;
+        ABUT_HD void add(const entry& one) {
+            if (is && !(one.least < found.least)) return;
+            found = one;
+            is = true;
+        }
+    };
+    /// A heap: the nearest is taken. What is no number counts as 0.
+    struct nearest_first {
+        static constexpr int room = ABUT_DEVICE_CODE ? 64 : 256;  ///< a device sets memory aside for all its threads
+        entry at[room];  // not initialised
+        int count = 0;
+
+        [[nodiscard]] ABUT_HD bool has_room() const { return count <= room - most_children; }
+        ABUT_HD void add(entry one) {
+            one.least = one.least > 0 ? one.least : 0;
+            int place = count++;
+            while (place > 0) {
+                const int above = (place - 1) / 2;
+                if (!(one.least < at[above].least)) break;
+                at[place] = at[above];
+                place = above;
+            }
+            at[place] = one;
+        }
+        ABUT_HD entry take() {
+            const entry nearest = at[0], last = at[--count];
+            int place = 0;
+            for (int below = 1; below < count; below = 2 * place + 1) {
+                if (below + 1 < count && at[below + 1].least < at[below].least) ++below;
+                if (!(at[below].least < last.least)) break;
+                at[place] = at[below];
+                place = below;
+            }
+            at[place] = last;
+            return nearest;
+        }
+    };
+    /// A stack: of what a pair makes the nearest is taken first, and all of it before what was there.
+    struct newest_first {
+        entry at[bvh_max_depth * (most_children - 1) + 1];  // not initialised
+        int count = 0, first = 0;
+
+        ABUT_HD entry take() {
+            const entry newest = at[--count];
+            first = count;
+            return newest;
+        }
+        ABUT_HD void add(const entry& one) {
+            int place = count++;
+            for (; place > first && at[place - 1].least < one.least; --place) at[place] = at[place - 1];
+            at[place] = one;
+        }
+    };
+
+    ABUT_CALLS_ANY
+    template <class Reach, class Best, class Visitor>
+    ABUT_NOINLINE ABUT_HD void walk_depth_first(const entry& from, Reach& reach, const Best& best, double& bound,
+                                                const Visitor& visitor) const {
+        newest_first pending;
+        pending.add(from);
+        while (pending.count > 0) {
+            const entry at = pending.take();
+            if (!reach.keeps(at.least)) continue;
+            if (is_pair_of_leaves(at.nodes)) {
+                visitor(shape_of_leaf(a, at.nodes.a), shape_of_leaf(b, at.nodes.b));
+                tighten(reach, best, bound);
+            } else {
+                open(at.nodes, reach, pending);
+            }
+        }
+    }
 
     [[nodiscard]] ABUT_HD static bool is_pair_of_leaves(const item& at) { return (at.a & at.b & bvh_child::leaf_bit) != 0; }
     template <class Tree>
@@ -105,13 +184,13 @@ private:
         return reach.least_between(bounds_of(a, at.a), bounds_of(b, at.b));
     }
 
-    /// Adds the pairs of children that the reach keeps, the nearest last.
-    template <class Reach>
-    ABUT_HD void open(const item& at, const Reach& reach, entry* pending, int& waiting) const {
+    /// Adds the pairs of children that the reach keeps.
+    template <class Reach, class Pending>
+    ABUT_HD void open(const item& at, const Reach& reach, Pending& pending) const {
         const node_or_leaf at_a(at.a, A::width), at_b(at.b, B::width);
         const auto& of_a = a.fetch(at_a.node);
         const auto& of_b = b.fetch(at_b.node);
-        const int first = waiting, end_a = at_a.end_of_slots(a.children(of_a)), end_b = at_b.end_of_slots(b.children(of_b));
+        const int end_a = at_a.end_of_slots(a.children(of_a)), end_b = at_b.end_of_slots(b.children(of_b));
         const int first_b = at_b.first_slot();
         using seen_of_b = std::remove_cvref_t<decltype(reach.see_of_b(what_bounds<Reach>(b, of_b, 0)))>;
         seen_of_b seen[B::width];  // not initialised
@@ -124,9 +203,7 @@ private:
                 if (!reach.keeps(least)) continue;
                 const std::uint32_t child_b =
                     link_to(b.child(of_b, j), B::width * at_b.node + static_cast<std::uint32_t>(j));
-                int place = waiting++;
-                for (; place > first && pending[place - 1].least < least; --place) pending[place] = pending[place - 1];
-                pending[place] = {{child_a, child_b}, least};
+                pending.add({{child_a, child_b}, least});
             }
         }
     }
