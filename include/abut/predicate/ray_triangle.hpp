@@ -36,7 +36,7 @@ struct plane_approach {
 
 /// `filtered`. Where the answer is yes, `met` is written.
 template <scalar T>
-ABUT_HD constexpr verdict decide_by_sides(const ray<T>& r, const triangle<T>& t, plane_approach& met) {
+ABUT_INLINE ABUT_HD constexpr verdict decide_by_sides(const ray<T>& r, const triangle<T>& t, plane_approach& met) {
     const vec3<double> a = edge_between<true>(r.origin, t.a), f = edge_between<true>(t.a, t.b),
                        g = edge_between<true>(t.a, t.c), d = widened(r.direction);
     const double to_a = magnitudes(a), to_b = magnitudes(f), to_c = magnitudes(g), length = magnitudes(d);
