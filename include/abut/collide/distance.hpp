@@ -468,9 +468,9 @@ consteval bool can_be_apart() {
 ///
 /// @par Memory
 /// As in @ref queries. Nothing is stored for each pair. A tree in host memory keeps 4 bytes for each shape once
-/// a call has found that something touches. Under `cuda` a walk of two trees keeps up to 353 pairs of nodes, 4.2 KB in float
-/// and 5.6 KB in double, in the device's local memory, which CUDA sets aside once for all threads that the device holds at
-/// a time.
+/// a call has found that something touches. Under `cuda` a walk of two trees keeps a stack of 289 pairs of nodes, 3.5 KB in
+/// float and 4.6 KB in double, in the device's local memory, which CUDA sets aside once for all threads that the device
+/// holds at a time.
 ///
 /// @par Errors
 /// As in @ref queries, and `error` where `below` is NaN.

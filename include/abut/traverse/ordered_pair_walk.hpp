@@ -23,6 +23,8 @@ namespace abut::detail {
 /// next, while there is room: so hardly more is opened than has to be. What comes when there is none is walked depth first,
 /// the nearest pair of children before the others. What is farther than the reach when its turn comes is dropped. Pairs of
 /// leaves wait like nodes. Trees of two shapes or more: a leaf alone has no link.
+///
+/// A device walks depth first alone. A heap lies in its local memory, and took up to twice as long.
 template <bvh_layout A, bvh_layout B>
 struct ordered_pair_walk {
     using T = typename A::scalar_type;
@@ -46,9 +48,13 @@ struct ordered_pair_walk {
     ABUT_HD void operator()(const item& from, Reach& reach, const Best& best, const Visitor& visitor) const {
         double bound = infinity<double>;
         tighten(reach, best, bound);
+        const entry whole{from, least_of(from, reach)};
+#if ABUT_DEVICE_CODE
+        walk_depth_first(whole, reach, best, bound, visitor);
+#else
         if (!(bound < infinity<double>)) descend(from, reach, best, visitor);
         nearest_first pending;
-        pending.add({from, least_of(from, reach)});
+        pending.add(whole);
         while (pending.count > 0) {
             const entry at = pending.take();
             if (!reach.keeps(at.least)) return;
@@ -61,6 +67,7 @@ struct ordered_pair_walk {
                 walk_depth_first(at, reach, best, bound, visitor);
             }
         }
+#endif
     }
 
     /// One pair of shapes below a pair of nodes that is likely to be near: always on to the nearest pair of children.
@@ -89,14 +96,14 @@ private:
         entry found{};
         bool is = false;
         ABUT_HD void add(const entry& one) {
-            if (is && !(one.least < found.least)) return;
+            if (is && !(found.least > one.least)) return;
             found = one;
             is = true;
         }
     };
     /// A heap: the nearest is taken. What is no number counts as 0.
     struct nearest_first {
-        static constexpr int room = ABUT_DEVICE_CODE ? 64 : 256;  ///< a device sets memory aside for all its threads
+        static constexpr int room = 256;
         entry at[room];  // not initialised
         int count = 0;
 
@@ -106,7 +113,7 @@ private:
             int place = count++;
             while (place > 0) {
                 const int above = (place - 1) / 2;
-                if (!(one.least < at[above].least)) break;
+                if (!(at[above].least > one.least)) break;
                 at[place] = at[above];
                 place = above;
             }
@@ -116,8 +123,8 @@ private:
             const entry nearest = at[0], last = at[--count];
             int place = 0;
             for (int below = 1; below < count; below = 2 * place + 1) {
-                if (below + 1 < count && at[below + 1].least < at[below].least) ++below;
-                if (!(at[below].least < last.least)) break;
+                if (below + 1 < count && at[below].least > at[below + 1].least) ++below;
+                if (!(last.least > at[below].least)) break;
                 at[place] = at[below];
                 place = below;
             }
@@ -137,15 +144,15 @@ private:
         }
         ABUT_HD void add(const entry& one) {
             int place = count++;
-            for (; place > first && at[place - 1].least < one.least; --place) at[place] = at[place - 1];
+            for (; place > first && one.least > at[place - 1].least; --place) at[place] = at[place - 1];
             at[place] = one;
         }
     };
 
     ABUT_CALLS_ANY
     template <class Reach, class Best, class Visitor>
-    ABUT_NOINLINE ABUT_HD void walk_depth_first(const entry& from, Reach& reach, const Best& best, double& bound,
-                                                const Visitor& visitor) const {
+    ABUT_HD void walk_depth_first(const entry& from, Reach& reach, const Best& best, double& bound,
+                                  const Visitor& visitor) const {
         newest_first pending;
         pending.add(from);
         while (pending.count > 0) {
