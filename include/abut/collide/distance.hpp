@@ -105,8 +105,9 @@ std::vector<const std::uint32_t*> all_least_ids(const Policy& on, const Trees& t
 
 /// For each of n entries the least key of a pair that touches, or no_pair. Of two arguments there is one entry.
 ///
-/// A host walks by the trees' least ids. Before it makes them it asks whether anything touches at all: if nothing does, it
-/// has no use for them. A device opens thousands of pairs of nodes at a time, before it knows any that touches.
+/// A host walks by the trees' least ids, but not for two trees whose first touch this is: to make them may take as long as
+/// many a search. Before they are made it asks whether anything touches at all: if nothing does, it has no use for them. A
+/// device opens thousands of pairs of nodes at a time, before it knows any that touches.
 template <class Policy, class Pairing>
 auto first_touches(const Policy& on, Pairing& pairing, std::size_t n) {
     using key_type = decltype(pairing.key);
@@ -114,24 +115,33 @@ auto first_touches(const Policy& on, Pairing& pairing, std::size_t n) {
     fill(on, first.data(), n, no_pair);
     auto& filter = pairing.options.filter;
     filter = {pairing.key, first.data()};
-    std::vector<const std::uint32_t*> least_a, least_b;
+    const auto look = [&] {
+        const keep_first_touch<key_type> keeps{pairing.key, first.data()};
+        execution::work_visit<keep_first_touch<key_type>, space_of<Policy>> hits(on, keeps);
+        search(on, pairing, touch<filtered>{}, hits);
+    };
     if constexpr (host_policy<Policy> && requires { trees_with_least_ids(pairing.a), trees_with_least_ids(pairing.b); }) {
         const auto a = trees_with_least_ids(pairing.a);
         const auto b = trees_with_least_ids(pairing.b);
-        const auto are_made = [](const auto& trees) {
-            return std::all_of(trees.begin(), trees.end(), [](const auto& tree) { return has_least_ids(tree); });
+        const auto holds_for_all = [&](const auto& test) {
+            return std::all_of(a.begin(), a.end(), test) && std::all_of(b.begin(), b.end(), test);
         };
-        if (!are_made(a) || !are_made(b)) {
+        if (!holds_for_all([](const auto& tree) { return has_least_ids(tree); })) {
+            if (n == 1 && !holds_for_all([](const auto& tree) { return wants_least_ids(tree); })) {
+                look();
+                if (first.data()[0] != no_pair) want_least_ids(a[0]), want_least_ids(b[0]);
+                return first;
+            }
             execution::work_flag<host_space> any(on);
             search(on, pairing, touch<filtered>{}, any);
             if (!any.raised()) return first;
         }
-        least_a = all_least_ids(on, a), least_b = all_least_ids(on, b);
+        const auto least_a = all_least_ids(on, a), least_b = all_least_ids(on, b);
         filter.least_a = least_a.data(), filter.least_b = least_b.data();
+        look();
+    } else {
+        look();
     }
-    const keep_first_touch<key_type> keeps{pairing.key, first.data()};
-    execution::work_visit<keep_first_touch<key_type>, space_of<Policy>> hits(on, keeps);
-    search(on, pairing, touch<filtered>{}, hits);
     return first;
 }
 
@@ -468,9 +478,9 @@ consteval bool can_be_apart() {
 ///
 /// @par Memory
 /// As in @ref queries. Nothing is stored for each pair. A tree in host memory keeps 4 bytes for each shape once
-/// a call has found that something touches. Under `cuda` a walk of two trees keeps a stack of 289 pairs of nodes, 3.5 KB in
-/// float and 4.6 KB in double, in the device's local memory, which CUDA sets aside once for all threads that the device
-/// holds at a time.
+/// two calls have found that something touches, or one of a list. Under `cuda` a walk of two trees keeps a stack of 289
+/// pairs of nodes, 3.5 KB in float and 4.6 KB in double, in the device's local memory, which CUDA sets aside once for all
+/// threads that the device holds at a time.
 ///
 /// @par Errors
 /// As in @ref queries, and `error` where `below` is NaN.

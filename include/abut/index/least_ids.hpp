@@ -2,7 +2,7 @@
 #pragma once
 
 // The least id of the shapes below each node of a tree. Who looks for the pair with the least ids leaves out all that lies
-// below two nodes as soon as a lesser pair is known. A tree has them once somebody has asked; they depend on its topology
+// below two nodes as soon as a lesser pair is known. They are made when somebody asks, and depend on a tree's topology
 // alone.
 
 #include <concepts>
@@ -71,5 +71,20 @@ bool has_least_ids(const bvh<Set, Space, Layout>& tree) {
     const std::scoped_lock lock(shared.making);
     return shared.made.size() == tree.stored().nodes.size();
 }
+/// Whether somebody had use for them. They pay from the second time on.
+///@{
+template <class Set, memory_space Space, class Layout>
+bool wants_least_ids(const bvh<Set, Space, Layout>& tree) {
+    auto& shared = *tree.stored().least_ids;
+    const std::scoped_lock lock(shared.making);
+    return shared.wanted;
+}
+template <class Set, memory_space Space, class Layout>
+void want_least_ids(const bvh<Set, Space, Layout>& tree) {
+    auto& shared = *tree.stored().least_ids;
+    const std::scoped_lock lock(shared.making);
+    shared.wanted = true;
+}
+///@}
 
 }  // namespace abut::detail
