@@ -89,8 +89,11 @@ TEST_CASE("rolled_int: sums, products and signs") {
         sum.add(b, b, true);
         truth -= value_of(b) * value_of(b);
         wrong += value_of(sum) != truth || sum.sign() != truth.sign();
+        const rolled_int<9> copy = sum;
         sum.drop_sign();
-        wrong += value_of(sum) != abs(truth);
+        wrong += value_of(sum) != abs(truth) || value_of(copy) != truth;
+        sum = copy;
+        wrong += sum.count != copy.count || value_of(sum) != truth;
     }
     CHECK(wrong == 0);
 }

@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include <abut/arithmetic/align.hpp>
+#include <abut/arithmetic/arithmetic.hpp>
 #include <abut/arithmetic/vec.hpp>
 #include <abut/arithmetic/wide_int.hpp>
 #include <abut/config.hpp>
@@ -47,10 +48,17 @@ ABUT_NOINLINE ABUT_HD constexpr void add_shifted(std::uint64_t* r, int n, std::i
     for (int i = shift / 64; i < n; ++i) {
         const int k = i - shift / 64;
         const uint128 t = static_cast<uint128>(r[i]) + carry +
-                          (k == 0 ? lower_limb(bits) : k == 1 ? upper_limb(bits) : mask_if(moved < 0));
+                          (k == 0   ? lower_limb(bits)
+                           : k == 1 ? upper_limb(bits)
+                                    : mask_if(moved < 0));
         r[i] = lower_limb(t);
         carry = upper_limb(t);
     }
+}
+
+ABUT_NOINLINE ABUT_HD constexpr void copy_limbs(std::uint64_t* to, const std::uint64_t* from, int n) {
+    ABUT_ROLLED
+    for (int i = 0; i < n; ++i) to[i] = from[i];
 }
 
 /// A number in two's complement, of `count` limbs, the least significant first; no more than `Room`. Sums wrap: whoever sets
@@ -58,7 +66,17 @@ ABUT_NOINLINE ABUT_HD constexpr void add_shifted(std::uint64_t* r, int n, std::i
 template <int Room>
 struct rolled_int {
     std::uint64_t limb[std::size_t{Room}];  // not initialised
-    int count;
+    int count = 0;
+
+    // Copies no more than it has, and no unrolled loop over all of its room: also what a function returns would be copied so
+    // in a kernel, if it were trivial to copy.
+    rolled_int() = default;
+    ABUT_HD constexpr rolled_int(const rolled_int& other) : count(other.count) { copy_limbs(limb, other.limb, count); }
+    ABUT_HD constexpr rolled_int& operator=(const rolled_int& other) {
+        count = other.count;
+        copy_limbs(limb, other.limb, count);
+        return *this;
+    }
 
     /// 0, of n limbs.
     ABUT_HD constexpr void clear(int n) {
@@ -108,9 +126,9 @@ struct rolled_int {
 };
 
 // Numbers as results: a product has the limbs of both factors, a sum those of its terms, which have one length and leave
-// room for it. Whoever computes polynomials of them leaves two bits of each number's first limb. All are returned out of line:
-// nvcc 13.0 may give what one inlined call returns the memory of what another one returned and is still read. So templates of
-// vec.hpp, which are inlined, have an overload here.
+// room for it. Whoever computes polynomials of them leaves two bits of each number's first limb. All are returned out of
+// line: nvcc 13.0 may give what one inlined call returns the memory of what another one returned and is still read. So
+// templates of vec.hpp, which are inlined, have an overload here.
 
 template <int A, int B>
 ABUT_NOINLINE ABUT_HD constexpr rolled_int<A + B> operator*(const rolled_int<A>& a, const rolled_int<B>& b) {
@@ -203,6 +221,8 @@ ABUT_NOINLINE ABUT_HD constexpr vec3<rolled_int<A>> point_at(const rolled_int<A>
     return {value[3 * i], value[3 * i + 1], value[3 * i + 2]};
 }
 
+inline constexpr int spare_bits_of_length = 4;  ///< for sums, and the sign
+
 /// a^2 or |a|^2
 ///@{
 template <int A>
@@ -215,21 +235,35 @@ ABUT_NOINLINE ABUT_HD constexpr rolled_int<2 * A> square(const vec3<rolled_int<A
 }
 ///@}
 
-/// Whether Predicate::holds of any finite values: for polynomials of a higher degree than sums of terms can be kept for
-/// (decide_at_any_span in exact_stages.hpp), with a stack of kilobytes for each.
-template <class Predicate, scalar T, std::size_t V>
-ABUT_HD constexpr bool decide_at_any_length(const T (&value)[V]) {
-    using format = float_format<T>;
-    constexpr int spare = 4, most = format::max_exponent + format::digits - format::min_exponent;
-    const aligned<V> x(value);
-    const int width = x.width() > 0 ? x.width() : 0, limbs = (width + spare + 63) / 64;
-    rolled_int<(most + spare + 63) / 64> number[V];
+/// Whether Predicate::holds of numbers that span so many bits that `Room` limbs hold them.
+template <class Predicate, int Room, std::size_t V>
+ABUT_HD constexpr bool holds_at_length(const aligned<V>& x) {
+    const int width = x.width() > 0 ? x.width() : 0, limbs = (width + spare_bits_of_length + 63) / 64;
+    rolled_int<Room> number[V];
     ABUT_ROLLED
     for (int i = 0; i < int{V}; ++i) {
         number[i].begin(limbs);
         number[i].add(x, i);
     }
     return Predicate::holds(number);
+}
+
+/// Of any finite values: for polynomials of a higher degree than sums of terms can be kept for (decide_at_any_span in
+/// exact_stages.hpp), with a stack of kilobytes for each.
+template <class Predicate, scalar T, std::size_t V>
+ABUT_HD constexpr bool decide_at_any_length(const T (&value)[V]) {
+    using format = float_format<T>;
+    constexpr int most = format::max_exponent + format::digits - format::min_exponent;
+    return holds_at_length<Predicate, (most + spare_bits_of_length + 63) / 64>(aligned<V>(value));
+}
+
+/// As decide_in_limbs in exact_stages.hpp, in two limbs at most; of a kernel it makes a tenth of the code.
+template <class Predicate, scalar T, std::size_t V>
+ABUT_NOINLINE ABUT_HD constexpr verdict decide_at_short_length(const T (&value)[V]) {
+    const aligned<V> x(value);
+    constexpr int limbs = 2;
+    return x.width() <= 64 * limbs - spare_bits_of_length ? to_verdict(holds_at_length<Predicate, limbs>(x))
+                                                          : verdict::unknown;
 }
 
 // Magnitudes: n limbs without a sign.
@@ -277,7 +311,8 @@ ABUT_NOINLINE ABUT_HD constexpr double divide_magnitudes(std::uint64_t* a, std::
     // The quotient, by its digits: the first stands for 2^weight, and one of the first two is 1. As many follow as a double
     // of this magnitude has.
     int weight = bits_a - bits_b, last = lowest;
-    if (weight < lowest) return weight == lowest - 1 && limbs_less(b, a, n) ? __builtin_bit_cast(double, std::uint64_t{1}) : 0;
+    if (weight < lowest)
+        return weight == lowest - 1 && limbs_less(b, a, n) ? __builtin_bit_cast(double, std::uint64_t{1}) : 0;
     std::uint64_t quotient = 0;
     for (;; --weight) {
         const bool is_one = !limbs_less(a, b, n);

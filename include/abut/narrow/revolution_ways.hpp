@@ -131,7 +131,7 @@ private:
     };
     enum class slope_sign { falls, rises, unknown };
 
-    ABUT_HD constexpr seen look(double t) const {
+    ABUT_NOINLINE ABUT_HD constexpr seen look(double t) const {
         using namespace contact_math;
         const bool is_late = t > 0.5;
         const place_by_axis& from = is_late ? b_ : a_;
@@ -228,6 +228,7 @@ public:
         using namespace contact_math;
         const point aside = unit_vector(as<one_double>(part_across(normal, solid_.axis)));
         const point none{0, 0, 0};
+        ABUT_ROLLED
         for (int end = 0; end < 2; ++end) {
             const point center = plain_step(none, end == 0 ? 0 : solid_.height, solid_.axis);
             const double reach = end == 0 && solid_.is_cone ? 0 : solid_.radius;
@@ -245,6 +246,7 @@ public:
         const point aside = unit_vector(as<one_double>(part_across(normal, solid_.axis)));
         point low{}, high{};
         double lowest = infinity<double>, highest = -infinity<double>;
+        ABUT_ROLLED
         for (int end = 0; end < 2; ++end) {
             const point center = plain_step(point{0, 0, 0}, end == 0 ? 0 : solid_.height, solid_.axis);
             const double reach = end == 0 && solid_.is_cone ? 0 : solid_.radius;
@@ -314,6 +316,7 @@ ABUT_HD constexpr nearest_way<T> nearest_way_from(const S& s, const corner_hull<
         }
         place_by_axis place[std::size_t{N}]{};
         for (int i = 0; i < N; ++i) place[i] = found.place_of(seen[i]);
+        ABUT_ROLLED
         for (int i = 0; i < b.edges; ++i) {
             found.offer_edge(b.at[i], place[i], place[i + 1 == N ? 0 : i + 1], hull_edge(b, i, unit));
         }
@@ -336,6 +339,7 @@ ABUT_HD constexpr nearest_way<T> nearest_way_from(const S& s, const aabb<T>& box
         way = plain_difference(held(z, lower, upper), z);
         return true;
     };
+    ABUT_ROLLED
     for (int axis = 0; axis < 3; ++axis) {
         const vec3<double> normal{axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0};
         found.offer_face(normal, to_box);
@@ -344,7 +348,9 @@ ABUT_HD constexpr nearest_way<T> nearest_way_from(const S& s, const aabb<T>& box
             found.offer_section(normal, plain_dot(normal, upper), to_box);
         }
     }
+    ABUT_ROLLED
     for (int axis = 1; axis < 8; axis *= 2) {
+        ABUT_ROLLED
         for (int i = 0; i < 8; ++i) {
             if ((i & axis) != 0) continue;
             found.offer_edge(corner(i), place[i], place[i | axis], way_between(corner(i), corner(i | axis), unit));
