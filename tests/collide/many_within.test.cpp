@@ -9,6 +9,12 @@ TEMPLATE_TEST_CASE("within: lists of posed pairs and scenes of bodies, serial an
     abut::test::check_all_many_within<TestType>(abut::openmp{.threads = 3});
 }
 
+TEST_CASE("within: lists of cylinders and cones with points and spheres, serial and openmp") {
+    using namespace abut;
+    test::check_lists_of_solids_within<cylinder<float>, sphere<float>>(serial{});
+    test::check_lists_of_solids_within<cone<double>, vec3<double>>(openmp{.threads = 3});
+}
+
 TEST_CASE("within: lists and scenes of trees of other layouts") {
     using namespace abut;
     using namespace abut::test;

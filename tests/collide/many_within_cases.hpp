@@ -160,6 +160,35 @@ void check_lists_within(const Policy& on) {
     }
 }
 
+/// Lists of cylinders or cones and what they go with.
+template <class Solid, class Other, class Policy>
+void check_lists_of_solids_within(const Policy& on) {
+    using T = scalar_type_of<Solid>;
+    constexpr std::uint64_t seed = 20270506;
+    uniform random(seed);
+    std::vector<shapes<Solid>> solids;
+    std::vector<shapes<Other>> others;
+    for (const std::size_t n : {0u, 1u, 5u, 30u}) {
+        solids.emplace_back(shape_maker<Solid>(random, true)(n));
+        others.emplace_back(shape_maker<Other>(random, true)(n));
+    }
+    list_of_sets<Policy, shapes<Solid>, shapes<Other>> list(on, solids, others);
+    draws d(seed, 105, 0);
+    list.add(3, {}, 3, {});
+    for (std::size_t i = 0; i < 32; ++i) {
+        const auto pose_a = make_pose<T>(d, 0.5), pose_b = make_loose_pose<T>(d, 0.5);
+        list.add(i % 4, pose_a, i / 4 % 4, pose_b);
+    }
+    for (const double distance : {0.0, 0.25}) {
+        CAPTURE(distance);
+        const auto expected = list.within(distance);
+        CHECK(expected.size() > (distance > 0 ? 40 : 5));
+        CHECK((to_host(within(on, list.entries, distance)) == expected));
+        CHECK(count_within(on, list.entries, distance) == expected.size());
+        CHECK(any_within(on, list.entries, distance));
+    }
+}
+
 /// Two clouds, far apart and exactly as far as is asked, under poses as loose as are accepted. Nothing but slacks keeps
 /// their boxes, which are small, and nothing but a distance lets those of bodies meet.
 template <class T, class Policy>

@@ -21,6 +21,41 @@ TEST_CASE("within: points, segments, triangles, spheres and capsules") {
     test::check_within_by_hand(on);
 }
 
+TEST_CASE("within: cylinders and cones, with points and spheres") {
+    const openmp on{.threads = 3};
+    std::printf("within, cylinders and cones: seeds 301 to 310\n");
+    test::check_within_of<cylinder<float>, vec3<float>>(on, 301);
+    test::check_within_of<sphere<double>, cylinder<double>>(serial{}, 302);
+    test::check_within_of<cone<float>, sphere<float>>(on, 303);
+    test::check_within_of<vec3<double>, cone<double>>(serial{}, 304);
+    test::check_posed_within_of<cylinder<float>, sphere<float>>(on, 305);
+    test::check_posed_within_of<cone<double>, vec3<double>>(serial{}, 306);
+    test::uniform random(307);
+    const cylinders<float> rods(test::shape_maker<cylinder<float>>(random, true)(150));
+    const spheres<float> balls(test::shape_maker<sphere<float>>(random, true)(150));
+    const auto expected = test::within_by_definition(rods.view(), balls.view(), 0.25);
+    CHECK(expected.size() > 200);
+    const auto tree = make_bvh(on, rods);
+    CHECK(to_host(within(on, make_grid(on, rods), balls, 0.25)) == expected);
+    CHECK(to_host(within<exact>(serial{}, wide(on, tree), balls, 0.25)) == expected);
+    CHECK(to_host(within(on, quantised(on, tree), make_bvh(on, balls), 0.25)) == expected);
+    std::vector<index_pair> visited;
+    std::mutex one_at_a_time;
+    for_each_within(on, tree, balls, 0.25, [&](index_pair pair) {
+        const std::lock_guard lock(one_at_a_time);
+        visited.push_back(pair);
+        return visit::proceed;
+    });
+    std::sort(visited.begin(), visited.end());
+    CHECK(visited == expected);
+    CHECK(test::refusal_of([&] { (void)count_within(on, tree, balls, -1); }) ==
+          "abut::count_within: distance is -1; expected a finite number, 0 or more");
+    CHECK(test::refusal_of([&] {
+              (void)any_within(on, balls, rods, std::numeric_limits<double>::quiet_NaN());
+          }).find("expected a finite number") != std::string::npos);
+    CHECK(count_within(on, cylinder<float>{{{0, 0, 0}, {0, 0, 2}}, 5}, sphere<float>{{8, 0, 6}, 2}, 3) == 1);
+}
+
 TEST_CASE("within: posed meshes") {
     test::check_within_of_meshes<double>(serial{});
     for (const int threads : {3, 17}) {

@@ -113,6 +113,46 @@ void check_within_of_meshes(const Policy& on) {
     CHECK(of.expected({}, of.poses()[0], 1.1).size() > 100);
 }
 
+/// Sets of two kinds under poses, and their trees; also pairs that are exactly as far apart as is asked.
+template <class A, class B, class Policy>
+void check_posed_within_of(const Policy& on, std::uint64_t seed) {
+    using T = scalar_type_of<A>;
+    CAPTURE(seed);
+    uniform random(seed);
+    const shapes<A> a(shape_maker<A>(random, true)(60));
+    const shapes<B> b(shape_maker<B>(random, true)(70));
+    const auto there_a = copy_to(on, a);
+    const auto there_b = copy_to(on, b);
+    const auto tree_a = make_bvh(on, there_a);
+    const auto tree_b = make_bvh(on, there_b);
+    std::size_t hits = 0, asked = 0;
+    for (std::uint64_t k = 0; k < 4; ++k) {
+        draws d(seed, 11, k);
+        rigid<T> pose_a, pose_b;
+        pose_b.rotation[0] = pose_b.rotation[4] = 0;  // whole numbers stay whole
+        pose_b.rotation[1] = -1;
+        pose_b.rotation[3] = 1;
+        pose_b.translation = {T(0.5), T(0.25), T(-0.75)};
+        if (k > 0) pose_a = make_loose_pose<T>(d, 0.5), pose_b = make_loose_pose<T>(d, 1);
+        const posed_view<typename shapes<A>::view_type> view_a{a.view(), pose_a};
+        const posed_view<typename shapes<B>::view_type> view_b{b.view(), pose_b};
+        for (const double distance : {0.0, 0.25, 0.6}) {
+            CAPTURE(k, distance);
+            const auto expected = within_by_definition(view_a, view_b, distance);
+            const auto moved_a = posed(tree_a, pose_a);
+            const auto moved_b = posed(tree_b, pose_b);
+            CHECK(to_host(within(on, moved_a, moved_b, distance)) == expected);
+            CHECK(to_host(within(on, posed(there_a, pose_a), moved_b, distance)) == expected);
+            CHECK(count_within(on, moved_a, posed(there_b, pose_b), distance) == expected.size());
+            CHECK(any_within(on, moved_a, moved_b, distance) == !expected.empty());
+            hits += expected.size();
+            asked += a.size() * b.size();
+        }
+    }
+    CHECK(hits > asked / 50);
+    CHECK(hits < asked / 2);
+}
+
 /// Each shape of a set with the others.
 template <class Shape, class Policy>
 void check_self_within(const Policy& on, std::uint64_t seed) {

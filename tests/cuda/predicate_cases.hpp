@@ -183,6 +183,33 @@ void check_revolutions(const Policy& on) {
 
 // --- within a distance --------------------------------------------------------------------------------------------------
 
+/// Cylinders and cones, with spheres and points. What a ball beside one lacks is the distance: of whole numbers exactly.
+template <class Solid, class Policy>
+void check_revolutions_within(const Policy& on) {
+    using T = scalar_type_of<Solid>;
+    constexpr bool is_cone = std::same_as<Solid, cone<T>>;
+    const auto name = [](int f) { return name_of(static_cast<revolution_family>(f)); };
+    const auto check = [&](const auto& from_ball) {
+        using other = decltype(from_ball(sphere<T>{}));
+        check_each_family<T>(revolution_family_count, 0.02, name, [&](int f) {
+            std::vector<copied_pair<Solid, other>> pairs;
+            for (std::uint64_t k = 0; k < (sample_count() + 11) / 12; ++k) {
+                const auto c = make_revolution_case<T>(sample_seed + 9, static_cast<revolution_family>(f), k, is_cone);
+                const Solid s = solid_of<Solid>(c.axis, c.radius);
+                sphere<T> ball = ball_beside(c, is_cone, k);
+                if (!is_valid(s) || !is_valid(ball)) continue;
+                const auto whole = static_cast<double>(ball.radius);
+                ball.radius = k % 3 == 0 ? ball.radius / 3 : ball.radius / 4;
+                const other t = from_ball(ball);
+                pairs.push_back({s, t, whole - static_cast<double>(detail::radius_around_core(t))});
+            }
+            return decide_copied<whether_they_are_within, T>(on, pairs);
+        });
+    };
+    check([](const sphere<T>& ball) { return ball; });
+    check([](const sphere<T>& ball) { return ball.center; });
+}
+
 template <class T, class Policy>
 void check_solids_within(const Policy& on) {
     constexpr int kinds = within_pair_kinds;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // long to compile
 //
-// Every stage of all pairs of a cylinder or a cone and another shape, their distances and contacts.
+// Every stage of all pairs of a cylinder or a cone and another shape, their distances and contacts, and `within`.
 #include <abut/cuda.hpp>
 
 #include <cstddef>
@@ -18,6 +18,11 @@ using namespace abut;
 TEMPLATE_TEST_CASE("cylinders and cones: cuda decides every family as the host does", "", cylinder<float>, cylinder<double>,
                    cone<float>, cone<double>) {
     test::check_revolutions<TestType>(abut::cuda{});
+}
+
+TEMPLATE_TEST_CASE("within, cylinders and cones: cuda decides every family as the host does", "", cylinder<float>,
+                   cylinder<double>, cone<float>, cone<double>) {
+    test::check_revolutions_within<TestType>(abut::cuda{});
 }
 
 namespace {

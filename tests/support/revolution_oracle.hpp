@@ -186,31 +186,74 @@ N distance_in_plane(const N& x, const N& y, const N& a, const N& b, const N& c, 
     return sqrt(N(p * p + q * q));
 }
 
-/// In the half plane of the axis and the centre: its distance from the sides of a rectangle or a triangle, if it is not
-/// inside.
+/// A cylinder or a cone and a centre, in the half plane of the axis and the centre, with numbers that may be doubles where
+/// the solid's are floats. `more` are such numbers; all are of one unit.
+template <class N>
+struct half_plane_view {
+    bool is_cone, has_axis;
+    N height, x, y, r;
+    std::vector<N> more;
+
+    template <template <class> class Solid, scalar T>
+    half_plane_view(const Solid<T>& s, const vec3<T>& center, const std::vector<double>& others)
+        : is_cone(std::same_as<Solid<T>, cone<T>>) {
+        std::vector<double> numbers;
+        const auto add = [&numbers](T number) { numbers.push_back(static_cast<double>(number)); };
+        for (const vec3<T>& p : {axis_of(s).a, axis_of(s).b, center}) add(p.x), add(p.y), add(p.z);
+        add(s.radius);
+        numbers.insert(numbers.end(), others.begin(), others.end());
+        const std::vector<integer> v = to_integers(numbers);
+        const integer d[3] = {v[3] - v[0], v[4] - v[1], v[5] - v[2]}, w[3] = {v[6] - v[0], v[7] - v[1], v[8] - v[2]};
+        const integer dd = d[0] * d[0] + d[1] * d[1] + d[2] * d[2], ww = w[0] * w[0] + w[1] * w[1] + w[2] * w[2],
+                      dw = d[0] * w[0] + d[1] * w[1] + d[2] * w[2];
+        has_axis = dd != 0;
+        r = N(v[9]);
+        for (std::size_t i = 10; i < v.size(); ++i) more.push_back(N(v[i]));
+        height = sqrt(N(dd));
+        x = has_axis ? N(N(dw) / height) : N(0);
+        y = has_axis ? N(sqrt(N(integer(ww * dd - dw * dw))) / height) : N(sqrt(N(ww)));
+    }
+    [[nodiscard]] bool is_inside() const {
+        if (!has_axis) return is_at_most(y, r);
+        if (x < 0 || !is_at_most(x, height)) return false;
+        return is_cone ? is_at_most(N(y * height), N(x * r)) : is_at_most(y, r);
+    }
+    /// From the sides of a rectangle or a triangle, if it is not inside.
+    [[nodiscard]] N distance() const {
+        const N zero(0);
+        if (!has_axis) return y - r;
+        const N base = distance_in_plane(x, y, height, zero, height, r);
+        const N side =
+            is_cone ? distance_in_plane(x, y, zero, zero, height, r) : distance_in_plane(x, y, zero, r, height, r);
+        const N least = base < side ? base : side;
+        if (is_cone) return least;
+        const N first = distance_in_plane(x, y, zero, zero, zero, r);
+        return first < least ? first : least;
+    }
+};
+
 template <template <class> class Solid, scalar T>
 bool meets(const Solid<T>& s, const sphere<T>& ball) {
-    using N = long_float<T>;
-    const vec3<T> origin = axis_of(s).a;
-    std::vector<T> numbers{origin.x,      origin.y,      origin.z,      axis_of(s).b.x, axis_of(s).b.y, axis_of(s).b.z,
-                           ball.center.x, ball.center.y, ball.center.z, s.radius,       ball.radius};
-    const std::vector<integer> v = to_integers(numbers);
-    const integer d[3] = {v[3] - v[0], v[4] - v[1], v[5] - v[2]}, w[3] = {v[6] - v[0], v[7] - v[1], v[8] - v[2]};
-    const integer dd = d[0] * d[0] + d[1] * d[1] + d[2] * d[2], ww = w[0] * w[0] + w[1] * w[1] + w[2] * w[2],
-                  dw = d[0] * w[0] + d[1] * w[1] + d[2] * w[2];
-    const N r(v[9]), reach(v[10]);
-    if (dd == 0) return ww <= (v[9] + v[10]) * (v[9] + v[10]);
-    const N height = sqrt(N(dd)), x = N(dw) / height, y = sqrt(N(integer(ww * dd - dw * dw))) / height, zero(0);
-    if constexpr (std::same_as<Solid<T>, cone<T>>) {
-        if (x >= 0 && is_at_most(x, height) && is_at_most(N(y * height), N(x * r))) return true;
-        return is_at_most(distance_in_plane(x, y, height, zero, height, r), reach) ||
-               is_at_most(distance_in_plane(x, y, zero, zero, height, r), reach);
-    } else {
-        if (x >= 0 && is_at_most(x, height) && is_at_most(y, r)) return true;
-        return is_at_most(distance_in_plane(x, y, zero, zero, zero, r), reach) ||
-               is_at_most(distance_in_plane(x, y, height, zero, height, r), reach) ||
-               is_at_most(distance_in_plane(x, y, zero, r, height, r), reach);
-    }
+    const half_plane_view<long_float<T>> view(s, ball.center, {static_cast<double>(ball.radius)});
+    return view.is_inside() || is_at_most(view.distance(), view.more[0]);
+}
+
+template <template <class> class Solid, scalar T>
+bool within_distance(const Solid<T>& s, const sphere<T>& ball, double distance) {
+    using N = long_float<double>;
+    const half_plane_view<N> view(s, ball.center, {static_cast<double>(ball.radius), distance});
+    return view.is_inside() || is_at_most(view.distance(), N(view.more[0] + view.more[1]));
+}
+
+/// To a few digits more than a double has.
+template <template <class> class Solid, scalar T>
+double least_distance(const Solid<T>& s, const sphere<T>& ball) {
+    using boost::multiprecision::cpp_bin_float, boost::multiprecision::number, boost::multiprecision::digit_base_2;
+    using N = number<cpp_bin_float<400, digit_base_2, void, int>, boost::multiprecision::et_off>;
+    const half_plane_view<N> view(s, ball.center, {static_cast<double>(ball.radius), 1});
+    if (view.is_inside()) return 0;
+    const N least = (view.distance() - view.more[0]) / view.more[1];
+    return least > 0 ? static_cast<double>(least) : 0;
 }
 
 /// The least and the greatest height over the plane, of both ends or of the base and the apex.

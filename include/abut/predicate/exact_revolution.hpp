@@ -324,8 +324,13 @@ struct revolution_meets_ball {
 
     template <class N>
     ABUT_HD static constexpr verdict ask(const N (&value)[11]) {
-        const vec3<N> first = point_at(value, 0), last = point_at(value, 1), center = point_at(value, 2);
-        const N &r = value[9], &reach = value[10];
+        return is_near(point_at(value, 0), point_at(value, 1), point_at(value, 2), value[9], value[10]);
+    }
+
+    /// Whether the centre is within `reach` of the solid.
+    template <class N>
+    ABUT_HD static constexpr verdict is_near(const vec3<N>& first, const vec3<N>& last, const vec3<N>& center, const N& r,
+                                             const N& reach) {
         const auto d = last - first, w = center - first, v = center - last;
         verdict met = verdict::no;
         if constexpr (Solid::is_cone) {
@@ -340,6 +345,20 @@ struct revolution_meets_ball {
         }
         return or_else(met,
                        [&] { return or_else(is_near_disc(v, d, r, reach), [&] { return is_near_rim(v, d, r, reach); }); });
+    }
+};
+
+/// The axis's ends, the ball's centre, both radii, and a distance from the ball: one from its centre that is longer by the
+/// ball's radius. That sum takes a bit more than its terms do, as differences do.
+template <class Solid>
+struct revolution_within_of_ball {
+    static constexpr int degree = revolution_meets_ball<Solid>::degree;
+
+    template <class N>
+    ABUT_HD static constexpr verdict ask(const N (&value)[12]) {
+        const N reach = value[10] + value[11];
+        return revolution_meets_ball<Solid>::is_near(point_at(value, 0), point_at(value, 1), point_at(value, 2), value[9],
+                                                     reach);
     }
 };
 
