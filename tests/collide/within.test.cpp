@@ -21,13 +21,15 @@ TEST_CASE("within: points, segments, triangles, spheres and capsules") {
     test::check_within_by_hand(on);
 }
 
-TEST_CASE("within: cylinders and cones, with points and spheres") {
+TEST_CASE("within: cylinders and cones, with points, spheres and planes") {
     const openmp on{.threads = 3};
-    std::printf("within, cylinders and cones: seeds 301 to 310\n");
+    std::printf("within, cylinders and cones: seeds 301 to 311\n");
     test::check_within_of<cylinder<float>, vec3<float>>(on, 301);
     test::check_within_of<sphere<double>, cylinder<double>>(serial{}, 302);
     test::check_within_of<cone<float>, sphere<float>>(on, 303);
     test::check_within_of<vec3<double>, cone<double>>(serial{}, 304);
+    test::check_within_of<cylinder<float>, plane<float>>(on, 310);
+    test::check_within_of<plane<double>, cone<double>>(serial{}, 311);
     test::check_posed_within_of<cylinder<float>, sphere<float>>(on, 305);
     test::check_posed_within_of<cone<double>, vec3<double>>(serial{}, 306);
     test::uniform random(307);

@@ -183,14 +183,15 @@ void check_revolutions(const Policy& on) {
 
 // --- within a distance --------------------------------------------------------------------------------------------------
 
-/// Cylinders and cones, with spheres and points. What a ball beside one lacks is the distance: of whole numbers exactly.
+/// Cylinders and cones, with spheres and points, where a ball beside one gives of its radius to the distance, and so of whole
+/// numbers is exactly as far; and with planes.
 template <class Solid, class Policy>
 void check_revolutions_within(const Policy& on) {
     using T = scalar_type_of<Solid>;
     constexpr bool is_cone = std::same_as<Solid, cone<T>>;
     const auto name = [](int f) { return name_of(static_cast<revolution_family>(f)); };
-    const auto check = [&](const auto& from_ball) {
-        using other = decltype(from_ball(sphere<T>{}));
+    const auto check = [&](const auto& beside) {
+        using other = decltype(beside(sphere<T>{}, revolution_case<T>{}, std::uint64_t{}));
         check_each_family<T>(revolution_family_count, 0.02, name, [&](int f) {
             std::vector<copied_pair<Solid, other>> pairs;
             for (std::uint64_t k = 0; k < (sample_count() + 11) / 12; ++k) {
@@ -200,14 +201,16 @@ void check_revolutions_within(const Policy& on) {
                 if (!is_valid(s) || !is_valid(ball)) continue;
                 const auto whole = static_cast<double>(ball.radius);
                 ball.radius = k % 3 == 0 ? ball.radius / 3 : ball.radius / 4;
-                const other t = from_ball(ball);
+                const other t = beside(ball, c, k);
                 pairs.push_back({s, t, whole - static_cast<double>(detail::radius_around_core(t))});
             }
             return decide_copied<whether_they_are_within, T>(on, pairs);
         });
     };
-    check([](const sphere<T>& ball) { return ball; });
-    check([](const sphere<T>& ball) { return ball.center; });
+    using pair = revolution_case<T>;
+    check([](const sphere<T>& ball, const pair&, std::uint64_t) { return ball; });
+    check([](const sphere<T>& ball, const pair&, std::uint64_t) { return ball.center; });
+    check([](const sphere<T>&, const pair& c, std::uint64_t k) { return plane_beside(c, k); });
 }
 
 template <class T, class Policy>

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <abut/predicate/within.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <type_traits>
+#include <utility>
 
 #include "support/catch.hpp"
 #include "support/modes.hpp"
@@ -12,7 +15,8 @@
 #include "support/samples.hpp"
 #include "support/within_pairs.hpp"
 
-// Cylinders and cones within a distance of points and spheres: every stage against an oracle of thousands of binary digits.
+// Cylinders and cones within a distance of points, spheres and planes: every stage against an oracle of thousands of binary
+// digits.
 
 namespace {
 
@@ -34,14 +38,24 @@ static_assert(within(tip, sphere<double>{{0, 3, -4}, 2}, 3) && !within(tip, sphe
 static_assert(within(cylinder<double>{{{0, 0, -0x1p-60}, {0, 0, -1}}, 1}, sphere<double>{{0, 0, 5}, 5}, 0x1p-60) &&
               !within(cylinder<double>{{{0, 0, -0x1p-60}, {0, 0, -1}}, 1}, sphere<double>{{0, 0, 5}, 5}, 0x1p-61));
 static_assert(!within(cone<float>{{0, 0, -0x1p-60f}, {0, 0, -1}, 1}, sphere<float>{{0, 0, 5}, 5}, 0x1.fffffffffffffp-61));
+// Planes: an apex, a rim, through a base, and an end along the plane.
+static_assert(within(tip, plane<double>{{0, 0, -7}, 21}, 3) &&
+              !within(tip, plane<double>{{0, 0, -7}, 21}, 0x1.7ffffffffffffp1));
+static_assert(within(plane<double>{{4, 0, 3}, 49}, tip, 5) && !within<exact>(plane<double>{{4, 0, 3}, 49}, tip, 4.9999));
+static_assert(within(drum, plane<float>{{0, 3, 4}, 33}, 2) &&
+              !within(drum, plane<float>{{0, 3, 4}, 33}, 0x1.fffffffffffffp0));
+static_assert(within(drum, plane<float>{{0, 0, 2}, 10}, 3) && within(drum, plane<float>{{1, 1, 1}, 0}, 0));
+static_assert(within(drum, plane<float>{{0, 0, 0}, 0}, 0) && !within(drum, plane<float>{{0, 0, 0}, 1}, 1e300));
 // Without length they are balls.
+static_assert(within(cylinder<float>{{{1, 1, 1}, {1, 1, 1}}, 2}, plane<float>{{3, 0, 4}, 32}, 3) &&
+              !within(cone<float>{{1, 1, 1}, {1, 1, 1}, 2}, plane<float>{{3, 0, 4}, 32}, 2.9999999));
 static_assert(within(cylinder<float>{{{1, 1, 1}, {1, 1, 1}}, 2}, sphere<float>{{4, 5, 1}, 1}, 2) &&
               !within(cone<float>{{1, 1, 1}, {1, 1, 1}, 2}, vec3<float>{4, 5, 1}, 2.9999999));
 
 static_assert(distance_decidable<cylinder<float>, vec3<float>> && distance_decidable<sphere<double>, cone<double>>);
 static_assert(!distance_decidable<cylinder<float>, vec3<double>> && !distance_decidable<cone<float>, cylinder<float>>);
 static_assert(!distance_decidable<cylinder<float>, segment<float>> && !distance_decidable<triangle<float>, cone<float>>);
-static_assert(!distance_decidable<cylinder<float>, aabb<float>> && !distance_decidable<plane<float>, cone<float>>);
+static_assert(!distance_decidable<cylinder<float>, aabb<float>> && distance_decidable<plane<float>, cone<float>>);
 static_assert(!distance_decidable<cylinder<float>, capsule<float>> && !distance_decidable<hull<float>, cone<float>>);
 
 struct tally {
@@ -56,8 +70,9 @@ struct tally {
 template <class S, class U>
 verdict decide_as_devices(const S& s, const U& t, double d) {
     if (detail::is_point(detail::axis_of(s))) return detail::decide_within<exact>(s, t, d);
-    return detail::decide_at_short_length<detail::asked_exactly<detail::asked_within<S>>>(
-        detail::values_within(s, t, d).value);
+    using T = scalar_type_of<S>;
+    using question = std::conditional_t<std::same_as<U, plane<T>>, detail::asked_over_plane<S>, detail::asked_within<S>>;
+    return detail::decide_at_short_length<detail::asked_exactly<question>>(detail::values_within(s, t, d).value);
 }
 
 /// Every stage, whatever the order; `fast` is counted where it is unlike.
@@ -74,12 +89,14 @@ void examine_stages(const S& s, const U& t, double d, bool truth, tally& sum) {
                  decide_as_devices(s, t, d) != by_limbs;
 }
 
-template <class S>
-void examine(const S& s, const sphere<scalar_type_of<S>>& t, double d, tally& sum) {
+template <class S, class U>
+void examine(const S& s, const U& t, double d, tally& sum) {
     if (!is_valid(s) || !is_valid(t)) return;
     const bool truth = test::oracle::within_distance(s, t, d);
     examine_stages(s, t, d, truth, sum);
-    if (t.radius == 0) examine_stages(s, t.center, d, truth, sum);
+    if constexpr (requires { t.center; }) {
+        if (t.radius == 0) examine_stages(s, t.center, d, truth, sum);
+    }
 }
 
 /// A ball that is to touch a feature, or nearly, of which a part becomes a distance: of whole numbers exactly so far away.
@@ -97,6 +114,9 @@ void examine_case(test::revolution_family f, std::uint64_t k, tally& sum) {
     const double rest = static_cast<double>(whole) - static_cast<double>(ball.radius);
     examine(s, ball, rest, sum);
     if (k % 2 == 0) examine(s, ball, test::distance_near(test::oracle::least_distance(s, ball), k / 4), sum);
+    if (k % 3 != 0) return;
+    const plane<T> flat = test::plane_beside(c, k / 3);
+    examine(s, flat, test::distance_near(test::oracle::least_distance(s, flat), k / 3), sum);
 }
 
 template <class Solid>
@@ -159,6 +179,32 @@ void examine_sum(std::uint64_t k, tally& sum) {
     }
 }
 
+/// A solid and a plane that is a whole number from it, over an end, a rim, an apex or along the side: all lengths are whole.
+template <class Solid>
+void examine_plane(std::uint64_t k, tally& sum) {
+    using T = scalar_type_of<Solid>;
+    constexpr bool is_cone = std::same_as<Solid, cone<T>>;
+    test::draws draw(test::sample_seed, is_cone ? 94 : 93, k);
+    const test::construction::lattice_frame f(draw);
+    constexpr int triples[5][3] = {{0, 1, 1}, {1, 0, 1}, {3, 4, 5}, {-4, 3, 5}, {5, -12, 13}};
+    const int* const way = triples[draw.below(5)];  // across the axis, along it, and its length
+    const int height = 1 + draw.below(5), radius = draw.below(6), apart = draw.below(4);
+    const vec3<T> o = f.at<T>(0, 0, 0), first = f.at<T>(0, 0, 0), last = f.at<T>(0, 0, height),
+                  n = f.at<T>(way[0], 0, way[1]) - o;
+    const T rim = static_cast<T>(radius * f.unit() * (way[0] < 0 ? -way[0] : way[0]));
+    const T high = std::max(dot(n, last) + rim, dot(n, first) + (is_cone ? T(0) : rim));
+    const plane<T> p{n, high + static_cast<T>(apart * f.unit() * way[2])};
+    const Solid s = test::solid_of<Solid>({first, last}, static_cast<T>(radius));
+    const double d = apart;
+    for (const double at : {d, std::nextafter(d, -1.0), std::nextafter(d, 9.0)}) {
+        if (at < 0) continue;
+        tally one;
+        examine(s, k % 2 == 0 ? p : plane<T>{o - f.at<T>(way[0], 0, way[1]), -p.offset}, at, one);
+        one.wrong += (one.hits > 0) != (at >= d);
+        sum += one;
+    }
+}
+
 }  // namespace revolution_within
 
 }  // namespace
@@ -175,6 +221,16 @@ TEMPLATE_TEST_CASE("within, cylinders and cones: the radius and the distance are
     for (std::uint64_t k = 0; k < test::sample_count() / 25; ++k) revolution_within::examine_sum<TestType>(k, sum);
     CHECK(sum.wrong == 0);
     CHECK(sum.hits * 3 == sum.pairs * 2);
+}
+
+TEMPLATE_TEST_CASE("within, cylinders and cones: planes that are exactly as far", "", abut::cylinder<float>,
+                   abut::cylinder<double>, abut::cone<float>, abut::cone<double>) {
+    using namespace abut;
+    revolution_within::tally sum;
+    for (std::uint64_t k = 0; k < test::sample_count() / 25; ++k) revolution_within::examine_plane<TestType>(k, sum);
+    CHECK(sum.wrong == 0);
+    CHECK(sum.pairs > sum.hits);
+    CHECK(sum.hits * 2 > sum.pairs);
 }
 
 TEMPLATE_TEST_CASE("within, cylinders and cones: right in every floating-point mode, and with 0 as intersects", "",
@@ -203,6 +259,7 @@ TEMPLATE_TEST_CASE("within, cylinders and cones: right in every floating-point m
             };
             check(ball);
             check(ball.center);
+            check(test::plane_beside(c, k));
         }
     }
     CHECK(wrong == 0);
@@ -214,16 +271,16 @@ TEST_CASE("within, cylinders and cones: the least and the greatest distances") {
     using namespace abut;
     constexpr double most = largest_finite<double>, least = 0x1p-1074;
     const cylinder<float> rod{{{0, 0, 0}, {0, 0, 1}}, 1};
-    const cone<double> tip{{0, 0, 0}, {0, 0, 1}, 1}, vast{{-most, 0, 0}, {-most / 2, 0, 0}, most};
+    const cone<double> spike{{0, 0, 0}, {0, 0, 1}, 1}, vast{{-most, 0, 0}, {-most / 2, 0, 0}, most};
     CHECK(within(rod, vec3<float>{largest_finite<float>, 0, 0}, most));
     CHECK_FALSE(within(rod, vec3<float>{largest_finite<float>, 0, 0}, 1e38));
     CHECK_FALSE(within(rod, vec3<float>{0, 0, -0x1p-149f}, least));
     CHECK(within(rod, vec3<float>{0, 0, -0x1p-149f}, 0x1p-149));
-    CHECK(within(tip, vec3<double>{0, 0, -least}, least));
-    CHECK_FALSE(within(tip, vec3<double>{0, 0, -2 * least}, least));
-    CHECK(within(tip, sphere<double>{{0, 0, -most}, most}, least));
-    CHECK(within(tip, sphere<double>{{0, 0, -most}, most / 2}, most / 2));
-    CHECK_FALSE(within(tip, sphere<double>{{0, 0, -most}, most / 2}, most / 4));
+    CHECK(within(spike, vec3<double>{0, 0, -least}, least));
+    CHECK_FALSE(within(spike, vec3<double>{0, 0, -2 * least}, least));
+    CHECK(within(spike, sphere<double>{{0, 0, -most}, most}, least));
+    CHECK(within(spike, sphere<double>{{0, 0, -most}, most / 2}, most / 2));
+    CHECK_FALSE(within(spike, sphere<double>{{0, 0, -most}, most / 2}, most / 4));
     CHECK(within(vast, sphere<double>{{most, 0, 0}, most}, most / 2));
     CHECK_FALSE(within(vast, sphere<double>{{most, 0, 0}, most}, most / 4));
 }

@@ -102,6 +102,13 @@ segment<T> axis_of(const cone<T>& s) {
     return {s.apex, s.base_center};
 }
 
+template <class S>
+inline constexpr bool is_revolved = false;
+template <scalar T>
+inline constexpr bool is_revolved<cylinder<T>> = true;
+template <scalar T>
+inline constexpr bool is_revolved<cone<T>> = true;
+
 /// Numbers of a solid and of some points, as fractions of one unit, seen from the solid's first end.
 template <template <class> class Solid, scalar T>
 std::vector<fraction_point> seen_from(const Solid<T>& s, const std::vector<vec3<T>>& points, exact_solid& solid) {
@@ -239,6 +246,7 @@ bool meets(const Solid<T>& s, const sphere<T>& ball) {
 }
 
 template <template <class> class Solid, scalar T>
+    requires is_revolved<Solid<T>>
 bool within_distance(const Solid<T>& s, const sphere<T>& ball, double distance) {
     using N = long_float<double>;
     const half_plane_view<N> view(s, ball.center, {static_cast<double>(ball.radius), distance});
@@ -247,6 +255,7 @@ bool within_distance(const Solid<T>& s, const sphere<T>& ball, double distance) 
 
 /// To a few digits more than a double has.
 template <template <class> class Solid, scalar T>
+    requires is_revolved<Solid<T>>
 double least_distance(const Solid<T>& s, const sphere<T>& ball) {
     using boost::multiprecision::cpp_bin_float, boost::multiprecision::number, boost::multiprecision::digit_base_2;
     using N = number<cpp_bin_float<400, digit_base_2, void, int>, boost::multiprecision::et_off>;
@@ -256,25 +265,60 @@ double least_distance(const Solid<T>& s, const sphere<T>& ball) {
     return least > 0 ? static_cast<double>(least) : 0;
 }
 
-/// The least and the greatest height over the plane, of both ends or of the base and the apex.
+/// Heights over a plane, of both ends or of the base and the apex, in numbers of the type N.
+template <class N>
+struct view_over_plane {
+    N first, last, reach_first, reach_last, size;  ///< `size` of the normal
+
+    template <template <class> class Solid, scalar T>
+    view_over_plane(const Solid<T>& s, const plane<T>& p) {
+        const auto exactly = [](T x) { return fraction(static_cast<double>(x)); };
+        const segment<T> axis = axis_of(s);
+        const fraction_point n{exactly(p.normal.x), exactly(p.normal.y), exactly(p.normal.z)},
+            end_a{exactly(axis.a.x), exactly(axis.a.y), exactly(axis.a.z)},
+            end_b{exactly(axis.b.x), exactly(axis.b.y), exactly(axis.b.z)};
+        const fraction_point d = end_b - end_a;
+        const fraction dd = inner(d, d), nn = inner(n, n);
+        const fraction across = dd == 0 ? nn : fraction(nn - inner(n, d) * inner(n, d) / dd);
+        first = N(fraction(inner(n, end_a) - exactly(p.offset)));
+        last = N(fraction(inner(n, end_b) - exactly(p.offset)));
+        reach_last = N(exactly(s.radius)) * sqrt(N(across));
+        reach_first = std::same_as<Solid<T>, cone<T>> && dd != 0 ? N(0) : reach_last;
+        size = sqrt(N(nn));
+    }
+    /// Whether the least and the greatest height are no more than that beyond 0.
+    [[nodiscard]] bool is_within(const N& gap) const {
+        const N high_first = first + reach_first + gap, high_last = last + reach_last + gap;
+        const N low_first = first - reach_first - gap, low_last = last - reach_last - gap;
+        const N slack = ldexp(N(abs(first) + abs(last) + reach_last + gap), -std::numeric_limits<N>::digits * 3 / 4);
+        return (high_first >= -slack || high_last >= -slack) && (low_first <= slack || low_last <= slack);
+    }
+};
 template <template <class> class Solid, scalar T>
 bool meets(const Solid<T>& s, const plane<T>& p) {
     using N = long_float<T>;
-    const auto exactly = [](T x) { return fraction(static_cast<double>(x)); };
-    const segment<T> axis = axis_of(s);
-    const fraction_point n{exactly(p.normal.x), exactly(p.normal.y), exactly(p.normal.z)},
-        first{exactly(axis.a.x), exactly(axis.a.y), exactly(axis.a.z)},
-        last{exactly(axis.b.x), exactly(axis.b.y), exactly(axis.b.z)};
-    const fraction_point d = last - first;
-    const fraction dd = inner(d, d), at_first = inner(n, first) - exactly(p.offset),
-                   at_last = inner(n, last) - exactly(p.offset);
-    const fraction across = dd == 0 ? inner(n, n) : fraction(inner(n, n) - inner(n, d) * inner(n, d) / dd);
-    const N rim = N(exactly(s.radius)) * sqrt(N(across)), zero(0);
-    const N reach_first = std::same_as<Solid<T>, cone<T>> && dd != 0 ? zero : rim;
-    const N high_first = N(at_first) + reach_first, high_last = N(at_last) + rim;
-    const N low_first = N(at_first) - reach_first, low_last = N(at_last) - rim;
-    const N slack = ldexp(N(abs(N(at_first)) + abs(N(at_last)) + rim), -std::numeric_limits<N>::digits * 3 / 4);
-    return (high_first >= -slack || high_last >= -slack) && (low_first <= slack || low_last <= slack);
+    return view_over_plane<N>(s, p).is_within(N(0));
+}
+template <template <class> class Solid, scalar T>
+    requires is_revolved<Solid<T>>
+bool within_distance(const Solid<T>& s, const plane<T>& p, double distance) {
+    using N = long_float<double>;
+    const view_over_plane<N> view(s, p);
+    return view.is_within(N(N(distance) * view.size));
+}
+/// 0 where the normal is 0.
+template <template <class> class Solid, scalar T>
+    requires is_revolved<Solid<T>>
+double least_distance(const Solid<T>& s, const plane<T>& p) {
+    using boost::multiprecision::cpp_bin_float, boost::multiprecision::number, boost::multiprecision::digit_base_2;
+    using N = number<cpp_bin_float<2500, digit_base_2, void, int>, boost::multiprecision::et_off>;
+    const view_over_plane<N> v(s, p);
+    if (v.size == 0) return 0;
+    const N high_first = v.first + v.reach_first, high_last = v.last + v.reach_last, low_first = v.first - v.reach_first,
+            low_last = v.last - v.reach_last;
+    const N high = high_first < high_last ? high_last : high_first, low = low_first < low_last ? low_first : low_last;
+    const N gap = high < 0 ? N(-high) : low > 0 ? low : N(0);
+    return static_cast<double>(N(gap / v.size));
 }
 
 }  // namespace oracle

@@ -42,7 +42,7 @@
 // A plane: heights over it are linear. If both ends lie strictly on one side, the nearest point to it is on the rim of an
 // end, or is the apex; a rim reaches r |n x d| / |d| beyond its centre.
 //
-// Degree 8 at most; 12 for a cone and a ball.
+// Degree 8 at most; 12 for a cone and a ball, and for a plane within a distance.
 
 #include <cstddef>
 
@@ -487,6 +487,43 @@ struct plane_meets_revolution {
                 return or_else(at_base, [&] { return is_no_longer(scale(at_first, d), rim); });
             }
         });
+    }
+};
+
+/// And a distance R, which is as many heights as the normal n is long. Of an end at height h, with a rim that reaches lower:
+/// |h| |d| <= r |n x d| + R |n| |d|. With A, B and C the squares of these, A - B - C <= 0 or (A - B - C)^2 <= 4 B C.
+template <class Solid>
+struct plane_within_of_revolution {
+    static constexpr int degree = 12;
+
+    template <class N>
+    ABUT_HD static constexpr verdict ask(const N (&value)[13]) {
+        const vec3<N> normal{value[0], value[1], value[2]}, first{value[5], value[6], value[7]},
+            last{value[8], value[9], value[10]};
+        const N &r = value[11], &reach = value[12];
+        const auto offset = value[3] * value[4], at_first = dot(normal, first) - offset,
+                   at_last = dot(normal, last) - offset;
+        const verdict between = or_else(is_not_negative(at_first) && is_not_positive(at_last),
+                                        [&] { return is_not_positive(at_first) && is_not_negative(at_last); });
+        return or_else(between, [&] {
+            const auto d = last - first;
+            const auto across = cross(normal, d);
+            const auto dd = dot(d, d);
+            const auto rim = (r * r) * dot(across, across), gap = (reach * reach) * (dot(normal, normal) * dd);
+            const verdict at_base = is_near_end(at_last, dd, rim, gap);
+            if constexpr (Solid::is_cone) {
+                return or_else(at_base, [&] { return is_no_longer(at_first, scale(reach, normal)); });
+            } else {
+                return or_else(at_base, [&] { return is_near_end(at_first, dd, rim, gap); });
+            }
+        });
+    }
+
+private:
+    template <class H, class D, class N>
+    ABUT_HD static constexpr verdict is_near_end(const H& height, const D& dd, const N& rim, const N& gap) {
+        const auto over = (height * height) * dd - (rim + gap);
+        return or_else(is_not_positive(over), [&] { return is_not_negative((rim + rim) * (gap + gap) - over * over); });
     }
 };
 
