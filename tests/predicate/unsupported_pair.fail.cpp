@@ -2,4 +2,4 @@
 // expect: abut::intersects does not support this pair of shapes
 #include <abut/predicate/intersects.hpp>
 
-bool touch(const abut::ray<float>& r, const abut::aabb<float>& b) { return abut::intersects(r, b); }
+bool touch(const abut::ray<float>& r, const abut::segment<float>& s) { return abut::intersects(r, s); }

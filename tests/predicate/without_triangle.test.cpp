@@ -48,7 +48,7 @@ static_assert(intersects(plane<float>{{0, 0, 0}, 0}, plane<float>{{1, 2, 3}, 4})
 
 static_assert(test::pairs_have_their_orders<float> && test::pairs_have_their_orders<double>);
 static_assert(decidable_pair<aabb<float>, capsule<float>> && !decidable_pair<aabb<float>, capsule<double>>);
-static_assert(!decidable_pair<ray<float>, aabb<float>> && !decidable_pair<aabb<float>, ray<float>>);
+static_assert(!decidable_pair<ray<float>, segment<float>> && !decidable_pair<segment<float>, ray<float>>);
 
 template <class S, class U>
 bool touch_by_oracle(const S& s, const U& t) {

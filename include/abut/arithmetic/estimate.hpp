@@ -51,6 +51,14 @@ struct estimate {
         const double v = a.value * b.value, size = absolute(a.value);
         return {v, (size * b.error + a.error * (absolute(b.value) + b.error)) + roundoff * absolute(v)};
     }
+    ABUT_HD friend constexpr estimate operator-(const estimate& a) { return {-a.value, a.error}; }
+    /// The quotient of polynomials. Nothing is known of it where b may be 0 or it leaves the middle of the range.
+    ABUT_HD friend constexpr estimate operator/(const estimate& a, const estimate& b) {
+        const double divisor = absolute(b.value) - (1 + 0x1p-30) * b.error, v = a.value / b.value, size = absolute(v);
+        if (a.value == 0 && a.error == 0 && divisor > 0) return {0, 0};
+        if (!(divisor > 0 && size > 0x1p-900 && size < 0x1p900)) return {0, infinity<double>};
+        return {v, (a.error + size * b.error) / divisor + roundoff * size};
+    }
 };
 
 /// a^2 or |a|^2
@@ -124,12 +132,13 @@ ABUT_HD constexpr verdict or_else(verdict a, const Question& b) {
     return a == verdict::yes ? verdict::yes : a || b();
 }
 
-/// Question::ask of the values, where doubles can tell. In double also of floats.
-template <class Question, scalar T, std::size_t V>
-ABUT_HD constexpr verdict ask_estimates(const T (&value)[V]) {
+/// The power of two that values are multiplied by for polynomials of a degree, or 0 where these might underflow or denormal
+/// numbers might be read as 0. `digits`: what is left of a rounded number's error, 2^-digits of it.
+template <int Degree, int Digits, scalar T, std::size_t V>
+ABUT_HD constexpr double unit_of_estimates(const T (&value)[V]) {
     using format = float_format<T>;
     using word = typename format::word;
-    constexpr int top = 900 / Question::degree, span = 960 / Question::degree + top - 106;
+    constexpr int top = 900 / Degree, span = 960 / Degree + top - 54 - Digits;
     constexpr int bias = 2 - format::digits - format::min_exponent, far = 600;
     // By their bits, without a sign; less 1, which makes 0 the greatest of all.
     word most = 0, least_of_all = static_cast<word>(-1);
@@ -139,10 +148,16 @@ ABUT_HD constexpr verdict ask_estimates(const T (&value)[V]) {
         least_of_all = less < least_of_all ? less : least_of_all;
     }
     const int high = static_cast<int>(most >> format::digits), low = static_cast<int>(least_of_all >> format::digits);
-    // Denormal numbers may be read as 0.
     const int exponent = high - bias;
-    if (low < 1 || high - low >= span || exponent > far || exponent < -far) return verdict::unknown;
-    const double unit = power_of_two<double>(top - exponent);
+    if (low < 1 || high - low >= span || exponent > far || exponent < -far) return 0;
+    return power_of_two<double>(top - exponent);
+}
+
+/// Question::ask of the values, where doubles can tell. In double also of floats.
+template <class Question, scalar T, std::size_t V>
+ABUT_HD constexpr verdict ask_estimates(const T (&value)[V]) {
+    const double unit = unit_of_estimates<Question::degree, 52>(value);
+    if (unit == 0) return verdict::unknown;
     estimate number[V]{};
     for (int i = 0; i < int{V}; ++i) number[i] = {static_cast<double>(value[i]) * unit, 0};
     return Question::ask(number);

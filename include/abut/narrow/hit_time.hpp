@@ -26,22 +26,10 @@
 #include <abut/narrow/exact_hit_time.hpp>
 #include <abut/narrow/numbers.hpp>
 #include <abut/predicate/intersects.hpp>
+#include <abut/shape/line_of.hpp>
 #include <abut/shape/primitive.hpp>
 
 namespace abut::detail {
-
-/// A ray or a segment as origin + t (end - start).
-template <scalar T>
-struct line_of {
-    vec3<T> origin, end, start;
-    double last;  ///< time
-
-    ABUT_HD constexpr line_of(const ray<T>& r)
-        : origin(r.origin), end(r.direction), start{0, 0, 0}, last(infinity<double>) {}
-    ABUT_HD constexpr line_of(const segment<T>& s) : origin(s.a), end(s.b), start(s.a), last(1) {}
-
-    [[nodiscard]] ABUT_HD constexpr vec3<T> direction() const { return end - start; }
-};
 
 /// When a line crosses a plane, and by what share of itself that may be off: 1 where nothing is known.
 template <class N>
@@ -114,7 +102,7 @@ ABUT_HD constexpr time_bounds crossing_of(const plane_approach& met) {
 template <class Line, scalar T>
 ABUT_NOINLINE ABUT_HD constexpr double exact_hit_time(const Line& line, const triangle<T>& t) {
     const line_of<T> l(line);
-    exact_line<T> met(aligned<18>(in_a_row(l.origin, t.a, t.b, t.c, l.end, l.start).value), l.last == 1);
+    exact_line<T> met(aligned<18>(in_a_row(l.origin, t.a, t.b, t.c, l.end, l.start).value), l.has_end());
     return met.first_time();
 }
 

@@ -18,6 +18,7 @@
 #include <abut/predicate/plane_hull.hpp>
 #include <abut/predicate/plane_plane.hpp>
 #include <abut/predicate/ray_hull.hpp>
+#include <abut/predicate/ray_solid.hpp>
 #include <abut/predicate/ray_triangle.hpp>
 #include <abut/predicate/revolution.hpp>
 #include <abut/predicate/segment_triangle.hpp>

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// When a ray or a segment meets a solid: a ball, a box, a capsule, a cylinder or a cone. It is 0 where it begins inside, and
+// else the time at which it enters.
+//
+// `filtered` and `exact` give the true time as hit_time.hpp does, rounded to the nearest double, of two that are as near the
+// lesser. It is a quotient of differences or a root of a quadratic (predicate/line_solid.hpp). Estimates in double give
+// bounds; estimates in pairs of doubles tell nearly always how it is rounded. Where they do not, integers do
+// (predicate/exact_line_solid.hpp): a quotient is divided out, and a root is at most halfway between two doubles or it is
+// not, so that it is found among all doubles by halving their number.
+//
+// Errors of pairs. With u = 2^-53 a sum is off by less than 5 u^2 of itself, a product by 8 u^2, a quotient by 16 u^2 and a
+// root by 16 u^2 (numbers.hpp); 32 u^2 = 2^-101 is taken for each.
+
+#include <cstddef>
+#include <cstdint>
+
+#include <abut/arithmetic/arithmetic.hpp>
+#include <abut/arithmetic/estimate.hpp>
+#include <abut/arithmetic/limits.hpp>
+#include <abut/arithmetic/magnitude.hpp>
+#include <abut/narrow/hit_time.hpp>
+#include <abut/narrow/numbers.hpp>
+#include <abut/predicate/certified_line.hpp>
+#include <abut/predicate/intersects.hpp>
+#include <abut/predicate/line_solid.hpp>
+#include <abut/predicate/ray_solid.hpp>
+#include <abut/shape/line_of.hpp>
+#include <abut/shape/primitive.hpp>
+
+namespace abut::detail {
+
+/// A pair of doubles that is within `error` of a number: as `estimate`.
+struct fine_estimate {
+    contact_math::two_doubles value;
+    double error;
+
+    static constexpr double roundoff = 0x1p-101;
+
+    ABUT_HD friend constexpr fine_estimate operator+(const fine_estimate& a, const fine_estimate& b) {
+        const auto v = a.value + b.value;
+        return {v, (a.error + b.error) + roundoff * absolute(v.high)};
+    }
+    ABUT_HD friend constexpr fine_estimate operator-(const fine_estimate& a) { return {-a.value, a.error}; }
+    ABUT_HD friend constexpr fine_estimate operator-(const fine_estimate& a, const fine_estimate& b) { return a + -b; }
+    ABUT_HD friend constexpr fine_estimate operator*(const fine_estimate& a, const fine_estimate& b) {
+        const auto v = a.value * b.value;
+        const double lost = absolute(a.value.high) * b.error + a.error * (absolute(b.value.high) + b.error);
+        return {v, (1 + 0x1p-50) * lost + roundoff * absolute(v.high)};
+    }
+    ABUT_HD friend constexpr fine_estimate operator/(const fine_estimate& a, const fine_estimate& b) {
+        const double divisor = (1 - 0x1p-50) * absolute(b.value.high) - (1 + 0x1p-30) * b.error;
+        const auto v = a.value / b.value;
+        const double size = absolute(v.high);
+        if (a.value.high == 0 && a.error == 0 && divisor > 0) return {{0, 0}, 0};
+        if (!(divisor > 0 && size > 0x1p-900 && size < 0x1p900)) return {{0, 0}, infinity<double>};
+        return {v, (1 + 0x1p-50) * (a.error + size * b.error) / divisor + roundoff * size};
+    }
+};
+ABUT_HD constexpr fine_estimate root_of(const fine_estimate& x) {
+    if (x.value.high == 0) return {{0, 0}, 0};
+    const auto v = root(x.value);
+    return {v, x.error / v.high * (1 + 0x1p-50) + fine_estimate::roundoff * v.high};
+}
+ABUT_HD constexpr double value_of(const fine_estimate& x) { return x.value.high; }
+ABUT_HD constexpr int sign_or_unknown(const fine_estimate& x) {
+    return sign_or_unknown(estimate{x.value.high, (1 + 0x1p-30) * x.error + 0x1p-50 * absolute(x.value.high)});
+}
+
+/// By pairs of doubles, as estimated_entry.
+template <scalar T, line_solid S>
+ABUT_NOINLINE ABUT_HD constexpr line_entry<fine_estimate> entry_in_pairs(const line_of<T>& l, const S& s) {
+    const auto row = values_of(l, s);
+    const double unit = unit_of_estimates<degree_on_lines<S>, 101>(row.value);
+    if (unit == 0) return {verdict::unknown, -1, {}};
+    fine_estimate number[sizeof(row.value) / sizeof(T)]{};
+    for (std::size_t i = 0; i < sizeof(row.value) / sizeof(T); ++i) {
+        number[i] = {contact_math::two_doubles::of(static_cast<double>(row.value[i]) * unit), 0};
+    }
+    return enter(s, number, l.has_end(), fine_estimate{{1, 0}, 0});
+}
+
+/// An entry's time, or a negative number if it is not certain how it is rounded.
+ABUT_HD constexpr double rounded_time(const line_entry<fine_estimate>& entry) {
+    if (entry.met != verdict::yes) return -1;
+    if (entry.at_start()) return 0;
+    const auto& [high, low] = entry.time.value;
+    const double lost = (1 + 0x1p-30) * entry.time.error;
+    const bool is_certain = lost < 0x1p-59 * high && plain_sum(high, plain_sum(low, lost)) == high &&
+                            plain_sum(high, plain_sum(low, -lost)) == high;
+    return is_certain && high > smallest_normal<double> && high <= largest_finite<double> ? high : -1;
+}
+
+/// Halfway between a double of 0 or more, given by its bits, and the next one.
+template <int Room>
+ABUT_HD constexpr void set_halfway(std::uint64_t bits, long_fraction<Room>& to) {
+    const int biased = static_cast<int>(bits >> 52), exponent = (biased > 1 ? biased : 1) - 1076;
+    const auto mantissa =
+        static_cast<std::int64_t>((bits & ((std::uint64_t{1} << 52) - 1)) | std::uint64_t{biased > 0} << 52);
+    constexpr int limbs = 18;
+    to.over.clear(limbs);
+    to.under.clear(limbs);
+    add_shifted(to.over.limb, limbs, 2 * mantissa + 1, exponent > 0 ? exponent : 0, false);
+    add_shifted(to.under.limb, limbs, 1, exponent < 0 ? -exponent : 0, false);
+}
+
+/// A root rounded to the nearest double, of two that are as near to the lesser; or the largest one.
+template <scalar T>
+ABUT_NOINLINE ABUT_HD constexpr double rounded_root(const line_in_solid<T>& in) {
+    std::uint64_t low = 0, high = 0x7fefffffffffffff;
+    ABUT_ROLLED
+    while (low < high) {
+        const std::uint64_t middle = low + (high - low) / 2;
+        typename line_in_solid<T>::fraction halfway;
+        set_halfway(middle, halfway);
+        if (in.has_met_at(halfway)) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    return __builtin_bit_cast(double, low);
+}
+
+/// By integers, of any finite input; negative where it is not met.
+template <scalar T, line_solid S>
+ABUT_NOINLINE ABUT_HD constexpr double exact_entry(const line_of<T>& l, const S& s) {
+    double time = infinity<double>;
+    each_first_met(l, s, [&](first_met met, auto& in) {
+        if (met == first_met::root) time = least(time, rounded_root(in));
+        if (met == first_met::fraction) time = least(time, rounded_quotient(in.first().over, in.first().under));
+    });
+    return time < infinity<double> ? time : -1;
+}
+
+/// When a ray or a segment meets a solid, or a negative number if it does not.
+template <arithmetic A, class Line, line_solid S>
+ABUT_NOINLINE ABUT_HD constexpr double hit_time(const Line& line, const S& s) {
+    const line_of<scalar_type_of<S>> l(line);
+    if constexpr (std::same_as<A, fast>) {
+        const line_entry<double> entry = plain_entry(l, s);
+        return entry.met != verdict::yes ? -1 : entry.at_start() ? 0 : is_finite(entry.time) ? entry.time : 0;
+    } else {
+        if (std::same_as<A, filtered> && !__builtin_is_constant_evaluated()) {
+            const line_of<scalar_type_of<S>> stored(as_stored(line));
+            const entry_bounds bounds = certified_line(stored, as_stored(s));
+            if (bounds.met == verdict::no) return -1;
+            if (bounds.met == verdict::yes && bounds.last == 0) return 0;
+            const double time = rounded_time(entry_in_pairs(stored, as_stored(s)));
+            if (time >= 0) return time;
+        }
+        return exact_entry(l, s);
+    }
+}
+template <arithmetic A, class Line, line_solid S>
+ABUT_HD constexpr double hit_time_apart(const Line& line, const S& s) {
+    return hit_time<A>(line, s);
+}
+
+/// Bounds of what hit_time gives; nearly always in single doubles.
+template <arithmetic A, class Line, line_solid S>
+ABUT_HD constexpr time_bounds hit_time_bounds(const Line& line, const S& s) {
+    if constexpr (std::same_as<A, filtered>) {
+        if (!__builtin_is_constant_evaluated()) {
+            const entry_bounds bounds = certified_line(line_of<scalar_type_of<S>>(as_stored(line)), as_stored(s));
+            if (bounds.met == verdict::no) return {-1, -1};
+            if (bounds.met == verdict::yes) return {bounds.first, bounds.last};
+        }
+    }
+    const double time = hit_time_apart<A>(line, s);
+    return {time, time};
+}
+
+/// Whether it does at all.
+template <arithmetic A, class Line, line_solid S>
+ABUT_HD constexpr bool is_met(const Line& line, const S& s) {
+    using T = scalar_type_of<S>;
+    if constexpr (std::same_as<A, fast>) {
+        return plain_entry(line_of<T>(line), s).met == verdict::yes;
+    } else {
+        if (std::same_as<A, filtered> && !__builtin_is_constant_evaluated()) {
+            const verdict met = certified_line(line_of<T>(as_stored(line)), as_stored(s)).met;
+            if (met != verdict::unknown) return met == verdict::yes;
+        }
+        return meets_exactly(line_of<T>(line), s);
+    }
+}
+
+}  // namespace abut::detail
