@@ -3,6 +3,6 @@
 #include <abut/abut.hpp>
 
 int main() {
-    const abut::spheres<float> balls;
-    return abut::any(abut::serial{}, balls, abut::ray<float>{{0, 0, 0}, {1, 1, 1}});
+    const abut::segments<float> lines;
+    return abut::any(abut::serial{}, lines, abut::ray<float>{{0, 0, 0}, {1, 1, 1}});
 }

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// raycast: for each of many rays the triangle or convex hull that it meets first, and when; raycast_any: whether it meets
-// any.
+// raycast: for each of many rays the triangle or solid that it meets first, and when; raycast_any: whether it meets any.
 //
-// By definition the first is the shape with the least time, as narrow/hit_time.hpp and hull_hit_time.hpp give it, and of
-// equal ones the one with the least id. The walk is that of `nearest`: nearer child first, and no farther than what is
-// found. Whether there is any is the same walk, which ends at the first hit. raycast_all.hpp has all of them.
+// By definition the first is the shape with the least time, as narrow/hit_time.hpp, hull_hit_time.hpp and solid_hit_time.hpp
+// give it, and of equal ones the one with the least id. The walk is that of `nearest`: nearer child first, and no farther
+// than what is found. Whether there is any is the same walk, which ends at the first hit. raycast_all.hpp has all of them.
 
 #include <concepts>
 #include <cstddef>
@@ -21,6 +20,7 @@
 #include <abut/execution/ordered.hpp>
 #include <abut/narrow/hit_time.hpp>
 #include <abut/narrow/hull_hit_time.hpp>
+#include <abut/narrow/solid_hit_time.hpp>
 #include <abut/shape/ray_reach.hpp>
 #include <abut/traverse/from_each.hpp>
 
@@ -166,8 +166,9 @@ consteval bool can_be_met() {
         using shape_type = typename shape_of_argument<X>::type;
         using line_type = typename shape_of_argument<Lines>::type;
         using T = scalar_type_of<shape_type>;
-        constexpr bool are = std::same_as<shape_type, triangle<T>> || std::same_as<shape_type, hull<T>>;
-        static_assert(are, "abut: raycast looks for triangles or hulls: a mesh, a triangle_soup, hulls, or a tree of one");
+        constexpr bool are =
+            std::same_as<shape_type, triangle<T>> || std::same_as<shape_type, hull<T>> || line_solid<shape_type>;
+        static_assert(are, "abut: raycast looks for triangles, spheres, boxes, capsules, cylinders, cones or hulls");
         constexpr bool has_walk = !is_grid<X>;
         static_assert(has_walk, "abut: raycast takes a tree, a set or one shape, and no grid");
         constexpr bool look = is_line<line_type>;
@@ -246,17 +247,20 @@ auto raycast_any_of(const Policy& on, const X& index, const Lines& rays, const c
 
 }  // namespace detail
 
-/// For each of `rays` the triangle or hull of `index` that it meets first: a `result` of `ray_hit`, in the order of the
-/// rays. Of those that are met at one time it has the least id; where nothing is met, `no_id` and infinity.
+/// For each of `rays` the shape of `index` that it meets first: a `result` of `ray_hit`, in the order of the rays. Of those
+/// that are met at one time it has the least id; where nothing is met, `no_id` and infinity.
 ///
-/// `index` is a tree of any layout, a mesh, a triangle_soup, hulls, a view or one triangle or hull, posed or not. `rays` are
-/// `rays` or `segments`: a set, a view, or one. Segments are met from their first end to their second, at times from 0 to 1.
-/// Triangles are met from both sides, and along their planes; a hull, which is solid, at 0 where a ray begins in it.
+/// `index` is a tree of any layout, a set, a view or one shape, posed or not: of triangles (a mesh, a triangle_soup), or of
+/// spheres, boxes, capsules, cylinders, cones or hulls, which are solid. Boxes take no pose. `rays` are `rays` or `segments`:
+/// a set, a view, or one. Segments are met from their first end to their second, at times from 0 to 1.
+/// Triangles are met from both sides, and along their planes; a solid where a ray enters it, and at 0 if the ray begins in it
+/// or on its surface. A ray of direction 0 meets what its origin is in, at 0.
 ///
 /// With `filtered` and `exact` whether a ray meets a shape is decided exactly: none slips through a closed mesh, not
 /// through an edge and not through a vertex. Times are the true ones rounded to the nearest double, by which they are
 /// compared, and then to the scalar type; those above its largest number are that. So shapes that are met at one place
-/// are met at one time. The same bits on every policy. `fast` is approximate.
+/// are met at one time. The same bits on every policy. A segment meets a shape if and only if `intersects` says so. `fast`
+/// is approximate.
 ///
 /// @par Memory
 /// As in @ref queries. The result lies in the policy's memory, 8 bytes a ray in float and 16 in double.

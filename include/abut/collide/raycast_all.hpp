@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// raycast_all: for each of many rays all triangles or hulls that it meets, in the order in which it meets them.
+// raycast_all: for each of many rays all triangles or solids that it meets, in the order in which it meets them.
 //
 // The rays walk once to count what each meets, and those that meet more than a few walk again to write it where it belongs.
 // So memory is what the answer takes, and room for those few. Each ray then brings its own hits into order.
@@ -169,8 +169,8 @@ auto raycast_all_of(const Policy& on, const X& index, const Lines& rays, const c
 
 }  // namespace detail
 
-/// All triangles or hulls of `index` that each of `rays` meets: a `result` of `hit_of_ray`, sorted by the ray's number, then
-/// by t, then by id. The first hit of a ray is that of `raycast`. A ray that meets nothing has none.
+/// All shapes of `index` that each of `rays` meets: a `result` of `hit_of_ray`, sorted by the ray's number, then by t, then
+/// by id. The first hit of a ray is that of `raycast`. A ray that meets nothing has none.
 ///
 /// Arguments, and what is decided exactly, are those of `raycast`. Order is that of the times as `raycast` compares them, in
 /// double, also where t is a float. A ray through an edge meets both faces at it.
