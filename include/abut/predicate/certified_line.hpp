@@ -16,8 +16,9 @@
 // A ball. Sums of magnitudes of w and e are W and E. Coordinates of w and e are off by u of themselves, so b is off by less
 // than 6u W E, and c by less than 8u (|w|^2 + r^2). Those of w x e are off by less than 5u W E together, and W E <= 3 |w|
 // |e|: so m is off by less than 2 * 15u |w|^2 |e|^2 and 5u of each of its terms, in all less than 2^-46 (|w|^2 + r^2) |e|^2.
-// The time c / (v - b) is that of two numbers above 0. Where both sums of squares are above `least_square`, what is flushed
-// is less than 2^-8 u of any of this.
+// The time c / (v - b) is that of two numbers above 0. Twice the sum of their relative errors is taken, if that is below a
+// half: so it is more than their quotient's. Where both sums of squares are above `least_square`, what is flushed is less
+// than 2^-8 u of any of this.
 //
 // A capsule, a cylinder and a cone are nowhere farther than r from their axis. The line of the axis is passed at more than r
 // if (w . g)^2 > r^2 |g|^2 for g = e x d. With sums of magnitudes W, E and D the left one's root is off by less than 12u W E
@@ -72,8 +73,8 @@ ABUT_HD constexpr entry_bounds enter_ball(const line_of<T>& l, const sphere<T>& 
     if (m < -error_of_m) return no;
     if (!(m > error_of_m && b < -error_of_b)) return unknown;
     const double v = square_root(m), below = v - b;
-    const double relative = error_of_c / c + (error_of_m / v + error_of_b) / below + 0x1p-49;
-    return bounds_before(c / below, relative, l.last);
+    const double relative = error_of_c / c + (error_of_m / v + error_of_b) / below;
+    return bounds_before(c / below, 2 * relative + 0x1p-49, l.last);
 }
 
 /// Whether a line passes the line of an axis at more than r; only if that is certain.
