@@ -78,6 +78,10 @@ TEST_CASE("raycast of solids: by hand") {
     CHECK(first(sphere<float>{{0, 0, 1e30f}, 1}, line{{0, 0, 0}, {0, 0, 1e-30f}}) == std::numeric_limits<float>::max());
     CHECK(raycast<fast>(serial{}, ball, line{{0, 0, 0}, {0, 0, 2}}).to_host()[0] == ray_hit<float>{0, 1.5f});
     CHECK(raycast<fast>(serial{}, hat, line{{-1, 0, 6}, {0.5f, 0, -1}}).to_host()[0] == ray_hit<float>{0, 2});
+    const line beside_ruling{{-2, 0, 4}, {0.5f, 0, -1}}, to_ruling{{1, 0, 0}, {-0.5f, 0, 1}};
+    CHECK(first(hat, beside_ruling) == 2);
+    CHECK(raycast<fast>(serial{}, hat, beside_ruling).to_host()[0] == ray_hit<float>{0, 2});
+    CHECK(raycast<fast>(serial{}, hat, to_ruling).to_host()[0] == ray_hit<float>{0, 0});
     static_assert(intersects(ray<float>{{0, 0, 0}, {0, 0, 2}}, sphere<float>{{0, 0, 5}, 2}));
     static_assert(!intersects(cone<float>{{0, 0, 4}, {0, 0, 0}, 2}, ray<float>{{-1, 0, 4.5f}, {1, 0, 0}}));
     static_assert(intersects<fast>(ray<float>{{0, 0, 0}, {0, 0, 2}}, capsule<float>{{{0, 0, 5}, {1, 0, 5}}, 2}));

@@ -214,6 +214,24 @@ TEMPLATE_TEST_CASE("solid hit time: filters in every rounding mode", "", sphere<
     check_filter_of<TestType>();
 }
 
+TEST_CASE("solid hit time: next to halfway between two doubles") {
+    // From -x to 2^53, beside which doubles are 2 apart: at 2^53 + x.
+    const auto time = [](double x) {
+        const ray<double> line{{-x, 0, 0}, {1, 0, 0}};
+        const double by_box = hit_time<filtered>(line, aabb<double>{{0x1p53, -1, -1}, {0x1p54, 1, 1}});
+        CHECK(by_box == hit_time<exact>(line, aabb<double>{{0x1p53, -1, -1}, {0x1p54, 1, 1}}));
+        CHECK(by_box == hit_time<filtered>(line, sphere<double>{{0x1p53 + 8, 0, 0}, 8}));
+        CHECK(by_box == hit_time<exact>(line, sphere<double>{{0x1p53 + 8, 0, 0}, 8}));
+        CHECK(by_box == hit_time<filtered>(line, cylinder<double>{{{0x1p53, 0, 0}, {0x1p53 + 8, 0, 0}}, 8}));
+        return by_box;
+    };
+    CHECK(time(1) == 0x1p53);
+    CHECK(time(1 - 0x1p-53) == 0x1p53);
+    CHECK(time(1 + 0x1p-52) == 0x1p53 + 2);
+    CHECK(time(3) == 0x1p53 + 2);
+    CHECK(time(3 + 0x1p-51) == 0x1p53 + 4);
+}
+
 TEMPLATE_TEST_CASE("solid hit time: rounded to nearest in every family", "", float, double) {
     SECTION("spheres") { check_times_of<sphere<TestType>>(); }
     SECTION("boxes") { check_times_of<aabb<TestType>>(); }

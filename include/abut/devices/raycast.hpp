@@ -66,8 +66,8 @@ auto all_hits_of_devices(const Team& team, const std::vector<There>& there, cons
 /// @addtogroup devices
 ///@{
 
-/// For each of `rays` the triangle of `index` that it meets first, as `raycast` finds it under one policy, bit for bit: a
-/// `result` of `ray_hit` in memory of the first device. `index` is a set or a tree of triangles that is replicated or
+/// For each of `rays` the shape of `index` that it meets first, as `raycast` finds it under one policy, bit for bit: a
+/// `result` of `ray_hit` in memory of the first device. `index` is a set or a tree of shapes that is replicated or
 /// divided, posed or not; `rays` are rays or segments that are replicated, or a set of them in host memory, which is copied
 /// to each device. Where the index is divided, each device looks for all rays in its part, and holds 16 bytes for each of
 /// them, the first device twice.
@@ -90,7 +90,7 @@ template <arithmetic A = filtered, execution::policy_team Team, class X, class R
     }
 }
 
-/// For each of `rays` whether it meets any triangle of `index`, as under one policy: a `result` of `std::uint8_t` in memory
+/// For each of `rays` whether it meets any shape of `index`, as under one policy: a `result` of `std::uint8_t` in memory
 /// of the first device, 1 or 0. Arguments are those of `raycast`.
 template <arithmetic A = filtered, execution::policy_team Team, class X, class Rays>
 [[nodiscard]] auto raycast_any(const Team& team, const X& index, const Rays& rays) {
@@ -104,7 +104,7 @@ template <arithmetic A = filtered, execution::policy_team Team, class X, class R
     }
 }
 
-/// All triangles of `index` that each of `rays` meets, as under one policy: a `result` of `hit_of_ray` in memory of the
+/// All shapes of `index` that each of `rays` meets, as under one policy: a `result` of `hit_of_ray` in memory of the
 /// first device, sorted by the ray's number, then by t, then by id. Arguments are those of `raycast`. The first device holds
 /// 48 bytes for each hit besides the result.
 template <arithmetic A = filtered, execution::policy_team Team, class X, class Rays>

@@ -209,7 +209,7 @@ auto all_hits_of_ranks(const distributed<Local>& on, const Here& here) {
 /// @addtogroup distributed
 ///@{
 
-/// For each of this rank's `rays` the triangle of all parts that it meets first: a `result` of `global_ray_hit`, in the
+/// For each of this rank's `rays` the shape of all parts that it meets first: a `result` of `global_ray_hit`, in the
 /// order of the rays, in the local policy's memory; 16 bytes each. `index` is this rank's part, and `rays` this rank's rays
 /// or segments; both as of `raycast` under the local policy. Rays go to ranks whose parts they may meet before what is
 /// known, at most 65,536 in a message. The answers are those of one machine, bit for bit.
@@ -230,7 +230,7 @@ template <arithmetic A = filtered, execution_policy Local, class X, class Rays>
     }
 }
 
-/// For each of this rank's `rays` whether it meets any triangle of all parts: a `result` of `std::uint8_t`, 1 or 0.
+/// For each of this rank's `rays` whether it meets any shape of all parts: a `result` of `std::uint8_t`, 1 or 0.
 /// Arguments are those of `raycast`. A ray that has met something goes nowhere else.
 template <arithmetic A = filtered, execution_policy Local, class X, class Rays>
 [[nodiscard]] auto raycast_any(const distributed<Local>& on, const X& index, const Rays& rays) {
@@ -244,7 +244,7 @@ template <arithmetic A = filtered, execution_policy Local, class X, class Rays>
     }
 }
 
-/// All triangles of all parts that each of this rank's `rays` meets: a `result` of `global_hit_of_ray`, sorted by the ray's
+/// All shapes of all parts that each of this rank's `rays` meets: a `result` of `global_hit_of_ray`, sorted by the ray's
 /// number, then by t, then by id. The lists of all ranks, one after another, are the list of one machine. Arguments are
 /// those of `raycast`.
 ///
