@@ -264,6 +264,8 @@ auto raycast_any_of(const Policy& on, const X& index, const Lines& rays, const c
 ///
 /// @par Memory
 /// As in @ref queries. The result lies in the policy's memory, 8 bytes a ray in float and 16 in double.
+/// Under `cuda` the last stage has a stack of 1.7 KB in float and 8.7 KB in double for triangles, and of 4.3 and 23 KB for
+/// spheres, boxes, capsules, cylinders and cones. CUDA sets that aside once for all threads that the device holds at a time.
 ///
 /// @par Errors
 /// - `invalid_geometry`: a view, a single shape or a ray has a number that is not finite, or a pose is no rotation.
