@@ -84,7 +84,7 @@ struct rolled_int {
         ABUT_ROLLED
         for (int i = 0; i < n; ++i) limb[i] = 0;
     }
-    /// The same, and 0 in all its room in a constant expression, which copies no number that was not set.
+    /// The same, and 0 in all its room in a constant expression.
     ABUT_HD constexpr void begin(int n) {
         clear(__builtin_is_constant_evaluated() ? Room : n);
         count = n;

@@ -90,12 +90,12 @@ auto trees_with_least_ids(const Operand& x) requires requires {
 }
 { return std::span(&x.tree_with_least_ids(), 1); }
 template <class Index>
-auto trees_with_least_ids(const placed_bodies<Index>& x) requires layout_with_least_ids<typename Index::view_type> {
+auto trees_with_least_ids(const placed_bodies<Index>& x) requires tree_with_room_for_least_ids<Index> {
     return std::span(std::as_const(x.objects->indices));
 }
 ///@}
 
-/// The least ids of all trees of one side, where somebody has made them. By trees; null for trees without nodes.
+/// The least ids of all trees of one side, made where they are not there yet. By trees; null for trees without nodes.
 template <class Policy, class Trees>
 std::vector<const std::uint32_t*> all_least_ids(const Policy& on, const Trees& trees) {
     std::vector<const std::uint32_t*> all;
@@ -123,22 +123,26 @@ auto first_touches(const Policy& on, Pairing& pairing, std::size_t n) {
     if constexpr (host_policy<Policy> && requires { trees_with_least_ids(pairing.a), trees_with_least_ids(pairing.b); }) {
         const auto a = trees_with_least_ids(pairing.a);
         const auto b = trees_with_least_ids(pairing.b);
-        const auto holds_for_all = [&](const auto& test) {
+        const auto all = [&](const auto& test) {
             return std::all_of(a.begin(), a.end(), test) && std::all_of(b.begin(), b.end(), test);
         };
-        if (!holds_for_all([](const auto& tree) { return has_least_ids(tree); })) {
-            if (n == 1 && !holds_for_all([](const auto& tree) { return wants_least_ids(tree); })) {
-                look();
-                if (first.data()[0] != no_pair) want_least_ids(a[0]), want_least_ids(b[0]);
-                return first;
+        const bool are_there = all([](const auto& tree) { return has_least_ids(tree); });
+        // Of one entry there is one tree on each side. One of a single shape is not walked with the other.
+        const bool is_pair = n == 1 && a[0].size() > 1 && b[0].size() > 1;
+        if (n > 1 || (is_pair && (are_there || all([](const auto& tree) { return wants_least_ids(tree); })))) {
+            if (!are_there) {
+                execution::work_flag<host_space> any(on);
+                search(on, pairing, touch<filtered>{}, any);
+                if (!any.raised()) return first;
             }
-            execution::work_flag<host_space> any(on);
-            search(on, pairing, touch<filtered>{}, any);
-            if (!any.raised()) return first;
+            const auto least_a = all_least_ids(on, a), least_b = all_least_ids(on, b);
+            filter.least_a = least_a.data(), filter.least_b = least_b.data();
+            look();
+            filter.least_a = filter.least_b = nullptr;
+            return first;
         }
-        const auto least_a = all_least_ids(on, a), least_b = all_least_ids(on, b);
-        filter.least_a = least_a.data(), filter.least_b = least_b.data();
         look();
+        if (is_pair && first.data()[0] != no_pair) want_least_ids(a[0]), want_least_ids(b[0]);
     } else {
         look();
     }
@@ -477,10 +481,10 @@ consteval bool can_be_apart() {
 /// two shapes.
 ///
 /// @par Memory
-/// As in @ref queries. Nothing is stored for each pair. A tree in host memory keeps 4 bytes for each shape once
-/// two calls have found that something touches, or one of a list. Under `cuda` a walk of two trees keeps a stack of 289
-/// pairs of nodes, 3.5 KB in float and 4.6 KB in double, in the device's local memory, which CUDA sets aside once for all
-/// threads that the device holds at a time.
+/// As in @ref queries. Nothing is stored for each pair. Trees of two children a node in host memory keep 4 bytes for
+/// each shape once two calls have found that something touches, or one call of a list of two entries or more; while these
+/// are made it takes 12. Under `cuda` a walk of two trees keeps a stack of 289 pairs of nodes, 3.5 KB in float and 4.6 KB in
+/// double, in the device's local memory, which CUDA sets aside once for all threads that the device holds at a time.
 ///
 /// @par Errors
 /// As in @ref queries, and `error` where `below` is NaN.

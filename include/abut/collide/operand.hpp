@@ -52,8 +52,7 @@ struct indexed_operand<bvh<Set, Space, Layout>> {
         return index.stored().along_curve;
     }
     /// Of layouts that have them (index/least_ids.hpp).
-    [[nodiscard]] const auto& tree_with_least_ids() const requires
-        layout_with_least_ids<typename bvh<Set, Space, Layout>::view_type> {
+    [[nodiscard]] const auto& tree_with_least_ids() const requires tree_with_room_for_least_ids<bvh<Set, Space, Layout>> {
         return index;
     }
     /// Around all shapes, of which there are some.

@@ -321,11 +321,18 @@ struct push_pair {
     }
 };
 
+/// Of a user's filter members of these names say nothing.
+template <class Filter>
+concept asked_of_subtrees = requires(const Filter& f) {
+    { f.least_a } -> std::same_as<const std::uint32_t* const* const&>;
+    { f.least_b } -> std::same_as<const std::uint32_t* const* const&>;
+};
+
 /// One step down two trees, of which the rows' is the walk's first.
 ///
-/// A filter may leave out, with a pair, all pairs of ids that are no less. Such a one is asked of subtrees as well, by their
-/// least ids: its `least_a[0]` and `least_b[0]` say these of each node of the trees (index/least_ids.hpp). Both tables may
-/// be null.
+/// A filter may leave out, with a pair, all pairs in which neither id is less. Such a one is asked of subtrees as well, by
+/// their least ids: its `least_a[0]` and `least_b[0]` say these of each node of the trees (index/least_ids.hpp). Both tables
+/// may be null.
 template <bool RowsAreB, class Walk, class Ids>
 struct expand_pair {
     using item = typename Walk::item;
@@ -347,7 +354,7 @@ struct expand_pair {
 
 private:
     [[nodiscard]] ABUT_INLINE ABUT_HD bool may_be_wanted([[maybe_unused]] const item& at) const {
-        if constexpr (requires { ids.filter.least_a; }) {
+        if constexpr (asked_of_subtrees<decltype(ids.filter)>) {
             if (ids.filter.least_a == nullptr) return true;
             const std::uint32_t* const of_rows = (RowsAreB ? ids.filter.least_b : ids.filter.least_a)[0];
             const std::uint32_t* const of_others = (RowsAreB ? ids.filter.least_a : ids.filter.least_b)[0];

@@ -112,7 +112,7 @@ struct bvh_view_base {
     }
 };
 
-/// The least ids below a tree's nodes (index/least_ids.hpp), for all trees of its topology.
+/// The least ids below a tree's nodes (index/least_ids.hpp), for it and all trees that were refitted from it.
 template <memory_space Space>
 struct shared_least_ids {
     std::mutex making;                             ///< held by who looks or makes
@@ -127,7 +127,7 @@ struct bvh_storage {
     using view = typename Layout::template view<T, Space>;
     execution::buffer<typename view::stored_node, Space> nodes;  ///< one fewer than shapes where nodes have two children
     execution::buffer<bvh_root<T>, Space> root;                  ///< one; none where there are no shapes
-    /// Made by the second `distance` that has use for them.
+    /// Made by the second `distance` that has use for them, or the first of a list.
     std::shared_ptr<shared_least_ids<Space>> least_ids = std::make_shared<shared_least_ids<Space>>();
 
     /// The view of a tree of so many shapes.
@@ -178,7 +178,7 @@ struct standard_layout {
         std::shared_ptr<shared_refit_plan<Space>> plan = std::make_shared<shared_refit_plan<Space>>();
         /// Whether node k lies between leaves k and k + 1 of an order, as the linear builder makes them.
         bool along_curve = false;
-        /// Shared alike; made by the second `distance` that has use for them.
+        /// Shared alike; made by the second `distance` that has use for them, or the first of a list.
         std::shared_ptr<shared_least_ids<Space>> least_ids = std::make_shared<shared_least_ids<Space>>();
 
         /// The view of a tree of so many shapes.

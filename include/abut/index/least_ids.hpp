@@ -25,6 +25,13 @@ concept layout_with_least_ids = Layout::width == 2 && requires(const Layout& tre
     { tree.nodes[0].child[0] } -> std::convertible_to<bvh_child>;
 };
 
+/// Trees whose storage keeps them too: layouts of a user need not.
+template <class Index>
+concept tree_with_room_for_least_ids = layout_with_least_ids<typename Index::view_type> && requires(const Index& tree) {
+    tree.stored().least_ids->made;
+    tree.stored().nodes.size();
+};
+
 /// To be folded up (walk_order.hpp).
 template <class Node>
 struct join_least_ids {

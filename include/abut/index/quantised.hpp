@@ -84,7 +84,7 @@ struct quantised_layout {
         execution::buffer<quantised_node, Space> nodes;  ///< one fewer than shapes
         execution::buffer<bvh_root<T>, Space> root;      ///< one; none where there are no shapes
         quantised_frame<T> frame{};                      ///< where cells lie
-        /// Made by the second `distance` that has use for them.
+        /// Made by the second `distance` that has use for them, or the first of a list.
         std::shared_ptr<shared_least_ids<Space>> least_ids = std::make_shared<shared_least_ids<Space>>();
 
         /// The view of a tree of so many shapes.

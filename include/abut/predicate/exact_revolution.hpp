@@ -349,7 +349,7 @@ struct revolution_meets_ball {
 };
 
 /// The axis's ends, the ball's centre, both radii, and a distance from the ball: one from its centre that is longer by the
-/// ball's radius. That sum takes a bit more than its terms do, as differences do.
+/// ball's radius. That sum, and with the solid's radius, takes two bits at most of those that integers have to spare.
 template <class Solid>
 struct revolution_within_of_ball {
     static constexpr int degree = revolution_meets_ball<Solid>::degree;
