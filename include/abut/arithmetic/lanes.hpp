@@ -116,6 +116,23 @@ ABUT_INLINE ABUT_HD lanes<T, Register> absolute(lanes<T, Register> x) {
     return x;
 }
 
+/// As they are, in registers that a compiler cannot look behind: a product in them is not contracted into a sum.
+template <scalar T, class Register>
+ABUT_INLINE ABUT_HD lanes<T, Register> rounded(lanes<T, Register> x) {
+#if !ABUT_DEVICE_CODE
+    for (Register& r : x.at) {
+#if defined(__SSE2__)
+        __asm__("" : "+x"(r));
+#elif defined(__aarch64__)
+        __asm__("" : "+w"(r));
+#else
+        __asm__("" : "+m"(r));
+#endif
+    }
+#endif
+    return x;
+}
+
 /// The lesser and the greater of each two numbers: the second of two that do not compare, as of single ones (magnitude.hpp).
 ///@{
 template <scalar T, class Register>

@@ -83,10 +83,25 @@ ABUT_HD constexpr double gap_of_boxes(const aabb<T>& a, const aabb<T>& b) {
 
 /// A distance that is known to be positive, as it is measured: never below that of the boxes, so that culling by boxes loses
 /// nothing.
+///@{
+template <scalar T>
+ABUT_HD constexpr double positive_distance_over(const aabb<T>& a, const aabb<T>& b, double measured) {
+    return greatest(measured, gap_of_boxes(a, b), 0x1p-1074);
+}
 template <class S, class U>
 ABUT_HD constexpr double positive_distance(const S& s, const U& t, double measured) {
-    return greatest(measured, gap_of_boxes(bounds(s), bounds(t)), 0x1p-1074);
+    return positive_distance_over(bounds(s), bounds(t), measured);
 }
+/// Of measured hulls, whose boxes are known.
+template <class U, class Measured>
+ABUT_HD constexpr double positive_distance_of(const U& t, const Measured& m) {
+    if constexpr (refers_to_memory<U>) {
+        return positive_distance_over(m.nearest.box_a, m.nearest.box_b, m.distance());
+    } else {
+        return positive_distance_over(m.nearest.box_a, bounds(t), m.distance());
+    }
+}
+///@}
 
 /// Two shapes that do not touch, measured.
 template <scalar T>
@@ -209,7 +224,7 @@ template <class S, class U>
 ABUT_NOINLINE ABUT_HD constexpr distance_and_way distance_apart(const S& s, const U& t) {
     if constexpr (measured_hulls<S, U>) {
         return with_measured_hulls(s, t, false, [&](const auto& m) {
-            return distance_and_way{positive_distance(s, t, m.distance()), m.way()};
+            return distance_and_way{positive_distance_of(t, m), m.way()};
         });
     } else if constexpr (requires { s.normal; }) {
         return {positive_distance(s, t, measured_plane(s, t).length)};
@@ -237,8 +252,7 @@ ABUT_NOINLINE ABUT_HD constexpr auto separation_apart(const S& s, const U& t) {
     using T = scalar_type_of<S>;
     if constexpr (measured_hulls<S, U>) {
         return with_measured_hulls(s, t, false, [&](const auto& m) {
-            return separation<T>{0, 0, m.point_on_a(), m.point_on_b(),
-                                 rounded_distance<T>(positive_distance(s, t, m.distance()))};
+            return separation<T>{0, 0, m.point_on_a(), m.point_on_b(), rounded_distance<T>(positive_distance_of(t, m))};
         });
     } else if constexpr (requires { s.normal; }) {
         const measured_plane<T> m(s, t);

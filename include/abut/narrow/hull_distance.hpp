@@ -81,28 +81,26 @@ public:
     using number = contact_math::one_double;
     static constexpr int most_steps = 64;
 
-    ABUT_HD constexpr hulls_in_plain_doubles(const hull<T>& a, const hull<T>& b) : a_(a), b_(b) {
-        double largest = 0;
-        for (std::size_t i = 0; i < a.count; ++i) largest = greatest(largest, contact_math::largest_of(widened(a[i])));
-        for (std::size_t j = 0; j < b.count; ++j) largest = greatest(largest, contact_math::largest_of(widened(b[j])));
+    ABUT_HD constexpr hulls_in_plain_doubles(const hull<T>& a, const hull<T>& b)
+        : a_(a), b_(b), kept_a_(a), kept_b_(b), box_a_(box_around(a, kept_a_)), box_b_(box_around(b, kept_b_)) {
+        const double largest = greatest(farthest_coordinate(box_a_), farthest_coordinate(box_b_));
         const bool far = std::same_as<T, double> && (largest > 0x1p200 || largest < 0x1p-200);
         if (largest > 0 && far) down_ = -contact_math::exponent_of(largest) - 2;
+        keep_as_seen(kept_a_, b[0]);
+        keep_as_seen(kept_b_, a[0]);
     }
+    /// Around the hulls.
+    ///@{
+    [[nodiscard]] ABUT_HD constexpr aabb<T> box_a() const { return narrowed(box_a_); }
+    [[nodiscard]] ABUT_HD constexpr aabb<T> box_b() const { return narrowed(box_b_); }
+    ///@}
     [[nodiscard]] ABUT_HD constexpr vec3<number> difference(std::uint32_t i, std::uint32_t j) const {
-        return seen(a_[i], b_[j]);
+        return seen(widened(a_[i]), widened(b_[j]));
     }
     /// Points are seen from one of the other hull, from which none is farther than the largest difference.
     ABUT_HD constexpr void look_back(const vec3<number>& way, std::uint32_t& i, std::uint32_t& j) const {
-        const vec3<T> one_of_a = a_[0], one_of_b = b_[0];
-        number back{infinity<double>}, front{-infinity<double>};
-        for (std::size_t k = 0; k < a_.count; ++k) {
-            const number x = dot(way, seen(a_[k], one_of_b));
-            if (x < back) back = x, i = static_cast<std::uint32_t>(k);
-        }
-        for (std::size_t k = 0; k < b_.count; ++k) {
-            const number x = dot(way, seen(b_[k], one_of_a));
-            if (front < x) front = x, j = static_cast<std::uint32_t>(k);
-        }
+        look_back(a_, kept_a_, b_, way, i);
+        look_back(b_, kept_b_, a_, {-way.x, -way.y, -way.z}, j);
     }
     [[nodiscard]] ABUT_HD constexpr bool are_apart(const vec3<number>&, std::uint32_t, std::uint32_t) const { return false; }
     ABUT_HD constexpr verdict holds_origin(const vec3<number> (&)[4], const difference_simplex&) const {
@@ -120,14 +118,41 @@ public:
     [[nodiscard]] ABUT_HD constexpr double length_of(const number& x) const { return contact_math::scaled(x.high, -down_); }
 
 private:
-    ABUT_HD constexpr vec3<number> seen(const vec3<T>& p, const vec3<T>& from) const {
-        vec3<double> x = widened(p), y = widened(from);
-        if (down_ != 0) x = contact_math::scaled(x, down_), y = contact_math::scaled(y, down_);
-        return contact_math::between<number>(y, x);
+    ABUT_HD constexpr vec3<number> seen(vec3<double> p, vec3<double> from) const {
+        if (down_ != 0) p = contact_math::scaled(p, down_), from = contact_math::scaled(from, down_);
+        return contact_math::between<number>(from, p);
+    }
+    /// Of numbers that are of T.
+    ABUT_HD static constexpr aabb<T> narrowed(const aabb<double>& box) {
+        const vec3<double>&l = box.lower, &u = box.upper;
+        return {{static_cast<T>(l.x), static_cast<T>(l.y), static_cast<T>(l.z)},
+                {static_cast<T>(u.x), static_cast<T>(u.y), static_cast<T>(u.z)}};
+    }
+    ABUT_HD static constexpr aabb<double> box_around(const hull<T>& h, const kept_points<double>& kept) {
+        aabb<double> box = kept.box();
+        for (std::size_t i = kept.size(); i < h.count; ++i) box = merge(box, bounds(widened(h[i])));
+        return box;
+    }
+    ABUT_HD constexpr void keep_as_seen(kept_points<double>& kept, const vec3<T>& from) const {
+        if (down_ == 0) return kept.see_from(widened(from));
+        kept.replace([&](const vec3<double>& p) { return contact_math::rounded_off(seen(p, widened(from))); });
+    }
+    ABUT_HD constexpr void look_back(const hull<T>& h, const kept_points<double>& kept, const hull<T>& other,
+                                     const vec3<number>& way, std::uint32_t& first) const {
+        number back{infinity<double>};
+        kept.look_back(contact_math::rounded_off(way), back.high, first);
+        if (kept.size() == h.count) return;
+        const vec3<double> from = widened(other[0]);
+        for (std::size_t k = kept.size(); k < h.count; ++k) {
+            const number x = dot(way, seen(widened(h[k]), from));
+            if (x < back) back = x, first = static_cast<std::uint32_t>(k);
+        }
     }
 
     const hull<T>&a_, &b_;
     int down_ = 0;
+    kept_points<double> kept_a_, kept_b_;
+    aabb<double> box_a_, box_b_;
 };
 
 /// Points of two hulls that are as near to each other as any, as means of the hulls' points, and their distance; or, where
@@ -137,11 +162,14 @@ struct nearest_in_hulls {
     difference_simplex at;
     double weight[4] = {1, 0, 0, 0};
     double length = 0;
+    aabb<T> box_a, box_b;  ///< around the hulls
 
     /// Where it is known whether the shapes touch, another feature may be taken that is as near, but for rounding.
     ABUT_NOINLINE ABUT_HD constexpr nearest_in_hulls(const hull<T>& a, const hull<T>& b, verdict known = verdict::unknown) {
         vec3<contact_math::one_double> rough[4];
         const hulls_in_plain_doubles<T> doubles(a, b);
+        box_a = doubles.box_a();
+        box_b = doubles.box_b();
         const verdict seems = search_origin<sought::nearest>(doubles, at, rough);
         const bool may_do = known != verdict::unknown && !(known == verdict::no && seems == verdict::yes);
         if (may_do && measure_in_doubles(doubles, rough, known)) return;

@@ -31,6 +31,7 @@
 #include <abut/arithmetic/strict.hpp>
 #include <abut/predicate/certified_ball.hpp>
 #include <abut/predicate/gjk.hpp>
+#include <abut/predicate/kept_points.hpp>
 #include <abut/shape/hull.hpp>
 #include <abut/shape/primitive.hpp>
 #include <abut/shape/shape.hpp>
@@ -92,6 +93,12 @@ ABUT_HD constexpr int certain_side(const vec3<double>& p, const vec3<double>& q,
     return volume > bound ? 1 : volume < -bound ? -1 : 0;
 }
 
+/// The largest magnitude of a coordinate in a box.
+ABUT_HD constexpr double farthest_coordinate(const aabb<double>& box) {
+    const vec3<double> far = greatest(absolute(box.lower), absolute(box.upper));
+    return greatest(far.x, far.y, far.z);
+}
+
 /// Two hulls in numbers of type F: the input's own, for `fast`, or double with the certificates above.
 template <bool Certified, scalar T>
 class hulls_in_floats {
@@ -99,8 +106,9 @@ public:
     using number = std::conditional_t<Certified, double, T>;
     static constexpr int most_steps = 64;
 
-    ABUT_HD constexpr hulls_in_floats(const hull<T>& a, const hull<T>& b) : a_(a), b_(b), origin_(a[0]) {
-        const vec3<number> middle_a = middle_of(a), middle_b = middle_of(b);
+    ABUT_HD constexpr hulls_in_floats(const hull<T>& a, const hull<T>& b)
+        : a_(a), b_(b), origin_(a[0]), kept_a_(a), kept_b_(b) {
+        const vec3<number> middle_a = middle_of(a, kept_a_), middle_b = middle_of(b, kept_b_);
         middle_way_ = middle_a - middle_b;
     }
     [[nodiscard]] ABUT_HD constexpr vec3<number> way_between_middles() const { return middle_way_; }
@@ -108,15 +116,8 @@ public:
         return seen(a_[i], b_[j]);
     }
     ABUT_HD constexpr void look_back(const vec3<number>& way, std::uint32_t& i, std::uint32_t& j) const {
-        number back = infinity<number>, front = -infinity<number>;
-        for (std::size_t k = 0; k < a_.count; ++k) {
-            const number x = dot(way, seen(a_[k], origin_));
-            if (x < back) back = x, i = static_cast<std::uint32_t>(k);
-        }
-        for (std::size_t k = 0; k < b_.count; ++k) {
-            const number x = dot(way, seen(b_[k], origin_));
-            if (x > front) front = x, j = static_cast<std::uint32_t>(k);
-        }
+        look_back(a_, kept_a_, way, i);
+        look_back(b_, kept_b_, {-way.x, -way.y, -way.z}, j);
     }
     /// How far a difference lies ahead of the origin along a way, times the length of the way.
     [[nodiscard]] ABUT_HD constexpr number ahead(const vec3<number>& way, std::uint32_t i, std::uint32_t j) const {
@@ -161,10 +162,27 @@ private:
             return p - from;
         }
     }
-    /// The mean of a hull's points, which on the way count for the size of all.
-    ABUT_HD constexpr vec3<number> middle_of(const hull<T>& h) {
+    ABUT_HD constexpr void look_back(const hull<T>& h, const kept_points<number>& kept, const vec3<number>& way,
+                                     std::uint32_t& first) const {
+        number back = infinity<number>;
+        kept.look_back(way, back, first);
+        for (std::size_t k = kept.size(); k < h.count; ++k) {
+            const number x = dot(way, seen(h[k], origin_));
+            if (x < back) back = x, first = static_cast<std::uint32_t>(k);
+        }
+    }
+    /// The mean of a hull's points, which on the way are seen from the origin and count for the size of all. For `fast` they
+    /// are added one by one, as a device does.
+    ABUT_HD constexpr vec3<number> middle_of(const hull<T>& h, kept_points<number>& kept) {
         vec3<number> sum{0, 0, 0};
-        for (std::size_t i = 0; i < h.count; ++i) {
+        kept.see_from({static_cast<number>(origin_.x), static_cast<number>(origin_.y), static_cast<number>(origin_.z)});
+        if constexpr (Certified) {
+            if (kept.size() > 0) size_ = greatest(size_, farthest_coordinate(kept.box()));
+            sum = kept.sum();
+        } else {
+            for (std::size_t i = 0; i < kept.size(); ++i) sum = sum + kept[i];
+        }
+        for (std::size_t i = kept.size(); i < h.count; ++i) {
             const vec3<number> r = seen(h[i], origin_);
             if constexpr (Certified) size_ = greatest(size_, absolute(r.x), absolute(r.y), absolute(r.z));
             sum = sum + r;
@@ -183,6 +201,7 @@ private:
     vec3<T> origin_;
     vec3<number> middle_way_{0, 0, 0};
     double size_ = 0;
+    kept_points<number> kept_a_, kept_b_;
 };
 
 /// The unit of two hulls' coordinates, and how many bits the largest takes in it.
