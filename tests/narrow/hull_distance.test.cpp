@@ -224,6 +224,55 @@ TEMPLATE_TEST_CASE("distance of hulls: needles and blades", "", float, double) {
     CHECK(sum.point < 16);
 }
 
+TEMPLATE_TEST_CASE("distance of hulls: the same as where it is known whether they touch", "", float, double) {
+    using T = TestType;
+    std::uint64_t near = 0, touching = 0;
+    const auto compare = [&](const auto& s, const auto& t) {
+        const bool touch = intersects<exact>(s, t);
+        const auto asked = distance(s, t);
+        CHECK(asked == detail::separation_of(s, t, touch));
+        CHECK((asked.distance == 0) == touch);
+        touching += touch;
+        return asked;
+    };
+    for (const test::hull_family f : hull_families) {
+        for (std::uint64_t k = 0; k < test::sample_count() / 20 / test::thinned_by(f); ++k) {
+            const auto both = test::make_hull_pair<T>(test::sample_seed + 6, f, k);
+            const hull<T> a = test::hull_over(both.a), b = test::hull_over(both.b);
+            INFO(test::name_of(f) << " " << k);
+            compare(a, b);
+            // A ball that just touches, or just does not.
+            const vec3<T> p = both.b[0];
+            const auto apart = compare(a, p);
+            if (apart.distance == 0 || !(apart.distance < largest_finite<T> / 4)) continue;
+            const T step = apart.distance * unit_roundoff<T>;
+            for (const T radius : {apart.distance - 4 * step, apart.distance, apart.distance + 4 * step}) {
+                compare(a, sphere<T>{p, radius});
+                compare(sphere<T>{p, radius}, a);
+                ++near;
+            }
+        }
+    }
+    CHECK(near > 100);
+    CHECK(touching > 100);
+}
+
+TEMPLATE_TEST_CASE("distance of hulls: a far corner hides no meeting", "", float, double) {
+    using T = TestType;
+    // What is near looks apart beside rounding of what is far.
+    for (int k = 0; k < 100; ++k) {
+        const T far = static_cast<T>(std::ldexp(1.0, k)), off = static_cast<T>(std::ldexp(1.0, -k));
+        const vec3<T> a[4] = {{0, 0, 0}, {far, far, far}, {far, -far, far}, {far, 0, -far}},
+                      b[4] = {{-1, -1, off}, {-1, 1, off}, {far, 0, off}, {-2, 0, -off}};
+        for (int n = 1; n <= 4; ++n) {
+            const hull<T> x(a, 4), y(b, static_cast<std::size_t>(n));
+            INFO(k << " " << n);
+            CHECK((distance(x, y).distance == 0) == intersects<exact>(x, y));
+            CHECK((distance(y, x).distance == 0) == intersects<exact>(x, y));
+        }
+    }
+}
+
 TEMPLATE_TEST_CASE("nearest point of a hull: one that integers leave out is as far as the box", "", float, double) {
     using T = TestType;
     const T step = test::construction::least_denormal<T>;

@@ -246,14 +246,19 @@ ABUT_HD constexpr T rounded_distance(double distance) {
     return d > 0 ? d : least_positive;
 }
 
-/// The same with the points, and ids 0.
+/// Of measured hulls that do not touch, with the points, and ids 0.
+template <class U, class Measured>
+ABUT_HD constexpr auto separation_of_hulls_apart(const U& t, const Measured& m) {
+    using T = scalar_type_of<U>;
+    return separation<T>{0, 0, m.point_on_a(), m.point_on_b(), rounded_distance<T>(positive_distance_of(t, m))};
+}
+
+/// The same of any shapes.
 template <class S, class U>
 ABUT_NOINLINE ABUT_HD constexpr auto separation_apart(const S& s, const U& t) {
     using T = scalar_type_of<S>;
     if constexpr (measured_hulls<S, U>) {
-        return with_measured_hulls(s, t, false, [&](const auto& m) {
-            return separation<T>{0, 0, m.point_on_a(), m.point_on_b(), rounded_distance<T>(positive_distance_of(t, m))};
-        });
+        return with_measured_hulls(s, t, false, [&](const auto& m) { return separation_of_hulls_apart(t, m); });
     } else if constexpr (requires { s.normal; }) {
         const measured_plane<T> m(s, t);
         return separation<T>{0, 0, m.on_plane, m.on_shape, rounded_distance<T>(positive_distance(s, t, m.length))};
@@ -304,6 +309,24 @@ ABUT_HD constexpr auto separation_of(const S& s, const U& t, bool touch) {
             shared = contact_between(s, t).point;
         }
         return separation<T>{0, 0, shared, shared, T(0)};
+    }
+}
+
+/// Two shapes of which it is not known whether they touch. Of hulls the search for the distance mostly tells that too.
+template <class S, class U>
+ABUT_HD constexpr auto separation_of(const S& s, const U& t) {
+    using T = scalar_type_of<S>;
+    if constexpr (measured_hulls<S, U>) {
+        const auto ask = [&] { return intersects(s, t); };
+        return with_asked_hulls(s, t, ask, [&](const auto& m, bool touch) {
+            if (!touch) return separation_of_hulls_apart(t, m);
+            const vec3<T> shared = m.shared_point();
+            return separation<T>{0, 0, shared, shared, T(0)};
+        });
+    } else if constexpr (!measured_as_given<S, U> && measured_hulls<U, S>) {
+        return reversed(separation_of(t, s));
+    } else {
+        return separation_of(s, t, intersects(s, t));
     }
 }
 
@@ -412,7 +435,7 @@ template <shape S, shape U>
     constexpr bool are = detail::measurable<S, U>;
     static_assert(are, "abut: there is no distance of this pair of shapes");
     if constexpr (are) {
-        return detail::separation_of(detail::as_stored(s), detail::as_stored(t), intersects(s, t));
+        return detail::separation_of(detail::as_stored(s), detail::as_stored(t));
     } else {
         return separation<scalar_type_of<S>>{};
     }

@@ -16,9 +16,13 @@
 // 4u D apart at most, the distance is no less than |v| - 28u D and no more than |v| + 9u D. And of hulls that touch, a mean
 // that is no longer than 4u D tells a point of each that are no farther apart than 13u D.
 //
+// So the doubles mostly tell whether the shapes touch, and then nobody else is asked. D is no more than 4 times the largest
+// coordinate L, so that 28u D is below 2^-46 L: shapes are apart if what is measured is longer than their radii by 2^-44 L.
+// That the origin is inside of a tetrahedron has the certificate of hull_numbers.hpp.
+//
 // Integers of two words for each degree do, for any input: what of a coordinate is below 2^-124 of the largest one is cut
 // off. That changes a distance by less than 2^-120 of the largest coordinate, which is far below what rounding does. It may
-// take hulls that do not touch for ones that do: so nothing here decides whether they do.
+// make hulls meet that do not touch: so integers are not what tells whether shapes do.
 
 #include <concepts>
 #include <cstddef>
@@ -83,9 +87,9 @@ public:
 
     ABUT_HD constexpr hulls_in_plain_doubles(const hull<T>& a, const hull<T>& b)
         : a_(a), b_(b), kept_a_(a), kept_b_(b), box_a_(box_around(a, kept_a_)), box_b_(box_around(b, kept_b_)) {
-        const double largest = greatest(farthest_coordinate(box_a_), farthest_coordinate(box_b_));
-        const bool far = std::same_as<T, double> && (largest > 0x1p200 || largest < 0x1p-200);
-        if (largest > 0 && far) down_ = -contact_math::exponent_of(largest) - 2;
+        largest_ = greatest(farthest_coordinate(box_a_), farthest_coordinate(box_b_));
+        const bool far = std::same_as<T, double> && (largest_ > 0x1p200 || largest_ < 0x1p-200);
+        if (largest_ > 0 && far) down_ = -contact_math::exponent_of(largest_) - 2;
         keep_as_seen(kept_a_, b[0]);
         keep_as_seen(kept_b_, a[0]);
     }
@@ -116,6 +120,18 @@ public:
     }
     /// A length in units of the hulls.
     [[nodiscard]] ABUT_HD constexpr double length_of(const number& x) const { return contact_math::scaled(x.high, -down_); }
+    /// Whether hulls whose distance was measured are farther apart than some length, for sure.
+    [[nodiscard]] ABUT_HD constexpr bool are_surely_beyond(double length, double measured) const {
+        const double off = 0x1p-44 * (largest_ + length) + 8 * lost_of_differences<T>;
+        return down_ == 0 && measured - length > off;
+    }
+    /// Whether they meet, for sure, where a simplex of differences seems to hold the origin.
+    [[nodiscard]] ABUT_HD constexpr bool surely_meet(const vec3<number> (&w)[4], const difference_simplex& at) const {
+        if (down_ != 0 || at.count != 4) return false;
+        vec3<double> v[4];
+        for (int k = 0; k < 4; ++k) v[k] = contact_math::rounded_off(w[k]);
+        return hold_origin<T>(v);
+    }
 
 private:
     ABUT_HD constexpr vec3<number> seen(vec3<double> p, vec3<double> from) const {
@@ -150,6 +166,7 @@ private:
     }
 
     const hull<T>&a_, &b_;
+    double largest_ = 0;  ///< coordinate
     int down_ = 0;
     kept_points<double> kept_a_, kept_b_;
     aabb<double> box_a_, box_b_;
@@ -168,16 +185,24 @@ struct nearest_in_hulls {
     ABUT_NOINLINE ABUT_HD constexpr nearest_in_hulls(const hull<T>& a, const hull<T>& b, verdict known = verdict::unknown) {
         vec3<contact_math::one_double> rough[4];
         const hulls_in_plain_doubles<T> doubles(a, b);
-        box_a = doubles.box_a();
-        box_b = doubles.box_b();
-        const verdict seems = search_origin<sought::nearest>(doubles, at, rough);
-        const bool may_do = known != verdict::unknown && !(known == verdict::no && seems == verdict::yes);
-        if (may_do && measure_in_doubles(doubles, rough, known)) return;
-        const unit_of_hulls<T> unit = unit_of(a, b);
-        const integers x(a, b, unit);
-        vec3<number> w[4];
-        const bool meet = search_origin<sought::nearest>(x, at, w) == verdict::yes;
-        measure(w, meet, unit.low);
+        const verdict seems = search(doubles, rough);
+        finish(a, b, doubles, rough, seems, known);
+    }
+    /// The same where it is not known whether shapes touch, of which the hulls are the cores and which reach `radii` around
+    /// them. `touch` is set to that: what the doubles do not tell for sure, `ask()` does.
+    template <class Ask>
+    ABUT_NOINLINE ABUT_HD constexpr nearest_in_hulls(const hull<T>& a, const hull<T>& b, double radii, const Ask& ask,
+                                                     bool& touch) {
+        vec3<contact_math::one_double> rough[4];
+        const hulls_in_plain_doubles<T> doubles(a, b);
+        const verdict seems = search(doubles, rough);
+        if (seems != verdict::yes && measure_in_doubles(doubles, rough, verdict::no) &&
+            doubles.are_surely_beyond(radii, length)) {
+            touch = false;
+            return;
+        }
+        touch = (seems == verdict::yes && doubles.surely_meet(rough, at)) || ask();
+        finish(a, b, doubles, rough, seems, to_verdict(touch));
     }
     /// What the hulls are in integers.
     using integers = hulls_in_integers<2, T, true>;
@@ -213,6 +238,23 @@ private:
     static constexpr int room = 2;
     using number = rolled_int<room>;
 
+    /// In doubles.
+    ABUT_HD constexpr verdict search(const hulls_in_plain_doubles<T>& doubles, vec3<contact_math::one_double> (&rough)[4]) {
+        box_a = doubles.box_a();
+        box_b = doubles.box_b();
+        return search_origin<sought::nearest>(doubles, at, rough);
+    }
+    /// From where the search in doubles came to.
+    ABUT_HD constexpr void finish(const hull<T>& a, const hull<T>& b, const hulls_in_plain_doubles<T>& doubles,
+                                  const vec3<contact_math::one_double> (&rough)[4], verdict seems, verdict known) {
+        const bool may_do = known != verdict::unknown && !(known == verdict::no && seems == verdict::yes);
+        if (may_do && measure_in_doubles(doubles, rough, known)) return;
+        const unit_of_hulls<T> unit = unit_of(a, b);
+        const integers x(a, b, unit);
+        vec3<number> w[4];
+        const bool meet = search_origin<sought::nearest>(x, at, w) == verdict::yes;
+        measure(w, meet, unit.low);
+    }
     ABUT_HD constexpr vec3<double> mean(const hull<T>& h, const std::uint32_t (&ids)[4]) const {
         const vec3<double> first = widened(h[ids[0]]);
         vec3<double> sum{0, 0, 0};
@@ -337,6 +379,15 @@ struct measured_hull_pair {
           radius_b(static_cast<double>(around_b)),
           a(of_a),
           b(of_b) {}
+    /// Of which it is not known whether they touch.
+    template <class Ask>
+    ABUT_HD constexpr measured_hull_pair(const hull<T>& of_a, T around_a, const hull<T>& of_b, T around_b, const Ask& ask,
+                                         bool& touch)
+        : nearest(of_a, of_b, plain_sum(static_cast<double>(around_a), static_cast<double>(around_b)), ask, touch),
+          radius_a(static_cast<double>(around_a)),
+          radius_b(static_cast<double>(around_b)),
+          a(of_a),
+          b(of_b) {}
 
     [[nodiscard]] ABUT_HD constexpr double distance() const {
         return plain_sum(nearest.length, -plain_sum(radius_a, radius_b));
@@ -366,6 +417,17 @@ ABUT_HD constexpr auto with_measured_hulls(const S& s, const U& t, bool touch, c
     const auto points_b = core_points_of(t);
     return f(measured_hull_pair<scalar_type_of<S>>(points_a.as_hull(), radius_around_core(s), points_b.as_hull(),
                                                    radius_around_core(t), to_verdict(touch)));
+}
+/// The same where that is not known, and ask() tells it: f is called of the pair and of whether it touches.
+template <class S, class U, class Ask, class F>
+ABUT_HD constexpr auto with_asked_hulls(const S& s, const U& t, const Ask& ask, const F& f) {
+    const auto points_a = core_points_of(s);
+    const auto points_b = core_points_of(t);
+    using T = scalar_type_of<S>;
+    const hull<T>&a = points_a.as_hull(), &b = points_b.as_hull();  // which measured hulls refer to
+    bool touch = false;
+    const measured_hull_pair<T> m(a, radius_around_core(s), b, radius_around_core(t), ask, touch);
+    return f(m, touch);
 }
 
 }  // namespace abut::detail

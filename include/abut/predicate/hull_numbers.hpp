@@ -99,6 +99,14 @@ ABUT_HD constexpr double farthest_coordinate(const aabb<double>& box) {
     return greatest(far.x, far.y, far.z);
 }
 
+/// Whether the tetrahedron of four differences holds the origin, for certain.
+template <scalar T>
+ABUT_HD constexpr bool hold_origin(const vec3<double> (&w)[4]) {
+    const int side = certain_side<T>(w[1], w[2], w[3]);
+    return side != 0 && certain_side<T>(w[0], w[3], w[2]) == side && certain_side<T>(w[0], w[1], w[3]) == side &&
+           certain_side<T>(w[0], w[2], w[1]) == side;
+}
+
 /// Two hulls in numbers of type F: the input's own, for `fast`, or double with the certificates above.
 template <bool Certified, scalar T>
 class hulls_in_floats {
@@ -137,14 +145,7 @@ public:
         if constexpr (!Certified) {
             return verdict::yes;
         } else {
-            if (at.count == 4) {
-                const int side = certain_side<T>(w[1], w[2], w[3]);
-                if (side != 0 && certain_side<T>(w[0], w[3], w[2]) == side && certain_side<T>(w[0], w[1], w[3]) == side &&
-                    certain_side<T>(w[0], w[2], w[1]) == side) {
-                    return verdict::yes;
-                }
-            }
-            return when_lost(at);
+            return at.count == 4 && hold_origin<T>(w) ? verdict::yes : when_lost(at);
         }
     }
     [[nodiscard]] ABUT_HD constexpr verdict when_lost(const difference_simplex& at) const {
