@@ -183,8 +183,10 @@ private:
     }
 #endif
 
+    static constexpr std::size_t held = room > 0 ? room + block : 1;
+
     std::size_t size_ = 0;
-    alignas(16) F x_[room + block], y_[room + block], z_[room + block];
+    alignas(16) F x_[held], y_[held], z_[held];
 };
 
 }  // namespace abut::detail
