@@ -265,8 +265,8 @@ private:
     }
 
     /// From the search in doubles. False, with nothing changed, where these do not tell enough.
-    ABUT_HD constexpr bool measure_in_doubles(const hulls_in_plain_doubles<T>& x,
-                                              const vec3<contact_math::one_double> (&w)[4], verdict known) {
+    ABUT_NOINLINE ABUT_HD constexpr bool measure_in_doubles(const hulls_in_plain_doubles<T>& x,
+                                                            const vec3<contact_math::one_double> (&w)[4], verdict known) {
         using contact_math::one_double;
         one_double share[4] = {{1}, {0}, {0}, {0}};
         if (at.count == 2) {
