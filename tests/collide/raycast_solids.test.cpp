@@ -117,3 +117,30 @@ TEST_CASE("raycast of solids: sets and views of each kind") {
     CHECK(in_boxes[0].id == 0);
     CHECK(in_boxes[0].t <= 4);
 }
+
+TEST_CASE("raycast: times that are rounded far, at the ends of the range, are equal in trees too") {
+    // The last shape is met first, at a time that is rounded to that of all others.
+    const auto check = [](const auto& all, const ray<double>& line) {
+        const serial on;
+        const auto tree = make_bvh(on, all);
+        CHECK(raycast(on, all, line)[0].id == 0);
+        CHECK(raycast(on, tree, line)[0].id == 0);
+        CHECK(raycast(on, wide(on, tree), line)[0].id == 0);
+        CHECK(raycast(on, quantised(on, tree), line)[0].id == 0);
+    };
+    std::vector<sphere<double>> late, near;
+    std::vector<triangle<double>> faces;
+    const auto face_at = [](double x) { return triangle<double>{{x, -1, -1}, {x, 1, -1}, {x, 0, 2}}; };
+    for (int i = 0; i < 40; ++i) {
+        late.push_back({{140 - 0.1 * i, 0, 0}, 1});
+        near.push_back({{0x1p-80 * (1 + 0.001 * i), 0, 0}, 0x1p-95});
+        faces.push_back(face_at(140 - 0.1 * i));
+    }
+    late.push_back({{60, 0, 0}, 1});
+    near.push_back({{0, 0, 0}, 0x1p-100});
+    faces.push_back(face_at(60));
+    const ray<double> slow{{0, 0, 0}, {0x1p-1020, 0, 0}}, fast_one{{0, 0, 0}, {0x1p1000, 0, 0}};
+    check(spheres<double>(late), slow);
+    check(triangle_soup<double>(faces), slow);
+    check(spheres<double>(near), fast_one);
+}

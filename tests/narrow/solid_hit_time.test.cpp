@@ -239,3 +239,26 @@ TEMPLATE_TEST_CASE("solid hit time: rounded to nearest in every family", "", flo
     SECTION("cylinders") { check_times_of<cylinder<TestType>>(); }
     SECTION("cones") { check_times_of<cone<TestType>>(); }
 }
+
+TEST_CASE("solid hit time: a box so long that the way to its end overflows") {
+    // It leaves the box's slab in x long before it comes to the box's height.
+    constexpr double h = 1.7e308;
+    const aabb<double> far{{-h, 0x1p200, -1}, {h, 0x1p201, 1}}, flat{{-h, 0.5, -1}, {h, 3, 1}};
+    const ray<double> steep{{-h, 0, 0}, {0x1p900, 1, 0}}, steeper{{-h, 0, 0}, {0x1p999, 0x1p-30, 0}};
+    const auto check = [](const ray<double>& line, const aabb<double>& box, int axis) {
+        const auto turned = [axis](vec3<double> v) {
+            for (int k = 0; k < axis; ++k) detail::rotate(v.x, v.y, v.z);
+            return v;
+        };
+        const ray<double> l{turned(line.origin), turned(line.direction)};
+        const aabb<double> b{turned(box.lower), turned(box.upper)};
+        CHECK(hit_time<exact>(l, b) < 0);
+        CHECK(hit_time<filtered>(l, b) < 0);
+        CHECK(detail::hit_time_bounds<filtered>(l, b).first < 0);
+        CHECK_FALSE(intersects(l, b));
+    };
+    for (int axis = 0; axis < 3; ++axis) {
+        check(steep, far, axis);
+        check(steeper, flat, axis);
+    }
+}

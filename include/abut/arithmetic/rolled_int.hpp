@@ -56,27 +56,12 @@ ABUT_NOINLINE ABUT_HD constexpr void add_shifted(std::uint64_t* r, int n, std::i
     }
 }
 
-ABUT_NOINLINE ABUT_HD constexpr void copy_limbs(std::uint64_t* to, const std::uint64_t* from, int n) {
-    ABUT_ROLLED
-    for (int i = 0; i < n; ++i) to[i] = from[i];
-}
-
 /// A number in two's complement, of `count` limbs, the least significant first; no more than `Room`. Sums wrap: whoever sets
 /// the count leaves room for what is added.
 template <int Room>
 struct rolled_int {
     std::uint64_t limb[std::size_t{Room}];  // not initialised
-    int count = 0;
-
-    // Copies no more than it has, and no unrolled loop over all of its room: also what a function returns would be copied so
-    // in a kernel, if it were trivial to copy.
-    rolled_int() = default;
-    ABUT_HD constexpr rolled_int(const rolled_int& other) : count(other.count) { copy_limbs(limb, other.limb, count); }
-    ABUT_HD constexpr rolled_int& operator=(const rolled_int& other) {
-        count = other.count;
-        copy_limbs(limb, other.limb, count);
-        return *this;
-    }
+    int count;
 
     /// 0, of n limbs.
     ABUT_HD constexpr void clear(int n) {

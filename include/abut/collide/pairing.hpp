@@ -321,11 +321,11 @@ struct push_pair {
     }
 };
 
-/// Of a user's filter members of these names say nothing.
-template <class Filter>
-concept asked_of_subtrees = requires(const Filter& f) {
-    { f.least_a } -> std::same_as<const std::uint32_t* const* const&>;
-    { f.least_b } -> std::same_as<const std::uint32_t* const* const&>;
+/// Pairs by their ids, with a filter that is asked of subtrees. Of a user's filter members of these names say nothing.
+template <class Ids>
+concept asked_of_subtrees = requires(const Ids& ids) {
+    { ids.filter.least_a } -> std::same_as<const std::uint32_t* const* const&>;
+    { ids.filter.least_b } -> std::same_as<const std::uint32_t* const* const&>;
 };
 
 /// One step down two trees, of which the rows' is the walk's first.
@@ -354,7 +354,7 @@ struct expand_pair {
 
 private:
     [[nodiscard]] ABUT_INLINE ABUT_HD bool may_be_wanted([[maybe_unused]] const item& at) const {
-        if constexpr (asked_of_subtrees<decltype(ids.filter)>) {
+        if constexpr (asked_of_subtrees<Ids>) {
             if (ids.filter.least_a == nullptr) return true;
             const std::uint32_t* const of_rows = (RowsAreB ? ids.filter.least_b : ids.filter.least_a)[0];
             const std::uint32_t* const of_others = (RowsAreB ? ids.filter.least_a : ids.filter.least_b)[0];

@@ -10,8 +10,8 @@
 //
 // A box. A time is a difference times the inverse of another one: 5 roundings, of which 2^-49 of it is taken, and f times
 // the inverse. Coordinates of the direction are 0, by their bits, or held above 2^54 f, so that their own flush is no more
-// than a rounding. What overflows is infinite or no number, and tells nothing. Begins are compared with the ends in other
-// coordinates alone: in their own they are in order, also if the box is flat.
+// than a rounding. What overflows is infinite or no number, and an end that is no number leaves the question open. Begins
+// are compared with the ends in other coordinates alone: in their own they are in order, also if the box is flat.
 //
 // A ball. Sums of magnitudes of w and e are W and E. Coordinates of w and e are off by u of themselves, so b is off by less
 // than 6u W E, and c by less than 8u (|w|^2 + r^2). Those of w x e are off by less than 5u W E together, and W E <= 3 |w|
@@ -127,8 +127,8 @@ ABUT_HD constexpr entry_bounds enter_box(const line_of<T>& l, const aabb<T>& box
     const double later = greatest(x.begin_before, y.begin_before, z.begin_before);
     const bool is_before_ends = x.begin_before <= least(y.end_after, z.end_after) &&
                                 y.begin_before <= least(x.end_after, z.end_after) &&
-                                z.begin_before <= least(x.end_after, y.end_after) &&
-                                least(x.end_after, y.end_after, z.end_after) >= 0 && later <= l.last;
+                                z.begin_before <= least(x.end_after, y.end_after) && x.end_after >= 0 && y.end_after >= 0 &&
+                                z.end_after >= 0 && later <= l.last;
     if (!(is_before_ends && later <= largest_finite<double>)) return unknown;
     if (later <= 0) return {verdict::yes, 0, 0};
     return first > 0 ? entry_bounds{verdict::yes, first, later} : unknown;

@@ -141,7 +141,7 @@ public:
             const bool is_met = value_at(last_) <= 0 || (slope_at(last_) > 0 && m_.sign() >= 0);
             return is_met ? first_met::root : first_met::nothing;
         }
-        // A time without end is left only to a point, of which q is constant.
+        // A time without end is left to a direction of 0 alone, of which q is constant.
         if (last_.under.sign() == 0) return first_met::nothing;
         return value_at(last_) <= 0 ? first_met::root : first_met::nothing;
     }

@@ -24,7 +24,7 @@
 // and
 // (-b + v) / a, or c / (v - b) and c / (-v - b), whichever has no difference of like numbers.
 //
-// A ray meets the solid if all begins are before all ends and these are not before 0, and it meets it first at the last
+// A ray meets the solid if no begin is after an end and no end is before 0, and it meets it first at the last
 // begin, or at 0. Times are estimates, too; equal ones, as at a rim or an edge, leave the question open.
 //
 // Degree 4, 6 and 8.
@@ -71,7 +71,9 @@ struct round_part<cone<T>> {
 };
 
 template <class S>
-concept round_solid = requires { round_part<S>::degree; };
+concept round_solid = requires {
+    round_part<S>::degree;
+};
 /// What a line meets as it enters.
 template <class S>
 concept line_solid = round_solid<S> || std::same_as<S, aabb<scalar_type_of<S>>>;
@@ -340,12 +342,13 @@ ABUT_NOINLINE ABUT_HD constexpr line_entry<estimate> estimated_entry(const line_
     return enter(s, number, l.has_end(), estimate{1, 0});
 }
 
-/// In plain doubles, for `fast`.
+/// In plain doubles, for `fast`; in a unit in which nothing overflows or vanishes, if there is one.
 template <scalar T, line_solid S>
 ABUT_NOINLINE ABUT_HD constexpr line_entry<double> plain_entry(const line_of<T>& l, const S& s) {
     const auto row = values_of(l, s);
+    const double unit = unit_of_estimates<degree_on_lines<S>, 52>(row.value), factor = unit == 0 ? 1 : unit;
     double number[sizeof(row.value) / sizeof(T)]{};
-    for (std::size_t i = 0; i < sizeof(row.value) / sizeof(T); ++i) number[i] = static_cast<double>(row.value[i]);
+    for (std::size_t i = 0; i < sizeof(row.value) / sizeof(T); ++i) number[i] = static_cast<double>(row.value[i]) * factor;
     return enter(s, number, l.has_end(), 1.0);
 }
 

@@ -52,7 +52,8 @@ struct direction_scale {
     T first, second;  ///< in two steps, since 2^-e need not be a normal number
 
     ABUT_HD explicit direction_scale(T largest)
-        : exponent(exponent_of_normal(largest)), first(power_of_two<T>(-exponent / 2)),
+        : exponent(exponent_of_normal(largest)),
+          first(power_of_two<T>(-exponent / 2)),
           second(power_of_two<T>(-exponent - -exponent / 2)) {}
     [[nodiscard]] ABUT_HD T divide(T x) const { return plain_product(plain_product(x, first), second); }
 };
@@ -139,8 +140,10 @@ struct ray_reach {
     }
     /// The limit for such a bound, where times are 2^exponent times as long.
     ABUT_HD static T limit_of(double bound, int exponent) {
+        if (bound >= largest_finite<double>) return most;
         constexpr double grown = 1 + 32 * static_cast<double>(unit_roundoff<T>);
-        const double scaled = times_power_of_two(bound, exponent) * grown + 4 * static_cast<double>(smallest_normal<T>);
+        const double scaled = times_power_of_two(bound + smallest_normal<double>, exponent) * grown +
+                              4 * static_cast<double>(smallest_normal<T>);
         return scaled < static_cast<double>(most) ? static_cast<T>(scaled) : most;
     }
 };
@@ -209,7 +212,7 @@ public:
 
 private:
     alignas(16) T in_[3][4], out_[3][4], factor_[3][4];
-    alignas(16) T limit_[4], most_[4];  ///< `most` from memory: g++ takes four instructions for the lesser of a constant
+    alignas(16) T limit_[4], most_[4];   ///< `most` from memory: g++ takes four instructions for the lesser of a constant
     std::size_t enters_[3], leaves_[3];  ///< where the planes of boxes begin that the ray passes first and last
     ray_reach<T> one_;
 };
