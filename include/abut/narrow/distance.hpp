@@ -312,18 +312,20 @@ ABUT_HD constexpr auto separation_of(const S& s, const U& t, bool touch) {
     }
 }
 
-/// Two shapes of which it is not known whether they touch. Of hulls the search for the distance mostly tells that too.
+/// Two shapes of which it is not known whether they touch. Of hulls the search for the distance mostly tells that too; a
+/// device asks both, which is less code.
 template <class S, class U>
 ABUT_HD constexpr auto separation_of(const S& s, const U& t) {
     using T = scalar_type_of<S>;
-    if constexpr (measured_hulls<S, U>) {
+    constexpr bool on_device = ABUT_DEVICE_CODE != 0;
+    if constexpr (measured_hulls<S, U> && !on_device) {
         const auto ask = [&] { return intersects(s, t); };
         return with_asked_hulls(s, t, ask, [&](const auto& m, bool touch) {
             if (!touch) return separation_of_hulls_apart(t, m);
             const vec3<T> shared = m.shared_point();
             return separation<T>{0, 0, shared, shared, T(0)};
         });
-    } else if constexpr (!measured_as_given<S, U> && measured_hulls<U, S>) {
+    } else if constexpr (!measured_as_given<S, U> && measured_hulls<U, S> && !on_device) {
         return reversed(separation_of(t, s));
     } else {
         return separation_of(s, t, intersects(s, t));

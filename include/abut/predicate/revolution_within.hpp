@@ -7,6 +7,7 @@
 // how far those are from a rim takes polynomials of a higher degree.
 
 #include <concepts>
+#include <cstddef>
 
 #include <abut/arithmetic/arithmetic.hpp>
 #include <abut/arithmetic/estimate.hpp>
@@ -36,6 +37,17 @@ requires revolution_and_center<S, U> ABUT_HD constexpr auto values_within(const 
     const auto axis = axis_of(s);
     return in_a_row(exactly(axis.a), exactly(axis.b), exactly(core_of(t).at[0]), widened_exactly(s.radius),
                     widened_exactly(radius_around_core(t)), distance);
+}
+
+/// The exact stage. Polynomials of degree 12, in limbs that are written out, are a megabyte of a kernel. So a device asks
+/// them of integers whose length is known at run time.
+template <class Question, scalar T, std::size_t V>
+ABUT_HD constexpr verdict ask_integers(const T (&value)[V]) {
+    if constexpr (ABUT_DEVICE_CODE != 0) {
+        return decide_at_short_length<asked_exactly<Question>>(value);
+    } else {
+        return decide_in_limbs<asked_exactly<Question>>(value);
+    }
 }
 
 template <class S>
