@@ -187,7 +187,7 @@ public:
     [[nodiscard]] ABUT_HD constexpr bool is_empty() const { return is_empty_; }
 
     ABUT_HD constexpr line_entry<N> find() const {
-        bool is_open = is_open_, is_ahead[Most]{};
+        bool is_open = is_open_, is_ahead[std::size_t{Most}]{};
         if (is_empty_) return {verdict::no, -1, {}};
         for (int i = 0; i < Most; ++i) {
             if (ends_[i]) {
@@ -219,8 +219,8 @@ public:
     }
 
 private:
-    N begin_[Most]{}, end_[Most]{};
-    bool begins_[Most]{}, ends_[Most]{}, is_open_ = false, is_empty_ = false;
+    N begin_[std::size_t{Most}]{}, end_[std::size_t{Most}]{};
+    bool begins_[std::size_t{Most}]{}, ends_[std::size_t{Most}]{}, is_open_ = false, is_empty_ = false;
 };
 
 /// Interval i: where first + t rise >= 0 >= last + t rise.

@@ -104,7 +104,7 @@ private:
     /// A heap: the nearest is taken. What is no number counts as 0.
     struct nearest_first {
         static constexpr int room = 256;
-        entry at[room];  // not initialised
+        entry at[std::size_t{room}];  // not initialised
         int count = 0;
 
         [[nodiscard]] ABUT_HD bool has_room() const { return count <= room - most_children; }
@@ -134,7 +134,7 @@ private:
     };
     /// A stack: of what a pair makes the nearest is taken first, and all of it before what was there.
     struct newest_first {
-        entry at[bvh_max_depth * (most_children - 1) + 1];  // not initialised
+        entry at[std::size_t{bvh_max_depth * (most_children - 1) + 1}];  // not initialised
         int count = 0, first = 0;
 
         ABUT_HD entry take() {
