@@ -75,24 +75,6 @@ struct tally {
     }
 };
 
-/// The integers that devices ask, and hosts do not.
-template <class S, class U>
-bool devices_are_right(const S& s, const U& t, bool truth) {
-    using question = detail::revolution_question<S, U>;
-    const verdict here = decide<exact>(s, t);
-    if (!detail::is_point(detail::axis_of(s))) {
-        using predicate = detail::asked_exactly<typename question::type>;
-        return detail::decide_at_short_length<predicate>(question::values(s, t).value) == here;
-    }
-    if constexpr (std::same_as<U, triangle<scalar_type_of<S>>>) {
-        using predicate = detail::ball_meets_triangle;
-        const auto v = detail::values_of(detail::ball_around(s), t);
-        return detail::decide_at_short_length<predicate>(v.value) == here &&
-               detail::decide_at_any_length<predicate>(v.value) == truth;
-    }
-    return true;
-}
-
 /// Every stage against the oracle; `fast` is counted where it is unlike.
 template <class S, class U>
 void examine(const S& s, const U& t, tally& sum) {
@@ -105,7 +87,6 @@ void examine(const S& s, const U& t, tally& sum) {
     sum.unlike += intersects<fast>(t, s) != truth;
     // What culls may not lose it.
     sum.wrong += truth && !(overlaps(bounds(s), bounds(t)) && reach_of(s)(bounds(t)) && reach_of(t)(bounds(s)));
-    sum.wrong += !devices_are_right(s, t, truth);
     sum.wrong += by_filter == lie || decide<exact>(s, t) == lie || resolve(s, t) != truth || intersects(s, t) != truth ||
                  intersects(t, s) != truth || intersects<exact>(t, s) != truth;
 }

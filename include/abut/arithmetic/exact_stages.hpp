@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The exact stages of any predicate whose polynomials have degree 6 or less in words, and 12 or less in limbs. A predicate is a type with one function,
-// `holds(const N (&value)[V]) -> bool`, written over a number type N with +, -, *, `sign_of_dot` and `squares_at_most`; the
-// values are the coordinates (and radii) that it depends on, all of one unit. It may state the `degree` of its polynomials,
-// and how many of the values' first triples are `points`, which may all be moved by one vector: then it is also asked in
-// words.
+// The exact stages of any predicate whose polynomials have degree 6 or less in words, and 12 or less in limbs. A predicate
+// is a type with one function, `holds(const N (&value)[V]) -> bool`, written over a number type N with +, -, *,
+// `sign_of_dot` and `squares_at_most`; the values are the coordinates (and radii) that it depends on, all of one unit. It may
+// state the `degree` of its polynomials, and how many of the values' first triples are `points`, which may all be moved by
+// one vector: then it is also asked in words.
 
 #include <cstddef>
 #include <cstdint>

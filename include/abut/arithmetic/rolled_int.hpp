@@ -48,16 +48,15 @@ ABUT_NOINLINE ABUT_HD constexpr void add_shifted(std::uint64_t* r, int n, std::i
     for (int i = shift / 64; i < n; ++i) {
         const int k = i - shift / 64;
         const uint128 t = static_cast<uint128>(r[i]) + carry +
-                          (k == 0   ? lower_limb(bits)
-                           : k == 1 ? upper_limb(bits)
-                                    : mask_if(moved < 0));
+                          (k == 0 ? lower_limb(bits) : k == 1 ? upper_limb(bits) : mask_if(moved < 0));
         r[i] = lower_limb(t);
         carry = upper_limb(t);
     }
 }
 
 /// A number in two's complement, of `count` limbs, the least significant first; no more than `Room`. Sums wrap: whoever sets
-/// the count leaves room for what is added.
+/// the count leaves room for what is added. Trivial to copy: where it had a copy constructor, which copied `count` limbs,
+/// kernels that nvcc 13.0 made wrote beyond their stack in a function that returns one, and hulls were wrong on a device.
 template <int Room>
 struct rolled_int {
     std::uint64_t limb[std::size_t{Room}];  // not initialised
@@ -69,7 +68,7 @@ struct rolled_int {
         ABUT_ROLLED
         for (int i = 0; i < n; ++i) limb[i] = 0;
     }
-    /// The same, and 0 in all its room in a constant expression.
+    /// The same, and 0 in all its room in a constant expression, which may not copy what was not set.
     ABUT_HD constexpr void begin(int n) {
         clear(__builtin_is_constant_evaluated() ? Room : n);
         count = n;
@@ -296,8 +295,7 @@ ABUT_NOINLINE ABUT_HD constexpr double divide_magnitudes(std::uint64_t* a, std::
     // The quotient, by its digits: the first stands for 2^weight, and one of the first two is 1. As many follow as a double
     // of this magnitude has.
     int weight = bits_a - bits_b, last = lowest;
-    if (weight < lowest)
-        return weight == lowest - 1 && limbs_less(b, a, n) ? __builtin_bit_cast(double, std::uint64_t{1}) : 0;
+    if (weight < lowest) return weight == lowest - 1 && limbs_less(b, a, n) ? __builtin_bit_cast(double, std::uint64_t{1}) : 0;
     std::uint64_t quotient = 0;
     for (;; --weight) {
         const bool is_one = !limbs_less(a, b, n);

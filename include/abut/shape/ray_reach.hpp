@@ -52,8 +52,7 @@ struct direction_scale {
     T first, second;  ///< in two steps, since 2^-e need not be a normal number
 
     ABUT_HD explicit direction_scale(T largest)
-        : exponent(exponent_of_normal(largest)),
-          first(power_of_two<T>(-exponent / 2)),
+        : exponent(exponent_of_normal(largest)), first(power_of_two<T>(-exponent / 2)),
           second(power_of_two<T>(-exponent - -exponent / 2)) {}
     [[nodiscard]] ABUT_HD T divide(T x) const { return plain_product(plain_product(x, first), second); }
 };
@@ -212,7 +211,7 @@ public:
 
 private:
     alignas(16) T in_[3][4], out_[3][4], factor_[3][4];
-    alignas(16) T limit_[4], most_[4];   ///< `most` from memory: g++ takes four instructions for the lesser of a constant
+    alignas(16) T limit_[4], most_[4];  ///< `most` from memory: g++ takes four instructions for the lesser of a constant
     std::size_t enters_[3], leaves_[3];  ///< where the planes of boxes begin that the ray passes first and last
     ray_reach<T> one_;
 };
