@@ -14,6 +14,7 @@
 #include "support/revolution_oracle.hpp"
 #include "support/revolution_pairs.hpp"
 #include "support/samples.hpp"
+#include "support/stages.hpp"
 
 namespace {
 
@@ -67,13 +68,7 @@ static_assert(!decidable_pair<cone<float>, capsule<float>> && !decidable_pair<ca
 static_assert(!decidable_pair<cone<float>, ray<float>> && decidable_pair<ray<float>, cylinder<float>>);
 static_assert(!decidable_pair<hull<double>, cone<double>> && !decidable_pair<cylinder<double>, hull<double>>);
 
-struct tally {
-    std::uint64_t pairs = 0, hits = 0, wrong = 0, unlike = 0, open = 0;
-    tally& operator+=(const tally& o) {
-        pairs += o.pairs, hits += o.hits, wrong += o.wrong, unlike += o.unlike, open += o.open;
-        return *this;
-    }
-};
+using tally = test::decision_tally;
 
 /// Every stage against the oracle; `fast` is counted where it is unlike.
 template <class S, class U>

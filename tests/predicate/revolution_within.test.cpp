@@ -13,6 +13,7 @@
 #include "support/revolution_oracle.hpp"
 #include "support/revolution_pairs.hpp"
 #include "support/samples.hpp"
+#include "support/stages.hpp"
 #include "support/within_pairs.hpp"
 
 // Cylinders and cones within a distance of points, spheres and planes: every stage against an oracle of thousands of binary
@@ -58,13 +59,7 @@ static_assert(!distance_decidable<cylinder<float>, segment<float>> && !distance_
 static_assert(!distance_decidable<cylinder<float>, aabb<float>> && distance_decidable<plane<float>, cone<float>>);
 static_assert(!distance_decidable<cylinder<float>, capsule<float>> && !distance_decidable<hull<float>, cone<float>>);
 
-struct tally {
-    std::uint64_t pairs = 0, hits = 0, wrong = 0, unlike = 0, open = 0;
-    tally& operator+=(const tally& o) {
-        pairs += o.pairs, hits += o.hits, wrong += o.wrong, unlike += o.unlike, open += o.open;
-        return *this;
-    }
-};
+using tally = test::decision_tally;
 
 /// Integers as devices ask them, where there is an axis.
 template <class S, class U>

@@ -20,6 +20,16 @@
 
 namespace abut::test {
 
+/// What all stages together say: wrong of any but `fast`, unlike of that, and open after the filter.
+struct decision_tally {
+    std::uint64_t pairs = 0, hits = 0, wrong = 0, unlike = 0, open = 0;
+
+    decision_tally& operator+=(const decision_tally& o) {
+        pairs += o.pairs, hits += o.hits, wrong += o.wrong, unlike += o.unlike, open += o.open;
+        return *this;
+    }
+};
+
 struct stage_tally {
     std::uint64_t pairs = 0, hits = 0, missed = 0, phantom = 0;                     // missed and phantom: of `fast`
     std::uint64_t filter = 0, late = 0, one_limb = 0, two_limbs = 0, any_span = 0;  // which stage decided

@@ -82,15 +82,14 @@ struct keep_first_touch {
     }
 };
 
-/// The trees of an operand or of bodies, if they have least ids.
+/// The trees of an operand or of bodies, if they may have least ids.
 ///@{
-template <class Operand>
-auto trees_with_least_ids(const Operand& x) requires requires {
-    x.tree_with_least_ids();
+template <may_have_least_ids Operand>
+auto trees_with_least_ids(const Operand& x) {
+    return std::span(&x.tree_with_least_ids(), 1);
 }
-{ return std::span(&x.tree_with_least_ids(), 1); }
-template <class Index>
-auto trees_with_least_ids(const placed_bodies<Index>& x) requires tree_with_room_for_least_ids<Index> {
+template <keeps_least_ids Index>
+auto trees_with_least_ids(const placed_bodies<Index>& x) {
     return std::span(std::as_const(x.objects->indices));
 }
 ///@}

@@ -51,10 +51,8 @@ struct indexed_operand<bvh<Set, Space, Layout>> {
     [[nodiscard]] bool is_along_curve() const requires std::same_as<Layout, standard_layout> {
         return index.stored().along_curve;
     }
-    /// Of layouts that have them (index/least_ids.hpp).
-    [[nodiscard]] const auto& tree_with_least_ids() const requires tree_with_room_for_least_ids<bvh<Set, Space, Layout>> {
-        return index;
-    }
+    /// Itself, if it may have least ids (index/least_ids.hpp).
+    [[nodiscard]] const auto& tree_with_least_ids() const requires keeps_least_ids<bvh<Set, Space, Layout>> { return index; }
     /// Around all shapes, of which there are some.
     template <class Policy>
     [[nodiscard]] aabb<T> bounds(const Policy&) const {
@@ -84,6 +82,12 @@ concept has_topology = requires(const Operand& x) {
     { x.shape_of_tree() } -> std::same_as<topology>;
 };
 
+/// A tree, posed or not, that may have least ids.
+template <class Operand>
+concept may_have_least_ids = requires(const Operand& x) {
+    x.tree_with_least_ids();
+};
+
 /// An operand under a pose. Nothing is copied: shapes are placed as they are read, and an index is looked in in its frame.
 template <class Operand, scalar T>
 struct posed_operand {
@@ -97,8 +101,9 @@ struct posed_operand {
     [[nodiscard]] topology shape_of_tree() const requires has_topology<Operand> { return operand.shape_of_tree(); }
     [[nodiscard]] bool is_along_curve() const requires has_topology<Operand> { return operand.is_along_curve(); }
     [[nodiscard]] auto walk() const { return posed_walk<decltype(operand.walk())>(operand.walk(), pose, around); }
-    [[nodiscard]] const auto& tree_with_least_ids() const requires requires { operand.tree_with_least_ids(); }
-    { return operand.tree_with_least_ids(); }
+    [[nodiscard]] const auto& tree_with_least_ids() const requires may_have_least_ids<Operand> {
+        return operand.tree_with_least_ids();
+    }
 };
 
 /// How an operand's shapes are seen: as they are.

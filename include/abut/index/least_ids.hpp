@@ -19,15 +19,10 @@
 
 namespace abut::detail {
 
-/// Layouts that have them: those of two children a node.
-template <class Layout>
-concept layout_with_least_ids = Layout::width == 2 && requires(const Layout& tree) {
-    { tree.nodes[0].child[0] } -> std::convertible_to<bvh_child>;
-};
-
-/// Trees whose storage keeps them too: layouts of a user need not.
+/// Trees that may have them: of two children a node, in a layout that keeps them. A user's need not.
 template <class Index>
-concept tree_with_room_for_least_ids = layout_with_least_ids<typename Index::view_type> && requires(const Index& tree) {
+concept keeps_least_ids = Index::view_type::width == 2 && requires(const Index& tree) {
+    { tree.view().nodes[0].child[0] } -> std::convertible_to<bvh_child>;
     tree.stored().least_ids->made;
     tree.stored().nodes.size();
 };

@@ -68,17 +68,14 @@ ABUT_HD constexpr int sign_or_unknown(const fine_estimate& x) {
     return sign_or_unknown(estimate{x.value.high, (1 + 0x1p-30) * x.error + 0x1p-50 * absolute(x.value.high)});
 }
 
+struct make_fine_estimate {
+    ABUT_HD constexpr fine_estimate operator()(double x) const { return {contact_math::two_doubles::of(x), 0}; }
+};
+
 /// By pairs of doubles, as estimated_entry.
 template <scalar T, line_solid S>
 ABUT_NOINLINE ABUT_HD constexpr line_entry<fine_estimate> entry_in_pairs(const line_of<T>& l, const S& s) {
-    const auto row = values_of(l, s);
-    const double unit = unit_of_estimates<degree_on_lines<S>, 101>(row.value);
-    if (unit == 0) return {verdict::unknown, -1, {}};
-    fine_estimate number[sizeof(row.value) / sizeof(T)]{};
-    for (std::size_t i = 0; i < sizeof(row.value) / sizeof(T); ++i) {
-        number[i] = {contact_math::two_doubles::of(static_cast<double>(row.value[i]) * unit), 0};
-    }
-    return enter(s, number, l.has_end(), fine_estimate{{1, 0}, 0});
+    return entry_in<101>(l, s, make_fine_estimate{});
 }
 
 /// An entry's time, or a negative number if it is not certain how it is rounded.

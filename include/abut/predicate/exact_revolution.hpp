@@ -464,6 +464,12 @@ private:
     }
 };
 
+/// Whether two heights over a plane have not one strict sign.
+template <class H>
+ABUT_HD constexpr verdict are_not_on_one_side(const H& a, const H& b) {
+    return or_else(is_not_negative(a) && is_not_positive(b), [&] { return is_not_positive(a) && is_not_negative(b); });
+}
+
 /// The plane's normal, its offset and the 1 that is its unit, the axis's ends, the radius.
 template <class Solid>
 struct plane_meets_revolution {
@@ -475,9 +481,7 @@ struct plane_meets_revolution {
             last{value[8], value[9], value[10]};
         const auto offset = value[3] * value[4], at_first = dot(normal, first) - offset,
                    at_last = dot(normal, last) - offset;
-        const verdict between = or_else(is_not_negative(at_first) && is_not_positive(at_last),
-                                        [&] { return is_not_positive(at_first) && is_not_negative(at_last); });
-        return or_else(between, [&] {
+        return or_else(are_not_on_one_side(at_first, at_last), [&] {
             const auto d = last - first;
             const auto rim = scale(value[11], cross(normal, d));
             const verdict at_base = is_no_longer(scale(at_last, d), rim);
@@ -503,9 +507,7 @@ struct plane_within_of_revolution {
         const N &r = value[11], &reach = value[12];
         const auto offset = value[3] * value[4], at_first = dot(normal, first) - offset,
                    at_last = dot(normal, last) - offset;
-        const verdict between = or_else(is_not_negative(at_first) && is_not_positive(at_last),
-                                        [&] { return is_not_positive(at_first) && is_not_negative(at_last); });
-        return or_else(between, [&] {
+        return or_else(are_not_on_one_side(at_first, at_last), [&] {
             const auto d = last - first;
             const auto across = cross(normal, d);
             const auto dd = dot(d, d);

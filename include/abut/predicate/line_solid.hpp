@@ -330,26 +330,39 @@ inline constexpr int degree_on_lines = 4;
 template <round_solid S>
 inline constexpr int degree_on_lines<S> = round_part<S>::degree;
 
+/// In numbers that make(x) makes of doubles, and that keep 2^-Digits of the error of a rounded one. Plain doubles may be
+/// asked in any unit: in one in which nothing overflows or vanishes, if there is one.
+template <int Digits, scalar T, line_solid S, class Make>
+ABUT_HD constexpr auto entry_in(const line_of<T>& l, const S& s, const Make& make) {
+    using number = decltype(make(0.0));
+    const auto row = values_of(l, s);
+    constexpr std::size_t n = sizeof(row.value) / sizeof(T);
+    double unit = unit_of_estimates<degree_on_lines<S>, Digits>(row.value);
+    if (unit == 0) {
+        if constexpr (!std::same_as<number, double>) return line_entry<number>{verdict::unknown, -1, {}};
+        unit = 1;
+    }
+    number value[n]{};
+    for (std::size_t i = 0; i < n; ++i) value[i] = make(static_cast<double>(row.value[i]) * unit);
+    return enter(s, value, l.has_end(), make(1.0));
+}
+
+struct make_estimate {
+    ABUT_HD constexpr estimate operator()(double x) const { return {x, 0}; }
+};
+struct make_double {
+    ABUT_HD constexpr double operator()(double x) const { return x; }
+};
+
 /// By estimates, for `filtered`.
 template <scalar T, line_solid S>
 ABUT_NOINLINE ABUT_HD constexpr line_entry<estimate> estimated_entry(const line_of<T>& l, const S& s) {
-    const auto row = values_of(l, s);
-    const double unit = unit_of_estimates<degree_on_lines<S>, 52>(row.value);
-    if (unit == 0) return {verdict::unknown, -1, {}};
-    estimate number[sizeof(row.value) / sizeof(T)]{};
-    for (std::size_t i = 0; i < sizeof(row.value) / sizeof(T); ++i)
-        number[i] = {static_cast<double>(row.value[i]) * unit, 0};
-    return enter(s, number, l.has_end(), estimate{1, 0});
+    return entry_in<52>(l, s, make_estimate{});
 }
-
-/// In plain doubles, for `fast`; in a unit in which nothing overflows or vanishes, if there is one.
+/// In plain doubles, for `fast`.
 template <scalar T, line_solid S>
 ABUT_NOINLINE ABUT_HD constexpr line_entry<double> plain_entry(const line_of<T>& l, const S& s) {
-    const auto row = values_of(l, s);
-    const double unit = unit_of_estimates<degree_on_lines<S>, 52>(row.value), factor = unit == 0 ? 1 : unit;
-    double number[sizeof(row.value) / sizeof(T)]{};
-    for (std::size_t i = 0; i < sizeof(row.value) / sizeof(T); ++i) number[i] = static_cast<double>(row.value[i]) * factor;
-    return enter(s, number, l.has_end(), 1.0);
+    return entry_in<52>(l, s, make_double{});
 }
 
 }  // namespace abut::detail

@@ -6,6 +6,7 @@
 // sink of execution/ordered.hpp, whose bound shrinks it, and a visitor, which offers the sink what it finds. It passes over
 // nothing that may be as good as the bound.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -101,36 +102,23 @@ private:
             is = true;
         }
     };
-    /// A heap: the nearest is taken. What is no number counts as 0.
+    /// A heap of a host: the nearest is taken. What is no number counts as 0.
     struct nearest_first {
         static constexpr int room = 256;
         entry at[std::size_t{room}];  // not initialised
         int count = 0;
 
-        [[nodiscard]] ABUT_HD bool has_room() const { return count <= room - most_children; }
-        ABUT_HD void add(entry one) {
+        [[nodiscard]] bool has_room() const { return count <= room - most_children; }
+        void add(entry one) {
             one.least = one.least > 0 ? one.least : 0;
-            int place = count++;
-            while (place > 0) {
-                const int above = (place - 1) / 2;
-                if (!(at[above].least > one.least)) break;
-                at[place] = at[above];
-                place = above;
-            }
-            at[place] = one;
+            at[count++] = one;
+            std::push_heap(at, at + count, is_farther);
         }
-        ABUT_HD entry take() {
-            const entry nearest = at[0], last = at[--count];
-            int place = 0;
-            for (int below = 1; below < count; below = 2 * place + 1) {
-                if (below + 1 < count && at[below].least > at[below + 1].least) ++below;
-                if (!(last.least > at[below].least)) break;
-                at[place] = at[below];
-                place = below;
-            }
-            at[place] = last;
-            return nearest;
+        entry take() {
+            std::pop_heap(at, at + count, is_farther);
+            return at[--count];
         }
+        static bool is_farther(const entry& a, const entry& b) { return a.least > b.least; }
     };
     /// A stack: of what a pair makes the nearest is taken first, and all of it before what was there.
     struct newest_first {
