@@ -61,6 +61,14 @@ struct estimate {
     }
 };
 
+/// What is known of a number, and how far off it may be.
+///@{
+ABUT_HD constexpr double value_of(double x) { return x; }
+ABUT_HD constexpr double value_of(const estimate& x) { return x.value; }
+ABUT_HD constexpr double error_of(double) { return 0; }
+ABUT_HD constexpr double error_of(const estimate& x) { return x.error; }
+///@}
+
 /// a^2 or |a|^2
 ///@{
 ABUT_HD constexpr estimate square(const estimate& a) { return a * a; }

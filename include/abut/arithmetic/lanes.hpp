@@ -28,13 +28,31 @@ struct register_of {
 };
 #endif
 
-/// Answers of four comparisons.
+/// A register as it is, behind which a compiler cannot look.
+template <class Register>
+ABUT_INLINE ABUT_HD void hide([[maybe_unused]] Register& r) {
+#if !ABUT_DEVICE_CODE
+#if defined(__SSE2__)
+    __asm__("" : "+x"(r));
+#elif defined(__aarch64__)
+    __asm__("" : "+w"(r));
+#else
+    __asm__("" : "+m"(r));
+#endif
+#endif
+}
+
+/// Answers of four comparisons. Two that are joined are hidden from the compiler: g++ 12 at -O1 makes one comparison of two
+/// of the same numbers, and then takes the other to be false wherever else it is used.
 template <class Answer, int Registers>
 struct lane_mask {
     Answer at[std::size_t{Registers}];
 
     ABUT_INLINE ABUT_HD friend lane_mask operator&(lane_mask a, const lane_mask& b) {
-        for (int i = 0; i < Registers; ++i) a.at[i] = static_cast<Answer>(a.at[i] & b.at[i]);
+        for (int i = 0; i < Registers; ++i) {
+            if constexpr (Registers < 4) hide(a.at[i]);
+            a.at[i] = static_cast<Answer>(a.at[i] & b.at[i]);
+        }
         return a;
     }
     ABUT_INLINE ABUT_HD friend lane_mask operator!(lane_mask a) {
@@ -42,7 +60,10 @@ struct lane_mask {
         return a;
     }
     ABUT_INLINE ABUT_HD friend lane_mask operator|(lane_mask a, const lane_mask& b) {
-        for (int i = 0; i < Registers; ++i) a.at[i] = static_cast<Answer>(a.at[i] | b.at[i]);
+        for (int i = 0; i < Registers; ++i) {
+            if constexpr (Registers < 4) hide(a.at[i]);
+            a.at[i] = static_cast<Answer>(a.at[i] | b.at[i]);
+        }
         return a;
     }
 };
@@ -116,20 +137,10 @@ ABUT_INLINE ABUT_HD lanes<T, Register> absolute(lanes<T, Register> x) {
     return x;
 }
 
-/// As they are, in registers that a compiler cannot look behind: a product in them is not contracted into a sum.
+/// As they are, hidden: a product in them is not contracted into a sum.
 template <scalar T, class Register>
 ABUT_INLINE ABUT_HD lanes<T, Register> rounded(lanes<T, Register> x) {
-#if !ABUT_DEVICE_CODE
-    for (Register& r : x.at) {
-#if defined(__SSE2__)
-        __asm__("" : "+x"(r));
-#elif defined(__aarch64__)
-        __asm__("" : "+w"(r));
-#else
-        __asm__("" : "+m"(r));
-#endif
-    }
-#endif
+    for (Register& r : x.at) hide(r);
     return x;
 }
 

@@ -157,8 +157,6 @@ ABUT_HD constexpr estimate root_of(const estimate& x) {
     return {v, x.error / v + estimate::roundoff * v};
 }
 ///@}
-ABUT_HD constexpr double value_of(double x) { return x; }
-ABUT_HD constexpr double value_of(const estimate& x) { return x.value; }
 
 /// Whether a line meets a solid, and when it does first: at the begin of an interval, or at 0 where that is negative.
 template <class N>

@@ -186,6 +186,32 @@ ABUT_HD constexpr bool resolve_in_place(const S& s, const U& t) {
     }
 }
 
+/// Polynomials of a high degree, in limbs that are written out, are a megabyte of a kernel. So a device asks them of
+/// integers of a short length. It does so also of a ball that is left of a solid without an axis, beside a triangle: hardly
+/// ever.
+template <class U>
+inline constexpr bool is_asked_at_length = ABUT_DEVICE_CODE != 0 && std::same_as<U, triangle<scalar_type_of<U>>>;
+
+/// The stages where the axis has no length.
+///@{
+template <arithmetic A, scalar T, class U>
+ABUT_HD constexpr verdict decide_without_axis(const sphere<T>& s, const U& t) {
+    if constexpr (std::same_as<A, exact> && is_asked_at_length<U>) {
+        return decide_at_short_length<ball_meets_triangle>(values_of(s, t).value);
+    } else {
+        return decide_in_place<A>(s, t);
+    }
+}
+template <scalar T, class U>
+ABUT_HD constexpr bool resolve_without_axis(const sphere<T>& s, const U& t) {
+    if constexpr (is_asked_at_length<U>) {
+        return decide_at_any_length<ball_meets_triangle>(values_of(s, t).value);
+    } else {
+        return resolve_in_place(s, t);
+    }
+}
+///@}
+
 template <class S, class U>
 concept revolution_pair = solid_of_revolution<S> && std::same_as<scalar_type_of<S>, scalar_type_of<U>> && requires {
     typename revolution_question<S, U>::type;
@@ -197,9 +223,14 @@ concept revolution_pair = solid_of_revolution<S> && std::same_as<scalar_type_of<
 template <arithmetic A, class S, class U>
 requires detail::revolution_pair<S, U> ABUT_HD constexpr verdict decide(const S& s, const U& t) {
     using question = detail::revolution_question<S, U>;
-    if (detail::is_point(detail::axis_of(s))) return detail::decide_in_place<A>(detail::ball_around(s), t);
+    if (detail::is_point(detail::axis_of(s))) return detail::decide_without_axis<A>(detail::ball_around(s), t);
     if constexpr (std::same_as<A, exact>) {
-        return decide_in_limbs<detail::asked_exactly<typename question::type>>(question::values(s, t).value);
+        using predicate = detail::asked_exactly<typename question::type>;
+        if constexpr (ABUT_DEVICE_CODE != 0) {
+            return detail::decide_at_short_length<predicate>(question::values(s, t).value);
+        } else {
+            return decide_in_limbs<predicate>(question::values(s, t).value);
+        }
     } else if constexpr (std::same_as<A, filtered>) {
         if constexpr (question::has_capsule_filter) {
             if (detail::decide_in_place<filtered>(detail::capsule_around(s), t) == verdict::no) return verdict::no;
@@ -214,7 +245,7 @@ requires detail::revolution_pair<S, U> ABUT_HD constexpr verdict decide(const S&
 template <class S, class U>
 requires detail::revolution_pair<S, U> ABUT_NOINLINE ABUT_HD constexpr bool resolve(const S& s, const U& t) {
     using question = detail::revolution_question<S, U>;
-    if (detail::is_point(detail::axis_of(s))) return detail::resolve_in_place(detail::ball_around(s), t);
+    if (detail::is_point(detail::axis_of(s))) return detail::resolve_without_axis(detail::ball_around(s), t);
     return detail::decide_at_any_length<detail::asked_exactly<typename question::type>>(question::values(s, t).value);
 }
 
