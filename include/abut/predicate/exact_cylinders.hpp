@@ -28,15 +28,15 @@
 //
 // Whether it holds anywhere: seen along v the disc is an ellipse, and the endless cylinder a circle. They are apart if and
 // only if for some y > 0
-//     m y / (y + 1) + n y / (y + b / a) > q y + p,
-//     m = V M^2, n = N^2, p = r^2 V E, q = R^2 V E, a = U V, b = w^2:
-// by the S-lemma a sum of both quadratics, one of them times y, is positive everywhere. Without the denominators it is a
-// cubic
-//     - a q y^3 + (a (m + n - p) - (a + b) q) y^2 + (a (n - p) + b (m - p) - b q) y - b p > 0,
-// which is not positive at 0 and negative far off. If b p > 0 one root at least is negative. The two others are positive and
-// differ if all roots are real and differ and a coefficient between the first and the last is positive, by Descartes's rule
-// of signs. (W. Wang, J. Wang, M.-S. Kim, An algebraic condition for the separation of two ellipsoids, 2001, has the same
-// for matrices.) With A, B and C those of the Hessian form, the discriminant's sign is that of 4 A C - B^2. Degree 48.
+//     V M^2 y / (y + V) + U N^2 y / (U y + w^2) > E (R^2 y + r^2 V):
+// by the S-lemma a sum of both quadratics, one of them times y / V, is positive everywhere. Without the denominators it is a
+// cubic, which E = U V - w^2 divides, as V M^2 + N^2 = E X with X = |x x v|^2:
+//     - c3 y^3 + c2 y^2 + c1 y - c0 > 0,  c3 = R^2 U,  c2 = U X - R^2 (U V + w^2) - r^2 U V,
+//     c1 = w^2 X + N^2 - R^2 V w^2 - r^2 V (U V + w^2),  c0 = r^2 V^2 w^2.
+// It is not positive at 0, and negative far off. If c0 and c3 are not 0, one root is negative. The two others are positive
+// and differ if and only if all roots are real and differ and c1 or c2 is positive, by Descartes's rule of signs. (W. Wang,
+// J. Wang, M.-S. Kim, An algebraic condition for the separation of two ellipsoids, 2001, has the same for matrices.) The
+// discriminant's sign is that of 4 A C - B^2 with A = c2^2 + 3 c3 c1, B = c2 c1 - 9 c3 c0 and C = c1^2 + 3 c2 c0. Degree 28.
 
 #include <cstddef>
 
@@ -46,47 +46,14 @@
 
 namespace abut::detail {
 
-/// The sum of products that are added to it, of numbers of `Limbs` limbs at most together.
-template <int Limbs>
-struct sum_of_products {
-    rolled_int<Limbs> sum;
+// Numbers are kilobytes where they may be of any length: functions out of line give back what they took, and sums are added
+// to where they are.
 
-    template <int A, int B>
-    ABUT_HD constexpr sum_of_products(const rolled_int<A>& a, const rolled_int<B>& b) {
-        sum.begin(a.count + b.count);
-        sum.add(a, b);
-    }
-    template <int A, int B>
-    ABUT_NOINLINE ABUT_HD constexpr void add(int times, const rolled_int<A>& a, const rolled_int<B>& b) {
-        ABUT_ROLLED
-        for (int i = times; i > 0; --i) sum.add(a, b);
-        ABUT_ROLLED
-        for (int i = times; i < 0; ++i) sum.add(a, b, true);
-    }
-};
-template <int A, int B>
-sum_of_products(const rolled_int<A>&, const rolled_int<B>&) -> sum_of_products<A + B>;
-
-/// Whether - c3 y^3 + c2 y^2 + c1 y - c0 is positive for a y > 0, where c3 >= 0 and c0 >= 0. One of an ellipse and a circle
-/// as above: where c3 = 0 it is only if c2 > 0.
-template <int L>
-ABUT_NOINLINE ABUT_HD constexpr bool is_positive_somewhere(const rolled_int<L>& c3, const rolled_int<L>& c2,
-                                                           const rolled_int<L>& c1, const rolled_int<L>& c0) {
-    const bool rises = sign(c2) > 0, starts = sign(c1) > 0;
-    if (!rises && !starts) return false;
-    sum_of_products a(c2, c2);
-    if (sign(c0) == 0) {
-        a.add(4, c3, c1);
-        return starts || sign(c3) == 0 || sign(a.sum) > 0;
-    }
-    sum_of_products b(c2, c1), c(c1, c1);
-    a.add(3, c3, c1);
-    b.add(-9, c3, c0);
-    c.add(3, c2, c0);
-    sum_of_products d(a.sum, c.sum);
-    d.add(3, a.sum, c.sum);
-    d.add(-1, b.sum, b.sum);
-    return sign(d.sum) > 0;
+/// r += times a b
+template <int R, int A, int B>
+ABUT_NOINLINE ABUT_HD constexpr void add_times(rolled_int<R>& r, int times, const rolled_int<A>& a, const rolled_int<B>& b) {
+    ABUT_ROLLED
+    for (int i = 0; i < (times < 0 ? -times : times); ++i) r.add(a, b, times < 0);
 }
 
 /// The sign of x y^(1/2) + z w^(1/2), where y and w are positive.
@@ -95,10 +62,39 @@ ABUT_NOINLINE ABUT_HD constexpr int sign_of_roots(const rolled_int<X>& x, const 
                                                   const rolled_int<W>& w) {
     const int first = sign(x), second = sign(z);
     if (first * second >= 0) return first != 0 ? first : second;
-    sum_of_products d(square(x), y);
-    d.add(-1, square(z), w);
-    return first * sign(d.sum);
+    auto d = square(x) * y;
+    add_times(d, -1, square(z), w);
+    return first * sign(d);
 }
+
+/// - c3 y^3 + c2 y^2 + c1 y - c0, where c3 >= 0 and c0 >= 0.
+template <int L>
+struct cubic_of_disc {
+    rolled_int<4 * L> c3;
+    rolled_int<6 * L> c2;
+    rolled_int<8 * L> c1;
+    rolled_int<10 * L> c0;
+
+    /// Whether it is positive for a y > 0. One as above: where c3 is 0 it is only if c2 > 0.
+    [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr bool is_positive_somewhere() const {
+        const bool rises = sign(c2) > 0, starts = sign(c1) > 0;
+        if (!rises && !starts) return false;
+        auto a = square(c2);
+        if (sign(c0) == 0) {
+            add_times(a, 4, c3, c1);
+            return starts || sign(c3) == 0 || sign(a) > 0;
+        }
+        auto b = c2 * c1;
+        auto c = square(c1);
+        add_times(a, 3, c3, c1);
+        add_times(b, -9, c3, c0);
+        add_times(c, 3, c2, c0);
+        auto d = a * c;
+        add_times(d, 3, a, c);
+        add_times(d, -1, b, b);
+        return sign(d) > 0;
+    }
+};
 
 /// The end of a cylinder at which its axis starts or ends, and what is known there of the disc of another one.
 enum class axis_end : int { first = -1, last = 1 };
@@ -109,49 +105,77 @@ template <int L>
 struct disc_and_cylinder {
     rolled_int<2 * L> uu, vv, w;
     rolled_int<3 * L> m;
-    rolled_int<4 * L> n;
-    rolled_int<6 * L> most_s;  ///< R^2 E
-    rolled_int<8 * L> most_t;  ///< r^2 V E
+    rolled_int<4 * L> n, across;  ///< N and X
+    rolled_int<2 * L> disc_rr, rr;
+    rolled_int<4 * L> ee;
+    rolled_int<2 * L> last;  ///< g at the last end
+
+    /// Of a disc orthogonal to u, whose centre is seen from the first end of a cylinder along v.
+    ABUT_NOINLINE ABUT_HD constexpr void set(const vec3<rolled_int<L>>& x, const vec3<rolled_int<L>>& u,
+                                             const vec3<rolled_int<L>>& v, const rolled_int<L>& disc_radius,
+                                             const rolled_int<L>& radius) {
+        const auto e = cross(u, v), xv = cross(x, v);
+        uu = dot(u, u), vv = dot(v, v), w = dot(u, v), last = dot(x, v);
+        m = dot(x, e), n = dot(xv, e), across = dot(xv, xv), ee = dot(e, e);
+        disc_rr = square(disc_radius), rr = square(radius);
+    }
 
     /// Whether they meet in the plane of the end at g, or else whether they may meet on the side of the other end.
-    ABUT_NOINLINE ABUT_HD constexpr disc_at_end at(const rolled_int<2 * L>& g, axis_end end) const {
-        const auto k = n + w * g;
-        const auto s = most_s - uu * square(g);
-        const auto t = most_t - square(k);
+    [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr disc_at_end at(const rolled_int<2 * L>& g, axis_end end) const {
+        rolled_int<4 * L> k = n;
+        k.add(w, g);
+        rolled_int<6 * L> s = disc_rr * ee;
+        add_times(s, -1, uu, square(g));
+        rolled_int<8 * L> t = (rr * vv) * ee;
+        t.add(k, k, true);
         const int sign_s = sign(s), sign_t = sign(t), sign_w = sign(w), outward = static_cast<int>(end);
         if (sign_s >= 0 && sign_t >= 0 && overlap(s, t)) return disc_at_end::meets;
         if (sign_s <= 0 && sign(g) * outward <= 0) return disc_at_end::beyond;
         if (sign_w == 0 ? sign_t < 0 : sign_t <= 0 && sign(k) * sign_w * outward <= 0) return disc_at_end::beyond;
         if (sign_s <= 0 || (sign_t <= 0 && sign_w != 0)) return disc_at_end::between;
-        const int falls = sign_w == 0 ? sign(g) : sign_of_roots(uu * g, vv * t, w * k, s);
+        const int falls = sign_w == 0 ? sign(g) : sign_of_fall(g, k, s, t);
         return falls * outward > 0 ? disc_at_end::between : disc_at_end::beyond;
     }
 
     /// Whether the disc and the endless cylinder have no point in common.
-    ABUT_NOINLINE ABUT_HD constexpr bool is_apart_from_endless() const {
-        const auto mm = vv * square(m), nn = square(n), q = vv * most_s;
-        const auto a = uu * vv, b = square(w);
-        sum_of_products c3(a, q), c2(a, mm), c1(a, nn), c0(b, most_t);
-        c2.add(1, a, nn);
-        c2.add(-1, a, most_t);
-        c2.add(-1, a, q);
-        c2.add(-1, b, q);
-        c1.add(-1, a, most_t);
-        c1.add(1, b, mm);
-        c1.add(-1, b, most_t);
-        c1.add(-1, b, q);
-        return is_positive_somewhere(c3.sum, c2.sum, c1.sum, c0.sum);
+    [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr bool is_apart_from_endless() const {
+        cubic_of_disc<L> cubic;
+        set(cubic);
+        return cubic.is_positive_somewhere();
     }
 
 private:
+    ABUT_NOINLINE ABUT_HD constexpr void set(cubic_of_disc<L>& to) const {
+        const auto uv = uu * vv, ww = square(w), both = uv + ww, disc_v = disc_rr * vv, v = rr * vv;
+        to.c3 = disc_rr * uu;
+        to.c2 = uu * across;
+        to.c2.add(disc_rr, both, true);
+        to.c2.add(rr, uv, true);
+        to.c1 = ww * across;
+        to.c1.add(n, n);
+        to.c1.add(disc_v, ww, true);
+        to.c1.add(v, both, true);
+        to.c0 = v * (vv * ww);
+    }
+
     /// Whether |M| <= S^(1/2) + (T / V)^(1/2).
-    ABUT_NOINLINE ABUT_HD constexpr bool overlap(const rolled_int<6 * L>& s, const rolled_int<8 * L>& t) const {
+    [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr bool overlap(const rolled_int<6 * L>& s,
+                                                               const rolled_int<8 * L>& t) const {
         const auto vs = vv * s;
-        const auto over = vv * square(m) - vs - t;
+        auto over = vv * square(m);
+        over.add(vs, true);
+        over.add(t, true);
         if (sign(over) <= 0) return true;
-        sum_of_products d(over, over);
-        d.add(-4, vs, t);
-        return sign(d.sum) <= 0;
+        auto d = square(over);
+        add_times(d, -4, vs, t);
+        return sign(d) <= 0;
+    }
+
+    /// The sign of U g / S^(1/2) + w k / (V T)^(1/2): of how fast the sum of both roots falls.
+    [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr int sign_of_fall(const rolled_int<2 * L>& g, const rolled_int<4 * L>& k,
+                                                                   const rolled_int<6 * L>& s,
+                                                                   const rolled_int<8 * L>& t) const {
+        return sign_of_roots(uu * g, vv * t, w * k, s);
     }
 };
 
@@ -159,26 +183,34 @@ private:
 struct cylinders_meet {
     template <int L>
     ABUT_HD static constexpr bool holds(const rolled_int<L> (&value)[14]) {
-        using point = vec3<rolled_int<L>>;
-        const point a[2] = {point_at(value, 0), point_at(value, 1)}, b[2] = {point_at(value, 2), point_at(value, 3)};
-        const point u = a[1] - a[0], v = b[1] - b[0], x = a[0] - b[0];
-        const auto e = cross(u, v);
-        const auto ee = dot(e, e);
-        const auto reach = value[12] + value[13];
-        if (sign(ee) == 0) return parallel_meet(x, a[1] - b[0], v, reach);
-        if (sign(square(dot(x, e)) - square(reach) * ee) > 0) return false;
-        const auto at_a = dot(cross(x, v), e), at_b = dot(cross(x, u), e);
-        if (sign(at_a) <= 0 && sign(at_a + ee) >= 0 && sign(at_b) <= 0 && sign(at_b + ee) >= 0) return true;
+        const verdict at_sides = sides_meet(value);
+        if (at_sides != verdict::unknown) return at_sides == verdict::yes;
         ABUT_ROLLED
-        for (int k = 0; k < 2; ++k) {
-            if (disc_meets(a[k] - b[0], u, v, value[12], value[13]) || disc_meets(b[k] - a[0], v, u, value[13], value[12])) {
-                return true;
-            }
+        for (int k = 0; k < 4; ++k) {
+            if (disc_meets(value, k)) return true;
         }
         return false;
     }
 
 private:
+    /// Whether they meet where their axes are nearest, or not at all; or else unknown.
+    template <int L>
+    ABUT_NOINLINE ABUT_HD static constexpr verdict sides_meet(const rolled_int<L> (&value)[14]) {
+        const auto b = point_at(value, 2), u = point_at(value, 1) - point_at(value, 0), v = point_at(value, 3) - b,
+                   x = point_at(value, 0) - b;
+        const auto e = cross(u, v);
+        const auto ee = dot(e, e);
+        const auto reach = value[12] + value[13];
+        if (sign(ee) == 0) return to_verdict(parallel_meet(x, point_at(value, 1) - b, v, reach));
+        auto over = square(dot(x, e));
+        add_times(over, -1, square(reach), ee);
+        if (sign(over) > 0) return verdict::no;
+        const auto at_first = dot(cross(x, v), e), at_second = dot(cross(x, u), e);
+        const bool between =
+            sign(at_first) <= 0 && sign(at_first + ee) >= 0 && sign(at_second) <= 0 && sign(at_second + ee) >= 0;
+        return between ? verdict::yes : verdict::unknown;
+    }
+
     /// The ends of one axis as seen from the first end of the other, along v.
     template <int L>
     ABUT_NOINLINE ABUT_HD static constexpr bool parallel_meet(const vec3<rolled_int<L>>& x, const vec3<rolled_int<L>>& y,
@@ -186,25 +218,28 @@ private:
         const auto first = dot(x, v), last = dot(y, v), vv = dot(v, v);
         if (sign(first) < 0 && sign(last) < 0) return false;
         if (sign(first - vv) > 0 && sign(last - vv) > 0) return false;
-        return sign(square(cross(x, v)) - square(reach) * vv) <= 0;
+        auto over = square(cross(x, v));
+        add_times(over, -1, square(reach), vv);
+        return sign(over) <= 0;
     }
 
-    /// A disc orthogonal to u, whose centre is seen from the first end of a cylinder along v.
+    /// The disc at end k of all four, and the other cylinder.
     template <int L>
-    ABUT_NOINLINE ABUT_HD static constexpr bool disc_meets(const vec3<rolled_int<L>>& x, const vec3<rolled_int<L>>& u,
-                                                           const vec3<rolled_int<L>>& v, const rolled_int<L>& disc_radius,
-                                                           const rolled_int<L>& radius) {
-        const auto e = cross(u, v);
-        const auto ee = dot(e, e);
+    ABUT_NOINLINE ABUT_HD static constexpr bool disc_meets(const rolled_int<L> (&value)[14], int k) {
         disc_and_cylinder<L> d;
-        d.uu = dot(u, u), d.vv = dot(v, v), d.w = dot(u, v);
-        d.m = dot(x, e), d.n = dot(cross(x, v), e);
-        d.most_s = square(disc_radius) * ee, d.most_t = square(radius) * (d.vv * ee);
-        const auto last = dot(x, v);
-        const disc_at_end at_last = d.at(last, axis_end::last);
+        set(d, value, k, k < 2 ? 0 : 1);
+        const disc_at_end at_last = d.at(d.last, axis_end::last);
         if (at_last != disc_at_end::between) return at_last == disc_at_end::meets;
-        const disc_at_end at_first = d.at(last - d.vv, axis_end::first);
+        const disc_at_end at_first = d.at(d.last - d.vv, axis_end::first);
         return at_first == disc_at_end::between ? !d.is_apart_from_endless() : at_first == disc_at_end::meets;
+    }
+    template <int L>
+    ABUT_NOINLINE ABUT_HD static constexpr void set(disc_and_cylinder<L>& d, const rolled_int<L> (&value)[14], int k,
+                                                    int own) {
+        const int other = 1 - own;
+        const auto from = point_at(value, 2 * other);
+        d.set(point_at(value, k) - from, point_at(value, 2 * own + 1) - point_at(value, 2 * own),
+              point_at(value, 2 * other + 1) - from, value[12 + own], value[12 + other]);
     }
 };
 
