@@ -5,6 +5,7 @@
 
 #include <abut/abut.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -70,6 +71,9 @@ TEST_CASE("queries: sets of cylinders") {
     test::check_pair_of_shapes<cylinder<double>, sphere<double>>(on, 215);
     test::check_pair_of_shapes<aabb<float>, cylinder<float>>(on, 216);
     test::check_pair_of_shapes<cylinder<float>, plane<float>>(on, 217);
+    test::check_pair_of_shapes<cylinder<float>, cylinder<float>>(on, 218);
+    test::check_pair_of_shapes<cylinder<double>, capsule<double>>(serial{}, 219);
+    test::check_pair_of_shapes<capsule<float>, cylinder<float>>(on, 220);
 }
 
 TEST_CASE("queries: sets of cones") {
@@ -108,6 +112,36 @@ TEST_CASE("queries: posed cylinders and cones") {
     check_posed<cylinder<double>>(243, 0x1p40, 0x1p-10);
     check_posed<cone<float>>(244, 4096, 0x1p-8f);
     check_posed<cone<double>>(245, 0, 1);
+}
+
+TEST_CASE("queries: cylinders among themselves, posed and in lists") {
+    const openmp on{.threads = 2};
+    test::uniform random(251);
+    auto rods = test::shape_maker<cylinder<float>>(random, true)(120);
+    rods.push_back({{{0, 0, 0}, {0, 0, 2}}, 1});  // beside each other and on top of each other, touching
+    rods.push_back({{{2, 0, 1}, {2, 0, 3}}, 1});
+    rods.push_back({{{-3, 0, 3}, {3, 0, 3}}, 1});
+    const cylinders<float> set(rods);
+    const auto tree = make_bvh(on, set);
+    std::vector<index_pair> expected;
+    for (std::uint32_t i = 0; i < rods.size(); ++i) {
+        for (std::uint32_t j = i + 1; j < rods.size(); ++j) {
+            if (intersects<exact>(rods[i], rods[j])) expected.push_back({i, j});
+        }
+    }
+    CHECK(expected.size() > 100);
+    CHECK(std::find(expected.begin(), expected.end(), index_pair{120, 121}) != expected.end());
+    CHECK(std::find(expected.begin(), expected.end(), index_pair{120, 122}) != expected.end());
+    CHECK(to_host(self_pairs(on, tree)) == expected);
+    CHECK(to_host(self_pairs<exact>(serial{}, set)) == expected);
+
+    const rigid<float> pose = tilted_pose(0.25f), other = tilted_pose(-0.5f);
+    const posed_view<cylinders<float>::view_type> a{set.view(), pose}, b{set.view(), other};
+    const auto of_both = test::all_that_touch(a, b);
+    CHECK(of_both.size() > 100);
+    CHECK(to_host(pairs(on, posed(tree, pose), posed(tree, other))) == of_both);
+    using entry = posed_pair<std::remove_const_t<decltype(tree)>, std::remove_const_t<decltype(tree)>>;
+    CHECK(count(on, std::vector<entry>{{posed(tree, pose), posed(tree, other)}}) == of_both.size());
 }
 
 TEST_CASE("queries: cylinders and cones that are none are refused") {

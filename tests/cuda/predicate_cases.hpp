@@ -154,7 +154,7 @@ void check_solids(const Policy& on) {
 
 // --- cylinders and cones ------------------------------------------------------------------------------------------------
 
-/// With points, segments, triangles, boxes, balls and planes.
+/// With points, segments, triangles, boxes, balls and planes, and cylinders with each other and with capsules.
 template <class Solid, class Policy>
 void check_revolutions(const Policy& on) {
     using T = scalar_type_of<Solid>;
@@ -179,6 +179,13 @@ void check_revolutions(const Policy& on) {
     check(0.02, [](const pair& c, std::uint64_t) { return bounds(segment<T>{c.corner[0], c.corner[1]}); });
     check(0.02, [](const pair& c, std::uint64_t k) { return ball_beside(c, is_cone, k); });
     check(0.02, [](const pair& c, std::uint64_t k) { return plane_beside(c, k); });
+    if constexpr (!is_cone) {
+        check(0.02, [](const pair& c, std::uint64_t k) { return cylinder_beside(c, is_cone, k); });
+        check(0.02, [](const pair& c, std::uint64_t k) {
+            const cylinder<T> s = cylinder_beside(c, is_cone, k);
+            return capsule<T>{s.axis, s.radius};
+        });
+    }
 }
 
 // --- within a distance --------------------------------------------------------------------------------------------------

@@ -351,6 +351,13 @@ plane<T> plane_beside(const revolution_case<T>& c, std::uint64_t k) {
     return is_valid(p) ? p : plane<T>{c.corner[1], c.corner[2].x};
 }
 
+/// A cylinder between the first two corners: about as thick as the first is far from a feature of the solid, or as anything.
+template <scalar T>
+cylinder<T> cylinder_beside(const revolution_case<T>& c, bool is_cone, std::uint64_t k) {
+    const T radius = k % 2 == 0 ? ball_beside(c, is_cone, k / 2).radius : std::fabs(c.corner[2].x / 4);
+    return {{c.corner[0], c.corner[1]}, radius};
+}
+
 inline const char* name_of(revolution_family f) {
     constexpr const char* names[revolution_family_count] = {
         "random",     "offset",    "any scale", "lattice 2",     "lattice 5",       "upright lattice",
