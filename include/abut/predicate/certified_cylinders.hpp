@@ -19,6 +19,7 @@
 #include <abut/arithmetic/magnitude.hpp>
 #include <abut/arithmetic/vec.hpp>
 #include <abut/predicate/exact_ball.hpp>
+#include <abut/shape/outward.hpp>
 
 namespace abut::detail {
 
