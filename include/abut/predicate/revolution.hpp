@@ -186,9 +186,18 @@ ABUT_HD constexpr bool resolve_in_place(const S& s, const U& t) {
     }
 }
 
-/// Polynomials of a high degree, in limbs that are written out, are a megabyte of a kernel. So a device asks them of
-/// integers of a short length. It does so also of a ball that is left of a solid without an axis, beside a triangle: hardly
-/// ever.
+/// A question of integers. Polynomials of a high degree, in limbs that are written out, are a megabyte of a kernel. So a
+/// device asks them of integers whose length is known at run time.
+template <class Question, scalar T, std::size_t V>
+ABUT_HD constexpr verdict ask_integers(const T (&value)[V]) {
+    if constexpr (ABUT_DEVICE_CODE != 0) {
+        return decide_at_short_length<asked_exactly<Question>>(value);
+    } else {
+        return decide_in_limbs<asked_exactly<Question>>(value);
+    }
+}
+
+/// And so it asks of the ball that is left of a solid without an axis, beside a triangle: hardly ever.
 template <class U>
 inline constexpr bool is_asked_at_length = ABUT_DEVICE_CODE != 0 && std::same_as<U, triangle<scalar_type_of<U>>>;
 
@@ -225,12 +234,7 @@ requires detail::revolution_pair<S, U> ABUT_HD constexpr verdict decide(const S&
     using question = detail::revolution_question<S, U>;
     if (detail::is_point(detail::axis_of(s))) return detail::decide_without_axis<A>(detail::ball_around(s), t);
     if constexpr (std::same_as<A, exact>) {
-        using predicate = detail::asked_exactly<typename question::type>;
-        if constexpr (ABUT_DEVICE_CODE != 0) {
-            return detail::decide_at_short_length<predicate>(question::values(s, t).value);
-        } else {
-            return decide_in_limbs<predicate>(question::values(s, t).value);
-        }
+        return detail::ask_integers<typename question::type>(question::values(s, t).value);
     } else if constexpr (std::same_as<A, filtered>) {
         if constexpr (question::has_capsule_filter) {
             if (detail::decide_in_place<filtered>(detail::capsule_around(s), t) == verdict::no) return verdict::no;

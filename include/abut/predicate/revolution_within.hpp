@@ -39,17 +39,6 @@ requires revolution_and_center<S, U> ABUT_HD constexpr auto values_within(const 
                     widened_exactly(radius_around_core(t)), distance);
 }
 
-/// The exact stage. Polynomials of degree 12, in limbs that are written out, are a megabyte of a kernel. So a device asks
-/// them of integers whose length is known at run time.
-template <class Question, scalar T, std::size_t V>
-ABUT_HD constexpr verdict ask_integers(const T (&value)[V]) {
-    if constexpr (ABUT_DEVICE_CODE != 0) {
-        return decide_at_short_length<asked_exactly<Question>>(value);
-    } else {
-        return decide_in_limbs<asked_exactly<Question>>(value);
-    }
-}
-
 template <class S>
 using asked_within = revolution_within_of_ball<typename questions_of<S>::type>;
 
