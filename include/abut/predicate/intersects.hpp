@@ -21,6 +21,7 @@
 #include <abut/predicate/ray_solid.hpp>
 #include <abut/predicate/ray_triangle.hpp>
 #include <abut/predicate/revolution.hpp>
+#include <abut/predicate/revolution_hull.hpp>
 #include <abut/predicate/revolution_pair.hpp>
 #include <abut/predicate/segment_triangle.hpp>
 #include <abut/predicate/sphere_segment.hpp>

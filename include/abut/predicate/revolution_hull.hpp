@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Does a cylinder or a cone touch a convex hull of points? It does if and only if its axis meets the hull, or a triangle of
+// three of the points, which may be equal, meets it. For where they have a point in common and the axis misses the hull, the
+// solid reaches out of it, through a face.
+//
+// The search of gjk.hpp, in double, ends with a way on which both are apart, or near the points that make that triangle.
+// Only if those do not tell, all triangles are asked. Of these one corner at least is no farther ahead than the solid
+// reaches, along any way: a point of both is no farther, and so is a corner of its triangle.
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+
+#include <abut/arithmetic/arithmetic.hpp>
+#include <abut/arithmetic/magnitude.hpp>
+#include <abut/arithmetic/vec.hpp>
+#include <abut/predicate/capsule_hull.hpp>
+#include <abut/predicate/gjk.hpp>
+#include <abut/predicate/hull_hull.hpp>
+#include <abut/predicate/hull_numbers.hpp>
+#include <abut/predicate/revolution.hpp>
+#include <abut/shape/hull.hpp>
+#include <abut/shape/outward.hpp>
+#include <abut/shape/primitive.hpp>
+
+namespace abut {
+
+namespace detail {
+
+/// A hull and a solid whose axis has a length, as gjk.hpp reads two hulls, in double. Of the solid the points are those that
+/// were asked for: an end of the axis, and from there to the rim. Where it is not `Certified`, all is taken as it is
+/// rounded.
+template <bool Certified, solid_of_revolution S>
+class hull_and_solid {
+public:
+    using T = scalar_type_of<S>;
+    using number = double;
+    static constexpr int most_steps = 32;
+
+    ABUT_HD constexpr hull_and_solid(const hull<T>& h, const S& s, const hull<T>& axis)
+        : both_(h, axis), radius_(static_cast<double>(s.radius)) {
+        const vec3<double> along = relative_to(axis_of(s).a, axis_of(s).b);
+        const double size = magnitudes(along);
+        is_known_ = size > 0x1p-900 && size < 0x1p900;
+        const vec3<double> unit = (1 / size) * along;
+        axis_ = (1 / square_root(dot(unit, unit))) * unit;
+    }
+
+    [[nodiscard]] ABUT_HD constexpr vec3<double> axis() const { return axis_; }
+    [[nodiscard]] ABUT_HD constexpr vec3<double> way_between_middles() const { return both_.way_between_middles(); }
+    [[nodiscard]] ABUT_HD constexpr vec3<double> difference(std::uint32_t i, std::uint32_t j) const {
+        return both_.difference(i, end_[j]) - rim_[j];
+    }
+    ABUT_HD constexpr void look_back(const vec3<double>& way, std::uint32_t& i, std::uint32_t& j) const {
+        std::uint32_t end = 0;
+        both_.look_back(way, i, end);
+        j = static_cast<std::uint32_t>(count_);
+        if (count_ < most_steps) ++count_;
+        const vec3<double> across = across_of(way);
+        const double length = length_of(across);
+        end_[j] = end_on(way, i, end, length);
+        rim_[j] = has_rim(end_[j]) && length > 0 ? (radius_ / length) * across : vec3<double>{0, 0, 0};
+    }
+    [[nodiscard]] ABUT_HD constexpr bool are_apart(const vec3<double>& way, std::uint32_t i, std::uint32_t j) const {
+        return is_ahead(way, i, end_[j]);
+    }
+    ABUT_HD constexpr verdict holds_origin(const vec3<double> (&)[4], const difference_simplex& at) const {
+        return when_lost(at);
+    }
+    [[nodiscard]] ABUT_HD constexpr verdict when_lost(const difference_simplex&) const {
+        return Certified ? verdict::unknown : verdict::yes;
+    }
+
+    /// Of `n` points those that are not certain to be ahead of the solid on a way.
+    ///@{
+    [[nodiscard]] ABUT_HD constexpr std::size_t count_near(const vec3<double>& way, std::size_t n) const {
+        std::size_t near = 0;
+        for (std::size_t i = 0; i < n; ++i) near += is_near(way, i) ? 1 : 0;
+        return near;
+    }
+    [[nodiscard]] ABUT_HD constexpr bool is_near(const vec3<double>& way, std::size_t i) const {
+        const auto at = static_cast<std::uint32_t>(i);
+        const std::uint32_t end = both_.ahead(way, at, 1) < both_.ahead(way, at, 0) ? 1 : 0;
+        return !is_ahead(way, at, end_on(way, at, end, length_of(across_of(way))));
+    }
+    ///@}
+
+private:
+    static constexpr bool is_cone = questions_of<S>::type::is_cone;
+
+    [[nodiscard]] ABUT_HD static constexpr bool has_rim(std::uint32_t end) { return !is_cone || end == 1; }
+    [[nodiscard]] ABUT_HD constexpr vec3<double> across_of(const vec3<double>& way) const {
+        return way - dot(way, axis_) * axis_;
+    }
+    [[nodiscard]] ABUT_HD static constexpr double length_of(const vec3<double>& v) { return square_root(dot(v, v)); }
+    /// The end at which the solid is farthest along a way, where the axis is so at `end`.
+    [[nodiscard]] ABUT_HD constexpr std::uint32_t end_on(const vec3<double>& way, std::uint32_t i, std::uint32_t end,
+                                                         double length) const {
+        if (!is_cone) return end;
+        return both_.ahead(way, i, 1) - radius_ * length < both_.ahead(way, i, 0) ? 1 : 0;
+    }
+    /// Whether a point is ahead of all of the solid, which is farthest at this end.
+    [[nodiscard]] ABUT_HD constexpr bool is_ahead(const vec3<double>& way, std::uint32_t i, std::uint32_t end) const {
+        const double rim = has_rim(end) ? radius_ * length_of(across_of(way)) : 0, ahead = both_.ahead(way, i, end) - rim;
+        if constexpr (Certified) {
+            const double size = magnitudes(way),
+                         bound = 0x1p-45 * (size * (both_.size() + radius_)) + (lost_of_differences<T> * size + 0x1p-900);
+            return is_known_ && bound < 0x1p900 && ahead > bound;
+        } else {
+            return ahead > 0;
+        }
+    }
+
+    hulls_in_floats<true, T> both_;
+    double radius_;
+    bool is_known_ = false;
+    vec3<double> axis_{};
+    mutable vec3<double> rim_[most_steps + 1]{};
+    mutable std::uint32_t end_[most_steps + 1]{};
+    mutable int count_ = 0;
+};
+
+/// What a search came to: corners of a simplex, and their differences.
+struct found_simplex {
+    difference_simplex at;
+    vec3<double> w[4];
+};
+
+/// The triangle of a simplex's points, of four without number `but`.
+template <scalar T>
+ABUT_HD constexpr triangle<T> face_without(const hull<T>& h, const difference_simplex& at, int but) {
+    const auto corner = [&](int k) {
+        const int i = k < but ? k : k + 1;
+        return h[at.a[i < at.count ? i : at.count - 1]];
+    };
+    return {corner(0), corner(1), corner(2)};
+}
+
+/// Whether a point is strictly beyond the last end of an axis.
+struct is_beyond_end {
+    static constexpr int degree = 2, points = 3;
+    template <class N>
+    ABUT_HD static constexpr bool holds(const N (&value)[9]) {
+        const vec3<N> first = point_at(value, 0), last = point_at(value, 1), p = point_at(value, 2);
+        return sign_of_dot(p - last, last - first) > 0;
+    }
+};
+template <scalar T>
+ABUT_HD constexpr bool all_are_beyond(const hull<T>& h, const vec3<T>& first, const vec3<T>& last) {
+    bool all = true;
+    ABUT_ROLLED
+    for (std::size_t i = 0; i < h.count && all; ++i) {
+        const auto value = in_a_row(first, last, h[i]);
+        const verdict v = decide_in_limbs<is_beyond_end>(value.value);
+        all = v == verdict::unknown ? decide_at_any_span<is_beyond_end>(value.value) : v == verdict::yes;
+    }
+    return all;
+}
+
+/// A way that few of the hull's points are not certain to be ahead of the solid on, and their number.
+template <solid_of_revolution S, scalar T>
+struct steepest_way {
+    vec3<double> way{0, 0, 0};
+    std::size_t near;
+
+    ABUT_HD constexpr steepest_way(const hull_and_solid<true, S>& x, const hull<T>& h, const found_simplex& found)
+        : near(h.count) {
+        const vec3<double>(&w)[4] = found.w;
+        double weight[3];
+        offer(x, h, nearest_on_feature(w, least(found.at.count, 3), weight));
+        offer(x, h, x.axis());
+        if (found.at.count > 2) offer(x, h, cross(w[1] - w[0], w[2] - w[0]));
+    }
+
+private:
+    ABUT_HD constexpr void offer(const hull_and_solid<true, S>& x, const hull<T>& h, const vec3<double>& n) {
+        for (const vec3<double>& one : {n, vec3<double>{-n.x, -n.y, -n.z}}) {
+            const std::size_t there = x.count_near(one, h.count);
+            if (there < near) near = there, way = one;
+        }
+    }
+};
+
+/// By the search, and by the triangle and the axis, which are asked one stage.
+template <arithmetic A, solid_of_revolution S, scalar T>
+ABUT_NOINLINE ABUT_HD constexpr verdict search_solid(const S& s, const hull<T>& h) {
+    constexpr bool certified = !std::same_as<A, fast>;
+    const hull_points<T, 2> axis = points_of(axis_of(s));
+    found_simplex found;
+    const hull<T> ends = axis.as_hull();
+    const verdict met = search_origin<sought::meeting>(hull_and_solid<certified, S>(h, s, ends), found.at, found.w);
+    if (met != verdict::unknown) return met;
+    const int faces = found.at.count == 4 ? 4 : 1;
+    for (int but = 0; but < faces; ++but) {
+        if (decide<A>(s, face_without(h, found.at, faces == 4 ? but : 3)) == verdict::yes) return verdict::yes;
+    }
+    return decide<A>(h, axis_of(s)) == verdict::yes ? verdict::yes : verdict::unknown;
+}
+
+}  // namespace detail
+
+/// One stage of the decision, as for two hulls, of a cylinder or a cone and a hull. Its radius is >= 0. `exact` is unknown
+/// where it does not find a triangle that touches.
+template <arithmetic A, detail::solid_of_revolution S>
+ABUT_HD constexpr verdict decide(const S& s, const hull<scalar_type_of<S>>& h) {
+    if (detail::is_point(detail::axis_of(s))) return detail::decide_in_place<A>(detail::ball_around(s), h);
+    return detail::search_solid<A>(s, h);
+}
+
+/// The last stage: decides every finite input. Where hull and solid come closer than rounding and do not touch, it may take
+/// as long as there are pairs of points.
+template <detail::solid_of_revolution S>
+ABUT_NOINLINE ABUT_HD constexpr bool resolve(const S& s, const hull<scalar_type_of<S>>& h) {
+    using T = scalar_type_of<S>;
+    const auto exactly = [](const auto& a, const auto& b) {
+        verdict v = __builtin_is_constant_evaluated() ? verdict::unknown : decide<filtered>(a, b);
+        if (v == verdict::unknown) v = decide<exact>(a, b);
+        return v == verdict::unknown ? resolve(a, b) : v == verdict::yes;
+    };
+    const segment<T> axis = detail::axis_of(s);
+    if (detail::is_point(axis)) return exactly(detail::ball_around(s), h);
+    if (exactly(h, axis)) return true;
+    if (detail::all_are_beyond(h, axis.a, axis.b) || detail::all_are_beyond(h, axis.b, axis.a)) return false;
+    const detail::hull_points<T, 2> points = detail::points_of(axis);
+    const hull<T> ends = points.as_hull();
+    const detail::hull_and_solid<true, S> x(h, s, ends);
+    detail::found_simplex found;
+    (void)detail::search_origin<detail::sought::meeting>(x, found.at, found.w);
+    const detail::steepest_way<S, T> steepest(x, h, found);
+    for (std::size_t i = 0; i < h.count; ++i) {
+        if (!x.is_near(steepest.way, i)) continue;
+        for (std::size_t j = 0; j < h.count; ++j) {
+            for (std::size_t k = j; k < h.count; ++k) {
+                if (exactly(s, triangle<T>{h[i], h[j], h[k]})) return true;
+            }
+        }
+    }
+    return false;
+}
+
+}  // namespace abut
