@@ -170,6 +170,21 @@ void check_more_of_hulls(const Policy& on) {
     check_same(distance(on, tree, above), distance_by_definition(few.view(), planes.view()));
 }
 
+/// Cylinders and cones beside hulls.
+template <class Solid, class Policy>
+void check_hulls_and_solids(const Policy& on) {
+    using T = scalar_type_of<Solid>;
+    uniform random(74);
+    for (const bool on_lattice : {false, true}) {
+        CAPTURE(on_lattice);
+        const auto a = random_hulls<T>(70, random, on_lattice);
+        const shapes<Solid> solids(shape_maker<Solid>(random, on_lattice)(60));
+        const std::size_t hits = check_hulls_against(on, a, solids, pose_of_hulls<T>());
+        CHECK(hits > 100);
+        CHECK(hits < 2 * 70 * 60);
+    }
+}
+
 /// Bodies of hulls; and a list whose entries have hulls and spheres.
 template <class T, class Policy>
 void check_scenes_of_hulls(const Policy& on) {

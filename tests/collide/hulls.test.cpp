@@ -28,6 +28,13 @@ TEST_CASE("hulls: more queries, openmp") { test::check_more_of_hulls<float>(open
 TEST_CASE("hulls: scenes, serial") { test::check_scenes_of_hulls<float>(serial{}); }
 TEST_CASE("hulls: scenes, openmp") { test::check_scenes_of_hulls<double>(openmp{3}); }
 
+TEST_CASE("hulls: with cylinders and cones") {
+    test::check_hulls_and_solids<cylinder<float>>(serial{});
+    test::check_hulls_and_solids<cylinder<double>>(openmp{3});
+    test::check_hulls_and_solids<cone<double>>(serial{});
+    test::check_hulls_and_solids<cone<float>>(openmp{3});
+}
+
 TEST_CASE("hulls: against one shape, themselves, lists, and bodies") {
     const hulls<float> set(two_tetrahedra, std::vector<std::uint32_t>{0, 4, 8});
     CHECK(to_host(pairs(serial{}, set, vec3<float>{5.25f, 0.25f, 0.5f})) == std::vector<index_pair>{{1, 0}});

@@ -29,6 +29,14 @@ namespace abut {
 
 namespace detail {
 
+/// Points of a solid that a search asked for: an end of the axis, and how far from there.
+struct points_of_solid {
+    static constexpr int room = 33;
+    std::uint32_t end[room]{};
+    vec3<double> rim[room]{};
+    int count = 0;
+};
+
 /// A hull and a solid whose axis has a length, as gjk.hpp reads two hulls, in double. Of the solid the points are those that
 /// were asked for: an end of the axis, and from there to the rim. Where it is not `Certified`, all is taken as it is
 /// rounded.
@@ -37,10 +45,10 @@ class hull_and_solid {
 public:
     using T = scalar_type_of<S>;
     using number = double;
-    static constexpr int most_steps = 32;
+    static constexpr int most_steps = points_of_solid::room - 1;
 
-    ABUT_HD constexpr hull_and_solid(const hull<T>& h, const S& s, const hull<T>& axis)
-        : both_(h, axis), radius_(static_cast<double>(s.radius)) {
+    ABUT_HD constexpr hull_and_solid(const hull<T>& h, const S& s, const hull<T>& axis, points_of_solid& asked)
+        : both_(h, axis), radius_(static_cast<double>(s.radius)), asked_(asked) {
         const vec3<double> along = relative_to(axis_of(s).a, axis_of(s).b);
         const double size = magnitudes(along);
         is_known_ = size > 0x1p-900 && size < 0x1p900;
@@ -51,20 +59,20 @@ public:
     [[nodiscard]] ABUT_HD constexpr vec3<double> axis() const { return axis_; }
     [[nodiscard]] ABUT_HD constexpr vec3<double> way_between_middles() const { return both_.way_between_middles(); }
     [[nodiscard]] ABUT_HD constexpr vec3<double> difference(std::uint32_t i, std::uint32_t j) const {
-        return both_.difference(i, end_[j]) - rim_[j];
+        return both_.difference(i, asked_.end[j]) - asked_.rim[j];
     }
     ABUT_HD constexpr void look_back(const vec3<double>& way, std::uint32_t& i, std::uint32_t& j) const {
         std::uint32_t end = 0;
         both_.look_back(way, i, end);
-        j = static_cast<std::uint32_t>(count_);
-        if (count_ < most_steps) ++count_;
+        j = static_cast<std::uint32_t>(asked_.count);
+        if (asked_.count < most_steps) ++asked_.count;
         const vec3<double> across = across_of(way);
         const double length = length_of(across);
-        end_[j] = end_on(way, i, end, length);
-        rim_[j] = has_rim(end_[j]) && length > 0 ? (radius_ / length) * across : vec3<double>{0, 0, 0};
+        asked_.end[j] = end_on(way, i, end, length);
+        asked_.rim[j] = has_rim(asked_.end[j]) && length > 0 ? (radius_ / length) * across : vec3<double>{0, 0, 0};
     }
     [[nodiscard]] ABUT_HD constexpr bool are_apart(const vec3<double>& way, std::uint32_t i, std::uint32_t j) const {
-        return is_ahead(way, i, end_[j]);
+        return is_ahead(way, i, asked_.end[j]);
     }
     ABUT_HD constexpr verdict holds_origin(const vec3<double> (&)[4], const difference_simplex& at) const {
         return when_lost(at);
@@ -117,9 +125,7 @@ private:
     double radius_;
     bool is_known_ = false;
     vec3<double> axis_{};
-    mutable vec3<double> rim_[most_steps + 1]{};
-    mutable std::uint32_t end_[most_steps + 1]{};
-    mutable int count_ = 0;
+    points_of_solid& asked_;
 };
 
 /// What a search came to: corners of a simplex, and their differences.
@@ -190,7 +196,8 @@ ABUT_NOINLINE ABUT_HD constexpr verdict search_solid(const S& s, const hull<T>& 
     const hull_points<T, 2> axis = points_of(axis_of(s));
     found_simplex found;
     const hull<T> ends = axis.as_hull();
-    const verdict met = search_origin<sought::meeting>(hull_and_solid<certified, S>(h, s, ends), found.at, found.w);
+    points_of_solid asked;
+    const verdict met = search_origin<sought::meeting>(hull_and_solid<certified, S>(h, s, ends, asked), found.at, found.w);
     if (met != verdict::unknown) return met;
     const int faces = found.at.count == 4 ? 4 : 1;
     for (int but = 0; but < faces; ++but) {
@@ -225,7 +232,8 @@ ABUT_NOINLINE ABUT_HD constexpr bool resolve(const S& s, const hull<scalar_type_
     if (detail::all_are_beyond(h, axis.a, axis.b) || detail::all_are_beyond(h, axis.b, axis.a)) return false;
     const detail::hull_points<T, 2> points = detail::points_of(axis);
     const hull<T> ends = points.as_hull();
-    const detail::hull_and_solid<true, S> x(h, s, ends);
+    detail::points_of_solid asked;
+    const detail::hull_and_solid<true, S> x(h, s, ends, asked);
     detail::found_simplex found;
     (void)detail::search_origin<detail::sought::meeting>(x, found.at, found.w);
     const detail::steepest_way<S, T> steepest(x, h, found);

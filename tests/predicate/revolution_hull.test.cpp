@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include <abut/predicate/revolution_hull.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <vector>
+
+#include <abut/predicate/intersects.hpp>
+#include <abut/shape/bounds.hpp>
+#include <abut/shape/reach.hpp>
+
+#include "support/catch.hpp"
+#include "support/hulls.hpp"
+#include "support/revolution_oracle.hpp"
+#include "support/revolution_pairs.hpp"
+#include "support/samples.hpp"
+#include "support/stages.hpp"
+
+namespace {
+
+using namespace abut;
+
+constexpr vec3<double> cube[8] = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 0}, {0, 0, 2}, {2, 0, 2}, {0, 2, 2}, {2, 2, 2}};
+
+// Constant expressions: inside, on a face, at a corner, beside an edge.
+constexpr bool touches_cube(const cylinder<double>& s) { return intersects(hull<double>(cube, 8), s); }
+static_assert(touches_cube({{{0.5, 1, 1}, {1.5, 1, 1}}, 0.25}) && touches_cube({{{-9, 1, 1}, {9, 1, 1}}, 5}));
+static_assert(touches_cube({{{1, 1, 2}, {1, 1, 3}}, 5}) && !touches_cube({{{1, 1, 0x1.0000000000001p1}, {1, 1, 3}}, 5}));
+static_assert(touches_cube({{{5, 6, 2}, {5, 6, 9}}, 5}) && !touches_cube({{{5, 6, 2}, {5, 6, 9}}, 0x1.3ffffffffffffp2}));
+static_assert(touches_cube({{{1, -1, 3}, {5, -1, 3}}, 1.5}) && !touches_cube({{{1, -1, 3}, {5, -1, 3}}, 1.25}));
+static_assert(intersects(cone<double>{{2, 2, 2}, {4, 4, 4}, 1}, hull<double>(cube, 8)) &&
+              !intersects(cone<double>{{2, 2, 0x1.0000000000001p1}, {4, 4, 4}, 1}, hull<double>(cube, 8)));
+
+/// The axis meets the hull, or some triangle of three points, which may be equal, meets the solid; in rationals.
+template <class Solid, scalar T>
+bool truth_of(const Solid& s, const std::vector<vec3<T>>& points) {
+    const segment<T> axis = detail::axis_of(s);
+    if (test::oracle::hulls_intersect<T>({axis.a, axis.b}, points)) return true;
+    const std::size_t n = points.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = i; j < n; ++j) {
+            for (std::size_t k = j == i ? i : j + 1; k < n; ++k) {
+                if (j == i && k > i) break;
+                if (test::oracle::meets(s, triangle<T>{points[i], points[j], points[k]})) return true;
+            }
+            if (test::oracle::meets(s, segment<T>{points[i], points[j]})) return true;
+        }
+    }
+    return false;
+}
+
+template <class Solid>
+void examine_case(test::revolution_family f, std::uint64_t k, test::decision_tally& sum) {
+    using T = scalar_type_of<Solid>;
+    constexpr bool is_cone = std::same_as<Solid, cone<T>>;
+    const auto c = test::make_revolution_case<T>(test::sample_seed + 12, f, k, is_cone);
+    const Solid s = test::solid_of<Solid>(c.axis, c.radius);
+    const vec3<T>&p = c.corner[0], &q = c.corner[1], &r = c.corner[2];
+    std::vector<vec3<T>> points{p, q, r, p + (q - r), q + (r - p), r + r - q};
+    points.resize(1 + k % 6);
+    const hull<T> h(points.data(), points.size());
+    if (!is_valid(s) || !is_valid(h)) return;
+    const bool truth = truth_of(s, points);
+    const verdict lie = to_verdict(!truth), by_filter = decide<filtered>(s, h);
+    ++sum.pairs;
+    sum.hits += truth;
+    sum.open += by_filter == verdict::unknown;
+    sum.unlike += intersects<fast>(h, s) != truth;
+    sum.wrong += truth && !(overlaps(bounds(s), bounds(h)) && reach_of(s)(bounds(h)) && reach_of(h)(bounds(s)));
+    sum.wrong += by_filter == lie || decide<exact>(s, h) == lie || resolve(s, h) != truth || intersects(s, h) != truth ||
+                 intersects<exact>(h, s) != truth;
+}
+
+template <class Solid>
+void check_every_stage() {
+    test::decision_tally all;
+    for (int i = 0; i < test::revolution_family_count; ++i) {
+        const auto f = static_cast<test::revolution_family>(i);
+        // Rationals of thousands of digits take long.
+        const bool is_long = f == test::revolution_family::all_bit_patterns && sizeof(scalar_type_of<Solid>) == 8;
+        const std::uint64_t count = test::sample_count() / (is_long ? 1000 : 100) + 1;
+        const auto sum = test::in_threads<test::decision_tally>(
+            count, [f](std::uint64_t first, std::uint64_t last, test::decision_tally& of) {
+                for (std::uint64_t k = first; k < last; ++k) examine_case<Solid>(f, k, of);
+            });
+        CAPTURE(test::name_of(f));
+        CHECK(sum.wrong == 0);
+        if (f == test::revolution_family::random) CHECK(sum.unlike * 20 <= sum.pairs);
+        std::printf("%-16s | %6llu %6llu %6llu %6llu\n", test::name_of(f), static_cast<unsigned long long>(sum.pairs),
+                    static_cast<unsigned long long>(sum.hits), static_cast<unsigned long long>(sum.open),
+                    static_cast<unsigned long long>(sum.unlike));
+        all += sum;
+    }
+    CHECK(test::is_share_above(0.1, all.hits, all.pairs));
+    CHECK(test::is_share_above(0.1, all.pairs - all.hits, all.pairs));
+}
+
+}  // namespace
+
+TEST_CASE("cylinders and hulls, float") { check_every_stage<cylinder<float>>(); }
+TEST_CASE("cylinders and hulls, double") { check_every_stage<cylinder<double>>(); }
+TEST_CASE("cones and hulls, float") { check_every_stage<cone<float>>(); }
+TEST_CASE("cones and hulls, double") { check_every_stage<cone<double>>(); }
+
+// Nearly a face: what the search leaves is asked of triangles.
+TEST_CASE("cylinders and hulls, a step apart") {
+    for (const double step : {-0x1p-52, 0.0, 0x1p-52}) {
+        // The side beside an edge of the cube, turned by a Pythagorean angle, and an end over a corner.
+        const double out = 2 + 2 * step;
+        const cylinder<double> over{{{1, 1, out}, {1, 1, 9}}, 0.5},
+            beside{{{-9, 6, 2 + 3 + 4 * step}, {9, 6, 2 + 3 + 4 * step}}, 5};
+        const hull<double> h(cube, 8);
+        CHECK(intersects(over, h) == (step <= 0));
+        CHECK(intersects<exact>(h, over) == (step <= 0));
+        CHECK(intersects(beside, h) == (step <= 0));
+        CHECK(resolve(beside, h) == (step <= 0));
+    }
+}
