@@ -66,14 +66,15 @@ void examine(const S& s, const U& t, bool truth, tally& sum) {
 template <class Other>
 void examine_case(round_family f, std::uint64_t k, tally& sum) {
     const auto c = test::make_round_pair<Other>(test::sample_seed, f, k);
-    const auto s = test::first_of(c);
+    auto s = test::first_of(c);
     Other t = test::second_of<Other>(c);
     if (!is_valid(s) || !is_valid(t)) return;
     if (f == round_family::near_contact && c.truth != known::nothing) {
         // Both sides of the least radius with contact.
         for (const int step : {0, 1, -1, -2}) {
-            t.radius = test::construction::moved(c.second_radius, step);
-            if (is_valid(t)) examine(s, t, step >= 0, sum);
+            if (c.is_first_least) s.radius = test::construction::moved(c.first_radius, step);
+            if (!c.is_first_least) t.radius = test::construction::moved(c.second_radius, step);
+            if (is_valid(s) && is_valid(t)) examine(s, t, step >= 0, sum);
         }
         return;
     }

@@ -23,7 +23,8 @@
 namespace abut::test {
 
 /// `touching`: whole numbers of which the construction says whether they touch; `nudged`: one of its numbers is a step off.
-/// `near_contact`: the second's radius is the least with which they meet. `side_by_side`: the second is moved away until
+/// `aligned`: numbers of all digits, but along axes of the coordinates, and as far apart as the rounded sum of two numbers.
+/// `near_contact`: a radius is the least with which they meet. `side_by_side`: the second is moved away until
 /// balls around the nearest points of the axes touch about. `huge_and_small`: the surface of one, up to 2^60 times as
 /// large, goes through where the other is.
 enum class round_family : int {
@@ -36,6 +37,7 @@ enum class round_family : int {
     upright_lattice,
     touching,
     nudged,
+    aligned,
     near_contact,
     perpendicular,
     nearly_parallel,
@@ -50,14 +52,14 @@ enum class round_family : int {
     mixed_exponents,
     all_bit_patterns,
 };
-inline constexpr int round_family_count = 22;
+inline constexpr int round_family_count = 23;
 
 inline const char* name_of(round_family f) {
     constexpr const char* names[round_family_count] = {
-        "random",   "side by side", "offset",          "any scale",       "lattice 2",     "lattice 5",
-        "upright",  "touching",     "nudged",          "near contact",    "perpendicular", "nearly parallel",
-        "nested",   "end inside",   "discs, needles",  "huge and small",  "no radius",     "no length",
-        "denormal", "largest",      "mixed exponents", "all bit patterns"};
+        "random",          "side by side", "offset",     "any scale",       "lattice 2",       "lattice 5",
+        "upright",         "touching",     "nudged",     "aligned",         "near contact",    "perpendicular",
+        "nearly parallel", "nested",       "end inside", "discs, needles",  "huge and small",  "no radius",
+        "no length",       "denormal",     "largest",    "mixed exponents", "all bit patterns"};
     return names[static_cast<int>(f)];
 }
 
@@ -71,6 +73,7 @@ struct round_pair {
     segment<T> second;
     T second_radius;
     known truth = known::nothing;
+    bool is_first_least = false;  ///< in `near_contact`, whose radius it is
 };
 
 template <scalar T>
@@ -216,13 +219,60 @@ void touching(draws& d, bool is_capsule, round_pair<T>& pair) {
     for (int i = 0; i < 14; ++i) *number_of(pair, i) *= scale;
 }
 
+/// Whether the sum is x exactly, or more, where x is the rounded one or a step from that.
+template <scalar T>
+bool is_sum_at_least(T a, T b, T x) {
+    return fraction(static_cast<double>(a)) + fraction(static_cast<double>(b)) >= fraction(static_cast<double>(x));
+}
+
+/// The first along z, and the second along z or x, as far from it along one axis as two numbers together, rounded.
+template <scalar T>
+void aligned(draws& d, bool is_capsule, round_pair<T>& pair) {
+    const auto draw = [&](double low, double high) { return rounded_to<T>(d.uniform(low, high)); };
+    const auto rounded_sum = [&](T a, T b) {
+        const volatile T sum = a + b;
+        const int step = d.below(4) - 2;
+        return moved(T(sum), step < -1 ? 0 : step);
+    };
+    const int kind = d.below(4), turn = d.below(3);
+    const T r = draw(0.01, 1), s = draw(0.01, 1), low = draw(-1, 0.2), high = draw(0.3, 1);
+    pair.first_radius = r, pair.second_radius = s;
+    pair.first = {{T(0), T(0), low}, {T(0), T(0), high}};
+    if (kind < 2) {
+        const T out = rounded_sum(r, s);
+        const T from = draw(-1.5, 0.5), to = draw(-0.5, 1.5), at = draw(-1, 1);
+        if (kind == 0) {  // side by side
+            pair.second = {{out, T(0), from}, {out, T(0), to}};
+        } else {  // crossing
+            pair.second = {{from, out, at}, {to, out, at}};
+        }
+        const T least = from < to ? from : to, most = from < to ? to : from;
+        const bool faces = kind == 0 ? least <= high && most >= low : least <= 0 && most >= 0 && at >= low && at <= high;
+        if (faces) pair.truth = is_sum_at_least(r, s, out) ? known::yes : known::no;
+    } else {
+        const bool is_side = kind == 3;
+        const T lift = is_side || is_capsule ? s : T(0), up = rounded_sum(high, lift), x = draw(-1, 1) * r, y = draw(-1, 1);
+        if (is_side) {
+            pair.second = {{-y * y, x, up}, {T(1), x, up}};
+        } else {
+            pair.second = {{x, T(0), up}, {x, T(0), up + T(1)}};
+        }
+        pair.truth = is_sum_at_least(high, lift, up) ? known::yes : known::no;
+    }
+    for (int i = 0; i < turn; ++i) {
+        for (vec3<T>* p : {&pair.first.a, &pair.first.b, &pair.second.a, &pair.second.b}) *p = {p->z, p->x, p->y};
+    }
+    if (d.below(2) == 0) std::swap(pair.second.a, pair.second.b);
+}
+
 }  // namespace construction
 
-/// The least radius of the second with which they meet; false where there is none, or 0.
+/// The least radius with which they meet, of the one or the other; false where there is none, or 0.
 template <class Other, scalar T>
 bool set_least_radius(round_pair<T>& c) {
+    T& which = c.is_first_least ? c.first_radius : c.second_radius;
     const auto meet = [&](T radius) {
-        c.second_radius = radius;
+        which = radius;
         return oracle::examine_round(first_of(c), second_of<Other>(c));
     };
     T low = 0, high = 16;
@@ -234,7 +284,7 @@ bool set_least_radius(round_pair<T>& c) {
         if (found == finding::failed) return false;
         (found == finding::no ? low : high) = middle;
     }
-    c.second_radius = high;
+    which = high;
     c.truth = known::yes;
     return true;
 }
@@ -370,9 +420,13 @@ round_pair<T> make_round_pair(std::uint64_t seed, round_family f, std::uint64_t 
                 if (kind == 4) general(1, cube(d, d.power_of_ten(1, 3)));
                 if (kind == 5) lattice(4);
                 if (c.first.a == c.first.b) continue;
+                c.is_first_least = d.below(2) == 0;
                 if (set_least_radius<Other>(c)) return c;
             }
             general(1, {0, 0, 0});
+            break;
+        case round_family::aligned:
+            aligned(d, is_capsule, c);
             break;
         case round_family::perpendicular:
             perpendicular();
