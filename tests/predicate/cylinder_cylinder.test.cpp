@@ -22,26 +22,26 @@ namespace {
 using namespace abut;
 using test::finding, test::known, test::round_family;
 
-constexpr cylinder<float> drum{{{0, 0, 0}, {0, 0, 2}}, 5};
+constexpr cylinder<float> barrel{{{0, 0, 0}, {0, 0, 2}}, 5};
 
 // Constant expressions: side by side, rim on rim, end on end, sides that cross, and a step before that.
-static_assert(intersects(drum, cylinder<float>{{{9, 12, -1}, {9, 12, 1}}, 10}));
-static_assert(intersects(drum, cylinder<float>{{{6, 8, 2}, {6, 8, 3}}, 5}));
+static_assert(intersects(barrel, cylinder<float>{{{9, 12, -1}, {9, 12, 1}}, 10}));
+static_assert(intersects(barrel, cylinder<float>{{{6, 8, 2}, {6, 8, 3}}, 5}));
 static_assert(intersects<exact>(cylinder<double>{{{0, 0, 0}, {0, 0, 1}}, 1}, cylinder<double>{{{1, 1, 1}, {1, 1, 2}}, 1}));
 static_assert(intersects(cylinder<double>{{{-9, 0, 0}, {9, 0, 0}}, 1}, cylinder<double>{{{0, -9, 3}, {0, 9, 3}}, 2}));
 static_assert(!intersects(cylinder<double>{{{-9, 0, 0}, {9, 0, 0}}, 1},
                           cylinder<double>{{{0, -9, 3}, {0, 9, 3}}, 0x1.fffffffffffffp0}));
 // A capsule's end on a rim, and its side on an end.
-static_assert(intersects(drum, capsule<float>{{{8, 0, 6}, {9, 0, 9}}, 5}));
-static_assert(!intersects(capsule<float>{{{8, 0, 6}, {9, 0, 9}}, 0x1.3ffffep2f}, drum));
-static_assert(intersects(capsule<float>{{{-9, 3, 3}, {9, 3, 3}}, 1}, drum));
+static_assert(intersects(barrel, capsule<float>{{{8, 0, 6}, {9, 0, 9}}, 5}));
+static_assert(!intersects(capsule<float>{{{8, 0, 6}, {9, 0, 9}}, 0x1.3ffffep2f}, barrel));
+static_assert(intersects(capsule<float>{{{-9, 3, 3}, {9, 3, 3}}, 1}, barrel));
 
 static_assert(decidable_pair<cylinder<float>, cylinder<float>> && decidable_pair<cylinder<double>, capsule<double>>);
 
-struct tally : test::decision_tally {
+struct round_tally : test::decision_tally {
     std::uint64_t touching = 0, failed = 0;  // of the oracle
 
-    tally& operator+=(const tally& o) {
+    round_tally& operator+=(const round_tally& o) {
         decision_tally::operator+=(o);
         touching += o.touching, failed += o.failed;
         return *this;
@@ -50,7 +50,7 @@ struct tally : test::decision_tally {
 
 /// Every stage against the truth; `fast` is counted where it is unlike.
 template <class S, class U>
-void examine(const S& s, const U& t, bool truth, tally& sum) {
+void examine_with_truth(const S& s, const U& t, bool truth, round_tally& sum) {
     const verdict lie = to_verdict(!truth), by_filter = decide<filtered>(s, t);
     ++sum.pairs;
     sum.hits += truth;
@@ -64,7 +64,7 @@ void examine(const S& s, const U& t, bool truth, tally& sum) {
 }
 
 template <class Other>
-void examine_case(round_family f, std::uint64_t k, tally& sum) {
+void examine_round_case(round_family f, std::uint64_t k, round_tally& sum) {
     const auto c = test::make_round_pair<Other>(test::sample_seed, f, k);
     auto s = test::first_of(c);
     Other t = test::second_of<Other>(c);
@@ -74,7 +74,7 @@ void examine_case(round_family f, std::uint64_t k, tally& sum) {
         for (const int step : {0, 1, -1, -2}) {
             if (c.is_first_least) s.radius = test::construction::moved(c.first_radius, step);
             if (!c.is_first_least) t.radius = test::construction::moved(c.second_radius, step);
-            if (is_valid(s) && is_valid(t)) examine(s, t, step >= 0, sum);
+            if (is_valid(s) && is_valid(t)) examine_with_truth(s, t, step >= 0, sum);
         }
         return;
     }
@@ -89,11 +89,11 @@ void examine_case(round_family f, std::uint64_t k, tally& sum) {
         sum.failed += c.truth != known::nothing && met != truth;
         truth = met;
     }
-    examine(s, t, truth, sum);
+    examine_with_truth(s, t, truth, sum);
 }
 
 template <class Other>
-std::uint64_t cases_of(round_family f) {
+std::uint64_t round_cases_of(round_family f) {
     // Numbers of thousands of digits take long, and so does the search for a radius.
     const bool is_double = sizeof(scalar_type_of<Other>) == 8;
     const std::uint64_t part = f == round_family::all_bit_patterns ? (is_double ? 500 : 100)
@@ -104,7 +104,7 @@ std::uint64_t cases_of(round_family f) {
 
 /// x to -z, y to x, z to -y: a mirror and a turn.
 template <class T>
-vec3<T> turned(const vec3<T>& v) {
+vec3<T> mirrored(const vec3<T>& v) {
     return {-v.z, v.x, -v.y};
 }
 
@@ -121,10 +121,11 @@ TEMPLATE_TEST_CASE("cylinders with cylinders and capsules: every stage is right 
     std::printf("%-16s | %9s %9s %9s %9s %9s\n", "family", "pairs", "hits", "open", "unlike", "touching");
     for (int i = 0; i < test::round_family_count; ++i) {
         const auto f = static_cast<round_family>(i);
-        const auto sum =
-            test::in_threads<tally>(cases_of<TestType>(f), [f](std::uint64_t first, std::uint64_t last, tally& t) {
-                for (std::uint64_t k = first; k < last; ++k) examine_case<TestType>(f, k, t);
-            });
+        const auto sum = test::in_threads<round_tally>(round_cases_of<TestType>(f),
+                                                       [f](std::uint64_t first, std::uint64_t last, round_tally& t) {
+                                                           for (std::uint64_t k = first; k < last; ++k)
+                                                               examine_round_case<TestType>(f, k, t);
+                                                       });
         CAPTURE(test::name_of(f));
         CHECK(sum.pairs > 0);
         CHECK(sum.wrong == 0);
@@ -151,7 +152,7 @@ TEMPLATE_TEST_CASE("cylinders with cylinders and capsules: one answer for every 
     std::uint64_t differing = 0, scaled_pairs = 0;
     for (int i = 0; i < test::round_family_count; ++i) {
         const auto f = static_cast<round_family>(i);
-        const std::uint64_t count = cases_of<TestType>(f) / (f == round_family::near_contact ? 8 : 2);
+        const std::uint64_t count = round_cases_of<TestType>(f) / (f == round_family::near_contact ? 8 : 2);
         for (std::uint64_t k = 0; k < count; ++k) {
             const auto c = test::make_round_pair<TestType>(test::sample_seed + 1, f, k);
             const auto s = test::first_of(c);
@@ -162,8 +163,8 @@ TEMPLATE_TEST_CASE("cylinders with cylinders and capsules: one answer for every 
             const TestType other{{t.axis.b, t.axis.a}, t.radius};
             differing += intersects(t, s) != answer || intersects(back, t) != answer || intersects(other, s) != answer ||
                          intersects<exact>(back, other) != answer;
-            const cylinder<T> there{{turned(s.axis.a), turned(s.axis.b)}, s.radius};
-            differing += intersects(TestType{{turned(t.axis.a), turned(t.axis.b)}, t.radius}, there) != answer;
+            const cylinder<T> there{{mirrored(s.axis.a), mirrored(s.axis.b)}, s.radius};
+            differing += intersects(TestType{{mirrored(t.axis.a), mirrored(t.axis.b)}, t.radius}, there) != answer;
             // By a power of two that loses no digit.
             auto larger = c;
             const T scale = rounded_power<T>(k % 2 == 0 ? 20 : -20), inverse = 1 / scale;
@@ -188,7 +189,7 @@ TEMPLATE_TEST_CASE("cylinders with cylinders and capsules: right in every floati
     std::uint64_t wrong = 0;
     for (int i = 0; i < test::round_family_count; ++i) {
         const auto f = static_cast<round_family>(i);
-        const std::uint64_t count = cases_of<TestType>(f) / 5;
+        const std::uint64_t count = round_cases_of<TestType>(f) / 5;
         for (std::uint64_t k = 0; k < count; ++k) {
             const auto c = test::make_round_pair<TestType>(test::sample_seed + 2, f, k);
             const auto s = test::first_of(c);

@@ -8,7 +8,6 @@
 // solids seem to touch, points are tried whose coordinates are the simplest fractions near those found. Solids without
 // radius are left to the oracles of segments.
 
-#include <array>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
@@ -119,7 +118,21 @@ class growth {
 public:
     static constexpr int digits = std::numeric_limits<N>::digits;
     static constexpr int most = 6;
-    using vector = std::array<N, most>;
+    struct vector {
+        N number[most];
+
+        N& operator[](int i) { return number[i]; }
+        const N& operator[](int i) const { return number[i]; }
+        void fill(const N& x) {
+            for (N& y : number) y = x;
+        }
+    };
+    struct square_matrix {
+        vector row[most];
+
+        vector& operator[](int i) { return row[i]; }
+        const vector& operator[](int i) const { return row[i]; }
+    };
 
     growth(const round_body& s, const round_body& t, int shift) : bodies_{&s, &t}, shift_(shift) {
         const integer_point o = s.twice_center(), c = t.twice_center();
@@ -257,8 +270,8 @@ private:
 
     struct term {
         int body, count;
-        std::array<vector, 4> row;
-        std::array<N, 4> constant;
+        vector row[4];
+        N constant[4];
     };
 
     void add_body(int i) {
@@ -272,7 +285,7 @@ private:
         const auto blank = [i](int count) {
             term c{i, count, {}, {}};
             for (vector& row : c.row) row.fill(N(0));
-            c.constant.fill(N(0));
+            for (N& x : c.constant) x = 0;
             c.row[0][3] = 1;
             return c;
         };
@@ -330,9 +343,9 @@ private:
     }
 
     /// The gradient and the matrix of the barrier, but for the factor's own.
-    bool derive(const vector& v, vector& gradient, std::array<vector, most>& matrix) const {
+    bool derive(const vector& v, vector& gradient, square_matrix& matrix) const {
         gradient.fill(N(0));
-        for (vector& row : matrix) row.fill(N(0));
+        for (vector& row : matrix.row) row.fill(N(0));
         N x[4], q;
         for (const term& c : terms_) {
             if (!evaluate(c, v, x, q)) return false;
@@ -355,7 +368,7 @@ private:
         return true;
     }
     /// x with matrix x = b, by the roots of the matrix.
-    bool solve(std::array<vector, most>& m, const vector& b, vector& x) const {
+    bool solve(square_matrix& m, const vector& b, vector& x) const {
         using std::sqrt;
         for (int k = 0; k < size_; ++k) {
             for (int l = 0; l <= k; ++l) {
@@ -380,7 +393,7 @@ private:
     bool centre(vector& v, const N& mu, int tries) const {
         using std::sqrt;
         vector gradient{}, move{};
-        std::array<vector, most> matrix{};
+        square_matrix matrix{};
         for (int i = 0; i < tries; ++i) {
             if (!derive(v, gradient, matrix)) return false;
             gradient[3] += 1 / mu;
@@ -401,7 +414,7 @@ private:
     }
     bool tangent(vector& x) const {
         vector gradient{}, b{};
-        std::array<vector, most> matrix{};
+        square_matrix matrix{};
         if (!derive(v_, gradient, matrix)) return false;
         b.fill(N(0));
         b[3] = 1;
