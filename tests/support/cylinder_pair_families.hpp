@@ -308,6 +308,16 @@ round_pair<T> make_round_pair(std::uint64_t seed, round_family f, std::uint64_t 
         c.first_radius = static_cast<T>(d.below(2 * n)) / 2;
         c.second_radius = static_cast<T>(d.below(2 * n)) / 2;
     };
+    // The first along an axis of the coordinates, and the second half the time.
+    const auto upright = [&](int n) {
+        lattice(n);
+        c.first.b = c.first.a;
+        *number_of(c, 3 + d.below(3)) += static_cast<T>(d.below(7) - 3);
+        if (d.below(2) == 0) {
+            c.second.b = c.second.a;
+            *number_of(c, 9 + d.below(3)) += static_cast<T>(d.below(7) - 3);
+        }
+    };
     // Away from the first along some normal of it, by about what both reach.
     const auto move_beside = [&](double most) {
         const point axis = along(widened(c.first.b), -1, widened(c.first.a)),
@@ -388,26 +398,28 @@ round_pair<T> make_round_pair(std::uint64_t seed, round_family f, std::uint64_t 
             lattice(5);
             break;
         case round_family::upright_lattice:
-            lattice(3);
-            c.first.b = c.first.a;
-            *number_of(c, 3 + d.below(3)) += static_cast<T>(d.below(7) - 3);
-            if (d.below(2) == 0) {
-                c.second.b = c.second.a;
-                *number_of(c, 9 + d.below(3)) += static_cast<T>(d.below(7) - 3);
-            }
+            upright(3);
             break;
         case round_family::touching:
             touching(d, is_capsule, c);
             break;
         case round_family::nudged: {
-            touching(d, is_capsule, c);
+            if (d.below(2) == 0) {
+                touching(d, is_capsule, c);
+            } else {
+                upright(2);
+            }
             c.truth = known::nothing;
-            T& x = *number_of(c, d.below(14));
-            const int way = d.below(2) == 0 ? -1 : 1;
-            // The step from 0 is as small as numbers are where that is not many digits.
-            x = x != 0 || (sizeof(T) == 4 && d.below(4) == 0) ? moved(x, way)
-                                                              : rounded_to<T>(std::ldexp(double(way), -1 - d.below(100)));
-            if (c.first_radius < 0 || c.second_radius < 0) x = 0;
+            const int count = 1 + d.below(2) * d.below(3);
+            for (int i = 0; i < count; ++i) {
+                T& x = *number_of(c, d.below(14));
+                const int way = d.below(2) == 0 ? -1 : 1;
+                // The step from 0 is as small as numbers are where that is not many digits.
+                x = x != 0 || (sizeof(T) == 4 && d.below(4) == 0)
+                        ? moved(x, way)
+                        : rounded_to<T>(std::ldexp(double(way), -1 - d.below(100)));
+                if (c.first_radius < 0 || c.second_radius < 0) x = 0;
+            }
             break;
         }
         case round_family::near_contact:
