@@ -79,7 +79,7 @@ void check_every_stage() {
         const auto f = static_cast<test::revolution_family>(i);
         // Rationals of thousands of digits take long.
         const bool is_long = f == test::revolution_family::all_bit_patterns && sizeof(scalar_type_of<Solid>) == 8;
-        const std::uint64_t count = test::sample_count() / (is_long ? 1000 : 100) + 1;
+        const std::uint64_t count = test::sample_count() / (is_long ? 5000 : 100) + 1;
         const auto sum = test::in_threads<test::decision_tally>(
             count, [f](std::uint64_t first, std::uint64_t last, test::decision_tally& of) {
                 for (std::uint64_t k = first; k < last; ++k) examine_case<Solid>(f, k, of);

@@ -85,7 +85,9 @@ public:
     ///@{
     [[nodiscard]] ABUT_HD constexpr std::size_t count_near(const vec3<double>& way, std::size_t n) const {
         std::size_t near = 0;
-        for (std::size_t i = 0; i < n; ++i) near += is_near(way, i) ? 1 : 0;
+        for (std::size_t i = 0; i < n; ++i) {
+            if (is_near(way, i)) ++near;
+        }
         return near;
     }
     [[nodiscard]] ABUT_HD constexpr bool is_near(const vec3<double>& way, std::size_t i) const {
@@ -189,6 +191,113 @@ private:
     }
 };
 
+/// Whether a point x is ahead of all of a solid along n = (b - a) x (q - p): the axis's ends, a, b, p, q, x, the radius.
+template <class Solid>
+struct is_ahead_of_solid {
+    static constexpr int degree = 8;
+    template <class N>
+    ABUT_HD static constexpr verdict ask(const N (&value)[22]) {
+        const vec3<N> first = point_at(value, 0), last = point_at(value, 1), x = point_at(value, 6);
+        const auto n = cross(point_at(value, 3) - point_at(value, 2), point_at(value, 5) - point_at(value, 4));
+        const auto d = last - first;
+        const auto over_first = dot(n, x - first), over_last = dot(n, x - last);
+        return and_then(is_positive(over_first), [&] {
+            return and_then(is_positive(over_last), [&] {
+                const auto rim = scale(value[21], cross(n, d));
+                return and_then(is_longer(scale(over_last, d), rim),
+                                [&] { return Solid::is_cone ? verdict::yes : is_longer(scale(over_first, d), rim); });
+            });
+        });
+    }
+};
+
+/// Whether all of a hull is ahead of a solid along (b - a) x (q - p), or along the opposite.
+template <solid_of_revolution S, scalar T>
+ABUT_NOINLINE ABUT_HD constexpr bool are_apart_along(const S& s, const hull<T>& h, const vec3<T>& a, const vec3<T>& b,
+                                                     const vec3<T>& p, const vec3<T>& q) {
+    using question = is_ahead_of_solid<typename questions_of<S>::type>;
+    const segment<T> axis = axis_of(s);
+    ABUT_ROLLED
+    for (int sense = 0; sense < 2; ++sense) {
+        bool all = true;
+        ABUT_ROLLED
+        for (std::size_t i = 0; i < h.count && all; ++i) {
+            const auto row = in_a_row(axis.a, axis.b, sense == 0 ? a : b, sense == 0 ? b : a, p, q, h[i], s.radius);
+            verdict v = __builtin_is_constant_evaluated() ? verdict::unknown : ask_estimates<question>(row.value);
+            if (v == verdict::unknown) v = ask_integers<question>(row.value);
+            all = v == verdict::unknown ? decide_at_any_length<asked_exactly<question>>(row.value) : v == verdict::yes;
+        }
+        if (all) return true;
+    }
+    return false;
+}
+
+/// The few corners of a hull that are nearest to where a solid is farthest along a way, of those that the way leaves.
+template <solid_of_revolution S, scalar T>
+class nearest_corners {
+public:
+    ABUT_HD constexpr nearest_corners(const hull_and_solid<true, S>& x, const hull<T>& h, const vec3<double>& way) {
+        std::uint32_t i = 0, j = 0;
+        x.look_back(way, i, j);
+        double size[most]{};
+        for (i = 0; i < h.count; ++i) {
+            if (!x.is_near(way, i)) continue;
+            const vec3<double> apart = x.difference(i, j);
+            const double here = dot(apart, apart);
+            if (count_ == most && !(here < size[most - 1])) continue;
+            int k = count_ < most ? count_++ : most - 1;
+            for (; k > 0 && here < size[k - 1]; --k) size[k] = size[k - 1], corner_[k] = corner_[k - 1];
+            size[k] = here, corner_[k] = h[i];
+        }
+    }
+
+    /// Whether asks(triangle) holds of any triangle of theirs.
+    template <class Ask>
+    [[nodiscard]] ABUT_HD constexpr bool any_triangle(const Ask& asks) const {
+        ABUT_ROLLED
+        for (int i = 0; i < count_; ++i) {
+            ABUT_ROLLED
+            for (int j = i; j < count_; ++j) {
+                ABUT_ROLLED
+                for (int k = j; k < count_; ++k) {
+                    if (asks(triangle<T>{corner_[i], corner_[j], corner_[k]})) return true;
+                }
+            }
+        }
+        return false;
+    }
+    /// Whether the two are apart along the normal of a face of three of them, across an edge of two and the axis, or from
+    /// the axis towards one.
+    [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr bool are_apart(const S& s, const hull<T>& h) const {
+        const segment<T> axis = axis_of(s);
+        const vec3<T> none{0, 0, 0};
+        ABUT_ROLLED
+        for (int i = 0; i < count_; ++i) {
+            const vec3<double> across = cross(relative_to(axis.a, corner_[i]), relative_to(axis.a, axis.b));
+            const double size = magnitudes(across);
+            if (size > 0x1p-900 && size < 0x1p900) {
+                const vec3<double> unit = (1 / size) * across;
+                const vec3<T> to{static_cast<T>(unit.x), static_cast<T>(unit.y), static_cast<T>(unit.z)};
+                if (are_apart_along(s, h, axis.a, axis.b, none, to)) return true;
+            }
+            ABUT_ROLLED
+            for (int j = i + 1; j < count_; ++j) {
+                if (are_apart_along(s, h, corner_[i], corner_[j], axis.a, axis.b)) return true;
+                ABUT_ROLLED
+                for (int k = j + 1; k < count_; ++k) {
+                    if (are_apart_along(s, h, corner_[i], corner_[j], corner_[i], corner_[k])) return true;
+                }
+            }
+        }
+        return false;
+    }
+
+private:
+    static constexpr int most = 8;
+    vec3<T> corner_[most]{};
+    int count_ = 0;
+};
+
 /// By the search, and by the triangle and the axis, which are asked one stage.
 template <arithmetic A, solid_of_revolution S, scalar T>
 ABUT_NOINLINE ABUT_HD constexpr verdict search_solid(const S& s, const hull<T>& h) {
@@ -237,11 +346,15 @@ ABUT_NOINLINE ABUT_HD constexpr bool resolve(const S& s, const hull<scalar_type_
     detail::found_simplex found;
     (void)detail::search_origin<detail::sought::meeting>(x, found.at, found.w);
     const detail::steepest_way<S, T> steepest(x, h, found);
+    const detail::nearest_corners<S, T> corners(x, h, steepest.way);
+    const auto touches = [&](const triangle<T>& t) { return exactly(s, t); };
+    if (corners.any_triangle(touches)) return true;
+    if (corners.are_apart(s, h)) return false;
     for (std::size_t i = 0; i < h.count; ++i) {
         if (!x.is_near(steepest.way, i)) continue;
         for (std::size_t j = 0; j < h.count; ++j) {
             for (std::size_t k = j; k < h.count; ++k) {
-                if (exactly(s, triangle<T>{h[i], h[j], h[k]})) return true;
+                if (touches({h[i], h[j], h[k]})) return true;
             }
         }
     }
