@@ -7,9 +7,9 @@
 //
 // The search of gjk.hpp, in double, ends with a way on which both are apart, or near the points that make that triangle. If
 // those do not tell, the two come closer than rounding: shapes that lie on each other do. Then triangles of a few corners
-// there are asked, and ways that are across these and the axis, in integers. Only then all triangles are. Of these one corner
-// at least is no farther ahead than the solid reaches, along any way: a point of both is no farther, and so is a corner of
-// its triangle.
+// there are asked, and ways that are across these and the axis, in integers. Only then all triangles are. Of these one
+// corner at least is no farther ahead than the solid reaches, along any way: a point of both is no farther, and so is a
+// corner of its triangle.
 
 #include <concepts>
 #include <cstddef>
