@@ -35,6 +35,13 @@ TEST_CASE("distance: sets of cylinders") {
     check_planes_beside<cylinder<float>>(257);
 }
 
+TEST_CASE("distance: sets of cylinders, with each other and with capsules") {
+    test::check_distance_of<cylinder<float>, cylinder<float>>(openmp{3}, 231);
+    test::check_distance_of<cylinder<double>, cylinder<double>>(serial{}, 232);
+    test::check_distance_of<cylinder<double>, capsule<double>>(openmp{3}, 233);
+    test::check_distance_of<capsule<float>, cylinder<float>>(serial{}, 234);
+}
+
 TEST_CASE("distance: sets of cones") {
     test::check_distance_of<triangle<double>, cone<double>>(serial{}, 261);
     test::check_distance_of<cone<float>, segment<float>>(openmp{3}, 262);

@@ -114,7 +114,9 @@ struct measured_pair {
     template <class S, class U>
     ABUT_HD constexpr measured_pair(const S& s, const U& t)
         : unit(common_unit(s, t)), radius_a(core_radius(s, unit)), radius_b(core_radius(t, unit)) {
-        if constexpr (solid_of_revolution<S>) {
+        if constexpr (solid_of_revolution<U>) {
+            nearest = nearest_way_from<false>(s, t, unit);
+        } else if constexpr (solid_of_revolution<S>) {
             nearest = nearest_way_from<false>(s, core_of(t), unit);
         } else {
             nearest = nearest_way_between(core_of(s), core_of(t), unit);
@@ -280,9 +282,14 @@ ABUT_HD constexpr separation<T> reversed(const separation<T>& s) {
     return {s.b, s.a, s.point_b, s.point_a, s.distance};
 }
 
+/// Two cylinders, or a cylinder or a cone and a capsule, of which it is decided whether they touch.
 template <class S, class U>
-inline constexpr bool measured_as_given =
-    (contact_pair<S, U> && measured_in_order<S, U>) || measured_hulls<S, U> || revolution_pair<S, U>;
+concept measured_revolutions = solid_of_revolution<S> && decidable_pair<S, U> &&
+    (std::same_as<U, capsule<scalar_type_of<S>>> || (std::same_as<S, cylinder<scalar_type_of<S>>> && std::same_as<S, U>));
+
+template <class S, class U>
+inline constexpr bool measured_as_given = (contact_pair<S, U> && measured_in_order<S, U>) || measured_hulls<S, U> ||
+                                          revolution_pair<S, U> || measured_revolutions<S, U>;
 
 /// Whether two shapes have a distance, in either order: those that can be decided and have contacts, convex hulls, and
 /// cylinders and cones with what they can be decided with.
@@ -296,6 +303,10 @@ ABUT_HD constexpr auto separation_of(const S& s, const U& t, bool touch) {
     if constexpr (!measured_as_given<S, U>) {
         return reversed(separation_of(t, s, touch));
     } else {
+        if constexpr (solid_of_revolution<U>) {  // of two balls the same comes first in either order
+            const bool is_first = !is_point(axis_of(s)) || precedes(t, s);
+            if (is_point(axis_of(t)) && is_first) return separation_of(s, ball_around(t), touch);
+        }
         if constexpr (solid_of_revolution<S>) {
             if (is_point(axis_of(s))) return separation_of(ball_around(s), t, touch);
         }
@@ -351,6 +362,9 @@ struct measure_apart {
             if constexpr (solid_of_revolution<S>) {
                 if (is_point(axis_of(s))) return look(ball_around(s), t, bound, along);
             }
+            if constexpr (solid_of_revolution<U>) {
+                if (is_point(axis_of(t))) return look(s, ball_around(t), bound, along);
+            }
             if (is_surely_beyond(s, t, bound, along)) return {};
             return distance_apart(s, t);
         }
@@ -369,6 +383,8 @@ private:
     ABUT_HD static bool is_surely_beyond(const S& s, const U& t, double bound, const vec3<double>& along) {
         if constexpr (solid_of_revolution<S>) {  // by the capsule around it
             return is_surely_beyond(capsule_around(s), t, bound, along);
+        } else if constexpr (solid_of_revolution<U>) {
+            return is_surely_beyond(s, capsule_around(t), bound, along);
         } else if constexpr (requires { core_of(s).corners + core_of(t).corners; }) {
             const auto a = core_of(s);
             const auto b = core_of(t);
@@ -423,10 +439,10 @@ private:
 
 /// How far apart two closed shapes are: a `separation` with ids 0. It takes the pairs that `contact_of` takes, in either
 /// order: points, segments, triangles, spheres, capsules, boxes and convex hulls with each other, and planes with any of
-/// these; and cylinders and cones with points, segments, triangles, boxes, spheres and planes. The distance is 0 exactly
-/// where the two touch, as `intersects` decides. Otherwise it is accurate to a few units in the last place of the shapes'
-/// farthest corners (docs/numerics.md). The same bits on every compiler and device, in constant expressions too. Shapes are
-/// finite and valid.
+/// these; and cylinders and cones with points, segments, triangles, boxes, spheres and planes. Cylinders have distances from
+/// each other and from capsules too. The distance is 0 exactly where the two touch, as `intersects` decides. Otherwise it is
+/// accurate to a few units in the last place of the shapes' farthest corners (docs/numerics.md). The same bits on every
+/// compiler and device, in constant expressions too. Shapes are finite and valid.
 ///
 ///     constexpr auto d = abut::distance(abut::sphere<float>{{0, 0, 4}, 1},
 ///                                       abut::triangle<float>{{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}});

@@ -28,6 +28,7 @@
 #include <abut/arithmetic/magnitude.hpp>
 #include <abut/narrow/box_contact.hpp>
 #include <abut/narrow/common_unit.hpp>
+#include <abut/narrow/cylinder_ways.hpp>
 #include <abut/narrow/directions.hpp>
 #include <abut/narrow/flat_contact.hpp>
 #include <abut/narrow/numbers.hpp>
@@ -46,8 +47,11 @@ namespace abut::detail {
 /// Of a solid and another shape that touch, by the least way between them as it is rounded.
 template <solid_of_revolution S, class U, scalar T>
 ABUT_HD constexpr vec3<T> point_of_both(const S& s, const U& t, const nearest_way<T>& nearest, const length_unit<T>& unit) {
-    if constexpr (std::same_as<U, sphere<T>>) {  // of the solid, the one nearest to the centre
+    if constexpr (std::same_as<U, sphere<T>> || std::same_as<U, capsule<T>>) {  // of the solid, the one nearest to the core
         return end_of_way(s, nearest.from_a, nearest.to_a, unit);
+    } else if constexpr (std::same_as<S, U>) {  // the same in either order
+        return precedes(s, t) ? end_of_way(s, nearest.from_a, nearest.to_a, unit)
+                              : end_of_way(t, nearest.from_b, nearest.to_b, unit);
     } else if constexpr (std::same_as<U, aabb<T>>) {
         return end_of_way<T>(nearest.from_b, nearest.to_b, t, unit);
     } else {
@@ -59,7 +63,11 @@ ABUT_HD constexpr vec3<T> point_of_both(const S& s, const U& t, const nearest_wa
 template <solid_of_revolution S, class U>
 ABUT_HD constexpr auto shared_point_of(const S& s, const U& t) {
     const auto unit = common_unit(s, t);
-    return point_of_both(s, t, nearest_way_from<true>(s, core_of(t), unit), unit);
+    if constexpr (solid_of_revolution<U>) {
+        return point_of_both(s, t, nearest_way_from<true>(s, t, unit), unit);
+    } else {
+        return point_of_both(s, t, nearest_way_from<true>(s, core_of(t), unit), unit);
+    }
 }
 template <solid_of_revolution S, scalar T>
 ABUT_HD constexpr vec3<T> shared_point_of(const S& s, const plane<T>& t) {

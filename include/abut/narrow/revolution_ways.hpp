@@ -263,7 +263,7 @@ public:
         if (way_to(z, way)) offer(z, way, first_, plain_step(z, 1, way));
     }
 
-private:
+protected:
     vec3<T> first_;
     revolution_profile solid_;
     double size_, length_ = infinity<double>;
