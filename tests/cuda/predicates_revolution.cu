@@ -99,4 +99,6 @@ TEST_CASE("distance and nearest: sets of cylinders and cones, cuda") {
     test::check_distance_of<cylinder<float>, triangle<float>>(on, 291);
     test::check_distance_of_posed_solids<cone<float>>(on, 292);
     test::check_nearest_of<cylinder<float>>(on, 293);
+    test::check_distance_of<cylinder<float>, cylinder<float>>(on, 294);
+    test::check_distance_of<cylinder<double>, capsule<double>>(on, 295);
 }
