@@ -19,6 +19,7 @@
 #include <abut/narrow/nearest_ways.hpp>
 #include <abut/narrow/numbers.hpp>
 #include <abut/narrow/revolution_contact.hpp>
+#include <abut/narrow/revolution_hull_distance.hpp>
 #include <abut/narrow/revolution_plane.hpp>
 #include <abut/narrow/revolution_ways.hpp>
 #include <abut/predicate/intersects.hpp>
@@ -215,11 +216,25 @@ inline constexpr bool measured_in_order<plane<T>, hull<T>> = true;
 template <class S, class U>
 concept measured_revolution_over_plane = revolution_pair<S, U> && std::same_as<U, plane<scalar_type_of<U>>>;
 
+/// A cylinder or a cone and a convex hull, in this order.
+template <class S, class U>
+concept measured_revolution_and_hull = solid_of_revolution<S> && std::same_as<U, hull<scalar_type_of<S>>>;
+
 /// A distance and a way as long, from the first shape to the second, in no unit.
 struct distance_and_way {
     double distance = infinity<double>;
     vec3<double> way{0, 0, 0};
 };
+
+/// Of a hull that does not touch a solid, the triangle of three points that is nearest to it.
+template <solid_of_revolution S, scalar T>
+ABUT_HD constexpr triangle<T> nearest_triangle_of(const S& s, const hull<T>& h) {
+    const auto measure = [&](const triangle<T>& t) {
+        const measured_pair<T> m(s, t);
+        return distance_and_way{positive_distance(s, t, m.distance()), m.nearest.way};
+    };
+    return nearest_triangle<S, decltype(measure)>(s, h, measure).best;
+}
 
 /// Of two shapes that do not touch, rounded to double: positive, or infinite.
 template <class S, class U>
@@ -230,6 +245,8 @@ ABUT_NOINLINE ABUT_HD constexpr distance_and_way distance_apart(const S& s, cons
         });
     } else if constexpr (requires { s.normal; }) {
         return {positive_distance(s, t, measured_plane(s, t).length)};
+    } else if constexpr (measured_revolution_and_hull<S, U>) {
+        return distance_apart(s, nearest_triangle_of(s, t));
     } else if constexpr (measured_revolution_over_plane<S, U>) {
         if (t.normal == vec3<scalar_type_of<S>>{0, 0, 0}) return {};
         return {positive_distance(s, t, revolution_over_plane(s, t, common_unit(s, t)).distance())};
@@ -264,6 +281,8 @@ ABUT_NOINLINE ABUT_HD constexpr auto separation_apart(const S& s, const U& t) {
     } else if constexpr (requires { s.normal; }) {
         const measured_plane<T> m(s, t);
         return separation<T>{0, 0, m.on_plane, m.on_shape, rounded_distance<T>(positive_distance(s, t, m.length))};
+    } else if constexpr (measured_revolution_and_hull<S, U>) {
+        return separation_apart(s, nearest_triangle_of(s, t));
     } else if constexpr (measured_revolution_over_plane<S, U>) {
         const vec3<T> end = axis_of(s).b;
         if (t.normal == vec3<T>{0, 0, 0}) return separation<T>{0, 0, end, end, infinity<T>};
@@ -288,8 +307,9 @@ concept measured_revolutions = solid_of_revolution<S> && decidable_pair<S, U> &&
     (std::same_as<U, capsule<scalar_type_of<S>>> || (std::same_as<S, cylinder<scalar_type_of<S>>> && std::same_as<S, U>));
 
 template <class S, class U>
-inline constexpr bool measured_as_given = (contact_pair<S, U> && measured_in_order<S, U>) || measured_hulls<S, U> ||
-                                          revolution_pair<S, U> || measured_revolutions<S, U>;
+inline constexpr bool measured_as_given =
+    (contact_pair<S, U> && measured_in_order<S, U>) || measured_hulls<S, U> || revolution_pair<S, U> ||
+    measured_revolutions<S, U> || measured_revolution_and_hull<S, U>;
 
 /// Whether two shapes have a distance, in either order: those that can be decided and have contacts, convex hulls, and
 /// cylinders and cones with what they can be decided with.
@@ -314,6 +334,10 @@ ABUT_HD constexpr auto separation_of(const S& s, const U& t, bool touch) {
         vec3<T> shared{};
         if constexpr (measured_hulls<S, U>) {
             shared = with_measured_hulls(s, t, true, [](const auto& m) { return m.shared_point(); });
+        } else if constexpr (measured_revolution_and_hull<S, U>) {
+            triangle<T> where{};
+            if (find_touch(s, t, where) == touch_of_hull::at_axis) return reversed(separation_of(t, axis_of(s), true));
+            shared = shared_point_of(s, where);
         } else if constexpr (solid_of_revolution<S>) {
             shared = shared_point_of(s, t);
         } else {

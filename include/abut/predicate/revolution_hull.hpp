@@ -99,6 +99,17 @@ public:
     }
     ///@}
 
+    /// Whether no point is nearer along a way than a distance, but for twice a few 2^-53 of the shapes' size.
+    [[nodiscard]] ABUT_HD constexpr bool is_nearest_along(const vec3<double>& way, double distance) const {
+        std::uint32_t i = 0, end = 0;
+        both_.look_back(way, i, end);
+        const double length = length_of(way), rim = length_of(across_of(way));
+        end = end_on(way, i, end, rim);
+        const double ahead = both_.ahead(way, i, end) - (has_rim(end) ? radius_ * rim : 0);
+        const double size = both_.size() + radius_;
+        return size < 0x1p400 && length < 0x1p400 && length > 0x1p-400 && ahead >= length * (distance - 0x1p-52 * size);
+    }
+
 private:
     static constexpr bool is_cone = questions_of<S>::type::is_cone;
 
@@ -317,6 +328,48 @@ ABUT_NOINLINE ABUT_HD constexpr verdict search_solid(const S& s, const hull<T>& 
     return decide<A>(h, axis_of(s)) == verdict::yes ? verdict::yes : verdict::unknown;
 }
 
+/// Whether shapes touch, by all stages one after another.
+template <class S, class U>
+ABUT_HD constexpr bool touch_exactly(const S& s, const U& t) {
+    verdict v = __builtin_is_constant_evaluated() ? verdict::unknown : decide<filtered>(s, t);
+    if (v == verdict::unknown) v = decide<exact>(s, t);
+    return v == verdict::unknown ? resolve(s, t) : v == verdict::yes;
+}
+
+/// Where a solid touches a hull.
+enum class touch_of_hull { none, at_axis, at_triangle };
+
+/// The axis of a solid, which has a length, or a triangle of a hull's points that touches it.
+template <solid_of_revolution S, scalar T>
+ABUT_NOINLINE ABUT_HD constexpr touch_of_hull find_touch(const S& s, const hull<T>& h, triangle<T>& where) {
+    const segment<T> axis = axis_of(s);
+    if (touch_exactly(h, axis)) return touch_of_hull::at_axis;
+    if (all_are_beyond(h, axis.a, axis.b) || all_are_beyond(h, axis.b, axis.a)) return touch_of_hull::none;
+    const hull_points<T, 2> points = points_of(axis);
+    const hull<T> ends = points.as_hull();
+    points_of_solid asked;
+    const hull_and_solid<true, S> x(h, s, ends, asked);
+    found_simplex found;
+    if (search_origin<sought::meeting>(x, found.at, found.w) == verdict::no) return touch_of_hull::none;
+    const auto touches = [&](const triangle<T>& t) {
+        where = t;
+        return touch_exactly(s, t);
+    };
+    const steepest_way<S, T> steepest(x, h, found);
+    const nearest_corners<S, T> corners(x, h, steepest.way);
+    if (corners.any_triangle(touches)) return touch_of_hull::at_triangle;
+    if (corners.are_apart(s, h)) return touch_of_hull::none;
+    for (std::size_t i = 0; i < h.count; ++i) {
+        if (!x.is_near(steepest.way, i)) continue;
+        for (std::size_t j = 0; j < h.count; ++j) {
+            for (std::size_t k = j; k < h.count; ++k) {
+                if (touches({h[i], h[j], h[k]})) return touch_of_hull::at_triangle;
+            }
+        }
+    }
+    return touch_of_hull::none;
+}
+
 }  // namespace detail
 
 /// One stage of the decision, as for two hulls, of a cylinder or a cone and a hull. Its radius is >= 0. `exact` is unknown
@@ -331,36 +384,9 @@ ABUT_HD constexpr verdict decide(const S& s, const hull<scalar_type_of<S>>& h) {
 /// as long as there are pairs of points.
 template <detail::solid_of_revolution S>
 ABUT_NOINLINE ABUT_HD constexpr bool resolve(const S& s, const hull<scalar_type_of<S>>& h) {
-    using T = scalar_type_of<S>;
-    const auto exactly = [](const auto& a, const auto& b) {
-        verdict v = __builtin_is_constant_evaluated() ? verdict::unknown : decide<filtered>(a, b);
-        if (v == verdict::unknown) v = decide<exact>(a, b);
-        return v == verdict::unknown ? resolve(a, b) : v == verdict::yes;
-    };
-    const segment<T> axis = detail::axis_of(s);
-    if (detail::is_point(axis)) return exactly(detail::ball_around(s), h);
-    if (exactly(h, axis)) return true;
-    if (detail::all_are_beyond(h, axis.a, axis.b) || detail::all_are_beyond(h, axis.b, axis.a)) return false;
-    const detail::hull_points<T, 2> points = detail::points_of(axis);
-    const hull<T> ends = points.as_hull();
-    detail::points_of_solid asked;
-    const detail::hull_and_solid<true, S> x(h, s, ends, asked);
-    detail::found_simplex found;
-    (void)detail::search_origin<detail::sought::meeting>(x, found.at, found.w);
-    const detail::steepest_way<S, T> steepest(x, h, found);
-    const detail::nearest_corners<S, T> corners(x, h, steepest.way);
-    const auto touches = [&](const triangle<T>& t) { return exactly(s, t); };
-    if (corners.any_triangle(touches)) return true;
-    if (corners.are_apart(s, h)) return false;
-    for (std::size_t i = 0; i < h.count; ++i) {
-        if (!x.is_near(steepest.way, i)) continue;
-        for (std::size_t j = 0; j < h.count; ++j) {
-            for (std::size_t k = j; k < h.count; ++k) {
-                if (touches({h[i], h[j], h[k]})) return true;
-            }
-        }
-    }
-    return false;
+    if (detail::is_point(detail::axis_of(s))) return detail::touch_exactly(detail::ball_around(s), h);
+    triangle<scalar_type_of<S>> where{};
+    return detail::find_touch(s, h, where) != detail::touch_of_hull::none;
 }
 
 }  // namespace abut

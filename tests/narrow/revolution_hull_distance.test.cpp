@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include <abut/narrow/distance.hpp>
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "support/catch.hpp"
+#include "support/draws.hpp"
+#include "support/revolution_gap.hpp"
+#include "support/revolution_pairs.hpp"
+#include "support/samples.hpp"
+
+// Cylinders and cones with convex hulls. revolution_gap.hpp has the oracle.
+
+namespace abut::test {
+
+namespace {
+
+constexpr std::uint64_t hull_seed = 20261128;
+
+/// Points around a middle that is beside a solid: of a ball, with one flat side or two, or anywhere.
+template <scalar T>
+std::vector<vec3<T>> points_beside(const revolution_case<T>& c, std::uint64_t k) {
+    using namespace construction;
+    draws d(hull_seed, sizeof(T), k);
+    const point middle = widened(c.corner[0]), other = widened(c.corner[1]);
+    const double size = d.below(3) == 0 ? 1 : d.power_of_ten(-4, 0);
+    const point normal = unit(cube(d, 1));
+    const double level = d.uniform(0.2, 1);
+    std::vector<vec3<T>> points;
+    const int n = 1 + d.below(40);
+    for (int i = 0; i < n; ++i) {
+        point p = d.below(4) == 0 ? cube(d, 1) : unit(cube(d, 1));
+        const double high = product(p, normal);
+        if (high > level) p = along(p, level - high, normal);
+        points.push_back(round_to<T>(along(i == 0 && d.below(4) == 0 ? other : middle, size, p)));
+    }
+    return points;
+}
+
+template <class Solid>
+void check_gaps() {
+    using T = scalar_type_of<Solid>;
+    constexpr bool is_cone = std::same_as<Solid, cone<T>>;
+    gap_tally near, few;
+    for (int i = 0; i < revolution_family_count; ++i) {
+        const auto f = static_cast<revolution_family>(i);
+        for (std::uint64_t k = 0; k < some_samples(400); ++k) {
+            const auto c = make_revolution_case<T>(hull_seed, f, k, is_cone);
+            const Solid s = solid_of<Solid>(c.axis, c.radius);
+            std::vector<vec3<T>> corners{c.corner[0], c.corner[1], c.corner[2], c.corner[0] + (c.corner[1] - c.corner[2])};
+            const hull<T> small(corners.data(), 1 + k % 4);
+            if (is_valid(s) && is_valid(small)) check_gap(name_of(f), k, s, small, few);
+            const auto points = points_beside(c, k);
+            const hull<T> h(points.data(), points.size());
+            if (is_valid(s) && is_valid(h)) check_gap(name_of(f), k, s, h, near);
+        }
+    }
+    check_total("a solid and a hull of few points", few);
+    check_total("a solid and a hull", near);
+}
+
+}  // namespace
+
+TEST_CASE("distance: cylinders and cones from hulls, by hand") {
+    const std::vector<vec3<double>> cube{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 0},
+                                         {0, 0, 2}, {2, 0, 2}, {0, 2, 2}, {2, 2, 2}};
+    const hull<double> h(cube.data(), cube.size());
+    CHECK(distance(cylinder<double>{{{1, 1, 4}, {1, 1, 5}}, 0.5}, h).distance == 2);
+    CHECK(distance(h, cylinder<double>{{{5, -9, 1}, {5, 9, 1}}, 1}).distance == 2);
+    CHECK(distance(cone<double>{{5, 6, 2}, {9, 12, 2}, 1}, h).distance == 5);
+    const auto inside = distance(cylinder<double>{{{0.5, 1, 1}, {1, 1, 1}}, 0.25}, h);
+    CHECK(inside.distance == 0);
+    CHECK(intersects(inside.point_a, h));
+    const auto around = distance(cylinder<double>{{{-9, 1, 1}, {9, 1, 1}}, 5}, h);
+    CHECK(around.distance == 0);
+    // Without length a ball.
+    CHECK(distance(cylinder<double>{{{5, 1, 1}, {5, 1, 1}}, 1}, h).distance == 2);
+}
+
+TEMPLATE_TEST_CASE("distance: cylinders and cones from hulls, against 300 bits", "", cylinder<float>, cylinder<double>,
+                   cone<float>, cone<double>) {
+    check_gaps<TestType>();
+}
+
+}  // namespace abut::test
