@@ -92,6 +92,21 @@ integer whole(const N& x, int shift) {
     return static_cast<integer>(ldexp(x, shift));
 }
 
+/// The same number in another type, by doubles that add up to it.
+template <class N, class M>
+N in_pieces(const M& x) {
+    using std::frexp, std::ldexp;
+    int e = 0;
+    M rest = frexp(x, &e);
+    N sum(0);
+    for (int i = 0; i <= std::numeric_limits<M>::digits / 50; ++i) {
+        const auto piece = static_cast<double>(rest);
+        rest -= piece;
+        sum += piece;
+    }
+    return ldexp(sum, e);
+}
+
 /// The simplest fraction within 2^-close of x / 2^digits: the first convergent.
 inline fraction simplest(const integer& x, int digits, int close) {
     const fraction value(x, integer(1) << digits), error(1, integer(1) << close);
@@ -123,9 +138,6 @@ public:
 
         N& operator[](int i) { return number[i]; }
         const N& operator[](int i) const { return number[i]; }
-        void fill(const N& x) {
-            for (N& y : number) y = x;
-        }
     };
     struct square_matrix {
         vector row[most];
@@ -143,7 +155,7 @@ public:
 
     /// A first place on the central path; false where numbers fail.
     bool begin() {
-        v_.fill(N(0));
+        v_ = {};
         for (int k = 0; k < 3; ++k) v_[k] = center_[1][k] / 2;
         v_[3] = 0;
         N largest(1);
@@ -165,8 +177,8 @@ public:
     /// From where another one got to.
     template <class M>
     bool begin_at(const growth<M>& o) {
-        for (int i = 0; i < most; ++i) v_[i] = N(o.v_[i]);
-        mu_ = N(o.mu_);
+        for (int i = 0; i < most; ++i) v_[i] = in_pieces<N>(o.v_[i]);
+        mu_ = in_pieces<N>(o.mu_);
         return centre(v_, mu_, 60);
     }
 
@@ -284,8 +296,6 @@ private:
         for (int k = 0; k < 3; ++k) dd_[i] += d_[i][k] * d_[i][k];
         const auto blank = [i](int count) {
             term c{i, count, {}, {}};
-            for (vector& row : c.row) row.fill(N(0));
-            for (N& x : c.constant) x = 0;
             c.row[0][3] = 1;
             return c;
         };
@@ -344,8 +354,8 @@ private:
 
     /// The gradient and the matrix of the barrier, but for the factor's own.
     bool derive(const vector& v, vector& gradient, square_matrix& matrix) const {
-        gradient.fill(N(0));
-        for (vector& row : matrix.row) row.fill(N(0));
+        gradient = {};
+        matrix = {};
         N x[4], q;
         for (const term& c : terms_) {
             if (!evaluate(c, v, x, q)) return false;
@@ -416,7 +426,6 @@ private:
         vector gradient{}, b{};
         square_matrix matrix{};
         if (!derive(v_, gradient, matrix)) return false;
-        b.fill(N(0));
         b[3] = 1;
         return solve(matrix, b, x);
     }
