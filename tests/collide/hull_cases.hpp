@@ -182,6 +182,7 @@ void check_hulls_and_solids(const Policy& on) {
         const std::size_t hits = check_hulls_against(on, a, solids, pose_of_hulls<T>());
         CHECK(hits > 100);
         CHECK(hits < 2 * 70 * 60);
+        if (on_lattice) check_distances_of_hulls(on, a, solids);
     }
 }
 

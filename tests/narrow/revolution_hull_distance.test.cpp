@@ -46,7 +46,7 @@ void check_gaps() {
     gap_tally near, few;
     for (int i = 0; i < revolution_family_count; ++i) {
         const auto f = static_cast<revolution_family>(i);
-        for (std::uint64_t k = 0; k < some_samples(400); ++k) {
+        for (std::uint64_t k = 0; k < some_samples(800); ++k) {
             const auto c = make_revolution_case<T>(hull_seed, f, k, is_cone);
             const Solid s = solid_of<Solid>(c.axis, c.radius);
             std::vector<vec3<T>> corners{c.corner[0], c.corner[1], c.corner[2], c.corner[0] + (c.corner[1] - c.corner[2])};

@@ -463,10 +463,10 @@ private:
 
 /// How far apart two closed shapes are: a `separation` with ids 0. It takes the pairs that `contact_of` takes, in either
 /// order: points, segments, triangles, spheres, capsules, boxes and convex hulls with each other, and planes with any of
-/// these; and cylinders and cones with points, segments, triangles, boxes, spheres and planes. Cylinders have distances from
-/// each other and from capsules too. The distance is 0 exactly where the two touch, as `intersects` decides. Otherwise it is
-/// accurate to a few units in the last place of the shapes' farthest corners (docs/numerics.md). The same bits on every
-/// compiler and device, in constant expressions too. Shapes are finite and valid.
+/// these; and cylinders and cones with points, segments, triangles, boxes, spheres, planes and convex hulls. Cylinders have
+/// distances from each other and from capsules too. The distance is 0 exactly where the two touch, as `intersects` decides.
+/// Otherwise it is accurate to a few units in the last place of the shapes' farthest corners (docs/numerics.md). The same
+/// bits on every compiler and device, in constant expressions too. Shapes are finite and valid.
 ///
 ///     constexpr auto d = abut::distance(abut::sphere<float>{{0, 0, 4}, 1},
 ///                                       abut::triangle<float>{{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}});

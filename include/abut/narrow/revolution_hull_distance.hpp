@@ -39,6 +39,7 @@ public:
         const hull_and_solid<true, S> x(h, s, ends, asked);
         found_simplex found;
         (void)search_origin<sought::nearest>(x, found.at, found.w);
+        best = face_without(h, found.at, 3);  // also where its distance is above all numbers
         const int faces = found.at.count == 4 ? 4 : 1;
         for (int but = 0; but < faces; ++but) offer(face_without(h, found.at, faces == 4 ? but : 3));
         for (bool better = true; better;) {

@@ -53,7 +53,8 @@ public:
         : both_(h, axis), radius_(static_cast<double>(s.radius)), asked_(asked) {
         const vec3<double> along = relative_to(axis_of(s).a, axis_of(s).b);
         const double size = magnitudes(along);
-        is_known_ = size > 0x1p-900 && size < 0x1p900;
+        // Whether small numbers that are read as 0 have not turned it.
+        is_known_ = size > (std::same_as<T, float> ? 0x1p-70 : 0x1p-900) && size < 0x1p900;
         const vec3<double> unit = (1 / size) * along;
         axis_ = (1 / square_root(dot(unit, unit))) * unit;
     }
@@ -68,13 +69,13 @@ public:
         both_.look_back(way, i, end);
         j = static_cast<std::uint32_t>(asked_.count);
         if (asked_.count < most_steps) ++asked_.count;
-        const vec3<double> across = across_of(way);
+        const vec3<double> one = of_size_1(way), across = across_of(one);
         const double length = length_of(across);
-        asked_.end[j] = end_on(way, i, end, length);
+        asked_.end[j] = end_on(one, i, end, length);
         asked_.rim[j] = has_rim(asked_.end[j]) && length > 0 ? (radius_ / length) * across : vec3<double>{0, 0, 0};
     }
     [[nodiscard]] ABUT_HD constexpr bool are_apart(const vec3<double>& way, std::uint32_t i, std::uint32_t j) const {
-        return is_ahead(way, i, asked_.end[j]);
+        return is_ahead(of_size_1(way), i, asked_.end[j]);
     }
     ABUT_HD constexpr verdict holds_origin(const vec3<double> (&)[4], const difference_simplex& at) const {
         return when_lost(at);
@@ -94,26 +95,31 @@ public:
     }
     [[nodiscard]] ABUT_HD constexpr bool is_near(const vec3<double>& way, std::size_t i) const {
         const auto at = static_cast<std::uint32_t>(i);
-        const std::uint32_t end = both_.ahead(way, at, 1) < both_.ahead(way, at, 0) ? 1 : 0;
-        return !is_ahead(way, at, end_on(way, at, end, length_of(across_of(way))));
+        const vec3<double> one = of_size_1(way);
+        const std::uint32_t end = both_.ahead(one, at, 1) < both_.ahead(one, at, 0) ? 1 : 0;
+        return !is_ahead(one, at, end_on(one, at, end, length_of(across_of(one))));
     }
     ///@}
 
-    /// Whether no point is nearer along a way than a distance, but for twice a few 2^-53 of the shapes' size.
+    /// Whether no point is nearer along a way than a distance, but for a few 2^-53 of the shapes' size.
     [[nodiscard]] ABUT_HD constexpr bool is_nearest_along(const vec3<double>& way, double distance) const {
         std::uint32_t i = 0, end = 0;
         both_.look_back(way, i, end);
-        const double length = length_of(way), rim = length_of(across_of(way));
-        end = end_on(way, i, end, rim);
-        const double ahead = both_.ahead(way, i, end) - (has_rim(end) ? radius_ * rim : 0);
+        const vec3<double> one = of_size_1(way);
+        end = end_on(one, i, end, length_of(across_of(one)));
         const double size = both_.size() + radius_;
-        return size < 0x1p400 && length < 0x1p400 && length > 0x1p-400 && ahead >= length * (distance - 0x1p-52 * size);
+        return size < 0x1p400 && size > 0x1p-400 && ahead_of(one, i, end) > length_of(one) * (distance - 0x1p-52 * size);
     }
 
 private:
     static constexpr bool is_cone = questions_of<S>::type::is_cone;
 
     [[nodiscard]] ABUT_HD static constexpr bool has_rim(std::uint32_t end) { return !is_cone || end == 1; }
+    /// A way whose magnitudes sum up to 1; or zero, on which nothing is ahead.
+    [[nodiscard]] ABUT_HD static constexpr vec3<double> of_size_1(const vec3<double>& way) {
+        const double size = magnitudes(way);
+        return size > 0x1p-1000 && size < 0x1p1000 ? (1 / size) * way : vec3<double>{0, 0, 0};
+    }
     [[nodiscard]] ABUT_HD constexpr vec3<double> across_of(const vec3<double>& way) const {
         return way - dot(way, axis_) * axis_;
     }
@@ -124,16 +130,15 @@ private:
         if (!is_cone) return end;
         return both_.ahead(way, i, 1) - radius_ * length < both_.ahead(way, i, 0) ? 1 : 0;
     }
-    /// Whether a point is ahead of all of the solid, which is farthest at this end.
-    [[nodiscard]] ABUT_HD constexpr bool is_ahead(const vec3<double>& way, std::uint32_t i, std::uint32_t end) const {
-        const double rim = has_rim(end) ? radius_ * length_of(across_of(way)) : 0, ahead = both_.ahead(way, i, end) - rim;
-        if constexpr (Certified) {
-            const double size = magnitudes(way),
-                         bound = 0x1p-45 * (size * (both_.size() + radius_)) + (lost_of_differences<T> * size + 0x1p-900);
-            return is_known_ && bound < 0x1p900 && ahead > bound;
-        } else {
-            return ahead > 0;
-        }
+    /// How far a point is ahead of all of the solid, which is farthest at this end, on a way of size 1.
+    [[nodiscard]] ABUT_HD constexpr double ahead_of(const vec3<double>& one, std::uint32_t i, std::uint32_t end) const {
+        return both_.ahead(one, i, end) - (has_rim(end) ? radius_ * length_of(across_of(one)) : 0);
+    }
+    [[nodiscard]] ABUT_HD constexpr bool is_ahead(const vec3<double>& one, std::uint32_t i, std::uint32_t end) const {
+        const double ahead = ahead_of(one, i, end);
+        if constexpr (!Certified) return ahead > 0;
+        const double bound = 0x1p-45 * (both_.size() + radius_) + (lost_of_differences<T> + 0x1p-900);
+        return is_known_ && bound < 0x1p900 && ahead > bound;
     }
 
     hulls_in_floats<true, T> both_;
@@ -286,16 +291,15 @@ public:
         const vec3<T> none{0, 0, 0};
         ABUT_ROLLED
         for (int i = 0; i < count_; ++i) {
-            const vec3<double> across = cross(relative_to(axis.a, corner_[i]), relative_to(axis.a, axis.b));
-            const double size = magnitudes(across);
-            if (size > 0x1p-900 && size < 0x1p900) {
-                const vec3<double> unit = (1 / size) * across;
-                const vec3<T> to{static_cast<T>(unit.x), static_cast<T>(unit.y), static_cast<T>(unit.z)};
-                if (are_apart_along(s, h, axis.a, axis.b, none, to)) return true;
-            }
+            const vec3<T> beside = tangent_at(axis, axis.a, corner_[i], corner_[i]);
+            if (are_apart_along(s, h, axis.a, axis.b, none, beside)) return true;
             ABUT_ROLLED
             for (int j = i + 1; j < count_; ++j) {
                 if (are_apart_along(s, h, corner_[i], corner_[j], axis.a, axis.b)) return true;
+                for (const vec3<T>& end : {axis.a, axis.b}) {
+                    const vec3<T> tangent = tangent_at(axis, end, corner_[i], corner_[j]);
+                    if (are_apart_along(s, h, corner_[i], corner_[j], none, tangent)) return true;
+                }
                 ABUT_ROLLED
                 for (int k = j + 1; k < count_; ++k) {
                     if (are_apart_along(s, h, corner_[i], corner_[j], corner_[i], corner_[k])) return true;
@@ -306,6 +310,19 @@ public:
     }
 
 private:
+    /// Across the axis and the way from it to where the edge from p to q passes the plane of an end, or to p; as it is
+    /// rounded.
+    ABUT_HD static constexpr vec3<T> tangent_at(const segment<T>& axis, const vec3<T>& end, const vec3<T>& p,
+                                                const vec3<T>& q) {
+        const vec3<double> d = relative_to(axis.a, axis.b), from = relative_to(end, p), to = relative_to(end, q);
+        const double s = dot(from, d), t = dot(to, d);
+        const vec3<double> at = s != t ? (t / (t - s)) * from - (s / (t - s)) * to : from, way = cross(at, d);
+        const double size = magnitudes(way);
+        if (!(size > 0x1p-900 && size < 0x1p900)) return {0, 0, 0};
+        const vec3<double> one = (1 / size) * way;
+        return {static_cast<T>(one.x), static_cast<T>(one.y), static_cast<T>(one.z)};
+    }
+
     static constexpr int most = 8;
     vec3<T> corner_[most]{};
     int count_ = 0;
@@ -381,7 +398,7 @@ ABUT_HD constexpr verdict decide(const S& s, const hull<scalar_type_of<S>>& h) {
 }
 
 /// The last stage: decides every finite input. Where hull and solid come closer than rounding and do not touch, it may take
-/// as long as there are pairs of points.
+/// as long as there are triangles of points.
 template <detail::solid_of_revolution S>
 ABUT_NOINLINE ABUT_HD constexpr bool resolve(const S& s, const hull<scalar_type_of<S>>& h) {
     if (detail::is_point(detail::axis_of(s))) return detail::touch_exactly(detail::ball_around(s), h);
