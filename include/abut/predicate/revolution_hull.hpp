@@ -202,7 +202,9 @@ struct steepest_way {
 
 private:
     ABUT_HD constexpr void offer(const hull_and_solid<true, S>& x, const hull<T>& h, const vec3<double>& n) {
-        for (const vec3<double>& one : {n, vec3<double>{-n.x, -n.y, -n.z}}) {
+        ABUT_ROLLED
+        for (int sense = -1; sense < 2; sense += 2) {
+            const vec3<double> one = static_cast<double>(sense) * n;
             const std::size_t there = x.count_near(one, h.count);
             if (there < near) near = there, way = one;
         }
@@ -296,8 +298,9 @@ public:
             ABUT_ROLLED
             for (int j = i + 1; j < count_; ++j) {
                 if (are_apart_along(s, h, corner_[i], corner_[j], axis.a, axis.b)) return true;
-                for (const vec3<T>& end : {axis.a, axis.b}) {
-                    const vec3<T> tangent = tangent_at(axis, end, corner_[i], corner_[j]);
+                ABUT_ROLLED
+                for (int end = 0; end < 2; ++end) {
+                    const vec3<T> tangent = tangent_at(axis, end == 0 ? axis.a : axis.b, corner_[i], corner_[j]);
                     if (are_apart_along(s, h, corner_[i], corner_[j], none, tangent)) return true;
                 }
                 ABUT_ROLLED
