@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <abut/predicate/revolution_hull.hpp>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -12,6 +13,7 @@
 
 #include "support/catch.hpp"
 #include "support/hulls.hpp"
+#include "support/modes.hpp"
 #include "support/revolution_oracle.hpp"
 #include "support/revolution_pairs.hpp"
 #include "support/samples.hpp"
@@ -31,6 +33,8 @@ static_assert(touches_cube({{{5, 6, 2}, {5, 6, 9}}, 5}) && !touches_cube({{{5, 6
 static_assert(touches_cube({{{1, -1, 3}, {5, -1, 3}}, 1.5}) && !touches_cube({{{1, -1, 3}, {5, -1, 3}}, 1.25}));
 static_assert(intersects(cone<double>{{2, 2, 2}, {4, 4, 4}, 1}, hull<double>(cube, 8)) &&
               !intersects(cone<double>{{2, 2, 0x1.0000000000001p1}, {4, 4, 4}, 1}, hull<double>(cube, 8)));
+
+static_assert(!resolve(cylinder<double>{{{9, 1, 0}, {9, 1, 2}}, 1}, hull<double>(cube, 8)));
 
 /// The axis meets the hull, or some triangle of three points, which may be equal, meets the solid; in rationals.
 template <class Solid, scalar T>
@@ -116,4 +120,35 @@ TEST_CASE("cylinders and hulls, a step apart") {
         CHECK(intersects(beside, h) == (step <= 0));
         CHECK(resolve(beside, h) == (step <= 0));
     }
+}
+
+// The squares of a way across an edge are below the smallest number.
+TEST_CASE("cylinders and hulls, small ones") {
+    const vec3<double> points[] = {{-0x1p-187, 0x1p-190, 0x1.4p-188}, {0x1p-187, 0x1p-189, 0x1.4p-188}};
+    const hull<double> h(points, 2);
+    const cylinder<double> s{{{0x1p-190, -0x1p-187, 0}, {-0x1p-190, 0x1p-187, 0}}, 0x1.6p-188};
+    CHECK(decide<filtered>(s, h) != verdict::no);
+    CHECK(decide<exact>(s, h) != verdict::no);
+    CHECK(intersects(s, h));
+}
+
+// An axis that is read as another one where denormal numbers are read as 0.
+TEST_CASE("cylinders and hulls, a short axis in each mode") {
+    const vec3<float> point{-4e5f, 8e5f, 0};
+    const cylinder<float> s{{{0, 0, 0}, {0x1p-126f, 0x1p-127f, 0}}, 1e6f};
+    const hull<float> h(&point, 1);
+    const auto touch = [&] { return intersects(s, h) && intersects<exact>(s, h) && resolve(s, h); };
+    CHECK(test::modes_in_which(touch) == test::floating_modes().size());
+}
+
+// Points in a row beside a rim, a step away: without the tangent of the rim all triangles would be asked.
+TEST_CASE("cylinders and hulls, a row of points beside a rim") {
+    std::vector<vec3<double>> points;
+    for (int i = 0; i < 128; ++i) {
+        const double t = i - 63.5;
+        points.push_back({3 + t, 4 + 3 * t, 1 - 3 * t});
+    }
+    const hull<double> h(points.data(), points.size());
+    CHECK_FALSE(intersects(cylinder<double>{{{0, 0, 0}, {0, 0, 1}}, std::nextafter(5.0, 0.0)}, h));
+    CHECK(intersects(cylinder<double>{{{0, 0, 0}, {0, 0, 1}}, 5}, h));
 }

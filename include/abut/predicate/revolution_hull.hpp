@@ -6,9 +6,9 @@
 // solid reaches out of it, through a face.
 //
 // The search of gjk.hpp, in double, ends with a way on which both are apart, or near the points that make that triangle. If
-// those do not tell, the two come closer than rounding: shapes that lie on each other do. Then triangles of a few corners
-// there are asked, and ways that are across these and the axis, in integers. Only then all triangles are. Of these one
-// corner at least is no farther ahead than the solid reaches, along any way: a point of both is no farther, and so is a
+// those do not tell, the two mostly come closer than rounding, as shapes do that lie on each other. Then triangles of a few
+// corners there are asked, and ways that are across these and the axis, in integers. Only then all triangles are. Of these
+// one corner at least is no farther ahead than the solid reaches, along any way: a point of both is no farther, and so is a
 // corner of its triangle.
 
 #include <concepts>
@@ -192,7 +192,7 @@ struct steepest_way {
     std::size_t near;
 
     ABUT_HD constexpr steepest_way(const hull_and_solid<true, S>& x, const hull<T>& h, const found_simplex& found)
-        : near(h.count) {
+        : near(h.count + 1) {
         const vec3<double>(&w)[4] = found.w;
         double weight[3];
         offer(x, h, nearest_on_feature(w, least(found.at.count, 3), weight));
@@ -393,7 +393,7 @@ ABUT_NOINLINE ABUT_HD constexpr touch_of_hull find_touch(const S& s, const hull<
 }  // namespace detail
 
 /// One stage of the decision, as for two hulls, of a cylinder or a cone and a hull. Its radius is >= 0. `exact` is unknown
-/// where it does not find a triangle that touches.
+/// where it finds no way on which they are apart, and no triangle that touches.
 template <arithmetic A, detail::solid_of_revolution S>
 ABUT_HD constexpr verdict decide(const S& s, const hull<scalar_type_of<S>>& h) {
     if (detail::is_point(detail::axis_of(s))) return detail::decide_in_place<A>(detail::ball_around(s), h);
