@@ -38,7 +38,7 @@ static_assert(!resolve(cylinder<double>{{{9, 1, 0}, {9, 1, 2}}, 1}, hull<double>
 
 /// The axis meets the hull, or some triangle of three points, which may be equal, meets the solid; in rationals.
 template <class Solid, scalar T>
-bool truth_of(const Solid& s, const std::vector<vec3<T>>& points) {
+bool truth_with_hull(const Solid& s, const std::vector<vec3<T>>& points) {
     const segment<T> axis = detail::axis_of(s);
     if (test::oracle::hulls_intersect<T>({axis.a, axis.b}, points)) return true;
     const std::size_t n = points.size();
@@ -55,7 +55,7 @@ bool truth_of(const Solid& s, const std::vector<vec3<T>>& points) {
 }
 
 template <class Solid>
-void examine_case(test::revolution_family f, std::uint64_t k, test::decision_tally& sum) {
+void examine_hull_case(test::revolution_family f, std::uint64_t k, test::decision_tally& sum) {
     using T = scalar_type_of<Solid>;
     constexpr bool is_cone = std::same_as<Solid, cone<T>>;
     const auto c = test::make_revolution_case<T>(test::sample_seed + 12, f, k, is_cone);
@@ -65,7 +65,7 @@ void examine_case(test::revolution_family f, std::uint64_t k, test::decision_tal
     points.resize(1 + k % 6);
     const hull<T> h(points.data(), points.size());
     if (!is_valid(s) || !is_valid(h)) return;
-    const bool truth = truth_of(s, points);
+    const bool truth = truth_with_hull(s, points);
     const verdict lie = to_verdict(!truth), by_filter = decide<filtered>(s, h);
     ++sum.pairs;
     sum.hits += truth;
@@ -77,7 +77,7 @@ void examine_case(test::revolution_family f, std::uint64_t k, test::decision_tal
 }
 
 template <class Solid>
-void check_every_stage() {
+void check_every_stage_with_hulls() {
     test::decision_tally all;
     for (int i = 0; i < test::revolution_family_count; ++i) {
         const auto f = static_cast<test::revolution_family>(i);
@@ -86,7 +86,7 @@ void check_every_stage() {
         const std::uint64_t count = test::sample_count() / (is_long ? 5000 : 100) + 1;
         const auto sum = test::in_threads<test::decision_tally>(
             count, [f](std::uint64_t first, std::uint64_t last, test::decision_tally& of) {
-                for (std::uint64_t k = first; k < last; ++k) examine_case<Solid>(f, k, of);
+                for (std::uint64_t k = first; k < last; ++k) examine_hull_case<Solid>(f, k, of);
             });
         CAPTURE(test::name_of(f));
         CHECK(sum.wrong == 0);
@@ -102,10 +102,10 @@ void check_every_stage() {
 
 }  // namespace
 
-TEST_CASE("cylinders and hulls, float") { check_every_stage<cylinder<float>>(); }
-TEST_CASE("cylinders and hulls, double") { check_every_stage<cylinder<double>>(); }
-TEST_CASE("cones and hulls, float") { check_every_stage<cone<float>>(); }
-TEST_CASE("cones and hulls, double") { check_every_stage<cone<double>>(); }
+TEST_CASE("cylinders and hulls, float") { check_every_stage_with_hulls<cylinder<float>>(); }
+TEST_CASE("cylinders and hulls, double") { check_every_stage_with_hulls<cylinder<double>>(); }
+TEST_CASE("cones and hulls, float") { check_every_stage_with_hulls<cone<float>>(); }
+TEST_CASE("cones and hulls, double") { check_every_stage_with_hulls<cone<double>>(); }
 
 // Nearly a face: what the search leaves is asked of triangles.
 TEST_CASE("cylinders and hulls, a step apart") {
