@@ -28,15 +28,15 @@ using test::wide_point;
 
 constexpr vec3<double> die[8] = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {4, 4, 0}, {0, 0, 4}, {4, 0, 4}, {0, 4, 4}, {4, 4, 4}};
 constexpr vec3<double> tip[4] = {{1, 1, 3}, {2, 1, 9}, {1, 2, 9}, {3, 3, 9}};
-constexpr hull<double> cube(die, 8), spike(tip, 4);
+constexpr hull<double> die_hull(die, 8), tip_hull(tip, 4);
 
-// In constant expressions: out of a face, across edges, and round shapes inside and outside of the cube.
-static_assert(contact_of(spike, cube) == contact<double>{0, 0, {1, 1, 3}, {0, 0, 1}, 1});
-static_assert(contact_of(cube, spike)->normal == vec3<double>{0, 0, -1});
-static_assert(contact_of(cube, sphere<double>{{2, 2, 5}, 1.5}) == contact<double>{0, 0, {2, 2, 4}, {0, 0, -1}, 0.5});
-static_assert(contact_of(sphere<double>{{2, 2, 3}, 1.5}, cube)->depth == 2.5);
-static_assert(contact_of(cube, vec3<double>{4, 1, 1})->depth == 0 && !contact_of(cube, vec3<double>{4.5, 1, 1}));
-static_assert(contact_of(cube, plane<double>{{0, 0, 3}, 3}) == contact<double>{0, 0, {0, 0, 1}, {0, 0, 1}, 1});
+// In constant expressions: out of a face, across edges, and round shapes inside and outside of the die.
+static_assert(contact_of(tip_hull, die_hull) == contact<double>{0, 0, {1, 1, 3}, {0, 0, 1}, 1});
+static_assert(contact_of(die_hull, tip_hull)->normal == vec3<double>{0, 0, -1});
+static_assert(contact_of(die_hull, sphere<double>{{2, 2, 5}, 1.5}) == contact<double>{0, 0, {2, 2, 4}, {0, 0, -1}, 0.5});
+static_assert(contact_of(sphere<double>{{2, 2, 3}, 1.5}, die_hull)->depth == 2.5);
+static_assert(contact_of(die_hull, vec3<double>{4, 1, 1})->depth == 0 && !contact_of(die_hull, vec3<double>{4.5, 1, 1}));
+static_assert(contact_of(die_hull, plane<double>{{0, 0, 3}, 3}) == contact<double>{0, 0, {0, 0, 1}, {0, 0, 1}, 1});
 
 template <class S>
 wide radius_of(const S& s) {

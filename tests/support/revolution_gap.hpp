@@ -85,12 +85,12 @@ wide_bounds gap_between(const wide_solid& s, const wide_point& of_t, const Farth
 }
 
 /// What is known of two shapes that do not touch: bounds of their distance, and that of their farthest points.
-struct wide_gap {
+struct wide_gap_of_solid {
     wide_bounds distance;
     wide farthest;
 };
 template <class S, class U>
-wide_gap exact_gap(const S& s, const U& t) {
+wide_gap_of_solid gap_of_solid(const S& s, const U& t) {
     const wide_solid solid = in_bits(s);
     const wide_hull h = hull_of(t);
     wide far = 0;
@@ -102,7 +102,7 @@ wide_gap exact_gap(const S& s, const U& t) {
 }
 /// Of two solids; of their farthest points, no more than that.
 template <scalar T>
-wide_gap exact_gap(const cylinder<T>& s, const cylinder<T>& t) {
+wide_gap_of_solid gap_of_solid(const cylinder<T>& s, const cylinder<T>& t) {
     const wide_solid a = in_bits(s), b = in_bits(t);
     wide far = 0;
     const wide_point way = b.first - a.first,
@@ -118,7 +118,7 @@ wide_gap exact_gap(const cylinder<T>& s, const cylinder<T>& t) {
             far};
 }
 template <class S, scalar T>
-wide_gap exact_gap(const S& s, const plane<T>& p) {
+wide_gap_of_solid gap_of_solid(const S& s, const plane<T>& p) {
     const wide_solid solid = in_bits(s);
     const wide_point n = widest(p.normal), back{-n.x, -n.y, -n.z};
     const wide high = dot(n, solid.farthest(n)) - wide(p.offset), low = dot(n, solid.farthest(back)) - wide(p.offset);
@@ -185,7 +185,7 @@ const char* wrong_with_gap(const S& s, const U& t, gap_tally& tally) {
     if constexpr (std::same_as<U, plane<T>>) {
         if (t.normal == vec3<T>{0, 0, 0}) return found.distance == infinity<T> ? nullptr : "a plane that is nothing is near";
     }
-    const wide_gap gap = exact_gap(s, t);
+    const wide_gap_of_solid gap = gap_of_solid(s, t);
     const wide step = wide(0x1p-53) * gap.farthest;
     tally.open += gap.distance.upper - gap.distance.lower > step / 4;
     // T may have no number for it, or none for what is off by less than is allowed.
