@@ -63,7 +63,7 @@ ABUT_NOINLINE ABUT_HD constexpr bool resolve(const cylinder<T>& s, const cylinde
     return detail::decide_at_any_length<detail::cylinders_meet>(detail::values_of(s, t).value);
 }
 
-/// The same of a cylinder and a capsule.
+/// One stage of the decision of a cylinder and a capsule.
 template <arithmetic A, scalar T>
 ABUT_HD constexpr verdict decide(const cylinder<T>& s, const capsule<T>& t) {
     if constexpr (std::same_as<A, filtered>) {
@@ -75,6 +75,7 @@ ABUT_HD constexpr verdict decide(const cylinder<T>& s, const capsule<T>& t) {
         return detail::or_else(at(t.axis.b), [&] { return decide<A>(s, cylinder<T>{t.axis, t.radius}); });
     });
 }
+/// The last stage: decides every finite input.
 template <scalar T>
 ABUT_NOINLINE ABUT_HD constexpr bool resolve(const cylinder<T>& s, const capsule<T>& t) {
     if (resolve(s, sphere<T>{t.axis.a, t.radius})) return true;
