@@ -35,6 +35,11 @@ static_assert(intersects(cone<double>{{2, 2, 2}, {4, 4, 4}, 1}, hull<double>(cub
               !intersects(cone<double>{{2, 2, 0x1.0000000000001p1}, {4, 4, 4}, 1}, hull<double>(cube, 8)));
 
 static_assert(!resolve(cylinder<double>{{{9, 1, 0}, {9, 1, 2}}, 1}, hull<double>(cube, 8)));
+// Inside of a tetrahedron no triangle of its tetrahedron_corners tells.
+constexpr vec3<double> tetrahedron_corners[4] = {{0, 0, 0}, {9, 0, 0}, {0, 9, 0}, {0, 0, 9}};
+static_assert(resolve(cylinder<double>{{{1, 1, 1}, {2, 1, 1}}, 0.25}, hull<double>(tetrahedron_corners, 4)));
+static_assert(touches_cube({{{0.5, 1, 1}, {1.5, 1, 1}}, 0.25}) &&
+              intersects(cone<double>{{1, 1, 1}, {2, 1, 1}, 0.25}, hull<double>(tetrahedron_corners, 4)));
 
 /// The axis meets the hull, or some triangle of three points, which may be equal, meets the solid; in rationals.
 template <class Solid, scalar T>
