@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Do two cylinders have a point in common? Decided by signs of polynomials in integers of a length that is known at run
-// time.
+// Do two cylinders have a point in common? Decided by signs of polynomials in integers of an arena.
 //
 // Axes along u and v, whose lengths are not 0; e = u x v, and E = |e|^2.
 //
@@ -40,59 +39,42 @@
 
 #include <cstddef>
 
+#include <abut/arithmetic/arena_int.hpp>
 #include <abut/arithmetic/plain_sign.hpp>
-#include <abut/arithmetic/rolled_int.hpp>
 #include <abut/arithmetic/vec.hpp>
 
 namespace abut::detail {
 
-// Numbers are kilobytes where they may be of any length: functions out of line give back what they took, and sums are added
-// to where they are.
-
-/// r += times a b
-template <int R, int A, int B>
-ABUT_NOINLINE ABUT_HD constexpr void add_times(rolled_int<R>& r, int times, const rolled_int<A>& a, const rolled_int<B>& b) {
-    ABUT_ROLLED
-    for (int i = 0; i < (times < 0 ? -times : times); ++i) r.add(a, b, times < 0);
-}
-
 /// The sign of x y^(1/2) + z w^(1/2), where y and w are positive.
-template <int X, int Y, int Z, int W>
-ABUT_NOINLINE ABUT_HD constexpr int sign_of_roots(const rolled_int<X>& x, const rolled_int<Y>& y, const rolled_int<Z>& z,
-                                                  const rolled_int<W>& w) {
+ABUT_NOINLINE ABUT_HD constexpr int sign_of_roots(const arena_int& x, const arena_int& y, const arena_int& z,
+                                                  const arena_int& w) {
     const int first = sign(x), second = sign(z);
     if (first * second >= 0) return first != 0 ? first : second;
-    auto d = square(x) * y;
-    add_times(d, -1, square(z), w);
-    return first * sign(d);
+    const arena_scope scope(*x.in);
+    return first * sign(arena_sum(square(x), y).add(square(z), w, true));
 }
 
-/// - c3 y^3 + c2 y^2 + c1 y - c0, where c3 >= 0 and c0 >= 0.
-template <int L>
-struct cubic_of_disc {
-    rolled_int<4 * L> c3;
-    rolled_int<6 * L> c2;
-    rolled_int<8 * L> c1;
-    rolled_int<10 * L> c0;
+/// Whether c^(1/2) <= a^(1/2) + b^(1/2), of numbers that are not negative.
+ABUT_NOINLINE ABUT_HD constexpr bool roots_reach(const arena_int& a, const arena_int& b, const arena_int& c) {
+    const arena_scope scope(*a.in);
+    const arena_int over = arena_sum(c).add(a, true).add(b, true);
+    return sign(over) <= 0 || sign(arena_sum(over, over).add_times(-4, a, b)) <= 0;
+}
 
-    /// Whether it is positive for a y > 0. One as above: where c3 is 0 it is only if c2 > 0.
-    [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr bool is_positive_somewhere() const {
+/// - c3 y^3 + c2 y^2 + c1 y - c0, where c3 > 0 and c0 >= 0, or it is not positive far off.
+struct cubic_of_disc {
+    arena_int c3, c2, c1, c0;
+
+    /// 1 if it is positive for a y > 0, 0 if it only is 0 there, and else -1. One as above: where c3 is 0, it is positive
+    /// only if c2 > 0.
+    [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr int sign_of_greatest() const {
         const bool rises = sign(c2) > 0, starts = sign(c1) > 0;
-        if (!rises && !starts) return false;
-        auto a = square(c2);
-        if (sign(c0) == 0) {
-            add_times(a, 4, c3, c1);
-            return starts || sign(c3) == 0 || sign(a) > 0;
-        }
-        auto b = c2 * c1;
-        auto c = square(c1);
-        add_times(a, 3, c3, c1);
-        add_times(b, -9, c3, c0);
-        add_times(c, 3, c2, c0);
-        auto d = a * c;
-        add_times(d, 3, a, c);
-        add_times(d, -1, b, b);
-        return sign(d) > 0;
+        if (!rises && !starts) return -1;
+        const arena_scope scope(*c0.in);
+        if (sign(c0) == 0) return starts || sign(c3) == 0 ? 1 : sign(arena_sum(c2, c2).add_times(4, c3, c1));
+        const arena_int a = arena_sum(c2, c2).add_times(3, c3, c1), b = arena_sum(c2, c1).add_times(-9, c3, c0),
+                        c = arena_sum(c1, c1).add_times(3, c2, c0);
+        return sign(arena_sum(a, c).add_times(3, a, c).add(b, b, true));
     }
 };
 
@@ -101,33 +83,35 @@ enum class axis_end : int { first = -1, last = 1 };
 enum class disc_at_end { meets, beyond, between };
 
 /// A disc and a cylinder, by the numbers above.
-template <int L>
 struct disc_and_cylinder {
-    rolled_int<2 * L> uu, vv, w;
-    rolled_int<3 * L> m;
-    rolled_int<4 * L> n, across;  ///< N and X
-    rolled_int<2 * L> disc_rr, rr;
-    rolled_int<4 * L> ee;
-    rolled_int<2 * L> last;  ///< g at the last end
+    arena_int uu, vv, w, m, n, ee, disc_rr, rr;
+    arena_int across;  ///< X
+    arena_int last;    ///< g at the last end
 
     /// Of a disc orthogonal to u, whose centre is seen from the first end of a cylinder along v.
-    ABUT_NOINLINE ABUT_HD constexpr void set(const vec3<rolled_int<L>>& x, const vec3<rolled_int<L>>& u,
-                                             const vec3<rolled_int<L>>& v, const rolled_int<L>& disc_radius,
-                                             const rolled_int<L>& radius) {
+    ABUT_NOINLINE ABUT_HD constexpr void set(const vec3<arena_int>& x, const vec3<arena_int>& u, const vec3<arena_int>& v,
+                                             const arena_int& disc_radius, const arena_int& radius) {
         const auto e = cross(u, v), xv = cross(x, v);
         uu = dot(u, u), vv = dot(v, v), w = dot(u, v), last = dot(x, v);
         m = dot(x, e), n = dot(xv, e), across = dot(xv, xv), ee = dot(e, e);
         disc_rr = square(disc_radius), rr = square(radius);
     }
 
+    [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr bool meet() const {
+        const arena_scope scope(*ee.in);
+        const bool is_parallel = sign(ee) == 0;
+        if (is_parallel && (sign(last) < 0 || sign(vv - last) < 0)) return false;
+        if (is_parallel) return roots_reach(disc_rr * vv, rr * vv, across);
+        const disc_at_end at_last = at(last, axis_end::last);
+        if (at_last != disc_at_end::between) return at_last == disc_at_end::meets;
+        const disc_at_end at_first = at(last - vv, axis_end::first);
+        return at_first == disc_at_end::between ? !is_apart_from_endless() : at_first == disc_at_end::meets;
+    }
+
     /// Whether they meet in the plane of the end at g, or else whether they may meet on the side of the other end.
-    [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr disc_at_end at(const rolled_int<2 * L>& g, axis_end end) const {
-        rolled_int<4 * L> k = n;
-        k.add(w, g);
-        rolled_int<6 * L> s = disc_rr * ee;
-        add_times(s, -1, uu, square(g));
-        rolled_int<8 * L> t = (rr * vv) * ee;
-        t.add(k, k, true);
+    [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr disc_at_end at(const arena_int& g, axis_end end) const {
+        const arena_scope scope(*g.in);
+        const arena_int k = k_at(g), s = s_at(g), t = t_at(k);
         const int sign_s = sign(s), sign_t = sign(t), sign_w = sign(w), outward = static_cast<int>(end);
         if (sign_s >= 0 && sign_t >= 0 && overlap(s, t)) return disc_at_end::meets;
         if (sign_s <= 0 && sign(g) * outward <= 0) return disc_at_end::beyond;
@@ -139,50 +123,45 @@ struct disc_and_cylinder {
 
     /// Whether the disc and the endless cylinder have no point in common.
     [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr bool is_apart_from_endless() const {
-        cubic_of_disc<L> cubic;
-        set(cubic);
-        return cubic.is_positive_somewhere();
+        const arena_scope scope(*ee.in);
+        return cubic().sign_of_greatest() > 0;
+    }
+
+    /// N + w g, S, and T by it.
+    ///@{
+    [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr arena_int k_at(const arena_int& g) const { return arena_sum(n).add(w, g); }
+    [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr arena_int s_at(const arena_int& g) const {
+        return arena_sum(disc_rr, ee).add(uu, square(g), true);
+    }
+    [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr arena_int t_at(const arena_int& k) const {
+        return arena_sum(rr * vv, ee).add(k, k, true);
+    }
+    ///@}
+
+    /// Whether |M| <= S^(1/2) + (T / V)^(1/2).
+    [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr bool overlap(const arena_int& s, const arena_int& t) const {
+        return roots_reach(vv * s, t, vv * square(m));
     }
 
 private:
-    ABUT_NOINLINE ABUT_HD constexpr void set(cubic_of_disc<L>& to) const {
-        const auto uv = uu * vv, ww = square(w), both = uv + ww, disc_v = disc_rr * vv, v = rr * vv;
-        to.c3 = disc_rr * uu;
-        to.c2 = uu * across;
-        to.c2.add(disc_rr, both, true);
-        to.c2.add(rr, uv, true);
-        to.c1 = ww * across;
-        to.c1.add(n, n);
-        to.c1.add(disc_v, ww, true);
-        to.c1.add(v, both, true);
-        to.c0 = v * (vv * ww);
-    }
-
-    /// Whether |M| <= S^(1/2) + (T / V)^(1/2).
-    [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr bool overlap(const rolled_int<6 * L>& s,
-                                                               const rolled_int<8 * L>& t) const {
-        const auto vs = vv * s;
-        auto over = vv * square(m);
-        over.add(vs, true);
-        over.add(t, true);
-        if (sign(over) <= 0) return true;
-        auto d = square(over);
-        add_times(d, -4, vs, t);
-        return sign(d) <= 0;
+    [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr cubic_of_disc cubic() const {
+        const arena_int uv = uu * vv, ww = square(w), both = uv + ww, v = rr * vv;
+        return {disc_rr * uu, arena_sum(uu, across).add(disc_rr, both, true).add(rr, uv, true),
+                arena_sum(ww, across).add(n, n).add(disc_rr * vv, ww, true).add(v, both, true), v * (vv * ww)};
     }
 
     /// The sign of U g / S^(1/2) + w k / (V T)^(1/2): of how fast the sum of both roots falls.
-    [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr int sign_of_fall(const rolled_int<2 * L>& g, const rolled_int<4 * L>& k,
-                                                                   const rolled_int<6 * L>& s,
-                                                                   const rolled_int<8 * L>& t) const {
+    [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr int sign_of_fall(const arena_int& g, const arena_int& k,
+                                                                   const arena_int& s, const arena_int& t) const {
         return sign_of_roots(uu * g, vv * t, w * k, s);
     }
 };
 
 /// The ends of the first axis and of the second, and both radii.
 struct cylinders_meet {
-    template <int L>
-    ABUT_HD static constexpr bool holds(const rolled_int<L> (&value)[14]) {
+    static constexpr int most_limbs = 200;
+
+    ABUT_HD static constexpr bool holds(const arena_int (&value)[14]) {
         const verdict at_sides = sides_meet(value);
         if (at_sides != verdict::unknown) return at_sides == verdict::yes;
         ABUT_ROLLED
@@ -194,17 +173,15 @@ struct cylinders_meet {
 
 private:
     /// Whether they meet where their axes are nearest, or not at all; or else unknown.
-    template <int L>
-    ABUT_NOINLINE ABUT_HD static constexpr verdict sides_meet(const rolled_int<L> (&value)[14]) {
+    ABUT_NOINLINE ABUT_HD static constexpr verdict sides_meet(const arena_int (&value)[14]) {
+        const arena_scope scope(*value[0].in);
         const auto b = point_at(value, 2), u = point_at(value, 1) - point_at(value, 0), v = point_at(value, 3) - b,
                    x = point_at(value, 0) - b;
-        const auto e = cross(u, v);
-        const auto ee = dot(e, e);
-        const auto reach = value[12] + value[13];
+        const vec3<arena_int> e = cross(u, v);
+        const arena_int ee = dot(e, e), reach = value[12] + value[13];
         if (sign(ee) == 0) return to_verdict(parallel_meet(x, point_at(value, 1) - b, v, reach));
-        auto over = square(dot(x, e));
-        add_times(over, -1, square(reach), ee);
-        if (sign(over) > 0) return verdict::no;
+        const arena_int apart = dot(x, e);
+        if (sign(arena_sum(apart, apart).add(square(reach), ee, true)) > 0) return verdict::no;
         const auto at_first = dot(cross(x, v), e), at_second = dot(cross(x, u), e);
         const bool between =
             sign(at_first) <= 0 && sign(at_first + ee) >= 0 && sign(at_second) <= 0 && sign(at_second + ee) >= 0;
@@ -212,34 +189,23 @@ private:
     }
 
     /// The ends of one axis as seen from the first end of the other, along v.
-    template <int L>
-    ABUT_NOINLINE ABUT_HD static constexpr bool parallel_meet(const vec3<rolled_int<L>>& x, const vec3<rolled_int<L>>& y,
-                                                              const vec3<rolled_int<L>>& v, const rolled_int<L>& reach) {
+    ABUT_NOINLINE ABUT_HD static constexpr bool parallel_meet(const vec3<arena_int>& x, const vec3<arena_int>& y,
+                                                              const vec3<arena_int>& v, const arena_int& reach) {
         const auto first = dot(x, v), last = dot(y, v), vv = dot(v, v);
         if (sign(first) < 0 && sign(last) < 0) return false;
         if (sign(first - vv) > 0 && sign(last - vv) > 0) return false;
-        auto over = square(cross(x, v));
-        add_times(over, -1, square(reach), vv);
-        return sign(over) <= 0;
+        return sign(arena_sum(square(cross(x, v))).add(square(reach), vv, true)) <= 0;
     }
 
     /// The disc at end k of all four, and the other cylinder.
-    template <int L>
-    ABUT_NOINLINE ABUT_HD static constexpr bool disc_meets(const rolled_int<L> (&value)[14], int k) {
-        disc_and_cylinder<L> d;
-        set(d, value, k, k < 2 ? 0 : 1);
-        const disc_at_end at_last = d.at(d.last, axis_end::last);
-        if (at_last != disc_at_end::between) return at_last == disc_at_end::meets;
-        const disc_at_end at_first = d.at(d.last - d.vv, axis_end::first);
-        return at_first == disc_at_end::between ? !d.is_apart_from_endless() : at_first == disc_at_end::meets;
-    }
-    template <int L>
-    ABUT_NOINLINE ABUT_HD static constexpr void set(disc_and_cylinder<L>& d, const rolled_int<L> (&value)[14], int k,
-                                                    int own) {
-        const int other = 1 - own;
-        const auto from = point_at(value, 2 * other);
+    ABUT_NOINLINE ABUT_HD static constexpr bool disc_meets(const arena_int (&value)[14], int k) {
+        const arena_scope scope(*value[0].in);
+        const int own = k < 2 ? 0 : 1, other = 1 - own;
+        const vec3<arena_int> from = point_at(value, 2 * other);
+        disc_and_cylinder d{};
         d.set(point_at(value, k) - from, point_at(value, 2 * own + 1) - point_at(value, 2 * own),
               point_at(value, 2 * other + 1) - from, value[12 + own], value[12 + other]);
+        return d.meet();
     }
 };
 

@@ -23,6 +23,7 @@
 #include <abut/predicate/hull_hull.hpp>
 #include <abut/predicate/hull_numbers.hpp>
 #include <abut/predicate/revolution.hpp>
+#include <abut/predicate/solid_on_ways.hpp>
 #include <abut/shape/hull.hpp>
 #include <abut/shape/outward.hpp>
 #include <abut/shape/primitive.hpp>
@@ -30,14 +31,6 @@
 namespace abut {
 
 namespace detail {
-
-/// Points of a solid that a search asked for: an end of the axis, and how far from there.
-struct points_of_solid {
-    static constexpr int room = 33;
-    std::uint32_t end[room]{};
-    vec3<double> rim[room]{};
-    int count = 0;
-};
 
 /// A hull and a solid whose axis has a length, as gjk.hpp reads two hulls, in double. Of the solid the points are those that
 /// were asked for: an end of the axis, and from there to the rim. Where it is not `Certified`, all is taken as it is
@@ -50,29 +43,19 @@ public:
     static constexpr int most_steps = points_of_solid::room - 1;
 
     ABUT_HD constexpr hull_and_solid(const hull<T>& h, const S& s, const hull<T>& axis, points_of_solid& asked)
-        : both_(h, axis), radius_(static_cast<double>(s.radius)), asked_(asked) {
-        const vec3<double> along = relative_to(axis_of(s).a, axis_of(s).b);
-        const double size = magnitudes(along);
-        // Whether small numbers that are read as 0 have not turned it.
-        is_known_ = size > (std::same_as<T, float> ? 0x1p-70 : 0x1p-900) && size < 0x1p900;
-        const vec3<double> unit = (1 / size) * along;
-        axis_ = (1 / square_root(dot(unit, unit))) * unit;
-    }
+        : both_(h, axis), solid_(s), asked_(asked) {}
 
-    [[nodiscard]] ABUT_HD constexpr vec3<double> axis() const { return axis_; }
+    [[nodiscard]] ABUT_HD constexpr vec3<double> axis() const { return solid_.axis; }
     [[nodiscard]] ABUT_HD constexpr vec3<double> way_between_middles() const { return both_.way_between_middles(); }
     [[nodiscard]] ABUT_HD constexpr vec3<double> difference(std::uint32_t i, std::uint32_t j) const {
-        return both_.difference(i, asked_.end[j]) - asked_.rim[j];
+        return both_.difference(i, asked_.end[j]) - asked_.to_rim[j];
     }
     ABUT_HD constexpr void look_back(const vec3<double>& way, std::uint32_t& i, std::uint32_t& j) const {
         std::uint32_t end = 0;
         both_.look_back(way, i, end);
-        j = static_cast<std::uint32_t>(asked_.count);
-        if (asked_.count < most_steps) ++asked_.count;
-        const vec3<double> one = of_size_1(way), across = across_of(one);
-        const double length = length_of(across);
-        asked_.end[j] = end_on(one, i, end, length);
-        asked_.rim[j] = has_rim(asked_.end[j]) && length > 0 ? (radius_ / length) * across : vec3<double>{0, 0, 0};
+        const vec3<double> one = of_size_1(way);
+        end = end_on(one, i, end);
+        j = asked_.append(end, solid_.to_rim(one, end));
     }
     [[nodiscard]] ABUT_HD constexpr bool are_apart(const vec3<double>& way, std::uint32_t i, std::uint32_t j) const {
         return is_ahead(of_size_1(way), i, asked_.end[j]);
@@ -97,7 +80,7 @@ public:
         const auto at = static_cast<std::uint32_t>(i);
         const vec3<double> one = of_size_1(way);
         const std::uint32_t end = both_.ahead(one, at, 1) < both_.ahead(one, at, 0) ? 1 : 0;
-        return !is_ahead(one, at, end_on(one, at, end, length_of(across_of(one))));
+        return !is_ahead(one, at, end_on(one, at, end));
     }
     ///@}
 
@@ -106,45 +89,30 @@ public:
         std::uint32_t i = 0, end = 0;
         both_.look_back(way, i, end);
         const vec3<double> one = of_size_1(way);
-        end = end_on(one, i, end, length_of(across_of(one)));
-        const double size = both_.size() + radius_;
-        return size < 0x1p400 && size > 0x1p-400 && ahead_of(one, i, end) > length_of(one) * (distance - 0x1p-52 * size);
+        end = end_on(one, i, end);
+        const double size = both_.size() + solid_.radius;
+        return size < 0x1p400 && size > 0x1p-400 &&
+               ahead_of(one, i, end) > solid_.length_of(one) * (distance - 0x1p-52 * size);
     }
 
 private:
-    static constexpr bool is_cone = questions_of<S>::type::is_cone;
-
-    [[nodiscard]] ABUT_HD static constexpr bool has_rim(std::uint32_t end) { return !is_cone || end == 1; }
-    /// A way whose magnitudes sum up to 1; or zero, on which nothing is ahead.
-    [[nodiscard]] ABUT_HD static constexpr vec3<double> of_size_1(const vec3<double>& way) {
-        const double size = magnitudes(way);
-        return size > 0x1p-1000 && size < 0x1p1000 ? (1 / size) * way : vec3<double>{0, 0, 0};
-    }
-    [[nodiscard]] ABUT_HD constexpr vec3<double> across_of(const vec3<double>& way) const {
-        return way - dot(way, axis_) * axis_;
-    }
-    [[nodiscard]] ABUT_HD static constexpr double length_of(const vec3<double>& v) { return square_root(dot(v, v)); }
-    /// The end at which the solid is farthest along a way, where the axis is so at `end`.
-    [[nodiscard]] ABUT_HD constexpr std::uint32_t end_on(const vec3<double>& way, std::uint32_t i, std::uint32_t end,
-                                                         double length) const {
-        if (!is_cone) return end;
-        return both_.ahead(way, i, 1) - radius_ * length < both_.ahead(way, i, 0) ? 1 : 0;
+    /// The end at which the solid is farthest along a way of size 1, where the axis is so at `end`.
+    [[nodiscard]] ABUT_HD constexpr std::uint32_t end_on(const vec3<double>& one, std::uint32_t i, std::uint32_t end) const {
+        if (!solid_.is_cone) return end;
+        return both_.ahead(one, i, 1) - solid_.reach(one, 1) < both_.ahead(one, i, 0) ? 1 : 0;
     }
     /// How far a point is ahead of all of the solid, which is farthest at this end, on a way of size 1.
     [[nodiscard]] ABUT_HD constexpr double ahead_of(const vec3<double>& one, std::uint32_t i, std::uint32_t end) const {
-        return both_.ahead(one, i, end) - (has_rim(end) ? radius_ * length_of(across_of(one)) : 0);
+        return both_.ahead(one, i, end) - solid_.reach(one, end);
     }
     [[nodiscard]] ABUT_HD constexpr bool is_ahead(const vec3<double>& one, std::uint32_t i, std::uint32_t end) const {
         const double ahead = ahead_of(one, i, end);
         if constexpr (!Certified) return ahead > 0;
-        const double bound = 0x1p-45 * (both_.size() + radius_) + (lost_of_differences<T> + 0x1p-900);
-        return is_known_ && bound < 0x1p900 && ahead > bound;
+        return solid_.is_known && is_more_than_lost<T>(ahead, both_.size() + solid_.radius);
     }
 
     hulls_in_floats<true, T> both_;
-    double radius_;
-    bool is_known_ = false;
-    vec3<double> axis_{};
+    solid_beside_axis<S> solid_;
     points_of_solid& asked_;
 };
 
