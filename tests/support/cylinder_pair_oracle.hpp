@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The oracle for cylinders with cylinders and with capsules. It says yes only with a point that lies in both, and no only
+// The oracle for cylinders, capsules and cones with each other. It says yes only with a point that lies in both, and no only
 // with a direction along which one is wholly before the other: both are tested in integers. How they are found need not be
 // proved: both solids grow from their centres by one factor until they touch, and a barrier method of 53 digits, then of
 // more, finds the factor, the point and the direction. Nothing here knows a feature, a quartic or a resultant. Where the
@@ -28,11 +28,16 @@ namespace abut::test {
 /// `failed`: none of all that.
 enum class finding : int { no, yes, touching, failed };
 
-/// A cylinder or a capsule in integers of a unit that both of a pair have.
+enum class round_kind : int { cylinder, capsule, cone };
+
+/// A cylinder, a capsule or a cone in integers of a unit that both of a pair have. A cone's apex is `a`.
 struct round_body {
-    bool is_capsule;
+    round_kind kind;
     integer_point a, b;
     integer r;
+
+    [[nodiscard]] bool is_capsule() const { return kind == round_kind::capsule; }
+    [[nodiscard]] bool is_cone() const { return kind == round_kind::cone; }
 
     [[nodiscard]] integer_point along() const { return {b.x - a.x, b.y - a.y, b.z - a.z}; }
     [[nodiscard]] integer_point twice_center() const { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
@@ -42,29 +47,47 @@ struct round_body {
         const integer_point w{x.x - q * a.x, x.y - q * a.y, x.z - q * a.z}, d = along();
         const integer dd = inner(d, d), ww = inner(w, w), s = inner(w, d), reach = q * r, rr = reach * reach, end = q * dd;
         if (dd == 0) return ww <= rr;
-        if (s < 0) return is_capsule && ww <= rr;
-        if (s > end) return is_capsule && ww - 2 * q * s + q * end <= rr;
+        if (s < 0) return is_capsule() && ww <= rr;
+        if (s > end) return is_capsule() && ww - 2 * q * s + q * end <= rr;
+        if (is_cone()) return (ww * dd - s * s) * dd <= r * r * s * s;
         return ww * dd - s * s <= rr * dd;
     }
     /// What the radius adds to its height along n, squared, is that over `unit`.
     [[nodiscard]] integer square_along(const integer_point& n, integer& unit) const {
         const integer_point d = along();
         const integer dd = inner(d, d), nn = inner(n, n), s = inner(n, d);
-        unit = is_capsule || dd == 0 ? integer(1) : dd;
-        return is_capsule || dd == 0 ? integer(r * r * nn) : integer(r * r * (nn * dd - s * s));
+        unit = is_capsule() || dd == 0 ? integer(1) : dd;
+        return is_capsule() || dd == 0 ? integer(r * r * nn) : integer(r * r * (nn * dd - s * s));
+    }
+
+    /// A height along n, and the square over `unit` that is added to it.
+    struct top {
+        integer height, square, unit;
+    };
+    /// The greatest of these is its greatest height along n: of a cone the apex and the base have one each.
+    [[nodiscard]] std::vector<top> tops(const integer_point& n) const {
+        const integer high_a = inner(n, a), high_b = inner(n, b);
+        top round{is_cone() || high_a < high_b ? high_b : high_a, 0, 1};
+        round.square = square_along(n, round.unit);
+        if (!is_cone()) return {round};
+        return {{high_a, 0, 1}, round};
     }
 };
 
 /// Whether all of s is before all of t along n.
 inline bool is_before(const round_body& s, const round_body& t, const integer_point& n) {
-    const integer sa = inner(n, s.a), sb = inner(n, s.b), ta = inner(n, t.a), tb = inner(n, t.b);
-    const integer room = (ta < tb ? ta : tb) - (sa < sb ? sb : sa);
-    if (room <= 0) return false;
-    integer u, v;
-    const integer p = s.square_along(n, u), q = t.square_along(n, v);
-    // room > sqrt(p / u) + sqrt(q / v)
-    const integer first = p * v, second = q * u, rest = room * room * u * v - first - second;
-    return rest > 0 && rest * rest > 4 * first * second;
+    const std::vector<round_body::top> lower = s.tops(n), upper = t.tops({-n.x, -n.y, -n.z});
+    for (const auto& p : lower) {
+        for (const auto& q : upper) {
+            const integer room = -q.height - p.height;
+            if (room <= 0) return false;
+            // room > sqrt(p.square / p.unit) + sqrt(q.square / q.unit)
+            const integer first = p.square * q.unit, second = q.square * p.unit,
+                          rest = room * room * p.unit * q.unit - first - second;
+            if (!(rest > 0 && rest * rest > 4 * first * second)) return false;
+        }
+    }
+    return true;
 }
 
 /// The integer in units of 2^shift.
@@ -126,8 +149,9 @@ inline fraction simplest(const integer& x, int digits, int close) {
 }
 
 /// Two round bodies that grow from their centres, and the factor at which they touch. The first centre is the origin, and
-/// lengths are twice what they are, so that half an axis is `d`. A body is one or two cones, each of one number that is as
-/// large as the length of some others: all linear in the place, the factor and, for capsules, a place along the axis.
+/// lengths are twice what they are, so that half an axis is `d`. A body is one or two terms, each of one number that is as
+/// large as the length of some others, or not negative where there are none: all linear in the place, the factor and, for
+/// capsules, a place along the axis.
 template <class N>
 class growth {
 public:
@@ -170,7 +194,7 @@ public:
             const N root = sqrt(sum);
             if (largest < root) largest = root;
         }
-        v_[3] = 2 * largest;
+        v_[3] = 4 * largest;
         mu_ = v_[3];
         return centre(v_, mu_, 400);
     }
@@ -223,6 +247,7 @@ public:
             N x[4], q;
             if (!evaluate(c, v_, x, q)) return false;
             for (int k = 0; k < 3; ++k) {
+                n[k] -= x[0] * c.row[0][k] / q;
                 for (int i = 1; i < c.count; ++i) n[k] += x[i] * c.row[i][k] / q;
             }
         }
@@ -233,16 +258,22 @@ public:
         for (int i = 0; i < 2; ++i) {
             N along(0);
             for (int k = 0; k < 3; ++k) along += n[k] * d_[i][k];
-            const N across = bodies_[i]->is_capsule || dd_[i] == 0 ? nn : N(nn - along * along / dd_[i]);
-            reach += abs(along) + (across > 0 ? N(sqrt(across) * r_[i]) : N(0));
+            if (i == 1) along = -along;
+            const N across = bodies_[i]->is_capsule() || dd_[i] == 0 ? nn : N(nn - along * along / dd_[i]);
+            const N round = across > 0 ? N(sqrt(across) * r_[i]) : N(0);
+            if (bodies_[i]->is_cone() && dd_[i] > 0) {
+                reach += -along < along + round ? N(along + round) : N(-along);
+            } else {
+                reach += abs(along) + round;
+            }
         }
         if (!(apart > reach)) return false;
         const int p = 2 * digits;
         return is_before(*bodies_[0], *bodies_[1], {whole(n[0], p), whole(n[1], p), whole(n[2], p)});
     }
 
-    /// Whether a simple point near that of the path lies in both: the simplest fractions, or those across an axis or along
-    /// it, where the solids touch in a segment or in a part of a plane.
+    /// Whether a simple point near that of the path lies in both: the simplest fractions, or those across an axis, along it
+    /// or from an apex, where the solids touch in a segment or in a part of a plane.
     [[nodiscard]] bool has_simple_point() const {
         integer q;
         const integer_point x = place(q);
@@ -267,6 +298,11 @@ public:
             const fraction parts = fraction(integer((numerator(along) << 12) / denominator(along)), integer(1) << 12);
             for (int k = 0; k < 3; ++k) p[k] += start[k] + parts * direction[k];
             if (is_common(p[0], p[1], p[2])) return true;
+            // In a segment from the apex, at a height that is as rough.
+            if (body->is_cone() && parts > 0) {
+                for (int k = 0; k < 3; ++k) p[k] = start[k] + parts * near((exactly[k] - start[k]) / along);
+                if (is_common(p[0], p[1], p[2])) return true;
+            }
             // In the plane of an end.
             for (int end = 0; end < 2; ++end) {
                 for (int k = 0; k < 3; ++k) p[k] = exactly[k] + (end - along) * direction[k];
@@ -304,16 +340,23 @@ private:
         for (int k = 0; k < 3; ++k) {
             for (int l = 0; l < 3; ++l) {
                 N x(k == l ? 1 : 0);
-                if (has_axis && !b.is_capsule) x -= d_[i][k] * d_[i][l] / dd_[i];
+                if (has_axis && !b.is_capsule()) x -= d_[i][k] * d_[i][l] / dd_[i];
                 across.row[k + 1][l] = x / r_[i];
             }
-            if (has_axis && b.is_capsule) across.row[k + 1][size_] = -d_[i][k] / r_[i];
+            if (has_axis && b.is_capsule()) across.row[k + 1][size_] = -d_[i][k] / r_[i];
+        }
+        // From the apex, at -1, to the base, at 1, the radius grows.
+        if (has_axis && b.is_cone()) {
+            across.row[0][3] = N(1) / 2;
+            for (int l = 0; l < 3; ++l) across.row[0][l] = d_[i][l] / dd_[i] / 2;
         }
         set_constants(across);
         terms_.push_back(across);
         if (!has_axis) return;
-        term ends = blank(2);
-        if (b.is_capsule) {
+        term ends = blank(b.is_cone() ? 1 : 2);
+        if (b.is_cone()) {
+            for (int l = 0; l < 3; ++l) ends.row[0][l] = -d_[i][l] / dd_[i];
+        } else if (b.is_capsule()) {
             ends.row[1][size_++] = 1;
         } else {
             for (int l = 0; l < 3; ++l) ends.row[1][l] = d_[i][l] / dd_[i];
@@ -322,7 +365,7 @@ private:
         terms_.push_back(ends);
     }
     void set_constants(term& c) const {
-        for (int k = 1; k < c.count; ++k) {
+        for (int k = 0; k < c.count; ++k) {
             for (int l = 0; l < 3; ++l) c.constant[k] -= c.row[k][l] * center_[c.body][l];
         }
     }
@@ -332,7 +375,7 @@ private:
         for (int k = 0; k < size_; ++k) sum += row[k] * v[k];
         return sum;
     }
-    /// The numbers of a cone; false where the place is not inside of it.
+    /// The numbers of a term; false where the place is not inside of it.
     bool evaluate(const term& c, const vector& v, N (&x)[4], N& q) const {
         using std::sqrt;
         N sum(0);
@@ -557,18 +600,25 @@ inline finding examine_bodies(const round_body& first, const round_body& second,
 namespace oracle {
 
 template <class S>
-inline constexpr bool is_capsule_shape = false;
+inline constexpr round_kind kind_of_round = round_kind::cylinder;
 template <scalar T>
-inline constexpr bool is_capsule_shape<capsule<T>> = true;
+inline constexpr round_kind kind_of_round<capsule<T>> = round_kind::capsule;
+template <scalar T>
+inline constexpr round_kind kind_of_round<cone<T>> = round_kind::cone;
+
+template <scalar T>
+const segment<T>& axis_of(const capsule<T>& s) {
+    return s.axis;
+}
 
 /// Both in integers.
 template <class S, class U, class T = decltype(S::radius)>
 void bodies_of(const S& s, const U& t, round_body& p, round_body& q) {
-    const auto v =
-        to_integers(std::vector<T>{s.axis.a.x, s.axis.a.y, s.axis.a.z, s.axis.b.x, s.axis.b.y, s.axis.b.z, s.radius,
-                                   t.axis.a.x, t.axis.a.y, t.axis.a.z, t.axis.b.x, t.axis.b.y, t.axis.b.z, t.radius});
-    p = {is_capsule_shape<S>, {v[0], v[1], v[2]}, {v[3], v[4], v[5]}, v[6]};
-    q = {is_capsule_shape<U>, {v[7], v[8], v[9]}, {v[10], v[11], v[12]}, v[13]};
+    const segment<T> d = axis_of(s), e = axis_of(t);
+    const auto v = to_integers(std::vector<T>{d.a.x, d.a.y, d.a.z, d.b.x, d.b.y, d.b.z, s.radius,  //
+                                              e.a.x, e.a.y, e.a.z, e.b.x, e.b.y, e.b.z, t.radius});
+    p = {kind_of_round<S>, {v[0], v[1], v[2]}, {v[3], v[4], v[5]}, v[6]};
+    q = {kind_of_round<U>, {v[7], v[8], v[9]}, {v[10], v[11], v[12]}, v[13]};
 }
 
 /// A segment and a body, exactly.
@@ -578,7 +628,7 @@ inline bool segment_meets(const round_body& s, const round_body& t) {
     };
     const integer_point d = t.along();
     const integer dd = inner(d, d);
-    if (t.is_capsule || dd == 0) {
+    if (t.is_capsule() || dd == 0) {
         // A parallelogram of differences, as two triangles.
         return hull_reaches({minus(s.a, t.a), minus(s.b, t.a), minus(s.b, t.b)}, t.r * t.r) ||
                hull_reaches({minus(s.a, t.a), minus(s.a, t.b), minus(s.b, t.b)}, t.r * t.r);
@@ -587,7 +637,7 @@ inline bool segment_meets(const round_body& s, const round_body& t) {
         const integer_point w = minus(x, t.a);
         return fraction_point{fraction(w.x), fraction(w.y), fraction(w.z)};
     };
-    return polygon_meets({seen(s.a), seen(s.b)}, {false, seen(t.b), fraction(t.r), fraction(dd)});
+    return polygon_meets({seen(s.a), seen(s.b)}, {t.is_cone(), seen(t.b), fraction(t.r), fraction(dd)});
 }
 
 template <class S, class U>
