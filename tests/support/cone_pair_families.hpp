@@ -27,10 +27,11 @@ namespace abut::test {
 /// `facing`: features of both, an apex, a side, a rim, an end, touch one plane from both sides, at one place of it, but for
 /// a gap down to 2^-50. `touching`: so in whole numbers, of which the construction says whether they touch; `nudged`: one of
 /// its numbers is a step off. `other_nappe`: the place is on the line of a side but behind the apex, or a cone is mirrored
-/// there. `around_apex`: a feature of the second is about where the first's apex is. `aligned`: numbers of all digits, but
-/// along axes of the coordinates, and as far apart as the rounded sum of two numbers. `near_contact`: a radius is the least
-/// with which they meet. `huge_and_small`: the surface of the first, up to 2^60 times as large, goes through where the other
-/// is.
+/// there. `leaning`: the plane is that of a side whose slope has a length that is irrational, and the other, in whole
+/// numbers too, is the mirror image of the first, or touches the plane with its apex, its end or a side. `around_apex`: a
+/// feature of the second is about where the first's apex is. `aligned`: numbers of all digits, but along axes of the
+/// coordinates, and as far apart as the rounded sum of two numbers. `near_contact`: a radius is the least with which they
+/// meet. `huge_and_small`: the surface of the first, up to 2^60 times as large, goes through where the other is.
 enum class cone_family : int {
     random,
     facing,
@@ -41,6 +42,7 @@ enum class cone_family : int {
     upright_lattice,
     touching,
     other_nappe,
+    leaning,
     nudged,
     around_apex,
     aligned,
@@ -55,14 +57,14 @@ enum class cone_family : int {
     mixed_exponents,
     all_bit_patterns,
 };
-inline constexpr int cone_family_count = 22;
+inline constexpr int cone_family_count = 23;
 
 inline const char* name_of(cone_family f) {
     constexpr const char* names[cone_family_count] = {
-        "random",       "facing",   "offset",          "any scale",       "lattice 2",   "lattice 5",
-        "upright",      "touching", "other nappe",     "nudged",          "around apex", "aligned",
-        "near contact", "nested",   "discs, needles",  "huge and small",  "no radius",   "no length",
-        "denormal",     "largest",  "mixed exponents", "all bit patterns"};
+        "random",    "facing",       "offset",      "any scale",       "lattice 2",       "lattice 5",
+        "upright",   "touching",     "other nappe", "leaning",         "nudged",          "around apex",
+        "aligned",   "near contact", "nested",      "discs, needles",  "huge and small",  "no radius",
+        "no length", "denormal",     "largest",     "mixed exponents", "all bit patterns"};
     return names[static_cast<int>(f)];
 }
 
@@ -178,7 +180,7 @@ inline void draw_place(draws& d, const footprint& f, bool is_behind, int (&place
     const int part = d.below(6);
     for (int k = 0; k < 2; ++k) {
         const int e = (f.q[k] - f.p[k]) / 5;
-        place[k] = f.radius > 0 ? f.p[k] + f.radius / 25 * part * u[k] : f.p[k] + (is_behind ? -1 - part : part) * e;
+        place[k] = f.radius > 0 ? f.p[k] + f.radius / 25 * part * u[k] : f.p[k] + (is_behind ? -part : part) * e;
     }
 }
 
@@ -212,6 +214,76 @@ void touching_cone(draws& d, round_kind kind, bool is_behind, round_pair<T>& pai
     }
     const T scale = rounded_to<T>(std::ldexp(1.0, d.below(3) == 0 ? d.below(41) - 20 : 0));
     for (int i = 0; i < 14; ++i) *number_of(pair, i) *= scale;
+}
+
+/// The first stands on its apex, which is at 0. `g` is a line of its side, from the apex to the rim; n is its normal, and t
+/// the tangent of the rim. The second touches their plane from without, or is a step before that.
+template <scalar T>
+void leaning(draws& d, round_kind kind, round_pair<T>& pair) {
+    constexpr int slopes[4][2] = {{4, 21}, {1, 12}, {3, 8}, {7, 12}};  // whose normals have whole lengths
+    const lattice_frame f(d);
+    const int* const u = five_circle[d.below(12)];
+    const int* const slope = slopes[d.below(4)];
+    const int way = d.below(kind == round_kind::cone ? 4 : kind == round_kind::cylinder ? 2 : 1);
+    const bool is_whole = way == 0;
+    const int out = is_whole ? slope[0] : 1 + d.below(3), up = is_whole ? slope[1] : 1 + d.below(6);
+    const whole_point g{out * u[0], out * u[1], up}, n{up * u[0], up * u[1], -25 * out}, t{-u[1], u[0], 0};
+    const int square = 25 * (up * up + 25 * out * out), unit = way == 3 ? 6 * square : 6;
+    // Of the plane, in parts of g / 6 and t.
+    const int x = d.below(11) - 2, y = d.below(3) == 0 ? d.below(5) - 2 : 0;
+    const auto at = [&](int i, int j) { return unit / 6 * i * g + unit * j * t; };
+    const int low[2] = {0, 0}, high[2] = {6, 0}, from[2] = {x, y};
+    whole_point a = at(x, y), b{};
+    int r = 0;
+    bool is_met = false;
+    if (way == 0) {  // a side, an end that is a ball, or a ball
+        int length = 5;
+        while (length * length < up * up + 25 * out * out) ++length;
+        const int to[2] = {x + d.below(7) - 3, y + d.below(3) - 1}, lift = kind == round_kind::capsule ? d.below(3) : 0;
+        const bool is_ball = kind == round_kind::cone || d.below(8) == 0;
+        a = a + 6 * n;
+        b = is_ball ? a : at(to[0], to[1]) + 6 * (1 + lift) * n;
+        r = 6 * 5 * length;
+        is_met = is_ball || lift > 0 ? plane_segments_meet(low, high, from, from) : plane_segments_meet(low, high, from, to);
+    } else if (way == 1) {  // an end
+        const std::int64_t size = 1 + d.below(20), past = x < 0 ? -x : x > 6 ? x - 6 : 0;
+        r = static_cast<int>(6 * size);
+        b = a + 6 * n;
+        is_met = past * past * (25 * out * out + up * up) + 36 * 25 * y * y <= 36 * size * size;
+        if (kind == round_kind::cone) std::swap(a, b);
+    } else if (way == 2) {  // an apex
+        const whole_point axis = (d.below(3) - 1) * t + (d.below(3) - 1) * g + (1 + d.below(2)) * n;
+        const auto inner_of = [](const whole_point& v, const whole_point& w) {
+            return std::int64_t{v.x} * w.x + std::int64_t{v.y} * w.y + std::int64_t{v.z} * w.z;
+        };
+        const std::int64_t dd = inner_of(axis, axis), s = inner_of(axis, n), across = square * dd - s * s;
+        std::int64_t size = d.below(120);
+        while (size * size * across >= s * s * dd) --size;
+        b = a + 6 * axis;
+        r = static_cast<int>(6 * size);
+        is_met = plane_segments_meet(low, high, from, from);
+    } else {  // the mirror image, or that turned around
+        const int sign = d.below(2) == 0 ? 1 : -1;
+        const int to[2] = {x + 6 * sign, y};
+        // By twice the axis' part along n, which is -25 out up / square of n.
+        const whole_point mirrored{50 * out * up * n.x, 50 * out * up * n.y, square * up + 50 * out * up * n.z};
+        b = a + (sign > 0 ? 6 * mirrored : whole_point{0, 0, -unit * up});
+        r = 5 * out * unit;
+        is_met = plane_segments_meet(low, high, from, to);
+    }
+    pair.truth = is_met ? known::yes : known::no;
+    if (const int step = d.below(8); step < 2) {
+        const whole_point away{u[0], u[1], 0};
+        a = a + (step == 0 ? 1 : -1) * away, b = b + (step == 0 ? 1 : -1) * away;
+        pair.truth = step == 0 ? known::no : known::nothing;
+    }
+    const auto place = [&](const whole_point& w) { return f.at<T>(w.x, w.y, w.z); };
+    pair.first = {place({0, 0, 0}), place({0, 0, unit * up})}, pair.second = {place(a), place(b)};
+    pair.first_radius = static_cast<T>(5 * out * unit * f.unit()), pair.second_radius = static_cast<T>(r * f.unit());
+    if (kind != round_kind::cone && d.below(2) == 0) std::swap(pair.second.a, pair.second.b);
+    if (kind == round_kind::cone && d.below(2) == 0) {
+        std::swap(pair.first, pair.second), std::swap(pair.first_radius, pair.second_radius);
+    }
 }
 
 struct facing_body {
@@ -430,6 +502,9 @@ round_pair<T> make_cone_pair(std::uint64_t seed, cone_family f, std::uint64_t k)
             break;
         case cone_family::other_nappe:
             touching_cone(d, kind, true, c);
+            break;
+        case cone_family::leaning:
+            leaning(d, kind, c);
             break;
         case cone_family::nudged: {
             if (d.below(3) != 0) {
