@@ -78,11 +78,11 @@ S round_shape(const segment<T>& axis, T radius) {
     }
 }
 template <scalar T>
-cone<T> cone_of(const round_pair<T>& c) {
+cone<T> cone_of(const pair_of_rounds<T>& c) {
     return round_shape<cone<T>>(c.first, c.first_radius);
 }
 template <class Other, scalar T>
-Other other_of(const round_pair<T>& c) {
+Other other_of(const pair_of_rounds<T>& c) {
     return round_shape<Other>(c.second, c.second_radius);
 }
 
@@ -186,7 +186,7 @@ inline void draw_place(draws& d, const footprint& f, bool is_behind, int (&place
 
 /// The second is under the plane that the first is over, and both touch it, or the first is a step over that or under it.
 template <scalar T>
-void touching_cone(draws& d, round_kind kind, bool is_behind, round_pair<T>& pair) {
+void touching_cone(draws& d, round_kind kind, bool is_behind, pair_of_rounds<T>& pair) {
     const lattice_frame f(d);
     resting_body s = make_resting(d, round_kind::cone, is_behind), t = make_resting(d, kind, false);
     int at[2], to[2];
@@ -219,7 +219,7 @@ void touching_cone(draws& d, round_kind kind, bool is_behind, round_pair<T>& pai
 /// The first stands on its apex, which is at 0. `g` is a line of its side, from the apex to the rim; n is its normal, and t
 /// the tangent of the rim. The second touches their plane from without, or is a step before that.
 template <scalar T>
-void leaning(draws& d, round_kind kind, round_pair<T>& pair) {
+void leaning(draws& d, round_kind kind, pair_of_rounds<T>& pair) {
     constexpr int slopes[4][2] = {{4, 21}, {1, 12}, {3, 8}, {7, 12}};  // whose normals have whole lengths
     const lattice_frame f(d);
     const int* const u = five_circle[d.below(12)];
@@ -338,7 +338,7 @@ inline facing_body make_facing(draws& d, round_kind kind, const point& out, cons
 }
 
 template <scalar T>
-void facing(draws& d, round_kind kind, double most_gap, round_pair<T>& c) {
+void facing(draws& d, round_kind kind, double most_gap, pair_of_rounds<T>& c) {
     const auto small = [&](int most) {
         const double m = d.uniform(0.5, 1);
         return std::ldexp(m, -d.below(most));
@@ -358,7 +358,7 @@ void facing(draws& d, round_kind kind, double most_gap, round_pair<T>& c) {
 /// The first along z, its apex below, and the second along z or x, with numbers of all digits. They touch in a plane of
 /// coordinates, or on a line along z.
 template <scalar T>
-void aligned_cone(draws& d, round_kind shape, round_pair<T>& pair) {
+void aligned_cone(draws& d, round_kind shape, pair_of_rounds<T>& pair) {
     const auto draw = [&](double least, double most) { return rounded_to<T>(d.uniform(least, most)); };
     const auto rounded_sum = [&](T a, T b) {
         const volatile T sum = a + b;
@@ -406,11 +406,11 @@ void aligned_cone(draws& d, round_kind shape, round_pair<T>& pair) {
 }  // namespace construction
 
 template <class Other, scalar T = scalar_type_of<Other>>
-round_pair<T> make_cone_pair(std::uint64_t seed, cone_family f, std::uint64_t k) {
+pair_of_rounds<T> make_cone_pair(std::uint64_t seed, cone_family f, std::uint64_t k) {
     using namespace construction;
     constexpr round_kind kind = oracle::kind_of_round<Other>;
     draws d(seed, 2000 + static_cast<std::uint64_t>(f) * 3 + static_cast<std::uint64_t>(kind), k);
-    round_pair<T> c{};
+    pair_of_rounds<T> c{};
     const auto general = [&](double scale, const point& offset) {
         for (segment<T>* s : {&c.first, &c.second}) {
             s->a = round_to<T>(along(offset, scale, cube(d, 1)));

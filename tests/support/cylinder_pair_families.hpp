@@ -67,7 +67,7 @@ inline const char* name_of(round_family f) {
 enum class known : int { no, yes, nothing };
 
 template <scalar T>
-struct round_pair {
+struct pair_of_rounds {
     segment<T> first;
     T first_radius;
     segment<T> second;
@@ -77,18 +77,18 @@ struct round_pair {
 };
 
 template <scalar T>
-cylinder<T> first_of(const round_pair<T>& p) {
+cylinder<T> first_of(const pair_of_rounds<T>& p) {
     return {p.first, p.first_radius};
 }
 template <class Other, scalar T>
-Other second_of(const round_pair<T>& p) {
+Other second_of(const pair_of_rounds<T>& p) {
     return {p.second, p.second_radius};
 }
 
 namespace construction {
 
 template <scalar T>
-T* number_of(round_pair<T>& c, int i) {
+T* number_of(pair_of_rounds<T>& c, int i) {
     vec3<T>* const points[] = {&c.first.a, &c.first.b, &c.second.a, &c.second.b};
     if (i == 12) return &c.first_radius;
     if (i == 13) return &c.second_radius;
@@ -121,7 +121,7 @@ inline bool plane_segments_meet(const int (&a)[2], const int (&b)[2], const int 
 /// In whole coordinates of a frame: the first stands on the z axis, and the second touches it in a plane that separates
 /// their insides, or is one step before or behind where it would.
 template <scalar T>
-void touching(draws& d, bool is_capsule, round_pair<T>& pair) {
+void touching(draws& d, bool is_capsule, pair_of_rounds<T>& pair) {
     constexpr int circle[12][2] = {{5, 0},  {4, 3},   {3, 4},   {0, 5},  {-3, 4}, {-4, 3},
                                    {-5, 0}, {-4, -3}, {-3, -4}, {0, -5}, {3, -4}, {4, -3}};
     const lattice_frame f(d);
@@ -227,7 +227,7 @@ bool is_sum_at_least(T a, T b, T x) {
 
 /// The first along z, and the second along z or x, as far from it along one axis as two numbers together, rounded.
 template <scalar T>
-void aligned(draws& d, bool is_capsule, round_pair<T>& pair) {
+void aligned(draws& d, bool is_capsule, pair_of_rounds<T>& pair) {
     const auto draw = [&](double low, double high) { return rounded_to<T>(d.uniform(low, high)); };
     const auto rounded_sum = [&](T a, T b) {
         const volatile T sum = a + b;
@@ -269,7 +269,7 @@ void aligned(draws& d, bool is_capsule, round_pair<T>& pair) {
 
 /// The least radius with which they meet, of the one or the other; false where there is none, or 0. `meet()` finds out.
 template <scalar T, class Meet>
-bool set_least_radius(round_pair<T>& c, const Meet& meet) {
+bool set_least_radius(pair_of_rounds<T>& c, const Meet& meet) {
     T& which = c.is_first_least ? c.first_radius : c.second_radius;
     const auto meet_with = [&](T radius) {
         which = radius;
@@ -290,11 +290,11 @@ bool set_least_radius(round_pair<T>& c, const Meet& meet) {
 }
 
 template <class Other, scalar T = scalar_type_of<Other>>
-round_pair<T> make_round_pair(std::uint64_t seed, round_family f, std::uint64_t k) {
+pair_of_rounds<T> make_round_pair(std::uint64_t seed, round_family f, std::uint64_t k) {
     using namespace construction;
     constexpr bool is_capsule = !std::same_as<Other, cylinder<T>>;
     draws d(seed, 1000 + static_cast<std::uint64_t>(f) * 2 + (is_capsule ? 1 : 0), k);
-    round_pair<T> c{};
+    pair_of_rounds<T> c{};
     const auto general = [&](double scale, const point& offset) {
         for (segment<T>* s : {&c.first, &c.second}) {
             s->a = round_to<T>(along(offset, scale, cube(d, 1)));
