@@ -107,7 +107,7 @@ template <class Other>
 std::uint64_t cone_cases_of(cone_family f) {
     // Numbers of thousands of digits take long, and so does the search for a radius.
     const bool is_double = sizeof(scalar_type_of<Other>) == 8;
-    const std::uint64_t part = f == cone_family::all_bit_patterns ? (is_double ? 1000 : 200)
+    const std::uint64_t part = f == cone_family::all_bit_patterns ? (is_double ? 500 : 50)
                                : f == cone_family::near_contact   ? (is_double ? 600 : 300)
                                                                   : 30;
     return test::sample_count() / part + 1;

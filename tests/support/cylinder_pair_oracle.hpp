@@ -534,6 +534,22 @@ inline finding by_plain_guesses(const round_body& s, const round_body& t) {
             const integer_point near{foot.x * size + n.x * reach, foot.y * size + n.y * reach, foot.z * size + n.z * reach};
             const integer whole_unit = q * size;
             if (s.contains(near, whole_unit) && t.contains(near, whole_unit)) return finding::yes;
+            if (!to.is_cone()) continue;
+            // The normal of the line of the side that is nearest to x, and its nearest point.
+            at = inner(v, along);
+            const integer_point out{unit * v.x - at * along.x, unit * v.y - at * along.y, unit * v.z - at * along.z};
+            const integer far = sqrt(inner(out, out)) + 1, back = to.r * far;
+            const integer_point normal{unit * out.x - back * along.x, unit * out.y - back * along.y,
+                                       unit * out.z - back * along.z};
+            if (is_before(s, t, normal) || is_before(t, s, normal)) return finding::no;
+            const integer_point line{far * along.x + to.r * out.x, far * along.y + to.r * out.y,
+                                     far * along.z + to.r * out.z};
+            integer part = inner(v, line), all = 2 * inner(line, line);
+            if (part < 0) part = 0;
+            if (part * far > all) part = 1, all = far;
+            const integer_point on_side{to.a.x * all + part * line.x, to.a.y * all + part * line.y,
+                                        to.a.z * all + part * line.z};
+            if (s.contains(on_side, all) && t.contains(on_side, all)) return finding::yes;
         }
     }
     return finding::failed;
@@ -589,7 +605,7 @@ inline finding examine_bodies(const round_body& first, const round_body& second,
     const integer largest = size_of(t) + abs(integer(c.x - o.x)) + abs(integer(c.y - o.y)) + abs(integer(c.z - o.z));
     const int shift = static_cast<int>(msb(largest));
     const growth<double>* const none = nullptr;
-    if (shift > 300) {
+    if (shift > 150) {
         const finding plain = by_plain_guesses(s, t);
         if (plain != finding::failed) return plain;
     }
