@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <concepts>
 #include <cstdint>
 #include <cstdio>
 
@@ -109,7 +108,7 @@ std::uint64_t cone_cases_of(cone_family f) {
     const bool is_double = sizeof(scalar_type_of<Other>) == 8;
     const std::uint64_t part = f == cone_family::all_bit_patterns ? (is_double ? 500 : 50)
                                : f == cone_family::near_contact   ? (is_double ? 600 : 300)
-                                                                  : 30;
+                                                                  : 40;
     return test::sample_count() / part + 1;
 }
 
@@ -233,7 +232,7 @@ TEMPLATE_TEST_CASE("cones with cones, cylinders and capsules: every stage is rig
         CHECK(test::is_share_above(0.05, sum.hits, sum.pairs));
         CHECK(test::is_share_above(0.05, sum.pairs - sum.hits, sum.pairs));
         if (f == cone_family::random) CHECK(sum.unlike * 20 <= sum.pairs);
-        if (f == cone_family::touching) CHECK(sum.open > 0);
+        if (f == cone_family::touching && sum.pairs > 50) CHECK(sum.open > 0);
         std::printf("%-16s | %9llu %9llu %9llu %9llu %9llu\n", test::name_of(f), static_cast<unsigned long long>(sum.pairs),
                     static_cast<unsigned long long>(sum.hits), static_cast<unsigned long long>(sum.open),
                     static_cast<unsigned long long>(sum.unlike), static_cast<unsigned long long>(sum.touching));
@@ -276,7 +275,7 @@ TEMPLATE_TEST_CASE("cones with cones, cylinders and capsules: one answer for eve
         }
     }
     CHECK(differing == 0);
-    CHECK(scaled_pairs * 2 > test::sample_count() / 120 * test::cone_family_count);
+    CHECK(scaled_pairs * 2 > test::sample_count() / 160 * test::cone_family_count);
 }
 
 TEMPLATE_TEST_CASE("cones with cones, cylinders and capsules: right in every floating-point mode", "", cone<float>,

@@ -252,7 +252,8 @@ void leaning(draws& d, round_kind kind, pair_of_rounds<T>& pair) {
         is_met = past * past * (25 * out * out + up * up) + 36 * 25 * y * y <= 36 * size * size;
         if (kind == round_kind::cone) std::swap(a, b);
     } else if (way == 2) {  // an apex
-        const whole_point axis = (d.below(3) - 1) * t + (d.below(3) - 1) * g + (1 + d.below(2)) * n;
+        const int i = d.below(3) - 1, j = d.below(3) - 1, k = 1 + d.below(2);
+        const whole_point axis = i * t + j * g + k * n;
         const auto inner_of = [](const whole_point& v, const whole_point& w) {
             return std::int64_t{v.x} * w.x + std::int64_t{v.y} * w.y + std::int64_t{v.z} * w.z;
         };
@@ -345,7 +346,10 @@ void facing(draws& d, round_kind kind, double most_gap, pair_of_rounds<T>& c) {
     };
     const point out = unit(cube(d, 1)), back = along({0, 0, 0}, -1, out), side = unit(cross_product(out, cube(d, 1)));
     point other = unit(cross_product(out, cube(d, 1)));
-    if (d.below(2) == 0) other = unit(along(along({0, 0, 0}, small(60), other), d.below(2) == 0 ? 1 : -1, side));
+    if (d.below(2) == 0) {
+        const double sign = d.below(2) == 0 ? 1 : -1;
+        other = unit(along(along({0, 0, 0}, small(60), other), sign, side));
+    }
     const facing_body s = make_facing(d, round_kind::cone, out, side), t = make_facing(d, kind, back, other);
     const point at = cube(d, d.below(2) == 0 ? 0 : 1);
     const double away = d.below(2) == 0 ? 1 : -1, gap = d.below(8) == 0 ? 0 : most_gap * away * small(51);
@@ -439,7 +443,7 @@ pair_of_rounds<T> make_cone_pair(std::uint64_t seed, cone_family f, std::uint64_
         for (int i = 0; i < 2; ++i) {
             segment<T>& s = i == 0 ? c.first : c.second;
             T& radius = i == 0 ? c.first_radius : c.second_radius;
-            const double thin = std::ldexp(d.uniform(0.5, 1), -d.below(50));
+            const double part = d.uniform(0.5, 1), thin = std::ldexp(part, -d.below(50));
             if (d.below(2) == 0) {
                 radius = rounded_to<T>(thin);
             } else {
@@ -454,13 +458,15 @@ pair_of_rounds<T> make_cone_pair(std::uint64_t seed, cone_family f, std::uint64_
     // A place of the second's axis or surface about at the first's apex.
     const auto around_apex = [&] {
         general(1, {0, 0, 0});
-        const double size = d.power_of_ten(-3, 1), step = std::ldexp(d.uniform(-1, 1), -d.below(40));
+        const double size = d.power_of_ten(-3, 1), away_by = d.uniform(-1, 1);
+        const int shift = d.below(40);
+        const double step = d.below(4) == 0 ? 0 : std::ldexp(away_by, -shift);
         const point e = along({0, 0, 0}, size, cube(d, 1)), out = unit(cross_product(e, cube(d, 1)));
         const int feature = d.below(4);
         const double t = feature < 2 ? feature : d.uniform(0, 1), r = size * d.power_of_ten(-2, 1);
         const double away = kind == round_kind::cone && feature != 3 ? t * r : r,
                      part = feature == 1 ? d.uniform(0, 1.2) : 1;
-        // a: of a cone the apex, else an end's place; 1: in the plane of the base, where a capsule has its end.
+        // 0: an apex or an end, 1: a place of the base or of the other end, 2: one of the side, 3: or about there.
         const point at = along(widened(c.first.a), step, cube(d, 1));
         const point a = along(along(at, -t, e), -part * away, out);
         c.second = {round_to<T>(a), round_to<T>(along(a, 1, e))};
@@ -513,7 +519,8 @@ pair_of_rounds<T> make_cone_pair(std::uint64_t seed, cone_family f, std::uint64_
                 upright(2);
             }
             c.truth = known::nothing;
-            const int count = 1 + d.below(2) * d.below(3);
+            const bool is_one = d.below(2) == 0;
+            const int count = is_one ? 1 : 1 + d.below(3);
             for (int i = 0; i < count; ++i) {
                 T& x = *number_of(c, d.below(14));
                 const int way = d.below(2) == 0 ? -1 : 1;
