@@ -207,7 +207,7 @@ TEMPLATE_TEST_CASE("cones with cones, cylinders and capsules: the oracle against
         }
     }
     CHECK(wrong == 0);
-    CHECK(close * 10 <= pairs);
+    CHECK(test::is_share_above(0.9, pairs - close, pairs));
     CHECK(test::is_share_above(0.2, hits, pairs));
     CHECK(test::is_share_above(0.2, pairs - hits, pairs));
 }
