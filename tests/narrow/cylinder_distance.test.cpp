@@ -106,8 +106,7 @@ TEST_CASE("distance: of cylinders, by hand, and in constant expressions") {
     static_assert(distance(rod, line).distance == 5 && distance(line, ball).distance == 3);
     static_assert(detail::measurable<cylinder<float>, cylinder<float>> &&
                   detail::measurable<capsule<double>, cylinder<double>>);
-    static_assert(!detail::measurable<cylinder<float>, cylinder<double>> &&
-                  !detail::measurable<cylinder<float>, cone<float>>);
+    static_assert(!detail::measurable<cylinder<float>, cylinder<double>>);
 }
 
 TEMPLATE_TEST_CASE("distance: of cylinders that face each other, against 300 bits", "", float, double) {

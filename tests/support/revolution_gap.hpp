@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The oracle: the least way between a cylinder or a cone and a hull, in 300 bits, by their farthest points along directions
-// alone (Gilbert, Johnson and Keerthi). The nearest point of the simplex that was found so far is never too near, and what
-// the farthest points say of its direction is never too far, so that the distance lies between the two whatever the search
-// does. It shares no formula with the library, which has no directions but a face's normal.
+// The oracle: the least way between a cylinder or a cone and a hull, or another of them, in 300 bits, by their farthest
+// points along directions alone (Gilbert, Johnson and Keerthi). The nearest point of the simplex that was found so far is
+// never too near, and what the farthest points say of its direction is never too far, so that the distance lies between the
+// two whatever the search does. It shares no formula with the library, which has no directions but normals
+// of faces and of sides.
 
 #include <algorithm>
 #include <cmath>
@@ -101,8 +102,8 @@ wide_gap_of_solid gap_of_solid(const S& s, const U& t) {
     return {{gap.lower - h.radius, gap.upper - h.radius}, far};
 }
 /// Of two solids; of their farthest points, no more than that.
-template <scalar T>
-wide_gap_of_solid gap_of_solid(const cylinder<T>& s, const cylinder<T>& t) {
+template <detail::solid_of_revolution S, detail::solid_of_revolution U>
+wide_gap_of_solid gap_of_solid(const S& s, const U& t) {
     const wide_solid a = in_bits(s), b = in_bits(t);
     wide far = 0;
     const wide_point way = b.first - a.first,

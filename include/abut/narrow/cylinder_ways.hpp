@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The least way between two cylinders, in double, as in revolution_ways.hpp; u and D are those of its head. One is the
-// solid. The least way begins on one of the other's two discs or on its side, inside.
+// The least way between a cylinder and another one, or a cone, in double, as in revolution_ways.hpp; u and D are those of
+// its head. The other one is the solid: all that is said of it is that it is convex. The least way begins on one of the
+// cylinder's two discs or on its side, inside.
 //
 // The side. There the way, made longer by the radius, is the least way between the solid and the axis, which is an edge. Let
 // z be where the search for that ends on the solid: then the cylinder is as near to z. If it is not, z is beyond an end, and
@@ -256,49 +257,61 @@ ABUT_NOINLINE ABUT_HD constexpr place_on_disc search_disc_closely(const revoluti
     return disc_search<contact_math::two_doubles>(solid, center, normal, radius, size).find(best);
 }
 
-/// Gathers the ways from the side and the discs of a cylinder, t, to a solid.
-template <scalar T>
-class cylinder_way_finder : public revolution_way_finder<T, false> {
-    using base = revolution_way_finder<T, false>;
+/// Gathers ways to a solid, from discs too.
+template <scalar T, bool Touching>
+class disc_way_finder : public revolution_way_finder<T, Touching> {
+    using base = revolution_way_finder<T, Touching>;
 
 public:
-    ABUT_HD constexpr cylinder_way_finder(const cylinder<T>& s, const cylinder<T>& t, const length_unit<T>& in)
-        : base(s, in), cylinder_(t, in) {
-        this->size_ = greatest(this->size_, cylinder_.radius);
-        const segment<T>& axis = t.axis;
-        const vec3<double> first = this->see(axis.a), last = this->see(axis.b);
-        this->offer_edge(axis.a, this->place_of(first), this->place_of(last), way_between(axis.a, axis.b, in));
-        const vec3<double> z = this->best.to_a;
-        const way_from_foot side = way_from_solid(cylinder_, plain_difference(z, first));
-        this->offer(z, contact_math::negated(side.way), axis.a, side.foot);
-        offer_disc(axis.a, first);
-        offer_disc(axis.b, last);
-    }
+    using base::base;
 
-private:
-    revolution_profile cylinder_;
-
-    ABUT_HD constexpr void offer_disc(const vec3<T>& center, const vec3<double>& seen) {
-        const double radius = cylinder_.radius;
-        place_on_disc at = disc_search<contact_math::one_double>(this->solid_, seen, cylinder_.axis, radius, this->size_)
-                               .find(this->length_);
-        if (!at.is_sure) {
-            at = search_disc_closely(this->solid_, seen, cylinder_.axis, radius, this->size_, this->length_);
-        }
+    /// From a disc with a normal of length 1.
+    ABUT_HD constexpr void offer_disc(const vec3<T>& center, const vec3<double>& seen, const vec3<double>& normal,
+                                      double radius) {
+        place_on_disc at =
+            disc_search<contact_math::one_double>(this->solid_, seen, normal, radius, this->size_).find(this->length_);
+        if (!at.is_sure) at = search_disc_closely(this->solid_, seen, normal, radius, this->size_, this->length_);
         if (!(at.length < this->length_)) return;
         this->offer(at.from_solid.foot, at.from_solid.way, center, at.at);
     }
 };
 
-/// Which of two cylinders comes first: an order of their numbers.
+/// Gathers the ways from the side and the discs of a cylinder, t, to a solid.
 template <scalar T>
-ABUT_HD constexpr bool precedes(const cylinder<T>& s, const cylinder<T>& t) {
+class cylinder_way_finder : public disc_way_finder<T, false> {
+    using base = disc_way_finder<T, false>;
+
+public:
+    template <solid_of_revolution S>
+    ABUT_HD constexpr cylinder_way_finder(const S& s, const cylinder<T>& t, const length_unit<T>& in) : base(s, in) {
+        const revolution_profile cylinder(t, in);
+        this->size_ = greatest(this->size_, cylinder.radius);
+        const segment<T>& axis = t.axis;
+        const vec3<double> first = this->see(axis.a), last = this->see(axis.b);
+        this->offer_edge(axis.a, this->place_of(first), this->place_of(last), way_between(axis.a, axis.b, in));
+        const vec3<double> z = this->best.to_a;
+        const way_from_foot side = way_from_solid(cylinder, plain_difference(z, first));
+        this->offer(z, contact_math::negated(side.way), axis.a, side.foot);
+        this->offer_disc(axis.a, first, cylinder.axis, cylinder.radius);
+        this->offer_disc(axis.b, last, cylinder.axis, cylinder.radius);
+    }
+};
+
+/// Which of two cylinders, or of two cones, comes first: an order of their numbers.
+template <solid_of_revolution S>
+ABUT_HD constexpr bool precedes(const S& s, const S& t) {
     if (s.radius != t.radius) return s.radius < t.radius;
-    const auto of_s = in_a_row(s.axis.a, s.axis.b), of_t = in_a_row(t.axis.a, t.axis.b);
+    const auto a = axis_of(s), b = axis_of(t);
+    const auto of_s = in_a_row(a.a, a.b), of_t = in_a_row(b.a, b.b);
     for (int i = 0; i < 6; ++i) {
         if (of_s.value[i] != of_t.value[i]) return of_s.value[i] < of_t.value[i];
     }
     return false;
+}
+
+template <scalar T>
+ABUT_HD constexpr nearest_way<T> reversed(const nearest_way<T>& w) {
+    return {w.square, contact_math::negated(w.way), w.from_b, w.from_a, w.to_b, w.to_a};
 }
 
 /// Between two cylinders that have axes: the same in either order. The discs of the first are searched.
@@ -306,8 +319,13 @@ template <bool Touching, scalar T>
 ABUT_HD constexpr nearest_way<T> nearest_way_from(const cylinder<T>& s, const cylinder<T>& t, const length_unit<T>& unit) {
     const bool swap = precedes(s, t);
     const nearest_way<T> best = cylinder_way_finder<T>(swap ? t : s, swap ? s : t, unit).best;
-    if (!swap) return best;
-    return {best.square, contact_math::negated(best.way), best.from_b, best.from_a, best.to_b, best.to_a};
+    return swap ? reversed(best) : best;
+}
+
+/// Between a cone and a cylinder that have axes.
+template <bool Touching, scalar T>
+ABUT_HD constexpr nearest_way<T> nearest_way_from(const cone<T>& s, const cylinder<T>& t, const length_unit<T>& unit) {
+    return cylinder_way_finder<T>(s, t, unit).best;
 }
 
 }  // namespace abut::detail

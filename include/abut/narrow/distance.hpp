@@ -301,10 +301,12 @@ ABUT_HD constexpr separation<T> reversed(const separation<T>& s) {
     return {s.b, s.a, s.point_b, s.point_a, s.distance};
 }
 
-/// Two cylinders, or a cylinder or a cone and a capsule, of which it is decided whether they touch.
+/// Two cylinders or cones, a cone before a cylinder, or one of them and a capsule, of which it is decided whether they
+/// touch.
 template <class S, class U>
 concept measured_revolutions = solid_of_revolution<S> && decidable_pair<S, U> &&
-    (std::same_as<U, capsule<scalar_type_of<S>>> || (std::same_as<S, cylinder<scalar_type_of<S>>> && std::same_as<S, U>));
+    (std::same_as<U, capsule<scalar_type_of<S>>> || std::same_as<S, U> ||
+     (std::same_as<S, cone<scalar_type_of<S>>> && std::same_as<U, cylinder<scalar_type_of<S>>>));
 
 template <class S, class U>
 inline constexpr bool measured_as_given =
@@ -324,7 +326,8 @@ ABUT_HD constexpr auto separation_of(const S& s, const U& t, bool touch) {
         return reversed(separation_of(t, s, touch));
     } else {
         if constexpr (solid_of_revolution<U>) {  // of two balls the same comes first in either order
-            const bool is_first = !is_point(axis_of(s)) || precedes(t, s);
+            bool is_first = true;
+            if constexpr (std::same_as<S, U>) is_first = !is_point(axis_of(s)) || precedes(t, s);
             if (is_point(axis_of(t)) && is_first) return separation_of(s, ball_around(t), touch);
         }
         if constexpr (solid_of_revolution<S>) {
@@ -463,8 +466,8 @@ private:
 
 /// How far apart two closed shapes are: a `separation` with ids 0. It takes the pairs that `contact_of` takes, in either
 /// order: points, segments, triangles, spheres, capsules, boxes and convex hulls with each other, and planes with any of
-/// these; and cylinders and cones with points, segments, triangles, boxes, spheres, planes and convex hulls. Cylinders have
-/// distances from each other and from capsules too. The distance is 0 exactly where the two touch, as `intersects` decides.
+/// these; and cylinders and cones with points, segments, triangles, boxes, spheres, planes and convex hulls, with each
+/// other and with capsules, which have no contacts. The distance is 0 exactly where the two touch, as `intersects` decides.
 /// Otherwise it is accurate to a few units in the last place of the shapes' farthest corners (docs/numerics.md). The same
 /// bits on every compiler and device, in constant expressions too. Shapes are finite and valid.
 ///

@@ -28,6 +28,7 @@
 #include <abut/arithmetic/magnitude.hpp>
 #include <abut/narrow/box_contact.hpp>
 #include <abut/narrow/common_unit.hpp>
+#include <abut/narrow/cone_ways.hpp>
 #include <abut/narrow/cylinder_ways.hpp>
 #include <abut/narrow/directions.hpp>
 #include <abut/narrow/flat_contact.hpp>
