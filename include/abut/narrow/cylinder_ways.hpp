@@ -193,8 +193,10 @@ private:
     /// Lays y against the slope at the centre, unless no place on the disc is better.
     ABUT_HD constexpr bool lay_axes(const seen& middle) {
         using namespace contact_math;
-        const vec3<N> normal = as<N>(normal_);
-        const vec3<N> slope = scale(middle.along, as<N>(solid_.axis)) + scale(middle.out, middle.across);
+        const vec3<N> normal = as<N>(normal_), axis = as<N>(solid_.axis);
+        // What is across the axis is off by some u of the height along it. Near the axis that is not little beside it.
+        const N along = middle.along - middle.out * dot(middle.across, axis);
+        const vec3<N> slope = scale(along, axis) + scale(middle.out, middle.across);
         const vec3<N> flat = cross(normal, cross(slope, normal));
         const double fall = plain_product(radius_, root(dot(flat, flat)).high);
         if (is_least(middle.length, plain_sum(fall, middle.noise))) return true;
