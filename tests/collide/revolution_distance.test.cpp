@@ -52,6 +52,15 @@ TEST_CASE("distance: sets of cones") {
     check_planes_beside<cone<double>>(267);
 }
 
+TEST_CASE("distance: sets of cones, with each other, with cylinders and with capsules") {
+    test::check_distance_of<cone<float>, cone<float>>(openmp{3}, 235);
+    test::check_distance_of<cone<double>, cone<double>>(serial{}, 236);
+    test::check_distance_of<cylinder<double>, cone<double>>(openmp{3}, 237);
+    test::check_distance_of<cone<float>, cylinder<float>>(serial{}, 238);
+    test::check_distance_of<cone<double>, capsule<double>>(openmp{3}, 239);
+    test::check_distance_of<capsule<float>, cone<float>>(serial{}, 240);
+}
+
 TEST_CASE("distance: posed cylinders and cones, and lists of them") {
     test::check_distance_of_posed_solids<cylinder<float>>(serial{}, 271);
     test::check_distance_of_posed_solids<cylinder<double>>(openmp{3}, 272);

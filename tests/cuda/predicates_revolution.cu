@@ -101,4 +101,7 @@ TEST_CASE("distance and nearest: sets of cylinders and cones, cuda") {
     test::check_nearest_of<cylinder<float>>(on, 293);
     test::check_distance_of<cylinder<float>, cylinder<float>>(on, 294);
     test::check_distance_of<cylinder<double>, capsule<double>>(on, 295);
+    test::check_distance_of<cone<double>, cone<double>>(on, 296);
+    test::check_distance_of<cone<float>, cylinder<float>>(on, 297);
+    test::check_distance_of<capsule<double>, cone<double>>(on, 298);
 }

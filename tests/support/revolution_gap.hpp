@@ -4,8 +4,8 @@
 // The oracle: the least way between a cylinder or a cone and a hull, or another of them, in 300 bits, by their farthest
 // points along directions alone (Gilbert, Johnson and Keerthi). The nearest point of the simplex that was found so far is
 // never too near, and what the farthest points say of its direction is never too far, so that the distance lies between the
-// two whatever the search does. It shares no formula with the library, which has no directions but normals
-// of faces and of sides.
+// two whatever the search does. It shares no formula with the library, which has no directions but
+// normals of faces and of sides.
 
 #include <algorithm>
 #include <cmath>
