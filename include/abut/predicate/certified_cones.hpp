@@ -36,8 +36,8 @@ public:
     }
     ABUT_HD constexpr void look_back(const vec3<double>& way, std::uint32_t& i, std::uint32_t& j) const {
         std::uint32_t k = 0, l = 0;
-        axes_.look_back(way, k, l);
         const vec3<double> one = of_size_1(way);
+        axes_.look_back(one, k, l);
         const auto ahead = [&](std::uint32_t at_s, std::uint32_t at_t) {
             return axes_.ahead(one, at_s, at_t) - s_.reach(one, at_s) - t_.reach(one, at_t);
         };

@@ -52,8 +52,8 @@ public:
     }
     ABUT_HD constexpr void look_back(const vec3<double>& way, std::uint32_t& i, std::uint32_t& j) const {
         std::uint32_t end = 0;
-        both_.look_back(way, i, end);
         const vec3<double> one = of_size_1(way);
+        both_.look_back(one, i, end);
         end = end_on(one, i, end);
         j = asked_.append(end, solid_.to_rim(one, end));
     }
@@ -87,8 +87,8 @@ public:
     /// Whether no point is nearer along a way than a distance, but for a few 2^-53 of the shapes' size.
     [[nodiscard]] ABUT_HD constexpr bool is_nearest_along(const vec3<double>& way, double distance) const {
         std::uint32_t i = 0, end = 0;
-        both_.look_back(way, i, end);
         const vec3<double> one = of_size_1(way);
+        both_.look_back(one, i, end);
         end = end_on(one, i, end);
         const double size = both_.size() + solid_.radius;
         return size < 0x1p400 && size > 0x1p-400 &&
