@@ -85,6 +85,9 @@ TEST_CASE("queries: sets of cones") {
     test::check_pair_of_shapes<sphere<float>, cone<float>>(on, 225);
     test::check_pair_of_shapes<cone<double>, aabb<double>>(on, 226);
     test::check_pair_of_shapes<plane<float>, cone<float>>(on, 227);
+    test::check_pair_of_shapes<cone<float>, cone<float>>(on, 258);
+    test::check_pair_of_shapes<cone<double>, cylinder<double>>(serial{}, 259);
+    test::check_pair_of_shapes<capsule<float>, cone<float>>(on, 260);
 }
 
 TEST_CASE("queries: grids of cylinders and cones, one of them, and a mesh") {
@@ -142,6 +145,36 @@ TEST_CASE("queries: cylinders among themselves, posed and in lists") {
     CHECK(to_host(pairs(on, posed(tree, pose), posed(tree, other))) == of_both);
     using entry = posed_pair<std::remove_const_t<decltype(tree)>, std::remove_const_t<decltype(tree)>>;
     CHECK(count(on, std::vector<entry>{{posed(tree, pose), posed(tree, other)}}) == of_both.size());
+}
+
+TEST_CASE("queries: cones among themselves, posed and with cylinders") {
+    const openmp on{.threads = 2};
+    test::uniform random(261);
+    auto caps = test::shape_maker<cone<double>>(random, true)(100);
+    caps.push_back({{0, 0, 0}, {0, 0, 4}, 3});  // tip on tip, and side along side
+    caps.push_back({{0, 0, 0}, {0, 0, -4}, 3});
+    caps.push_back({{3, 0, 4}, {3, 0, 0}, 3});
+    const cones<double> set(caps);
+    const auto tree = make_bvh(on, set);
+    std::vector<index_pair> expected;
+    for (std::uint32_t i = 0; i < caps.size(); ++i) {
+        for (std::uint32_t j = i + 1; j < caps.size(); ++j) {
+            if (intersects<exact>(caps[i], caps[j])) expected.push_back({i, j});
+        }
+    }
+    CHECK(expected.size() > 100);
+    CHECK(std::find(expected.begin(), expected.end(), index_pair{100, 101}) != expected.end());
+    CHECK(std::find(expected.begin(), expected.end(), index_pair{100, 102}) != expected.end());
+    CHECK(to_host(self_pairs(on, tree)) == expected);
+    CHECK(to_host(self_pairs<exact>(serial{}, set)) == expected);
+
+    const cylinders<double> rods(test::shape_maker<cylinder<double>>(random, true)(80));
+    const rigid<double> pose = tilted_pose(0.25), other = tilted_pose(-0.5);
+    const posed_view<cones<double>::view_type> a{set.view(), pose};
+    const posed_view<cylinders<double>::view_type> b{rods.view(), other};
+    const auto of_both = test::all_that_touch(a, b);
+    CHECK(of_both.size() > 50);
+    CHECK(to_host(pairs(on, posed(tree, pose), posed(rods, other))) == of_both);
 }
 
 TEST_CASE("queries: cylinders and cones that are none are refused") {

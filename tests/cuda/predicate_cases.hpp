@@ -154,7 +154,7 @@ void check_solids(const Policy& on) {
 
 // --- cylinders and cones ------------------------------------------------------------------------------------------------
 
-/// With points, segments, triangles, boxes, balls and planes, and cylinders with each other and with capsules.
+/// With points, segments, triangles, boxes, balls and planes, with cylinders and capsules, and cones with each other.
 template <class Solid, class Policy>
 void check_revolutions(const Policy& on) {
     using T = scalar_type_of<Solid>;
@@ -179,19 +179,23 @@ void check_revolutions(const Policy& on) {
     check(0.02, [](const pair& c, std::uint64_t) { return bounds(segment<T>{c.corner[0], c.corner[1]}); });
     check(0.02, [](const pair& c, std::uint64_t k) { return ball_beside(c, is_cone, k); });
     check(0.02, [](const pair& c, std::uint64_t k) { return plane_beside(c, k); });
-    if constexpr (!is_cone) {
-        check(0.02, [](const pair& c, std::uint64_t k) { return cylinder_beside(c, is_cone, k); });
+    check(0.02, [](const pair& c, std::uint64_t k) { return cylinder_beside(c, is_cone, k); });
+    check(0.02, [](const pair& c, std::uint64_t k) {
+        const cylinder<T> s = cylinder_beside(c, is_cone, k);
+        return capsule<T>{s.axis, s.radius};
+    });
+    if constexpr (is_cone) {
         check(0.02, [](const pair& c, std::uint64_t k) {
             const cylinder<T> s = cylinder_beside(c, is_cone, k);
-            return capsule<T>{s.axis, s.radius};
+            return cone<T>{s.axis.a, s.axis.b, s.radius};
         });
     }
 }
 
 // --- within a distance --------------------------------------------------------------------------------------------------
 
-/// Cylinders and cones, with spheres and points, where a ball beside one gives of its radius to the distance, and so of whole
-/// numbers is exactly as far; and with planes.
+/// Cylinders and cones, with spheres and points, where a ball beside one gives of its radius to the distance, and so of
+/// whole numbers is exactly as far; and with planes.
 template <class Solid, class Policy>
 void check_revolutions_within(const Policy& on) {
     using T = scalar_type_of<Solid>;

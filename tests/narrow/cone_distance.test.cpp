@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <abut/narrow/distance.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <cstdint>
@@ -230,6 +231,43 @@ TEMPLATE_TEST_CASE("distance: of cones, in each family, against 300 bits", "", f
         }
     }
     check_cone_totals(tally);
+}
+
+}  // namespace abut::test
+
+namespace abut::test {
+
+// A thin solid over a disc: what is across its axis there is much smaller than what rounding leaves along it.
+TEST_CASE("distance: needles over the disc of a cone or a cylinder") {
+    using namespace construction;
+    const auto off_by = [](const auto& s, const auto& t) {
+        const auto bounds = gap_of_solid(s, t);
+        if (!(bounds.distance.lower > 0)) return 0.0;
+        const auto found = wide(detail::separation_of(s, t, false).distance);
+        const auto over = found - bounds.distance.upper, under = bounds.distance.lower - found;
+        return static_cast<double>((over > under ? over : under) / bounds.farthest / wide(0x1p-53));
+    };
+    double worst = 0;
+    for (std::uint64_t k = 0; k < sample_count() / 20; ++k) {
+        draws d(99, 1, k);
+        const point n = unit(cube(d, 1)), v = unit(cross_product(n, cube(d, 1))), w = cross_product(n, v);
+        const point o = cube(d, d.below(2));
+        const int e = d.below(30) + 15;
+        const double gap = std::ldexp(d.uniform(0.5, 1), -e), radius = d.uniform(0.1, 1),
+                     tilt = d.uniform(-1, 1) * gap / radius,
+                     thin = d.below(3) != 0 ? std::ldexp(d.uniform(0, 1), -d.below(50)) : 0;
+        const point axis = unit(along(v, tilt, n));
+        const double moved = d.below(2) != 0 ? std::ldexp(d.uniform(-1, 1), -d.below(50)) : 0;
+        const point c = along(along(o, gap + thin, n), moved, w);
+        const double back = d.uniform(radius, 2), ahead = d.uniform(radius, 2);
+        const point p = along(c, -back, axis), q = along(c, ahead, axis), below = along(o, -d.uniform(0.1, 1), n);
+        const cylinder<double> rod{{p, q}, thin}, drum{{o, below}, radius};
+        const cone<double> needle{p, q, thin}, hill{below, o, radius};
+        for (const double off : {off_by(rod, drum), off_by(needle, hill), off_by(needle, drum), off_by(hill, rod)}) {
+            worst = std::max(worst, off);
+        }
+    }
+    CHECK(worst < 16);
 }
 
 }  // namespace abut::test
