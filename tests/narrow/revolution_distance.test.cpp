@@ -98,8 +98,7 @@ TEST_CASE("distance: of cylinders and cones, by hand, and in constant expression
     CHECK(nearest_point(tip, vec{0, 0, 7}) == vec{0, 0, 4});
     static_assert(approachable<cylinder<float>> && approachable<cone<double>>);
     static_assert(detail::measurable<triangle<float>, cone<float>> && detail::measurable<cylinder<double>, plane<double>>);
-    static_assert(!detail::measurable<cylinder<float>, cone<float>> && !detail::measurable<cone<float>, capsule<float>> &&
-                  !detail::measurable<cone<float>, vec3<double>>);
+    static_assert(!detail::measurable<cone<float>, vec3<double>>);
     // A disc that is as flat as numbers are, far below the other's size.
     constexpr double least = std::numeric_limits<double>::denorm_min();
     CHECK(distance(cylinder<double>{{{0, 0, 0}, {0, 0, least}}, 1}, vec{0, 0, 1}).distance == 1);

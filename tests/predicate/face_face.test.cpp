@@ -23,20 +23,20 @@ using face_of = detail::mesh_face<T>;
 
 // Neighbours in a plane, folded onto each other, and on two sides of a fold.
 constexpr triangle<float> corner_triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-constexpr face_of<float> first{corner_triangle, {0, 1, 2}};
-static_assert(!intersects(first, face_of<float>{{{1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {1, 2, 3}}));
-static_assert(intersects(first, face_of<float>{{{1, 0, 0}, {0, 1, 0}, {-1, -1, 0}}, {1, 2, 3}}));
-static_assert(!intersects(first, face_of<float>{{{1, 0, 0}, {0, 1, 0}, {0, 0, 0x1p-149f}}, {1, 2, 3}}));
+constexpr face_of<float> first_face{corner_triangle, {0, 1, 2}};
+static_assert(!intersects(first_face, face_of<float>{{{1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {1, 2, 3}}));
+static_assert(intersects(first_face, face_of<float>{{{1, 0, 0}, {0, 1, 0}, {-1, -1, 0}}, {1, 2, 3}}));
+static_assert(!intersects(first_face, face_of<float>{{{1, 0, 0}, {0, 1, 0}, {0, 0, 0x1p-149f}}, {1, 2, 3}}));
 // Through a shared vertex, beside it, and along a side from it.
-static_assert(intersects(first, face_of<float>{{{0, 0, 0}, {1, 1, 1}, {1, 1, -1}}, {0, 3, 4}}));
-static_assert(!intersects(first, face_of<float>{{{0, 0, 0}, {-1, 1, 1}, {-1, 1, -1}}, {0, 3, 4}}));
-static_assert(intersects(first, face_of<float>{{{0, 0, 0}, {2, 0, 0}, {1, -1, 0}}, {0, 3, 4}}));
+static_assert(intersects(first_face, face_of<float>{{{0, 0, 0}, {1, 1, 1}, {1, 1, -1}}, {0, 3, 4}}));
+static_assert(!intersects(first_face, face_of<float>{{{0, 0, 0}, {-1, 1, 1}, {-1, 1, -1}}, {0, 3, 4}}));
+static_assert(intersects(first_face, face_of<float>{{{0, 0, 0}, {2, 0, 0}, {1, -1, 0}}, {0, 3, 4}}));
 // Vertices in one place that are not one: the side is more than the vertex.
-static_assert(intersects(first, face_of<float>{{{0, 0, 0}, {1, 0, 0}, {1, -1, 0}}, {0, 3, 4}}));
+static_assert(intersects(first_face, face_of<float>{{{0, 0, 0}, {1, 0, 0}, {1, -1, 0}}, {0, 3, 4}}));
 static_assert(!intersects(face_of<float>{corner_triangle, {~0u, ~0u, ~0u}},
                           face_of<float>{{{-0.0f, 0, 0}, {1, 0, 0}, {1, -1, 0}}, {~0u, ~0u, ~0u}}));
 // The same three vertices, with an area and without.
-static_assert(intersects(first, face_of<float>{{{0, 1, 0}, {1, 0, 0}, {0, 0, 0}}, {2, 1, 0}}));
+static_assert(intersects(first_face, face_of<float>{{{0, 1, 0}, {1, 0, 0}, {0, 0, 0}}, {2, 1, 0}}));
 static_assert(!intersects(face_of<double>{{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}, {0, 1, 2}},
                           face_of<double>{{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}, {0, 1, 2}}));
 

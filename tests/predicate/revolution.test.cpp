@@ -64,7 +64,7 @@ static_assert(intersects(cone<float>{{1, 1, 1}, {1, 1, 1}, 5}, sphere<float>{{7,
 static_assert(decidable_pair<cylinder<float>, triangle<float>> && decidable_pair<cone<double>, aabb<double>>);
 static_assert(!decidable_pair<triangle<float>, cylinder<float>> && !decidable_pair<cone<float>, triangle<double>>);
 static_assert(decidable_pair<cylinder<float>, cylinder<float>> && !decidable_pair<cylinder<float>, cone<float>>);
-static_assert(!decidable_pair<cone<float>, capsule<float>> && !decidable_pair<capsule<float>, cylinder<float>>);
+static_assert(!decidable_pair<capsule<float>, cone<float>> && !decidable_pair<capsule<float>, cylinder<float>>);
 static_assert(decidable_pair<cylinder<float>, capsule<float>> && !decidable_pair<cylinder<float>, cylinder<double>>);
 static_assert(!decidable_pair<cone<float>, ray<float>> && decidable_pair<ray<float>, cylinder<float>>);
 static_assert(!decidable_pair<hull<double>, cone<double>> && decidable_pair<cylinder<double>, hull<double>>);
