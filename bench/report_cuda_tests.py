@@ -28,6 +28,7 @@ from report_core import SCALARS, in_table, table, whole  # noqa: E402
 
 def assertions(text):
     """What Catch2's last lines say, of each process that wrote them; nothing if none came so far."""
+    text = re.sub(r"\x1b\[[0-9;]*m", "", text)  # mpirun's output is a terminal, and coloured
     passed = [int(n) for n in re.findall(r"^All tests passed \((\d+) assertions? in \d+ test cases?\)", text, re.M)]
     rest = re.findall(r"^assertions:\s+(\d+)(.*)$", text, re.M)
     failed = [int(n) for _, more in rest for n in re.findall(r"(\d+) failed", more)]
