@@ -7,20 +7,18 @@
 #include <cstdio>
 
 #include <abut/predicate/intersects.hpp>
-#include <abut/shape/bounds.hpp>
-#include <abut/shape/reach.hpp>
 
 #include "support/catch.hpp"
 #include "support/cone_pair_families.hpp"
 #include "support/cylinder_pair_oracle.hpp"
 #include "support/modes.hpp"
+#include "support/round_tally.hpp"
 #include "support/samples.hpp"
-#include "support/stages.hpp"
 
 namespace {
 
 using namespace abut;
-using test::cone_family, test::finding, test::known;
+using test::cone_family, test::examine_with_truth, test::finding, test::known, test::round_tally;
 
 constexpr cone<float> spire{{0, 0, 5}, {0, 0, 0}, 5};
 constexpr cone<double> beak{{0, 0, 0}, {0, 0, 8}, 6};
@@ -48,33 +46,8 @@ static_assert(intersects(spire, cone<float>{{0, 0, 2}, {0, 0, 1}, 1}));
 static_assert(decidable_pair<cone<float>, cone<float>> && decidable_pair<cone<double>, cylinder<double>> &&
               decidable_pair<cone<float>, capsule<float>>);
 
-struct cone_tally : test::decision_tally {
-    std::uint64_t touching = 0, failed = 0;  // of the oracle
-
-    cone_tally& operator+=(const cone_tally& o) {
-        decision_tally::operator+=(o);
-        touching += o.touching, failed += o.failed;
-        return *this;
-    }
-};
-
-/// Every stage against the truth; `fast` is counted where it is unlike.
-template <class S, class U>
-void examine_cone_with_truth(const S& s, const U& t, bool truth, cone_tally& sum) {
-    const verdict lie = to_verdict(!truth), by_filter = decide<filtered>(s, t);
-    ++sum.pairs;
-    sum.hits += truth;
-    sum.open += by_filter == verdict::unknown;
-    sum.unlike += intersects<fast>(t, s) != truth;
-    bool wrong = by_filter == lie || decide<exact>(s, t) == lie || resolve(s, t) != truth || intersects(s, t) != truth ||
-                 intersects(t, s) != truth || intersects<exact>(t, s) != truth;
-    // What culls may not lose it.
-    wrong = wrong || (truth && !(overlaps(bounds(s), bounds(t)) && reach_of(s)(bounds(t)) && reach_of(t)(bounds(s))));
-    sum.wrong += wrong;
-}
-
 template <class Other>
-void examine_cone_case(cone_family f, std::uint64_t k, cone_tally& sum) {
+void examine_cone_case(cone_family f, std::uint64_t k, round_tally& sum) {
     const auto c = test::make_cone_pair<Other>(test::sample_seed, f, k);
     auto s = test::cone_of(c);
     Other t = test::other_of<Other>(c);
@@ -84,7 +57,7 @@ void examine_cone_case(cone_family f, std::uint64_t k, cone_tally& sum) {
         for (const int step : {0, 1, -1, -2}) {
             if (c.is_first_least) s.radius = test::construction::moved(c.first_radius, step);
             if (!c.is_first_least) t.radius = test::construction::moved(c.second_radius, step);
-            if (is_valid(s) && is_valid(t)) examine_cone_with_truth(s, t, step >= 0, sum);
+            if (is_valid(s) && is_valid(t)) examine_with_truth(s, t, step >= 0, sum);
         }
         return;
     }
@@ -99,7 +72,7 @@ void examine_cone_case(cone_family f, std::uint64_t k, cone_tally& sum) {
         sum.failed += c.truth != known::nothing && met != truth;
         truth = met;
     }
-    examine_cone_with_truth(s, t, truth, sum);
+    examine_with_truth(s, t, truth, sum);
 }
 
 template <class Other>
@@ -218,11 +191,11 @@ TEMPLATE_TEST_CASE("cones with cones, cylinders and capsules: every stage is rig
     std::printf("%-16s | %9s %9s %9s %9s %9s\n", "family", "pairs", "hits", "open", "unlike", "touching");
     for (int i = 0; i < test::cone_family_count; ++i) {
         const auto f = static_cast<cone_family>(i);
-        const auto sum = test::in_threads<cone_tally>(cone_cases_of<TestType>(f),
-                                                      [f](std::uint64_t first, std::uint64_t last, cone_tally& t) {
-                                                          for (std::uint64_t k = first; k < last; ++k)
-                                                              examine_cone_case<TestType>(f, k, t);
-                                                      });
+        const auto sum = test::in_threads<round_tally>(cone_cases_of<TestType>(f),
+                                                       [f](std::uint64_t first, std::uint64_t last, round_tally& t) {
+                                                           for (std::uint64_t k = first; k < last; ++k)
+                                                               examine_cone_case<TestType>(f, k, t);
+                                                       });
         CAPTURE(test::name_of(f));
         CHECK(sum.pairs > 0);
         CHECK(sum.wrong == 0);

@@ -7,20 +7,18 @@
 #include <cstdio>
 
 #include <abut/predicate/intersects.hpp>
-#include <abut/shape/bounds.hpp>
-#include <abut/shape/reach.hpp>
 
 #include "support/catch.hpp"
 #include "support/cylinder_pair_families.hpp"
 #include "support/cylinder_pair_oracle.hpp"
 #include "support/modes.hpp"
+#include "support/round_tally.hpp"
 #include "support/samples.hpp"
-#include "support/stages.hpp"
 
 namespace {
 
 using namespace abut;
-using test::finding, test::known, test::round_family;
+using test::examine_with_truth, test::finding, test::known, test::round_family, test::round_tally;
 
 constexpr cylinder<float> barrel{{{0, 0, 0}, {0, 0, 2}}, 5};
 
@@ -37,31 +35,6 @@ static_assert(!intersects(capsule<float>{{{8, 0, 6}, {9, 0, 9}}, 0x1.3ffffep2f},
 static_assert(intersects(capsule<float>{{{-9, 3, 3}, {9, 3, 3}}, 1}, barrel));
 
 static_assert(decidable_pair<cylinder<float>, cylinder<float>> && decidable_pair<cylinder<double>, capsule<double>>);
-
-struct round_tally : test::decision_tally {
-    std::uint64_t touching = 0, failed = 0;  // of the oracle
-
-    round_tally& operator+=(const round_tally& o) {
-        decision_tally::operator+=(o);
-        touching += o.touching, failed += o.failed;
-        return *this;
-    }
-};
-
-/// Every stage against the truth; `fast` is counted where it is unlike.
-template <class S, class U>
-void examine_with_truth(const S& s, const U& t, bool truth, round_tally& sum) {
-    const verdict lie = to_verdict(!truth), by_filter = decide<filtered>(s, t);
-    ++sum.pairs;
-    sum.hits += truth;
-    sum.open += by_filter == verdict::unknown;
-    sum.unlike += intersects<fast>(t, s) != truth;
-    bool wrong = by_filter == lie || decide<exact>(s, t) == lie || resolve(s, t) != truth || intersects(s, t) != truth ||
-                 intersects(t, s) != truth || intersects<exact>(t, s) != truth;
-    // What culls may not lose it.
-    wrong = wrong || (truth && !(overlaps(bounds(s), bounds(t)) && reach_of(s)(bounds(t)) && reach_of(t)(bounds(s))));
-    sum.wrong += wrong;
-}
 
 template <class Other>
 void examine_round_case(round_family f, std::uint64_t k, round_tally& sum) {

@@ -472,6 +472,15 @@ pair_of_rounds<T> make_cone_pair(std::uint64_t seed, cone_family f, std::uint64_
         c.second = {round_to<T>(a), round_to<T>(along(a, 1, e))};
         c.second_radius = rounded_to<T>(r);
     };
+    const auto any_of_three = [&] {
+        if (const int way = d.below(4); way < 2) {
+            general(1, {0, 0, 0});
+        } else if (way == 2) {
+            facing(d, kind, 0.1, c);
+        } else {
+            lattice(3);
+        }
+    };
     switch (f) {
         case cone_family::random:
             general(1, {0, 0, 0});
@@ -595,26 +604,14 @@ pair_of_rounds<T> make_cone_pair(std::uint64_t seed, cone_family f, std::uint64_
             break;
         }
         case cone_family::no_radius:
-            if (const int way = d.below(4); way < 2) {
-                general(1, {0, 0, 0});
-            } else if (way == 2) {
-                facing(d, kind, 0.1, c);
-            } else {
-                lattice(3);
-            }
+            any_of_three();
             if (const int which = d.below(3); which < 2)
                 *number_of(c, 12 + which) = 0;
             else
                 c.first_radius = c.second_radius = 0;
             break;
         case cone_family::no_length:
-            if (const int way = d.below(4); way < 2) {
-                general(1, {0, 0, 0});
-            } else if (way == 2) {
-                facing(d, kind, 0.1, c);
-            } else {
-                lattice(3);
-            }
+            any_of_three();
             if (const int which = d.below(3); which != 1)
                 c.first.b = c.first.a;
             else

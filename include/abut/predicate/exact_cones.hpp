@@ -188,10 +188,6 @@ ABUT_NOINLINE ABUT_HD constexpr with_root operator*(const with_root& a, const wi
 ABUT_NOINLINE ABUT_HD constexpr with_root dot(const vec3<with_root>& a, const vec3<with_root>& b) {
     return sum_with_root(a.x, b.x).add(a.y, b.y).add(a.z, b.z);
 }
-ABUT_NOINLINE ABUT_HD constexpr vec3<with_root> cross(const vec3<with_root>& a, const vec3<with_root>& b) {
-    return {sum_with_root(a.y, b.z).add(a.z, b.y, true), sum_with_root(a.z, b.x).add(a.x, b.z, true),
-            sum_with_root(a.x, b.y).add(a.y, b.x, true)};
-}
 
 /// The sign of a b + c d.
 ABUT_NOINLINE ABUT_HD constexpr int sign_of_sum(const with_root& a, const with_root& b, const with_root& c,
