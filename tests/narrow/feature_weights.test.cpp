@@ -19,7 +19,9 @@ using abut::triangle;
 using abut::vec3;
 using point = vec3<double>;
 
-point at(const point& a, const point& b, double t) { return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.z + t * (b.z - a.z)}; }
+point at(const point& a, const point& b, double t) {
+    return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.z + t * (b.z - a.z)};
+}
 double apart(const point& a, const point& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
 
 struct dice {

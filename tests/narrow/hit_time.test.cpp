@@ -33,8 +33,8 @@ void examine(const Line& line, const triangle<T>& t, time_tally& sum) {
     sum.wrong += !(bounds.first <= by_filter && by_filter <= bounds.last) || (bounds.first >= 0) != truth.has_value();
     if (!truth) return;
     // A time may be above the largest number.
-    const bool is_right = by_filter == largest_finite<double> ? *truth * 2 > test::exactly(by_filter)
-                                                              : test::is_rounded(by_filter, *truth);
+    const bool is_right =
+        by_filter == largest_finite<double> ? *truth * 2 > test::exactly(by_filter) : test::is_rounded(by_filter, *truth);
     sum.wrong += !is_right;
     const bool crosses = decide<filtered>(line, t) == verdict::yes;
     if (!bounds.is_one()) {
@@ -52,14 +52,16 @@ TEMPLATE_TEST_CASE("hit time: rounded to nearest in every family", "", float, do
     std::uint64_t in_pairs = 0, in_doubles = 0, hits = 0;
     for (int i = 0; i < test::triangle_family_count; ++i) {
         const auto f = static_cast<test::triangle_family>(i);
-        const auto sum = test::in_threads<time_tally>(samples, [&](std::uint64_t first, std::uint64_t last, time_tally& all) {
-            for (std::uint64_t k = first; k < last; ++k) {
-                const auto p = test::make_ray_pair<T>(test::sample_seed + 1, f, k);
-                examine(p.r, p.t, all);
-                const vec3<T> far = p.r.origin + T(k % 3) * p.r.direction;  // as a segment, which may end at the triangle
-                if (is_valid(far)) examine(segment<T>{p.r.origin, far}, p.t, all);
-            }
-        });
+        const auto sum =
+            test::in_threads<time_tally>(samples, [&](std::uint64_t first, std::uint64_t last, time_tally& all) {
+                for (std::uint64_t k = first; k < last; ++k) {
+                    const auto p = test::make_ray_pair<T>(test::sample_seed + 1, f, k);
+                    examine(p.r, p.t, all);
+                    const vec3<T> far =
+                        p.r.origin + T(k % 3) * p.r.direction;  // as a segment, which may end at the triangle
+                    if (is_valid(far)) examine(segment<T>{p.r.origin, far}, p.t, all);
+                }
+            });
         INFO(test::name_of(f));
         CHECK(sum.wrong == 0);
         CHECK(sum.hits * 40 > sum.pairs);
@@ -79,7 +81,7 @@ TEST_CASE("hit time: where pairs of doubles tell, and where they do not") {
     CHECK(time({1, 1, 3}, {0, 0, -2}) == 1.5);
     CHECK(time({1, 1, 3}, {0, 0, 2}) == -1);
     CHECK(time({1, 1, 1}, {0, 0, -3}) == 1.0 / 3);
-    CHECK(time({1, 1, 0}, {1, 1, 1}) == 0);       // begins on it
+    CHECK(time({1, 1, 0}, {1, 1, 1}) == 0);         // begins on it
     CHECK(time({-2, 1, 0}, {3, 0, 0}) == 2.0 / 3);  // in its plane, through a side
     CHECK(time({-2, 0, 0}, {3, 0, 0}) == 2.0 / 3);  // along a side
     CHECK(time({5, 0, 0}, {-3, 0, 0}) == 2.0 / 3);

@@ -227,8 +227,8 @@ void check_bounds_from_amid(const triangle<T>& t, const vec3<T>& p, test::draws&
             test::construction::along(detail::widened(p), far, test::construction::cube(d, 1)));
         const aabb<T> box = merge(bounds(p), bounds(q));
         const vec3<T> c = T(0.5) * box.lower + T(0.5) * box.upper;
-        const vec3<T> half = (1 + 8 * unit_roundoff<T>) * detail::greatest(box.upper - c, c - box.lower);
-        const T far_squared = (1 + 16 * unit_roundoff<T>) * dot(half, half);
+        const vec3<T> half = (1 + 8 * unit_roundoff<T>)*detail::greatest(box.upper - c, c - box.lower);
+        const T far_squared = (1 + 16 * unit_roundoff<T>)*dot(half, half);
         using seen = detail::seen_corners_of<triangle<T>>;
         const detail::shape_from_amid<T, 3> shape(seen(t, c), far_squared, 7);
         const seen corners(other, c);
@@ -297,8 +297,8 @@ TEMPLATE_TEST_CASE("nearest_point: triangles, needles and degenerate ones too, a
 }
 
 /// Bounds that are 0 or infinite would pass all else.
-TEMPLATE_TEST_CASE("nearest_point: from far away bounds of distances are close, and boxes along a slope tell more", "", float,
-                   double) {
+TEMPLATE_TEST_CASE("nearest_point: from far away bounds of distances are close, and boxes along a slope tell more", "",
+                   float, double) {
     using T = TestType;
     for (std::uint64_t i = 0; i < 200; ++i) {
         test::draws d(11, 1, i);

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <abut/narrow/distance.hpp>
 
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "support/catch.hpp"
-#include "support/draws.hpp"
 #include "support/revolution_gap.hpp"
 #include "support/revolution_pairs.hpp"
+#include "support/revolution_solid.hpp"
 #include "support/samples.hpp"
 
 // Cylinders and cones with convex hulls. revolution_gap.hpp has the oracle.
@@ -18,26 +17,6 @@ namespace abut::test {
 namespace {
 
 constexpr std::uint64_t hull_seed = 20261128;
-
-/// Points around a middle that is beside a solid: of a ball, with one flat side or two, or anywhere.
-template <scalar T>
-std::vector<vec3<T>> points_beside(const revolution_case<T>& c, std::uint64_t k) {
-    using namespace construction;
-    draws d(hull_seed, sizeof(T), k);
-    const point middle = widened(c.corner[0]), other = widened(c.corner[1]);
-    const double size = d.below(3) == 0 ? 1 : d.power_of_ten(-4, 0);
-    const point normal = unit(cube(d, 1));
-    const double level = d.uniform(0.2, 1);
-    std::vector<vec3<T>> points;
-    const int n = 1 + d.below(40);
-    for (int i = 0; i < n; ++i) {
-        point p = d.below(4) == 0 ? cube(d, 1) : unit(cube(d, 1));
-        const double high = product(p, normal);
-        if (high > level) p = along(p, level - high, normal);
-        points.push_back(round_to<T>(along(i == 0 && d.below(4) == 0 ? other : middle, size, p)));
-    }
-    return points;
-}
 
 template <class Solid>
 void check_gaps() {
@@ -52,7 +31,7 @@ void check_gaps() {
             std::vector<vec3<T>> corners{c.corner[0], c.corner[1], c.corner[2], c.corner[0] + (c.corner[1] - c.corner[2])};
             const hull<T> small(corners.data(), 1 + k % 4);
             if (is_valid(s) && is_valid(small)) check_gap(name_of(f), k, s, small, few);
-            const auto points = points_beside(c, k);
+            const auto points = points_beside(hull_seed, c, k);
             const hull<T> h(points.data(), points.size());
             if (is_valid(s) && is_valid(h)) check_gap(name_of(f), k, s, h, near);
         }

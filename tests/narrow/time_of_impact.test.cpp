@@ -589,7 +589,8 @@ TEST_CASE("time of impact: a vertex at rest by a narrow face is not nearer than 
                                {-175936.422f, 387149.312f, 436888.875f}};
     constexpr double distance = 0.06346650420195728;  // of rationals, rounded
     const auto time = [&](double separation) {
-        return time_of_impact<conservative>(moving(vertex, vertex), moving(face, face), {.tolerance = 0.1, .separation = separation});
+        return time_of_impact<conservative>(moving(vertex, vertex), moving(face, face),
+                                            {.tolerance = 0.1, .separation = separation});
     };
     CHECK(time(distance * (1 + 1e-12)) == 0);
     CHECK(time(distance * (1 - 1e-8)) == -1);

@@ -8,6 +8,7 @@
 #include <concepts>
 #include <cstdint>
 #include <utility>
+#include <vector>
 
 #include "contact_oracles.hpp"
 #include "draws.hpp"
@@ -149,6 +150,43 @@ revolution_case<scalar_type_of<Solid>> over_needle(std::uint64_t i) {
     s.corner[1] = round_to<T>(along(a, 1, e));
     s.corner[2] = round_to<T>(c);
     return s;
+}
+
+/// A solid and a triangle: deep in each other, or hardly.
+template <class Solid>
+revolution_case<scalar_type_of<Solid>> through(std::uint64_t seed, std::uint64_t i) {
+    using namespace construction;
+    using T = scalar_type_of<Solid>;
+    draws d(seed, std::same_as<Solid, cone<T>> ? 82 : 81, i);
+    const point a = cube(d, 1), axis = unit(cube(d, 1));
+    const double height = d.below(4) == 0 ? d.power_of_ten(-3, 0) : d.uniform(0.5, 2),
+                 radius = d.below(4) == 0 ? d.power_of_ten(-3, 0) : d.uniform(0.2, 1), size = d.power_of_ten(-1, 1);
+    const point at = along(along(a, d.uniform(-0.1, 1.1) * height, axis), 1.2 * radius, cube(d, 1));
+    revolution_case<T> c{};
+    c.axis = {round_to<T>(a), round_to<T>(along(a, height, axis))};
+    c.radius = rounded_to<T>(radius);
+    for (auto& p : c.corner) p = round_to<T>(along(at, size, cube(d, 1)));
+    return c;
+}
+
+/// Points around a middle that is beside a solid: of a ball, with one flat side or two, or anywhere.
+template <scalar T>
+std::vector<vec3<T>> points_beside(std::uint64_t seed, const revolution_case<T>& c, std::uint64_t k) {
+    using namespace construction;
+    draws d(seed, sizeof(T), k);
+    const point middle = widened(c.corner[0]), other = widened(c.corner[1]);
+    const double size = d.below(3) == 0 ? 1 : d.power_of_ten(-4, 0);
+    const point normal = unit(cube(d, 1));
+    const double level = d.uniform(0.2, 1);
+    std::vector<vec3<T>> points;
+    const int n = 1 + d.below(d.below(4) == 0 ? 40 : 12);
+    for (int i = 0; i < n; ++i) {
+        point p = d.below(4) == 0 ? cube(d, 1) : unit(cube(d, 1));
+        const double high = product(p, normal);
+        if (high > level) p = along(p, level - high, normal);
+        points.push_back(round_to<T>(along(i == 0 && d.below(4) == 0 ? other : middle, size, p)));
+    }
+    return points;
 }
 
 }  // namespace abut::test

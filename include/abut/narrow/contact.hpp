@@ -10,6 +10,8 @@
 #include <abut/narrow/flat_contact.hpp>
 #include <abut/narrow/hull_contact.hpp>
 #include <abut/narrow/revolution_contact.hpp>
+#include <abut/narrow/revolution_hull_contact.hpp>
+#include <abut/narrow/revolution_pair_contact.hpp>
 #include <abut/narrow/round_contact.hpp>
 #include <abut/narrow/triangle_contact.hpp>
 #include <abut/predicate/intersects.hpp>
@@ -52,7 +54,9 @@ namespace detail {
 
 /// Pairs of shapes, in this order, of which contacts are written.
 template <class S, class U>
-concept contact_pair = requires(const S& s, const U& t) { contact_between(s, t); };
+concept contact_pair = requires(const S& s, const U& t) {
+    contact_between(s, t);
+};
 
 /// In either order.
 template <class S, class U>

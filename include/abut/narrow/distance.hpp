@@ -301,17 +301,10 @@ ABUT_HD constexpr separation<T> reversed(const separation<T>& s) {
     return {s.b, s.a, s.point_b, s.point_a, s.distance};
 }
 
-/// Two cylinders or cones, a cone before a cylinder, or one of them and a capsule, of which it is decided whether they
-/// touch.
-template <class S, class U>
-concept measured_revolutions = solid_of_revolution<S> && decidable_pair<S, U> &&
-    (std::same_as<U, capsule<scalar_type_of<S>>> || std::same_as<S, U> ||
-     (std::same_as<S, cone<scalar_type_of<S>>> && std::same_as<U, cylinder<scalar_type_of<S>>>));
-
 template <class S, class U>
 inline constexpr bool measured_as_given =
     (contact_pair<S, U> && measured_in_order<S, U>) || measured_hulls<S, U> || revolution_pair<S, U> ||
-    measured_revolutions<S, U> || measured_revolution_and_hull<S, U>;
+    pair_of_revolutions<S, U> || measured_revolution_and_hull<S, U>;
 
 /// Whether two shapes have a distance, in either order: those that can be decided and have contacts, convex hulls, and
 /// cylinders and cones with what they can be decided with.
@@ -337,10 +330,6 @@ ABUT_HD constexpr auto separation_of(const S& s, const U& t, bool touch) {
         vec3<T> shared{};
         if constexpr (measured_hulls<S, U>) {
             shared = with_measured_hulls(s, t, true, [](const auto& m) { return m.shared_point(); });
-        } else if constexpr (measured_revolution_and_hull<S, U>) {
-            triangle<T> where{};
-            if (find_touch(s, t, where) == touch_of_hull::at_axis) return reversed(separation_of(t, axis_of(s), true));
-            shared = shared_point_of(s, where);
         } else if constexpr (solid_of_revolution<S>) {
             shared = shared_point_of(s, t);
         } else {

@@ -35,27 +35,66 @@
 
 namespace abut::detail {
 
-/// The polytope that grows in the differences of two hulls. It takes some 4 KiB, and no other memory.
+/// Differences of two hulls' points, as a polytope asks for them.
 template <scalar T>
-class expanding_polytope {
+class hull_minus_hull {
 public:
+    using scalar_type = T;
     using integers = typename nearest_in_hulls<T>::integers;
     using number = typename integers::number;
+
+    ABUT_HD constexpr hull_minus_hull(const hull<T>& a, const hull<T>& b, const integers& x,
+                                      const contact_math::common_scale& scale)
+        : a_(a), b_(b), x_(x), scale_(scale) {}
+
+    [[nodiscard]] ABUT_HD constexpr vec3<number> exactly(std::uint32_t i, std::uint32_t j) const {
+        return x_.difference(i, j);
+    }
+    /// At the common scale.
+    [[nodiscard]] ABUT_HD constexpr contact_math::point at(std::uint32_t i, std::uint32_t j) const {
+        return contact_math::plain_difference(scale_(a_[i]), scale_(b_[j]));
+    }
+    /// The difference that lies farthest back along a way.
+    template <int Room>
+    ABUT_HD constexpr void look_back(const vec3<rolled_int<Room>>& way, std::uint32_t& i, std::uint32_t& j) const {
+        const rolled_int<3 * 2>* const type = nullptr;
+        x_.look_back({held_as(way.x, type), held_as(way.y, type), held_as(way.z, type)}, i, j);
+    }
+    /// What of a depth is not worth a step, as it is rounded to T, of a largest difference.
+    [[nodiscard]] ABUT_HD static constexpr double least_gain(double /*depth*/, double largest) {
+        return static_cast<double>(unit_roundoff<T>) / 2 * largest;
+    }
+
+private:
+    const hull<T>&a_, &b_;
+    const integers& x_;
+    const contact_math::common_scale& scale_;
+};
+
+/// The polytope that grows in the differences of two shapes. It takes some 4 KiB, and no other memory.
+template <class Differences>
+class expanding_polytope {
+public:
+    using number = typename Differences::number;
     using point = contact_math::point;
 
     /// Corners of the polytope; a closed polytope of triangles with n corners has 2n - 4 of them.
     static constexpr int most_corners = 48, most_faces = 2 * most_corners - 4;
 
-    /// Begins with a simplex of differences that are affinely independent.
-    ABUT_HD constexpr expanding_polytope(const hull<T>& a, const hull<T>& b, const integers& x, const difference_simplex& at,
-                                         const contact_math::common_scale& scale)
-        : a_(a), b_(b), x_(x), scale_(scale) {
-        for (int k = 0; k < at.count; ++k) append(at.a[k], at.b[k]);
+    ABUT_HD constexpr explicit expanding_polytope(Differences& of) : of_(of) {}
+
+    /// Begins with a difference, or up to four that are affinely independent.
+    ABUT_HD constexpr void append(std::uint32_t i, std::uint32_t j) {
+        of_a_[corners_] = i;
+        of_b_[corners_] = j;
+        ++corners_;
+        largest_ = greatest(largest_, magnitudes(at(corners_ - 1)));
     }
 
     /// The unit vector of the least overlap, within 2^-50 in each coordinate.
     [[nodiscard]] ABUT_HD constexpr point least_way() {
         complete();
+        for (int k = 0; k < 3; ++k) last_.id[k] = best_face_.id[k] = of_b_[k < corners_ ? k : 0];
         if (corners_ == 1) return {0, 0, 1};
         if (corners_ == 2) {
             return contact_math::any_orthogonal(
@@ -66,6 +105,15 @@ public:
         grow();
         return best_.normal;
     }
+    /// Points of the second shape at the corners of a face: of the one that the way is across, and of the one that was the
+    /// nearest at the end.
+    ///@{
+    struct points_of_face {
+        std::uint32_t id[3];
+    };
+    [[nodiscard]] ABUT_HD constexpr const points_of_face& best_face() const { return best_face_; }
+    [[nodiscard]] ABUT_HD constexpr const points_of_face& nearest_face() const { return last_; }
+    ///@}
 
 private:
     struct face {
@@ -76,34 +124,20 @@ private:
         std::uint8_t is_seen;    ///< 1 if from the new corner, 2 if not, 0 where that was not asked
     };
 
-    ABUT_HD constexpr void append(std::uint32_t i, std::uint32_t j) {
-        of_a_[corners_] = i;
-        of_b_[corners_] = j;
-        ++corners_;
-        largest_ = greatest(largest_, magnitudes(at(corners_ - 1)));
-    }
-    [[nodiscard]] ABUT_HD constexpr point at(int k) const {
-        return contact_math::plain_difference(scale_(a_[of_a_[k]]), scale_(b_[of_b_[k]]));
-    }
-    [[nodiscard]] ABUT_HD constexpr vec3<number> exactly(int k) const { return x_.difference(of_a_[k], of_b_[k]); }
+    [[nodiscard]] ABUT_HD constexpr point at(int k) const { return of_.at(of_a_[k], of_b_[k]); }
+    [[nodiscard]] ABUT_HD constexpr vec3<number> exactly(int k) const { return of_.exactly(of_a_[k], of_b_[k]); }
     /// Orthogonal to a face whose corners are counterclockwise as seen from outside.
     [[nodiscard]] ABUT_HD constexpr auto inward(int p, int q, int r) const {
         const vec3<number> from = exactly(p);
         return cross(exactly(r) - from, exactly(q) - from);
-    }
-    /// The difference that lies farthest back along a way.
-    template <int Room>
-    ABUT_HD constexpr void look_back(const vec3<rolled_int<Room>>& way, std::uint32_t& i, std::uint32_t& j) const {
-        const rolled_int<3 * 2>* const type = nullptr;
-        x_.look_back({held_as(way.x, type), held_as(way.y, type), held_as(way.z, type)}, i, j);
     }
 
     /// Appends the difference that lies farthest back along a way, if it lies behind the first corner.
     template <int Room>
     ABUT_HD constexpr bool append_behind(const vec3<rolled_int<Room>>& way) {
         std::uint32_t i = 0, j = 0;
-        look_back(way, i, j);
-        if (sign_of_dot(way, x_.difference(i, j) - exactly(0)) >= 0) return false;
+        of_.look_back(way, i, j);
+        if (sign_of_dot(way, of_.exactly(i, j) - exactly(0)) >= 0) return false;
         append(i, j);
         return true;
     }
@@ -158,21 +192,19 @@ private:
             const face& f = faces_[nearest];
             const auto way = inward(f.corner[0], f.corner[1], f.corner[2]);
             std::uint32_t i = 0, j = 0;
-            look_back(way, i, j);
+            of_.look_back(way, i, j);
             append(i, j);
+            const double depth = best_.depth;
             best_.offer(f.normal, -contact_math::plain_dot(f.normal, at(corners_ - 1)));
+            for (int k = 0; k < 3; ++k) last_.id[k] = of_b_[f.corner[k]];
+            if (best_.depth < depth) best_face_ = last_;
             // No direction has less than the distance of the nearest face.
-            if (!(best_.depth - f.distance > least_gain())) return;
+            if (!(best_.depth - f.distance > of_.least_gain(best_.depth, largest_))) return;
             if (sign_of_dot(way, exactly(corners_ - 1) - exactly(f.corner[0])) >= 0) return;
             if (corners_ > most_corners) return;
             wrap(nearest);
         }
     }
-    /// What is not worth a step, as depths are rounded to T.
-    [[nodiscard]] ABUT_HD constexpr double least_gain() const {
-        return static_cast<double>(unit_roundoff<T>) / 2 * largest_;
-    }
-
     /// Whether the last corner is strictly beyond a face. A product is within 2^-48 of the largest difference: the normal is
     /// within 2^-50 in each coordinate, and so are differences of themselves. The code takes 2^-45, and 2^-116 for what is
     /// cut off in integers (hull_distance.hpp).
@@ -226,14 +258,13 @@ private:
         }
     }
 
-    const hull<T>&a_, &b_;
-    const integers& x_;
-    const contact_math::common_scale& scale_;
+    Differences& of_;
     std::uint32_t of_a_[most_corners + 1] = {}, of_b_[most_corners + 1] = {};
     face faces_[most_faces] = {};
     int corners_ = 0, face_count_ = 0;
     double largest_ = 0;  ///< sum of coordinates' magnitudes, of all corners
     contact_math::least_overlap best_;
+    points_of_face best_face_{}, last_{};
 };
 
 /// Whether a hull's points come before those of another one: an order, so that two hulls have one contact.
@@ -260,6 +291,18 @@ ABUT_HD constexpr double greatest_height(const hull<T>& h, const contact_math::p
     return most;
 }
 
+/// Of hulls that meet.
+template <scalar T>
+ABUT_HD constexpr contact_math::point least_way_of_hulls(const hull<T>& a, const hull<T>& b,
+                                                         const typename nearest_in_hulls<T>::integers& x,
+                                                         const difference_simplex& at,
+                                                         const contact_math::common_scale& scale) {
+    hull_minus_hull<T> differences(a, b, x, scale);
+    expanding_polytope polytope(differences);
+    for (int k = 0; k < at.count; ++k) polytope.append(at.a[k], at.b[k]);
+    return polytope.least_way();
+}
+
 /// Of a hull, and one with a radius around it. Where the cores do not touch, they go apart along the way between the points
 /// that are nearest to each other.
 template <scalar T>
@@ -271,7 +314,7 @@ ABUT_NOINLINE ABUT_HD constexpr contact<T> contact_of_hulls(const hull<T>& a, co
     const auto& nearest = measured.nearest;
     const typename nearest_in_hulls<T>::integers x(a, b, nearest.unit_of(a, b));
     const bool meet = radius == 0 || nearest.length == 0;
-    const point way_out = meet ? expanding_polytope<T>(a, b, x, nearest.at, scale).least_way() : nearest.direction(x);
+    const point way_out = meet ? least_way_of_hulls(a, b, x, nearest.at, scale) : nearest.direction(x);
     const point n = as_stored_direction<T>(unit_vector(as<two_doubles>(way_out)));
     const point origin = scale(b[0]);
     const double of_b = plain_sum(greatest_height(b, n, origin, scale), scale(radius));

@@ -207,9 +207,11 @@ struct nearest_in_hulls {
     /// What the hulls are in integers.
     using integers = hulls_in_integers<2, T, true>;
     ABUT_HD static constexpr unit_of_hulls<T> unit_of(const hull<T>& a, const hull<T>& b) {
-        unit_of_hulls<T> unit(a, b);
-        constexpr int most = 64 * room - spare_bits;
-        if (unit.high - unit.low > most) unit.low = unit.high - most;
+        return shortened(unit_of_hulls<T>(a, b));
+    }
+    /// With no more digits than these integers hold.
+    ABUT_HD static constexpr unit_of_hulls<T> shortened(unit_of_hulls<T> unit) {
+        unit.low = greatest(unit.low, unit.high - (64 * room - spare_bits));
         return unit;
     }
     /// The unit vector from b's point to a's, of hulls that do not touch: within 2^-50 in each coordinate, however near they

@@ -32,11 +32,13 @@
 #include <abut/narrow/cylinder_ways.hpp>
 #include <abut/narrow/directions.hpp>
 #include <abut/narrow/flat_contact.hpp>
+#include <abut/narrow/hull_contact.hpp>
 #include <abut/narrow/numbers.hpp>
 #include <abut/narrow/revolution_foot.hpp>
 #include <abut/narrow/revolution_plane.hpp>
 #include <abut/narrow/revolution_ways.hpp>
 #include <abut/narrow/round_contact.hpp>
+#include <abut/predicate/hull_numbers.hpp>
 #include <abut/predicate/revolution.hpp>
 #include <abut/shape/core.hpp>
 #include <abut/shape/primitive.hpp>
@@ -127,26 +129,87 @@ private:
     }
 };
 
-/// A solid, at the common scale, and corners of what touches it.
-template <scalar T, int N>
-class revolution_and_corners {
-public:
-    template <solid_of_revolution S>
-    ABUT_HD constexpr revolution_and_corners(const S& s, const point (&corner)[std::size_t{N}], const common_scale& scale,
-                                             double around = 0)
-        : around_(around),
-          along_(edge_between(axis_of(s).a, axis_of(s).b).direction),
-          axis_(unit_vector(along_)),
-          end_{scale(axis_of(s).a), scale(axis_of(s).b)},
-          radius_(scale(s.radius)),
-          is_cone_(requires { s.apex; }) {
-        for (int i = 0; i < N; ++i) corner_[i] = corner[i];
-        const double height = plain_dot(axis_, plain_difference(end_[1], end_[0]));
-        const point side{height > 0 ? height : 0, radius_, 0};
-        const point unit = unit_vector(as<one_double>(side));
-        side_along_ = is_zero(unit) || !is_cone_ ? 1 : unit.x;
-        side_out_ = is_zero(unit) || !is_cone_ ? 0 : unit.y;
+/// A cylinder, a cone or a capsule at the common scale, as seen from some point.
+struct seen_round_solid {
+    vec3<two_doubles> along;
+    point axis, end[2];  ///< the first end of a cone is its apex
+    double radius;
+    bool is_cone, is_capsule;
+    two_doubles side_along{1, 0}, side_out{0, 0};  ///< of a cone's side, from the apex to the rim
+
+    template <class S>
+    ABUT_HD constexpr seen_round_solid(const S& s, const point& origin, const common_scale& scale)
+        : along(edge_between(ends_of(s).a, ends_of(s).b).direction),
+          axis(unit_vector(along)),
+          end{plain_difference(scale(ends_of(s).a), origin), plain_difference(scale(ends_of(s).b), origin)},
+          radius(scale(s.radius)),
+          is_cone(requires { s.apex; }),
+          is_capsule(!solid_of_revolution<S>) {
+        if (!is_cone) return;
+        const double height = plain_dot(axis, plain_difference(end[1], end[0]));
+        const vec3<two_doubles> side = brought_to_one(as<two_doubles>({height > 0 ? height : 0, radius, 0}));
+        const two_doubles length = root(side.x * side.x + side.y * side.y);
+        if (!(length.high > 0)) return;
+        side_along = side.x / length;
+        side_out = side.y / length;
     }
+    [[nodiscard]] ABUT_HD constexpr bool has_rim(int k) const { return !is_capsule && radius > 0 && !(is_cone && k == 0); }
+
+    /// How far it reaches along n, of about length 1.
+    [[nodiscard]] ABUT_HD constexpr double reach(const point& n) const {
+        const point sine = plain_cross(n, axis);
+        const double around = is_capsule ? radius : plain_product(radius, root(one_double{plain_dot(sine, sine)}).high);
+        const double first = plain_dot(n, end[0]), last = plain_dot(n, end[1]);
+        return is_cone ? greatest(first, plain_sum(last, around)) : plain_sum(greatest(first, last), around);
+    }
+    /// Which point that is.
+    [[nodiscard]] ABUT_HD constexpr point farthest(const point& n) const {
+        const double first = plain_dot(n, end[0]), last = plain_dot(n, end[1]);
+        if (is_capsule) return plain_step(end[last > first ? 1 : 0], radius, n);
+        const point across = plain_step(n, -plain_dot(n, axis), axis);
+        const double length = root(one_double{plain_dot(across, across)}).high;
+        const double around = plain_product(radius, length);
+        const int k = plain_sum(last, is_cone ? around : 0) > first ? 1 : 0;
+        return has_rim(k) && length > 0 ? plain_step(end[k], radius / length, across) : end[k];
+    }
+    /// Where the side's outward normal is as seen in the half plane of u, a direction across the axis.
+    [[nodiscard]] ABUT_HD constexpr point side_normal(const point& u) const {
+        return plain_step(plain_step({0, 0, 0}, side_along.high, u), -side_out.high, axis);
+    }
+
+private:
+    template <class S>
+    ABUT_HD static constexpr auto ends_of(const S& s) {
+        if constexpr (solid_of_revolution<S>) {
+            return axis_of(s);
+        } else {
+            return s.axis;
+        }
+    }
+};
+
+/// Corners of what touches a solid, seen from the same point, and a radius around them.
+template <int N>
+struct seen_corners {
+    point at[std::size_t{N}]{};
+    double around = 0;
+
+    template <scalar T>
+    ABUT_HD constexpr seen_corners(const vec3<T> (&corner)[std::size_t{N}], const point& origin, const common_scale& scale,
+                                   double radius = 0)
+        : around(radius) {
+        for (int i = 0; i < N; ++i) at[i] = plain_difference(scale(corner[i]), origin);
+    }
+    [[nodiscard]] ABUT_HD constexpr double reach(const point& n) const {
+        return plain_sum(extent_of(at, n, {0, 0, 0}).upper, around);
+    }
+};
+
+/// A solid that goes and another shape, which has a reach too, that stays.
+template <scalar T, class Other>
+class ways_out_of_solid {
+public:
+    ABUT_HD constexpr ways_out_of_solid(const seen_round_solid& s, const Other& other) : solid_(s), other_(other) {}
 
     /// The least way of those that were offered.
     [[nodiscard]] ABUT_HD constexpr least_overlap way() const {
@@ -166,84 +229,85 @@ public:
     }
     /// Out of the flat ends.
     ABUT_HD constexpr void offer_ends() {
-        offer(negated(axis_));
-        if (!is_cone_) offer(axis_);
+        offer(negated(solid_.axis));
+        if (!solid_.is_cone) offer(solid_.axis);
     }
     /// The side goes away from a corner.
     ABUT_HD constexpr void offer_corner(const point& p) {
-        const point seen = plain_difference(p, end_[0]);
-        const point out = unit_vector(as<one_double>(part_across(seen, axis_)));
-        offer_side(is_zero(out) ? any_orthogonal(along_) : out);
+        const point seen = plain_difference(p, solid_.end[0]);
+        const point out = unit_vector(as<one_double>(part_across(seen, solid_.axis)));
+        offer_side(is_zero(out) ? any_orthogonal(solid_.along) : out);
     }
-    /// The side and the rims go away from an edge, one point of which is p.
+    /// The side and the rims go away from an edge, a point of which is p.
     ABUT_HD constexpr void offer_edge(const point& p, const vec3<two_doubles>& edge) {
         const point e = unit_vector(edge);
         if (is_zero(e)) return;
-        point across = unit_cross(along_, edge);
-        if (is_zero(across)) across = any_orthogonal(along_);
-        const double slope = plain_dot(e, axis_);
-        if (!is_cone_) {
+        point across = unit_cross(solid_.along, edge);
+        if (is_zero(across)) across = any_orthogonal(solid_.along);
+        const double slope = plain_dot(e, solid_.axis);
+        if (!solid_.is_cone) {
             offer_side(across);
             offer_side(negated(across));
         } else {
             // Of the directions u across the axis for which the side's normal is across the edge.
-            const point flat = plain_cross(across, axis_);  // of the edge, as seen along the axis; or against it
+            const point flat = plain_cross(across, solid_.axis);  // of the edge, as seen along the axis; or against it
             const double of_flat = plain_dot(e, flat);
-            const double part = plain_product(side_out_, slope), whole = plain_product(side_along_, of_flat);
+            const double part = plain_product(solid_.side_out.high, slope),
+                         whole = plain_product(solid_.side_along.high, of_flat);
             if (absolute(part) <= absolute(whole) && whole != 0) {
                 const double c = part / whole;
                 const double s = root(one_double{plain_product(plain_sum(1.0, c), plain_sum(1.0, -c))}).high;
                 for (int k = -1; k < 2; k += 2) offer_side(plain_step(times(c, flat), k * s, across));
             }
         }
-        for (int k = is_cone_ ? 1 : 0; k < 2; ++k) offer_rim(end_[k], p, e, across, slope);
+        for (int k = solid_.is_cone ? 1 : 0; k < 2; ++k) offer_rim(solid_.end[k], p, e, across, slope);
     }
+
+    /// All of a triangle, a segment or a point, whose corners are seen at `at`.
+    template <int N>
+    ABUT_HD constexpr void offer_corners(const corner_hull<T, N>& t, const point (&at)[std::size_t{N}]) {
+        if constexpr (N == 3) offer_both(face_normal(triangle<T>{t.at[0], t.at[1], t.at[2]}));
+        for (int i = 0; i < N; ++i) offer_corner(at[i]);
+        for (int i = 0; i < t.edges; ++i) offer_edge(at[i], edge_between(t.at[i], t.at[i + 1 == N ? 0 : i + 1]).direction);
+    }
+
+protected:
+    const seen_round_solid& solid_;
+    const Other& other_;
 
 private:
     least_overlap best_;
-    double around_;  ///< a radius around the corners
-    vec3<two_doubles> along_;
-    point axis_, end_[2];
-    double radius_;
-    bool is_cone_;
-    double side_along_ = 1, side_out_ = 0;
-    point corner_[std::size_t{N}]{};
 
+    /// How far the solid has to go along n.
+    [[nodiscard]] ABUT_HD constexpr double overlap(const point& n) const {
+        return plain_sum(other_.reach(n), solid_.reach(negated(n)));
+    }
     ABUT_HD static constexpr point times(double t, const point& v) {
         return {plain_product(t, v.x), plain_product(t, v.y), plain_product(t, v.z)};
     }
-    /// How far the solid has to go along n.
-    [[nodiscard]] ABUT_HD constexpr double overlap(const point& n) const {
-        const point sine = plain_cross(n, axis_);
-        const double reach = plain_product(radius_, root(one_double{plain_dot(sine, sine)}).high);
-        const double height = plain_dot(n, plain_difference(end_[1], end_[0]));
-        const double lowest = least(is_cone_ ? 0 : -reach, plain_sum(height, -reach));
-        return plain_sum(plain_sum(extent_of(corner_, n, end_[0]).upper, around_), -lowest);
-    }
-    /// Where the side's outward normal is as seen in the half plane of u, a direction across the axis.
-    ABUT_HD constexpr void offer_side(const point& u) {
-        offer(negated(plain_step(times(side_along_, u), -side_out_, axis_)));
-    }
+    /// Across the side, as seen in the half plane of u, a direction across the axis.
+    ABUT_HD constexpr void offer_side(const point& u) { offer(negated(solid_.side_normal(u))); }
     /// `across` is orthogonal to the axis and the edge e: the ellipse's larger axis.
     ABUT_HD constexpr void offer_rim(const point& center, const point& p, const point& e, const point& across,
                                      double slope) {
         const point other = plain_cross(e, across), seen = plain_difference(p, center);
-        const double x = plain_dot(seen, across), y = plain_dot(seen, other), b = plain_product(radius_, absolute(slope));
+        const double x = plain_dot(seen, across), y = plain_dot(seen, other),
+                     b = plain_product(solid_.radius, absolute(slope));
         if (!(b > 0)) return;
         // The ellipse, scaled to have the point on it, is no nearer to itself than along the smaller axis. So the way out on
         // the point's side is no shorter than that, and there is none, but for rounding, from outside. The way out on the
         // other side crosses the larger axis.
-        const double bx = plain_product(b, x / radius_);
+        const double bx = plain_product(b, x / solid_.radius);
         const double within = plain_sum(b, -root(one_double{plain_sum(plain_product(bx, bx), plain_product(y, y))}).high);
         const bool is_farther = within > best_.depth, is_outside = within < -0x1p-40;
         const bool leave_out[2] = {is_farther || is_outside, is_farther || absolute(y) > best_.depth};
         for (int side = 0; side < 2; ++side) {
             if (leave_out[side]) continue;
-            const ellipse_and_point of{radius_, b, absolute(x), side == 0 ? absolute(y) : -absolute(y)};
+            const ellipse_and_point of{solid_.radius, b, absolute(x), side == 0 ? absolute(y) : -absolute(y)};
             bool found = false;
             const quarter_point at = of.nearest(found);
             if (!found) continue;
-            const double u = plain_product(b, at.c), v = plain_product(radius_, at.s);
+            const double u = plain_product(b, at.c), v = plain_product(solid_.radius, at.s);
             const bool is_above = (y >= 0) == (side == 0);
             const point n = plain_step(times(x < 0 ? -u : u, across), is_above ? v : -v, other);
             offer(negated(unit_vector(as<one_double>(n))));
@@ -260,34 +324,30 @@ template <solid_of_revolution S, scalar T, int N>
 ABUT_NOINLINE ABUT_HD constexpr contact_math::least_overlap way_out_of_corners(const S& s, const corner_hull<T, N>& t,
                                                                                const contact_math::common_scale& scale) {
     using namespace contact_math;
-    point corner[std::size_t{N}]{};
-    for (int i = 0; i < N; ++i) corner[i] = scale(t.at[i]);
-    revolution_and_corners<T, N> pair(s, corner, scale);
-    if constexpr (N == 3) pair.offer_both(face_normal(triangle<T>{t.at[0], t.at[1], t.at[2]}));
+    const point origin = scale(axis_of(s).a);
+    const seen_round_solid solid(s, origin, scale);
+    const seen_corners<N> corners(t.at, origin, scale);
+    ways_out_of_solid<T, seen_corners<N>> pair(solid, corners);
     pair.offer_ends();
-    for (int i = 0; i < N; ++i) pair.offer_corner(corner[i]);
-    for (int i = 0; i < t.edges; ++i) {
-        pair.offer_edge(corner[i], edge_between(t.at[i], t.at[i + 1 == N ? 0 : i + 1]).direction);
-    }
+    pair.offer_corners(t, corners.at);
     return pair.way();
 }
 template <solid_of_revolution S, scalar T>
 ABUT_NOINLINE ABUT_HD constexpr contact_math::least_overlap way_out_of_box(const S& s, const aabb<T>& t,
                                                                            const contact_math::common_scale& scale) {
     using namespace contact_math;
-    const point lower = scale(t.lower), upper = scale(t.upper);
-    point corner[8]{};
-    for (int i = 0; i < 8; ++i) {
-        corner[i] = {(i & 1) != 0 ? upper.x : lower.x, (i & 2) != 0 ? upper.y : lower.y, (i & 4) != 0 ? upper.z : lower.z};
-    }
-    revolution_and_corners<T, 8> pair(s, corner, scale);
+    const point origin = scale(axis_of(s).a);
+    const seen_round_solid solid(s, origin, scale);
+    const hull_points<T, 8> points = points_of(t);
+    const seen_corners<8> corners(points.at, origin, scale);
+    ways_out_of_solid<T, seen_corners<8>> pair(solid, corners);
     const point axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     for (const point& n : axes) pair.offer_both(n);
     pair.offer_ends();
-    for (const point& p : corner) pair.offer_corner(p);
+    for (const point& p : corners.at) pair.offer_corner(p);
     for (int axis = 0; axis < 3; ++axis) {
         for (int i = 0; i < 8; ++i) {
-            if ((i & (1 << axis)) == 0) pair.offer_edge(corner[i], as<two_doubles>(axes[axis]));
+            if ((i & (1 << axis)) == 0) pair.offer_edge(corners.at[i], as<two_doubles>(axes[axis]));
         }
     }
     return pair.way();
@@ -299,11 +359,14 @@ ABUT_NOINLINE ABUT_HD constexpr contact_math::least_overlap way_out_of_ball(cons
                                                                             const vec3<double>& away,
                                                                             const contact_math::common_scale& scale) {
     using namespace contact_math;
-    const point corner[1] = {scale(t.center)};
-    revolution_and_corners<T, 1> pair(s, corner, scale, scale(t.radius));
+    const point origin = scale(axis_of(s).a);
+    const seen_round_solid solid(s, origin, scale);
+    const vec3<T> center[1] = {t.center};
+    const seen_corners<1> corners(center, origin, scale, scale(t.radius));
+    ways_out_of_solid<T, seen_corners<1>> pair(solid, corners);
     pair.offer(negated(unit_vector(as<one_double>(away))));
     pair.offer_ends();
-    pair.offer_corner(corner[0]);
+    pair.offer_corner(corners.at[0]);
     return pair.way();
 }
 

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Contacts of a cylinder or a cone and a convex hull: the least move in any direction. A polytope grows in the differences
+// of their points, as in hull_contact.hpp. The solid's points are those that were farthest along a way, rounded to T. No
+// move is shorter than the way to the polytope's nearest face, so that what is left to gain is known at each step. It ends
+// where that is 2^-20 of the largest difference, or with `most_corners`. Then the hull's points at the nearest face are
+// corners beside which the least move is looked for as in revolution_contact.hpp, and so it is known to all digits.
+
+#include <cstddef>
+#include <cstdint>
+
+#include <abut/arithmetic/rolled_int.hpp>
+#include <abut/narrow/common_unit.hpp>
+#include <abut/narrow/directions.hpp>
+#include <abut/narrow/hull_contact.hpp>
+#include <abut/narrow/hull_distance.hpp>
+#include <abut/narrow/numbers.hpp>
+#include <abut/narrow/revolution_contact.hpp>
+#include <abut/predicate/hull_numbers.hpp>
+#include <abut/predicate/revolution.hpp>
+#include <abut/predicate/revolution_hull.hpp>
+#include <abut/shape/core.hpp>
+#include <abut/shape/hull.hpp>
+#include <abut/shape/primitive.hpp>
+
+namespace abut::detail {
+
+/// Differences of a solid's points and a hull's, as a polytope asks for them.
+template <scalar T>
+class solid_minus_hull {
+public:
+    using scalar_type = T;
+    using integers = typename nearest_in_hulls<T>::integers;
+    using number = typename integers::number;
+    using point = contact_math::point;
+
+    template <solid_of_revolution S>
+    ABUT_HD constexpr solid_minus_hull(const S& s, const hull<T>& h, const contact_math::seen_round_solid& solid,
+                                       const point& origin, const contact_math::common_scale& scale)
+        : points_{axis_of(s).a},
+          asked_{points_, 1},
+          hull_(h),
+          x_(asked_, h, unit_around(s, h)),
+          solid_(solid),
+          origin_(origin),
+          scale_(scale) {}
+    solid_minus_hull(const solid_minus_hull&) = delete;
+    solid_minus_hull& operator=(const solid_minus_hull&) = delete;
+
+    [[nodiscard]] ABUT_HD constexpr vec3<number> exactly(std::uint32_t i, std::uint32_t j) const {
+        return x_.between(hull_[j], points_[i]);
+    }
+    [[nodiscard]] ABUT_HD constexpr point at(std::uint32_t i, std::uint32_t j) const {
+        return contact_math::plain_difference(scale_(points_[i]), scale_(hull_[j]));
+    }
+    template <int Room>
+    ABUT_HD constexpr void look_back(const vec3<rolled_int<Room>>& way, std::uint32_t& i, std::uint32_t& j) {
+        using namespace contact_math;
+        const rolled_int<3 * 2>* const type = nullptr;
+        x_.look_back({held_as(way.x, type), held_as(way.y, type), held_as(way.z, type)}, i, j);
+        const point seen = solid_.farthest(unit_vector(as<one_double>(rounded_way(way, -1))));
+        i = count_;
+        points_[i] = scale_.template back<T>(plain_step(origin_, 1, seen));
+        if (count_ + 1 < room) ++count_;
+    }
+    /// What of a depth is not worth a step: corners of the hull that are the nearest are known by then.
+    [[nodiscard]] ABUT_HD static constexpr double least_gain(double depth, double largest) {
+        return greatest(0x1p-16 * depth, static_cast<double>(unit_roundoff<T>) / 2 * largest);
+    }
+
+private:
+    static constexpr std::uint32_t room = 64;  ///< more than a polytope of 48 corners asks for
+
+    /// With two bits for points on the rims.
+    template <solid_of_revolution S>
+    ABUT_HD static constexpr unit_of_hulls<T> unit_around(const S& s, const hull<T>& h) {
+        const hull_points<T, 2> ends = points_of(axis_of(s));
+        unit_of_hulls<T> unit(ends.as_hull(), h, s.radius);
+        unit.high += 2;
+        unit.low = -(1 << 20);
+        return nearest_in_hulls<T>::shortened(unit);
+    }
+
+    vec3<T> points_[room];
+    hull<T> asked_;  ///< the first of them
+    const hull<T>& hull_;
+    integers x_;
+    const contact_math::seen_round_solid& solid_;
+    point origin_;
+    const contact_math::common_scale& scale_;
+    std::uint32_t count_ = 1;
+};
+
+namespace contact_math {
+
+/// A hull, as seen from some point.
+template <scalar T>
+struct seen_hull {
+    const hull<T>& of;
+    const point& origin;
+    const common_scale& scale;
+    [[nodiscard]] ABUT_HD constexpr double reach(const point& n) const { return greatest_height(of, n, origin, scale); }
+};
+
+}  // namespace contact_math
+
+/// A solid that has an axis with a length, and a hull.
+template <solid_of_revolution S, scalar T>
+ABUT_NOINLINE ABUT_HD constexpr contact_math::least_overlap way_out_of_hull(const S& s, const hull<T>& h,
+                                                                            const contact_math::common_scale& scale) {
+    using namespace contact_math;
+    const point origin = scale(axis_of(s).a);
+    const seen_round_solid solid(s, origin, scale);
+    const seen_hull<T> seen{h, origin, scale};
+    ways_out_of_solid<T, seen_hull<T>> pair(solid, seen);
+    pair.offer_ends();
+    solid_minus_hull<T> differences(s, h, solid, origin, scale);
+    expanding_polytope polytope(differences);
+    polytope.append(0, 0);
+    pair.offer_both(polytope.least_way());
+    ABUT_ROLLED
+    for (int k = 0; k < 2; ++k) {
+        const auto& face = k == 0 ? polytope.best_face() : polytope.nearest_face();
+        const corner_hull<T, 3> corners{{h[face.id[0]], h[face.id[1]], h[face.id[2]]}};
+        const seen_corners<3> at(corners.at, origin, scale);
+        pair.offer_corners(corners, at.at);
+    }
+    return pair.way();
+}
+
+/// A point of both, which touch. The solid has an axis with a length.
+template <solid_of_revolution S, scalar T>
+ABUT_HD constexpr vec3<T> shared_point_of(const S& s, const hull<T>& h) {
+    triangle<T> where{};
+    if (find_touch(s, h, where) != touch_of_hull::at_axis) return shared_point_of(s, where);
+    return with_measured_hulls(h, axis_of(s), true, [](const auto& m) { return m.shared_point(); });
+}
+
+/// The normal points to the solid.
+template <solid_of_revolution S, scalar T>
+requires std::same_as<T, scalar_type_of<S>> ABUT_HD constexpr contact<T> contact_between(const S& s, const hull<T>& h) {
+    if (is_point(axis_of(s))) return contact_with_ball(ball_around(s), h);
+    const contact_math::common_scale scale(s, h);
+    contact<T> found = contact_math::assembled<T>(scale, {0, 0, 0}, way_out_of_hull(s, h, scale));
+    found.point = shared_point_of(s, h);
+    return found;
+}
+
+}  // namespace abut::detail
