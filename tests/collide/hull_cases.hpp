@@ -183,6 +183,8 @@ void check_hulls_and_solids(const Policy& on) {
         CHECK(hits > 100);
         CHECK(hits < 2 * 70 * 60);
         if (on_lattice) check_distances_of_hulls(on, a, solids);
+        const auto expected = true_contacts(solids.view(), a.view());
+        CHECK(same_bits(to_host(contacts(on, copy_to(on, solids), make_bvh(on, copy_to(on, a)))), expected));
     }
 }
 
@@ -191,7 +193,8 @@ template <class T, class Policy>
 void check_scenes_of_hulls(const Policy& on) {
     uniform random(73);
     const auto some = random_hulls<T>(25, random, true);
-    scene_of_bodies<Policy, hulls<T>> scene(on, {some, random_hulls<T>(1, random, false), random_hulls<T>(12, random, true)});
+    scene_of_bodies<Policy, hulls<T>> scene(on,
+                                            {some, random_hulls<T>(1, random, false), random_hulls<T>(12, random, true)});
     const spheres<T> balls(shape_maker<sphere<T>>(random, true)(40));
     const auto tree = make_bvh(on, some);
     const auto ball_tree = make_bvh(on, balls);

@@ -44,6 +44,22 @@ void check_contacts_of_solids(const Policy& on, std::uint64_t seed) {
     CHECK(found > 300);
 }
 
+/// With a set of round solids.
+template <class Solid, class Other, class Policy>
+void check_contacts_of_rounds(const Policy& on, std::uint64_t seed) {
+    using T = scalar_type_of<Solid>;
+    CAPTURE(seed);
+    test::uniform random(seed);
+    std::size_t found = 0;
+    for (const bool on_lattice : {false, true}) {
+        const shapes<Solid> a(test::shape_maker<Solid>(random, on_lattice)(50));
+        const shapes<Other> b(test::shape_maker<Other>(random, on_lattice)(50));
+        const rigid<T> turned{{T(0.6), T(-0.8), 0, T(0.8), T(0.6), 0, 0, 0, 1}, {T(0.25), 0, T(0.125)}};
+        found += test::check_contacts(on, a, turned, b, rigid<T>{});
+    }
+    CHECK(found > 100);
+}
+
 }  // namespace
 
 TEST_CASE("contacts: sets of cylinders and cones") {
@@ -51,6 +67,13 @@ TEST_CASE("contacts: sets of cylinders and cones") {
     check_contacts_of_solids<cylinder<double>>(openmp{3}, 302);
     check_contacts_of_solids<cone<float>>(openmp{3}, 303);
     check_contacts_of_solids<cone<double>>(serial{}, 304);
+}
+
+TEST_CASE("contacts: sets of cylinders, cones and capsules with each other") {
+    check_contacts_of_rounds<cylinder<float>, cylinder<float>>(openmp{3}, 305);
+    check_contacts_of_rounds<cone<double>, cone<double>>(serial{}, 306);
+    check_contacts_of_rounds<cylinder<double>, cone<double>>(serial{}, 307);
+    check_contacts_of_rounds<capsule<float>, cone<float>>(openmp{3}, 308);
 }
 
 TEST_CASE("contacts: a can on a table, by hand") {

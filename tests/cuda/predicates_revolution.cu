@@ -92,6 +92,17 @@ TEMPLATE_TEST_CASE("distances and contacts of cylinders and cones: cuda measures
     check_measured<TestType>(on, [](const pair& c, std::uint64_t) { return bounds(segment<T>{c.corner[0], c.corner[1]}); });
     check_measured<TestType>(on, [](const pair& c, std::uint64_t k) { return test::ball_beside(c, is_cone, k); });
     check_measured<TestType>(on, [](const pair& c, std::uint64_t k) { return test::plane_beside(c, k); });
+    check_measured<TestType>(on, [](const pair& c, std::uint64_t k) { return test::cylinder_beside(c, is_cone, k); });
+    check_measured<TestType>(on, [](const pair& c, std::uint64_t k) {
+        const cylinder<T> s = test::cylinder_beside(c, is_cone, k);
+        return capsule<T>{s.axis, s.radius};
+    });
+    if constexpr (is_cone) {
+        check_measured<TestType>(on, [](const pair& c, std::uint64_t k) {
+            const cylinder<T> s = test::cylinder_beside(c, is_cone, k);
+            return cone<T>{s.axis.a, s.axis.b, s.radius};
+        });
+    }
 }
 
 TEST_CASE("distance and nearest: sets of cylinders and cones, cuda") {

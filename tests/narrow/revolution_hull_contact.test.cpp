@@ -36,7 +36,9 @@ TEMPLATE_TEST_CASE("contacts of cylinders and cones with hulls are what they say
                                  : is_parallel ? "nearly parallel"
                                  : is_through  ? "through"
                                                : name_of(static_cast<revolution_family>(i));
-        for (std::uint64_t k = 0; k < some_samples(is_through ? 20 : 250); ++k) {
+        // Numbers of all exponents in one pair may take seconds.
+        const bool is_slow = i == static_cast<int>(revolution_family::all_bit_patterns);
+        for (std::uint64_t k = 0; k < some_samples(is_through ? 20 : is_slow ? 2000 : 250); ++k) {
             const auto c = is_thin       ? over_needle<TestType>(k)
                            : is_parallel ? nearly_parallel<TestType>(k)
                            : is_through

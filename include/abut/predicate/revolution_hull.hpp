@@ -24,6 +24,7 @@
 #include <abut/predicate/hull_numbers.hpp>
 #include <abut/predicate/revolution.hpp>
 #include <abut/predicate/solid_on_ways.hpp>
+#include <abut/shape/bounds.hpp>
 #include <abut/shape/hull.hpp>
 #include <abut/shape/outward.hpp>
 #include <abut/shape/primitive.hpp>
@@ -331,6 +332,7 @@ enum class touch_of_hull { none, at_axis, at_triangle };
 template <solid_of_revolution S, scalar T>
 ABUT_NOINLINE ABUT_HD constexpr touch_of_hull find_touch(const S& s, const hull<T>& h, triangle<T>& where) {
     const segment<T> axis = axis_of(s);
+    if (!overlaps(bounds(s), bounds(h))) return touch_of_hull::none;  // where numbers leave the range of the search
     if (touch_exactly(h, axis)) return touch_of_hull::at_axis;
     if (all_are_beyond(h, axis.a, axis.b) || all_are_beyond(h, axis.b, axis.a)) return touch_of_hull::none;
     const hull_points<T, 2> points = points_of(axis);
