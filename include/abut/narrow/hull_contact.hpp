@@ -35,6 +35,11 @@
 
 namespace abut::detail {
 
+/// Points of the second shape at the corners of a polytope's face.
+struct points_of_face {
+    std::uint32_t id[3];
+};
+
 /// Differences of two hulls' points, as a polytope asks for them.
 template <scalar T>
 class hull_minus_hull {
@@ -60,10 +65,8 @@ public:
         const rolled_int<3 * 2>* const type = nullptr;
         x_.look_back({held_as(way.x, type), held_as(way.y, type), held_as(way.z, type)}, i, j);
     }
-    /// What of a depth is not worth a step, as it is rounded to T, of a largest difference.
-    [[nodiscard]] ABUT_HD static constexpr double least_gain(double /*depth*/, double largest) {
-        return static_cast<double>(unit_roundoff<T>) / 2 * largest;
-    }
+    /// A face is all that there is to know.
+    [[nodiscard]] ABUT_HD static constexpr double depth_beside(const points_of_face&) { return infinity<double>; }
 
 private:
     const hull<T>&a_, &b_;
@@ -94,7 +97,7 @@ public:
     /// The unit vector of the least overlap, within 2^-50 in each coordinate.
     [[nodiscard]] ABUT_HD constexpr point least_way() {
         complete();
-        for (int k = 0; k < 3; ++k) last_.id[k] = best_face_.id[k] = of_b_[k < corners_ ? k : 0];
+        if (corners_ < 4) (void)of_.depth_beside({of_b_[0], of_b_[corners_ > 1 ? 1 : 0], of_b_[corners_ > 2 ? 2 : 0]});
         if (corners_ == 1) return {0, 0, 1};
         if (corners_ == 2) {
             return contact_math::any_orthogonal(
@@ -105,15 +108,6 @@ public:
         grow();
         return best_.normal;
     }
-    /// Points of the second shape at the corners of a face: of the one that the way is across, and of the one that was the
-    /// nearest at the end.
-    ///@{
-    struct points_of_face {
-        std::uint32_t id[3];
-    };
-    [[nodiscard]] ABUT_HD constexpr const points_of_face& best_face() const { return best_face_; }
-    [[nodiscard]] ABUT_HD constexpr const points_of_face& nearest_face() const { return last_; }
-    ///@}
 
 private:
     struct face {
@@ -182,8 +176,21 @@ private:
         made.is_seen = 0;
     }
 
-    /// Until the nearest face is one of all differences.
+    /// Until the nearest face is one of all differences, or there are as many corners as there may be. Then what is beside
+    /// the faces that are nearer than any way known may still be a shorter one.
     ABUT_NOINLINE ABUT_HD constexpr void grow() {
+        double depth = infinity<double>;
+        if (grow_up_to(depth)) return;
+        ABUT_ROLLED
+        for (int f = 0; f < face_count_; ++f) {
+            if (faces_[f].distance < depth) depth = least(depth, of_.depth_beside(points_of(faces_[f])));
+        }
+    }
+    [[nodiscard]] ABUT_HD constexpr points_of_face points_of(const face& f) const {
+        return {of_b_[f.corner[0]], of_b_[f.corner[1]], of_b_[f.corner[2]]};
+    }
+    /// Whether that is as deep as the shapes are.
+    ABUT_HD constexpr bool grow_up_to(double& depth) {
         for (;;) {
             int nearest = 0;
             for (int f = 1; f < face_count_; ++f) {
@@ -194,17 +201,20 @@ private:
             std::uint32_t i = 0, j = 0;
             of_.look_back(way, i, j);
             append(i, j);
-            const double depth = best_.depth;
             best_.offer(f.normal, -contact_math::plain_dot(f.normal, at(corners_ - 1)));
-            for (int k = 0; k < 3; ++k) last_.id[k] = of_b_[f.corner[k]];
-            if (best_.depth < depth) best_face_ = last_;
+            depth = least(depth, best_.depth, of_.depth_beside(points_of(f)));
             // No direction has less than the distance of the nearest face.
-            if (!(best_.depth - f.distance > of_.least_gain(best_.depth, largest_))) return;
-            if (sign_of_dot(way, exactly(corners_ - 1) - exactly(f.corner[0])) >= 0) return;
-            if (corners_ > most_corners) return;
+            if (!(depth - f.distance > least_gain())) return true;
+            if (sign_of_dot(way, exactly(corners_ - 1) - exactly(f.corner[0])) >= 0) return true;
+            if (corners_ > most_corners) return false;
             wrap(nearest);
         }
     }
+    /// What is not worth a step, as depths are rounded to T.
+    [[nodiscard]] ABUT_HD constexpr double least_gain() const {
+        return static_cast<double>(unit_roundoff<typename Differences::scalar_type>) / 2 * largest_;
+    }
+
     /// Whether the last corner is strictly beyond a face. A product is within 2^-48 of the largest difference: the normal is
     /// within 2^-50 in each coordinate, and so are differences of themselves. The code takes 2^-45, and 2^-116 for what is
     /// cut off in integers (hull_distance.hpp).
@@ -264,7 +274,6 @@ private:
     int corners_ = 0, face_count_ = 0;
     double largest_ = 0;  ///< sum of coordinates' magnitudes, of all corners
     contact_math::least_overlap best_;
-    points_of_face best_face_{}, last_{};
 };
 
 /// Whether a hull's points come before those of another one: an order, so that two hulls have one contact.

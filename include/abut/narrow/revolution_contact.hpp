@@ -217,6 +217,9 @@ public:
         return {n, overlap(n)};
     }
 
+    /// Its overlap, but for rounding.
+    [[nodiscard]] ABUT_HD constexpr double depth() const { return best_.depth; }
+
     /// The solid goes along n, of about length 1.
     ABUT_HD constexpr void offer(const point& n) {
         if (is_zero(n)) return;

@@ -2,10 +2,11 @@
 #pragma once
 
 // Contacts of a cylinder or a cone and a convex hull: the least move in any direction. A polytope grows in the differences
-// of their points, as in hull_contact.hpp. The solid's points are those that were farthest along a way, rounded to T. No
-// move is shorter than the way to the polytope's nearest face, so that what is left to gain is known at each step. It ends
-// where that is 2^-20 of the largest difference, or with `most_corners`. Then the hull's points at the nearest face are
-// corners beside which the least move is looked for as in revolution_contact.hpp, and so it is known to all digits.
+// of their points, as in hull_contact.hpp. The solid's points are those that were farthest along a way, in double at the
+// common scale. Where a face is the nearest, the hull's points there are corners beside which the least move is looked for
+// as in revolution_contact.hpp. So it is known to all digits when the corners that matter are found. No move is shorter than
+// the way to the nearest face. So it ends where a move is known that is no longer, but for rounding, or with `most_corners`;
+// then corners of all faces are looked at that are nearer than that move.
 
 #include <cstddef>
 #include <cstdint>
@@ -26,72 +27,6 @@
 
 namespace abut::detail {
 
-/// Differences of a solid's points and a hull's, as a polytope asks for them.
-template <scalar T>
-class solid_minus_hull {
-public:
-    using scalar_type = T;
-    using integers = typename nearest_in_hulls<T>::integers;
-    using number = typename integers::number;
-    using point = contact_math::point;
-
-    template <solid_of_revolution S>
-    ABUT_HD constexpr solid_minus_hull(const S& s, const hull<T>& h, const contact_math::seen_round_solid& solid,
-                                       const point& origin, const contact_math::common_scale& scale)
-        : points_{axis_of(s).a},
-          asked_{points_, 1},
-          hull_(h),
-          x_(asked_, h, unit_around(s, h)),
-          solid_(solid),
-          origin_(origin),
-          scale_(scale) {}
-    solid_minus_hull(const solid_minus_hull&) = delete;
-    solid_minus_hull& operator=(const solid_minus_hull&) = delete;
-
-    [[nodiscard]] ABUT_HD constexpr vec3<number> exactly(std::uint32_t i, std::uint32_t j) const {
-        return x_.between(hull_[j], points_[i]);
-    }
-    [[nodiscard]] ABUT_HD constexpr point at(std::uint32_t i, std::uint32_t j) const {
-        return contact_math::plain_difference(scale_(points_[i]), scale_(hull_[j]));
-    }
-    template <int Room>
-    ABUT_HD constexpr void look_back(const vec3<rolled_int<Room>>& way, std::uint32_t& i, std::uint32_t& j) {
-        using namespace contact_math;
-        const rolled_int<3 * 2>* const type = nullptr;
-        x_.look_back({held_as(way.x, type), held_as(way.y, type), held_as(way.z, type)}, i, j);
-        const point seen = solid_.farthest(unit_vector(as<one_double>(rounded_way(way, -1))));
-        i = count_;
-        points_[i] = scale_.template back<T>(plain_step(origin_, 1, seen));
-        if (count_ + 1 < room) ++count_;
-    }
-    /// What of a depth is not worth a step: corners of the hull that are the nearest are known by then.
-    [[nodiscard]] ABUT_HD static constexpr double least_gain(double depth, double largest) {
-        return greatest(0x1p-16 * depth, static_cast<double>(unit_roundoff<T>) / 2 * largest);
-    }
-
-private:
-    static constexpr std::uint32_t room = 64;  ///< more than a polytope of 48 corners asks for
-
-    /// With two bits for points on the rims.
-    template <solid_of_revolution S>
-    ABUT_HD static constexpr unit_of_hulls<T> unit_around(const S& s, const hull<T>& h) {
-        const hull_points<T, 2> ends = points_of(axis_of(s));
-        unit_of_hulls<T> unit(ends.as_hull(), h, s.radius);
-        unit.high += 2;
-        unit.low = -(1 << 20);
-        return nearest_in_hulls<T>::shortened(unit);
-    }
-
-    vec3<T> points_[room];
-    hull<T> asked_;  ///< the first of them
-    const hull<T>& hull_;
-    integers x_;
-    const contact_math::seen_round_solid& solid_;
-    point origin_;
-    const contact_math::common_scale& scale_;
-    std::uint32_t count_ = 1;
-};
-
 namespace contact_math {
 
 /// A hull, as seen from some point.
@@ -105,6 +40,101 @@ struct seen_hull {
 
 }  // namespace contact_math
 
+/// Differences of a solid's points and a hull's, as a polytope asks for them.
+template <scalar T>
+class solid_minus_hull {
+public:
+    using scalar_type = T;
+    using integers = typename nearest_in_hulls<T>::integers;
+    using number = typename integers::number;
+    using point = contact_math::point;
+    using ways = contact_math::ways_out_of_solid<T, contact_math::seen_hull<T>>;
+
+    /// What is offered goes to `found`.
+    template <solid_of_revolution S>
+    ABUT_HD constexpr solid_minus_hull(const S& s, const hull<T>& h, const contact_math::seen_round_solid& solid,
+                                       const point& origin, const contact_math::common_scale& scale, ways& found)
+        : points_{origin},
+          end_{axis_of(s).a},
+          asked_{&end_, 1},
+          hull_(h),
+          x_(asked_, h, unit_around(s, h)),
+          solid_(solid),
+          origin_(origin),
+          scale_(scale),
+          found_(found) {}
+    solid_minus_hull(const solid_minus_hull&) = delete;
+    solid_minus_hull& operator=(const solid_minus_hull&) = delete;
+
+    [[nodiscard]] ABUT_HD constexpr vec3<number> exactly(std::uint32_t i, std::uint32_t j) const {
+        return x_.between(hull_[j], points_[i], scale_.exponent);
+    }
+    [[nodiscard]] ABUT_HD constexpr point at(std::uint32_t i, std::uint32_t j) const {
+        return contact_math::plain_difference(points_[i], scale_(hull_[j]));
+    }
+    template <int Room>
+    ABUT_HD constexpr void look_back(const vec3<rolled_int<Room>>& way, std::uint32_t& i, std::uint32_t& j) {
+        using namespace contact_math;
+        const rolled_int<3 * 2>* const type = nullptr;
+        x_.look_back({held_as(way.x, type), held_as(way.y, type), held_as(way.z, type)}, i, j);
+        const point seen = solid_.farthest(unit_vector(as<one_double>(rounded_way(way, -1))));
+        i = count_;
+        points_[i] = plain_step(origin_, 1, seen);
+        if (count_ + 1 < room) ++count_;
+    }
+    /// The least move that is known, after those beside some points of the hull were looked at.
+    [[nodiscard]] ABUT_HD constexpr double depth_beside(points_of_face face) {
+        std::uint32_t(&id)[3] = face.id;
+        if (id[1] < id[0]) swap(id[0], id[1]);
+        if (id[2] < id[1]) swap(id[1], id[2]);
+        if (id[1] < id[0]) swap(id[0], id[1]);
+        bool is_known = false;
+        for (int k = 0; k < known_count_; ++k) {
+            const std::uint32_t(&known)[3] = known_[k].id;
+            is_known = is_known || (known[0] == id[0] && known[1] == id[1] && known[2] == id[2]);
+        }
+        if (!is_known) {
+            if (known_count_ < most_known) known_[known_count_++] = face;
+            const corner_hull<T, 3> corners{{hull_[id[0]], hull_[id[1]], hull_[id[2]]}};
+            const contact_math::seen_corners<3> at(corners.at, origin_, scale_);
+            found_.offer_corners(corners, at.at);
+        }
+        return found_.depth();
+    }
+
+private:
+    static constexpr std::uint32_t room = 64;  ///< more than a polytope of 48 corners asks for
+    static constexpr int most_known = 32;      ///< others are looked at again
+
+    ABUT_HD static constexpr void swap(std::uint32_t& a, std::uint32_t& b) {
+        const std::uint32_t c = a;
+        a = b, b = c;
+    }
+
+    /// With two bits for points on the rims.
+    template <solid_of_revolution S>
+    ABUT_HD static constexpr unit_of_hulls<T> unit_around(const S& s, const hull<T>& h) {
+        const hull_points<T, 2> ends = points_of(axis_of(s));
+        unit_of_hulls<T> unit(ends.as_hull(), h, s.radius);
+        unit.high += 2;
+        unit.low = -(1 << 20);
+        return nearest_in_hulls<T>::shortened(unit);
+    }
+
+    point points_[room];
+    vec3<T> end_;  ///< of the axis: what is asked for as a hull
+    hull<T> asked_;
+    const hull<T>& hull_;
+    integers x_;
+    const contact_math::seen_round_solid& solid_;
+    point origin_;
+    const contact_math::common_scale& scale_;
+    ways& found_;
+    points_of_face known_[most_known] = {};  ///< in order
+    int known_count_ = 0;
+    std::uint32_t count_ = 1;
+};
+
 /// A solid that has an axis with a length, and a hull.
 template <solid_of_revolution S, scalar T>
 ABUT_NOINLINE ABUT_HD constexpr contact_math::least_overlap way_out_of_hull(const S& s, const hull<T>& h,
@@ -115,17 +145,10 @@ ABUT_NOINLINE ABUT_HD constexpr contact_math::least_overlap way_out_of_hull(cons
     const seen_hull<T> seen{h, origin, scale};
     ways_out_of_solid<T, seen_hull<T>> pair(solid, seen);
     pair.offer_ends();
-    solid_minus_hull<T> differences(s, h, solid, origin, scale);
+    solid_minus_hull<T> differences(s, h, solid, origin, scale, pair);
     expanding_polytope polytope(differences);
     polytope.append(0, 0);
     pair.offer_both(polytope.least_way());
-    ABUT_ROLLED
-    for (int k = 0; k < 2; ++k) {
-        const auto& face = k == 0 ? polytope.best_face() : polytope.nearest_face();
-        const corner_hull<T, 3> corners{{h[face.id[0]], h[face.id[1]], h[face.id[2]]}};
-        const seen_corners<3> at(corners.at, origin, scale);
-        pair.offer_corners(corners, at.at);
-    }
     return pair.way();
 }
 

@@ -317,21 +317,26 @@ public:
     [[nodiscard]] ABUT_HD constexpr vec3<number> between(const vec3<T>& from, const vec3<T>& to) const {
         return {between(from.x, to.x), between(from.y, to.y), between(from.z, to.z)};
     }
+    /// From there to a point times 2^exponent.
+    [[nodiscard]] ABUT_HD constexpr vec3<number> between(const vec3<T>& from, const vec3<double>& to, int exponent) const {
+        return {between(from.x, to.x, exponent), between(from.y, to.y, exponent), between(from.z, to.z, exponent)};
+    }
 
 private:
-    ABUT_HD constexpr number between(T from, T to) const {
+    template <scalar F>
+    ABUT_HD constexpr number between(T from, F to, int exponent = 0) const {
         number r;
         r.begin(limbs_);
-        add(r, to, false);
+        add(r, to, false, exponent);
         add(r, from, true);
         return r;
     }
-    /// What of x is below the unit is cut off.
+    /// Of x 2^exponent, what is below the unit is cut off.
     template <scalar F>
-    ABUT_HD constexpr void add(number& r, F x, bool negated) const {
+    ABUT_HD constexpr void add(number& r, F x, bool negated, int exponent = 0) const {
         const binary_parts p = take_apart(x);
         if (p.mantissa == 0) return;
-        const int up = p.exponent - low_;
+        const int up = p.exponent + exponent - low_;
         if (up >= 0) {
             add_shifted(r.limb, limbs_, p.mantissa, up, negated);
         } else if (up > -63) {
