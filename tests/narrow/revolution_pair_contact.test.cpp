@@ -58,23 +58,23 @@ void check_all(const char* name) {
     if constexpr (std::same_as<First, cone<T>>) {
         for (int i = 0; i < cone_family_count; ++i) {
             const auto f = static_cast<cone_family>(i);
-            for (std::uint64_t k = 0; k < some_samples(f == cone_family::near_contact ? 400 : 60); ++k) {
+            for (std::uint64_t k = 0; k < some_samples(f == cone_family::near_contact ? 500 : 125); ++k) {
                 check_pair<First, Second>(name_of(f), k, make_cone_pair<Second>(pair_contact_seed, f, k), sum);
             }
         }
     } else {
         for (int i = 0; i < round_family_count; ++i) {
             const auto f = static_cast<round_family>(i);
-            for (std::uint64_t k = 0; k < some_samples(f == round_family::near_contact ? 400 : 60); ++k) {
+            for (std::uint64_t k = 0; k < some_samples(f == round_family::near_contact ? 500 : 125); ++k) {
                 check_pair<First, Second>(name_of(f), k, make_round_pair<Second>(pair_contact_seed, f, k), sum);
             }
         }
     }
-    for (std::uint64_t k = 0; k < some_samples(10); ++k) {
+    for (std::uint64_t k = 0; k < some_samples(25); ++k) {
         check_pair<First, Second>("through each other", k, through_each_other<T>(k), sum);
     }
     check_figures(name, sum);
-    CHECK(sum.touching > 300);
+    CHECK(sum.touching > 200);
     CHECK(sum.moved * 10 > sum.touching * 5);
 }
 

@@ -201,17 +201,6 @@ struct measured_plane {
     }
 };
 
-/// Pairs of shapes, in this order, that are measured.
-template <class S, class U>
-inline constexpr bool measured_in_order = requires(const S& s, const U& t, const length_unit<scalar_type_of<S>>& unit) {
-    nearest_way_between(core_of(s), core_of(t), unit);
-};
-template <scalar T, class S>
-    requires has_height<S, T>
-inline constexpr bool measured_in_order<plane<T>, S> = true;
-template <scalar T>
-inline constexpr bool measured_in_order<plane<T>, hull<T>> = true;
-
 /// A cylinder or a cone and a plane, in this order.
 template <class S, class U>
 concept measured_revolution_over_plane = revolution_pair<S, U> && std::same_as<U, plane<scalar_type_of<U>>>;
@@ -301,21 +290,15 @@ ABUT_HD constexpr separation<T> reversed(const separation<T>& s) {
     return {s.b, s.a, s.point_b, s.point_a, s.distance};
 }
 
+/// Whether two shapes have a distance, in either order: those that have contacts.
 template <class S, class U>
-inline constexpr bool measured_as_given =
-    (contact_pair<S, U> && measured_in_order<S, U>) || measured_hulls<S, U> || revolution_pair<S, U> ||
-    pair_of_revolutions<S, U> || measured_revolution_and_hull<S, U>;
-
-/// Whether two shapes have a distance, in either order: those that can be decided and have contacts, convex hulls, and
-/// cylinders and cones with what they can be decided with.
-template <class S, class U>
-concept measurable = measured_as_given<S, U> || measured_as_given<U, S>;
+concept measurable = contact_pair<S, U> || contact_pair<U, S>;
 
 /// Two shapes of which it is known whether they touch.
 template <class S, class U>
 ABUT_HD constexpr auto separation_of(const S& s, const U& t, bool touch) {
     using T = scalar_type_of<S>;
-    if constexpr (!measured_as_given<S, U>) {
+    if constexpr (!contact_pair<S, U>) {
         return reversed(separation_of(t, s, touch));
     } else {
         if constexpr (solid_of_revolution<U>) {  // of two balls the same comes first in either order
@@ -352,7 +335,7 @@ ABUT_HD constexpr auto separation_of(const S& s, const U& t) {
             const vec3<T> shared = m.shared_point();
             return separation<T>{0, 0, shared, shared, T(0)};
         });
-    } else if constexpr (!measured_as_given<S, U> && measured_hulls<U, S> && !on_device) {
+    } else if constexpr (!contact_pair<S, U> && measured_hulls<U, S> && !on_device) {
         return reversed(separation_of(t, s));
     } else {
         return separation_of(s, t, intersects(s, t));
@@ -370,7 +353,7 @@ struct measure_apart {
         requires measurable<S, U> ABUT_HD distance_and_way look(const S& s, const U& t, double bound,
                                                                 const vec3<double>& along)
     const {
-        if constexpr (!measured_as_given<S, U>) {
+        if constexpr (!contact_pair<S, U>) {
             const auto opposite = [](const vec3<double>& v) { return vec3<double>{-v.x, -v.y, -v.z}; };
             const distance_and_way found = look(t, s, bound, opposite(along));
             return {found.distance, opposite(found.way)};
@@ -455,10 +438,9 @@ private:
 
 /// How far apart two closed shapes are: a `separation` with ids 0. It takes the pairs that `contact_of` takes, in either
 /// order: points, segments, triangles, spheres, capsules, boxes and convex hulls with each other, and planes with any of
-/// these; and cylinders and cones with points, segments, triangles, boxes, spheres, planes and convex hulls, with each
-/// other and with capsules, which have no contacts. The distance is 0 exactly where the two touch, as `intersects` decides.
-/// Otherwise it is accurate to a few units in the last place of the shapes' farthest corners (docs/numerics.md). The same
-/// bits on every compiler and device, in constant expressions too. Shapes are finite and valid.
+/// these; and cylinders and cones with all of these and with each other. The distance is 0 exactly where the two touch, as
+/// `intersects` decides. Otherwise it is accurate to a few units in the last place of the shapes' farthest corners
+/// (docs/numerics.md). The same bits on every compiler and device, in constant expressions too. Shapes are finite and valid.
 ///
 ///     constexpr auto d = abut::distance(abut::sphere<float>{{0, 0, 4}, 1},
 ///                                       abut::triangle<float>{{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}});
