@@ -286,11 +286,15 @@ void add_revolutions() {
     });
     add_revolutions_beside<Solid>([](const pair& c, std::uint64_t k) { return test::ball_beside(c, is_cone, k); });
     add_revolutions_beside<Solid>([](const pair& c, std::uint64_t k) { return test::plane_beside(c, k); });
-    if constexpr (!is_cone) {
-        add_revolutions_beside<Solid>([](const pair& c, std::uint64_t k) { return test::cylinder_beside(c, is_cone, k); });
+    add_revolutions_beside<Solid>([](const pair& c, std::uint64_t k) { return test::cylinder_beside(c, is_cone, k); });
+    add_revolutions_beside<Solid>([](const pair& c, std::uint64_t k) {
+        const auto s = test::cylinder_beside(c, is_cone, k);
+        return abut::capsule<T>{s.axis, s.radius};
+    });
+    if constexpr (is_cone) {
         add_revolutions_beside<Solid>([](const pair& c, std::uint64_t k) {
             const auto s = test::cylinder_beside(c, is_cone, k);
-            return abut::capsule<T>{s.axis, s.radius};
+            return abut::cone<T>{s.axis.a, s.axis.b, s.radius};
         });
     }
 }

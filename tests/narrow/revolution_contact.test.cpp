@@ -34,23 +34,10 @@ TEMPLATE_TEST_CASE("contacts of cylinders and cones are what they say, in each f
     constexpr bool is_cone = std::same_as<TestType, cone<T>>;
     std::printf("contacts: seed %llu\n", static_cast<unsigned long long>(contact_seed));
     std::array<contact_figures, kinds_beside.size()> sums;
-    for (int i = 0; i < revolution_family_count + 3; ++i) {
-        const bool is_thin = i == revolution_family_count, is_parallel = i == revolution_family_count + 1,
-                   is_through = i == revolution_family_count + 2;
-        const std::string name = is_thin       ? "thin"
-                                 : is_parallel ? "nearly parallel"
-                                 : is_through  ? "through"
-                                               : name_of(static_cast<revolution_family>(i));
-        for (std::uint64_t k = 0; k < some_samples(is_through ? 25 : 125); ++k) {
-            const auto c = is_thin       ? over_needle<TestType>(k)
-                           : is_parallel ? nearly_parallel<TestType>(k)
-                           : is_through
-                               ? through<TestType>(contact_seed, k)
-                               : make_revolution_case<T>(contact_seed, static_cast<revolution_family>(i), k, is_cone);
-            const auto s = solid_of<TestType>(c.axis, c.radius);
-            each_beside(c, k, is_cone, [&](std::size_t kind, const auto& t) { check_contact(name, k, s, t, sums[kind]); });
-        }
-    }
+    each_revolution_case<TestType>(contact_seed, 125, [&](const std::string& name, std::uint64_t k, const auto& c) {
+        const auto s = solid_of<TestType>(c.axis, c.radius);
+        each_beside(c, k, is_cone, [&](std::size_t kind, const auto& t) { check_contact(name, k, s, t, sums[kind]); });
+    });
     for (std::size_t kind = 0; kind < sums.size(); ++kind) {
         check_figures(kinds_beside[kind], sums[kind]);
         CHECK(sums[kind].moved * 10 > sums[kind].touching * 8);

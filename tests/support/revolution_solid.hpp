@@ -7,12 +7,14 @@
 #include <cmath>
 #include <concepts>
 #include <cstdint>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "contact_oracles.hpp"
 #include "draws.hpp"
 #include "revolution_pairs.hpp"
+#include "samples.hpp"
 
 namespace abut::test {
 
@@ -167,6 +169,23 @@ revolution_case<scalar_type_of<Solid>> through(std::uint64_t seed, std::uint64_t
     c.radius = rounded_to<T>(radius);
     for (auto& p : c.corner) p = round_to<T>(along(at, size, cube(d, 1)));
     return c;
+}
+
+/// Calls f(name, k, case) for some of each family, and of thin, nearly parallel and deep ones.
+template <class Solid, class F>
+void each_revolution_case(std::uint64_t seed, std::uint64_t part, const F& f) {
+    using T = scalar_type_of<Solid>;
+    const auto call = [&](const char* name, std::uint64_t count, const auto& make) {
+        for (std::uint64_t k = 0; k < count; ++k) f(std::string(name), k, make(k));
+    };
+    for (int i = 0; i < revolution_family_count; ++i) {
+        const auto family = static_cast<revolution_family>(i);
+        call(name_of(family), some_samples(part),
+             [&](std::uint64_t k) { return make_revolution_case<T>(seed, family, k, std::same_as<Solid, cone<T>>); });
+    }
+    call("thin", some_samples(part), over_needle<Solid>);
+    call("nearly parallel", some_samples(part), nearly_parallel<Solid>);
+    call("through", some_samples(part / 5), [&](std::uint64_t k) { return through<Solid>(seed, k); });
 }
 
 /// Points around a middle that is beside a solid: of a ball, with one flat side or two, or anywhere.
