@@ -183,8 +183,10 @@ void check_hulls_and_solids(const Policy& on) {
         CHECK(hits > 100);
         CHECK(hits < 2 * 70 * 60);
         if (on_lattice) check_distances_of_hulls(on, a, solids);
-        const auto expected = true_contacts(solids.view(), a.view());
-        CHECK(same_bits(to_host(contacts(on, copy_to(on, solids), make_bvh(on, copy_to(on, a)))), expected));
+        if constexpr (std::is_same_v<T, float>) {  // of doubles they take minutes to compile for devices
+            const auto expected = true_contacts(solids.view(), a.view());
+            CHECK(same_bits(to_host(contacts(on, copy_to(on, solids), make_bvh(on, copy_to(on, a)))), expected));
+        }
     }
 }
 

@@ -18,9 +18,11 @@
 #include <abut/narrow/hull_distance.hpp>
 #include <abut/narrow/numbers.hpp>
 #include <abut/narrow/revolution_contact.hpp>
+#include <abut/predicate/gjk.hpp>
 #include <abut/predicate/hull_numbers.hpp>
 #include <abut/predicate/revolution.hpp>
 #include <abut/predicate/revolution_hull.hpp>
+#include <abut/shape/bounds.hpp>
 #include <abut/shape/core.hpp>
 #include <abut/shape/hull.hpp>
 #include <abut/shape/primitive.hpp>
@@ -152,12 +154,100 @@ ABUT_NOINLINE ABUT_HD constexpr contact_math::least_overlap way_out_of_hull(cons
     return pair.way();
 }
 
+/// A solid and a hull as gjk.hpp reads two hulls, in doubles whose operations are rounded one by one: for what has to be the
+/// same on every device. Differences are those of solid_minus_hull.
+template <scalar T>
+class plain_solid_minus_hull {
+public:
+    using number = contact_math::one_double;
+    using point = contact_math::point;
+    static constexpr int most_steps = 48;
+
+    /// The solid's points that were asked for.
+    struct places {
+        point at[most_steps + 2]{};
+        std::uint32_t count = 0;
+    };
+
+    ABUT_HD constexpr plain_solid_minus_hull(const hull<T>& h, const contact_math::seen_round_solid& solid,
+                                             const point& origin, const contact_math::common_scale& scale, places& asked)
+        : hull_(h), solid_(solid), origin_(origin), scale_(scale), asked_(asked) {}
+
+    [[nodiscard]] ABUT_HD constexpr vec3<number> difference(std::uint32_t i, std::uint32_t j) const {
+        return contact_math::between<number>(seen(j), asked_.at[i]);
+    }
+    ABUT_HD constexpr void look_back(const vec3<number>& way, std::uint32_t& i, std::uint32_t& j) const {
+        const point along = contact_math::unit_vector(way);
+        i = asked_.count++;
+        asked_.at[i] = solid_.farthest(contact_math::negated(along));
+        double most = -infinity<double>;
+        ABUT_ROLLED
+        for (std::size_t k = 0; k < hull_.count; ++k) {
+            const double height = contact_math::plain_dot(along, seen(k));
+            if (height > most) most = height, j = static_cast<std::uint32_t>(k);
+        }
+    }
+    [[nodiscard]] ABUT_HD constexpr vec3<number> way_between_middles() const {
+        return contact_math::between<number>(seen(0), solid_.end[0]);
+    }
+    [[nodiscard]] ABUT_HD constexpr bool are_apart(const vec3<number>&, std::uint32_t, std::uint32_t) const { return false; }
+    ABUT_HD constexpr verdict holds_origin(const vec3<number> (&)[4], const difference_simplex&) const {
+        return verdict::yes;
+    }
+    [[nodiscard]] ABUT_HD constexpr verdict when_lost(const difference_simplex&) const { return verdict::unknown; }
+
+private:
+    [[nodiscard]] ABUT_HD constexpr point seen(std::size_t k) const {
+        return contact_math::plain_difference(scale_(hull_[k]), origin_);
+    }
+    const hull<T>& hull_;
+    const contact_math::seen_round_solid& solid_;
+    const point& origin_;
+    const contact_math::common_scale& scale_;
+    places& asked_;
+};
+
+/// Of a hull that a solid touches, but not its axis, a triangle of points that the solid touches: one of those at which a
+/// search ends; or where rounding leaves that open, the first.
+template <solid_of_revolution S, scalar T>
+ABUT_NOINLINE ABUT_HD constexpr triangle<T> touching_triangle_of(const S& s, const hull<T>& h) {
+    using namespace contact_math;
+    const common_scale scale(s, h);
+    const point origin = scale(axis_of(s).a);
+    const seen_round_solid solid(s, origin, scale);
+    typename plain_solid_minus_hull<T>::places asked;
+    const plain_solid_minus_hull<T> x(h, solid, origin, scale, asked);
+    difference_simplex at;
+    vec3<one_double> w[4];
+    (void)search_origin<sought::nearest>(x, at, w);
+    const int corners = at.count < 3 ? 3 : at.count;
+    triangle<T> t{};
+    for (int but = corners == 4 ? 0 : 3; but < 4; ++but) {
+        vec3<T> p[3]{};
+        for (int k = 0, n = 0; k < corners && n < 3; ++k) {
+            if (k != but) p[n++] = h[at.b[k < at.count ? k : 0]];
+        }
+        t = {p[0], p[1], p[2]};
+        if (touch_exactly(s, t)) return t;
+    }
+    const aabb<T> around = bounds(s);
+    for (std::size_t i = 0; i < h.count; ++i) {
+        for (std::size_t j = i; j < h.count; ++j) {
+            for (std::size_t k = j; k < h.count; ++k) {
+                t = {h[i], h[j], h[k]};
+                if (overlaps(around, bounds(t)) && touch_exactly(s, t)) return t;
+            }
+        }
+    }
+    return t;  // only where the two do not touch
+}
+
 /// A point of both, which touch. The solid has an axis with a length.
 template <solid_of_revolution S, scalar T>
 ABUT_HD constexpr vec3<T> shared_point_of(const S& s, const hull<T>& h) {
-    triangle<T> where{};
-    if (find_touch(s, h, where) != touch_of_hull::at_axis) return shared_point_of(s, where);
-    return with_measured_hulls(h, axis_of(s), true, [](const auto& m) { return m.shared_point(); });
+    const segment<T> axis = axis_of(s);
+    if (!touch_exactly(h, axis)) return shared_point_of(s, touching_triangle_of(s, h));
+    return with_measured_hulls(h, axis, true, [](const auto& m) { return m.shared_point(); });
 }
 
 /// The normal points to the solid.

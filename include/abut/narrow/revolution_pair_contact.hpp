@@ -251,23 +251,29 @@ ABUT_NOINLINE ABUT_HD constexpr contact<scalar_type_of<S>> contact_of_round_soli
     return found;
 }
 
-/// The normal points to the first one. Two of one kind are taken in one order, so that the other one has the same contact
-/// reversed.
+/// The normal points to the first one.
 template <class S, class U>
-requires pair_of_revolutions<S, U> ABUT_HD constexpr contact<scalar_type_of<S>> contact_between(const S& s, const U& t) {
+ABUT_HD constexpr contact<scalar_type_of<S>> contact_in_this_order(const S& s, const U& t) {
     using T = scalar_type_of<S>;
     if constexpr (std::same_as<U, capsule<T>>) {
         if (is_point(axis_of(s))) return contact_with_ball(ball_around(s), t);
         if (is_point(t.axis)) return contact_between(s, sphere<T>{t.axis.a, t.radius});
-        return contact_of_round_solids(s, t);
     } else {
-        if constexpr (std::same_as<S, U>) {
-            if (precedes(t, s)) return reversed(contact_between(t, s));
-        }
         if (is_point(axis_of(s)) && is_point(axis_of(t))) return contact_between(ball_around(s), ball_around(t));
         if (is_point(axis_of(s))) return reversed(contact_between(t, ball_around(s)));
         if (is_point(axis_of(t))) return contact_between(s, ball_around(t));
-        return contact_of_round_solids(s, t);
+    }
+    return contact_of_round_solids(s, t);
+}
+/// Two of one kind are taken in one order, so that the other one has the same contact reversed.
+template <class S, class U>
+requires pair_of_revolutions<S, U> ABUT_HD constexpr contact<scalar_type_of<S>> contact_between(const S& s, const U& t) {
+    if constexpr (std::same_as<S, U>) {
+        const bool swap = precedes(t, s);
+        const contact<scalar_type_of<S>> found = contact_in_this_order(swap ? t : s, swap ? s : t);
+        return swap ? reversed(found) : found;
+    } else {
+        return contact_in_this_order(s, t);
     }
 }
 
