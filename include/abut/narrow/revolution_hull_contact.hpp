@@ -17,6 +17,7 @@
 #include <abut/narrow/hull_contact.hpp>
 #include <abut/narrow/hull_distance.hpp>
 #include <abut/narrow/numbers.hpp>
+#include <abut/narrow/plain_hull_and_solid.hpp>
 #include <abut/narrow/revolution_contact.hpp>
 #include <abut/predicate/gjk.hpp>
 #include <abut/predicate/hull_numbers.hpp>
@@ -154,59 +155,6 @@ ABUT_NOINLINE ABUT_HD constexpr contact_math::least_overlap way_out_of_hull(cons
     return pair.way();
 }
 
-/// A solid and a hull as gjk.hpp reads two hulls, in doubles whose operations are rounded one by one: for what has to be the
-/// same on every device. Differences are those of solid_minus_hull.
-template <scalar T>
-class plain_solid_minus_hull {
-public:
-    using number = contact_math::one_double;
-    using point = contact_math::point;
-    static constexpr int most_steps = 48;
-
-    /// The solid's points that were asked for.
-    struct places {
-        point at[most_steps + 2]{};
-        std::uint32_t count = 0;
-    };
-
-    ABUT_HD constexpr plain_solid_minus_hull(const hull<T>& h, const contact_math::seen_round_solid& solid,
-                                             const point& origin, const contact_math::common_scale& scale, places& asked)
-        : hull_(h), solid_(solid), origin_(origin), scale_(scale), asked_(asked) {}
-
-    [[nodiscard]] ABUT_HD constexpr vec3<number> difference(std::uint32_t i, std::uint32_t j) const {
-        return contact_math::between<number>(seen(j), asked_.at[i]);
-    }
-    ABUT_HD constexpr void look_back(const vec3<number>& way, std::uint32_t& i, std::uint32_t& j) const {
-        const point along = contact_math::unit_vector(way);
-        i = asked_.count++;
-        asked_.at[i] = solid_.farthest(contact_math::negated(along));
-        double most = -infinity<double>;
-        ABUT_ROLLED
-        for (std::size_t k = 0; k < hull_.count; ++k) {
-            const double height = contact_math::plain_dot(along, seen(k));
-            if (height > most) most = height, j = static_cast<std::uint32_t>(k);
-        }
-    }
-    [[nodiscard]] ABUT_HD constexpr vec3<number> way_between_middles() const {
-        return contact_math::between<number>(seen(0), solid_.end[0]);
-    }
-    [[nodiscard]] ABUT_HD constexpr bool are_apart(const vec3<number>&, std::uint32_t, std::uint32_t) const { return false; }
-    ABUT_HD constexpr verdict holds_origin(const vec3<number> (&)[4], const difference_simplex&) const {
-        return verdict::yes;
-    }
-    [[nodiscard]] ABUT_HD constexpr verdict when_lost(const difference_simplex&) const { return verdict::unknown; }
-
-private:
-    [[nodiscard]] ABUT_HD constexpr point seen(std::size_t k) const {
-        return contact_math::plain_difference(scale_(hull_[k]), origin_);
-    }
-    const hull<T>& hull_;
-    const contact_math::seen_round_solid& solid_;
-    const point& origin_;
-    const contact_math::common_scale& scale_;
-    places& asked_;
-};
-
 /// Of a hull that a solid touches, but not its axis, a triangle of points that the solid touches: one of those at which a
 /// search ends; or where rounding leaves that open, the first.
 template <solid_of_revolution S, scalar T>
@@ -215,21 +163,15 @@ ABUT_NOINLINE ABUT_HD constexpr triangle<T> touching_triangle_of(const S& s, con
     const common_scale scale(s, h);
     const point origin = scale(axis_of(s).a);
     const seen_round_solid solid(s, origin, scale);
-    typename plain_solid_minus_hull<T>::places asked;
-    const plain_solid_minus_hull<T> x(h, solid, origin, scale, asked);
-    difference_simplex at;
-    vec3<one_double> w[4];
-    (void)search_origin<sought::nearest>(x, at, w);
-    const int corners = at.count < 3 ? 3 : at.count;
-    triangle<T> t{};
-    for (int but = corners == 4 ? 0 : 3; but < 4; ++but) {
-        vec3<T> p[3]{};
-        for (int k = 0, n = 0; k < corners && n < 3; ++k) {
-            if (k != but) p[n++] = h[at.b[k < at.count ? k : 0]];
-        }
-        t = {p[0], p[1], p[2]};
+    typename plain_hull_and_solid<T>::places asked;
+    const plain_hull_and_solid<T> x(h, solid, origin, scale, asked);
+    const difference_simplex at = x.search();
+    const int faces = at.count == 4 ? 4 : 1;
+    for (int but = 0; but < faces; ++but) {
+        const triangle<T> t = face_without(h, at, faces == 4 ? but : 3);
         if (touch_exactly(s, t)) return t;
     }
+    triangle<T> t{};
     const aabb<T> around = bounds(s);
     for (std::size_t i = 0; i < h.count; ++i) {
         for (std::size_t j = i; j < h.count; ++j) {

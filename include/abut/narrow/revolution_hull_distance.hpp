@@ -16,6 +16,8 @@
 
 #include <abut/arithmetic/magnitude.hpp>
 #include <abut/narrow/directions.hpp>
+#include <abut/narrow/plain_hull_and_solid.hpp>
+#include <abut/narrow/revolution_contact.hpp>
 #include <abut/predicate/gjk.hpp>
 #include <abut/predicate/hull_numbers.hpp>
 #include <abut/predicate/revolution.hpp>
@@ -33,21 +35,18 @@ public:
     triangle<T> best{};
 
     ABUT_HD constexpr nearest_triangle(const S& s, const hull<T>& h, const Measure& measure) : measure_(measure) {
-        const hull_points<T, 2> points = points_of(axis_of(s));
-        const hull<T> ends = points.as_hull();
-        points_of_solid asked;
-        const hull_and_solid<true, S> x(h, s, ends, asked);
-        found_simplex found;
-        (void)search_origin<sought::nearest>(x, found.at, found.w);
-        best = face_without(h, found.at, 3);  // also where its distance is above all numbers
-        const int faces = found.at.count == 4 ? 4 : 1;
-        for (int but = 0; but < faces; ++but) offer(face_without(h, found.at, faces == 4 ? but : 3));
+        const contact_math::common_scale scale(s, h);
+        const vec3<double> origin = scale(axis_of(s).a);
+        const contact_math::seen_round_solid solid(s, origin, scale);
+        typename plain_hull_and_solid<T>::places asked;
+        const plain_hull_and_solid<T> x(h, solid, origin, scale, asked);
+        const difference_simplex at = x.search();
+        best = face_without(h, at, 3);  // also where its distance is above all numbers
+        const int faces = at.count == 4 ? 4 : 1;
+        for (int but = 0; but < faces; ++but) offer(face_without(h, at, faces == 4 ? but : 3));
         for (bool better = true; better;) {
-            better = false;
             if (x.is_nearest_along(way_, distance_)) return;
-            std::uint32_t i = 0, j = 0;
-            x.look_back(way_, i, j);
-            better = exchange(h[i]);
+            better = exchange(h[x.farthest_back(way_)]);
             for (std::size_t k = 0; k < h.count && !better; ++k) better = exchange(h[k]);
         }
     }

@@ -85,17 +85,6 @@ public:
     }
     ///@}
 
-    /// Whether no point is nearer along a way than a distance, but for a few 2^-53 of the shapes' size.
-    [[nodiscard]] ABUT_HD constexpr bool is_nearest_along(const vec3<double>& way, double distance) const {
-        std::uint32_t i = 0, end = 0;
-        const vec3<double> one = of_size_1(way);
-        both_.look_back(one, i, end);
-        end = end_on(one, i, end);
-        const double size = both_.size() + solid_.radius;
-        return size < 0x1p400 && size > 0x1p-400 &&
-               ahead_of(one, i, end) > solid_.length_of(one) * (distance - 0x1p-52 * size);
-    }
-
 private:
     /// The end at which the solid is farthest along a way of size 1, where the axis is so at `end`.
     [[nodiscard]] ABUT_HD constexpr std::uint32_t end_on(const vec3<double>& one, std::uint32_t i, std::uint32_t end) const {
