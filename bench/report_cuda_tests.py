@@ -4,7 +4,8 @@
 usage: report_cuda_tests.py FOLDER --json=OUT.json --device=NAME --driver=VERSION --cuda=VERSION [--commit=HASH] [--date=DATE]
                             [--flags=FLAGS]
 
-FOLDER has for a program its output, NAME.out, and its output under compute-sanitizer, NAME.memcheck, or one of them. And
+FOLDER has for a program its output, NAME.out, and its output under compute-sanitizer, NAME.memcheck, or one of them. A source
+may be built in parts, each with some of its tests: NAME@PART.out and NAME@PART.memcheck are summed to one row. And
 SHAPES.families, where test_cuda_predicates was run for the families of two shapes alone (sphere_triangle, say): rows of
 these go to a table of their own. The commit is that of the programs, by default what ABUT_COMMIT says; of programs of another
 one NAME.commit says which, and families of another one are in SHAPES.COMMIT.families. The date is today's.
@@ -50,6 +51,18 @@ def row_of(out, memcheck):
     return row
 
 
+def sum_of(parts):
+    """One row of the rows of a program's parts."""
+    row = {"parts": len(parts)}
+    for key in ("assertions", "failed", "memcheck_assertions", "memcheck_failed", "memcheck_errors"):
+        if any(key in p for p in parts):
+            row[key] = sum(p.get(key, 0) for p in parts)
+    for key, count in (("no_end", "ended"), ("memcheck_no_end", "memcheck_ended")):
+        if any(key in p for p in parts):
+            row[count] = sum(key not in p for p in parts)
+    return row
+
+
 FAMILY = re.compile(r"^(?P<name>\S.*?) +(?P<scalar>float|double) +n (?P<pairs>\d+), hits +(?P<hits>[\d.]+) %, "
                     r"inputs that differ (?P<inputs>\d+), decisions that differ (?P<decisions>\d+), "
                     r"filtered against exact (?P<arithmetics>\d+)$", re.M)
@@ -59,9 +72,15 @@ COUNTS = ("pairs", "hits", "inputs", "decisions", "arithmetics")
 def rows_of(folder):
     """The rows, and the commits of those that have one of their own."""
     rows, commits = {}, {p.stem: p.read_text(encoding="utf-8").strip() for p in sorted(folder.glob("*.commit"))}
+    parts = {}
     for name in sorted({p.stem for p in folder.iterdir() if p.suffix in (".out", ".memcheck")}):
         texts = [folder / f"{name}{suffix}" for suffix in (".out", ".memcheck")]
-        rows[name] = row_of(*(t.read_text(encoding="utf-8", errors="replace") if t.exists() else None for t in texts))
+        row = row_of(*(t.read_text(encoding="utf-8", errors="replace") if t.exists() else None for t in texts))
+        program, _, part = name.partition("@")
+        rows[program] = row
+        if part:
+            parts.setdefault(program, []).append(row)
+            rows[program] = sum_of(parts[program])
     # Those of another commit come last: they replace what the same program said before.
     for path in sorted(folder.glob("*.families"), key=lambda p: (p.stem.count("."), p.stem)):
         shapes, _, commit = path.stem.partition(".")
@@ -82,8 +101,10 @@ def checks(n):
 def outcome(row):
     if "assertions" in row:
         by = f", by {whole(row['processes'])} ranks" if row.get("processes", 1) > 1 else ""
+        if "parts" in row:
+            by = f", in {whole(row['parts'])} parts" + (f", {whole(row['ended'])} of which ended" if "ended" in row else "")
         if row.get("failed"):
-            return f"{row['assertions'] - row['failed']} of {row['assertions']} assertions{by}: see below"
+            return f"{row['assertions'] - row['failed']} of {row['assertions']} assertions{by}: see above"
         return f"passed: {row['assertions']} assertions{by}"
     if row.get("no_end"):
         return "did not end"
@@ -96,10 +117,11 @@ def outcome_of_memcheck(row):
     if not row:
         return "not run"
     if "memcheck_errors" not in row:
-        return "did not end" if row.get("memcheck_no_end") else "not run: see below"
+        return "did not end" if row.get("memcheck_no_end") else "not run: see above"
     failed = row.get("memcheck_failed")
     return f"{whole(row['memcheck_errors'])} error{'' if row['memcheck_errors'] == 1 else 's'}" + \
-        (f"; {checks(failed)} failed, see below" if failed else "")
+        (f" in {whole(row['memcheck_ended'])} parts, the others did not end" if "memcheck_ended" in row else "") + \
+        (f"; {checks(failed)} failed, see above" if failed else "")
 
 
 def made_there(c, more=""):

@@ -195,6 +195,9 @@ LOGS = {"passes.out": "...\nAll tests passed (1 assertion in 1 test case)\n",
         "fails.out": "test cases:  3 |  2 passed | 1 failed\nassertions: 20 | 19 passed | 1 failed\n\n" * 2,
         "fails.memcheck": "All tests passed (20 assertions in 3 test cases)\n========= ERROR SUMMARY: 1 error\n",
         "ends.out": "terminate called\n", "ends.commit": "89abcde\n", "ends.memcheck": "assertions: 7 | 5 passed | 2 failed\n",
+        "parts@a.out": "All tests passed (5 assertions in 1 test case)\n", "parts@b.out": "terminate called\n",
+        "parts@a.memcheck": "All tests passed (5 assertions in 1 test case)\n========= ERROR SUMMARY: 2 errors\n",
+        "parts@b.memcheck": "assertions: 4 | 3 passed | 1 failed\n========= ERROR SUMMARY: 0 errors\n",
         "sphere_triangle.families": "needle 1e3         float  n 300, hits  70.5 %, inputs that differ 0, "
                                     "decisions that differ 2, filtered against exact 1\n",
         "sphere_triangle.fedcba9.families": "radius 0           double n 9, hits   1.0 %, inputs that differ 0, "
@@ -204,6 +207,8 @@ ROWS = {"passes": {"assertions": 1, "failed": 0, "processes": 1, "memcheck_asser
         "fails": {"assertions": 20, "failed": 1, "processes": 2, "memcheck_assertions": 20, "memcheck_failed": 0,
                   "memcheck_errors": 1},
         "ends": {"no_end": 1, "memcheck_assertions": 7, "memcheck_failed": 2, "memcheck_no_end": 1},
+        "parts": {"parts": 2, "assertions": 5, "failed": 0, "memcheck_assertions": 9, "memcheck_failed": 1, "memcheck_errors": 2,
+                  "ended": 1},
         "sphere_triangle/needle 1e3/float": {"pairs": 300, "hits": 70.5, "inputs": 0, "decisions": 2, "arithmetics": 1},
         "sphere_triangle/radius 0/double": {"pairs": 9, "hits": 1, "inputs": 0, "decisions": 0, "arithmetics": 0}}
 

@@ -169,7 +169,8 @@ ABUT_NOINLINE ABUT_HD constexpr contact<T> contact_between(const sphere<T>& s, c
 }
 
 /// Of shapes around points and segments: from the points of both cores that are nearest to each other. The point is the
-/// middle of what both shapes have of the way between these.
+/// middle of what both shapes have of the line through these, or the one of the two that is nearer to that middle, if it is
+/// not between them.
 template <class S, class U>
     requires pair_of_round_contact<S, U>
 ABUT_NOINLINE ABUT_HD constexpr auto contact_between(const S& s, const U& t) {
