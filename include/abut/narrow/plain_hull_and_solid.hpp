@@ -34,8 +34,9 @@ public:
                                            const point& origin, const contact_math::common_scale& scale, places& asked)
         : hull_(h), solid_(solid), origin_(origin), scale_(scale), asked_(asked) {}
 
-    /// Where the search ends: at the nearest feature, or at a simplex that holds the origin, but for rounding.
-    [[nodiscard]] ABUT_HD constexpr difference_simplex search() const {
+    /// Where the search ends: at the nearest feature, or at a simplex that holds the origin, but for rounding. Out of line:
+    /// inlined by nvcc 13.0, its result is in memory that the caller's next call writes to.
+    [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr difference_simplex search() const {
         difference_simplex at;
         vec3<number> w[4];
         (void)search_origin<sought::nearest>(*this, at, w);
