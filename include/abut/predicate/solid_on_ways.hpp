@@ -70,14 +70,19 @@ struct solid_beside_axis {
     }
 
     [[nodiscard]] ABUT_HD static constexpr double length_of(const vec3<double>& v) { return square_root(dot(v, v)); }
-    /// From an end to where its disc is farthest along a way. Of a way along the axis rounding leaves anything across it: so
-    /// what is along the axis of that is taken away again, and the point is on the disc, but for a few 2^-53 of the radius.
+    /// From an end to where its disc is farthest along a way. Of a way along the axis rounding leaves anything, also along
+    /// the axis. So what is across it is taken until most of a vector of length 1 is: then the point is on the disc, but for
+    /// a few 2^-53 of the radius. Where none is, the end is as far as rounding tells.
     [[nodiscard]] ABUT_HD constexpr vec3<double> to_rim(const vec3<double>& way, std::uint32_t end) const {
-        const vec3<double> first = across_of(way);
-        const double size = length_of(first);
-        if (!(has_rim(end) && size > 0)) return {0, 0, 0};
-        const vec3<double> across = across_of((1 / size) * first);
-        return (radius / length_of(across)) * across;
+        vec3<double> across = across_of(way);
+        double size = length_of(across);
+        ABUT_ROLLED
+        for (int k = 0; k < 3 && has_rim(end) && size > 0; ++k) {
+            across = across_of((1 / size) * across);
+            size = length_of(across);
+            if (size > 0.5) return (radius / size) * across;
+        }
+        return {0, 0, 0};
     }
     /// How far that is along it, times its length.
     [[nodiscard]] ABUT_HD constexpr double reach(const vec3<double>& way, std::uint32_t end) const {
