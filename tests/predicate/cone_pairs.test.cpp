@@ -290,9 +290,9 @@ struct wide_disc_pair {
         end[along] = (d.below(2) == 0 ? 1 : -1) * d.uniform(1, 2) * power(thickness);
         end[across] = drawn(thickness - 50, 50);
         end[3 - along - across] = drawn(thickness - 100, 100);
-        const int wide = thickness + 5 + d.below(45);
+        const int width = thickness + 5 + d.below(45);
         // Half of them are so small that the way between the middles is the disc's axis, as it is rounded.
-        const int least = d.below(2) == 0 ? thickness - 90 : wide - 60;
+        const int least = d.below(2) == 0 ? thickness - 90 : width - 60;
         first[across] = drawn(least, 59);
         last[across] = drawn(least, 59);
         first[along] = d.below(2) * drawn(thickness - 60, 60);
@@ -303,7 +303,7 @@ struct wide_disc_pair {
         disc = {{0, 0, 0}, vector_of(end)};
         if (d.below(2) == 0) std::swap(disc.a, disc.b);
         small = {vector_of(first), vector_of(last)};
-        disc_radius = static_cast<T>(d.uniform(1, 2) * power(wide));
+        disc_radius = static_cast<T>(d.uniform(1, 2) * power(width));
         small_radius = static_cast<T>(d.uniform(1, 2) * power(thickness - 100 + d.below(60)));
     }
 };
@@ -324,26 +324,26 @@ void compare_filter(const S& s, const U& t, disc_tally& sum) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("cones with cones, cylinders and capsules: what the filter says of wide discs", "", float, double) {
+TEMPLATE_TEST_CASE("cones with cones, cylinders and capsules: what the filter says of wide_cone discs", "", float, double) {
     using T = TestType;
     disc_tally solids, hulls;
     const std::uint64_t count = test::sample_count() * 4;
     for (std::uint64_t k = 0; k < count; ++k) {
         const wide_disc_pair<T> c(k);
         const cone<T> small = test::round_shape<cone<T>>(c.small, c.small_radius),
-                      wide = test::round_shape<cone<T>>(c.disc, c.disc_radius);
+                      wide_cone = test::round_shape<cone<T>>(c.disc, c.disc_radius);
         const cylinder<T> disc{c.disc, c.disc_radius}, rod{c.small, c.small_radius};
         const capsule<T> pill{c.small, c.small_radius};
         const vec3<T> points[3]{c.small.a, c.small.b, c.small.b + (c.small.a - c.disc.b)};
         compare_filter(small, disc, solids);
-        compare_filter(small, wide, solids);
+        compare_filter(small, wide_cone, solids);
         compare_filter(disc, rod, solids);
-        compare_filter(wide, rod, solids);
+        compare_filter(wide_cone, rod, solids);
         compare_filter(disc, pill, solids);
-        compare_filter(wide, pill, solids);
+        compare_filter(wide_cone, pill, solids);
         compare_filter(disc, triangle<T>{points[0], points[1], points[2]}, solids);
         compare_filter(disc, hull<T>(points, 3), hulls);
-        compare_filter(wide, hull<T>(points, 3), hulls);
+        compare_filter(wide_cone, hull<T>(points, 3), hulls);
     }
     for (const disc_tally& sum : {solids, hulls}) {
         CHECK(sum.wrong == 0);
