@@ -83,7 +83,7 @@ TEMPLATE_TEST_CASE("bundles of lines: what a line reaches its bundle reaches", "
                     const unsigned together = detail::bundle_reach<T>(between).reached(planes);
                     for (const auto& r : lines.rays) {
                         const detail::ray_reach<T> alone(as_line(r, lines.last));
-                        const detail::ray_reach_of_four<T> alone_by_fours(alone);
+                        const detail::ray_reach_of_four<T> alone_by_fours(as_line(r, lines.last));
                         T entries[4];
                         const unsigned by_fours = alone_by_fours.least_in_four(planes, entries);
                         for (unsigned k = 0; k < 4; ++k) {

@@ -100,6 +100,19 @@ struct lanes {
         }
         return r;
     }
+    /// Four numbers.
+    ABUT_INLINE ABUT_HD static lanes of(T a, T b, T c, T d) {
+        lanes r;
+        if constexpr (in_register == 4) {
+            r.at[0] = Register{a, b, c, d};
+        } else if constexpr (in_register == 2) {
+            r.at[0] = Register{a, b};
+            r.at[1] = Register{c, d};
+        } else {
+            r.at[0] = a, r.at[1] = b, r.at[2] = c, r.at[3] = d;
+        }
+        return r;
+    }
 
     /// To four numbers that lie one after another.
     ABUT_INLINE ABUT_HD void store(T* to) const {
@@ -117,6 +130,15 @@ struct lanes {
     ABUT_INLINE ABUT_HD friend lanes operator*(lanes a, const lanes& b) {
         for (int i = 0; i < registers; ++i) a.at[i] = a.at[i] * b.at[i];
         return a;
+    }
+    ABUT_INLINE ABUT_HD friend lanes operator/(lanes a, const lanes& b) {
+        for (int i = 0; i < registers; ++i) a.at[i] = a.at[i] / b.at[i];
+        return a;
+    }
+    ABUT_INLINE ABUT_HD friend mask operator>=(const lanes& a, const lanes& b) {
+        mask r;
+        for (int i = 0; i < registers; ++i) r.at[i] = a.at[i] >= b.at[i];
+        return r;
     }
     ABUT_INLINE ABUT_HD friend mask operator<=(const lanes& a, const lanes& b) {
         mask r;
@@ -157,6 +179,14 @@ ABUT_INLINE ABUT_HD lanes<T, Register> greatest(lanes<T, Register> a, const lane
     return a;
 }
 ///@}
+
+/// Of each two numbers the first where the answer is yes.
+template <scalar T, class Register>
+ABUT_INLINE ABUT_HD lanes<T, Register> select(const typename lanes<T, Register>::mask& answer, lanes<T, Register> yes,
+                                              const lanes<T, Register>& no) {
+    for (int i = 0; i < yes.registers; ++i) yes.at[i] = answer.at[i] ? yes.at[i] : no.at[i];
+    return yes;
+}
 
 /// Bit 4 r + k is lane k of row r.
 template <class Answer, int Registers, std::size_t Rows>

@@ -61,7 +61,6 @@ struct walk_upward {
         vec3<T> p;
         bool is_odd = false, is_on = false;
 
-        ABUT_HD auto reach(const walk_upward& all) const { return ray_reach<T>(line_upward(all.frame, p)); }
         ABUT_CALLS_ANY
         template <class Sink>
         ABUT_HD void operator()(const walk_upward& all, std::uint32_t id, Sink& sink) {

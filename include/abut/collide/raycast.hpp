@@ -44,11 +44,6 @@ ABUT_HD auto line_along(const Frame& frame, const Line& line) {
     const line_of<scalar_type_of<Line>> l(line);
     return line_seen(frame, l.origin, l.direction(), l.last);
 }
-/// How far it reaches: through the boxes that it passes before the sink's bound.
-template <class Frame, class Line>
-ABUT_HD auto reach_along(const Frame& frame, const Line& line) {
-    return ray_reach<scalar_type_of<Line>>(line_along(frame, line));
-}
 
 /// A time as it is reported: no infinity.
 template <scalar T>
@@ -70,7 +65,6 @@ struct walk_along_lines {
         typename Lines::shape_type line;
         double earliest = infinity<double>;  ///< the least time that the first shape so far may have; the sink has the most
 
-        ABUT_HD auto reach(const walk_along_lines& all) const { return reach_along(all.frame, line); }
         ABUT_CALLS_ANY
         template <class Best>
         ABUT_HD void operator()(const walk_along_lines& all, std::uint32_t id, Best& best) {
@@ -116,7 +110,6 @@ struct walk_to_any {
         typename Lines::shape_type line;
         bool met = false;
 
-        ABUT_HD auto reach(const walk_to_any& all) const { return reach_along(all.frame, line); }
         ABUT_CALLS_ANY
         template <class Sink>
         ABUT_HD void operator()(const walk_to_any& all, std::uint32_t id, Sink& sink) {

@@ -45,7 +45,6 @@ struct count_along_lines {
         execution::least_value* few;
         std::uint64_t count = 0;
 
-        ABUT_HD auto reach(const count_along_lines& all) const { return reach_along(all.frame, line); }
         ABUT_CALLS_ANY
         template <class Sink>
         ABUT_HD void operator()(const count_along_lines& all, std::uint32_t id, Sink&) {
@@ -101,7 +100,7 @@ struct write_along_lines {
         }
         const auto line = lines[i];
         std::uint64_t count = 0;
-        auto reach = reach_along(frame, line);
+        line_reach_of<Walk, typename Lines::scalar_type> reach(line_along(frame, line));
         walk(reach, sink, [&](std::uint32_t id) {
             const double time = hit_time<A>(line, shapes[id]);
             if (time >= 0 && count < counted) mine[count++] = {time, id};

@@ -60,13 +60,12 @@ struct direction_scale {
 /// A ray or a segment as a frame sees it.
 template <scalar T>
 struct line_in_frame {
+    using scalar_type = T;
+
     vec3<T> origin, direction;
     double last;  ///< the time at which it ends, or infinity
     T slack;      ///< by how much a point of it may be off
 };
-
-template <scalar T, class Register = typename register_of<T>::type>
-class ray_reach_of_four;
 
 template <scalar T>
 struct ray_reach {
@@ -79,9 +78,7 @@ struct ray_reach {
     bool is_narrow;  ///< whether it is 0 in any coordinate
 
     static constexpr T most = largest_finite<T> / 8;
-    using of_four = ray_reach_of_four<T>;  ///< the same where boxes come by fours
 
-    ray_reach() = default;
     /// last: the time at which it ends, or infinity. slack: by how much a point of it may be off.
     ABUT_HD ray_reach(const vec3<T>& origin, const vec3<T>& direction, double last, T slack = 0)
         : below(origin), above(origin), inverse{0, 0, 0}, far{}, around{}, limit(most), exponent(0), is_narrow(false) {
@@ -148,30 +145,48 @@ struct ray_reach {
 };
 
 /// The same reach for four boxes at a time, which has each of its numbers four times, so that a node costs no more than its
-/// boxes. For processors. As with lanes, what two compilers make of it has two names; and both lay it out alike, for other
-/// classes hold one.
-template <scalar T, class Register>
+/// boxes. For processors. It is made of a line all coordinates at once and without branches on signs, which a processor
+/// guesses wrong half of the time. Planes say nothing where a direction is a denormal number either. As with lanes, what two
+/// compilers make of it has two names; and both lay it out alike, for other classes hold one.
+template <scalar T, class Register = typename register_of<T>::type>
 class ray_reach_of_four {
     using many = lanes<T, Register>;
 
 public:
     static constexpr bool takes_four = true;
-    ray_reach_of_four() = default;
-    ABUT_HD explicit ray_reach_of_four(const ray_reach<T>& one) : one_(one) {
-        const auto prepare = [&](int axis, T vec3<T>::*x) {
-            const T factor = one.inverse.*x;
-            const bool back = factor < 0, tells = !is_zero(factor);
-            enters_[axis] = 4u * static_cast<unsigned>(back ? axis + 3 : axis);
-            leaves_[axis] = 4u * static_cast<unsigned>(back ? axis : axis + 3);
-            many::all(factor).store(factor_[axis]);
-            many::all(!tells ? 0 : back ? one.above.*x : one.below.*x).store(in_[axis]);
-            many::all(!tells ? infinity<T> : back ? one.below.*x : one.above.*x).store(out_[axis]);
-        };
-        prepare(0, &vec3<T>::x);
-        prepare(1, &vec3<T>::y);
-        prepare(2, &vec3<T>::z);
-        many::all(ray_reach<T>::most).store(most_);
-        many::all(one.limit).store(limit_);
+    ABUT_INLINE ABUT_HD explicit ray_reach_of_four(const line_in_frame<T>& line) {
+        const vec3<T> size = absolute(line.direction);
+        const T largest = greatest(size.x, size.y, size.z);
+        const bool is_safe = largest >= smallest_normal<T> && largest <= largest_finite<T>;
+        const direction_scale<T> scale(is_safe ? largest : T(1));
+        const many direction = many::of(line.direction.x, line.direction.y, line.direction.z, 0),
+                   origin = many::of(line.origin.x, line.origin.y, line.origin.z, 0),
+                   reach = many::all(line.slack + 4 * smallest_normal<T>), none = many::all(T(0)), one = many::all(T(1));
+        const many scaled = direction * many::all(scale.first) * many::all(scale.second);
+        const auto tells = (absolute(scaled) >= many::all(is_safe ? T(0x1p-60) : infinity<T>)) &
+                           (absolute(direction) >= many::all(smallest_normal<T>));
+        const auto back = none > scaled;
+        const many above = origin - reach, below = origin + reach;
+        const many in = select(back, above, below), out = select(back, below, above);
+        alignas(16) T row[3][4];
+        select(tells, one / select(tells, scaled, one), none).store(row[0]);
+        select(tells, in, none).store(row[1]);
+        select(tells, out, many::all(infinity<T>)).store(row[2]);
+        const decltype(back) signs[1] = {back & tells};
+        const unsigned backward = bits_of(signs);
+        for (int axis = 0; axis < 3; ++axis) {
+            const unsigned shift = 3 * (backward >> axis & 1);
+            enters_[axis] = 4 * (static_cast<unsigned>(axis) + shift);
+            leaves_[axis] = 4 * (static_cast<unsigned>(axis) + 3 - shift);
+            many::all(row[0][axis]).store(factor_[axis]);
+            many::all(row[1][axis]).store(in_[axis]);
+            many::all(row[2][axis]).store(out_[axis]);
+        }
+        rounded(many::all(ray_reach<T>::most)).store(most_);
+        exponent_ = scale.exponent;
+        is_narrow_ = !(least(size.x, size.y, size.z) >= smallest_normal<T>);
+        if (is_narrow_) around_ = ray_reach<T>(line).around;
+        set_limit(line.last == infinity<double> ? ray_reach<T>::most : ray_reach<T>::limit_of(line.last, exponent_));
     }
 
     /// When it enters each of four boxes, by their planes: lower x, y and z, and then upper ones, at a multiple of 16 bytes.
@@ -191,8 +206,8 @@ public:
         }
         entry = least(entry, many::load_aligned(most_));
         auto apart = entry > exit * many::all(grown) + many::all(tiny);
-        if (one_.is_narrow) {
-            const vec3<T>&lower = one_.around.lower, &upper = one_.around.upper;
+        if (is_narrow_) {
+            const vec3<T>&lower = around_.lower, &upper = around_.upper;
             const T below[] = {lower.x, lower.y, lower.z}, above[] = {upper.x, upper.y, upper.z};
             for (int k = 0; k < 3; ++k) {
                 const many first = many::load(planes[k]), last = many::load(planes[k + 3]);
@@ -203,17 +218,20 @@ public:
         const decltype(apart) row[1] = {apart};
         return ~bits_of(row) & 0xfu;
     }
-    [[nodiscard]] ABUT_HD bool keeps(T least) const { return one_.keeps(least); }
+    [[nodiscard]] ABUT_HD bool keeps(T least) const { return !(least > limit_[0]); }
     ABUT_HD void shrink_to(double bound) {
-        one_.shrink_to(bound);
-        many::all(one_.limit).store(limit_);
+        if (bound != infinity<double>) set_limit(ray_reach<T>::limit_of(bound, exponent_));
     }
 
 private:
+    ABUT_HD void set_limit(T limit) { many::all(limit).store(limit_); }
+
     alignas(16) T in_[3][4], out_[3][4], factor_[3][4];
     alignas(16) T limit_[4], most_[4];  ///< `most` from memory: g++ takes four instructions for the lesser of a constant
     std::size_t enters_[3], leaves_[3];  ///< where the planes of boxes begin that the ray passes first and last
-    ray_reach<T> one_;
+    aabb<T> around_;                     ///< as of ray_reach, if narrow
+    int exponent_;
+    bool is_narrow_;  ///< whether it is 0, or a denormal number, in any coordinate
 };
 
 /// What a frame sees of a line in the world (point_reach.hpp).

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <type_traits>
 #include <utility>
 
@@ -78,13 +79,17 @@ inline constexpr bool goes_in_steps = false;
 template <bvh_layout Tree>
 inline constexpr bool goes_in_steps<ordered_tree_walk<Tree>> = (Tree::width > 2);
 
+/// What an index of `All` looks along, as its walk takes it.
+template <class All>
+using reach_of_look =
+    line_reach_of<decltype(All::walk), typename decltype(std::declval<const All&>().seen(0))::scalar_type>;
+
 /// One index after another walks in steps. `all` is that of from_each, and is referred to.
 template <class All>
 class steps_from {
     using tree_type = std::remove_cvref_t<decltype(std::declval<const All&>().walk.tree)>;
     using look_type = decltype(std::declval<const All&>().start(0));
-    using given_type = decltype(std::declval<const look_type&>().reach(std::declval<const All&>()));
-    using reach_type = std::remove_cvref_t<decltype(reach_through<tree_type>(std::declval<given_type&>()))>;
+    using reach_type = reach_of_look<All>;
 
 public:
     explicit steps_from(const All& all) : all_(&all), steps_(all.walk.tree) {}
@@ -92,13 +97,12 @@ public:
     template <class Sink>
     void begin(std::size_t i, const Sink& sink) {
         look_ = all_->start(i);
-        given_type given = look_.reach(*all_);
-        reach_ = reach_through<tree_type>(given);
-        steps_.begin(reach_, sink);
+        reach_.emplace(all_->seen(i));
+        steps_.begin(*reach_, sink);
     }
     template <class Sink>
     bool step(Sink& sink) {
-        return steps_.step(all_->shapes, reach_, sink, [&](std::uint32_t id) { look_(*all_, id, sink); });
+        return steps_.step(all_->shapes, *reach_, sink, [&](std::uint32_t id) { look_(*all_, id, sink); });
     }
     template <class Sink>
     void end(std::size_t i, Sink& sink) {
@@ -108,7 +112,7 @@ public:
 private:
     const All* all_;
     look_type look_;
-    reach_type reach_;
+    std::optional<reach_type> reach_;  // made in its place
     steps_through_tree<tree_type> steps_;
 };
 
@@ -230,8 +234,7 @@ public:
             sink.begin(i);
             auto look = all_->start(i);
             if (entries_.count() > 0) {
-                auto given = look.reach(*all_);
-                auto reach = reach_through<tree_type>(given);
+                reach_of_look<All> reach(all_->seen(i));
                 walk(reach, sink, [&](std::uint32_t id) { look(*all_, id, sink); });
             }
             look.end(*all_, i, sink);
@@ -252,48 +255,45 @@ private:
 
     template <class Reach, class Best, class Visitor>
     ABUT_INLINE void walk(Reach& reach, const Best& best, const Visitor& visitor) {
-        const tree_type& tree = all_->walk.tree;
         double bound = infinity<double>;
         tighten(reach, best, bound);
         T least_of[4];
-        waiting_ = 0;
         for (int group = 0; group < entries_.groups(); ++group) {
+            entry* top = pending_;
             const unsigned kept = reach.least_in_four(entries_.planes(group), least_of) & entries_.all_of(group);
             for (int slot = 3; slot >= 0; --slot) {  // the nearest last
-                pending_[waiting_] = {entries_.child(group, slot), least_of[slot]};
-                waiting_ += static_cast<int>(kept >> slot & 1);
+                *top = {entries_.child(group, slot), least_of[slot]};
+                top += kept >> slot & 1;
             }
-            take_waiting(tree, reach, best, bound, visitor);
+            take_waiting(top, reach, best, bound, visitor);
         }
     }
-    /// Until none waits.
+    /// Those that wait from pending_ up to `top`, until none does.
     template <class Reach, class Best, class Visitor>
-    ABUT_INLINE void take_waiting(const tree_type& tree, Reach& reach, const Best& best, double& bound,
-                                  const Visitor& visitor) {
+    ABUT_INLINE void take_waiting(entry* top, Reach& reach, const Best& best, double& bound, const Visitor& visitor) {
+        const tree_type& tree = all_->walk.tree;
         T least_of[4];
-        while (waiting_ > 0) {
-            entry at = pending_[--waiting_];
+        while (top != pending_) {
+            entry at = *--top;
             if (!reach.keeps(at.least)) continue;
             while (!at.child.is_leaf()) {
                 const auto& node = tree.fetch(at.child.index());
                 unsigned kept = reach.least_in_four(tree.all_planes(node), least_of) & ((1u << tree.children(node)) - 1);
                 if (kept == 0) break;
+                for (int slot = 0; slot < tree_type::width; ++slot) ask_for(tree.child(node, slot));
                 const auto take = [&] {
                     const auto slot = static_cast<int>(lowest_bit(kept));
                     kept &= kept - 1;
                     return entry{tree.child(node, slot), least_of[slot]};
                 };
                 at = take();
-                const int below = waiting_;
+                entry* const below = top;
                 while (kept != 0) {
                     entry other = take();
                     if (other.least < at.least) std::swap(at, other);
-                    wait(other, below);
-                    if (other.child.is_leaf()) {
-                        prefetch_shape(all_->shapes, other.child.index(), 0);
-                    } else {
-                        tree.prefetch(other.child);
-                    }
+                    entry* to = top++;
+                    for (; to != below && other.least > to[-1].least; --to) *to = to[-1];
+                    *to = other;
                 }
             }
             if (!at.child.is_leaf()) continue;
@@ -302,24 +302,26 @@ private:
         }
     }
 
-    /// Puts an entry among those that wait from number `below` on, the farthest first.
-    ABUT_INLINE void wait(const entry& one, int below) {
-        int k = waiting_++;
-        for (; k > below && one.least > pending_[k - 1].least; --k) pending_[k] = pending_[k - 1];
-        pending_[k] = one;
+    /// Of each node that is reached all children are asked for, those too that are not: a neighbour soon reaches them.
+    ABUT_INLINE void ask_for(bvh_child child) const {
+        if (child.is_leaf()) {
+            prefetch_shape(all_->shapes, child.index(), 0);
+            prefetch_shape(all_->shapes, child.index(), 1);
+        } else {
+            all_->walk.tree.prefetch(child);
+        }
     }
 
     const All* all_;
     vec3<double> middle_;   ///< of the tree
     double size_of_shape_;  ///< about how long one is, if all lie on a surface like that of the box around them
     bundle_entries<tree_type> entries_;
-    int waiting_ = 0;
     entry pending_[bvh_max_depth * (tree_type::width - 1) + 1 + 4];
 };
 
 /// A functor for for_each_ordered: a walk from each index. `all` has `walk` and `shapes`; all.start(i) is what looks from
-/// index i: its look.reach(all), look(all, id, sink) at shapes that it comes to, and look.end(all, i, sink) after the last.
-/// all.seen(i) is the line along which it looks.
+/// index i: its look(all, id, sink) at shapes that it comes to, and look.end(all, i, sink) after the last. all.seen(i) is the
+/// line along which it looks.
 template <class All>
 struct from_each {
     All all;
@@ -328,7 +330,7 @@ struct from_each {
     template <class Sink>
     ABUT_HD void operator()(std::size_t i, Sink& sink) const {
         auto look = all.start(i);
-        auto reach = look.reach(all);
+        reach_of_look<All> reach(all.seen(i));
         all.walk(reach, sink, [&](std::uint32_t id) { look(all, id, sink); });
         look.end(all, i, sink);
     }

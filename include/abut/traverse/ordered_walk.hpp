@@ -16,6 +16,7 @@
 #include <abut/index/grid.hpp>
 #include <abut/shape/bounds.hpp>
 #include <abut/shape/point_reach.hpp>
+#include <abut/shape/ray_reach.hpp>
 #include <abut/shape/view.hpp>
 #include <abut/traverse/grid_walk.hpp>
 
@@ -43,23 +44,9 @@ ABUT_HD auto least_in_slot(const Reach& reach, const Tree& tree, const typename 
     }
 }
 
-/// Whether a reach has a form that looks at the four boxes of a node at once.
+/// A reach that a walk through a tree can take: it looks at one box, or at the four boxes of a node at once.
 template <class Reach, class Tree>
-concept looks_at_four = requires(const typename Tree::node_type& node) {
-    typename Reach::of_four;
-    Tree::all_planes(node);
-};
-/// The form of a reach that goes through a tree.
-///@{
-template <class Tree, class Reach>
-ABUT_HD Reach& reach_through(Reach& reach) {
-    return reach;
-}
-template <class Tree, class Reach> requires looks_at_four<Reach, Tree>
-ABUT_HD auto reach_through(Reach& reach) {
-    return typename Reach::of_four(reach);
-}
-///@}
+concept ordered_reach = shrinking_reach<Reach, typename Tree::scalar_type> || requires { Reach::takes_four; };
 
 /// Where a walk through a tree is: at a node or a leaf, while `waiting` others wait in a room, with their distances. The
 /// room is apart, since compilers for devices keep no part of a struct in registers that has an array in it.
@@ -148,9 +135,8 @@ struct ordered_tree_walk {
     [[nodiscard]] bool pays_in_steps() const { return tree.size() >= std::size_t{1} << 16; }
 
     ABUT_CALLS_ANY
-    template <shrinking_reach<T> Reach, class Best, class Visitor>
-    ABUT_HD void operator()(Reach& from, Best& best, const Visitor& visitor) const {
-        auto&& reach = reach_through<Tree>(from);
+    template <ordered_reach<Tree> Reach, class Best, class Visitor>
+    ABUT_HD void operator()(Reach& reach, Best& best, const Visitor& visitor) const {
         place_in_tree<Tree> place;
         typename place_in_tree<Tree>::room pending;  // not initialised
         double bound = infinity<double>;
@@ -166,6 +152,21 @@ struct ordered_tree_walk {
         }
     }
 };
+
+/// The reach of a line with which a walk looks: by fours through a tree whose boxes come by fours.
+///@{
+template <class Walk, scalar T>
+struct line_reach {
+    using type = ray_reach<T>;
+};
+template <bvh_layout Tree, scalar T>
+requires requires(const typename Tree::node_type& node) { Tree::all_planes(node); }
+struct line_reach<ordered_tree_walk<Tree>, T> {
+    using type = ray_reach_of_four<T>;
+};
+template <class Walk, scalar T>
+using line_reach_of = typename line_reach<Walk, T>::type;
+///@}
 
 /// A part of a ball that shrinks: what of it is in a box.
 template <class Reach, scalar T>
