@@ -257,12 +257,15 @@ template <class Solid, class Beside>
 void add_revolutions_beside(const Beside& beside) {
     using T = abut::scalar_type_of<Solid>;
     using other = decltype(beside(test::revolution_case<T>{}, std::uint64_t{}));
+    // Integers take milliseconds for a pair of two of them.
+    const bool both_are_round = !std::is_same_v<other, abut::sphere<T>> && requires(const other& o) { o.radius; };
+    const size of = both_are_round ? size{64, 3} : size{256, 5};
     for (int f = 0; f < test::revolution_family_count; ++f) {
         const auto family = static_cast<test::revolution_family>(f);
         add<T>(
-            name_of_kind<T, Solid, other>(), test::name_of(family), {256, 5},
+            name_of_kind<T, Solid, other>(), test::name_of(family), of,
             [=](std::uint64_t k) {
-                for (;; k += 256) {  // the first that is valid
+                for (;; k += of.pairs) {  // the first that is valid
                     const auto c = test::make_revolution_case<T>(seed, family, k, std::is_same_v<Solid, abut::cone<T>>);
                     const pair_of<Solid, other> p{test::solid_of<Solid>(c.axis, c.radius), beside(c, k)};
                     if (is_valid(p.s) && is_valid(p.t)) return p;
