@@ -324,7 +324,7 @@ void compare_filter(const S& s, const U& t, disc_tally& sum) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("cones with cones, cylinders and capsules: what the filter says of wide_cone discs", "", float, double) {
+TEMPLATE_TEST_CASE("cones with cones, cylinders and capsules: what the filter says of wide discs", "", float, double) {
     using T = TestType;
     disc_tally solids, hulls;
     const std::uint64_t count = test::sample_count() * 4;
