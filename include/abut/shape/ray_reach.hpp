@@ -79,6 +79,7 @@ struct ray_reach {
 
     static constexpr T most = largest_finite<T> / 8;
 
+    ray_reach() = default;
     /// last: the time at which it ends, or infinity. slack: by how much a point of it may be off.
     ABUT_HD ray_reach(const vec3<T>& origin, const vec3<T>& direction, double last, T slack = 0)
         : below(origin), above(origin), inverse{0, 0, 0}, far{}, around{}, limit(most), exponent(0), is_narrow(false) {
