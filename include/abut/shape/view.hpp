@@ -61,10 +61,10 @@ struct strided {
     ABUT_HD const T& operator[](std::size_t i) const {
         return *static_cast<const T*>(static_cast<const void*>(data + i * stride));
     }
-    /// From the first to the last byte, which may lie on two cache lines; of small elements they seldom do.
+    /// From the first to the last byte, which may lie on two cache lines.
     ABUT_INLINE void prefetch(std::size_t i) const {
         __builtin_prefetch(data + i * stride);
-        if constexpr (sizeof(T) > 16) __builtin_prefetch(data + i * stride + sizeof(T) - 1);
+        __builtin_prefetch(data + i * stride + sizeof(T) - 1);
     }
 };
 
