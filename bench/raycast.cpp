@@ -5,6 +5,7 @@
 // For each of a million rays the triangle that it meets first: of a mesh (FILE, PLY or OBJ, or a torus). Names:
 //
 //   raycast/RAYS/INDEX/ARITHMETIC/POLICY    the query alone; the index is there. RAYS: raycast_scene.hpp
+//                                           `in_order`: of the faces in the order of a tree's leaves (leaf_ids)
 //   occluded/...                            the same by raycast_any
 //   all/...                                 by raycast_all
 //   inside/points/INDEX/ARITHMETIC/POLICY   points in the box around the mesh, by inside; `checked`: with a look at the mesh
@@ -16,6 +17,7 @@
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <vector>
 
 #include <benchmark/benchmark.h>
 
@@ -88,9 +90,14 @@ int main(int argc, char** argv) {
         const abut::serial on;
         const auto linear = abut::make_bvh(on, mesh), sah = abut::make_bvh(on, mesh, {.builder = abut::bvh_builder::sah});
         const auto wide_sah = abut::wide(on, sah);
+        std::vector<abut::face> faces;  // in the order of leaves
+        for (const std::uint32_t id : abut::leaf_ids(wide_sah)) faces.push_back(raycast_peer::mesh().faces[id]);
+        const abut::mesh<float> in_order(raycast_peer::mesh().vertices, faces);
+        const auto wide_in_order = abut::wide(on, abut::make_bvh(on, in_order, {.builder = abut::bvh_builder::sah}));
         add<abut::filtered>("bvh", "filtered", "serial", on, linear);
         add<abut::filtered>("sah", "filtered", "serial", on, sah);
         add<abut::filtered>("wide_sah", "filtered", "serial", on, wide_sah);
+        add<abut::filtered>("wide_in_order", "filtered", "serial", on, wide_in_order);
         add<abut::fast>("sah", "fast", "serial", on, sah);
         add<abut::filtered>("sah", "filtered", "openmp", abut::openmp{}, sah);
         add_others("sah", on, sah);

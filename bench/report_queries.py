@@ -268,7 +268,8 @@ RAYS = {"coherent": "from a camera", "scattered": "scattered"}
 def raycast_cpu(results):
     r = results["cpu/raycast"]
     names = {"embree/float": "Embree", "embree_robust/float": "Embree, robust", "bvh/filtered": "`make_bvh`", "sah/filtered": "`make_bvh`, `sah`",
-             "wide_sah/filtered": "`wide`, of a `sah` tree", "sah/fast": "`make_bvh`, `sah`, by `fast`"}
+             "wide_sah/filtered": "`wide`, of a `sah` tree", "wide_in_order/filtered": "the same, faces in the order of leaves",
+             "sah/fast": "`make_bvh`, `sah`, by `fast`"}
     rays = r.get("raycast/coherent/sah/filtered/serial", "rays")
     rows = []
     for index, name in names.items():

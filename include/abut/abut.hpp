@@ -34,6 +34,7 @@
 #include <abut/index/bvh.hpp>
 #include <abut/index/grid.hpp>
 #include <abut/index/lbvh.hpp>
+#include <abut/index/leaf_ids.hpp>
 #include <abut/index/leafless.hpp>
 #include <abut/index/quality.hpp>
 #include <abut/index/quantised.hpp>
