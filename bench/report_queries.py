@@ -273,6 +273,8 @@ def raycast_cpu(results):
     rays = r.get("raycast/coherent/sah/filtered/serial", "rays")
     rows = []
     for index, name in names.items():
+        if r.get(f"raycast/coherent/{index}/serial") is None:
+            continue  # an older run
         row = [name]
         for kind in RAYS:
             ms, peer = r.get(f"raycast/{kind}/{index}/serial"), r.get(f"raycast/{kind}/embree/float/serial")
