@@ -18,7 +18,7 @@ namespace abut {
 ///
 /// Any layout. Linear time, on the calling thread; 4 bytes a shape. Returns when it is done. Throws std::bad_alloc.
 ///
-///     const std::vector<std::uint32_t> ids = abut::leaf_ids(tree);
+///     const std::vector<std::uint32_t> ids = abut::leaf_ids(abut::make_bvh(on, mesh, {.builder = abut::bvh_builder::sah}));
 ///
 /// @ingroup indices
 template <class Set, bvh_layout_kind Layout>
