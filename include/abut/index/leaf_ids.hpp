@@ -13,8 +13,9 @@
 namespace abut {
 
 /// Ids of the shapes of a tree in host memory, in the order of its leaves, depth first: each id once, none of an empty tree.
-/// The shapes below any node come one after another. A set whose shapes are brought to this order is quicker to query, since
-/// the next shape that a walk needs often lies beside the last one; of the new set's shape i `ids[i]` is the old id.
+/// The shapes below any node come one after another. In a set whose shapes are brought to this order, the next shape that a
+/// walk needs often lies beside the last one. Neighbouring rays take less time so. Of the new set's shape i `ids[i]` is the
+/// old id.
 ///
 /// Any layout. Linear time, on the calling thread; 4 bytes a shape. Returns when it is done. Throws std::bad_alloc.
 ///
