@@ -12,7 +12,7 @@ set -eu
 cd "$(dirname "$0")/.."
 . cmake/common.sh
 
-need_packages g++ cmake ninja-build libtinyobjloader-dev libcli11-dev
+need_packages g++ cmake ninja-build libcli11-dev
 find_nvcc
 programs='spheres_vs_mesh triangle_vs_many mesh_vs_mesh cloth_ccd'
 if [ $# -gt 0 ]; then programs=spheres_vs_mesh; fi

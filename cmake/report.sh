@@ -151,7 +151,7 @@ results=${from:-build/report/results}
 if [ -z "$from" ]; then
     if [ -z "$bin" ]; then
         if [ $install = yes ]; then
-            need_packages g++ cmake ninja-build python3 libbenchmark-dev libtinyobjloader-dev libboost-dev libopenmpi-dev \
+            need_packages g++ cmake ninja-build python3 libbenchmark-dev libboost-dev libopenmpi-dev \
                 openmpi-bin
             want_packages libembree-dev libnanoflann-dev libcgal-dev libfcl-dev libgmp-dev libmpfr-dev libbullet-dev \
                 python3-matplotlib

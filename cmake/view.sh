@@ -35,7 +35,7 @@ if [ $# -gt 0 ]; then
         pages="$pages $name"
     done
 else
-    need_packages g++ cmake ninja-build libtinyobjloader-dev libcli11-dev
+    need_packages g++ cmake ninja-build libcli11-dev
     say 'building in build/view: mesh_vs_mesh cloth_ccd'
     # -Og: what they do here is soon done, and compiling takes longer.
     cmake --preset default -B build/view -DABUT_TESTS=OFF -DABUT_BENCH=OFF -DABUT_WERROR=OFF -DABUT_CUDA=OFF \

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // long to compile
 //
-// A file of its own, since it is left out where FCL or tinyobjloader is not there. Eigen, which FCL includes, marks
+// A file of its own, since it is left out where FCL is not there. Eigen, which FCL includes, marks
 // functions for devices in a way that nvcc warns of, unless it is told not to. nvcc: -DEIGEN_NO_CUDA
 #include <abut/cuda.hpp>
 

@@ -3,23 +3,15 @@
 
 // Wavefront OBJ: the polygons of a file. docs/files.md has the exact rules.
 //
-// tinyobjloader alone would not do: it takes a word that is no number for 0, drops polygons whose indices are out of range
-// with at most a warning, names no line, and its decimal conversion is not rounded to nearest (the last digits of a double
-// differ). So a first pass reads the statements strictly, takes the positions itself, and copies the `f` statements that
-// have passed; tinyobjloader then takes those apart. Only its callback with integers is used: which of its two builds
-// (float or double) is linked makes no difference.
+// Statements are read strictly, in one pass: a word that is no number is an error of its line, and so is an index out of range.
+// Positions are rounded once, to nearest.
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <istream>
 #include <limits>
-#include <streambuf>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <tiny_obj_loader.h>
 
 #include <abut/io/error.hpp>
 #include <abut/io/mesh_data.hpp>
@@ -47,12 +39,12 @@ constexpr bool is_obj_naming(std::string_view word) {
            word == "maplib" || word == "shadow_obj" || word == "trace_obj";
 }
 
-/// The first pass: reads the statements, checks all that is used of them, and keeps positions and `f` statements.
+/// Reads the statements, and keeps positions and faces.
 template <scalar T>
 class obj_scanner {
 public:
     obj_scanner(std::string_view text, const std::string& file, const read_options& options, mesh_data<T>& mesh)
-        : file_(file), text_(text, file), options_(options), vertices_(mesh.vertices), skipped_(mesh.skipped) {
+        : file_(file), text_(text, file), options_(options), vertices_(mesh.vertices), skipped_(mesh.skipped), faces_(mesh, file) {
         refuse_utf16(text, file);
     }
 
@@ -77,12 +69,8 @@ public:
                 file_, corner.line,
                 "expected " + index_range(vertices_.size()) + ", found '" + std::to_string(corner.index) + "'");
         }
+        faces_.finish();
     }
-
-    /// The faces, as `f` statements of one line each without comments.
-    [[nodiscard]] const std::string& faces() const { return faces_; }
-    /// For each face the number of vertices before it, which its negative indices count back from.
-    [[nodiscard]] const std::vector<std::uint32_t>& vertices_before() const { return before_; }
 
 private:
     /// The next word of the statement, on the next line too if this one ends with a backslash; empty at the end of the
@@ -119,26 +107,18 @@ private:
     }
 
     void face() {
-        const std::size_t begin = faces_.size();
-        faces_ += 'f';
-        std::size_t corners = 0;
-        for (std::string_view word = next(); !word.empty(); word = next(), ++corners) {
-            corner(word);
-            faces_ += ' ';
-            faces_ += word;
-        }
-        if (corners < 3) {
+        corners_.clear();
+        for (std::string_view word = next(); !word.empty(); word = next()) corners_.push_back(corner(word));
+        if (corners_.size() < 3) {
             if (!options_.lenient) text_.fail("a face of at least 3 corners", {});
-            faces_.resize(begin);
             ++skipped_.faces;
             return;
         }
-        faces_ += '\n';
-        before_.push_back(static_cast<std::uint32_t>(vertices_.size()));
+        faces_.add(corners_.size(), [&](std::size_t i) { return corners_[i]; });
     }
 
-    /// Checks v, v/vt, v//vn or v/vt/vn. Only v is used; the others need to be integers, or nothing.
-    void corner(std::string_view word) {
+    /// The vertex, from 0, of v, v/vt, v//vn or v/vt/vn. Only v is used; the others need to be integers, or nothing.
+    std::uint32_t corner(std::string_view word) {
         constexpr const char* expected = "a corner as v, v/vt, v//vn or v/vt/vn";
         const std::size_t slash = word.find('/');
         std::int32_t index = 0;
@@ -162,6 +142,7 @@ private:
             if (parts == 3 || (!part.empty() && to_number(part, ignored) != number::ok)) text_.fail(expected, word);
             from = to;
         }
+        return static_cast<std::uint32_t>(backwards ? vertices_.size() - distance : distance - 1);
     }
 
     static std::string index_range(std::size_t vertices) {
@@ -195,35 +176,9 @@ private:
     const read_options options_;
     std::vector<vec3<T>>& vertices_;
     skipped_parts& skipped_;
-    std::string faces_;
-    std::vector<std::uint32_t> before_;
+    face_collector<T> faces_;
+    std::vector<std::uint32_t> corners_;  // of the face that is being read
     std::vector<forward_reference> ahead_;
-};
-
-/// A stream buffer over text that is there already.
-class text_streambuf : public std::streambuf {
-public:
-    explicit text_streambuf(const std::string& text) {
-        char* const first = const_cast<char*>(text.data());  // a get area is never written
-        setg(first, first, first + text.size());
-    }
-};
-
-/// The second pass: tinyobjloader takes the checked `f` statements apart.
-template <scalar T>
-struct obj_faces {
-    face_collector<T>& faces;
-    const std::vector<std::uint32_t>& vertices_before;
-    std::size_t count = 0;
-
-    static void add(void* self, tinyobj::index_t* corners, int size) {
-        auto& to = *static_cast<obj_faces*>(self);
-        const std::uint32_t before = to.vertices_before.at(to.count++);
-        to.faces.add(static_cast<std::size_t>(size), [&](std::size_t i) {
-            const int index = corners[i].vertex_index;
-            return index > 0 ? static_cast<std::uint32_t>(index) - 1 : before - static_cast<std::uint32_t>(-index);
-        });
-    }
 };
 
 }  // namespace detail
@@ -240,22 +195,7 @@ template <scalar T>
 mesh_data<T> parse_obj(std::string_view text, const std::string& file, const read_options& options = {}) {
     while (text.ends_with('\0')) text.remove_suffix(1);  // with which some programs fill the file up
     mesh_data<T> mesh;
-    detail::obj_scanner<T> scanner(text, file, options, mesh);
-    scanner.run();
-
-    detail::face_collector<T> collector(mesh, file);
-    detail::obj_faces<T> sink{collector, scanner.vertices_before()};
-    mesh.faces.reserve(scanner.vertices_before().size());
-    detail::text_streambuf buffer(scanner.faces());
-    std::istream stream(&buffer);
-    tinyobj::callback_t callbacks;
-    callbacks.index_cb = detail::obj_faces<T>::add;
-    tinyobj::LoadObjWithCallback(stream, callbacks, &sink);
-    if (sink.count != scanner.vertices_before().size()) {
-        throw io_error(file, "expected " + std::to_string(scanner.vertices_before().size()) +
-                                 " faces from tinyobjloader, found " + std::to_string(sink.count));
-    }
-    collector.finish();
+    detail::obj_scanner<T>(text, file, options, mesh).run();
     return mesh;
 }
 

@@ -6,7 +6,6 @@
 //     clang++ -std=c++20 -g -O1 -fsanitize=fuzzer,address,undefined -Iinclude tests/io/fuzz/fuzz_obj.cpp -o fuzz_obj
 //     ./fuzz_obj -max_total_time=600 -max_len=4096 -timeout=10 corpus tests/io/seeds/obj
 
-#define TINYOBJLOADER_IMPLEMENTATION  // compiled here, so that the sanitizers see it too
 #include <abut/io/obj.hpp>
 
 #include "fuzz.hpp"
