@@ -5,7 +5,7 @@
 // on a device is the code that runs on the host.
 
 #define ABUT_VERSION_MAJOR 0
-#define ABUT_VERSION_MINOR 1
+#define ABUT_VERSION_MINOR 2
 #define ABUT_VERSION_PATCH 0
 
 // Every header includes this one before it needs C++20. There is no file of the name below: its absence stops the compiler
