@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT
+
 #include <abut/abut.hpp>
 #include <cstdio>
 

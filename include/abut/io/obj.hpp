@@ -3,8 +3,8 @@
 
 // Wavefront OBJ: the polygons of a file. docs/files.md has the exact rules.
 //
-// Statements are read strictly, in one pass: a word that is no number is an error of its line, and so is an index out of range.
-// Positions are rounded once, to nearest.
+// Statements are read strictly, in one pass: a word that is no number is an error of its line, and so is an index out of
+// range. Positions are rounded once, to nearest.
 
 #include <cstddef>
 #include <cstdint>
@@ -44,7 +44,12 @@ template <scalar T>
 class obj_scanner {
 public:
     obj_scanner(std::string_view text, const std::string& file, const read_options& options, mesh_data<T>& mesh)
-        : file_(file), text_(text, file), options_(options), vertices_(mesh.vertices), skipped_(mesh.skipped), faces_(mesh, file) {
+        : file_(file),
+          text_(text, file),
+          options_(options),
+          vertices_(mesh.vertices),
+          skipped_(mesh.skipped),
+          faces_(mesh, file) {
         refuse_utf16(text, file);
     }
 
