@@ -14,13 +14,15 @@ from pathlib import Path
 LINE = "SPDX-License-Identifier: MIT"
 ENDINGS = {".hpp", ".cpp", ".cu", ".py", ".sh", ".cmake", ".in", ".js", ".mjs", ".ts", ".css", ".html", ".yml", ".yaml", ".cff"}
 NAMES = {"CMakeLists.txt", "run"}  # and all whose name begins with a dot
+FOLDERS = ("", ".ci", ".github", "bench", "cmake", "docs", "include", "tests")  # "": the files at the top
 LINES = 3  # what goes before it: a line for the shell or the browser
-LEFT_OUT = {"build", "node_modules", "__pycache__", ".git", ".cache", ".vscode", ".idea"}
+LEFT_OUT = {".git", "build", "node_modules", "__pycache__"}
 DATA = {"corpus", "seeds", "results"}  # nobody's sources
 
 
 def sources(root):
-    for path in sorted(root.rglob("*")):
+    paths = [path for folder in FOLDERS for path in ((root / folder).rglob("*") if folder else root.glob("*"))]
+    for path in sorted(paths):
         parts = path.relative_to(root).parts
         if LEFT_OUT.intersection(parts) or DATA.intersection(parts[:-1]) or not path.is_file() or path.is_symlink():
             continue
@@ -44,10 +46,10 @@ def problems_of(root):
 
 def planted():
     """Each of these has to be a problem by itself, and a tree without them none."""
-    good = {"LICENSE": "MIT License\n", "a.hpp": f"// {LINE}\n", "b.sh": f"#!/bin/sh\n# {LINE}\n", "build/c.hpp": "",
+    good = {"LICENSE": "MIT License\n", "a.hpp": f"// {LINE}\n", "b.sh": f"#!/bin/sh\n# {LINE}\n", "build/c.hpp": "", "docs/viewer/node_modules/c.mjs": "",
             "tests/io/seeds/obj/d.sh": "", ".ci/run": f"#!/bin/sh\n# {LINE}\n"}
-    bad = {"none": {"sub/e.cpp": "int main() {}\n"}, "late": {"f.py": "\n" * LINES + f"# {LINE}\n"},
-           "another": {"g.cmake": "# SPDX-License-Identifier: BSL-1.0\n"}, "of a name": {"sub/CMakeLists.txt": "project(a)\n"},
+    bad = {"none": {"include/abut/e.cpp": "int main() {}\n"}, "late": {"f.py": "\n" * LINES + f"# {LINE}\n"},
+           "another": {"g.cmake": "# SPDX-License-Identifier: BSL-1.0\n"}, "of a name": {"docs/CMakeLists.txt": "project(a)\n"},
            "hidden": {".clang-format": "BasedOnStyle: Google\n"}, "of the CI": {".ci/run": "#!/bin/sh\n"},
            "of the whole": {"LICENSE": "Boost Software License\n"}}
     unnoticed = []
