@@ -59,6 +59,10 @@ elseif(form STREQUAL "cpu")
         step(${configure} -B ${work}/wrong-version -D CONSUMER_VERSION=99 FAILS MUST_SAY "version: ${version}")
         step(${configure} -B ${work}/no-such-component -D CONSUMER_COMPONENTS=no_such_component FAILS
              MUST_SAY "there is no component no_such_component .there are io, mpi")
+        if(mpi)
+            step(${configure} -B ${work}/no-mpi -D CONSUMER_COMPONENTS=mpi -D CMAKE_DISABLE_FIND_PACKAGE_MPI=ON FAILS
+                 MUST_SAY "the component mpi needs MPI for C..")
+        endif()
         # Whether a CUDA toolkit is there, and which, a module says in place of this machine.
         foreach(toolkit IN ITEMS none 12.9 13.0)
             set(found TRUE)
