@@ -81,7 +81,7 @@ struct impact_options {
     /// By kind, then by the first feature's number, then by the second's: vertices and faces by their ids, edges in the
     /// order of their vertices. Without it the order is any, and may differ from call to call. The first impact is the same
     /// with and without it.
-    bool sorted = true;
+    flag sorted = true;
     /// Of `conservative` alone. Others take no notice of a tolerance, and throw `error` for a separation.
     conservative_bounds bounds = {};
 };

@@ -12,6 +12,7 @@
 
 #include <abut/arithmetic/arithmetic.hpp>
 #include <abut/arithmetic/vec.hpp>
+#include <abut/collide/flag.hpp>
 #include <abut/io/error.hpp>
 
 namespace abut::io {
@@ -24,7 +25,7 @@ struct read_options {
     /// Passes over what others' programs write and no geometry needs: faces of fewer than three corners, further values in a
     /// row, and what follows after the last row. By default such files are refused. What is passed over is counted
     /// (`mesh_data::skipped`).
-    bool lenient = false;
+    flag lenient = false;
 };
 
 /// What a lenient reader has passed over.
