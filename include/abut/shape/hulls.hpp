@@ -6,6 +6,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <ranges>
 #include <span>
 #include <string>
@@ -195,6 +196,11 @@ public:
         : points_(on, points), offsets_(on, offsets) {
         detail::check(on, view(), name);
     }
+    /// The same of both in braces.
+    template <execution_policy Policy>
+        requires std::same_as<space_of<Policy>, Space>
+    hulls(const Policy& on, std::initializer_list<vec3<T>> points, std::initializer_list<std::uint32_t> offsets)
+        : hulls(on, detail::span_of(points), detail::span_of(offsets)) {}
     /// Of a list of points for each hull, in host memory.
     explicit hulls(const std::vector<std::vector<vec3<T>>>& lists)
         requires std::same_as<Space, host_space>

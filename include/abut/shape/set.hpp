@@ -5,6 +5,7 @@
 
 #include <concepts>
 #include <cstddef>
+#include <initializer_list>
 #include <memory>
 #include <span>
 #include <string>
@@ -62,6 +63,12 @@ public:
 private:
     std::shared_ptr<const execution::buffer<T, Space>> values_;
 };
+
+/// What stands in braces, for as long as the call lasts that they are written in.
+template <class S>
+constexpr std::span<const S> span_of(std::initializer_list<S> values) {
+    return {values.begin(), values.size()};
+}
 
 /// Makes sets of arrays that have been checked, and takes such arrays out (shape/features.hpp).
 struct set_parts;
@@ -121,12 +128,20 @@ public:
     shapes(const std::vector<Shape>& values)
         requires std::same_as<Space, host_space>
         : shapes(serial{}, values) {}
+    /// Of shapes written in braces: `rays<float>({{origin, direction}})`.
+    shapes(std::initializer_list<Shape> values)
+        requires std::same_as<Space, host_space>
+        : shapes(serial{}, values) {}
     /// Of these shapes, which lie in host memory, in the policy's.
     template <execution_policy Policy>
         requires std::same_as<space_of<Policy>, Space>
     shapes(const Policy& on, std::span<const Shape> values) : values_(on, values) {
         detail::check(on, view(), detail::name_of<Shape>.set);
     }
+    /// The same of shapes in braces.
+    template <execution_policy Policy>
+        requires std::same_as<space_of<Policy>, Space>
+    shapes(const Policy& on, std::initializer_list<Shape> values) : shapes(on, detail::span_of(values)) {}
     /// Of `count` shapes that are made where the policy works: shape i is make(i), for a std::size_t i, called for each
     /// concurrently. Under `cuda` it is a functor marked ABUT_HD, and nothing goes through host memory: for sets that are
     /// larger than it, or whose numbers lie on the device already.
@@ -225,6 +240,11 @@ public:
     equal_spheres(const Policy& on, std::span<const vec3<T>> centers, T radius) : centers_(on, centers), radius_(radius) {
         detail::check(on, view(), "abut::equal_spheres");
     }
+    /// The same of centers in braces.
+    template <execution_policy Policy>
+        requires std::same_as<space_of<Policy>, Space>
+    equal_spheres(const Policy& on, std::initializer_list<vec3<T>> centers, T radius)
+        : equal_spheres(on, detail::span_of(centers), radius) {}
     /// Of another library's array of centers: of elements that hold three T, or of T itself.
     template <detail::array_like R>
         requires std::same_as<Space, host_space>
@@ -313,6 +333,17 @@ public:
         : vertices_(on, vertices), elements_(on, elements) {
         detail::check(on, view(), kind::name);
     }
+    /// The same of both, or of faces or edges, in braces.
+    ///@{
+    template <execution_policy Policy>
+        requires std::same_as<space_of<Policy>, memory_space>
+    indexed_set(const Policy& on, std::initializer_list<vertex> vertices, std::initializer_list<element> elements)
+        : indexed_set(on, detail::span_of(vertices), detail::span_of(elements)) {}
+    template <execution_policy Policy>
+        requires std::same_as<space_of<Policy>, memory_space>
+    indexed_set(const Policy& on, std::span<const vertex> vertices, std::initializer_list<element> elements)
+        : indexed_set(on, vertices, detail::span_of(elements)) {}
+    ///@}
     /// Of other libraries' arrays, containers or spans: of vertices that hold three T, or of T itself; of faces that hold
     /// three integers of any type (edges: two), or of integers. Negative indices are refused like those that are too large.
     template <detail::array_like V, detail::array_like E>
@@ -362,6 +393,12 @@ public:
         moved.elements_ = elements_;
         detail::check_array(on, moved.view().vertices, kind::name, "vertex");
         return moved;
+    }
+    /// Of vertices in braces.
+    template <execution_policy Policy>
+        requires std::same_as<space_of<Policy>, memory_space>
+    [[nodiscard]] indexed_set with_vertices(const Policy& on, std::initializer_list<vertex> vertices) const {
+        return with_vertices(on, detail::span_of(vertices));
     }
     /// Of another library's array.
     template <execution_policy Policy, detail::array_like V>
