@@ -198,7 +198,12 @@ TEMPLATE_TEST_CASE("sets: of each shape, what is none is refused by its name", "
         [&] {
             shapes<plane<T>>(std::vector<plane<T>>{{o, nan}});
         },
-        "abut::shapes", 0, nan, "abut::shapes: shape 0: offset is not finite (nan)");
+        "abut::shapes", 0, nan, "abut::shapes: plane 0: offset is not finite (nan)");
+    check_refused(
+        [&] {
+            rays<T>(std::vector<ray<T>>{{o, o}, {o, bad}});
+        },
+        "abut::rays", 1, inf, "abut::rays: ray 1: z is not finite (inf)");
     check_refused(
         [&] {
             shapes<other::pebble<T>>(std::vector<other::pebble<T>>{{o}, {bad}});

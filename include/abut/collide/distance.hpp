@@ -40,7 +40,8 @@ namespace abut {
 /// Options of `distance`.
 /// @ingroup queries
 struct distance_options {
-    /// Only what is nearer than this is looked for. What is farther is not measured, so that a small bound saves time.
+    /// Only what is nearer than this is looked for. What is farther is not measured, so that a small bound saves time. 0 or
+    /// more; nothing is nearer than 0.
     double below = infinity<double>;
 };
 
@@ -408,7 +409,10 @@ ABUT_HD bool is_below(const separation<T>& found, double below) {
 }
 
 inline void check(const distance_options& options, const char* function) {
-    if (options.below != options.below) throw error(std::string(function) + ": below is NaN; expected a distance");
+    if (options.below >= 0) return;
+    const bool is_number = options.below < 0;
+    throw error(std::string(function) + ": below is " + (is_number ? shortest(options.below) : "NaN") +
+                "; expected a distance" + (is_number ? ", 0 or more" : ""));
 }
 
 /// The least key of two arguments' pairs that touch, or no_pair.
@@ -486,7 +490,7 @@ consteval bool can_be_apart() {
 /// double, in the device's local memory, which CUDA sets aside once for all threads that the device holds at a time.
 ///
 /// @par Errors
-/// As in @ref queries, and `error` where `below` is NaN.
+/// As in @ref queries, and `error` where `below` is negative or NaN.
 ///
 /// @par Synchronisation
 /// Returns when the answer is complete; under `cuda` it waits for the policy's stream.

@@ -3,6 +3,7 @@
 
 // Sets of convex hulls, each of its own number of points: all points one after another, and where each hull's begin.
 
+#include <algorithm>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -98,11 +99,26 @@ struct bad_offset {
                            offset);
 }
 
+/// Throws for point i, which is p and not finite, of a hull. The message says both numbers.
+template <scalar T>
+[[noreturn]] void refuse_point(const char* function, const char* element, std::size_t hull, std::size_t i, const vec3<T>& p) {
+    refuse(function, element, hull, p, "point " + std::to_string(i) + ": ");
+}
+
+/// The hull that point i of all points belongs to. The offsets are valid.
+template <class Policy, scalar T, memory_space Space>
+std::size_t hull_of_point(const Policy& on, const hulls_view<T, Space>& view, std::size_t i) {
+    std::vector<std::uint32_t> offsets(view.offsets.count);
+    download(on, view.offsets.first(), offsets.size(), offsets.data());
+    return static_cast<std::size_t>(std::upper_bound(offsets.begin(), offsets.end(), i) - offsets.begin()) - 1;
+}
+
 template <class Policy, scalar T, memory_space Space>
 void check(const Policy& on, const hulls_view<T, Space>& view, const char* function) {
     check_count(view.size(), function);
     check_count(view.points.count, function);
-    check_array(on, view.points, function, "point");
+    require_access(on, view.points.data, function);
+    see_writes_to(view.points.data);
     const std::size_t n = view.size();
     if (view.offsets.count == 0 && view.points.count > 0) {
         throw error(std::string(function) + ": " + std::to_string(view.points.count) +
@@ -112,10 +128,15 @@ void check(const Policy& on, const hulls_view<T, Space>& view, const char* funct
     see_writes_to(view.offsets.data);
     const auto points = static_cast<std::uint32_t>(view.points.count);
     const std::size_t bad = reduce(on, view.offsets.count, none_is_bad, minimum{}, bad_offset{view.offsets, points});
-    if (bad == none_is_bad) return;
-    std::uint32_t offset[2] = {};
-    download(on, &view.offsets[bad], bad < n ? 2 : 1, offset);
-    refuse_offset(function, bad, n, points, offset[0], offset[1]);
+    if (bad != none_is_bad) {
+        std::uint32_t offset[2] = {};
+        download(on, &view.offsets[bad], bad < n ? 2 : 1, offset);
+        refuse_offset(function, bad, n, points, offset[0], offset[1]);
+    }
+    const shapes_view<vec3<T>, Space> all(view.points.first(), view.points.count, view.points.stride);
+    const std::size_t point = first_bad(on, all);
+    if (point == none_is_bad) return;
+    refuse_point(function, "hull", hull_of_point(on, view, point), point, fetched(on, all, point));
 }
 
 /// A hull's points, where they are in the world.
@@ -134,7 +155,9 @@ template <class Policy, scalar T, memory_space Space>
 void check(const Policy& on, const single_view<hull<T>, Space>& view, const char* function) {
     const hull<T>& h = view.shape;
     if (h.count == 0) throw invalid_geometry(function, "hull", 0, "it has no point; their number is", 0);
-    check_shapes(on, points_of_hull<T, Space>{h}, function, "point");
+    const points_of_hull<T, Space> points{h};
+    const std::size_t point = first_bad(on, points);
+    if (point != none_is_bad) refuse_point(function, "hull", 0, point, fetched(on, points, point));
 }
 
 /// Whether placed points overflow. Looks at each.
@@ -142,7 +165,10 @@ template <class Policy, scalar T, memory_space Space>
 void check(const Policy& on, const posed_view<hulls_view<T, Space>>& placed, const char* function) {
     const strided<vec3<T>>& all = placed.shapes.points;
     const shapes_view<vec3<T>, Space> points(all.first(), all.count, all.stride);
-    check_shapes(on, posed_view<shapes_view<vec3<T>, Space>>{points, placed.pose}, function, "posed point");
+    const posed_view<shapes_view<vec3<T>, Space>> there{points, placed.pose};
+    const std::size_t point = first_bad(on, there);
+    if (point == none_is_bad) return;
+    refuse_point(function, "posed hull", hull_of_point(on, placed.shapes, point), point, fetched(on, there, point));
 }
 
 /// Says what was expected instead of offsets of type P; false, so that nothing else is said.
