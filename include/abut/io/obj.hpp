@@ -83,6 +83,8 @@ public:
     [[nodiscard]] const std::string& faces() const { return faces_; }
     /// For each face the number of vertices before it, which its negative indices count back from.
     [[nodiscard]] const std::vector<std::uint32_t>& vertices_before() const { return before_; }
+    /// The lines of the faces of more than most_corners_clipped corners, in order.
+    [[nodiscard]] const std::vector<std::size_t>& lines_of_large() const { return lines_of_large_; }
 
 private:
     /// The next word of the statement, on the next line too if this one ends with a backslash; empty at the end of the
@@ -119,7 +121,7 @@ private:
     }
 
     void face() {
-        const std::size_t begin = faces_.size();
+        const std::size_t begin = faces_.size(), line = text_.line();
         faces_ += 'f';
         std::size_t corners = 0;
         for (std::string_view word = next(); !word.empty(); word = next(), ++corners) {
@@ -134,6 +136,7 @@ private:
             return;
         }
         faces_ += '\n';
+        if (corners > most_corners_clipped) lines_of_large_.push_back(line);
         before_.push_back(static_cast<std::uint32_t>(vertices_.size()));
     }
 
@@ -197,6 +200,7 @@ private:
     skipped_parts& skipped_;
     std::string faces_;
     std::vector<std::uint32_t> before_;
+    std::vector<std::size_t> lines_of_large_;
     std::vector<forward_reference> ahead_;
 };
 
@@ -214,15 +218,19 @@ template <scalar T>
 struct obj_faces {
     face_collector<T>& faces;
     const std::vector<std::uint32_t>& vertices_before;
-    std::size_t count = 0;
+    const std::vector<std::size_t>& lines_of_large;
+    std::size_t count = 0, large = 0;
 
     static void add(void* self, tinyobj::index_t* corners, int size) {
         auto& to = *static_cast<obj_faces*>(self);
         const std::uint32_t before = to.vertices_before.at(to.count++);
-        to.faces.add(static_cast<std::size_t>(size), [&](std::size_t i) {
+        const auto n = static_cast<std::size_t>(size);
+        const std::size_t line = n > most_corners_clipped ? to.lines_of_large.at(to.large++) : 0;
+        const auto corner = [&](std::size_t i) {
             const int index = corners[i].vertex_index;
             return index > 0 ? static_cast<std::uint32_t>(index) - 1 : before - static_cast<std::uint32_t>(-index);
-        });
+        };
+        to.faces.add(n, corner, {line, true});
     }
 };
 
@@ -244,7 +252,7 @@ mesh_data<T> parse_obj(std::string_view text, const std::string& file, const rea
     scanner.run();
 
     detail::face_collector<T> collector(mesh, file);
-    detail::obj_faces<T> sink{collector, scanner.vertices_before()};
+    detail::obj_faces<T> sink{collector, scanner.vertices_before(), scanner.lines_of_large()};
     mesh.faces.reserve(scanner.vertices_before().size());
     detail::text_streambuf buffer(scanner.faces());
     std::istream stream(&buffer);

@@ -101,7 +101,8 @@ struct bad_offset {
 
 /// Throws for point i, which is p and not finite, of a hull. The message says both numbers.
 template <scalar T>
-[[noreturn]] void refuse_point(const char* function, const char* element, std::size_t hull, std::size_t i, const vec3<T>& p) {
+[[noreturn]] void refuse_point(const char* function, const char* element, std::size_t hull, std::size_t i,
+                               const vec3<T>& p) {
     refuse(function, element, hull, p, "point " + std::to_string(i) + ": ");
 }
 
