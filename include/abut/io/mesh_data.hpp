@@ -164,10 +164,11 @@ inline std::vector<std::array<std::size_t, 3>> clip_ears(const std::vector<point
 }
 
 /// Replaces the fans that do not cover their polygon by triangles that do. Throws io_error if such a polygon has more than
-/// `most_corners_clipped` corners: `large` says where these are. One that crosses itself has no right answer, and stays a fan.
+/// `most_corners_clipped` corners: `large` says where these are. One that crosses itself has no right answer, and stays a
+/// fan.
 template <scalar T>
-void cut_polygons(mesh_data<T>& mesh, const std::vector<fanned_polygon>& polygons, const std::vector<place_of_polygon>& large,
-                  const std::string& file) {
+void cut_polygons(mesh_data<T>& mesh, const std::vector<fanned_polygon>& polygons,
+                  const std::vector<place_of_polygon>& large, const std::string& file) {
     std::vector<vec3<T>> positions;
     std::vector<std::uint32_t> corners;
     for (const fanned_polygon& polygon : polygons) {
