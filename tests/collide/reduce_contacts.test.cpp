@@ -12,7 +12,7 @@ TEMPLATE_TEST_CASE("reduction of contacts", "", float, double) {
     SECTION("openmp") { check_all_reductions<TestType>(openmp{.threads = 3}); }
 }
 
-TEST_CASE("reduction of contacts: as the guide says it, what stays holds two cubes apart as deep as they are in each other") {
+TEST_CASE("reduction of contacts: as the guide says it, what stays is as deep as two cubes are in each other") {
     std::vector<vec3<double>> corners, turned;
     const double c = std::sqrt(0.5), depth = 0.0625;
     for (int i = 0; i < 8; ++i) {
