@@ -323,8 +323,8 @@ template <class Policy, class Pairing, class Walk, class Reach, class Best>
 void walk_two_trees(const Policy& on, const Pairing& pairing, const Walk& walk, const Reach& reach, Best& best) {
     const auto both = pairing.view();
     constexpr bool is_shared = !std::same_as<std::remove_cvref_t<decltype(pairing.part)>, whole_search>;
-    const auto from_depth = [&](int depth, bool once, const auto& part) {
-        const seeds_below<Walk> from(walk, depth);
+    const auto from_depth = [&](int level, bool once, const auto& part) {
+        const seeds_below<Walk> from(walk, level);
         const walk_from_pairs<Walk, Reach, std::remove_const_t<decltype(both)>> below{walk, reach, both, from, once};
         for_each_ordered(on, from.count(), walk_of_part(below, part), best);
     };

@@ -128,8 +128,8 @@ struct gather_ordered {
 template <class Policy>
 class contact_order {
 public:
-    contact_order(const Policy& on, std::size_t n) : order_(on, n), keys_(on, n) {
-        for_each_index(on, n, execution::write_index<std::remove_cvref_t<decltype(*order_.data())>>{order_.data()});
+    contact_order(const Policy& policy, std::size_t n) : order_(policy, n), keys_(policy, n) {
+        for_each_index(policy, n, execution::write_index<std::remove_cvref_t<decltype(*order_.data())>>{order_.data()});
     }
     template <class Key>
     void sort(const Policy& on, const Key& key, int bits) {

@@ -219,15 +219,15 @@ public:
     /// Of points and offsets, which lie in host memory, in the policy's.
     template <execution_policy Policy>
         requires std::same_as<space_of<Policy>, Space>
-    hulls(const Policy& on, std::span<const vec3<T>> points, std::span<const std::uint32_t> offsets)
-        : points_(on, points), offsets_(on, offsets) {
-        detail::check(on, view(), name);
+    hulls(const Policy& policy, std::span<const vec3<T>> points, std::span<const std::uint32_t> offsets)
+        : points_(policy, points), offsets_(policy, offsets) {
+        detail::check(policy, view(), name);
     }
     /// The same of both in braces.
     template <execution_policy Policy>
         requires std::same_as<space_of<Policy>, Space>
-    hulls(const Policy& on, std::initializer_list<vec3<T>> points, std::initializer_list<std::uint32_t> offsets)
-        : hulls(on, detail::span_of(points), detail::span_of(offsets)) {}
+    hulls(const Policy& policy, std::initializer_list<vec3<T>> points, std::initializer_list<std::uint32_t> offsets)
+        : hulls(policy, detail::span_of(points), detail::span_of(offsets)) {}
     /// Of a list of points for each hull, in host memory.
     explicit hulls(const std::vector<std::vector<vec3<T>>>& lists)
         requires std::same_as<Space, host_space>
@@ -235,7 +235,7 @@ public:
     /// The same in the policy's memory. The lists lie in host memory.
     template <execution_policy Policy>
         requires std::same_as<space_of<Policy>, Space>
-    hulls(const Policy& on, const std::vector<std::vector<vec3<T>>>& lists) {
+    hulls(const Policy& policy, const std::vector<std::vector<vec3<T>>>& lists) {
         std::vector<vec3<T>> points;
         std::vector<std::uint32_t> offsets(1, 0);
         for (const std::vector<vec3<T>>& list : lists) {
@@ -243,7 +243,7 @@ public:
             detail::check_count(points.size(), name);
             offsets.push_back(static_cast<std::uint32_t>(points.size()));
         }
-        *this = hulls(on, std::span<const vec3<T>>(points), std::span<const std::uint32_t>(offsets));
+        *this = hulls(policy, std::span<const vec3<T>>(points), std::span<const std::uint32_t>(offsets));
     }
     /// Of other libraries' arrays, containers or spans: of points that hold three T, or of T itself; of integers of any
     /// type. Negative offsets are refused like those that are too large.
@@ -252,15 +252,14 @@ public:
     hulls(const P& points, const O& offsets) : hulls(serial{}, points, offsets) {}
     /// The same in the policy's memory. The arrays lie in host memory.
     template <execution_policy Policy, detail::array_like P, detail::array_like O>
-        requires(std::same_as<space_of<Policy>, Space> &&
-                 !(std::convertible_to<const P&, std::span<const vec3<T>>> &&
-                   std::convertible_to<const O&, std::span<const std::uint32_t>>))
-    hulls(const Policy& on, const P& points, const O& offsets) {
+        requires(std::same_as<space_of<Policy>, Space> && !(std::convertible_to<const P&, std::span<const vec3<T>>> &&
+                                                            std::convertible_to<const O&, std::span<const std::uint32_t>>))
+    hulls(const Policy& policy, const P& points, const O& offsets) {
         if constexpr (detail::is_row<vec3<T>, detail::element_of<P>>() &&
                       detail::holds_offsets<detail::element_of<O>>()) {
             const std::span<const vec3<T>> all = detail::rows_as<vec3<T>>(points, name);
             const std::vector<std::uint32_t> from = detail::offsets_of(offsets, all.size(), name);
-            *this = hulls(on, all, std::span<const std::uint32_t>(from));
+            *this = hulls(policy, all, std::span<const std::uint32_t>(from));
         }
     }
 
