@@ -116,7 +116,8 @@ outcome<T> solve(const Policy& on, const input<T>& in, const settings& s, exampl
         const auto moved = abut::posed(b, in.pose);
         const auto hits = watch.time("pairs", [&] { return abut::pairs<A>(on, tree, moved); });
         const auto contacts = watch.time("contacts", [&] { return abut::contacts<A>(on, tree, moved); });
-        const auto reduce = [&] { return abut::reduce_contacts(on, contacts, {.bins = s.bins}); };
+        const abut::reduce_options cells{.bins = s.bins, .method = abut::contact_reduction::binning};
+        const auto reduce = [&] { return abut::reduce_contacts(on, contacts, cells); };
         if (s.bins > 0) found.reduced = abut::to_host(watch.time("reduce", reduce));
         if (!runs.is_last()) continue;
         const auto fetch = [&] {

@@ -15,6 +15,16 @@
 #include <abut/stopped_by_the_error_above>
 #endif
 
+#if !defined(__cpp_exceptions) && !defined(_CPPUNWIND)
+#error abut reports errors by exceptions: compile without -fno-exceptions
+#include <abut/stopped_by_the_error_above>
+#endif
+
+#if !defined(__SIZEOF_INT128__)
+#error abut needs integers of 128 bits, which g++ and clang have on 64-bit processors alone: compile without -m32
+#include <abut/stopped_by_the_error_above>
+#endif
+
 // ABUT_HD marks a function that may run on the host and on a CUDA device. Such functions call no `constexpr` function of
 // the standard library, so that nobody's build needs `--expt-relaxed-constexpr`.
 // ABUT_DEVICE marks one that nvcc compiles for a device alone.

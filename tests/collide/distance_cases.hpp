@@ -270,11 +270,12 @@ void check_distance_below(const Policy& on) {
         check_same(distance(on, tree, other, {.below = 2 * d}), found);
         check_same<T>(distance(on, tree, other, {.below = d / 2}), {});
         check_same<T>(distance(on, tree, other, {.below = 0}), {});
-        check_same<T>(distance(on, tree, other, {.below = -1}), {});
         check_same<T>(distance(on, tree, tree, {.below = 0}), {});
         CHECK(distance(on, tree, tree, {.below = static_cast<double>(limits::denorm_min())})->distance == 0);
         CHECK(message_of([&] { (void)distance(on, tree, other, {.below = limits::quiet_NaN()}); }) ==
               "abut::distance: below is NaN; expected a distance");
+        CHECK(message_of([&] { (void)distance(on, tree, other, {.below = -1}); }) ==
+              "abut::distance: below is -1; expected a distance, 0 or more");
     }
 }
 

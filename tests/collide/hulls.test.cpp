@@ -93,7 +93,15 @@ TEST_CASE("hulls: what is no set of hulls is refused") {
         return "accepted";
     };
     constexpr float infinite = std::numeric_limits<float>::infinity();
-    CHECK(refused({{0, 0, 0}, {0, infinite, 0}}, {0, 2}) == "abut::hulls: point 1: y is not finite (inf)");
+    CHECK(refused({{0, 0, 0}, {0, infinite, 0}}, {0, 2}) == "abut::hulls: hull 0: point 1: y is not finite (inf)");
+    CHECK(refused({{0, 0, 0}, {0, 1, 0}, {0, 2, 0}, {0, 0, infinite}, {0, 3, 0}}, {0, 1, 3, 5}) ==
+          "abut::hulls: hull 2: point 3: z is not finite (inf)");
+    try {
+        (void)hulls<float>(std::vector<vec3<float>>{{0, 0, 0}, {0, 1, 0}, {0, 2, 0}, {infinite, 3, 0}}, offsets{0, 3, 4});
+        FAIL_CHECK("accepted");
+    } catch (const invalid_geometry& e) {
+        CHECK(e.index() == 1);
+    }
     CHECK(refused({{0, 0, 0}}, {0, 1, 1}) ==
           "abut::hulls: hull 1: it has no point: the next one begins at the same offset (1)");
     CHECK(refused({{0, 0, 0}, {0, 0, 0}}, {0, 2, 1, 2}) ==
@@ -109,5 +117,5 @@ TEST_CASE("hulls: what is no set of hulls is refused") {
     // A pose that takes a point to infinity.
     const hulls<float> far_out(std::vector<vec3<float>>{{3e38f, 0, 0}, {0, 0, 0}}, offsets{0, 2});
     const rigid<float> further{.translation = {3e38f, 0, 0}};
-    CHECK_THROWS_WITH(any(serial{}, posed(far_out, further), far_out), "abut::any: posed point 0: x is not finite (inf)");
+    CHECK_THROWS_WITH(any(serial{}, posed(far_out, further), far_out), "abut::any: posed hull 0: point 0: x is not finite (inf)");
 }

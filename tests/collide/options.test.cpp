@@ -3,6 +3,7 @@
 // Options that change no answer are not ignored: what they change is how much is looked at. Here that is counted, by a
 // filter, a visitor, and a bounding volume of the caller's own.
 
+#include <concepts>
 #include <type_traits>
 
 #include <abut/abut.hpp>
@@ -66,6 +67,19 @@ std::uint64_t comparisons_of(const X& a, const Y& b, int start_depth = 0) {
     (void)count(serial{}, a, b, query_options<keep_all, Traversal>{.start_depth = start_depth});
     return comparisons;
 }
+
+// A filter that captures nothing becomes a pointer and that a bool, so no option is a bool (filter_in_braces.fail.cpp).
+static_assert(std::same_as<decltype(query_options<>::sorted), flag> && std::same_as<decltype(self_options<>::sorted), flag> &&
+              std::same_as<decltype(contact_options<>::sorted), flag> &&
+              std::same_as<decltype(contact_options<>::discard_sideways), flag> &&
+              std::same_as<decltype(list_options<>::sorted), flag> &&
+              std::same_as<decltype(list_options<>::discard_sideways), flag> &&
+              std::same_as<decltype(body_options<>::sorted), flag> &&
+              std::same_as<decltype(body_options<>::discard_sideways), flag> &&
+              std::same_as<decltype(impact_options::sorted), flag> &&
+              std::same_as<decltype(inside_options::known_closed), flag>);
+static_assert(flag(true) && flag(2) && flag(std::true_type{}) && !flag(false) && !flag(0u) && !flag());
+static_assert(std::is_trivially_copyable_v<query_options<>>);
 
 }  // namespace
 

@@ -2,6 +2,10 @@
 #include <abut/collide/raycast_all.hpp>
 
 #include <algorithm>
+#include <cfenv>
+#include <cmath>
+#include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -31,7 +35,8 @@ TEMPLATE_TEST_CASE("raycast: nothing is culled that rounding or flushing moves",
         INFO(mode.name);
         std::size_t wrong = 0, hits = 0;
         test::uniform random(94);
-        for (const TestType scale : {TestType(1), std::numeric_limits<TestType>::min(), std::numeric_limits<TestType>::min() / 64}) {
+        for (const TestType scale :
+             {TestType(1), std::numeric_limits<TestType>::min(), std::numeric_limits<TestType>::min() / 64}) {
             std::vector<triangle<TestType>> triangles;
             const auto point = [&] { return scale * random.point<TestType>(-4, 4); };
             for (int i = 0; i < 40; ++i) {
@@ -40,7 +45,8 @@ TEMPLATE_TEST_CASE("raycast: nothing is culled that rounding or flushing moves",
             }
             const triangle_soup<TestType> soup(triangles);
             std::vector<ray<TestType>> lines;
-            for (const auto& t : triangles) lines.push_back({point(), t.b}), lines.back().direction = t.b - lines.back().origin;
+            for (const auto& t : triangles)
+                lines.push_back({point(), t.b}), lines.back().direction = t.b - lines.back().origin;
             const shapes<ray<TestType>> rays(lines);
             const auto expected = pairs(serial{}, soup, rays).to_host();
             const auto tree = make_bvh(serial{}, soup);
@@ -54,6 +60,72 @@ TEMPLATE_TEST_CASE("raycast: nothing is culled that rounding or flushing moves",
         }
         CHECK(wrong == 0);
         CHECK(hits > 40);
+    }
+}
+
+TEMPLATE_TEST_CASE("raycast: rays of denormal directions meet what they meet, whatever becomes of denormals", "", float,
+                   double) {
+    using T = TestType;
+    constexpr T least = std::numeric_limits<T>::denorm_min(), smallest = std::numeric_limits<T>::min();
+    std::vector<triangle<T>> triangles;
+    std::vector<sphere<T>> balls;
+    for (int i = 0; i < 4; ++i) {
+        const T z = static_cast<T>(i);
+        triangles.push_back({{-1, -1, z}, {1, -1, z}, {0, 1, z}});
+        balls.push_back({{0, 0, z}, T(0.25)});
+    }
+    test::draws d(test::sample_seed, 96, 0);
+    const rigid<T> pose = test::make_pose<T>(d, 10);
+    std::vector<ray<T>> lines, turned;
+    for (const T length : {least, 3 * least, smallest / 2, smallest - least, smallest, smallest * 3}) {
+        for (const vec3<T>& way : {vec3<T>{0, 0, 1}, vec3<T>{1, 0, 1}, vec3<T>{-1, 1, 3}, vec3<T>{0, 0, -1}}) {
+            const vec3<T> direction = length * way;
+            lines.push_back({T(-3) * way, direction});
+            const vec3<T> there = T(8) * (place(pose, way) - pose.translation),
+                          whole{std::round(there.x), std::round(there.y), std::round(there.z)};
+            turned.push_back({place(pose, vec3<T>{0, 0, T(0.5)}) - T(0.5) * whole, length * whole});
+        }
+    }
+    const triangle_soup<T> soup(triangles);
+    const spheres<T> round(balls);
+    const rays<T> looking(lines), looking_there(turned);
+    std::vector<triangle<T>> placed;
+    for (const auto& t : triangles) placed.push_back(place(pose, t));
+    const triangle_soup<T> there(placed);
+    const auto ids = [](const auto& hits) {
+        std::vector<std::uint32_t> all;
+        for (const auto& hit : to_host(hits)) all.push_back(hit.id);
+        return all;
+    };
+    const serial on;
+    const auto expected = ids(raycast<exact>(on, soup, looking)),
+               expected_of_balls = ids(raycast<exact>(on, round, looking)),
+               expected_there = ids(raycast<exact>(on, there, looking_there));
+    const auto any = to_host(raycast_any<exact>(on, soup, looking)),
+               any_there = to_host(raycast_any<exact>(on, there, looking_there));
+    const auto all = to_host(raycast_all<exact>(on, soup, looking)).size();
+    const auto met = [](const auto& found) {
+        return std::count_if(found.begin(), found.end(), [](auto id) { return id != no_id; });
+    };
+    CHECK(met(expected) == 24);
+    CHECK(met(expected_of_balls) == 24);
+    CHECK(met(expected_there) > 12);
+    const auto tree = make_bvh(on, soup);
+    const auto tree_of_balls = make_bvh(on, round);
+    for (const test::floating_mode& mode : test::floating_modes()) {
+        INFO(mode.name);
+        test::in_mode(mode, [&] {
+            CHECK(ids(raycast(on, tree, looking)) == expected);
+            CHECK(ids(raycast(on, wide(on, tree), looking)) == expected);
+            CHECK(ids(raycast(on, quantised(on, tree), looking)) == expected);
+            CHECK(ids(raycast(on, tree_of_balls, looking)) == expected_of_balls);
+            CHECK(to_host(raycast_any(on, tree, looking)) == any);
+            CHECK(raycast_all(on, tree, looking).size() == all);
+            // A posed tree places its triangles in the mode that is in force.
+            if (mode.rounding != FE_TONEAREST) return;
+            CHECK(ids(raycast(on, posed(tree, pose), looking_there)) == expected_there);
+            CHECK(to_host(raycast_any(on, posed(tree, pose), looking_there)) == any_there);
+        });
     }
 }
 
@@ -111,7 +183,9 @@ TEST_CASE("raycast: all hits in the order of their true times, in rational numbe
     // times that differ do so by more than doubles are apart.
     test::uniform random(97);
     const auto on_lattice = [&](int half) {
-        const auto one = [&] { return static_cast<float>(static_cast<int>(random.below(std::size_t(2 * half + 1))) - half); };
+        const auto one = [&] {
+            return static_cast<float>(static_cast<int>(random.below(std::size_t(2 * half + 1))) - half);
+        };
         return vec3<float>{one(), one(), one()};
     };
     std::vector<triangle<float>> triangles;
@@ -167,7 +241,8 @@ TEST_CASE("raycast: thousands of hits on one ray are in order") {
         const auto z = static_cast<double>(random.below(2000));
         sheets.push_back({{-9, -9, z}, {9, -9, z}, {0, 9, z}});
     }
-    const auto all = raycast_all(serial{}, make_bvh(serial{}, triangle_soup<double>(sheets)), ray<double>{{0, 0, -1}, {0, 0, 2}});
+    const auto all =
+        raycast_all(serial{}, make_bvh(serial{}, triangle_soup<double>(sheets)), ray<double>{{0, 0, -1}, {0, 0, 2}});
     REQUIRE(all.size() == sheets.size());
     std::vector<bool> seen(sheets.size());
     for (std::size_t k = 0; k < all.size(); ++k) {

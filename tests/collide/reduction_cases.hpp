@@ -142,8 +142,11 @@ void check_reduced(const Policy& on, const contact_list<T>& all, uniform& random
             }
         }
     }
-    for (const int bins : {1, 2, 5}) check_cells(all, reduced(here, {.bins = bins}), bins);
-    check_extremes(all, reduced(here, {.method = contact_reduction::extremes}));
+    for (const int bins : {1, 2, 5}) {
+        check_cells(all, reduced(here, {.bins = bins, .method = contact_reduction::binning}), bins);
+    }
+    check_extremes(all, reduced(here, {}));
+    CHECK(same_bits(reduced(here, {}), reduced(here, {.method = contact_reduction::extremes})));
 }
 
 template <class T, class Policy>
@@ -159,12 +162,15 @@ void check_all_reductions(const Policy& on) {
     check_reduced(on, random_contacts<T>(100, 1, 0, random), random);  // all in one place
     const auto none = result_of(on, contact_list<T>());
     CHECK(reduce_contacts(on, none).empty());
-    CHECK(reduce_contacts(on, none, {.method = contact_reduction::extremes}).empty());
+    CHECK(reduce_contacts(on, none, {.method = contact_reduction::binning}).empty());
     const auto one = result_of(on, random_contacts<T>(1, 0, 1, random));
     CHECK_THROWS_AS(reduce_contacts(on, one, {.bins = 0}), error);
     CHECK_THROWS_AS(reduce_contacts(on, one, {.bins = -3}), error);
     CHECK_THROWS_AS(reduce_contacts(on, one, {.bins = 1025}), error);
     CHECK_THROWS_AS(reduce_contacts(on, one, {.most = 0}), error);
+    CHECK_THROWS_WITH(reduce_contacts(on, one, {.bins = 3}),
+                      "abut::reduce_contacts: bins is 3, which is for binning; expected .method = "
+                      "abut::contact_reduction::binning beside it");
     CHECK_THROWS_AS(reduce_contacts(on, none, {.bins = 0}), error);
 }
 

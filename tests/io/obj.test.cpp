@@ -140,7 +140,13 @@ TEST_CASE("obj: a polygon of many corners is a fan if that is right, and refused
     for (int i = 0; i < 1999; ++i) saw += "v " + std::to_string(i) + " " + std::to_string(i % 2) + " 0\n";
     saw += "v 1000 -1000000 0\n";
     CHECK(refusal(saw + face + "\n") ==
-          "t.obj: expected polygons that are convex or have at most 1024 corners, found one with 2000");
+          "t.obj:2001: expected polygons that are convex or have at most 1024 corners, found one with 2000");
+    // Of two large ones that which is refused, and the line that it begins on.
+    const std::string both = convex + saw + face + "\nf 1 2 3\nf 1 2 3 4\n";
+    std::string of_saw = "f";
+    for (int i = 0; i < 2000; ++i) of_saw += (i == 1000 ? " \\\n -" : " -") + std::to_string(2000 - i);
+    CHECK(refusal(both + of_saw + "\n") ==
+          "t.obj:4004: expected polygons that are convex or have at most 1024 corners, found one with 2000");
 }
 
 TEST_CASE("obj: what some programs write beside it") {

@@ -44,6 +44,16 @@ TEST_CASE("off: polygons that are not convex are cut") {
     CHECK(read.faces == faces{{0, 1, 2}, {0, 2, 3}});
 }
 
+TEST_CASE("off: a polygon of too many corners that is not convex is refused with its line") {
+    std::string saw = "OFF\n2000 2 0\n", face = "2000";
+    for (int i = 0; i < 2000; ++i) {
+        saw += std::to_string(i < 1999 ? i : 1000) + " " + std::to_string(i < 1999 ? i % 2 : -1000000) + " 0\n";
+        face += " " + std::to_string(i);
+    }
+    CHECK(refusal(saw + "3 0 1 2\n" + face + "\n") ==
+          "t.off:2004: expected polygons that are convex or have at most 1024 corners, found one with 2000");
+}
+
 TEST_CASE("off: every malformed line is refused with its number") {
     CHECK(refusal("") == "t.off:1: expected 'OFF' at the start of an OFF file, found the end of the file");
     CHECK(refusal("8 6 12\n") == "t.off:1: expected 'OFF' at the start of an OFF file, found '8'");

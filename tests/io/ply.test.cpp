@@ -163,6 +163,26 @@ TEST_CASE("ply: a nonconvex polygon is cut, a convex one is a fan") {
     CHECK(parse(ascii_head + vertices(4) + list(1) + end + square + "4 0 1 2 3\n").faces == faces{{0, 1, 2}, {0, 2, 3}});
 }
 
+TEST_CASE("ply: a polygon of too many corners that is not convex is refused with its line or byte") {
+    const std::string properties =
+        "element vertex 2000\nproperty float x\nproperty float y\nproperty float z\nelement face 2\n"
+        "property list ushort int vertex_indices\nend_header\n";
+    std::string text = "ply\nformat ascii 1.0\n" + properties, face = "2000";
+    bytes binary("ply\nformat binary_little_endian 1.0\n" + properties, false);
+    const std::size_t header = binary.data().size();
+    for (int i = 0; i < 2000; ++i) {
+        const int x = i < 1999 ? i : 1000, y = i < 1999 ? i % 2 : -1000000;
+        text += std::to_string(x) + " " + std::to_string(y) + " 0\n";
+        face += " " + std::to_string(i);
+        binary.put(static_cast<float>(x)).put(static_cast<float>(y)).put(0.0f);
+    }
+    binary.put(std::uint16_t{3}).put(0).put(1).put(2).put(std::uint16_t{2000});
+    for (int i = 0; i < 2000; ++i) binary.put(i);
+    const std::string what = "expected polygons that are convex or have at most 1024 corners, found one with 2000";
+    CHECK(refusal(text + "3 0 1 2\n" + face + "\n") == "t.ply:2011: " + what);
+    CHECK(refusal(binary.data()) == "t.ply: byte " + std::to_string(header + 24000 + 14) + ": " + what);
+}
+
 TEST_CASE("ply: empty meshes are legal") {
     const auto mesh = parse(ascii_head + vertices(0) + list(0) + end);
     CHECK(mesh.vertices.empty());

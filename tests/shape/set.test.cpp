@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <vector>
 
+#include <abut/shape/hulls.hpp>
 #include <abut/shape/motion.hpp>
 #include <abut/shape/moving_shape.hpp>
 
@@ -197,7 +198,12 @@ TEMPLATE_TEST_CASE("sets: of each shape, what is none is refused by its name", "
         [&] {
             shapes<plane<T>>(std::vector<plane<T>>{{o, nan}});
         },
-        "abut::shapes", 0, nan, "abut::shapes: shape 0: offset is not finite (nan)");
+        "abut::shapes", 0, nan, "abut::shapes: plane 0: offset is not finite (nan)");
+    check_refused(
+        [&] {
+            rays<T>(std::vector<ray<T>>{{o, o}, {o, bad}});
+        },
+        "abut::rays", 1, inf, "abut::rays: ray 1: z is not finite (inf)");
     check_refused(
         [&] {
             shapes<other::pebble<T>>(std::vector<other::pebble<T>>{{o}, {bad}});
@@ -311,4 +317,36 @@ TEST_CASE("views: strided arrays of the caller are read in place") {
     const spheres_view<float> balls(&grains[0].ball, 2, sizeof(grain));
     CHECK(balls[1].center == vec3<float>{5, 6, 7});
     CHECK(balls[1].radius == 8);
+}
+
+TEST_CASE("sets: of shapes in braces, one or more") {
+    const serial on;
+    const vec3<float> up{0, 0, 1};
+    CHECK(rays<float>({{{1, 2, 3}, {0, 0, 1}}}).view()[0].direction == up);
+    CHECK(rays<float>({{{1, 2, 3}, {0, 0, 1}}}).size() == 1);
+    CHECK(rays<float>(on, {{{1, 2, 3}, {0, 0, 1}}}).size() == 1);
+    CHECK(rays<float>({{{0, 0, 0}, {1, 0, 0}}, {{1, 2, 3}, {0, 0, 1}}}).view()[1].direction == up);
+    CHECK(boxes<float>({{{0, 0, 0}, {0, 1, 1}}}).size() == 1);
+    CHECK_THROWS_AS(boxes<float>({{{1, 0, 0}, {0, 1, 1}}}), invalid_geometry);
+    CHECK(boxes<float>{{{0, 0, 0}, {0, 1, 1}}, {{0, 0, 0}, {1, 1, 1}}}.size() == 2);
+    CHECK(segments<double>({{{0, 0, 0}, {0, 1, 1}}}).size() == 1);
+    CHECK(triangle_soup<float>({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}).size() == 1);
+    CHECK(spheres<float>({{{0, 0, 0}, 1}}).size() == 1);
+    CHECK(capsules<float>({{{{0, 0, 0}, {0, 1, 1}}, 1}}).size() == 1);
+    CHECK(points<float>({{1, 2, 3}}).view()[0] == vec3<float>{1, 2, 3});
+    CHECK(points<float>(on, {{1, 2, 3}, {4, 5, 6}}).view()[1] == vec3<float>{4, 5, 6});
+    CHECK(equal_spheres<float>(on, {{1, 2, 3}}, 1).size() == 1);
+    const std::vector<vec3<float>> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    CHECK(mesh<float>(on, corners, {{0, 1, 2}}).size() == 1);
+    CHECK(edge_mesh<float>(on, corners, {{0, 1}, {1, 2}}).size() == 2);
+    const mesh<float> one(on, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+    CHECK(one.with_vertices(on, {{0, 0, 2}, {1, 0, 0}, {0, 1, 0}}).view()[0].a == vec3<float>{0, 0, 2});
+    CHECK_THROWS_AS(one.with_vertices(on, {{0, 0, 2}, {1, 0, 0}}), error);
+    CHECK(hulls<float>(on, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0, 1, 3}).size() == 2);
+    // What is no list of shapes in braces is as it was.
+    const points<float> some({{1, 2, 3}}), copy{some}, of_vector{corners}, with_policy{on, corners}, none{};
+    CHECK(copy.size() == 1);
+    CHECK(of_vector.size() == 3);
+    CHECK(with_policy.size() == 3);
+    CHECK(none.size() == 0);
 }

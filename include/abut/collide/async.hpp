@@ -109,9 +109,9 @@ struct async_room {
     std::function<Answer()> again;  ///< the same query by a call that waits
 
     template <class Policy>
-    async_room(const Policy& on, std::uint64_t most_open)
-        : counters(on, 2 * queues + 1), state(on, 1), open_capacity(most_open) {
-        fill(on, state.data(), 1, State{});
+    async_room(const Policy& policy, std::uint64_t most_open)
+        : counters(policy, 2 * queues + 1), state(policy, 1), open_capacity(most_open) {
+        fill(policy, state.data(), 1, State{});
     }
     [[nodiscard]] std::uint64_t* counts() { return counters.data() + queues + 1; }
 
@@ -281,8 +281,8 @@ public:
     /// in floating point cannot decide. By itself 2^21; docs/numerics.md says how many they are. Does not wait. Throws
     /// std::bad_alloc, cuda_error.
     template <works_in<Space> Policy>
-    async_result(const Policy& on, std::size_t capacity, std::uint64_t open_capacity = execution::most_open)
-        : items_(on, capacity), room_(on, open_capacity) {}
+    async_result(const Policy& policy, std::size_t capacity, std::uint64_t open_capacity = execution::most_open)
+        : items_(policy, capacity), room_(policy, open_capacity) {}
 
     /// Elements that there is room for.
     [[nodiscard]] std::size_t capacity() const { return items_.size(); }
@@ -311,7 +311,8 @@ public:
     /// Taken in the order of the policy's stream, which has to outlive it. Not within a capture. `open_capacity` is that of
     /// async_result. Does not wait. Throws std::bad_alloc, cuda_error.
     template <works_in<Space> Policy>
-    explicit async_value(const Policy& on, std::uint64_t open_capacity = execution::most_open) : room_(on, open_capacity) {}
+    explicit async_value(const Policy& policy, std::uint64_t open_capacity = execution::most_open)
+        : room_(policy, open_capacity) {}
 
     /// In device memory.
     [[nodiscard]] const async_value_state<T>* state() const { return room_.state.data(); }

@@ -84,13 +84,13 @@ struct body_contact {
 template <class Filter = keep_all, schedule Schedule = schedule::shared_list>
 struct body_options {
     /// Results sorted by body_a, then body_b, a and b. Without it the order is any, and may differ from call to call.
-    bool sorted = true;
+    flag sorted = true;
     /// filter(body_pair) -> bool: pairs for which it is false are neither tested nor reported. As in query_options.
     Filter filter = {};
     /// As in query_options.
     std::uint64_t most_pairs = std::uint64_t{1} << 18;
     /// Of contacts alone; as in contact_options.
-    bool discard_sideways = false;
+    flag discard_sideways = false;
     /// As in query_options, for the walk of the bodies' trees.
     schedule_options scheduling = {};
 };

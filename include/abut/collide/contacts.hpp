@@ -37,7 +37,7 @@ namespace abut {
 template <class Filter = keep_all>
 struct contact_options {
     /// Contacts sorted by a, then b. Without it their order is any, and may differ from call to call.
-    bool sorted = true;
+    flag sorted = true;
     /// filter(id in a, id in b) -> bool, as in query_options.
     Filter filter = {};
     /// Which of two plain sets stays close to the cores, as in query_options.
@@ -45,7 +45,7 @@ struct contact_options {
     /// Leaves out contacts of two triangles that come apart by a shorter move along the line that their planes share than
     /// along the contact's normal (N. Backman's rule): they pass by each other at an edge or a corner, and tell little of
     /// how the surfaces as a whole lie to each other. Contacts of depth 0, of parallel planes and of other shapes stay.
-    bool discard_sideways = false;
+    flag discard_sideways = false;
 };
 
 namespace detail {

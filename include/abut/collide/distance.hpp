@@ -40,7 +40,8 @@ namespace abut {
 /// Options of `distance`.
 /// @ingroup queries
 struct distance_options {
-    /// Only what is nearer than this is looked for. What is farther is not measured, so that a small bound saves time.
+    /// Only what is nearer than this is looked for. What is farther is not measured, so that a small bound saves time. 0 or
+    /// more; nothing is nearer than 0.
     double below = infinity<double>;
 };
 
@@ -322,8 +323,8 @@ template <class Policy, class Pairing, class Walk, class Reach, class Best>
 void walk_two_trees(const Policy& on, const Pairing& pairing, const Walk& walk, const Reach& reach, Best& best) {
     const auto both = pairing.view();
     constexpr bool is_shared = !std::same_as<std::remove_cvref_t<decltype(pairing.part)>, whole_search>;
-    const auto from_depth = [&](int depth, bool once, const auto& part) {
-        const seeds_below<Walk> from(walk, depth);
+    const auto from_depth = [&](int level, bool once, const auto& part) {
+        const seeds_below<Walk> from(walk, level);
         const walk_from_pairs<Walk, Reach, std::remove_const_t<decltype(both)>> below{walk, reach, both, from, once};
         for_each_ordered(on, from.count(), walk_of_part(below, part), best);
     };
@@ -408,7 +409,10 @@ ABUT_HD bool is_below(const separation<T>& found, double below) {
 }
 
 inline void check(const distance_options& options, const char* function) {
-    if (options.below != options.below) throw error(std::string(function) + ": below is NaN; expected a distance");
+    if (options.below >= 0) return;
+    const bool is_number = options.below < 0;
+    throw error(std::string(function) + ": below is " + (is_number ? shortest(options.below) : "NaN") +
+                "; expected a distance" + (is_number ? ", 0 or more" : ""));
 }
 
 /// The least key of two arguments' pairs that touch, or no_pair.
@@ -486,7 +490,7 @@ consteval bool can_be_apart() {
 /// double, in the device's local memory, which CUDA sets aside once for all threads that the device holds at a time.
 ///
 /// @par Errors
-/// As in @ref queries, and `error` where `below` is NaN.
+/// As in @ref queries, and `error` where `below` is negative or NaN.
 ///
 /// @par Synchronisation
 /// Returns when the answer is complete; under `cuda` it waits for the policy's stream.

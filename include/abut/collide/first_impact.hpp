@@ -89,8 +89,8 @@ class trees_until {
     using boxes = box_view<T, space>;
 
 public:
-    trees_until(const Policy& on, const moving_set<mesh<T, space>>& step, double time)
-        : on_(on), count_(step.t0().view().vertices.count), vertices_(on, count_) {
+    trees_until(const Policy& policy, const moving_set<mesh<T, space>>& step, double time)
+        : on_(policy), count_(step.t0().view().vertices.count), vertices_(policy, count_) {
         const auto t0 = step.t0().view().vertices, t1 = step.t1().view().vertices;
         for_each_index(on_, count_, write_vertex_until<T>{t0, t1, time, vertices_.data()});
     }

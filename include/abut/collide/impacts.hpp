@@ -81,7 +81,7 @@ struct impact_options {
     /// By kind, then by the first feature's number, then by the second's: vertices and faces by their ids, edges in the
     /// order of their vertices. Without it the order is any, and may differ from call to call. The first impact is the same
     /// with and without it.
-    bool sorted = true;
+    flag sorted = true;
     /// Of `conservative` alone. Others take no notice of a tolerance, and throw `error` for a separation.
     conservative_bounds bounds = {};
 };
@@ -270,16 +270,16 @@ struct timed_pairs {
 
     /// What search(judge, hits) finds.
     template <class Judge, class Search>
-    timed_pairs(const Policy& on, const Judge& judge, const Search& search) : keys(on, 0), times(on, 0) {
-        timed_queue<Policy> hits(on, std::size_t{1} << 20);  // where it proves too small, a loop runs again
+    timed_pairs(const Policy& policy, const Judge& judge, const Search& search) : keys(policy, 0), times(policy, 0) {
+        timed_queue<Policy> hits(policy, std::size_t{1} << 20);  // where it proves too small, a loop runs again
         search(judge, hits);
         const std::size_t n = hits.size();
-        keys = execution::buffer_of<Policy, std::uint64_t>(on, n);
-        times = execution::buffer_of<Policy, double>(on, n);
-        for_each_index(on, n, split_hits{hits.data(), keys.data(), times.data()});
+        keys = execution::buffer_of<Policy, std::uint64_t>(policy, n);
+        times = execution::buffer_of<Policy, double>(policy, n);
+        for_each_index(policy, n, split_hits{hits.data(), keys.data(), times.data()});
         (void)hits.take();  // gives its memory back
     }
-    timed_pairs(const Policy& on, std::size_t n) : keys(on, n), times(on, n) {}
+    timed_pairs(const Policy& policy, std::size_t n) : keys(policy, n), times(policy, n) {}
 };
 
 /// The impacts of pairs, in their order. Where `some_are_none` says so, there may be pairs without a time, which are left

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include <abut/arithmetic/arithmetic.hpp>
+#include <abut/collide/flag.hpp>
 #include <abut/collide/nearest.hpp>
 #include <abut/collide/validate.hpp>
 #include <abut/execution/ordered.hpp>
@@ -36,7 +37,7 @@ enum class containment : std::uint8_t {
 /// @ingroup queries
 struct inside_options {
     /// The caller knows that the mesh is closed, and it is not looked at. Of a mesh that is not, answers mean nothing.
-    bool known_closed = false;
+    flag known_closed = false;
 };
 
 namespace detail {

@@ -89,7 +89,7 @@ public:
     using mesh_type = moving_set<mesh<T, space>>;
     using sizes = std::array<std::uint64_t, 2>;  ///< of vertices, of faces
 
-    mesh_pieces(const Policy& on, mesh_type mesh) : on_(on), mesh_(std::move(mesh)) {}
+    mesh_pieces(const Policy& policy, mesh_type mesh) : on_(policy), mesh_(std::move(mesh)) {}
 
     template <class Face, class Vertex>
     [[nodiscard]] sizes count(const Face& face, const Vertex& vertex) {

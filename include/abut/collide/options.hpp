@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <abut/config.hpp>
+#include <abut/collide/flag.hpp>
 #include <abut/execution/buffer.hpp>
 #include <abut/execution/schedule.hpp>
 #include <abut/traverse/traversal.hpp>
@@ -92,7 +93,7 @@ inline constexpr schedule default_schedule = Traversal == traversal::both_at_onc
 template <class Filter = keep_all, traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
 struct query_options {
     /// Pairs sorted by a, then b. Without it their order is any, and may differ from call to call.
-    bool sorted = true;
+    flag sorted = true;
     /// filter(id in a, id in b) -> bool: pairs for which it is false are neither tested nor reported. A trivially copyable
     /// functor, ABUT_HD under cuda; called concurrently.
     Filter filter = {};

@@ -53,7 +53,7 @@ ABUT_HD T time_as(double time) {
 }
 
 /// Of each line what it meets first. Times are rounded where two shapes are met at nearly the same one, and at the end.
-template <arithmetic A, class Walk, class Frame, shape_view Shapes, shape_view Lines>
+template <class A, class Walk, class Frame, class Shapes, class Lines>
 struct walk_along_lines {
     Walk walk;
     Frame frame;
@@ -98,7 +98,7 @@ struct walk_along_lines {
 };
 
 /// Of each line whether it meets anything: the same, which ends at what it meets at all.
-template <arithmetic A, class Walk, class Frame, shape_view Shapes, shape_view Lines>
+template <class A, class Walk, class Frame, class Shapes, class Lines>
 struct walk_to_any {
     Walk walk;
     Frame frame;
@@ -180,8 +180,9 @@ struct lines_and_shapes {
 
     [[nodiscard]] std::size_t size() const { return looking.shapes().size(); }
     [[nodiscard]] bool has_nothing() const { return size() == 0 || x.shapes().size() == 0; }
-    /// A functor Walk<A, ...>: of the walk, the frame, the shapes and the lines, and what else it is made of.
-    template <template <arithmetic, class, class, shape_view, shape_view> class Walk, arithmetic A, class... Rest>
+    /// A functor Walk<A, ...>: of the walk, the frame, the shapes and the lines, and what else it is made of. Its parameters
+    /// are plain classes: clang 19 takes no template of constrained ones for a template of parameters constrained alike.
+    template <template <class, class, class, class, class> class Walk, arithmetic A, class... Rest>
     [[nodiscard]] auto walk(const Rest&... rest) const {
         const length_unit<T> unit{};
         return Walk<A, decltype(ordered_walk_of(x)), decltype(frame_of(x, unit)), decltype(x.shapes()),

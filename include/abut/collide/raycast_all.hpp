@@ -31,7 +31,7 @@ namespace detail {
 inline constexpr std::uint64_t kept_hits = 4;
 
 /// Counts what each line meets.
-template <arithmetic A, class Walk, class Frame, shape_view Shapes, shape_view Lines>
+template <class A, class Walk, class Frame, class Shapes, class Lines>
 struct count_along_lines {
     Walk walk;
     Frame frame;
@@ -79,7 +79,7 @@ ABUT_HD inline void sort_hits(execution::least_value* hits, std::uint64_t n) {
 }
 
 /// Writes what each line meets, from the place of its first hit on.
-template <arithmetic A, class Walk, class Frame, shape_view Shapes, shape_view Lines>
+template <class A, class Walk, class Frame, class Shapes, class Lines>
 struct write_along_lines {
     Walk walk;
     Frame frame;

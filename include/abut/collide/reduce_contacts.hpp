@@ -35,13 +35,13 @@ enum class contact_reduction : unsigned char {
 
 /// Options of `reduce_contacts`.
 struct reduce_options {
-    /// Cells of the grid along each of its six axes, 1 to 1024. For binning alone.
+    /// Cells of the grid along each of its six axes, 1 to 1024. For binning alone: with `extremes` it stays at 8.
     int bins = 8;
     /// No more contacts than this, but at least 1. Where this is less than all, binning takes the coarsest grid, of at most
     /// `bins` cells an axis, that keeps as many, and of those the ones that are farthest from the middle.
     std::size_t most = static_cast<std::size_t>(-1);
     /// How they are chosen.
-    contact_reduction method = contact_reduction::binning;
+    contact_reduction method = contact_reduction::extremes;
 };
 
 namespace detail {
@@ -128,8 +128,8 @@ struct gather_ordered {
 template <class Policy>
 class contact_order {
 public:
-    contact_order(const Policy& on, std::size_t n) : order_(on, n), keys_(on, n) {
-        for_each_index(on, n, execution::write_index<std::remove_cvref_t<decltype(*order_.data())>>{order_.data()});
+    contact_order(const Policy& policy, std::size_t n) : order_(policy, n), keys_(policy, n) {
+        for_each_index(policy, n, execution::write_index<std::remove_cvref_t<decltype(*order_.data())>>{order_.data()});
     }
     template <class Key>
     void sort(const Policy& on, const Key& key, int bits) {
@@ -309,18 +309,24 @@ auto extremes(const Policy& on, const contact<T>* all, std::size_t n, const cont
 ///
 /// `binning` brings positions to [-1, 1], about the middle of the box around them and by half its longest side. It cuts
 /// [-1, 1]^6 of positions and normals into `bins` cells an axis. Of a cell the contact stays whose six numbers are farthest
-/// from 0. `extremes` keeps contacts whose wrench (normal, and its torque about that middle) reaches farthest.
-/// docs/contacts.md says how much of the cone of wrenches either keeps.
+/// from 0. `extremes`, the default, keeps contacts whose wrench (normal, and its torque about that middle) reaches farthest.
+/// docs/contacts.md says how much of the cone of wrenches either keeps. Of meshes take contacts without the sideways ones,
+/// which only seem to hold the bodies apart.
 ///
-/// Throws error where bins is not in 1..1024 or most is 0, and capacity_error for 2^32 contacts or more.
+/// Throws error where bins is not in 1..1024, or another than 8 with `extremes`, or most is 0, and capacity_error for 2^32
+/// contacts or more.
 ///
-///     const auto few = abut::reduce_contacts(on, abut::contacts(on, a, b), {.bins = 3});
+///     const auto few = abut::reduce_contacts(on, abut::contacts(on, a, b, {.discard_sideways = true}), {.most = 4});
 template <execution_policy Policy, scalar T>
 [[nodiscard]] auto reduce_contacts(const Policy& on, const result<contact<T>, space_of<Policy>>& all,
                                    const reduce_options& options = {}) {
     using outcome = result<contact<T>, space_of<Policy>>;
     if (options.bins < 1 || options.bins > 1024) {
         throw error("abut::reduce_contacts: bins is " + std::to_string(options.bins) + ", not in 1..1024");
+    }
+    if (options.bins != reduce_options().bins && options.method != contact_reduction::binning) {
+        throw error("abut::reduce_contacts: bins is " + std::to_string(options.bins) +
+                    ", which is for binning; expected .method = abut::contact_reduction::binning beside it");
     }
     if (options.most == 0) throw error("abut::reduce_contacts: most is 0");
     const std::size_t n = all.size();

@@ -70,14 +70,14 @@ template <class View>
 class fetched_pairs {
 public:
     template <class Policy>
-    fetched_pairs(const Policy& on, const View& both, const std::uint64_t* keys, std::size_t n) : pairs_(n) {
+    fetched_pairs(const Policy& policy, const View& both, const std::uint64_t* keys, std::size_t n) : pairs_(n) {
         // Nothing may throw while the keys are being read.
-        execution::buffer_of<Policy, whole_pair<View>> gathered(on, n);
-        for_each_index(on, n, fetch_pair<View>{both, keys, gathered.data()});
-        download(on, gathered.data(), n, pairs_.data());
+        execution::buffer_of<Policy, whole_pair<View>> gathered(policy, n);
+        for_each_index(policy, n, fetch_pair<View>{both, keys, gathered.data()});
+        download(policy, gathered.data(), n, pairs_.data());
         for (whole_pair<View>& p : pairs_) {
-            bring_over(on, p.a);
-            bring_over(on, p.b);
+            bring_over(policy, p.a);
+            bring_over(policy, p.b);
         }
     }
     [[nodiscard]] const whole_pair<View>& operator[](std::size_t i) const { return pairs_[i]; }
@@ -127,8 +127,8 @@ void resolve_on_host(const Policy& on, const View& both, const Judge& judge, con
 template <class Policy, class View, class Judge, class Hits>
 class judged_loops {
 public:
-    judged_loops(const Policy& on, const View& both, const Judge& judge, std::uint64_t most_pairs, Hits& hits)
-        : on_(on), judge_{both, judge, {}}, most_pairs_(std::max<std::size_t>(most_pairs, 1)), hits_(hits) {}
+    judged_loops(const Policy& policy, const View& both, const Judge& judge, std::uint64_t most_pairs, Hits& hits)
+        : on_(policy), judge_{both, judge, {}}, most_pairs_(std::max<std::size_t>(most_pairs, 1)), hits_(hits) {}
 
     template <class Loop>
     void operator()(const Loop& loop) const {

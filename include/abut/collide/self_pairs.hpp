@@ -51,7 +51,7 @@ enum class coincident_vertices : unsigned char {
 template <class Filter = keep_all, traversal Traversal = traversal::both_at_once>
 struct self_options {
     /// Pairs sorted by a, then b. Without it their order is any, and may differ from call to call.
-    bool sorted = true;
+    flag sorted = true;
     /// filter(a, b) -> bool, a < b: pairs for which it is false are neither tested nor reported.
     Filter filter = {};
     /// On a device, how many pairs that are too much for it wait for the host at a time.

@@ -103,8 +103,8 @@ struct mesh_piece {
     execution::buffer_of<Policy, std::uint32_t> face_ids;
 
     mesh_piece() = default;
-    mesh_piece(const Policy& on, std::size_t n, std::size_t m)
-        : at_t0(on, n), at_t1(on, n), vertex_ids(on, n), faces(on, m), face_ids(on, m) {}
+    mesh_piece(const Policy& policy, std::size_t n, std::size_t m)
+        : at_t0(policy, n), at_t1(policy, n), vertex_ids(policy, n), faces(policy, m), face_ids(policy, m) {}
     [[nodiscard]] piece_arrays<T> arrays() {
         return {at_t0.data(), at_t1.data(), vertex_ids.data(), faces.data(), face_ids.data()};
     }

@@ -34,11 +34,11 @@ enum class in_message : bool {
 template <class Policy, class T>
 class message_room {
 public:
-    message_room(const Policy& on, std::size_t n, in_message is = in_message::yes)
+    message_room(const Policy& policy, std::size_t n, in_message is = in_message::yes)
         : direct_(host_policy<Policy> || mpi_reads_devices()),
-          there_(on, n),
+          there_(policy, n),
           here_(serial{}, host_policy<Policy> || is == in_message::no ? 0 : n) {
-        if (direct_) synchronize(on);
+        if (direct_) synchronize(policy);
     }
 
     /// In the policy's memory.
@@ -83,7 +83,7 @@ public:
     using set = shapes<Shape, space_of<Policy>>;
     using element = Shape;
 
-    packed_shapes(const Policy& on, const sizes& most, in_message is) : shapes_(on, length(most), is) {}
+    packed_shapes(const Policy& policy, const sizes& most, in_message is) : shapes_(policy, length(most), is) {}
 
     /// Of shapes that are chosen for a part.
     template <class Chosen, scalar T>
@@ -172,8 +172,8 @@ public:
     using set = hulls<T, space_of<Policy>>;
     using element = vec3<T>;
 
-    packed_shapes(const Policy& on, const sizes& most, in_message is)
-        : offsets_(on, length(most) + 1, is), points_(on, static_cast<std::size_t>(most[1]), is) {}
+    packed_shapes(const Policy& policy, const sizes& most, in_message is)
+        : offsets_(policy, length(most) + 1, is), points_(policy, static_cast<std::size_t>(most[1]), is) {}
 
     template <class Chosen>
     static sizes measure(const Policy& on, Chosen& chosen, const part_bounds<T>& there) {

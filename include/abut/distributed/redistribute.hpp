@@ -67,10 +67,10 @@ struct curve_of_part {
     execution::buffer_of<Policy, std::uint32_t> order;
 
     template <shape_view Shapes, scalar T>
-    curve_of_part(const Policy& on, const Shapes& shapes, const aabb<T>& around)
-        : codes(on, shapes.size()), order(on, shapes.size()) {
-        for_each_index(on, shapes.size(), write_codes_and_ids<Shapes>{shapes, around, codes.data(), order.data()});
-        sort_by_key(on, codes, order, morton_bits<std::uint64_t>);
+    curve_of_part(const Policy& policy, const Shapes& shapes, const aabb<T>& around)
+        : codes(policy, shapes.size()), order(policy, shapes.size()) {
+        for_each_index(policy, shapes.size(), write_codes_and_ids<Shapes>{shapes, around, codes.data(), order.data()});
+        sort_by_key(policy, codes, order, morton_bits<std::uint64_t>);
     }
 };
 

@@ -94,7 +94,7 @@ template <class Policy, class Question, shape_view Rows>
 class rows_looking {
 public:
     rows_looking() = default;
-    rows_looking(const Policy& on, std::size_t n) : ids_(on, n) {}
+    rows_looking(const Policy& policy, std::size_t n) : ids_(policy, n) {}
     void look(const Policy&, const Question&, const Rows&, const typename Question::answer*) {}
     /// The rows of which a part may change the answers, to ids(). Returns how many these are.
     std::size_t choose(const Policy& on, const may_be_changed<Rows, Question>& may) {
@@ -109,7 +109,8 @@ template <class Policy, scalar T, shape_view Rows>
 class rows_looking<Policy, ask_nearest<T>, Rows> {
 public:
     rows_looking() = default;
-    rows_looking(const Policy& on, std::size_t n) : ids_(on, n), blocks_(on, blocks_of(n)), near_(on, blocks_of(n)) {}
+    rows_looking(const Policy& policy, std::size_t n)
+        : ids_(policy, n), blocks_(policy, blocks_of(n)), near_(policy, blocks_of(n)) {}
     /// What blocks still look for.
     void look(const Policy& on, const ask_nearest<T>& question, const Rows& rows, const measured_neighbor<T>* best) {
         for_each_index(on, blocks_.size(), write_blocks_looking<Rows>{rows, best, question.count, blocks_.data()});
@@ -150,10 +151,10 @@ public:
     using row = typename view::shape_type;
     using T = typename view::scalar_type;
 
-    rows_of_ranks(const distributed<Local>& on, const Operand& x, const Asking& asking, const parts_of_set<T>& parts,
+    rows_of_ranks(const distributed<Local>& policy, const Operand& x, const Asking& asking, const parts_of_set<T>& parts,
                   const std::vector<std::uint64_t>& rows_of_rank, const Question& question)
-        : on_(on),
-          local_(on.local()),
+        : on_(policy),
+          local_(policy.local()),
           x_(x),
           asking_(asking),
           parts_(parts),
@@ -192,8 +193,11 @@ private:
     struct rooms {
         row_room asked, asking;
         answer_room answered, answering;
-        rooms(const Local& on, std::size_t mine, std::size_t others, std::size_t per_row)
-            : asked(on, mine), asking(on, others), answered(on, mine * per_row), answering(on, others * per_row) {}
+        rooms(const Local& policy, std::size_t mine, std::size_t others, std::size_t per_row)
+            : asked(policy, mine),
+              asking(policy, others),
+              answered(policy, mine * per_row),
+              answering(policy, others * per_row) {}
     };
 
     [[nodiscard]] std::size_t most_of_others() const {

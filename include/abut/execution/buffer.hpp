@@ -46,7 +46,7 @@ public:
     buffer() = default;
     /// `n` elements of unspecified value. Throws std::bad_alloc.
     template <works_in<Space> Policy>
-    buffer(const Policy& on, std::size_t n) : memory_(on), size_(n) {
+    buffer(const Policy& policy, std::size_t n) : memory_(policy), size_(n) {
         if (n > static_cast<std::size_t>(-1) / sizeof(T)) throw std::bad_alloc();
         if (n > 0) data_ = static_cast<T*>(memory_.allocate(n * sizeof(T)));
     }

@@ -66,7 +66,8 @@ public:
     };
 
     template <execution_policy Policy>
-    best_of_each(const Policy& on, std::size_t n, double bound = least_value{}.value) : values_(on, n), most_(bound) {}
+    best_of_each(const Policy& policy, std::size_t n, double bound = least_value{}.value)
+        : values_(policy, n), most_(bound) {}
 
     /// By index, in the policy's memory.
     [[nodiscard]] const least_value* data() const { return values_.data(); }
@@ -110,7 +111,7 @@ public:
 
     /// n indices; count > 0
     template <execution_policy Policy>
-    best_few_of_each(const Policy& on, std::size_t n, std::size_t count) : values_(on, n * count), count_(count) {}
+    best_few_of_each(const Policy& policy, std::size_t n, std::size_t count) : values_(policy, n * count), count_(count) {}
 
     /// By index, in the policy's memory.
     [[nodiscard]] const least_value* data() const { return values_.data(); }

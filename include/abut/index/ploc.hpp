@@ -162,7 +162,8 @@ struct join_clusters {
 template <class Policy, scalar T>
 class cluster_row {
 public:
-    cluster_row(const Policy& on, std::size_t n) : count_(n), row_(on, n), next_(on, n), nearest_(on, n), kept_(on, n) {}
+    cluster_row(const Policy& policy, std::size_t n)
+        : count_(n), row_(policy, n), next_(policy, n), nearest_(policy, n), kept_(policy, n) {}
 
     [[nodiscard]] cluster<T>* data() { return row_.data(); }
     [[nodiscard]] std::size_t size() const { return count_; }

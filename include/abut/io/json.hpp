@@ -79,7 +79,7 @@ public:
     [[nodiscard]] std::uint64_t whole(const json_value& object, std::string_view name, std::uint64_t otherwise,
                                       std::uint64_t most) const {
         const json_value* const found = find(object, name);
-        return found == nullptr ? otherwise : whole(*found, ("'" + std::string(name) + "'").c_str(), most);
+        return found == nullptr ? otherwise : whole(*found, in_quotes(name).c_str(), most);
     }
     /// A finite number.
     [[nodiscard]] double real(const json_value& value) const {

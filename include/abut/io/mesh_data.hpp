@@ -3,6 +3,7 @@
 
 // What a mesh file holds, as the parsers return it, and how a polygon becomes triangles.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -12,6 +13,7 @@
 
 #include <abut/arithmetic/arithmetic.hpp>
 #include <abut/arithmetic/vec.hpp>
+#include <abut/collide/flag.hpp>
 #include <abut/io/error.hpp>
 
 namespace abut::io {
@@ -24,7 +26,7 @@ struct read_options {
     /// Passes over what others' programs write and no geometry needs: faces of fewer than three corners, further values in a
     /// row, and what follows after the last row. By default such files are refused. What is passed over is counted
     /// (`mesh_data::skipped`).
-    bool lenient = false;
+    flag lenient = false;
 };
 
 /// What a lenient reader has passed over.
@@ -57,6 +59,17 @@ struct fanned_polygon {
 
 /// Polygons that need more are refused: clipping ears takes quadratic time, for spirals cubic.
 inline constexpr std::size_t most_corners_clipped = 1024;
+
+/// Where in a file something is: a line, or a byte of binary data.
+struct file_place {
+    std::size_t number;
+    bool is_line;
+};
+/// Where a polygon is that may have to be refused, by its first triangle.
+struct place_of_polygon {
+    std::size_t first;
+    file_place place;
+};
 
 struct point2 {
     double x, y;
@@ -151,9 +164,11 @@ inline std::vector<std::array<std::size_t, 3>> clip_ears(const std::vector<point
 }
 
 /// Replaces the fans that do not cover their polygon by triangles that do. Throws io_error if such a polygon has more than
-/// `most_corners_clipped` corners. One that crosses itself has no right answer, and stays a fan.
+/// `most_corners_clipped` corners: `large` says where these are. One that crosses itself has no right answer, and stays a
+/// fan.
 template <scalar T>
-void cut_polygons(mesh_data<T>& mesh, const std::vector<fanned_polygon>& polygons, const std::string& file) {
+void cut_polygons(mesh_data<T>& mesh, const std::vector<fanned_polygon>& polygons,
+                  const std::vector<place_of_polygon>& large, const std::string& file) {
     std::vector<vec3<T>> positions;
     std::vector<std::uint32_t> corners;
     for (const fanned_polygon& polygon : polygons) {
@@ -166,9 +181,12 @@ void cut_polygons(mesh_data<T>& mesh, const std::vector<fanned_polygon>& polygon
         const auto flat = flatten(positions);
         if (flat.empty() || fan_is_right(flat)) continue;
         if (polygon.corners > most_corners_clipped) {
-            throw io_error(file, "expected polygons that are convex or have at most " +
+            const auto is_it = [&](const place_of_polygon& one) { return one.first == polygon.first; };
+            const file_place at = std::find_if(large.begin(), large.end(), is_it)->place;
+            const std::string what = "expected polygons that are convex or have at most " +
                                      std::to_string(most_corners_clipped) + " corners, found one with " +
-                                     std::to_string(polygon.corners));
+                                     std::to_string(polygon.corners);
+            throw at.is_line ? io_error::at_line(file, at.number, what) : io_error::at_byte(file, at.number, what);
         }
         const auto ears = clip_ears(flat);
         if (ears.size() != polygon.corners - 2) continue;
@@ -186,7 +204,8 @@ public:
 
     /// `corner(i)` gives the vertex index of corner i; at least three corners.
     template <class Corner>
-    void add(std::size_t corners, const Corner& corner) {
+    void add(std::size_t corners, const Corner& corner, file_place place) {
+        if (corners > most_corners_clipped) large_.push_back({mesh_.faces.size(), place});
         const std::uint32_t first = corner(0);
         std::uint32_t previous = corner(1);
         if (corners > 3) polygons_.push_back({mesh_.faces.size(), corners});
@@ -206,12 +225,13 @@ public:
             mesh_.faces.push_back(i % 2 == 0 ? std::array{a, b, c} : std::array{b, a, c});
         }
     }
-    void finish() { cut_polygons(mesh_, polygons_, file_); }
+    void finish() { cut_polygons(mesh_, polygons_, large_, file_); }
 
 private:
     mesh_data<T>& mesh_;
     const std::string& file_;
     std::vector<fanned_polygon> polygons_;
+    std::vector<place_of_polygon> large_;
 };
 
 }  // namespace detail

@@ -112,6 +112,7 @@ private:
     }
 
     void face() {
+        const std::size_t line = text_.line();
         corners_.clear();
         for (std::string_view word = next(); !word.empty(); word = next()) corners_.push_back(corner(word));
         if (corners_.size() < 3) {
@@ -119,7 +120,7 @@ private:
             ++skipped_.faces;
             return;
         }
-        faces_.add(corners_.size(), [&](std::size_t i) { return corners_[i]; });
+        faces_.add(corners_.size(), [&](std::size_t i) { return corners_[i]; }, {line, true});
     }
 
     /// The vertex, from 0, of v, v/vt, v//vn or v/vt/vn. Only v is used; the others need to be integers, or nothing.

@@ -131,11 +131,12 @@ private:
             }
             corners_.push_back(index);
         }
+        const file_place place{text_.line(), true};
         end_row();
         if (corners < 3) {
             ++mesh_.skipped.faces;
         } else {
-            collector.add(corners_.size(), [&](std::size_t i) { return corners_[i]; });
+            collector.add(corners_.size(), [&](std::size_t i) { return corners_[i]; }, place);
         }
     }
 

@@ -81,6 +81,8 @@ public:
     [[noreturn]] void fail(const std::string& expected, std::int64_t found) const {
         text_.fail(expected, std::to_string(found));
     }
+    /// Of the last value.
+    [[nodiscard]] file_place place() const { return {text_.line(), true}; }
     void check_end() {
         begin_row();
         if (text_.at_end()) return;
@@ -158,6 +160,7 @@ public:
     [[noreturn]] void fail(const std::string& expected, std::int64_t found) const {
         fail_at(last_, "expected " + expected + ", found " + std::to_string(found));
     }
+    [[nodiscard]] file_place place() const { return {last_, false}; }
     void check_end() {
         if (left() == 0) return;
         if (options_.lenient) {
@@ -284,6 +287,7 @@ void read_faces(Source& from, const ply_element& element, std::uint64_t vertices
             }
             const std::int64_t count = from.integer(*field.count_type, "the number of corners of a face");
             if (count < 0 || (count < 3 && !is_strip && !options.lenient)) from.fail("a face of at least 3 corners", count);
+            const file_place place = from.place();
             read_corners(from, field, count, is_strip ? -1 : 0, vertices, corners);
             const auto at = [&](std::size_t first) {
                 return [&, first](std::size_t corner) { return static_cast<std::uint32_t>(corners[first + corner]); };
@@ -296,7 +300,7 @@ void read_faces(Source& from, const ply_element& element, std::uint64_t vertices
             } else if (count < 3) {
                 ++from.skipped.faces;
             } else {
-                faces.add(corners.size(), at(0));
+                faces.add(corners.size(), at(0), place);
             }
         }
         from.end_row();

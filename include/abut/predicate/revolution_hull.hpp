@@ -117,7 +117,7 @@ template <scalar T>
 ABUT_HD constexpr triangle<T> face_without(const hull<T>& h, const difference_simplex& at, int but) {
     const auto corner = [&](int k) {
         const int i = k < but ? k : k + 1;
-        return h[at.a[i < at.count ? i : at.count - 1]];
+        return h[at.a[(i < at.count ? i : at.count - 1) & 3]];  // & 3: g++ may not see that there is a corner
     };
     return {corner(0), corner(1), corner(2)};
 }

@@ -55,11 +55,13 @@ struct fetch_shape {
 
 // What is wrong with a shape that is not valid, as an exception.
 
+/// of: what the point is to the element, if it is a part of it.
 template <scalar T>
-[[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const vec3<T>& p) {
+[[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const vec3<T>& p,
+                         const std::string& of = "") {
     const bool x = !is_finite(p.x), y = !is_finite(p.y);
     const std::string name = x ? "x" : y ? "y" : "z";
-    throw invalid_geometry(function, element, i, name + " is not finite", static_cast<double>(x ? p.x : y ? p.y : p.z));
+    throw invalid_geometry(function, element, i, of + name + " is not finite", static_cast<double>(x ? p.x : y ? p.y : p.z));
 }
 template <scalar T>
 [[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const triangle<T>& t) {
@@ -79,6 +81,10 @@ template <scalar T>
 template <scalar T>
 [[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const segment<T>& s) {
     refuse(function, element, i, is_valid(s.a) ? s.b : s.a);
+}
+template <scalar T>
+[[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const ray<T>& r) {
+    refuse(function, element, i, is_valid(r.origin) ? r.direction : r.origin);
 }
 template <scalar T>
 [[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const aabb<T>& box) {
@@ -147,17 +153,31 @@ template <scalar T>
 inline constexpr shape_name name_of<cone<T>>{"cone", "abut::cones"};
 template <scalar T>
 inline constexpr shape_name name_of<aabb<T>>{"box", "abut::boxes"};
+template <scalar T>
+inline constexpr shape_name name_of<ray<T>>{"ray", "abut::rays"};
+template <scalar T>
+inline constexpr shape_name name_of<plane<T>>{"plane", "abut::shapes"};
+
+/// The first shape that is not valid, or none_is_bad.
+template <class Policy, shape_view V>
+std::size_t first_bad(const Policy& on, const V& view) {
+    return reduce(on, view.size(), none_is_bad, minimum{}, bad_shape<V>{view});
+}
+/// Shape i, on the host.
+template <class Policy, shape_view V>
+typename V::shape_type fetched(const Policy& on, const V& view, std::size_t i) {
+    typename V::shape_type shape;
+    execution::buffer_of<Policy, typename V::shape_type> copy(on, 1);
+    for_each_index(on, 1, fetch_shape<V>{view, i, copy.data()});
+    download(on, copy.data(), 1, &shape);
+    return shape;
+}
 
 /// Throws if a shape is not valid, with the first such.
 template <class Policy, shape_view V>
 void check_shapes(const Policy& on, const V& view, const char* function, const char* element) {
-    const std::size_t bad = reduce(on, view.size(), none_is_bad, minimum{}, bad_shape<V>{view});
-    if (bad == none_is_bad) return;
-    typename V::shape_type shape;
-    execution::buffer_of<Policy, typename V::shape_type> copy(on, 1);
-    for_each_index(on, 1, fetch_shape<V>{view, bad, copy.data()});
-    download(on, copy.data(), 1, &shape);
-    refuse(function, element, bad, shape);
+    const std::size_t bad = first_bad(on, view);
+    if (bad != none_is_bad) refuse(function, element, bad, fetched(on, view, bad));
 }
 
 /// Likewise of an array, which the policy has to be able to read.

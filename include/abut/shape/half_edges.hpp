@@ -132,11 +132,11 @@ template <execution_policy Policy>
 class half_edge_table {
 public:
     template <scalar T, memory_space Space>
-    half_edge_table(const Policy& on, const mesh_view<T, Space>& mesh, int vertex_bits)
-        : faces_(mesh.faces), key_{vertex_bits}, keys_(on, 3 * mesh.size()), half_edges_(on, 3 * mesh.size()) {
+    half_edge_table(const Policy& policy, const mesh_view<T, Space>& mesh, int vertex_bits)
+        : faces_(mesh.faces), key_{vertex_bits}, keys_(policy, 3 * mesh.size()), half_edges_(policy, 3 * mesh.size()) {
         const write_half_edges write{mesh.faces, mesh.vertices.count, key_, keys_.data(), half_edges_.data()};
-        for_each_index(on, mesh.size(), write);
-        sort_by_key(on, keys_, half_edges_, 2 * vertex_bits);
+        for_each_index(policy, mesh.size(), write);
+        sort_by_key(policy, keys_, half_edges_, 2 * vertex_bits);
     }
 
     [[nodiscard]] sorted_half_edges view() const { return {faces_, keys_.data(), half_edges_.data(), keys_.size(), key_}; }

@@ -3,9 +3,11 @@
 
 // Sets of convex hulls, each of its own number of points: all points one after another, and where each hull's begin.
 
+#include <algorithm>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <ranges>
 #include <span>
 #include <string>
@@ -97,11 +99,27 @@ struct bad_offset {
                            offset);
 }
 
+/// Throws for point i, which is p and not finite, of a hull. The message says both numbers.
+template <scalar T>
+[[noreturn]] void refuse_point(const char* function, const char* element, std::size_t hull, std::size_t i,
+                               const vec3<T>& p) {
+    refuse(function, element, hull, p, "point " + std::to_string(i) + ": ");
+}
+
+/// The hull that point i of all points belongs to. The offsets are valid.
+template <class Policy, scalar T, memory_space Space>
+std::size_t hull_of_point(const Policy& on, const hulls_view<T, Space>& view, std::size_t i) {
+    std::vector<std::uint32_t> offsets(view.offsets.count);
+    download(on, view.offsets.first(), offsets.size(), offsets.data());
+    return static_cast<std::size_t>(std::upper_bound(offsets.begin(), offsets.end(), i) - offsets.begin()) - 1;
+}
+
 template <class Policy, scalar T, memory_space Space>
 void check(const Policy& on, const hulls_view<T, Space>& view, const char* function) {
     check_count(view.size(), function);
     check_count(view.points.count, function);
-    check_array(on, view.points, function, "point");
+    require_access(on, view.points.data, function);
+    see_writes_to(view.points.data);
     const std::size_t n = view.size();
     if (view.offsets.count == 0 && view.points.count > 0) {
         throw error(std::string(function) + ": " + std::to_string(view.points.count) +
@@ -111,10 +129,15 @@ void check(const Policy& on, const hulls_view<T, Space>& view, const char* funct
     see_writes_to(view.offsets.data);
     const auto points = static_cast<std::uint32_t>(view.points.count);
     const std::size_t bad = reduce(on, view.offsets.count, none_is_bad, minimum{}, bad_offset{view.offsets, points});
-    if (bad == none_is_bad) return;
-    std::uint32_t offset[2] = {};
-    download(on, &view.offsets[bad], bad < n ? 2 : 1, offset);
-    refuse_offset(function, bad, n, points, offset[0], offset[1]);
+    if (bad != none_is_bad) {
+        std::uint32_t offset[2] = {};
+        download(on, &view.offsets[bad], bad < n ? 2 : 1, offset);
+        refuse_offset(function, bad, n, points, offset[0], offset[1]);
+    }
+    const shapes_view<vec3<T>, Space> all(view.points.first(), view.points.count, view.points.stride);
+    const std::size_t point = first_bad(on, all);
+    if (point == none_is_bad) return;
+    refuse_point(function, "hull", hull_of_point(on, view, point), point, fetched(on, all, point));
 }
 
 /// A hull's points, where they are in the world.
@@ -133,7 +156,9 @@ template <class Policy, scalar T, memory_space Space>
 void check(const Policy& on, const single_view<hull<T>, Space>& view, const char* function) {
     const hull<T>& h = view.shape;
     if (h.count == 0) throw invalid_geometry(function, "hull", 0, "it has no point; their number is", 0);
-    check_shapes(on, points_of_hull<T, Space>{h}, function, "point");
+    const points_of_hull<T, Space> points{h};
+    const std::size_t point = first_bad(on, points);
+    if (point != none_is_bad) refuse_point(function, "hull", 0, point, fetched(on, points, point));
 }
 
 /// Whether placed points overflow. Looks at each.
@@ -141,7 +166,10 @@ template <class Policy, scalar T, memory_space Space>
 void check(const Policy& on, const posed_view<hulls_view<T, Space>>& placed, const char* function) {
     const strided<vec3<T>>& all = placed.shapes.points;
     const shapes_view<vec3<T>, Space> points(all.first(), all.count, all.stride);
-    check_shapes(on, posed_view<shapes_view<vec3<T>, Space>>{points, placed.pose}, function, "posed point");
+    const posed_view<shapes_view<vec3<T>, Space>> there{points, placed.pose};
+    const std::size_t point = first_bad(on, there);
+    if (point == none_is_bad) return;
+    refuse_point(function, "posed hull", hull_of_point(on, placed.shapes, point), point, fetched(on, there, point));
 }
 
 /// Says what was expected instead of offsets of type P; false, so that nothing else is said.
@@ -191,10 +219,15 @@ public:
     /// Of points and offsets, which lie in host memory, in the policy's.
     template <execution_policy Policy>
         requires std::same_as<space_of<Policy>, Space>
-    hulls(const Policy& on, std::span<const vec3<T>> points, std::span<const std::uint32_t> offsets)
-        : points_(on, points), offsets_(on, offsets) {
-        detail::check(on, view(), name);
+    hulls(const Policy& policy, std::span<const vec3<T>> points, std::span<const std::uint32_t> offsets)
+        : points_(policy, points), offsets_(policy, offsets) {
+        detail::check(policy, view(), name);
     }
+    /// The same of both in braces.
+    template <execution_policy Policy>
+        requires std::same_as<space_of<Policy>, Space>
+    hulls(const Policy& policy, std::initializer_list<vec3<T>> points, std::initializer_list<std::uint32_t> offsets)
+        : hulls(policy, detail::span_of(points), detail::span_of(offsets)) {}
     /// Of a list of points for each hull, in host memory.
     explicit hulls(const std::vector<std::vector<vec3<T>>>& lists)
         requires std::same_as<Space, host_space>
@@ -202,7 +235,7 @@ public:
     /// The same in the policy's memory. The lists lie in host memory.
     template <execution_policy Policy>
         requires std::same_as<space_of<Policy>, Space>
-    hulls(const Policy& on, const std::vector<std::vector<vec3<T>>>& lists) {
+    hulls(const Policy& policy, const std::vector<std::vector<vec3<T>>>& lists) {
         std::vector<vec3<T>> points;
         std::vector<std::uint32_t> offsets(1, 0);
         for (const std::vector<vec3<T>>& list : lists) {
@@ -210,7 +243,7 @@ public:
             detail::check_count(points.size(), name);
             offsets.push_back(static_cast<std::uint32_t>(points.size()));
         }
-        *this = hulls(on, std::span<const vec3<T>>(points), std::span<const std::uint32_t>(offsets));
+        *this = hulls(policy, std::span<const vec3<T>>(points), std::span<const std::uint32_t>(offsets));
     }
     /// Of other libraries' arrays, containers or spans: of points that hold three T, or of T itself; of integers of any
     /// type. Negative offsets are refused like those that are too large.
@@ -219,15 +252,14 @@ public:
     hulls(const P& points, const O& offsets) : hulls(serial{}, points, offsets) {}
     /// The same in the policy's memory. The arrays lie in host memory.
     template <execution_policy Policy, detail::array_like P, detail::array_like O>
-        requires(std::same_as<space_of<Policy>, Space> &&
-                 !(std::convertible_to<const P&, std::span<const vec3<T>>> &&
-                   std::convertible_to<const O&, std::span<const std::uint32_t>>))
-    hulls(const Policy& on, const P& points, const O& offsets) {
+        requires(std::same_as<space_of<Policy>, Space> && !(std::convertible_to<const P&, std::span<const vec3<T>>> &&
+                                                            std::convertible_to<const O&, std::span<const std::uint32_t>>))
+    hulls(const Policy& policy, const P& points, const O& offsets) {
         if constexpr (detail::is_row<vec3<T>, detail::element_of<P>>() &&
                       detail::holds_offsets<detail::element_of<O>>()) {
             const std::span<const vec3<T>> all = detail::rows_as<vec3<T>>(points, name);
             const std::vector<std::uint32_t> from = detail::offsets_of(offsets, all.size(), name);
-            *this = hulls(on, all, std::span<const std::uint32_t>(from));
+            *this = hulls(policy, all, std::span<const std::uint32_t>(from));
         }
     }
 

@@ -19,7 +19,9 @@ struct line_of {
         : origin(r.origin), end(r.direction), start{0, 0, 0}, last(infinity<double>) {}
     ABUT_HD constexpr line_of(const segment<T>& s) : origin(s.a), end(s.b), start(s.a), last(1) {}
 
-    [[nodiscard]] ABUT_HD constexpr vec3<T> direction() const { return end - start; }
+    /// A ray's own, to the bit: where a processor takes denormal numbers for 0, a difference from 0 would be 0. That of a
+    /// segment may be off by twice the least normal number, and so may its points; what is culled by it allows for that.
+    [[nodiscard]] ABUT_HD constexpr vec3<T> direction() const { return has_end() ? end - start : end; }
     [[nodiscard]] ABUT_HD constexpr bool has_end() const { return last == 1; }
 };
 

@@ -265,8 +265,13 @@ ABUT_HD line_in_frame<T> line_seen(const object_frame<T>& frame, const vec3<T>& 
     constexpr double u = static_cast<double>(unit_roundoff<T>);
     const double apart = magnitudes(widened(origin)) + 2 * magnitudes(widened(pose.translation)) + 2 * frame.size;
     const double slack = 2 * seen.map.slack + (16 * frame.deviation + 64 * u) * apart;
+    // What is flushed to zero, or rounded to a denormal number, must be a small share of a ray's direction. A segment's own
+    // points are off by as little.
+    constexpr double least_turned = static_cast<double>(smallest_normal<T>) / u;
     const bool is_known = slack < static_cast<double>(largest_finite<T>) / 4 &&
-                          magnitudes(turned) < static_cast<double>(largest_finite<T>) / 4;
+                          magnitudes(turned) < static_cast<double>(largest_finite<T>) / 4 &&
+                          (magnitudes(turned) >= least_turned || last != infinity<double> ||
+                           (is_zero(direction.x) && is_zero(direction.y) && is_zero(direction.z)));
     if (!is_known) return {origin, {1, 1, 1}, infinity<double>, infinity<T>};
     return {seen.center, to_scalar<T>(turned), last, static_cast<T>(slack)};
 }

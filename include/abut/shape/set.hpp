@@ -5,6 +5,7 @@
 
 #include <concepts>
 #include <cstddef>
+#include <initializer_list>
 #include <memory>
 #include <span>
 #include <string>
@@ -29,9 +30,9 @@ class shared_array {
 public:
     shared_array() = default;
     template <execution_policy Policy>
-    shared_array(const Policy& on, std::span<const T> values) {
-        auto fresh = std::make_shared<execution::buffer<T, Space>>(on, values.size());
-        upload(on, values.data(), values.size(), fresh->data());
+    shared_array(const Policy& policy, std::span<const T> values) {
+        auto fresh = std::make_shared<execution::buffer<T, Space>>(policy, values.size());
+        upload(policy, values.data(), values.size(), fresh->data());
         values_ = std::move(fresh);
     }
     explicit shared_array(execution::buffer<T, Space> values)
@@ -62,6 +63,12 @@ public:
 private:
     std::shared_ptr<const execution::buffer<T, Space>> values_;
 };
+
+/// What stands in braces, for as long as the call lasts that they are written in.
+template <class S>
+constexpr std::span<const S> span_of(std::initializer_list<S> values) {
+    return {values.begin(), values.size()};
+}
 
 /// Makes sets of arrays that have been checked, and takes such arrays out (shape/features.hpp).
 struct set_parts;
@@ -121,23 +128,31 @@ public:
     shapes(const std::vector<Shape>& values)
         requires std::same_as<Space, host_space>
         : shapes(serial{}, values) {}
+    /// Of shapes written in braces: `rays<float>({{origin, direction}})`.
+    shapes(std::initializer_list<Shape> values)
+        requires std::same_as<Space, host_space>
+        : shapes(serial{}, values) {}
     /// Of these shapes, which lie in host memory, in the policy's.
     template <execution_policy Policy>
         requires std::same_as<space_of<Policy>, Space>
-    shapes(const Policy& on, std::span<const Shape> values) : values_(on, values) {
-        detail::check(on, view(), detail::name_of<Shape>.set);
+    shapes(const Policy& policy, std::span<const Shape> values) : values_(policy, values) {
+        detail::check(policy, view(), detail::name_of<Shape>.set);
     }
+    /// The same of shapes in braces.
+    template <execution_policy Policy>
+        requires std::same_as<space_of<Policy>, Space>
+    shapes(const Policy& policy, std::initializer_list<Shape> values) : shapes(policy, detail::span_of(values)) {}
     /// Of `count` shapes that are made where the policy works: shape i is make(i), for a std::size_t i, called for each
     /// concurrently. Under `cuda` it is a functor marked ABUT_HD, and nothing goes through host memory: for sets that are
     /// larger than it, or whose numbers lie on the device already.
     template <execution_policy Policy, class Make>
         requires(std::same_as<space_of<Policy>, Space> && std::is_invocable_r_v<Shape, const Make&, std::size_t>)
-    shapes(const Policy& on, std::size_t count, const Make& make) {
-        require_callable(on, make, std::size_t{});
-        execution::buffer<Shape, Space> values(on, count);
-        for_each_index(on, count, detail::put_shape<Shape, Make>{make, values.data()});
+    shapes(const Policy& policy, std::size_t count, const Make& make) {
+        require_callable(policy, make, std::size_t{});
+        execution::buffer<Shape, Space> values(policy, count);
+        for_each_index(policy, count, detail::put_shape<Shape, Make>{make, values.data()});
         values_ = detail::shared_array<Shape, Space>(std::move(values));
-        detail::check(on, view(), detail::name_of<Shape>.set);
+        detail::check(policy, view(), detail::name_of<Shape>.set);
     }
     /// Of another library's array: a container or a span of elements that hold the shape's numbers in the order of its
     /// members (std::array<T, 4> for a sphere: center and radius), or of the numbers themselves (shape/rows.hpp).
@@ -147,9 +162,9 @@ public:
     /// The same in the policy's memory. The array lies in host memory.
     template <execution_policy Policy, detail::array_like R>
         requires(std::same_as<space_of<Policy>, Space> && !std::convertible_to<const R&, std::span<const Shape>>)
-    shapes(const Policy& on, const R& values) {
+    shapes(const Policy& policy, const R& values) {
         if constexpr (detail::is_row<Shape, detail::element_of<R>>()) {
-            *this = shapes(on, detail::rows_as<Shape>(values, detail::name_of<Shape>.set));
+            *this = shapes(policy, detail::rows_as<Shape>(values, detail::name_of<Shape>.set));
         }
     }
 
@@ -222,9 +237,15 @@ public:
     /// Of these centers, which lie in host memory, in the policy's.
     template <execution_policy Policy>
         requires std::same_as<space_of<Policy>, Space>
-    equal_spheres(const Policy& on, std::span<const vec3<T>> centers, T radius) : centers_(on, centers), radius_(radius) {
-        detail::check(on, view(), "abut::equal_spheres");
+    equal_spheres(const Policy& policy, std::span<const vec3<T>> centers, T radius)
+        : centers_(policy, centers), radius_(radius) {
+        detail::check(policy, view(), "abut::equal_spheres");
     }
+    /// The same of centers in braces.
+    template <execution_policy Policy>
+        requires std::same_as<space_of<Policy>, Space>
+    equal_spheres(const Policy& policy, std::initializer_list<vec3<T>> centers, T radius)
+        : equal_spheres(policy, detail::span_of(centers), radius) {}
     /// Of another library's array of centers: of elements that hold three T, or of T itself.
     template <detail::array_like R>
         requires std::same_as<Space, host_space>
@@ -232,9 +253,9 @@ public:
     /// The same in the policy's memory. The array lies in host memory.
     template <execution_policy Policy, detail::array_like R>
         requires(std::same_as<space_of<Policy>, Space> && !std::convertible_to<const R&, std::span<const vec3<T>>>)
-    equal_spheres(const Policy& on, const R& centers, T radius) {
+    equal_spheres(const Policy& policy, const R& centers, T radius) {
         if constexpr (detail::is_row<vec3<T>, detail::element_of<R>>()) {
-            *this = equal_spheres(on, detail::rows_as<vec3<T>>(centers, "abut::equal_spheres"), radius);
+            *this = equal_spheres(policy, detail::rows_as<vec3<T>>(centers, "abut::equal_spheres"), radius);
         }
     }
 
@@ -309,10 +330,21 @@ public:
     /// Of vertices, and of faces or edges, which lie in host memory, in the policy's.
     template <execution_policy Policy>
         requires std::same_as<space_of<Policy>, memory_space>
-    indexed_set(const Policy& on, std::span<const vertex> vertices, std::span<const element> elements)
-        : vertices_(on, vertices), elements_(on, elements) {
-        detail::check(on, view(), kind::name);
+    indexed_set(const Policy& policy, std::span<const vertex> vertices, std::span<const element> elements)
+        : vertices_(policy, vertices), elements_(policy, elements) {
+        detail::check(policy, view(), kind::name);
     }
+    /// The same of both, or of faces or edges, in braces.
+    ///@{
+    template <execution_policy Policy>
+        requires std::same_as<space_of<Policy>, memory_space>
+    indexed_set(const Policy& policy, std::initializer_list<vertex> vertices, std::initializer_list<element> elements)
+        : indexed_set(policy, detail::span_of(vertices), detail::span_of(elements)) {}
+    template <execution_policy Policy>
+        requires std::same_as<space_of<Policy>, memory_space>
+    indexed_set(const Policy& policy, std::span<const vertex> vertices, std::initializer_list<element> elements)
+        : indexed_set(policy, vertices, detail::span_of(elements)) {}
+    ///@}
     /// Of other libraries' arrays, containers or spans: of vertices that hold three T, or of T itself; of faces that hold
     /// three integers of any type (edges: two), or of integers. Negative indices are refused like those that are too large.
     template <detail::array_like V, detail::array_like E>
@@ -320,19 +352,18 @@ public:
     indexed_set(const V& vertices, const E& elements) : indexed_set(serial{}, vertices, elements) {}
     /// The same in the policy's memory. The arrays lie in host memory.
     template <execution_policy Policy, detail::array_like V, detail::array_like E>
-        requires(std::same_as<space_of<Policy>, memory_space> &&
-                 !(std::convertible_to<const V&, std::span<const vertex>> &&
-                   std::convertible_to<const E&, std::span<const element>>))
-    indexed_set(const Policy& on, const V& vertices, const E& elements) {
+        requires(std::same_as<space_of<Policy>, memory_space> && !(std::convertible_to<const V&, std::span<const vertex>> &&
+                                                                   std::convertible_to<const E&, std::span<const element>>))
+    indexed_set(const Policy& policy, const V& vertices, const E& elements) {
         constexpr std::size_t corners = std::tuple_size_v<element>;
         if constexpr (detail::is_row<vertex, detail::element_of<V>>() &&
                       detail::holds_indices<corners, detail::element_of<E>>()) {
             const auto points = detail::rows_as<vertex>(vertices, kind::name);
             if constexpr (std::same_as<detail::number_in<detail::element_of<E>>, std::uint32_t>) {
-                *this = indexed_set(on, points, detail::rows_as<element>(elements, kind::name));
+                *this = indexed_set(policy, points, detail::rows_as<element>(elements, kind::name));
             } else {
                 const auto indices = detail::indices_of<corners>(elements, points.size(), kind::name, kind::noun);
-                *this = indexed_set(on, points, std::span<const element>(indices));
+                *this = indexed_set(policy, points, std::span<const element>(indices));
             }
         }
     }
@@ -362,6 +393,12 @@ public:
         moved.elements_ = elements_;
         detail::check_array(on, moved.view().vertices, kind::name, "vertex");
         return moved;
+    }
+    /// Of vertices in braces.
+    template <execution_policy Policy>
+        requires std::same_as<space_of<Policy>, memory_space>
+    [[nodiscard]] indexed_set with_vertices(const Policy& on, std::initializer_list<vertex> vertices) const {
+        return with_vertices(on, detail::span_of(vertices));
     }
     /// Of another library's array.
     template <execution_policy Policy, detail::array_like V>

@@ -338,7 +338,7 @@ struct front_memory {
 template <memory_space Space>
 struct front_memory_in : front_memory {
     template <class Policy>
-    front_memory_in(const Policy& on, std::size_t most) : items(on, most) {}
+    front_memory_in(const Policy& policy, std::size_t most) : items(policy, most) {}
     execution::bounded_queue<front_item, Space> items;
 };
 
