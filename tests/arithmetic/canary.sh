@@ -64,6 +64,12 @@ for compiler in "$@"; do
         refuse "$compiler" -ffast-math
         refuse "$compiler" -Ofast
         refuse "$compiler" -ffinite-math-only
+        # What clang has no macro for, each part alone.
+        refuse "$compiler" -funsafe-math-optimizations
+        refuse "$compiler" -fassociative-math -fno-signed-zeros -fno-trapping-math
+        refuse "$compiler" -freciprocal-math
+        refuse "$compiler" -fapprox-func
+        refuse "$compiler" -fno-signed-zeros
         ;;
     *nvcc*)
         nvcc=$compiler
@@ -82,6 +88,8 @@ for compiler in "$@"; do
         refuse "$compiler" -Ofast
         refuse "$compiler" -ffinite-math-only
         refuse "$compiler" -funsafe-math-optimizations
+        refuse "$compiler" -freciprocal-math
+        refuse "$compiler" -fno-signed-zeros
         ;;
     esac
 done
