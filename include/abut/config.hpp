@@ -58,3 +58,11 @@
 #define ABUT_NOINLINE [[gnu::noinline]]
 #define ABUT_INLINE [[gnu::always_inline]] inline
 #endif
+
+// ABUT_FMA_IS_RIGHT is 1 where std::fma is one rounding. On Windows it is so where it is an instruction: the function of
+// mingw-w64 rounds twice. g++ calls the function where it does not optimise.
+#if !ABUT_DEVICE_CODE && (defined(ABUT_PORTABLE) || (defined(_WIN32) && !(defined(__FMA__) && defined(__OPTIMIZE__))))
+#define ABUT_FMA_IS_RIGHT 0
+#else
+#define ABUT_FMA_IS_RIGHT 1
+#endif

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: MIT
 #
 # canary.sh [COMPILER...]: compiles canary.cpp as users may, runs it, and checks that fast-math is refused. Compilers are
-# names or paths of g++, clang++ and nvcc (default: all three); one that is absent is skipped, and a line says so. nvcc's
-# part runs where there is a device and is compiled elsewhere. Exits 0 if nothing failed, and 77 if no compiler was there.
+# names or paths of g++, clang++, nvcc (default: all three) and mingw-w64's g++; one that is absent is skipped, and a line
+# says so. nvcc's part runs where there is a device and is compiled elsewhere. Exits 0 if nothing failed, and 77 if no
+# compiler was there.
 
 here=$(cd "$(dirname "$0")" && pwd)
 # shellcheck source=cmake/common.sh
@@ -22,7 +23,7 @@ check() {
         echo "FAILED to compile: $compiler $*"
         cat "$work/log"
         failed=1
-    elif "$work/canary"; then
+    elif $wine "$work/canary$suffix"; then
         echo "passed: $compiler $*"
     else
         echo "FAILED: $compiler $*"
@@ -49,6 +50,7 @@ if [ $# -eq 0 ]; then
     command -v nvcc >/dev/null 2>&1 || nvcc=/usr/local/cuda/bin/nvcc
     set -- g++ clang++ "$nvcc"
 fi
+wine= suffix=
 for compiler in "$@"; do
     if ! command -v "$compiler" >/dev/null 2>&1; then
         echo "skipped: $compiler is not there"
@@ -57,6 +59,20 @@ for compiler in "$@"; do
     native=
     case $(uname -m) in x86_64 | aarch64) native=-march=native ;; esac
     case $(basename "$compiler") in
+    *mingw32*)
+        # Windows, by wine, where it is here. Its fma is a function that rounds twice, or an instruction.
+        wine=$(command -v wine64 || command -v wine || command -v /usr/lib/wine/wine64) || {
+            echo "skipped: $compiler needs wine64 to run what it makes"
+            continue
+        }
+        suffix=.exe WINEDEBUG=-all
+        export WINEDEBUG
+        check "$compiler" -O2 -static
+        check "$compiler" -O0 -static
+        check "$compiler" -O0 -mfma -static
+        check "$compiler" -O3 -mfma -ffp-contract=fast -static
+        wine= suffix=
+        ;;
     *clang*)
         check "$compiler" -O3 $native
         check "$compiler" -O3 $native -ffp-contract=fast

@@ -2,10 +2,10 @@
 #pragma once
 
 // Sums and products together with their rounding errors, and sums rounded in a stated direction. They hold whatever the
-// compiler contracts: products use an explicit fma, and each operand of a sum passes a barrier first, because a compiler
-// that inlines `two_sum(a * b, c)` may otherwise compute a * b + c in one rounding in one place and in two in another.
-// Errors of sums and products need round-to-nearest and gradual underflow at run time (arithmetic/self_test.hpp looks).
-// Directed sums need neither.
+// compiler contracts: products use an explicit fma, or Dekker's halves, and each operand of a sum passes a barrier first,
+// because a compiler that inlines `two_sum(a * b, c)` may otherwise compute a * b + c in one rounding in one place and in
+// two in another. Errors of sums and products need round-to-nearest and gradual underflow at run time
+// (arithmetic/self_test.hpp looks). Directed sums need neither.
 
 #include <cmath>
 #include <cstdint>
@@ -123,11 +123,73 @@ ABUT_HD constexpr error_free<T> two_diff(T a, T b) {
     return two_sum(a, -b);
 }
 
-/// Exact unless the product overflows, or its error falls below the smallest denormal. Not for constant expressions.
+namespace detail {
+
+/// a b - p by Dekker's halves, where p is a b rounded, or near it. Exact where nothing leaves the range of normal numbers.
+ABUT_HD constexpr double dekker_error(double a, double b, double p) {
+    constexpr double splitter = 0x1p27 + 1;
+    const double x = plain_product(splitter, a), y = plain_product(splitter, b);
+    const double a1 = plain_sum(x, -plain_sum(x, -a)), b1 = plain_sum(y, -plain_sum(y, -b));
+    const double a2 = plain_sum(a, -a1), b2 = plain_sum(b, -b1);
+    const double high = plain_sum(plain_product(a1, b1), -p), mixed = plain_sum(high, plain_product(a1, b2));
+    return plain_sum(plain_sum(mixed, plain_product(a2, b1)), plain_product(a2, b2));
+}
+
+/// What std::fma(a, b, -p) is, to the bit, where p is a b rounded to nearest: without that function.
+///@{
+ABUT_HD constexpr float product_error_without_fma(float a, float b, float p) {
+    return static_cast<float>(static_cast<double>(a) * static_cast<double>(b) - static_cast<double>(p));
+}
+
+ABUT_HD constexpr double product_error_without_fma(double a, double b, double p) {
+    const double size = absolute(p);
+    // Then the last digits of halves' products are no denormal numbers, and none of them overflows.
+    if (size > 0x1p-960 && size < 0x1p990 && absolute(a) < 0x1p990 && absolute(b) < 0x1p990) return dekker_error(a, b, p);
+    if (!is_finite(a) || !is_finite(b)) return a * b - p;
+    if (is_zero(a) || is_zero(b)) return 0;
+    if (!is_finite(p)) return -p;
+    // The same of numbers in [1, 2), x 2^i = a and y 2^j = b.
+    const auto in_unit = [](double x, int& exponent) {
+        const binary_parts parts = take_apart(x);
+        const auto magnitude = static_cast<double>(parts.mantissa < 0 ? -parts.mantissa : parts.mantissa);
+        const int digits = static_cast<int>(__builtin_bit_cast(std::uint64_t, magnitude) >> 52) - 1023;
+        exponent = parts.exponent + digits;
+        return static_cast<double>(parts.mantissa) * power_of_two<double>(-digits);
+    };
+    int i = 0, j = 0;
+    const double x = in_unit(a, i), y = in_unit(b, j), product = plain_product(x, y), error = dekker_error(x, y, product);
+    // An error of a denormal product is at most half of the least number, and rounds to 0 of its sign.
+    if (size <= smallest_normal<double>) {
+        const int k = i + j + 1074;  // a b is product and error, times 2^k, in units of the least number
+        const auto steps = static_cast<double>(__builtin_bit_cast(std::uint64_t, size));
+        // Below a quarter of a unit it rounds to 0.
+        const double units =
+            k < -4 ? product : plain_sum(plain_product(product, power_of_two<double>(k)), p < 0 ? steps : -steps);
+        const double rest = k < -4 ? error : plain_product(error, power_of_two<double>(k));
+        return plain_sum(units, rest) < 0 ? -0.0 : 0.0;
+    }
+    // 2^(i + j) itself may be no normal number. Only the last product rounds.
+    const int half = (i + j) / 2;
+    return plain_product(plain_product(error, power_of_two<double>(half)), power_of_two<double>(i + j - half));
+}
+///@}
+
+/// The error of the rounded product p = a b.
 template <scalar T>
-ABUT_HD inline error_free<T> two_prod(T a, T b) {
+ABUT_HD constexpr T error_of_product(T a, T b, T p) {
+#if ABUT_FMA_IS_RIGHT
+    if (!__builtin_is_constant_evaluated()) return std::fma(a, b, -p);
+#endif
+    return product_error_without_fma(a, b, p);
+}
+
+}  // namespace detail
+
+/// Exact unless the product overflows, or its error falls below the smallest denormal. The same with an fma and without.
+template <scalar T>
+ABUT_HD constexpr error_free<T> two_prod(T a, T b) {
     const T p = detail::plain_product(a, b);
-    return {p, std::fma(a, b, -p)};
+    return {p, detail::error_of_product(a, b, p)};
 }
 
 namespace detail {

@@ -33,15 +33,6 @@ struct one_double {
     friend ABUT_HD constexpr bool operator<(one_double a, one_double b) { return a.high < b.high; }
 };
 
-/// The error of the rounded product p = a b. In constant expressions by Dekker's halves, since std::fma is none there.
-ABUT_HD constexpr double product_error(double a, double b, double p) {
-    if (!__builtin_is_constant_evaluated()) return std::fma(a, b, -p);
-    constexpr double splitter = 0x1p27 + 1;
-    const double a1 = splitter * a - (splitter * a - a), b1 = splitter * b - (splitter * b - b);
-    const double a2 = a - a1, b2 = b - b1;
-    return ((a1 * b1 - p) + a1 * b2 + a2 * b1) + a2 * b2;
-}
-
 /// high + low, where |low| is at most half a unit in the last place of high: 106 bits or more. Sums and products have
 /// relative errors of a few 2^-105 (Joldes, Muller, Popescu: Tight and rigorous error bounds for basic building blocks of
 /// double-word arithmetic, 2017, algorithms 6 and 10), also where a sum cancels.
@@ -68,7 +59,7 @@ struct two_doubles {
     friend ABUT_HD constexpr two_doubles operator-(const two_doubles& a) { return {-a.high, -a.low}; }
     friend ABUT_HD constexpr two_doubles operator-(const two_doubles& a, const two_doubles& b) { return a + -b; }
     friend ABUT_HD constexpr two_doubles operator*(const two_doubles& a, const two_doubles& b) {
-        const double p = plain_product(a.high, b.high), e = product_error(a.high, b.high, p);
+        const double p = plain_product(a.high, b.high), e = error_of_product(a.high, b.high, p);
         const double mixed = plain_sum(plain_product(a.high, b.low), plain_product(a.low, b.high));
         return normal(p, plain_sum(e, mixed));
     }
@@ -197,7 +188,7 @@ public:
     ABUT_HD constexpr void add_product(double a, double b) {
         if (a == 0 || b == 0) return;
         const double p = plain_product(a, b);
-        add(product_error(a, b, p));
+        add(error_of_product(a, b, p));
         add(p);
     }
     ABUT_HD constexpr void add_product(const two_doubles& a, const two_doubles& b) {
