@@ -37,7 +37,7 @@ private:
 #if ABUT_DEVICE_CODE
         __trap();
 #else
-        __builtin_trap();
+        ABUT_TRAP();
 #endif
     }
 };

@@ -27,13 +27,7 @@ template <scalar T>
 ABUT_HD constexpr T rounded(T x) {
 #if !ABUT_DEVICE_CODE
     if (!__builtin_is_constant_evaluated()) {
-#if defined(__SSE2__)
-        __asm__("" : "+x"(x));
-#elif defined(__aarch64__)
-        __asm__("" : "+w"(x));
-#else
-        __asm__("" : "+m"(x));
-#endif
+        ABUT_HIDE(x);
     }
 #endif
     return x;

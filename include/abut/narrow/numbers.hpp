@@ -89,7 +89,7 @@ ABUT_HD constexpr double constant_root(double x) {
         }
     }
     // 54 bits of the root, and whether more follow: a root is never halfway between two doubles.
-    double r = static_cast<double>((root >> 1) + (root & 1)) * 0x1p-52;
+    double r = static_cast<double>(lower_limb((root >> 1) + (root & 1))) * 0x1p-52;
     for (; exponent > 0; --exponent) r *= 2;
     for (; exponent < 0; ++exponent) r /= 2;
     return r;

@@ -69,8 +69,8 @@ namespace detail {
 /// reads from memory again; nothing is written or copied.
 template <class Shape>
 ABUT_HD constexpr const Shape& as_stored(const Shape& shape) {
-#if defined(__GNUC__) && !ABUT_DEVICE_CODE
-    if (!__builtin_is_constant_evaluated()) __asm__("" : "+m"(const_cast<Shape&>(shape)));
+#if !ABUT_DEVICE_CODE
+    if (!__builtin_is_constant_evaluated()) ABUT_REREAD(const_cast<Shape&>(shape));
 #endif
     return shape;
 }
@@ -112,9 +112,9 @@ ABUT_HD constexpr bool intersects_exactly(const S& s, const U& t) {
 }  // namespace detail
 
 /// Whether two closed shapes have a point in common: triangles, segments, rays, points (vec3) and planes, and spheres,
-/// boxes, capsules, cylinders, cones and convex hulls, which are solid, as docs/numerics.md lists. With `filtered` and `exact` the answer is
-/// right for every finite input and the same on each compiler and device; `fast` is approximate. Constant expressions are
-/// decided in integers.
+/// boxes, capsules, cylinders, cones and convex hulls, which are solid, as docs/numerics.md lists. With `filtered` and
+/// `exact` the answer is right for every finite input and the same on each compiler and device; `fast` is approximate.
+/// Constant expressions are decided in integers.
 ///
 ///     static_assert(abut::intersects(abut::sphere<float>{{0, 0, 5}, 5},
 ///                                    abut::triangle<float>{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}));
