@@ -26,7 +26,7 @@ namespace detail {
 template <scalar T>
 ABUT_HD constexpr T rounded(T x) {
 #if !ABUT_DEVICE_CODE
-    if (!__builtin_is_constant_evaluated()) {
+    if (!ABUT_CONSTANT_EVALUATED()) {
         ABUT_HIDE(x);
     }
 #endif
@@ -36,7 +36,7 @@ ABUT_HD constexpr T rounded(T x) {
 template <scalar T>
 ABUT_HD constexpr T plain_sum(T a, T b) {
 #if ABUT_DEVICE_CODE
-    if (!__builtin_is_constant_evaluated()) {
+    if (!ABUT_CONSTANT_EVALUATED()) {
         if constexpr (std::same_as<T, float>) {
             return __fadd_rn(a, b);
         } else {
@@ -50,7 +50,7 @@ ABUT_HD constexpr T plain_sum(T a, T b) {
 template <scalar T>
 ABUT_HD constexpr T plain_product(T a, T b) {
 #if ABUT_DEVICE_CODE
-    if (!__builtin_is_constant_evaluated()) {
+    if (!ABUT_CONSTANT_EVALUATED()) {
         if constexpr (std::same_as<T, float>) {
             return __fmul_rn(a, b);
         } else {
@@ -65,31 +65,31 @@ ABUT_HD constexpr T plain_product(T a, T b) {
 template <scalar T>
 ABUT_HD constexpr T power_of_two(int k) {
     using format = float_format<T>;
-    return __builtin_bit_cast(T, static_cast<typename format::word>(k - format::min_exponent - format::digits + 2)
-                                     << (format::digits - 1));
+    return ABUT_BIT_CAST(T, static_cast<typename format::word>(k - format::min_exponent - format::digits + 2)
+                                << (format::digits - 1));
 }
 
 /// Whether x is 0 or -0. By its bits: where denormals are read as zero, they equal 0 too.
 template <scalar T>
 ABUT_HD constexpr bool is_zero(T x) {
     using word = typename float_format<T>::word;
-    return static_cast<word>(__builtin_bit_cast(word, x) << 1) == 0;
+    return static_cast<word>(ABUT_BIT_CAST(word, x) << 1) == 0;
 }
 
 /// Whether the sign bit is set.
 template <scalar T>
 ABUT_HD constexpr bool has_sign(T x) {
     using word = typename float_format<T>::word;
-    return __builtin_bit_cast(word, x) >> (8 * sizeof(T) - 1) != 0;
+    return ABUT_BIT_CAST(word, x) >> (8 * sizeof(T) - 1) != 0;
 }
 
 /// The next representable number above a finite x; above the largest one, infinity. By bits, in every mode.
 template <scalar T>
 ABUT_HD constexpr T next_up(T x) {
     using word = typename float_format<T>::word;
-    const word w = __builtin_bit_cast(word, x);
-    if (is_zero(x)) return __builtin_bit_cast(T, word{1});
-    return __builtin_bit_cast(T, static_cast<word>(has_sign(x) ? w - 1 : w + 1));
+    const word w = ABUT_BIT_CAST(word, x);
+    if (is_zero(x)) return ABUT_BIT_CAST(T, word{1});
+    return ABUT_BIT_CAST(T, static_cast<word>(has_sign(x) ? w - 1 : w + 1));
 }
 
 }  // namespace detail
@@ -146,7 +146,7 @@ ABUT_HD constexpr double product_error_without_fma(double a, double b, double p)
     const auto in_unit = [](double x, int& exponent) {
         const binary_parts parts = take_apart(x);
         const auto magnitude = static_cast<double>(parts.mantissa < 0 ? -parts.mantissa : parts.mantissa);
-        const int digits = static_cast<int>(__builtin_bit_cast(std::uint64_t, magnitude) >> 52) - 1023;
+        const int digits = static_cast<int>(ABUT_BIT_CAST(std::uint64_t, magnitude) >> 52) - 1023;
         exponent = parts.exponent + digits;
         return static_cast<double>(parts.mantissa) * power_of_two<double>(-digits);
     };
@@ -155,7 +155,7 @@ ABUT_HD constexpr double product_error_without_fma(double a, double b, double p)
     // An error of a denormal product is at most half of the least number, and rounds to 0 of its sign.
     if (size <= smallest_normal<double>) {
         const int k = i + j + 1074;  // a b is product and error, times 2^k, in units of the least number
-        const auto steps = static_cast<double>(__builtin_bit_cast(std::uint64_t, size));
+        const auto steps = static_cast<double>(ABUT_BIT_CAST(std::uint64_t, size));
         // Below a quarter of a unit it rounds to 0.
         const double units =
             k < -4 ? product : plain_sum(plain_product(product, power_of_two<double>(k)), p < 0 ? steps : -steps);
@@ -172,7 +172,7 @@ ABUT_HD constexpr double product_error_without_fma(double a, double b, double p)
 template <scalar T>
 ABUT_HD constexpr T error_of_product(T a, T b, T p) {
 #if ABUT_FMA_IS_RIGHT
-    if (!__builtin_is_constant_evaluated()) return std::fma(a, b, -p);
+    if (!ABUT_CONSTANT_EVALUATED()) return std::fma(a, b, -p);
 #endif
     return product_error_without_fma(a, b, p);
 }
@@ -211,7 +211,7 @@ template <scalar T>
 ABUT_HD constexpr T scaled_up(T x) {
     using word = typename float_format<T>::word;
     if (!is_subnormal(x)) return plain_product(x, up_scale<T>);
-    const word steps = __builtin_bit_cast(word, x) & (static_cast<word>(-1) >> 1);
+    const word steps = ABUT_BIT_CAST(word, x) & (static_cast<word>(-1) >> 1);
     const T magnitude = plain_product(static_cast<T>(steps), scaled_denormal<T>);
     return has_sign(x) ? -magnitude : magnitude;
 }
@@ -222,8 +222,8 @@ ABUT_HD constexpr T scaled_down(T x) {
     using word = typename float_format<T>::word;
     if (absolute(x) >= up_scale<T> * smallest_normal<T>) return plain_product(x, 1 / up_scale<T>);
     const auto steps = static_cast<word>(plain_product(absolute(x), 1 / scaled_denormal<T>));
-    const word sign = __builtin_bit_cast(word, x) & ~(static_cast<word>(-1) >> 1);
-    return __builtin_bit_cast(T, static_cast<word>(sign | steps));
+    const word sign = ABUT_BIT_CAST(word, x) & ~(static_cast<word>(-1) >> 1);
+    return ABUT_BIT_CAST(T, static_cast<word>(sign | steps));
 }
 
 /// add_up where a, b or the sum may be denormal.
@@ -232,7 +232,7 @@ ABUT_HD constexpr T add_up_denormal(T a, T b) {
     using word = typename float_format<T>::word;
     // By bits: given a sum here, clang takes it for `b` below as well, which a processor may flush.
     if (is_zero(a) && is_zero(b)) {
-        return __builtin_bit_cast(T, static_cast<word>(__builtin_bit_cast(word, a) & __builtin_bit_cast(word, b)));
+        return ABUT_BIT_CAST(T, static_cast<word>(ABUT_BIT_CAST(word, a) & ABUT_BIT_CAST(word, b)));
     }
     if (is_zero(a)) return b;
     if (is_zero(b)) return a;

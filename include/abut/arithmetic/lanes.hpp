@@ -195,10 +195,10 @@ ABUT_INLINE ABUT_HD unsigned bits_of(const lane_mask<Answer, Registers> (&rows)[
     } else if constexpr (Rows == 1) {
         const auto& row = rows[0].at;
         if constexpr (Registers == 1) {
-            return static_cast<unsigned>(__builtin_ia32_movmskps(__builtin_bit_cast(register_of<float>::type, row[0])));
+            return static_cast<unsigned>(__builtin_ia32_movmskps(ABUT_BIT_CAST(register_of<float>::type, row[0])));
         } else {
-            const int low = __builtin_ia32_movmskpd(__builtin_bit_cast(register_of<double>::type, row[0])),
-                      high = __builtin_ia32_movmskpd(__builtin_bit_cast(register_of<double>::type, row[1]));
+            const int low = __builtin_ia32_movmskpd(ABUT_BIT_CAST(register_of<double>::type, row[0])),
+                      high = __builtin_ia32_movmskpd(ABUT_BIT_CAST(register_of<double>::type, row[1]));
             return static_cast<unsigned>(low | high << 2);
         }
 #endif

@@ -72,9 +72,9 @@ template <scalar T>
 ABUT_HD inline arithmetic_report self_test_of(T smallest_normal, T ulp) {
     using word = typename float_format<T>::word;
     const T normal = at_run_time(smallest_normal), half = at_run_time(T(0.5)), one = at_run_time(T(1));
-    const T denormal = at_run_time(__builtin_bit_cast(T, word{1})), tie = at_run_time(ulp / 2);
+    const T denormal = at_run_time(ABUT_BIT_CAST(T, word{1})), tie = at_run_time(ulp / 2);
     arithmetic_report r{};
-    r.gradual_underflow = __builtin_bit_cast(word, at_run_time(normal * half)) != 0;
+    r.gradual_underflow = ABUT_BIT_CAST(word, at_run_time(normal * half)) != 0;
     r.denormal_inputs = denormal > 0 && static_cast<double>(denormal) > 0;
     const T up = at_run_time(one + tie), down = at_run_time(-one - tie), past = at_run_time(one + T(1.5) * tie);
     r.round_to_nearest = up == one && down == -one && past == one + ulp;

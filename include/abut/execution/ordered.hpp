@@ -142,16 +142,16 @@ public:
         ABUT_HD void begin(std::size_t) {}
         ABUT_HD void offer(double value, std::uint64_t key) {
             mine.offer(value, key);
-            atomic_min(word, __builtin_bit_cast(std::uint64_t, mine.value));
+            atomic_min(word, ABUT_BIT_CAST(std::uint64_t, mine.value));
         }
-        [[nodiscard]] ABUT_HD double bound() const { return __builtin_bit_cast(double, atomic_load(word)); }
+        [[nodiscard]] ABUT_HD double bound() const { return ABUT_BIT_CAST(double, atomic_load(word)); }
         ABUT_HD void end(std::size_t) {}
         ABUT_HD void close() { out->offer(mine.value, mine.key); }
     };
 
     template <host_policy Policy>
     explicit best_of_all(const Policy&, double bound = least_value{}.value)
-        : word_(__builtin_bit_cast(std::uint64_t, bound)) {}
+        : word_(ABUT_BIT_CAST(std::uint64_t, bound)) {}
     /// The least of all loops so far.
     [[nodiscard]] least_value least() const { return least_; }
 

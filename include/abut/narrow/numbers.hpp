@@ -98,7 +98,7 @@ ABUT_HD constexpr double constant_root(double x) {
 /// Square roots of what is not negative.
 ABUT_HD constexpr one_double root(one_double x) {
     if (x.high == 0) return x;
-    if (__builtin_is_constant_evaluated()) return {constant_root(x.high)};
+    if (ABUT_CONSTANT_EVALUATED()) return {constant_root(x.high)};
     return {std::sqrt(x.high)};
 }
 ABUT_HD constexpr two_doubles root(const two_doubles& x) {
@@ -137,13 +137,13 @@ ABUT_HD constexpr point plain_difference(const point& a, const point& b) {
 
 /// 2^e, for -1022 <= e <= 1023
 ABUT_HD constexpr double power_of_two(int e) {
-    return __builtin_bit_cast(double, static_cast<std::uint64_t>(e + 1023) << 52);
+    return ABUT_BIT_CAST(double, static_cast<std::uint64_t>(e + 1023) << 52);
 }
 /// The exponent of a finite double x > 0: 2^e <= x < 2^(e+1).
 ABUT_HD constexpr int exponent_of(double x) {
-    const auto biased = static_cast<int>(__builtin_bit_cast(std::uint64_t, x) >> 52 & 0x7ff);
+    const auto biased = static_cast<int>(ABUT_BIT_CAST(std::uint64_t, x) >> 52 & 0x7ff);
     if (biased != 0) return biased - 1023;
-    return static_cast<int>(__builtin_bit_cast(std::uint64_t, x * 0x1p54) >> 52 & 0x7ff) - 1023 - 54;
+    return static_cast<int>(ABUT_BIT_CAST(std::uint64_t, x * 0x1p54) >> 52 & 0x7ff) - 1023 - 54;
 }
 /// x 2^e, for -2044 <= e <= 2046; in two steps, since 2^e itself may be out of range.
 ABUT_HD constexpr double scaled(double x, int e) {

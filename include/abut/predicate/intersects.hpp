@@ -70,7 +70,7 @@ namespace detail {
 template <class Shape>
 ABUT_HD constexpr const Shape& as_stored(const Shape& shape) {
 #if !ABUT_DEVICE_CODE
-    if (!__builtin_is_constant_evaluated()) ABUT_REREAD(const_cast<Shape&>(shape));
+    if (!ABUT_CONSTANT_EVALUATED()) ABUT_REREAD(const_cast<Shape&>(shape));
 #endif
     return shape;
 }
@@ -79,7 +79,7 @@ ABUT_HD constexpr const Shape& as_stored(const Shape& shape) {
 template <arithmetic A, class S, class U>
 ABUT_HD constexpr verdict decide_open(const S& s, const U& t) {
     if constexpr (!std::same_as<A, exact> && requires { decide_late<A>(s, t); }) {
-        if (std::same_as<A, fast> || !__builtin_is_constant_evaluated()) {
+        if (std::same_as<A, fast> || !ABUT_CONSTANT_EVALUATED()) {
             const verdict v = decide_late<A>(s, t);
             if (std::same_as<A, fast> || v != verdict::unknown) return v;
         }
@@ -112,9 +112,9 @@ ABUT_HD constexpr bool intersects_exactly(const S& s, const U& t) {
 }  // namespace detail
 
 /// Whether two closed shapes have a point in common: triangles, segments, rays, points (vec3) and planes, and spheres,
-/// boxes, capsules, cylinders, cones and convex hulls, which are solid, as docs/numerics.md lists. With `filtered` and
-/// `exact` the answer is right for every finite input and the same on each compiler and device; `fast` is approximate.
-/// Constant expressions are decided in integers.
+/// boxes, capsules, cylinders, cones and convex hulls, which are solid, as docs/numerics.md lists. With `filtered` and `exact` the answer is
+/// right for every finite input and the same on each compiler and device; `fast` is approximate. Constant expressions are
+/// decided in integers.
 ///
 ///     static_assert(abut::intersects(abut::sphere<float>{{0, 0, 5}, 5},
 ///                                    abut::triangle<float>{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}));
@@ -128,7 +128,7 @@ template <arithmetic A = filtered, class S, class U>
         } else {
             const S& stored_s = detail::as_stored(s);
             const U& stored_t = detail::as_stored(t);
-            if (std::same_as<A, filtered> && !__builtin_is_constant_evaluated()) {
+            if (std::same_as<A, filtered> && !ABUT_CONSTANT_EVALUATED()) {
                 const verdict v = decide<filtered>(stored_s, stored_t);
                 if (v != verdict::unknown) return v == verdict::yes;
             }

@@ -111,7 +111,7 @@ struct number_of_shape<S<T>> {
 /// An array of P can be read as one of S.
 template <class P, class S>
 concept readable_as = std::same_as<P, S> ||
-                      (numbers_of_shape<S> > 0 && holds_numbers<P, typename number_of_shape<S>::type, numbers_of_shape<S>>);
+    (numbers_of_shape<S> > 0 && holds_numbers<P, typename number_of_shape<S>::type, numbers_of_shape<S>>);
 
 /// An array of P holds integers, `n` of them for each element, or one by one.
 template <class P, std::size_t n>
