@@ -18,8 +18,7 @@ public:
     two_words() = default;
     /// A number of one word, continued by its sign.
     template <std::integral N>
-    ABUT_HD constexpr two_words(N n)
-        : low_(static_cast<std::uint64_t>(n)), high_(n < N{} ? ~std::uint64_t{0} : std::uint64_t{0}) {}
+    ABUT_HD constexpr two_words(N n) : low_(static_cast<std::uint64_t>(n)), high_(sign_of(n)) {}
     /// The same bits with a sign, or without.
     ABUT_HD explicit constexpr two_words(const two_words<!Signed>& n)
         : low_(static_cast<std::uint64_t>(n)), high_(static_cast<std::uint64_t>(n >> 64)) {}
@@ -76,6 +75,15 @@ public:
 
 private:
     ABUT_HD constexpr two_words(std::uint64_t low, std::uint64_t high) : low_(low), high_(high) {}
+    /// All bits of a negative number's next word, and none of another's.
+    template <std::integral N>
+    ABUT_HD static constexpr std::uint64_t sign_of(N n) {
+        if constexpr (std::signed_integral<N>) {
+            return n < 0 ? ~std::uint64_t{0} : 0;
+        } else {
+            return 0;
+        }
+    }
     ABUT_HD static constexpr std::uint64_t shifted(std::uint64_t word, int bits) {
         return Signed ? static_cast<std::uint64_t>(static_cast<std::int64_t>(word) >> bits) : word >> bits;
     }
