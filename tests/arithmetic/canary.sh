@@ -45,6 +45,20 @@ refuse() {
     fi
 }
 
+# doubt COMPILER FLAGS...: compiles, and the self test says that it should not have.
+doubt() {
+    compiler=$1
+    shift
+    ran=1
+    if "$compiler" -std=c++20 "$@" -I"$here/../../include" "$here/canary.cpp" -o "$work/canary" >"$work/log" 2>&1 &&
+        "$work/canary" 2>&1 | grep -q 'self test 1'; then
+        echo "doubted: $compiler $*"
+    else
+        echo "FAILED: $compiler $* is not seen by the self test"
+        failed=1
+    fi
+}
+
 if [ $# -eq 0 ]; then
     nvcc=nvcc
     command -v nvcc >/dev/null 2>&1 || nvcc=/usr/local/cuda/bin/nvcc
@@ -86,6 +100,7 @@ for compiler in "$@"; do
         refuse "$compiler" -freciprocal-math
         refuse "$compiler" -fapprox-func
         refuse "$compiler" -fno-signed-zeros
+        doubt "$compiler" -O2 -fno-honor-nans
         ;;
     *nvcc*)
         nvcc=$compiler

@@ -16,6 +16,7 @@ TEST_CASE("self test: passes on an ordinary thread") {
     CHECK(r.denormal_inputs);
     CHECK(r.round_to_nearest);
     CHECK(r.error_free);
+    CHECK(r.infinities_and_nan);
     CHECK(r.passed());
 }
 

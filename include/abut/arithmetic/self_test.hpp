@@ -4,7 +4,8 @@
 // What macros do not show, looked for at run time: flush-to-zero and denormals-are-zero modes (some libraries switch them on
 // when they are loaded; nvcc's -use_fast_math compiles them in), a rounding mode other than to nearest, and arithmetic that
 // breaks error-free transforms. Decisions (`intersects` with `filtered` or `exact`) and culling are right under all of
-// these; what depends on them are the transforms of error_free.hpp.
+// these; what depends on them are the transforms of error_free.hpp. And a compiler may take no number for NaN: then what is
+// not finite is let in.
 
 #include <cstdint>
 
@@ -14,14 +15,15 @@ namespace abut {
 
 /// What of IEEE arithmetic is in force on the calling thread.
 struct arithmetic_report {
-    bool gradual_underflow;  ///< denormal results are kept
-    bool denormal_inputs;    ///< denormal operands are read as what they are
-    bool round_to_nearest;   ///< ties to even
-    bool error_free;         ///< transforms return exact errors although their inputs could be contracted
+    bool gradual_underflow;   ///< denormal results are kept
+    bool denormal_inputs;     ///< denormal operands are read as what they are
+    bool round_to_nearest;    ///< ties to even
+    bool error_free;          ///< transforms return exact errors although their inputs could be contracted
+    bool infinities_and_nan;  ///< neither is taken for a finite number
 
     /// Whether all of it is.
     [[nodiscard]] ABUT_HD constexpr bool passed() const {
-        return gradual_underflow && denormal_inputs && round_to_nearest && error_free;
+        return gradual_underflow && denormal_inputs && round_to_nearest && error_free && infinities_and_nan;
     }
 };
 
@@ -84,6 +86,10 @@ ABUT_HD inline arithmetic_report self_test_of(T smallest_normal, T ulp) {
     const error_free<T> sum = two_sum(x * x, -one), product = two_prod(y, y);
     r.error_free = sum.value == 2 * e && sum.error == 0 && product.value == one + 2 * e && product.error == e * e &&
                    products_are_right<T>(two_prod_of{});
+    // As what is checked of coordinates.
+    const T infinite = at_run_time(infinity<T>),
+            nan = at_run_time(ABUT_BIT_CAST(T, static_cast<word>(static_cast<word>(-1) >> 1)));
+    r.infinities_and_nan = !is_finite(infinite) && !is_finite(-infinite) && !is_finite(nan) && !(nan == nan) && !(nan < one);
     return r;
 }
 
@@ -95,7 +101,8 @@ ABUT_HD inline arithmetic_report self_test() {
     const arithmetic_report f = detail::self_test_of<float>(0x1p-126f, 0x1p-23f);
     const arithmetic_report d = detail::self_test_of<double>(0x1p-1022, 0x1p-52);
     return {f.gradual_underflow && d.gradual_underflow, f.denormal_inputs && d.denormal_inputs,
-            f.round_to_nearest && d.round_to_nearest, f.error_free && d.error_free};
+            f.round_to_nearest && d.round_to_nearest, f.error_free && d.error_free,
+            f.infinities_and_nan && d.infinities_and_nan};
 }
 
 }  // namespace abut
