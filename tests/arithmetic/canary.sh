@@ -90,6 +90,7 @@ for compiler in "$@"; do
     *clang*)
         check "$compiler" -O3 $native
         check "$compiler" -O3 $native -ffp-contract=fast
+        check "$compiler" -O3 $native -ffp-contract=fast -DABUT_PORTABLE
         check "$compiler" -O0
         refuse "$compiler" -ffast-math
         refuse "$compiler" -Ofast
@@ -114,6 +115,7 @@ for compiler in "$@"; do
     *)
         check "$compiler" -O3 $native
         check "$compiler" -O3 $native -ffp-contract=fast -flto
+        check "$compiler" -O3 $native -ffp-contract=fast -DABUT_PORTABLE
         check "$compiler" -O0
         refuse "$compiler" -ffast-math
         refuse "$compiler" -Ofast
