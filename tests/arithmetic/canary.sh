@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: MIT
 #
 # canary.sh [COMPILER...]: compiles canary.cpp as users may, runs it, and checks that fast-math is refused. Compilers are
-# names or paths of g++, clang++ and nvcc (default: all three); one that is absent is skipped, and a line says so. nvcc's
-# part runs where there is a device and is compiled elsewhere. Exits 0 if nothing failed, and 77 if no compiler was there.
+# names or paths of g++, clang++, nvcc (default: all three) and mingw-w64's g++; one that is absent is skipped, and a line
+# says so. nvcc's part runs where there is a device and is compiled elsewhere. Exits 0 if nothing failed, and 77 if no
+# compiler was there.
 
 here=$(cd "$(dirname "$0")" && pwd)
 # shellcheck source=cmake/common.sh
@@ -22,7 +23,7 @@ check() {
         echo "FAILED to compile: $compiler $*"
         cat "$work/log"
         failed=1
-    elif "$work/canary"; then
+    elif $wine "$work/canary$suffix"; then
         echo "passed: $compiler $*"
     else
         echo "FAILED: $compiler $*"
@@ -44,11 +45,26 @@ refuse() {
     fi
 }
 
+# doubt COMPILER FLAGS...: compiles, and the self test says that it should not have.
+doubt() {
+    compiler=$1
+    shift
+    ran=1
+    if "$compiler" -std=c++20 "$@" -I"$here/../../include" "$here/canary.cpp" -o "$work/canary" >"$work/log" 2>&1 &&
+        "$work/canary" 2>&1 | grep -q 'self test 1'; then
+        echo "doubted: $compiler $*"
+    else
+        echo "FAILED: $compiler $* is not seen by the self test"
+        failed=1
+    fi
+}
+
 if [ $# -eq 0 ]; then
     nvcc=nvcc
     command -v nvcc >/dev/null 2>&1 || nvcc=/usr/local/cuda/bin/nvcc
     set -- g++ clang++ "$nvcc"
 fi
+wine= suffix=
 for compiler in "$@"; do
     if ! command -v "$compiler" >/dev/null 2>&1; then
         echo "skipped: $compiler is not there"
@@ -57,13 +73,35 @@ for compiler in "$@"; do
     native=
     case $(uname -m) in x86_64 | aarch64) native=-march=native ;; esac
     case $(basename "$compiler") in
+    *mingw32*)
+        # Windows, by wine, where it is here. Its fma is a function that rounds twice, or an instruction.
+        wine=$(command -v wine64 || command -v wine || command -v /usr/lib/wine/wine64) || {
+            echo "skipped: $compiler needs wine64 to run what it makes"
+            continue
+        }
+        suffix=.exe WINEDEBUG=-all
+        export WINEDEBUG
+        check "$compiler" -O2 -static
+        check "$compiler" -O0 -static
+        check "$compiler" -O0 -mfma -static
+        check "$compiler" -O3 -mfma -ffp-contract=fast -static
+        wine= suffix=
+        ;;
     *clang*)
         check "$compiler" -O3 $native
         check "$compiler" -O3 $native -ffp-contract=fast
+        check "$compiler" -O3 $native -ffp-contract=fast -DABUT_PORTABLE
         check "$compiler" -O0
         refuse "$compiler" -ffast-math
         refuse "$compiler" -Ofast
         refuse "$compiler" -ffinite-math-only
+        # What clang has no macro for, each part alone.
+        refuse "$compiler" -funsafe-math-optimizations
+        refuse "$compiler" -fassociative-math -fno-signed-zeros -fno-trapping-math
+        refuse "$compiler" -freciprocal-math
+        refuse "$compiler" -fapprox-func
+        refuse "$compiler" -fno-signed-zeros
+        doubt "$compiler" -O2 -fno-honor-nans
         ;;
     *nvcc*)
         nvcc=$compiler
@@ -77,11 +115,14 @@ for compiler in "$@"; do
     *)
         check "$compiler" -O3 $native
         check "$compiler" -O3 $native -ffp-contract=fast -flto
+        check "$compiler" -O3 $native -ffp-contract=fast -DABUT_PORTABLE
         check "$compiler" -O0
         refuse "$compiler" -ffast-math
         refuse "$compiler" -Ofast
         refuse "$compiler" -ffinite-math-only
         refuse "$compiler" -funsafe-math-optimizations
+        refuse "$compiler" -freciprocal-math
+        refuse "$compiler" -fno-signed-zeros
         ;;
     esac
 done

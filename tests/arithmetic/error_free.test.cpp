@@ -157,6 +157,33 @@ TEMPLATE_TEST_CASE("directed sums: edges of the range", "", float, double) {
     CHECK(same_bits(add_down(T(3), T(-0.5)), T(2.5)));
 }
 
+TEMPLATE_TEST_CASE("errors of products without an fma are those of an fma, to the bit", "", float, double) {
+    using T = TestType;
+    constexpr int digits = std::numeric_limits<T>::digits, least = std::numeric_limits<T>::min_exponent - digits;
+    test::draws d(test::sample_seed, 7, sizeof(T));
+    std::uint64_t wrong = 0, denormal = 0, overflows = 0, errors = 0;
+    for (std::uint64_t i = 0; i < 4 * test::sample_count(); ++i) {
+        T a, b;
+        draw(d, a, b);
+        if (i % 2 == 0) {  // products near a power of two: at the end of the normal numbers, of the denormal ones, of all
+            a = std::ldexp(static_cast<T>(d.uniform(-1, 1)), d.below(40) - 20);
+            const int end = i % 4 == 0 ? least + d.below(2 * digits + 8) : std::numeric_limits<T>::max_exponent - d.below(4);
+            b = std::ldexp(static_cast<T>(d.uniform(-1, 1)), end);
+            if (i % 8 == 0) a = 1 - std::ldexp(T(1), -1 - d.below(digits)), b = std::ldexp(T(1), end);
+        }
+        const T p = detail::plain_product(a, b), expected = std::fma(a, b, -p);
+        const T found = detail::product_error_without_fma(a, b, p);
+        wrong += !same_bits(found, expected);
+        denormal += std::fpclassify(p) == FP_SUBNORMAL;
+        overflows += std::isinf(p);
+        errors += found != 0;
+    }
+    CHECK(wrong == 0);
+    CHECK(denormal > 0);
+    CHECK(overflows > 0);
+    CHECK(errors > test::sample_count());
+}
+
 TEMPLATE_TEST_CASE("two_sum, two_diff, two_prod: value and error make the exact result", "", float, double) {
     using T = TestType;
     test::draws d(test::sample_seed, 4, sizeof(T));

@@ -2,6 +2,7 @@
 #include <abut/arithmetic/self_test.hpp>
 
 #include <cfenv>
+#include <cmath>
 
 #include "support/catch.hpp"
 
@@ -15,7 +16,25 @@ TEST_CASE("self test: passes on an ordinary thread") {
     CHECK(r.denormal_inputs);
     CHECK(r.round_to_nearest);
     CHECK(r.error_free);
+    CHECK(r.infinities_and_nan);
     CHECK(r.passed());
+}
+
+/// A product whose fma rounds a b to 64 digits first, as the one of mingw-w64 does.
+struct rounds_twice {
+    abut::error_free<double> operator()(double a, double b) const {
+        const double p = a * b;
+        int exponent = 0;
+        std::frexp(p, &exponent);
+        const double error = std::ldexp(std::fma(a, b, -p), 64 - exponent);  // in units of the last of 64 digits
+        return {p, std::ldexp(std::nearbyint(error), exponent - 64)};
+    }
+};
+
+TEST_CASE("self test: sees a product whose error is rounded twice") {
+    CHECK(abut::detail::products_are_right<float>(abut::detail::two_prod_of{}));
+    CHECK(abut::detail::products_are_right<double>(abut::detail::two_prod_of{}));
+    CHECK_FALSE(abut::detail::products_are_right<double>(rounds_twice{}));
 }
 
 TEST_CASE("self test: sees another rounding mode") {

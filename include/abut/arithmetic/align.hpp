@@ -27,7 +27,7 @@ namespace detail {
 /// log2 of the lowest set bit of x, for 0 < x < 2^62. A power of two converts exactly to double, whose exponent field is
 /// then the answer: one instruction on hosts and devices, and no intrinsic that differs between them.
 ABUT_HD constexpr int lowest_bit(std::int64_t x) {
-    return static_cast<int>(__builtin_bit_cast(std::uint64_t, static_cast<double>(x & -x)) >> 52) - 1023;
+    return static_cast<int>(ABUT_BIT_CAST(std::uint64_t, static_cast<double>(x & -x)) >> 52) - 1023;
 }
 
 /// Number of bits of the numbers up to x.
@@ -39,7 +39,7 @@ constexpr int bits_up_to(std::uint64_t x) {
 
 /// log2 of the highest set bit of x > 0, as that of the lowest one.
 ABUT_HD constexpr std::uint32_t highest_bit(std::uint32_t x) {
-    return static_cast<std::uint32_t>(__builtin_bit_cast(std::uint64_t, static_cast<double>(x)) >> 52) - 1023;
+    return static_cast<std::uint32_t>(ABUT_BIT_CAST(std::uint64_t, static_cast<double>(x)) >> 52) - 1023;
 }
 
 template <scalar T>
@@ -63,7 +63,7 @@ ABUT_HD constexpr binary_parts take_apart(T x) {
     using format = detail::float_format<T>;
     using word = typename format::word;
     constexpr int fraction = format::digits - 1;
-    const word w = __builtin_bit_cast(word, x);
+    const word w = ABUT_BIT_CAST(word, x);
     const int biased = static_cast<int>((w << 1) >> (fraction + 1));
     const word hidden = static_cast<word>(biased != 0) << fraction;
     const auto m = static_cast<std::int64_t>((w & ((word{1} << fraction) - 1)) | hidden);
@@ -79,7 +79,7 @@ template <scalar T>
 ABUT_HD constexpr bool is_subnormal(T x) {
     using format = detail::float_format<T>;
     using word = typename format::word;
-    const word magnitude = static_cast<word>(__builtin_bit_cast(word, x) << 1);
+    const word magnitude = static_cast<word>(ABUT_BIT_CAST(word, x) << 1);
     return static_cast<word>(magnitude - 1) < (word{1} << format::digits) - 1;  // 0 wraps around, and is none
 }
 
@@ -97,7 +97,7 @@ template <scalar T>
 ABUT_HD constexpr auto ordered_bits(T x) {
     using word = std::conditional_t<std::same_as<T, float>, std::int32_t, std::int64_t>;
     constexpr auto least = static_cast<word>(std::uint64_t{1} << (8 * sizeof(T) - 1));
-    const auto w = __builtin_bit_cast(word, x);
+    const auto w = ABUT_BIT_CAST(word, x);
     return w < 0 ? least - w : w;
 }
 

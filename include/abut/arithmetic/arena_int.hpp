@@ -37,7 +37,7 @@ private:
 #if ABUT_DEVICE_CODE
         __trap();
 #else
-        __builtin_trap();
+        ABUT_TRAP();
 #endif
     }
 };
@@ -155,7 +155,7 @@ ABUT_HD constexpr vec3<arena_int> point_at(const arena_int (&value)[V], int i) {
 template <class Predicate, int Limbs, std::size_t V>
 ABUT_NOINLINE ABUT_HD constexpr bool holds_in_arena(const aligned<V>& x) {
     std::uint64_t room[std::size_t{Predicate::most_limbs} * Limbs];  // taken where it is needed
-    if (__builtin_is_constant_evaluated()) {
+    if (ABUT_CONSTANT_EVALUATED()) {
         for (std::uint64_t& limb : room) limb = 0;
     }
     const int width = x.width() > 0 ? x.width() : 0, limbs = (width + spare_bits_of_length + 63) / 64;

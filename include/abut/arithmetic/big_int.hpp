@@ -5,6 +5,7 @@
 // alone: they allocate. Not for long numbers: multiplication is the schoolbook's.
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -103,7 +104,7 @@ public:
         double value = 0;
         const std::size_t n = limbs_.size();
         for (std::size_t i = n; i > 0 && i + 2 > n; --i) {
-            value += __builtin_ldexp(static_cast<double>(limbs_[i - 1]), 64 * static_cast<int>(i - 1) - shift);
+            value += std::ldexp(static_cast<double>(limbs_[i - 1]), 64 * static_cast<int>(i - 1) - shift);
         }
         return negative_ ? -value : value;
     }

@@ -2,10 +2,10 @@
 #pragma once
 
 // Sums and products together with their rounding errors, and sums rounded in a stated direction. They hold whatever the
-// compiler contracts: products use an explicit fma, and each operand of a sum passes a barrier first, because a compiler
-// that inlines `two_sum(a * b, c)` may otherwise compute a * b + c in one rounding in one place and in two in another.
-// Errors of sums and products need round-to-nearest and gradual underflow at run time (arithmetic/self_test.hpp looks).
-// Directed sums need neither.
+// compiler contracts: products use an explicit fma, or Dekker's halves, and each operand of a sum passes a barrier first,
+// because a compiler that inlines `two_sum(a * b, c)` may otherwise compute a * b + c in one rounding in one place and in
+// two in another. Errors of sums and products need round-to-nearest and gradual underflow at run time
+// (arithmetic/self_test.hpp looks). Directed sums need neither.
 
 #include <cmath>
 #include <cstdint>
@@ -26,14 +26,8 @@ namespace detail {
 template <scalar T>
 ABUT_HD constexpr T rounded(T x) {
 #if !ABUT_DEVICE_CODE
-    if (!__builtin_is_constant_evaluated()) {
-#if defined(__SSE2__)
-        __asm__("" : "+x"(x));
-#elif defined(__aarch64__)
-        __asm__("" : "+w"(x));
-#else
-        __asm__("" : "+m"(x));
-#endif
+    if (!ABUT_CONSTANT_EVALUATED()) {
+        ABUT_HIDE(x);
     }
 #endif
     return x;
@@ -42,7 +36,7 @@ ABUT_HD constexpr T rounded(T x) {
 template <scalar T>
 ABUT_HD constexpr T plain_sum(T a, T b) {
 #if ABUT_DEVICE_CODE
-    if (!__builtin_is_constant_evaluated()) {
+    if (!ABUT_CONSTANT_EVALUATED()) {
         if constexpr (std::same_as<T, float>) {
             return __fadd_rn(a, b);
         } else {
@@ -56,7 +50,7 @@ ABUT_HD constexpr T plain_sum(T a, T b) {
 template <scalar T>
 ABUT_HD constexpr T plain_product(T a, T b) {
 #if ABUT_DEVICE_CODE
-    if (!__builtin_is_constant_evaluated()) {
+    if (!ABUT_CONSTANT_EVALUATED()) {
         if constexpr (std::same_as<T, float>) {
             return __fmul_rn(a, b);
         } else {
@@ -71,31 +65,31 @@ ABUT_HD constexpr T plain_product(T a, T b) {
 template <scalar T>
 ABUT_HD constexpr T power_of_two(int k) {
     using format = float_format<T>;
-    return __builtin_bit_cast(T, static_cast<typename format::word>(k - format::min_exponent - format::digits + 2)
-                                     << (format::digits - 1));
+    return ABUT_BIT_CAST(T, static_cast<typename format::word>(k - format::min_exponent - format::digits + 2)
+                                << (format::digits - 1));
 }
 
 /// Whether x is 0 or -0. By its bits: where denormals are read as zero, they equal 0 too.
 template <scalar T>
 ABUT_HD constexpr bool is_zero(T x) {
     using word = typename float_format<T>::word;
-    return static_cast<word>(__builtin_bit_cast(word, x) << 1) == 0;
+    return static_cast<word>(ABUT_BIT_CAST(word, x) << 1) == 0;
 }
 
 /// Whether the sign bit is set.
 template <scalar T>
 ABUT_HD constexpr bool has_sign(T x) {
     using word = typename float_format<T>::word;
-    return __builtin_bit_cast(word, x) >> (8 * sizeof(T) - 1) != 0;
+    return ABUT_BIT_CAST(word, x) >> (8 * sizeof(T) - 1) != 0;
 }
 
 /// The next representable number above a finite x; above the largest one, infinity. By bits, in every mode.
 template <scalar T>
 ABUT_HD constexpr T next_up(T x) {
     using word = typename float_format<T>::word;
-    const word w = __builtin_bit_cast(word, x);
-    if (is_zero(x)) return __builtin_bit_cast(T, word{1});
-    return __builtin_bit_cast(T, static_cast<word>(has_sign(x) ? w - 1 : w + 1));
+    const word w = ABUT_BIT_CAST(word, x);
+    if (is_zero(x)) return ABUT_BIT_CAST(T, word{1});
+    return ABUT_BIT_CAST(T, static_cast<word>(has_sign(x) ? w - 1 : w + 1));
 }
 
 }  // namespace detail
@@ -123,11 +117,73 @@ ABUT_HD constexpr error_free<T> two_diff(T a, T b) {
     return two_sum(a, -b);
 }
 
-/// Exact unless the product overflows, or its error falls below the smallest denormal. Not for constant expressions.
+namespace detail {
+
+/// a b - p by Dekker's halves, where p is a b rounded, or near it. Exact where nothing leaves the range of normal numbers.
+ABUT_HD constexpr double dekker_error(double a, double b, double p) {
+    constexpr double splitter = 0x1p27 + 1;
+    const double x = plain_product(splitter, a), y = plain_product(splitter, b);
+    const double a1 = plain_sum(x, -plain_sum(x, -a)), b1 = plain_sum(y, -plain_sum(y, -b));
+    const double a2 = plain_sum(a, -a1), b2 = plain_sum(b, -b1);
+    const double high = plain_sum(plain_product(a1, b1), -p), mixed = plain_sum(high, plain_product(a1, b2));
+    return plain_sum(plain_sum(mixed, plain_product(a2, b1)), plain_product(a2, b2));
+}
+
+/// What std::fma(a, b, -p) is, to the bit, where p is a b rounded to nearest: without that function.
+///@{
+ABUT_HD constexpr float product_error_without_fma(float a, float b, float p) {
+    return static_cast<float>(static_cast<double>(a) * static_cast<double>(b) - static_cast<double>(p));
+}
+
+ABUT_HD constexpr double product_error_without_fma(double a, double b, double p) {
+    const double size = absolute(p);
+    // Then the last digits of halves' products are no denormal numbers, and none of them overflows.
+    if (size > 0x1p-960 && size < 0x1p990 && absolute(a) < 0x1p990 && absolute(b) < 0x1p990) return dekker_error(a, b, p);
+    if (!is_finite(a) || !is_finite(b)) return a * b - p;
+    if (is_zero(a) || is_zero(b)) return 0;
+    if (!is_finite(p)) return -p;
+    // The same of numbers in [1, 2), x 2^i = a and y 2^j = b.
+    const auto in_unit = [](double x, int& exponent) {
+        const binary_parts parts = take_apart(x);
+        const auto magnitude = static_cast<double>(parts.mantissa < 0 ? -parts.mantissa : parts.mantissa);
+        const int digits = static_cast<int>(ABUT_BIT_CAST(std::uint64_t, magnitude) >> 52) - 1023;
+        exponent = parts.exponent + digits;
+        return static_cast<double>(parts.mantissa) * power_of_two<double>(-digits);
+    };
+    int i = 0, j = 0;
+    const double x = in_unit(a, i), y = in_unit(b, j), product = plain_product(x, y), error = dekker_error(x, y, product);
+    // An error of a denormal product is at most half of the least number, and rounds to 0 of its sign.
+    if (size <= smallest_normal<double>) {
+        const int k = i + j + 1074;  // a b is product and error, times 2^k, in units of the least number
+        const auto steps = static_cast<double>(ABUT_BIT_CAST(std::uint64_t, size));
+        // Below a quarter of a unit it rounds to 0.
+        const double units =
+            k < -4 ? product : plain_sum(plain_product(product, power_of_two<double>(k)), p < 0 ? steps : -steps);
+        const double rest = k < -4 ? error : plain_product(error, power_of_two<double>(k));
+        return plain_sum(units, rest) < 0 ? -0.0 : 0.0;
+    }
+    // 2^(i + j) itself may be no normal number. Only the last product rounds.
+    const int half = (i + j) / 2;
+    return plain_product(plain_product(error, power_of_two<double>(half)), power_of_two<double>(i + j - half));
+}
+///@}
+
+/// The error of the rounded product p = a b.
 template <scalar T>
-ABUT_HD inline error_free<T> two_prod(T a, T b) {
+ABUT_HD constexpr T error_of_product(T a, T b, T p) {
+#if ABUT_FMA_IS_RIGHT
+    if (!ABUT_CONSTANT_EVALUATED()) return std::fma(a, b, -p);
+#endif
+    return product_error_without_fma(a, b, p);
+}
+
+}  // namespace detail
+
+/// Exact unless the product overflows, or its error falls below the smallest denormal. The same with an fma and without.
+template <scalar T>
+ABUT_HD constexpr error_free<T> two_prod(T a, T b) {
     const T p = detail::plain_product(a, b);
-    return {p, std::fma(a, b, -p)};
+    return {p, detail::error_of_product(a, b, p)};
 }
 
 namespace detail {
@@ -155,7 +211,7 @@ template <scalar T>
 ABUT_HD constexpr T scaled_up(T x) {
     using word = typename float_format<T>::word;
     if (!is_subnormal(x)) return plain_product(x, up_scale<T>);
-    const word steps = __builtin_bit_cast(word, x) & (static_cast<word>(-1) >> 1);
+    const word steps = ABUT_BIT_CAST(word, x) & (static_cast<word>(-1) >> 1);
     const T magnitude = plain_product(static_cast<T>(steps), scaled_denormal<T>);
     return has_sign(x) ? -magnitude : magnitude;
 }
@@ -166,8 +222,8 @@ ABUT_HD constexpr T scaled_down(T x) {
     using word = typename float_format<T>::word;
     if (absolute(x) >= up_scale<T> * smallest_normal<T>) return plain_product(x, 1 / up_scale<T>);
     const auto steps = static_cast<word>(plain_product(absolute(x), 1 / scaled_denormal<T>));
-    const word sign = __builtin_bit_cast(word, x) & ~(static_cast<word>(-1) >> 1);
-    return __builtin_bit_cast(T, static_cast<word>(sign | steps));
+    const word sign = ABUT_BIT_CAST(word, x) & ~(static_cast<word>(-1) >> 1);
+    return ABUT_BIT_CAST(T, static_cast<word>(sign | steps));
 }
 
 /// add_up where a, b or the sum may be denormal.
@@ -176,7 +232,7 @@ ABUT_HD constexpr T add_up_denormal(T a, T b) {
     using word = typename float_format<T>::word;
     // By bits: given a sum here, clang takes it for `b` below as well, which a processor may flush.
     if (is_zero(a) && is_zero(b)) {
-        return __builtin_bit_cast(T, static_cast<word>(__builtin_bit_cast(word, a) & __builtin_bit_cast(word, b)));
+        return ABUT_BIT_CAST(T, static_cast<word>(ABUT_BIT_CAST(word, a) & ABUT_BIT_CAST(word, b)));
     }
     if (is_zero(a)) return b;
     if (is_zero(b)) return a;

@@ -151,7 +151,7 @@ ABUT_HD constexpr double unit_of_estimates(const T (&value)[V]) {
     // By their bits, without a sign; less 1, which makes 0 the greatest of all.
     word most = 0, least_of_all = static_cast<word>(-1);
     for (int i = 0; i < int{V}; ++i) {
-        const word size = static_cast<word>(__builtin_bit_cast(word, value[i]) << 1), less = static_cast<word>(size - 1);
+        const word size = static_cast<word>(ABUT_BIT_CAST(word, value[i]) << 1), less = static_cast<word>(size - 1);
         most = size > most ? size : most;
         least_of_all = less < least_of_all ? less : least_of_all;
     }

@@ -76,12 +76,12 @@ struct short_integers {
         constexpr int fraction = format::digits - 1;
         word exponent[V]{}, most = 1;
         for (int i = 0; i < int{V}; ++i) {
-            exponent[i] = static_cast<word>(__builtin_bit_cast(word, value[i]) << 1) >> (fraction + 1);
+            exponent[i] = static_cast<word>(ABUT_BIT_CAST(word, value[i]) << 1) >> (fraction + 1);
             most = exponent[i] > most ? exponent[i] : most;
         }
         std::uint64_t lost = 0;
         for (int i = 0; i < int{V}; ++i) {
-            const auto bits = __builtin_bit_cast(word, value[i]);
+            const auto bits = ABUT_BIT_CAST(word, value[i]);
             const word normal = exponent[i] != 0, below = most - exponent[i] - (1 - normal), down = below < 63 ? below : 63;
             const std::uint64_t mantissa = (bits & ((word{1} << fraction) - 1)) | normal << fraction;
             const std::uint64_t at_top = mantissa << (59 - format::digits), in_place = at_top >> down;

@@ -16,10 +16,10 @@
 
 namespace abut::detail {
 
-#if defined(__GNUC__) && !defined(__CUDACC__)
+#if ABUT_VECTORS
 template <scalar T>
 struct register_of {
-    typedef T type __attribute__((vector_size(16)));
+    typedef ABUT_VECTOR_OF(T) type;
 };
 #else
 template <scalar T>
@@ -32,13 +32,7 @@ struct register_of {
 template <class Register>
 ABUT_INLINE ABUT_HD void hide([[maybe_unused]] Register& r) {
 #if !ABUT_DEVICE_CODE
-#if defined(__SSE2__)
-    __asm__("" : "+x"(r));
-#elif defined(__aarch64__)
-    __asm__("" : "+w"(r));
-#else
-    __asm__("" : "+m"(r));
-#endif
+    ABUT_HIDE(r);
 #endif
 }
 
@@ -84,7 +78,7 @@ struct lanes {
     }
     /// The same where the first lies at a multiple of 16 bytes: then x86-64 needs no instruction of its own for it.
     ABUT_INLINE ABUT_HD static lanes load_aligned(const T* from) {
-        return load(static_cast<const T*>(__builtin_assume_aligned(from, 16)));
+        return load(static_cast<const T*>(ABUT_ASSUME_ALIGNED(from, 16)));
     }
     /// The same number four times. Not by arithmetic, which may flush a denormal number.
     ABUT_INLINE ABUT_HD static lanes all(T x) {
@@ -197,14 +191,14 @@ ABUT_INLINE ABUT_HD unsigned bits_of(const lane_mask<Answer, Registers> (&rows)[
             for (int k = 0; k < 4; ++k) bits |= static_cast<unsigned>(rows[r].at[k] != 0) << (4 * r + k);
         }
         return bits;
-#if defined(__SSE2__) && !defined(__CUDACC__)
+#if defined(__SSE2__) && ABUT_VECTORS
     } else if constexpr (Rows == 1) {
         const auto& row = rows[0].at;
         if constexpr (Registers == 1) {
-            return static_cast<unsigned>(__builtin_ia32_movmskps(__builtin_bit_cast(register_of<float>::type, row[0])));
+            return static_cast<unsigned>(__builtin_ia32_movmskps(ABUT_BIT_CAST(register_of<float>::type, row[0])));
         } else {
-            const int low = __builtin_ia32_movmskpd(__builtin_bit_cast(register_of<double>::type, row[0])),
-                      high = __builtin_ia32_movmskpd(__builtin_bit_cast(register_of<double>::type, row[1]));
+            const int low = __builtin_ia32_movmskpd(ABUT_BIT_CAST(register_of<double>::type, row[0])),
+                      high = __builtin_ia32_movmskpd(ABUT_BIT_CAST(register_of<double>::type, row[1]));
             return static_cast<unsigned>(low | high << 2);
         }
 #endif
@@ -231,7 +225,7 @@ ABUT_INLINE ABUT_HD unsigned lowest_bit(unsigned bits) {
 #if ABUT_DEVICE_CODE
     return static_cast<unsigned>(__ffs(static_cast<int>(bits))) - 1;
 #else
-    return static_cast<unsigned>(__builtin_ctz(bits));
+    return static_cast<unsigned>(ABUT_LOWEST_BIT(bits));
 #endif
 }
 

@@ -11,8 +11,8 @@
 
 namespace abut::detail {
 
-ABUT_HD constexpr float absolute(float x) { return __builtin_fabsf(x); }
-ABUT_HD constexpr double absolute(double x) { return __builtin_fabs(x); }
+ABUT_HD constexpr float absolute(float x) { return ABUT_FABSF(x); }
+ABUT_HD constexpr double absolute(double x) { return ABUT_FABS(x); }
 
 template <scalar F>
 ABUT_HD constexpr vec3<F> absolute(const vec3<F>& v) {

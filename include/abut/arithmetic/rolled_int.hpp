@@ -70,7 +70,7 @@ struct rolled_int {
     }
     /// The same, and 0 in all its room in a constant expression, which may not copy what was not set.
     ABUT_HD constexpr void begin(int n) {
-        clear(__builtin_is_constant_evaluated() ? Room : n);
+        clear(ABUT_CONSTANT_EVALUATED() ? Room : n);
         count = n;
     }
     template <int A, int B>
@@ -295,7 +295,7 @@ ABUT_NOINLINE ABUT_HD constexpr double divide_magnitudes(std::uint64_t* a, std::
     // The quotient, by its digits: the first stands for 2^weight, and one of the first two is 1. As many follow as a double
     // of this magnitude has.
     int weight = bits_a - bits_b, last = lowest;
-    if (weight < lowest) return weight == lowest - 1 && limbs_less(b, a, n) ? __builtin_bit_cast(double, std::uint64_t{1}) : 0;
+    if (weight < lowest) return weight == lowest - 1 && limbs_less(b, a, n) ? ABUT_BIT_CAST(double, std::uint64_t{1}) : 0;
     std::uint64_t quotient = 0;
     for (;; --weight) {
         const bool is_one = !limbs_less(a, b, n);
@@ -307,9 +307,9 @@ ABUT_NOINLINE ABUT_HD constexpr double divide_magnitudes(std::uint64_t* a, std::
         if (weight == last) break;
     }
     if (limbs_less(b, a, n)) ++quotient;
-    if (last - lowest > 2100) return __builtin_bit_cast(double, largest);
+    if (last - lowest > 2100) return ABUT_BIT_CAST(double, largest);
     const std::uint64_t bits = (static_cast<std::uint64_t>(last - lowest) << (digits - 1)) + quotient;
-    return __builtin_bit_cast(double, bits < largest ? bits : largest);
+    return ABUT_BIT_CAST(double, bits < largest ? bits : largest);
 }
 
 /// |a| / |b| as above.

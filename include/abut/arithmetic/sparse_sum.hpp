@@ -45,7 +45,7 @@ template <int D>
 ABUT_HD constexpr int room(const wide_int<D>& x) {
     const auto top = static_cast<std::int64_t>(x.limb[D - 1]), size = (top < 0 ? ~top : top) | 1;
     // The conversion may round up: then there is room for one bit less, and one less is said.
-    return 61 - (static_cast<int>(__builtin_bit_cast(std::uint64_t, static_cast<double>(size)) >> 52) - 1022);
+    return 61 - (static_cast<int>(ABUT_BIT_CAST(std::uint64_t, static_cast<double>(size)) >> 52) - 1022);
 }
 
 /// x * 2^shift, for 0 <= shift < 64.
@@ -108,7 +108,7 @@ ABUT_NOINLINE ABUT_HD constexpr int multiply_terms(const sparse_term<D>* a, int 
 /// No terms. What is behind them is left as it is, but for constant expressions, which copy nothing that has no value.
 template <scalar T, int K, int D>
 ABUT_HD constexpr void clear(sparse_sum<T, K, D>& r) {
-    if (__builtin_is_constant_evaluated()) r = {};
+    if (ABUT_CONSTANT_EVALUATED()) r = {};
     r.count = 0;
 }
 

@@ -10,14 +10,20 @@
 #include <cstdint>
 
 #include <abut/arithmetic/vec.hpp>
+#include <abut/arithmetic/two_words.hpp>
 #include <abut/config.hpp>
 
 namespace abut {
 
-/// Integers of 128 bits, an extension of g++, clang and nvcc.
+/// Integers of 128 bits: the compiler's, an extension of g++, clang and nvcc, or two words (arithmetic/two_words.hpp).
 ///@{
+#if ABUT_INT128
 __extension__ typedef __int128 int128;
 __extension__ typedef unsigned __int128 uint128;
+#else
+using int128 = detail::two_words<true>;
+using uint128 = detail::two_words<false>;
+#endif
 ///@}
 
 namespace detail {

@@ -71,7 +71,7 @@ private:
     ABUT_HD static constexpr bool is_float(const binary_parts& x) {
         const std::int64_t size = x.mantissa < 0 ? -x.mantissa : x.mantissa;
         if (size == 0) return true;
-        const int width = static_cast<int>(__builtin_bit_cast(std::uint64_t, static_cast<double>(size)) >> 52) - 1022;
+        const int width = static_cast<int>(ABUT_BIT_CAST(std::uint64_t, static_cast<double>(size)) >> 52) - 1022;
         return width <= 24 && x.exponent >= -149 && x.exponent + width <= 128;
     }
 };

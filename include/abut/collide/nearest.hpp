@@ -289,7 +289,7 @@ inline void check_few(std::size_t count, const char* function) {
     if (count == 0) throw error(std::string(function) + ": count is 0, expected 1 or more");
 }
 inline void check_neighbors(std::size_t points, std::size_t count, const char* function) {
-    if (points <= (std::size_t{1} << 40) / count) return;
+    if (points <= (std::uint64_t{1} << 40) / count) return;
     throw capacity_error(std::string(function) + ": " + std::to_string(count) + " neighbours of " + std::to_string(points) +
                          " points, expected fewer than 2^40 in all");
 }

@@ -74,7 +74,7 @@ struct key_by_distance {
         using namespace contact_math;
         const point p = frame(contacts[i].point), n = wrench_of(contacts[i], frame).force;
         const double square = plain_sum(plain_dot(p, p), plain_dot(n, n));
-        return ~__builtin_bit_cast(std::uint64_t, square + 0.0);
+        return ~ABUT_BIT_CAST(std::uint64_t, square + 0.0);
     }
 };
 

@@ -145,7 +145,7 @@ struct expand_faces {
     ABUT_INLINE void prefetch(std::uint64_t key, int step) const {
         a.faces.prefetch(faces.a(key), step);
         b.faces.prefetch(faces.b(key), step);
-        if (step == 0) __builtin_prefetch(a.parts + faces.a(key)), __builtin_prefetch(b.parts + faces.b(key));
+        if (step == 0) ABUT_PREFETCH(a.parts + faces.a(key)), ABUT_PREFETCH(b.parts + faces.b(key));
     }
 
 private:

@@ -72,7 +72,7 @@ public:
     };
 
     explicit best_of_all(const cuda& on, double bound = least_value{}.value) : word_(on, 1) {
-        fill(on, word_.data(), 1, __builtin_bit_cast(std::uint64_t, bound));
+        fill(on, word_.data(), 1, ABUT_BIT_CAST(std::uint64_t, bound));
     }
     [[nodiscard]] least_value least() const { return least_; }
 

@@ -160,7 +160,7 @@ public:
             word &= word - 1;
         }
 #else
-        for (; word != 0; word &= word - 1) put(count++, static_cast<unsigned>(__builtin_ctz(word)));
+        for (; word != 0; word &= word - 1) put(count++, static_cast<unsigned>(ABUT_LOWEST_BIT(word)));
 #endif
     }
     /// The least of f(k) for every member, known to all.

@@ -14,6 +14,7 @@
 // or more. What is left does not depend on the order in which values come, and so not on threads, as long as nothing at the
 // bound is left out.
 
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -28,7 +29,7 @@ namespace abut::execution {
 
 /// A value and whose it is. At first there is none: an infinite value of the largest key.
 struct least_value {
-    double value = __builtin_huge_val();
+    double value = HUGE_VAL;
     std::uint64_t key = static_cast<std::uint64_t>(-1);
 
     [[nodiscard]] ABUT_HD bool comes_before(const least_value& other) const {
@@ -142,16 +143,16 @@ public:
         ABUT_HD void begin(std::size_t) {}
         ABUT_HD void offer(double value, std::uint64_t key) {
             mine.offer(value, key);
-            atomic_min(word, __builtin_bit_cast(std::uint64_t, mine.value));
+            atomic_min(word, ABUT_BIT_CAST(std::uint64_t, mine.value));
         }
-        [[nodiscard]] ABUT_HD double bound() const { return __builtin_bit_cast(double, atomic_load(word)); }
+        [[nodiscard]] ABUT_HD double bound() const { return ABUT_BIT_CAST(double, atomic_load(word)); }
         ABUT_HD void end(std::size_t) {}
         ABUT_HD void close() { out->offer(mine.value, mine.key); }
     };
 
     template <host_policy Policy>
     explicit best_of_all(const Policy&, double bound = least_value{}.value)
-        : word_(__builtin_bit_cast(std::uint64_t, bound)) {}
+        : word_(ABUT_BIT_CAST(std::uint64_t, bound)) {}
     /// The least of all loops so far.
     [[nodiscard]] least_value least() const { return least_; }
 
@@ -179,7 +180,7 @@ struct until_stopped {
 
         ABUT_HD void begin(std::size_t) { stopped = false; }
         ABUT_HD void stop() { stopped = true; }
-        [[nodiscard]] ABUT_HD double bound() const { return stopped ? -__builtin_huge_val() : __builtin_huge_val(); }
+        [[nodiscard]] ABUT_HD double bound() const { return stopped ? -HUGE_VAL : HUGE_VAL; }
         ABUT_HD void end(std::size_t) {}
         ABUT_HD void close() {}
     };

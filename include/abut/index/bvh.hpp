@@ -104,10 +104,10 @@ struct bvh_view_base {
 #if !ABUT_DEVICE_CODE
         if (c.is_leaf()) return;
         const auto* const line = reinterpret_cast<const char*>(nodes + c.index());
-        __builtin_prefetch(line);
-        if constexpr (sizeof(Node) > 64) __builtin_prefetch(line + 64);
-        if constexpr (sizeof(Node) > 128) __builtin_prefetch(line + 128);
-        if constexpr (sizeof(Node) > 192) __builtin_prefetch(line + 192);
+        ABUT_PREFETCH(line);
+        if constexpr (sizeof(Node) > 64) ABUT_PREFETCH(line + 64);
+        if constexpr (sizeof(Node) > 128) ABUT_PREFETCH(line + 128);
+        if constexpr (sizeof(Node) > 192) ABUT_PREFETCH(line + 192);
 #endif
     }
 };

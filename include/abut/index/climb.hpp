@@ -201,7 +201,7 @@ private:
 #if !ABUT_DEVICE_CODE
         // A processor would wait for each box in turn; so what comes later is asked for now.
         constexpr std::uint32_t ahead = 16;
-        if (leaf + ahead < leaves) __builtin_prefetch(boxes + ids[leaf + ahead]);
+        if (leaf + ahead < leaves) ABUT_PREFETCH(boxes + ids[leaf + ahead]);
 #endif
         return hang({boxes[ids[leaf]], bvh_child::leaf(ids[leaf]), leaf, leaf}, first, with);
     }

@@ -144,7 +144,7 @@ private:
         // g++ drops calls that do nothing else.
         if constexpr (std::same_as<Shapes, box_view<T, host_space>>) {
             constexpr std::size_t ahead = 16;
-            if (i + ahead < count) __builtin_prefetch(shapes.boxes + leaves[i + ahead]);
+            if (i + ahead < count) ABUT_PREFETCH(shapes.boxes + leaves[i + ahead]);
         }
 #endif
         const aabb<T> box = bounds(shapes[leaves[i]]);

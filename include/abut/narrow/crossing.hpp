@@ -41,7 +41,7 @@ ABUT_NOINLINE ABUT_HD constexpr met_above exact_crossing(const vec3<T>& p, const
 /// Never `unknown`.
 template <arithmetic A, scalar T>
 ABUT_HD constexpr met_above crossing_of(const vec3<T>& p, const triangle<T>& t) {
-    if (std::same_as<A, filtered> && !__builtin_is_constant_evaluated()) {
+    if (std::same_as<A, filtered> && !ABUT_CONSTANT_EVALUATED()) {
         const met_above found = certified_crossing(as_stored(p), as_stored(t));
         if (found != met_above::unknown) return found;
     }

@@ -278,7 +278,7 @@ template <class S, class U>
 [[nodiscard]] ABUT_HD constexpr auto contact_bound(const S& s, const U& t) {
     auto largest = detail::greatest(detail::contact_math::magnitude_of(s), detail::contact_math::magnitude_of(t));
     using T = decltype(largest);
-    constexpr T least_positive = __builtin_bit_cast(T, typename detail::float_format<T>::word{1});
+    constexpr T least_positive = ABUT_BIT_CAST(T, typename detail::float_format<T>::word{1});
     return detail::plain_sum(detail::plain_product(largest, 32 * unit_roundoff<T>), 16 * least_positive);
 }
 

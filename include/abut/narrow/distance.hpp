@@ -250,7 +250,7 @@ ABUT_HD constexpr T rounded_distance(double distance) {
     const T d = distance > static_cast<double>(largest_finite<T>) * (1 + static_cast<double>(unit_roundoff<T>) / 2)
                     ? infinity<T>
                     : rounded(static_cast<T>(distance));
-    constexpr T least_positive = __builtin_bit_cast(T, typename float_format<T>::word{1});
+    constexpr T least_positive = ABUT_BIT_CAST(T, typename float_format<T>::word{1});
     return d > 0 ? d : least_positive;
 }
 

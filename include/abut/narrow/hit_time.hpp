@@ -116,7 +116,7 @@ ABUT_HD constexpr double hit_time(const Line& line, const triangle<T>& t) {
         const T time = dot(n, t.a - l.origin) / dot(n, l.direction());
         return time >= 0 && is_finite(time) ? static_cast<double>(time) : 0;
     } else {
-        if (std::same_as<A, filtered> && !__builtin_is_constant_evaluated()) {
+        if (std::same_as<A, filtered> && !ABUT_CONSTANT_EVALUATED()) {
             const verdict v = decide<filtered>(as_stored(line), as_stored(t));
             if (v == verdict::no) return -1;
             if (v == verdict::yes) {
@@ -138,7 +138,7 @@ ABUT_NOINLINE ABUT_HD constexpr double hit_time_apart(const Line& line, const tr
 template <arithmetic A, class Line, scalar T>
 ABUT_HD constexpr time_bounds hit_time_bounds(const Line& line, const triangle<T>& t) {
     if constexpr (std::same_as<A, filtered>) {
-        if (!__builtin_is_constant_evaluated()) {
+        if (!ABUT_CONSTANT_EVALUATED()) {
             time_bounds times{-1, -1};
             if constexpr (std::same_as<Line, ray<T>>) {
                 plane_approach met{};
@@ -166,7 +166,7 @@ ABUT_HD constexpr bool is_met(const Line& line, const triangle<T>& t) {
     if constexpr (std::same_as<A, fast>) {
         return intersects<fast>(line, t);
     } else {
-        if (std::same_as<A, filtered> && !__builtin_is_constant_evaluated()) {
+        if (std::same_as<A, filtered> && !ABUT_CONSTANT_EVALUATED()) {
             const verdict v = decide<filtered>(as_stored(line), as_stored(t));
             if (v != verdict::unknown) return v == verdict::yes;
         }

@@ -33,15 +33,6 @@ struct one_double {
     friend ABUT_HD constexpr bool operator<(one_double a, one_double b) { return a.high < b.high; }
 };
 
-/// The error of the rounded product p = a b. In constant expressions by Dekker's halves, since std::fma is none there.
-ABUT_HD constexpr double product_error(double a, double b, double p) {
-    if (!__builtin_is_constant_evaluated()) return std::fma(a, b, -p);
-    constexpr double splitter = 0x1p27 + 1;
-    const double a1 = splitter * a - (splitter * a - a), b1 = splitter * b - (splitter * b - b);
-    const double a2 = a - a1, b2 = b - b1;
-    return ((a1 * b1 - p) + a1 * b2 + a2 * b1) + a2 * b2;
-}
-
 /// high + low, where |low| is at most half a unit in the last place of high: 106 bits or more. Sums and products have
 /// relative errors of a few 2^-105 (Joldes, Muller, Popescu: Tight and rigorous error bounds for basic building blocks of
 /// double-word arithmetic, 2017, algorithms 6 and 10), also where a sum cancels.
@@ -68,7 +59,7 @@ struct two_doubles {
     friend ABUT_HD constexpr two_doubles operator-(const two_doubles& a) { return {-a.high, -a.low}; }
     friend ABUT_HD constexpr two_doubles operator-(const two_doubles& a, const two_doubles& b) { return a + -b; }
     friend ABUT_HD constexpr two_doubles operator*(const two_doubles& a, const two_doubles& b) {
-        const double p = plain_product(a.high, b.high), e = product_error(a.high, b.high, p);
+        const double p = plain_product(a.high, b.high), e = error_of_product(a.high, b.high, p);
         const double mixed = plain_sum(plain_product(a.high, b.low), plain_product(a.low, b.high));
         return normal(p, plain_sum(e, mixed));
     }
@@ -98,7 +89,7 @@ ABUT_HD constexpr double constant_root(double x) {
         }
     }
     // 54 bits of the root, and whether more follow: a root is never halfway between two doubles.
-    double r = static_cast<double>((root >> 1) + (root & 1)) * 0x1p-52;
+    double r = static_cast<double>(lower_limb((root >> 1) + (root & 1))) * 0x1p-52;
     for (; exponent > 0; --exponent) r *= 2;
     for (; exponent < 0; ++exponent) r /= 2;
     return r;
@@ -107,7 +98,7 @@ ABUT_HD constexpr double constant_root(double x) {
 /// Square roots of what is not negative.
 ABUT_HD constexpr one_double root(one_double x) {
     if (x.high == 0) return x;
-    if (__builtin_is_constant_evaluated()) return {constant_root(x.high)};
+    if (ABUT_CONSTANT_EVALUATED()) return {constant_root(x.high)};
     return {std::sqrt(x.high)};
 }
 ABUT_HD constexpr two_doubles root(const two_doubles& x) {
@@ -146,13 +137,13 @@ ABUT_HD constexpr point plain_difference(const point& a, const point& b) {
 
 /// 2^e, for -1022 <= e <= 1023
 ABUT_HD constexpr double power_of_two(int e) {
-    return __builtin_bit_cast(double, static_cast<std::uint64_t>(e + 1023) << 52);
+    return ABUT_BIT_CAST(double, static_cast<std::uint64_t>(e + 1023) << 52);
 }
 /// The exponent of a finite double x > 0: 2^e <= x < 2^(e+1).
 ABUT_HD constexpr int exponent_of(double x) {
-    const auto biased = static_cast<int>(__builtin_bit_cast(std::uint64_t, x) >> 52 & 0x7ff);
+    const auto biased = static_cast<int>(ABUT_BIT_CAST(std::uint64_t, x) >> 52 & 0x7ff);
     if (biased != 0) return biased - 1023;
-    return static_cast<int>(__builtin_bit_cast(std::uint64_t, x * 0x1p54) >> 52 & 0x7ff) - 1023 - 54;
+    return static_cast<int>(ABUT_BIT_CAST(std::uint64_t, x * 0x1p54) >> 52 & 0x7ff) - 1023 - 54;
 }
 /// x 2^e, for -2044 <= e <= 2046; in two steps, since 2^e itself may be out of range.
 ABUT_HD constexpr double scaled(double x, int e) {
@@ -197,7 +188,7 @@ public:
     ABUT_HD constexpr void add_product(double a, double b) {
         if (a == 0 || b == 0) return;
         const double p = plain_product(a, b);
-        add(product_error(a, b, p));
+        add(error_of_product(a, b, p));
         add(p);
     }
     ABUT_HD constexpr void add_product(const two_doubles& a, const two_doubles& b) {

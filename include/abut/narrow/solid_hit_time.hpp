@@ -117,7 +117,7 @@ ABUT_NOINLINE ABUT_HD constexpr double rounded_root(const line_in_solid<T>& in) 
             low = middle + 1;
         }
     }
-    return __builtin_bit_cast(double, low);
+    return ABUT_BIT_CAST(double, low);
 }
 
 /// By integers, of any finite input; negative where it is not met.
@@ -139,7 +139,7 @@ ABUT_NOINLINE ABUT_HD constexpr double hit_time(const Line& line, const S& s) {
         const line_entry<double> entry = plain_entry(l, s);
         return entry.met != verdict::yes ? -1 : entry.at_start() ? 0 : is_finite(entry.time) ? entry.time : 0;
     } else {
-        if (std::same_as<A, filtered> && !__builtin_is_constant_evaluated()) {
+        if (std::same_as<A, filtered> && !ABUT_CONSTANT_EVALUATED()) {
             const line_of<scalar_type_of<S>> stored(as_stored(line));
             const entry_bounds bounds = certified_line(stored, as_stored(s));
             if (bounds.met == verdict::no) return -1;
@@ -159,7 +159,7 @@ ABUT_HD constexpr double hit_time_apart(const Line& line, const S& s) {
 template <arithmetic A, class Line, line_solid S>
 ABUT_HD constexpr time_bounds hit_time_bounds(const Line& line, const S& s) {
     if constexpr (std::same_as<A, filtered>) {
-        if (!__builtin_is_constant_evaluated()) {
+        if (!ABUT_CONSTANT_EVALUATED()) {
             const entry_bounds bounds = certified_line(line_of<scalar_type_of<S>>(as_stored(line)), as_stored(s));
             if (bounds.met == verdict::no) return {-1, -1};
             if (bounds.met == verdict::yes) return {bounds.first, bounds.last};
@@ -176,7 +176,7 @@ ABUT_HD constexpr bool is_met(const Line& line, const S& s) {
     if constexpr (std::same_as<A, fast>) {
         return plain_entry(line_of<T>(line), s).met == verdict::yes;
     } else {
-        if (std::same_as<A, filtered> && !__builtin_is_constant_evaluated()) {
+        if (std::same_as<A, filtered> && !ABUT_CONSTANT_EVALUATED()) {
             const verdict met = certified_line(line_of<T>(as_stored(line)), as_stored(s)).met;
             if (met != verdict::unknown) return met == verdict::yes;
         }

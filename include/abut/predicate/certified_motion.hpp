@@ -141,7 +141,7 @@ struct moving_points {
 template <scalar T>
 ABUT_HD constexpr bool is_same_number(T a, T b) {
     using word = typename float_format<T>::word;
-    return __builtin_bit_cast(word, a) == __builtin_bit_cast(word, b) || (is_zero(a) && is_zero(b));
+    return ABUT_BIT_CAST(word, a) == ABUT_BIT_CAST(word, b) || (is_zero(a) && is_zero(b));
 }
 
 /// Of which sides the area that they span with a point is 0 for all t, whatever the time: a bit for each condition below and

@@ -89,7 +89,7 @@ ABUT_HD constexpr vec3<T> corner(const triangle<T>& t, unsigned k) {
     const auto pick = [k](T a, T b, T c) { return k == 0 ? a : k == 1 ? b : c; };
     return {pick(t.a.x, t.b.x, t.c.x), pick(t.a.y, t.b.y, t.c.y), pick(t.a.z, t.b.z, t.c.z)};
 #else
-    if (__builtin_is_constant_evaluated()) return k == 0 ? t.a : k == 1 ? t.b : t.c;
+    if (ABUT_CONSTANT_EVALUATED()) return k == 0 ? t.a : k == 1 ? t.b : t.c;
     static_assert(sizeof(t) == 9 * sizeof(T));
     const T* const x = reinterpret_cast<const T*>(&t) + 3 * k;
     return {x[0], x[1], x[2]};

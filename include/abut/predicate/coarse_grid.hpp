@@ -41,12 +41,12 @@ ABUT_HD constexpr bool on_coarse_grid(const triangle<T>& s, const triangle<T>& t
     constexpr int fraction = float_format<T>::digits - 1;
     constexpr word bias = std::same_as<T, float> ? 127 : 1023, reach = std::same_as<T, float> ? 110 : 320;
     const vec3<T> most = farthest(farthest(farthest(s.a, s.b), farthest(s.c, t.a)), farthest(t.b, t.c));
-    const word exponent = __builtin_bit_cast(word, greatest(most.x, most.y, most.z)) >> fraction;
+    const word exponent = ABUT_BIT_CAST(word, greatest(most.x, most.y, most.z)) >> fraction;
     if (static_cast<word>(exponent - (bias - reach)) > 2 * reach) return false;
-    const T last_digit = __builtin_bit_cast(T, static_cast<word>(exponent + fraction + 1 - coarse_grid_bits) << fraction);
+    const T last_digit = ABUT_BIT_CAST(T, static_cast<word>(exponent + fraction + 1 - coarse_grid_bits) << fraction);
     const auto lost_of = [last_digit](T x) {
         const T size = absolute(x), back = plain_sum(plain_sum(size, last_digit), -last_digit);
-        return __builtin_bit_cast(word, back) ^ __builtin_bit_cast(word, size);
+        return ABUT_BIT_CAST(word, back) ^ ABUT_BIT_CAST(word, size);
     };
     const auto lost = [&](const vec3<T>& p) { return lost_of(p.x) | lost_of(p.y) | lost_of(p.z); };
     return (lost(s.a) | lost(s.b) | lost(s.c) | lost(t.a) | lost(t.b) | lost(t.c)) == 0;

@@ -192,7 +192,7 @@ private:
     }
     ABUT_HD static constexpr bool same_bits(T x, T y) {
         using word = typename float_format<T>::word;
-        return __builtin_bit_cast(word, x) == __builtin_bit_cast(word, y);
+        return ABUT_BIT_CAST(word, x) == ABUT_BIT_CAST(word, y);
     }
     ABUT_HD static constexpr bool same_bits(const vec3<T>& p, const vec3<T>& q) {
         return same_bits(p.x, q.x) && same_bits(p.y, q.y) && same_bits(p.z, q.z);
@@ -263,7 +263,7 @@ ABUT_HD constexpr double rounded_part(rolled_int<Room> n, int top, int sense) {
     for (int i = 0; i < n.count; ++i) {
         const int e = 64 * i - top;
         if (e <= -760 || n.limb[i] == 0) continue;  // a limb is below 2^(e + 64)
-        sum += static_cast<double>(n.limb[i]) * __builtin_bit_cast(double, static_cast<std::uint64_t>(e + 1023) << 52);
+        sum += static_cast<double>(n.limb[i]) * ABUT_BIT_CAST(double, static_cast<std::uint64_t>(e + 1023) << 52);
     }
     return sign < 0 ? -sum : sum;
 }
@@ -394,7 +394,7 @@ private:
 template <sought What, scalar T>
 ABUT_NOINLINE ABUT_HD constexpr difference_simplex guess_simplex(const hull<T>& a, const hull<T>& b) {
     difference_simplex at;
-    if (!__builtin_is_constant_evaluated()) {
+    if (!ABUT_CONSTANT_EVALUATED()) {
         vec3<double> w[4];
         (void)search_origin<What>(hulls_in_floats<true, T>(a, b), at, w);
     }

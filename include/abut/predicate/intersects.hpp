@@ -69,8 +69,8 @@ namespace detail {
 /// reads from memory again; nothing is written or copied.
 template <class Shape>
 ABUT_HD constexpr const Shape& as_stored(const Shape& shape) {
-#if defined(__GNUC__) && !ABUT_DEVICE_CODE
-    if (!__builtin_is_constant_evaluated()) __asm__("" : "+m"(const_cast<Shape&>(shape)));
+#if !ABUT_DEVICE_CODE
+    if (!ABUT_CONSTANT_EVALUATED()) ABUT_REREAD(const_cast<Shape&>(shape));
 #endif
     return shape;
 }
@@ -79,7 +79,7 @@ ABUT_HD constexpr const Shape& as_stored(const Shape& shape) {
 template <arithmetic A, class S, class U>
 ABUT_HD constexpr verdict decide_open(const S& s, const U& t) {
     if constexpr (!std::same_as<A, exact> && requires { decide_late<A>(s, t); }) {
-        if (std::same_as<A, fast> || !__builtin_is_constant_evaluated()) {
+        if (std::same_as<A, fast> || !ABUT_CONSTANT_EVALUATED()) {
             const verdict v = decide_late<A>(s, t);
             if (std::same_as<A, fast> || v != verdict::unknown) return v;
         }
@@ -128,7 +128,7 @@ template <arithmetic A = filtered, class S, class U>
         } else {
             const S& stored_s = detail::as_stored(s);
             const U& stored_t = detail::as_stored(t);
-            if (std::same_as<A, filtered> && !__builtin_is_constant_evaluated()) {
+            if (std::same_as<A, filtered> && !ABUT_CONSTANT_EVALUATED()) {
                 const verdict v = decide<filtered>(stored_s, stored_t);
                 if (v != verdict::unknown) return v == verdict::yes;
             }

@@ -36,7 +36,7 @@ public:
     template <scalar T>
     ABUT_HD constexpr explicit kept_points(const hull<T>& h) {
 #if !ABUT_DEVICE_CODE
-        if (!__builtin_is_constant_evaluated() && h.count >= fewest) take(h);
+        if (!ABUT_CONSTANT_EVALUATED() && h.count >= fewest) take(h);
 #endif
     }
     /// How many there are.

@@ -107,7 +107,7 @@ private:
     /// The sign of p . (q x r)
     [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr int sign_of(const way& p, const way& q, const way& r) {
         if constexpr (Sifted) {
-            if (!__builtin_is_constant_evaluated()) {
+            if (!ABUT_CONSTANT_EVALUATED()) {
                 const int s =
                     certain_side<T>(relative_to(p.from, p.to), relative_to(q.from, q.to), relative_to(r.from, r.to));
                 if (s != 0) return s;
@@ -127,7 +127,7 @@ private:
     }
     [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr bool is_on_line(std::uint32_t p) {
         if constexpr (Sifted) {
-            if (!__builtin_is_constant_evaluated()) {
+            if (!ABUT_CONSTANT_EVALUATED()) {
                 // Coordinates of the product are within 5u of their terms' magnitudes, as the sums of three are.
                 const vec3<double> d = relative_to(start_, end_), w = relative_to(origin_, h_[p]);
                 const double length = greatest(magnitudes(d), magnitudes(w)), lost = lost_of_differences<T>;

@@ -201,7 +201,7 @@ ABUT_NOINLINE ABUT_HD constexpr bool are_apart_along(const S& s, const hull<T>& 
         ABUT_ROLLED
         for (std::size_t i = 0; i < h.count && all; ++i) {
             const auto row = in_a_row(axis.a, axis.b, sense == 0 ? a : b, sense == 0 ? b : a, p, q, h[i], s.radius);
-            verdict v = __builtin_is_constant_evaluated() ? verdict::unknown : ask_estimates<question>(row.value);
+            verdict v = ABUT_CONSTANT_EVALUATED() ? verdict::unknown : ask_estimates<question>(row.value);
             if (v == verdict::unknown) v = ask_integers<question>(row.value);
             all = v == verdict::unknown ? decide_at_any_length<asked_exactly<question>>(row.value) : v == verdict::yes;
         }
@@ -309,7 +309,7 @@ ABUT_NOINLINE ABUT_HD constexpr verdict search_solid(const S& s, const hull<T>& 
 /// Whether shapes touch, by all stages one after another.
 template <class S, class U>
 ABUT_HD constexpr bool touch_exactly(const S& s, const U& t) {
-    verdict v = __builtin_is_constant_evaluated() ? verdict::unknown : decide<filtered>(s, t);
+    verdict v = ABUT_CONSTANT_EVALUATED() ? verdict::unknown : decide<filtered>(s, t);
     if (v == verdict::unknown) v = decide<exact>(s, t);
     return v == verdict::unknown ? resolve(s, t) : v == verdict::yes;
 }

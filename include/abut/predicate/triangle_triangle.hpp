@@ -33,7 +33,7 @@ ABUT_HD constexpr three_points<N> corners_of(const triangle<T>& t) {
 template <scalar T>
 ABUT_HD constexpr bool share_a_corner(const triangle<T>& s, const triangle<T>& t) {
     using word = typename float_format<T>::word;
-    const auto differing = [](T x, T y) { return __builtin_bit_cast(word, x) ^ __builtin_bit_cast(word, y); };
+    const auto differing = [](T x, T y) { return ABUT_BIT_CAST(word, x) ^ ABUT_BIT_CAST(word, y); };
     const auto same = [differing](const vec3<T>& p, const vec3<T>& q) {
         return static_cast<unsigned>((differing(p.x, q.x) | differing(p.y, q.y) | differing(p.z, q.z)) == 0);
     };

@@ -33,7 +33,7 @@ concept within_as_given = std::same_as<scalar_type_of<S>, scalar_type_of<U>> && 
 template <arithmetic A, class S, class U>
 ABUT_HD constexpr verdict decide_within_open(const S& s, const U& t, double distance) {
     if constexpr (!std::same_as<A, exact> && requires { decide_within_late<A>(s, t, distance); }) {
-        if (std::same_as<A, fast> || !__builtin_is_constant_evaluated()) {
+        if (std::same_as<A, fast> || !ABUT_CONSTANT_EVALUATED()) {
             const verdict v = decide_within_late<A>(s, t, distance);
             if (std::same_as<A, fast> || v != verdict::unknown) return v;
         }
@@ -69,7 +69,7 @@ template <arithmetic A = filtered, shape S, shape U>
     } else {
         const S& stored_s = detail::as_stored(s);
         const U& stored_t = detail::as_stored(t);
-        if (!std::same_as<A, exact> && !__builtin_is_constant_evaluated()) {
+        if (!std::same_as<A, exact> && !ABUT_CONSTANT_EVALUATED()) {
             const verdict v = detail::decide_within<A>(stored_s, stored_t, distance);
             if (v != verdict::unknown) return v == verdict::yes;
         }

@@ -33,7 +33,7 @@ concept cores_in_order = corners_of_core<S> > 0 && corners_of_core<S> <= corners
 /// A float as a double, also where a processor is told to read denormals as 0.
 ABUT_HD constexpr double widened_exactly(float x) {
     if (!is_subnormal(x)) return static_cast<double>(x);
-    const auto steps = static_cast<double>(__builtin_bit_cast(std::uint32_t, x) & 0x7fffffffu) * 0x1p-149;
+    const auto steps = static_cast<double>(ABUT_BIT_CAST(std::uint32_t, x) & 0x7fffffffu) * 0x1p-149;
     return has_sign(x) ? -steps : steps;
 }
 ABUT_HD constexpr double widened_exactly(double x) { return x; }

@@ -83,7 +83,7 @@ ABUT_NOINLINE ABUT_HD constexpr bool resolve_zero_area(const triangle<T>& t) {
 template <arithmetic A = filtered, scalar T>
     requires(!std::same_as<A, fast>)
 [[nodiscard]] ABUT_HD constexpr bool has_zero_area(const triangle<T>& t) {
-    if (std::same_as<A, filtered> && !__builtin_is_constant_evaluated()) {
+    if (std::same_as<A, filtered> && !ABUT_CONSTANT_EVALUATED()) {
         if (decide_zero_area<filtered>(t) == verdict::no) return false;
     }
     const verdict v = decide_zero_area<exact>(t);

@@ -47,7 +47,7 @@ ABUT_HD constexpr T rounded_up(double x) {
 /// sqrt(x) within a few roundings, for x >= 0. In constant expressions, where the library's may not be called, by Newton's
 /// iteration, which falls until it has arrived.
 ABUT_HD constexpr double square_root(double x) {
-    if (!__builtin_is_constant_evaluated()) return std::sqrt(x);
+    if (!ABUT_CONSTANT_EVALUATED()) return std::sqrt(x);
     double root = x > 1 ? x : 1;
     if (x == 0) return 0;
     for (;;) {

@@ -13,7 +13,7 @@ namespace abut::detail {
 template <scalar T>
 ABUT_HD constexpr auto place_word(T x) {
     using word = typename float_format<T>::word;
-    const auto w = __builtin_bit_cast(word, x);
+    const auto w = ABUT_BIT_CAST(word, x);
     return static_cast<word>(w << 1) == 0 ? word{0} : w;
 }
 

@@ -41,7 +41,7 @@ ABUT_HD constexpr double times_power_of_two(double x, int e) {
 template <scalar T>
 ABUT_HD constexpr int exponent_of_normal(T x) {
     using format = float_format<T>;
-    return static_cast<int>(__builtin_bit_cast(typename format::word, x) >> (format::digits - 1)) + format::min_exponent +
+    return static_cast<int>(ABUT_BIT_CAST(typename format::word, x) >> (format::digits - 1)) + format::min_exponent +
            format::digits - 2;
 }
 

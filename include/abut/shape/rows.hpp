@@ -168,7 +168,7 @@ inline std::size_t count_rows(std::size_t numbers, std::size_t each, const char*
 /// memory differs, and this asks them not to.
 ABUT_HD inline void see_writes_to([[maybe_unused]] const void* memory) {
 #if !ABUT_DEVICE_CODE
-    asm volatile("" : : "g"(memory) : "memory");
+    ABUT_REREAD_ALL(memory);
 #endif
 }
 

@@ -63,8 +63,8 @@ struct strided {
     }
     /// From the first to the last byte, which may lie on two cache lines.
     ABUT_INLINE void prefetch(std::size_t i) const {
-        __builtin_prefetch(data + i * stride);
-        __builtin_prefetch(data + i * stride + sizeof(T) - 1);
+        ABUT_PREFETCH(data + i * stride);
+        ABUT_PREFETCH(data + i * stride + sizeof(T) - 1);
     }
 };
 

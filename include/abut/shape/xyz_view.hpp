@@ -39,9 +39,9 @@ struct xyz_points_view {
     /// A hint on the host, as of any shape_view.
     ABUT_INLINE void prefetch(std::size_t i, int step = 0) const {
         if (step != 0) return;
-        __builtin_prefetch(x + i);
-        __builtin_prefetch(y + i);
-        __builtin_prefetch(z + i);
+        ABUT_PREFETCH(x + i);
+        ABUT_PREFETCH(y + i);
+        ABUT_PREFETCH(z + i);
     }
 };
 
@@ -74,7 +74,7 @@ struct xyz_spheres_view {
     /// A hint on the host, as of any shape_view.
     ABUT_INLINE void prefetch(std::size_t i, int step) const {
         centers.prefetch(i, step);
-        if (step == 0 && radii != nullptr) __builtin_prefetch(radii + i);
+        if (step == 0 && radii != nullptr) ABUT_PREFETCH(radii + i);
     }
 };
 
