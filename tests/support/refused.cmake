@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
 #
-# usage: cmake -D source=FILE -P refused.cmake -- COMPILER ARGUMENT...
+# usage: cmake -D source=FILE [-D precompiled=HEADER] -P refused.cmake -- COMPILER ARGUMENT...
 #
-# Runs the compiler on a source that must not compile. Comments of the source say what is expected:
+# Runs the compiler on a source that must not compile. HEADER is included first, where the source asks for no options and defines
+# nothing: what g++ has read before would not be valid then. Comments of the source say what is expected:
 #   // expect: REGEX     the first error matches it
 #   // options: WORDS    further arguments of the compiler
 #   // errors: N         the compiler prints at most N errors; 1 in a .cpp file that does not say, any number in a .cu file
@@ -32,7 +33,12 @@ if(NOT most AND source MATCHES "\\.cpp$")
     set(most 1)
 endif()
 
-execute_process(COMMAND ${command} ${options} ${source} RESULT_VARIABLE status OUTPUT_VARIABLE said ERROR_VARIABLE said)
+set(first "")
+file(STRINGS ${source} defines REGEX "^#(define|undef)")
+if(precompiled AND NOT options AND NOT defines AND source MATCHES "\\.cpp$")
+    set(first -include ${precompiled})
+endif()
+execute_process(COMMAND ${command} ${options} ${first} ${source} RESULT_VARIABLE status OUTPUT_VARIABLE said ERROR_VARIABLE said)
 message("${said}")
 if(status EQUAL 0)
     message(FATAL_ERROR "refused: it compiles")
