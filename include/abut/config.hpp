@@ -58,3 +58,9 @@
 #define ABUT_NOINLINE [[gnu::noinline]]
 #define ABUT_INLINE [[gnu::always_inline]] inline
 #endif
+
+// ABUT_CUDA_VERBS_COMPILED is 1 in programs that link the target abut::cuda_verbs, which defines it: sorts, scans and selections
+// on a device are compiled there once.
+#if !defined(ABUT_CUDA_VERBS_COMPILED)
+#define ABUT_CUDA_VERBS_COMPILED 0
+#endif
