@@ -12,10 +12,14 @@ namespace abut::execution::detail {
 template bool sort_keys_of(const cuda&, std::uint32_t*, std::uint32_t*, std::size_t, int);
 template bool sort_keys_of(const cuda&, std::uint64_t*, std::uint64_t*, std::size_t, int);
 
-template moved_pairs sort_pairs_of(const cuda&, std::uint32_t*, std::uint32_t*, std::uint32_t*, std::uint32_t*, std::size_t, int);
-template moved_pairs sort_pairs_of(const cuda&, std::uint32_t*, std::uint32_t*, std::uint64_t*, std::uint64_t*, std::size_t, int);
-template moved_pairs sort_pairs_of(const cuda&, std::uint64_t*, std::uint64_t*, std::uint32_t*, std::uint32_t*, std::size_t, int);
-template moved_pairs sort_pairs_of(const cuda&, std::uint64_t*, std::uint64_t*, std::uint64_t*, std::uint64_t*, std::size_t, int);
+template moved_pairs sort_pairs_of(const cuda&, std::uint32_t*, std::uint32_t*, std::uint32_t*, std::uint32_t*, std::size_t,
+                                   int);
+template moved_pairs sort_pairs_of(const cuda&, std::uint32_t*, std::uint32_t*, std::uint64_t*, std::uint64_t*, std::size_t,
+                                   int);
+template moved_pairs sort_pairs_of(const cuda&, std::uint64_t*, std::uint64_t*, std::uint32_t*, std::uint32_t*, std::size_t,
+                                   int);
+template moved_pairs sort_pairs_of(const cuda&, std::uint64_t*, std::uint64_t*, std::uint64_t*, std::uint64_t*, std::size_t,
+                                   int);
 
 template void scan_of(const cuda&, std::uint32_t*, std::size_t);
 template void scan_of(const cuda&, std::uint64_t*, std::size_t);

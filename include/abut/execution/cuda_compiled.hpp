@@ -2,8 +2,8 @@
 #pragma once
 
 // Of the verbs of `cuda` those parts that know few types, so that they can be compiled once: execution/cuda_cub.hpp defines
-// them, and the target abut::cuda_verbs has them compiled for the types that queries use. With ABUT_CUDA_VERBS_COMPILED, which
-// linking that target defines, they are only declared here.
+// them, and the target abut::cuda_verbs has them compiled for the types that queries use. With ABUT_CUDA_VERBS_COMPILED,
+// which linking that target defines, they are only declared here.
 
 #include <concepts>
 #include <cstddef>

@@ -2,8 +2,8 @@
 #pragma once
 
 // The sorts, scans and selections of `cuda`, made of CUB's. Programs that link the target abut::cuda_verbs find those of the
-// usual types compiled there, and neither read nor compile CUB (execution/cuda_verbs.hpp); the target's one source is made of
-// this header. Such a program includes it where it needs other types.
+// usual types compiled there, and neither read nor compile CUB (execution/cuda_verbs.hpp); the target's one source is made
+// of this header. Such a program includes it where it needs other types.
 
 #include <algorithm>
 #include <cstddef>

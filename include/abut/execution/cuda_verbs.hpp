@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The verbs of `cuda` (execution/policy.hpp lists them). Scans, sorts and selections are CUB's (execution/cuda_cub.hpp), compiled
-// here or in the target abut::cuda_verbs; reductions are in execution/cuda_reduce.hpp, the loops in execution/cuda_loops.hpp, and
-// what is left is execution/generic.hpp's.
+// The verbs of `cuda` (execution/policy.hpp lists them). Scans, sorts and selections are CUB's (execution/cuda_cub.hpp),
+// compiled here or in the target abut::cuda_verbs; reductions are in execution/cuda_reduce.hpp, the loops in
+// execution/cuda_loops.hpp, and what is left is execution/generic.hpp's.
 
 #include <concepts>
 #include <cstddef>
@@ -30,9 +30,10 @@ namespace detail {
 
 /// What is sorted and added up are unsigned words, by any of their names; and of what a sort carries only the size matters.
 template <class T>
-using word_of = std::conditional_t<!std::is_trivially_copyable_v<T>, T,
-                                   std::conditional_t<sizeof(T) == 4 && alignof(T) == 4, std::uint32_t,
-                                                      std::conditional_t<sizeof(T) == 8 && alignof(T) == 8, std::uint64_t, T>>>;
+using word_of =
+    std::conditional_t<!std::is_trivially_copyable_v<T>, T,
+                       std::conditional_t<sizeof(T) == 4 && alignof(T) == 4, std::uint32_t,
+                                          std::conditional_t<sizeof(T) == 8 && alignof(T) == 8, std::uint64_t, T>>>;
 template <class T>
 using unsigned_word_of = std::conditional_t<std::unsigned_integral<T>, word_of<T>, T>;
 
@@ -51,8 +52,9 @@ template <class T>
 void exclusive_scan(const cuda& on, T* values, std::size_t n) {
     using word = detail::unsigned_word_of<T>;
     constexpr bool can = detail::can_compile<word>;
-    static_assert(can, "abut: exclusive_scan: the target abut::cuda_verbs has it for 32 and 64 bit unsigned integers: for other "
-                       "types include <abut/execution/cuda_cub.hpp> before this is used");
+    static_assert(can,
+                  "abut: exclusive_scan: the target abut::cuda_verbs has it for 32 and 64 bit unsigned integers: for other "
+                  "types include <abut/execution/cuda_cub.hpp> before this is used");
     if constexpr (can) {
         const detail::current_device scope(on);
         detail::check(cudaMemsetAsync(values + n, 0, sizeof(T), on.stream), "cudaMemsetAsync");
@@ -64,13 +66,14 @@ template <class Key>
 void sort_keys(const cuda& on, buffer<Key, device_space>& keys, int bits) {
     using word = detail::unsigned_word_of<Key>;
     constexpr bool can = detail::can_compile<word>;
-    static_assert(can, "abut: sort_keys: the target abut::cuda_verbs has it for 32 and 64 bit keys: for others include "
-                       "<abut/execution/cuda_cub.hpp> before this is used");
+    static_assert(can,
+                  "abut: sort_keys: the target abut::cuda_verbs has it for 32 and 64 bit keys: for others include "
+                  "<abut/execution/cuda_cub.hpp> before this is used");
     if constexpr (can) {
         if (keys.size() < 2) return;
         buffer<Key, device_space> other(on, keys.size());
-        if (detail::sort_keys_of(on, reinterpret_cast<word*>(keys.data()), reinterpret_cast<word*>(other.data()), keys.size(),
-                                 bits)) {
+        if (detail::sort_keys_of(on, reinterpret_cast<word*>(keys.data()), reinterpret_cast<word*>(other.data()),
+                                 keys.size(), bits)) {
             keys.swap(other);
         }
     }
@@ -81,8 +84,9 @@ void sort_by_key(const cuda& on, buffer<Key, device_space>& keys, buffer<Value, 
     using word = detail::unsigned_word_of<Key>;
     using carried = detail::word_of<Value>;
     constexpr bool can = detail::can_compile<word, carried>;
-    static_assert(can, "abut: sort_by_key: the target abut::cuda_verbs has it for 32 and 64 bit keys with values of 4 and 8 "
-                       "bytes: for others include <abut/execution/cuda_cub.hpp> before this is used");
+    static_assert(can,
+                  "abut: sort_by_key: the target abut::cuda_verbs has it for 32 and 64 bit keys with values of 4 and 8 "
+                  "bytes: for others include <abut/execution/cuda_cub.hpp> before this is used");
     if constexpr (can) {
         if (keys.size() < 2) return;
         buffer<Key, device_space> other_keys(on, keys.size());
@@ -99,8 +103,9 @@ template <class Test, class Index>
 std::size_t compact(const cuda& on, std::size_t n, const Test& test, Index* out) {
     using word = detail::unsigned_word_of<Index>;
     constexpr bool can = detail::can_compile<word>;
-    static_assert(can, "abut: compact: the target abut::cuda_verbs has it for 32 and 64 bit unsigned indices: for others include "
-                       "<abut/execution/cuda_cub.hpp> before this is used");
+    static_assert(can,
+                  "abut: compact: the target abut::cuda_verbs has it for 32 and 64 bit unsigned indices: for others include "
+                  "<abut/execution/cuda_cub.hpp> before this is used");
     std::uint64_t count = 0;
     if constexpr (can) {
         if (n == 0) return 0;
