@@ -28,12 +28,12 @@ namespace abut::execution {
 
 namespace detail {
 
-/// What is sorted and added up are unsigned words, by any of their names; and of what a sort carries only the size matters.
+/// What is sorted and added up are unsigned words, by any of their names; and of what a sort carries only the size matters:
+/// buffers are aligned for any.
 template <class T>
-using word_of =
-    std::conditional_t<!std::is_trivially_copyable_v<T>, T,
-                       std::conditional_t<sizeof(T) == 4 && alignof(T) == 4, std::uint32_t,
-                                          std::conditional_t<sizeof(T) == 8 && alignof(T) == 8, std::uint64_t, T>>>;
+using word_of = std::conditional_t<
+    !std::is_trivially_copyable_v<T>, T,
+    std::conditional_t<sizeof(T) == 4, std::uint32_t, std::conditional_t<sizeof(T) == 8, std::uint64_t, T>>>;
 template <class T>
 using unsigned_word_of = std::conditional_t<std::unsigned_integral<T>, word_of<T>, T>;
 
