@@ -7,8 +7,16 @@
 
 #include <abut/cuda.hpp>
 
-#include "cuda_table.hpp"
 #include "footprint_scene.hpp"
+
+#ifdef FOOTPRINT_SCENE
+
+// One query, and what a program needs around it: what footprint.py compiles.
+int main() { return footprint::prepare<FOOTPRINT_SCENE>(abut::cuda{}).ask() >= 0 ? 0 : 1; }
+
+#else
+
+#include "cuda_table.hpp"
 
 int main(int argc, char** argv) {
     return bench::run("bench_footprint_cuda", argc, argv, [&](const abut::cuda& on, bench::table& out) {
@@ -28,3 +36,5 @@ int main(int argc, char** argv) {
         });
     });
 }
+
+#endif

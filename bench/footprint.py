@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: MIT
 """Compiles each scene of bench/footprint_scene.hpp alone, and says what that costs.
 
-usage: footprint.py [--json=OUT.json] [--jobs=N] [--no-cuda]
+usage: footprint.py [--json=OUT.json] [--jobs=N] [--no-cuda] [--match=REGEX]
 
 Of bench/footprint.cpp (g++ -O2) and bench/footprint.cu (nvcc -O2, sm_90), each with one scene: processor seconds and memory of the
-compilers, bytes of machine code, and of the device's code the registers and the stack of the kernel that takes most, the number of
-instructions in that kernel, and the number of kernels that are the library's own.
+compilers, of nvcc also where the program links abut::cuda_verbs ("verbs"), bytes of machine code, and of the device's code the
+registers and the stack of the kernel that takes most, the number of instructions in that kernel, and the number of kernels that
+are the library's own.
 """
 
 import argparse
@@ -90,9 +91,9 @@ def measure(scene, folder, cuda):
     row["gcc"]["code"] = machine_code(made)
     if cuda:
         kept = tempfile.mkdtemp(dir=folder)
-        row["nvcc"], said = compiled(
-            ["nvcc", "-arch=sm_90", "-Xptxas=-v", "-keep", f"-keep-dir={kept}", *options, str(BENCH / "footprint.cu"), "-o",
-             made + ".cu.o"])
+        nvcc = ["nvcc", "-arch=sm_90", *options, str(BENCH / "footprint.cu"), "-o", made + ".cu.o"]
+        row["nvcc"], said = compiled([*nvcc, "-Xptxas=-v", "-keep", f"-keep-dir={kept}"])
+        row["verbs"], _ = compiled([*nvcc, "-DABUT_CUDA_VERBS_COMPILED=1"])
         row["nvcc"] |= device_code(said, next(Path(kept).glob("*.cubin")))
     return {f"{compiler}_{key}": value for compiler, values in row.items() for key, value in values.items()}
 
@@ -102,11 +103,13 @@ def main():
     parser.add_argument("--json")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--no-cuda", action="store_true")
+    parser.add_argument("--match", default="", help="only the scenes whose names have a match")
     asked = parser.parse_args()
     cuda = not asked.no_cuda and shutil.which("nvcc") is not None
     names = scene_names()
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(asked.jobs) as pool:
-        rows = dict(zip(names, pool.map(lambda i: measure(i, folder, cuda), range(len(names)))))
+        chosen = [i for i, name in enumerate(names) if re.search(asked.match, name)]
+        rows = dict(zip((names[i] for i in chosen), pool.map(lambda i: measure(i, folder, cuda), chosen)))
     for name, row in rows.items():
         print(f"{name:40}", *(f"{key} {value}" for key, value in row.items()))
     if asked.json:

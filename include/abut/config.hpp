@@ -168,3 +168,15 @@ inline void shown_to_others(T* object) {
 #else
 #define ABUT_FMA_IS_RIGHT 1
 #endif
+
+// ABUT_CUDA_VERBS_COMPILED is 1 in programs that link the target abut::cuda_verbs, which defines it: sorts, scans and selections
+// on a device are compiled there once.
+#if !defined(ABUT_CUDA_VERBS_COMPILED)
+#define ABUT_CUDA_VERBS_COMPILED 0
+#endif
+
+// ABUT_ALLOW_UNTESTED_NVCC, defined as 1 by who compiles with nvcc 12, lets abut/cuda.hpp go on there. The first call on a device
+// in a process then runs a self-test on it, and throws abut::error where the device decides a known pair wrongly.
+#if !defined(ABUT_ALLOW_UNTESTED_NVCC)
+#define ABUT_ALLOW_UNTESTED_NVCC 0
+#endif

@@ -80,6 +80,12 @@ inline int device_of(const cuda& on) {
 
 namespace detail {
 
+#if ABUT_ALLOW_UNTESTED_NVCC
+/// In collide/device_self_test.hpp, which abut/cuda.hpp includes.
+template <class Policy>
+void require_right_decisions_once(const Policy& on, int device);
+#endif
+
 /// Makes a device current and the one before it current again at the end of the scope.
 class current_device {
 public:
@@ -90,7 +96,11 @@ public:
         if (code != cudaSuccess) check(code, ("cudaSetDevice(" + std::to_string(device) + ")").c_str());
         changed_ = true;
     }
-    explicit current_device(const cuda& on) : current_device(device_of(on)) {}
+    explicit current_device(const cuda& on) : current_device(device_of(on)) {
+#if ABUT_ALLOW_UNTESTED_NVCC
+        require_right_decisions_once(on, device_of(on));
+#endif
+    }
     current_device(const current_device&) = delete;
     current_device& operator=(const current_device&) = delete;
     ~current_device() {
