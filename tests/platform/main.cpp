@@ -2,6 +2,7 @@
 
 // usage: platform TABLE                                 compare with a table; 0 if all is equal
 //        platform --print                               write the table
+//        platform --part K N TABLE                      compare part K, from 0, of N, for processes beside each other
 //        platform --only KIND TABLE                     compare one kind
 //        platform --first N KIND SCALAR QUESTION        the first N answers of a row, in bits, for bisection
 
@@ -16,9 +17,14 @@
 
 namespace {
 
-platform::table answered(const platform::watched& w, const std::string& only, bool is_timed) {
+/// A part of all kinds: every n-th source from the k-th on.
+struct part {
+    unsigned long k = 0, n = 1;
+};
+
+platform::table answered(const platform::watched& w, const std::string& only, bool is_timed, part p = {}) {
     platform::table t(w, only);
-    if (t.asks("self_test")) {
+    if (p.k == 0 && t.asks("self_test")) {
         platform::answers a = t.of("self_test", "both", "passed");
         a.next(), a.add(abut::self_test().passed());
     }
@@ -36,6 +42,7 @@ platform::table answered(const platform::watched& w, const std::string& only, bo
                            {"points", platform::ask_points},
                            {"meshes", platform::ask_meshes},
                            {"bodies", platform::ask_bodies}}) {
+        if (p.k++ % p.n != 0) continue;
         const auto start = std::chrono::steady_clock::now();
         q.ask(t);
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
@@ -91,6 +98,8 @@ int main(int argc, char** argv) {
     const std::string first = argc > 1 ? argv[1] : "";
     if (first == "--print" && argc == 2) {
         print(answered({}, "", true));
+    } else if (first == "--part" && argc == 5) {
+        return compare(answered({}, "", true, {std::stoul(argv[2]), std::stoul(argv[3])}), argv[4], false);
     } else if (first == "--only" && argc == 4) {
         return compare(answered({}, argv[2], false), argv[3], false);
     } else if (first == "--first" && argc == 6) {
@@ -100,7 +109,9 @@ int main(int argc, char** argv) {
     } else if (argc == 2) {
         return compare(answered({}, "", true), argv[1], true);
     } else {
-        std::fprintf(stderr, "usage: platform TABLE | --print | --only KIND TABLE | --first N KIND SCALAR QUESTION\n");
+        std::fprintf(
+            stderr,
+            "usage: platform TABLE | --part K N TABLE | --print | --only KIND TABLE | --first N KIND SCALAR QUESTION\n");
         return 2;
     }
 }

@@ -1,13 +1,14 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 #
-# usage: sh tests/platform/run.sh [CONFIGURATION...] [--list] [--help]
+# usage: sh tests/platform/run.sh [CONFIGURATION...] [--write] [--list] [--help]
 #
 # Compiles the program of tests/platform for each configuration, runs it, and compares its answers, bit for bit, with
 # tests/platform/hashes.txt. Without arguments: all configurations. A line for each says what came out. The table of all lines is
 # written to build/platforms/platforms.md, and what compilers and programs said lies beside it.
 # Compilers come from the packages of Debian 12. Those for other processors, and libc++, are unpacked below build/platforms/root
 # instead of being installed: they conflict with g++-multilib, and one libc++ with another.
+# With --write the page goes to docs/results, and its table to docs/building.md.
 # The exit status is 0 if all that ran is equal, 1 if one differs or does not compile, 2 if nothing could be run. What cannot be had
 # is skipped, with the reason; not with ABUT_REQUIRE=packages, where it is a failure.
 set -u
@@ -31,10 +32,11 @@ ppc64le|powerpc64le-linux-gnu-g++-12|c++20|-O1 -static|qemu-user prefix:cross:po
 mingw-w64|x86_64-w64-mingw32-g++-posix|c++20|-O1 -static|g++-mingw-w64-x86-64-posix wine64|wine'
 
 names=$(printf '%s\n' "$configurations" | cut -d'|' -f1)
-chosen=''
+chosen='' write=no
 for argument in "$@"; do
     case $argument in
         --help | -h) sed -n '/^# usage/,/^set/s/^# \{0,1\}//p' "$0"; exit 0 ;;
+        --write) write=yes ;;
         --list) printf '%s\n' "$names"; exit 0 ;;
         *)
             printf '%s\n' "$names" | grep -Fqx -e "$argument" || { printf 'run.sh: no such configuration: %s\n' "$argument" >&2; exit 2; }
@@ -117,6 +119,8 @@ log=$out/platforms.md
     printf '| configuration | compiler | options | compile, s | run, s | answers |\n| --- | --- | --- | ---: | ---: | --- |\n'
 } >$log
 
+expected=$(grep -c '^[^#]' $here/hashes.txt)
+parts=$((jobs < 4 ? jobs : 4))
 equal=0 bad=0 skipped=0
 line() { # of the log and of the screen
     printf '| %s | %s | `%s` | %s | %s | %s |\n' "$@" >>$log
@@ -168,23 +172,41 @@ for name in $chosen; do
         continue
     fi
     compiled=$(seconds "$start") start=$(date +%s.%N)
-    # shellcheck disable=SC2086
-    WINEDEBUG=-all WINEPREFIX=$root/wine nice -n 10 $runner "$tree/platform.exe" $here/hashes.txt >"$tree/answers" 2>>"$tree/log"
-    status=$?
+    # Some processes beside each other: qemu takes twenty times as long as the processor itself.
+    part=0 running=''
+    while [ $part -lt $parts ]; do
+        # shellcheck disable=SC2086
+        WINEDEBUG=-all WINEPREFIX=$root/wine nice -n 10 $runner "$tree/platform.exe" --part $part $parts $here/hashes.txt \
+            >"$tree/answers.$part" 2>>"$tree/log" &
+        running="$running $!" part=$((part + 1))
+    done
+    status=0
+    for process in $running; do wait "$process" || status=$?; done
+    cat "$tree"/answers.* >"$tree/answers"
     ran=$(seconds "$start")
-    said=$(tr -d '\r' <"$tree/answers" | tail -n 1)
-    if [ $status = 0 ] && [ "${said#equal: }" != "$said" ]; then
+    rows=$(tr -d '\r' <"$tree/answers" | awk '/^equal: / { n += $2 } END { print n + 0 }')
+    if [ $status = 0 ] && [ "$rows" = "$expected" ]; then
         equal=$((equal + 1))
-        line "$name" "${compiler##*/} $version" "$options" "$compiled" "$ran" "$said"
+        line "$name" "${compiler##*/} $version" "$options" "$compiled" "$ran" "equal, $rows rows"
     else
         bad=$((bad + 1))
         line "$name" "${compiler##*/} $version" "$options" "$compiled" "$ran" \
-            "$(grep -c '^differs' "$tree/answers") rows differ (exit status $status)"
-        tr -d '\r' <"$tree/answers" | head -n 20
+            "$(grep -c '^differs' "$tree/answers") rows differ, $rows of $expected are equal (exit status $status)"
+        tr -d '\r' <"$tree/answers" | grep '^differs' | head -n 20
     fi
 done
 
 printf '\n%s equal, %s not, %s skipped; the table is %s\n' $equal $bad $skipped $log
+if [ $write = yes ]; then
+    cp $log docs/results/platforms.md
+    awk -v log_file=$log '
+        /<!-- platforms: end -->/ { inside = 0 }
+        !inside { print }
+        /<!-- platforms: begin -->/ {
+            inside = 1
+            while ((getline row <log_file) > 0) if (row ~ /^\|/ || row ~ /^[0-9-]+, commit/) { print row; if (row !~ /^\|/) print "" }
+        }' docs/building.md >$out/building.md && cp $out/building.md docs/building.md
+fi
 if [ $bad != 0 ]; then exit 1; fi
 if [ $skipped != 0 ] && is_required packages; then exit 1; fi
 if [ $equal = 0 ]; then exit 2; fi
