@@ -32,6 +32,7 @@ platform::table answered(const platform::watched& w, const std::string& only, bo
         const char* name;
         void (*ask)(platform::table&);
     };
+    unsigned long source = 0;
     for (const named& q : {named{"triangles", platform::ask_triangles},
                            {"simple", platform::ask_simple},
                            {"hulls", platform::ask_hulls},
@@ -42,7 +43,7 @@ platform::table answered(const platform::watched& w, const std::string& only, bo
                            {"points", platform::ask_points},
                            {"meshes", platform::ask_meshes},
                            {"bodies", platform::ask_bodies}}) {
-        if (p.k++ % p.n != 0) continue;
+        if (source++ % p.n != p.k) continue;
         const auto start = std::chrono::steady_clock::now();
         q.ask(t);
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
