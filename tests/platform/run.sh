@@ -87,7 +87,7 @@ bring() {
         case $need in
             prefix:libc++-*)
                 v=${need##*-}
-                unpacked "libc++-$v-dev" "libc++1-$v" "libc++abi-$v-dev" "libc++abi1-$v" "libunwind-$v" || return 1
+                unpacked "libc++-$v-dev" "libc++1-$v" "libc++abi-$v-dev" "libc++abi1-$v" "libunwind-$v" "libunwind-$v-dev" || return 1
                 lib=$root/usr/lib/llvm-$v
                 extra="-nostdinc++ -isystem $lib/include/c++/v1 -nostdlib++ -L$lib/lib -Wl,-rpath,$lib/lib -Wl,-rpath,$root/usr/lib/$(uname -m)-linux-gnu -lc++ -lc++abi"
                 ;;
