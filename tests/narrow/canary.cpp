@@ -73,6 +73,21 @@ void print_rounds(const char* name) {
     sum.print(name);
 }
 
+/// Boxes of denormal corners, of which every other one has halves that are rounded, and planes along their axes.
+template <scalar T>
+void print_boxes(const char* name) {
+    sum_of_bits sum;
+    const T least = construction::least_denormal<T>;
+    for (int i = 0; i < 64; ++i) {
+        const T low = static_cast<T>(i % 8) * least, high = static_cast<T>(7 + i / 8) * least;
+        const aabb<T> box{{low, -high, low}, {high, low, high}};
+        sum.add_pair(plane<T>{{0, 0, 1}, high}, box);
+        sum.add_pair(plane<T>{{1, 0, 0}, low}, box);
+        sum.add_pair(plane<T>{{0, 1, 1}, 0}, box);
+    }
+    sum.print(name);
+}
+
 }  // namespace
 
 }  // namespace abut::test
@@ -82,4 +97,6 @@ int main() {
     test::print_hulls<cylinder<double>>("cylinders and hulls, double");
     test::print_hulls<cone<float>>("cones and hulls, float");
     test::print_rounds<cone<double>>("two cones, double");
+    test::print_boxes<float>("planes and boxes, float");
+    test::print_boxes<double>("planes and boxes, double");
 }

@@ -3,6 +3,7 @@
 
 // Contacts of a plane or a box with what touches it.
 
+#include <abut/arithmetic/error_free.hpp>
 #include <abut/narrow/cut_polygon.hpp>
 #include <abut/narrow/directions.hpp>
 #include <abut/narrow/nearest.hpp>
@@ -239,8 +240,9 @@ ABUT_NOINLINE ABUT_HD constexpr contact<T> contact_between(const plane<T>& s, co
 template <scalar T>
 ABUT_NOINLINE ABUT_HD constexpr contact<T> contact_between(const plane<T>& s, const aabb<T>& t) {
     auto core = core_over(s, t);
+    // A half of a denormal number is rounded: it must not be joined with the sum.
     const auto to_middle = [](T along, T& a, T& b) {
-        if (along == 0) a = b = a / 2 + b / 2;
+        if (along == 0) a = b = plain_sum(plain_product(a, T(0.5)), plain_product(b, T(0.5)));
     };
     to_middle(s.normal.x, core.at[0].x, core.at[1].x);
     to_middle(s.normal.y, core.at[0].y, core.at[1].y);
