@@ -169,8 +169,8 @@ batch='-DCMAKE_UNITY_BUILD_BATCH_SIZE=6'
 together="-DCMAKE_UNITY_BUILD=$quick $batch"
 # What takes long to run is built by g++ with -Og, where clang's -O0 would cost more than it saves.
 by_gcc='arithmetic shape predicate narrow cuda'
-long_in_collide=' contacts distance extremes hulls inside many_within meshes pair_rules posed query raycast raycast_solids'
-long_in_collide="$long_in_collide validate winding_number within "
+long_in_collide=' bodies contacts distance extremes hulls impacts inside line_bundles many_within memory meshes nearest pair_rules'
+long_in_collide="$long_in_collide posed query raycast raycast_solids revolution self_pairs validate winding_number within "
 elsewhere_gcc='' elsewhere_clang=''
 if [ $share = yes ]; then
     elsewhere_gcc='execution;index;traverse;devices;distributed;io'
@@ -184,7 +184,7 @@ if [ $share = yes ]; then
     for layer in $by_gcc; do elsewhere_clang="$elsewhere_clang;$layer"; done
 fi
 
-minutes=$((24 / jobs + 1))
+minutes=$((32 / jobs + 1))
 if [ -n "$layers" ]; then
     say "building and testing a part: $chosen"
 elif [ $project$full$asan$clang$tsan$gcc$headers$bench = nononononononono ]; then
@@ -203,7 +203,7 @@ else
         -DABUT_TEST_PROJECT=OFF -DABUT_TEST_QUICK=$quick -DABUT_TEST_ELSEWHERE="$elsewhere_gcc" $together
     if [ $share = yes ]; then
         # shellcheck disable=SC2086
-        build_tree clang_share clang -DABUT_EXAMPLES=OFF -DABUT_TEST_PROJECT=OFF -DABUT_TEST_COMPILERS=OFF \
+        build_tree clang_share clang -DABUT_EXAMPLES=OFF -DABUT_TEST_PROJECT=OFF -DABUT_TEST_REFUSALS=OFF \
             -DABUT_TEST_ELSEWHERE="${elsewhere_clang#;}" -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12
     fi
 fi
@@ -215,7 +215,7 @@ if [ $project = yes ] || [ $headers = yes ]; then
     if [ $quick = ON ] && ! cuda_device_present; then quick_device=ON; fi
     # shellcheck disable=SC2086
     build_tree project default -DCMAKE_CXX_COMPILER=g++ -DABUT_CUDA=$cuda -DABUT_HEADER_COMPILERS="$compilers" \
-        -DABUT_TEST_LAYERS=$project_layers -DABUT_TEST_QUICK=$quick -DABUT_TEST_COMPILERS=OFF -DABUT_QUICK_EXAMPLES=$quick \
+        -DABUT_TEST_LAYERS=$project_layers -DABUT_TEST_QUICK=$quick -DABUT_TEST_REFUSALS=OFF -DABUT_QUICK_EXAMPLES=$quick \
         -DABUT_QUICK_DEVICE_CODE=$quick_device $together
 fi
 if [ $project = yes ] || [ $asan = yes ]; then
