@@ -325,7 +325,9 @@ void check_corner(const Team& team) {
 /// Parts so large that others look at them closely: tiles of a square, and balls on another one that crosses it aslant.
 template <scalar T, class Team>
 void check_large(const Team& team) {
-    constexpr std::size_t side = 900;  // so that each of three parts is large
+    // So that each part is large; three are with 900.
+    const std::size_t side =
+        team.size() <= 3 ? 900 : 520 * static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(team.size()))));
     constexpr T step = T(1) / 1024;
     std::vector<triangle<T>> tiles(side * side);
     std::vector<sphere<T>> balls(side * side);
