@@ -4,11 +4,11 @@
 # usage: sh tests/platform/run.sh [CONFIGURATION...] [--write] [--list] [--help]
 #
 # Compiles the program of tests/platform for each configuration, runs it, and compares its answers, bit for bit, with
-# tests/platform/hashes.txt. Without arguments: all configurations. A line for each says what came out. The table of all lines is
+# tests/platform/hashes.txt. Without arguments: all configurations. A line for each says what came out. The page of all lines is
 # written to build/platforms/platforms.md, and what compilers and programs said lies beside it.
 # Compilers come from the packages of Debian 12. Those for other processors, and libc++, are unpacked below build/platforms/root
 # instead of being installed: they conflict with g++-multilib, and one libc++ with another.
-# With --write the page goes to docs/results, and its table to docs/building.md.
+# With --write the page goes to docs/results.
 # The exit status is 0 if all that ran is equal, 1 if one differs or does not compile, 2 if nothing could be run. What cannot be had
 # is skipped, with the reason; not with ABUT_REQUIRE=packages, where it is a failure.
 set -u
@@ -116,15 +116,14 @@ log=$out/platforms.md
     printf 'Written by `sh tests/platform/run.sh`. Each line is a program that asks what [tests/platform](../../tests/platform) asks and\n'
     printf 'compares all bits with a table made on x86-64.\n\n'
     printf '%s, commit %s, %s, %s jobs at a time.\n\n' "$(date -u +%Y-%m-%d)" "$commit" "${processor:-unknown processor}" "$jobs"
-    printf '| configuration | compiler | options | compile, s | run, s | answers |\n| --- | --- | --- | ---: | ---: | --- |\n'
+    printf '```text\n%-27s %-18s %-42s %6s %6s  %s\n' configuration compiler options compile run answers
 } >$log
 
 expected=$(grep -c '^[^#]' $here/hashes.txt)
 parts=$((jobs < 4 ? jobs : 4))
 equal=0 bad=0 skipped=0
 line() { # of the log and of the screen
-    printf '| %s | %s | `%s` | %s | %s | %s |\n' "$@" >>$log
-    printf '%-27s %-18s %-42s %4s s %4s s  %s\n' "$@"
+    printf '%-27s %-18s %-42s %4s s %4s s  %s\n' "$@" | tee -a $log
 }
 
 for name in $chosen; do
@@ -196,17 +195,9 @@ for name in $chosen; do
     fi
 done
 
-printf '\n%s equal, %s not, %s skipped; the table is %s\n' $equal $bad $skipped $log
-if [ $write = yes ]; then
-    cp $log docs/results/platforms.md
-    awk -v log_file=$log '
-        /<!-- platforms: end -->/ { inside = 0 }
-        !inside { print }
-        /<!-- platforms: begin -->/ {
-            inside = 1
-            while ((getline row <log_file) > 0) if (row ~ /^\|/ || row ~ /^[0-9-]+, commit/) { print row; if (row !~ /^\|/) print "" }
-        }' docs/building.md >$out/building.md && cp $out/building.md docs/building.md
-fi
+printf '\n%s equal, %s not, %s skipped; the page is %s\n' $equal $bad $skipped $log
+printf '```\n' >>$log
+if [ $write = yes ]; then cp $log docs/results/platforms.md; fi
 if [ $bad != 0 ]; then exit 1; fi
 if [ $skipped != 0 ] && is_required packages; then exit 1; fi
 if [ $equal = 0 ]; then exit 2; fi
