@@ -6,9 +6,9 @@
 #
 # Installs what is missing from the distribution's packages (Debian 12, Ubuntu 24.04 or newer), builds the tests and runs
 # them, all in one run of ctest. With no argument all tests of all layers (the folders of tests/), and what compilers have to refuse:
-#   g++, warnings as errors: arithmetic, shape, predicate, narrow at -O3, and those of collide that run long;
-#   clang, where it is there or can be installed: execution, index, traverse, devices, distributed, io and the rest of collide. It
-#   takes 0.4 of the time of g++ for these. Without it g++ builds all;
+#   g++, warnings as errors: arithmetic, shape, predicate, narrow at -O3, and what runs long of collide and distributed;
+#   clang, where it is there or can be installed: execution, index, traverse, devices, io and the rest of collide. It takes
+#   less than half of the time of g++ for these. Without it g++ builds all;
 #   the .cu files, where nvcc 13.0 or newer and a device are present.
 # A part of them:
 #   LAYER...           one folder of tests/ or more, built by g++ alone
@@ -168,12 +168,12 @@ if [ $bench = yes ]; then bench_option=ON; fi
 batch='-DCMAKE_UNITY_BUILD_BATCH_SIZE=6'
 together="-DCMAKE_UNITY_BUILD=$quick $batch"
 # What takes long to run is built by g++ with -Og, where clang's -O0 would cost more than it saves.
-by_gcc='arithmetic shape predicate narrow cuda'
+by_gcc='arithmetic shape predicate narrow distributed cuda'
 long_in_collide=' bodies contacts distance extremes hulls impacts inside line_bundles many_within memory meshes nearest pair_rules'
 long_in_collide="$long_in_collide posed query raycast raycast_solids revolution self_pairs validate winding_number within "
 elsewhere_gcc='' elsewhere_clang=''
 if [ $share = yes ]; then
-    elsewhere_gcc='execution;index;traverse;devices;distributed;io'
+    elsewhere_gcc='execution;index;traverse;devices;io'
     for source in tests/collide/*.test.cpp; do
         stem=$(basename "$source" .test.cpp)
         case $long_in_collide in
