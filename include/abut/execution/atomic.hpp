@@ -10,6 +10,33 @@
 
 namespace abut::execution {
 
+namespace detail {
+
+#if defined(__cpp_lib_atomic_ref)
+using std::atomic_ref;
+#else
+/// What is needed of std::atomic_ref, for libc++ before 19, which has none. Orders have the numbers that the builtins take.
+template <class T>
+class atomic_ref {
+public:
+    explicit atomic_ref(T& word) : word_(&word) {}
+    T load(std::memory_order order) const { return __atomic_load_n(word_, static_cast<int>(order)); }
+    void store(T value, std::memory_order order) const { __atomic_store_n(word_, value, static_cast<int>(order)); }
+    T exchange(T value, std::memory_order order) const { return __atomic_exchange_n(word_, value, static_cast<int>(order)); }
+    T fetch_add(T value, std::memory_order order) const { return __atomic_fetch_add(word_, value, static_cast<int>(order)); }
+    T fetch_or(T value, std::memory_order order) const { return __atomic_fetch_or(word_, value, static_cast<int>(order)); }
+    bool compare_exchange_strong(T& expected, T desired, std::memory_order success, std::memory_order failure) const {
+        return __atomic_compare_exchange_n(word_, &expected, desired, false, static_cast<int>(success),
+                                           static_cast<int>(failure));
+    }
+
+private:
+    T* word_;
+};
+#endif
+
+}  // namespace detail
+
 /// Adds and returns the value before. T: std::uint32_t or std::uint64_t.
 template <class T>
 ABUT_HD T atomic_add(T* target, T value) {
@@ -21,7 +48,7 @@ ABUT_HD T atomic_add(T* target, T value) {
         return atomicAdd(target, value);
     }
 #else
-    return std::atomic_ref<T>(*target).fetch_add(value, std::memory_order_relaxed);
+    return detail::atomic_ref<T>(*target).fetch_add(value, std::memory_order_relaxed);
 #endif
 }
 
@@ -30,7 +57,7 @@ inline ABUT_HD void atomic_or(std::uint32_t* target, std::uint32_t bits) {
 #if ABUT_DEVICE_CODE
     atomicOr(target, bits);
 #else
-    std::atomic_ref<std::uint32_t>(*target).fetch_or(bits, std::memory_order_relaxed);
+    detail::atomic_ref<std::uint32_t>(*target).fetch_or(bits, std::memory_order_relaxed);
 #endif
 }
 
@@ -42,7 +69,7 @@ inline ABUT_HD std::uint32_t atomic_exchange_acq_rel(std::uint32_t* target, std:
     asm volatile("atom.acq_rel.gpu.exch.b32 %0, [%1], %2;" : "=r"(before) : "l"(target), "r"(value) : "memory");
     return before;
 #else
-    return std::atomic_ref<std::uint32_t>(*target).exchange(value, std::memory_order_acq_rel);
+    return detail::atomic_ref<std::uint32_t>(*target).exchange(value, std::memory_order_acq_rel);
 #endif
 }
 
@@ -70,9 +97,9 @@ inline ABUT_HD void atomic_min(std::uint64_t* target, std::uint64_t value) {
 #if ABUT_DEVICE_CODE
     atomicMin(reinterpret_cast<unsigned long long*>(target), static_cast<unsigned long long>(value));
 #else
-    std::atomic_ref<std::uint64_t> word(*target);
+    detail::atomic_ref<std::uint64_t> word(*target);
     std::uint64_t seen = word.load(std::memory_order_relaxed);
-    while (value < seen && !word.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {}
+    while (value < seen && !word.compare_exchange_strong(seen, value, std::memory_order_relaxed, std::memory_order_relaxed)) {}
 #endif
 }
 
@@ -87,7 +114,8 @@ ABUT_HD T atomic_compare_exchange(T* target, T expected, T desired) {
         return atomicCAS(target, expected, desired);
     }
 #else
-    std::atomic_ref<T>(*target).compare_exchange_strong(expected, desired, std::memory_order_relaxed);
+    detail::atomic_ref<T>(*target).compare_exchange_strong(expected, desired, std::memory_order_relaxed,
+                                                         std::memory_order_relaxed);
     return expected;
 #endif
 }
@@ -98,7 +126,7 @@ ABUT_HD T atomic_load(const T* source) {
 #if ABUT_DEVICE_CODE
     return *const_cast<const volatile T*>(source);
 #else
-    return std::atomic_ref<T>(*const_cast<T*>(source)).load(std::memory_order_relaxed);
+    return detail::atomic_ref<T>(*const_cast<T*>(source)).load(std::memory_order_relaxed);
 #endif
 }
 
@@ -106,7 +134,7 @@ inline ABUT_HD void atomic_store(std::uint32_t* target, std::uint32_t value) {
 #if ABUT_DEVICE_CODE
     *const_cast<volatile std::uint32_t*>(target) = value;
 #else
-    std::atomic_ref<std::uint32_t>(*target).store(value, std::memory_order_relaxed);
+    detail::atomic_ref<std::uint32_t>(*target).store(value, std::memory_order_relaxed);
 #endif
 }
 

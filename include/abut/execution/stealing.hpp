@@ -15,6 +15,7 @@
 #include <cstdint>
 
 #include <abut/config.hpp>
+#include <abut/execution/atomic.hpp>
 #include <abut/execution/schedule.hpp>
 
 namespace abut::execution::detail {
@@ -28,7 +29,7 @@ ABUT_HD T load_acquire(T* word) {
 #if ABUT_DEVICE_CODE
     return __nv_atomic_load_n(word, __NV_ATOMIC_ACQUIRE, __NV_THREAD_SCOPE_DEVICE);
 #else
-    return std::atomic_ref<T>(*word).load(std::memory_order_acquire);
+    return atomic_ref<T>(*word).load(std::memory_order_acquire);
 #endif
 }
 template <class T>
@@ -36,7 +37,7 @@ ABUT_HD void store_release(T* word, T value) {
 #if ABUT_DEVICE_CODE
     __nv_atomic_store_n(word, value, __NV_ATOMIC_RELEASE, __NV_THREAD_SCOPE_DEVICE);
 #else
-    std::atomic_ref<T>(*word).store(value, std::memory_order_release);
+    atomic_ref<T>(*word).store(value, std::memory_order_release);
 #endif
 }
 /// Returns the value before.
@@ -45,7 +46,7 @@ ABUT_HD T add_relaxed(T* word, T value) {
 #if ABUT_DEVICE_CODE
     return __nv_atomic_fetch_add(word, value, __NV_ATOMIC_RELAXED, __NV_THREAD_SCOPE_DEVICE);
 #else
-    return std::atomic_ref<T>(*word).fetch_add(value, std::memory_order_relaxed);
+    return atomic_ref<T>(*word).fetch_add(value, std::memory_order_relaxed);
 #endif
 }
 template <class T>
@@ -53,7 +54,7 @@ ABUT_HD T add_release(T* word, T value) {
 #if ABUT_DEVICE_CODE
     return __nv_atomic_fetch_add(word, value, __NV_ATOMIC_RELEASE, __NV_THREAD_SCOPE_DEVICE);
 #else
-    return std::atomic_ref<T>(*word).fetch_add(value, std::memory_order_release);
+    return atomic_ref<T>(*word).fetch_add(value, std::memory_order_release);
 #endif
 }
 template <class T>
@@ -61,7 +62,7 @@ ABUT_HD T add_acq_rel(T* word, T value) {
 #if ABUT_DEVICE_CODE
     return __nv_atomic_fetch_add(word, value, __NV_ATOMIC_ACQ_REL, __NV_THREAD_SCOPE_DEVICE);
 #else
-    return std::atomic_ref<T>(*word).fetch_add(value, std::memory_order_acq_rel);
+    return atomic_ref<T>(*word).fetch_add(value, std::memory_order_acq_rel);
 #endif
 }
 /// Where it fails, `expected` becomes what was found.
@@ -71,8 +72,8 @@ ABUT_HD bool compare_exchange_acq_rel(T* word, T& expected, T desired) {
     return __nv_atomic_compare_exchange_n(word, &expected, desired, false, __NV_ATOMIC_ACQ_REL, __NV_ATOMIC_ACQUIRE,
                                           __NV_THREAD_SCOPE_DEVICE);
 #else
-    return std::atomic_ref<T>(*word).compare_exchange_strong(expected, desired, std::memory_order_acq_rel,
-                                                             std::memory_order_acquire);
+    return atomic_ref<T>(*word).compare_exchange_strong(expected, desired, std::memory_order_acq_rel,
+                                                        std::memory_order_acquire);
 #endif
 }
 
