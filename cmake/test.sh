@@ -184,7 +184,7 @@ if [ $share = yes ]; then
     for layer in $by_gcc; do elsewhere_clang="$elsewhere_clang;$layer"; done
 fi
 
-minutes=$((32 / jobs + 1))
+minutes=$((38 / jobs + 1))
 if [ -n "$layers" ]; then
     say "building and testing a part: $chosen"
 elif [ $project$full$asan$clang$tsan$gcc$headers$bench = nononononononono ]; then
