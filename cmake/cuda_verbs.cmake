@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 #
 # abut::cuda_verbs: sorts, scans and selections on a device, compiled once, for CMAKE_CUDA_ARCHITECTURES. What links it compiles
-# queries in half the time. Tests and benchmarks do; with ABUT_CUDA_VERBS it is a part of all, and installed.
+# sooner. Tests and benchmarks do; with ABUT_CUDA_VERBS it is a part of all, and installed.
 
 include_guard(DIRECTORY)
 include(${CMAKE_CURRENT_LIST_DIR}/cuda.cmake)

@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 #
-# usage: sh cmake/test.sh [LAYER | LAYER/SOURCE]... [--match REGEX] [--project] [--clang] [--tsan] [--asan] [--headers] [--bench]
-#                         [--platforms [NAME...]] [--full] [--all] [--help]
+# usage: sh cmake/test.sh [LAYER | LAYER/SOURCE]... [--match REGEX] [--project] [--clang] [--gcc] [--tsan] [--asan] [--headers]
+#                         [--bench] [--platforms [NAME...]] [--full] [--all] [--help]
 #
 # Installs what is missing from the distribution's packages (Debian 12, Ubuntu 24.04 or newer), builds the tests and runs
 # them, all in one run of ctest. With no argument all tests of all layers (the folders of tests/), and what compilers have to refuse:
@@ -22,8 +22,8 @@
 #   --gcc       all layers built by g++, with nothing left to clang
 #   --tsan      the OpenMP paths under clang's thread sanitizer
 #   --asan      the address and undefined behaviour sanitizers on all layers
-#   --headers   each header alone with g++, clang and nvcc; the syntax of bench/*.cpp with g++ and clang
-#   --bench     the benchmarks are built too (they are not run)
+#   --headers   --project, with each header alone by g++, clang and nvcc, and the syntax of bench/*.cpp by g++ and clang
+#   --bench     --project, with the benchmarks built (they are not run)
 #   --full      1,000,000 samples for each family and scalar instead of 5,000; tables go to docs/results; all of it by g++ at -O3
 #   --all       all of these but --full
 #   --platforms first of all: a table of the bits of all kinds of answers, on other compilers and processors (tests/platform/run.sh has
@@ -45,9 +45,9 @@ for argument in "$@"; do
         --clang) clang=yes ;;
         --tsan) tsan=yes ;;
         --asan) asan=yes ;;
-        --headers) headers=yes ;;
-        --bench) bench=yes ;;
-        --full) full=yes gcc=yes project=yes asan=yes ;;
+        --headers) headers=yes project=yes ;;
+        --bench) bench=yes project=yes ;;
+        --full) full=yes gcc=yes project=yes ;;
         --all) project=yes gcc=yes clang=yes tsan=yes asan=yes headers=yes bench=yes platforms=yes ;;
         --platforms) platforms=yes wanting=platforms && continue ;;
         --match) wanting=match && continue ;;
@@ -199,7 +199,7 @@ if [ -n "$layers" ]; then
         -DABUT_TEST_LAYERS="$layers" -DABUT_TEST_SOURCES="$sources" $together
 else
     # shellcheck disable=SC2086
-    build_tree gcc default -DCMAKE_CXX_COMPILER=g++ -DABUT_CUDA=$cuda -DABUT_BENCH=$bench_option -DABUT_EXAMPLES=OFF \
+    build_tree gcc default -DCMAKE_CXX_COMPILER=g++ -DABUT_CUDA=$cuda -DABUT_EXAMPLES=OFF \
         -DABUT_TEST_PROJECT=OFF -DABUT_TEST_QUICK=$quick -DABUT_TEST_ELSEWHERE="$elsewhere_gcc" $together
     if [ $share = yes ]; then
         # shellcheck disable=SC2086
@@ -207,7 +207,7 @@ else
             -DABUT_TEST_ELSEWHERE="${elsewhere_clang#;}" -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12
     fi
 fi
-if [ $project = yes ] || [ $headers = yes ]; then
+if [ $project = yes ]; then
     compilers=$(command -v g++)
     if [ $headers = yes ]; then compilers="$compilers;$(command -v clang++);nvcc"; fi
     project_layers=none
@@ -215,12 +215,13 @@ if [ $project = yes ] || [ $headers = yes ]; then
     if [ $quick = ON ] && ! cuda_device_present; then quick_device=ON; fi
     # shellcheck disable=SC2086
     build_tree project default -DCMAKE_CXX_COMPILER=g++ -DABUT_CUDA=$cuda -DABUT_HEADER_COMPILERS="$compilers" \
-        -DABUT_TEST_LAYERS=$project_layers -DABUT_TEST_QUICK=$quick -DABUT_TEST_REFUSALS=OFF -DABUT_QUICK_EXAMPLES=$quick \
-        -DABUT_QUICK_DEVICE_CODE=$quick_device $together
+        -DABUT_BENCH=$bench_option -DABUT_TEST_LAYERS=$project_layers -DABUT_TEST_QUICK=$quick -DABUT_TEST_REFUSALS=OFF \
+        -DABUT_QUICK_EXAMPLES=$quick -DABUT_QUICK_DEVICE_CODE=$quick_device $together
 fi
 if [ $project = yes ] || [ $asan = yes ]; then
     # Hardly any optimisation, where it is only a part.
     layers_asan='execution;traverse;io' sanitized='-O0 -g1' together_asan="-DCMAKE_UNITY_BUILD=ON $batch" elsewhere_asan=traverse/modes
+    if [ $full = yes ]; then elsewhere_asan=''; fi
     if [ $asan = yes ]; then layers_asan='' sanitized='-O1 -g1' together_asan='' elsewhere_asan=''; fi
     # shellcheck disable=SC2086
     build_tree asan asan -DCMAKE_CXX_COMPILER=g++ -DABUT_EXAMPLES=OFF -DABUT_TEST_PREFIX='asan/' -DABUT_TEST_LAYERS="$layers_asan" \
@@ -230,9 +231,7 @@ if [ $clang = yes ]; then
     # --headers has checked them with clang already.
     header_compilers=$(command -v clang++)
     if [ $headers = yes ]; then header_compilers=''; fi
-    # shellcheck disable=SC2086
-    build_tree clang clang -DABUT_TEST_QUICK=$quick -DABUT_TEST_PREFIX='clang/' -DABUT_HEADER_COMPILERS="$header_compilers" \
-        $together
+    build_tree clang clang -DABUT_TEST_QUICK=$quick -DABUT_TEST_PREFIX='clang/' -DABUT_HEADER_COMPILERS="$header_compilers"
 fi
 if [ $tsan = yes ]; then
     # shellcheck disable=SC2086

@@ -99,7 +99,9 @@ inline ABUT_HD void atomic_min(std::uint64_t* target, std::uint64_t value) {
 #else
     detail::atomic_ref<std::uint64_t> word(*target);
     std::uint64_t seen = word.load(std::memory_order_relaxed);
-    while (value < seen && !word.compare_exchange_strong(seen, value, std::memory_order_relaxed, std::memory_order_relaxed)) {}
+    while (value < seen &&
+           !word.compare_exchange_strong(seen, value, std::memory_order_relaxed, std::memory_order_relaxed)) {
+    }
 #endif
 }
 
@@ -115,7 +117,7 @@ ABUT_HD T atomic_compare_exchange(T* target, T expected, T desired) {
     }
 #else
     detail::atomic_ref<T>(*target).compare_exchange_strong(expected, desired, std::memory_order_relaxed,
-                                                         std::memory_order_relaxed);
+                                                           std::memory_order_relaxed);
     return expected;
 #endif
 }

@@ -153,9 +153,7 @@ ABUT_HD inline item_range steal(deque_words* deque, std::uint32_t most) {
 }
 
 /// `count` stolen items have been copied. Releases the reads before it to the owner, who may then write there.
-ABUT_HD inline void give_back_places(deque_words* deque, std::uint32_t count) {
-    add_release(&deque->copied, count);
-}
+ABUT_HD inline void give_back_places(deque_words* deque, std::uint32_t count) { add_release(&deque->copied, count); }
 
 /// The owner's end of a deque with room for `capacity` items. Calls are the owner's, one at a time.
 struct deque_owner {
