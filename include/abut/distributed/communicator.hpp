@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include <abut/collide/executor.hpp>
 #include <abut/error.hpp>
 #include <abut/execution/policy.hpp>
 
@@ -239,5 +240,12 @@ private:
     detail::own_communicator ranks_;
     Local local_;
 };
+
+namespace detail {
+
+template <class Local>
+inline constexpr bool is_ranks<distributed<Local>> = true;
+
+}  // namespace detail
 
 }  // namespace abut
