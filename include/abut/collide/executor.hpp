@@ -22,7 +22,7 @@ inline constexpr bool is_ranks = false;
 
 /// What queries take as their first argument: a policy (`serial`, `openmp`, `cuda`), several devices (`cuda_devices`), or
 /// ranks (`distributed`).
-/// @ingroup execution
+/// @ingroup policies
 template <class On>
 concept executor = execution_policy<On> || execution::policy_team<On> || detail::is_ranks<On>;
 
