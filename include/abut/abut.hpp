@@ -10,7 +10,6 @@
 #include <abut/collide/advise.hpp>
 #include <abut/collide/bodies.hpp>
 #include <abut/collide/body_pairs.hpp>
-#include <abut/collide/body_within.hpp>
 #include <abut/collide/contacts.hpp>
 #include <abut/collide/distance.hpp>
 #include <abut/collide/first_impact.hpp>
@@ -18,7 +17,7 @@
 #include <abut/collide/inside.hpp>
 #include <abut/collide/list.hpp>
 #include <abut/collide/list_distance.hpp>
-#include <abut/collide/list_within.hpp>
+#include <abut/collide/list_each.hpp>
 #include <abut/collide/nearest.hpp>
 #include <abut/collide/query.hpp>
 #include <abut/collide/raycast.hpp>

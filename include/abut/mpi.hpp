@@ -9,10 +9,8 @@
 #include <abut/distributed/distance.hpp>
 #include <abut/distributed/impacts.hpp>
 #include <abut/distributed/inside.hpp>
-#include <abut/distributed/list.hpp>
 #include <abut/distributed/nearest.hpp>
 #include <abut/distributed/parts.hpp>
 #include <abut/distributed/query.hpp>
 #include <abut/distributed/raycast.hpp>
 #include <abut/distributed/redistribute.hpp>
-#include <abut/distributed/within.hpp>

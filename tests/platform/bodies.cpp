@@ -4,10 +4,8 @@
 
 #include <abut/collide/bodies.hpp>
 #include <abut/collide/body_pairs.hpp>
-#include <abut/collide/body_within.hpp>
 #include <abut/collide/list.hpp>
 #include <abut/collide/list_distance.hpp>
-#include <abut/collide/list_within.hpp>
 #include <abut/index/bvh.hpp>
 
 #include "questions.hpp"

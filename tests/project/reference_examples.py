@@ -50,8 +50,11 @@ NAMES = {
     "collide/first_impact.hpp": STEP,
     "collide/list.hpp": GEAR,
     "collide/list_distance.hpp": GEAR + "std::vector<abut::posed_pair<decltype(gear)>> list; float clearance = 9;",
-    "collide/list_within.hpp": GEAR + "const std::vector<abut::posed_pair<decltype(gear)>> list;",
-    "collide/body_within.hpp": GEAR + "const std::vector<abut::posed_object<decltype(gear)>> bodies;",
+    "collide/list_each.hpp": GEAR + "std::vector<abut::posed_pair<decltype(gear)>> configurations;",
+    "collide/within.hpp": GEAR + "const std::vector<abut::posed_pair<decltype(gear)>> list;"
+                                 "const std::vector<abut::posed_object<decltype(gear)>> bodies;",
+    "collide/query.hpp": GEAR,
+    "collide/async.hpp": "const auto& a = mesh; const auto& b = other;",
     "io/write_gltf.hpp": "const abut::spheres<float> spheres; const std::vector<abut::contact<float>> contacts;",
     "io/write_html.hpp": "abut::io::gltf_scene scene;",
     "io/write_sets.hpp": "const abut::spheres<float> grains; const abut::boxes<float> boxes; const abut::segments<float> segments;"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// any, count, pairs and contacts without a wait: a call puts its work into the policy's stream and returns. The engine is
+// A stream as who answers questions about pairs (question.hpp): a call puts its work there and returns. The engine is
 // that of the calls that wait (search.hpp). What differs is the room: here it has a fixed size, which the caller gives, and
 // counts stay on the device. Where that is not enough, a state says so, and `wait` mends it or throws. For policies that
 // work on a device.
@@ -53,7 +53,7 @@ namespace abut {
 /// were made.
 ///
 /// @par What there is not
-/// Lists of pairs, self queries, `impacts`, `nearest`, grids under a pose, `breadth_first`, `from_front`,
+/// Lists of posed pairs, bodies, visitors, queries by row, `impacts`, grids under a pose, `breadth_first`, `from_front`,
 /// `static_partition`, a `schedule_report`, and `discard_sideways`. The last two throw, the others do not compile.
 ///
 /// @par Errors
@@ -207,13 +207,6 @@ void list_async(const Policy& on, const Pairing& pairing, const Judge& judge, as
     for_each_index(on, capacity, answer_found<view, Judge, T>{answer, state});
 }
 
-template <arithmetic A, class Policy, class Pairing, class T, class Queue>
-void value_async(const Policy& on, const Pairing& pairing, const Queue& hits, async_value<T, space_of<Policy>>& into) {
-    auto& room = async_parts::room(into);
-    search_async(on, pairing, touch<A>{}, hits, room);
-    for_each_index(on, 1, write_value_state<T>{room.counts(), room.open_capacity, room.state.data()});
-}
-
 /// Whether a call that does not wait takes an argument that a call takes which waits.
 template <class Policy, class X>
 consteval bool can_be_asked_async() {
@@ -235,35 +228,42 @@ consteval bool can_be_asked_async() {
         return there;
     }
 }
-template <class Policy, class X, class Y, traversal Traversal, schedule Schedule>
-consteval bool can_pair_async() {
+/// Whether it takes the arguments: two, or one that is asked about alone.
+template <class Form>
+inline constexpr bool has_async = false;
+template <class X, class Y>
+inline constexpr bool has_async<two<X, Y>> = true;
+template <class X>
+inline constexpr bool has_async<alone<X>> = true;
+template <class Policy, class X, class Y>
+consteval bool are_asked_async(std::type_identity<two<X, Y>>) {
+    constexpr bool x = can_be_asked_async<Policy, X>(), y = can_be_asked_async<Policy, Y>();
+    return x && y;
+}
+template <class Policy, class X>
+consteval bool are_asked_async(std::type_identity<alone<X>>) {
+    return can_be_asked_async<Policy, X>();
+}
+template <class Options>
+inline constexpr bool is_one_loop = false;
+template <class Filter, traversal Traversal, schedule Schedule>
+inline constexpr bool is_one_loop<query_options<Filter, Traversal, Schedule>> =
+    Traversal != traversal::breadth_first && Traversal != traversal::from_front && Schedule != schedule::static_partition;
+template <class Policy, class Question, class Form, class Options>
+consteval bool can_ask_async() {
     constexpr bool on_device = !host_policy<Policy>;
     static_assert(on_device, "abut: calls that do not wait are for cuda; a host's policy has nothing to wait for");
-    constexpr bool is_one_loop = Traversal != traversal::breadth_first && Traversal != traversal::from_front &&
-                                 Schedule != schedule::static_partition;
-    static_assert(is_one_loop,
+    constexpr bool has_form = has_async<Form> && Question::kind != answer_kind::visits;
+    static_assert(has_form, "abut: lists, bodies and visitors need the host between their kernels: they are for calls that wait");
+    static_assert(!has_form || is_one_loop<Options>,
                   "abut: breadth_first, from_front and static_partition need the host between their kernels: they "
                   "are for calls that wait");
-    if constexpr (on_device && is_one_loop) {
-        constexpr bool x = can_be_asked_async<Policy, X>(), y = can_be_asked_async<Policy, Y>();
-        return x && y;
-    } else {
-        return false;
+    if constexpr (on_device && has_form && is_one_loop<Options>) {
+        if constexpr (Form::template can_be_asked<Policy, Question, decltype(Options::filter)>()) {
+            return are_asked_async<Policy>(std::type_identity<Form>{});
+        }
     }
-}
-
-/// Both arguments of a query that does not wait; `into` is where it leaves its outcome.
-template <class Policy, class X, class Y, class Options, class Outcome>
-auto pair_up_async(const Policy& on, const X& x, const Y& y, const Options& options, const Outcome& into,
-                   const char* function) {
-    if (options.scheduling.report != nullptr) {
-        throw error(std::string(function) + ": a schedule reports to calls that wait");
-    }
-    if (into.device() != device_of(on)) {
-        throw error(std::string(function) + ": the result lies on device " + std::to_string(into.device()) +
-                    ", the policy works on device " + std::to_string(device_of(on)));
-    }
-    return pair_up<input::trusted>(on, x, y, options, function);
+    return false;
 }
 
 }  // namespace detail
@@ -325,18 +325,78 @@ private:
     detail::async_room<async_value_state<T>, T, Space> room_;
 };
 
-/// `any` in the stream: whether any shape of `a` touches any of `b`.
+/// A policy's stream as who answers a query, and where it leaves its outcome there: an `async_value` of `bool` for `any` and
+/// the like, of `std::uint64_t` for numbers, an `async_result` for lists. The query returns nothing, and does not wait.
+/// Queries of pairs of two arguments, or of one alone, take it: any, count, pairs, contacts, within, self_pairs and the others
+/// of these. Both have to live as long as the call.
+///
+///     abut::async_result<abut::index_pair> near(on, 1000);
+///     abut::within(abut::async(on, near), a, b, 0.01);
+template <execution_policy Policy, class Outcome>
+class async {
+public:
+    /// Refers to both.
+    async(const Policy& policy, Outcome& into) : on_(policy), into_(into) {}
+    /// The policy.
+    [[nodiscard]] const Policy& policy() const { return on_; }
+    /// Where the outcome goes.
+    [[nodiscard]] Outcome& into() const { return into_; }
+
+private:
+    const Policy& on_;
+    Outcome& into_;
+};
+
+namespace detail {
+
+template <class Policy, class Outcome>
+inline constexpr bool is_async<async<Policy, Outcome>> = true;
+
+template <class Policy, class Outcome, class Question, class Form, class Options>
+void ask_pairs(const async<Policy, Outcome>& stream, const Question& question, const Form& form, const Options& options,
+               const char* function) {
+    if constexpr (can_ask_async<Policy, Question, Form, Options>()) {
+        using A = typename Question::arithmetic_type;
+        using T = typename Outcome::value_type;
+        const Policy& on = stream.policy();
+        Outcome& into = stream.into();
+        const std::string name = std::string(function) + "_async";
+        question.relation.check(name.c_str());
+        if (options.scheduling.report != nullptr) throw error(name + ": a schedule reports to calls that wait");
+        if constexpr (requires { question.answer.discard_sideways; }) {
+            if (question.answer.discard_sideways) throw error(name + ": contacts are discarded by calls that wait");
+        }
+        if (into.device() != device_of(on)) {
+            throw error(name + ": the result lies on device " + std::to_string(into.device()) +
+                        ", the policy works on device " + std::to_string(device_of(on)));
+        }
+        const auto pairing = form.template pair_up<input::trusted>(on, question.relation, options, false, name.c_str());
+        auto& room = async_parts::room(into);
+        room.again = [on, pairing, question] { return question.find(on, pairing); };
+        if constexpr (Question::kind == answer_kind::list) {
+            const auto judge = question.answer.template judge<A>(question.relation);
+            using found = decltype(judge.answer(pairing.view(), std::uint64_t{}));
+            static_assert(std::same_as<T, found>,
+                          "abut: the result is of another type than what is asked for: contacts are of the scalar type of "
+                          "their shapes, float or double");
+            list_async(on, pairing, judge, into);
+        } else {
+            using queue = std::conditional_t<std::same_as<T, bool>, execution::work_flag<space_of<Policy>>,
+                                             execution::work_count<space_of<Policy>>>;
+            search_async(on, pairing, question.relation.template judge<A>(), queue(on), room);
+            for_each_index(on, 1, write_value_state<T>{room.counts(), room.open_capacity, room.state.data()});
+        }
+    }
+}
+
+}  // namespace detail
+
+/// `any` in the stream: any(async(on, into), a, b, options).
 template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Filter = keep_all,
           traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
 void any_async(const Policy& on, const X& a, const Y& b, async_value<bool, space_of<Policy>>& into,
                const query_options<Filter, Traversal, Schedule>& options = {}) {
-    if constexpr (detail::can_pair<Policy, X, Y, Filter>()) {
-        if constexpr (detail::can_pair_async<Policy, X, Y, Traversal, Schedule>()) {
-            const auto pairing = detail::pair_up_async(on, a, b, options, into, "abut::any_async");
-            detail::async_parts::room(into).again = [on, pairing] { return detail::any_of<A>(on, pairing); };
-            detail::value_async<A>(on, pairing, execution::work_flag<space_of<Policy>>(on), into);
-        }
-    }
+    any<A>(async(on, into), a, b, options);
 }
 
 /// `count` in the stream: the number of pairs that touch and that the filter wants.
@@ -344,13 +404,7 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Y, cl
           traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
 void count_async(const Policy& on, const X& a, const Y& b, async_value<std::uint64_t, space_of<Policy>>& into,
                  const query_options<Filter, Traversal, Schedule>& options = {}) {
-    if constexpr (detail::can_pair<Policy, X, Y, Filter>()) {
-        if constexpr (detail::can_pair_async<Policy, X, Y, Traversal, Schedule>()) {
-            const auto pairing = detail::pair_up_async(on, a, b, options, into, "abut::count_async");
-            detail::async_parts::room(into).again = [on, pairing] { return detail::count_of<A>(on, pairing); };
-            detail::value_async<A>(on, pairing, execution::work_count<space_of<Policy>>(on), into);
-        }
-    }
+    count<A>(async(on, into), a, b, options);
 }
 
 /// `pairs` in the stream: the pairs that touch, sorted by a, then b, unless the options say otherwise. Where there is not
@@ -360,13 +414,7 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Y, cl
           traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
 void pairs_async(const Policy& on, const X& a, const Y& b, async_result<index_pair, space_of<Policy>>& into,
                  const query_options<Filter, Traversal, Schedule>& options = {}) {
-    if constexpr (detail::can_pair<Policy, X, Y, Filter>()) {
-        if constexpr (detail::can_pair_async<Policy, X, Y, Traversal, Schedule>()) {
-            const auto pairing = detail::pair_up_async(on, a, b, options, into, "abut::pairs_async");
-            detail::async_parts::room(into).again = [on, pairing] { return detail::pairs_of<A>(on, pairing); };
-            detail::list_async(on, pairing, detail::touch_and_name<A>{}, into);
-        }
-    }
+    pairs<A>(async(on, into), a, b, options);
 }
 
 /// `contacts` in the stream: those of the pairs of `pairs_async`, in their order. `T` is the scalar of the arguments.
@@ -374,22 +422,7 @@ void pairs_async(const Policy& on, const X& a, const Y& b, async_result<index_pa
 template <arithmetic A = filtered, execution_policy Policy, class X, class Y, scalar T, class Filter = keep_all>
 void contacts_async(const Policy& on, const X& a, const Y& b, async_result<contact<T>, space_of<Policy>>& into,
                     const contact_options<Filter>& options = {}) {
-    if constexpr (detail::can_touch<Policy, X, Y, Filter>()) {
-        if constexpr (detail::can_pair_async<Policy, X, Y, traversal::both_at_once, schedule::lazy_work_stealing>()) {
-            constexpr const char* function = "abut::contacts_async";
-            if (options.discard_sideways) {
-                throw error(std::string(function) + ": contacts are discarded by calls that wait");
-            }
-            const query_options<Filter> query{
-                .sorted = options.sorted, .filter = options.filter, .resident = options.resident};
-            const auto pairing = detail::pair_up_async(on, a, b, query, into, function);
-            const detail::touch_and_contact<A> judge;
-            static_assert(std::same_as<contact<T>, decltype(judge.answer(pairing.view(), std::uint64_t{}))>,
-                          "abut: contacts are of the scalar type of their shapes, float or double");
-            detail::async_parts::room(into).again = [on, pairing] { return detail::contacts_of<A>(on, pairing, false); };
-            detail::list_async(on, pairing, judge, into);
-        }
-    }
+    contacts<A>(async(on, into), a, b, options);
 }
 
 /// The state as it is when the policy's stream has done its work. Waits for that. Throws cuda_error.

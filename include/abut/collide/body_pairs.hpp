@@ -4,7 +4,7 @@
 // Queries of a scene of many bodies: which shapes of one body touch which of another. A tree over boxes around the placed
 // bodies (bodies.hpp) finds the pairs of bodies that may touch, and these are asked about all together, as the entries of a
 // list (list_pairing.hpp). Near pairs stay in the policy's memory; the host learns their number. Not for pairs within one
-// body: those are self_pairs of its index.
+// body: those are self_pairs of its index. The fronts are those of two arguments (query.hpp, contacts.hpp, within.hpp).
 
 #include <algorithm>
 #include <concepts>
@@ -14,9 +14,8 @@
 #include <vector>
 
 #include <abut/collide/bodies.hpp>
-#include <abut/collide/contacts.hpp>
 #include <abut/collide/list_pairing.hpp>
-#include <abut/collide/query.hpp>
+#include <abut/collide/question.hpp>
 #include <abut/collide/self_pairing.hpp>
 
 namespace abut {
@@ -201,73 +200,53 @@ auto pair_up_bodies(const Policy& on, const std::vector<posed_object<Index>>& li
     return pair_up_bodies(on, bodies_of(on, list, function), options, sorted, function, part, near);
 }
 
-/// Whether queries take the bodies.
-template <class Policy, class Bodies>
-consteval bool can_pair_bodies() {
-    return can_be_listed<Policy, typename index_of_bodies<Bodies>::type>();
-}
+/// Bodies as a form of arguments (question.hpp).
+template <class Bodies>
+struct form_of_bodies {
+    using index_type = typename index_of_bodies<Bodies>::type;
+    using scalar_type = typename index_type::scalar_type;
+    using pair_type = body_pair;
+    template <scalar T>
+    using contact_type = body_contact<T>;
+    struct order {
+        template <class Found>
+        ABUT_HD bool operator()(const Found& x, const Found& y) const {
+            return x.body_a != y.body_a   ? x.body_a < y.body_a
+                   : x.body_b != y.body_b ? x.body_b < y.body_b
+                                          : by_ids{}(x, y);
+        }
+    };
+    const Bodies& all;
+
+    template <class Policy, class Question, class>
+    static consteval bool can_be_asked() {
+        if constexpr (can_be_listed<Policy, index_type>()) {
+            using shape_type = typename index_type::shape_type;
+            return Question::template takes<shape_type, shape_type>();
+        } else {
+            return false;
+        }
+    }
+    template <class Policy, class Relation, class Options, class Part = whole_search>
+    auto pair_up(const Policy& on, const Relation& how, const Options& options, bool in_order, const char* function,
+                 const Part& part = {}) const {
+        return pair_up_bodies(on, all, options, in_order, function, part,
+                              how.template nearness<typename index_type::scalar_type>());
+    }
+};
+template <class Options>
+inline constexpr bool are_body_options = false;
+template <class Filter, schedule Schedule>
+inline constexpr bool are_body_options<body_options<Filter, Schedule>> = true;
+template <many_bodies Bodies>
+struct form_of_scene<Bodies> {
+    using type = form_of_bodies<Bodies>;
+    using options = body_options<>;
+    template <class Options>
+    static constexpr bool takes = are_body_options<Options>;
+};
 
 }  // namespace detail
-
-/// Whether any shape of a body touches any of another. Stops soon after the first pair found.
-template <arithmetic A = filtered, execution_policy Policy, many_bodies Bodies, class Filter = keep_all,
-          schedule Schedule = schedule::shared_list>
-[[nodiscard]] bool any(const Policy& on, const Bodies& all, const body_options<Filter, Schedule>& options = {}) {
-    if constexpr (detail::can_pair_bodies<Policy, Bodies>()) {
-        return detail::any_of<A>(on, detail::pair_up_bodies(on, all, options, false, "abut::any"));
-    } else {
-        return false;
-    }
-}
-
-/// Number of pairs of shapes of two bodies that touch. Stores none of them.
-template <arithmetic A = filtered, execution_policy Policy, many_bodies Bodies, class Filter = keep_all,
-          schedule Schedule = schedule::shared_list>
-[[nodiscard]] std::uint64_t count(const Policy& on, const Bodies& all, const body_options<Filter, Schedule>& options = {}) {
-    if constexpr (detail::can_pair_bodies<Policy, Bodies>()) {
-        return detail::count_of<A>(on, detail::pair_up_bodies(on, all, options, false, "abut::count"));
-    } else {
-        return 0;
-    }
-}
-
-/// All pairs of shapes of two different bodies that touch, each once: a result of body_pair, in the policy's memory.
-///
-///     std::vector<abut::posed_object<decltype(gear)>> bodies{posed(gear, here), posed(gear, there)};
-///     for (const auto& hit : to_host(abut::pairs(on, bodies))) use(hit.body_a, hit.a, hit.body_b, hit.b);
-template <arithmetic A = filtered, execution_policy Policy, many_bodies Bodies, class Filter = keep_all,
-          schedule Schedule = schedule::shared_list>
-[[nodiscard]] auto pairs(const Policy& on, const Bodies& all, const body_options<Filter, Schedule>& options = {}) {
-    if constexpr (detail::can_pair_bodies<Policy, Bodies>()) {
-        return detail::pairs_of<A>(on, detail::pair_up_bodies(on, all, options, options.sorted, "abut::pairs"));
-    } else {
-        return result<body_pair, space_of<Policy>>();
-    }
-}
-
-/// Calls visitor(body_pair) -> visit once for every pair of shapes of two bodies that touches; see for_each_pair of two
-/// arguments.
-template <arithmetic A = filtered, execution_policy Policy, many_bodies Bodies, class Visitor, class Filter = keep_all,
-          schedule Schedule = schedule::shared_list>
-void for_each_pair(const Policy& on, const Bodies& all, const Visitor& visitor,
-                   const body_options<Filter, Schedule>& options = {}) {
-    if constexpr (detail::can_pair_bodies<Policy, Bodies>() && detail::is_visitor<Policy, Visitor, body_pair>()) {
-        detail::visit_pairs_of<A>(on, detail::pair_up_bodies(on, all, options, false, "abut::for_each_pair"), visitor);
-    }
-}
-
-/// The contacts of all pairs of shapes of two bodies that touch: a result of body_contact, in the policy's memory; see
-/// contacts of two arguments.
-template <arithmetic A = filtered, execution_policy Policy, many_bodies Bodies, class Filter = keep_all,
-          schedule Schedule = schedule::shared_list>
-[[nodiscard]] auto contacts(const Policy& on, const Bodies& all, const body_options<Filter, Schedule>& options = {}) {
-    if constexpr (detail::can_pair_bodies<Policy, Bodies>()) {
-        return detail::contacts_of<A>(on, detail::pair_up_bodies(on, all, options, options.sorted, "abut::contacts"),
-                                      options.discard_sideways);
-    } else {
-        return result<body_contact<float>, space_of<Policy>>();
-    }
-}
 
 ///@}
 

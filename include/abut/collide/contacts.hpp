@@ -78,35 +78,42 @@ struct is_not_sideways {
     }
 };
 
-/// Whether `contacts` takes both arguments and the filter.
-template <class Policy, class X, class Y, class Filter>
-consteval bool can_touch() {
-    if constexpr (can_pair<Policy, X, Y, Filter>()) {
-        using a = typename shape_of_argument<X>::type;
-        using b = typename shape_of_argument<Y>::type;
-        constexpr bool can = contact_pair<a, b> || contact_pair<b, a>;
+/// Their contacts.
+struct all_contacts {
+    static constexpr answer_kind kind = answer_kind::list;
+    bool discard_sideways = false;
+    template <class Form, scalar T>
+    using found_type = typename Form::template contact_type<T>;
+
+    template <class S, class U>
+    static consteval bool takes() {
+        constexpr bool can = contact_pair<S, U> || contact_pair<U, S>;
         static_assert(can, "abut: there are no contacts of this pair of shapes");
         return can;
-    } else {
-        return false;
     }
-}
-
-/// The contacts of any pairing, of two arguments or of a list.
-template <arithmetic A, class Policy, class Pairing>
-auto contacts_of(const Policy& on, const Pairing& pairing, bool discard_sideways) {
-    using view = typename Pairing::view_type;
-    const touch_and_contact<A> judge;
-    const auto keys = find_keys(on, pairing, judge);
-    auto all = answers_to(on, pairing, judge, keys);
-    if constexpr (share_lines<typename view::shape_type_a, typename view::shape_type_b>) {
-        using found = typename decltype(all)::value_type;
-        if (discard_sideways) {
-            return answers_with(on, all, is_not_sideways<view, found>{pairing.view(), keys.data(), all.data()});
+    template <arithmetic A, class Relation>
+    [[nodiscard]] touch_and_contact<A> judge(const Relation&) const {
+        return {};
+    }
+    template <arithmetic A, class Policy, class Pairing, class Relation>
+    [[nodiscard]] auto find(const Policy& on, const Pairing& pairing, const Relation& how) const {
+        using view = typename Pairing::view_type;
+        const auto contacts = judge<A>(how);
+        const auto keys = find_keys(on, pairing, contacts);
+        auto all = answers_to(on, pairing, contacts, keys);
+        if constexpr (share_lines<typename view::shape_type_a, typename view::shape_type_b>) {
+            using found = typename decltype(all)::value_type;
+            if (discard_sideways) {
+                return answers_with(on, all, is_not_sideways<view, found>{pairing.view(), keys.data(), all.data()});
+            }
         }
+        return all;
     }
-    return all;
-}
+    template <class Form, class Policy>
+    static auto nothing() {
+        return result<typename Form::template contact_type<float>, space_of<Policy>>();
+    }
+};
 
 }  // namespace detail
 
@@ -118,19 +125,27 @@ auto contacts_of(const Policy& on, const Pairing& pairing, bool discard_sideways
 /// is apart from b. All of that holds within `contact_bound` of the two shapes. Contacts are bit for bit the same on each
 /// policy, whatever the threads and the indices. Those of `fast` are numbers of the same kind for pairs that may not touch.
 ///
-/// Arguments are those of `pairs`: sets, views, single shapes and indices, posed or not.
+/// Arguments are those of `pairs`: sets, views, single shapes and indices, posed or not. Of several devices the result lies in
+/// memory of the first; of ranks it is of `global_contact`, 40 bytes each in float and 72 in double, of the pairs of the
+/// rank's own a-shapes.
 ///
 ///     for (const auto& c : abut::contacts(abut::openmp{}, part, abut::posed(tool, pose))) {
 ///         std::printf("%u meets %u, %g deep\n", c.a, c.b, c.depth);
 ///     }
-template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Filter = keep_all>
-[[nodiscard]] auto contacts(const Policy& on, const X& a, const Y& b, const contact_options<Filter>& options = {}) {
-    if constexpr (detail::can_touch<Policy, X, Y, Filter>()) {
-        const query_options<Filter> query{.sorted = options.sorted, .filter = options.filter, .resident = options.resident};
-        return detail::contacts_of<A>(on, detail::pair_up(on, a, b, query, "abut::contacts"), options.discard_sideways);
-    } else {
-        return result<contact<float>, space_of<Policy>>();
-    }
+template <arithmetic A = filtered, executor On, class X, class Y, class Filter = keep_all>
+    requires(!detail::scene<X>)
+[[nodiscard]] auto contacts(const On& on, const X& a, const Y& b, const contact_options<Filter>& options = {}) {
+    const query_options<Filter> query{.sorted = options.sorted, .filter = options.filter, .resident = options.resident};
+    return ask_pairs(on, detail::ask_for<A>(detail::touching{}, detail::all_contacts{options.discard_sideways}),
+                     detail::two{a, b}, query, "abut::contacts");
+}
+
+/// The same of a list, a `result` of `tagged_contact`, which has the entry's position, 40 bytes each in float and 72 in
+/// double (of ranks `global_tagged_contact`, 48 and 72); or of bodies, of `body_contact`, 44 and 72.
+template <arithmetic A = filtered, executor On, detail::scene Scene, detail::options_of<Scene> Options = detail::default_options<Scene>>
+[[nodiscard]] auto contacts(const On& on, const Scene& scene, const Options& options = {}) {
+    return ask_pairs(on, detail::ask_for<A>(detail::touching{}, detail::all_contacts{options.discard_sideways}),
+                     detail::whole(scene), options, "abut::contacts");
 }
 
 ///@}

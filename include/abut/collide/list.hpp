@@ -2,8 +2,8 @@
 #pragma once
 
 // Queries of a list: many pairs of posed indices in one call, for scenes of many bodies, of which each pair alone is too
-// little work for a device. Each query says of each entry what it would say of its two indices alone. How pairs are found is
-// in list_pairing.hpp.
+// little work for a device. Each query says of each entry what it would say of its two indices alone. The fronts are those of
+// two arguments (query.hpp, contacts.hpp, within.hpp); how pairs are found is in list_pairing.hpp.
 
 #include <concepts>
 #include <cstddef>
@@ -13,10 +13,9 @@
 #include <utility>
 #include <vector>
 
-#include <abut/collide/contacts.hpp>
 #include <abut/collide/list_pairing.hpp>
 #include <abut/collide/placed.hpp>
-#include <abut/collide/query.hpp>
+#include <abut/collide/question.hpp>
 
 namespace abut {
 
@@ -148,13 +147,18 @@ auto found_of_part(const Policy& on, const result<Found, space_of<Policy>>& some
     synchronize(on);
     return result<named, space_of<Policy>>(std::move(all));
 }
+/// The same options with another filter. All members are named here, so that none is lost.
+template <class Filter, schedule Schedule, class Other>
+list_options<Other, Schedule> with_filter(const list_options<Filter, Schedule>& options, const Other& filter) {
+    const auto& [sorted, old, most_pairs, discard_sideways, scheduling] = options;
+    return {sorted, filter, most_pairs, discard_sideways, scheduling};
+}
 template <class Filter, schedule Schedule, class Positions>
 auto options_of_part(const list_options<Filter, Schedule>& options, const Positions& position) {
     if constexpr (std::same_as<Filter, keep_all>) {
         return options;
     } else {
-        return list_options<call_of_part<Filter, Positions>, Schedule>{
-            options.sorted, {options.filter, position}, options.most_pairs, options.discard_sideways, options.scheduling};
+        return with_filter(options, call_of_part<Filter, Positions>{options.filter, position});
     }
 }
 
@@ -174,69 +178,51 @@ auto pair_up(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& li
                                              list.size(), bodies_side_by_side{}, options, function, "entries", near);
 }
 
+/// A list as a form of arguments (question.hpp).
+template <class IndexA, class IndexB>
+struct form_of_list {
+    using index_a = IndexA;
+    using index_b = IndexB;
+    using scalar_type = typename IndexA::scalar_type;
+    using pair_type = tagged_pair;
+    template <scalar T>
+    using contact_type = tagged_contact<T>;
+    struct order {
+        template <class Found>
+        ABUT_HD bool operator()(const Found& x, const Found& y) const {
+            return x.pair != y.pair ? x.pair < y.pair : by_ids{}(x, y);
+        }
+    };
+    const std::vector<posed_pair<IndexA, IndexB>>& list;
+
+    template <class Policy, class Question, class>
+    static consteval bool can_be_asked() {
+        if constexpr (can_be_listed<Policy, IndexA, IndexB>()) {
+            return Question::template takes<typename IndexA::shape_type, typename IndexB::shape_type>();
+        } else {
+            return false;
+        }
+    }
+    template <class Policy, class Relation, class Options, class Positions = own_positions>
+    auto pair_up(const Policy& on, const Relation& how, const Options& options, bool, const char* function,
+                 const Positions& position = {}) const {
+        return detail::pair_up(on, list, options, function, position,
+                               how.template nearness<typename IndexA::scalar_type>());
+    }
+};
+template <class Options>
+inline constexpr bool are_list_options = false;
+template <class Filter, schedule Schedule>
+inline constexpr bool are_list_options<list_options<Filter, Schedule>> = true;
+template <class IndexA, class IndexB>
+struct form_of_scene<std::vector<posed_pair<IndexA, IndexB>>> {
+    using type = form_of_list<IndexA, IndexB>;
+    using options = list_options<>;
+    template <class Options>
+    static constexpr bool takes = are_list_options<Options>;
+};
+
 }  // namespace detail
-
-/// Whether the shapes of any entry touch. Stops at the first pair found.
-template <arithmetic A = filtered, execution_policy Policy, class IndexA, class IndexB, class Filter = keep_all,
-          schedule Schedule = schedule::shared_list>
-[[nodiscard]] bool any(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
-                       const list_options<Filter, Schedule>& options = {}) {
-    if constexpr (detail::can_be_listed<Policy, IndexA, IndexB>()) {
-        return detail::any_of<A>(on, detail::pair_up(on, list, options, "abut::any"));
-    } else {
-        return false;
-    }
-}
-
-/// Number of pairs of shapes that touch, of all entries. Stores none of them.
-template <arithmetic A = filtered, execution_policy Policy, class IndexA, class IndexB, class Filter = keep_all,
-          schedule Schedule = schedule::shared_list>
-[[nodiscard]] std::uint64_t count(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
-                                  const list_options<Filter, Schedule>& options = {}) {
-    if constexpr (detail::can_be_listed<Policy, IndexA, IndexB>()) {
-        return detail::count_of<A>(on, detail::pair_up(on, list, options, "abut::count"));
-    } else {
-        return 0;
-    }
-}
-
-/// All pairs of shapes that touch, tagged with the entry's position. In the policy's memory, 12 bytes each.
-///
-///     std::vector<abut::posed_pair<decltype(gear)>> list{{posed(gear, here), posed(gear, there)}};
-///     for (const auto& hit : to_host(abut::pairs(on, list))) use(hit.pair, hit.a, hit.b);
-template <arithmetic A = filtered, execution_policy Policy, class IndexA, class IndexB, class Filter = keep_all,
-          schedule Schedule = schedule::shared_list>
-[[nodiscard]] auto pairs(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
-                         const list_options<Filter, Schedule>& options = {}) {
-    if constexpr (detail::can_be_listed<Policy, IndexA, IndexB>()) {
-        return detail::pairs_of<A>(on, detail::pair_up(on, list, options, "abut::pairs"));
-    } else {
-        return result<tagged_pair, space_of<Policy>>();
-    }
-}
-
-/// Calls visitor(tagged_pair) -> visit once for every pair of shapes that touches; see for_each_pair of two arguments.
-template <arithmetic A = filtered, execution_policy Policy, class IndexA, class IndexB, class Visitor,
-          class Filter = keep_all, schedule Schedule = schedule::shared_list>
-void for_each_pair(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list, const Visitor& visitor,
-                   const list_options<Filter, Schedule>& options = {}) {
-    if constexpr (detail::can_be_listed<Policy, IndexA, IndexB>() && detail::is_visitor<Policy, Visitor, tagged_pair>()) {
-        detail::visit_pairs_of<A>(on, detail::pair_up(on, list, options, "abut::for_each_pair"), visitor);
-    }
-}
-
-/// The contacts of all pairs of shapes that touch, tagged with the entry's position; see contacts of two arguments. In the
-/// policy's memory, 40 bytes each in float and 72 in double.
-template <arithmetic A = filtered, execution_policy Policy, class IndexA, class IndexB, class Filter = keep_all,
-          schedule Schedule = schedule::shared_list>
-[[nodiscard]] auto contacts(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
-                            const list_options<Filter, Schedule>& options = {}) {
-    if constexpr (detail::can_be_listed<Policy, IndexA, IndexB>()) {
-        return detail::contacts_of<A>(on, detail::pair_up(on, list, options, "abut::contacts"), options.discard_sideways);
-    } else {
-        return result<tagged_contact<float>, space_of<Policy>>();
-    }
-}
 
 ///@}
 

@@ -12,6 +12,7 @@
 
 #include <abut/collide/distance.hpp>
 #include <abut/collide/list.hpp>
+#include <abut/collide/list_each.hpp>
 
 namespace abut {
 
@@ -119,6 +120,21 @@ auto distances_of(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>
     return result<separation<T>, space_of<Policy>>(std::move(out));
 }
 
+/// How far apart the two indices of each entry are, as an answer of each (list_each.hpp).
+struct distance_of_each {
+    template <class Form>
+    using found_type = separation<typename Form::scalar_type>;
+    template <class Policy, class Form>
+    static consteval bool can_be_asked() {
+        return can_be_measured<Policy, typename Form::index_a, typename Form::index_b>();
+    }
+    template <class Policy, class Form, class Positions>
+    auto find(const Policy& on, const Form& form, const distance_options& options, const char* function,
+              const Positions& position) const {
+        return distances_of(on, form.list, options, function, position);
+    }
+};
+
 }  // namespace detail
 
 /// @addtogroup lists
@@ -126,17 +142,14 @@ auto distances_of(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>
 
 /// How far apart the two indices of each entry are: a `result` of separation<T>, one of each entry in their order, 36 bytes
 /// each in float and 64 in double. An entry in which an index is empty, or in which nothing is nearer than `options.below`,
-/// has `no_id` for both ids and an infinite distance. Otherwise it is what `distance` says of the two indices alone.
+/// has `no_id` for both ids and an infinite distance. Otherwise it is what `distance` says of the two indices alone. Ranks
+/// are told of their own entries.
 ///
 ///     for (const auto& apart : abut::to_host(abut::distance(on, list))) clearance = std::min(clearance, apart.distance);
-template <execution_policy Policy, class IndexA, class IndexB>
-[[nodiscard]] auto distance(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
+template <executor On, class IndexA, class IndexB>
+[[nodiscard]] auto distance(const On& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
                             const distance_options& options = {}) {
-    if constexpr (detail::can_be_measured<Policy, IndexA, IndexB>()) {
-        return detail::distances_of(on, list, options, "abut::distance");
-    } else {
-        return result<separation<float>, space_of<Policy>>();
-    }
+    return ask_entries(on, detail::distance_of_each{}, detail::whole(list), options, "abut::distance");
 }
 
 ///@}

@@ -150,6 +150,17 @@ struct some_entries {
     }
 };
 
+/// A filter that may say of an entry that no more of it is wanted: is_open(entry).
+struct closes_entries {};
+template <class View>
+ABUT_HD bool is_open(const View& list, [[maybe_unused]] std::uint32_t entry) {
+    if constexpr (std::derived_from<decltype(View::filter), closes_entries>) {
+        return list.filter.is_open(entry);
+    } else {
+        return true;
+    }
+}
+
 /// One step down the two trees of an entry. A filter that is asked of subtrees (pairing.hpp) has tables by objects.
 template <class View, class TreeA, class TreeB>
 struct expand_entry {
@@ -180,6 +191,7 @@ struct expand_entry {
     template <class Emitter>
     ABUT_INLINE ABUT_HD void operator()(const item& at, Emitter&& emitter) const {
         using sink = std::remove_reference_t<Emitter>;
+        if (!is_open(list, at.entry)) return;
         const list_member<T> m = list.members[at.entry];
         const walk both{list.a.objects[m.object_a].tree, list.b.objects[m.object_b].tree, m.frames()};
         const ids_of_entry<View> ids{list, at.entry};

@@ -118,6 +118,23 @@ struct query_options {
     abut::front* front = nullptr;
 };
 
+///@}
+
+namespace detail {
+
+/// The same options with another filter. All members are named here, so that none is lost.
+template <class Filter, traversal Traversal, schedule Schedule, class Other>
+query_options<Other, Traversal, Schedule> with_filter(const query_options<Filter, Traversal, Schedule>& options,
+                                                      const Other& filter) {
+    const auto& [sorted, old, most_pairs, resident, start_depth, scheduling, front] = options;
+    return {sorted, filter, most_pairs, resident, start_depth, scheduling, front};
+}
+
+}  // namespace detail
+
+/// @addtogroup queries
+///@{
+
 /// The outcome of a query in the policy's memory: contiguous and immutable.
 template <class T, memory_space Space>
 class result {

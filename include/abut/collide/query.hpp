@@ -1,77 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// any, count, pairs, for_each_pair: which shapes of one set touch which of another.
+// any, count, pairs, for_each_pair: which shapes of one set touch which of another; or of each entry of a list, or of each two
+// bodies. What is asked, of what and by whom is in question.hpp.
 
 #include <cstdint>
 
-#include <abut/collide/search.hpp>
+#include <abut/collide/question.hpp>
 
 namespace abut {
-
-namespace detail {
-
-/// Finds out whether two shapes touch, and knows their ids.
-template <arithmetic A>
-struct touch_and_name : touch<A> {
-    template <class View>
-    ABUT_HD auto answer(const View& both, std::uint64_t key) const {
-        return both.ids(key);
-    }
-};
-
-/// Hands pairs to a user's visitor.
-template <class View, class Visitor>
-struct visit_pair {
-    View both;
-    Visitor visitor;
-    ABUT_CALLS_ANY
-    ABUT_HD bool operator()(std::uint64_t key) const { return visitor(both.ids(key)) != visit::stop; }
-};
-
-/// Whether for_each_pair takes the visitor.
-template <class Policy, class Visitor, class Pair>
-consteval bool is_visitor() {
-    constexpr bool is = answers<Policy, Visitor, visit, Pair>();
-    static_assert(
-        is,
-        "abut: a visitor is called as visitor(pair) const, and returns abut::visit::proceed or abut::visit::stop; the "
-        "pair is an index_pair, or a tagged_pair where the query is of a list");
-    return is;
-}
-
-// The queries, of any pairing: two arguments (below) or a list of them (list.hpp). Whether shapes touch is what is decided,
-// unless another judge is given.
-
-template <arithmetic A, class Policy, class Pairing, class Judge = touch<A>>
-bool any_of(const Policy& on, const Pairing& pairing, const Judge& judge = {}) {
-    execution::work_flag<space_of<Policy>> found(on);
-    search(on, pairing, judge, found);
-    return found.raised();
-}
-
-template <arithmetic A, class Policy, class Pairing, class Judge = touch<A>>
-std::uint64_t count_of(const Policy& on, const Pairing& pairing, const Judge& judge = {}) {
-    execution::work_count<space_of<Policy>> hits(on);
-    search(on, pairing, judge, hits);
-    return hits.total();
-}
-
-template <arithmetic A, class Policy, class Pairing, class Judge = touch_and_name<A>>
-auto pairs_of(const Policy& on, const Pairing& pairing, const Judge& judge = {}) {
-    return answers_to(on, pairing, judge, find_keys(on, pairing, judge));
-}
-
-template <arithmetic A, class Policy, class Pairing, class Visitor, class Judge = touch<A>>
-void visit_pairs_of(const Policy& on, const Pairing& pairing, const Visitor& visitor, const Judge& judge = {}) {
-    using view = typename Pairing::view_type;
-    require_callable(on, visitor, decltype(pairing.view().ids(0)){});
-    const visit_pair<view, Visitor> visits{pairing.view(), visitor};
-    execution::work_visit<visit_pair<view, Visitor>, space_of<Policy>> hits(on, visits);
-    search(on, pairing, judge, hits);
-}
-
-}  // namespace detail
 
 /// @defgroup queries Which shapes of two sets touch
 ///
@@ -102,41 +39,64 @@ void visit_pairs_of(const Policy& on, const Pairing& pairing, const Visitor& vis
 /// @snippet queries.cpp queries
 ///@{
 
-/// Whether any shape of `a` touches any shape of `b`. Stops soon after the first pair found.
-template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Filter = keep_all,
+/// Whether any shape of `a` touches any shape of `b`. Stops soon after the first pair found. Ranks give the same answer on
+/// each; one that has found a pair looks for no other.
+template <arithmetic A = filtered, executor On, class X, class Y, class Filter = keep_all,
           traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
-[[nodiscard]] bool any(const Policy& on, const X& a, const Y& b,
+    requires(!detail::scene<X>)
+[[nodiscard]] auto any(const On& on, const X& a, const Y& b,
                        const query_options<Filter, Traversal, Schedule>& options = {}) {
-    if constexpr (detail::can_pair<Policy, X, Y, Filter>()) {
-        return detail::any_of<A>(on, detail::pair_up(on, a, b, options, "abut::any"));
-    } else {
-        return false;
-    }
+    return ask_pairs(on, detail::ask_for<A>(detail::touching{}, detail::whether{}), detail::two{a, b}, options, "abut::any");
 }
 
-/// Number of pairs that touch and that the filter wants. Stores none of them.
-template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Filter = keep_all,
+/// The same of a list of posed pairs (@ref lists ): whether the shapes of any entry touch; or of bodies (@ref many_bodies ):
+/// whether any shape of a body touches any of another.
+template <arithmetic A = filtered, executor On, detail::scene Scene, detail::options_of<Scene> Options = detail::default_options<Scene>>
+[[nodiscard]] auto any(const On& on, const Scene& scene, const Options& options = {}) {
+    return ask_pairs(on, detail::ask_for<A>(detail::touching{}, detail::whether{}), detail::whole(scene), options, "abut::any");
+}
+
+/// Number of pairs that touch and that the filter wants. Stores none of them. Of ranks the number of all, the same on each.
+template <arithmetic A = filtered, executor On, class X, class Y, class Filter = keep_all,
           traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
-[[nodiscard]] std::uint64_t count(const Policy& on, const X& a, const Y& b,
+    requires(!detail::scene<X>)
+[[nodiscard]] auto count(const On& on, const X& a, const Y& b,
                                   const query_options<Filter, Traversal, Schedule>& options = {}) {
-    if constexpr (detail::can_pair<Policy, X, Y, Filter>()) {
-        return detail::count_of<A>(on, detail::pair_up(on, a, b, options, "abut::count"));
-    } else {
-        return 0;
-    }
+    return ask_pairs(on, detail::ask_for<A>(detail::touching{}, detail::how_many{}), detail::two{a, b}, options,
+                     "abut::count");
+}
+
+/// The same of all entries of a list, or of all pairs of two bodies.
+template <arithmetic A = filtered, executor On, detail::scene Scene, detail::options_of<Scene> Options = detail::default_options<Scene>>
+[[nodiscard]] auto count(const On& on, const Scene& scene, const Options& options = {}) {
+    return ask_pairs(on, detail::ask_for<A>(detail::touching{}, detail::how_many{}), detail::whole(scene), options,
+                     "abut::count");
 }
 
 /// All pairs that touch, each once: a `result` of `index_pair`, 8 bytes each, in the policy's memory; sorted by a, then b,
-/// unless the options say otherwise. Empty where none touch.
-template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Filter = keep_all,
+/// unless the options say otherwise. Empty where none touch. Of several devices it lies in memory of the first. Of ranks it
+/// is of `global_pair`, 16 bytes each, of the pairs of the rank's own a-shapes: the lists of all ranks, one after another,
+/// are the list of one machine.
+template <arithmetic A = filtered, executor On, class X, class Y, class Filter = keep_all,
           traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
-[[nodiscard]] auto pairs(const Policy& on, const X& a, const Y& b,
+    requires(!detail::scene<X>)
+[[nodiscard]] auto pairs(const On& on, const X& a, const Y& b,
                          const query_options<Filter, Traversal, Schedule>& options = {}) {
-    if constexpr (detail::can_pair<Policy, X, Y, Filter>()) {
-        return detail::pairs_of<A>(on, detail::pair_up(on, a, b, options, "abut::pairs"));
-    } else {
-        return result<index_pair, space_of<Policy>>();
-    }
+    return ask_pairs(on, detail::ask_for<A>(detail::touching{}, detail::all_pairs{}), detail::two{a, b}, options,
+                     "abut::pairs");
+}
+
+/// The same of a list, a `result` of `tagged_pair`, which has the entry's position, 12 bytes each (of ranks
+/// `global_tagged_pair`, 16); or of bodies, of `body_pair`, 16 bytes each.
+///
+///     std::vector<abut::posed_pair<decltype(gear)>> list{{posed(gear, here), posed(gear, there)}};
+///     for (const auto& hit : to_host(abut::pairs(on, list))) use(hit.pair, hit.a, hit.b);
+///     std::vector<abut::posed_object<decltype(gear)>> bodies{posed(gear, here), posed(gear, there)};
+///     for (const auto& hit : to_host(abut::pairs(on, bodies))) use(hit.body_a, hit.a, hit.body_b, hit.b);
+template <arithmetic A = filtered, executor On, detail::scene Scene, detail::options_of<Scene> Options = detail::default_options<Scene>>
+[[nodiscard]] auto pairs(const On& on, const Scene& scene, const Options& options = {}) {
+    return ask_pairs(on, detail::ask_for<A>(detail::touching{}, detail::all_pairs{}), detail::whole(scene), options,
+                     "abut::pairs");
 }
 
 /// Calls visitor(index_pair) -> visit once for every pair that touches, as soon as it is known, in no order, concurrently,
@@ -144,17 +104,29 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Y, cl
 /// with their number. Under cuda the visitor is a trivially copyable functor with an ABUT_HD operator(), or with nvcc's
 /// `--extended-lambda` a lambda that is marked so and captures by value (see query_options).
 ///
+/// Several devices are given visitor_of(k), which is called on the host, once for each device, and returns the visitor of
+/// that device; `visit::stop` ends the visits of that device. A visitor of ranks is called with a `global_pair` of the rank's
+/// own a-shapes, and stops that rank.
+///
 ///     abut::for_each_pair(on, mesh, ball, [=] ABUT_HD(abut::index_pair pair) {
 ///         touched[pair.b] = 1;  // on a device, device memory
 ///         return abut::visit::proceed;
 ///     });
-template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Visitor, class Filter = keep_all,
+template <arithmetic A = filtered, executor On, class X, class Y, class Visitor, class Filter = keep_all,
           traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
-void for_each_pair(const Policy& on, const X& a, const Y& b, const Visitor& visitor,
+    requires(!detail::scene<X>)
+void for_each_pair(const On& on, const X& a, const Y& b, const Visitor& visitor,
                    const query_options<Filter, Traversal, Schedule>& options = {}) {
-    if constexpr (detail::can_pair<Policy, X, Y, Filter>() && detail::is_visitor<Policy, Visitor, index_pair>()) {
-        detail::visit_pairs_of<A>(on, detail::pair_up(on, a, b, options, "abut::for_each_pair"), visitor);
-    }
+    ask_pairs(on, detail::ask_for<A>(detail::touching{}, detail::visited_by(visitor)), detail::two{a, b}, options,
+              "abut::for_each_pair");
+}
+
+/// The same of a list, with a tagged_pair (of ranks a global_tagged_pair), or of bodies, with a body_pair.
+template <arithmetic A = filtered, executor On, detail::scene Scene, class Visitor,
+          detail::options_of<Scene> Options = detail::default_options<Scene>>
+void for_each_pair(const On& on, const Scene& scene, const Visitor& visitor, const Options& options = {}) {
+    ask_pairs(on, detail::ask_for<A>(detail::touching{}, detail::visited_by(visitor)), detail::whole(scene), options,
+              "abut::for_each_pair");
 }
 
 ///@}

@@ -91,27 +91,14 @@ auto in_part(self_pairing<X, Filter, Traversal, Schedule, Nearness> all, const s
                                                                                all.near, part};
 }
 
-/// Whether pair_up_self takes the argument, as it is, and the filter.
-template <class Policy, class X, class Filter>
-consteval bool can_pair_itself() {
-    if constexpr (can_be_asked<Policy, X>()) {
-        using shape_type = typename shape_of_argument<X>::type;
-        constexpr bool is = decidable<shape_type, shape_type>;
-        static_assert(is, "abut: self queries of sets of these shapes are not supported");
-        return is && is_filter<Policy, Filter>();
-    } else {
-        return false;
-    }
-}
-
 /// The argument of a self query, ready to be paired with itself; errors are thrown in the name of `function`. Of the
 /// traversals breadth_first and from_front are meant as they say, and the others are both_at_once.
-template <class Policy, class X, class Filter, traversal Traversal, schedule Schedule, class Sight = as_they_are,
-          class Nearness = near_enough_to_touch>
+template <input Input = input::checked, class Policy, class X, class Filter, traversal Traversal, schedule Schedule,
+          class Sight = as_they_are, class Nearness = near_enough_to_touch>
 auto pair_up_self(const Policy& on, const X& x, const query_options<Filter, Traversal, Schedule>& options,
                   const char* function, const Sight& sight = {}, const Nearness& near = {}) {
     check_options(on, options, function);
-    auto operand = see(make_operand(on, x, function), sight);
+    auto operand = see(make_operand<Input>(on, x, function), sight);
     const auto shapes = operand.shapes();
     const int bits = id_bits(shapes.size());
     using shape_type = typename decltype(shapes)::shape_type;

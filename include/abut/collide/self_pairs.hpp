@@ -122,11 +122,23 @@ query_options<Filter, Traversal> as_query_options(const self_options<Filter, Tra
             .start_depth = options.start_depth,
             .front = options.front};
 }
-template <class Policy, class X, class Filter, traversal Traversal>
-auto pair_up_faces(const Policy& on, const X& x, const self_options<Filter, Traversal>& options, const char* function) {
-    return pair_up_self(on, x, as_query_options(options), function,
-                        as_faces{options.coincident == coincident_vertices::merged});
-}
+
+/// Two shapes of one set have more in common than what they share. Shapes of two parts share no vertices, unless these go by
+/// their places: all shapes that come from another part are no faces of a mesh, and their numbers are above those of all
+/// vertices and shapes of a set.
+struct meeting_beyond_shared : touching {
+    bool by_place;
+
+    explicit meeting_beyond_shared(coincident_vertices coincident) : by_place(coincident == coincident_vertices::merged) {}
+    template <class S, class U>
+    static consteval bool decides() {
+        constexpr bool is = decidable<S, U>;
+        static_assert(is, "abut: self queries of sets of these shapes are not supported");
+        return is;
+    }
+    [[nodiscard]] as_faces sight() const { return {by_place}; }
+    [[nodiscard]] as_faces sight_of_others() const { return {by_place, std::uint32_t{1} << 31}; }
+};
 
 }  // namespace detail
 
@@ -139,29 +151,25 @@ auto pair_up_faces(const Policy& on, const X& x, const self_options<Filter, Trav
 /// area. A face that names a vertex twice, or whose corners lie on a line, is the segment or the point that it spans. With
 /// `filtered` and `exact` all of that is decided exactly, for every finite input.
 ///
-/// The answer does not depend on the policy, the thread count or the index.
+/// The answer does not depend on the policy, the thread count or the index. Several devices take what lies on each, or is
+/// divided; faces of a mesh that `divide` has divided are triangles, which share no vertices by their numbers. Ranks give
+/// `global_pair` of which a is the rank's; the mesh that they are asked about is all parts one after another, each of which
+/// has vertices of its own. In both cases {.coincident = coincident_vertices::merged} tells neighbours by their places.
 ///
 ///     for (const auto [f, g] : to_host(abut::self_pairs(on, abut::make_bvh(on, mesh)))) mark(f, g);
-template <arithmetic A = filtered, execution_policy Policy, class X, class Filter = keep_all,
+template <arithmetic A = filtered, executor On, class X, class Filter = keep_all,
           traversal Traversal = traversal::both_at_once>
-[[nodiscard]] auto self_pairs(const Policy& on, const X& x, const self_options<Filter, Traversal>& options = {}) {
-    if constexpr (detail::can_pair_itself<Policy, X, Filter>()) {
-        return detail::pairs_of<A>(on, detail::pair_up_faces(on, x, options, "abut::self_pairs"));
-    } else {
-        return result<index_pair, space_of<Policy>>();
-    }
+[[nodiscard]] auto self_pairs(const On& on, const X& x, const self_options<Filter, Traversal>& options = {}) {
+    return ask_pairs(on, detail::ask_for<A>(detail::meeting_beyond_shared(options.coincident), detail::all_pairs{}),
+                     detail::alone{x}, detail::as_query_options(options), "abut::self_pairs");
 }
 
-/// The number of pairs that self_pairs reports. Stores none of them.
-template <arithmetic A = filtered, execution_policy Policy, class X, class Filter = keep_all,
+/// The number of pairs that self_pairs reports; of all ranks together. Stores none of them.
+template <arithmetic A = filtered, executor On, class X, class Filter = keep_all,
           traversal Traversal = traversal::both_at_once>
-[[nodiscard]] std::uint64_t count_self_pairs(const Policy& on, const X& x,
-                                             const self_options<Filter, Traversal>& options = {}) {
-    if constexpr (detail::can_pair_itself<Policy, X, Filter>()) {
-        return detail::count_of<A>(on, detail::pair_up_faces(on, x, options, "abut::count_self_pairs"));
-    } else {
-        return 0;
-    }
+[[nodiscard]] auto count_self_pairs(const On& on, const X& x, const self_options<Filter, Traversal>& options = {}) {
+    return ask_pairs(on, detail::ask_for<A>(detail::meeting_beyond_shared(options.coincident), detail::how_many{}),
+                     detail::alone{x}, detail::as_query_options(options), "abut::count_self_pairs");
 }
 
 ///@}

@@ -12,9 +12,8 @@
 
 #include <abut/arithmetic/arithmetic.hpp>
 #include <abut/collide/options.hpp>
-#include <abut/collide/pairing.hpp>
-#include <abut/collide/query.hpp>
-#include <abut/collide/self_pairing.hpp>
+#include <abut/collide/nearness.hpp>
+#include <abut/collide/question.hpp>
 #include <abut/error.hpp>
 #include <abut/predicate/within.hpp>
 #include <abut/shape/outward.hpp>
@@ -23,7 +22,7 @@ namespace abut {
 
 namespace detail {
 
-/// Finds out whether two shapes are no farther apart than a distance, and knows their ids.
+/// Finds out whether two shapes are no farther apart than a distance.
 template <arithmetic A>
 struct come_within {
     double distance;
@@ -54,10 +53,6 @@ struct come_within {
             return resolve_within(t, s, distance);
         }
     }
-    template <class View>
-    ABUT_HD auto answer(const View& both, std::uint64_t key) const {
-        return both.ids(key);
-    }
 };
 
 /// Whether the judge takes sets of these shapes.
@@ -77,36 +72,26 @@ inline void check_distance(double distance, const char* function) {
     }
 }
 
-/// How near shapes are that are no farther apart than a distance, which is checked.
-template <scalar T>
-near_in_distance<T> near_within(double distance, const char* function) {
-    check_distance(distance, function);
-    return near_in_distance<T>{distance_frame<T>(rounded_up<T>(distance))};
-}
+/// Two shapes are no farther apart than a distance.
+struct within_distance : relation {
+    double distance;
 
-/// Whether these queries take both arguments and the filter.
-template <class Policy, class X, class Y, class Filter>
-consteval bool can_be_within() {
-    if constexpr (can_both_be_asked<Policy, X, Y>()) {
-        return can_come_within<typename shape_of_argument<X>::type, typename shape_of_argument<Y>::type>() &&
-               is_filter<Policy, Filter>();
-    } else {
-        return false;
+    explicit within_distance(double d) : distance(d) {}
+    void check(const char* function) const { check_distance(distance, function); }
+    template <arithmetic A>
+    [[nodiscard]] come_within<A> judge() const {
+        return {distance};
     }
-}
-
-/// Both arguments, ready to be paired: all pairs whose boxes are near enough.
-template <class Policy, class X, class Y, class Options>
-auto pair_up_within(const Policy& on, const X& x, const Y& y, double distance, const Options& options,
-                    const char* function) {
-    using T = scalar_type_of<typename shape_of_argument<X>::type>;
-    return pair_up(on, x, y, options, function, near_within<T>(distance, function));
-}
-template <class Policy, class X, class Options>
-auto pair_up_self_within(const Policy& on, const X& x, double distance, const Options& options, const char* function) {
-    using T = scalar_type_of<typename shape_of_argument<X>::type>;
-    return pair_up_self(on, x, options, function, as_they_are{}, near_within<T>(distance, function));
-}
+    template <class S, class U>
+    static consteval bool decides() {
+        return can_come_within<S, U>();
+    }
+    template <scalar T>
+    [[nodiscard]] near_in_distance<T> nearness() const {
+        return {distance_frame<T>(rounded_up<T>(distance))};
+    }
+    [[nodiscard]] double agreed() const { return distance; }
+};
 
 }  // namespace detail
 
@@ -138,83 +123,100 @@ auto pair_up_self_within(const Policy& on, const X& x, double distance, const Op
 ///@{
 
 /// All pairs of a shape of `a` and a shape of `b` that are no farther apart than `distance`, each once: a `result` of
-/// `index_pair` in the policy's memory, sorted by a, then b, unless the options say otherwise.
-template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Filter = keep_all,
+/// `index_pair` in the policy's memory, sorted by a, then b, unless the options say otherwise. Of several devices and of ranks
+/// as `pairs`; each rank gives the same distance.
+template <arithmetic A = filtered, executor On, class X, class Y, class Filter = keep_all,
           traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
-[[nodiscard]] auto within(const Policy& on, const X& a, const Y& b, double distance,
+    requires(!detail::scene<X>)
+[[nodiscard]] auto within(const On& on, const X& a, const Y& b, double distance,
                           const query_options<Filter, Traversal, Schedule>& options = {}) {
-    if constexpr (detail::can_be_within<Policy, X, Y, Filter>()) {
-        return detail::pairs_of<A>(on, detail::pair_up_within(on, a, b, distance, options, "abut::within"),
-                                   detail::come_within<A>{distance});
-    } else {
-        return result<index_pair, space_of<Policy>>();
-    }
+    return ask_pairs(on, detail::ask_for<A>(detail::within_distance(distance), detail::all_pairs{}), detail::two{a, b},
+                     options, "abut::within");
 }
 
-/// Number of pairs that are no farther apart than `distance` and that the filter wants. Stores none of them.
-template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Filter = keep_all,
+/// The same of the two sides of each entry of a list, or of each two bodies: results as of `pairs`.
+///
+///     for (const auto& near : to_host(abut::within(on, list, 0.01))) use(near.pair, near.a, near.b);
+///     for (const auto& near : to_host(abut::within(on, bodies, 0.01))) use(near.body_a, near.a, near.body_b, near.b);
+template <arithmetic A = filtered, executor On, detail::scene Scene, detail::options_of<Scene> Options = detail::default_options<Scene>>
+[[nodiscard]] auto within(const On& on, const Scene& scene, double distance, const Options& options = {}) {
+    return ask_pairs(on, detail::ask_for<A>(detail::within_distance(distance), detail::all_pairs{}), detail::whole(scene),
+                     options, "abut::within");
+}
+
+/// Number of pairs that are no farther apart than `distance` and that the filter wants, of all ranks together. Stores none
+/// of them.
+template <arithmetic A = filtered, executor On, class X, class Y, class Filter = keep_all,
           traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
-[[nodiscard]] std::uint64_t count_within(const Policy& on, const X& a, const Y& b, double distance,
+    requires(!detail::scene<X>)
+[[nodiscard]] auto count_within(const On& on, const X& a, const Y& b, double distance,
                                          const query_options<Filter, Traversal, Schedule>& options = {}) {
-    if constexpr (detail::can_be_within<Policy, X, Y, Filter>()) {
-        return detail::count_of<A>(on, detail::pair_up_within(on, a, b, distance, options, "abut::count_within"),
-                                   detail::come_within<A>{distance});
-    } else {
-        return 0;
-    }
+    return ask_pairs(on, detail::ask_for<A>(detail::within_distance(distance), detail::how_many{}), detail::two{a, b},
+                     options, "abut::count_within");
+}
+
+/// The same of a list or of bodies.
+template <arithmetic A = filtered, executor On, detail::scene Scene, detail::options_of<Scene> Options = detail::default_options<Scene>>
+[[nodiscard]] auto count_within(const On& on, const Scene& scene, double distance, const Options& options = {}) {
+    return ask_pairs(on, detail::ask_for<A>(detail::within_distance(distance), detail::how_many{}), detail::whole(scene),
+                     options, "abut::count_within");
 }
 
 /// Whether any shape of `a` is no farther than `distance` from any shape of `b`. Stops soon after the first pair found.
-template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Filter = keep_all,
+template <arithmetic A = filtered, executor On, class X, class Y, class Filter = keep_all,
           traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
-[[nodiscard]] bool any_within(const Policy& on, const X& a, const Y& b, double distance,
+    requires(!detail::scene<X>)
+[[nodiscard]] auto any_within(const On& on, const X& a, const Y& b, double distance,
                               const query_options<Filter, Traversal, Schedule>& options = {}) {
-    if constexpr (detail::can_be_within<Policy, X, Y, Filter>()) {
-        return detail::any_of<A>(on, detail::pair_up_within(on, a, b, distance, options, "abut::any_within"),
-                                 detail::come_within<A>{distance});
-    } else {
-        return false;
-    }
+    return ask_pairs(on, detail::ask_for<A>(detail::within_distance(distance), detail::whether{}), detail::two{a, b}, options,
+                     "abut::any_within");
 }
 
-/// Calls visitor(index_pair) -> visit once for every pair that is no farther apart than `distance`, as for_each_pair does.
-template <arithmetic A = filtered, execution_policy Policy, class X, class Y, class Visitor, class Filter = keep_all,
+/// The same of the entries of a list, or of two bodies.
+template <arithmetic A = filtered, executor On, detail::scene Scene, detail::options_of<Scene> Options = detail::default_options<Scene>>
+[[nodiscard]] auto any_within(const On& on, const Scene& scene, double distance, const Options& options = {}) {
+    return ask_pairs(on, detail::ask_for<A>(detail::within_distance(distance), detail::whether{}), detail::whole(scene),
+                     options, "abut::any_within");
+}
+
+/// Calls a visitor once for every pair that is no farther apart than `distance`, as for_each_pair does.
+template <arithmetic A = filtered, executor On, class X, class Y, class Visitor, class Filter = keep_all,
           traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
-void for_each_within(const Policy& on, const X& a, const Y& b, double distance, const Visitor& visitor,
+    requires(!detail::scene<X>)
+void for_each_within(const On& on, const X& a, const Y& b, double distance, const Visitor& visitor,
                      const query_options<Filter, Traversal, Schedule>& options = {}) {
-    if constexpr (detail::can_be_within<Policy, X, Y, Filter>() && detail::is_visitor<Policy, Visitor, index_pair>()) {
-        detail::visit_pairs_of<A>(on, detail::pair_up_within(on, a, b, distance, options, "abut::for_each_within"), visitor,
-                                  detail::come_within<A>{distance});
-    }
+    ask_pairs(on, detail::ask_for<A>(detail::within_distance(distance), detail::visited_by(visitor)), detail::two{a, b},
+              options, "abut::for_each_within");
+}
+
+/// The same of a list or of bodies.
+template <arithmetic A = filtered, executor On, detail::scene Scene, class Visitor,
+          detail::options_of<Scene> Options = detail::default_options<Scene>>
+void for_each_within(const On& on, const Scene& scene, double distance, const Visitor& visitor,
+                     const Options& options = {}) {
+    ask_pairs(on, detail::ask_for<A>(detail::within_distance(distance), detail::visited_by(visitor)), detail::whole(scene),
+              options, "abut::for_each_within");
 }
 
 /// All pairs of shapes of `x` that are no farther apart than `distance`, each once with a < b. A shape is not paired with
 /// itself. Faces of a mesh are triangles here: neighbours are 0 apart and belong to the answer.
 ///
 ///     for (const auto [i, j] : to_host(abut::self_within(on, abut::make_bvh(on, vertices(mesh)), 0.5))) mark(i, j);
-template <arithmetic A = filtered, execution_policy Policy, class X, class Filter = keep_all,
+template <arithmetic A = filtered, executor On, class X, class Filter = keep_all,
           traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
-[[nodiscard]] auto self_within(const Policy& on, const X& x, double distance,
+[[nodiscard]] auto self_within(const On& on, const X& x, double distance,
                                const query_options<Filter, Traversal, Schedule>& options = {}) {
-    if constexpr (detail::can_be_within<Policy, X, X, Filter>()) {
-        return detail::pairs_of<A>(on, detail::pair_up_self_within(on, x, distance, options, "abut::self_within"),
-                                   detail::come_within<A>{distance});
-    } else {
-        return result<index_pair, space_of<Policy>>();
-    }
+    return ask_pairs(on, detail::ask_for<A>(detail::within_distance(distance), detail::all_pairs{}), detail::alone{x},
+                     options, "abut::self_within");
 }
 
 /// Number of the pairs of `self_within`. Stores none of them.
-template <arithmetic A = filtered, execution_policy Policy, class X, class Filter = keep_all,
+template <arithmetic A = filtered, executor On, class X, class Filter = keep_all,
           traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
-[[nodiscard]] std::uint64_t count_self_within(const Policy& on, const X& x, double distance,
+[[nodiscard]] auto count_self_within(const On& on, const X& x, double distance,
                                               const query_options<Filter, Traversal, Schedule>& options = {}) {
-    if constexpr (detail::can_be_within<Policy, X, X, Filter>()) {
-        return detail::count_of<A>(on, detail::pair_up_self_within(on, x, distance, options, "abut::count_self_within"),
-                                   detail::come_within<A>{distance});
-    } else {
-        return 0;
-    }
+    return ask_pairs(on, detail::ask_for<A>(detail::within_distance(distance), detail::how_many{}), detail::alone{x},
+                     options, "abut::count_self_within");
 }
 
 ///@}

@@ -14,9 +14,9 @@
 #include <utility>
 #include <vector>
 
-#include <abut/collide/pair_kinds.hpp>
 #include <abut/collide/pairing.hpp>
 #include <abut/collide/parts.hpp>
+#include <abut/collide/question.hpp>
 #include <abut/devices/divide.hpp>
 #include <abut/execution/team.hpp>
 
@@ -263,20 +263,6 @@ private:
     std::vector<std::vector<aabb<scalar>>> close_a_;
 };
 
-/// What is asked once; see arguments_on_each.
-template <class Team, class X, class Y, class Ask, class IsOver = never_over, class Reach = as_near_as_boxes>
-void ask_each(const Team& team, const X& x, const Y& y, const char* function, const Ask& ask, const IsOver& is_over = {},
-              const Reach& reach = {}) {
-    arguments_on_each<Team, X, Y>(team, x, y, function)(ask, is_over, reach);
-}
-
-/// An argument of a self query that each device has whole.
-template <class Team, class X, class Ask>
-void ask_each_itself(const Team& team, const X& x, const char* function, const Ask& ask) {
-    require_as_many(team, x, function);
-    execution::on_each(team, [&](int k) { ask(k, on_device(x, k), share_of(team, k)); });
-}
-
 /// Ids of two shapes of one set, the lesser first.
 struct ordered_ids {
     part_ids a, b;
@@ -286,10 +272,10 @@ struct ordered_ids {
     }
 };
 
-/// The argument of a self query that is divided: ask(k, part, itself, ids) about the pairs of a part, and ask(k, part, view,
-/// ids) about it and what comes near it of the parts of the devices after it.
-template <class Team, class X, class Kind, class Ask>
-void ask_parts_themselves(const Team& team, const X& x, const char* function, const Kind& kind, const Ask& ask) {
+/// A divided argument that is asked about alone: ask(k, part, itself, ids) about the pairs of a part, and ask(k, part, view,
+/// ids) about it and what comes near it of the parts of the devices after it. Parts are operands.
+template <class Team, class X, class Reach, class Ask>
+void ask_parts_themselves(const Team& team, const X& x, const char* function, const Reach& reach, const Ask& ask) {
     using local = typename Team::local_policy;
     require_as_many(team, x, function);
     const auto there = each_of(team, [&](int k) { return make_operand(team[k], x[k], function); });
@@ -298,15 +284,16 @@ void ask_parts_themselves(const Team& team, const X& x, const char* function, co
     const auto close = each_of(team, [&](int k) { return close_boxes(team[k], there[static_cast<std::size_t>(k)]); });
     auto packed = pack_for_others(
         team, shapes_on, [&](int k) { return x.ids(k); }, bounds, close, bounds, [](int from, int to) { return from > to; },
-        kind);
+        reach);
     execution::on_each(team, [&](int k) {
-        ask(k, x[k], itself{}, ordered_ids{x.ids(k), x.ids(k)});
+        const auto& mine = there[static_cast<std::size_t>(k)];
+        ask(k, mine, itself{}, ordered_ids{x.ids(k), x.ids(k)});
         for (int other = k + 1; other < team.size(); ++other) {
             const auto here = fetched(team, other, k, packed[static_cast<std::size_t>(other)][static_cast<std::size_t>(k)]);
             if (here.ids.size() == 0) continue;
             using shape_type = typename decltype(here.shapes)::value_type;
             const shapes_view<shape_type, space_of<local>> view(here.shapes.data(), here.shapes.size());
-            ask(k, x[k], view, ordered_ids{x.ids(k), part_ids{here.ids.data()}});
+            ask(k, mine, view, ordered_ids{x.ids(k), part_ids{here.ids.data()}});
             synchronize(team[k]);
         }
     });

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// any, count, pairs, for_each_pair and contacts, and self_pairs, on several devices at a time. ask.hpp says what each device
-// is asked, merge.hpp makes one list of what they find.
+// Several devices as those who answer questions about pairs (collide/question.hpp): any, count, pairs, for_each_pair,
+// contacts, within and the others, of two arguments, one, lists and bodies. Each device is asked for its share of the
+// arguments (ask_shares), and merge.hpp makes one list of what they find.
 
+#include <algorithm>
 #include <atomic>
 #include <concepts>
 #include <cstddef>
@@ -12,17 +14,27 @@
 #include <utility>
 #include <vector>
 
-#include <abut/collide/contacts.hpp>
-#include <abut/collide/pair_kinds.hpp>
-#include <abut/collide/parts.hpp>
+#include <abut/collide/body_pairs.hpp>
+#include <abut/collide/list.hpp>
+#include <abut/collide/list_each.hpp>
 #include <abut/collide/query.hpp>
-#include <abut/collide/self_pairs.hpp>
+#include <abut/collide/question.hpp>
 #include <abut/devices/ask.hpp>
 #include <abut/devices/divide.hpp>
 #include <abut/devices/merge.hpp>
 #include <abut/execution/team.hpp>
 
 namespace abut {
+
+/// An entry of a list for several devices: two indices that each device has, each under a pose. Write
+/// `posed_pair<decltype(gear)>{posed(gear, here), posed(gear, there)}`, where `gear` is what make_bvh of several devices
+/// made.
+/// @ingroup devices
+template <class IndexA, class IndexB>
+struct posed_pair<replicated<IndexA>, replicated<IndexB>> {
+    replicated<posed_object<IndexA>> a;  ///< the first one
+    replicated<posed_object<IndexB>> b;  ///< the second one
+};
 
 namespace detail {
 
@@ -74,165 +86,297 @@ auto in_order(const Policy& on, const result<index_pair, space_of<Policy>>& foun
     return result<index_pair, space_of<Policy>>(std::move(out));
 }
 
-/// The same options for the shapes of a device.
-template <class Filter, traversal Traversal, schedule Schedule, class Ids>
-auto options_there(const query_options<Filter, Traversal, Schedule>& options, const Ids& ids) {
-    auto filter = filter_here(options.filter, ids);
-    schedule_options scheduling = options.scheduling;
-    scheduling.report = nullptr;  // of one query, and here are several
-    return query_options<decltype(filter), Traversal, Schedule>{
-        options.sorted, filter, options.most_pairs, options.resident, options.start_depth, scheduling, nullptr};
+
+/// The same options for one of several devices, of which each has a query of its own.
+template <class Options>
+Options options_of_one(Options options) {
+    options.scheduling.report = nullptr;
+    if constexpr (requires { options.front; }) options.front = nullptr;
+    return options;
 }
 
-/// What ask(on, pairing) finds on each device, in order if the options say so.
-template <class Found, class Team, class X, class Y, class Options, class Kind, class Ask>
-auto found_on_each(const Team& team, const X& x, const Y& y, const Options& options, const char* function, const Kind& kind,
-                   const Ask& ask) {
-    using local = typename Team::local_policy;
-    using list = result<Found, space_of<local>>;
-    std::vector<std::vector<list>> found(static_cast<std::size_t>(team.size()));
-    ask_each(
-        team, x, y, function,
+// What of a pairing's names is said in the whole arguments: `renamed` of what was found, in order if it was; and `visitor`, of
+// which `stopped` may be kept from one query of a device to its next.
+
+/// Names are those of the whole.
+struct own_names {
+    template <class Policy, class List>
+    static List renamed(const Policy&, List found, bool) {
+        return found;
+    }
+    template <class Visitor>
+    static const Visitor& visitor(const Visitor& v, std::uint32_t*) {
+        return v;
+    }
+};
+/// Of two arguments, of which one is divided. Ids ascend in each part, so the order stays.
+struct names_of_parts : ids_of_parts {
+    template <class Policy, class List>
+    auto renamed(const Policy& on, const List& found, bool) const {
+        return detail::renamed(on, found, static_cast<const ids_of_parts&>(*this));
+    }
+    template <class Visitor>
+    auto visitor(const Visitor& v, std::uint32_t* stopped) const {
+        return visitor_by_whole_ids<Visitor, ids_of_parts>{v, *this, stopped};
+    }
+};
+/// Of one that is divided.
+struct names_of_own_parts {
+    ordered_ids ids;
+    bool is_one_part;  ///< in which ids ascend
+    std::size_t shapes;
+    template <class Policy, class List>
+    auto renamed(const Policy& on, const List& found, bool in_order) const {
+        auto list = detail::renamed(on, found, ids);
+        return in_order && !is_one_part ? detail::in_order(on, list, shapes) : std::move(list);
+    }
+};
+/// Positions of a device's entries in the whole list.
+struct entries_of_part {
+    std::uint32_t part, parts;
+    [[nodiscard]] ABUT_HD std::uint32_t operator()(std::size_t i) const {
+        return static_cast<std::uint32_t>(i * parts + part);
+    }
+    template <class Found>
+    [[nodiscard]] ABUT_HD Found named(Found of) const {
+        of.pair = (*this)(of.pair);
+        return of;
+    }
+};
+template <class Found>
+struct put_entries {
+    const Found* found;
+    entries_of_part position;
+    Found* out;
+    ABUT_HD void operator()(std::size_t i) const { out[position(i)] = found[i]; }
+};
+/// Of some entries of a list.
+struct names_of_entries_there {
+    entries_of_part position;
+    template <class Policy, class List>
+    auto renamed(const Policy& on, const List& found, bool) const {
+        return found_of_part(on, found, position);
+    }
+    template <class Visitor>
+    auto visitor(const Visitor& v, std::uint32_t*) const {
+        return call_of_part<Visitor, entries_of_part>{v, position};
+    }
+};
+
+/// A form of arguments as one device sees it.
+template <class Form>
+struct form_there;
+template <class X, class Y>
+struct form_there<two<X, Y>> : std::type_identity<two<type_on_device<X>, type_on_device<Y>>> {};
+template <class X>
+struct form_there<alone<X>> : std::type_identity<alone<type_on_device<X>>> {};
+template <class IndexA, class IndexB>
+struct form_there<form_of_list<replicated<IndexA>, replicated<IndexB>>>
+    : std::type_identity<form_of_list<IndexA, IndexB>> {};
+template <class Index>
+struct form_there<form_of_bodies<replicated<bodies<Index>>>> : std::type_identity<form_of_bodies<bodies<Index>>> {};
+
+// ask_shares(team, relation, form, options, function, in_order, is_over, ask): ask(k, pairing, names) on each device, on a
+// thread of its own, once or several times, so that all pairs are looked at, each once; no more of them once is_over(k).
+
+template <class Team, class Relation, class X, class Y, class Options, class IsOver, class Ask>
+void ask_shares(const Team& team, const Relation& how, const two<X, Y>& both, const Options& options, const char* function,
+                bool, const IsOver& is_over, const Ask& ask) {
+    using T = scalar_of_argument<type_on_device<X>>;
+    arguments_on_each<Team, X, Y> there(team, both.a, both.b, function);
+    const auto near = how.template nearness<T>();
+    there(
         [&](int k, const auto& a, const auto& b, const search_part& part, const ids_of_parts& ids) {
-            const local& on = team[k];
-            list some = ask(on, in_part(kind.pair_up(on, a, b, options_there(options, ids), function), part));
-            if constexpr (is_divided<X> || is_divided<Y>) {  // ids ascend in each part, so the order stays
-                some = renamed(on, some, ids);
+            const auto here = with_filter(options_of_one(options), filter_here(options.filter, ids));
+            const auto pairing = in_part(pair_up(team[k], a, b, here, function, near), part);
+            if constexpr (is_divided<X> || is_divided<Y>) {
+                ask(k, pairing, names_of_parts{ids});
+            } else {
+                ask(k, pairing, own_names{});
             }
-            found[static_cast<std::size_t>(k)].push_back(std::move(some));
         },
-        never_over{}, kind);
-    const auto one = [&](int k) {
-        return joined<local, Found>(team[k], std::move(found[static_cast<std::size_t>(k)]), options.sorted);
+        is_over, [&](const auto& bounds) { return grown(bounds, near); });
+}
+template <class Team, class Relation, class X, class Options, class IsOver, class Ask>
+void ask_shares(const Team& team, const Relation& how, const alone<X>& one, const Options& options, const char* function,
+                bool, const IsOver&, const Ask& ask) {
+    using T = scalar_of_argument<type_on_device<X>>;
+    const auto near = how.template nearness<T>();
+    const auto itself_there = [&](int k, const auto& x, const auto& filter) {
+        return pair_up_self(team[k], x, with_filter(options_of_one(options), filter), function, how.sight(), near);
     };
-    if constexpr (is_divided<X> && is_divided<Y>) {
-        return each_of(team, one);
-    } else {  // each has one list, and nothing is to be done on the devices
-        std::vector<list> all;
-        for (int k = 0; k < team.size(); ++k) all.push_back(one(k));
-        return all;
+    if constexpr (is_divided<X>) {
+        ask_parts_themselves(
+            team, one.x, function, [&](const auto& bounds) { return grown(bounds, near); },
+            [&](int k, const auto& part, const auto& other, const ordered_ids& ids) {
+                const auto filter = filter_here(options.filter, ids);
+                if constexpr (std::same_as<std::remove_cvref_t<decltype(other)>, itself>) {
+                    ask(k, itself_there(k, part, filter), names_of_own_parts{ids, true, one.x.size()});
+                } else {
+                    const auto here = with_filter(options_of_one(options), filter);
+                    ask(k, pair_up_with_others(team[k], part, other, how, here, function),
+                        names_of_own_parts{ids, false, one.x.size()});
+                }
+            });
+    } else {
+        require_as_many(team, one.x, function);
+        execution::on_each(team, [&](int k) {
+            ask(k, in_part(itself_there(k, on_device(one.x, k), options.filter), share_of(team, k)), own_names{});
+        });
     }
 }
-
-/// Whether a query of several devices takes its arguments and options.
-template <class Team, class X, class Y, class Filter, traversal Traversal>
-consteval bool can_pair_on_devices() {
-    static_assert(Traversal == traversal::both_at_once, "abut: queries of several devices walk both_at_once");
-    return Traversal == traversal::both_at_once &&
-           can_pair<typename Team::local_policy, type_on_device<X>, type_on_device<Y>, Filter>();
+/// Entries are dealt out one by one, so that neighbours, which are often alike, fall to different devices.
+template <class Team, class IndexA, class IndexB, class Ask>
+void share_entries(const Team& team, const std::vector<posed_pair<replicated<IndexA>, replicated<IndexB>>>& list,
+                   const char* function, const Ask& ask) {
+    for (const auto& entry : list) {
+        require_as_many(team, entry.a, function);
+        require_as_many(team, entry.b, function);
+    }
+    execution::on_each(team, [&](int k) {
+        const entries_of_part position{static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(team.size())};
+        std::vector<posed_pair<IndexA, IndexB>> mine;
+        for (std::size_t i = position(0); i < list.size(); i = position(mine.size())) {
+            mine.push_back({list[i].a[k], list[i].b[k]});
+        }
+        ask(k, form_of_list<IndexA, IndexB>{mine}, position);
+    });
 }
-
-template <arithmetic A, class Team, class X, class Y, class Options, class Kind = pairs_that_touch>
-auto pairs_on_each(const Team& team, const X& a, const Y& b, const Options& options, const char* function,
-                   const Kind& kind = {}) {
-    return found_on_each<index_pair>(team, a, b, options, function, kind, [&](const auto& on, const auto& pairing) {
-        return pairs_of<A>(on, pairing, kind.template names<A>());
+template <class Team, class Relation, class A, class B, class Options, class IsOver, class Ask>
+void ask_shares(const Team& team, const Relation& how, const form_of_list<A, B>& all, const Options& options,
+                const char* function, bool, const IsOver&, const Ask& ask) {
+    share_entries(team, all.list, function, [&](int k, const auto& mine, const entries_of_part& position) {
+        const auto here = options_of_part(options_of_one(options), position);
+        ask(k, mine.pair_up(team[k], how, here, false, function, position), names_of_entries_there{position});
+    });
+}
+/// Each device has all bodies, walks its share of the tree over them, and asks about the bodies that it finds near each other.
+template <class Team, class Relation, class Bodies, class Options, class IsOver, class Ask>
+void ask_shares(const Team& team, const Relation& how, const form_of_bodies<Bodies>& all, const Options& options,
+                const char* function, bool in_order, const IsOver&, const Ask& ask) {
+    require_as_many(team, all.all, function);
+    execution::on_each(team, [&](int k) {
+        const typename form_there<form_of_bodies<Bodies>>::type there{all.all[k]};
+        ask(k, there.pair_up(team[k], how, options_of_one(options), in_order, function, share_of(team, k)), own_names{});
     });
 }
 
-template <arithmetic A, class Team, class X, class Y, class Options, class Kind = pairs_that_touch>
-bool any_on_devices(const Team& team, const X& a, const Y& b, const Options& options, const char* function,
-                    const Kind& kind = {}) {
-    std::atomic<bool> found{false};
-    ask_each(
-        team, a, b, function,
-        [&](int k, const auto& x, const auto& y, const auto& part, const ids_of_parts& ids) {
-            const auto both = in_part(kind.pair_up(team[k], x, y, options_there(options, ids), function), part);
-            if (any_of<A>(team[k], both, kind.template judge<A>())) found.store(true);
-        },
-        [&](int) { return found.load(); }, kind);
-    return found.load();
+/// Whether several devices take the question, its arguments and its options.
+template <class Options>
+inline constexpr bool walks_both_at_once = true;
+template <class Filter, traversal Traversal, schedule Schedule>
+inline constexpr bool walks_both_at_once<query_options<Filter, Traversal, Schedule>> = Traversal == traversal::both_at_once;
+template <class Team, class Question, class Form, class Options>
+consteval bool can_ask_devices() {
+    static_assert(walks_both_at_once<Options>, "abut: queries of several devices walk both_at_once");
+    return walks_both_at_once<Options> &&
+           form_there<Form>::type::template can_be_asked<typename Team::local_policy, Question, decltype(Options::filter)>();
 }
 
-template <arithmetic A, class Team, class X, class Y, class Options, class Kind = pairs_that_touch>
-std::uint64_t count_on_devices(const Team& team, const X& a, const Y& b, const Options& options, const char* function,
-                               const Kind& kind = {}) {
-    std::atomic<std::uint64_t> sum{0};
-    ask_each(
-        team, a, b, function,
-        [&](int k, const auto& x, const auto& y, const auto& part, const ids_of_parts& ids) {
-            const auto both = in_part(kind.pair_up(team[k], x, y, options_there(options, ids), function), part);
-            sum += count_of<A>(team[k], both, kind.template judge<A>());
-        },
-        never_over{}, kind);
-    return sum.load();
-}
-
-template <arithmetic A, class Team, class X, class Y, class VisitorOf, class Options, class Kind = pairs_that_touch>
-void visit_on_devices(const Team& team, const X& a, const Y& b, const VisitorOf& visitor_of, const Options& options,
-                      const char* function, const Kind& kind = {}) {
+/// The lists that the devices have found, one each, in order if the options say so.
+template <class Team, class Question, class Form, class Options>
+auto lists_of_devices(const Team& team, const Question& question, const Form& form, const Options& options,
+                      const char* function) {
     using local = typename Team::local_policy;
-    using visitor = std::remove_cvref_t<decltype(visitor_of(0))>;
-    std::vector<visitor> visitors;
-    for (int k = 0; k < team.size(); ++k) visitors.push_back(visitor_of(k));
-    const auto stopped = each_of(team, [&](int k) {
-        execution::buffer_of<local, std::uint32_t> flag(team[k], 1);
-        fill(team[k], flag.data(), 1, std::uint32_t{0});
-        return flag;
-    });
-    const auto flag = [&](int k) { return const_cast<std::uint32_t*>(stopped[static_cast<std::size_t>(k)].data()); };
-    ask_each(
-        team, a, b, function,
-        [&](int k, const auto& x, const auto& y, const auto& part, const ids_of_parts& ids) {
-            const local& on = team[k];
-            const visitor_by_whole_ids<visitor, ids_of_parts> visits{visitors[static_cast<std::size_t>(k)], ids, flag(k)};
-            const auto both = in_part(kind.pair_up(on, x, y, options_there(options, ids), function), part);
-            visit_pairs_of<A>(on, both, visits, kind.template judge<A>());
-        },
-        [&](int k) {
-            std::uint32_t has_stopped = 0;
-            download(team[k], flag(k), 1, &has_stopped);
-            return has_stopped != 0;
-        },
-        kind);
+    using there = typename form_there<Form>::type;
+    using found = typename Question::answer_type::template found_type<there, typename scalar_of_form<there>::type>;
+    std::vector<found_lists<local, found>> lists(static_cast<std::size_t>(team.size()));
+    question.relation.check(function);
+    ask_shares(team, question.relation, form, options, function, options.sorted, never_over{},
+               [&](int k, const auto& pairing, const auto& names) {
+                   lists[static_cast<std::size_t>(k)].push_back(
+                       names.renamed(team[k], question.find(team[k], pairing), options.sorted));
+               });
+    const auto one = [&](int k) {
+        return joined<local, found>(team[k], std::move(lists[static_cast<std::size_t>(k)]), options.sorted,
+                                    typename there::order{});
+    };
+    if (std::any_of(lists.begin(), lists.end(), [](const auto& some) { return some.size() > 1; })) return each_of(team, one);
+    found_lists<local, found> all;
+    for (int k = 0; k < team.size(); ++k) all.push_back(one(k));
+    return all;
 }
 
-/// Of one set the pairs of its shapes, and their number.
-template <arithmetic A, class Team, class X, class Options, class Kind>
-auto self_pairs_on_devices(const Team& team, const X& x, const Options& options, const char* function, const Kind& kind) {
+template <execution::policy_team Team, class Question, class Form, class Options>
+auto ask_pairs(const Team& team, const Question& question, const Form& form, const Options& options, const char* function) {
     using local = typename Team::local_policy;
-    using list = result<index_pair, space_of<local>>;
-    std::vector<list> found(static_cast<std::size_t>(team.size()));
-    if constexpr (is_divided<X>) {
-        std::vector<std::vector<list>> of_parts(found.size());
-        ask_parts_themselves(
-            team, x, function, kind, [&](int k, const auto& part, const auto& other, const ordered_ids& ids) {
-                const local& on = team[k];
-                using other_type = std::remove_cvref_t<decltype(other)>;
-                const auto both = kind.pair_up(on, part, other, options_there(options, ids), function);
-                list some = renamed(on, pairs_of<A>(on, both, kind.template names<A>()), ids);
-                // Of one part ids ascend, so the order stays.
-                if (options.sorted && !std::same_as<other_type, itself>) some = in_order(on, some, x.size());
-                of_parts[static_cast<std::size_t>(k)].push_back(std::move(some));
-            });
-        found = each_of(team, [&](int k) {
-            return joined<local, index_pair>(team[k], std::move(of_parts[static_cast<std::size_t>(k)]), options.sorted);
-        });
+    using there = typename form_there<Form>::type;
+    using answer = typename Question::answer_type;
+    if constexpr (!can_ask_devices<Team, Question, Form, Options>()) {
+        return answer::template nothing<there, local>();
+    } else if constexpr (Question::kind == answer_kind::list) {
+        return on_first(team, lists_of_devices(team, question, form, options, function), options.sorted,
+                        typename there::order{});
+    } else if constexpr (Question::kind == answer_kind::total) {
+        using value = decltype(answer::template nothing<there, local>());
+        std::atomic<std::uint64_t> sum{0};
+        const auto ask = [&](int k, const auto& pairing, const auto&) { sum += question.find(team[k], pairing); };
+        question.relation.check(function);
+        if constexpr (std::same_as<answer, whether>) {
+            ask_shares(team, question.relation, form, options, function, false, [&](int) { return sum.load() > 0; }, ask);
+        } else {
+            ask_shares(team, question.relation, form, options, function, false, never_over{}, ask);
+        }
+        return static_cast<value>(sum.load());
     } else {
-        ask_each_itself(team, x, function, [&](int k, const auto& there, const search_part& part) {
-            found[static_cast<std::size_t>(k)] = pairs_of<A>(
-                team[k], in_part(kind.pair_up(team[k], there, itself{}, options, function), part), kind.template names<A>());
-        });
+        const auto& visitor_of = question.answer.visitor;
+        using visitor = std::remove_cvref_t<decltype(visitor_of(0))>;
+        if constexpr (is_visitor<local, visitor, typename there::pair_type>()) {
+            question.relation.check(function);
+            std::vector<visitor> visitors;
+            for (int k = 0; k < team.size(); ++k) visitors.push_back(visitor_of(k));
+            const auto stopped = each_of(team, [&](int k) {
+                execution::buffer_of<local, std::uint32_t> flag(team[k], 1);
+                fill(team[k], flag.data(), 1, std::uint32_t{0});
+                return flag;
+            });
+            const auto flag = [&](int k) {
+                return const_cast<std::uint32_t*>(stopped[static_cast<std::size_t>(k)].data());
+            };
+            const auto has_stopped = [&](int k) {
+                std::uint32_t has = 0;
+                download(team[k], flag(k), 1, &has);
+                return has != 0;
+            };
+            ask_shares(team, question.relation, form, options, function, false, has_stopped,
+                       [&](int k, const auto& pairing, const auto& names) {
+                           const auto each = names.visitor(visitors[static_cast<std::size_t>(k)], flag(k));
+                           const auto here = ask_for<typename Question::arithmetic_type>(question.relation, visited_by(each));
+                           here.find(team[k], pairing);
+                       });
+        }
     }
-    return on_first(team, std::move(found), options.sorted);
 }
-template <arithmetic A, class Team, class X, class Options, class Kind>
-std::uint64_t count_self_on_devices(const Team& team, const X& x, const Options& options, const char* function,
-                                    const Kind& kind) {
-    std::atomic<std::uint64_t> sum{0};
-    if constexpr (is_divided<X>) {
-        ask_parts_themselves(
-            team, x, function, kind, [&](int k, const auto& part, const auto& other, const ordered_ids& ids) {
-                const auto both = kind.pair_up(team[k], part, other, options_there(options, ids), function);
-                sum += count_of<A>(team[k], both, kind.template judge<A>());
-            });
-    } else {
-        ask_each_itself(team, x, function, [&](int k, const auto& there, const search_part& part) {
-            sum += count_of<A>(team[k], in_part(kind.pair_up(team[k], there, itself{}, options, function), part),
-                               kind.template judge<A>());
+
+/// What is said of each entry of a list, in memory of the first device.
+template <execution::policy_team Team, class Each, class Form, class Options>
+auto ask_entries(const Team& team, const Each& each, const Form& form, const Options& options, const char* function) {
+    using local = typename Team::local_policy;
+    using there = typename form_there<Form>::type;
+    using found_type = typename Each::template found_type<there>;
+    if constexpr (Each::template can_be_asked<local, there>()) {
+        found_lists<local, found_type> found(static_cast<std::size_t>(team.size()));
+        share_entries(team, form.list, function, [&](int k, const auto& mine, const entries_of_part& position) {
+            if constexpr (requires { options.filter; }) {
+                found[static_cast<std::size_t>(k)] =
+                    each.find(team[k], mine, options_of_part(options_of_one(options), position), function, position);
+            } else {
+                found[static_cast<std::size_t>(k)] = each.find(team[k], mine, options, function, position);
+            }
         });
+        execution::buffer_of<local, found_type> all(team[0], form.list.size());
+        for (int k = 0; k < team.size(); ++k) {
+            const auto& some = found[static_cast<std::size_t>(k)];
+            execution::buffer_of<local, found_type> came(team[0], some.size());
+            copy_across(team[k], some.data(), some.size(), team[0], came.data());
+            const entries_of_part position{static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(team.size())};
+            for_each_index(team[0], some.size(), put_entries<found_type>{came.data(), position, all.data()});
+            synchronize(team[0]);
+        }
+        return result<found_type, space_of<local>>(std::move(all));
+    } else {
+        return result<found_type, space_of<local>>();
     }
-    return sum.load();
 }
 
 }  // namespace detail
@@ -269,112 +413,18 @@ std::uint64_t count_self_on_devices(const Team& team, const X& x, const Options&
 /// @snippet devices.cu devices
 ///@{
 
-/// Whether any shape of `a` touches any shape of `b`. Each device stops soon after the first pair that it finds, and does
-/// not ask others for their shapes once one is found.
-template <arithmetic A = filtered, execution::policy_team Team, class X, class Y, class Filter = keep_all,
-          traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
-[[nodiscard]] bool any(const Team& team, const X& a, const Y& b,
-                       const query_options<Filter, Traversal, Schedule>& options = {}) {
-    if constexpr (detail::can_pair_on_devices<Team, X, Y, Filter, Traversal>()) {
-        return detail::any_on_devices<A>(team, a, b, options, "abut::any");
-    } else {
-        return false;
-    }
-}
-
-/// Number of pairs that touch and that the filter wants. Stores none of them.
-template <arithmetic A = filtered, execution::policy_team Team, class X, class Y, class Filter = keep_all,
-          traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
-[[nodiscard]] std::uint64_t count(const Team& team, const X& a, const Y& b,
-                                  const query_options<Filter, Traversal, Schedule>& options = {}) {
-    if constexpr (detail::can_pair_on_devices<Team, X, Y, Filter, Traversal>()) {
-        return detail::count_on_devices<A>(team, a, b, options, "abut::count");
-    } else {
-        return 0;
-    }
-}
-
-/// All pairs that touch, each once, with ids in the whole sets: a `result` of `index_pair`, 8 bytes each, in memory of the
-/// first device; sorted by a, then b, unless the options say otherwise.
-template <arithmetic A = filtered, execution::policy_team Team, class X, class Y, class Filter = keep_all,
-          traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
-[[nodiscard]] auto pairs(const Team& team, const X& a, const Y& b,
-                         const query_options<Filter, Traversal, Schedule>& options = {}) {
-    if constexpr (detail::can_pair_on_devices<Team, X, Y, Filter, Traversal>()) {
-        return detail::on_first(team, detail::pairs_on_each<A>(team, a, b, options, "abut::pairs"), options.sorted);
-    } else {
-        return result<index_pair, space_of<typename Team::local_policy>>();
-    }
-}
-
-/// The same pairs where they were found: a vector of a `result` for each device. Each pair is in one of them, and each is
-/// sorted by a, then b, unless the options say otherwise.
+/// The pairs of `pairs` where they were found: a vector of a `result` for each device. Each pair is in one of them, and each
+/// is sorted by a, then b, unless the options say otherwise.
 template <arithmetic A = filtered, execution::policy_team Team, class X, class Y, class Filter = keep_all,
           traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
 [[nodiscard]] auto pairs_by_device(const Team& team, const X& a, const Y& b,
                                    const query_options<Filter, Traversal, Schedule>& options = {}) {
-    if constexpr (detail::can_pair_on_devices<Team, X, Y, Filter, Traversal>()) {
-        return detail::pairs_on_each<A>(team, a, b, options, "abut::pairs_by_device");
+    const auto question = detail::ask_for<A>(detail::touching{}, detail::all_pairs{});
+    using asked = std::remove_const_t<decltype(question)>;
+    if constexpr (detail::can_ask_devices<Team, asked, detail::two<X, Y>, query_options<Filter, Traversal, Schedule>>()) {
+        return detail::lists_of_devices(team, question, detail::two{a, b}, options, "abut::pairs_by_device");
     } else {
         return std::vector<result<index_pair, space_of<typename Team::local_policy>>>();
-    }
-}
-
-/// Calls visitor_of(k)(index_pair) -> visit for every pair that touches, once, on the k-th device, which has found it.
-/// visitor_of is called on the host, once for each device, and may return visitors with memory of that device. Otherwise as
-/// `for_each_pair` of one policy; `visit::stop` ends the visits of that device.
-template <arithmetic A = filtered, execution::policy_team Team, class X, class Y, class VisitorOf, class Filter = keep_all,
-          traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
-void for_each_pair(const Team& team, const X& a, const Y& b, const VisitorOf& visitor_of,
-                   const query_options<Filter, Traversal, Schedule>& options = {}) {
-    using local = typename Team::local_policy;
-    using visitor = std::remove_cvref_t<decltype(visitor_of(0))>;
-    if constexpr (detail::can_pair_on_devices<Team, X, Y, Filter, Traversal>() &&
-                  detail::is_visitor<local, visitor, index_pair>()) {
-        detail::visit_on_devices<A>(team, a, b, visitor_of, options, "abut::for_each_pair");
-    }
-}
-
-/// The contacts of all pairs that touch, with ids in the whole sets: a `result` of `contact` in memory of the first device,
-/// in the order of `pairs`. Numbers are those of `contacts` under one policy, bit for bit.
-template <arithmetic A = filtered, execution::policy_team Team, class X, class Y, class Filter = keep_all>
-[[nodiscard]] auto contacts(const Team& team, const X& a, const Y& b, const contact_options<Filter>& options = {}) {
-    using local = typename Team::local_policy;
-    if constexpr (detail::can_touch<local, detail::type_on_device<X>, detail::type_on_device<Y>, Filter>()) {
-        using T = scalar_type_of<typename detail::shape_of_argument<detail::type_on_device<X>>::type>;
-        const query_options<Filter> query{.sorted = options.sorted, .filter = options.filter, .resident = options.resident};
-        auto found = detail::found_on_each<contact<T>>(
-            team, a, b, query, "abut::contacts", detail::pairs_that_touch{}, [&](const auto& on, const auto& pairing) {
-                return detail::contacts_of<A>(on, pairing, options.discard_sideways);
-            });
-        return detail::on_first(team, std::move(found), options.sorted);
-    } else {
-        return result<contact<float>, space_of<local>>();
-    }
-}
-
-/// The pairs of shapes of one set that touch, as `self_pairs` finds them under one policy: of a set or an index that lies on
-/// each device, or is divided. A `result` of `index_pair` in memory of the first device. Faces of a mesh that `divide` has
-/// divided are triangles, which share no vertices by their numbers: {.coincident = coincident_vertices::merged} tells
-/// neighbours by their places.
-template <arithmetic A = filtered, execution::policy_team Team, class X, class Filter = keep_all>
-[[nodiscard]] auto self_pairs(const Team& team, const X& x, const self_options<Filter>& options = {}) {
-    if constexpr (detail::can_pair_itself<typename Team::local_policy, detail::type_on_device<X>, Filter>()) {
-        return detail::self_pairs_on_devices<A>(team, x, detail::as_query_options(options), "abut::self_pairs",
-                                                detail::pairs_beyond_shared(options.coincident));
-    } else {
-        return result<index_pair, space_of<typename Team::local_policy>>();
-    }
-}
-
-/// The number of pairs that self_pairs reports. Stores none of them.
-template <arithmetic A = filtered, execution::policy_team Team, class X, class Filter = keep_all>
-[[nodiscard]] std::uint64_t count_self_pairs(const Team& team, const X& x, const self_options<Filter>& options = {}) {
-    if constexpr (detail::can_pair_itself<typename Team::local_policy, detail::type_on_device<X>, Filter>()) {
-        return detail::count_self_on_devices<A>(team, x, detail::as_query_options(options), "abut::count_self_pairs",
-                                                detail::pairs_beyond_shared(options.coincident));
-    } else {
-        return 0;
     }
 }
 

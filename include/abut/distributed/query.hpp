@@ -1,29 +1,31 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// any, count, pairs, for_each_pair and contacts of sets whose parts lie on many ranks. The shapes of b come to the ranks
-// whose a-shapes they come near (parts.hpp), and each rank asks the query of its local policy: of its own parts first, and
-// then of what came from each other rank.
+// Ranks as those who answer questions about pairs (collide/question.hpp): any, count, pairs, for_each_pair, contacts, within
+// and the others, of sets whose parts lie on many ranks, and of lists. The shapes of b come to the ranks whose a-shapes they
+// come near (parts.hpp), and each rank asks its local policy: of its own parts first, and then of what came from each other
+// rank. Of a list each rank has some of the entries, with the indices of both sides, and asks about these; no shapes are sent.
+// Bodies are not for ranks: each two of them may meet, and indices are not sent. Lists of those that may meet are.
 
 #include <algorithm>
 #include <array>
+#include <compare>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
-#include <abut/collide/contacts.hpp>
-#include <abut/collide/pair_kinds.hpp>
-#include <abut/collide/query.hpp>
-#include <abut/collide/self_pairs.hpp>
+#include <abut/collide/list.hpp>
+#include <abut/collide/list_each.hpp>
+#include <abut/collide/question.hpp>
 #include <abut/distributed/communicator.hpp>
 #include <abut/distributed/parts.hpp>
 #include <abut/execution/atomic.hpp>
 #include <abut/index/bvh.hpp>
+#include <abut/narrow/directions.hpp>
 
 #include <mpi.h>
 
@@ -53,6 +55,29 @@ struct global_contact {
     friend constexpr bool operator==(const global_contact&, const global_contact&) = default;
 };
 
+/// A `tagged_pair` of a list of many parts.
+struct global_tagged_pair {
+    std::uint64_t pair;  ///< position in the list of all ranks
+    std::uint32_t a;     ///< id in the entry's first set
+    std::uint32_t b;     ///< id in its second one
+
+    friend constexpr bool operator==(const global_tagged_pair&, const global_tagged_pair&) = default;
+    friend constexpr auto operator<=>(const global_tagged_pair&, const global_tagged_pair&) = default;
+};
+
+/// A `tagged_contact` of a list of many parts.
+template <scalar T>
+struct global_tagged_contact {
+    std::uint64_t pair;  ///< position in the list of all ranks
+    std::uint32_t a;     ///< id in the entry's first set
+    std::uint32_t b;     ///< id in its second one
+    vec3<T> point;       ///< of both shapes, in the world
+    vec3<T> normal;      ///< of length 1, from b to a
+    T depth;             ///< 0 or more, in units of length
+
+    friend constexpr bool operator==(const global_tagged_contact&, const global_tagged_contact&) = default;
+};
+
 ///@}
 
 namespace detail {
@@ -65,33 +90,34 @@ struct global_ids {
     [[nodiscard]] ABUT_HD global_pair operator()(std::uint32_t a, std::uint32_t b) const {
         return {first_a + a, first_b + (ids_b == nullptr ? b : ids_b[b])};
     }
+    /// What was found here, with the ids of the whole sets.
+    ///@{
+    [[nodiscard]] ABUT_HD global_pair named(const index_pair& pair) const { return (*this)(pair.a, pair.b); }
+    template <scalar T>
+    [[nodiscard]] ABUT_HD global_contact<T> named(const contact<T>& c) const {
+        const global_pair pair = (*this)(c.a, c.b);
+        return {pair.a, pair.b, c.point, c.normal, c.depth};
+    }
+    ///@}
+    template <class Visitor>
+    auto visitor(const Visitor& v, std::uint32_t* stopped) const {
+        return visitor_by_whole_ids<Visitor, global_ids>{v, *this, stopped};
+    }
 };
 
-/// What was found here, with the ids of the whole sets.
-///@{
-ABUT_HD inline global_pair named_globally(const index_pair& pair, const global_ids& ids) { return ids(pair.a, pair.b); }
-template <scalar T>
-ABUT_HD global_contact<T> named_globally(const contact<T>& c, const global_ids& ids) {
-    const global_pair pair = ids(c.a, c.b);
-    return {pair.a, pair.b, c.point, c.normal, c.depth};
-}
-///@}
 /// By what results are sorted that come from different ranks: the a-shape. Results of one rank are in order.
-///@{
-ABUT_HD inline std::uint64_t key_of_first(const index_pair& pair) { return pair.a; }
-template <scalar T>
-ABUT_HD std::uint64_t key_of_first(const contact<T>& c) {
-    return c.a;
+template <class Found>
+ABUT_HD std::uint64_t key_of_first(const Found& found) {
+    return found.a;
 }
-///@}
-template <class Found, class Global>
+template <class Found, class Names, class Global>
 struct name_all_globally {
     const Found* found;
-    global_ids ids;
+    Names names;
     Global* out;
     std::uint64_t* keys;
     ABUT_HD void operator()(std::size_t i) const {
-        out[i] = named_globally(found[i], ids);
+        out[i] = names.named(found[i]);
         keys[i] = key_of_first(found[i]);
     }
 };
@@ -157,20 +183,6 @@ private:
     std::vector<part> parts_;
 };
 
-/// The same options of the local query, with a filter of local ids.
-template <class Filter, traversal Traversal, schedule Schedule>
-auto options_here(const query_options<Filter, Traversal, Schedule>& options, const global_ids& ids) {
-    auto filter = filter_here(options.filter, ids);
-    return query_options<decltype(filter), Traversal, Schedule>{
-        options.sorted,     filter,       options.most_pairs, options.resident, options.start_depth,
-        options.scheduling, options.front};
-}
-template <class Filter>
-auto options_here(const contact_options<Filter>& options, const global_ids& ids) {
-    auto filter = filter_here(options.filter, ids);
-    return contact_options<decltype(filter)>{options.sorted, filter, options.resident, options.discard_sideways};
-}
-
 /// Whether a query of ranks takes its filter, and its arguments.
 template <class Local, class Filter>
 consteval bool is_global_filter() {
@@ -180,22 +192,14 @@ consteval bool is_global_filter() {
                   "returns bool");
     return is;
 }
-template <class Local, class X, class Y, class Filter>
-consteval bool can_pair_globally() {
-    if constexpr (can_pair<Local, X, Y, keep_all>()) {
-        return is_global_filter<Local, Filter>();
-    } else {
-        return false;
-    }
-}
-
-template <class Local, class X, class Filter>
-consteval bool can_pair_itself_globally() {
-    if constexpr (can_pair_itself<Local, X, keep_all>()) {
-        return is_global_filter<Local, Filter>();
-    } else {
-        return false;
-    }
+/// Whether a visitor of ranks can be called.
+template <class Local, class Visitor, class Pair = global_pair>
+consteval bool is_global_visitor() {
+    constexpr bool is = answers<Local, Visitor, visit, Pair>();
+    static_assert(is,
+                  "abut: a visitor of a distributed query is called as visitor(pair) const, and returns abut::visit::proceed "
+                  "or abut::visit::stop; the pair is a global_pair, or a global_tagged_pair where the query is of a list");
+    return is;
 }
 
 /// The shape of a query's second argument; of the first one where it is asked about alone.
@@ -208,22 +212,10 @@ struct share_nothing {
     void operator()() const {}
 };
 
-/// An argument in the policy's memory, for several queries: copied under cuda once, if it is a set of the host's.
-template <class Policy, class X>
-auto brought_to(const Policy& on, const X& x) {
-    if constexpr (is_posed<X>) {
-        return posed(brought_to(on, x.object), x.pose);
-    } else if constexpr (shape_set<X> && !is_index<X>) {
-        return x.copied_to(on);
-    } else {
-        return x;
-    }
-}
-
-/// Runs ask(rank, a, b, ids) of a rank's own parts, and then of what comes from each other rank: all pairs of its a-shapes
-/// with b-shapes that they may touch, each once. Where y is `itself`, these are pairs of shapes of x: of its own part a rank
-/// asks by `itself`, and others come from the ranks above it alone, where all ids are greater. Where pairs are wanted that
-/// do not touch, reach(bounds) is what comes near enough to a part of a: the same on all ranks, which call share() first,
+/// Runs ask(rank, a, b, ids), of operands, of a rank's own parts, and then of what comes from each other rank: all pairs of its
+/// a-shapes with b-shapes that they may touch, each once. Where y is `itself`, these are pairs of shapes of x: of its own part
+/// a rank asks by `itself`, and others come from the ranks above it alone, where all ids are greater. Where pairs are wanted
+/// that do not touch, reach(bounds) is what comes near enough to a part of a: the same on all ranks, which call share() first,
 /// when they have asked about their own parts, whether that failed or not. Returns the parts of a. All ranks call it; it
 /// throws on all or on none.
 template <class Local, class X, class Y, class Ask, class Reach = as_near_as_boxes, class Share = share_nothing>
@@ -234,19 +226,16 @@ auto ask_all_parts(const distributed<Local>& on, const X& x, const Y& y, const c
     const own_communicator& ranks = on.ranks();
     const Local& local = on.local();
     attempts attempt;
-    const auto bring = [&] {
-        auto a = brought_to(local, x);
-        auto operand_a = make_operand(local, a, function);
+    const auto bring_b = [&]([[maybe_unused]] const auto& a) {
         if constexpr (is_alone) {
-            auto operand_b = operand_a;
-            return std::tuple(std::move(a), y, std::move(operand_a), std::move(operand_b));
+            return a;
         } else {
-            auto b = brought_to(local, y);
-            auto operand_b = make_operand(local, b, function);
-            return std::tuple(std::move(a), std::move(b), std::move(operand_a), std::move(operand_b));
+            return make_operand(local, y, function);
         }
     };
-    std::optional<decltype(bring())> here;
+    using operand_a = decltype(make_operand(local, x, function));
+    std::optional<operand_a> a;
+    std::optional<decltype(bring_b(std::declval<const operand_a&>()))> b;
     part_bounds<T> part_a, part_b;
     parts_of_set<T> parts_a, parts_b, looking;
     parcel_room<sizes_of_shapes<typename shape_of_second<X, Y>::type>> room;
@@ -255,29 +244,35 @@ auto ask_all_parts(const distributed<Local>& on, const X& x, const Y& y, const c
         parts_b.make_room(ranks.size());
         looking.make_room(ranks.size());
         room.make_room(ranks.size());
-        here.emplace(bring());
-        part_a = bounds_of_part(local, std::get<2>(*here).shapes());
-        part_b = is_alone ? part_a : bounds_of_part(local, std::get<3>(*here).shapes());
+        a.emplace(make_operand(local, x, function));
+        b.emplace(bring_b(*a));
+        part_a = bounds_of_part(local, a->shapes());
+        part_b = is_alone ? part_a : bounds_of_part(local, b->shapes());
     });
     attempt.settle(ranks);
-    const auto& a = std::get<0>(*here);
-    const auto& b = std::get<1>(*here);
-    const auto& operand_b = std::get<3>(*here);
     parts_a.gather(ranks, part_a);
     parts_b.gather(ranks, part_b);
     const std::uint64_t first_a = parts_a.first_of(ranks.rank());
 
-    attempt([&] { ask(ranks.rank(), a, b, global_ids{first_a, parts_b.first_of(ranks.rank()), nullptr}); });
-    std::optional<decltype(looked_in(local, a, std::type_identity<Y>{}))> looks;
+    attempt([&] {
+        const global_ids ids{first_a, parts_b.first_of(ranks.rank()), nullptr};
+        if constexpr (is_alone) {
+            ask(ranks.rank(), *a, y, ids);
+        } else {
+            ask(ranks.rank(), *a, *b, ids);
+        }
+    });
+    const auto look_in = [&] { return make_operand(local, looked_in(local, x, std::type_identity<Y>{}), function); };
+    std::optional<decltype(look_in())> looks;
     const auto use = [&](int rank, const auto& came, const std::uint32_t* ids) {
-        if (!looks) looks.emplace(looked_in(local, a, std::type_identity<Y>{}));
+        if (!looks) looks.emplace(look_in());
         ask(rank, *looks, came, global_ids{first_a, parts_b.first_of(rank), ids});
     };
     share();
     looking.take_grown(parts_a, reach);
     const auto goes = [&](int from, int to) { return (!is_alone || from > to) && looking[to].is_near(parts_b[from]); };
-    using near_b = near_shapes<Local, std::remove_cvref_t<decltype(operand_b.shapes())>>;
-    shape_parcels parcels(local, near_b(operand_b.shapes()), looking, use);
+    using near_b = near_shapes<Local, std::remove_cvref_t<decltype(b->shapes())>>;
+    shape_parcels parcels(local, near_b(b->shapes()), looking, use);
     exchange_parcels(on, attempt, room, goes, parcels);
     return parts_a;
 }
@@ -299,199 +294,183 @@ auto joined(const distributed<Local>& on, found_by_rank<Local, Global>& all, boo
     return found;
 }
 
-/// What ask(a, b, options) finds of all parts, in this rank's order.
-template <class Global, class Local, class X, class Y, class Options, class Ask, class Reach = as_near_as_boxes>
-auto found_in_all_parts(const distributed<Local>& on, const X& a, const Y& b, const Options& options, const char* function,
-                        const Ask& ask, const Reach& reach = {}) {
-    found_by_rank<Local, Global> all;
-    const Local& local = on.local();
-    const auto parts = ask_all_parts(
-        on, a, b, function,
-        [&](int rank, const auto& x, const auto& y, const global_ids& ids) {
-            const auto found = ask(x, y, options_here(options, ids));
-            using value = typename std::remove_cvref_t<decltype(found)>::value_type;
-            all.add(local, rank, found.size(), [&](Global* out, std::uint64_t* keys) {
-                for_each_index(local, found.size(), name_all_globally<value, Global>{found.data(), ids, out, keys});
-            });
-        },
-        reach);
-    return joined(on, all, options.sorted, id_bits(static_cast<std::size_t>(parts[on.rank()].size)));
+/// Positions of a rank's entries in the list of all ranks.
+struct entries_of_rank {
+    std::uint64_t first;
+    [[nodiscard]] std::uint64_t operator()(std::size_t i) const { return first + i; }
+    [[nodiscard]] ABUT_HD global_tagged_pair named(const tagged_pair& of) const { return {first + of.pair, of.a, of.b}; }
+    template <class Visitor>
+    auto visitor(const Visitor& v, std::uint32_t*) const {
+        return call_of_part<Visitor, entries_of_rank>{v, *this};
+    }
+    template <scalar T>
+    [[nodiscard]] ABUT_HD global_tagged_contact<T> named(const tagged_contact<T>& of) const {
+        return {first + of.pair, of.a, of.b, of.point, of.normal, of.depth};
+    }
+};
+
+/// Where the entries of this rank are in the list of all of them, each of which gives how many it has.
+inline entries_of_rank positions_of_rank(const own_communicator& ranks, std::size_t entries) {
+    const std::uint64_t mine = entries;
+    std::uint64_t up_to_mine = 0;
+    check_mpi(MPI_Scan(&mine, &up_to_mine, 1, MPI_UINT64_T, MPI_SUM, ranks.get()), "MPI_Scan");
+    return {up_to_mine - mine};
 }
 
-// Queries of all parts, of a kind of pairs (collide/pair_kinds.hpp).
-
-template <arithmetic A, class Local, class X, class Y, class Options, class Kind>
-bool any_of_parts(const distributed<Local>& on, const X& a, const Y& b, const Options& options, const char* function,
-                  const Kind& kind) {
-    bool found = false;
-    const auto ask = [&](int, const auto& x, const auto& y, const global_ids& ids) {
-        if (found) return;
-        const auto both = kind.pair_up(on.local(), x, y, options_here(options, ids), function);
-        found = any_of<A>(on.local(), both, kind.template judge<A>());
-    };
-    ask_all_parts(on, a, b, function, ask, kind);
-    return sum_of_ranks(on.ranks(), found ? 1 : 0) > 0;
-}
-
-template <arithmetic A, class Local, class X, class Y, class Options, class Kind>
-std::uint64_t count_of_parts(const distributed<Local>& on, const X& a, const Y& b, const Options& options,
-                             const char* function, const Kind& kind) {
-    std::uint64_t found = 0;
-    const auto ask = [&](int, const auto& x, const auto& y, const global_ids& ids) {
-        const auto both = kind.pair_up(on.local(), x, y, options_here(options, ids), function);
-        found += count_of<A>(on.local(), both, kind.template judge<A>());
-    };
-    ask_all_parts(on, a, b, function, ask, kind);
-    return sum_of_ranks(on.ranks(), found);
-}
-
-template <arithmetic A, class Local, class X, class Y, class Options, class Kind>
-auto pairs_of_parts(const distributed<Local>& on, const X& a, const Y& b, const Options& options, const char* function,
-                    const Kind& kind) {
-    const auto ask = [&](const auto& x, const auto& y, const auto& here) {
-        return pairs_of<A>(on.local(), kind.pair_up(on.local(), x, y, here, function), kind.template names<A>());
-    };
-    return found_in_all_parts<global_pair>(on, a, b, options, function, ask, kind);
-}
-
-template <arithmetic A, class Local, class X, class Y, class Visitor, class Options, class Kind>
-void visit_all_parts(const distributed<Local>& on, const X& a, const Y& b, const Visitor& visitor, const Options& options,
-                     const char* function, const Kind& kind) {
-    const Local& local = on.local();
+/// Runs ask(position) of a rank's entries, on all ranks; it throws on all or on none.
+template <class Local, class List, class Ask>
+void ask_own_entries(const distributed<Local>& on, const List& list, const Ask& ask) {
+    const entries_of_rank position = positions_of_rank(on.ranks(), list.size());
     attempts attempt;
-    execution::buffer_of<Local, std::uint32_t> stopped;
-    attempt([&] {
-        stopped = execution::buffer_of<Local, std::uint32_t>(local, 1);
-        fill(local, stopped.data(), 1, std::uint32_t{0});
-    });
+    attempt([&] { ask(position); });
     attempt.settle(on.ranks());
-    const auto ask = [&](int, const auto& x, const auto& y, const global_ids& ids) {
-        std::uint32_t has_stopped = 0;
-        download(local, stopped.data(), 1, &has_stopped);
-        if (has_stopped != 0) return;
-        const visitor_by_whole_ids<Visitor, global_ids> visits{visitor, ids, stopped.data()};
-        visit_pairs_of<A>(local, kind.pair_up(local, x, y, options_here(options, ids), function), visits,
-                          kind.template judge<A>());
-    };
-    ask_all_parts(on, a, b, function, ask, kind);
 }
 
-/// Whether a visitor of ranks can be called.
-template <class Local, class Visitor, class Pair = global_pair>
-consteval bool is_global_visitor() {
-    constexpr bool is = answers<Local, Visitor, visit, Pair>();
-    static_assert(is,
-                  "abut: a visitor of a distributed query is called as visitor(pair) const, and returns abut::visit::proceed "
-                  "or abut::visit::stop; the pair is a global_pair, or a global_tagged_pair where the query is of a list");
-    return is;
+// What ranks make of a form: ask_shares(on, relation, form, options, function, ask) runs ask(rank, pairing, names) of all that
+// is this rank's, and returns how many a-shapes it has; and agree(on, relation, function) finds what is wrong with its numbers
+// before any asks. can_ask_ranks says whether ranks take the question.
+
+template <class Local, class Relation>
+void agree(const distributed<Local>& on, const Relation& how, const char* function) {
+    if constexpr (requires { how.agreed(); }) {
+        attempts attempt;
+        attempt([&] { how.check(function); });
+        attempt.settle(on.ranks());
+        require_one(on.ranks(), how.agreed(), function, "distances");
+    }
+}
+template <class Local, class Relation, class X, class Y, class Options, class Ask>
+std::size_t ask_parts(const distributed<Local>& on, const Relation& how, const X& x, const Y& y, const Options& options,
+                      const char* function, const Ask& ask) {
+    using T = scalar_of_argument<X>;
+    const Local& local = on.local();
+    agree(on, how, function);
+    const auto near = how.template nearness<T>();
+    const auto parts = ask_all_parts(
+        on, x, y, function,
+        [&](int rank, const auto& a, const auto& b, const global_ids& ids) {
+            using second = std::remove_cvref_t<decltype(b)>;
+            const auto here = with_filter(options, filter_here(options.filter, ids));
+            if constexpr (std::same_as<second, itself>) {
+                ask(rank, pair_up_self(local, a, here, function, how.sight(), near), ids);
+            } else if constexpr (std::same_as<Y, itself>) {
+                ask(rank, pair_up_with_others(local, a, b, how, here, function), ids);
+            } else {
+                ask(rank, pair_up(local, a, b, here, function, near), ids);
+            }
+        },
+        [&](const auto& bounds) { return grown(bounds, near); });
+    return static_cast<std::size_t>(parts[on.rank()].size);
+}
+template <class Local, class Relation, class X, class Y, class Options, class Ask>
+std::size_t ask_shares(const distributed<Local>& on, const Relation& how, const two<X, Y>& both, const Options& options,
+                       const char* function, const Ask& ask) {
+    return ask_parts(on, how, both.a, both.b, options, function, ask);
+}
+template <class Local, class Relation, class X, class Options, class Ask>
+std::size_t ask_shares(const distributed<Local>& on, const Relation& how, const alone<X>& one, const Options& options,
+                       const char* function, const Ask& ask) {
+    return ask_parts(on, how, one.x, itself{}, options, function, ask);
+}
+template <class Local, class Relation, class A, class B, class Options, class Ask>
+std::size_t ask_shares(const distributed<Local>& on, const Relation& how, const form_of_list<A, B>& all,
+                       const Options& options, const char* function, const Ask& ask) {
+    ask_own_entries(on, all.list, [&](const entries_of_rank& position) {
+        how.check(function);
+        const auto here = options_of_part(options, position);
+        ask(on.rank(), all.pair_up(on.local(), how, here, false, function, position), position);
+    });
+    return all.list.size();
+}
+
+template <class Local, class Question, class Form, class Options>
+consteval bool can_ask_ranks() {
+    if constexpr (!Form::template can_be_asked<Local, Question, keep_all>()) {
+        return false;
+    } else if constexpr (std::same_as<typename Form::pair_type, index_pair>) {
+        return is_global_filter<Local, decltype(Options::filter)>();
+    } else {
+        return true;
+    }
+}
+/// What ranks call a pair.
+template <class Pair>
+struct global_of;
+template <>
+struct global_of<index_pair> : std::type_identity<global_pair> {};
+template <>
+struct global_of<tagged_pair> : std::type_identity<global_tagged_pair> {};
+template <scalar T>
+struct global_of<contact<T>> : std::type_identity<global_contact<T>> {};
+template <scalar T>
+struct global_of<tagged_contact<T>> : std::type_identity<global_tagged_contact<T>> {};
+
+template <execution_policy Local, class Question, class Form, class Options>
+auto ask_pairs(const distributed<Local>& on, const Question& question, const Form& form, const Options& options,
+               const char* function) {
+    using answer = typename Question::answer_type;
+    const Local& local = on.local();
+    if constexpr (!can_ask_ranks<Local, Question, Form, Options>()) {
+        return answer::template nothing<Form, Local>();
+    } else if constexpr (Question::kind == answer_kind::list) {
+        using found_type = typename answer::template found_type<Form, typename scalar_of_form<Form>::type>;
+        using global = typename global_of<found_type>::type;
+        found_by_rank<Local, global> all;
+        const std::size_t shapes = ask_shares(
+            on, question.relation, form, options, function, [&](int rank, const auto& pairing, const auto& names) {
+                const auto found = question.find(local, pairing);
+                using names_type = std::remove_cvref_t<decltype(names)>;
+                all.add(local, rank, found.size(), [&](global* out, std::uint64_t* keys) {
+                    for_each_index(local, found.size(), name_all_globally<found_type, names_type, global>{
+                                                            found.data(), names, out, keys});
+                });
+            });
+        return joined(on, all, options.sorted, id_bits(shapes));
+    } else if constexpr (Question::kind == answer_kind::total) {
+        std::uint64_t sum = 0;
+        ask_shares(on, question.relation, form, options, function, [&](int, const auto& pairing, const auto&) {
+            if (std::same_as<answer, whether> && sum > 0) return;
+            sum += question.find(local, pairing);
+        });
+        return static_cast<decltype(answer::template nothing<Form, Local>())>(sum_of_ranks(on.ranks(), sum));
+    } else {
+        using visitor = std::remove_cvref_t<decltype(question.answer.visitor)>;
+        if constexpr (is_global_visitor<Local, visitor, typename global_of<typename Form::pair_type>::type>()) {
+            attempts attempt;
+            execution::buffer_of<Local, std::uint32_t> stopped;
+            attempt([&] {
+                stopped = execution::buffer_of<Local, std::uint32_t>(local, 1);
+                fill(local, stopped.data(), 1, std::uint32_t{0});
+            });
+            attempt.settle(on.ranks());
+            ask_shares(on, question.relation, form, options, function, [&](int, const auto& pairing, const auto& names) {
+                std::uint32_t has_stopped = 0;
+                download(local, stopped.data(), 1, &has_stopped);
+                if (has_stopped != 0) return;
+                const auto each = names.visitor(question.answer.visitor, stopped.data());
+                ask_for<typename Question::arithmetic_type>(question.relation, visited_by(each)).find(local, pairing);
+            });
+        }
+    }
+}
+
+/// What is said of each of the rank's own entries.
+template <execution_policy Local, class Each, class Form, class Options>
+auto ask_entries(const distributed<Local>& on, const Each& each, const Form& form, const Options& options,
+                 const char* function) {
+    result<typename Each::template found_type<Form>, space_of<Local>> found;
+    if constexpr (Each::template can_be_asked<Local, Form>()) {
+        ask_own_entries(on, form.list, [&](const entries_of_rank& position) {
+            if constexpr (requires { options.filter; }) {
+                found = each.find(on.local(), form, options_of_part(options, position), function, position);
+            } else {
+                found = each.find(on.local(), form, options, function, position);
+            }
+        });
+    }
+    return found;
 }
 
 }  // namespace detail
-
-/// @addtogroup distributed
-///@{
-
-/// Whether any shape of `a` touches any shape of `b`: the same answer on all ranks. Arguments are this rank's parts, as
-/// those of `any` under the local policy; a filter is called with two std::uint64_t. A rank that has found a pair looks for
-/// no other; the others learn of it at the end.
-template <arithmetic A = filtered, execution_policy Local, class X, class Y, class Filter = keep_all,
-          traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
-[[nodiscard]] bool any(const distributed<Local>& on, const X& a, const Y& b,
-                       const query_options<Filter, Traversal, Schedule>& options = {}) {
-    if constexpr (detail::can_pair_globally<Local, X, Y, Filter>()) {
-        return detail::any_of_parts<A>(on, a, b, options, "abut::any", detail::pairs_that_touch{});
-    } else {
-        return false;
-    }
-}
-
-/// Number of pairs that touch and that the filter wants, of all ranks: the same answer on each. As `any` otherwise.
-template <arithmetic A = filtered, execution_policy Local, class X, class Y, class Filter = keep_all,
-          traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
-[[nodiscard]] std::uint64_t count(const distributed<Local>& on, const X& a, const Y& b,
-                                  const query_options<Filter, Traversal, Schedule>& options = {}) {
-    if constexpr (detail::can_pair_globally<Local, X, Y, Filter>()) {
-        return detail::count_of_parts<A>(on, a, b, options, "abut::count", detail::pairs_that_touch{});
-    } else {
-        return 0;
-    }
-}
-
-/// All pairs of this rank's a-shapes that touch, each once: a `result` of `global_pair`, 16 bytes each, in the local
-/// policy's memory; sorted by a, then b, unless the options say otherwise. Then the lists of all ranks, one after another,
-/// are the list of one machine. Arguments as of `any`.
-template <arithmetic A = filtered, execution_policy Local, class X, class Y, class Filter = keep_all,
-          traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
-[[nodiscard]] auto pairs(const distributed<Local>& on, const X& a, const Y& b,
-                         const query_options<Filter, Traversal, Schedule>& options = {}) {
-    if constexpr (detail::can_pair_globally<Local, X, Y, Filter>()) {
-        return detail::pairs_of_parts<A>(on, a, b, options, "abut::pairs", detail::pairs_that_touch{});
-    } else {
-        return result<global_pair, space_of<Local>>();
-    }
-}
-
-/// Calls visitor(global_pair) -> visit once for every pair of this rank's a-shapes that touches, as `for_each_pair` under
-/// the local policy does. `visit::stop` ends the visits of this rank; other ranks go on. Arguments as of `any`.
-template <arithmetic A = filtered, execution_policy Local, class X, class Y, class Visitor, class Filter = keep_all,
-          traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
-void for_each_pair(const distributed<Local>& on, const X& a, const Y& b, const Visitor& visitor,
-                   const query_options<Filter, Traversal, Schedule>& options = {}) {
-    if constexpr (detail::can_pair_globally<Local, X, Y, Filter>() && detail::is_global_visitor<Local, Visitor>()) {
-        detail::visit_all_parts<A>(on, a, b, visitor, options, "abut::for_each_pair", detail::pairs_that_touch{});
-    }
-}
-
-/// The contacts of all pairs of this rank's a-shapes that touch: a `result` of `global_contact`, 40 bytes each in float and
-/// 72 in double, in the local policy's memory and in the order of `pairs`. The numbers are those of `contacts`, bit for bit.
-/// Arguments as of `contacts`, and a filter as of `any`.
-template <arithmetic A = filtered, execution_policy Local, class X, class Y, class Filter = keep_all>
-[[nodiscard]] auto contacts(const distributed<Local>& on, const X& a, const Y& b,
-                            const contact_options<Filter>& options = {}) {
-    if constexpr (detail::can_pair_globally<Local, X, Y, Filter>() && detail::can_touch<Local, X, Y, keep_all>()) {
-        using T = scalar_type_of<typename detail::shape_of_argument<X>::type>;
-        return detail::found_in_all_parts<global_contact<T>>(
-            on, a, b, options, "abut::contacts",
-            [&](const auto& x, const auto& y, const auto& here) { return contacts<A>(on.local(), x, y, here); });
-    } else {
-        return result<global_contact<float>, space_of<Local>>();
-    }
-}
-
-/// All pairs of shapes of one set that touch, each once with a < b, of which a is this rank's: a `result` of `global_pair`,
-/// 16 bytes each, in the local policy's memory; sorted by a, then b, unless the options say otherwise. The lists of all
-/// ranks, one after another, are the list of `self_pairs` on one machine. `x` is this rank's part, as the argument of
-/// `self_pairs` under the local policy; a filter is called with two std::uint64_t, a < b.
-///
-/// The mesh that is asked about is all parts one after another, each of which has vertices of its own. So neighbours on two
-/// ranks share none, and are reported, where vertices are `distinct`; where they are `merged`, neighbours share those in one
-/// place, and parts of a mesh give the list of the whole mesh. A face goes to the ranks below its own whose faces it comes
-/// near.
-template <arithmetic A = filtered, execution_policy Local, class X, class Filter = keep_all,
-          traversal Traversal = traversal::both_at_once>
-[[nodiscard]] auto self_pairs(const distributed<Local>& on, const X& x,
-                              const self_options<Filter, Traversal>& options = {}) {
-    if constexpr (detail::can_pair_itself_globally<Local, X, Filter>()) {
-        return detail::pairs_of_parts<A>(on, x, detail::itself{}, detail::as_query_options(options), "abut::self_pairs",
-                                         detail::pairs_beyond_shared(options.coincident));
-    } else {
-        return result<global_pair, space_of<Local>>();
-    }
-}
-
-/// The number of pairs that self_pairs of all ranks reports: the same on each. Stores none of them.
-template <arithmetic A = filtered, execution_policy Local, class X, class Filter = keep_all,
-          traversal Traversal = traversal::both_at_once>
-[[nodiscard]] std::uint64_t count_self_pairs(const distributed<Local>& on, const X& x,
-                                             const self_options<Filter, Traversal>& options = {}) {
-    if constexpr (detail::can_pair_itself_globally<Local, X, Filter>()) {
-        return detail::count_of_parts<A>(on, x, detail::itself{}, detail::as_query_options(options),
-                                         "abut::count_self_pairs", detail::pairs_beyond_shared(options.coincident));
-    } else {
-        return 0;
-    }
-}
-
-///@}
 
 }  // namespace abut
