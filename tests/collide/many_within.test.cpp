@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <abut/collide/body_within.hpp>
-#include <abut/collide/list_within.hpp>
+#include <abut/collide/within.hpp>
 
 #include "collide/many_within_cases.hpp"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <abut/abut.hpp>
-#include <abut/devices/list.hpp>
+#include <abut/devices/query.hpp>
 
 #include "devices/device_cases.hpp"
 #include "support/catch.hpp"

@@ -18,7 +18,7 @@
 #include <abut/devices/nearest.hpp>
 #include <abut/devices/raycast.hpp>
 #include <abut/devices/winding_number.hpp>
-#include <abut/devices/within.hpp>
+#include <abut/devices/query.hpp>
 
 #include "devices/device_cases.hpp"
 #include "support/catch.hpp"

@@ -53,7 +53,6 @@ NAMES = {
     "collide/list_each.hpp": GEAR + "std::vector<abut::posed_pair<decltype(gear)>> configurations;",
     "collide/within.hpp": GEAR + "const std::vector<abut::posed_pair<decltype(gear)>> list;"
                                  "const std::vector<abut::posed_object<decltype(gear)>> bodies;",
-    "collide/query.hpp": GEAR,
     "collide/async.hpp": "const auto& a = mesh; const auto& b = other;",
     "io/write_gltf.hpp": "const abut::spheres<float> spheres; const std::vector<abut::contact<float>> contacts;",
     "io/write_html.hpp": "abut::io::gltf_scene scene;",
@@ -63,7 +62,7 @@ NAMES = {
                                  "std::vector<abut::rigid<float>> poses;",
     "collide/body_pairs.hpp": GEAR,
     "collide/advise.hpp": "const auto& voxels = mesh; const auto& tool = other;",
-    "collide/query.hpp": "std::vector<int> flags(9); int* const touched = flags.data();",
+    "collide/query.hpp": GEAR + "std::vector<int> flags(9); int* const touched = flags.data();",
     "collide/contacts.hpp": "const auto& tool = other; const abut::rigid<float> pose;",
 }
 
