@@ -44,7 +44,7 @@ NAMES = {
     "shape/rigid.hpp": "abut::rigid<float> step, pose; int steps = 0;",
     "narrow/feature_weights.hpp": "const abut::motion<abut::vec3<float>> vertex{};"
                                   "const abut::motion<abut::triangle<float>> face{};",
-    "traverse/front.hpp": "auto tree = abut::make_bvh(on, mesh); const auto ground = tree; const auto& moved = mesh;",
+    "experimental/front.hpp": "auto tree = abut::make_bvh(on, mesh); const auto ground = tree; const auto& moved = mesh;",
     "io/write.hpp": "const abut::result<abut::index_pair, abut::host_space> pairs;",
     "collide/impact_index.hpp": STEP,
     "collide/first_impact.hpp": STEP,

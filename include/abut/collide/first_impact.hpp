@@ -19,7 +19,6 @@
 #include <utility>
 
 #include <abut/arithmetic/limits.hpp>
-#include <abut/collide/face_impacts.hpp>
 #include <abut/collide/impact_index.hpp>
 #include <abut/collide/impacts.hpp>
 #include <abut/index/refit.hpp>
@@ -116,11 +115,6 @@ impact_index<T, Space> until(const Policy& on, const impact_index<T, Space>& ind
     const trees_until<Policy, T> trees(on, index.mesh(), time);
     return {trees.of_elements(index.faces(), index.mesh().t0().view().faces),
             trees.of_elements(index.edges(), index.edges().set().t0().view().edges), trees.of_vertices(index.vertices())};
-}
-template <class Policy, scalar T, memory_space Space, pair_rule Rule>
-face_impact_index<T, Space, Rule> until(const Policy& on, const face_impact_index<T, Space, Rule>& index, double time) {
-    const trees_until<Policy, T> trees(on, index.mesh(), time);
-    return {trees.of_elements(index.faces(), index.mesh().t0().view().faces), index.edges(), index.parts(), index.orphans()};
 }
 
 /// The earliest impact, and of equal ones the first.
@@ -376,25 +370,12 @@ template <motion_arithmetic A = filtered, execution_policy Policy, class X, clas
     constexpr const char* function = "abut::first_impact";
     return detail::first_between<A>(on, a, b, options, detail::no_fronts{}, function);
 }
-/// The same from fronts, which are left at the ends of the part of the step that was looked at last.
-template <motion_arithmetic A = filtered, execution_policy Policy, class X, class Y>
-[[nodiscard]] auto first_impact(const Policy& on, const X& a, const Y& b, const impact_options& options,
-                                impact_fronts& fronts) {
-    constexpr const char* function = "abut::first_impact";
-    return detail::first_between<A>(on, a, b, options, detail::fronts_of(fronts), function);
-}
 
 /// The earliest of the impacts of a mesh with itself, as `self_impacts` has them. Otherwise as `first_impact`.
 template <motion_arithmetic A = filtered, execution_policy Policy, class X>
 [[nodiscard]] auto first_self_impact(const Policy& on, const X& a, const impact_options& options = {}) {
     constexpr const char* function = "abut::first_self_impact";
     return detail::first_within<A>(on, a, options, detail::no_fronts{}, function);
-}
-/// The same from fronts, as of `first_impact`.
-template <motion_arithmetic A = filtered, execution_policy Policy, class X>
-[[nodiscard]] auto first_self_impact(const Policy& on, const X& a, const impact_options& options, impact_fronts& fronts) {
-    constexpr const char* function = "abut::first_self_impact";
-    return detail::first_within<A>(on, a, options, detail::fronts_of(fronts), function);
 }
 
 ///@}

@@ -19,7 +19,6 @@
 #include <utility>
 #include <vector>
 
-#include <abut/collide/face_impacts.hpp>
 #include <abut/collide/feature_pairing.hpp>
 #include <abut/collide/features.hpp>
 #include <abut/collide/impact_index.hpp>
@@ -31,7 +30,6 @@
 #include <abut/narrow/feature_weights.hpp>
 #include <abut/narrow/time_of_impact.hpp>
 #include <abut/shape/motion.hpp>
-#include <abut/traverse/front.hpp>
 
 namespace abut {
 
@@ -84,18 +82,6 @@ struct impact_options {
     flag sorted = true;
     /// Of `conservative` alone. Others take no notice of a tolerance, and throw `error` for a separation.
     conservative_bounds bounds = {};
-};
-
-/// Where queries of one mesh, or of one pair of them, came to their ends, for each kind of features, for the next step to
-/// begin there (traverse/front.hpp). They belong to the topologies of indices, so they are for indices that are refitted.
-struct impact_fronts {
-    front vertex_face;  ///< of vertices of the first mesh and faces of the second
-    front face_vertex;  ///< of faces of the first mesh and vertices of the second
-    front edge_edge;    ///< of edges
-
-    /// Empty, each with these options.
-    explicit impact_fronts(const front_options& options = {})
-        : vertex_face(options), face_vertex(options), edge_edge(options) {}
 };
 
 namespace detail {
@@ -327,10 +313,7 @@ auto with_search_of_indices(const Policy& on, const Index& x, const Index& y, co
     } else {
         static_assert(std::same_as<Part, whole_search>, "abut: several devices take indices of pair_rule::feature_trees");
         static_assert(std::same_as<Fronts, no_fronts>, "abut: fronts are of trees over features, pair_rule::feature_trees");
-        const auto both = features_of_two<Within>(x, y, function);
-        return use(both, [&](const auto& judge, timed_queue<Policy>& hits) {
-            time_by_faces<Within>(on, x, y, both, judge, near, hits);
-        });
+        return impact_rule<Index::rule>::template with_search<Within>(on, x, y, near, function, use);
     }
 }
 
@@ -373,7 +356,6 @@ auto impacts_within(const Policy& on, const X& a, const impact_options& options,
         return result<impact<float>, space_of<Policy>>();
     }
 }
-inline given_fronts fronts_of(impact_fronts& all) { return {&all.vertex_face, &all.face_vertex, &all.edge_edge}; }
 
 }  // namespace detail
 
@@ -392,22 +374,12 @@ template <motion_arithmetic A = filtered, execution_policy Policy, class X, clas
 [[nodiscard]] auto impacts(const Policy& on, const X& a, const Y& b, const impact_options& options = {}) {
     return detail::impacts_between<A>(on, a, b, options, detail::no_fronts{});
 }
-/// The same from fronts, which are left at this step's ends.
-template <motion_arithmetic A = filtered, execution_policy Policy, class X, class Y>
-[[nodiscard]] auto impacts(const Policy& on, const X& a, const Y& b, const impact_options& options, impact_fronts& fronts) {
-    return detail::impacts_between<A>(on, a, b, options, detail::fronts_of(fronts));
-}
 
 /// The impacts of one mesh with itself: of all pairs that have no vertex index in common. Vertices that coincide in place
 /// but not by index touch. `x` is a mesh in motion, or an index of one. Otherwise as `impacts`.
 template <motion_arithmetic A = filtered, execution_policy Policy, class X>
 [[nodiscard]] auto self_impacts(const Policy& on, const X& x, const impact_options& options = {}) {
     return detail::impacts_within<A>(on, x, options, detail::no_fronts{});
-}
-/// The same from fronts, which are left at this step's ends.
-template <motion_arithmetic A = filtered, execution_policy Policy, class X>
-[[nodiscard]] auto self_impacts(const Policy& on, const X& x, const impact_options& options, impact_fronts& fronts) {
-    return detail::impacts_within<A>(on, x, options, detail::fronts_of(fronts));
 }
 
 /// Where the features of an impact touch (narrow/feature_weights.hpp). `a` and `b` are the meshes of the query as moving

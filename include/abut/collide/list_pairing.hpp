@@ -15,7 +15,7 @@
 
 #include <abut/collide/nearness.hpp>
 #include <abut/collide/options.hpp>
-#include <abut/collide/pairing.hpp>
+#include <abut/collide/pair_up.hpp>
 #include <abut/collide/placed.hpp>
 #include <abut/narrow/contact.hpp>
 #include <abut/shape/relative_pose.hpp>

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include <abut/collide/pair_up.hpp>
 #include <abut/collide/search.hpp>
 
 namespace abut {
