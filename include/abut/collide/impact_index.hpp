@@ -78,9 +78,9 @@ struct impact_rule {
 /// @addtogroup motion
 ///@{
 
-/// An index of a mesh in motion, or of one at rest, in the policy's memory: an impact_index, or by one of the rules of faces
-/// a face_impact_index (experimental/pair_rules.hpp). Queries go by the rule of the index that they are given, and by feature_trees where there is none.
-/// Throws as `edges` and make_bvh do.
+/// An index of a mesh in motion, or of one at rest, in the policy's memory: an impact_index, or by one of the rules of
+/// faces a face_impact_index (experimental/pair_rules.hpp). Queries go by the rule of the index that they are given, and by
+/// feature_trees where there is none. Throws as `edges` and make_bvh do.
 ///
 ///     const auto index = abut::make_impact_index<abut::pair_rule::orphan_sets>(on, step);
 ///     const auto found = abut::self_impacts(on, index);

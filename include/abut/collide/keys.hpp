@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Pairs as numbers: how two ids are packed into one, and what kernels see of two operands by such a number. Not how pairs are
-// found: routes.hpp.
+// Pairs as numbers: how two ids are packed into one, and what kernels see of two operands by such a number. Not how pairs
+// are found: routes.hpp.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Who pairs up: two operands. The roles are dealt out here and nowhere else: two trees are walked together, the shapes of one
-// operand look in the index of the other, and two plain sets are compared all with all, in tiles. How that is done is in
-// routes.hpp, and what becomes an operand in pair_up.hpp.
+// Who pairs up: two operands. The roles are dealt out here and nowhere else: two trees are walked together, the shapes of
+// one operand look in the index of the other, and two plain sets are compared all with all, in tiles. How that is done is
+// in routes.hpp, and what becomes an operand in pair_up.hpp.
 
 #include <algorithm>
 #include <cstddef>
@@ -67,11 +67,10 @@ private:
     /// As where a alone is indexed, b's shapes are the rows. Which tree is the first moves no answer, but what `any` meets
     /// first.
     auto walk_of_both() const {
-        const auto rows = b.tree();
-        const auto index = a.tree();
         const auto overlap = box_overlap(b, a, near);
-        return typename way_down<Traversal>::template walk<std::remove_const_t<decltype(rows)>, std::remove_const_t<decltype(index)>,
-                                                           std::remove_const_t<decltype(overlap)>>{rows, index, overlap};
+        using walk = typename way_down<Traversal>::template walk<decltype(b.tree()), decltype(a.tree()),
+                                                                 std::remove_const_t<decltype(overlap)>>;
+        return walk{b.tree(), a.tree(), overlap};
     }
 
     /// Rows of tiles are what runs in parallel, so the larger set provides them; a single shape never does.

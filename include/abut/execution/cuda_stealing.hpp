@@ -2,10 +2,11 @@
 #pragma once
 
 // for_each_descendant of `cuda` by schedules in which blocks take work from each other, in one kernel: lazy_work_stealing,
-// and others whose rules are elsewhere (experimental/cuda_work_stealing.hpp). The deques and the count by which blocks learn that there is nothing left are stealing.hpp's,
-// which says why neither needs that all blocks run at a time. A block's threads agree by barriers alone, and lanes of a warp
-// by instructions that say so. What a block writes for others is ordered thus: its threads write, a barrier, one thread
-// releases; and one thread of another block acquires, a barrier, its threads read.
+// and others whose rules are elsewhere (experimental/cuda_work_stealing.hpp). The deques and the count by which blocks
+// learn that there is nothing left are stealing.hpp's, which says why neither needs that all blocks run at a time. A
+// block's threads agree by barriers alone, and lanes of a warp by instructions that say so. What a block writes for others
+// is ordered thus: its threads write, a barrier, one thread releases; and one thread of another block acquires, a barrier,
+// its threads read.
 
 #include <cstddef>
 #include <cstdint>

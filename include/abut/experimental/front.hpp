@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// traversal::from_front: where a walk of two trees, or of one with itself, came to its ends, for the next walk to begin there
-// (Tang, Manocha and Tong 2010). Not for lists, nor for trees that are built anew for each query: a front belongs to two topologies, which
-// `refit` hands on.
+// traversal::from_front: where a walk of two trees, or of one with itself, came to its ends, for the next walk to begin
+// there (Tang, Manocha and Tong 2010). Not for lists, nor for trees that are built anew for each query: a front belongs to
+// two topologies, which `refit` hands on.
 //
 // All pairs of nodes that two trees could be walked to form a tree of pairs. An end is a pair whose boxes do not overlap, or
 // one of leaves. Wherever boxes are, each pair of leaves is or lies below exactly one end, so a walk may begin at any set of

@@ -12,8 +12,8 @@
 #include <abut/collide/first_impact.hpp>
 #include <abut/collide/impact_index.hpp>
 #include <abut/collide/options.hpp>
-#include <abut/collide/pairing.hpp>
 #include <abut/collide/pair_rule.hpp>
+#include <abut/collide/pairing.hpp>
 #include <abut/collide/self_pairing.hpp>
 #include <abut/collide/timed_search.hpp>
 #include <abut/experimental/orphan_sets.hpp>
@@ -68,7 +68,7 @@ public:
     template <class Policy>
     friend face_impact_index until(const Policy& on, const face_impact_index& index, double time) {
         const detail::trees_until<Policy, T> trees(on, index.mesh(), time);
-        return {trees.of_elements(index.faces(), index.mesh().t0().view().faces), index.edges_, index.parts_, index.orphans_};
+        return {trees.of_elements(index.faces_, index.mesh().t0().view().faces), index.edges_, index.parts_, index.orphans_};
     }
 
 private:

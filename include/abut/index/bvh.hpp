@@ -3,8 +3,8 @@
 
 // Bounding volume hierarchies: how a tree lies in memory, who owns it, and how it is read. Builders are in files of their
 // own (lbvh.hpp, mean_split.hpp, binned_sah.hpp, ploc.hpp), and so are the layouts that a finished tree can be brought to
-// (quantised.hpp, wide.hpp, bounded.hpp, experimental/leafless.hpp); traversals are in traverse/ and read nodes through the accessor
-// concept below alone, so that another layout needs no second traversal.
+// (quantised.hpp, wide.hpp, bounded.hpp, experimental/leafless.hpp); traversals are in traverse/ and read nodes through the
+// accessor concept below alone, so that another layout needs no second traversal.
 
 #include <concepts>
 #include <cstddef>
@@ -185,9 +185,10 @@ struct standard_layout {
     };
 };
 
-/// How a tree lies in memory: standard_layout, quantised_layout, wide_layout, bounded_layout<V> (in headers of these names),
-/// leafless_layout (in experimental/). A layout names the view that traversals read and the storage that owns it, which has `view_of(shapes)`,
-/// `bytes()`, `to_host()` and the buffer `root` of one bvh_root, whose box holds every box that the view hands out.
+/// How a tree lies in memory: standard_layout, quantised_layout, wide_layout, bounded_layout<V> (in headers of these
+/// names), leafless_layout (in experimental/). A layout names the view that traversals read and the storage that owns it,
+/// which has `view_of(shapes)`, `bytes()`, `to_host()` and the buffer `root` of one bvh_root, whose box holds every box
+/// that the view hands out.
 template <class L>
 concept bvh_layout_kind = requires(const typename L::template storage<float, host_space>& tree) {
     requires bvh_layout<typename L::template view<float, host_space>>;

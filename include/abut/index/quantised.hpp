@@ -176,10 +176,10 @@ struct quantise_node {
 /// @addtogroup indices
 ///@{
 
-/// The same tree in 16 bits a coordinate: 32 bytes a shape. It shares the set and the least ids, if there are some; the one it
-/// was made of may go. Boxes grow by less than a step on each side, and a step is at most the extent of the root's box along the axis over
-/// 2^15 - 2, or the smallest normal number of T. So a tree of very many small shapes, or of one far from all others, loses.
-/// Linear time. Throws error (a tree on another device), std::bad_alloc, cuda_error.
+/// The same tree in 16 bits a coordinate: 32 bytes a shape. It shares the set and the least ids, if there are some; the one
+/// it was made of may go. Boxes grow by less than a step on each side, and a step is at most the extent of the root's box
+/// along the axis over 2^15 - 2, or the smallest normal number of T. So a tree of very many small shapes, or of one far
+/// from all others, loses. Linear time. Throws error (a tree on another device), std::bad_alloc, cuda_error.
 template <execution_policy Policy, class Set, memory_space Space>
 [[nodiscard]] bvh<Set, Space, quantised_layout> quantised(const Policy& on, const bvh<Set, Space>& tree) {
     static_assert(std::same_as<Space, space_of<Policy>>,
