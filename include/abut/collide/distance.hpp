@@ -491,8 +491,9 @@ consteval bool can_be_apart() {
 ///
 /// @par Memory
 /// As in @ref queries. Nothing is stored for each pair. A call of a list of two entries or more takes 12 bytes for each
-/// shape of its trees in host memory where something touches, unless these keep their least ids. Under `cuda` a walk of two trees keeps a stack of 289 pairs of nodes, 3.5 KB in float and 4.6 KB in double, in the device's local
-/// memory, which CUDA sets aside once for all threads that the device holds at a time.
+/// shape of its trees in host memory where something touches, unless these keep their least ids. Under `cuda` a walk of two
+/// trees keeps a stack of 289 pairs of nodes, 3.5 KB in float and 4.6 KB in double, in the device's local memory, which CUDA
+/// sets aside once for all threads that the device holds at a time.
 ///
 /// @par Errors
 /// As in @ref queries, and `error` where `below` is negative or NaN.

@@ -38,8 +38,9 @@ struct stealing_pool {
 /// deques as a warp has lanes, a little from each, since what it has stolen nobody can steal from it.
 template <schedule Schedule>
 struct stealing_rule {
-    static_assert(Schedule == schedule::lazy_work_stealing,
-                  "abut: this schedule of a device is in another header: include <abut/experimental/cuda_work_stealing.hpp>");
+    static_assert(
+        Schedule == schedule::lazy_work_stealing,
+        "abut: this schedule of a device is in another header: include <abut/experimental/cuda_work_stealing.hpp>");
     /// With more items than `most`, the oldest go to the deque, all but `keep`.
     static constexpr unsigned most = 2 * block_size, keep = block_size;
     /// From how many deques it steals at a time, all that a warp has lanes or one, and how many items from each.
