@@ -16,6 +16,8 @@ from pathlib import Path
 EXAMPLE = re.compile(r"^ *///     (.*)$")
 
 HEAD = """#include <abut/abut.hpp>
+#include <abut/experimental/front.hpp>
+#include <abut/experimental/pair_rules.hpp>
 #include <abut/io/read.hpp>
 #include <abut/io/write.hpp>
 #include <abut/io/write_gltf.hpp>
