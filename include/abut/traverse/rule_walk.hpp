@@ -19,9 +19,8 @@
 namespace abut::detail {
 
 /// The rule of traversal::larger_first. A rule has
-///   begins_with_b(surface_b, surface_a)    whether b's root is opened first, by half of the roots' surfaces
-///   is_next(is_b, is_larger)               whether a child of the node that was opened, which is of b if `is_b`, is opened
-///                                          before what stayed closed
+///   begins_with_b(surface_b, surface_a)   whether b's root is opened first, by half of the roots' surfaces
+///   is_next(is_b, is_larger)              whether the opened node's child, of b if `is_b`, goes before what stayed closed
 struct opens_larger {
     template <class T>
     [[nodiscard]] ABUT_HD static constexpr bool begins_with_b(T surface_b, T surface_a) {
