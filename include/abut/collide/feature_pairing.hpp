@@ -151,9 +151,11 @@ private:
     }
 };
 
-/// Where the queries of a step begin: at the roots. Who begins elsewhere (experimental/impact_fronts.hpp) has
-/// walk<Kind>(on, expand, a, b, run), which judges what is found below the trees of two operands of that kind.
+/// Where the queries of a step begin: at the roots, or at fronts (experimental/impact_fronts.hpp), of each kind.
 struct no_fronts {};
+struct given_fronts {
+    front *vertex_face, *face_vertex, *edge_edge;
+};
 
 /// The pairs that a part of a search asks about, where it does not ask about all.
 template <class Part, class Pairs>
@@ -244,10 +246,14 @@ private:
         const ids_of_kind<view_type> ids{both, Kind};
         if (expand.has_nodes(Kind)) {
             if constexpr (!std::same_as<Fronts, no_fronts>) {
+                const query_options<keep_all, traversal::from_front, schedule::static_partition> from{
+                    .front = Kind == feature_pair::vertex_face   ? fronts.vertex_face
+                             : Kind == feature_pair::face_vertex ? fronts.face_vertex
+                                                                 : fronts.edge_edge};
                 const auto walk_from = [&](const auto& walk, const auto& of_pairs) {
                     using walk_type = std::remove_cvref_t<decltype(walk)>;
                     const expand_pair<false, walk_type, std::remove_cvref_t<decltype(of_pairs)>> step{walk, of_pairs};
-                    fronts.template walk<Kind>(on, step, indexed_operand<TreeX>{of_x}, indexed_operand<TreeY>{of_y}, run);
+                    descend(on, indexed_operand<TreeX>{of_x}, indexed_operand<TreeY>{of_y}, step, from, run);
                 };
                 if constexpr (of_one) {
                     walk_from(typename Expand::own_pairs(of_x.view(), expand.overlap),

@@ -370,12 +370,25 @@ template <motion_arithmetic A = filtered, execution_policy Policy, class X, clas
     constexpr const char* function = "abut::first_impact";
     return detail::first_between<A>(on, a, b, options, detail::no_fronts{}, function);
 }
+/// The same from fronts, which are left at the ends of the part of the step that was looked at last.
+template <motion_arithmetic A = filtered, execution_policy Policy, class X, class Y>
+[[nodiscard]] auto first_impact(const Policy& on, const X& a, const Y& b, const impact_options& options,
+                                impact_fronts& fronts) {
+    constexpr const char* function = "abut::first_impact";
+    return detail::first_between<A>(on, a, b, options, detail::fronts_of(fronts), function);
+}
 
 /// The earliest of the impacts of a mesh with itself, as `self_impacts` has them. Otherwise as `first_impact`.
 template <motion_arithmetic A = filtered, execution_policy Policy, class X>
 [[nodiscard]] auto first_self_impact(const Policy& on, const X& a, const impact_options& options = {}) {
     constexpr const char* function = "abut::first_self_impact";
     return detail::first_within<A>(on, a, options, detail::no_fronts{}, function);
+}
+/// The same from fronts, as of `first_impact`.
+template <motion_arithmetic A = filtered, execution_policy Policy, class X>
+[[nodiscard]] auto first_self_impact(const Policy& on, const X& a, const impact_options& options, impact_fronts& fronts) {
+    constexpr const char* function = "abut::first_self_impact";
+    return detail::first_within<A>(on, a, options, detail::fronts_of(fronts), function);
 }
 
 ///@}

@@ -84,6 +84,8 @@ struct impact_options {
     conservative_bounds bounds = {};
 };
 
+struct impact_fronts;  // to make them, include <abut/experimental/impact_fronts.hpp>
+
 namespace detail {
 
 /// When two features in motion first touch, by an arithmetic: the judge of impacts.
@@ -356,6 +358,10 @@ auto impacts_within(const Policy& on, const X& a, const impact_options& options,
         return result<impact<float>, space_of<Policy>>();
     }
 }
+template <class Fronts>
+given_fronts fronts_of(Fronts& all) {
+    return {&all.vertex_face, &all.face_vertex, &all.edge_edge};
+}
 
 }  // namespace detail
 
@@ -374,12 +380,22 @@ template <motion_arithmetic A = filtered, execution_policy Policy, class X, clas
 [[nodiscard]] auto impacts(const Policy& on, const X& a, const Y& b, const impact_options& options = {}) {
     return detail::impacts_between<A>(on, a, b, options, detail::no_fronts{});
 }
+/// The same from fronts, which are left at this step's ends.
+template <motion_arithmetic A = filtered, execution_policy Policy, class X, class Y>
+[[nodiscard]] auto impacts(const Policy& on, const X& a, const Y& b, const impact_options& options, impact_fronts& fronts) {
+    return detail::impacts_between<A>(on, a, b, options, detail::fronts_of(fronts));
+}
 
 /// The impacts of one mesh with itself: of all pairs that have no vertex index in common. Vertices that coincide in place
 /// but not by index touch. `x` is a mesh in motion, or an index of one. Otherwise as `impacts`.
 template <motion_arithmetic A = filtered, execution_policy Policy, class X>
 [[nodiscard]] auto self_impacts(const Policy& on, const X& x, const impact_options& options = {}) {
     return detail::impacts_within<A>(on, x, options, detail::no_fronts{});
+}
+/// The same from fronts, which are left at this step's ends.
+template <motion_arithmetic A = filtered, execution_policy Policy, class X>
+[[nodiscard]] auto self_impacts(const Policy& on, const X& x, const impact_options& options, impact_fronts& fronts) {
+    return detail::impacts_within<A>(on, x, options, detail::fronts_of(fronts));
 }
 
 /// Where the features of an impact touch (narrow/feature_weights.hpp). `a` and `b` are the meshes of the query as moving
