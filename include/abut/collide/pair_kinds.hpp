@@ -14,7 +14,7 @@
 #include <cstdint>
 
 #include <abut/arithmetic/arithmetic.hpp>
-#include <abut/collide/pair_up.hpp>
+#include <abut/collide/pairing.hpp>
 #include <abut/collide/parts.hpp>
 #include <abut/collide/query.hpp>
 #include <abut/collide/self_pairing.hpp>

@@ -12,7 +12,7 @@
 
 #include <abut/arithmetic/arithmetic.hpp>
 #include <abut/collide/options.hpp>
-#include <abut/collide/pair_up.hpp>
+#include <abut/collide/pairing.hpp>
 #include <abut/collide/query.hpp>
 #include <abut/collide/self_pairing.hpp>
 #include <abut/error.hpp>

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include <abut/collide/pair_kinds.hpp>
-#include <abut/collide/pair_up.hpp>
+#include <abut/collide/pairing.hpp>
 #include <abut/collide/parts.hpp>
 #include <abut/devices/divide.hpp>
 #include <abut/execution/team.hpp>

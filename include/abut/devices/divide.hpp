@@ -14,7 +14,7 @@
 #include <vector>
 
 #include <abut/collide/operand.hpp>
-#include <abut/collide/pair_up.hpp>
+#include <abut/collide/pairing.hpp>
 #include <abut/collide/parts.hpp>
 #include <abut/execution/team.hpp>
 #include <abut/index/curve_order.hpp>
