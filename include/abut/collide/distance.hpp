@@ -53,7 +53,7 @@ inline constexpr std::uint64_t no_pair = static_cast<std::uint64_t>(-1);
 // --- what touches: the least key ---------------------------------------------------------------------------------------
 
 /// A filter: pairs before the first one that is known to touch. So where much touches, little of it is decided; and where
-/// the trees' least ids are given, little of the trees is walked (pairing.hpp).
+/// the trees' least ids are given, little of the trees is walked (routes.hpp).
 template <class Key>
 struct before_first_touch {
     Key key{};

@@ -118,7 +118,7 @@ struct list_view {
     }
 };
 
-/// The ids of one entry, for the ways to candidates (pairing.hpp).
+/// The ids of one entry, for the ways to candidates (routes.hpp).
 template <class View>
 struct ids_of_entry {
     const View& list;
