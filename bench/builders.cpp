@@ -22,6 +22,7 @@
 #include <benchmark/benchmark.h>
 
 #include <abut/abut.hpp>
+#include <abut/experimental/leafless.hpp>
 
 #include "meshes_main.hpp"
 

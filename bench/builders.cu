@@ -18,6 +18,7 @@
 #include <vector>
 
 #include <abut/cuda.hpp>
+#include <abut/experimental/leafless.hpp>
 
 #include "cuda_table.hpp"
 #include "meshes_scene.hpp"

@@ -21,6 +21,8 @@
 #include <vector>
 
 #include <abut/abut.hpp>
+#include <abut/experimental/breadth_first.hpp>
+#include <abut/experimental/descent_rules.hpp>
 
 #include "meshes_scene.hpp"
 #include "results.hpp"

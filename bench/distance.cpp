@@ -44,7 +44,7 @@ abut::rigid<T> pose_in(const pose& p) {
 
 template <class T, class Policy>
 auto oriented_tree(const Policy& on, const distance_scene::surface& s) {
-    return oriented(on, make_bvh(on, mesh_in<T>(s), {.builder = abut::bvh_builder::sah}));
+    return oriented(on, make_bvh(on, mesh_in<T>(s), {.builder = abut::bvh_builder::sah, .least_ids = true}));
 }
 
 template <class T, class Policy, class Tree>
@@ -68,7 +68,8 @@ int main(int argc, char** argv) {
     const std::vector<scene> scenes = distance_scene::make_scenes(folder);
     const abut::serial on;
     for (const scene& s : scenes) {
-        add<float>(s, "bvh", on, make_bvh(on, mesh_in<float>(s.a)), make_bvh(on, mesh_in<float>(s.b)));
+        const abut::bvh_options keeping{.least_ids = true};  // one tree is asked in all poses
+        add<float>(s, "bvh", on, make_bvh(on, mesh_in<float>(s.a), keeping), make_bvh(on, mesh_in<float>(s.b), keeping));
         const auto a = oriented_tree<float>(on, s.a), b = oriented_tree<float>(on, s.b);
         add<float>(s, "oriented", on, a, b);
         add<double>(s, "oriented_double", on, oriented_tree<double>(on, s.a), oriented_tree<double>(on, s.b));

@@ -19,6 +19,8 @@
 #include <vector>
 
 #include <abut/abut.hpp>
+#include <abut/experimental/front.hpp>
+#include <abut/experimental/impact_fronts.hpp>
 
 #include "../tests/support/scenes.hpp"
 #include "mesh_file.hpp"

@@ -32,6 +32,8 @@
 #include <vector>
 
 #include <abut/cuda.hpp>
+#include <abut/experimental/cuda_work_stealing.hpp>
+#include <abut/experimental/impact_fronts.hpp>
 
 #include "cuda_table.hpp"
 #include "motion_scene.hpp"

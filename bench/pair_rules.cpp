@@ -14,6 +14,7 @@
 #include <vector>
 
 #include <abut/abut.hpp>
+#include <abut/experimental/pair_rules.hpp>
 
 #include "google.hpp"
 #include "pair_rules_scene.hpp"

@@ -8,6 +8,9 @@
 #include <filesystem>
 #include <string>
 
+#include <abut/cuda.hpp>
+#include <abut/experimental/pair_rules.hpp>
+
 #include "cuda_table.hpp"
 #include "pair_rules_scene.hpp"
 

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include <abut/cuda.hpp>
+#include <abut/experimental/cuda_work_stealing.hpp>
 
 #include "cuda_table.hpp"
 #include "meshes_scene.hpp"

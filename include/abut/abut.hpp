@@ -34,7 +34,6 @@
 #include <abut/index/grid.hpp>
 #include <abut/index/lbvh.hpp>
 #include <abut/index/leaf_ids.hpp>
-#include <abut/index/leafless.hpp>
 #include <abut/index/quality.hpp>
 #include <abut/index/quantised.hpp>
 #include <abut/index/refit.hpp>

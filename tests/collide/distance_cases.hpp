@@ -15,6 +15,7 @@
 #include <vector>
 
 #include <abut/abut.hpp>
+#include <abut/experimental/leafless.hpp>
 
 #include "collide/set_cases.hpp"
 #include "support/catch.hpp"
@@ -338,7 +339,7 @@ void check_distance_scales(const Policy& on) {
     CHECK(counts.touching < counts.asked - 2);
 }
 
-/// Where much touches, the least ids of all pairs that do, of trees that have walked by them before and of those that have
+/// Where much touches, the least ids of all pairs that do, of trees that keep them and of those that do
 /// not, of trees made of others, and in lists. Ids lie anywhere along the surfaces.
 template <class T, bool EveryLayout = false, class Policy>
 void check_first_of_many_touches(const Policy& on) {
@@ -382,8 +383,23 @@ void check_first_of_many_touches(const Policy& on) {
         }
     };
     const auto tree_a = make_bvh(on, a), tree_b = make_bvh(on, b);
+    const auto keeping_a = make_bvh(on, a, {.least_ids = true}), keeping_b = make_bvh(on, b, {.least_ids = true});
     check(tree_a, tree_b);
+    check(keeping_a, keeping_b);
+    check(keeping_a, tree_b);
+    // Queries leave nothing in a tree, and trees of one topology share what was made with the first.
+    const auto ids = [](const auto& tree) { return tree.stored().least_ids.get(); };
+    CHECK(ids(tree_a) == nullptr);
+    CHECK((ids(keeping_a) != nullptr) == host_policy<Policy>);
+    CHECK(ids(refit(on, keeping_a, a)) == ids(keeping_a));
+    CHECK(ids(quantised(on, keeping_a)) == ids(keeping_a));
     if constexpr (EveryLayout) {
+        CHECK(ids(leafless(on, keeping_a)) == ids(keeping_a));
+        CHECK(ids(oriented(on, keeping_a)) == ids(keeping_a));
+        check(refit(on, keeping_a, a), quantised(on, keeping_b));
+        check(leafless(on, keeping_a), oriented(on, keeping_b));
+        check(make_bvh(on, a, {.builder = bvh_builder::sah, .least_ids = true}),
+              make_bvh(on, b, {.builder = bvh_builder::ploc, .least_ids = true}));
         check(make_bvh(on, a, {.builder = bvh_builder::sah}), refit(on, tree_b, b));
         check(refit(on, make_bvh(on, a), a), quantised(on, tree_b));
         check(leafless(on, tree_a), leafless(on, tree_b));

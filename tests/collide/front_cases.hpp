@@ -13,6 +13,8 @@
 #include <vector>
 
 #include <abut/abut.hpp>
+#include <abut/experimental/front.hpp>
+#include <abut/experimental/impact_fronts.hpp>
 
 #include "collide/query_cases.hpp"
 #include "support/catch.hpp"

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <abut/experimental/front.hpp>
+#include <abut/experimental/leafless.hpp>
+
 #include "collide/front_cases.hpp"
 
 namespace abut::test {

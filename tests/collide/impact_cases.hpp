@@ -17,6 +17,7 @@
 #include <vector>
 
 #include <abut/abut.hpp>
+#include <abut/experimental/impact_fronts.hpp>
 
 #include "support/catch.hpp"
 #include "support/draws.hpp"

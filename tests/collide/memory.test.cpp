@@ -11,6 +11,9 @@
 #include <new>
 
 #include <abut/abut.hpp>
+#include <abut/experimental/breadth_first.hpp>
+#include <abut/experimental/front.hpp>
+#include <abut/experimental/leafless.hpp>
 
 #include "collide/query_cases.hpp"
 #include "support/catch.hpp"

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include <abut/abut.hpp>
+#include <abut/experimental/leafless.hpp>
 
 #include "collide/set_cases.hpp"
 #include "support/catch.hpp"

@@ -7,6 +7,8 @@
 #include <type_traits>
 
 #include <abut/abut.hpp>
+#include <abut/experimental/breadth_first.hpp>
+#include <abut/experimental/descent_rules.hpp>
 
 #include "collide/stop_cases.hpp"
 #include "support/catch.hpp"

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include <abut/abut.hpp>
+#include <abut/experimental/pair_rules.hpp>
 
 #include "support/catch.hpp"
 #include "support/scenes.hpp"

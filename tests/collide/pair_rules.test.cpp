@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <abut/collide/face_impacts.hpp>
+#include <abut/experimental/pair_rules.hpp>
 
 #include "collide/pair_rule_cases.hpp"
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <abut/experimental/leafless.hpp>
 
 #include "posed_cases.hpp"
 

@@ -13,6 +13,10 @@
 #include <utility>
 #include <vector>
 
+#include <abut/experimental/breadth_first.hpp>
+#include <abut/experimental/descent_rules.hpp>
+#include <abut/experimental/leafless.hpp>
+
 #include "collide/mesh_cases.hpp"
 #include "support/catch.hpp"
 #include "support/samples.hpp"

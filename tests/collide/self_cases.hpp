@@ -14,6 +14,8 @@
 #include <vector>
 
 #include <abut/abut.hpp>
+#include <abut/experimental/breadth_first.hpp>
+#include <abut/experimental/leafless.hpp>
 
 #include "query_cases.hpp"
 #include "support/catch.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <abut/collide/self_pairs.hpp>
+#include <abut/experimental/breadth_first.hpp>
 
 #include "collide/self_cases.hpp"
 #include "support/catch.hpp"

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include <abut/abut.hpp>
+#include <abut/experimental/breadth_first.hpp>
+#include <abut/experimental/descent_rules.hpp>
 
 #include "support/catch.hpp"
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <abut/abut.hpp>
+#include <abut/experimental/breadth_first.hpp>
 
 #include "collide/posed_cases.hpp"
 #include "index/tree_cases.hpp"

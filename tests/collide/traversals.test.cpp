@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <abut/experimental/breadth_first.hpp>
+#include <abut/experimental/descent_rules.hpp>
+#include <abut/experimental/leafless.hpp>
+
 #include "collide/traversal_cases.hpp"
 
 namespace abut::test {
@@ -55,10 +59,13 @@ void check_posed_layout(const Layout& lay) {
 
 // All give the same pairs; these are different walks.
 using tree_view = bvh_view<float, host_space>;
-template <traversal Traversal>
-inline constexpr bool is_rule = std::same_as<detail::chosen_walk<Traversal, tree_view, tree_view, detail::same_frame>,
-                                             detail::rule_walk<tree_view, tree_view, detail::same_frame, Traversal>>;
-static_assert(is_rule<traversal::one_first> && is_rule<traversal::larger_first> && is_rule<traversal::alternate>);
+template <traversal Traversal, class Rule>
+inline constexpr bool has_rule =
+    std::same_as<typename detail::way_down<Traversal>::template walk<tree_view, tree_view, detail::same_frame>,
+                 detail::rule_walk<tree_view, tree_view, detail::same_frame, Rule>>;
+static_assert(has_rule<traversal::one_first, detail::opens_one_first> &&
+              has_rule<traversal::larger_first, detail::opens_larger> &&
+              has_rule<traversal::alternate, detail::opens_in_turn>);
 
 /// Counts its calls.
 struct calls_of {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <abut/collide/within.hpp>
+#include <abut/experimental/leafless.hpp>
 
 #include <algorithm>
 #include <mutex>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <abut/cuda.hpp>
+#include <abut/experimental/cuda_work_stealing.hpp>
 
 #include "collide/front_cases.hpp"
 #include "support/catch.hpp"

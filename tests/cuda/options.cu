@@ -3,6 +3,7 @@
 // Options that change no answer are not ignored on a device either.
 
 #include <abut/cuda.hpp>
+#include <abut/experimental/cuda_work_stealing.hpp>
 
 #include <cmath>
 #include <vector>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <abut/cuda.hpp>
+#include <abut/experimental/breadth_first.hpp>
+#include <abut/experimental/descent_rules.hpp>
 
 #include "collide/traversal_cases.hpp"
 #include "support/catch.hpp"

@@ -3,6 +3,7 @@
 // The impacts of all parts are those of the mesh that is all parts one after another, bit for bit.
 
 #include <abut/mpi.hpp>
+#include <abut/experimental/pair_rules.hpp>
 
 #include <algorithm>
 #include <array>

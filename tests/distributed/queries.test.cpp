@@ -4,6 +4,7 @@
 // the same order, however the sets are divided.
 
 #include <abut/mpi.hpp>
+#include <abut/experimental/breadth_first.hpp>
 
 #include <algorithm>
 #include <atomic>

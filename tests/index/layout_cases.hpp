@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <abut/abut.hpp>
+#include <abut/experimental/leafless.hpp>
 
 #include "index/tree_cases.hpp"
 #include "support/catch.hpp"

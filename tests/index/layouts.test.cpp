@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <abut/experimental/leafless.hpp>
 #include <abut/index/quantised.hpp>
 
 #include <atomic>
 #include <concepts>
 #include <limits>
 
-#include <abut/index/leafless.hpp>
 #include <abut/index/wide.hpp>
 
 #include "index/layout_cases.hpp"

@@ -108,7 +108,8 @@ def check(table, root):
                 problems.append(f"{where}: <abut/{target}> does not exist")
             if theirs != mine and theirs not in layers[mine].sees:
                 problems.append(f"{where}: {mine} does not see {theirs} (<abut/{target}>)")
-            if re.match(r"execution/cuda", target) and mine not in ("execution/", "cuda.hpp", "cuda_devices.hpp"):
+            is_for_nvcc = re.match(r"(execution|experimental)/cuda|cuda(_devices)?\.hpp$", path)
+            if re.match(r"execution/cuda", target) and mine != "execution/" and not is_for_nvcc:
                 problems.append(f"{where}: only cuda.hpp, cuda_devices.hpp and execution/ include <abut/{target}>")
         if layers[mine].never:
             for target, via in sorted(reached(headers, path).items()):

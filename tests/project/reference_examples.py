@@ -16,6 +16,8 @@ from pathlib import Path
 EXAMPLE = re.compile(r"^ *///     (.*)$")
 
 HEAD = """#include <abut/abut.hpp>
+#include <abut/experimental/front.hpp>
+#include <abut/experimental/pair_rules.hpp>
 #include <abut/io/read.hpp>
 #include <abut/io/write.hpp>
 #include <abut/io/write_gltf.hpp>
@@ -44,7 +46,7 @@ NAMES = {
     "shape/rigid.hpp": "abut::rigid<float> step, pose; int steps = 0;",
     "narrow/feature_weights.hpp": "const abut::motion<abut::vec3<float>> vertex{};"
                                   "const abut::motion<abut::triangle<float>> face{};",
-    "traverse/front.hpp": "auto tree = abut::make_bvh(on, mesh); const auto ground = tree; const auto& moved = mesh;",
+    "experimental/front.hpp": "auto tree = abut::make_bvh(on, mesh); const auto ground = tree; const auto& moved = mesh;",
     "io/write.hpp": "const abut::result<abut::index_pair, abut::host_space> pairs;",
     "collide/impact_index.hpp": STEP,
     "collide/first_impact.hpp": STEP,

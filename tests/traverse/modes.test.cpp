@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <abut/abut.hpp>
+#include <abut/experimental/leafless.hpp>
 
 #include "support/catch.hpp"
 #include "support/draws.hpp"

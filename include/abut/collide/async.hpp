@@ -136,7 +136,7 @@ void search_async(const Policy& on, const Pairing& pairing, const Judge& judge, 
     fill(on, room.counters.data(), room.counters.size(), std::uint64_t{0});
     execution::async_queue<Queue> found{hits, {room.counters.data(), room.counts(), open.data(), open.size()}};
     execution::capped_queue<std::uint64_t, space_of<Policy>> hard(static_cast<std::uint64_t*>(nullptr), 0);
-    const judge_key<view, Judge> decide{both, judge, {}};
+    const key_judge<view, Judge> decide{both, judge, {}};
     pairing.judge_candidates(on, [&](const auto& loop) { loop(decide, found, hard); });
 }
 

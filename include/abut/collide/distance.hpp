@@ -22,7 +22,7 @@
 #include <vector>
 
 #include <abut/collide/nearest.hpp>
-#include <abut/collide/pairing.hpp>
+#include <abut/collide/pair_up.hpp>
 #include <abut/collide/placed.hpp>
 #include <abut/collide/search.hpp>
 #include <abut/error.hpp>
@@ -32,8 +32,8 @@
 #include <abut/index/least_ids.hpp>
 #include <abut/narrow/distance.hpp>
 #include <abut/shape/pair_reach.hpp>
-#include <abut/traverse/frontier.hpp>
 #include <abut/traverse/ordered_pair_walk.hpp>
+#include <abut/traverse/seeds.hpp>
 
 namespace abut {
 
@@ -50,11 +50,10 @@ namespace detail {
 /// The key of no pair.
 inline constexpr std::uint64_t no_pair = static_cast<std::uint64_t>(-1);
 
-// --- what touches: the least key
-// --------------------------------------------------------------------------------------------
+// --- what touches: the least key ---------------------------------------------------------------------------------------
 
 /// A filter: pairs before the first one that is known to touch. So where much touches, little of it is decided; and where
-/// the trees' least ids are given, little of the trees is walked (pairing.hpp).
+/// the trees' least ids are given, little of the trees is walked (routes.hpp).
 template <class Key>
 struct before_first_touch {
     Key key{};
@@ -95,19 +94,35 @@ auto trees_with_least_ids(const placed_bodies<Index>& x) {
 }
 ///@}
 
-/// The least ids of all trees of one side, made where they are not there yet. By trees; null for trees without nodes.
-template <class Policy, class Trees>
-std::vector<const std::uint32_t*> all_least_ids(const Policy& on, const Trees& trees) {
-    std::vector<const std::uint32_t*> all;
-    for (const auto& tree : trees) all.push_back(least_ids_of(on, tree));
-    return all;
+template <class Trees>
+bool have_least_ids(const Trees& trees) {
+    return std::all_of(trees.begin(), trees.end(), [](const auto& tree) { return tree.stored().least_ids != nullptr; });
 }
+/// The least ids of all trees of one side, by trees: those that a tree has, or made for one query.
+template <class Policy>
+class ids_of_trees {
+public:
+    template <class Trees>
+    ids_of_trees(const Policy& on, const Trees& trees) {
+        for (const auto& tree : trees) {
+            const auto view = tree.view();
+            const auto& own = tree.stored();
+            if (own.least_ids == nullptr) made_.push_back(make_least_ids(on, view.nodes, own.nodes.size(), view.top));
+            all_.push_back(own.least_ids == nullptr ? made_.back().data() : own.least_ids->data());
+        }
+    }
+    [[nodiscard]] const std::uint32_t* const* data() const { return all_.data(); }
+
+private:
+    std::vector<execution::buffer_of<Policy, std::uint32_t>> made_;
+    std::vector<const std::uint32_t*> all_;
+};
 
 /// For each of n entries the least key of a pair that touches, or no_pair. Of two arguments there is one entry.
 ///
-/// A host walks by the trees' least ids, but not for two trees whose first touch this is: to make them may take as long as
-/// many a search. Before they are made it asks whether anything touches at all: if nothing does, it has no use for them. A
-/// device opens thousands of pairs of nodes at a time, before it knows any that touches.
+/// A host walks by least ids, of two trees if both have them: to make them takes as long as many a search. For a list they
+/// are made, but only if anything touches at all. A device opens thousands of pairs of nodes at a time, before it knows any
+/// that touches.
 template <class Policy, class Pairing>
 auto first_touches(const Policy& on, Pairing& pairing, std::size_t n) {
     using key_type = decltype(pairing.key);
@@ -123,34 +138,26 @@ auto first_touches(const Policy& on, Pairing& pairing, std::size_t n) {
     if constexpr (host_policy<Policy> && requires { trees_with_least_ids(pairing.a), trees_with_least_ids(pairing.b); }) {
         const auto a = trees_with_least_ids(pairing.a);
         const auto b = trees_with_least_ids(pairing.b);
-        const auto all = [&](const auto& test) {
-            return std::all_of(a.begin(), a.end(), test) && std::all_of(b.begin(), b.end(), test);
-        };
-        const bool are_there = all([](const auto& tree) { return has_least_ids(tree); });
+        const bool are_there = have_least_ids(a) && have_least_ids(b);
         // Of one entry there is one tree on each side. One of a single shape is not walked with the other.
-        const bool is_pair = n == 1 && a[0].size() > 1 && b[0].size() > 1;
-        if (n > 1 || (is_pair && (are_there || all([](const auto& tree) { return wants_least_ids(tree); })))) {
-            if (!are_there) {
-                execution::work_flag<host_space> any(on);
-                search(on, pairing, touch<filtered>{}, any);
-                if (!any.raised()) return first;
+        if (n > 1 || (n == 1 && are_there && a[0].size() > 1 && b[0].size() > 1)) {
+            execution::work_flag<host_space> any(on);
+            if (!are_there) search(on, pairing, touch<filtered>{}, any);
+            if (are_there || any.raised()) {
+                const ids_of_trees<Policy> of_a(on, a), of_b(on, b);
+                filter.least_a = of_a.data(), filter.least_b = of_b.data();
+                look();
             }
-            const auto least_a = all_least_ids(on, a), least_b = all_least_ids(on, b);
-            filter.least_a = least_a.data(), filter.least_b = least_b.data();
-            look();
-            filter.least_a = filter.least_b = nullptr;
+            filter = {};
             return first;
         }
-        look();
-        if (is_pair && first.data()[0] != no_pair) want_least_ids(a[0]), want_least_ids(b[0]);
-    } else {
-        look();
     }
+    look();
+    filter = {};
     return first;
 }
 
-// --- what does not touch: the least distance
-// --------------------------------------------------------------------------------
+// --- what does not touch: the least distance ---------------------------------------------------------------------------
 
 /// Offers a sink what is measured of two shapes, in the order of the arguments, and turns the reach to where better was
 /// found. What the reach sees first is the second of them if it is `Reversed`.
@@ -394,8 +401,7 @@ void look_for_nearest_pair(const Policy& on, const Pairing& pairing, Best& best)
     }
 }
 
-// --- answers
-// ----------------------------------------------------------------------------------------------------------------
+// --- answers -----------------------------------------------------------------------------------------------------------
 
 /// What a walk begins with, so that it loses nothing that is below once it is rounded to T.
 template <scalar T>
@@ -484,10 +490,10 @@ consteval bool can_be_apart() {
 /// two shapes.
 ///
 /// @par Memory
-/// As in @ref queries. Nothing is stored for each pair. Trees of two children a node in host memory keep 4 bytes for
-/// each shape once two calls have found that something touches, or one call of a list of two entries or more; while these
-/// are made it takes 12. Under `cuda` a walk of two trees keeps a stack of 289 pairs of nodes, 3.5 KB in float and 4.6 KB in
-/// double, in the device's local memory, which CUDA sets aside once for all threads that the device holds at a time.
+/// As in @ref queries. Nothing is stored for each pair. A call of a list of two entries or more takes 12 bytes for each
+/// shape of its trees in host memory where something touches, unless these keep their least ids. Under `cuda` a walk of two
+/// trees keeps a stack of 289 pairs of nodes, 3.5 KB in float and 4.6 KB in double, in the device's local memory, which CUDA
+/// sets aside once for all threads that the device holds at a time.
 ///
 /// @par Errors
 /// As in @ref queries, and `error` where `below` is negative or NaN.

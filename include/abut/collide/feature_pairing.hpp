@@ -15,16 +15,16 @@
 #include <abut/collide/features.hpp>
 #include <abut/collide/operand.hpp>
 #include <abut/collide/options.hpp>
-#include <abut/collide/pairing.hpp>
+#include <abut/collide/routes.hpp>
 #include <abut/collide/self_pairing.hpp>
-#include <abut/traverse/front.hpp>
-#include <abut/traverse/frontier.hpp>
+#include <abut/collide/shares.hpp>
 #include <abut/traverse/pair_walk.hpp>
+#include <abut/traverse/seeds.hpp>
 #include <abut/traverse/self_walk.hpp>
 
 namespace abut::detail {
 
-/// The pairs of one kind, for the ways to candidates (pairing.hpp).
+/// The pairs of one kind, for the ways to candidates (routes.hpp).
 template <class View>
 struct ids_of_kind {
     View both;
@@ -151,7 +151,7 @@ private:
     }
 };
 
-/// Where the queries of a step begin: at the roots, or at fronts, of each kind.
+/// Where the queries of a step begin: at the roots, or at fronts (experimental/impact_fronts.hpp), of each kind.
 struct no_fronts {};
 struct given_fronts {
     front *vertex_face, *face_vertex, *edge_edge;
@@ -246,15 +246,14 @@ private:
         const ids_of_kind<view_type> ids{both, Kind};
         if (expand.has_nodes(Kind)) {
             if constexpr (!std::same_as<Fronts, no_fronts>) {
-                front* const ends = Kind == feature_pair::vertex_face   ? fronts.vertex_face
-                                    : Kind == feature_pair::face_vertex ? fronts.face_vertex
-                                                                        : fronts.edge_edge;
+                const query_options<keep_all, traversal::from_front, schedule::static_partition> from{
+                    .front = Kind == feature_pair::vertex_face   ? fronts.vertex_face
+                             : Kind == feature_pair::face_vertex ? fronts.face_vertex
+                                                                 : fronts.edge_edge};
                 const auto walk_from = [&](const auto& walk, const auto& of_pairs) {
                     using walk_type = std::remove_cvref_t<decltype(walk)>;
                     const expand_pair<false, walk_type, std::remove_cvref_t<decltype(of_pairs)>> step{walk, of_pairs};
-                    const execution::scheduled<schedule::static_partition> how{};
-                    from_front::walk(*ends, on, how, step, indexed_operand<TreeX>{of_x}.shape_of_tree(),
-                                     indexed_operand<TreeY>{of_y}.shape_of_tree(), run);
+                    descend(on, indexed_operand<TreeX>{of_x}, indexed_operand<TreeY>{of_y}, step, from, run);
                 };
                 if constexpr (of_one) {
                     walk_from(typename Expand::own_pairs(of_x.view(), expand.overlap),

@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <string>
 
+#include <abut/collide/keys.hpp>
 #include <abut/collide/pair_rule.hpp>
-#include <abut/collide/pairing.hpp>
 #include <abut/predicate/motion.hpp>
 #include <abut/shape/features.hpp>
 #include <abut/shape/motion.hpp>

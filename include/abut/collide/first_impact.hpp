@@ -19,7 +19,6 @@
 #include <utility>
 
 #include <abut/arithmetic/limits.hpp>
-#include <abut/collide/face_impacts.hpp>
 #include <abut/collide/impact_index.hpp>
 #include <abut/collide/impacts.hpp>
 #include <abut/index/refit.hpp>
@@ -116,11 +115,6 @@ impact_index<T, Space> until(const Policy& on, const impact_index<T, Space>& ind
     const trees_until<Policy, T> trees(on, index.mesh(), time);
     return {trees.of_elements(index.faces(), index.mesh().t0().view().faces),
             trees.of_elements(index.edges(), index.edges().set().t0().view().edges), trees.of_vertices(index.vertices())};
-}
-template <class Policy, scalar T, memory_space Space, pair_rule Rule>
-face_impact_index<T, Space, Rule> until(const Policy& on, const face_impact_index<T, Space, Rule>& index, double time) {
-    const trees_until<Policy, T> trees(on, index.mesh(), time);
-    return {trees.of_elements(index.faces(), index.mesh().t0().view().faces), index.edges(), index.parts(), index.orphans()};
 }
 
 /// The earliest impact, and of equal ones the first.

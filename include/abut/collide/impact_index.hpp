@@ -8,10 +8,10 @@
 #include <cstddef>
 #include <utility>
 
-#include <abut/collide/face_impacts.hpp>
 #include <abut/collide/pair_rule.hpp>
 #include <abut/index/bvh.hpp>
 #include <abut/index/lbvh.hpp>
+#include <abut/index/operand.hpp>
 #include <abut/index/refit.hpp>
 #include <abut/shape/features.hpp>
 #include <abut/shape/motion.hpp>
@@ -56,9 +56,31 @@ private:
     bvh<vertices_type, Space> vertices_;
 };
 
-/// An index of a mesh in motion, or of one at rest, in the policy's memory: an impact_index, or by one of the rules of faces
-/// a face_impact_index. Queries go by the rule of the index that they are given, and by feature_trees where there is none.
-/// Throws as `edges` and make_bvh do.
+///@}
+
+namespace detail {
+
+/// How an index of a rule is made, of a mesh in the policy's memory. Other rules are specialised in experimental/, and say
+/// also how features are searched (with_search_of_indices in impacts.hpp) and how far (`until` in first_impact.hpp).
+template <pair_rule Rule>
+struct impact_rule {
+    static_assert(Rule == pair_rule::feature_trees,
+                  "abut: this pair_rule is in another header: include <abut/experimental/pair_rules.hpp>");
+    template <class Policy, scalar T, memory_space Space>
+    static auto make(const Policy& on, const moving_set<mesh<T, Space>>& resident, const bvh_options& options, const char*) {
+        return impact_index<T, Space>(make_bvh(on, resident, options), make_bvh(on, edges(on, resident), options),
+                                      make_bvh(on, vertices(resident), options));
+    }
+};
+
+}  // namespace detail
+
+/// @addtogroup motion
+///@{
+
+/// An index of a mesh in motion, or of one at rest, in the policy's memory: an impact_index, or by one of the rules of
+/// faces a face_impact_index (experimental/pair_rules.hpp). Queries go by the rule of the index that they are given, and by
+/// feature_trees where there is none. Throws as `edges` and make_bvh do.
 ///
 ///     const auto index = abut::make_impact_index<abut::pair_rule::orphan_sets>(on, step);
 ///     const auto found = abut::self_impacts(on, index);
@@ -66,13 +88,7 @@ template <pair_rule Rule = pair_rule::feature_trees, execution_policy Policy, sc
 [[nodiscard]] auto make_impact_index(const Policy& on, const moving_set<mesh<T, Space>>& set,
                                      const bvh_options& options = {}) {
     constexpr const char* function = "abut::make_impact_index";
-    const auto resident = detail::make_resident(on, set, function);
-    if constexpr (Rule == pair_rule::feature_trees) {
-        return impact_index<T, space_of<Policy>>(make_bvh(on, resident, options), make_bvh(on, edges(on, resident), options),
-                                                 make_bvh(on, vertices(resident), options));
-    } else {
-        return detail::make_face_impact_index<Rule>(on, resident, options, function);
-    }
+    return detail::impact_rule<Rule>::make(on, detail::make_resident(on, set, function), options, function);
 }
 /// Of a mesh at rest, which is at t = 1 where it is at t = 0.
 template <pair_rule Rule = pair_rule::feature_trees, execution_policy Policy, scalar T, memory_space Space>
@@ -104,7 +120,6 @@ moving_set<edge_mesh<T, Space>> edges_over(const moving_set<edge_mesh<T, Space>>
 /// The index of another step of the same mesh: its trees have the topology of `index`, its boxes are those of `set`, which
 /// has the same faces. Results are right however far the mesh has moved; `quality` of the trees
 /// tells when to make a new index. Throws error for other faces, and as `refit` of a tree does.
-///@{
 template <execution_policy Policy, scalar T, memory_space Space, memory_space From>
 [[nodiscard]] impact_index<T, Space> refit(const Policy& on, const impact_index<T, Space>& index,
                                            const moving_set<mesh<T, From>>& set) {
@@ -112,13 +127,6 @@ template <execution_policy Policy, scalar T, memory_space Space, memory_space Fr
     return {refit(on, index.faces(), resident), refit(on, index.edges(), detail::edges_over(index.edges().set(), resident)),
             refit(on, index.vertices(), vertices(resident))};
 }
-template <execution_policy Policy, scalar T, memory_space Space, pair_rule Rule, memory_space From>
-[[nodiscard]] face_impact_index<T, Space, Rule> refit(const Policy& on, const face_impact_index<T, Space, Rule>& index,
-                                                      const moving_set<mesh<T, From>>& set) {
-    const auto resident = detail::resident_of_index(on, index, set);
-    return {refit(on, index.faces(), resident), detail::edges_over(index.edges(), resident), index.parts(), index.orphans()};
-}
-///@}
 
 ///@}
 
@@ -129,8 +137,6 @@ template <class X>
 inline constexpr bool is_impact_index = false;
 template <scalar T, memory_space Space>
 inline constexpr bool is_impact_index<impact_index<T, Space>> = true;
-template <scalar T, memory_space Space, pair_rule Rule>
-inline constexpr bool is_impact_index<face_impact_index<T, Space, Rule>> = true;
 template <class X, class Y>
 consteval pair_rule rule_of() {
     if constexpr (is_impact_index<X>) {

@@ -19,7 +19,6 @@
 #include <utility>
 #include <vector>
 
-#include <abut/collide/face_impacts.hpp>
 #include <abut/collide/feature_pairing.hpp>
 #include <abut/collide/features.hpp>
 #include <abut/collide/impact_index.hpp>
@@ -31,7 +30,6 @@
 #include <abut/narrow/feature_weights.hpp>
 #include <abut/narrow/time_of_impact.hpp>
 #include <abut/shape/motion.hpp>
-#include <abut/traverse/front.hpp>
 
 namespace abut {
 
@@ -86,17 +84,7 @@ struct impact_options {
     conservative_bounds bounds = {};
 };
 
-/// Where queries of one mesh, or of one pair of them, came to their ends, for each kind of features, for the next step to
-/// begin there (traverse/front.hpp). They belong to the topologies of indices, so they are for indices that are refitted.
-struct impact_fronts {
-    front vertex_face;  ///< of vertices of the first mesh and faces of the second
-    front face_vertex;  ///< of faces of the first mesh and vertices of the second
-    front edge_edge;    ///< of edges
-
-    /// Empty, each with these options.
-    explicit impact_fronts(const front_options& options = {})
-        : vertex_face(options), face_vertex(options), edge_edge(options) {}
-};
+struct impact_fronts;  // to make them, include <abut/experimental/impact_fronts.hpp>
 
 namespace detail {
 
@@ -327,10 +315,7 @@ auto with_search_of_indices(const Policy& on, const Index& x, const Index& y, co
     } else {
         static_assert(std::same_as<Part, whole_search>, "abut: several devices take indices of pair_rule::feature_trees");
         static_assert(std::same_as<Fronts, no_fronts>, "abut: fronts are of trees over features, pair_rule::feature_trees");
-        const auto both = features_of_two<Within>(x, y, function);
-        return use(both, [&](const auto& judge, timed_queue<Policy>& hits) {
-            time_by_faces<Within>(on, x, y, both, judge, near, hits);
-        });
+        return impact_rule<Index::rule>::template with_search<Within>(on, x, y, near, function, use);
     }
 }
 
@@ -373,7 +358,10 @@ auto impacts_within(const Policy& on, const X& a, const impact_options& options,
         return result<impact<float>, space_of<Policy>>();
     }
 }
-inline given_fronts fronts_of(impact_fronts& all) { return {&all.vertex_face, &all.face_vertex, &all.edge_edge}; }
+template <class Fronts>
+given_fronts fronts_of(Fronts& all) {
+    return {&all.vertex_face, &all.face_vertex, &all.edge_edge};
+}
 
 }  // namespace detail
 

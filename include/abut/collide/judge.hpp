@@ -109,7 +109,7 @@ ABUT_HD void report(Sink& hits, std::uint64_t key) {
 
 /// A judge of pairs by their keys, as the verbs of a policy take one: `both` finds the shapes of a key.
 template <class View, class Judge>
-struct judge_key {
+struct key_judge {
     View both;
     Judge judge;
     part_of_open part;

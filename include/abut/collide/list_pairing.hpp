@@ -15,7 +15,7 @@
 
 #include <abut/collide/nearness.hpp>
 #include <abut/collide/options.hpp>
-#include <abut/collide/pairing.hpp>
+#include <abut/collide/pair_up.hpp>
 #include <abut/collide/placed.hpp>
 #include <abut/narrow/contact.hpp>
 #include <abut/shape/relative_pose.hpp>
@@ -118,7 +118,7 @@ struct list_view {
     }
 };
 
-/// The ids of one entry, for the ways to candidates (pairing.hpp).
+/// The ids of one entry, for the ways to candidates (routes.hpp).
 template <class View>
 struct ids_of_entry {
     const View& list;

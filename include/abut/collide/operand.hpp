@@ -6,6 +6,7 @@
 
 #include <concepts>
 #include <cstddef>
+#include <memory>
 #include <type_traits>
 #include <utility>
 
@@ -15,11 +16,13 @@
 #include <abut/index/operand.hpp>
 #include <abut/shape/posed.hpp>
 #include <abut/traverse/bvh_walk.hpp>
-#include <abut/traverse/front.hpp>
 #include <abut/traverse/grid_walk.hpp>
 #include <abut/traverse/posed_walk.hpp>
 
 namespace abut::detail {
+
+/// Stands for the topology of a tree (index/bvh.hpp) as long as somebody holds it; what has been let go equals nothing.
+using topology = std::weak_ptr<const void>;
 
 /// A set, a view of one, or one shape.
 template <class Resident>

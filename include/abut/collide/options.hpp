@@ -15,7 +15,7 @@
 
 namespace abut {
 
-class front;  // traverse/front.hpp
+class front;  // to make one, include <abut/experimental/front.hpp>
 
 /// @addtogroup queries
 ///@{
@@ -89,7 +89,7 @@ inline constexpr schedule default_schedule = Traversal == traversal::both_at_onc
 /// How two trees are walked is a template argument, so that a program compiles what it asks for:
 /// `query_options<keep_all, traversal::larger_first>{}`. It is for queries of two indices made by make_bvh, posed or not;
 /// other queries take no notice of it. Who does what of that walk is another template argument, of all traversals but
-/// breadth_first: `query_options<keep_all, traversal::both_at_once, schedule::work_stealing>{}`.
+/// breadth_first: `query_options<keep_all, traversal::both_at_once, schedule::shared_list>{}`.
 template <class Filter = keep_all, traversal Traversal = traversal::both_at_once, schedule Schedule = default_schedule<Traversal>>
 struct query_options {
     /// Pairs sorted by a, then b. Without it their order is any, and may differ from call to call.

@@ -22,12 +22,12 @@ enum class pair_rule : unsigned char {
     feature_trees,
     /// One tree, over faces. Each vertex and each edge is given to one of its faces, and of two faces those features meet
     /// that have been given to them (S. Curtis, R. Tamstorf, D. Manocha, Fast collision detection for deformable models
-    /// using representative-triangles, I3D 2008).
+    /// using representative-triangles, I3D 2008): <abut/experimental/pair_rules.hpp>.
     representative_triangles,
     /// One tree, over faces. Within one mesh faces that share a vertex are left out, and the pairs of features that only
     /// such faces have, the orphans, are a list that is made with the index (M. Tang, S. Curtis, S.-E. Yoon, D. Manocha,
     /// Interactive continuous collision detection between deformable models using connectivity-based culling, SPM 2008).
-    /// Two meshes have no vertex in common: between them it is representative_triangles.
+    /// Two meshes have no vertex in common: between them it is representative_triangles. In the same header.
     orphan_sets
 };
 

@@ -36,7 +36,7 @@
 
 #include <abut/collide/executor.hpp>
 #include <abut/collide/merge.hpp>
-#include <abut/collide/pairing.hpp>
+#include <abut/collide/pair_up.hpp>
 #include <abut/collide/search.hpp>
 #include <abut/collide/self_pairing.hpp>
 

@@ -145,7 +145,7 @@ private:
     /// part of that.
     template <class Loop>
     void run(const Loop& loop, part_of_open part) const {
-        judge_key<View, Judge> judge = judge_;
+        key_judge<View, Judge> judge = judge_;
         judge.part = part;
         execution::capped_queue<std::uint64_t, space_of<Policy>> hard(on_, execution::most_open);
         const std::uint64_t unfinished = loop(judge, hits_, hard);
@@ -159,7 +159,7 @@ private:
     }
 
     const Policy& on_;
-    judge_key<View, Judge> judge_;
+    key_judge<View, Judge> judge_;
     std::size_t most_pairs_;
     Hits& hits_;
 };

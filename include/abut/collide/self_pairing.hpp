@@ -12,9 +12,12 @@
 #include <type_traits>
 #include <utility>
 
+#include <abut/collide/keys.hpp>
 #include <abut/collide/operand.hpp>
 #include <abut/collide/options.hpp>
-#include <abut/collide/pairing.hpp>
+#include <abut/collide/pair_up.hpp>
+#include <abut/collide/routes.hpp>
+#include <abut/collide/shares.hpp>
 #include <abut/traverse/self_walk.hpp>
 
 namespace abut::detail {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What of a query each device is asked. What lies on each device is searched in parts (search_part in collide/pairing.hpp);
+// What of a query each device is asked. What lies on each device is searched in parts (search_part in collide/shares.hpp);
 // what is divided is searched where it lies. Where both arguments are divided, shapes of b come to the devices whose
 // a-shapes they come near.
 
@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include <abut/collide/pairing.hpp>
+#include <abut/collide/pair_up.hpp>
 #include <abut/collide/parts.hpp>
 #include <abut/collide/question.hpp>
 #include <abut/devices/divide.hpp>

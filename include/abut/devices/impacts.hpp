@@ -2,7 +2,7 @@
 #pragma once
 
 // impacts, self_impacts and the first of them on several devices. Where each has the whole meshes, it walks its share of the
-// pairs of nodes (search_part in collide/pairing.hpp). Keys of pairs are the same on all, and what is found is merged by
+// pairs of nodes (search_part in collide/shares.hpp). Keys of pairs are the same on all, and what is found is merged by
 // them. Meshes that are divided are in divided_impacts.hpp.
 
 #include <cstddef>

@@ -173,8 +173,7 @@ concept tile_functor = requires(const F& tile, std::size_t i, const typename F::
     tile.finish(c, sinks...);
 };
 
-// --- the least that plays each role
-// ----------------------------------------------------------------------------------------
+// --- the least that plays each role ------------------------------------------------------------------------------------
 
 /// Declared, never called: a policy is asked whether it takes these (execution_policy).
 namespace archetype {

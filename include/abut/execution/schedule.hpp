@@ -21,8 +21,8 @@ enum class schedule : unsigned char {
     /// everything out evenly, and the next round begins (Lauterbach, Mo and Manocha 2010; cuda_partition.hpp).
     static_partition,
     /// Each has a deque, in which all lies that it has. It takes from the bottom, and where its own is empty it steals from
-    /// the top of another's (Arora, Blumofe and Plaxton 1998; Cederman and Tsigas 2009; cuda_stealing.hpp,
-    /// host_stealing.hpp).
+    /// the top of another's (Arora, Blumofe and Plaxton 1998; Cederman and Tsigas 2009; host_stealing.hpp). On a device for
+    /// comparisons: <abut/experimental/cuda_work_stealing.hpp>.
     work_stealing,
     /// The same in three levels: a stack in shared memory, the block's deque for what is too much for that, and what it has
     /// stolen from many deques at once, which stays where it lies until it is needed (da Silva 2013; cuda_stealing.hpp).

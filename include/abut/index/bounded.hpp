@@ -155,6 +155,7 @@ template <bounding_volume V, execution_policy Policy, class Set, memory_space Sp
                   "abut: volumes are made around triangles, segments and points alone, at rest or in motion");
     const std::size_t n = tree.size();
     auto fresh = std::make_shared<typename tree_type::storage>();
+    fresh->least_ids = tree.stored().least_ids;
     if constexpr (!host_policy<Policy>) {
         const auto set = copy_to(openmp{}, tree.set());
         using on_host = bvh<std::remove_const_t<decltype(set)>, host_space>;

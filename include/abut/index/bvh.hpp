@@ -3,8 +3,8 @@
 
 // Bounding volume hierarchies: how a tree lies in memory, who owns it, and how it is read. Builders are in files of their
 // own (lbvh.hpp, mean_split.hpp, binned_sah.hpp, ploc.hpp), and so are the layouts that a finished tree can be brought to
-// (quantised.hpp, leafless.hpp, wide.hpp, bounded.hpp); traversals are in traverse/ and read nodes through the accessor
-// concept below alone, so that another layout needs no second traversal.
+// (quantised.hpp, wide.hpp, bounded.hpp, experimental/leafless.hpp); traversals are in traverse/ and read nodes through the
+// accessor concept below alone, so that another layout needs no second traversal.
 
 #include <concepts>
 #include <cstddef>
@@ -112,13 +112,10 @@ struct bvh_view_base {
     }
 };
 
-/// The least ids below a tree's nodes (index/least_ids.hpp), for it and all trees that were refitted from it.
+/// The least ids below a tree's nodes, by nodes (bvh_options::least_ids, index/least_ids.hpp); null where nobody asked for
+/// them. All trees of one topology share them.
 template <memory_space Space>
-struct shared_least_ids {
-    std::mutex making;                             ///< held by who looks or makes
-    bool wanted = false;                           ///< whether somebody had use for them
-    execution::buffer<std::uint32_t, Space> made;  ///< none before somebody asks
-};
+using shared_least_ids = std::shared_ptr<const execution::buffer<std::uint32_t, Space>>;
 
 /// What owns a tree of a layout that has nodes and a root and nothing else.
 template <class Layout, scalar T, memory_space Space>
@@ -127,8 +124,7 @@ struct bvh_storage {
     using view = typename Layout::template view<T, Space>;
     execution::buffer<typename view::stored_node, Space> nodes;  ///< one fewer than shapes where nodes have two children
     execution::buffer<bvh_root<T>, Space> root;                  ///< one; none where there are no shapes
-    /// Made by the second `distance` that has use for them, or the first of a list.
-    std::shared_ptr<shared_least_ids<Space>> least_ids = std::make_shared<shared_least_ids<Space>>();
+    shared_least_ids<Space> least_ids = {};                      ///< those of the tree that it was made of
 
     /// The view of a tree of so many shapes.
     [[nodiscard]] view view_of(std::size_t shapes) const { return {{nodes.data(), root.data(), shapes}}; }
@@ -178,8 +174,7 @@ struct standard_layout {
         std::shared_ptr<shared_refit_plan<Space>> plan = std::make_shared<shared_refit_plan<Space>>();
         /// Whether node k lies between leaves k and k + 1 of an order, as the linear builder makes them.
         bool along_curve = false;
-        /// Shared alike; made by the second `distance` that has use for them, or the first of a list.
-        std::shared_ptr<shared_least_ids<Space>> least_ids = std::make_shared<shared_least_ids<Space>>();
+        shared_least_ids<Space> least_ids = {};  ///< shared alike
 
         /// The view of a tree of so many shapes.
         [[nodiscard]] view<T, Space> view_of(std::size_t shapes) const { return {{nodes.data(), root.data(), shapes}}; }
@@ -190,9 +185,10 @@ struct standard_layout {
     };
 };
 
-/// How a tree lies in memory: standard_layout, quantised_layout, leafless_layout, wide_layout, bounded_layout<V> (in headers
-/// of these names). A layout names the view that traversals read and the storage that owns it, which has `view_of(shapes)`,
-/// `bytes()`, `to_host()` and the buffer `root` of one bvh_root, whose box holds every box that the view hands out.
+/// How a tree lies in memory: standard_layout, quantised_layout, wide_layout, bounded_layout<V> (in headers of these
+/// names), leafless_layout (in experimental/). A layout names the view that traversals read and the storage that owns it,
+/// which has `view_of(shapes)`, `bytes()`, `to_host()` and the buffer `root` of one bvh_root, whose box holds every box
+/// that the view hands out.
 template <class L>
 concept bvh_layout_kind = requires(const typename L::template storage<float, host_space>& tree) {
     requires bvh_layout<typename L::template view<float, host_space>>;
@@ -205,8 +201,8 @@ concept bvh_layout_kind = requires(const typename L::template storage<float, hos
 /// @defgroup indices Trees and grids
 ///
 /// What queries look in. `make_bvh` builds a tree and `make_grid` a grid over the shapes of a set, a view or one shape.
-/// `refit` brings a tree to shapes that have moved. `quantised`, `leafless`, `wide` and `bounded_by` convert a tree to
-/// another layout, and `quality` measures one. docs/hierarchies.md says which to take.
+/// `refit` brings a tree to shapes that have moved. `quantised`, `wide` and `bounded_by` convert a tree to another
+/// layout, and `quality` measures one. docs/hierarchies.md says which to take.
 ///
 /// @par Memory
 /// An index lies in the memory of the policy that made it, and keeps its set there: a set in the policy's memory is shared,
@@ -243,6 +239,10 @@ struct bvh_options {
     int morton_bits = 0;
     /// By which rule shapes are joined or divided.
     bvh_builder builder = bvh_builder::linear;
+    /// Whether to keep the least id of the shapes below each node, 4 bytes a shape: for trees that are asked for `distance`
+    /// again and again where something touches. Trees that are refitted or converted share them. Of serial and openmp; a
+    /// device has no use for them and keeps none.
+    bool least_ids = false;
 };
 
 /// A tree over the shapes of a set, which it keeps alive. Immutable; any number of threads may query it. `Set` is an owner
@@ -269,7 +269,7 @@ public:
     [[nodiscard]] view_type view() const { return tree_->view_of(set_.size()); }
     /// The CUDA device that the tree lies on; -1 for the host.
     [[nodiscard]] int device() const { return tree_->root.device(); }
-    /// Memory of the tree itself, in bytes, without what refit and distance keep.
+    /// Memory of the tree itself, in bytes, without least ids and what refit keeps.
     [[nodiscard]] std::size_t bytes() const { return tree_->bytes(); }
     /// What owns the nodes.
     [[nodiscard]] const storage& stored() const { return *tree_; }
@@ -295,6 +295,13 @@ private:
     std::shared_ptr<const storage> tree_;
     std::shared_ptr<known> known_ = std::make_shared<known>();
 };
+
+/// In the place of <abut/experimental/leafless.hpp>, which has it of trees in the standard layout: does not compile.
+template <class Policy, class Tree>
+const Tree& leafless(const Policy&, const Tree& tree) {
+    static_assert(sizeof(Tree) == 0, "abut: leafless is in another header: include <abut/experimental/leafless.hpp>");
+    return tree;
+}
 
 ///@}
 

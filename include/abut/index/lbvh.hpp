@@ -11,6 +11,7 @@
 #include <abut/index/binned_sah.hpp>
 #include <abut/index/bvh.hpp>
 #include <abut/index/climb.hpp>
+#include <abut/index/least_ids.hpp>
 #include <abut/index/mean_split.hpp>
 #include <abut/index/operand.hpp>
 #include <abut/index/ploc.hpp>
@@ -63,6 +64,15 @@ auto build_bvh(const Policy& on, const Set& set, const bvh_options& options) {
     auto tree = std::make_shared<typename tree_type::storage>();
     tree->root = execution::buffer_of<Policy, bvh_root<T>>(on, n > 0 ? 1 : 0);
     tree->nodes = execution::buffer_of<Policy, bvh_node<T>>(on, n > 0 ? n - 1 : 0);
+    const auto done = [&] {
+        if constexpr (AnyBuilder && host_policy<Policy>) {
+            if (options.least_ids) {
+                tree->least_ids = std::make_shared<const execution::buffer_of<Policy, std::uint32_t>>(
+                    make_least_ids(on, tree->nodes.data(), tree->nodes.size(), tree->root.data()));
+            }
+        }
+        return tree_type(std::move(resident), std::move(tree));
+    };
     bool built = n == 0;
     if constexpr (AnyBuilder) built = built || build_from_top(on, shapes, *tree, options.builder);
     if (!built) {
@@ -72,7 +82,7 @@ auto build_bvh(const Policy& on, const Set& set, const bvh_options& options) {
         if constexpr (AnyBuilder) {
             if (options.builder == bvh_builder::ploc) {
                 build_ploc<Policy, T>(on, boxes, *tree, options.morton_bits);
-                return tree_type(std::move(resident), std::move(tree));
+                return done();
             }
         }
         tree->along_curve = true;
@@ -80,12 +90,12 @@ auto build_bvh(const Policy& on, const Set& set, const bvh_options& options) {
         if (options.morton_bits != 63) {
             const int bits = choose ? sufficient_morton_bits(n) : 30;
             const std::uint64_t crowded = build_lbvh<std::uint32_t, Policy, T>(on, boxes, *tree, bits);
-            if (!choose || crowded <= n / 8) return tree_type(std::move(resident), std::move(tree));
+            if (!choose || crowded <= n / 8) return done();
             // The first build has overwritten the scene's box with the root's, which is the same.
         }
         build_lbvh<std::uint64_t, Policy, T>(on, boxes, *tree, 63);
     }
-    return tree_type(std::move(resident), std::move(tree));
+    return done();
 }
 
 }  // namespace detail

@@ -84,8 +84,7 @@ struct quantised_layout {
         execution::buffer<quantised_node, Space> nodes;  ///< one fewer than shapes
         execution::buffer<bvh_root<T>, Space> root;      ///< one; none where there are no shapes
         quantised_frame<T> frame{};                      ///< where cells lie
-        /// Made by the second `distance` that has use for them, or the first of a list.
-        std::shared_ptr<shared_least_ids<Space>> least_ids = std::make_shared<shared_least_ids<Space>>();
+        shared_least_ids<Space> least_ids = {};          ///< those of the tree that it was made of
 
         /// The view of a tree of so many shapes.
         [[nodiscard]] view<T, Space> view_of(std::size_t shapes) const {
@@ -177,10 +176,10 @@ struct quantise_node {
 /// @addtogroup indices
 ///@{
 
-/// The same tree in 16 bits a coordinate: 32 bytes a shape. It shares the set and nothing else; the one it was made of may
-/// go. Boxes grow by less than a step on each side, and a step is at most the extent of the root's box along the axis over
-/// 2^15 - 2, or the smallest normal number of T. So a tree of very many small shapes, or of one far from all others, loses.
-/// Linear time. Throws error (a tree on another device), std::bad_alloc, cuda_error.
+/// The same tree in 16 bits a coordinate: 32 bytes a shape. It shares the set and the least ids, if there are some; the one
+/// it was made of may go. Boxes grow by less than a step on each side, and a step is at most the extent of the root's box
+/// along the axis over 2^15 - 2, or the smallest normal number of T. So a tree of very many small shapes, or of one far
+/// from all others, loses. Linear time. Throws error (a tree on another device), std::bad_alloc, cuda_error.
 template <execution_policy Policy, class Set, memory_space Space>
 [[nodiscard]] bvh<Set, Space, quantised_layout> quantised(const Policy& on, const bvh<Set, Space>& tree) {
     static_assert(std::same_as<Space, space_of<Policy>>,
@@ -189,6 +188,7 @@ template <execution_policy Policy, class Set, memory_space Space>
     using T = typename tree_type::scalar_type;
     const std::size_t n = tree.size();
     auto fresh = std::make_shared<typename tree_type::storage>();
+    fresh->least_ids = tree.stored().least_ids;
     detail::require_same_device(on, tree, "abut::quantised");
     if (n > 0) {
         bvh_root<T> root;

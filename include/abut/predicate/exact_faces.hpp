@@ -122,8 +122,7 @@ struct faces_meet_beyond_vertex {
     }
 };
 
-// --- two shared vertices
-// ---------------------------------------------------------------------------------------------------
+// --- two shared vertices -----------------------------------------------------------------------------------------------
 
 /// The shared vertices u and v, and the third corners.
 template <class N>
@@ -152,8 +151,7 @@ struct faces_meet_beyond_edge {
     }
 };
 
-// --- three shared vertices
-// -------------------------------------------------------------------------------------------------
+// --- three shared vertices ---------------------------------------------------------------------------------------------
 
 /// Whether a face has more than its sides, that is, an area.
 struct has_inner_points {

@@ -20,9 +20,8 @@
 //
 // If a > 0, the interval is that between the roots. If a = 0, q is constant but for a cone: b = 0, for it is a product with
 // 0. If a < 0, the line goes through both halves of a double cone and q > 0 between its roots: before the lesser or after
-// the greater root it is in the half of the cone, as it rises or falls. With v = sqrt(b^2 - a c) the roots are (-b - v) / a
-// and
-// (-b + v) / a, or c / (v - b) and c / (-v - b), whichever has no difference of like numbers.
+// the greater root it is in the half of the cone, as it rises or falls. With v = sqrt(b^2 - a c) the roots are
+// (-b - v) / a and (-b + v) / a, or c / (v - b) and c / (-v - b), whichever has no difference of like numbers.
 //
 // A ray meets the solid if no begin is after an end and no end is before 0, and it meets it first at the last
 // begin, or at 0. Times are estimates, too; equal ones, as at a rim or an edge, leave the question open.

@@ -246,7 +246,7 @@ private:
             const auto first = [](int count) { return (1u << count) - 1; };
             if (at_b.is_leaf) {
                 const row one[] = {overlap(a.all_bounds(of_a), boxes::all(b.bounds(of_b, j)))};
-                // Both are leaves only where a walk begins below the roots (frontier.hpp).
+                // Both are leaves only where a walk begins below the roots (seeds.hpp).
                 const unsigned bits = bits_of(one) & (at_a.is_leaf ? 1u << i : first(n));
                 return ((bits & 1) | (bits & 2) << 3 | (bits & 4) << 6 | (bits & 8) << 9) << j;
             }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Two trees at once, one step down one of them at a time: the rules of descent that pair_walk.hpp has not.
+// Two trees at once, one step down one of them at a time, by a rule that says which. pair_walk.hpp opens both.
 
 #include <concepts>
 #include <cstddef>
@@ -15,17 +15,26 @@
 #include <abut/shape/volume.hpp>
 #include <abut/shape/primitive.hpp>
 #include <abut/traverse/pair_walk.hpp>
-#include <abut/traverse/traversal.hpp>
 
 namespace abut::detail {
 
+/// The rule of traversal::larger_first. A rule has
+///   begins_with_b(surface_b, surface_a)   whether b's root is opened first, by half of the roots' surfaces
+///   is_next(is_b, is_larger)              whether the opened node's child, of b if `is_b`, goes before what stayed closed
+struct opens_larger {
+    template <class T>
+    [[nodiscard]] ABUT_HD static constexpr bool begins_with_b(T surface_b, T surface_a) {
+        return surface_b > surface_a;
+    }
+    [[nodiscard]] ABUT_INLINE ABUT_HD static constexpr bool is_next(bool, bool is_larger) { return is_larger; }
+};
+
 /// Down two trees: of two subtrees whose boxes meet one is opened, and its children's boxes are compared with the box of the
 /// other. A step is two fetches and two tests (four where nodes have four children). No box has to be kept: that of the
-/// subtree which stays lies in its parent. `one_first` opens b first; of a query that is the tree of the first argument
-/// (walk_of_both in collide/pairing.hpp). The interface is pair_walk's.
-template <bvh_layout A, bvh_layout B, class Overlap, traversal Rule>
+/// subtree which stays lies in its parent. Of a query b is the tree of the first argument (walk_of_both in
+/// collide/routes.hpp). The interface is pair_walk's.
+template <bvh_layout A, bvh_layout B, class Overlap, class Rule>
 struct rule_walk {
-    static_assert(Rule == traversal::one_first || Rule == traversal::larger_first || Rule == traversal::alternate);
     A a;
     B b;
     Overlap overlap;
@@ -42,8 +51,7 @@ struct rule_walk {
     };
     [[nodiscard]] ABUT_HD static constexpr std::size_t seeds() { return 1; }
     [[nodiscard]] ABUT_HD item seed(std::size_t) const {
-        const bool opens_b = Rule == traversal::one_first ||
-                             (Rule == traversal::larger_first && surface(b.root_bounds()) > surface(a.root_bounds()));
+        const bool opens_b = Rule::begins_with_b(surface(b.root_bounds()), surface(a.root_bounds()));
         return {opening(opens_b, opens_b ? b.root() : a.root()), link_of_root};
     }
 
@@ -151,7 +159,7 @@ private:
             larger = surface(mine) >= surface(stays.volume);
         }
         const bool leaves = child.is_leaf() && stays.child.is_leaf();
-        const bool goes_on = !child.is_leaf() && (stays.child.is_leaf() || is_next(is_b, larger));
+        const bool goes_on = !child.is_leaf() && (stays.child.is_leaf() || Rule::is_next(is_b, larger));
         const std::uint32_t link = Opened::width * node + static_cast<std::uint32_t>(slot);
         add(k, meet & !leaves, goes_on ? item{opening(is_b, child), stays.link} : item{opening(!is_b, stays.child), link});
         visitor(k, meet & leaves, is_b ? stays.child.index() : child.index(), is_b ? child.index() : stays.child.index());
@@ -161,11 +169,6 @@ private:
     template <class Volume>
     ABUT_INLINE ABUT_HD bool in_order(bool is_b, const Volume& mine, const Volume& others) const {
         return overlap(is_b ? others : mine, is_b ? mine : others);
-    }
-
-    /// Whether a child of the node that was opened is opened before what stayed closed.
-    ABUT_INLINE ABUT_HD static bool is_next(bool is_b, bool is_larger) {
-        return Rule == traversal::one_first ? is_b : Rule == traversal::larger_first && is_larger;
     }
 };
 

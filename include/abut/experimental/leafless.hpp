@@ -69,8 +69,8 @@ struct drop_leaves {
 /// @addtogroup indices
 ///@{
 
-/// The same tree without boxes of leaves. It shares the set and nothing else; the one it was made of may go.
-/// Linear time. Throws error (a tree on another device), std::bad_alloc, cuda_error.
+/// The same tree without boxes of leaves. It shares the set and the least ids, if there are some; the one it
+/// was made of may go. Linear time. Throws error (a tree on another device), std::bad_alloc, cuda_error.
 template <execution_policy Policy, class Set, memory_space Space>
 [[nodiscard]] bvh<Set, Space, leafless_layout> leafless(const Policy& on, const bvh<Set, Space>& tree) {
     static_assert(std::same_as<Space, space_of<Policy>>,
@@ -80,6 +80,7 @@ template <execution_policy Policy, class Set, memory_space Space>
     const std::size_t n = tree.size();
     detail::require_same_device(on, tree, "abut::leafless");
     auto fresh = std::make_shared<typename tree_type::storage>();
+    fresh->least_ids = tree.stored().least_ids;
     if (n > 0) {
         fresh->nodes = execution::buffer_of<Policy, leafless_node<T>>(on, n - 1);
         fresh->root = execution::buffer_of<Policy, bvh_root<T>>(on, 1);

@@ -14,11 +14,12 @@
 #include <cstdint>
 #include <utility>
 
-#include <abut/collide/face_parts.hpp>
 #include <abut/collide/features.hpp>
+#include <abut/collide/keys.hpp>
 #include <abut/collide/pair_rule.hpp>
-#include <abut/collide/pairing.hpp>
+#include <abut/collide/routes.hpp>
 #include <abut/collide/timed_search.hpp>
+#include <abut/experimental/face_parts.hpp>
 #include <abut/shape/motion.hpp>
 
 namespace abut::detail {

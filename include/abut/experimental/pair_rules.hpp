@@ -1,21 +1,25 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The index of a mesh in motion for the rules that find pairs of features by pairs of faces (pair_rule.hpp), and how queries
-// look in it. make_impact_index (impact_index.hpp) makes one.
+// pair_rule::representative_triangles and orphan_sets: the index of a mesh in motion for the rules that find pairs of
+// features by pairs of faces, and how queries look in it. make_impact_index (collide/impact_index.hpp) makes one.
 
 #include <cstddef>
 #include <type_traits>
 #include <utility>
 
 #include <abut/collide/features.hpp>
+#include <abut/collide/first_impact.hpp>
+#include <abut/collide/impact_index.hpp>
 #include <abut/collide/options.hpp>
-#include <abut/collide/orphan_sets.hpp>
 #include <abut/collide/pair_rule.hpp>
-#include <abut/collide/representatives.hpp>
+#include <abut/collide/pairing.hpp>
 #include <abut/collide/self_pairing.hpp>
 #include <abut/collide/timed_search.hpp>
+#include <abut/experimental/orphan_sets.hpp>
+#include <abut/experimental/representatives.hpp>
 #include <abut/index/bvh.hpp>
+#include <abut/index/refit.hpp>
 #include <abut/shape/motion.hpp>
 
 namespace abut {
@@ -60,6 +64,13 @@ public:
     [[nodiscard]] const orphans_type& orphans() const { return orphans_; }
     ///@}
 
+    /// For queries of a part of a step: boxes of the way until a time.
+    template <class Policy>
+    friend face_impact_index until(const Policy& on, const face_impact_index& index, double time) {
+        const detail::trees_until<Policy, T> trees(on, index.mesh(), time);
+        return {trees.of_elements(index.faces_, index.mesh().t0().view().faces), index.edges_, index.parts_, index.orphans_};
+    }
+
 private:
     bvh<mesh_type, Space> faces_;
     edges_type edges_;
@@ -67,32 +78,26 @@ private:
     orphans_type orphans_;
 };
 
+/// The index of another step of the same mesh, as of an impact_index.
+template <execution_policy Policy, scalar T, memory_space Space, pair_rule Rule, memory_space From>
+[[nodiscard]] face_impact_index<T, Space, Rule> refit(const Policy& on, const face_impact_index<T, Space, Rule>& index,
+                                                      const moving_set<mesh<T, From>>& set) {
+    const auto resident = detail::resident_of_index(on, index, set);
+    return {refit(on, index.faces(), resident), detail::edges_over(index.edges(), resident), index.parts(), index.orphans()};
+}
+
 ///@}
 
 namespace detail {
+
+template <scalar T, memory_space Space, pair_rule Rule>
+inline constexpr bool is_impact_index<face_impact_index<T, Space, Rule>> = true;
 
 /// The views of pairs of features of two indices, which may be one.
 template <bool Within, class X>
 auto features_of_two(const X& x, const X& y, const char* function) {
     using view = feature_pairs<typename X::scalar_type, typename X::memory_space>;
     return view({x.mesh(), x.edges()}, {y.mesh(), y.edges()}, Within, function);
-}
-
-/// Of a mesh in the policy's memory.
-template <pair_rule Rule, class Policy, scalar T>
-auto make_face_impact_index(const Policy& on, const moving_set<mesh<T, space_of<Policy>>>& resident,
-                            const bvh_options& options, const char* function) {
-    using index = face_impact_index<T, space_of<Policy>, Rule>;
-    auto edges = abut::edges(on, resident);
-    const features_of_mesh<T, space_of<Policy>> features(resident, edges);
-    auto [parts, faces_of] =
-        make_face_parts(on, features.faces.t0.faces, features.edges.t0.edges, features.vertices.size(), function);
-    typename index::orphans_type orphans{};
-    if constexpr (index::keeps_orphans) {
-        const feature_pairs<T, space_of<Policy>> both(features, features, true, function);
-        orphans = make_orphans(on, both, parts, std::move(faces_of));
-    }
-    return index(make_bvh(on, resident, options), std::move(edges), std::move(parts), std::move(orphans));
 }
 
 template <class X>
@@ -148,6 +153,34 @@ void time_by_faces(const Policy& on, const X& x, const X& y, const View& both, c
     }
     time_loose<false>(on, both, x.parts().loose, y.faces(), judge, near, hits);
 }
+
+template <pair_rule Rule>
+    requires(Rule == pair_rule::representative_triangles || Rule == pair_rule::orphan_sets)
+struct impact_rule<Rule> {
+    template <class Policy, scalar T, memory_space Space>
+    static auto make(const Policy& on, const moving_set<mesh<T, Space>>& resident, const bvh_options& options,
+                     const char* function) {
+        using index = face_impact_index<T, Space, Rule>;
+        auto edges = abut::edges(on, resident);
+        const features_of_mesh<T, Space> features(resident, edges);
+        auto [parts, faces_of] =
+            make_face_parts(on, features.faces.t0.faces, features.edges.t0.edges, features.vertices.size(), function);
+        typename index::orphans_type orphans{};
+        if constexpr (index::keeps_orphans) {
+            const feature_pairs<T, Space> both(features, features, true, function);
+            orphans = make_orphans(on, both, parts, std::move(faces_of));
+        }
+        return index(make_bvh(on, resident, options), std::move(edges), std::move(parts), std::move(orphans));
+    }
+    template <bool Within, class Policy, class X, class Nearness, class Use>
+    static auto with_search(const Policy& on, const X& x, const X& y, const Nearness& near, const char* function,
+                            const Use& use) {
+        const auto both = features_of_two<Within>(x, y, function);
+        return use(both, [&](const auto& judge, timed_queue<Policy>& hits) {
+            time_by_faces<Within>(on, x, y, both, judge, near, hits);
+        });
+    }
+};
 
 }  // namespace detail
 

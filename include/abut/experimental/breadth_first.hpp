@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Two trees at once, or one with itself, breadth first: level by level, from all pairs of nodes at a chosen depth on. A step
-// is that of pair_walk.hpp or self_walk.hpp for every item of a level. A first loop counts what the level makes; a scan of
-// the counts says where its items go; a second loop writes them there, and judges the candidates, if there are any: the
-// upper levels have none. So a level is the same on every policy, and each item has its place before it is made.
+// traversal::breadth_first: two trees at once, or one with itself, level by level, from all pairs of nodes at a chosen depth
+// on; for comparisons. A step is that of pair_walk.hpp or self_walk.hpp for every item of a level. A first loop counts what
+// the level makes; a scan of the counts says where its items go; a second loop writes them there, and judges the candidates,
+// if there are any: the upper levels have none. So a level is the same on every policy, and each item has its place before
+// it is made.
 
 #include <algorithm>
 #include <cstddef>
@@ -13,47 +14,15 @@
 #include <utility>
 #include <vector>
 
+#include <abut/collide/routes.hpp>
 #include <abut/execution/buffer.hpp>
 #include <abut/execution/work_queue.hpp>
 #include <abut/index/bvh.hpp>
+#include <abut/traverse/seeds.hpp>
 #include <abut/traverse/self_walk.hpp>
+#include <abut/traverse/traversal.hpp>
 
 namespace abut::detail {
-
-/// A way down from the root, by the digits of a number: to a node at a depth, or to a leaf above that, where all digits that
-/// are left have to be 0, so that it is reached once.
-template <bvh_layout Tree>
-struct descent_path {
-    static constexpr std::uint32_t nowhere = static_cast<std::uint32_t>(-1);
-    Tree tree;
-    int depth;
-
-    /// Half an item of pair_walk, or `nowhere`.
-    [[nodiscard]] ABUT_HD std::uint32_t end(std::size_t path) const {
-        constexpr std::uint32_t width = Tree::width;
-        bvh_child at = tree.root();
-        std::uint32_t link = 0;
-        for (int level = 0; level < depth; ++level, path /= width) {
-            const auto digit = static_cast<std::uint32_t>(path % width);
-            if (at.is_leaf()) {
-                if (digit != 0) return nowhere;
-                continue;
-            }
-            const auto& node = tree.fetch(at.index());
-            if (static_cast<int>(digit) >= tree.children(node)) return nowhere;
-            link = width * at.index() + digit;
-            at = tree.child(node, static_cast<int>(digit));
-        }
-        return at.is_leaf() ? bvh_child::leaf_bit | link : at.index();
-    }
-    ABUT_HD bool operator()(std::size_t path) const { return end(path) != nowhere; }
-    /// Number of paths.
-    [[nodiscard]] std::size_t count() const {
-        std::size_t paths = 1;
-        for (int level = 0; level < depth; ++level) paths *= Tree::width;
-        return paths;
-    }
-};
 
 /// All pairs of two ends of paths.
 template <class Walk>
@@ -155,16 +124,6 @@ struct write_items {
     }
 };
 
-/// The paths to the nodes that lie `depth` binary levels below the root, or as many as a balanced tree has.
-template <bvh_layout Tree>
-descent_path<Tree> path_to_depth(const Tree& tree, int depth) {
-    descent_path<Tree> path{tree, 0};
-    constexpr int levels_of_node = Tree::width > 2 ? 2 : 1;
-    for (std::size_t paths = Tree::width; path.depth < depth / levels_of_node && paths <= tree.size(); paths *= Tree::width)
-        ++path.depth;
-    return path;
-}
-
 /// A path to the parents of the nodes at `start_depth`, whose children are compared first.
 template <bvh_layout Tree>
 descent_path<Tree> path_to_start(const Tree& tree, int start_depth) {
@@ -200,52 +159,6 @@ auto begin_at_depth(const Policy& on, const self_walk<Tree, Overlap>& walk, int 
     for_each_index(on, items.size(), pair_own_ends<walk_type>{path, paths.data(), n, items.data()});
     return items;
 }
-
-/// All pairs of nodes at a depth, as seeds.
-template <class Walk>
-struct seeds_below {
-    descent_path<decltype(Walk::a)> a;
-    descent_path<decltype(Walk::b)> b;
-    std::size_t count_a, count_b;
-
-    seeds_below(const Walk& walk, int depth)
-        : a(path_to_depth(walk.a, depth)), b(path_to_depth(walk.b, depth)), count_a(a.count()), count_b(b.count()) {}
-    [[nodiscard]] std::size_t count() const { return count_a * count_b; }
-    [[nodiscard]] ABUT_HD typename Walk::item operator()(std::size_t i) const { return {a.end(i / count_b), b.end(i % count_b)}; }
-};
-template <bvh_layout Tree, class Overlap>
-struct seeds_below<self_walk<Tree, Overlap>> {
-    using walk_type = self_walk<Tree, Overlap>;
-    descent_path<Tree> path;
-    std::size_t ends;
-
-    seeds_below(const walk_type& walk, int depth) : path(path_to_depth(walk.tree(), depth)), ends(path.count()) {}
-    [[nodiscard]] std::size_t count() const { return ends > 1 ? ends / 2 * (ends + 1) : 1; }
-    [[nodiscard]] ABUT_HD typename walk_type::item operator()(std::size_t k) const {
-        return {path.end(k % ends), path.end((k + k / ends) % ends)};
-    }
-};
-
-/// The same step, begun at a depth of binary trees: so a device has work for all of its blocks at once.
-template <class Expand>
-struct begin_below : Expand {
-    using item = typename Expand::item;
-    static_assert(Expand::most_children == 4);
-    static constexpr std::uint32_t nowhere = static_cast<std::uint32_t>(-1);  ///< what a node is where a path ends above
-    seeds_below<decltype(Expand::walk)> from;
-
-    begin_below(const Expand& expand, int depth) : Expand(expand), from(expand.walk, depth) {}
-    [[nodiscard]] std::size_t seeds() const { return from.count(); }
-    [[nodiscard]] ABUT_HD item seed(std::size_t i) const { return from(i); }
-    ABUT_INLINE void prefetch(const item& at) const {
-        if (at.a != nowhere && at.b != nowhere) Expand::prefetch(at);
-    }
-    ABUT_CALLS_ANY
-    template <class Emitter>
-    ABUT_INLINE ABUT_HD void operator()(const item& at, Emitter&& emitter) const {
-        if (at.a != nowhere && at.b != nowhere) Expand::operator()(at, emitter);
-    }
-};
 
 /// Judges the candidates of two trees: `expand` is a step of pair_walk or self_walk, and run(loop) runs a loop that judges.
 /// Levels of very many items are taken in parts, the deepest first, so that memory is bounded by the depth of the trees.
@@ -283,5 +196,14 @@ void for_each_on_levels(const Policy& on, const Expand& expand, int start_depth,
         add_level(std::move(next));
     }
 }
+
+template <>
+struct way_down<traversal::breadth_first> : goes_down {
+    static constexpr bool begins_at_depth = true;
+    template <class Policy, class A, class B, class Expand, class Options, class Run>
+    static void descend(const Policy& on, const A&, const B&, const Expand& expand, const Options& options, const Run& run) {
+        for_each_on_levels(on, expand, options.start_depth, run);
+    }
+};
 
 }  // namespace abut::detail

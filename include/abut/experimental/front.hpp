@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Where a walk of two trees, or of one with itself, came to its ends, for the next walk to begin there (Tang, Manocha and
-// Tong 2010). Not for lists, nor for trees that are built anew for each query: a front belongs to two topologies, which
-// `refit` hands on.
+// traversal::from_front: where a walk of two trees, or of one with itself, came to its ends, for the next walk to begin
+// there (Tang, Manocha and Tong 2010). Not for lists, nor for trees that are built anew for each query: a front belongs to
+// two topologies, which `refit` hands on.
 //
 // All pairs of nodes that two trees could be walked to form a tree of pairs. An end is a pair whose boxes do not overlap, or
 // one of leaves. Wherever boxes are, each pair of leaves is or lies below exactly one end, so a walk may begin at any set of
@@ -21,20 +21,24 @@
 // the others below its parents are. Instead a front begins at the roots again (front_options).
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include <abut/collide/operand.hpp>
+#include <abut/collide/routes.hpp>
+#include <abut/error.hpp>
 #include <abut/execution/buffer.hpp>
 #include <abut/execution/policy.hpp>
 #include <abut/execution/schedule.hpp>
 #include <abut/execution/work_queue.hpp>
 #include <abut/index/bvh.hpp>
 #include <abut/traverse/self_walk.hpp>
+#include <abut/traverse/traversal.hpp>
 
 namespace abut {
 
@@ -325,9 +329,6 @@ struct expand_marked {
     }
 };
 
-/// Stands for the topology of a tree (bvh.hpp) as long as somebody holds it; what has been let go equals nothing.
-using topology = std::weak_ptr<const void>;
-
 /// The items in memory of one kind.
 struct front_memory {
     front_memory() = default;
@@ -518,6 +519,25 @@ struct from_front {
     static void walk(front& ends, const Policy& on, const execution::scheduled<Schedule>& how, const Expand& expand,
                      const topology& a, const topology& b, const Run& run) {
         ends.walk(on, how, expand, a, b, run);
+    }
+};
+
+template <>
+struct way_down<traversal::from_front> : goes_down {
+    template <class Options>
+    static void check(const Options& options, const char* function) {
+        if (options.front == nullptr) throw error(std::string(function) + ": a query from a front has none");
+    }
+    /// Trees without a topology have no ends that another query could begin at.
+    template <class Policy, class A, class B, class Expand, class Filter, schedule Schedule, class Run>
+    static void descend(const Policy& on, const A& a, const B& b, const Expand& expand,
+                        const query_options<Filter, traversal::from_front, Schedule>& options, const Run& run) {
+        if constexpr (has_topology<A> && has_topology<B>) {
+            const execution::scheduled<Schedule> how{options.scheduling};
+            from_front::walk(*options.front, on, how, expand, a.shape_of_tree(), b.shape_of_tree(), run);
+        } else {
+            goes_down::descend(on, a, b, expand, options, run);
+        }
     }
 };
 

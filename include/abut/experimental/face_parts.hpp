@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <utility>
 
-#include <abut/collide/pairing.hpp>
+#include <abut/collide/keys.hpp>
 #include <abut/execution/atomic.hpp>
 #include <abut/execution/buffer.hpp>
 #include <abut/shape/half_edges.hpp>

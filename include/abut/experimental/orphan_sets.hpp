@@ -21,7 +21,7 @@
 #include <cstdint>
 #include <utility>
 
-#include <abut/collide/representatives.hpp>
+#include <abut/experimental/representatives.hpp>
 
 namespace abut::detail {
 
