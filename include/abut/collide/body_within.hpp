@@ -18,7 +18,7 @@ namespace detail {
 template <class Policy, class Bodies>
 consteval bool can_pair_bodies_within() {
     if constexpr (can_pair_bodies<Policy, Bodies>()) {
-        using shape_type = typename index_of_bodies<Bodies>::type::shape_type;
+        using shape_type = shape_in_world<typename index_of_bodies<Bodies>::type>;
         return can_come_within<shape_type, shape_type>();
     } else {
         return false;

@@ -19,7 +19,7 @@ namespace detail {
 template <class Policy, class IndexA, class IndexB>
 consteval bool can_be_listed_within() {
     if constexpr (can_be_listed<Policy, IndexA, IndexB>()) {
-        return can_come_within<typename IndexA::shape_type, typename IndexB::shape_type>();
+        return can_come_within<shape_in_world<IndexA>, shape_in_world<IndexB>>();
     } else {
         return false;
     }

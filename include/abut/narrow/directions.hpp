@@ -13,7 +13,9 @@
 #include <abut/arithmetic/magnitude.hpp>
 #include <abut/narrow/nearest.hpp>
 #include <abut/narrow/numbers.hpp>
+#include <abut/shape/half_space.hpp>
 #include <abut/shape/hull.hpp>
+#include <abut/shape/oriented_box.hpp>
 #include <abut/shape/primitive.hpp>
 
 namespace abut {
@@ -82,11 +84,22 @@ ABUT_HD constexpr T magnitude_of(const hull<T>& h) {
     for (std::size_t i = 0; i < h.count; ++i) most = greatest(most, magnitude_of(h[i]));
     return most;
 }
-/// Of a plane no point counts: it reaches everywhere.
+template <seen_as_hull S>
+ABUT_HD constexpr auto magnitude_of(const S& s) {
+    const auto points = points_of(s);
+    return magnitude_of(points.as_hull());
+}
+/// Of a plane or a half space no point counts: it reaches everywhere.
+///@{
 template <scalar T>
 ABUT_HD constexpr T magnitude_of(const plane<T>&) {
     return 0;
 }
+template <scalar T>
+ABUT_HD constexpr T magnitude_of(const half_space<T>&) {
+    return 0;
+}
+///@}
 
 /// The power of two that brings two shapes to [-2, 2): numbers that leave room for products. It rounds only what is
 /// 2^-1021 times as large as the largest number, or smaller.

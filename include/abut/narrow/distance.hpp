@@ -298,7 +298,11 @@ concept measurable = contact_pair<S, U> || contact_pair<U, S>;
 template <class S, class U>
 ABUT_HD constexpr auto separation_of(const S& s, const U& t, bool touch) {
     using T = scalar_type_of<S>;
-    if constexpr (!contact_pair<S, U>) {
+    if constexpr (seen_as_hull<S> || seen_as_hull<U>) {
+        const auto a = hull_form(s);
+        const auto b = hull_form(t);
+        return separation_of(a.as_hull(), b.as_hull(), touch);
+    } else if constexpr (!contact_pair<S, U>) {
         return reversed(separation_of(t, s, touch));
     } else {
         if constexpr (solid_of_revolution<U>) {  // of two balls the same comes first in either order
@@ -309,7 +313,11 @@ ABUT_HD constexpr auto separation_of(const S& s, const U& t, bool touch) {
         if constexpr (solid_of_revolution<S>) {
             if (is_point(axis_of(s))) return separation_of(ball_around(s), t, touch);
         }
-        if (!touch) return separation_apart(s, t);
+        if constexpr (is_half_space<S>) {
+            if (!touch) return separation_of(surface_of(s), t, false);
+        } else {
+            if (!touch) return separation_apart(s, t);
+        }
         vec3<T> shared{};
         if constexpr (measured_hulls<S, U>) {
             shared = with_measured_hulls(s, t, true, [](const auto& m) { return m.shared_point(); });
@@ -328,7 +336,11 @@ template <class S, class U>
 ABUT_HD constexpr auto separation_of(const S& s, const U& t) {
     using T = scalar_type_of<S>;
     constexpr bool on_device = ABUT_DEVICE_CODE != 0;
-    if constexpr (measured_hulls<S, U> && !on_device) {
+    if constexpr (seen_as_hull<S> || seen_as_hull<U>) {
+        const auto a = hull_form(s);
+        const auto b = hull_form(t);
+        return separation_of(a.as_hull(), b.as_hull());
+    } else if constexpr (measured_hulls<S, U> && !on_device) {
         const auto ask = [&] { return intersects(s, t); };
         return with_asked_hulls(s, t, ask, [&](const auto& m, bool touch) {
             if (!touch) return separation_of_hulls_apart(t, m);
@@ -353,7 +365,13 @@ struct measure_apart {
         requires measurable<S, U> ABUT_HD distance_and_way look(const S& s, const U& t, double bound,
                                                                 const vec3<double>& along)
     const {
-        if constexpr (!contact_pair<S, U>) {
+        if constexpr (seen_as_hull<S> || seen_as_hull<U>) {
+            const auto a = hull_form(s);
+            const auto b = hull_form(t);
+            return look(a.as_hull(), b.as_hull(), bound, along);
+        } else if constexpr (is_half_space<S>) {
+            return look(surface_of(s), t, bound, along);
+        } else if constexpr (!contact_pair<S, U>) {
             const auto opposite = [](const vec3<double>& v) { return vec3<double>{-v.x, -v.y, -v.z}; };
             const distance_and_way found = look(t, s, bound, opposite(along));
             return {found.distance, opposite(found.way)};

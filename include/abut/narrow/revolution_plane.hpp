@@ -74,6 +74,18 @@ public:
         return e;
     }
     [[nodiscard]] ABUT_HD constexpr const vec3<double>& normal() const { return normal_; }
+    /// The lowest point, or the middle of two ends' lowest ones that are as low; and how far below the plane, a length.
+    ///@{
+    [[nodiscard]] ABUT_HD constexpr vec3<T> lowest_point() const {
+        using namespace contact_math;
+        const point low[2] = {plain_step(end_.at[0], -rim_[0], aside_), plain_step(end_.at[1], -rim_[1], aside_)};
+        const double first = lowest(0), second = lowest(1);
+        return scale_.template back<T>(first < second ? low[0] : second < first ? low[1] : middle_of({low[0], low[1]}));
+    }
+    [[nodiscard]] ABUT_HD constexpr double depth() const {
+        return contact_math::scaled(-least(lowest(0), lowest(1)), exponent_);
+    }
+    ///@}
     /// If they touch: where the plane passes between the lowest and the highest point.
     [[nodiscard]] ABUT_HD constexpr vec3<T> shared_point() const {
         using namespace contact_math;
@@ -106,6 +118,7 @@ private:
     [[nodiscard]] ABUT_HD constexpr double reach(int i) const {
         return plain_product(contact_math::scaled(rim_[i], down_), tilt_);
     }
+    [[nodiscard]] ABUT_HD constexpr double lowest(int i) const { return plain_sum(over_.height[i].high, -reach(i)); }
     [[nodiscard]] ABUT_HD constexpr double beyond(int i) const {
         return plain_sum(absolute(over_.height[i].high), -reach(i));
     }

@@ -33,17 +33,12 @@
 #include <abut/predicate/gjk.hpp>
 #include <abut/predicate/kept_points.hpp>
 #include <abut/shape/hull.hpp>
+#include <abut/shape/oriented_box.hpp>
 #include <abut/shape/primitive.hpp>
 #include <abut/shape/shape.hpp>
 
 namespace abut::detail {
 
-/// Points whose hull a shape is, where they are at hand.
-template <scalar T, int N>
-struct hull_points {
-    vec3<T> at[std::size_t{N}];
-    ABUT_HD constexpr hull<T> as_hull() const { return {at, std::size_t{N}}; }
-};
 template <scalar T>
 struct hull_points<T, 0> {
     const hull<T>& of;
@@ -65,11 +60,6 @@ ABUT_HD constexpr hull_points<T, 2> points_of(const segment<T>& s) {
 template <scalar T>
 ABUT_HD constexpr hull_points<T, 3> points_of(const triangle<T>& t) {
     return {{t.a, t.b, t.c}};
-}
-template <scalar T>
-ABUT_HD constexpr hull_points<T, 8> points_of(const aabb<T>& box) {
-    const vec3<T>&l = box.lower, &u = box.upper;
-    return {{l, {u.x, l.y, l.z}, {l.x, u.y, l.z}, {u.x, u.y, l.z}, {l.x, l.y, u.z}, {u.x, l.y, u.z}, {l.x, u.y, u.z}, u}};
 }
 
 /// Shapes that are hulls of points, of the scalar type T.

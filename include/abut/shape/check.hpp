@@ -13,6 +13,8 @@
 #include <abut/error.hpp>
 #include <abut/execution/buffer.hpp>
 #include <abut/execution/host.hpp>
+#include <abut/shape/half_space.hpp>
+#include <abut/shape/oriented_box.hpp>
 #include <abut/shape/shape.hpp>
 #include <abut/shape/view.hpp>
 #include <abut/shape/xyz_view.hpp>
@@ -98,9 +100,40 @@ template <scalar T>
                                                    : box.lower.z));
 }
 template <scalar T>
+[[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const placed_box<T>& box) {
+    int k = 0;
+    while (k < 7 && is_valid(box.corners[k])) ++k;
+    refuse(function, element, i, box.corners[k], "corner " + std::to_string(k) + ": ");
+}
+template <scalar T>
+[[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const oriented_box<T>& box) {
+    if (!is_valid(box.center)) refuse(function, element, i, box.center, "center ");
+    if (!is_valid(box.half)) refuse(function, element, i, box.half, "half ");
+    const T half[3] = {box.half.x, box.half.y, box.half.z};
+    for (const T h : half) {
+        if (h < 0) throw invalid_geometry(function, element, i, "a half length is negative", static_cast<double>(h));
+    }
+    const int flaw = flaw_of_rotation(box.rotation), row = flaw % 3, other = flaw < 3 ? row : (row + 1) % 3;
+    if (flaw < 6) {
+        throw invalid_geometry(function, element, i,
+                               "rotation: the product of rows " + std::to_string(row) + " and " + std::to_string(other) +
+                                   " is off from that of a rotation by more than 2^-10",
+                               rotation_error(box.rotation, row, other));
+    }
+    if (flaw == 6) throw invalid_geometry(function, element, i, "rotation reflects: its determinant is negative", -1);
+    placed_box<T> corners;
+    for (int k = 0; k < 8; ++k) corners.corners[k] = points_of(box).at[k];
+    refuse(function, element, i, corners);
+}
+template <scalar T>
 [[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const plane<T>& p) {
     if (!is_valid(p.normal)) refuse(function, element, i, p.normal);
     throw invalid_geometry(function, element, i, "offset is not finite", static_cast<double>(p.offset));
+}
+template <scalar T>
+[[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const half_space<T>& s) {
+    if (!is_valid(surface_of(s))) refuse(function, element, i, surface_of(s));
+    throw invalid_geometry(function, element, i, "the normal has no length", 0);
 }
 template <scalar T>
 [[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const capsule<T>& s) {
@@ -153,6 +186,12 @@ template <scalar T>
 inline constexpr shape_name name_of<cone<T>>{"cone", "abut::cones"};
 template <scalar T>
 inline constexpr shape_name name_of<aabb<T>>{"box", "abut::boxes"};
+template <scalar T>
+inline constexpr shape_name name_of<oriented_box<T>>{"oriented box", "abut::oriented_boxes"};
+template <scalar T>
+inline constexpr shape_name name_of<placed_box<T>>{"placed box", "abut::shapes"};
+template <scalar T>
+inline constexpr shape_name name_of<half_space<T>>{"half space", "abut::shapes"};
 template <scalar T>
 inline constexpr shape_name name_of<ray<T>>{"ray", "abut::rays"};
 template <scalar T>

@@ -35,7 +35,7 @@ ABUT_HD constexpr bool is_valid(const motion<S>& m) {
 }
 /// The motion of the placed shape: both ends are placed.
 template <placeable S>
-ABUT_HD motion<S> place(const rigid<scalar_type_of<S>>& pose, const motion<S>& m) {
+ABUT_HD motion<placed_shape<S>> place(const rigid<scalar_type_of<S>>& pose, const motion<S>& m) {
     return {place(pose, m.t0), place(pose, m.t1)};
 }
 

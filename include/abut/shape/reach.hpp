@@ -101,8 +101,8 @@ struct swept_reach {
     }
 };
 
-/// A plane: by the box's corners that are nearest to it.
-template <scalar T>
+/// A plane, or the half space below it: by the box's corners that are nearest to it.
+template <scalar T, bool Solid = false>
 struct plane_reach {
     plane<T> query;
     plane_reach() = default;
@@ -114,7 +114,7 @@ struct plane_reach {
         const T height = dot(query.normal, box.lower + box.upper) - (query.offset + query.offset);
         const T size = dot(n, reach) + (absolute(query.offset) + absolute(query.offset));
         const T lost = slack * size + tiny * (magnitudes(n) + magnitudes(reach) + 1);
-        return !(absolute(height) > dot(n, box.upper - box.lower) + lost && size < largest_finite<T> / 16);
+        return !((Solid ? height : absolute(height)) > dot(n, box.upper - box.lower) + lost && size < largest_finite<T> / 16);
     }
 };
 

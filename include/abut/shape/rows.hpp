@@ -19,6 +19,7 @@
 #include <vector>
 
 #include <abut/error.hpp>
+#include <abut/shape/oriented_box.hpp>
 #include <abut/shape/primitive.hpp>
 
 namespace abut {
@@ -90,6 +91,8 @@ template <scalar T>
 inline constexpr std::size_t numbers_of_shape<cylinder<T>> = 7;
 template <scalar T>
 inline constexpr std::size_t numbers_of_shape<cone<T>> = 7;
+template <scalar T>
+inline constexpr std::size_t numbers_of_shape<oriented_box<T>> = 15;
 template <class T, std::size_t n>
 inline constexpr std::size_t numbers_of_shape<std::array<T, n>> = n;
 

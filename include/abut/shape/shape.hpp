@@ -8,6 +8,7 @@
 
 #include <concepts>
 #include <type_traits>
+#include <utility>
 
 #include <abut/arithmetic/error_free.hpp>
 #include <abut/shape/bounds.hpp>
@@ -52,13 +53,16 @@ concept boundable = scalar<scalar_type_of<S>> && requires(const S& s) {
 template <class S>
 concept shape = std::is_trivially_copyable_v<S> && std::default_initializable<S> && boundable<S>;
 
-/// Has `place(pose, s)`: the shape where a pose puts it. Each of its points may be off by no more than `place` of a point is
-/// (rigid.hpp), or culling under poses would lose pairs: place the points that the shape is made of and keep its lengths.
-/// Boxes have none, being along the axes, and neither have planes.
+/// Has `place(pose, s)`: the shape where a pose puts it, which may be of another type. Each of its points may be off by no
+/// more than `place` of a point is (rigid.hpp), or culling under poses would lose pairs: place the points that the shape is
+/// made of and keep its lengths. Planes have none.
 template <class S>
 concept placeable = shape<S> && requires(const rigid<scalar_type_of<S>>& pose, const S& s) {
-    { place(pose, s) } -> std::same_as<S>;
+    { place(pose, s) } -> shape;
 };
+/// What a shape is under a pose: of a box along the axes or an oriented one a `placed_box`, else what it was.
+template <placeable S>
+using placed_shape = decltype(place(std::declval<const rigid<scalar_type_of<S>>&>(), std::declval<const S&>()));
 
 /// Whether the numbers make a shape: they are finite, radii are not negative, boxes not inside out. What is not valid is
 /// refused when a set or an index is made of it, and where it is posed.
