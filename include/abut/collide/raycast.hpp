@@ -19,8 +19,7 @@
 #include <abut/execution/host.hpp>
 #include <abut/execution/ordered.hpp>
 #include <abut/narrow/hit_time.hpp>
-#include <abut/narrow/hull_hit_time.hpp>
-#include <abut/narrow/solid_hit_time.hpp>
+#include <abut/narrow/hit_time_of.hpp>
 #include <abut/shape/ray_reach.hpp>
 #include <abut/traverse/from_each.hpp>
 
@@ -149,13 +148,6 @@ inline constexpr bool is_grid<posed_object<Object>> = is_grid<Object>;
 
 template <class S>
 inline constexpr bool is_line = std::same_as<S, ray<scalar_type_of<S>>> || std::same_as<S, segment<scalar_type_of<S>>>;
-
-/// Shapes that lines meet at a time. One of the caller's own has `hit_time<A>(line, s)` beside it: when it is met, rounded,
-/// or a negative number.
-template <class S, class Line>
-concept has_hit_time = requires(const Line& line, const S& s) {
-    { hit_time<filtered>(line, s) } -> std::same_as<double>;
-};
 
 /// Whether `raycast` takes both arguments.
 template <class Policy, class X, class Lines>

@@ -290,15 +290,25 @@ ABUT_HD constexpr separation<T> reversed(const separation<T>& s) {
     return {s.b, s.a, s.point_b, s.point_a, s.distance};
 }
 
-/// Whether two shapes have a distance, in either order: those that have contacts.
+/// Pairs of which a shape of the caller's own tells the distance itself: `separation_between(s, t)`, 0 where they touch.
 template <class S, class U>
-concept measurable = contact_pair<S, U> || contact_pair<U, S>;
+concept own_separation = requires(const S& s, const U& t) {
+    { separation_between(s, t) } -> std::same_as<separation<scalar_type_of<S>>>;
+};
+
+/// Whether two shapes have a distance, in either order: those that have contacts, or tell it themselves.
+template <class S, class U>
+concept measurable = contact_pair<S, U> || contact_pair<U, S> || own_separation<S, U> || own_separation<U, S>;
 
 /// Two shapes of which it is known whether they touch.
 template <class S, class U>
-ABUT_HD constexpr auto separation_of(const S& s, const U& t, bool touch) {
+ABUT_HD constexpr auto separation_of(const S& s, const U& t, [[maybe_unused]] bool touch) {
     using T = scalar_type_of<S>;
-    if constexpr (seen_as_hull<S> || seen_as_hull<U>) {
+    if constexpr (own_separation<S, U>) {
+        return separation_between(s, t);
+    } else if constexpr (own_separation<U, S>) {
+        return reversed(separation_between(t, s));
+    } else if constexpr (seen_as_hull<S> || seen_as_hull<U>) {
         const auto a = hull_form(s);
         const auto b = hull_form(t);
         return separation_of(a.as_hull(), b.as_hull(), touch);
@@ -336,7 +346,9 @@ template <class S, class U>
 ABUT_HD constexpr auto separation_of(const S& s, const U& t) {
     using T = scalar_type_of<S>;
     constexpr bool on_device = ABUT_DEVICE_CODE != 0;
-    if constexpr (seen_as_hull<S> || seen_as_hull<U>) {
+    if constexpr (own_separation<S, U> || own_separation<U, S>) {
+        return separation_of(s, t, false);
+    } else if constexpr (seen_as_hull<S> || seen_as_hull<U>) {
         const auto a = hull_form(s);
         const auto b = hull_form(t);
         return separation_of(a.as_hull(), b.as_hull());
@@ -365,7 +377,9 @@ struct measure_apart {
         requires measurable<S, U> ABUT_HD distance_and_way look(const S& s, const U& t, double bound,
                                                                 const vec3<double>& along)
     const {
-        if constexpr (seen_as_hull<S> || seen_as_hull<U>) {
+        if constexpr (own_separation<S, U> || own_separation<U, S>) {
+            return {positive_distance(s, t, static_cast<double>(separation_of(s, t, false).distance))};
+        } else if constexpr (seen_as_hull<S> || seen_as_hull<U>) {
             const auto a = hull_form(s);
             const auto b = hull_form(t);
             return look(a.as_hull(), b.as_hull(), bound, along);
