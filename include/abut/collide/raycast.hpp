@@ -19,7 +19,8 @@
 #include <abut/execution/host.hpp>
 #include <abut/execution/ordered.hpp>
 #include <abut/narrow/hit_time.hpp>
-#include <abut/narrow/hit_time_of.hpp>
+#include <abut/narrow/hull_hit_time.hpp>
+#include <abut/narrow/solid_hit_time.hpp>
 #include <abut/shape/ray_reach.hpp>
 #include <abut/traverse/from_each.hpp>
 

@@ -25,7 +25,6 @@
 #include <abut/predicate/intersects.hpp>
 #include <abut/predicate/plane_core.hpp>
 #include <abut/predicate/plane_hull.hpp>
-#include <abut/shape/bounds.hpp>
 #include <abut/shape/core.hpp>
 #include <abut/shape/hull.hpp>
 #include <abut/shape/primitive.hpp>
@@ -178,9 +177,7 @@ struct measured_plane {
         const auto foot = [&](double x, const two_doubles& n) {
             const int down = scale.exponent - e < -2040 ? -2040 : scale.exponent - e;
             const two_doubles at = two_doubles::of(scaled(x, down)) - height * (n / size);
-            const double y = scaled(at.high, e);
-            constexpr auto far = static_cast<double>(largest_finite<T>);
-            return y > far ? largest_finite<T> : y < -far ? -largest_finite<T> : rounded(static_cast<T>(y));
+            return rounded_within<T>(scaled(at.high, e));
         };
         on_plane = {foot(from.x, over.normal.x), foot(from.y, over.normal.y), foot(from.z, over.normal.z)};
         on_shape = least_corner == 0 ? core.at[0] : core.at[least_corner == 2 ? last : last > 0 ? 1 : 0];

@@ -6,8 +6,6 @@
 
 #include <cstddef>
 
-#include <abut/arithmetic/error_free.hpp>
-#include <abut/arithmetic/limits.hpp>
 #include <abut/narrow/common_unit.hpp>
 #include <abut/narrow/directions.hpp>
 #include <abut/narrow/flat_contact.hpp>
@@ -16,7 +14,6 @@
 #include <abut/narrow/revolution_plane.hpp>
 #include <abut/predicate/hull_within.hpp>
 #include <abut/predicate/revolution.hpp>
-#include <abut/shape/core.hpp>
 #include <abut/shape/half_space.hpp>
 #include <abut/shape/hull.hpp>
 
@@ -66,10 +63,8 @@ ABUT_NOINLINE ABUT_HD constexpr contact<T> contact_between(const half_space<T>& 
     const plane<T> surface = surface_of(s);
     const revolution_over_plane<T> over(t, surface, common_unit(t, surface));
     const vec3<double>& n = over.normal();
-    const double depth = over.depth();
-    const T most = largest_finite<T>;
-    return {0, 0, over.lowest_point(), {-rounded(static_cast<T>(n.x)), -rounded(static_cast<T>(n.y)), -rounded(static_cast<T>(n.z))},
-            depth > static_cast<double>(most) ? most : depth > 0 ? rounded(static_cast<T>(depth)) : T(0)};
+    const vec3<T> normal{rounded(static_cast<T>(-n.x)), rounded(static_cast<T>(-n.y)), rounded(static_cast<T>(-n.z))};
+    return {0, 0, over.lowest_point(), normal, rounded_within<T>(greatest(over.depth(), 0.0))};
 }
 
 }  // namespace abut::detail

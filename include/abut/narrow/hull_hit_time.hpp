@@ -133,18 +133,11 @@ ABUT_NOINLINE ABUT_HD constexpr bool is_met(const Line& line, const hull<T>& h) 
 }
 
 /// Of what is seen as a hull.
-///@{
 template <arithmetic A, class Line, seen_as_hull S>
 ABUT_HD constexpr double hit_time(const Line& line, const S& s) {
     const auto points = points_of(s);
     return hit_time<A>(line, points.as_hull());
 }
-template <arithmetic A, class Line, seen_as_hull S>
-ABUT_HD constexpr bool is_met(const Line& line, const S& s) {
-    const auto points = points_of(s);
-    return is_met<A>(line, points.as_hull());
-}
-///@}
 
 /// As of a triangle, for shapes whose time is rounded at once.
 ///@{

@@ -29,7 +29,6 @@
 #include <abut/narrow/length_unit.hpp>
 #include <abut/narrow/numbers.hpp>
 #include <abut/narrow/revolution_foot.hpp>
-#include <abut/shape/bounds.hpp>
 #include <abut/shape/hull.hpp>
 #include <abut/shape/primitive.hpp>
 #include <abut/shape/shape.hpp>
@@ -261,12 +260,10 @@ ABUT_HD constexpr vec3<T> end_of_way(const S& s, const vec3<T>& p, const vec3<do
             if (way == way_between(p, s[i], unit)) return s[i];
         }
     }
-    if constexpr (requires { s.b; }) {
-        if (way == way_between(p, s.a, unit)) return s.a;
-        if (way == way_between(p, s.b, unit)) return s.b;
-    }
-    if constexpr (requires { s.c; }) {
-        if (way == way_between(p, s.c, unit)) return s.c;
+    if constexpr (corners_of_shape<S> > 1) {
+        for (const vec3<T>& corner : core_of(s).at) {
+            if (way == way_between(p, corner, unit)) return corner;
+        }
     }
     return end_of_way(p, way, bounds(s), unit);
 }

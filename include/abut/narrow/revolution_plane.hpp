@@ -56,9 +56,7 @@ public:
         const auto foot = [&](double x, const two_doubles& n, double away, double unit_normal) {
             const two_doubles of_end = two_doubles::of(scaled(x, down_)) - height * (n / size);
             const double flat = plain_sum(plain_product(along, away), -plain_product(sunk, unit_normal));
-            const double y = scaled((of_end + two_doubles::of(flat)).high, exponent_);
-            constexpr auto far = static_cast<double>(largest_finite<T>);
-            return y > far ? largest_finite<T> : y < -far ? -largest_finite<T> : rounded(static_cast<T>(y));
+            return rounded_within<T>(scaled((of_end + two_doubles::of(flat)).high, exponent_));
         };
         const point& from = end_.at[nearest_];
         return {foot(from.x, over_.normal.x, aside_.x, normal_.x), foot(from.y, over_.normal.y, aside_.y, normal_.y),

@@ -9,15 +9,12 @@
 #include <concepts>
 
 #include <abut/arithmetic/arithmetic.hpp>
-#include <abut/arithmetic/error_free.hpp>
 #include <abut/arithmetic/exact_stages.hpp>
-#include <abut/arithmetic/magnitude.hpp>
 #include <abut/arithmetic/plain_sign.hpp>
 #include <abut/predicate/as_hull.hpp>
 #include <abut/predicate/capsule_hull.hpp>
 #include <abut/predicate/hull_within.hpp>
 #include <abut/predicate/plane_core.hpp>
-#include <abut/predicate/plane_hull.hpp>
 #include <abut/predicate/plane_plane.hpp>
 #include <abut/predicate/revolution.hpp>
 #include <abut/shape/half_space.hpp>
@@ -36,18 +33,6 @@ struct half_space_holds_point {
         return sign(dot(normal, p) - value[3] * value[4]) <= 0;
     }
 };
-
-/// In double, with the bounds of certified_heights (plane_core.hpp).
-template <scalar T>
-ABUT_HD constexpr verdict certified_side(const half_space<T>& s, const vec3<T>& p) {
-    constexpr double tiny = std::same_as<T, float> ? 0x1p-122 : 0x1p-1018;
-    const vec3<double> n = widened(s.normal), v = widened(p), size_n = absolute(n), reach = absolute(v);
-    const double offset = rounded(static_cast<double>(s.offset)), height = dot(n, v) - offset;
-    const double size = dot(size_n, reach) + absolute(offset);
-    if (std::same_as<T, double> && !(size < 0x1p1000)) return verdict::unknown;
-    const double bound = 0x1p-49 * size + tiny * (magnitudes(n) + magnitudes(reach) + 1);
-    return height < -bound ? verdict::yes : height > bound ? verdict::no : verdict::unknown;
-}
 
 /// Degree 3: whether a half space touches a plane (`Solid`: another half space), whose numbers are the last four. Where
 /// normals are parallel, m of the first and n of the second, m.x is (m.n) / (n.n) times n.x. It states no degree: sums of
@@ -97,7 +82,7 @@ ABUT_HD constexpr verdict decide(const half_space<T>& s, const vec3<T>& p) {
     if constexpr (std::same_as<A, exact>) {
         return decide_in_limbs<detail::half_space_holds_point>(values.value);
     } else if constexpr (std::same_as<A, filtered>) {
-        return detail::certified_side(s, p);
+        return detail::certified_heights<false, true>(detail::surface_of(s), detail::core_of(p), 0);
     } else {
         return to_verdict(detail::half_space_holds_point::holds(values.value));
     }

@@ -32,6 +32,7 @@
 #include <abut/predicate/certified_ball.hpp>
 #include <abut/predicate/gjk.hpp>
 #include <abut/predicate/kept_points.hpp>
+#include <abut/shape/corners.hpp>
 #include <abut/shape/hull.hpp>
 #include <abut/shape/oriented_box.hpp>
 #include <abut/shape/primitive.hpp>
@@ -39,28 +40,23 @@
 
 namespace abut::detail {
 
+/// A hull in the place of its points.
 template <scalar T>
-struct hull_points<T, 0> {
+struct hull_itself {
     const hull<T>& of;
     ABUT_HD constexpr const hull<T>& as_hull() const { return of; }
 };
-
+/// The points whose hull a shape is, where they are at hand.
+///@{
 template <scalar T>
-ABUT_HD constexpr hull_points<T, 0> points_of(const hull<T>& h) {
+ABUT_HD constexpr hull_itself<T> points_of(const hull<T>& h) {
     return {h};
 }
-template <scalar T>
-ABUT_HD constexpr hull_points<T, 1> points_of(const vec3<T>& p) {
-    return {{p}};
+template <has_corners S>
+ABUT_HD constexpr auto points_of(const S& s) {
+    return core_of(s);
 }
-template <scalar T>
-ABUT_HD constexpr hull_points<T, 2> points_of(const segment<T>& s) {
-    return {{s.a, s.b}};
-}
-template <scalar T>
-ABUT_HD constexpr hull_points<T, 3> points_of(const triangle<T>& t) {
-    return {{t.a, t.b, t.c}};
-}
+///@}
 
 /// Shapes that are hulls of points, of the scalar type T.
 template <class S, class T>

@@ -7,7 +7,6 @@
 #include <abut/arithmetic/arithmetic.hpp>
 #include <abut/predicate/aabb_aabb.hpp>
 #include <abut/predicate/aabb_capsule.hpp>
-#include <abut/predicate/aabb_segment.hpp>
 #include <abut/predicate/aabb_sphere.hpp>
 #include <abut/predicate/aabb_triangle.hpp>
 #include <abut/predicate/as_hull.hpp>
@@ -26,7 +25,6 @@
 #include <abut/predicate/revolution_hull.hpp>
 #include <abut/predicate/revolution_pair.hpp>
 #include <abut/predicate/segment_triangle.hpp>
-#include <abut/predicate/sphere_segment.hpp>
 #include <abut/predicate/sphere_sphere.hpp>
 #include <abut/predicate/sphere_triangle.hpp>
 #include <abut/predicate/triangle_triangle.hpp>

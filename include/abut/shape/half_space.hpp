@@ -4,13 +4,8 @@
 // The solid side of a plane, as a floor is. It has no box but all of space, so that it is an argument of queries against
 // sets, and no body of a scene.
 
-#include <abut/arithmetic/error_free.hpp>
-#include <abut/arithmetic/strict.hpp>
-#include <abut/shape/bounds.hpp>
-#include <abut/shape/primitive.hpp>
-#include <abut/shape/reach.hpp>
+#include <abut/shape/plane.hpp>
 #include <abut/shape/rigid.hpp>
-#include <abut/shape/shape.hpp>
 
 namespace abut {
 
@@ -28,6 +23,9 @@ struct half_space {
 
 namespace detail {
 
+template <scalar T>
+inline constexpr shape_name name_of<half_space<T>>{"half space", "abut::shapes", 4};
+
 /// The plane that a half space ends at.
 template <scalar T>
 ABUT_HD constexpr plane<T> surface_of(const half_space<T>& s) {
@@ -42,11 +40,12 @@ ABUT_HD constexpr aabb<T> bounds(const half_space<T>& s) {
     return bounds(detail::surface_of(s));
 }
 
-/// Numbers are finite, and the normal is not 0.
+/// That a number is not finite, or the normal 0.
 template <scalar T>
-ABUT_HD constexpr bool is_valid(const half_space<T>& s) {
+ABUT_HD constexpr shape_flaw flaw_of(const half_space<T>& s) {
+    if (const shape_flaw flaw = flaw_of(detail::surface_of(s))) return flaw;
     const bool is_null = detail::is_zero(s.normal.x) && detail::is_zero(s.normal.y) && detail::is_zero(s.normal.z);
-    return is_valid(detail::surface_of(s)) && !is_null;
+    return is_null ? shape_flaw{"the normal has no length", 0} : shape_flaw{};
 }
 
 /// The half space whose plane goes through where a pose puts points of the first one's, but for rounding: the normal is

@@ -4,7 +4,6 @@
 // Shapes in motion: each point of a shape moves in a straight line, at constant speed, from where it is at t = 0 to where it
 // is at t = 1. `moving` makes one of two shapes; sets in motion are in shape/motion.hpp.
 
-#include <abut/shape/bounds.hpp>
 #include <abut/shape/primitive.hpp>
 #include <abut/shape/rigid.hpp>
 #include <abut/shape/shape.hpp>

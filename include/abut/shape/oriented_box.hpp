@@ -5,16 +5,9 @@
 // eight corners, each rounded once, and all that is decided about them is decided about those (predicate/as_hull.hpp). Not
 // the bounding volume `obb` (obb.hpp), which may be larger than what it is around.
 
-#include <cstddef>
-
-#include <abut/arithmetic/error_free.hpp>
-#include <abut/arithmetic/magnitude.hpp>
-#include <abut/arithmetic/strict.hpp>
-#include <abut/shape/bounds.hpp>
+#include <abut/shape/form.hpp>
 #include <abut/shape/hull.hpp>
-#include <abut/shape/primitive.hpp>
 #include <abut/shape/rigid.hpp>
-#include <abut/shape/shape.hpp>
 
 namespace abut {
 
@@ -40,33 +33,31 @@ struct placed_box {
 
 namespace detail {
 
-/// Points whose hull a shape is, where they are at hand.
-template <scalar T, int N>
-struct hull_points {
-    vec3<T> at[std::size_t{N}];
-    ABUT_HD constexpr hull<T> as_hull() const { return {at, std::size_t{N}}; }
-};
+template <scalar T>
+inline constexpr shape_name name_of<oriented_box<T>>{"oriented box", "abut::oriented_boxes", 15};
+template <scalar T>
+inline constexpr shape_name name_of<placed_box<T>>{"placed box", "abut::shapes", 24};
 
 template <scalar T>
-ABUT_HD constexpr hull_points<T, 8> points_of(const aabb<T>& box) {
+ABUT_HD constexpr corner_hull<T, 8> points_of(const aabb<T>& box) {
     const vec3<T>&l = box.lower, &u = box.upper;
     return {{l, {u.x, l.y, l.z}, {l.x, u.y, l.z}, {u.x, u.y, l.z}, {l.x, l.y, u.z}, {u.x, l.y, u.z}, {l.x, u.y, u.z}, u}};
 }
 template <scalar T>
-ABUT_HD constexpr hull_points<T, 8> points_of(const placed_box<T>& box) {
-    hull_points<T, 8> points;
+ABUT_HD constexpr corner_hull<T, 8> points_of(const placed_box<T>& box) {
+    corner_hull<T, 8> points;
     for (int i = 0; i < 8; ++i) points.at[i] = box.corners[i];
     return points;
 }
 /// A box of some corners where a pose puts it.
 template <scalar T>
-ABUT_HD constexpr placed_box<T> box_under(const rigid<T>& pose, const hull_points<T, 8>& points) {
+ABUT_HD constexpr placed_box<T> box_under(const rigid<T>& pose, const corner_hull<T, 8>& points) {
     placed_box<T> box;
     for (int i = 0; i < 8; ++i) box.corners[i] = place(pose, points.at[i]);
     return box;
 }
 template <scalar T>
-ABUT_HD constexpr hull_points<T, 8> points_of(const oriented_box<T>& box) {
+ABUT_HD constexpr corner_hull<T, 8> points_of(const oriented_box<T>& box) {
     const vec3<T>& h = box.half;
     rigid<T> pose;
     for (int i = 0; i < 9; ++i) pose.rotation[i] = box.rotation[i];
@@ -91,14 +82,18 @@ ABUT_HD constexpr double rotation_error(const T (&m)[9], int i, int j) {
     const double xy = plain_sum(plain_product(a.x, b.x), plain_product(a.y, b.y));
     return plain_sum(plain_sum(xy, plain_product(a.z, b.z)), i == j ? -1.0 : 0.0);
 }
-/// The product of rows that is off by too much: of row k with itself, and from 3 of k - 3 with the next one. Of rows that
-/// reflect 6, of a rotation 7. A determinant is near 1 or -1 there, so that its rounding does not matter.
+/// Of numbers that are finite. A determinant is near 1 or -1 where rows are orthonormal, so that its rounding does not matter.
 template <scalar T>
-ABUT_HD constexpr int flaw_of_rotation(const T (&m)[9]) {
+ABUT_HD constexpr shape_flaw flaw_of_rotation(const T (&m)[9]) {
     for (int k = 0; k < 6; ++k) {
-        if (!(absolute(rotation_error(m, k % 3, k < 3 ? k : (k + 1) % 3)) <= rotation_tolerance)) return k;
+        const double off = rotation_error(m, k % 3, k < 3 ? k : (k + 1) % 3);
+        if (absolute(off) <= rotation_tolerance) continue;
+        if (k < 3) return {"squared length of a row differs from 1 by more than 2^-10", off, "rotation: "};
+        return {"product of two rows differs from 0 by more than 2^-10", off, "rotation: "};
     }
-    return dot(cross(widened(row(m, 0)), widened(row(m, 1))), widened(row(m, 2))) < 0 ? 6 : 7;
+    const double determinant = dot(cross(widened(row(m, 0)), widened(row(m, 1))), widened(row(m, 2)));
+    if (determinant < 0) return {"it reflects: its determinant is negative", determinant, "rotation: "};
+    return {};
 }
 
 }  // namespace detail
@@ -109,33 +104,39 @@ ABUT_HD constexpr auto bounds(const S& s) {
     return bounds(detail::points_of(s).as_hull());
 }
 
-/// A box under a pose: each corner is placed as a point alone is.
+/// A box under a pose, along the axes or not: each corner is placed as a point alone is.
 ///@{
 template <scalar T>
 ABUT_HD constexpr placed_box<T> place(const rigid<T>& pose, const aabb<T>& box) {
     return detail::box_under(pose, detail::points_of(box));
 }
-template <scalar T>
-ABUT_HD constexpr placed_box<T> place(const rigid<T>& pose, const oriented_box<T>& box) {
-    return detail::box_under(pose, detail::points_of(box));
-}
-template <scalar T>
-ABUT_HD constexpr placed_box<T> place(const rigid<T>& pose, const placed_box<T>& box) {
+template <scalar T, detail::seen_as_hull S>
+ABUT_HD constexpr placed_box<T> place(const rigid<T>& pose, const S& box) {
     return detail::box_under(pose, detail::points_of(box));
 }
 ///@}
 
-/// Corners are finite. And of an oriented box, half lengths are not negative, and the rotation is one within
+/// That a corner is not finite. And of an oriented box, that a half length is negative, or the rotation none within
 /// `rotation_tolerance`.
 ///@{
 template <scalar T>
-ABUT_HD constexpr bool is_valid(const placed_box<T>& box) {
-    return is_valid(detail::points_of(box).as_hull());
+ABUT_HD constexpr shape_flaw flaw_of(const placed_box<T>& box) {
+    for (const vec3<T>& corner : box.corners) {
+        if (const shape_flaw flaw = flaw_of(corner)) return flaw;
+    }
+    return {};
 }
 template <scalar T>
-ABUT_HD constexpr bool is_valid(const oriented_box<T>& box) {
-    return is_valid(box.center) && is_valid(box.half) && box.half.x >= 0 && box.half.y >= 0 && box.half.z >= 0 &&
-           detail::flaw_of_rotation(box.rotation) == 7 && is_valid(detail::points_of(box).as_hull());
+ABUT_HD constexpr shape_flaw flaw_of(const oriented_box<T>& box) {
+    if (const shape_flaw flaw = flaw_of(box.center)) return {flaw.what, flaw.value, "center "};
+    if (const shape_flaw flaw = flaw_of(box.half)) return {flaw.what, flaw.value, "half "};
+    const T least_half = detail::least(box.half.x, box.half.y, box.half.z);
+    if (least_half < 0) return {"a half length is negative", static_cast<double>(least_half)};
+    if (const shape_flaw flaw = detail::flaw_of_rotation(box.rotation)) return flaw;
+    for (const vec3<T>& corner : detail::points_of(box).at) {
+        if (const shape_flaw flaw = flaw_of(corner)) return {flaw.what, flaw.value, "corner "};
+    }
+    return {};
 }
 ///@}
 
