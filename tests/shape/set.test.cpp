@@ -101,7 +101,7 @@ static_assert(boundable<other::not_plain> && !shape<other::not_plain> && boundab
 static_assert(!shape<mesh<float>> && !shape<mesh_view<float>> && !shape<rigid<float>> && !shape<std::vector<float>>);
 static_assert(placeable<triangle<float>> && placeable<vec3<double>> && placeable<capsule<float>> && placeable<cylinder<double>> &&
               placeable<cone<float>> && placeable<other::brick>);
-static_assert(!placeable<aabb<float>> && !placeable<plane<float>> && !placeable<other::pebble<float>>);
+static_assert(placeable<aabb<float>> && !placeable<plane<float>> && !placeable<other::pebble<float>>);
 static_assert(shape_view<other::wall> && !shape_view<other::wall_of_nothing>);
 
 namespace {

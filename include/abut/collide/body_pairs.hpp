@@ -221,7 +221,7 @@ struct form_of_bodies {
     template <class Policy, class Question, class>
     static consteval bool can_be_asked() {
         if constexpr (can_be_listed<Policy, index_type>()) {
-            using shape_type = typename index_type::shape_type;
+            using shape_type = shape_in_world<index_type>;
             return Question::template takes<shape_type, shape_type>();
         } else {
             return false;

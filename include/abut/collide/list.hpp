@@ -198,7 +198,7 @@ struct form_of_list {
     template <class Policy, class Question, class>
     static consteval bool can_be_asked() {
         if constexpr (can_be_listed<Policy, IndexA, IndexB>()) {
-            return Question::template takes<typename IndexA::shape_type, typename IndexB::shape_type>();
+            return Question::template takes<shape_in_world<IndexA>, shape_in_world<IndexB>>();
         } else {
             return false;
         }

@@ -92,7 +92,7 @@ struct write_separations {
 template <class Policy, class IndexA, class IndexB>
 consteval bool can_be_measured() {
     if constexpr (can_be_listed<Policy, IndexA, IndexB>()) {
-        constexpr bool are = measurable<typename IndexA::shape_type, typename IndexB::shape_type>;
+        constexpr bool are = measurable<shape_in_world<IndexA>, shape_in_world<IndexB>>;
         static_assert(are, "abut: there is no distance of sets of these two shapes");
         return are;
     } else {

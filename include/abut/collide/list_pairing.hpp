@@ -88,8 +88,8 @@ struct list_key {
 template <class Names, class IndexA, class IndexB, class Filter>
 struct list_view {
     using T = typename IndexA::scalar_type;
-    using shape_type_a = typename IndexA::shape_type;
-    using shape_type_b = typename IndexB::shape_type;
+    using shape_type_a = shape_in_world<IndexA>;
+    using shape_type_b = shape_in_world<IndexB>;
 
     placed_view<IndexA> a;
     placed_view<IndexB> b;
@@ -161,7 +161,7 @@ ABUT_HD bool is_open(const View& list, [[maybe_unused]] std::uint32_t entry) {
     }
 }
 
-/// One step down the two trees of an entry. A filter that is asked of subtrees (pairing.hpp) has tables by objects.
+/// One step down the two trees of an entry. A filter that is asked of subtrees (routes.hpp) has tables by objects.
 template <class View, class TreeA, class TreeB>
 struct expand_entry {
     using T = typename View::T;
@@ -292,7 +292,7 @@ struct list_pairing {
     using tree_b = typename IndexB::view_type;
     using view_type = list_view<Names, IndexA, IndexB, decltype(Options::filter)>;
     using expand = expand_entry<view_type, tree_a, tree_b>;
-    static_assert(decidable<typename IndexA::shape_type, typename IndexB::shape_type>,
+    static_assert(decidable<shape_in_world<IndexA>, shape_in_world<IndexB>>,
                   "abut: queries between sets of these two shapes are not supported");
 
     placed_bodies<IndexA> a;

@@ -136,7 +136,9 @@ inline constexpr bool is_index = requires {
 template <class X>
 struct shape_of_argument : shape_of_object<X> {};
 template <class Object>
-struct shape_of_argument<posed_object<Object>> : shape_of_object<Object> {};
+struct shape_of_argument<posed_object<Object>> {
+    using type = placed_shape<typename shape_of_object<Object>::type>;
+};
 template <operand X>
 struct shape_of_argument<X> {
     using type = typename decltype(std::declval<const X&>().shapes())::shape_type;

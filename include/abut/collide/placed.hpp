@@ -56,11 +56,15 @@ struct placed_object {
     aabb<typename Index::scalar_type> bounds;  ///< of all shapes; empty where there are none
 };
 
+/// What the shapes of an index are under a pose.
+template <class Index>
+using shape_in_world = placed_shape<typename Index::shape_type>;
+
 /// What kernels see of bodies.
 template <class Index>
 struct placed_view {
     using object_type = placed_object<Index>;
-    using shape_type = typename Index::shape_type;
+    using shape_type = shape_in_world<Index>;
 
     const object_type* objects;
     const std::uint32_t* object_of;  ///< of each body

@@ -158,10 +158,10 @@ consteval bool can_be_met() {
     } else {
         using shape_type = typename shape_of_argument<X>::type;
         using line_type = typename shape_of_argument<Lines>::type;
-        using T = scalar_type_of<shape_type>;
-        constexpr bool are =
-            std::same_as<shape_type, triangle<T>> || std::same_as<shape_type, hull<T>> || line_solid<shape_type>;
-        static_assert(are, "abut: raycast looks for triangles, spheres, boxes, capsules, cylinders, cones or hulls");
+        constexpr bool are = has_hit_time<shape_type, line_type>;
+        static_assert(are,
+                      "abut: raycast looks for triangles, spheres, boxes, capsules, cylinders, cones or hulls, oriented boxes, "
+                      "or a shape of your own that has hit_time(line, shape), as docs/extending.md says");
         constexpr bool has_walk = !is_grid<X>;
         static_assert(has_walk, "abut: raycast takes a tree, a set or one shape, and no grid");
         constexpr bool look = is_line<line_type>;
@@ -245,7 +245,7 @@ auto raycast_any_of(const Policy& on, const X& index, const Lines& rays, const c
 /// that are met at one time it has the least id; where nothing is met, `no_id` and infinity.
 ///
 /// `index` is a tree of any layout, a set, a view or one shape, posed or not: of triangles (a mesh, a triangle_soup), or of
-/// spheres, boxes, capsules, cylinders, cones or hulls, which are solid. Boxes take no pose. `rays` are `rays` or `segments`:
+/// spheres, boxes, oriented boxes, capsules, cylinders, cones or hulls, which are solid. `rays` are `rays` or `segments`:
 /// a set, a view, or one. Segments are met from their first end to their second, at times from 0 to 1.
 /// Triangles are met from both sides, and along their planes; a solid where a ray enters it, and at 0 if the ray begins in it
 /// or on its surface. A ray of direction 0 meets what its origin is in, at 0.

@@ -106,13 +106,7 @@ private:
     }
 };
 
-/// A corner of a box: bit k of its number says which end in coordinate k.
-template <scalar T>
-vec3<T> box_corner(const aabb<T>& box, unsigned i) {
-    return {(i & 1) != 0 ? box.upper.x : box.lower.x, (i & 2) != 0 ? box.upper.y : box.lower.y,
-            (i & 4) != 0 ? box.upper.z : box.lower.z};
-}
-/// The corners of the twelve triangles of a box, facing outwards.
+/// The corners of the twelve triangles of a box, facing outwards: bit k of a number says which end in coordinate k.
 constexpr std::array<std::array<std::uint32_t, 3>, 12> box_corners() {
     return {{{0, 4, 6},
              {0, 6, 2},
@@ -190,7 +184,7 @@ std::array<vec3<T>, 36> gltf_points(const aabb<T>& box) {
     std::array<vec3<T>, 36> points;
     std::size_t k = 0;
     for (const auto& triangle : box_corners()) {
-        for (const std::uint32_t corner : triangle) points[k++] = box_corner(box, corner);
+        for (const std::uint32_t corner : triangle) points[k++] = abut::detail::points_of(box).at[corner];
     }
     return points;
 }

@@ -130,7 +130,7 @@ void write_boxes(const std::filesystem::path& path, const Set& set, const set_op
     std::vector<std::uint32_t> ids;
     for (std::size_t i = 0; i < view.size(); ++i) {
         const aabb<T> box = view[i];
-        for (unsigned k = 0; k < 8; ++k) vertices.push_back(detail::box_corner(box, k));
+        for (unsigned k = 0; k < 8; ++k) vertices.push_back(abut::detail::points_of(box).at[k]);
         for (const auto& corners : detail::box_corners()) {
             face f{};
             for (std::size_t k = 0; k < 3; ++k) f[k] = static_cast<std::uint32_t>(8 * i) + corners[k];

@@ -8,12 +8,14 @@
 #include <abut/narrow/box_contact.hpp>
 #include <abut/narrow/directions.hpp>
 #include <abut/narrow/flat_contact.hpp>
+#include <abut/narrow/half_space_contact.hpp>
 #include <abut/narrow/hull_contact.hpp>
 #include <abut/narrow/revolution_contact.hpp>
 #include <abut/narrow/revolution_hull_contact.hpp>
 #include <abut/narrow/revolution_pair_contact.hpp>
 #include <abut/narrow/round_contact.hpp>
 #include <abut/narrow/triangle_contact.hpp>
+#include <abut/predicate/as_hull.hpp>
 #include <abut/predicate/intersects.hpp>
 #include <abut/shape/primitive.hpp>
 
@@ -54,14 +56,18 @@ namespace detail {
 
 /// Pairs of shapes, in this order, of which contacts are written.
 template <class S, class U>
-concept contact_pair = requires(const S& s, const U& t) {
+concept contact_pair = requires(const hull_form_of<S>& s, const hull_form_of<U>& t) {
     contact_between(s, t);
 };
 
 /// In either order.
 template <class S, class U>
 ABUT_HD constexpr auto contact_in_any_order(const S& s, const U& t) {
-    if constexpr (contact_pair<S, U>) {
+    if constexpr (seen_as_hull<S> || seen_as_hull<U>) {
+        const auto a = hull_form(s);
+        const auto b = hull_form(t);
+        return contact_in_any_order(a.as_hull(), b.as_hull());
+    } else if constexpr (contact_pair<S, U>) {
         return contact_between(s, t);
     } else {
         static_assert(contact_pair<U, S>, "abut: there are no contacts of this pair of shapes");

@@ -13,7 +13,10 @@
 #include <abut/arithmetic/magnitude.hpp>
 #include <abut/narrow/nearest.hpp>
 #include <abut/narrow/numbers.hpp>
+#include <abut/shape/core.hpp>
+#include <abut/shape/half_space.hpp>
 #include <abut/shape/hull.hpp>
+#include <abut/shape/oriented_box.hpp>
 #include <abut/shape/primitive.hpp>
 
 namespace abut {
@@ -48,29 +51,20 @@ template <scalar T>
 ABUT_HD constexpr T magnitude_of(const vec3<T>& p) {
     return greatest(absolute(p.x), absolute(p.y), absolute(p.z));
 }
-template <scalar T>
-ABUT_HD constexpr T magnitude_of(const triangle<T>& t) {
-    return greatest(magnitude_of(t.a), magnitude_of(t.b), magnitude_of(t.c));
-}
-template <scalar T>
-ABUT_HD constexpr T magnitude_of(const segment<T>& s) {
-    return greatest(magnitude_of(s.a), magnitude_of(s.b));
-}
-template <scalar T>
-ABUT_HD constexpr T magnitude_of(const sphere<T>& s) {
-    return greatest(magnitude_of(s.center), s.radius);
-}
-template <scalar T>
-ABUT_HD constexpr T magnitude_of(const capsule<T>& s) {
-    return greatest(magnitude_of(s.axis), s.radius);
+template <class S>
+    requires(corners_of_core<S> > 0)
+ABUT_HD constexpr auto magnitude_of(const S& s) {
+    auto most = radius_around_core(s);
+    for (const auto& p : core_of(s).at) most = greatest(most, magnitude_of(p));
+    return most;
 }
 template <scalar T>
 ABUT_HD constexpr T magnitude_of(const cylinder<T>& s) {
-    return greatest(magnitude_of(s.axis), s.radius);
+    return magnitude_of(capsule<T>{s.axis, s.radius});
 }
 template <scalar T>
 ABUT_HD constexpr T magnitude_of(const cone<T>& s) {
-    return greatest(magnitude_of(s.apex), magnitude_of(s.base_center), s.radius);
+    return magnitude_of(capsule<T>{{s.apex, s.base_center}, s.radius});
 }
 template <scalar T>
 ABUT_HD constexpr T magnitude_of(const aabb<T>& s) {
@@ -82,11 +76,22 @@ ABUT_HD constexpr T magnitude_of(const hull<T>& h) {
     for (std::size_t i = 0; i < h.count; ++i) most = greatest(most, magnitude_of(h[i]));
     return most;
 }
-/// Of a plane no point counts: it reaches everywhere.
+template <seen_as_hull S>
+ABUT_HD constexpr auto magnitude_of(const S& s) {
+    const auto points = points_of(s);
+    return magnitude_of(points.as_hull());
+}
+/// Of a plane or a half space no point counts: it reaches everywhere.
+///@{
 template <scalar T>
 ABUT_HD constexpr T magnitude_of(const plane<T>&) {
     return 0;
 }
+template <scalar T>
+ABUT_HD constexpr T magnitude_of(const half_space<T>&) {
+    return 0;
+}
+///@}
 
 /// The power of two that brings two shapes to [-2, 2): numbers that leave room for products. It rounds only what is
 /// 2^-1021 times as large as the largest number, or smaller.
@@ -113,9 +118,7 @@ struct common_scale {
     /// Back, rounded to T; no further than the largest number.
     template <scalar T>
     ABUT_HD constexpr T back(double x) const {
-        const double y = scaled(x, exponent);
-        constexpr auto far = static_cast<double>(largest_finite<T>);
-        return y > far ? largest_finite<T> : y < -far ? -largest_finite<T> : rounded(static_cast<T>(y));
+        return rounded_within<T>(scaled(x, exponent));
     }
     template <scalar T>
     ABUT_HD constexpr vec3<T> back(const point& p) const {

@@ -25,7 +25,6 @@
 #include <abut/predicate/intersects.hpp>
 #include <abut/predicate/plane_core.hpp>
 #include <abut/predicate/plane_hull.hpp>
-#include <abut/shape/bounds.hpp>
 #include <abut/shape/core.hpp>
 #include <abut/shape/hull.hpp>
 #include <abut/shape/primitive.hpp>
@@ -178,9 +177,7 @@ struct measured_plane {
         const auto foot = [&](double x, const two_doubles& n) {
             const int down = scale.exponent - e < -2040 ? -2040 : scale.exponent - e;
             const two_doubles at = two_doubles::of(scaled(x, down)) - height * (n / size);
-            const double y = scaled(at.high, e);
-            constexpr auto far = static_cast<double>(largest_finite<T>);
-            return y > far ? largest_finite<T> : y < -far ? -largest_finite<T> : rounded(static_cast<T>(y));
+            return rounded_within<T>(scaled(at.high, e));
         };
         on_plane = {foot(from.x, over.normal.x), foot(from.y, over.normal.y), foot(from.z, over.normal.z)};
         on_shape = least_corner == 0 ? core.at[0] : core.at[least_corner == 2 ? last : last > 0 ? 1 : 0];
@@ -290,15 +287,29 @@ ABUT_HD constexpr separation<T> reversed(const separation<T>& s) {
     return {s.b, s.a, s.point_b, s.point_a, s.distance};
 }
 
-/// Whether two shapes have a distance, in either order: those that have contacts.
+/// Pairs of which a shape of the caller's own tells the distance itself: `separation_between(s, t)`, 0 where they touch.
 template <class S, class U>
-concept measurable = contact_pair<S, U> || contact_pair<U, S>;
+concept own_separation = requires(const S& s, const U& t) {
+    { separation_between(s, t) } -> std::same_as<separation<scalar_type_of<S>>>;
+};
+
+/// Whether two shapes have a distance, in either order: those that have contacts, or tell it themselves.
+template <class S, class U>
+concept measurable = contact_pair<S, U> || contact_pair<U, S> || own_separation<S, U> || own_separation<U, S>;
 
 /// Two shapes of which it is known whether they touch.
 template <class S, class U>
-ABUT_HD constexpr auto separation_of(const S& s, const U& t, bool touch) {
+ABUT_HD constexpr auto separation_of(const S& s, const U& t, [[maybe_unused]] bool touch) {
     using T = scalar_type_of<S>;
-    if constexpr (!contact_pair<S, U>) {
+    if constexpr (own_separation<S, U>) {
+        return separation_between(s, t);
+    } else if constexpr (own_separation<U, S>) {
+        return reversed(separation_between(t, s));
+    } else if constexpr (seen_as_hull<S> || seen_as_hull<U>) {
+        const auto a = hull_form(s);
+        const auto b = hull_form(t);
+        return separation_of(a.as_hull(), b.as_hull(), touch);
+    } else if constexpr (!contact_pair<S, U>) {
         return reversed(separation_of(t, s, touch));
     } else {
         if constexpr (solid_of_revolution<U>) {  // of two balls the same comes first in either order
@@ -309,7 +320,11 @@ ABUT_HD constexpr auto separation_of(const S& s, const U& t, bool touch) {
         if constexpr (solid_of_revolution<S>) {
             if (is_point(axis_of(s))) return separation_of(ball_around(s), t, touch);
         }
-        if (!touch) return separation_apart(s, t);
+        if constexpr (is_half_space<S>) {
+            if (!touch) return separation_of(surface_of(s), t, false);
+        } else {
+            if (!touch) return separation_apart(s, t);
+        }
         vec3<T> shared{};
         if constexpr (measured_hulls<S, U>) {
             shared = with_measured_hulls(s, t, true, [](const auto& m) { return m.shared_point(); });
@@ -328,7 +343,13 @@ template <class S, class U>
 ABUT_HD constexpr auto separation_of(const S& s, const U& t) {
     using T = scalar_type_of<S>;
     constexpr bool on_device = ABUT_DEVICE_CODE != 0;
-    if constexpr (measured_hulls<S, U> && !on_device) {
+    if constexpr (own_separation<S, U> || own_separation<U, S>) {
+        return separation_of(s, t, false);
+    } else if constexpr (seen_as_hull<S> || seen_as_hull<U>) {
+        const auto a = hull_form(s);
+        const auto b = hull_form(t);
+        return separation_of(a.as_hull(), b.as_hull());
+    } else if constexpr (measured_hulls<S, U> && !on_device) {
         const auto ask = [&] { return intersects(s, t); };
         return with_asked_hulls(s, t, ask, [&](const auto& m, bool touch) {
             if (!touch) return separation_of_hulls_apart(t, m);
@@ -353,7 +374,15 @@ struct measure_apart {
         requires measurable<S, U> ABUT_HD distance_and_way look(const S& s, const U& t, double bound,
                                                                 const vec3<double>& along)
     const {
-        if constexpr (!contact_pair<S, U>) {
+        if constexpr (own_separation<S, U> || own_separation<U, S>) {
+            return {positive_distance(s, t, static_cast<double>(separation_of(s, t, false).distance))};
+        } else if constexpr (seen_as_hull<S> || seen_as_hull<U>) {
+            const auto a = hull_form(s);
+            const auto b = hull_form(t);
+            return look(a.as_hull(), b.as_hull(), bound, along);
+        } else if constexpr (is_half_space<S>) {
+            return look(surface_of(s), t, bound, along);
+        } else if constexpr (!contact_pair<S, U>) {
             const auto opposite = [](const vec3<double>& v) { return vec3<double>{-v.x, -v.y, -v.z}; };
             const distance_and_way found = look(t, s, bound, opposite(along));
             return {found.distance, opposite(found.way)};

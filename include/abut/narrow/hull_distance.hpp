@@ -404,11 +404,7 @@ private:
     [[nodiscard]] ABUT_HD constexpr vec3<T> on_surface(vec3<double> p, double along) const {
         if (along != 0)
             p = plain_step(p, along, contact_math::unit_vector(contact_math::as<contact_math::one_double>(way())));
-        return {rounded_within(p.x), rounded_within(p.y), rounded_within(p.z)};
-    }
-    [[nodiscard]] ABUT_HD static constexpr T rounded_within(double x) {
-        constexpr auto far = static_cast<double>(largest_finite<T>);
-        return x > far ? largest_finite<T> : x < -far ? -largest_finite<T> : rounded(static_cast<T>(x));
+        return {rounded_within<T>(p.x), rounded_within<T>(p.y), rounded_within<T>(p.z)};
     }
 };
 

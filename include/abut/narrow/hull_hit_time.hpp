@@ -18,6 +18,7 @@
 #include <abut/predicate/intersects.hpp>
 #include <abut/predicate/ray_hull.hpp>
 #include <abut/shape/hull.hpp>
+#include <abut/shape/oriented_box.hpp>
 #include <abut/shape/primitive.hpp>
 
 namespace abut::detail {
@@ -131,16 +132,27 @@ ABUT_NOINLINE ABUT_HD constexpr bool is_met(const Line& line, const hull<T>& h) 
     return intersects<A>(h, l.origin) || (std::same_as<Line, segment<T>> && intersects<A>(h, l.end));
 }
 
-/// As of a triangle; the time of a hull is rounded at once.
-///@{
-template <arithmetic A, class Line, scalar T>
-ABUT_HD constexpr double hit_time_apart(const Line& line, const hull<T>& h) {
-    return hit_time<A>(line, h);
+/// Of what is seen as a hull.
+template <arithmetic A, class Line, seen_as_hull S>
+ABUT_HD constexpr double hit_time(const Line& line, const S& s) {
+    const auto points = points_of(s);
+    return hit_time<A>(line, points.as_hull());
 }
-template <arithmetic A, class Line, scalar T>
-ABUT_HD constexpr time_bounds hit_time_bounds(const Line& line, const hull<T>& h) {
-    const double time = hit_time<A>(line, h);
+
+/// As of a triangle, for shapes whose time is rounded at once.
+///@{
+template <arithmetic A, class Line, class S>
+ABUT_HD constexpr double hit_time_apart(const Line& line, const S& s) {
+    return hit_time<A>(line, s);
+}
+template <arithmetic A, class Line, class S>
+ABUT_HD constexpr time_bounds hit_time_bounds(const Line& line, const S& s) {
+    const double time = hit_time<A>(line, s);
     return {time, time};
+}
+template <arithmetic A, class Line, class S>
+ABUT_HD constexpr bool is_met(const Line& line, const S& s) {
+    return hit_time<A>(line, s) >= 0;
 }
 ///@}
 

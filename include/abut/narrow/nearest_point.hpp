@@ -29,7 +29,6 @@
 #include <abut/narrow/length_unit.hpp>
 #include <abut/narrow/numbers.hpp>
 #include <abut/narrow/revolution_foot.hpp>
-#include <abut/shape/bounds.hpp>
 #include <abut/shape/hull.hpp>
 #include <abut/shape/primitive.hpp>
 #include <abut/shape/shape.hpp>
@@ -224,6 +223,12 @@ ABUT_NOINLINE ABUT_HD constexpr vec3<double> way_to(const hull<T>& h, const vec3
     return held(way, lower, upper);
 }
 
+template <seen_as_hull S, scalar T>
+ABUT_HD constexpr vec3<double> way_to(const S& s, const vec3<T>& p, const length_unit<T>& unit) {
+    const auto points = points_of(s);
+    return way_to(points.as_hull(), p, unit);
+}
+
 /// Shapes that the library measures by itself.
 template <class S>
 concept has_way_to = requires(const S& s, const vec3<scalar_type_of<S>>& p, const length_unit<scalar_type_of<S>>& unit) {
@@ -245,18 +250,20 @@ ABUT_HD constexpr vec3<T> end_of_way(const vec3<T>& p, const vec3<double>& way, 
 /// Where the way leads to a corner it is the corner, and of a box nothing is rounded.
 template <class S, scalar T>
 ABUT_HD constexpr vec3<T> end_of_way(const S& s, const vec3<T>& p, const vec3<double>& way, const length_unit<T>& unit) {
+    if constexpr (seen_as_hull<S>) {
+        const auto points = points_of(s);
+        return end_of_way(points.as_hull(), p, way, unit);
+    }
     if constexpr (std::same_as<S, aabb<T>>) return least(greatest(p, s.lower), s.upper);
     if constexpr (std::same_as<S, hull<T>>) {
         for (std::size_t i = 0; i < s.count; ++i) {
             if (way == way_between(p, s[i], unit)) return s[i];
         }
     }
-    if constexpr (requires { s.b; }) {
-        if (way == way_between(p, s.a, unit)) return s.a;
-        if (way == way_between(p, s.b, unit)) return s.b;
-    }
-    if constexpr (requires { s.c; }) {
-        if (way == way_between(p, s.c, unit)) return s.c;
+    if constexpr (corners_of_shape<S> > 1) {
+        for (const vec3<T>& corner : core_of(s).at) {
+            if (way == way_between(p, corner, unit)) return corner;
+        }
     }
     return end_of_way(p, way, bounds(s), unit);
 }
@@ -274,8 +281,8 @@ ABUT_HD constexpr length_unit<T> unit_for(const aabb<T>& box, const vec3<T>& p) 
 
 }  // namespace detail
 
-/// The point of a shape that is nearest to `p`: of a point (vec3), segment, triangle, sphere, capsule, cylinder, cone, box
-/// or convex hull; the last six are solid, and p itself is nearest where it is inside. It lies in the box around the shape.
+/// The point of a shape that is nearest to `p`: of a point (vec3), segment, triangle, sphere, capsule, cylinder, cone, box,
+/// oriented box or convex hull; the last seven are solid, and p itself is nearest where it is inside. It lies in the box around the shape.
 /// docs/numerics.md says how accurate it is. p and the shape are finite.
 ///
 ///     const auto q = abut::nearest_point(abut::segment<float>{{0, 0, 0}, {4, 0, 0}}, {1, 2, 0});   // (1, 0, 0)

@@ -241,6 +241,13 @@ ABUT_HD constexpr point unit_vector(const vec3<N>& v) {
 
 namespace abut::detail {
 
+/// Rounded to T, and no farther than its largest number.
+template <scalar T>
+ABUT_HD constexpr T rounded_within(double x) {
+    constexpr auto far = static_cast<double>(largest_finite<T>);
+    return x > far ? largest_finite<T> : x < -far ? -largest_finite<T> : rounded(static_cast<T>(x));
+}
+
 ABUT_HD constexpr vec3<double> plain_cross(const vec3<double>& a, const vec3<double>& b) {
     const auto minor = [](double s, double t, double x, double y) {
         return plain_sum(plain_product(s, t), -plain_product(x, y));

@@ -341,7 +341,7 @@ ABUT_NOINLINE ABUT_HD constexpr contact_math::least_overlap way_out_of_box(const
     using namespace contact_math;
     const point origin = scale(axis_of(s).a);
     const seen_round_solid solid(s, origin, scale);
-    const hull_points<T, 8> points = points_of(t);
+    const corner_hull<T, 8> points = points_of(t);
     const seen_corners<8> corners(points.at, origin, scale);
     ways_out_of_solid<T, seen_corners<8>> pair(solid, corners);
     const point axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -412,7 +412,7 @@ requires revolution_pair<S, U> ABUT_HD constexpr contact<scalar_type_of<S>> cont
         } else if constexpr (std::same_as<U, aabb<T>>) {
             found = assembled<T>(scale, {0, 0, 0}, way_out_of_box(s, t, scale));
         } else {
-            found = assembled<T>(scale, {0, 0, 0}, way_out_of_corners(s, hull_of(t), scale));
+            found = assembled<T>(scale, {0, 0, 0}, way_out_of_corners(s, core_of(t), scale));
         }
         found.point = point_of_both(s, t, nearest, unit);
     }

@@ -23,7 +23,6 @@
 #include <abut/predicate/hull_numbers.hpp>
 #include <abut/predicate/revolution.hpp>
 #include <abut/predicate/revolution_hull.hpp>
-#include <abut/shape/bounds.hpp>
 #include <abut/shape/core.hpp>
 #include <abut/shape/hull.hpp>
 #include <abut/shape/primitive.hpp>
@@ -117,7 +116,7 @@ private:
     /// With two bits for points on the rims.
     template <solid_of_revolution S>
     ABUT_HD static constexpr unit_of_hulls<T> unit_around(const S& s, const hull<T>& h) {
-        const hull_points<T, 2> ends = points_of(axis_of(s));
+        const corner_hull<T, 2> ends = points_of(axis_of(s));
         unit_of_hulls<T> unit(ends.as_hull(), h, s.radius);
         unit.high += 2;
         unit.low = -(1 << 20);

@@ -56,9 +56,7 @@ public:
         const auto foot = [&](double x, const two_doubles& n, double away, double unit_normal) {
             const two_doubles of_end = two_doubles::of(scaled(x, down_)) - height * (n / size);
             const double flat = plain_sum(plain_product(along, away), -plain_product(sunk, unit_normal));
-            const double y = scaled((of_end + two_doubles::of(flat)).high, exponent_);
-            constexpr auto far = static_cast<double>(largest_finite<T>);
-            return y > far ? largest_finite<T> : y < -far ? -largest_finite<T> : rounded(static_cast<T>(y));
+            return rounded_within<T>(scaled((of_end + two_doubles::of(flat)).high, exponent_));
         };
         const point& from = end_.at[nearest_];
         return {foot(from.x, over_.normal.x, aside_.x, normal_.x), foot(from.y, over_.normal.y, aside_.y, normal_.y),
@@ -74,6 +72,18 @@ public:
         return e;
     }
     [[nodiscard]] ABUT_HD constexpr const vec3<double>& normal() const { return normal_; }
+    /// The lowest point, or the middle of two ends' lowest ones that are as low; and how far below the plane, a length.
+    ///@{
+    [[nodiscard]] ABUT_HD constexpr vec3<T> lowest_point() const {
+        using namespace contact_math;
+        const point low[2] = {plain_step(end_.at[0], -rim_[0], aside_), plain_step(end_.at[1], -rim_[1], aside_)};
+        const double first = lowest(0), second = lowest(1);
+        return scale_.template back<T>(first < second ? low[0] : second < first ? low[1] : middle_of({low[0], low[1]}));
+    }
+    [[nodiscard]] ABUT_HD constexpr double depth() const {
+        return contact_math::scaled(-least(lowest(0), lowest(1)), exponent_);
+    }
+    ///@}
     /// If they touch: where the plane passes between the lowest and the highest point.
     [[nodiscard]] ABUT_HD constexpr vec3<T> shared_point() const {
         using namespace contact_math;
@@ -106,6 +116,7 @@ private:
     [[nodiscard]] ABUT_HD constexpr double reach(int i) const {
         return plain_product(contact_math::scaled(rim_[i], down_), tilt_);
     }
+    [[nodiscard]] ABUT_HD constexpr double lowest(int i) const { return plain_sum(over_.height[i].high, -reach(i)); }
     [[nodiscard]] ABUT_HD constexpr double beyond(int i) const {
         return plain_sum(absolute(over_.height[i].high), -reach(i));
     }

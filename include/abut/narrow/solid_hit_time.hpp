@@ -2,7 +2,7 @@
 #pragma once
 
 // When a ray or a segment meets a solid: a ball, a box, a capsule, a cylinder or a cone. It is 0 where it begins inside, and
-// else the time at which it enters.
+// else the time at which it enters. And `hit_time_of`, the face over this, hit_time.hpp and hull_hit_time.hpp.
 //
 // `filtered` and `exact` give the true time as hit_time.hpp does, rounded to the nearest double, of two that are as near the
 // lesser. It is a quotient of differences or a root of a quadratic (predicate/line_solid.hpp). Estimates in double give
@@ -21,6 +21,7 @@
 #include <abut/arithmetic/limits.hpp>
 #include <abut/arithmetic/magnitude.hpp>
 #include <abut/narrow/hit_time.hpp>
+#include <abut/narrow/hull_hit_time.hpp>
 #include <abut/narrow/numbers.hpp>
 #include <abut/predicate/certified_line.hpp>
 #include <abut/predicate/intersects.hpp>
@@ -184,4 +185,31 @@ ABUT_HD constexpr bool is_met(const Line& line, const S& s) {
     }
 }
 
+/// Shapes that lines meet at a time. One of the caller's own has `hit_time<A>(line, s)` beside it: when it is met, rounded,
+/// or a negative number.
+template <class S, class Line>
+concept has_hit_time = requires(const Line& line, const S& s) {
+    { hit_time<filtered>(line, s) } -> std::same_as<double>;
+};
+
 }  // namespace abut::detail
+
+namespace abut {
+
+/// When a ray or a segment meets a shape first, as `raycast` defines it: t, where origin + t direction (a + t (b - a) of a
+/// segment) is in the shape, rounded to the nearest double; or a negative number where they do not meet. Shapes are those that
+/// `raycast` looks for. The same bits on every device for `filtered` and `exact`; `fast` is approximate.
+/// @ingroup one_pair
+template <arithmetic A = filtered, class Line, class S>
+[[nodiscard]] ABUT_HD constexpr double hit_time_of(const Line& line, const S& s) {
+    constexpr bool is = detail::has_hit_time<S, Line>;
+    static_assert(is, "abut: no ray meets such a shape, for want of hit_time(line, shape)");
+    if constexpr (is) {
+        using namespace detail;  // and what is beside a shape of the caller's own
+        return hit_time<A>(line, s);
+    } else {
+        return -1;
+    }
+}
+
+}  // namespace abut

@@ -7,7 +7,6 @@
 
 #include <abut/arithmetic/align.hpp>
 #include <abut/arithmetic/arithmetic.hpp>
-#include <abut/shape/bounds.hpp>
 #include <abut/shape/primitive.hpp>
 #include <abut/shape/shape.hpp>
 

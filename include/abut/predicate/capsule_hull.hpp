@@ -133,21 +133,17 @@ ABUT_NOINLINE ABUT_HD constexpr verdict near_in_integers(const hull<T>& core, T 
 }
 
 /// The points whose hull is the core of a shape: of a ball its centre, of a capsule the ends of its axis, and of what is a
-/// hull of points all of them. The first two are not named points_of: nvcc 13.0 also finds functions that are declared after
-/// made_of_points, and so would take a ball for a point.
+/// hull of points all of them. Not named points_of, of which nvcc 13.0 would take a ball for a point.
 ///@{
 template <class S>
     requires made_of_points<S, scalar_type_of<S>>
 ABUT_HD constexpr auto core_points_of(const S& s) {
     return points_of(s);
 }
-template <scalar T>
-ABUT_HD constexpr hull_points<T, 1> core_points_of(const sphere<T>& s) {
-    return {{s.center}};
-}
-template <scalar T>
-ABUT_HD constexpr hull_points<T, 2> core_points_of(const capsule<T>& s) {
-    return {{s.axis.a, s.axis.b}};
+template <class S>
+    requires(has_radius<S> && corners_of_core<S> > 0)
+ABUT_HD constexpr auto core_points_of(const S& s) {
+    return core_of(s);
 }
 ///@}
 

@@ -39,7 +39,6 @@
 #include <abut/arithmetic/strict.hpp>
 #include <abut/arithmetic/vec.hpp>
 #include <abut/predicate/certified_ball.hpp>
-#include <abut/shape/bounds.hpp>
 #include <abut/shape/primitive.hpp>
 
 namespace abut::detail {

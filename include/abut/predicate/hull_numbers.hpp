@@ -32,45 +32,31 @@
 #include <abut/predicate/certified_ball.hpp>
 #include <abut/predicate/gjk.hpp>
 #include <abut/predicate/kept_points.hpp>
+#include <abut/shape/corners.hpp>
 #include <abut/shape/hull.hpp>
+#include <abut/shape/oriented_box.hpp>
 #include <abut/shape/primitive.hpp>
 #include <abut/shape/shape.hpp>
 
 namespace abut::detail {
 
-/// Points whose hull a shape is, where they are at hand.
-template <scalar T, int N>
-struct hull_points {
-    vec3<T> at[std::size_t{N}];
-    ABUT_HD constexpr hull<T> as_hull() const { return {at, std::size_t{N}}; }
-};
+/// A hull in the place of its points.
 template <scalar T>
-struct hull_points<T, 0> {
+struct hull_itself {
     const hull<T>& of;
     ABUT_HD constexpr const hull<T>& as_hull() const { return of; }
 };
-
+/// The points whose hull a shape is, where they are at hand.
+///@{
 template <scalar T>
-ABUT_HD constexpr hull_points<T, 0> points_of(const hull<T>& h) {
+ABUT_HD constexpr hull_itself<T> points_of(const hull<T>& h) {
     return {h};
 }
-template <scalar T>
-ABUT_HD constexpr hull_points<T, 1> points_of(const vec3<T>& p) {
-    return {{p}};
+template <has_corners S>
+ABUT_HD constexpr auto points_of(const S& s) {
+    return core_of(s);
 }
-template <scalar T>
-ABUT_HD constexpr hull_points<T, 2> points_of(const segment<T>& s) {
-    return {{s.a, s.b}};
-}
-template <scalar T>
-ABUT_HD constexpr hull_points<T, 3> points_of(const triangle<T>& t) {
-    return {{t.a, t.b, t.c}};
-}
-template <scalar T>
-ABUT_HD constexpr hull_points<T, 8> points_of(const aabb<T>& box) {
-    const vec3<T>&l = box.lower, &u = box.upper;
-    return {{l, {u.x, l.y, l.z}, {l.x, u.y, l.z}, {u.x, u.y, l.z}, {l.x, l.y, u.z}, {u.x, l.y, u.z}, {l.x, u.y, u.z}, u}};
-}
+///@}
 
 /// Shapes that are hulls of points, of the scalar type T.
 template <class S, class T>

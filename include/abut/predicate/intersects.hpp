@@ -7,11 +7,12 @@
 #include <abut/arithmetic/arithmetic.hpp>
 #include <abut/predicate/aabb_aabb.hpp>
 #include <abut/predicate/aabb_capsule.hpp>
-#include <abut/predicate/aabb_segment.hpp>
 #include <abut/predicate/aabb_sphere.hpp>
 #include <abut/predicate/aabb_triangle.hpp>
+#include <abut/predicate/as_hull.hpp>
 #include <abut/predicate/capsule_hull.hpp>
 #include <abut/predicate/capsule_triangle.hpp>
+#include <abut/predicate/half_space.hpp>
 #include <abut/predicate/hull_hull.hpp>
 #include <abut/predicate/near_cores.hpp>
 #include <abut/predicate/plane_core.hpp>
@@ -24,7 +25,6 @@
 #include <abut/predicate/revolution_hull.hpp>
 #include <abut/predicate/revolution_pair.hpp>
 #include <abut/predicate/segment_triangle.hpp>
-#include <abut/predicate/sphere_segment.hpp>
 #include <abut/predicate/sphere_sphere.hpp>
 #include <abut/predicate/sphere_triangle.hpp>
 #include <abut/predicate/triangle_triangle.hpp>
@@ -112,9 +112,9 @@ ABUT_HD constexpr bool intersects_exactly(const S& s, const U& t) {
 }  // namespace detail
 
 /// Whether two closed shapes have a point in common: triangles, segments, rays, points (vec3) and planes, and spheres,
-/// boxes, capsules, cylinders, cones and convex hulls, which are solid, as docs/numerics.md lists. With `filtered` and `exact` the answer is
-/// right for every finite input and the same on each compiler and device; `fast` is approximate. Constant expressions are
-/// decided in integers.
+/// boxes, oriented boxes, capsules, cylinders, cones, convex hulls and half spaces, which are solid, as docs/numerics.md lists.
+/// With `filtered` and `exact` the answer is right for every finite input and the same on each compiler and device; `fast` is
+/// approximate. Constant expressions are decided in integers.
 ///
 ///     static_assert(abut::intersects(abut::sphere<float>{{0, 0, 5}, 5},
 ///                                    abut::triangle<float>{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}));

@@ -19,7 +19,6 @@
 #include <abut/arithmetic/magnitude.hpp>
 #include <abut/arithmetic/vec.hpp>
 #include <abut/config.hpp>
-#include <abut/shape/bounds.hpp>
 #include <abut/shape/hull.hpp>
 #include <abut/shape/primitive.hpp>
 #include <abut/shape/rigid.hpp>

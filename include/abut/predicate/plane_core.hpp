@@ -118,12 +118,12 @@ ABUT_HD constexpr auto values_over(const plane<T>& p, const S& s, F distance) {
 /// are within 5u of it, u = 2^-52, in each rounding mode and with or without contraction. The code takes 8u, which pays for
 /// the rounding of `size` as well. What flush to zero takes from an input or a product is below 2^-126 (float) or 2^-1022
 /// times the other factor, for each of three terms and the offset. Double input whose products may overflow is left
-/// undecided.
+/// undecided. Where it is `Solid`, what is below the plane belongs to it.
 ///
 /// A radius R reaches as high as the vector v = R n is long. Of its square, 2^-40 pays for all rounding, and 2^-1000 for
 /// what squares lose that underflow. What flush to zero takes from v is below 2^-124 (|n| + R + 2^-124) in float, and in
 /// double likewise; `tiny` is more.
-template <bool Round, scalar T, int N>
+template <bool Round, bool Solid = false, scalar T, int N>
 ABUT_HD constexpr verdict certified_heights(const plane<T>& p, const corner_hull<T, N>& core,
                                             [[maybe_unused]] double radius) {
     constexpr double tiny = std::same_as<T, float> ? 0x1p-122 : 0x1p-1018;
@@ -142,8 +142,8 @@ ABUT_HD constexpr verdict certified_heights(const plane<T>& p, const corner_hull
     if constexpr (!Round) {
         if (std::same_as<T, double> && !(size < 0x1p1000)) return verdict::unknown;
         const double bound = 0x1p-49 * size + tiny * (magnitudes(n) + magnitudes(reach) + 1);
-        if (lowest > bound || highest < -bound) return verdict::no;
-        return lowest < -bound && highest > bound ? verdict::yes : verdict::unknown;
+        if (lowest > bound || (!Solid && highest < -bound)) return verdict::no;
+        return lowest < -bound && (Solid || highest > bound) ? verdict::yes : verdict::unknown;
     } else {
         const vec3<double> v = radius * n;
         const double square = dot(v, v), bound = 0x1p-49 * size + tiny * (magnitudes(n) + magnitudes(reach) + radius + 1);
@@ -175,9 +175,6 @@ ABUT_NOINLINE ABUT_HD constexpr bool resolve_within(const plane<T>& p, const S& 
     using predicate = plane_meets_corners<corners_over_plane<T, S>, true>;
     return decide_at_any_span<predicate>(values_over<double>(p, s, distance).value);
 }
-
-template <class S>
-concept has_radius = requires(const S& s) { s.radius; };
 
 }  // namespace detail
 

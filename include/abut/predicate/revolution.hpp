@@ -20,7 +20,6 @@
 #include <abut/predicate/capsule_triangle.hpp>
 #include <abut/predicate/near_cores.hpp>
 #include <abut/predicate/plane_core.hpp>
-#include <abut/predicate/sphere_segment.hpp>
 #include <abut/predicate/sphere_sphere.hpp>
 #include <abut/predicate/sphere_triangle.hpp>
 #include <abut/shape/core.hpp>

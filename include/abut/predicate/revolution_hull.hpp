@@ -24,7 +24,6 @@
 #include <abut/predicate/hull_numbers.hpp>
 #include <abut/predicate/revolution.hpp>
 #include <abut/predicate/solid_on_ways.hpp>
-#include <abut/shape/bounds.hpp>
 #include <abut/shape/hull.hpp>
 #include <abut/shape/outward.hpp>
 #include <abut/shape/primitive.hpp>
@@ -293,7 +292,7 @@ private:
 template <arithmetic A, solid_of_revolution S, scalar T>
 ABUT_NOINLINE ABUT_HD constexpr verdict search_solid(const S& s, const hull<T>& h) {
     constexpr bool certified = !std::same_as<A, fast>;
-    const hull_points<T, 2> axis = points_of(axis_of(s));
+    const corner_hull<T, 2> axis = points_of(axis_of(s));
     found_simplex found;
     const hull<T> ends = axis.as_hull();
     points_of_solid asked;
@@ -324,7 +323,7 @@ ABUT_NOINLINE ABUT_HD constexpr touch_of_hull find_touch(const S& s, const hull<
     if (!overlaps(bounds(s), bounds(h))) return touch_of_hull::none;  // where numbers leave the range of the search
     if (touch_exactly(h, axis)) return touch_of_hull::at_axis;
     if (all_are_beyond(h, axis.a, axis.b) || all_are_beyond(h, axis.b, axis.a)) return touch_of_hull::none;
-    const hull_points<T, 2> points = points_of(axis);
+    const corner_hull<T, 2> points = points_of(axis);
     const hull<T> ends = points.as_hull();
     points_of_solid asked;
     const hull_and_solid<true, S> x(h, s, ends, asked);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Does a solid sphere touch a triangle? And, with radius 0, does a point lie on it?
+// Does a solid sphere touch a triangle or a segment? And, with radius 0, does a point lie on a triangle?
 
 #include <abut/arithmetic/arithmetic.hpp>
 #include <abut/arithmetic/exact_stages.hpp>
@@ -16,6 +16,11 @@ namespace detail {
 template <scalar T>
 ABUT_HD constexpr auto values_of(const sphere<T>& s, const triangle<T>& t) {
     return in_a_row(s.center, t.a, t.b, t.c, s.radius);
+}
+
+template <scalar T>
+ABUT_HD constexpr auto values_of(const sphere<T>& s, const segment<T>& t) {
+    return in_a_row(s.center, t.a, t.b, s.radius);
 }
 
 }  // namespace detail
@@ -37,6 +42,24 @@ ABUT_HD constexpr verdict decide(const sphere<T>& s, const triangle<T>& t) {
 template <scalar T>
 ABUT_NOINLINE ABUT_HD constexpr bool resolve(const sphere<T>& s, const triangle<T>& t) {
     return decide_at_any_span<detail::ball_meets_triangle>(detail::values_of(s, t).value);
+}
+
+/// One stage of the decision, as for a triangle.
+template <arithmetic A, scalar T>
+ABUT_HD constexpr verdict decide(const sphere<T>& s, const segment<T>& t) {
+    if constexpr (std::same_as<A, exact>) {
+        return decide_in_limbs<detail::ball_meets_segment>(detail::values_of(s, t).value);
+    } else if constexpr (std::same_as<A, filtered>) {
+        return detail::certified(s.center, s.radius, t.a, t.b);
+    } else {
+        return to_verdict(detail::approximate(s.radius, t.a - s.center, t.b - s.center));
+    }
+}
+
+/// The last stage: decides every finite input.
+template <scalar T>
+ABUT_NOINLINE ABUT_HD constexpr bool resolve(const sphere<T>& s, const segment<T>& t) {
+    return decide_at_any_span<detail::ball_meets_segment>(detail::values_of(s, t).value);
 }
 
 /// A point is a sphere of radius 0.

@@ -10,7 +10,9 @@
 #include <concepts>
 
 #include <abut/arithmetic/arithmetic.hpp>
+#include <abut/predicate/as_hull.hpp>
 #include <abut/predicate/box_within.hpp>
+#include <abut/predicate/half_space.hpp>
 #include <abut/predicate/hull_within.hpp>
 #include <abut/predicate/intersects.hpp>
 #include <abut/predicate/plane_core.hpp>
@@ -22,6 +24,71 @@
 namespace abut {
 
 namespace detail {
+
+// The stages of shapes that are seen as hulls are those of the hull (as_hull.hpp), and those of a half space its plane's, if
+// none of it a point tells (half_space.hpp). The others are written in one order of two shapes.
+
+template <arithmetic A, class S, class U>
+ABUT_HD constexpr verdict decide_within_in_place(const S& s, const U& t, double distance) {
+    if constexpr (requires { decide_within<A>(s, t, distance); }) {
+        return decide_within<A>(s, t, distance);
+    } else {
+        return decide_within<A>(t, s, distance);
+    }
+}
+template <class S, class U>
+ABUT_HD constexpr bool resolve_within_in_place(const S& s, const U& t, double distance) {
+    if constexpr (requires { resolve_within(s, t, distance); }) {
+        return resolve_within(s, t, distance);
+    } else {
+        return resolve_within(t, s, distance);
+    }
+}
+template <class S, class U>
+concept has_stages_within = std::same_as<scalar_type_of<S>, scalar_type_of<U>> &&
+    (requires(const S& s, const U& t) { resolve_within(s, t, 0.0); } ||
+     requires(const S& s, const U& t) { resolve_within(t, s, 0.0); });
+template <class S, class U>
+concept within_as_hull = seen_as_hull<S> && !std::same_as<U, hull_form_of<S>> && !is_half_space<U> &&
+                         has_stages_within<hull_form_of<S>, hull_form_of<U>>;
+
+template <arithmetic A, class S, class U>
+    requires within_as_hull<S, U>
+ABUT_HD constexpr verdict decide_within(const S& s, const U& t, double distance) {
+    const auto a = hull_form(s);
+    const auto b = hull_form(t);
+    return decide_within_in_place<A>(a.as_hull(), b.as_hull(), distance);
+}
+template <arithmetic A, class S, class U>
+    requires(within_as_hull<S, U> && std::same_as<A, filtered>)
+ABUT_HD constexpr verdict decide_within_late(const S& s, const U& t, double distance) {
+    const auto a = hull_form(s);
+    const auto b = hull_form(t);
+    if constexpr (requires { decide_within_late<A>(a.as_hull(), b.as_hull(), distance); }) {
+        return decide_within_late<A>(a.as_hull(), b.as_hull(), distance);
+    } else {
+        return verdict::unknown;
+    }
+}
+template <class S, class U>
+    requires within_as_hull<S, U>
+ABUT_NOINLINE ABUT_HD constexpr bool resolve_within(const S& s, const U& t, double distance) {
+    const auto a = hull_form(s);
+    const auto b = hull_form(t);
+    return resolve_within_in_place(a.as_hull(), b.as_hull(), distance);
+}
+
+template <arithmetic A, scalar T, beside_plane<T> S>
+ABUT_HD constexpr verdict decide_within(const half_space<T>& s, const S& t, double distance) {
+    const verdict v = decide<A>(s, any_point_of(t));
+    const auto shape = hull_form(t);
+    return v == verdict::yes ? v : v || decide_within_in_place<A>(surface_of(s), shape.as_hull(), distance);
+}
+template <scalar T, beside_plane<T> S>
+ABUT_HD constexpr bool resolve_within(const half_space<T>& s, const S& t, double distance) {
+    const auto shape = hull_form(t);
+    return resolve(s, any_point_of(t)) || resolve_within_in_place(surface_of(s), shape.as_hull(), distance);
+}
 
 /// Shapes in the order in which their stages are written.
 template <class S, class U>
@@ -67,14 +134,15 @@ template <arithmetic A = filtered, shape S, shape U>
     } else if constexpr (!detail::within_as_given<S, U>) {
         return within<A>(t, s, distance);
     } else {
+        using namespace detail;  // and what is beside a shape of the caller's own
         const S& stored_s = detail::as_stored(s);
         const U& stored_t = detail::as_stored(t);
         if (!std::same_as<A, exact> && !ABUT_CONSTANT_EVALUATED()) {
-            const verdict v = detail::decide_within<A>(stored_s, stored_t, distance);
+            const verdict v = decide_within<A>(stored_s, stored_t, distance);
             if (v != verdict::unknown) return v == verdict::yes;
         }
         const verdict v = detail::decide_within_open<A>(stored_s, stored_t, distance);
-        return v == verdict::unknown ? detail::resolve_within(stored_s, stored_t, distance) : v == verdict::yes;
+        return v == verdict::unknown ? resolve_within(stored_s, stored_t, distance) : v == verdict::yes;
     }
 }
 

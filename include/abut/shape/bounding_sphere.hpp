@@ -15,7 +15,6 @@
 #include <abut/arithmetic/limits.hpp>
 #include <abut/arithmetic/magnitude.hpp>
 #include <abut/arithmetic/vec.hpp>
-#include <abut/shape/bounds.hpp>
 #include <abut/shape/outward.hpp>
 #include <abut/shape/primitive.hpp>
 #include <abut/shape/relative_pose.hpp>

@@ -5,7 +5,6 @@
 // same order as for one box (bounds.hpp, relative_pose.hpp), and so the same bounds on errors.
 
 #include <abut/arithmetic/lanes.hpp>
-#include <abut/shape/bounds.hpp>
 #include <abut/shape/primitive.hpp>
 #include <abut/shape/relative_pose.hpp>
 

@@ -13,6 +13,8 @@
 #include <abut/error.hpp>
 #include <abut/execution/buffer.hpp>
 #include <abut/execution/host.hpp>
+#include <abut/shape/form.hpp>
+#include <abut/shape/primitive.hpp>
 #include <abut/shape/shape.hpp>
 #include <abut/shape/view.hpp>
 #include <abut/shape/xyz_view.hpp>
@@ -53,110 +55,24 @@ struct fetch_shape {
     ABUT_HD void operator()(std::size_t i) const { out[i] = shapes[which]; }
 };
 
-// What is wrong with a shape that is not valid, as an exception.
-
-/// of: what the point is to the element, if it is a part of it.
-template <scalar T>
-[[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const vec3<T>& p,
-                         const std::string& of = "") {
-    const bool x = !is_finite(p.x), y = !is_finite(p.y);
-    const std::string name = x ? "x" : y ? "y" : "z";
-    throw invalid_geometry(function, element, i, of + name + " is not finite", static_cast<double>(x ? p.x : y ? p.y : p.z));
-}
-template <scalar T>
-[[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const triangle<T>& t) {
-    refuse(function, element, i, !is_valid(t.a) ? t.a : !is_valid(t.b) ? t.b : t.c);
-}
-template <scalar T>
-[[noreturn]] void refuse_radius(const std::string& function, const std::string& element, std::size_t i, T radius) {
-    const bool negative = radius < 0;
-    throw invalid_geometry(function, element, i, negative ? "radius is negative" : "radius is not finite",
-                           static_cast<double>(radius));
-}
-template <scalar T>
-[[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const sphere<T>& s) {
-    if (!is_valid(s.center)) refuse(function, element, i, s.center);
-    refuse_radius(function, element, i, s.radius);
-}
-template <scalar T>
-[[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const segment<T>& s) {
-    refuse(function, element, i, is_valid(s.a) ? s.b : s.a);
-}
-template <scalar T>
-[[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const ray<T>& r) {
-    refuse(function, element, i, is_valid(r.origin) ? r.direction : r.origin);
-}
-template <scalar T>
-[[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const aabb<T>& box) {
-    if (!is_valid(box.lower)) refuse(function, element, i, box.lower);
-    if (!is_valid(box.upper)) refuse(function, element, i, box.upper);
-    const bool x = box.lower.x > box.upper.x, y = box.lower.y > box.upper.y;
-    const std::string name = x ? "x" : y ? "y" : "z";
-    throw invalid_geometry(function, element, i, "lower " + name + " is above upper " + name,
-                           static_cast<double>(x   ? box.lower.x
-                                               : y ? box.lower.y
-                                                   : box.lower.z));
-}
-template <scalar T>
-[[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const plane<T>& p) {
-    if (!is_valid(p.normal)) refuse(function, element, i, p.normal);
-    throw invalid_geometry(function, element, i, "offset is not finite", static_cast<double>(p.offset));
-}
-template <scalar T>
-[[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const capsule<T>& s) {
-    if (!is_valid(s.axis)) refuse(function, element, i, s.axis);
-    refuse_radius(function, element, i, s.radius);
-}
-template <scalar T>
-[[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const cylinder<T>& s) {
-    refuse(function, element, i, capsule<T>{s.axis, s.radius});
-}
-template <scalar T>
-[[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const cone<T>& s) {
-    refuse(function, element, i, capsule<T>{{s.apex, s.base_center}, s.radius});
-}
-/// Of a shape in motion: what is wrong at one of its two times. Of a shape of the caller's own: what is wrong with its box,
-/// or else that its own is_valid says no.
+/// What is wrong with a shape that is not valid, as an exception. Of a shape in motion: what is wrong at one of its two times.
+/// Of a shape of the caller's own: what is wrong with its box, or else that its own is_valid says no.
 template <shape S>
 [[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const S& s) {
+    shape_flaw flaw;
     if constexpr (requires { s.t0, s.t1; }) {
         // Of a conditional expression nvcc does not see that it never returns.
         if (!is_valid(s.t0)) refuse(function + ": at t = 0", element, i, s.t0);
         refuse(function + ": at t = 1", element, i, s.t1);
+    } else if constexpr (tells_flaw<S>) {
+        flaw = flaw_of(s);
     } else {
         const aabb<scalar_type_of<S>> box = bounds(s);
-        if (!is_valid(box)) refuse(function, element, i, box);
-        throw invalid_geometry(function, element, i, "is_valid refuses it; its least x is",
-                               static_cast<double>(box.lower.x));
+        flaw = flaw_of(box);
+        if (!flaw) flaw = {"is_valid refuses it; its least x is", static_cast<double>(box.lower.x)};
     }
+    throw invalid_geometry(function, element, i, std::string(flaw.of) + flaw.what, flaw.value);
 }
-
-/// How messages name a shape, and the set that owns such shapes.
-struct shape_name {
-    const char *one, *set;
-};
-template <class S>
-inline constexpr shape_name name_of{"shape", "abut::shapes"};
-template <scalar T>
-inline constexpr shape_name name_of<triangle<T>>{"triangle", "abut::triangle_soup"};
-template <scalar T>
-inline constexpr shape_name name_of<sphere<T>>{"sphere", "abut::spheres"};
-template <scalar T>
-inline constexpr shape_name name_of<vec3<T>>{"point", "abut::points"};
-template <scalar T>
-inline constexpr shape_name name_of<segment<T>>{"segment", "abut::segments"};
-template <scalar T>
-inline constexpr shape_name name_of<capsule<T>>{"capsule", "abut::capsules"};
-template <scalar T>
-inline constexpr shape_name name_of<cylinder<T>>{"cylinder", "abut::cylinders"};
-template <scalar T>
-inline constexpr shape_name name_of<cone<T>>{"cone", "abut::cones"};
-template <scalar T>
-inline constexpr shape_name name_of<aabb<T>>{"box", "abut::boxes"};
-template <scalar T>
-inline constexpr shape_name name_of<ray<T>>{"ray", "abut::rays"};
-template <scalar T>
-inline constexpr shape_name name_of<plane<T>>{"plane", "abut::shapes"};
 
 /// The first shape that is not valid, or none_is_bad.
 template <class Policy, shape_view V>

@@ -27,6 +27,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include <abut/arithmetic/limits.hpp>
 #include <abut/arithmetic/magnitude.hpp>
@@ -36,14 +37,18 @@
 
 namespace abut::detail {
 
+/// The corners of a shape's core (form.hpp), if it is a hull of some.
 template <class S>
-inline constexpr int corners_of_shape = 0;
-template <scalar T>
-inline constexpr int corners_of_shape<vec3<T>> = 1;
-template <scalar T>
-inline constexpr int corners_of_shape<segment<T>> = 2;
-template <scalar T>
-inline constexpr int corners_of_shape<triangle<T>> = 3;
+inline constexpr int corners_of_core = 0;
+template <class S>
+    requires requires(const S& s) { decltype(core_of(s))::corners; }
+inline constexpr int corners_of_core<S> = decltype(core_of(std::declval<const S&>()))::corners;
+template <class S>
+concept has_radius = requires(const S& s) { s.radius; };
+
+/// The corners of a shape that is its own core.
+template <class S>
+inline constexpr int corners_of_shape = has_radius<S> ? 0 : corners_of_core<S>;
 
 /// Points whose convex hull a shape is.
 template <class S>
@@ -55,9 +60,11 @@ struct corners_from {
     vec3<T> at[std::size_t{N}];
 
     corners_from() = default;
-    ABUT_HD corners_from(const vec3<T>& p, const vec3<T>& from) : at{p - from} {}
-    ABUT_HD corners_from(const segment<T>& s, const vec3<T>& from) : at{s.a - from, s.b - from} {}
-    ABUT_HD corners_from(const triangle<T>& t, const vec3<T>& from) : at{t.a - from, t.b - from, t.c - from} {}
+    template <has_corners S>
+    ABUT_HD corners_from(const S& s, const vec3<T>& from) {
+        const auto core = core_of(s);
+        for (int k = 0; k < N; ++k) at[k] = core.at[k] - from;
+    }
 };
 template <has_corners S>
 using seen_corners_of = corners_from<scalar_type_of<S>, corners_of_shape<S>>;

@@ -9,7 +9,6 @@
 #include <cstddef>
 
 #include <abut/arithmetic/magnitude.hpp>
-#include <abut/shape/bounds.hpp>
 #include <abut/shape/primitive.hpp>
 #include <abut/shape/rigid.hpp>
 #include <abut/shape/shape.hpp>

@@ -103,7 +103,8 @@ struct bad_offset {
 template <scalar T>
 [[noreturn]] void refuse_point(const char* function, const char* element, std::size_t hull, std::size_t i,
                                const vec3<T>& p) {
-    refuse(function, element, hull, p, "point " + std::to_string(i) + ": ");
+    const shape_flaw flaw = flaw_of(p);
+    throw invalid_geometry(function, element, hull, "point " + std::to_string(i) + ": " + flaw.what, flaw.value);
 }
 
 /// The hull that point i of all points belongs to. The offsets are valid.

@@ -6,7 +6,6 @@
 #include <cstdint>
 
 #include <abut/config.hpp>
-#include <abut/shape/bounds.hpp>
 #include <abut/shape/place_word.hpp>
 #include <abut/shape/primitive.hpp>
 #include <abut/shape/reach.hpp>

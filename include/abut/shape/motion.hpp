@@ -13,7 +13,7 @@
 #include <vector>
 
 #include <abut/error.hpp>
-#include <abut/shape/bounds.hpp>
+#include <abut/shape/aabb.hpp>
 #include <abut/shape/check.hpp>
 #include <abut/shape/features.hpp>
 #include <abut/shape/moving_shape.hpp>

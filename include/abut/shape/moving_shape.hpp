@@ -4,7 +4,6 @@
 // Shapes in motion: each point of a shape moves in a straight line, at constant speed, from where it is at t = 0 to where it
 // is at t = 1. `moving` makes one of two shapes; sets in motion are in shape/motion.hpp.
 
-#include <abut/shape/bounds.hpp>
 #include <abut/shape/primitive.hpp>
 #include <abut/shape/rigid.hpp>
 #include <abut/shape/shape.hpp>
@@ -35,7 +34,7 @@ ABUT_HD constexpr bool is_valid(const motion<S>& m) {
 }
 /// The motion of the placed shape: both ends are placed.
 template <placeable S>
-ABUT_HD motion<S> place(const rigid<scalar_type_of<S>>& pose, const motion<S>& m) {
+ABUT_HD motion<placed_shape<S>> place(const rigid<scalar_type_of<S>>& pose, const motion<S>& m) {
     return {place(pose, m.t0), place(pose, m.t1)};
 }
 

@@ -10,7 +10,7 @@
 
 #include <abut/arithmetic/limits.hpp>
 #include <abut/arithmetic/magnitude.hpp>
-#include <abut/shape/bounds.hpp>
+#include <abut/shape/aabb.hpp>
 #include <abut/shape/obb.hpp>
 #include <abut/shape/point_reach.hpp>
 #include <abut/shape/relative_pose.hpp>

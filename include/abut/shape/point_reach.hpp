@@ -9,7 +9,7 @@
 
 #include <abut/arithmetic/limits.hpp>
 #include <abut/arithmetic/magnitude.hpp>
-#include <abut/shape/bounds.hpp>
+#include <abut/shape/aabb.hpp>
 #include <abut/shape/corners.hpp>
 #include <abut/shape/reach.hpp>
 #include <abut/shape/relative_pose.hpp>

@@ -11,6 +11,7 @@
 
 #include <abut/execution/policy.hpp>
 #include <abut/shape/check.hpp>
+#include <abut/shape/oriented_box.hpp>
 #include <abut/shape/rigid.hpp>
 #include <abut/shape/view.hpp>
 
@@ -74,7 +75,8 @@ inline constexpr bool is_posed<posed_object<Object>> = true;
 ///
 /// What touches is decided exactly, about shapes whose points `place` has rounded to the world's coordinates. The pose's
 /// numbers as they are define where these lie. A rotation that is not quite orthonormal stretches or shears a mesh as much
-/// as it is off. Radii stay. Of a posed object make one with the composed pose: `compose`.
+/// as it is off. Radii stay. A box becomes the hull of its eight corners, each of which is placed (`placed_box`). Of a posed
+/// object make one with the composed pose: `compose`.
 ///
 /// Nothing is thrown here. Queries throw invalid_geometry where the product of two rows is off from 0, or that of a row with
 /// itself from 1, by more than `rotation_tolerance` (2^-10). They also do so where the rotation reflects, and where a placed
@@ -83,16 +85,16 @@ template <class Object>
     requires(!is_posed<Object>)
 [[nodiscard]] posed_object<Object> posed(Object object, const rigid<scalar_type_of<Object>>& pose) {
     static_assert(placeable<typename detail::shape_of_object<Object>::type>,
-                  "abut: such shapes cannot be posed, for want of place(pose, shape); boxes stay along the axes");
+                  "abut: such shapes cannot be posed, for want of place(pose, shape)");
     return {std::move(object), pose};
 }
 
 /// The placed shapes of a view.
 template <shape_view V>
 struct posed_view {
-    using scalar_type = typename V::scalar_type;    ///< float or double
-    using shape_type = typename V::shape_type;      ///< what a shape is
-    using memory_space = typename V::memory_space;  ///< where the memory lies
+    using scalar_type = typename V::scalar_type;              ///< float or double
+    using shape_type = placed_shape<typename V::shape_type>;  ///< what a shape is where it is placed
+    using memory_space = typename V::memory_space;            ///< where the memory lies
 
     V shapes;                 ///< in the frame of their object
     rigid<scalar_type> pose;  ///< from that frame to the world's

@@ -23,7 +23,6 @@
 #include <abut/arithmetic/limits.hpp>
 #include <abut/arithmetic/magnitude.hpp>
 #include <abut/arithmetic/strict.hpp>
-#include <abut/shape/bounds.hpp>
 #include <abut/shape/point_reach.hpp>
 #include <abut/shape/primitive.hpp>
 

@@ -46,7 +46,6 @@
 #include <abut/arithmetic/magnitude.hpp>
 #include <abut/arithmetic/strict.hpp>
 #include <abut/arithmetic/vec.hpp>
-#include <abut/shape/bounds.hpp>
 #include <abut/shape/primitive.hpp>
 #include <abut/shape/rigid.hpp>
 

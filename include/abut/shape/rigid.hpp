@@ -16,8 +16,7 @@
 #include <abut/arithmetic/strict.hpp>
 #include <abut/arithmetic/vec.hpp>
 #include <abut/error.hpp>
-#include <abut/shape/bounds.hpp>
-#include <abut/shape/primitive.hpp>
+#include <abut/shape/aabb.hpp>
 
 namespace abut {
 
@@ -86,34 +85,6 @@ ABUT_HD constexpr vec3<T> place(const rigid<T>& pose, const vec3<T>& p) {
     return {detail::placed(r[0], r[1], r[2], p, pose.translation.x), detail::placed(r[3], r[4], r[5], p, pose.translation.y),
             detail::placed(r[6], r[7], r[8], p, pose.translation.z)};
 }
-
-/// Shapes are placed by their points. A radius stays: the world sees the ball of that radius around the placed centre.
-///@{
-template <scalar T>
-ABUT_HD constexpr segment<T> place(const rigid<T>& pose, const segment<T>& s) {
-    return {place(pose, s.a), place(pose, s.b)};
-}
-template <scalar T>
-ABUT_HD constexpr triangle<T> place(const rigid<T>& pose, const triangle<T>& t) {
-    return {place(pose, t.a), place(pose, t.b), place(pose, t.c)};
-}
-template <scalar T>
-ABUT_HD constexpr sphere<T> place(const rigid<T>& pose, const sphere<T>& s) {
-    return {place(pose, s.center), s.radius};
-}
-template <scalar T>
-ABUT_HD constexpr capsule<T> place(const rigid<T>& pose, const capsule<T>& s) {
-    return {place(pose, s.axis), s.radius};
-}
-template <scalar T>
-ABUT_HD constexpr cylinder<T> place(const rigid<T>& pose, const cylinder<T>& s) {
-    return {place(pose, s.axis), s.radius};
-}
-template <scalar T>
-ABUT_HD constexpr cone<T> place(const rigid<T>& pose, const cone<T>& s) {
-    return {place(pose, s.apex), place(pose, s.base_center), s.radius};
-}
-///@}
 
 /// Whether no point of the box can overflow where it is placed. False also where that is not certain: then look at each.
 template <scalar T>

@@ -19,6 +19,8 @@
 #include <vector>
 
 #include <abut/error.hpp>
+#include <abut/shape/form.hpp>
+#include <abut/shape/oriented_box.hpp>
 #include <abut/shape/primitive.hpp>
 
 namespace abut {
@@ -73,23 +75,7 @@ using number_in = typename decltype(innermost<P>())::type;
 
 /// Shapes that are numbers and nothing else: how many.
 template <class S>
-inline constexpr std::size_t numbers_of_shape = 0;
-template <scalar T>
-inline constexpr std::size_t numbers_of_shape<vec3<T>> = 3;
-template <scalar T>
-inline constexpr std::size_t numbers_of_shape<triangle<T>> = 9;
-template <scalar T>
-inline constexpr std::size_t numbers_of_shape<sphere<T>> = 4;
-template <scalar T>
-inline constexpr std::size_t numbers_of_shape<segment<T>> = 6;
-template <scalar T>
-inline constexpr std::size_t numbers_of_shape<aabb<T>> = 6;
-template <scalar T>
-inline constexpr std::size_t numbers_of_shape<capsule<T>> = 7;
-template <scalar T>
-inline constexpr std::size_t numbers_of_shape<cylinder<T>> = 7;
-template <scalar T>
-inline constexpr std::size_t numbers_of_shape<cone<T>> = 7;
+inline constexpr std::size_t numbers_of_shape = std::size_t{name_of<S>.numbers};
 template <class T, std::size_t n>
 inline constexpr std::size_t numbers_of_shape<std::array<T, n>> = n;
 

@@ -87,7 +87,7 @@ struct put_shape {
 /// @defgroup sets Sets
 ///
 /// What queries ask about. `shapes<Shape>` holds shapes as they are: `triangle_soup`, `spheres`, `points`, `segments`,
-/// `capsules`, `cylinders`, `cones` and `boxes` are its names for the library's own. `equal_spheres` shares a radius, `mesh` and
+/// `capsules`, `cylinders`, `cones`, `boxes` and `oriented_boxes` are its names for the library's own. `equal_spheres` shares a radius, `mesh` and
 /// `edge_mesh` share vertices. `vertices`, `edges` and `welded` make sets of a mesh. A shape's id is its position in the set,
 /// from 0. A set is checked when it is made and never changes after that. Empty sets are legal.
 ///
@@ -215,6 +215,9 @@ using cones = shapes<cone<T>, Space>;
 /// Solid boxes along the axes.
 template <scalar T, memory_space Space = host_space>
 using boxes = shapes<aabb<T>, Space>;
+/// Solid boxes in any direction.
+template <scalar T, memory_space Space = host_space>
+using oriented_boxes = shapes<oriented_box<T>, Space>;
 /// Rays, each with its own origin and direction.
 template <scalar T, memory_space Space = host_space>
 using rays = shapes<ray<T>, Space>;

@@ -8,10 +8,11 @@
 
 #include <concepts>
 #include <type_traits>
+#include <utility>
 
 #include <abut/arithmetic/error_free.hpp>
-#include <abut/shape/bounds.hpp>
-#include <abut/shape/primitive.hpp>
+#include <abut/shape/aabb.hpp>
+#include <abut/shape/form.hpp>
 #include <abut/shape/rigid.hpp>
 
 namespace abut {
@@ -52,75 +53,34 @@ concept boundable = scalar<scalar_type_of<S>> && requires(const S& s) {
 template <class S>
 concept shape = std::is_trivially_copyable_v<S> && std::default_initializable<S> && boundable<S>;
 
-/// Has `place(pose, s)`: the shape where a pose puts it. Each of its points may be off by no more than `place` of a point is
-/// (rigid.hpp), or culling under poses would lose pairs: place the points that the shape is made of and keep its lengths.
-/// Boxes have none, being along the axes, and neither have planes.
+/// Has `place(pose, s)`: the shape where a pose puts it, which may be of another type. Each of its points may be off by no
+/// more than `place` of a point is (rigid.hpp), or culling under poses would lose pairs: place the points that the shape is
+/// made of and keep its lengths. Planes have none.
 template <class S>
 concept placeable = shape<S> && requires(const rigid<scalar_type_of<S>>& pose, const S& s) {
-    { place(pose, s) } -> std::same_as<S>;
+    { place(pose, s) } -> shape;
+};
+/// What a shape is under a pose: of a box along the axes or an oriented one a `placed_box`, else what it was.
+template <placeable S>
+using placed_shape = decltype(place(std::declval<const rigid<scalar_type_of<S>>&>(), std::declval<const S&>()));
+
+/// Has `flaw_of(s)`, which says what is wrong with the numbers, if anything is: all shapes of the library have.
+template <class S>
+concept tells_flaw = requires(const S& s) {
+    { flaw_of(s) } -> std::same_as<shape_flaw>;
 };
 
 /// Whether the numbers make a shape: they are finite, radii are not negative, boxes not inside out. What is not valid is
-/// refused when a set or an index is made of it, and where it is posed.
-///@{
-template <scalar T>
-ABUT_HD constexpr bool is_valid(const vec3<T>& p) {
-    return detail::is_finite(p.x) && detail::is_finite(p.y) && detail::is_finite(p.z);
-}
-template <scalar T>
-ABUT_HD constexpr bool is_valid(const triangle<T>& t) {
-    return is_valid(t.a) && is_valid(t.b) && is_valid(t.c);
-}
-template <scalar T>
-ABUT_HD constexpr bool is_valid(const sphere<T>& s) {
-    return is_valid(s.center) && detail::is_finite(s.radius) && s.radius >= 0;
-}
-template <scalar T>
-ABUT_HD constexpr bool is_valid(const segment<T>& s) {
-    return is_valid(s.a) && is_valid(s.b);
-}
-template <scalar T>
-ABUT_HD constexpr bool is_valid(const aabb<T>& box) {
-    return is_valid(box.lower) && is_valid(box.upper) && box.lower.x <= box.upper.x && box.lower.y <= box.upper.y &&
-           box.lower.z <= box.upper.z;
-}
-template <scalar T>
-ABUT_HD constexpr bool is_valid(const plane<T>& p) {
-    return is_valid(p.normal) && detail::is_finite(p.offset);
-}
-template <scalar T>
-ABUT_HD constexpr bool is_valid(const ray<T>& r) {
-    return is_valid(r.origin) && is_valid(r.direction);
-}
-template <scalar T>
-ABUT_HD constexpr bool is_valid(const capsule<T>& s) {
-    return is_valid(s.axis) && detail::is_finite(s.radius) && s.radius >= 0;
-}
-template <scalar T>
-ABUT_HD constexpr bool is_valid(const cylinder<T>& s) {
-    return is_valid(s.axis) && detail::is_finite(s.radius) && s.radius >= 0;
-}
-template <scalar T>
-ABUT_HD constexpr bool is_valid(const cone<T>& s) {
-    return is_valid(s.apex) && is_valid(s.base_center) && detail::is_finite(s.radius) && s.radius >= 0;
-}
-///@}
-/// A shape that does not say otherwise is valid if its box is.
+/// refused when a set or an index is made of it, and where it is posed. A shape that does not say otherwise is valid if its
+/// box is.
 template <shape S>
 ABUT_HD constexpr bool is_valid(const S& s) {
-    return is_valid(bounds(s));
+    if constexpr (tells_flaw<S>) {
+        return !flaw_of(s);
+    } else {
+        return !flaw_of(bounds(s));
+    }
 }
-
-namespace detail {
-
-template <scalar T>
-struct reach_of_box {
-    aabb<T> box;
-    ABUT_HD bool operator()(const aabb<T>& other) const { return overlaps(box, other); }
-    [[nodiscard]] ABUT_HD aabb<T> bounds() const { return box; }
-};
-
-}  // namespace detail
 
 namespace detail {
 
@@ -134,7 +94,7 @@ inline constexpr bool refers_to_memory = false;
 /// overlaps its box.
 template <shape S>
 ABUT_HD auto reach_of(const S& s) {
-    return detail::reach_of_box<scalar_type_of<S>>{bounds(s)};
+    return detail::box_reach<scalar_type_of<S>>(bounds(s));
 }
 
 ///@}

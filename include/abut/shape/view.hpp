@@ -109,7 +109,8 @@ struct shapes_view {
     }
 };
 
-/// Views of triangles, balls, points, segments, capsules, cylinders, cones, boxes or rays, each with all its numbers.
+/// Views of triangles, balls, points, segments, capsules, cylinders, cones, boxes, oriented boxes or rays, each with all its
+/// numbers.
 ///@{
 template <scalar T, memory_space Space = host_space>
 using triangle_soup_view = shapes_view<triangle<T>, Space>;
@@ -127,6 +128,8 @@ template <scalar T, memory_space Space = host_space>
 using cones_view = shapes_view<cone<T>, Space>;
 template <scalar T, memory_space Space = host_space>
 using boxes_view = shapes_view<aabb<T>, Space>;
+template <scalar T, memory_space Space = host_space>
+using oriented_boxes_view = shapes_view<oriented_box<T>, Space>;
 template <scalar T, memory_space Space = host_space>
 using rays_view = shapes_view<ray<T>, Space>;
 ///@}

@@ -10,7 +10,6 @@
 #include <type_traits>
 
 #include <abut/shape/bounding_sphere.hpp>
-#include <abut/shape/bounds.hpp>
 #include <abut/shape/kdop.hpp>
 #include <abut/shape/obb.hpp>
 #include <abut/shape/outward.hpp>

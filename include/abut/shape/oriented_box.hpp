@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Boxes whose faces lie along no axes: `oriented_box`, and `placed_box`, which any box is under a pose. Both are the hulls of
+// eight corners, each rounded once, and all that is decided about them is decided about those (predicate/as_hull.hpp). Not
+// the bounding volume `obb` (obb.hpp), which may be larger than what it is around.
+
+#include <abut/shape/form.hpp>
+#include <abut/shape/hull.hpp>
+#include <abut/shape/rigid.hpp>
+
+namespace abut {
+
+/// @addtogroup shapes
+///@{
+
+/// A solid box in any direction. Its corners are `place(rigid<T>{rotation, center}, p)` of the eight points p whose
+/// coordinates are those of `half` or of -`half`, each coordinate rounded once; the box is their convex hull.
+template <scalar T>
+struct oriented_box {
+    vec3<T> center;                               ///< its middle
+    vec3<T> half;                                 ///< half of its three lengths; each 0 or more
+    T rotation[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< row by row, from the box's axes to the world's, as of `rigid`
+
+    friend constexpr bool operator==(const oriented_box&, const oriented_box&) = default;
+};
+
+/// A box where a pose has put it: the convex hull of its eight corners, each of which is placed as a point is.
+template <scalar T>
+struct placed_box {
+    vec3<T> corners[8];  ///< bit k of a corner's number says at which end of the box's axis k it was
+};
+
+namespace detail {
+
+template <scalar T>
+inline constexpr shape_name name_of<oriented_box<T>>{"oriented box", "abut::oriented_boxes", 15};
+template <scalar T>
+inline constexpr shape_name name_of<placed_box<T>>{"placed box", "abut::shapes", 24};
+
+template <scalar T>
+ABUT_HD constexpr corner_hull<T, 8> points_of(const aabb<T>& box) {
+    const vec3<T>&l = box.lower, &u = box.upper;
+    return {{l, {u.x, l.y, l.z}, {l.x, u.y, l.z}, {u.x, u.y, l.z}, {l.x, l.y, u.z}, {u.x, l.y, u.z}, {l.x, u.y, u.z}, u}};
+}
+template <scalar T>
+ABUT_HD constexpr corner_hull<T, 8> points_of(const placed_box<T>& box) {
+    corner_hull<T, 8> points;
+    for (int i = 0; i < 8; ++i) points.at[i] = box.corners[i];
+    return points;
+}
+/// A box of some corners where a pose puts it.
+template <scalar T>
+ABUT_HD constexpr placed_box<T> box_under(const rigid<T>& pose, const corner_hull<T, 8>& points) {
+    placed_box<T> box;
+    for (int i = 0; i < 8; ++i) box.corners[i] = place(pose, points.at[i]);
+    return box;
+}
+template <scalar T>
+ABUT_HD constexpr corner_hull<T, 8> points_of(const oriented_box<T>& box) {
+    const vec3<T>& h = box.half;
+    rigid<T> pose;
+    for (int i = 0; i < 9; ++i) pose.rotation[i] = box.rotation[i];
+    pose.translation = box.center;
+    return points_of(box_under(pose, points_of(aabb<T>{{-h.x, -h.y, -h.z}, h})));
+}
+
+/// Shapes that are decided and measured as the hull of `points_of` them.
+template <class S>
+inline constexpr bool is_seen_as_hull = false;
+template <scalar T>
+inline constexpr bool is_seen_as_hull<oriented_box<T>> = true;
+template <scalar T>
+inline constexpr bool is_seen_as_hull<placed_box<T>> = true;
+template <class S>
+concept seen_as_hull = is_seen_as_hull<S>;
+
+/// By how much the product of two rows is off from that of a rotation; the same bits on every policy.
+template <scalar T>
+ABUT_HD constexpr double rotation_error(const T (&m)[9], int i, int j) {
+    const vec3<double> a = widened(row(m, i)), b = widened(row(m, j));
+    const double xy = plain_sum(plain_product(a.x, b.x), plain_product(a.y, b.y));
+    return plain_sum(plain_sum(xy, plain_product(a.z, b.z)), i == j ? -1.0 : 0.0);
+}
+/// Of numbers that are finite. A determinant is near 1 or -1 where rows are orthonormal, so that its rounding does not matter.
+template <scalar T>
+ABUT_HD constexpr shape_flaw flaw_of_rotation(const T (&m)[9]) {
+    for (int k = 0; k < 6; ++k) {
+        const double off = rotation_error(m, k % 3, k < 3 ? k : (k + 1) % 3);
+        if (absolute(off) <= rotation_tolerance) continue;
+        if (k < 3) return {"squared length of a row differs from 1 by more than 2^-10", off, "rotation: "};
+        return {"product of two rows differs from 0 by more than 2^-10", off, "rotation: "};
+    }
+    const double determinant = dot(cross(widened(row(m, 0)), widened(row(m, 1))), widened(row(m, 2)));
+    if (determinant < 0) return {"it reflects: its determinant is negative", determinant, "rotation: "};
+    return {};
+}
+
+}  // namespace detail
+
+/// The smallest box around the corners. Exact.
+template <detail::seen_as_hull S>
+ABUT_HD constexpr auto bounds(const S& s) {
+    return bounds(detail::points_of(s).as_hull());
+}
+
+/// A box under a pose, along the axes or not: each corner is placed as a point alone is.
+///@{
+template <scalar T>
+ABUT_HD constexpr placed_box<T> place(const rigid<T>& pose, const aabb<T>& box) {
+    return detail::box_under(pose, detail::points_of(box));
+}
+template <scalar T, detail::seen_as_hull S>
+ABUT_HD constexpr placed_box<T> place(const rigid<T>& pose, const S& box) {
+    return detail::box_under(pose, detail::points_of(box));
+}
+///@}
+
+/// That a corner is not finite. And of an oriented box, that a half length is negative, or the rotation none within
+/// `rotation_tolerance`.
+///@{
+template <scalar T>
+ABUT_HD constexpr shape_flaw flaw_of(const placed_box<T>& box) {
+    for (const vec3<T>& corner : box.corners) {
+        if (const shape_flaw flaw = flaw_of(corner)) return flaw;
+    }
+    return {};
+}
+template <scalar T>
+ABUT_HD constexpr shape_flaw flaw_of(const oriented_box<T>& box) {
+    if (const shape_flaw flaw = flaw_of(box.center)) return {flaw.what, flaw.value, "center "};
+    if (const shape_flaw flaw = flaw_of(box.half)) return {flaw.what, flaw.value, "half "};
+    const T least_half = detail::least(box.half.x, box.half.y, box.half.z);
+    if (least_half < 0) return {"a half length is negative", static_cast<double>(least_half)};
+    if (const shape_flaw flaw = detail::flaw_of_rotation(box.rotation)) return flaw;
+    for (const vec3<T>& corner : detail::points_of(box).at) {
+        if (const shape_flaw flaw = flaw_of(corner)) return {flaw.what, flaw.value, "corner "};
+    }
+    return {};
+}
+///@}
+
+///@}
+
+}  // namespace abut

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+// long to compile
+#include <abut/cuda.hpp>
+
+#include "collide/box_cases.hpp"
+#include "support/catch.hpp"
+
+TEST_CASE("oriented boxes: pairs, cuda") { abut::test::check_sets_of_boxes<float>(abut::cuda{}); }
+TEST_CASE("oriented boxes: more queries, cuda") { abut::test::check_more_of_boxes<float>(abut::cuda{}); }
+TEST_CASE("half spaces: queries, cuda") { abut::test::check_half_spaces<float>(abut::cuda{}); }
