@@ -3,8 +3,8 @@
 
 // `within`: are two shapes no farther apart than a distance? The distance of shapes that are convex hulls of points, or what
 // is within a radius of such a hull, from each other or from a plane, is compared with a number that is taken as it is. The
-// squared distance is a rational of the input, and so the answer is decided exactly. Cylinders and cones with points, balls
-// and planes are decided exactly as well, by signs of polynomials. Not for how far apart they are: that is distance
+// squared distance is a rational of the input, and so the answer is decided exactly. Cylinders and cones with all of these
+// are decided exactly as well, by signs of polynomials. Not for how far apart they are: that is distance
 // (narrow/distance.hpp), which rounds.
 
 #include <concepts>
