@@ -147,7 +147,7 @@ private:
 ///   when_lost(at)           what to say where a difference comes again, and nothing else is known
 ///   most_steps              after which it is lost too
 /// They may have way_between_middles(), a way to begin with; and is_enough(w, at), whether the feature that is nearest to the
-/// origin says yes already.
+/// origin, with its corners in `w`, says yes already.
 template <class H>
 concept hulls_in_numbers = requires(const H& x, const vec3<typename nearest_feature<typename H::number>::cubic>& way,
                                     std::uint32_t& i, const vec3<typename H::number> (&w)[4], const difference_simplex& at) {

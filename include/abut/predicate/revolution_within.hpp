@@ -150,15 +150,11 @@ ABUT_HD constexpr const auto& shape_of_core(const U& t) {
     }
 }
 
-/// A core and a solid that are to be within `reach`, as gjk.hpp reads two hulls.
-template <bool Certified, solid_of_revolution S>
-class core_near_solid : public hull_and_solid<Certified, S> {
-    using base = hull_and_solid<Certified, S>;
-
+/// Two shapes that are to be within a reach, as gjk.hpp reads two hulls.
+template <bool Certified, class Both>
+class near_on_ways : public Both {
 public:
-    using typename base::T;
-
-    using base::base;
+    using Both::Both;
 
     /// Whether the feature of the first corners is near. Its nearest point is a combination of differences, each of which is
     /// off by less than is lost on ways, as its weights are by less than 2^-50.
@@ -166,10 +162,12 @@ public:
         double weight[3];
         const vec3<double> q = nearest_on_feature(w, least(at.count, 3), weight), one = of_size_1(q);
         const double length = magnitudes(q) * square_root(dot(one, one));
-        if constexpr (!Certified) return length <= base::reach();
-        return base::is_known() && (1 + 0x1p-40) * length + lost_on_ways<T>(base::size()) <= base::reach();
+        if constexpr (!Certified) return length <= Both::reach();
+        return Both::is_known() && (1 + 0x1p-40) * length + lost_on_ways<typename Both::T>(Both::size()) <= Both::reach();
     }
 };
+template <bool Certified, class S>
+using core_near_solid = near_on_ways<Certified, hull_and_solid<Certified, S>>;
 
 /// Whether the core is within reach of the solid, whose axis has a length, if the search tells.
 template <bool Certified, solid_of_revolution S, scalar T>
