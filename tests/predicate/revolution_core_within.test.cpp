@@ -16,6 +16,7 @@
 #include "support/revolution_gap.hpp"
 #include "support/revolution_pairs.hpp"
 #include "support/revolution_solid.hpp"
+#include "support/revolution_ties.hpp"
 #include "support/samples.hpp"
 #include "support/stages.hpp"
 #include "support/within_pairs.hpp"
@@ -61,14 +62,7 @@ static_assert(distance_decidable<cylinder<float>, segment<float>> && distance_de
               distance_decidable<hull<double>, cylinder<double>> && distance_decidable<cone<float>, hull<float>> &&
               !distance_decidable<cone<float>, hull<double>>);
 
-struct tally {
-    std::uint64_t pairs = 0, hits = 0, wrong = 0, unlike = 0, open = 0, untold = 0;
-
-    tally& operator+=(const tally& o) {
-        pairs += o.pairs, hits += o.hits, wrong += o.wrong, unlike += o.unlike, open += o.open, untold += o.untold;
-        return *this;
-    }
-};
+using tally = test::within_tally;
 
 /// Every stage; `fast` is counted where it is unlike.
 template <class S, class U>
@@ -89,13 +83,6 @@ void examine_stages(const S& s, const U& t, double d, bool truth, std::uint64_t 
     sum.wrong += wrong;
 }
 
-/// Distances beside the least that is enough: hardly, and some.
-double distance_beside(double least, std::uint64_t index) {
-    constexpr double some[4] = {1 + 0x1p-30, 1 - 0x1p-30, 1.25, 0.75};
-    const double at = least * some[index % 4];
-    return index % 16 < 12 || !(at < std::numeric_limits<double>::infinity()) ? test::distance_near(least, index) : at;
-}
-
 /// Beside the distance, as it is measured; where the bounds of the oracle do not tell, nothing is asked.
 template <class S, class U>
 void examine(const S& s, const U& t, std::uint64_t index, tally& sum) {
@@ -114,7 +101,7 @@ void examine(const S& s, const U& t, std::uint64_t index, tally& sum) {
             least = detail::distance_apart(t, s).distance;
         }
     }
-    const double d = distance_beside(least, index);
+    const double d = test::distance_beside(least, index);
     if (touch) return examine_stages(s, t, d, true, index, sum);
     const test::wide_gap_of_solid gap = test::gap_of_solid(s, t);
     const test::wide off = ldexp(gap.farthest, -150);  // of the bounds, where what cancels is far larger
@@ -147,60 +134,8 @@ void examine_case(const test::revolution_case<scalar_type_of<Solid>>& c, std::ui
     if (finite) examine(s, hull<T>(points.data(), points.size()), k / 4, sum[4]);
 }
 
-void print(const char* name, const tally& sum) {
-    std::printf("%-16s | %6llu %6llu %6llu %6llu %6llu\n", name, static_cast<unsigned long long>(sum.pairs),
-                static_cast<unsigned long long>(sum.hits), static_cast<unsigned long long>(sum.open),
-                static_cast<unsigned long long>(sum.unlike), static_cast<unsigned long long>(sum.untold));
-}
-
 // --- exact ties
 // ------------------------------------------------------------------------------------------------------------------------
-
-/// A solid in a lattice, a point on it, and there an outward normal of whole numbers, that may be as far as it is long.
-struct lattice_touch {
-    int height = 0, radius = 0;            ///< of the solid, along the third axis of the frame from its origin
-    int at[3]{}, normal[3]{}, length = 1;  ///< in the frame
-    int across[2][3]{};                    ///< orthogonal to the normal
-};
-
-inline lattice_touch touch_in_lattice(test::draws& d, bool is_cone) {
-    constexpr int circle[12][2] = {{5, 0},  {4, 3},   {3, 4},   {0, 5},  {-3, 4}, {-4, 3},
-                                   {-5, 0}, {-4, -3}, {-3, -4}, {0, -5}, {3, -4}, {4, -3}};
-    const int* const u = circle[d.below(12)];
-    lattice_touch x;
-    const int size = 1 + d.below(3), kind = d.below(4);
-    const auto set = [](int (&v)[3], int a, int b, int c) { v[0] = a, v[1] = b, v[2] = c; };
-    // At so many times the circle's point, with a normal that leads out so many times as far, and up.
-    const auto profile = [&](int out, int up, int normal_out, int normal_up) {
-        set(x.at, out * u[0], out * u[1], up);
-        set(x.normal, normal_out * u[0], normal_out * u[1], normal_up);
-        set(x.across[0], -u[1], u[0], 0);
-        set(x.across[1], -normal_up * u[0], -normal_up * u[1], 25 * normal_out);
-    };
-    const bool other = d.below(2) == 0;
-    if (is_cone) {
-        x.height = 20 * size, x.radius = 15 * size;
-        const int part = 1 + d.below(size);
-        switch (kind) {
-            case 0: profile(3 * part, 20 * part, 4, -15); break;                    // the side
-            case 1: profile(0, 0, other ? 3 : 0, other ? -20 : -1); break;          // the apex
-            case 2: profile(3 * size, x.height, other ? 3 : 1, other ? 20 : 0); break;  // the rim
-            default: profile(d.below(3 * size + 1), x.height, 0, 1);                // the base
-        }
-    } else {
-        x.height = 1 + d.below(9), x.radius = 5 * size;
-        const int end = d.below(2) * x.height, up = end == 0 ? -1 : 1;
-        switch (kind) {
-            case 0: profile(size, d.below(x.height + 1), 1, 0); break;
-            case 1: profile(size, end, 3, up * 20); break;
-            case 2: profile(size, end, 4, up * 15); break;
-            default: profile(d.below(size + 1), end, 0, up);
-        }
-    }
-    const int* const n = x.normal;
-    x.length = static_cast<int>(std::lround(std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2])));
-    return x;
-}
 
 /// Shapes of each kind on the far side of the parallel plane, with a point in it opposite; a capsule's radius is taken off.
 template <class Solid>
@@ -209,7 +144,7 @@ void examine_tie(std::uint64_t k, tally (&sum)[kinds]) {
     constexpr bool is_cone = std::same_as<Solid, cone<T>>;
     test::draws draw(test::sample_seed, is_cone ? 96 : 95, k);
     const test::construction::lattice_frame f(draw);
-    const lattice_touch x = touch_in_lattice(draw, is_cone);
+    const test::lattice_touch x = test::touch_in_lattice(draw, is_cone);
     const int far = draw.below(4), apart = far * x.length * f.unit();
     const auto place = [&](int a, int b, int out) {
         const auto at = [&](int i) {
@@ -266,7 +201,7 @@ TEMPLATE_TEST_CASE("within, cylinders and cones: edges, faces and hulls in every
         for (int i = 0; i < kinds; ++i) of_family += sum[i], total[i] += sum[i];
         CAPTURE(name);
         CHECK(of_family.wrong == 0);
-        print(name, of_family);
+        test::print(name, of_family);
     };
     for (int i = 0; i < test::revolution_family_count; ++i) {
         const auto f = static_cast<test::revolution_family>(i);
@@ -286,7 +221,7 @@ TEMPLATE_TEST_CASE("within, cylinders and cones: edges, faces and hulls in every
     add("nearly parallel", sum[0]);
     add("needles", sum[1]);
     for (int i = 0; i < kinds; ++i) {
-        print(name_of_kind[i], total[i]);
+        test::print(name_of_kind[i], total[i]);
         CHECK(total[i].untold * 20 <= total[i].pairs);
         CHECK(test::is_share_above(0.15, total[i].hits, total[i].pairs));
         CHECK(test::is_share_above(0.15, total[i].pairs - total[i].hits, total[i].pairs));
@@ -301,7 +236,7 @@ TEMPLATE_TEST_CASE("within, cylinders and cones: edges, faces and hulls that are
     for (std::uint64_t k = 0; k < test::some_samples(50); ++k) examine_tie<TestType>(k, sum);
     for (int i = 0; i < kinds; ++i) {
         CAPTURE(name_of_kind[i]);
-        print(name_of_kind[i], sum[i]);
+        test::print(name_of_kind[i], sum[i]);
         CHECK(sum[i].wrong == 0);
         CHECK(sum[i].hits * 10 >= sum[i].pairs * 6);
         CHECK(sum[i].pairs > sum[i].hits);
