@@ -144,7 +144,8 @@ concept revolution_and_core = solid_of_revolution<S> && has_core_points<U, scala
 template <arithmetic A, class S, class U>
 requires revolution_and_core<S, U> ABUT_HD constexpr verdict decide_within(const S& s, const U& t, double distance);
 template <class S, class U>
-requires revolution_and_core<S, U> ABUT_HD constexpr bool resolve_within(const S& s, const U& t, double distance);
+requires revolution_and_core<S, U> ABUT_NOINLINE ABUT_HD constexpr bool resolve_within(const S& s, const U& t,
+                                                                                       double distance);
 
 /// A stage of another pair that has a ball or a segment in it, in either order.
 ///@{
