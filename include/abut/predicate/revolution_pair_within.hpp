@@ -171,6 +171,26 @@ ABUT_NOINLINE ABUT_HD constexpr verdict search_near_solids(const S& s, const U& 
         near_on_ways<Certified, solids_on_ways<Certified, S, U>>(s, t, ends_of_s, ends_of_t, of_s, of_t, reach), at, w);
 }
 
+/// A stage of another pair that has a ball or a segment in it, in either order.
+///@{
+template <arithmetic A, class S, class U>
+ABUT_HD constexpr verdict decide_within_in_place(const S& s, const U& t, double distance) {
+    if constexpr (requires { decide_within<A>(s, t, distance); }) {
+        return decide_within<A>(s, t, distance);
+    } else {
+        return decide_within<A>(t, s, distance);
+    }
+}
+template <class S, class U>
+ABUT_HD constexpr bool resolve_within_in_place(const S& s, const U& t, double distance) {
+    if constexpr (requires { resolve_within(s, t, distance); }) {
+        return resolve_within(s, t, distance);
+    } else {
+        return resolve_within(t, s, distance);
+    }
+}
+///@}
+
 /// The first stage: in double; or of `exact` in 256 digits, and unknown only where that search does not end.
 template <arithmetic A, class S, class U>
 requires revolution_pair_as_given<S, U> ABUT_HD constexpr verdict decide_within(const S& s, const U& t, double distance) {

@@ -140,33 +140,6 @@ ABUT_NOINLINE ABUT_HD constexpr bool resolve_within(const S& s, const plane<T>& 
 template <class S, class U>
 concept revolution_and_core = solid_of_revolution<S> && has_core_points<U, scalar_type_of<S>> && corners_of_core<U> != 1;
 
-// Defined below.
-template <arithmetic A, class S, class U>
-requires revolution_and_core<S, U> ABUT_HD constexpr verdict decide_within(const S& s, const U& t, double distance);
-template <class S, class U>
-requires revolution_and_core<S, U> ABUT_NOINLINE ABUT_HD constexpr bool resolve_within(const S& s, const U& t,
-                                                                                       double distance);
-
-/// A stage of another pair that has a ball or a segment in it, in either order.
-///@{
-template <arithmetic A, class S, class U>
-ABUT_HD constexpr verdict decide_within_in_place(const S& s, const U& t, double distance) {
-    if constexpr (requires { decide_within<A>(s, t, distance); }) {
-        return decide_within<A>(s, t, distance);
-    } else {
-        return decide_within<A>(t, s, distance);
-    }
-}
-template <class S, class U>
-ABUT_HD constexpr bool resolve_within_in_place(const S& s, const U& t, double distance) {
-    if constexpr (requires { resolve_within(s, t, distance); }) {
-        return resolve_within(s, t, distance);
-    } else {
-        return resolve_within(t, s, distance);
-    }
-}
-///@}
-
 /// A core as a shape: of a capsule its axis.
 template <class U>
 ABUT_HD constexpr const auto& shape_of_core(const U& t) {
@@ -318,7 +291,13 @@ ABUT_NOINLINE ABUT_HD constexpr verdict any_triangle_near(const S& s, const hull
 /// The first stage, as above.
 template <arithmetic A, class S, class U>
 requires revolution_and_core<S, U> ABUT_HD constexpr verdict decide_within(const S& s, const U& t, double distance) {
-    if (is_point(axis_of(s))) return decide_within_in_place<A>(ball_around(s), t, distance);
+    if (is_point(axis_of(s))) {
+        if constexpr (corners_of_core<U> > 0) {
+            return decide_within<A>(ball_around(s), t, distance);
+        } else {
+            return decide_within<A>(t, ball_around(s), distance);
+        }
+    }
     const auto core = core_points_of(t);
     if constexpr (!std::same_as<A, exact>) {
         return search_near_solid<std::same_as<A, filtered>>(s, core.as_hull(), reach_to_core(t, distance));
@@ -345,7 +324,13 @@ requires(std::same_as<A, filtered> && revolution_and_core<S, U>) ABUT_HD constex
 template <class S, class U>
 requires revolution_and_core<S, U> ABUT_NOINLINE ABUT_HD constexpr bool resolve_within(const S& s, const U& t,
                                                                                        double distance) {
-    if (is_point(axis_of(s))) return resolve_within_in_place(ball_around(s), t, distance);
+    if (is_point(axis_of(s))) {
+        if constexpr (corners_of_core<U> > 0) {
+            return resolve_within(ball_around(s), t, distance);
+        } else {
+            return resolve_within(t, ball_around(s), distance);
+        }
+    }
     if (resolve(s, shape_of_core(t))) return true;
     if constexpr (std::same_as<U, hull<scalar_type_of<S>>>) {
         return any_triangle_near(s, t, distance, true) == verdict::yes;
