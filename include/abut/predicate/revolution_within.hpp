@@ -162,6 +162,7 @@ public:
         double weight[3];
         const vec3<double> q = nearest_on_feature(w, least(at.count, 3), weight), one = of_size_1(q);
         const double length = magnitudes(q) * square_root(dot(one, one));
+        if (!(length > 0)) return false;  // of no size that doubles compare
         if constexpr (!Certified) return length <= Both::reach();
         return Both::is_known() && (1 + 0x1p-40) * length + lost_on_ways<typename Both::T>(Both::size()) <= Both::reach();
     }
