@@ -14,6 +14,7 @@
 #include <abut/predicate/hull_within.hpp>
 #include <abut/predicate/intersects.hpp>
 #include <abut/predicate/plane_core.hpp>
+#include <abut/predicate/ray_within.hpp>
 #include <abut/predicate/revolution_pair_within.hpp>
 #include <abut/predicate/revolution_within.hpp>
 #include <abut/predicate/within_stages.hpp>
