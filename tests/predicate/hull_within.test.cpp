@@ -32,7 +32,7 @@ static_assert(within(tent, plane<float>{{0, 0, 2}, 10}, 3) &&
               !within(plane<float>{{0, 0, 2}, 10}, tent, 0x1.7ffffffffffffp1));
 static_assert(within(tent, tent, 0) && distance_decidable<capsule<double>, hull<double>> &&
               distance_decidable<hull<float>, aabb<float>> && !distance_decidable<hull<float>, vec3<double>> &&
-              !distance_decidable<hull<float>, ray<float>>);
+              !distance_decidable<hull<float>, ray<double>>);
 
 constexpr int kinds = test::kinds_beside_hulls;
 

@@ -54,10 +54,8 @@ static_assert(within(cylinder<float>{{{1, 1, 1}, {1, 1, 1}}, 2}, sphere<float>{{
               !within(cone<float>{{1, 1, 1}, {1, 1, 1}, 2}, vec3<float>{4, 5, 1}, 2.9999999));
 
 static_assert(distance_decidable<cylinder<float>, vec3<float>> && distance_decidable<sphere<double>, cone<double>>);
-static_assert(!distance_decidable<cylinder<float>, vec3<double>> && !distance_decidable<cone<float>, cylinder<float>>);
-static_assert(!distance_decidable<cylinder<float>, segment<float>> && !distance_decidable<triangle<float>, cone<float>>);
-static_assert(!distance_decidable<cylinder<float>, aabb<float>> && distance_decidable<plane<float>, cone<float>>);
-static_assert(!distance_decidable<cylinder<float>, capsule<float>> && !distance_decidable<hull<float>, cone<float>>);
+static_assert(!distance_decidable<cylinder<float>, vec3<double>>);
+static_assert(distance_decidable<plane<float>, cone<float>>);
 
 using tally = test::decision_tally;
 

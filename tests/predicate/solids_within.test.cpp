@@ -23,7 +23,7 @@ static_assert(within(triangle<float>{{-9, -9, 3}, {9, -9, 3}, {0, 9, 3}}, aabb<f
               !within(triangle<float>{{-9, -9, 3}, {9, -9, 3}, {0, 9, 3}}, aabb<float>{{0, 0, 0}, {1, 1, 1}}, 1));
 static_assert(within(plane<float>{{2, 3, 6}, 0}, sphere<float>{{2, 3, 6}, 1}, 6) &&
               !within(sphere<float>{{2, 3, 6}, 1}, plane<float>{{2, 3, 6}, 0}, 0x1.7ffffffffffffp2));
-static_assert(!distance_decidable<plane<float>, plane<float>> && !distance_decidable<ray<float>, aabb<float>>);
+static_assert(!distance_decidable<plane<float>, plane<float>> && !distance_decidable<ray<float>, plane<float>>);
 
 template <class S, class U>
 verdict late_within(const S& s, const U& t, double d) {

@@ -18,7 +18,8 @@
 
 namespace abut::detail {
 
-/// Two solids whose axes have a length, as gjk.hpp reads two hulls. Their points are those that were asked for.
+/// Two solids whose axes have a length, as gjk.hpp reads two hulls. Their points are those that were asked for. They count as
+/// apart where they are by more than `reach`.
 template <bool Certified, solid_of_revolution S, solid_of_revolution U>
 class solids_on_ways {
 public:
@@ -27,8 +28,8 @@ public:
     static constexpr int most_steps = points_of_solid::room - 1;
 
     ABUT_HD constexpr solids_on_ways(const S& s, const U& t, const hull<T>& axis_of_s, const hull<T>& axis_of_t,
-                                     points_of_solid& asked_of_s, points_of_solid& asked_of_t)
-        : axes_(axis_of_s, axis_of_t), s_(s), t_(t), of_s_(asked_of_s), of_t_(asked_of_t) {}
+                                     points_of_solid& asked_of_s, points_of_solid& asked_of_t, double reach = 0)
+        : axes_(axis_of_s, axis_of_t), s_(s), t_(t), of_s_(asked_of_s), of_t_(asked_of_t), reach_(reach) {}
 
     [[nodiscard]] ABUT_HD constexpr vec3<double> way_between_middles() const { return axes_.way_between_middles(); }
     [[nodiscard]] ABUT_HD constexpr vec3<double> difference(std::uint32_t i, std::uint32_t j) const {
@@ -49,7 +50,8 @@ public:
     [[nodiscard]] ABUT_HD constexpr bool are_apart(const vec3<double>& way, std::uint32_t i, std::uint32_t j) const {
         const vec3<double> one = of_size_1(way);
         const std::uint32_t k = of_s_.end[i], l = of_t_.end[j];
-        const double ahead = axes_.ahead(one, k, l) - s_.reach(one, k) - t_.reach(one, l);
+        double ahead = axes_.ahead(one, k, l) - s_.reach(one, k) - t_.reach(one, l);
+        if (reach_ > 0) ahead -= reach_ * square_root(dot(one, one));
         if constexpr (!Certified) return ahead > 0;
         return is_known() && is_more_than_lost<T>(ahead, size());
     }
@@ -61,10 +63,12 @@ public:
         return Certified ? verdict::unknown : verdict::yes;
     }
 
-private:
+protected:
+    [[nodiscard]] ABUT_HD constexpr double reach() const { return reach_; }
     [[nodiscard]] ABUT_HD constexpr bool is_known() const { return s_.is_known && t_.is_known; }
-    [[nodiscard]] ABUT_HD constexpr double size() const { return axes_.size() + (s_.radius + t_.radius); }
+    [[nodiscard]] ABUT_HD constexpr double size() const { return axes_.size() + (s_.radius + t_.radius) + reach_; }
 
+private:
     /// Whether a tetrahedron holds all points that are as near to the origin as points of the solids are known.
     [[nodiscard]] ABUT_HD constexpr bool holds_ball(const vec3<double> (&w)[4]) const {
         const double lost = lost_on_ways<T>(size());
@@ -86,6 +90,7 @@ private:
     solid_beside_axis<S> s_;
     solid_beside_axis<U> t_;
     points_of_solid &of_s_, &of_t_;
+    double reach_;
 };
 
 /// Whether they touch, if the search tells.

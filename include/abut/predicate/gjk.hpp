@@ -146,7 +146,8 @@ private:
 ///   holds_origin(w, at)     whether it does, of a simplex that was found to
 ///   when_lost(at)           what to say where a difference comes again, and nothing else is known
 ///   most_steps              after which it is lost too
-/// They may have way_between_middles(), a way to begin with.
+/// They may have way_between_middles(), a way to begin with; and is_enough(w, at), whether the feature that is nearest to the
+/// origin, with its corners in `w`, says yes already.
 template <class H>
 concept hulls_in_numbers = requires(const H& x, const vec3<typename nearest_feature<typename H::number>::cubic>& way,
                                     std::uint32_t& i, const vec3<typename H::number> (&w)[4], const difference_simplex& at) {
@@ -193,6 +194,9 @@ ABUT_HD constexpr verdict search_origin(const Hulls& x, difference_simplex& at, 
             }
         }
         if (found == nearest_to::origin) return x.holds_origin(w, at);
+        if constexpr (requires { x.is_enough(w, at); }) {
+            if (x.is_enough(w, at)) return verdict::yes;
+        }
         std::uint32_t i = 0, j = 0;
         x.look_back(nearest.way, i, j);
         if constexpr (What == sought::meeting) {

@@ -42,8 +42,10 @@ public:
     using number = double;
     static constexpr int most_steps = points_of_solid::room - 1;
 
-    ABUT_HD constexpr hull_and_solid(const hull<T>& h, const S& s, const hull<T>& axis, points_of_solid& asked)
-        : both_(h, axis), solid_(s), asked_(asked) {}
+    /// Of the solid and what is within `reach` of it, where the search asks whether both are apart.
+    ABUT_HD constexpr hull_and_solid(const hull<T>& h, const S& s, const hull<T>& axis, points_of_solid& asked,
+                                     double reach = 0)
+        : both_(h, axis), solid_(s), asked_(asked), reach_(reach) {}
 
     [[nodiscard]] ABUT_HD constexpr vec3<double> axis() const { return solid_.axis; }
     [[nodiscard]] ABUT_HD constexpr vec3<double> way_between_middles() const { return both_.way_between_middles(); }
@@ -95,14 +97,22 @@ private:
         return both_.ahead(one, i, end) - solid_.reach(one, end);
     }
     [[nodiscard]] ABUT_HD constexpr bool is_ahead(const vec3<double>& one, std::uint32_t i, std::uint32_t end) const {
-        const double ahead = ahead_of(one, i, end);
+        double ahead = ahead_of(one, i, end);
+        if (reach_ > 0) ahead -= reach_ * square_root(dot(one, one));
         if constexpr (!Certified) return ahead > 0;
-        return solid_.is_known && is_more_than_lost<T>(ahead, both_.size() + solid_.radius);
+        return solid_.is_known && is_more_than_lost<T>(ahead, size());
     }
 
+protected:
+    [[nodiscard]] ABUT_HD constexpr double size() const { return both_.size() + solid_.radius + reach_; }
+    [[nodiscard]] ABUT_HD constexpr double reach() const { return reach_; }
+    [[nodiscard]] ABUT_HD constexpr bool is_known() const { return solid_.is_known; }
+
+private:
     hulls_in_floats<true, T> both_;
     solid_beside_axis<S> solid_;
     points_of_solid& asked_;
+    double reach_;
 };
 
 /// What a search came to: corners of a simplex, and their differences.
