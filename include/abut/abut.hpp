@@ -10,6 +10,7 @@
 #include <abut/collide/advise.hpp>
 #include <abut/collide/bodies.hpp>
 #include <abut/collide/body_pairs.hpp>
+#include <abut/collide/body_rows.hpp>
 #include <abut/collide/body_within.hpp>
 #include <abut/collide/contacts.hpp>
 #include <abut/collide/distance.hpp>

@@ -14,10 +14,7 @@
 
 #include <abut/abut.hpp>
 #include <abut/devices/distance.hpp>
-#include <abut/devices/inside.hpp>
-#include <abut/devices/nearest.hpp>
-#include <abut/devices/raycast.hpp>
-#include <abut/devices/winding_number.hpp>
+#include <abut/devices/rows.hpp>
 #include <abut/devices/within.hpp>
 
 #include "devices/device_cases.hpp"

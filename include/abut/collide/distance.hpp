@@ -21,6 +21,7 @@
 #include <utility>
 #include <vector>
 
+#include <abut/collide/executor.hpp>
 #include <abut/collide/nearest.hpp>
 #include <abut/collide/pairing.hpp>
 #include <abut/collide/placed.hpp>
@@ -45,13 +46,25 @@ struct distance_options {
     double below = infinity<double>;
 };
 
+/// A `separation` with ids in sets of many parts.
+/// @ingroup distributed
+template <scalar T>
+struct global_separation {
+    std::uint64_t a;  ///< id of the first shape
+    std::uint64_t b;  ///< id of the second one
+    vec3<T> point_a;  ///< of the first shape, in the world
+    vec3<T> point_b;  ///< of the second one
+    T distance;       ///< between the two, rounded to T; 0 where they touch
+
+    friend constexpr bool operator==(const global_separation&, const global_separation&) = default;
+};
+
 namespace detail {
 
 /// The key of no pair.
 inline constexpr std::uint64_t no_pair = static_cast<std::uint64_t>(-1);
 
-// --- what touches: the least key
-// --------------------------------------------------------------------------------------------
+// --- what touches: the least key ---------------------------------------------------------------------------------------
 
 /// A filter: pairs before the first one that is known to touch. So where much touches, little of it is decided; and where
 /// the trees' least ids are given, little of the trees is walked (pairing.hpp).
@@ -149,8 +162,7 @@ auto first_touches(const Policy& on, Pairing& pairing, std::size_t n) {
     return first;
 }
 
-// --- what does not touch: the least distance
-// --------------------------------------------------------------------------------
+// --- what does not touch: the least distance ---------------------------------------------------------------------------
 
 /// Offers a sink what is measured of two shapes, in the order of the arguments, and turns the reach to where better was
 /// found. What the reach sees first is the second of them if it is `Reversed`.
@@ -394,8 +406,7 @@ void look_for_nearest_pair(const Policy& on, const Pairing& pairing, Best& best)
     }
 }
 
-// --- answers
-// ----------------------------------------------------------------------------------------------------------------
+// --- answers -----------------------------------------------------------------------------------------------------------
 
 /// What a walk begins with, so that it loses nothing that is below once it is rounded to T.
 template <scalar T>
@@ -441,22 +452,6 @@ auto separation_of_key(const Policy& on, const Pairing& pairing, std::uint64_t k
     return found;
 }
 
-/// `distance` of arguments that have been looked at.
-template <class Policy, class X, class Y>
-auto distance_of(const Policy& on, const X& x, const Y& y, const distance_options& options, const char* function) {
-    using T = scalar_type_of<typename shape_of_argument<X>::type>;
-    using answer = std::optional<separation<T>>;
-    check(options, function);
-    auto pairing = pair_up(on, x, y, query_options<before_first_touch<pair_key>>{}, function);
-    if (pairing.a.shapes().size() == 0 || pairing.b.shapes().size() == 0 || !(options.below > 0)) return answer();
-    std::uint64_t key = first_touch(on, pairing);
-    const bool touch = key != no_pair;
-    if (!touch) key = nearest_pair(on, pairing, bound_below<T>(options.below)).key;
-    if (key == no_pair) return answer();
-    const separation<T> found = separation_of_key(on, pairing, key, touch);
-    return is_below(found, options.below) ? answer(found) : answer();
-}
-
 /// Whether `distance` takes both arguments.
 template <class Policy, class X, class Y>
 consteval bool can_be_apart() {
@@ -466,6 +461,31 @@ consteval bool can_be_apart() {
         constexpr bool are = measurable<typename shape_of_argument<X>::type, typename shape_of_argument<Y>::type>;
         static_assert(are, "abut: there is no distance of sets of these two shapes");
         return are;
+    }
+}
+
+/// How far two sets are apart: a question that executors answer by overloads of ask_least.
+struct ask_distance {
+    static constexpr const char* function = "abut::distance";
+    distance_options options;
+};
+template <execution_policy Policy, class X, class Y>
+auto ask_least(const Policy& on, const ask_distance& question, const X& x, const Y& y) {
+    if constexpr (can_be_apart<Policy, X, Y>()) {
+        using T = scalar_type_of<typename shape_of_argument<X>::type>;
+        using answer = std::optional<separation<T>>;
+        const double below = question.options.below;
+        check(question.options, question.function);
+        auto pairing = pair_up(on, x, y, query_options<before_first_touch<pair_key>>{}, question.function);
+        if (pairing.a.shapes().size() == 0 || pairing.b.shapes().size() == 0 || !(below > 0)) return answer();
+        std::uint64_t key = first_touch(on, pairing);
+        const bool touch = key != no_pair;
+        if (!touch) key = nearest_pair(on, pairing, bound_below<T>(below)).key;
+        if (key == no_pair) return answer();
+        const separation<T> found = separation_of_key(on, pairing, key, touch);
+        return is_below(found, below) ? answer(found) : answer();
+    } else {
+        return std::optional<separation<float>>();
     }
 }
 
@@ -483,6 +503,10 @@ consteval bool can_be_apart() {
 /// differ by less than docs/numerics.md says may be taken for each other. Points and distance are those of `distance` of the
 /// two shapes.
 ///
+/// Of several devices (@ref devices), where both arguments are divided, and of ranks (@ref distributed) each searches its own
+/// parts first; then shapes of b go to whose a-shapes may be as near to them as what was found: to all, where no rank has
+/// shapes of both sets. Of ranks the answer is a `global_separation`, the same on all; each gives the same options.
+///
 /// @par Memory
 /// As in @ref queries. Nothing is stored for each pair. Trees of two children a node in host memory keep 4 bytes for
 /// each shape once two calls have found that something touches, or one call of a list of two entries or more; while these
@@ -499,13 +523,9 @@ consteval bool can_be_apart() {
 /// @snippet queries.cpp distance
 ///
 /// @ingroup queries
-template <execution_policy Policy, class X, class Y>
-[[nodiscard]] auto distance(const Policy& on, const X& a, const Y& b, const distance_options& options = {}) {
-    if constexpr (detail::can_be_apart<Policy, X, Y>()) {
-        return detail::distance_of(on, a, b, options, "abut::distance");
-    } else {
-        return std::optional<separation<float>>();
-    }
+template <executor On, class X, class Y>
+[[nodiscard]] auto distance(const On& on, const X& a, const Y& b, const distance_options& options = {}) {
+    return ask_least(on, detail::ask_distance{options}, a, b);
 }
 
 }  // namespace abut
