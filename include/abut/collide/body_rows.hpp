@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include <abut/collide/bodies.hpp>
 #include <abut/collide/nearest.hpp>
@@ -127,13 +128,23 @@ double largest_coordinate(const Policy& on, const asked_bodies<Index>& x, const 
 template <class Index>
 inline constexpr bool is_bodies<bodies<Index>> = true;
 template <class Index>
+inline constexpr bool is_bodies<std::vector<posed_object<Index>>> = true;
+template <class Index>
 struct shape_of_argument<bodies<Index>> {
+    using type = typename Index::shape_type;
+};
+template <class Index>
+struct shape_of_argument<std::vector<posed_object<Index>>> {
     using type = typename Index::shape_type;
 };
 template <class Policy, class Index, class Question>
 auto make_asked(const Policy& on, const bodies<Index>& all, const Question& question) {
     require_same_device(on, all, question.function);
     return asked_bodies<Index>{all};
+}
+template <class Policy, class Index, class Question>
+auto make_asked(const Policy& on, const std::vector<posed_object<Index>>& list, const Question& question) {
+    return asked_bodies<Index>{bodies_of(on, list, question.function)};
 }
 
 }  // namespace abut::detail

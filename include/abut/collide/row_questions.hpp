@@ -70,8 +70,10 @@ auto make_asked(const Policy& on, const X& x, const Question& question) {
 }
 template <class Policy, class X>
 consteval bool can_be_asked_by_rows() {
-    if constexpr (is_bodies<X>) {
+    if constexpr (is_bodies<X> && requires { typename X::index_type; }) {
         return lies_there<Policy, X>();
+    } else if constexpr (is_bodies<X>) {  // a list of them
+        return lies_there<Policy, decltype(X::value_type::object)>();
     } else {
         return can_be_asked<Policy, X>();
     }
