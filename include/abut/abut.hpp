@@ -25,6 +25,7 @@
 #include <abut/collide/query.hpp>
 #include <abut/collide/raycast.hpp>
 #include <abut/collide/raycast_all.hpp>
+#include <abut/collide/raycast_detailed.hpp>
 #include <abut/collide/reduce_contacts.hpp>
 #include <abut/collide/self_pairs.hpp>
 #include <abut/collide/validate.hpp>

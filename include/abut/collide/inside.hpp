@@ -177,7 +177,7 @@ struct ask_inside : question_of_points {
     template <class Policy, class X, class Points>
     auto at_once(const Policy& on, const X& x, const Points& points, double) const {
         execution::buffer_of<Policy, answer> out(on, points.shapes().size());
-        ask(on, x, points, 0, out.data());
+        ask(on, x, points, same_key{}, out.data());
         return result<answer, space_of<Policy>>(std::move(out));
     }
     template <scalar T>

@@ -52,11 +52,50 @@ struct body_neighbor {
     friend constexpr bool operator==(const body_neighbor&, const body_neighbor&) = default;
 };
 
+/// Options of `nearest`. With a filter write `nearest_options{.filter = f}` (see query_options).
+/// @ingroup queries
+template <class Filter = keep_all>
+struct nearest_options {
+    /// How many of the nearest shapes.
+    std::size_t count = 1;
+    /// filter(number of the point, id) -> bool, of bodies filter(number of the point, body, id): shapes for which it is false
+    /// are not there. As in query_options. Ranks take none: points of other ranks have no numbers there.
+    Filter filter = {};
+};
+
 namespace detail {
+
+/// All shapes, or of each row those that a filter keeps. `Bodies` says that shapes have keys of bodies.
+struct all_shapes_wanted {
+    [[nodiscard]] ABUT_HD bool operator()(std::size_t, std::uint64_t) const { return true; }
+};
+template <class Filter, class Numbers, bool Bodies>
+struct some_shapes_wanted {
+    Filter filter;
+    Numbers numbers;
+    ABUT_CALLS_ANY
+    [[nodiscard]] ABUT_HD bool operator()(std::size_t row, std::uint64_t key) const {
+        const auto number = static_cast<std::uint32_t>(numbers(row)), id = static_cast<std::uint32_t>(key);
+        if constexpr (Bodies) {
+            return filter(number, body_of_key(key), id);
+        } else {
+            return filter(number, id);
+        }
+    }
+};
+template <bool Bodies, class Filter, class Rows>
+auto shapes_wanted(const Filter& filter, const Rows& rows) {
+    if constexpr (std::same_as<Filter, keep_all>) {
+        return all_shapes_wanted{};
+    } else {
+        const auto numbers = numbers_of(rows);
+        return some_shapes_wanted<Filter, std::remove_const_t<decltype(numbers)>, Bodies>{filter, numbers};
+    }
+}
 
 /// A walk through an index from each of many points, in an order of theirs. (To begin each with what is nearest to the one
 /// before was tried. It spares a walk one node in sixty: nearest first, the first shape that it meets is good enough.)
-template <class Walk, class Frame, shape_view Shapes, shape_view Points, class Judge>
+template <class Walk, class Frame, shape_view Shapes, shape_view Points, class Judge, class Wanted>
 struct walk_from_points {
     static_assert(measuring_judge<Judge, typename Shapes::shape_type, typename Points::shape_type>);
     Walk walk;
@@ -65,13 +104,17 @@ struct walk_from_points {
     Points points;
     Judge judge;
     const std::uint32_t* order;  ///< null for their own
+    [[no_unique_address]] Wanted wanted;
 
     ABUT_CALLS_ANY
     template <class Best>
     ABUT_HD void operator()(std::size_t i, Best& best) const {
-        const auto p = points[order == nullptr ? i : order[i]];
+        const std::size_t row = order == nullptr ? i : order[i];
+        const auto p = points[row];
         auto reach = frame.ball_around(p);
-        walk(reach, best, [&](walk_id<Walk> id) { best.offer(judge.measure(shapes[id], p, best.bound()), id); });
+        walk(reach, best, [&](walk_id<Walk> id) {
+            if (wanted(row, id)) best.offer(judge.measure(shapes[id], p, best.bound()), id);
+        });
     }
     ABUT_INLINE void prefetch(std::size_t i) const {
         if (order != nullptr) prefetch_shape(points, order[i], 0);
@@ -242,15 +285,15 @@ execution::buffer_of<Policy, std::uint32_t> order_of_points(const Policy& on, co
 }
 
 /// Each point walks by itself. `best` keeps what is nearest to each.
-template <class Policy, class Operand, shape_view Points, class Judge, class Best>
+template <class Policy, class Operand, shape_view Points, class Judge, class Best, class Wanted = all_shapes_wanted>
 void walk_alone_from_points(const Policy& on, const Operand& x, const Points& points, const Judge& judge,
-                            const std::uint32_t* order, Best& best) {
+                            const std::uint32_t* order, Best& best, const Wanted& wanted = {}) {
     const auto walk = ordered_walk_of(x);
     const auto frame = frame_of(x, judge.unit);
     const auto there = x.shapes();
     using walk_type = walk_from_points<std::remove_const_t<decltype(walk)>, std::remove_const_t<decltype(frame)>,
-                                       std::remove_const_t<decltype(there)>, Points, Judge>;
-    for_each_ordered(on, points.size(), walk_type{walk, frame, there, points, judge, order}, best);
+                                       std::remove_const_t<decltype(there)>, Points, Judge, Wanted>;
+    for_each_ordered(on, points.size(), walk_type{walk, frame, there, points, judge, order, wanted}, best);
 }
 
 /// Finds the nearest shape of each point. finish(order, found) takes what was found: found[i] is the least squared distance
@@ -293,14 +336,14 @@ auto look_for_nearest(const Policy& on, const Operand& x, const Queries& queries
 }
 
 /// The same for the `count` nearest: found[count * i], and what follows it, is of point order[i].
-template <class Policy, class Operand, class Queries, scalar T, class Finish>
+template <class Policy, class Operand, class Queries, scalar T, class Finish, class Wanted = all_shapes_wanted>
 auto look_for_nearest_few(const Policy& on, const Operand& x, const Queries& queries, const length_unit<T>& unit,
-                          std::size_t count, const Finish& finish) {
+                          std::size_t count, const Finish& finish, const Wanted& wanted = {}) {
     const auto from = queries.shapes();
     if (from.size() == 0 || x.shapes().size() == 0) return finish(nullptr, nullptr);
     const auto order = order_of_points<Operand>(on, from);
     execution::best_few_of_each<space_of<Policy>> best(on, from.size(), count);
-    walk_alone_from_points(on, x, from, measure_distance<T>{unit}, order.data(), best);
+    walk_alone_from_points(on, x, from, measure_distance<T>{unit}, order.data(), best, wanted);
     return finish(order.data(), best.data());
 }
 
@@ -362,11 +405,12 @@ struct question_of_points : row_question {
 };
 
 /// What parts are asked: which of their shapes are nearest to a point, the nearest first.
-template <scalar T>
+template <scalar T, class Filter = keep_all>
 struct nearest_in_parts {
     using answer = measured_neighbor<T>;
     length_unit<T> unit;
     std::size_t count = 1;
+    [[no_unique_address]] Filter filter = {};
 
     [[nodiscard]] ABUT_HD std::size_t per_row() const { return count; }
     template <class Policy, class Operand, class Rows, class Ids>
@@ -381,7 +425,9 @@ struct nearest_in_parts {
                 write_measured<shapes_type, points_type, Ids>{there, from, unit, ids, order, found, out, count});
             synchronize(on);
         };
-        if (count == 1) {
+        if constexpr (!std::same_as<Filter, keep_all>) {
+            look_for_nearest_few(on, x, rows, unit, count, write, shapes_wanted<false>(filter_in_part(filter, ids), rows));
+        } else if (count == 1) {
             look_for_nearest(on, x, rows, unit, write);
         } else {
             look_for_nearest_few(on, x, rows, unit, count, write);
@@ -409,16 +455,24 @@ struct nearest_in_parts {
 };
 
 /// Which shapes are nearest to a point: one, or `Few`.
-template <bool Few>
+template <bool Few, class Filter = keep_all>
 struct ask_nearest : question_of_points {
+    static constexpr bool filters = !std::same_as<Filter, keep_all>;
     template <scalar T, class Id>
     using found = by_id<Id, neighbor<T>, body_neighbor<T>, global_neighbor<T>>;
     const char* function = "abut::nearest";
     std::size_t count = 1;
+    [[no_unique_address]] Filter filter = {};
 
     template <class Policy, class X, class Points, bool Whole>
     static consteval bool takes() {
-        return can_be_near<Policy, X, Points>();
+        if constexpr (!can_be_near<Policy, X, Points>()) {
+            return false;
+        } else if constexpr (filters) {
+            return is_row_filter<Policy, Filter, is_bodies<X>>();
+        } else {
+            return true;
+        }
     }
     template <class Policy, class X, class Points>
     void check(const Policy&, const X&, const Points& points, const char*) const {
@@ -447,14 +501,15 @@ struct ask_nearest : question_of_points {
             return result<row, space_of<Policy>>(std::move(out));
         };
         if constexpr (Few) {
-            return look_for_nearest_few(on, x, points, unit, count, finish);
+            constexpr bool are_bodies = std::same_as<operand_id<X>, body_and_id>;
+            return look_for_nearest_few(on, x, points, unit, count, finish, shapes_wanted<are_bodies>(filter, points));
         } else {
             return look_for_nearest(on, x, points, unit, finish);
         }
     }
     template <scalar T>
-    [[nodiscard]] nearest_in_parts<T> in_parts(double largest) const {
-        return {unit_of_magnitude<T>(largest), count};
+    [[nodiscard]] nearest_in_parts<T, Filter> in_parts(double largest) const {
+        return {unit_of_magnitude<T>(largest), count, filter};
     }
 };
 
@@ -531,6 +586,12 @@ template <executor On, class X, class Points>
 template <executor On, class X, class Points>
 [[nodiscard]] auto nearest(const On& on, const X& index, const Points& points, std::size_t count) {
     return ask_rows(on, detail::ask_nearest<true>{{}, "abut::nearest", count}, index, points);
+}
+/// The same of shapes that a filter keeps.
+/// @ingroup queries
+template <executor On, class X, class Points, class Filter = keep_all>
+[[nodiscard]] auto nearest(const On& on, const X& index, const Points& points, const nearest_options<Filter>& options) {
+    return ask_rows(on, detail::ask_nearest<true, Filter>{{}, "abut::nearest", options.count, options.filter}, index, points);
 }
 
 }  // namespace abut

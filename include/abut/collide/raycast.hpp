@@ -16,6 +16,7 @@
 #include <abut/arithmetic/arithmetic.hpp>
 #include <abut/collide/nearest.hpp>
 #include <abut/collide/operand.hpp>
+#include <abut/collide/ray_options.hpp>
 #include <abut/collide/row_questions.hpp>
 #include <abut/execution/host.hpp>
 #include <abut/execution/ordered.hpp>
@@ -75,22 +76,24 @@ ABUT_HD T time_as(double time) {
 }
 
 /// Of each line what it meets first. Times are rounded where two shapes are met at nearly the same one, and at the end.
-template <class A, class Walk, class Frame, class Shapes, class Lines>
+template <class A, class Walk, class Frame, class Shapes, class Lines, class Wanted>
 struct walk_along_lines {
     Walk walk;
     Frame frame;
     Shapes shapes;
     Lines lines;
+    Wanted wanted;
     bool in_scalars;  ///< whether times need only become the right scalars: then they may be off by less than that tells
 
     struct look {
         typename Lines::shape_type line;
+        [[no_unique_address]] typename Wanted::row_type row;
         double earliest = infinity<double>;  ///< the least time that the first shape so far may have; the sink has the most
 
         ABUT_CALLS_ANY
         template <class Best>
         ABUT_HD void operator()(const walk_along_lines& all, walk_id<Walk> id, Best& best) {
-            time_bounds time = hit_time_bounds<A>(line, all.shapes[id]);
+            time_bounds time = all.wanted.template bounds<A>(row, line, all.shapes[id], id);
             if (time.first < 0 || time.first > best.bound()) return;
             if (!(time.last < earliest)) {
                 round(all, best);
@@ -115,27 +118,29 @@ struct walk_along_lines {
             best.offer(earliest, last.key);
         }
     };
-    ABUT_HD look start(std::size_t i) const { return {lines[i]}; }
+    ABUT_HD look start(std::size_t i) const { return {lines[i], wanted.row(i)}; }
     ABUT_HD auto seen(std::size_t i) const { return line_along(frame, lines[i]); }
 };
 
 /// Of each line whether it meets anything: the same, which ends at what it meets at all.
-template <class A, class Walk, class Frame, class Shapes, class Lines>
+template <class A, class Walk, class Frame, class Shapes, class Lines, class Wanted>
 struct walk_to_any {
     Walk walk;
     Frame frame;
     Shapes shapes;
     Lines lines;
+    Wanted wanted;
     std::uint8_t* out;
 
     struct look {
         typename Lines::shape_type line;
+        [[no_unique_address]] typename Wanted::row_type row;
         bool met = false;
 
         ABUT_CALLS_ANY
         template <class Sink>
         ABUT_HD void operator()(const walk_to_any& all, walk_id<Walk> id, Sink& sink) {
-            if (met || !is_met<A>(line, all.shapes[id])) return;
+            if (met || !all.wanted.template meets<A>(row, line, all.shapes[id], id)) return;
             met = true;
             sink.stop();
         }
@@ -144,7 +149,7 @@ struct walk_to_any {
             all.out[i] = met ? 1 : 0;
         }
     };
-    ABUT_HD look start(std::size_t i) const { return {lines[i]}; }
+    ABUT_HD look start(std::size_t i) const { return {lines[i], wanted.row(i)}; }
     ABUT_HD auto seen(std::size_t i) const { return line_along(frame, lines[i]); }
 };
 
@@ -199,27 +204,37 @@ consteval bool can_be_met() {
     }
 }
 
-/// Both operands of a query of rays, and what a walk needs of them.
-template <class Operand, class Looking>
+/// Both operands of a query of rays, which hits are wanted, and what a walk needs of them.
+template <class Operand, class Looking, class Wanted = all_hits_wanted>
 struct lines_and_shapes {
     using T = typename std::remove_cvref_t<decltype(std::declval<const Operand&>().shapes())>::scalar_type;
     Operand x;
     Looking looking;
+    Wanted wanted = {};
 
     [[nodiscard]] std::size_t size() const { return looking.shapes().size(); }
     [[nodiscard]] bool has_nothing() const { return size() == 0 || x.shapes().size() == 0; }
-    /// A functor Walk<A, ...>: of the walk, the frame, the shapes and the lines, and what else it is made of. Its parameters
-    /// are plain classes: clang 19 takes no template of constrained ones for a template of parameters constrained alike.
-    template <template <class, class, class, class, class> class Walk, arithmetic A, class... Rest>
+    /// A functor Walk<A, ...>: of the walk, the frame, the shapes, the lines and the hits, and what else it is made of. Its
+    /// parameters are plain classes: clang 19 takes no template of constrained ones for a template of parameters constrained
+    /// alike.
+    template <template <class, class, class, class, class, class> class Walk, arithmetic A, class... Rest>
     [[nodiscard]] auto walk(const Rest&... rest) const {
         const length_unit<T> unit{};
         return Walk<A, decltype(ordered_walk_of(x)), decltype(frame_of(x, unit)), decltype(x.shapes()),
-                    decltype(looking.shapes())>{ordered_walk_of(x), frame_of(x, unit), x.shapes(), looking.shapes(),
-                                                rest...};
+                    decltype(looking.shapes()), Wanted>{ordered_walk_of(x), frame_of(x, unit), x.shapes(), looking.shapes(),
+                                                        wanted, rest...};
     }
 };
 template <class Operand, class Looking>
 lines_and_shapes(const Operand&, const Looking&) -> lines_and_shapes<Operand, Looking>;
+template <class Operand, class Looking, class Wanted>
+lines_and_shapes(const Operand&, const Looking&, const Wanted&) -> lines_and_shapes<Operand, Looking, Wanted>;
+/// The same, with the hits that options want.
+template <class Operand, class Looking, class Options>
+auto lines_that_want(const Operand& x, const Looking& looking, const Options& options) {
+    constexpr bool are_bodies = std::same_as<operand_id<Operand>, body_and_id>;
+    return lines_and_shapes{x, looking, hits_wanted<are_bodies>(options, looking)};
+}
 
 /// Of arguments.
 template <class Policy, class X, class Lines>
@@ -233,7 +248,7 @@ auto bring_lines_and_shapes(const Policy& on, const X& index, const Lines& rays,
 template <arithmetic A, class Policy, class Both, class Finish>
 auto look_for_first_hits(const Policy& on, const Both& both, bool in_scalars, const Finish& finish) {
     if (both.has_nothing()) return finish(nullptr);
-    execution::best_of_each<space_of<Policy>> best(on, both.size());
+    execution::best_of_each<space_of<Policy>> best(on, both.size(), both.wanted.most());
     for_each_ordered(on, both.size(), from_each{both.template walk<walk_along_lines, A>(in_scalars)}, best);
     return finish(best.data());
 }
@@ -242,7 +257,7 @@ auto look_for_first_hits(const Policy& on, const Both& both, bool in_scalars, co
 template <arithmetic A, class Policy, class Both>
 void look_for_any_hits(const Policy& on, const Both& both, std::uint8_t* out) {
     if (both.has_nothing()) return fill(on, out, both.size(), std::uint8_t{0});
-    execution::until_stopped until;
+    execution::until_stopped until{both.wanted.most()};
     for_each_ordered(on, both.size(), from_each{both.template walk<walk_to_any, A>(out)}, until);
 }
 
@@ -256,10 +271,32 @@ ABUT_HD bool may_meet(const Line& line, const part_bounds<T>& part, double last)
 }
 
 /// Lines ask, by any of the questions about them.
+template <class Options, class Question>
 struct question_of_lines : row_question {
+    static constexpr bool filters = has_filter<Options>;
+    [[no_unique_address]] Options options = {};
+
     template <class Policy, class X, class Lines, bool Whole>
     static consteval bool takes() {
-        return can_be_met<Policy, X, Lines>();
+        if constexpr (!can_be_met<Policy, X, Lines>()) {
+            return false;
+        } else if constexpr (has_filter<Options>) {
+            return is_row_filter<Policy, decltype(Options::filter), is_bodies<X>>();
+        } else {
+            return true;
+        }
+    }
+    template <class Policy, class X, class Lines>
+    void check(const Policy&, const X&, const Lines&, const char*) const {
+        detail::check(options, Question::function);
+    }
+    /// Until when a part may have something for a line that has met what it has.
+    [[nodiscard]] ABUT_HD double last(double met) const {
+        if constexpr (requires { options.most_t; }) {
+            return least(met, options.most_t);
+        } else {
+            return met;
+        }
     }
     template <scalar T, class Policy, class Lines>
     auto make_rows(const Policy& on, const Lines& lines, const char* function) const {
@@ -280,8 +317,8 @@ struct write_named {
 };
 
 /// What a line meets first: its time and its id.
-template <arithmetic A>
-struct ask_first_hit : question_of_lines {
+template <arithmetic A, class Options = no_ray_options>
+struct ask_first_hit : question_of_lines<Options, ask_first_hit<A, Options>> {
     template <scalar T, class Id>
     using found = by_id<Id, ray_hit<T>, body_hit<T>, global_ray_hit<T>>;
     using answer = execution::least_value;
@@ -289,7 +326,7 @@ struct ask_first_hit : question_of_lines {
 
     template <class Policy, class X, class Lines>
     auto at_once(const Policy& on, const X& x, const Lines& lines, double) const {
-        const lines_and_shapes both{x, lines};
+        const auto both = lines_that_want(x, lines, this->options);
         using hit = found<typename std::remove_const_t<decltype(both)>::T, operand_id<X>>;
         return look_for_first_hits<A>(on, both, true, [&](const execution::least_value* met) {
             execution::buffer_of<Policy, hit> out(on, both.size());
@@ -304,7 +341,7 @@ struct ask_first_hit : question_of_lines {
     }
     template <class Policy, class Operand, class Rows, class Ids>
     void ask(const Policy& on, const Operand& x, const Rows& rows, const Ids& ids, answer* out) const {
-        const lines_and_shapes both{x, rows};
+        const auto both = lines_that_want(x, rows, options_in_part(this->options, ids));
         look_for_first_hits<A>(on, both, false, [&](const execution::least_value* met) {
             for_each_index(on, both.size(), write_named<Ids>{met, ids, out});
             synchronize(on);
@@ -313,7 +350,7 @@ struct ask_first_hit : question_of_lines {
     ABUT_HD void merge(answer* best, const answer* other) const { best->offer(other->value, other->key); }
     template <class Line, scalar T>
     ABUT_HD bool may_change(const Line& line, const answer* best, const part_bounds<T>& part) const {
-        return may_meet(line, part, best->value);
+        return may_meet(line, part, this->last(best->value));
     }
     template <class Found>
     [[nodiscard]] ABUT_HD Found named(const answer& met) const {
@@ -322,8 +359,8 @@ struct ask_first_hit : question_of_lines {
 };
 
 /// Whether a line meets anything: 1 or 0.
-template <arithmetic A>
-struct ask_any_hit : question_of_lines {
+template <arithmetic A, class Options = no_ray_options>
+struct ask_any_hit : question_of_lines<Options, ask_any_hit<A, Options>> {
     template <scalar, class>
     using found = std::uint8_t;
     using answer = std::uint8_t;
@@ -332,7 +369,7 @@ struct ask_any_hit : question_of_lines {
     template <class Policy, class X, class Lines>
     auto at_once(const Policy& on, const X& x, const Lines& lines, double) const {
         execution::buffer_of<Policy, answer> out(on, lines.shapes().size());
-        ask(on, x, lines, 0, out.data());
+        ask(on, x, lines, same_key{}, out.data());
         return result<answer, space_of<Policy>>(std::move(out));
     }
     template <scalar T>
@@ -340,8 +377,8 @@ struct ask_any_hit : question_of_lines {
         return *this;
     }
     template <class Policy, class Operand, class Rows, class Ids>
-    void ask(const Policy& on, const Operand& x, const Rows& rows, const Ids&, answer* out) const {
-        look_for_any_hits<A>(on, lines_and_shapes{x, rows}, out);
+    void ask(const Policy& on, const Operand& x, const Rows& rows, const Ids& ids, answer* out) const {
+        look_for_any_hits<A>(on, lines_that_want(x, rows, options_in_part(this->options, ids)), out);
         synchronize(on);
     }
     ABUT_HD void merge(answer* best, const answer* other) const {
@@ -349,7 +386,7 @@ struct ask_any_hit : question_of_lines {
     }
     template <class Line, scalar T>
     ABUT_HD bool may_change(const Line& line, const answer* best, const part_bounds<T>& part) const {
-        return *best == 0 && may_meet(line, part, infinity<double>);
+        return *best == 0 && may_meet(line, part, this->last(infinity<double>));
     }
 };
 
@@ -396,6 +433,12 @@ template <arithmetic A = filtered, executor On, class X, class Rays>
 [[nodiscard]] auto raycast(const On& on, const X& index, const Rays& rays) {
     return ask_rows(on, detail::ask_first_hit<A>{}, index, rays);
 }
+/// The same of hits that options keep.
+/// @ingroup queries
+template <arithmetic A = filtered, executor On, class X, class Rays, class Filter = keep_all>
+[[nodiscard]] auto raycast(const On& on, const X& index, const Rays& rays, const raycast_options<Filter>& options) {
+    return ask_rows(on, detail::ask_first_hit<A, raycast_options<Filter>>{{{}, options}}, index, rays);
+}
 
 /// For each of `rays` whether it meets any shape of `index`: a `result` of `std::uint8_t`, in the order of the rays, 1 or
 /// 0. It is 1 where `raycast` of the same arguments finds a hit, and takes less time: a ray ends at the first shape that
@@ -419,6 +462,12 @@ template <arithmetic A = filtered, executor On, class X, class Rays>
 template <arithmetic A = filtered, executor On, class X, class Rays>
 [[nodiscard]] auto raycast_any(const On& on, const X& index, const Rays& rays) {
     return ask_rows(on, detail::ask_any_hit<A>{}, index, rays);
+}
+/// The same of hits that options keep.
+/// @ingroup queries
+template <arithmetic A = filtered, executor On, class X, class Rays, class Filter = keep_all>
+[[nodiscard]] auto raycast_any(const On& on, const X& index, const Rays& rays, const raycast_options<Filter>& options) {
+    return ask_rows(on, detail::ask_any_hit<A, raycast_options<Filter>>{{{}, options}}, index, rays);
 }
 
 }  // namespace abut

@@ -54,24 +54,26 @@ namespace detail {
 inline constexpr std::uint64_t kept_hits = 4;
 
 /// Counts what each line meets.
-template <class A, class Walk, class Frame, class Shapes, class Lines>
+template <class A, class Walk, class Frame, class Shapes, class Lines, class Wanted>
 struct count_along_lines {
     Walk walk;
     Frame frame;
     Shapes shapes;
     Lines lines;
+    Wanted wanted;
     std::uint64_t* counts;
     execution::least_value* few;
 
     struct look {
         typename Lines::shape_type line;
+        [[no_unique_address]] typename Wanted::row_type row;
         execution::least_value* few;
         std::uint64_t count = 0;
 
         ABUT_CALLS_ANY
         template <class Sink>
         ABUT_HD void operator()(const count_along_lines& all, walk_id<Walk> id, Sink&) {
-            const double time = hit_time<A>(line, all.shapes[id]);
+            const double time = all.wanted.template time<A>(row, line, all.shapes[id], id);
             if (time >= 0 && count < kept_hits) few[count] = {time, id};
             if (time >= 0) ++count;
         }
@@ -80,7 +82,7 @@ struct count_along_lines {
             all.counts[i] = count;
         }
     };
-    ABUT_HD look start(std::size_t i) const { return {lines[i], few + kept_hits * i}; }
+    ABUT_HD look start(std::size_t i) const { return {lines[i], wanted.row(i), few + kept_hits * i}; }
     ABUT_HD auto seen(std::size_t i) const { return line_along(frame, lines[i]); }
 };
 
@@ -102,12 +104,13 @@ ABUT_HD inline void sort_hits(execution::least_value* hits, std::uint64_t n) {
 }
 
 /// Writes what each line meets, from the place of its first hit on.
-template <class A, class Walk, class Frame, class Shapes, class Lines>
+template <class A, class Walk, class Frame, class Shapes, class Lines, class Wanted>
 struct write_along_lines {
     Walk walk;
     Frame frame;
     Shapes shapes;
     Lines lines;
+    Wanted wanted;
     const std::uint64_t* first;
     const execution::least_value* few;
     execution::least_value* hits;
@@ -122,10 +125,11 @@ struct write_along_lines {
             return sort_hits(mine, counted);
         }
         const auto line = lines[i];
+        const auto row = wanted.row(i);
         std::uint64_t count = 0;
         line_reach_of<Walk, typename Lines::scalar_type> reach(line_along(frame, line));
         walk(reach, sink, [&](walk_id<Walk> id) {
-            const double time = hit_time<A>(line, shapes[id]);
+            const double time = wanted.template time<A>(row, line, shapes[id], id);
             if (time >= 0 && count < counted) mine[count++] = {time, id};
         });
         // `fast` may decide otherwise the second time, where a compiler contracts what it inlines.
@@ -174,7 +178,7 @@ execution::buffer_of<Policy, Hit> look_for_all_hits(const Policy& on, const Both
     const std::size_t n = both.size();
     execution::buffer_of<Policy, std::uint64_t> first(on, n + 1);
     execution::buffer_of<Policy, execution::least_value> few(on, kept_hits * n);
-    execution::until_stopped until;
+    execution::until_stopped until{both.wanted.most()};
     for_each_ordered(on, n, from_each{both.template walk<count_along_lines, A>(first.data(), few.data())}, until);
     exclusive_scan(on, first.data(), n);
     std::uint64_t total = 0;
@@ -196,22 +200,22 @@ struct timed_hit {
 };
 
 /// All that lines meet: no answer of a fixed size. Of parts each gives a list in order, and lists are merged: ask_row_lists.
-template <arithmetic A>
-struct ask_all_hits : question_of_lines {
+template <arithmetic A, class Options = no_ray_options>
+struct ask_all_hits : question_of_lines<Options, ask_all_hits<A, Options>> {
     template <scalar T, class Id>
     using found = by_id<Id, hit_of_ray<T>, body_hit_of_ray<T>, global_hit_of_ray<T>>;
     static constexpr const char* function = "abut::raycast_all";
 
     template <class Policy, class X, class Lines>
     auto at_once(const Policy& on, const X& x, const Lines& lines, double) const {
-        const lines_and_shapes both{x, lines};
+        const auto both = lines_that_want(x, lines, this->options);
         using hit = found<typename std::remove_const_t<decltype(both)>::T, operand_id<X>>;
         return result<hit, space_of<Policy>>(look_for_all_hits<A, hit>(on, both, name_hit<hit>{}));
     }
     /// The list of one part: name(line, time and id) of each hit.
     template <class Policy, class X, class Lines, class Name>
     auto ask(const Policy& on, const X& x, const Lines& lines, const Name& name) const {
-        return look_for_all_hits<A, timed_hit>(on, lines_and_shapes{x, lines}, name);
+        return look_for_all_hits<A, timed_hit>(on, lines_that_want(x, lines, options_in_part(this->options, name.ids)), name);
     }
 };
 template <execution_policy Policy, class Question, class X, class Rows>
@@ -219,12 +223,6 @@ auto ask_row_lists(const Policy& on, const Question& question, const X& index, c
     return ask_rows(on, question, index, rows);
 }
 
-struct same_number {
-    ABUT_HD std::size_t operator()(std::size_t i) const { return i; }
-};
-struct same_key {
-    ABUT_HD std::uint64_t operator()(std::uint64_t key) const { return key; }
-};
 struct by_line_and_time {
     ABUT_HD bool operator()(const timed_hit& x, const timed_hit& y) const {
         if (x.line != y.line) return x.line < y.line;
@@ -284,6 +282,12 @@ struct write_timed_hits {
 template <arithmetic A = filtered, executor On, class X, class Rays>
 [[nodiscard]] auto raycast_all(const On& on, const X& index, const Rays& rays) {
     return ask_row_lists(on, detail::ask_all_hits<A>{}, index, rays);
+}
+/// The same of hits that options keep.
+/// @ingroup queries
+template <arithmetic A = filtered, executor On, class X, class Rays, class Filter = keep_all>
+[[nodiscard]] auto raycast_all(const On& on, const X& index, const Rays& rays, const raycast_options<Filter>& options) {
+    return ask_row_lists(on, detail::ask_all_hits<A, raycast_options<Filter>>{{{}, options}}, index, rays);
 }
 
 }  // namespace abut

@@ -11,6 +11,7 @@
 //   takes<Policy, X, Rows, Whole>()   whether arguments will do, of which X is a whole set or a part; says in one line why not
 //   found<T, Id>                      what a caller gets of a row, by how shapes are named (by_id)
 //   make_rows<T>(on, rows, function)  the rows as an operand
+//   filters                           whether numbers of rows matter: `rows.numbers(i)`, if the operand has them, or places
 //   check(on, x, rows, holder)        throws where it may not be asked; `holder` says who does not have all shapes, or is null
 //   largest(on, x, rows)              a number of which the greatest, of all parts, goes into the answer
 //   at_once(on, x, rows, largest)     a `result` of found, of a whole set
@@ -22,6 +23,7 @@
 //     may_change(row, best, part)     whether a part, of which the boxes are known, may have an answer that changes these
 //     named<Found>(answer)            what a caller gets
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -79,8 +81,59 @@ consteval bool can_be_asked_by_rows() {
     }
 }
 
+/// The numbers of rows: their places, unless an operand has others.
+struct same_number {
+    ABUT_HD std::size_t operator()(std::size_t i) const { return i; }
+};
+template <class Rows>
+auto numbers_of(const Rows& rows) {
+    if constexpr (requires { rows.numbers; }) {
+        return rows.numbers;
+    } else {
+        return same_number{};
+    }
+}
+/// The ids of a whole set: keys as they are.
+struct same_key {
+    ABUT_HD std::uint64_t operator()(std::uint64_t key) const { return key; }
+};
+/// A filter that is asked of a part's shapes.
+template <class Filter, class Ids>
+struct filter_of_part {
+    Filter filter;
+    Ids ids;
+    ABUT_CALLS_ANY
+    [[nodiscard]] ABUT_HD bool operator()(std::uint32_t row, std::uint32_t id) const {
+        return filter(row, static_cast<std::uint32_t>(ids(id)));
+    }
+};
+template <class Filter, class Ids>
+auto filter_in_part(const Filter& filter, const Ids& ids) {
+    if constexpr (std::same_as<Filter, keep_all> || std::same_as<Ids, same_key>) {
+        return filter;
+    } else {
+        return filter_of_part<Filter, Ids>{filter, ids};
+    }
+}
+/// Whether a filter of rows and shapes can be called. What a device calls is not looked at.
+template <class Policy, class Filter, bool Bodies>
+consteval bool is_row_filter() {
+    if constexpr (!host_policy<Policy>) {
+        return true;
+    } else if constexpr (Bodies) {
+        constexpr bool is = requires(const Filter& f, std::uint32_t i) { { f(i, i, i) } -> std::convertible_to<bool>; };
+        static_assert(is, "abut: this filter is called as filter(row, body, id) const, three std::uint32_t, and returns bool");
+        return is;
+    } else {
+        constexpr bool is = requires(const Filter& f, std::uint32_t i) { { f(i, i) } -> std::convertible_to<bool>; };
+        static_assert(is, "abut: this filter is called as filter(row, id) const, two std::uint32_t, and returns bool");
+        return is;
+    }
+}
+
 /// What of a question is so for most of them.
 struct row_question {
+    static constexpr bool filters = false;  ///< it has a filter that is given numbers of rows
     template <class Policy, class X, class Rows>
     void check(const Policy&, const X&, const Rows&, const char* /*holder*/) const {}
     template <class Policy, class X, class Rows>

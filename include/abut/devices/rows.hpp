@@ -92,6 +92,11 @@ consteval bool can_ask_devices() {
     }
 }
 
+/// A device's share of the rows, with their numbers.
+template <class View>
+struct share_of_rows : plain_operand<View> {
+    rows_of_part numbers;
+};
 /// use(rows) of a device's share of the rows, which is copied for it.
 template <class Team, class Rows, class Use>
 auto with_share_of_rows(const Team& team, int k, const Rows& rows, const Use& use) {
@@ -104,7 +109,7 @@ auto with_share_of_rows(const Team& team, int k, const Rows& rows, const Use& us
     execution::buffer_of<local, row> some(on, mine.count(all.size()));
     for_each_index(on, some.size(), take_rows_of_part<view_type>{all, mine, some.data()});
     using view = shapes_view<row, space_of<local>>;
-    return use(plain_operand<view>{view(some.data(), some.size())});
+    return use(share_of_rows<view>{{view(some.data(), some.size())}, mine});
 }
 
 /// Of a set that each device has: answers to the shares of the rows, in memory of the first.
@@ -194,6 +199,7 @@ auto ask_row_lists(const Team& team, const Question& question, const X& index, c
             found_by<Question, there_type, std::conditional_t<is_bodies<there_type>, body_and_id, std::uint32_t>>;
         using list = result<timed_hit, space_of<local>>;
         const auto there = asked_on_each(team, question, index, rows);
+        question.check(team[0], there.front().shapes, there.front().rows, nullptr);
         const list hits = on_first(team, each_of(team, [&](int k) {
             const auto& mine = there[static_cast<std::size_t>(k)];
             const auto look = [&](const auto& some, const auto& numbers, const auto& ids) {

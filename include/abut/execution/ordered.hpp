@@ -173,19 +173,22 @@ private:
     buffer<least_value, host_space> of_threads_;
 };
 
-/// There is no bound, until the walk of an index says that nothing matters any more: sink.stop().
+/// There is one bound for all, or none, until the walk of an index says that nothing matters any more: sink.stop().
 struct until_stopped {
+    double most = HUGE_VAL;
+
     struct sink {
+        double most = HUGE_VAL;
         bool stopped = false;
 
         ABUT_HD void begin(std::size_t) { stopped = false; }
         ABUT_HD void stop() { stopped = true; }
-        [[nodiscard]] ABUT_HD double bound() const { return stopped ? -HUGE_VAL : HUGE_VAL; }
+        [[nodiscard]] ABUT_HD double bound() const { return stopped ? -HUGE_VAL : most; }
         ABUT_HD void end(std::size_t) {}
         ABUT_HD void close() {}
     };
 
-    [[nodiscard]] sink make_sink(std::size_t /*thread*/) { return {}; }
+    [[nodiscard]] sink make_sink(std::size_t /*thread*/) { return {most}; }
     template <class Policy>
     void begin(const Policy&, std::size_t /*threads*/) {}
     template <class Policy>
