@@ -54,7 +54,8 @@ namespace detail {
 struct all_hits_wanted {
     struct row_type {};
     [[nodiscard]] ABUT_HD row_type row(std::size_t) const { return {}; }
-    [[nodiscard]] ABUT_HD static double most() { return infinity<double>; }
+    [[nodiscard]] static double most() { return infinity<double>; }
+    [[nodiscard]] static execution::until_stopped until() { return {}; }
     /// hit_time_bounds, hit_time and is_met of what is wanted.
     ///@{
     ABUT_CALLS_ANY
@@ -85,7 +86,8 @@ struct some_hits_wanted {
     Numbers numbers;
 
     [[nodiscard]] ABUT_HD row_type row(std::size_t i) const { return {static_cast<std::uint32_t>(numbers(i))}; }
-    [[nodiscard]] ABUT_HD double most() const { return options.most_t; }
+    [[nodiscard]] double most() const { return options.most_t; }
+    [[nodiscard]] execution::until_stopped_below until() const { return execution::until_stopped_below(options.most_t); }
     ABUT_CALLS_ANY
     template <class A, class Line, class S>
     [[nodiscard]] ABUT_HD time_bounds bounds(const row_type& row, const Line& line, const S& s, std::uint64_t key) const {

@@ -257,7 +257,7 @@ auto look_for_first_hits(const Policy& on, const Both& both, bool in_scalars, co
 template <arithmetic A, class Policy, class Both>
 void look_for_any_hits(const Policy& on, const Both& both, std::uint8_t* out) {
     if (both.has_nothing()) return fill(on, out, both.size(), std::uint8_t{0});
-    execution::until_stopped until{both.wanted.most()};
+    auto until = both.wanted.until();
     for_each_ordered(on, both.size(), from_each{both.template walk<walk_to_any, A>(out)}, until);
 }
 

@@ -178,7 +178,7 @@ execution::buffer_of<Policy, Hit> look_for_all_hits(const Policy& on, const Both
     const std::size_t n = both.size();
     execution::buffer_of<Policy, std::uint64_t> first(on, n + 1);
     execution::buffer_of<Policy, execution::least_value> few(on, kept_hits * n);
-    execution::until_stopped until{both.wanted.most()};
+    auto until = both.wanted.until();
     for_each_ordered(on, n, from_each{both.template walk<count_along_lines, A>(first.data(), few.data())}, until);
     exclusive_scan(on, first.data(), n);
     std::uint64_t total = 0;

@@ -173,26 +173,35 @@ private:
     buffer<least_value, host_space> of_threads_;
 };
 
-/// There is one bound for all, or none, until the walk of an index says that nothing matters any more: sink.stop().
+/// There is no bound, until the walk of an index says that nothing matters any more: sink.stop().
 struct until_stopped {
-    double most = HUGE_VAL;
-
     struct sink {
-        double most = HUGE_VAL;
         bool stopped = false;
 
         ABUT_HD void begin(std::size_t) { stopped = false; }
         ABUT_HD void stop() { stopped = true; }
-        [[nodiscard]] ABUT_HD double bound() const { return stopped ? -HUGE_VAL : most; }
+        [[nodiscard]] ABUT_HD double bound() const { return stopped ? -HUGE_VAL : HUGE_VAL; }
         ABUT_HD void end(std::size_t) {}
         ABUT_HD void close() {}
     };
 
-    [[nodiscard]] sink make_sink(std::size_t /*thread*/) { return {most}; }
+    [[nodiscard]] sink make_sink(std::size_t /*thread*/) { return {}; }
     template <class Policy>
     void begin(const Policy&, std::size_t /*threads*/) {}
     template <class Policy>
     void end(const Policy&) {}
+};
+/// The same below a bound.
+struct until_stopped_below : until_stopped {
+    double most;
+
+    struct sink : until_stopped::sink {
+        double most;
+        [[nodiscard]] ABUT_HD double bound() const { return stopped ? -HUGE_VAL : most; }
+    };
+
+    explicit until_stopped_below(double bound) : most(bound) {}
+    [[nodiscard]] sink make_sink(std::size_t /*thread*/) { return {{}, most}; }
 };
 
 namespace detail {
