@@ -156,6 +156,10 @@ void query_rays() {
     expect(hits[0].id == 0 && hits[0].t == 1.5f);  // face 0, from below
     expect(hits[1].id == abut::no_id);             // nothing
     //! [raycast]
+    //! [raycast_detailed]
+    const auto detailed = abut::to_host(abut::raycast_detailed(abut::serial{}, tetrahedron, rays, {.most_t = 2}));
+    expect(detailed[0].hit == hits[0] && detailed[0].side == abut::ray_side::front && detailed[0].weights.x > 0);
+    //! [raycast_detailed]
     //! [raycast_any]
     const abut::segments<float> to_light({{{1, 1, -3}, {1, 1, 9}}, {{1, 1, -3}, {1, 1, -1}}});
     const auto in_shadow = abut::raycast_any(abut::serial{}, tetrahedron, to_light);

@@ -9,7 +9,9 @@
 #include <abut/arithmetic/self_test.hpp>
 #include <abut/collide/advise.hpp>
 #include <abut/collide/bodies.hpp>
+#include <abut/collide/body_distance.hpp>
 #include <abut/collide/body_pairs.hpp>
+#include <abut/collide/body_rows.hpp>
 #include <abut/collide/contacts.hpp>
 #include <abut/collide/distance.hpp>
 #include <abut/collide/first_impact.hpp>
@@ -22,6 +24,7 @@
 #include <abut/collide/query.hpp>
 #include <abut/collide/raycast.hpp>
 #include <abut/collide/raycast_all.hpp>
+#include <abut/collide/raycast_detailed.hpp>
 #include <abut/collide/reduce_contacts.hpp>
 #include <abut/collide/self_pairs.hpp>
 #include <abut/collide/validate.hpp>

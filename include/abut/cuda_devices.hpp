@@ -8,9 +8,6 @@
 #include <abut/devices/bodies.hpp>
 #include <abut/devices/distance.hpp>
 #include <abut/devices/impacts.hpp>
-#include <abut/devices/inside.hpp>
-#include <abut/devices/nearest.hpp>
 #include <abut/devices/query.hpp>
-#include <abut/devices/raycast.hpp>
-#include <abut/devices/winding_number.hpp>
+#include <abut/devices/rows.hpp>
 #include <abut/execution/cuda_devices.hpp>

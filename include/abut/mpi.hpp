@@ -8,9 +8,8 @@
 #include <abut/distributed/communicator.hpp>
 #include <abut/distributed/distance.hpp>
 #include <abut/distributed/impacts.hpp>
-#include <abut/distributed/inside.hpp>
-#include <abut/distributed/nearest.hpp>
 #include <abut/distributed/parts.hpp>
 #include <abut/distributed/query.hpp>
-#include <abut/distributed/raycast.hpp>
 #include <abut/distributed/redistribute.hpp>
+#include <abut/distributed/row_lists.hpp>
+#include <abut/distributed/rows.hpp>

@@ -21,8 +21,8 @@
 #include <abut/abut.hpp>
 #include <abut/devices/bodies.hpp>
 #include <abut/devices/impacts.hpp>
-#include <abut/devices/nearest.hpp>
 #include <abut/devices/query.hpp>
+#include <abut/devices/rows.hpp>
 
 #include "support/catch.hpp"
 #include "support/poses.hpp"

@@ -7,7 +7,7 @@
 
 #include <abut/abut.hpp>
 #include <abut/devices/distance.hpp>
-#include <abut/devices/raycast.hpp>
+#include <abut/devices/rows.hpp>
 
 #include "collide/hull_cases.hpp"
 #include "devices/device_cases.hpp"

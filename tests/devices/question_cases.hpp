@@ -14,11 +14,8 @@
 
 #include <abut/abut.hpp>
 #include <abut/devices/distance.hpp>
-#include <abut/devices/inside.hpp>
-#include <abut/devices/nearest.hpp>
-#include <abut/devices/raycast.hpp>
-#include <abut/devices/winding_number.hpp>
 #include <abut/devices/query.hpp>
+#include <abut/devices/rows.hpp>
 
 #include "devices/device_cases.hpp"
 #include "support/catch.hpp"

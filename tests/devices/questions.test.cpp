@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "devices/host_team.hpp"
 
+#include "collide/ray_options_cases.hpp"
 #include "devices/question_cases.hpp"
 
 TEST_CASE("devices: points, rays and distances are asked of several policies as of one") {
@@ -33,6 +34,42 @@ TEST_CASE("devices: rays meet solids on several policies as on one") {
     };
     check(abut::spheres<float>(balls));
     check(abut::cones<float>(hats));
+}
+
+TEST_CASE("devices: options of rays and points") {
+    const int n = GENERATE(1, 3);
+    const abut::test::host_team<abut::serial> team(n);
+    abut::test::check_ray_options<float>(team, [&](const auto& set) { return make_bvh(team, set); });
+    abut::test::check_ray_options<double>(team, [&](const auto& set) { return make_bvh(team, divide(team, set)); });
+    abut::test::check_nearest_options<float>(team, [&](const auto& set) { return make_bvh(team, set); });
+    abut::test::check_nearest_options<double>(team, [&](const auto& set) { return make_bvh(team, divide(team, set)); });
+    // More rows than go to one device at a time: a filter is given the numbers that they have in the call.
+    const abut::test::lattice_scene<float> scene(60, 9'000, 19);
+    const abut::triangle_soup<float> set(scene.triangles);
+    const abut::rays<float> rows(scene.rays);
+    const abut::raycast_options<abut::test::some_rows> options{.filter = {}};
+    CHECK((to_host(raycast(team, make_bvh(team, set), rows, options)) == to_host(raycast(abut::serial{}, set, rows, options))));
+    CHECK((to_host(raycast_all(team, divide(team, set), rows, options)) ==
+           to_host(raycast_all(abut::serial{}, set, rows, options))));
+}
+
+TEST_CASE("devices: points and rays among bodies") {
+    const abut::test::host_team<abut::serial> team(3);
+    const abut::test::lattice_scene<float> scene(40, 5'000, 23);
+    const abut::triangle_soup<float> set(scene.triangles);
+    const std::vector<abut::rigid<float>> poses{{}, {.translation = {3, 0, 1}}, {.translation = {3, 0, 1}}};
+    const std::vector<std::uint32_t> all_of_one{0, 0, 0};
+    const auto there = make_bodies(team, std::vector{make_bvh(team, set)}, all_of_one, poses);
+    const auto here = make_bodies(abut::serial{}, std::vector{make_bvh(abut::serial{}, set)}, all_of_one, poses);
+    const abut::rays<float> rows(scene.rays);
+    std::vector<abut::vec3<float>> from;
+    for (const auto& r : scene.rays) from.push_back(r.origin);
+    const auto hits = to_host(raycast_all(abut::serial{}, here, rows));
+    CHECK(hits.size() > 1'000);
+    CHECK((to_host(raycast_all(team, there, rows)) == hits));
+    CHECK((to_host(raycast(team, there, rows)) == to_host(raycast(abut::serial{}, here, rows))));
+    CHECK((to_host(raycast_any(team, there, rows)) == to_host(raycast_any(abut::serial{}, here, rows))));
+    CHECK((to_host(nearest(team, there, from, 3)) == to_host(nearest(abut::serial{}, here, from, 3))));
 }
 
 TEST_CASE("devices: errors of questions") {

@@ -151,6 +151,81 @@ TEST_CASE("distributed: impacts by a rule of faces") {
                             whole_y);
 }
 
+TEST_CASE("distributed: impacts of a mesh with itself, and what comes first") {
+    const distributed on(world(), openmp{2});
+    const auto global = [](const auto& i) {
+        return global_impact<float>{i.kind, {i.vertices[0], i.vertices[1], i.vertices[2], i.vertices[3]}, i.time};
+    };
+    for (const division how : divisions) {
+        CAPTURE(static_cast<int>(how), on.size());
+        auto all = make_sheet<float>(8, 0, 1, 8);
+        all.add(make_sheet<float>(8, 2, -1, 9));
+        const auto x = part_of_frames(all, how, on.rank(), on.size()).set();
+        const auto whole = joined_parts(all, how, on.size()).set();
+        std::vector<global_impact<float>> expected;
+        for (const auto& i : self_impacts(serial{}, whole).to_host()) expected.push_back(global(i));
+        CHECK(expected.size() > 100);
+        const auto by_kind = [](const auto& a, const auto& b) { return a.kind < b.kind; };
+        for (const bool indexed : {false, true}) {
+            const auto mine =
+                indexed ? self_impacts(on, make_impact_index(on.local(), x)).to_host() : self_impacts(on, x).to_host();
+            auto found = lists_of_all(on.ranks(), mine);
+            std::stable_sort(found.begin(), found.end(), by_kind);
+            CHECK(found == expected);
+        }
+        const auto first = first_self_impact(serial{}, whole);
+        REQUIRE(first.has_value());
+        CHECK(first_self_impact(on, x) == global(*first));
+        CHECK(first_self_impact<exact>(on, x) == global(*first));
+
+        const auto all_y = make_sheet<float>(6, 1, 0, 10);
+        const auto y = part_of_frames(all_y, division::even, on.rank(), on.size()).set();
+        const auto whole_y = joined_parts(all_y, division::even, on.size()).set();
+        const auto between = first_impact(serial{}, whole, whole_y);
+        REQUIRE(between.has_value());
+        CHECK(first_impact(on, x, y) == global(*between));
+    }
+    const auto far = make_sheet<float>(4, 50, 1, 11), near = make_sheet<float>(4, 0, 1, 12);
+    const auto x = part_of_frames(near, division::even, on.rank(), on.size()).set();
+    const auto y = part_of_frames(far, division::even, on.rank(), on.size()).set();
+    CHECK(!first_impact(on, x, y).has_value());
+}
+
+TEST_CASE("distributed: the first of impacts at one time is that of one machine") {
+    // Equal steps from a lattice onto one plane: whatever meets, meets at half the step.
+    const distributed on(world(), serial{});
+    frames<float> sheet, floor;
+    for (std::uint32_t i = 0; i < 30; ++i) {
+        const auto add = [&](frames<float>& to, float z, float way) {
+            const auto v = static_cast<std::uint32_t>(to.at_t0.size());
+            const auto x = static_cast<float>(3 * (i % 6)), y = static_cast<float>(3 * (i / 6));
+            for (const vec3<float> p : {vec3<float>{x, y, z}, vec3<float>{x + 2, y, z}, vec3<float>{x, y + 2, z}}) {
+                to.at_t0.push_back(p);
+                to.at_t1.push_back({p.x, p.y, p.z + way});
+            }
+            to.faces.push_back({v, v + 1, v + 2});
+        };
+        add(sheet, 1, -2);
+        add(floor, 0, 0);
+    }
+    for (int k = 0; k < 20; ++k) {  // which no face has, as make_sheet ends
+        for (frames<float>* all : {&sheet, &floor}) all->at_t0.push_back({0, 0, 900}), all->at_t1.push_back({0, 0, 900});
+    }
+    for (const division how : divisions) {
+        for (const division other : divisions) {
+            const auto x = part_of_frames(sheet, how, on.rank(), on.size()).set();
+            const auto y = part_of_frames(floor, other, on.rank(), on.size()).set();
+            const auto expected =
+                first_impact(serial{}, joined_parts(sheet, how, on.size()).set(), joined_parts(floor, other, on.size()).set());
+            const auto found = first_impact(on, x, y);
+            REQUIRE((expected.has_value() && found.has_value()));
+            CHECK(found->time == expected->time);
+            CHECK(found->kind == expected->kind);
+            for (std::size_t k = 0; k < 4; ++k) CHECK(found->vertices[k] == expected->vertices[k]);
+        }
+    }
+}
+
 TEST_CASE("distributed: impacts where a rank fails, and then again") {
     const distributed on(world(), serial{});
     const auto all = make_sheet<float>(6, 0, 1, 5);

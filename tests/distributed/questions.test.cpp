@@ -117,6 +117,35 @@ TEST_CASE("distributed: segments in double, and more rays than a message takes")
     CHECK((lists_of_all(on.ranks(), to_host(raycast(alone, few.part, many.part))) == in_all_parts(expected)));
 }
 
+TEST_CASE("distributed: options of rays") {
+    const distributed on(world(), serial{});
+    const auto triangles = twice_on_lattice<float>(150, 181);
+    const auto lines = rays_around<float>(300, 182);
+    for (const division how : divisions) {
+        const divided_set a(triangles, how, on.ranks());
+        const divided_set from(lines, division::uneven, on.ranks());
+        const auto tree = make_bvh(on.local(), a.part);
+        for (const auto& options : {raycast_options<>{.least_t = 0.25, .most_t = 0.75}, raycast_options<>{.side = ray_side::back}}) {
+            const auto hits = to_host(raycast_all(serial{}, a.whole, from.whole, options));
+            CHECK(hits.size() > 30);
+            CHECK((lists_of_all(on.ranks(), to_host(raycast_all(on, tree, from.part, options))) == in_all_parts(hits)));
+            CHECK((lists_of_all(on.ranks(), to_host(raycast(on, tree, from.part, options))) ==
+                   in_all_parts(to_host(raycast(serial{}, a.whole, from.whole, options)))));
+            CHECK((lists_of_all(on.ranks(), to_host(raycast_any(on, tree, from.part, options))) ==
+                   to_host(raycast_any(serial{}, a.whole, from.whole, options))));
+            const auto found = lists_of_all(on.ranks(), to_host(raycast_detailed(on, tree, from.part, options)));
+            const auto expected = to_host(raycast_detailed(serial{}, a.whole, from.whole, options));
+            REQUIRE(found.size() == expected.size());
+            std::size_t wrong = 0;
+            for (std::size_t k = 0; k < found.size(); ++k) {
+                const auto& [hit, side, weights] = expected[k];
+                wrong += found[k].hit != in_all_parts(std::vector{hit})[0] || found[k].side != side || found[k].weights != weights;
+            }
+            CHECK(wrong == 0);
+        }
+    }
+}
+
 TEST_CASE("distributed: the few nearest of all parts") {
     const distributed on(world(), serial{});
     const auto triangles = twice_on_lattice<float>(150, 87);

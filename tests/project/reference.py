@@ -19,8 +19,8 @@ import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 HEADINGS = ("Memory", "Errors", "Synchronisation", "Example")
-POLICY_CONCEPT = re.compile(r"\b(execution_policy|host_policy|policy_team)\b")
-POLICY_ARGUMENT = re.compile(r"^const (Policy|Team|serial|openmp|cuda) &$")
+POLICY_CONCEPT = re.compile(r"\b(execution_policy|executor|host_policy|policy_team)\b")
+POLICY_ARGUMENT = re.compile(r"^const (On|Policy|Team|serial|openmp|cuda) &$")
 CONCEPT = re.compile(r"^concept (\w+)")
 NAMESPACE = re.compile(r"^(inline )?namespace ([\w:]+) \{")
 TAKEN_OVER = re.compile(r"^using execution::(\w+);", re.MULTILINE)

@@ -81,6 +81,15 @@ public:
         return best_;
     }
 
+    /// What a caller gets of the best of all: an optional `separation` or `global_separation`.
+    template <class Found>
+    static std::optional<Found> answer(const pair_apart<T>& best, double below) {
+        if (!(best.is_one() && below > 0 && is_below(best.found, below))) return std::nullopt;
+        using id = decltype(Found::a);
+        const separation<T>& found = best.found;
+        return Found{static_cast<id>(best.a), static_cast<id>(best.b), found.point_a, found.point_b, found.distance};
+    }
+
 private:
     template <class Pairing>
     static bool is_empty(const Pairing& pairing) {

@@ -21,6 +21,7 @@
 #include <utility>
 #include <vector>
 
+#include <abut/collide/executor.hpp>
 #include <abut/collide/nearest.hpp>
 #include <abut/collide/pair_up.hpp>
 #include <abut/collide/placed.hpp>
@@ -43,6 +44,19 @@ struct distance_options {
     /// Only what is nearer than this is looked for. What is farther is not measured, so that a small bound saves time. 0 or
     /// more; nothing is nearer than 0.
     double below = infinity<double>;
+};
+
+/// A `separation` with ids in sets of many parts.
+/// @ingroup distributed
+template <scalar T>
+struct global_separation {
+    std::uint64_t a;  ///< id of the first shape
+    std::uint64_t b;  ///< id of the second one
+    vec3<T> point_a;  ///< of the first shape, in the world
+    vec3<T> point_b;  ///< of the second one
+    T distance;       ///< between the two, rounded to T; 0 where they touch
+
+    friend constexpr bool operator==(const global_separation&, const global_separation&) = default;
 };
 
 namespace detail {
@@ -447,22 +461,6 @@ auto separation_of_key(const Policy& on, const Pairing& pairing, std::uint64_t k
     return found;
 }
 
-/// `distance` of arguments that have been looked at.
-template <class Policy, class X, class Y>
-auto distance_of(const Policy& on, const X& x, const Y& y, const distance_options& options, const char* function) {
-    using T = scalar_type_of<typename shape_of_argument<X>::type>;
-    using answer = std::optional<separation<T>>;
-    check(options, function);
-    auto pairing = pair_up(on, x, y, query_options<before_first_touch<pair_key>>{}, function);
-    if (pairing.a.shapes().size() == 0 || pairing.b.shapes().size() == 0 || !(options.below > 0)) return answer();
-    std::uint64_t key = first_touch(on, pairing);
-    const bool touch = key != no_pair;
-    if (!touch) key = nearest_pair(on, pairing, bound_below<T>(options.below)).key;
-    if (key == no_pair) return answer();
-    const separation<T> found = separation_of_key(on, pairing, key, touch);
-    return is_below(found, options.below) ? answer(found) : answer();
-}
-
 /// Whether `distance` takes both arguments.
 template <class Policy, class X, class Y>
 consteval bool can_be_apart() {
@@ -472,6 +470,31 @@ consteval bool can_be_apart() {
         constexpr bool are = measurable<typename shape_of_argument<X>::type, typename shape_of_argument<Y>::type>;
         static_assert(are, "abut: there is no distance of sets of these two shapes");
         return are;
+    }
+}
+
+/// How far two sets are apart: a question that executors answer by overloads of ask_least.
+struct ask_distance {
+    static constexpr const char* function = "abut::distance";
+    distance_options options;
+};
+template <execution_policy Policy, class X, class Y>
+auto ask_least(const Policy& on, const ask_distance& question, const X& x, const Y& y) {
+    if constexpr (can_be_apart<Policy, X, Y>()) {
+        using T = scalar_type_of<typename shape_of_argument<X>::type>;
+        using answer = std::optional<separation<T>>;
+        const double below = question.options.below;
+        check(question.options, question.function);
+        auto pairing = pair_up(on, x, y, query_options<before_first_touch<pair_key>>{}, question.function);
+        if (pairing.a.shapes().size() == 0 || pairing.b.shapes().size() == 0 || !(below > 0)) return answer();
+        std::uint64_t key = first_touch(on, pairing);
+        const bool touch = key != no_pair;
+        if (!touch) key = nearest_pair(on, pairing, bound_below<T>(below)).key;
+        if (key == no_pair) return answer();
+        const separation<T> found = separation_of_key(on, pairing, key, touch);
+        return is_below(found, below) ? answer(found) : answer();
+    } else {
+        return std::optional<separation<float>>();
     }
 }
 
@@ -489,6 +512,10 @@ consteval bool can_be_apart() {
 /// differ by less than docs/numerics.md says may be taken for each other. Points and distance are those of `distance` of the
 /// two shapes.
 ///
+/// Of several devices (@ref devices), where both arguments are divided, and of ranks (@ref distributed) each searches its own
+/// parts first; then shapes of b go to whose a-shapes may be as near to them as what was found: to all, where no rank has
+/// shapes of both sets. Of ranks the answer is a `global_separation`, the same on all; each gives the same options.
+///
 /// @par Memory
 /// As in @ref queries. Nothing is stored for each pair. A call of a list of two entries or more takes 12 bytes for each
 /// shape of its trees in host memory where something touches, unless these keep their least ids. Under `cuda` a walk of two
@@ -505,13 +532,9 @@ consteval bool can_be_apart() {
 /// @snippet queries.cpp distance
 ///
 /// @ingroup queries
-template <execution_policy Policy, class X, class Y>
-[[nodiscard]] auto distance(const Policy& on, const X& a, const Y& b, const distance_options& options = {}) {
-    if constexpr (detail::can_be_apart<Policy, X, Y>()) {
-        return detail::distance_of(on, a, b, options, "abut::distance");
-    } else {
-        return std::optional<separation<float>>();
-    }
+template <executor On, class X, class Y>
+[[nodiscard]] auto distance(const On& on, const X& a, const Y& b, const distance_options& options = {}) {
+    return ask_least(on, detail::ask_distance{options}, a, b);
 }
 
 }  // namespace abut

@@ -8,7 +8,7 @@
 // The question is a type of `detail`, so that calls find the overloads of executors whose headers came later.
 
 #include <abut/execution/policy.hpp>
-#include <abut/execution/team.hpp>
+#include <abut/execution/policy_team.hpp>
 
 namespace abut {
 

@@ -292,13 +292,12 @@ bool is_first_part_small(const Policy& on, const Index& x, const Index& y) {
 /// `fast` and `conservative` may tell times at which boxes do not meet yet: they look at the whole step.
 template <motion_arithmetic A, class FirstUntil>
 auto first_of_step(const FirstUntil& first_until, double first_part = first_part_of_step) {
-    using T = typename decltype(first_until(1.0)->found)::scalar_type;
     constexpr bool is_exact = std::same_as<A, filtered> || std::same_as<A, exact>;
     for (double time = is_exact ? first_part : 1;;) {
         const auto first = first_until(time);
         // A time is the true one rounded down. None that is as early by it is missing.
         const double enough = first ? first->found.time + last_time_bit : growth_of_part * time;
-        if (time >= 1 || (first && enough <= time)) return first ? std::optional<impact<T>>(first->found) : std::nullopt;
+        if (time >= 1 || (first && enough <= time)) return first;
         time = std::min(enough, 1.0);
     }
 }
@@ -321,33 +320,37 @@ auto first_until(const Policy& on, const Index& x, const Index& y, double time, 
     };
     return Within ? first(a) : first(during(y));
 }
-template <motion_arithmetic A, bool Within, class Policy, class Index, class Fronts>
+template <motion_arithmetic A, bool Within, class Policy, class Index, class Fronts, class Part = whole_search>
 auto first_of_indices(const Policy& on, const Index& x, const Index& y, const impact_options& options, const Fronts& fronts,
-                      const char* function) {
+                      const char* function, const Part& part = {}) {
     double first_part = 1;
     if constexpr (std::same_as<A, filtered> || std::same_as<A, exact>) {
         if (is_first_part_small<Within>(on, x, y)) first_part = first_part_of_step;
     }
-    return first_of_step<A>([&](double time) { return first_until<A, Within>(on, x, y, time, options, fronts, function); },
-                            first_part);
+    const auto until = [&](double time) {
+        return first_until<A, Within>(on, x, y, time, options, fronts, function, part);
+    };
+    return first_of_step<A>(until, first_part);
 }
 
-/// Of two arguments, and of one with itself.
-template <motion_arithmetic A, class Policy, class X, class Y, class Fronts>
-auto first_between(const Policy& on, const X& a, const Y& b, const impact_options& options, const Fronts& fronts,
-                   const char* function) {
-    if constexpr (can_meet<Policy, X, Y>()) {
-        const auto [x, y] = impact_operands(on, a, b, function);
-        return first_of_indices<A, false>(on, x, y, options, fronts, function);
-    } else {
-        return std::optional<impact<float>>();
-    }
+/// The first of what an executor found, as a caller gets it.
+template <class Found>
+auto without_key(const std::optional<Found>& first) {
+    using impact_type = decltype(Found::found);
+    return first ? std::optional<impact_type>(first->found) : std::optional<impact_type>();
 }
-template <motion_arithmetic A, class Policy, class X, class Fronts>
-auto first_within(const Policy& on, const X& a, const impact_options& options, const Fronts& fronts, const char* function) {
-    if constexpr (can_move<Policy, X>()) {
-        const auto x = impact_operand<rule_of<X, X>()>(on, a, function);
-        return first_of_indices<A, true>(on, x, x, options, fronts, function);
+
+/// As ask_impacts.
+template <motion_arithmetic A, bool Within>
+struct ask_first_impact {
+    static constexpr const char* function = Within ? "abut::first_self_impact" : "abut::first_impact";
+};
+template <execution_policy Policy, motion_arithmetic A, bool Within, class X, class Y, class Fronts = no_fronts>
+auto ask_motion(const Policy& on, const ask_first_impact<A, Within>& question, const X& a, const Y& b,
+                const impact_options& options, const Fronts& fronts = {}) {
+    if constexpr (can_collide<Within, Policy, X, Y>()) {
+        const auto [x, y] = impact_operands<Within>(on, a, b, question.function);
+        return without_key(first_of_indices<A, Within>(on, x, y, options, fronts, question.function));
     } else {
         return std::optional<impact<float>>();
     }
@@ -362,33 +365,22 @@ auto first_within(const Policy& on, const X& a, const impact_options& options, c
 /// one time, the first in the order of `impacts`. What is found so far prunes the search: it looks at a first part of the
 /// step, and at more where nothing touches in it; or at the whole step at once, where most shapes move by little of their
 /// size. For parts the trees are refitted; so under cuda the stream of an index's first such query has to outlive the index
-/// (see `refit`). `fast` and `conservative` look at the whole step. Arguments, times and errors are those of `impacts`.
+/// (see `refit`). `fast` and `conservative` look at the whole step. Arguments, times and errors are those of `impacts`. Fronts
+/// are left at the ends of the part of the step that was looked at last.
+///
+/// Several devices (@ref devices) look at the same part of the step; pieces of divided meshes are of the whole step.
 ///
 ///     if (const auto first = abut::first_impact(on, step, ball)) stop_at(first->time);
-template <motion_arithmetic A = filtered, execution_policy Policy, class X, class Y>
-[[nodiscard]] auto first_impact(const Policy& on, const X& a, const Y& b, const impact_options& options = {}) {
-    constexpr const char* function = "abut::first_impact";
-    return detail::first_between<A>(on, a, b, options, detail::no_fronts{}, function);
-}
-/// The same from fronts, which are left at the ends of the part of the step that was looked at last.
-template <motion_arithmetic A = filtered, execution_policy Policy, class X, class Y>
-[[nodiscard]] auto first_impact(const Policy& on, const X& a, const Y& b, const impact_options& options,
-                                impact_fronts& fronts) {
-    constexpr const char* function = "abut::first_impact";
-    return detail::first_between<A>(on, a, b, options, detail::fronts_of(fronts), function);
+template <motion_arithmetic A = filtered, executor On, class X, class Y, std::same_as<impact_fronts>... Fronts>
+[[nodiscard]] auto first_impact(const On& on, const X& a, const Y& b, const impact_options& options = {},
+                                Fronts&... fronts) {
+    return ask_motion(on, detail::ask_first_impact<A, false>{}, a, b, options, detail::fronts_of(fronts)...);
 }
 
 /// The earliest of the impacts of a mesh with itself, as `self_impacts` has them. Otherwise as `first_impact`.
-template <motion_arithmetic A = filtered, execution_policy Policy, class X>
-[[nodiscard]] auto first_self_impact(const Policy& on, const X& a, const impact_options& options = {}) {
-    constexpr const char* function = "abut::first_self_impact";
-    return detail::first_within<A>(on, a, options, detail::no_fronts{}, function);
-}
-/// The same from fronts, as of `first_impact`.
-template <motion_arithmetic A = filtered, execution_policy Policy, class X>
-[[nodiscard]] auto first_self_impact(const Policy& on, const X& a, const impact_options& options, impact_fronts& fronts) {
-    constexpr const char* function = "abut::first_self_impact";
-    return detail::first_within<A>(on, a, options, detail::fronts_of(fronts), function);
+template <motion_arithmetic A = filtered, executor On, class X, std::same_as<impact_fronts>... Fronts>
+[[nodiscard]] auto first_self_impact(const On& on, const X& a, const impact_options& options = {}, Fronts&... fronts) {
+    return ask_motion(on, detail::ask_first_impact<A, true>{}, a, a, options, detail::fronts_of(fronts)...);
 }
 
 ///@}

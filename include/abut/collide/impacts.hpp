@@ -19,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+#include <abut/collide/executor.hpp>
 #include <abut/collide/feature_pairing.hpp>
 #include <abut/collide/features.hpp>
 #include <abut/collide/impact_index.hpp>
@@ -85,6 +86,19 @@ struct impact_options {
 };
 
 struct impact_fronts;  // to make them, include <abut/experimental/impact_fronts.hpp>
+
+/// An `impact` with vertex numbers in meshes of many parts.
+/// @ingroup distributed
+template <scalar T>
+struct global_impact {
+    using scalar_type = T;  ///< of the meshes
+    feature_pair kind;      ///< which features
+    /// As of `impact`: the vertex and the three of the face; or the two of a's edge and the two of b's.
+    std::array<std::uint64_t, 4> vertices;
+    double time;  ///< the earliest in [0, 1] at which they touch
+
+    friend constexpr bool operator==(const global_impact&, const global_impact&) = default;
+};
 
 namespace detail {
 
@@ -328,32 +342,41 @@ auto impacts_of_indices(const Policy& on, const Index& x, const Index& y, const 
         [&](const auto& both, const auto& search) { return impacts_of<A>(on, options, both, search); });
 }
 
-/// Both arguments of an impact query as indices.
-template <class Policy, class X, class Y>
+/// Both arguments of an impact query as indices; `Within` one mesh they are one.
+template <bool Within, class Policy, class X, class Y>
 auto impact_operands(const Policy& on, const X& a, const Y& b, const char* function) {
     constexpr pair_rule rule = rule_of<X, Y>();
     auto x = impact_operand<rule>(on, a, function);
-    auto y = impact_operand<rule>(on, b, function);
-    return std::pair(std::move(x), std::move(y));
-}
-
-/// The impacts of two meshes, or of one with itself.
-template <motion_arithmetic A, class Policy, class X, class Y, class Fronts>
-auto impacts_between(const Policy& on, const X& a, const Y& b, const impact_options& options, const Fronts& fronts) {
-    constexpr const char* function = "abut::impacts";
-    if constexpr (can_meet<Policy, X, Y>()) {
-        const auto [x, y] = impact_operands(on, a, b, function);
-        return impacts_of_indices<A, false>(on, x, y, options, fronts, function).found;
+    if constexpr (Within) {
+        auto y = x;
+        return std::pair(std::move(x), std::move(y));
     } else {
-        return result<impact<float>, space_of<Policy>>();
+        auto y = impact_operand<rule>(on, b, function);
+        return std::pair(std::move(x), std::move(y));
     }
 }
-template <motion_arithmetic A, class Policy, class X, class Fronts>
-auto impacts_within(const Policy& on, const X& a, const impact_options& options, const Fronts& fronts) {
-    constexpr const char* function = "abut::self_impacts";
-    if constexpr (can_move<Policy, X>()) {
-        const auto x = impact_operand<rule_of<X, X>()>(on, a, function);
-        return impacts_of_indices<A, true>(on, x, x, options, fronts, function).found;
+/// Whether an impact query takes both; `Within` one mesh they are one.
+template <bool Within, class Policy, class X, class Y>
+consteval bool can_collide() {
+    if constexpr (Within) {
+        return can_move<Policy, X>();
+    } else {
+        return can_meet<Policy, X, Y>();
+    }
+}
+
+/// What meets in motion, of two meshes or `Within` one: a question that executors answer by overloads of ask_motion. Of one
+/// mesh both arguments are that. Fronts are a policy's alone.
+template <motion_arithmetic A, bool Within>
+struct ask_impacts {
+    static constexpr const char* function = Within ? "abut::self_impacts" : "abut::impacts";
+};
+template <execution_policy Policy, motion_arithmetic A, bool Within, class X, class Y, class Fronts = no_fronts>
+auto ask_motion(const Policy& on, const ask_impacts<A, Within>& question, const X& a, const Y& b,
+                const impact_options& options, const Fronts& fronts = {}) {
+    if constexpr (can_collide<Within, Policy, X, Y>()) {
+        const auto [x, y] = impact_operands<Within>(on, a, b, question.function);
+        return impacts_of_indices<A, Within>(on, x, y, options, fronts, question.function).found;
     } else {
         return result<impact<float>, space_of<Policy>>();
     }
@@ -374,28 +397,27 @@ given_fronts fronts_of(Fronts& all) {
 /// policy. `fast` promises nothing. `conservative` misses none, and tells within its bounds when they come near. Two meshes
 /// that intersect all the time without a contact of such features, as one inside the other, have no impact.
 ///
+/// A policy takes one `impact_fronts` besides: then the search begins at these fronts, which are left at this step's ends.
+///
+/// Of several devices (@ref devices) the answer lies in memory of the first one. Arguments are replicated meshes or indices,
+/// meshes in host memory, or divided by divide_mesh; of divided ones the list is sorted, numbers are those of the whole
+/// meshes, pieces of b come to the devices whose parts of a they come near, and all pieces of a device are there at a time,
+/// with an index; the first device holds 56 bytes for each impact, three times for a moment. Of ranks (@ref distributed) each
+/// gets a `global_impact` of its own part of a, 48 bytes each; parts have vertices of their own, so vertices on the border of
+/// two parts are in both, and so are edges between them; lists of all ranks are that of one machine kind by kind.
+///
 ///     const auto step = abut::moving(cloth_t0, cloth_t1);
 ///     for (const auto& i : to_host(abut::impacts(on, step, ball))) use(i.kind, i.vertices, i.time);
-template <motion_arithmetic A = filtered, execution_policy Policy, class X, class Y>
-[[nodiscard]] auto impacts(const Policy& on, const X& a, const Y& b, const impact_options& options = {}) {
-    return detail::impacts_between<A>(on, a, b, options, detail::no_fronts{});
-}
-/// The same from fronts, which are left at this step's ends.
-template <motion_arithmetic A = filtered, execution_policy Policy, class X, class Y>
-[[nodiscard]] auto impacts(const Policy& on, const X& a, const Y& b, const impact_options& options, impact_fronts& fronts) {
-    return detail::impacts_between<A>(on, a, b, options, detail::fronts_of(fronts));
+template <motion_arithmetic A = filtered, executor On, class X, class Y, std::same_as<impact_fronts>... Fronts>
+[[nodiscard]] auto impacts(const On& on, const X& a, const Y& b, const impact_options& options = {}, Fronts&... fronts) {
+    return ask_motion(on, detail::ask_impacts<A, false>{}, a, b, options, detail::fronts_of(fronts)...);
 }
 
 /// The impacts of one mesh with itself: of all pairs that have no vertex index in common. Vertices that coincide in place
 /// but not by index touch. `x` is a mesh in motion, or an index of one. Otherwise as `impacts`.
-template <motion_arithmetic A = filtered, execution_policy Policy, class X>
-[[nodiscard]] auto self_impacts(const Policy& on, const X& x, const impact_options& options = {}) {
-    return detail::impacts_within<A>(on, x, options, detail::no_fronts{});
-}
-/// The same from fronts, which are left at this step's ends.
-template <motion_arithmetic A = filtered, execution_policy Policy, class X>
-[[nodiscard]] auto self_impacts(const Policy& on, const X& x, const impact_options& options, impact_fronts& fronts) {
-    return detail::impacts_within<A>(on, x, options, detail::fronts_of(fronts));
+template <motion_arithmetic A = filtered, executor On, class X, std::same_as<impact_fronts>... Fronts>
+[[nodiscard]] auto self_impacts(const On& on, const X& x, const impact_options& options = {}, Fronts&... fronts) {
+    return ask_motion(on, detail::ask_impacts<A, true>{}, x, x, options, detail::fronts_of(fronts)...);
 }
 
 /// Where the features of an impact touch (narrow/feature_weights.hpp). `a` and `b` are the meshes of the query as moving

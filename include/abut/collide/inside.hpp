@@ -16,6 +16,8 @@
 #include <abut/arithmetic/arithmetic.hpp>
 #include <abut/collide/flag.hpp>
 #include <abut/collide/nearest.hpp>
+#include <abut/collide/raycast.hpp>
+#include <abut/collide/row_questions.hpp>
 #include <abut/collide/validate.hpp>
 #include <abut/execution/ordered.hpp>
 #include <abut/narrow/crossing.hpp>
@@ -115,15 +117,24 @@ inline constexpr bool has_faces<bvh<Set, Space, Layout>> = is_mesh<Set>;
 template <class Object>
 inline constexpr bool has_faces<posed_object<Object>> = has_faces<Object>;
 
-/// Whether `inside` takes both arguments.
-template <arithmetic A, class Policy, class X, class Points>
+/// Whether `inside` takes both arguments, of which the first is a whole mesh or a part: parts are triangles.
+template <arithmetic A, class Policy, class X, class Points, bool Whole>
 consteval bool can_contain() {
     constexpr bool is_decided = !std::same_as<A, fast>;
     static_assert(is_decided, "abut: inside is decided by `filtered` or `exact`");
-    constexpr bool is_mesh_or_tree = has_faces<X>;
-    static_assert(is_mesh_or_tree, "abut: inside looks into a closed mesh: a mesh, a mesh_view, or a tree of one");
-    if constexpr (is_decided && is_mesh_or_tree) return can_be_near<Policy, X, Points>();
-    return false;
+    if constexpr (Whole) {
+        constexpr bool is_mesh_or_tree = has_faces<X>;
+        static_assert(is_mesh_or_tree, "abut: inside looks into a closed mesh: a mesh, a mesh_view, or a tree of one");
+        if constexpr (is_decided && is_mesh_or_tree) return can_be_near<Policy, X, Points>();
+        return false;
+    } else if constexpr (is_decided && can_be_near<Policy, X, Points>()) {
+        using shape_type = typename shape_of_argument<X>::type;
+        constexpr bool are = std::same_as<shape_type, triangle<scalar_type_of<shape_type>>>;
+        static_assert(are, "abut: inside looks into a closed mesh: the parts of one are triangles");
+        return are;
+    } else {
+        return false;
+    }
 }
 
 /// Writes where each point is, of shapes that bound a body.
@@ -141,23 +152,58 @@ void look_upward(const Policy& on, const Operand& x, const Queries& queries, con
     for_each_ordered(on, from.size(), from_each{walk_type{walk, frame, there, from, out}}, until);
 }
 
-template <arithmetic A, class Policy, class X, class Points>
-auto inside_of(const Policy& on, const X& mesh, const Points& points, const inside_options& options, const char* function) {
-    using T = scalar_type_of<typename shape_of_argument<X>::type>;
-    const auto x = make_operand(on, mesh, function);
-    const auto queries = make_points<T>(on, points, function);
-    if (!options.known_closed) require_closed(on, x.shapes(), function);
-    execution::buffer_of<Policy, containment> out(on, queries.shapes().size());
-    look_upward<A>(on, x, queries, out.data());
-    synchronize(on);
-    return result<containment, space_of<Policy>>(std::move(out));
-}
+/// Where a point is: of a part, whether the way up from it crosses an odd number of the part's triangles.
+template <arithmetic A>
+struct ask_inside : question_of_points {
+    template <scalar, class>
+    using found = containment;
+    using answer = containment;
+    const char* function = "abut::inside";
+    bool known_closed = false;
 
-template <scalar T>
+    template <class Policy, class X, class Points, bool Whole>
+    static consteval bool takes() {
+        return can_contain<A, Policy, X, Points, Whole>();
+    }
+    template <class Policy, class X, class Points>
+    void check(const Policy& on, const X& x, const Points&, const char* holder) const {
+        if (known_closed) return;
+        if (holder != nullptr) {
+            throw error(std::string(function) + ": no " + holder +
+                        " to find out whether it is closed; expected {.known_closed = true}");
+        }
+        if constexpr (requires { require_closed(on, x.shapes(), function); }) require_closed(on, x.shapes(), function);
+    }
+    template <class Policy, class X, class Points>
+    auto at_once(const Policy& on, const X& x, const Points& points, double) const {
+        execution::buffer_of<Policy, answer> out(on, points.shapes().size());
+        ask(on, x, points, same_key{}, out.data());
+        return result<answer, space_of<Policy>>(std::move(out));
+    }
+    template <scalar T>
+    [[nodiscard]] ask_inside in_parts(double) const {
+        return *this;
+    }
+    template <class Policy, class Operand, class Rows, class Ids>
+    void ask(const Policy& on, const Operand& x, const Rows& rows, const Ids&, answer* out) const {
+        look_upward<A>(on, x, rows, out);
+        synchronize(on);
+    }
+    ABUT_HD void merge(answer* best, const answer* other) const {
+        const bool is_on = *best == containment::on_surface || *other == containment::on_surface;
+        *best = is_on ? containment::on_surface : *best == *other ? containment::outside : containment::inside;
+    }
+    template <scalar T>
+    ABUT_HD bool may_change(const vec3<T>& p, const answer* best, const part_bounds<T>& part) const {
+        return *best != containment::on_surface && may_meet(ray<T>{p, {0, 0, 1}}, part, infinity<double>);
+    }
+};
+
+template <class Neighbor>
 struct write_signed {
-    const neighbor<T>* nearest;
+    const Neighbor* nearest;
     const containment* where;
-    neighbor<T>* out;
+    Neighbor* out;
 
     ABUT_HD void operator()(std::size_t i) const {
         out[i] = nearest[i];
@@ -181,6 +227,10 @@ struct write_signed {
 /// have two numbers make a mesh that is not closed; `welded` joins them. What is closed is found out in each call; it takes
 /// a sort of all sides of the faces. `{.known_closed = true}` leaves it out.
 ///
+/// Of several devices (@ref devices) the answer lies in memory of the first one, which finds out whether the mesh is closed.
+/// Of a divided mesh, and of ranks (@ref distributed), of which each has a part, nobody can: the caller has to know it, and
+/// parts may be of triangles.
+///
 /// @par Memory
 /// As in @ref queries. The result lies in the policy's memory, 1 byte a point. Scratch takes 72 bytes a face, while it is
 /// found out whether the mesh is closed.
@@ -189,7 +239,7 @@ struct write_signed {
 /// - `invalid_geometry`: the mesh is not closed (the message has a face and how many faces one of its edges has); a view or
 ///   a
 ///   row of points holds no geometry, or a pose is no rotation.
-/// - `error`: a set or an index lies on another device.
+/// - `error`: a set or an index lies on another device; a mesh in parts is not said to be closed.
 /// - `capacity_error`: a view or a row has 2^31 elements or more, or there are more than 1,431,655,765 faces.
 /// - `std::bad_alloc`, `cuda_error`.
 ///
@@ -200,13 +250,9 @@ struct write_signed {
 /// @snippet queries.cpp inside
 ///
 /// @ingroup queries
-template <arithmetic A = filtered, execution_policy Policy, class X, class Points>
-[[nodiscard]] auto inside(const Policy& on, const X& mesh, const Points& points, const inside_options& options = {}) {
-    if constexpr (detail::can_contain<A, Policy, X, Points>()) {
-        return detail::inside_of<A>(on, mesh, points, options, "abut::inside");
-    } else {
-        return result<containment, space_of<Policy>>();
-    }
+template <arithmetic A = filtered, executor On, class X, class Points>
+[[nodiscard]] auto inside(const On& on, const X& mesh, const Points& points, const inside_options& options = {}) {
+    return ask_rows(on, detail::ask_inside<A>{{}, "abut::inside", bool(options.known_closed)}, mesh, points);
 }
 
 /// For each of `points` what `nearest` says of it, with a distance that is below 0 where the point is `inside`, and 0 where
@@ -228,20 +274,20 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Point
 /// @snippet queries.cpp signed_distance
 ///
 /// @ingroup queries
-template <execution_policy Policy, class X, class Points>
-[[nodiscard]] auto signed_distance(const Policy& on, const X& mesh, const Points& points, const inside_options& options = {}) {
-    if constexpr (detail::can_contain<filtered, Policy, X, Points>()) {
-        constexpr const char* function = "abut::signed_distance";
-        using T = scalar_type_of<typename detail::shape_of_argument<X>::type>;
-        const auto where = detail::inside_of<filtered>(on, mesh, points, options, function);
-        const auto near = nearest(on, mesh, points);
-        execution::buffer_of<Policy, neighbor<T>> out(on, near.size());
-        for_each_index(on, near.size(), detail::write_signed<T>{near.data(), where.data(), out.data()});
-        synchronize(on);
-        return result<neighbor<T>, space_of<Policy>>(std::move(out));
-    } else {
-        return result<neighbor<float>, space_of<Policy>>();
-    }
+template <executor On, class X, class Points>
+[[nodiscard]] auto signed_distance(const On& on, const X& mesh, const Points& points, const inside_options& options = {}) {
+    constexpr const char* function = "abut::signed_distance";
+    const auto where =
+        ask_rows(on, detail::ask_inside<filtered>{{}, function, bool(options.known_closed)}, mesh, points);
+    const auto near = ask_rows(on, detail::ask_nearest<false>{{}, function}, mesh, points);
+    return make_of_answers(on, detail::by_its_policy{}, [&](const auto& local) {
+        using local_policy = std::remove_cvref_t<decltype(local)>;
+        using found = typename std::remove_cvref_t<decltype(near)>::value_type;
+        execution::buffer_of<local_policy, found> out(local, near.size());
+        for_each_index(local, near.size(), detail::write_signed<found>{near.data(), where.data(), out.data()});
+        synchronize(local);
+        return result<found, space_of<local_policy>>(std::move(out));
+    });
 }
 
 }  // namespace abut

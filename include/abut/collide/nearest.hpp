@@ -10,7 +10,6 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -20,6 +19,7 @@
 #include <abut/collide/nearest_group.hpp>
 #include <abut/collide/operand.hpp>
 #include <abut/collide/options.hpp>
+#include <abut/collide/row_questions.hpp>
 #include <abut/execution/host.hpp>
 #include <abut/execution/ordered.hpp>
 #include <abut/index/curve_order.hpp>
@@ -28,11 +28,74 @@
 
 namespace abut {
 
+/// A `neighbor` with an id in a set of many parts. Where there are no shapes at all: `no_global_id`, the point asked about
+/// and infinity.
+/// @ingroup distributed
+template <scalar T>
+struct global_neighbor {
+    std::uint64_t id;  ///< of the shape
+    vec3<T> point;     ///< on the shape, in the world
+    T distance;        ///< from the point asked about, rounded to T
+
+    friend constexpr bool operator==(const global_neighbor&, const global_neighbor&) = default;
+};
+
+/// A `neighbor` among bodies. Where there are no shapes both numbers are `no_id`.
+/// @ingroup many_bodies
+template <scalar T>
+struct body_neighbor {
+    std::uint32_t body;  ///< its number
+    std::uint32_t id;    ///< of the shape in the body's set
+    vec3<T> point;       ///< on the shape, in the world
+    T distance;          ///< from the point asked about, rounded to T
+
+    friend constexpr bool operator==(const body_neighbor&, const body_neighbor&) = default;
+};
+
+/// Options of `nearest`. With a filter write `nearest_options{.filter = f}` (see query_options).
+/// @ingroup queries
+template <class Filter = keep_all>
+struct nearest_options {
+    /// How many of the nearest shapes.
+    std::size_t count = 1;
+    /// filter(number of the point, id) -> bool, of bodies filter(number of the point, body, id): shapes for which it is false
+    /// are not there. As in query_options. Ranks take none: points of other ranks have no numbers there.
+    Filter filter = {};
+};
+
 namespace detail {
+
+/// All shapes, or of each row those that a filter keeps. `Bodies` says that shapes have keys of bodies.
+struct all_shapes_wanted {
+    [[nodiscard]] ABUT_HD bool operator()(std::size_t, std::uint64_t) const { return true; }
+};
+template <class Filter, class Numbers, bool Bodies>
+struct some_shapes_wanted {
+    Filter filter;
+    Numbers numbers;
+    ABUT_CALLS_ANY
+    [[nodiscard]] ABUT_HD bool operator()(std::size_t row, std::uint64_t key) const {
+        const auto number = static_cast<std::uint32_t>(numbers(row)), id = static_cast<std::uint32_t>(key);
+        if constexpr (Bodies) {
+            return filter(number, body_of_key(key), id);
+        } else {
+            return filter(number, id);
+        }
+    }
+};
+template <bool Bodies, class Filter, class Rows>
+auto shapes_wanted(const Filter& filter, const Rows& rows) {
+    if constexpr (std::same_as<Filter, keep_all>) {
+        return all_shapes_wanted{};
+    } else {
+        const auto numbers = numbers_of(rows);
+        return some_shapes_wanted<Filter, std::remove_const_t<decltype(numbers)>, Bodies>{filter, numbers};
+    }
+}
 
 /// A walk through an index from each of many points, in an order of theirs. (To begin each with what is nearest to the one
 /// before was tried. It spares a walk one node in sixty: nearest first, the first shape that it meets is good enough.)
-template <class Walk, class Frame, shape_view Shapes, shape_view Points, class Judge>
+template <class Walk, class Frame, shape_view Shapes, shape_view Points, class Judge, class Wanted>
 struct walk_from_points {
     static_assert(measuring_judge<Judge, typename Shapes::shape_type, typename Points::shape_type>);
     Walk walk;
@@ -41,13 +104,17 @@ struct walk_from_points {
     Points points;
     Judge judge;
     const std::uint32_t* order;  ///< null for their own
+    [[no_unique_address]] Wanted wanted;
 
     ABUT_CALLS_ANY
     template <class Best>
     ABUT_HD void operator()(std::size_t i, Best& best) const {
-        const auto p = points[order == nullptr ? i : order[i]];
+        const std::size_t row = order == nullptr ? i : order[i];
+        const auto p = points[row];
         auto reach = frame.ball_around(p);
-        walk(reach, best, [&](std::uint32_t id) { best.offer(judge.measure(shapes[id], p, best.bound()), id); });
+        walk(reach, best, [&](walk_id<Walk> id) {
+            if (wanted(row, id)) best.offer(judge.measure(shapes[id], p, best.bound()), id);
+        });
     }
     ABUT_INLINE void prefetch(std::size_t i) const {
         if (order != nullptr) prefetch_shape(points, order[i], 0);
@@ -69,7 +136,7 @@ struct measure_each_shape {
 };
 
 /// The answers, each where its point is: `count` for each.
-template <shape_view Shapes, shape_view Points>
+template <class Found, shape_view Shapes, shape_view Points>
 struct write_neighbors {
     using T = typename Points::scalar_type;
     Shapes shapes;
@@ -77,7 +144,7 @@ struct write_neighbors {
     length_unit<T> unit;
     const std::uint32_t* order;
     const execution::least_value* found;  ///< null for none
-    neighbor<T>* out;
+    Found* out;
     std::size_t count = 1;
 
     ABUT_HD void operator()(std::size_t i) const {
@@ -85,12 +152,14 @@ struct write_neighbors {
         const std::size_t k = order == nullptr ? point : order[point];
         const std::size_t to = count == 1 ? k : k * count + (i - point * count);
         const vec3<T> p = points[k];
-        if (found == nullptr || found[i].key >= no_id) {
-            out[to] = {no_id, p, infinity<T>};
-            return;
+        const std::uint64_t key = found == nullptr ? no_global_id : found[i].key;
+        neighbor<T> near{no_id, p, infinity<T>};
+        if (key != no_global_id) near = neighbor_of(p, shapes[key], static_cast<std::uint32_t>(key), unit);
+        if constexpr (requires(const Found& n) { n.body; }) {
+            out[to] = {body_of_key(key), near.id, near.point, near.distance};
+        } else {
+            out[to] = near;
         }
-        const auto id = static_cast<std::uint32_t>(found[i].key);
-        out[to] = neighbor_of(p, shapes[id], id, unit);
     }
 };
 
@@ -158,20 +227,13 @@ length_unit<T> unit_of_magnitude([[maybe_unused]] double largest) {
     }
 }
 
-/// A unit for all points and all shapes.
-template <class Policy, class Operand, shape_view Points>
-auto common_unit([[maybe_unused]] const Policy& on, [[maybe_unused]] const Operand& x, [[maybe_unused]] const Points& points) {
-    using T = typename Points::scalar_type;
-    return unit_of_magnitude<T>(std::same_as<T, float> ? 0 : largest_coordinate(on, x, points));
-}
-
 template <class X>
 inline constexpr bool is_row_of_points = array_like<X> && !shape_view<X>;
 
 /// Whether `nearest` takes both arguments.
 template <class Policy, class X, class Points>
 consteval bool can_be_near() {
-    if constexpr (!can_be_asked<Policy, X>()) {
+    if constexpr (!can_be_asked_by_rows<Policy, X>()) {
         return false;
     } else {
         using shape_type = typename shape_of_argument<X>::type;
@@ -223,15 +285,15 @@ execution::buffer_of<Policy, std::uint32_t> order_of_points(const Policy& on, co
 }
 
 /// Each point walks by itself. `best` keeps what is nearest to each.
-template <class Policy, class Operand, shape_view Points, class Judge, class Best>
+template <class Policy, class Operand, shape_view Points, class Judge, class Best, class Wanted = all_shapes_wanted>
 void walk_alone_from_points(const Policy& on, const Operand& x, const Points& points, const Judge& judge,
-                            const std::uint32_t* order, Best& best) {
+                            const std::uint32_t* order, Best& best, const Wanted& wanted = {}) {
     const auto walk = ordered_walk_of(x);
     const auto frame = frame_of(x, judge.unit);
     const auto there = x.shapes();
     using walk_type = walk_from_points<std::remove_const_t<decltype(walk)>, std::remove_const_t<decltype(frame)>,
-                                       std::remove_const_t<decltype(there)>, Points, Judge>;
-    for_each_ordered(on, points.size(), walk_type{walk, frame, there, points, judge, order}, best);
+                                       std::remove_const_t<decltype(there)>, Points, Judge, Wanted>;
+    for_each_ordered(on, points.size(), walk_type{walk, frame, there, points, judge, order, wanted}, best);
 }
 
 /// Finds the nearest shape of each point. finish(order, found) takes what was found: found[i] is the least squared distance
@@ -274,14 +336,14 @@ auto look_for_nearest(const Policy& on, const Operand& x, const Queries& queries
 }
 
 /// The same for the `count` nearest: found[count * i], and what follows it, is of point order[i].
-template <class Policy, class Operand, class Queries, scalar T, class Finish>
+template <class Policy, class Operand, class Queries, scalar T, class Finish, class Wanted = all_shapes_wanted>
 auto look_for_nearest_few(const Policy& on, const Operand& x, const Queries& queries, const length_unit<T>& unit,
-                          std::size_t count, const Finish& finish) {
+                          std::size_t count, const Finish& finish, const Wanted& wanted = {}) {
     const auto from = queries.shapes();
     if (from.size() == 0 || x.shapes().size() == 0) return finish(nullptr, nullptr);
     const auto order = order_of_points<Operand>(on, from);
     execution::best_few_of_each<space_of<Policy>> best(on, from.size(), count);
-    walk_alone_from_points(on, x, from, measure_distance<T>{unit}, order.data(), best);
+    walk_alone_from_points(on, x, from, measure_distance<T>{unit}, order.data(), best, wanted);
     return finish(order.data(), best.data());
 }
 
@@ -294,26 +356,162 @@ inline void check_neighbors(std::size_t points, std::size_t count, const char* f
                          " points, expected fewer than 2^40 in all");
 }
 
-/// `nearest` of arguments that have been looked at, with `count` answers for each point.
-template <class Policy, class X, class Points, class Look>
-auto nearest_of(const Policy& on, const X& index, const Points& points, std::size_t count, const char* function,
-                const Look& look) {
-    using T = scalar_type_of<typename shape_of_argument<X>::type>;
-    const auto x = make_operand(on, index, function);
-    const auto queries = make_points<T>(on, points, function);
-    const auto there = x.shapes();
-    const auto from = queries.shapes();
-    const auto unit = common_unit(on, x, from);
-    return look(x, queries, unit, [&](const std::uint32_t* order, const execution::least_value* found) {
-        execution::buffer_of<Policy, neighbor<T>> out(on, from.size() * count);
+/// A neighbor, and what it was found by.
+template <scalar T>
+struct measured_neighbor {
+    double measure;    ///< the squared distance in the unit of all parts; infinite where there is none
+    std::uint64_t id;  ///< in the whole set
+    vec3<T> point;
+    T distance;
+
+    /// Whether it is nearer, or as near with a smaller id.
+    [[nodiscard]] ABUT_HD bool comes_before(const measured_neighbor& other) const {
+        return measure < other.measure || (measure == other.measure && id < other.id);
+    }
+};
+
+/// What one part says: `count` for each point.
+template <shape_view Shapes, shape_view Points, class Ids>
+struct write_measured {
+    using T = typename Points::scalar_type;
+    Shapes shapes;
+    Points points;
+    length_unit<T> unit;
+    Ids ids;
+    const std::uint32_t* order;
+    const execution::least_value* found;  ///< null for none
+    measured_neighbor<T>* out;
+    std::size_t count;
+
+    ABUT_HD void operator()(std::size_t i) const {
+        const std::size_t point = count == 1 ? i : i / count;
+        const std::size_t k = order == nullptr ? point : order[point];
+        const std::size_t to = k * count + (i - point * count);
+        const vec3<T> p = points[k];
+        out[to] = {infinity<double>, no_global_id, p, infinity<T>};
+        if (found == nullptr || found[i].key >= no_id) return;
+        const auto id = static_cast<std::uint32_t>(found[i].key);
+        const neighbor<T> near = neighbor_of(p, shapes[id], id, unit);
+        out[to] = {found[i].value, ids(id), near.point, near.distance};
+    }
+};
+
+/// Points ask, by any of the questions about them.
+struct question_of_points : row_question {
+    template <scalar T, class Policy, class Points>
+    auto make_rows(const Policy& on, const Points& points, const char* function) const {
+        return make_points<T>(on, points, function);
+    }
+};
+
+/// What parts are asked: which of their shapes are nearest to a point, the nearest first.
+template <scalar T, class Filter = keep_all>
+struct nearest_in_parts {
+    using answer = measured_neighbor<T>;
+    length_unit<T> unit;
+    std::size_t count = 1;
+    [[no_unique_address]] Filter filter = {};
+
+    [[nodiscard]] ABUT_HD std::size_t per_row() const { return count; }
+    template <class Policy, class Operand, class Rows, class Ids>
+    void ask(const Policy& on, const Operand& x, const Rows& rows, const Ids& ids, answer* out) const {
+        const auto there = x.shapes();
+        const auto from = rows.shapes();
         using shapes_type = std::remove_const_t<decltype(there)>;
         using points_type = std::remove_const_t<decltype(from)>;
-        for_each_index(on, from.size() * count,
-                       write_neighbors<shapes_type, points_type>{there, from, unit, order, found, out.data(), count});
-        synchronize(on);
-        return result<neighbor<T>, space_of<Policy>>(std::move(out));
-    });
-}
+        const auto write = [&](const std::uint32_t* order, const execution::least_value* found) {
+            for_each_index(
+                on, from.size() * count,
+                write_measured<shapes_type, points_type, Ids>{there, from, unit, ids, order, found, out, count});
+            synchronize(on);
+        };
+        if constexpr (!std::same_as<Filter, keep_all>) {
+            look_for_nearest_few(on, x, rows, unit, count, write, shapes_wanted<false>(filter_in_part(filter, ids), rows));
+        } else if (count == 1) {
+            look_for_nearest(on, x, rows, unit, write);
+        } else {
+            look_for_nearest_few(on, x, rows, unit, count, write);
+        }
+    }
+    /// Both are in order.
+    ABUT_HD void merge(answer* best, const answer* other) const {
+        std::size_t kept = count, taken = 0;
+        while (kept > 0 && other[taken].comes_before(best[kept - 1])) --kept, ++taken;
+        for (std::size_t to = kept + taken; taken > 0; --to) {  // what is last of both comes last
+            const bool is_taken = kept == 0 || best[kept - 1].comes_before(other[taken - 1]);
+            best[to - 1] = is_taken ? other[taken - 1] : best[kept - 1];
+            is_taken ? --taken : --kept;
+        }
+    }
+    ABUT_HD bool may_change(const vec3<T>& p, const answer* best, const part_bounds<T>& part) const {
+        auto ball = world_frame<T>{unit.length(1)}.ball_around(p);
+        if (best[count - 1].id != no_global_id) ball.shrink_to(best[count - 1].measure);
+        return may_keep(part, ball);
+    }
+    template <class Found>
+    [[nodiscard]] ABUT_HD Found named(const answer& near) const {
+        return {static_cast<decltype(Found::id)>(near.id), near.point, near.distance};
+    }
+};
+
+/// Which shapes are nearest to a point: one, or `Few`.
+template <bool Few, class Filter = keep_all>
+struct ask_nearest : question_of_points {
+    static constexpr bool filters = !std::same_as<Filter, keep_all>;
+    template <scalar T, class Id>
+    using found = by_id<Id, neighbor<T>, body_neighbor<T>, global_neighbor<T>>;
+    const char* function = "abut::nearest";
+    std::size_t count = 1;
+    [[no_unique_address]] Filter filter = {};
+
+    template <class Policy, class X, class Points, bool Whole>
+    static consteval bool takes() {
+        if constexpr (!can_be_near<Policy, X, Points>()) {
+            return false;
+        } else if constexpr (filters) {
+            return is_row_filter<Policy, Filter, is_bodies<X>>();
+        } else {
+            return true;
+        }
+    }
+    template <class Policy, class X, class Points>
+    void check(const Policy&, const X&, const Points& points, const char*) const {
+        check_few(count, function);
+        check_neighbors(points.shapes().size(), count, function);
+    }
+    template <class Policy, class X, class Points>
+    [[nodiscard]] double largest(const Policy& on, const X& x, const Points& points) const {
+        const auto from = points.shapes();
+        return std::same_as<typename decltype(from)::scalar_type, float> ? 0 : largest_coordinate(on, x, from);
+    }
+    template <class Policy, class X, class Points>
+    auto at_once(const Policy& on, const X& x, const Points& points, double largest) const {
+        const auto there = x.shapes();
+        const auto from = points.shapes();
+        using shapes_type = std::remove_const_t<decltype(there)>;
+        using points_type = std::remove_const_t<decltype(from)>;
+        using T = typename points_type::scalar_type;
+        const auto unit = unit_of_magnitude<T>(largest);
+        const auto finish = [&](const std::uint32_t* order, const execution::least_value* near) {
+            using row = found<T, operand_id<X>>;
+            execution::buffer_of<Policy, row> out(on, from.size() * count);
+            for_each_index(on, out.size(),
+                           write_neighbors<row, shapes_type, points_type>{there, from, unit, order, near, out.data(), count});
+            synchronize(on);
+            return result<row, space_of<Policy>>(std::move(out));
+        };
+        if constexpr (Few) {
+            constexpr bool are_bodies = std::same_as<operand_id<X>, body_and_id>;
+            return look_for_nearest_few(on, x, points, unit, count, finish, shapes_wanted<are_bodies>(filter, points));
+        } else {
+            return look_for_nearest(on, x, points, unit, finish);
+        }
+    }
+    template <scalar T>
+    [[nodiscard]] nearest_in_parts<T, Filter> in_parts(double largest) const {
+        return {unit_of_magnitude<T>(largest), count, filter};
+    }
+};
 
 }  // namespace detail
 
@@ -329,6 +527,11 @@ auto nearest_of(const Policy& on, const X& index, const Points& points, std::siz
 /// The same bits on every policy, for every index and any number of threads. Distances are computed in double; those that
 /// differ by less than docs/numerics.md says may be taken for each other. Without an index every point looks at every shape;
 /// in a grid, points that are far from all shapes look at many.
+///
+/// Of several devices (@ref devices) the answer lies in memory of the first one; a divided index is asked in its parts, and
+/// each device holds 32 bytes (double: 48) a point. Of ranks (@ref distributed) a rank's own points look in all parts, and a
+/// row is a `global_neighbor`; in double, scenes whose coordinates differ by factors beyond 2^250 may differ in the last bits
+/// under a pose.
 ///
 /// @par Memory
 /// As in @ref queries; a vector or a span of points lies in host memory, and is copied under `cuda`. The result lies in the
@@ -347,16 +550,9 @@ auto nearest_of(const Policy& on, const X& index, const Points& points, std::siz
 /// @snippet queries.cpp nearest
 ///
 /// @ingroup queries
-template <execution_policy Policy, class X, class Points>
-[[nodiscard]] auto nearest(const Policy& on, const X& index, const Points& points) {
-    if constexpr (detail::can_be_near<Policy, X, Points>()) {
-        return detail::nearest_of(on, index, points, 1, "abut::nearest",
-                                  [&](const auto& x, const auto& queries, const auto& unit, const auto& finish) {
-                                      return detail::look_for_nearest(on, x, queries, unit, finish);
-                                  });
-    } else {
-        return result<neighbor<float>, space_of<Policy>>();
-    }
+template <executor On, class X, class Points>
+[[nodiscard]] auto nearest(const On& on, const X& index, const Points& points) {
+    return ask_rows(on, detail::ask_nearest<false>{}, index, points);
 }
 
 /// For each of `points` the `count` nearest shapes of `index`: a `result` of `neighbor`, `count` for each point, in the
@@ -364,6 +560,8 @@ template <execution_policy Policy, class X, class Points>
 /// id does. Where there are fewer shapes the last are as `nearest` gives where there are none: `no_id`, the point asked
 /// about, and infinity. What `index` and `points` may be, how accurate distances are, and that the answers are the same bits
 /// everywhere: as of the nearest one. With a cloud of points as the index these are the neighbours of points among points.
+///
+/// Of several devices memory is `count` times as much as of the nearest one. Of ranks each gives the same `count`, below 2^31.
 ///
 /// It takes time in proportion to `count` for each shape that comes among the nearest so far: it is meant for counts up to
 /// some hundred. All within a distance: `within`.
@@ -385,19 +583,15 @@ template <execution_policy Policy, class X, class Points>
 /// @snippet queries.cpp nearest few
 ///
 /// @ingroup queries
-template <execution_policy Policy, class X, class Points>
-[[nodiscard]] auto nearest(const Policy& on, const X& index, const Points& points, std::size_t count) {
-    if constexpr (detail::can_be_near<Policy, X, Points>()) {
-        constexpr const char* function = "abut::nearest";
-        detail::check_few(count, function);
-        return detail::nearest_of(on, index, points, count, function,
-                                  [&](const auto& x, const auto& queries, const auto& unit, const auto& finish) {
-                                      detail::check_neighbors(queries.shapes().size(), count, function);
-                                      return detail::look_for_nearest_few(on, x, queries, unit, count, finish);
-                                  });
-    } else {
-        return result<neighbor<float>, space_of<Policy>>();
-    }
+template <executor On, class X, class Points>
+[[nodiscard]] auto nearest(const On& on, const X& index, const Points& points, std::size_t count) {
+    return ask_rows(on, detail::ask_nearest<true>{{}, "abut::nearest", count}, index, points);
+}
+/// The same of shapes that a filter keeps.
+/// @ingroup queries
+template <executor On, class X, class Points, class Filter = keep_all>
+[[nodiscard]] auto nearest(const On& on, const X& index, const Points& points, const nearest_options<Filter>& options) {
+    return ask_rows(on, detail::ask_nearest<true, Filter>{{}, "abut::nearest", options.count, options.filter}, index, points);
 }
 
 }  // namespace abut

@@ -16,6 +16,8 @@
 #include <abut/arithmetic/arithmetic.hpp>
 #include <abut/collide/nearest.hpp>
 #include <abut/collide/operand.hpp>
+#include <abut/collide/ray_options.hpp>
+#include <abut/collide/row_questions.hpp>
 #include <abut/execution/host.hpp>
 #include <abut/execution/ordered.hpp>
 #include <abut/narrow/hit_time.hpp>
@@ -36,6 +38,27 @@ struct ray_hit {
     friend constexpr bool operator==(const ray_hit&, const ray_hit&) = default;
 };
 
+/// A `ray_hit` with an id in a set of many parts. Where nothing is met: `no_global_id` and infinity.
+/// @ingroup distributed
+template <scalar T>
+struct global_ray_hit {
+    std::uint64_t id;  ///< of the shape
+    T t;               ///< where: at origin + t direction, or a + t (b - a) of a segment
+
+    friend constexpr bool operator==(const global_ray_hit&, const global_ray_hit&) = default;
+};
+
+/// What a ray meets first of bodies. Where it meets nothing: `no_id` for both numbers and infinity.
+/// @ingroup many_bodies
+template <scalar T>
+struct body_hit {
+    std::uint32_t body;  ///< its number
+    std::uint32_t id;    ///< of the shape in the body's set
+    T t;                 ///< where, as in ray_hit
+
+    friend constexpr bool operator==(const body_hit&, const body_hit&) = default;
+};
+
 namespace detail {
 
 /// How a frame sees a line.
@@ -53,22 +76,24 @@ ABUT_HD T time_as(double time) {
 }
 
 /// Of each line what it meets first. Times are rounded where two shapes are met at nearly the same one, and at the end.
-template <class A, class Walk, class Frame, class Shapes, class Lines>
+template <class A, class Walk, class Frame, class Shapes, class Lines, class Wanted>
 struct walk_along_lines {
     Walk walk;
     Frame frame;
     Shapes shapes;
     Lines lines;
+    Wanted wanted;
     bool in_scalars;  ///< whether times need only become the right scalars: then they may be off by less than that tells
 
     struct look {
         typename Lines::shape_type line;
+        [[no_unique_address]] typename Wanted::row_type row;
         double earliest = infinity<double>;  ///< the least time that the first shape so far may have; the sink has the most
 
         ABUT_CALLS_ANY
         template <class Best>
-        ABUT_HD void operator()(const walk_along_lines& all, std::uint32_t id, Best& best) {
-            time_bounds time = hit_time_bounds<A>(line, all.shapes[id]);
+        ABUT_HD void operator()(const walk_along_lines& all, walk_id<Walk> id, Best& best) {
+            time_bounds time = all.wanted.template bounds<A>(row, line, all.shapes[id], id);
             if (time.first < 0 || time.first > best.bound()) return;
             if (!(time.last < earliest)) {
                 round(all, best);
@@ -89,31 +114,33 @@ struct walk_along_lines {
         ABUT_HD void round(const walk_along_lines& all, Best& best) {
             const execution::least_value last = best.known();
             if (earliest == last.value) return;
-            earliest = hit_time_apart<A>(line, all.shapes[static_cast<std::uint32_t>(last.key)]);
+            earliest = hit_time_apart<A>(line, all.shapes[static_cast<walk_id<Walk>>(last.key)]);
             best.offer(earliest, last.key);
         }
     };
-    ABUT_HD look start(std::size_t i) const { return {lines[i]}; }
+    ABUT_HD look start(std::size_t i) const { return {lines[i], wanted.row(i)}; }
     ABUT_HD auto seen(std::size_t i) const { return line_along(frame, lines[i]); }
 };
 
 /// Of each line whether it meets anything: the same, which ends at what it meets at all.
-template <class A, class Walk, class Frame, class Shapes, class Lines>
+template <class A, class Walk, class Frame, class Shapes, class Lines, class Wanted>
 struct walk_to_any {
     Walk walk;
     Frame frame;
     Shapes shapes;
     Lines lines;
+    Wanted wanted;
     std::uint8_t* out;
 
     struct look {
         typename Lines::shape_type line;
+        [[no_unique_address]] typename Wanted::row_type row;
         bool met = false;
 
         ABUT_CALLS_ANY
         template <class Sink>
-        ABUT_HD void operator()(const walk_to_any& all, std::uint32_t id, Sink& sink) {
-            if (met || !is_met<A>(line, all.shapes[id])) return;
+        ABUT_HD void operator()(const walk_to_any& all, walk_id<Walk> id, Sink& sink) {
+            if (met || !all.wanted.template meets<A>(row, line, all.shapes[id], id)) return;
             met = true;
             sink.stop();
         }
@@ -122,21 +149,27 @@ struct walk_to_any {
             all.out[i] = met ? 1 : 0;
         }
     };
-    ABUT_HD look start(std::size_t i) const { return {lines[i]}; }
+    ABUT_HD look start(std::size_t i) const { return {lines[i], wanted.row(i)}; }
     ABUT_HD auto seen(std::size_t i) const { return line_along(frame, lines[i]); }
 };
 
-template <scalar T>
+/// What was met first, as a caller gets it.
+template <class Hit>
+ABUT_HD Hit named_hit(const execution::least_value& found) {
+    using T = decltype(Hit::t);
+    const T t = found.key == no_global_id ? infinity<T> : time_as<T>(found.value);
+    if constexpr (requires(const Hit& h) { h.body; }) {
+        return {body_of_key(found.key), static_cast<std::uint32_t>(found.key), t};
+    } else {
+        return {static_cast<decltype(Hit::id)>(found.key), t};
+    }
+}
+template <class Hit>
 struct write_hits {
     const execution::least_value* found;  ///< null for none
-    ray_hit<T>* out;
-
+    Hit* out;
     ABUT_HD void operator()(std::size_t i) const {
-        if (found == nullptr || found[i].key >= no_id) {
-            out[i] = {no_id, infinity<T>};
-        } else {
-            out[i] = {static_cast<std::uint32_t>(found[i].key), time_as<T>(found[i].value)};
-        }
+        out[i] = named_hit<Hit>(found == nullptr ? execution::least_value{} : found[i]);
     }
 };
 
@@ -153,7 +186,7 @@ inline constexpr bool is_line = std::same_as<S, ray<scalar_type_of<S>>> || std::
 /// Whether `raycast` takes both arguments.
 template <class Policy, class X, class Lines>
 consteval bool can_be_met() {
-    if constexpr (!can_be_asked<Policy, X>() || !can_be_asked<Policy, Lines>()) {
+    if constexpr (!can_be_asked_by_rows<Policy, X>() || !can_be_asked<Policy, Lines>()) {
         return false;
     } else {
         using shape_type = typename shape_of_argument<X>::type;
@@ -171,27 +204,37 @@ consteval bool can_be_met() {
     }
 }
 
-/// Both operands of a query of rays, and what a walk needs of them.
-template <class Operand, class Looking>
+/// Both operands of a query of rays, which hits are wanted, and what a walk needs of them.
+template <class Operand, class Looking, class Wanted = all_hits_wanted>
 struct lines_and_shapes {
     using T = typename std::remove_cvref_t<decltype(std::declval<const Operand&>().shapes())>::scalar_type;
     Operand x;
     Looking looking;
+    Wanted wanted = {};
 
     [[nodiscard]] std::size_t size() const { return looking.shapes().size(); }
     [[nodiscard]] bool has_nothing() const { return size() == 0 || x.shapes().size() == 0; }
-    /// A functor Walk<A, ...>: of the walk, the frame, the shapes and the lines, and what else it is made of. Its parameters
-    /// are plain classes: clang 19 takes no template of constrained ones for a template of parameters constrained alike.
-    template <template <class, class, class, class, class> class Walk, arithmetic A, class... Rest>
+    /// A functor Walk<A, ...>: of the walk, the frame, the shapes, the lines and the hits, and what else it is made of. Its
+    /// parameters are plain classes: clang 19 takes no template of constrained ones for a template of parameters constrained
+    /// alike.
+    template <template <class, class, class, class, class, class> class Walk, arithmetic A, class... Rest>
     [[nodiscard]] auto walk(const Rest&... rest) const {
         const length_unit<T> unit{};
         return Walk<A, decltype(ordered_walk_of(x)), decltype(frame_of(x, unit)), decltype(x.shapes()),
-                    decltype(looking.shapes())>{ordered_walk_of(x), frame_of(x, unit), x.shapes(), looking.shapes(),
-                                                rest...};
+                    decltype(looking.shapes()), Wanted>{ordered_walk_of(x), frame_of(x, unit), x.shapes(), looking.shapes(),
+                                                        wanted, rest...};
     }
 };
 template <class Operand, class Looking>
 lines_and_shapes(const Operand&, const Looking&) -> lines_and_shapes<Operand, Looking>;
+template <class Operand, class Looking, class Wanted>
+lines_and_shapes(const Operand&, const Looking&, const Wanted&) -> lines_and_shapes<Operand, Looking, Wanted>;
+/// The same, with the hits that options want.
+template <class Operand, class Looking, class Options>
+auto lines_that_want(const Operand& x, const Looking& looking, const Options& options) {
+    constexpr bool are_bodies = std::same_as<operand_id<Operand>, body_and_id>;
+    return lines_and_shapes{x, looking, hits_wanted<are_bodies>(options, looking)};
+}
 
 /// Of arguments.
 template <class Policy, class X, class Lines>
@@ -205,7 +248,7 @@ auto bring_lines_and_shapes(const Policy& on, const X& index, const Lines& rays,
 template <arithmetic A, class Policy, class Both, class Finish>
 auto look_for_first_hits(const Policy& on, const Both& both, bool in_scalars, const Finish& finish) {
     if (both.has_nothing()) return finish(nullptr);
-    execution::best_of_each<space_of<Policy>> best(on, both.size());
+    execution::best_of_each<space_of<Policy>> best(on, both.size(), both.wanted.most());
     for_each_ordered(on, both.size(), from_each{both.template walk<walk_along_lines, A>(in_scalars)}, best);
     return finish(best.data());
 }
@@ -214,30 +257,138 @@ auto look_for_first_hits(const Policy& on, const Both& both, bool in_scalars, co
 template <arithmetic A, class Policy, class Both>
 void look_for_any_hits(const Policy& on, const Both& both, std::uint8_t* out) {
     if (both.has_nothing()) return fill(on, out, both.size(), std::uint8_t{0});
-    execution::until_stopped until;
+    auto until = both.wanted.until();
     for_each_ordered(on, both.size(), from_each{both.template walk<walk_to_any, A>(out)}, until);
 }
 
-template <arithmetic A, class Policy, class X, class Lines>
-auto raycast_of(const Policy& on, const X& index, const Lines& rays, const char* function) {
-    const auto both = bring_lines_and_shapes(on, index, rays, function);
-    using T = typename std::remove_const_t<decltype(both)>::T;
-    return look_for_first_hits<A>(on, both, true, [&](const execution::least_value* found) {
-        execution::buffer_of<Policy, ray_hit<T>> out(on, both.size());
-        for_each_index(on, both.size(), write_hits<T>{found, out.data()});
-        synchronize(on);
-        return result<ray_hit<T>, space_of<Policy>>(std::move(out));
-    });
+/// Whether a line in the world may meet something of a part that is not later than `last`.
+template <class Line, scalar T>
+ABUT_HD bool may_meet(const Line& line, const part_bounds<T>& part, double last) {
+    const line_of<T> l(line);
+    auto reach = reach_of_line(world_frame<T>{}, l.origin, l.direction(), l.last);
+    reach.shrink_to(last);
+    return may_keep(part, reach);
 }
 
-template <arithmetic A, class Policy, class X, class Lines>
-auto raycast_any_of(const Policy& on, const X& index, const Lines& rays, const char* function) {
-    const auto both = bring_lines_and_shapes(on, index, rays, function);
-    execution::buffer_of<Policy, std::uint8_t> out(on, both.size());
-    look_for_any_hits<A>(on, both, out.data());
-    synchronize(on);
-    return result<std::uint8_t, space_of<Policy>>(std::move(out));
-}
+/// Lines ask, by any of the questions about them.
+template <class Options, class Question>
+struct question_of_lines : row_question {
+    static constexpr bool filters = has_filter<Options>;
+    [[no_unique_address]] Options options = {};
+
+    template <class Policy, class X, class Lines, bool Whole>
+    static consteval bool takes() {
+        if constexpr (!can_be_met<Policy, X, Lines>()) {
+            return false;
+        } else if constexpr (has_filter<Options>) {
+            return is_row_filter<Policy, decltype(Options::filter), is_bodies<X>>();
+        } else {
+            return true;
+        }
+    }
+    template <class Policy, class X, class Lines>
+    void check(const Policy&, const X&, const Lines&, const char*) const {
+        detail::check(options, Question::function);
+    }
+    /// Until when a part may have something for a line that has met what it has.
+    [[nodiscard]] ABUT_HD double last(double met) const {
+        if constexpr (requires { options.most_t; }) {
+            return least(met, options.most_t);
+        } else {
+            return met;
+        }
+    }
+    template <scalar T, class Policy, class Lines>
+    auto make_rows(const Policy& on, const Lines& lines, const char* function) const {
+        return make_operand(on, lines, function);
+    }
+};
+
+template <class Ids>
+struct write_named {
+    const execution::least_value* found;  ///< null for none
+    Ids ids;
+    execution::least_value* out;
+    ABUT_HD void operator()(std::size_t i) const {
+        out[i] = {};
+        if (found == nullptr || found[i].key >= no_id) return;
+        out[i] = {found[i].value, ids(static_cast<std::uint32_t>(found[i].key))};
+    }
+};
+
+/// What a line meets first: its time and its id.
+template <arithmetic A, class Options = no_ray_options>
+struct ask_first_hit : question_of_lines<Options, ask_first_hit<A, Options>> {
+    template <scalar T, class Id>
+    using found = by_id<Id, ray_hit<T>, body_hit<T>, global_ray_hit<T>>;
+    using answer = execution::least_value;
+    static constexpr const char* function = "abut::raycast";
+
+    template <class Policy, class X, class Lines>
+    auto at_once(const Policy& on, const X& x, const Lines& lines, double) const {
+        const auto both = lines_that_want(x, lines, this->options);
+        using hit = found<typename std::remove_const_t<decltype(both)>::T, operand_id<X>>;
+        return look_for_first_hits<A>(on, both, true, [&](const execution::least_value* met) {
+            execution::buffer_of<Policy, hit> out(on, both.size());
+            for_each_index(on, both.size(), write_hits<hit>{met, out.data()});
+            synchronize(on);
+            return result<hit, space_of<Policy>>(std::move(out));
+        });
+    }
+    template <scalar T>
+    [[nodiscard]] ask_first_hit in_parts(double) const {
+        return *this;
+    }
+    template <class Policy, class Operand, class Rows, class Ids>
+    void ask(const Policy& on, const Operand& x, const Rows& rows, const Ids& ids, answer* out) const {
+        const auto both = lines_that_want(x, rows, options_in_part(this->options, ids));
+        look_for_first_hits<A>(on, both, false, [&](const execution::least_value* met) {
+            for_each_index(on, both.size(), write_named<Ids>{met, ids, out});
+            synchronize(on);
+        });
+    }
+    ABUT_HD void merge(answer* best, const answer* other) const { best->offer(other->value, other->key); }
+    template <class Line, scalar T>
+    ABUT_HD bool may_change(const Line& line, const answer* best, const part_bounds<T>& part) const {
+        return may_meet(line, part, this->last(best->value));
+    }
+    template <class Found>
+    [[nodiscard]] ABUT_HD Found named(const answer& met) const {
+        return named_hit<Found>(met);
+    }
+};
+
+/// Whether a line meets anything: 1 or 0.
+template <arithmetic A, class Options = no_ray_options>
+struct ask_any_hit : question_of_lines<Options, ask_any_hit<A, Options>> {
+    template <scalar, class>
+    using found = std::uint8_t;
+    using answer = std::uint8_t;
+    static constexpr const char* function = "abut::raycast_any";
+
+    template <class Policy, class X, class Lines>
+    auto at_once(const Policy& on, const X& x, const Lines& lines, double) const {
+        execution::buffer_of<Policy, answer> out(on, lines.shapes().size());
+        ask(on, x, lines, same_key{}, out.data());
+        return result<answer, space_of<Policy>>(std::move(out));
+    }
+    template <scalar T>
+    [[nodiscard]] ask_any_hit in_parts(double) const {
+        return *this;
+    }
+    template <class Policy, class Operand, class Rows, class Ids>
+    void ask(const Policy& on, const Operand& x, const Rows& rows, const Ids& ids, answer* out) const {
+        look_for_any_hits<A>(on, lines_that_want(x, rows, options_in_part(this->options, ids)), out);
+        synchronize(on);
+    }
+    ABUT_HD void merge(answer* best, const answer* other) const {
+        if (*other != 0) *best = 1;
+    }
+    template <class Line, scalar T>
+    ABUT_HD bool may_change(const Line& line, const answer* best, const part_bounds<T>& part) const {
+        return *best == 0 && may_meet(line, part, this->last(infinity<double>));
+    }
+};
 
 }  // namespace detail
 
@@ -255,6 +406,10 @@ auto raycast_any_of(const Policy& on, const X& index, const Lines& rays, const c
 /// compared, and then to the scalar type; those above its largest number are that. So shapes that are met at one place
 /// are met at one time. The same bits on every policy. A segment meets a shape if and only if `intersects` says so. `fast`
 /// is approximate.
+///
+/// Of several devices (@ref devices) the answer lies in memory of the first one; a divided index is asked in its parts, and
+/// each device holds 16 bytes a ray. Of ranks (@ref distributed) a rank's own rays look in all parts, and a row is a
+/// `global_ray_hit`.
 ///
 /// @par Memory
 /// As in @ref queries. The result lies in the policy's memory, 8 bytes a ray in float and 16 in double.
@@ -274,13 +429,15 @@ auto raycast_any_of(const Policy& on, const X& index, const Lines& rays, const c
 /// @snippet queries.cpp raycast
 ///
 /// @ingroup queries
-template <arithmetic A = filtered, execution_policy Policy, class X, class Rays>
-[[nodiscard]] auto raycast(const Policy& on, const X& index, const Rays& rays) {
-    if constexpr (detail::can_be_met<Policy, X, Rays>()) {
-        return detail::raycast_of<A>(on, index, rays, "abut::raycast");
-    } else {
-        return result<ray_hit<float>, space_of<Policy>>();
-    }
+template <arithmetic A = filtered, executor On, class X, class Rays>
+[[nodiscard]] auto raycast(const On& on, const X& index, const Rays& rays) {
+    return ask_rows(on, detail::ask_first_hit<A>{}, index, rays);
+}
+/// The same of hits that options keep.
+/// @ingroup queries
+template <arithmetic A = filtered, executor On, class X, class Rays, class Filter = keep_all>
+[[nodiscard]] auto raycast(const On& on, const X& index, const Rays& rays, const raycast_options<Filter>& options) {
+    return ask_rows(on, detail::ask_first_hit<A, raycast_options<Filter>>{{{}, options}}, index, rays);
 }
 
 /// For each of `rays` whether it meets any shape of `index`: a `result` of `std::uint8_t`, in the order of the rays, 1 or
@@ -302,13 +459,15 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Rays>
 /// @snippet queries.cpp raycast_any
 ///
 /// @ingroup queries
-template <arithmetic A = filtered, execution_policy Policy, class X, class Rays>
-[[nodiscard]] auto raycast_any(const Policy& on, const X& index, const Rays& rays) {
-    if constexpr (detail::can_be_met<Policy, X, Rays>()) {
-        return detail::raycast_any_of<A>(on, index, rays, "abut::raycast_any");
-    } else {
-        return result<std::uint8_t, space_of<Policy>>();
-    }
+template <arithmetic A = filtered, executor On, class X, class Rays>
+[[nodiscard]] auto raycast_any(const On& on, const X& index, const Rays& rays) {
+    return ask_rows(on, detail::ask_any_hit<A>{}, index, rays);
+}
+/// The same of hits that options keep.
+/// @ingroup queries
+template <arithmetic A = filtered, executor On, class X, class Rays, class Filter = keep_all>
+[[nodiscard]] auto raycast_any(const On& on, const X& index, const Rays& rays, const raycast_options<Filter>& options) {
+    return ask_rows(on, detail::ask_any_hit<A, raycast_options<Filter>>{{{}, options}}, index, rays);
 }
 
 }  // namespace abut

@@ -25,30 +25,55 @@ struct hit_of_ray {
     friend constexpr bool operator==(const hit_of_ray&, const hit_of_ray&) = default;
 };
 
+/// A `hit_of_ray` with numbers in sets of many parts.
+/// @ingroup distributed
+template <scalar T>
+struct global_hit_of_ray {
+    std::uint64_t ray;  ///< its number among the rays of all ranks
+    std::uint64_t id;   ///< of the shape
+    T t;                ///< where, as in ray_hit
+
+    friend constexpr bool operator==(const global_hit_of_ray&, const global_hit_of_ray&) = default;
+};
+
+/// One of the shapes of bodies that a ray meets.
+/// @ingroup many_bodies
+template <scalar T>
+struct body_hit_of_ray {
+    std::uint32_t ray;   ///< its number
+    std::uint32_t body;  ///< the body's
+    std::uint32_t id;    ///< of the shape in the body's set
+    T t;                 ///< where, as in ray_hit
+
+    friend constexpr bool operator==(const body_hit_of_ray&, const body_hit_of_ray&) = default;
+};
+
 namespace detail {
 
 /// So many hits of a line are kept as they are counted.
 inline constexpr std::uint64_t kept_hits = 4;
 
 /// Counts what each line meets.
-template <class A, class Walk, class Frame, class Shapes, class Lines>
+template <class A, class Walk, class Frame, class Shapes, class Lines, class Wanted>
 struct count_along_lines {
     Walk walk;
     Frame frame;
     Shapes shapes;
     Lines lines;
+    Wanted wanted;
     std::uint64_t* counts;
     execution::least_value* few;
 
     struct look {
         typename Lines::shape_type line;
+        [[no_unique_address]] typename Wanted::row_type row;
         execution::least_value* few;
         std::uint64_t count = 0;
 
         ABUT_CALLS_ANY
         template <class Sink>
-        ABUT_HD void operator()(const count_along_lines& all, std::uint32_t id, Sink&) {
-            const double time = hit_time<A>(line, all.shapes[id]);
+        ABUT_HD void operator()(const count_along_lines& all, walk_id<Walk> id, Sink&) {
+            const double time = all.wanted.template time<A>(row, line, all.shapes[id], id);
             if (time >= 0 && count < kept_hits) few[count] = {time, id};
             if (time >= 0) ++count;
         }
@@ -57,7 +82,7 @@ struct count_along_lines {
             all.counts[i] = count;
         }
     };
-    ABUT_HD look start(std::size_t i) const { return {lines[i], few + kept_hits * i}; }
+    ABUT_HD look start(std::size_t i) const { return {lines[i], wanted.row(i), few + kept_hits * i}; }
     ABUT_HD auto seen(std::size_t i) const { return line_along(frame, lines[i]); }
 };
 
@@ -79,12 +104,13 @@ ABUT_HD inline void sort_hits(execution::least_value* hits, std::uint64_t n) {
 }
 
 /// Writes what each line meets, from the place of its first hit on.
-template <class A, class Walk, class Frame, class Shapes, class Lines>
+template <class A, class Walk, class Frame, class Shapes, class Lines, class Wanted>
 struct write_along_lines {
     Walk walk;
     Frame frame;
     Shapes shapes;
     Lines lines;
+    Wanted wanted;
     const std::uint64_t* first;
     const execution::least_value* few;
     execution::least_value* hits;
@@ -99,10 +125,11 @@ struct write_along_lines {
             return sort_hits(mine, counted);
         }
         const auto line = lines[i];
+        const auto row = wanted.row(i);
         std::uint64_t count = 0;
         line_reach_of<Walk, typename Lines::scalar_type> reach(line_along(frame, line));
-        walk(reach, sink, [&](std::uint32_t id) {
-            const double time = hit_time<A>(line, shapes[id]);
+        walk(reach, sink, [&](walk_id<Walk> id) {
+            const double time = wanted.template time<A>(row, line, shapes[id], id);
             if (time >= 0 && count < counted) mine[count++] = {time, id};
         });
         // `fast` may decide otherwise the second time, where a compiler contracts what it inlines.
@@ -129,10 +156,18 @@ struct write_all_hits {
         out[k] = name(low, hits[k]);
     }
 };
-template <scalar T>
+/// Hits as a caller gets them, of lines that are numbered from `first_ray` on.
+template <class Hit>
 struct name_hit {
-    ABUT_HD hit_of_ray<T> operator()(std::size_t ray, const execution::least_value& hit) const {
-        return {static_cast<std::uint32_t>(ray), static_cast<std::uint32_t>(hit.key), time_as<T>(hit.value)};
+    decltype(Hit::ray) first_ray = 0;
+    ABUT_HD Hit operator()(std::size_t ray, const execution::least_value& hit) const {
+        using T = decltype(Hit::t);
+        const auto number = static_cast<decltype(Hit::ray)>(first_ray + ray);
+        if constexpr (requires(const Hit& h) { h.body; }) {
+            return {number, body_of_key(hit.key), static_cast<std::uint32_t>(hit.key), time_as<T>(hit.value)};
+        } else {
+            return {number, static_cast<decltype(Hit::id)>(hit.key), time_as<T>(hit.value)};
+        }
     }
 };
 
@@ -143,7 +178,7 @@ execution::buffer_of<Policy, Hit> look_for_all_hits(const Policy& on, const Both
     const std::size_t n = both.size();
     execution::buffer_of<Policy, std::uint64_t> first(on, n + 1);
     execution::buffer_of<Policy, execution::least_value> few(on, kept_hits * n);
-    execution::until_stopped until;
+    auto until = both.wanted.until();
     for_each_ordered(on, n, from_each{both.template walk<count_along_lines, A>(first.data(), few.data())}, until);
     exclusive_scan(on, first.data(), n);
     std::uint64_t total = 0;
@@ -158,13 +193,64 @@ execution::buffer_of<Policy, Hit> look_for_all_hits(const Policy& on, const Both
     return out;
 }
 
-template <arithmetic A, class Policy, class X, class Lines>
-auto raycast_all_of(const Policy& on, const X& index, const Lines& rays, const char* function) {
-    const auto both = bring_lines_and_shapes(on, index, rays, function);
-    using T = typename std::remove_const_t<decltype(both)>::T;
-    using hit = hit_of_ray<T>;
-    return result<hit, space_of<Policy>>(look_for_all_hits<A, hit>(on, both, name_hit<T>{}));
+struct timed_hit {
+    double time;
+    std::uint64_t id;
+    std::uint32_t line;
+};
+
+/// All that lines meet: no answer of a fixed size. Of parts each gives a list in order, and lists are merged: ask_row_lists.
+template <arithmetic A, class Options = no_ray_options>
+struct ask_all_hits : question_of_lines<Options, ask_all_hits<A, Options>> {
+    template <scalar T, class Id>
+    using found = by_id<Id, hit_of_ray<T>, body_hit_of_ray<T>, global_hit_of_ray<T>>;
+    static constexpr const char* function = "abut::raycast_all";
+
+    template <class Policy, class X, class Lines>
+    auto at_once(const Policy& on, const X& x, const Lines& lines, double) const {
+        const auto both = lines_that_want(x, lines, this->options);
+        using hit = found<typename std::remove_const_t<decltype(both)>::T, operand_id<X>>;
+        return result<hit, space_of<Policy>>(look_for_all_hits<A, hit>(on, both, name_hit<hit>{}));
+    }
+    /// The list of one part: name(line, time and id) of each hit.
+    template <class Policy, class X, class Lines, class Name>
+    auto ask(const Policy& on, const X& x, const Lines& lines, const Name& name) const {
+        return look_for_all_hits<A, timed_hit>(on, lines_that_want(x, lines, options_in_part(this->options, name.ids)), name);
+    }
+};
+template <execution_policy Policy, class Question, class X, class Rows>
+auto ask_row_lists(const Policy& on, const Question& question, const X& index, const Rows& rows) {
+    return ask_rows(on, question, index, rows);
 }
+
+struct by_line_and_time {
+    ABUT_HD bool operator()(const timed_hit& x, const timed_hit& y) const {
+        if (x.line != y.line) return x.line < y.line;
+        return x.time < y.time || (x.time == y.time && x.id < y.id);
+    }
+};
+/// With the numbers of lines and ids of all.
+template <class Lines, class Ids>
+struct name_timed_hit {
+    Lines lines;
+    Ids ids;
+    ABUT_HD timed_hit operator()(std::size_t line, const execution::least_value& hit) const {
+        return {hit.value, ids(static_cast<id_type>(hit.key)), static_cast<std::uint32_t>(lines(line))};
+    }
+
+private:
+    using id_type = std::conditional_t<std::is_same_v<Ids, same_key>, std::uint64_t, std::uint32_t>;
+};
+template <class Lines, class Ids>
+name_timed_hit(const Lines&, const Ids&) -> name_timed_hit<Lines, Ids>;
+/// As a caller gets them.
+template <class Hit>
+struct write_timed_hits {
+    const timed_hit* found;
+    name_hit<Hit> name;
+    Hit* out;
+    ABUT_HD void operator()(std::size_t i) const { out[i] = name(found[i].line, {found[i].time, found[i].id}); }
+};
 
 }  // namespace detail
 
@@ -173,6 +259,11 @@ auto raycast_all_of(const Policy& on, const X& index, const Lines& rays, const c
 ///
 /// Arguments, and what is decided exactly, are those of `raycast`. Order is that of the times as `raycast` compares them, in
 /// double, also where t is a float. A ray through an edge meets both faces at it.
+///
+/// Of several devices (@ref devices) the answer lies in memory of the first one, which holds 48 bytes a hit besides. Of ranks
+/// (@ref distributed) a row is a `global_hit_of_ray` of the rank's own rays, and the lists of all ranks, one after another, are
+/// the list of one machine; a rank holds the hits of others' rays in its part until all rays have come, 24 bytes each, besides
+/// its own, of which it holds 48 bytes more, and 2^31 hits or more of one rank's rays in one other part are a `capacity_error`.
 ///
 /// @par Memory
 /// As in @ref queries. The result lies in the policy's memory, 12 bytes a hit in float and 16 in double. Scratch takes 72
@@ -188,13 +279,15 @@ auto raycast_all_of(const Policy& on, const X& index, const Lines& rays, const c
 /// @snippet queries.cpp raycast_all
 ///
 /// @ingroup queries
-template <arithmetic A = filtered, execution_policy Policy, class X, class Rays>
-[[nodiscard]] auto raycast_all(const Policy& on, const X& index, const Rays& rays) {
-    if constexpr (detail::can_be_met<Policy, X, Rays>()) {
-        return detail::raycast_all_of<A>(on, index, rays, "abut::raycast_all");
-    } else {
-        return result<hit_of_ray<float>, space_of<Policy>>();
-    }
+template <arithmetic A = filtered, executor On, class X, class Rays>
+[[nodiscard]] auto raycast_all(const On& on, const X& index, const Rays& rays) {
+    return ask_row_lists(on, detail::ask_all_hits<A>{}, index, rays);
+}
+/// The same of hits that options keep.
+/// @ingroup queries
+template <arithmetic A = filtered, executor On, class X, class Rays, class Filter = keep_all>
+[[nodiscard]] auto raycast_all(const On& on, const X& index, const Rays& rays, const raycast_options<Filter>& options) {
+    return ask_row_lists(on, detail::ask_all_hits<A, raycast_options<Filter>>{{{}, options}}, index, rays);
 }
 
 }  // namespace abut

@@ -1,31 +1,39 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Questions that many points or lines ask, each by itself, of shapes that may lie in parts, on several devices or ranks:
-// what is nearest, what a line meets first, whether it meets anything, whether a point is inside. Each part answers all that
+// Questions that many points or lines (rows) ask, each by itself: what is nearest, what a line meets first, whether it meets
+// anything, whether a point is inside. A question is a type; executors (executor.hpp) answer it by overloads of ask_rows, of
+// which that of a policy is here. devices/rows.hpp and distributed/rows.hpp are for shapes in parts: each part answers all that
 // it is asked, and answers of two parts become one, so that nothing depends on how shapes are divided.
 //
 // A question has
-//   answer                          what one part says of a row; a row has per_row() of them
-//   ask(on, x, rows, ids, out)      what shapes x answer to rows, both operands, in the policy's memory; ids(i) is the id in the
-//                                   whole set of the part's shape i
-//   merge(best, other)              takes into a row's answers those that another part gives
-//   may_change(row, best, part)     whether a part, of which the boxes are known, may have an answer that changes these
+//   function                          in whose name it throws
+//   takes<Policy, X, Rows, Whole>()   whether arguments will do, of which X is a whole set or a part; says in one line why not
+//   found<T, Id>                      what a caller gets of a row, by how shapes are named (by_id)
+//   make_rows<T>(on, rows, function)  the rows as an operand
+//   filters                           whether numbers of rows matter: `rows.numbers(i)`, if the operand has them, or places
+//   check(on, x, rows, holder)        throws where it may not be asked; `holder` says who does not have all shapes, or is null
+//   largest(on, x, rows)              a number of which the greatest, of all parts, goes into the answer
+//   at_once(on, x, rows, largest)     a `result` of found, of a whole set
+//   in_parts<T>(largest)              what parts are asked, if the answer can be made of theirs; that has
+//     answer                          what one part says of a row; a row has per_row() of them
+//     ask(on, x, rows, ids, out)      what shapes x answer to rows, both operands, in the policy's memory; ids(i) is the id in
+//                                     the whole set of the part's shape i
+//     merge(best, other)              takes into a row's answers those that another part gives
+//     may_change(row, best, part)     whether a part, of which the boxes are known, may have an answer that changes these
+//     named<Found>(answer)            what a caller gets
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
+#include <utility>
 
-#include <abut/arithmetic/arithmetic.hpp>
-#include <abut/collide/inside.hpp>
-#include <abut/collide/nearest.hpp>
+#include <abut/collide/executor.hpp>
+#include <abut/collide/operand.hpp>
+#include <abut/collide/options.hpp>
 #include <abut/collide/parts.hpp>
-#include <abut/collide/raycast.hpp>
-#include <abut/collide/raycast_all.hpp>
-#include <abut/execution/ordered.hpp>
-#include <abut/narrow/hit_time.hpp>
-#include <abut/shape/point_reach.hpp>
-#include <abut/shape/ray_reach.hpp>
+#include <abut/execution/buffer.hpp>
 
 namespace abut {
 
@@ -35,19 +43,136 @@ inline constexpr std::uint64_t no_global_id = static_cast<std::uint64_t>(-1);
 
 namespace detail {
 
-/// A neighbor, and what it was found by.
-template <scalar T>
-struct measured_neighbor {
-    double measure;    ///< the squared distance in the unit of all parts; infinite where there is none
-    std::uint64_t id;  ///< in the whole set
-    vec3<T> point;
-    T distance;
+/// Bodies (body_rows.hpp): what they have in common with one set is that rows ask them. Shapes have keys, with the number of
+/// the body above that of the shape.
+///@{
+template <class X>
+inline constexpr bool is_bodies = false;
+struct body_and_id {};
+ABUT_HD constexpr std::uint64_t body_key(std::uint32_t body, std::uint32_t id) { return std::uint64_t{body} << 32 | id; }
+ABUT_HD constexpr std::uint32_t body_of_key(std::uint64_t key) { return static_cast<std::uint32_t>(key >> 32); }
+///@}
 
-    /// Whether it is nearer, or as near with a smaller id.
-    [[nodiscard]] ABUT_HD bool comes_before(const measured_neighbor& other) const {
-        return measure < other.measure || (measure == other.measure && id < other.id);
+/// Of three types that of an answer which names shapes by ids of one set, of bodies, or of many parts.
+template <class Id, class OfSet, class OfBodies, class OfParts>
+using by_id = std::conditional_t<std::is_same_v<Id, std::uint32_t>, OfSet,
+                                 std::conditional_t<std::is_same_v<Id, body_and_id>, OfBodies, OfParts>>;
+/// How an operand's shapes are named.
+template <class Operand>
+struct id_in_operand {
+    using type = std::uint32_t;
+};
+template <class Operand>
+using operand_id = typename id_in_operand<Operand>::type;
+
+/// What rows ask as an operand, and whether it can be one.
+template <class Policy, class X, class Question>
+auto make_asked(const Policy& on, const X& x, const Question& question) {
+    return make_operand(on, x, question.function);
+}
+template <class Policy, class X>
+consteval bool can_be_asked_by_rows() {
+    if constexpr (is_bodies<X> && requires { typename X::index_type; }) {
+        return lies_there<Policy, X>();
+    } else if constexpr (is_bodies<X>) {  // a list of them
+        return lies_there<Policy, decltype(X::value_type::object)>();
+    } else {
+        return can_be_asked<Policy, X>();
+    }
+}
+
+/// The numbers of rows: their places, unless an operand has others.
+struct same_number {
+    ABUT_HD std::size_t operator()(std::size_t i) const { return i; }
+};
+template <class Rows>
+auto numbers_of(const Rows& rows) {
+    if constexpr (requires { rows.numbers; }) {
+        return rows.numbers;
+    } else {
+        return same_number{};
+    }
+}
+/// The ids of a whole set: keys as they are.
+struct same_key {
+    ABUT_HD std::uint64_t operator()(std::uint64_t key) const { return key; }
+};
+/// A filter that is asked of a part's shapes.
+template <class Filter, class Ids>
+struct filter_of_part {
+    Filter filter;
+    Ids ids;
+    ABUT_CALLS_ANY
+    [[nodiscard]] ABUT_HD bool operator()(std::uint32_t row, std::uint32_t id) const {
+        return filter(row, static_cast<std::uint32_t>(ids(id)));
     }
 };
+template <class Filter, class Ids>
+auto filter_in_part(const Filter& filter, const Ids& ids) {
+    if constexpr (std::same_as<Filter, keep_all> || std::same_as<Ids, same_key>) {
+        return filter;
+    } else {
+        return filter_of_part<Filter, Ids>{filter, ids};
+    }
+}
+/// Whether a filter of rows and shapes can be called. What a device calls is not looked at.
+template <class Policy, class Filter, bool Bodies>
+consteval bool is_row_filter() {
+    if constexpr (!host_policy<Policy>) {
+        return true;
+    } else if constexpr (Bodies) {
+        constexpr bool is = requires(const Filter& f, std::uint32_t i) { { f(i, i, i) } -> std::convertible_to<bool>; };
+        static_assert(is, "abut: this filter is called as filter(row, body, id) const, three std::uint32_t, and returns bool");
+        return is;
+    } else {
+        constexpr bool is = requires(const Filter& f, std::uint32_t i) { { f(i, i) } -> std::convertible_to<bool>; };
+        static_assert(is, "abut: this filter is called as filter(row, id) const, two std::uint32_t, and returns bool");
+        return is;
+    }
+}
+
+/// What of a question is so for most of them.
+struct row_question {
+    static constexpr bool filters = false;  ///< it has a filter that is given numbers of rows
+    template <class Policy, class X, class Rows>
+    void check(const Policy&, const X&, const Rows&, const char* /*holder*/) const {}
+    template <class Policy, class X, class Rows>
+    [[nodiscard]] double largest(const Policy&, const X&, const Rows&) const {
+        return 0;
+    }
+    [[nodiscard]] ABUT_HD std::size_t per_row() const { return 1; }
+};
+
+template <class X>
+using scalar_of_argument = scalar_type_of<typename shape_of_argument<X>::type>;
+/// What comes of a question to X, with ids of one type.
+template <class Question, class X, class Id>
+using found_by = typename Question::template found<scalar_of_argument<X>, Id>;
+/// The empty answer of an executor that does not take its arguments: a static_assert has said why.
+template <class Question, class Id, memory_space Space>
+using no_answer = result<typename Question::template found<float, Id>, Space>;
+
+/// Of a policy, which has all shapes.
+template <execution_policy Policy, class Question, class X, class Rows>
+auto ask_rows(const Policy& on, const Question& question, const X& index, const Rows& rows) {
+    if constexpr (Question::template takes<Policy, X, Rows, true>()) {
+        const auto x = make_asked(on, index, question);
+        const auto from = question.template make_rows<scalar_of_argument<X>>(on, rows, question.function);
+        question.check(on, x, from, nullptr);
+        return question.at_once(on, x, from, question.largest(on, x, from));
+    } else {
+        return no_answer<Question, std::uint32_t, space_of<Policy>>();
+    }
+}
+
+/// For what is made of answers: use(policy) by the policy in whose memory they lie.
+struct by_its_policy {};
+template <execution_policy Policy, class Use>
+auto make_of_answers(const Policy& on, by_its_policy, const Use& use) {
+    return use(on);
+}
+
+// Of parts.
 
 /// Whether a part may hold what a reach keeps (shrinking_reach).
 template <scalar T, class Reach>
@@ -60,183 +185,6 @@ ABUT_HD bool may_keep(const part_bounds<T>& part, const Reach& reach) {
     }
     return may;
 }
-/// Whether a line in the world may meet something of a part that is not later than `last`.
-template <class Line, scalar T>
-ABUT_HD bool may_meet(const Line& line, const part_bounds<T>& part, double last) {
-    const line_of<T> l(line);
-    auto reach = reach_of_line(world_frame<T>{}, l.origin, l.direction(), l.last);
-    reach.shrink_to(last);
-    return may_keep(part, reach);
-}
-
-/// What one part says: `count` for each point.
-template <shape_view Shapes, shape_view Points, class Ids>
-struct write_measured {
-    using T = typename Points::scalar_type;
-    Shapes shapes;
-    Points points;
-    length_unit<T> unit;
-    Ids ids;
-    const std::uint32_t* order;
-    const execution::least_value* found;  ///< null for none
-    measured_neighbor<T>* out;
-    std::size_t count;
-
-    ABUT_HD void operator()(std::size_t i) const {
-        const std::size_t point = count == 1 ? i : i / count;
-        const std::size_t k = order == nullptr ? point : order[point];
-        const std::size_t to = k * count + (i - point * count);
-        const vec3<T> p = points[k];
-        out[to] = {infinity<double>, no_global_id, p, infinity<T>};
-        if (found == nullptr || found[i].key >= no_id) return;
-        const auto id = static_cast<std::uint32_t>(found[i].key);
-        const neighbor<T> near = neighbor_of(p, shapes[id], id, unit);
-        out[to] = {found[i].value, ids(id), near.point, near.distance};
-    }
-};
-
-/// Which shapes are nearest to a point, the nearest first.
-template <scalar T>
-struct ask_nearest {
-    using answer = measured_neighbor<T>;
-    length_unit<T> unit;
-    std::size_t count = 1;
-
-    [[nodiscard]] ABUT_HD std::size_t per_row() const { return count; }
-    template <class Policy, class Operand, class Rows, class Ids>
-    void ask(const Policy& on, const Operand& x, const Rows& rows, const Ids& ids, answer* out) const {
-        const auto there = x.shapes();
-        const auto from = rows.shapes();
-        using shapes_type = std::remove_const_t<decltype(there)>;
-        using points_type = std::remove_const_t<decltype(from)>;
-        const auto write = [&](const std::uint32_t* order, const execution::least_value* found) {
-            for_each_index(
-                on, from.size() * count,
-                write_measured<shapes_type, points_type, Ids>{there, from, unit, ids, order, found, out, count});
-            synchronize(on);
-        };
-        if (count == 1) {
-            look_for_nearest(on, x, rows, unit, write);
-        } else {
-            look_for_nearest_few(on, x, rows, unit, count, write);
-        }
-    }
-    /// Both are in order.
-    ABUT_HD void merge(answer* best, const answer* other) const {
-        std::size_t kept = count, taken = 0;
-        while (kept > 0 && other[taken].comes_before(best[kept - 1])) --kept, ++taken;
-        for (std::size_t to = kept + taken; taken > 0; --to) {  // what is last of both comes last
-            const bool is_taken = kept == 0 || best[kept - 1].comes_before(other[taken - 1]);
-            best[to - 1] = is_taken ? other[taken - 1] : best[kept - 1];
-            is_taken ? --taken : --kept;
-        }
-    }
-    ABUT_HD bool may_change(const vec3<T>& p, const answer* best, const part_bounds<T>& part) const {
-        auto ball = world_frame<T>{unit.length(1)}.ball_around(p);
-        if (best[count - 1].id != no_global_id) ball.shrink_to(best[count - 1].measure);
-        return may_keep(part, ball);
-    }
-};
-
-template <class Ids>
-struct write_named {
-    const execution::least_value* found;  ///< null for none
-    Ids ids;
-    execution::least_value* out;
-    ABUT_HD void operator()(std::size_t i) const {
-        out[i] = {};
-        if (found == nullptr || found[i].key >= no_id) return;
-        out[i] = {found[i].value, ids(static_cast<std::uint32_t>(found[i].key))};
-    }
-};
-
-/// What a line meets first: its time and its id.
-template <arithmetic A>
-struct ask_first_hit {
-    using answer = execution::least_value;
-
-    [[nodiscard]] ABUT_HD std::size_t per_row() const { return 1; }
-    template <class Policy, class Operand, class Rows, class Ids>
-    void ask(const Policy& on, const Operand& x, const Rows& rows, const Ids& ids, answer* out) const {
-        const lines_and_shapes both{x, rows};
-        look_for_first_hits<A>(on, both, false, [&](const execution::least_value* found) {
-            for_each_index(on, both.size(), write_named<Ids>{found, ids, out});
-            synchronize(on);
-        });
-    }
-    ABUT_HD void merge(answer* best, const answer* other) const { best->offer(other->value, other->key); }
-    template <class Line, scalar T>
-    ABUT_HD bool may_change(const Line& line, const answer* best, const part_bounds<T>& part) const {
-        return may_meet(line, part, best->value);
-    }
-};
-
-/// Whether a line meets anything: 1 or 0.
-template <arithmetic A>
-struct ask_any_hit {
-    using answer = std::uint8_t;
-
-    [[nodiscard]] ABUT_HD std::size_t per_row() const { return 1; }
-    template <class Policy, class Operand, class Rows, class Ids>
-    void ask(const Policy& on, const Operand& x, const Rows& rows, const Ids&, answer* out) const {
-        look_for_any_hits<A>(on, lines_and_shapes{x, rows}, out);
-        synchronize(on);
-    }
-    ABUT_HD void merge(answer* best, const answer* other) const {
-        if (*other != 0) *best = 1;
-    }
-    template <class Line, scalar T>
-    ABUT_HD bool may_change(const Line& line, const answer* best, const part_bounds<T>& part) const {
-        return *best == 0 && may_meet(line, part, infinity<double>);
-    }
-};
-
-/// Where a point is: of a part, whether the way up from it crosses an odd number of the part's triangles.
-template <arithmetic A>
-struct ask_inside {
-    using answer = containment;
-
-    [[nodiscard]] ABUT_HD std::size_t per_row() const { return 1; }
-    template <class Policy, class Operand, class Rows, class Ids>
-    void ask(const Policy& on, const Operand& x, const Rows& rows, const Ids&, answer* out) const {
-        look_upward<A>(on, x, rows, out);
-        synchronize(on);
-    }
-    ABUT_HD void merge(answer* best, const answer* other) const {
-        const bool is_on = *best == containment::on_surface || *other == containment::on_surface;
-        *best = is_on ? containment::on_surface : *best == *other ? containment::outside : containment::inside;
-    }
-    template <scalar T>
-    ABUT_HD bool may_change(const vec3<T>& p, const answer* best, const part_bounds<T>& part) const {
-        return *best != containment::on_surface && may_meet(ray<T>{p, {0, 0, 1}}, part, infinity<double>);
-    }
-};
-
-// All that lines meet is no answer of a fixed size: each part gives a list in order, and lists are merged.
-
-struct timed_hit {
-    double time;
-    std::uint64_t id;
-    std::uint32_t line;
-};
-struct by_line_and_time {
-    ABUT_HD bool operator()(const timed_hit& x, const timed_hit& y) const {
-        if (x.line != y.line) return x.line < y.line;
-        return x.time < y.time || (x.time == y.time && x.id < y.id);
-    }
-};
-/// With the numbers of lines and ids of all (look_for_all_hits).
-template <class Lines, class Ids>
-struct name_timed_hit {
-    Lines lines;
-    Ids ids;
-    ABUT_HD timed_hit operator()(std::size_t line, const execution::least_value& hit) const {
-        return {hit.value, ids(static_cast<std::uint32_t>(hit.key)), static_cast<std::uint32_t>(lines(line))};
-    }
-};
-struct same_number {
-    ABUT_HD std::size_t operator()(std::size_t i) const { return i; }
-};
 
 template <class Question>
 struct merge_answers {
@@ -247,6 +195,26 @@ struct merge_answers {
         question.merge(best + row * question.per_row(), other + row * question.per_row());
     }
 };
+template <class Question, class Found>
+struct name_answers {
+    Question question;
+    const typename Question::answer* answers;
+    Found* out;
+    ABUT_HD void operator()(std::size_t i) const { out[i] = question.template named<Found>(answers[i]); }
+};
+/// Answers as a caller gets them.
+template <class Found, class Policy, class Question>
+auto named_answers(const Policy& on, const Question& question,
+                   execution::buffer_of<Policy, typename Question::answer> answers) {
+    if constexpr (std::is_same_v<Found, typename Question::answer>) {
+        return answers;
+    } else {
+        execution::buffer_of<Policy, Found> out(on, answers.size());
+        for_each_index(on, answers.size(), name_answers<Question, Found>{question, answers.data(), out.data()});
+        synchronize(on);
+        return out;
+    }
+}
 
 }  // namespace detail
 

@@ -129,7 +129,10 @@ length_unit<double> unit_of_far_field([[maybe_unused]] double largest) {
 /// Whether `winding_number` takes both arguments.
 template <class Policy, class X, class Points>
 consteval bool can_wind() {
-    if constexpr (can_be_near<Policy, X, Points>()) {
+    static_assert(!is_bodies<X>, "abut: winding_number is of one mesh: ask a body's index, posed");
+    if constexpr (is_bodies<X>) {
+        return false;
+    } else if constexpr (can_be_near<Policy, X, Points>()) {
         using shape_type = typename shape_of_argument<X>::type;
         constexpr bool are = std::same_as<shape_type, triangle<scalar_type_of<shape_type>>>;
         static_assert(are, "abut: winding_number is of triangles: a mesh, a soup of triangles, or an index of them");
@@ -165,17 +168,32 @@ void wind_around(const Policy& on, const Operand& x, const Rows& rows, double to
     synchronize(on);
 }
 
-template <class Policy, class X, class Points>
-auto winding_number_of(const Policy& on, const X& mesh, const Points& points, const winding_options& options,
-                       const char* function) {
-    check_tolerance(options.tolerance, function);
-    using T = scalar_type_of<typename shape_of_argument<X>::type>;
-    const auto x = make_operand(on, mesh, function);
-    const auto queries = make_points<T>(on, points, function);
-    execution::buffer_of<Policy, double> out(on, queries.shapes().size());
-    wind_around(on, x, queries, options.tolerance, out.data());
-    return result<double, space_of<Policy>>(std::move(out));
-}
+/// How often a surface goes round a point. Its sum has one order, so it is no sum of parts.
+struct ask_winding_number : question_of_points {
+    template <scalar, class>
+    using found = double;
+    static constexpr const char* function = "abut::winding_number";
+    double tolerance;
+
+    template <class Policy, class X, class Points, bool Whole>
+    static consteval bool takes() {
+        static_assert(Whole,
+                      "abut: winding_number adds up triangles in one order, and so takes a mesh that each device has: "
+                      "replicate(devices, mesh)");
+        if constexpr (Whole) return can_wind<Policy, X, Points>();
+        return false;
+    }
+    template <class Policy, class X, class Points>
+    void check(const Policy&, const X&, const Points&, const char*) const {
+        check_tolerance(tolerance, function);
+    }
+    template <class Policy, class X, class Points>
+    auto at_once(const Policy& on, const X& x, const Points& points, double) const {
+        execution::buffer_of<Policy, double> out(on, points.shapes().size());
+        wind_around(on, x, points, tolerance, out.data());
+        return result<double, space_of<Policy>>(std::move(out));
+    }
+};
 
 }  // namespace detail
 
@@ -193,6 +211,9 @@ auto winding_number_of(const Policy& on, const X& mesh, const Points& points, co
 /// of 0, or without a tree, each point looks at every triangle. Rounding is below 2^-45 for each triangle, save where a
 /// point is nearer to an edge than 2^-26 times that edge's length or so (docs/numerics.md). The same bits on every policy
 /// and for any number of threads; with a tolerance trees of other shape may give others.
+///
+/// Several devices (@ref devices) share out the points, and the answer lies in memory of the first one. Triangles are added up
+/// in one order: so each device has the whole mesh, and ranks, of which each has a part, do not take this query.
 ///
 /// `mesh` is a mesh, a soup of triangles, a view of either, a triangle, or an index of any layout, posed or not. `points`
 /// are as of `nearest`.
@@ -214,14 +235,10 @@ auto winding_number_of(const Policy& on, const X& mesh, const Points& points, co
 /// @snippet queries.cpp winding_number
 ///
 /// @ingroup queries
-template <execution_policy Policy, class X, class Points>
-[[nodiscard]] auto winding_number(const Policy& on, const X& mesh, const Points& points,
+template <executor On, class X, class Points>
+[[nodiscard]] auto winding_number(const On& on, const X& mesh, const Points& points,
                                   const winding_options& options = {}) {
-    if constexpr (detail::can_wind<Policy, X, Points>()) {
-        return detail::winding_number_of(on, mesh, points, options, "abut::winding_number");
-    } else {
-        return result<double, space_of<Policy>>();
-    }
+    return ask_rows(on, detail::ask_winding_number{{}, options.tolerance}, mesh, points);
 }
 
 }  // namespace abut

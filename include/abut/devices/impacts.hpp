@@ -38,12 +38,33 @@ consteval bool can_move_on_devices() {
         return false;
     }
 }
-template <class Team, class X, class Y>
-consteval bool can_meet_on_devices() {
+template <bool Within, class Team, class X, class Y>
+consteval bool can_collide_on_devices() {
     if constexpr (can_move_on_devices<Team, X>() && can_move_on_devices<Team, Y>()) {
-        return can_meet<typename Team::local_policy, type_on_device<X>, type_on_device<Y>>();
+        return can_collide<Within, typename Team::local_policy, type_on_device<X>, type_on_device<Y>>();
     } else {
         return false;
+    }
+}
+
+/// use(x, y) of what each device has whole: indices, which `Within` one mesh are one.
+template <bool Within, class Team, class X, class Y, class Use>
+auto with_indices_on_each(const Team& team, const X& a, const Y& b, const char* function, const Use& use) {
+    const auto x = impact_operand_on_each<Y>(team, a, function);
+    if constexpr (Within) {
+        return use(x, x);
+    } else {
+        return use(x, impact_operand_on_each<X>(team, b, function));
+    }
+}
+/// The same of meshes of which one or both are divided.
+template <bool Within, class Team, class X, class Y, class Use>
+auto with_parts_on_each(const Team& team, const X& a, const Y& b, const char* function, const Use& use) {
+    if constexpr (Within) {
+        const auto all = indices_of_parts(team, a, function);
+        return use(all, all);
+    } else {
+        return use(a, b);
     }
 }
 
@@ -88,6 +109,39 @@ auto first_on_devices(const Team& team, const std::vector<Index>& x, const std::
     });
 }
 
+template <execution::policy_team Team, motion_arithmetic A, bool Within, class X, class Y>
+auto ask_motion(const Team& team, const ask_impacts<A, Within>& question, const X& a, const Y& b,
+                const impact_options& options) {
+    const char* const function = question.function;
+    if constexpr (!can_collide_on_devices<Within, Team, X, Y>()) {
+        return result<impact<float>, space_of<typename Team::local_policy>>();
+    } else if constexpr (is_divided_mesh<X> || is_divided_mesh<Y>) {
+        return with_parts_on_each<Within>(team, a, b, function, [&](const auto& x, const auto& y) {
+            return impacts_of_divided<A, Within>(team, x, y, options, function);
+        });
+    } else {
+        return with_indices_on_each<Within>(team, a, b, function, [&](const auto& x, const auto& y) {
+            return impacts_on_devices<A, Within>(team, x, y, options, function);
+        });
+    }
+}
+template <execution::policy_team Team, motion_arithmetic A, bool Within, class X, class Y>
+auto ask_motion(const Team& team, const ask_first_impact<A, Within>& question, const X& a, const Y& b,
+                const impact_options& options) {
+    const char* const function = question.function;
+    if constexpr (!can_collide_on_devices<Within, Team, X, Y>()) {
+        return std::optional<impact<float>>();
+    } else if constexpr (is_divided_mesh<X> || is_divided_mesh<Y>) {
+        return with_parts_on_each<Within>(team, a, b, function, [&](const auto& x, const auto& y) {
+            return without_key(first_of_divided<A, Within>(team, x, y, options, function));
+        });
+    } else {
+        return with_indices_on_each<Within>(team, a, b, function, [&](const auto& x, const auto& y) {
+            return without_key(first_on_devices<A, Within>(team, x, y, options, function));
+        });
+    }
+}
+
 }  // namespace detail
 
 /// @addtogroup devices
@@ -109,84 +163,6 @@ template <execution::policy_team Team, class X>
         }
     } else {
         return detail::refused();
-    }
-}
-
-/// The impacts of two meshes, as under one policy, bit for bit: a `result` of `impact` in memory of the first device.
-/// Arguments are replicated meshes, at rest or in motion, replicated indices of such, or meshes in host memory, which are
-/// copied to each device for the call; or meshes that are divided (divide_mesh), and indices of their parts. Fronts are not
-/// taken.
-///
-/// Of divided meshes the answer is that of the whole ones, with their vertex numbers, and is always sorted. Where both are
-/// divided, pieces of b come to the devices whose parts of a they come near during the step, and all pieces of a device are
-/// there at a time: of each other device at most its part, with an index. The first device holds 56 bytes for each impact,
-/// three times for a moment, and those of features on the border of two parts more than once.
-template <motion_arithmetic A = filtered, execution::policy_team Team, class X, class Y>
-[[nodiscard]] auto impacts(const Team& team, const X& a, const Y& b, const impact_options& options = {}) {
-    constexpr const char* function = "abut::impacts";
-    if constexpr (detail::can_meet_on_devices<Team, X, Y>()) {
-        if constexpr (detail::is_divided_mesh<X> || detail::is_divided_mesh<Y>) {
-            return detail::impacts_of_divided<A, false>(team, a, b, options, function);
-        } else {
-            const auto x = detail::impact_operand_on_each<Y>(team, a, function);
-            const auto y = detail::impact_operand_on_each<X>(team, b, function);
-            return detail::impacts_on_devices<A, false>(team, x, y, options, function);
-        }
-    } else {
-        return result<impact<float>, space_of<typename Team::local_policy>>();
-    }
-}
-
-/// The impacts of a mesh with itself, as under one policy; otherwise as `impacts`. Where the mesh is divided, pieces of each
-/// part come to the devices whose parts they come near.
-template <motion_arithmetic A = filtered, execution::policy_team Team, class X>
-[[nodiscard]] auto self_impacts(const Team& team, const X& x, const impact_options& options = {}) {
-    constexpr const char* function = "abut::self_impacts";
-    if constexpr (detail::can_move_on_devices<Team, X>()) {
-        if constexpr (detail::is_divided_mesh<X>) {
-            const auto all = detail::indices_of_parts(team, x, function);
-            return detail::impacts_of_divided<A, true>(team, all, all, options, function);
-        } else {
-            const auto all = detail::impact_operand_on_each<X>(team, x, function);
-            return detail::impacts_on_devices<A, true>(team, all, all, options, function);
-        }
-    } else {
-        return result<impact<float>, space_of<typename Team::local_policy>>();
-    }
-}
-
-/// The earliest of the impacts, as under one policy: a std::optional<impact<T>>. All devices look at a first part of the
-/// step, and at more where nothing touches in it. Arguments are those of `impacts`; pieces of b are of the whole step.
-template <motion_arithmetic A = filtered, execution::policy_team Team, class X, class Y>
-[[nodiscard]] auto first_impact(const Team& team, const X& a, const Y& b, const impact_options& options = {}) {
-    constexpr const char* function = "abut::first_impact";
-    if constexpr (detail::can_meet_on_devices<Team, X, Y>()) {
-        if constexpr (detail::is_divided_mesh<X> || detail::is_divided_mesh<Y>) {
-            return detail::first_of_divided<A, false>(team, a, b, options, function);
-        } else {
-            const auto x = detail::impact_operand_on_each<Y>(team, a, function);
-            const auto y = detail::impact_operand_on_each<X>(team, b, function);
-            return detail::first_on_devices<A, false>(team, x, y, options, function);
-        }
-    } else {
-        return std::optional<impact<float>>();
-    }
-}
-
-/// The earliest of the impacts of a mesh with itself; otherwise as `first_impact`.
-template <motion_arithmetic A = filtered, execution::policy_team Team, class X>
-[[nodiscard]] auto first_self_impact(const Team& team, const X& x, const impact_options& options = {}) {
-    constexpr const char* function = "abut::first_self_impact";
-    if constexpr (detail::can_move_on_devices<Team, X>()) {
-        if constexpr (detail::is_divided_mesh<X>) {
-            const auto all = detail::indices_of_parts(team, x, function);
-            return detail::first_of_divided<A, true>(team, all, all, options, function);
-        } else {
-            const auto all = detail::impact_operand_on_each<X>(team, x, function);
-            return detail::first_on_devices<A, true>(team, all, all, options, function);
-        }
-    } else {
-        return std::optional<impact<float>>();
     }
 }
 

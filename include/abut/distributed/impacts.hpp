@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// impacts of two meshes in motion whose parts lie on many ranks. What comes to a rank are pieces of b: the faces that come
-// near its part of a during the step, with their vertices. The features of a piece have the order of those of the whole
+// impacts, self_impacts and the first of them of meshes in motion whose parts lie on many ranks. What comes to a rank are
+// pieces of b: the faces that come near its part of a during the step, with their vertices. The features of a piece have the order of those of the whole
 // part, and are all that a piece adds, so each pair is met once and has the same bits.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -12,7 +13,9 @@
 #include <span>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
+#include <abut/collide/first_impact.hpp>
 #include <abut/collide/impacts.hpp>
 #include <abut/collide/mesh_pieces.hpp>
 #include <abut/distributed/communicator.hpp>
@@ -21,22 +24,7 @@
 
 #include <mpi.h>
 
-namespace abut {
-
-/// An `impact` with vertex numbers in meshes of many parts.
-/// @ingroup distributed
-template <scalar T>
-struct global_impact {
-    using scalar_type = T;  ///< of the meshes
-    feature_pair kind;      ///< which features
-    /// As of `impact`: the vertex and the three of the face; or the two of a's edge and the two of b's.
-    std::array<std::uint64_t, 4> vertices;
-    double time;  ///< the earliest in [0, 1] at which they touch
-
-    friend constexpr bool operator==(const global_impact&, const global_impact&) = default;
-};
-
-namespace detail {
+namespace abut::detail {
 
 /// Pieces of a mesh in motion that come near the parts of other ranks. use(rank, piece, ids) is called for what comes from a
 /// rank; ids are those of its vertices there, in memory of the policy's that is used again after it.
@@ -143,18 +131,35 @@ struct name_impacts_globally {
     }
 };
 
-template <motion_arithmetic A, class Local, class X, class Y>
-auto impacts_of_parts(const distributed<Local>& on, const X& x, const Y& y, const impact_options& options,
-                      const char* function) {
+/// Of the pairs of two ranks' parts of one mesh those that one of them is asked: each vertex with the other's faces, and edges
+/// if its own come first.
+template <class Pairs>
+struct pairs_of_ranks : Pairs {
+    bool edges;
+    [[nodiscard]] ABUT_HD bool wanted(feature_pair kind, std::uint32_t, std::uint32_t) const {
+        return kind == feature_pair::vertex_face || (kind == feature_pair::edge_edge && edges);
+    }
+};
+struct between_ranks : search_part {
+    bool edges;
+    template <class Pairs>
+    [[nodiscard]] pairs_of_ranks<Pairs> asked_of(const Pairs& both) const {
+        return {both, edges};
+    }
+};
+
+/// Asks this rank's part of x and its part of y, and what comes of other ranks' parts of y: ask(rank, a, b, ids, within, part),
+/// of indices and of vertices' ids. `Within` one mesh y is x. All ranks call it; it throws on all or on none.
+template <motion_arithmetic A, bool Within, class Local, class X, class Y, class Ask>
+void ask_all_meshes(const distributed<Local>& on, const X& x, const Y& y, const impact_options& options,
+                    const char* function, const Ask& ask) {
     using T = typename X::scalar_type;
     constexpr pair_rule rule = rule_of<X, Y>();
     const own_communicator& ranks = on.ranks();
     const Local& local = on.local();
+    const int me = ranks.rank();
     attempts attempt;
-    const auto bring = [&] {
-        auto [a, b] = impact_operands(local, x, y, function);
-        return std::pair(std::move(a), std::move(b));
-    };
+    const auto bring = [&] { return impact_operands<Within>(local, x, y, function); };
     std::optional<decltype(bring())> here;
     part_bounds<T> part_a, part_b;
     parts_of_set<T> parts_a, parts_b;
@@ -172,45 +177,103 @@ auto impacts_of_parts(const distributed<Local>& on, const X& x, const Y& y, cons
     const auto& a = here->first;
     parts_a.gather(ranks, part_a);
     parts_b.gather(ranks, part_b);
-    const std::uint64_t first_a = parts_a.first_of(ranks.rank());
-
-    found_by_rank<Local, global_impact<T>> all;
-    const auto ask = [&](int rank, const auto& b, const std::uint32_t* ids) {
-        const auto some = impacts_of_indices<A, false>(local, a, b, options, no_fronts{}, function);
-        const global_ids vertices{first_a, parts_b.first_of(rank), ids};
-        all.add(local, rank, some.found.size(), [&](global_impact<T>* out, std::uint64_t* keys) {
-            for_each_index(local, some.found.size(),
-                           name_impacts_globally<T>{some.found.data(), some.keys.data(), some.key, vertices, out, keys});
-        });
+    const auto ids_of = [&](int rank, const std::uint32_t* ids) {
+        return global_ids{parts_a.first_of(me), parts_b.first_of(rank), ids};
     };
-    attempt([&] { ask(ranks.rank(), here->second, nullptr); });
+    attempt([&] { ask(me, a, here->second, ids_of(me, nullptr), std::bool_constant<Within>{}, whole_search{}); });
     const auto use = [&](int rank, const auto& piece, const std::uint32_t* ids) {
-        ask(rank, make_impact_index<rule>(local, piece), ids);
+        const auto b = make_impact_index<rule>(local, piece);
+        if constexpr (Within) {
+            ask(rank, a, b, ids_of(rank, ids), std::false_type{}, between_ranks{{}, me < rank});
+        } else {
+            ask(rank, a, b, ids_of(rank, ids), std::false_type{}, whole_search{});
+        }
     };
     const auto goes = [&](int from, int to) { return parts_a[to].is_near(parts_b[from]); };
     mesh_parcels<Local, T, decltype(use)> parcels(local, here->second.mesh(), parts_a, use);
     exchange_parcels(on, attempt, room, goes, parcels);
-    return joined(on, all, options.sorted, 34);
 }
 
-}  // namespace detail
-
-/// All pairs of a vertex and a face, and of two edges, of which the first is in this rank's part of `a` and the second in
-/// any part of `b`, that touch during the step, each once, with the earliest time: a `result` of `global_impact`, 48 bytes
-/// each, in the local policy's memory. Arguments are this rank's parts, as those of `impacts` under the local policy. The
-/// mesh that is asked about is all parts one after another: each has vertices of its own, and vertex numbers begin where
-/// those of the rank before end. Vertices on the border of two parts are in both, and so are edges between them.
-///
-/// Each rank's list is sorted as `impacts` sorts, unless the options say otherwise. Since it is sorted by kind first, the
-/// lists of all ranks are those of one machine kind by kind. Times are the same bits.
-/// @ingroup distributed
-template <motion_arithmetic A = filtered, execution_policy Local, class X, class Y>
-[[nodiscard]] auto impacts(const distributed<Local>& on, const X& a, const Y& b, const impact_options& options = {}) {
-    if constexpr (detail::can_meet<Local, X, Y>()) {
-        return detail::impacts_of_parts<A>(on, a, b, options, "abut::impacts");
+template <class Local, motion_arithmetic A, bool Within, class X, class Y>
+auto ask_motion(const distributed<Local>& on, const ask_impacts<A, Within>& question, const X& x, const Y& y,
+                const impact_options& options) {
+    if constexpr (can_collide<Within, Local, X, Y>()) {
+        using T = typename X::scalar_type;
+        const char* const function = question.function;
+        const Local& local = on.local();
+        found_by_rank<Local, global_impact<T>> all;
+        ask_all_meshes<A, Within>(
+            on, x, y, options, function,
+            [&](int rank, const auto& a, const auto& b, const global_ids& ids, auto within, const auto& part) {
+                const auto some = impacts_of_indices<A, decltype(within)::value>(local, a, b, options, no_fronts{}, function, part);
+                all.add(local, rank, some.found.size(), [&](global_impact<T>* out, std::uint64_t* keys) {
+                    for_each_index(
+                        local, some.found.size(),
+                        name_impacts_globally<T>{some.found.data(), some.keys.data(), some.key, ids, out, keys});
+                });
+            });
+        return joined(on, all, options.sorted, 34);
     } else {
         return result<global_impact<float>, space_of<Local>>();
     }
 }
 
-}  // namespace abut
+/// The first impact that a rank knows, and where it stands in the order of all.
+template <scalar T>
+struct first_on_rank {
+    global_impact<T> found{};
+    std::uint64_t place[5] = {static_cast<std::uint64_t>(-1)};  ///< kind; a's rank and feature, b's. None is the last.
+
+    [[nodiscard]] bool is_one() const { return place[0] != static_cast<std::uint64_t>(-1); }
+    [[nodiscard]] bool comes_before(const first_on_rank& other) const {
+        if (!is_one() || !other.is_one()) return is_one();
+        if (found.time != other.found.time) return found.time < other.found.time;
+        return std::lexicographical_compare(place, place + 5, other.place, other.place + 5);
+    }
+};
+
+template <class Local, motion_arithmetic A, bool Within, class X, class Y>
+auto ask_motion(const distributed<Local>& on, const ask_first_impact<A, Within>& question, const X& x, const Y& y,
+                const impact_options& options) {
+    if constexpr (can_collide<Within, Local, X, Y>()) {
+        using T = typename X::scalar_type;
+        const char* const function = question.function;
+        const Local& local = on.local();
+        first_on_rank<T> first;
+        ask_all_meshes<A, Within>(
+            on, x, y, options, function,
+            [&](int rank, const auto& a, const auto& b, const global_ids& ids, auto within, const auto& part) {
+                const auto some =
+                    first_of_indices<A, decltype(within)::value>(local, a, b, options, no_fronts{}, function, part);
+                if (!some) return;
+                execution::buffer_of<Local, impact<T>> there(local, 1);
+                execution::buffer_of<Local, std::uint64_t> key(local, 2);
+                execution::buffer_of<Local, global_impact<T>> named(local, 1);
+                upload(local, &some->found, 1, there.data());
+                upload(local, &some->key, 1, key.data());
+                for_each_index(
+                    local, 1,
+                    name_impacts_globally<T>{there.data(), key.data(), some->keys, ids, named.data(), key.data() + 1});
+                first_on_rank<T> one;
+                download(local, named.data(), 1, &one.found);
+                const std::uint64_t place[5] = {static_cast<std::uint64_t>(one.found.kind),
+                                                static_cast<std::uint64_t>(on.rank()), some->keys.a(some->key),
+                                                static_cast<std::uint64_t>(rank), some->keys.b(some->key)};
+                std::copy(place, place + 5, one.place);
+                if (one.comes_before(first)) first = one;
+            });
+        attempts attempt;
+        std::vector<first_on_rank<T>> all;
+        attempt([&] { all.resize(static_cast<std::size_t>(on.size())); });
+        attempt.settle(on.ranks());
+        gather(on.ranks(), first, all);
+        for (const first_on_rank<T>& one : all) {
+            if (one.comes_before(first)) first = one;
+        }
+        return first.is_one() ? std::optional(first.found) : std::optional<global_impact<T>>();
+    } else {
+        return std::optional<global_impact<float>>();
+    }
+}
+
+}  // namespace abut::detail

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Questions of many points or lines (collide/row_questions.hpp) to shapes whose parts lie on many ranks. A rank asks its own
-// part first. Then its points or lines go to each other rank whose part may change what is known, and answers come back.
+// Questions of many points or lines (collide/row_questions.hpp) to shapes whose parts lie on many ranks: nearest, raycast,
+// raycast_any, inside; raycast_all is in row_lists.hpp. A rank asks its own part first. Then its points or lines go to each other rank whose part may change what is known, and answers come back.
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include <abut/collide/inside.hpp>
+#include <abut/collide/nearest.hpp>
 #include <abut/collide/operand.hpp>
 #include <abut/collide/parts.hpp>
 #include <abut/collide/row_questions.hpp>
@@ -106,21 +109,21 @@ private:
     execution::buffer_of<Policy, std::uint32_t> ids_;
 };
 template <class Policy, scalar T, shape_view Rows>
-class rows_looking<Policy, ask_nearest<T>, Rows> {
+class rows_looking<Policy, nearest_in_parts<T>, Rows> {
 public:
     rows_looking() = default;
     rows_looking(const Policy& policy, std::size_t n)
         : ids_(policy, n), blocks_(policy, blocks_of(n)), near_(policy, blocks_of(n)) {}
     /// What blocks still look for.
-    void look(const Policy& on, const ask_nearest<T>& question, const Rows& rows, const measured_neighbor<T>* best) {
+    void look(const Policy& on, const nearest_in_parts<T>& question, const Rows& rows, const measured_neighbor<T>* best) {
         for_each_index(on, blocks_.size(), write_blocks_looking<Rows>{rows, best, question.count, blocks_.data()});
     }
-    std::size_t choose(const Policy& on, const may_be_changed<Rows, ask_nearest<T>>& may) {
+    std::size_t choose(const Policy& on, const may_be_changed<Rows, nearest_in_parts<T>>& may) {
         const may_block_be_near<T> may_block{blocks_.data(), may.question.unit, may.part};
         const std::size_t blocks = compact(on, blocks_.size(), may_block, near_.data());
-        const in_blocks<may_be_changed<Rows, ask_nearest<T>>> in{may, near_.data(), may.rows.size()};
+        const in_blocks<may_be_changed<Rows, nearest_in_parts<T>>> in{may, near_.data(), may.rows.size()};
         const std::size_t chosen = compact(on, blocks * block_size, in, ids_.data());
-        for_each_index(on, chosen, write_ids_in_blocks<may_be_changed<Rows, ask_nearest<T>>>{in, ids_.data()});
+        for_each_index(on, chosen, write_ids_in_blocks<may_be_changed<Rows, nearest_in_parts<T>>>{in, ids_.data()});
         return chosen;
     }
     [[nodiscard]] const std::uint32_t* ids() const { return ids_.data(); }
@@ -293,36 +296,77 @@ struct asked_here {
     std::optional<Asking> rows;
     parts_of_set<T> parts;
     std::vector<std::uint64_t> rows_of_rank;
+    double largest = 0;  ///< of all ranks
 };
 
-/// The same, of arguments. make_rows(policy, rows, function) makes an operand of the rows; look(shapes, rows) may throw or
-/// keep something of both, before the ranks go on. All ranks call it; it throws on all or on none.
-template <class Local, class X, class Rows, class MakeRows, class Look>
-auto bring_rows_and_shapes(const distributed<Local>& on, const X& index, const Rows& rows, const char* function,
-                           const MakeRows& make_rows, const Look& look) {
-    using T = scalar_type_of<typename shape_of_argument<X>::type>;
+/// The same, of arguments. All ranks call it; it throws on all or on none.
+template <class Local, class Question, class X, class Rows>
+auto bring_rows_and_shapes(const distributed<Local>& on, const Question& question, const X& index, const Rows& rows) {
+    using T = scalar_of_argument<X>;
     const Local& local = on.local();
-    asked_here<decltype(make_operand(local, index, function)), decltype(make_rows(local, rows, function)), T> here;
+    const auto make_shapes = [&] { return make_operand(local, index, question.function); };
+    const auto make_rows = [&] { return question.template make_rows<T>(local, rows, question.function); };
+    asked_here<decltype(make_shapes()), decltype(make_rows()), T> here;
     part_bounds<T> mine;
     attempts attempt;
     attempt([&] {
         here.parts.make_room(on.size());
         here.rows_of_rank.resize(static_cast<std::size_t>(on.size()));
-        here.shapes.emplace(make_operand(local, index, function));
-        here.rows.emplace(make_rows(local, rows, function));
+        here.shapes.emplace(make_shapes());
+        here.rows.emplace(make_rows());
         mine = bounds_of_part(local, here.shapes->shapes());
-        look(*here.shapes, *here.rows);
+        question.check(local, *here.shapes, *here.rows, "rank has all of a mesh");
+        if constexpr (requires { question.count; }) {
+            if (question.count >= std::size_t{1} << 31) {  // the answers of one point are one message
+                throw capacity_error(std::string(question.function) + ": count is " + std::to_string(question.count) +
+                                     ", expected less than 2^31");
+            }
+        }
+        here.largest = question.largest(local, *here.shapes, *here.rows);
     });
     attempt.settle(on.ranks());
     here.parts.gather(on.ranks(), mine);
     gather(on.ranks(), std::uint64_t{here.rows->shapes().size()}, here.rows_of_rank);
+    if constexpr (requires { question.count; }) {
+        const double mine_of_all = here.largest;
+        require_one(on.ranks(), static_cast<double>(question.count), question.function, "counts");
+        check_mpi(MPI_Allreduce(&mine_of_all, &here.largest, 1, MPI_DOUBLE, MPI_MAX, on.ranks().get()), "MPI_Allreduce");
+    }
     return here;
 }
 
-/// What all parts answer to this rank's rows, as finish(answers) makes of it.
-template <class Local, class Here, class Question, class Finish>
-auto answers_of_ranks(const distributed<Local>& on, const Here& here, const Question& question, const Finish& finish) {
-    return rows_of_ranks(on, *here.shapes, *here.rows, here.parts, here.rows_of_rank, question).find(finish);
+/// Whether ranks take both arguments.
+template <class Local, class Question, class X, class Rows>
+consteval bool can_ask_ranks() {
+    static_assert(!is_bodies<X>, "abut: bodies lie on one machine: ask those of a rank by its local policy");
+    static_assert(!Question::filters, "abut: ranks take no filter of rows: those of other ranks have no numbers there");
+    if constexpr (!is_bodies<X> && !Question::filters) return Question::template takes<Local, X, Rows, false>();
+    return false;
+}
+
+/// Of ranks.
+template <class Local, class Question, class X, class Rows>
+auto ask_rows(const distributed<Local>& on, const Question& question, const X& index, const Rows& rows) {
+    if constexpr (can_ask_ranks<Local, Question, X, Rows>()) {
+        using found = found_by<Question, X, std::uint64_t>;
+        const auto here = bring_rows_and_shapes(on, question, index, rows);
+        const auto in_parts = question.template in_parts<scalar_of_argument<X>>(here.largest);
+        return rows_of_ranks(on, *here.shapes, *here.rows, here.parts, here.rows_of_rank, in_parts).find([&](auto answers) {
+            return result<found, space_of<Local>>(named_answers<found>(on.local(), in_parts, std::move(answers)));
+        });
+    } else {
+        return no_answer<Question, std::uint64_t, space_of<Local>>();
+    }
+}
+
+/// What is made of answers may fail on one rank.
+template <class Local, class Use>
+auto make_of_answers(const distributed<Local>& on, by_its_policy, const Use& use) {
+    std::optional<decltype(use(on.local()))> made;
+    attempts attempt;
+    attempt([&] { made.emplace(use(on.local())); });
+    attempt.settle(on.ranks());
+    return std::move(*made);
 }
 
 }  // namespace abut::detail

@@ -191,6 +191,18 @@ struct until_stopped {
     template <class Policy>
     void end(const Policy&) {}
 };
+/// The same below a bound.
+struct until_stopped_below : until_stopped {
+    double most;
+
+    struct sink : until_stopped::sink {
+        double most;
+        [[nodiscard]] ABUT_HD double bound() const { return stopped ? -HUGE_VAL : most; }
+    };
+
+    explicit until_stopped_below(double bound) : most(bound) {}
+    [[nodiscard]] sink make_sink(std::size_t /*thread*/) { return {{}, most}; }
+};
 
 namespace detail {
 

@@ -3,7 +3,6 @@
 
 // Several policies of one kind that work together, each in memory of its own, each driven by a thread of the host.
 
-#include <concepts>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
@@ -16,6 +15,7 @@
 #include <vector>
 
 #include <abut/execution/policy.hpp>
+#include <abut/execution/policy_team.hpp>
 
 namespace abut::execution {
 
@@ -129,18 +129,6 @@ private:
     };
 
     std::vector<std::unique_ptr<worker>> workers_;
-};
-
-/// Policies that work together. team[k] is the k-th, for 0 <= k < team.size(), of which there is one at least. All are of
-/// the type `local_policy`. team.threads() drives them. copy_across(from, p, n, to, q) copies n elements from memory of the
-/// policy `from` to that of `to`, both of that type, and returns when they are there. They have to be complete: it does not
-/// wait for what `from` is doing.
-template <class Team>
-concept policy_team = requires(const Team& team, int k) {
-    typename Team::local_policy;
-    { team.size() } -> std::same_as<int>;
-    { team[k] } -> std::convertible_to<const typename Team::local_policy&>;
-    { team.threads() } -> std::same_as<crew&>;
 };
 
 /// Runs f(k) for every policy of a team, as crew::run says.

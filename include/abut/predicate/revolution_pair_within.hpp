@@ -48,7 +48,7 @@ ABUT_NOINLINE ABUT_HD constexpr verdict search_in_bits(const S& s, const U& t, d
 template <bool Certified, solid_of_revolution S, solid_of_revolution U>
 ABUT_NOINLINE ABUT_HD constexpr verdict search_near_solids(const S& s, const U& t, double reach) {
     using T = scalar_type_of<S>;
-    const hull_points<T, 2> axis_of_s = points_of(axis_of(s)), axis_of_t = points_of(axis_of(t));
+    const corner_hull<T, 2> axis_of_s = points_of(axis_of(s)), axis_of_t = points_of(axis_of(t));
     const hull<T> ends_of_s = axis_of_s.as_hull(), ends_of_t = axis_of_t.as_hull();
     points_of_solid of_s, of_t;
     difference_simplex at;

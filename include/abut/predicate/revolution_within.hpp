@@ -138,7 +138,8 @@ ABUT_NOINLINE ABUT_HD constexpr bool resolve_within(const S& s, const plane<T>& 
 
 /// A cylinder or a cone, and a shape around a core of more points than one.
 template <class S, class U>
-concept revolution_and_core = solid_of_revolution<S> && has_core_points<U, scalar_type_of<S>> && corners_of_core<U> != 1;
+concept revolution_and_core =
+    solid_of_revolution<S> && !seen_as_hull<U> && has_core_points<U, scalar_type_of<S>> && corners_of_core<U> != 1;
 
 /// A core as a shape: of a capsule its axis.
 template <class U>
@@ -173,7 +174,7 @@ using core_near_solid = near_on_ways<Certified, hull_and_solid<Certified, S>>;
 /// Whether the core is within reach of the solid, whose axis has a length, if the search tells.
 template <bool Certified, solid_of_revolution S, scalar T>
 ABUT_NOINLINE ABUT_HD constexpr verdict search_near_solid(const S& s, const hull<T>& core, double reach) {
-    const hull_points<T, 2> axis = points_of(axis_of(s));
+    const corner_hull<T, 2> axis = points_of(axis_of(s));
     const hull<T> ends = axis.as_hull();
     points_of_solid asked;
     found_simplex found;
@@ -209,8 +210,8 @@ struct features_near_solid {
                                                               widened_exactly(s.radius), radius, distance)
                                                          .value);
     }
-    [[nodiscard]] ABUT_HD constexpr verdict any(const hull_points<T, 2>& core) const { return edge(core.at[0], core.at[1]); }
-    [[nodiscard]] ABUT_HD constexpr verdict any(const hull_points<T, 3>& core) const {
+    [[nodiscard]] ABUT_HD constexpr verdict any(const corner_hull<T, 2>& core) const { return edge(core.at[0], core.at[1]); }
+    [[nodiscard]] ABUT_HD constexpr verdict any(const corner_hull<T, 3>& core) const {
         const vec3<T>(&p)[3] = core.at;
         verdict near = face(p[0], p[1], p[2]);
         ABUT_ROLLED
@@ -218,7 +219,7 @@ struct features_near_solid {
         return near;
     }
     /// The corners of a box: bit k of a number says on which side it is of axis k.
-    [[nodiscard]] ABUT_HD constexpr verdict any(const hull_points<T, 8>& core) const {
+    [[nodiscard]] ABUT_HD constexpr verdict any(const corner_hull<T, 8>& core) const {
         const vec3<T>(&p)[8] = core.at;
         verdict near = verdict::no;
         ABUT_ROLLED
@@ -255,7 +256,7 @@ ABUT_HD constexpr features_near_solid<AtAnySpan, S> features_near(const S& s, co
 /// Whether a triangle that does not touch the solid is within a distance, by all stages one after another.
 template <solid_of_revolution S, scalar T>
 ABUT_HD constexpr bool is_exactly_near(const S& s, const triangle<T>& t, double distance) {
-    const hull_points<T, 3> core = points_of(t);
+    const corner_hull<T, 3> core = points_of(t);
     verdict v = ABUT_CONSTANT_EVALUATED() ? verdict::unknown
                                           : search_near_solid<true>(s, core.as_hull(), reach_to_core(t, distance));
     if (v == verdict::unknown) v = features_near<false>(s, t, distance).any(core);
@@ -267,7 +268,7 @@ ABUT_HD constexpr bool is_exactly_near(const S& s, const triangle<T>& t, double 
 /// but those that are surely too far on a way; `unknown` if only a few are asked, and are not near.
 template <solid_of_revolution S, scalar T>
 ABUT_NOINLINE ABUT_HD constexpr verdict any_triangle_near(const S& s, const hull<T>& h, double distance, bool ask_all) {
-    const hull_points<T, 2> axis = points_of(axis_of(s));
+    const corner_hull<T, 2> axis = points_of(axis_of(s));
     const hull<T> ends = axis.as_hull();
     points_of_solid asked;
     const core_near_solid<true, S> x(h, s, ends, asked, reach_to_core(h, distance));

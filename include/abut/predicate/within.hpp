@@ -30,22 +30,6 @@ namespace detail {
 // The stages of shapes that are seen as hulls are those of the hull (as_hull.hpp), and those of a half space its plane's, if
 // none of it a point tells (half_space.hpp). The others are written in one order of two shapes.
 
-template <arithmetic A, class S, class U>
-ABUT_HD constexpr verdict decide_within_in_place(const S& s, const U& t, double distance) {
-    if constexpr (requires { decide_within<A>(s, t, distance); }) {
-        return decide_within<A>(s, t, distance);
-    } else {
-        return decide_within<A>(t, s, distance);
-    }
-}
-template <class S, class U>
-ABUT_HD constexpr bool resolve_within_in_place(const S& s, const U& t, double distance) {
-    if constexpr (requires { resolve_within(s, t, distance); }) {
-        return resolve_within(s, t, distance);
-    } else {
-        return resolve_within(t, s, distance);
-    }
-}
 template <class S, class U>
 concept has_stages_within = std::same_as<scalar_type_of<S>, scalar_type_of<U>> &&
     (requires(const S& s, const U& t) { resolve_within(s, t, 0.0); } ||

@@ -94,7 +94,7 @@ struct object_frame {
     double deviation = 0, size = 0;  ///< the farthest coordinates in `around`, summed up
 
     object_frame() = default;
-    object_frame(double unit_of_lengths, const rigid<T>& p, const aabb<T>& around)
+    ABUT_HD object_frame(double unit_of_lengths, const rigid<T>& p, const aabb<T>& around)
         : unit(unit_of_lengths),
           pose(p),
           deviation(detail::deviation(widened(column(p.rotation, 0)), widened(column(p.rotation, 1)),

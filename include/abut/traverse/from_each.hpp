@@ -331,7 +331,7 @@ struct from_each {
     ABUT_HD void operator()(std::size_t i, Sink& sink) const {
         auto look = all.start(i);
         reach_of_look<All> reach(all.seen(i));
-        all.walk(reach, sink, [&](std::uint32_t id) { look(all, id, sink); });
+        all.walk(reach, sink, [&](walk_id<decltype(All::walk)> id) { look(all, id, sink); });
         look.end(all, i, sink);
     }
     [[nodiscard]] bool pays_in_steps() const requires goes_in_steps<decltype(All::walk)> { return all.walk.pays_in_steps(); }

@@ -153,6 +153,14 @@ struct ordered_tree_walk {
     }
 };
 
+/// By what a walk names what it comes to: ids of shapes, unless it says otherwise.
+template <class Walk>
+struct id_in_walk {
+    using type = std::uint32_t;
+};
+template <class Walk>
+using walk_id = typename id_in_walk<Walk>::type;
+
 /// The reach of a line with which a walk looks: by fours through a tree whose boxes come by fours.
 ///@{
 template <class Walk, scalar T>
