@@ -328,7 +328,7 @@ void ask_own_entries(const distributed<Local>& on, const List& list, const Ask& 
 
 // What ranks make of a form: ask_shares(on, relation, form, options, function, ask) runs ask(rank, pairing, names) of all that
 // is this rank's, and returns how many a-shapes it has; and agree(on, relation, function) finds what is wrong with its numbers
-// before any asks. can_ask_ranks says whether ranks take the question.
+// before any asks. can_ask_pairs says whether ranks take the question.
 
 template <class Local, class Relation>
 void agree(const distributed<Local>& on, const Relation& how, const char* function) {
@@ -384,7 +384,7 @@ std::size_t ask_shares(const distributed<Local>& on, const Relation& how, const 
 }
 
 template <class Local, class Question, class Form, class Options>
-consteval bool can_ask_ranks() {
+consteval bool can_ask_pairs() {
     if constexpr (!Form::template can_be_asked<Local, Question, keep_all>()) {
         return false;
     } else if constexpr (std::same_as<typename Form::pair_type, index_pair>) {
@@ -410,7 +410,7 @@ auto ask_pairs(const distributed<Local>& on, const Question& question, const For
                const char* function) {
     using answer = typename Question::answer_type;
     const Local& local = on.local();
-    if constexpr (!can_ask_ranks<Local, Question, Form, Options>()) {
+    if constexpr (!can_ask_pairs<Local, Question, Form, Options>()) {
         return answer::template nothing<Form, Local>();
     } else if constexpr (Question::kind == answer_kind::list) {
         using found_type = typename answer::template found_type<Form, typename scalar_of_form<Form>::type>;
