@@ -43,3 +43,17 @@ TEST_CASE("within: cylinders and cones, with convex hulls") {
     CHECK(count_within(serial{}, tips, blocks, 2) == 1);
     CHECK(count_within(serial{}, tips, blocks, 0x1.fffffffffffffp0) == 0);
 }
+
+TEST_CASE("within: rays, with triangles, hulls and cylinders") {
+    const openmp on{.threads = 2};
+    const rays<float> lines(std::vector<ray<float>>{{{8, -9, 6}, {0, 1, 0}}, {{8, -9, 6}, {0, -1, 0}}, {{0, 0, 9}, {0, 0, -1}}});
+    const cylinders<float> drums(std::vector<cylinder<float>>{{{{0, 0, 0}, {0, 0, 2}}, 5}, {{{90, 0, 0}, {90, 0, 2}}, 5}});
+    const auto tree = make_bvh(on, drums);
+    CHECK(to_host(within(on, lines, tree, 5)) == std::vector<index_pair>{{0, 0}, {2, 0}});
+    CHECK(to_host(within(on, tree, lines, 0x1.3ffffffffffffp2)) == std::vector<index_pair>{{0, 2}});
+    CHECK(to_host(within(on, lines, tree, 0)) == to_host(pairs(on, lines, tree)));
+    const triangle<float> flat{{4, -9, 9}, {4, -4, 9}, {36, 0, -15}};
+    for (const double d : {0.5, 2.0, 4.0, 9.0}) {
+        CHECK(to_host(within(on, lines, flat, d)) == test::within_by_definition(lines.view(), shapes<triangle<float>>({flat}).view(), d));
+    }
+}

@@ -137,10 +137,12 @@ struct part_of_ray {
     [[nodiscard]] ABUT_HD constexpr vec3<N> any_point() const { return {}; }
 };
 
-/// The difference of points that was asked for last, and how many were.
+/// The difference of points that was asked for last, how many were, and the way on which the shapes were farthest apart: it is
+/// `ahead` along the way, the square of whose length is `square`.
 template <class N>
-struct asked_difference {
-    vec3<N> last;
+struct asked_differences {
+    vec3<N> last, best_way;
+    N ahead{}, square{};
     std::uint32_t count = 0;
 };
 
@@ -149,12 +151,15 @@ template <class N, class X, class Y>
 class farthest_points {
 public:
     using number = N;
-    static constexpr int most_steps = is_wide<N> ? 400 : 48;
+    static constexpr int most_steps = is_wide<N> ? 100 : 48;
 
-    ABUT_HD constexpr farthest_points(const X& x, const Y& y, const N& reach, asked_difference<N>& asked)
+    ABUT_HD constexpr farthest_points(const X& x, const Y& y, const N& reach, asked_differences<N>& asked)
         : x_(x), y_(y), lost_(N(is_wide<N> ? 0x1p-200 : 0x1p-42) * (x.size() + y.size() + reach)), reach_(reach), asked_(asked) {}
 
-    [[nodiscard]] ABUT_HD constexpr vec3<N> way_between_middles() const { return x_.any_point() - y_.any_point(); }
+    /// To begin with, and to begin again with.
+    [[nodiscard]] ABUT_HD constexpr vec3<N> way_between_middles() const {
+        return asked_.count > 0 ? asked_.best_way : x_.any_point() - y_.any_point();
+    }
     [[nodiscard]] ABUT_HD constexpr vec3<N> difference(std::uint32_t, std::uint32_t) const { return asked_.last; }
     ABUT_HD constexpr void look_back(const vec3<N>& way, std::uint32_t& i, std::uint32_t& j) const {
         i = j = ++asked_.count;
@@ -162,8 +167,12 @@ public:
         asked_.last = x_.farthest(N(-1.0) * one) - y_.farthest(one);
     }
     [[nodiscard]] ABUT_HD constexpr bool are_apart(const vec3<N>& way, std::uint32_t, std::uint32_t) const {
-        const N ahead = dot(way, asked_.last), far = reach_ + lost_;
-        return sense_of(ahead) > 0 && sense_of(ahead * ahead - far * far * dot(way, way)) > 0;
+        const N ahead = dot(way, asked_.last), far = reach_ + lost_, square = dot(way, way);
+        if (sense_of(ahead) <= 0) return false;
+        if (sense_of(ahead * ahead * asked_.square - asked_.ahead * asked_.ahead * square) > 0 || sense_of(asked_.square) == 0) {
+            asked_.best_way = way, asked_.ahead = ahead, asked_.square = square;
+        }
+        return sense_of(ahead * ahead - far * far * square) > 0;
     }
     /// Whether the feature's point that is nearest to the origin is near enough, by weights that are not negative.
     [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr bool is_enough(const vec3<N> (&w)[4], const difference_simplex& at) const {
@@ -188,25 +197,46 @@ public:
         if (!is_wide<N> && sense_of(most - N(0x1p-500)) <= 0) return false;
         return sense_of(most) > 0 && sense_of(dot(q, q) - most * most) <= 0;
     }
-    ABUT_HD constexpr verdict holds_origin(const vec3<N> (&)[4], const difference_simplex&) const {
-        return is_wide<N> ? verdict::yes : verdict::unknown;
+    /// Whether a tetrahedron holds the origin with what is lost about it: rounding finds that as well in a flat one.
+    [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr verdict holds_origin(const vec3<N> (&w)[4],
+                                                                       const difference_simplex& at) const {
+        if (at.count < 4) return verdict::unknown;
+        const int side = side_of(w[1], w[2], w[3]);
+        return side != 0 && side_of(w[0], w[3], w[2]) == side && side_of(w[0], w[1], w[3]) == side &&
+                       side_of(w[0], w[2], w[1]) == side
+                   ? verdict::yes
+                   : verdict::unknown;
     }
     [[nodiscard]] ABUT_HD constexpr verdict when_lost(const difference_simplex&) const { return verdict::unknown; }
 
 private:
+    /// On which side of the origin the plane of three points is, or 0 where it is too near.
+    [[nodiscard]] ABUT_HD constexpr int side_of(const vec3<N>& p, const vec3<N>& q, const vec3<N>& r) const {
+        const vec3<N> n = cross(q - p, r - p);
+        const N volume = dot(p, n);
+        return sense_of(volume * volume - lost_ * lost_ * dot(n, n)) > 0 ? sense_of(volume) : 0;
+    }
+
     const X& x_;
     const Y& y_;
     N lost_, reach_;
-    asked_difference<N>& asked_;
+    asked_differences<N>& asked_;
 };
 
-/// Whether they are within a reach; `unknown` where rounding leaves that open, or the search does not come to an end.
+/// Whether they are within a reach; `unknown` where rounding leaves that open, or the search does not come to an end. In 256
+/// digits it begins again where it is lost, as rounding makes it in flat tetrahedra, on the best way that it came to.
 template <class N, class X, class Y>
 ABUT_NOINLINE ABUT_HD constexpr verdict search_near(const X& x, const Y& y, const N& reach) {
-    asked_difference<N> asked{};
-    vec3<N> w[4]{};
-    difference_simplex at;
-    return search_origin<sought::meeting>(farthest_points<N, X, Y>(x, y, reach, asked), at, w);
+    asked_differences<N> asked{};
+    const farthest_points<N, X, Y> both(x, y, reach, asked);
+    verdict near = verdict::unknown;
+    ABUT_ROLLED
+    for (int i = 0; i < (is_wide<N> ? 12 : 1) && near == verdict::unknown; ++i) {
+        vec3<N> w[4]{};
+        difference_simplex at;
+        near = search_origin<sought::meeting>(both, at, w);
+    }
+    return near;
 }
 
 }  // namespace abut::detail
