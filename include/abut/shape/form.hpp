@@ -16,6 +16,8 @@ namespace abut {
 
 template <scalar T>
 struct hull;
+template <scalar T>
+struct rigid;
 
 /// What is wrong with a shape, and the number that is; of one that is valid nothing. `of` says which part of it is meant.
 /// @ingroup shapes

@@ -16,7 +16,7 @@
 #include <abut/arithmetic/strict.hpp>
 #include <abut/arithmetic/vec.hpp>
 #include <abut/error.hpp>
-#include <abut/shape/aabb.hpp>
+#include <abut/shape/primitive.hpp>
 
 namespace abut {
 

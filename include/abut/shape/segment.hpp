@@ -3,8 +3,8 @@
 
 // The segment as a shape, and how far it, or what is swept along it, reaches.
 
+#include <abut/shape/aabb.hpp>
 #include <abut/shape/form.hpp>
-#include <abut/shape/rigid.hpp>
 
 namespace abut {
 

@@ -10,8 +10,6 @@
 #include <type_traits>
 #include <utility>
 
-#include <abut/arithmetic/error_free.hpp>
-#include <abut/shape/aabb.hpp>
 #include <abut/shape/form.hpp>
 #include <abut/shape/rigid.hpp>
 

@@ -3,8 +3,8 @@
 
 // The ball as a shape, and how far it reaches.
 
+#include <abut/shape/aabb.hpp>
 #include <abut/shape/form.hpp>
-#include <abut/shape/rigid.hpp>
 
 namespace abut {
 

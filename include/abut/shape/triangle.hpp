@@ -3,8 +3,8 @@
 
 // The triangle as a shape: of a mesh, of a soup, or alone.
 
+#include <abut/shape/aabb.hpp>
 #include <abut/shape/form.hpp>
-#include <abut/shape/rigid.hpp>
 
 namespace abut {
 
