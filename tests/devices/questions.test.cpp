@@ -48,7 +48,8 @@ TEST_CASE("devices: options of rays and points") {
     const abut::triangle_soup<float> set(scene.triangles);
     const abut::rays<float> rows(scene.rays);
     const abut::raycast_options<abut::test::some_rows> options{.filter = {}};
-    CHECK((to_host(raycast(team, make_bvh(team, set), rows, options)) == to_host(raycast(abut::serial{}, set, rows, options))));
+    CHECK((to_host(raycast(team, make_bvh(team, set), rows, options)) ==
+           to_host(raycast(abut::serial{}, set, rows, options))));
     CHECK((to_host(raycast_all(team, divide(team, set), rows, options)) ==
            to_host(raycast_all(abut::serial{}, set, rows, options))));
 }

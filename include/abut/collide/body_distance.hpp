@@ -75,10 +75,9 @@ auto pair_up_near(const Policy& on, const body_state<Index>& state, const char* 
     const int bits = id_bits(state.tree.size());
     const pair_key key{bits, bits};
     const auto keys = find_near(on, state.tree, key, true, whole_search{}, near);
-    return pair_up_entries<names_of_entries>(on, state.placed, state.placed, keys.size(),
-                                          near_bodies{keys.data(), key, state.with_shapes->data()},
-                                          list_options<before_first_touch<list_key>>{}, function,
-                                          "pairs of bodies whose boxes are near", near);
+    return pair_up_entries<names_of_entries>(
+        on, state.placed, state.placed, keys.size(), near_bodies{keys.data(), key, state.with_shapes->data()},
+        list_options<before_first_touch<list_key>>{}, function, "pairs of bodies whose boxes are near", near);
 }
 
 /// What a key of a pairing of bodies says.
@@ -103,7 +102,8 @@ execution::least_value nearest_of_entries(const Policy& on, const Pairing& pairi
     execution::buffer_of<Policy, std::uint64_t> none(on, n);
     fill(on, none.data(), n, no_pair);
     execution::best_of_all<space_of<Policy>> best(on, bound);
-    for_each_ordered(on, n, walk_entry<view_type, typename Pairing::tree_a, typename Pairing::tree_b>{view, none.data()}, best);
+    for_each_ordered(on, n, walk_entry<view_type, typename Pairing::tree_a, typename Pairing::tree_b>{view, none.data()},
+                     best);
     return best.least();
 }
 
@@ -132,10 +132,9 @@ auto ask_least(const Policy& on, const ask_distance& question, const bodies<Inde
             on, state.placed, state.placed, n - 1, next_in_order{order.data(), state.with_shapes->data()},
             list_options<before_first_touch<list_key>>{}, question.function, "bodies", near_enough_to_touch{});
         bound = least(bound, nearest_of_entries(on, neighbours, bound).value);
-        const T reach = rounded_up<T>(least(bound * (1 + 64 * static_cast<double>(unit_roundoff<T>)),
-                                            static_cast<double>(largest_finite<T>)));
-        const auto pairing =
-            pair_up_near(on, state, question.function, near_in_distance<T>{distance_frame<T>(reach)});
+        const T reach = rounded_up<T>(
+            least(bound * (1 + 64 * static_cast<double>(unit_roundoff<T>)), static_cast<double>(largest_finite<T>)));
+        const auto pairing = pair_up_near(on, state, question.function, near_in_distance<T>{distance_frame<T>(reach)});
         const execution::least_value found = nearest_of_entries(on, pairing, bound);
         if (found.key == no_pair) return answer();
         const body_separation<T> apart = separation_of_bodies(on, pairing, found.key, false);
@@ -146,7 +145,8 @@ auto ask_least(const Policy& on, const ask_distance& question, const bodies<Inde
     }
 }
 template <execution_policy Policy, class Index>
-auto ask_least(const Policy& on, const ask_distance& question, const std::vector<posed_object<Index>>& list, each_other all) {
+auto ask_least(const Policy& on, const ask_distance& question, const std::vector<posed_object<Index>>& list,
+               each_other all) {
     if constexpr (can_be_listed<Policy, Index>()) {
         return ask_least(on, question, bodies_of(on, list, question.function), all);
     } else {
@@ -156,9 +156,10 @@ auto ask_least(const Policy& on, const ask_distance& question, const std::vector
 
 }  // namespace detail
 
-/// How far apart the nearest two shapes of two different bodies are: a std::optional<body_separation<T>>. Of each two bodies it
-/// is what `distance` says of their posed indices; of equal distances, and of those that touch, it has the least bodies, then
-/// the least ids. It is empty where fewer than two bodies have shapes, and where nothing is nearer than `options.below`.
+/// How far apart the nearest two shapes of two different bodies are: a std::optional<body_separation<T>>. Of each two bodies
+/// it is what `distance` says of their posed indices; of equal distances, and of those that touch, it has the least bodies,
+/// then the least ids. It is empty where fewer than two bodies have shapes, and where nothing is nearer than
+/// `options.below`.
 ///
 /// Of several devices and of ranks: not yet; ask what lies on one, or the list of the pairs that may be near.
 ///

@@ -221,8 +221,8 @@ struct lines_and_shapes {
     [[nodiscard]] auto walk(const Rest&... rest) const {
         const length_unit<T> unit{};
         return Walk<A, decltype(ordered_walk_of(x)), decltype(frame_of(x, unit)), decltype(x.shapes()),
-                    decltype(looking.shapes()), Wanted>{ordered_walk_of(x), frame_of(x, unit), x.shapes(), looking.shapes(),
-                                                        wanted, rest...};
+                    decltype(looking.shapes()), Wanted>{
+            ordered_walk_of(x), frame_of(x, unit), x.shapes(), looking.shapes(), wanted, rest...};
     }
 };
 template <class Operand, class Looking>
@@ -396,10 +396,10 @@ struct ask_any_hit : question_of_lines<Options, ask_any_hit<A, Options>> {
 /// that are met at one time it has the least id; where nothing is met, `no_id` and infinity.
 ///
 /// `index` is a tree of any layout, a set, a view or one shape, posed or not: of triangles (a mesh, a triangle_soup), or of
-/// spheres, boxes, capsules, cylinders, cones or hulls, which are solid. Boxes take no pose. `rays` are `rays` or `segments`:
-/// a set, a view, or one. Segments are met from their first end to their second, at times from 0 to 1.
-/// Triangles are met from both sides, and along their planes; a solid where a ray enters it, and at 0 if the ray begins in it
-/// or on its surface. A ray of direction 0 meets what its origin is in, at 0.
+/// spheres, boxes, capsules, cylinders, cones or hulls, which are solid. Boxes take no pose. `rays` are `rays` or
+/// `segments`: a set, a view, or one. Segments are met from their first end to their second, at times from 0 to 1. Triangles
+/// are met from both sides, and along their planes; a solid where a ray enters it, and at 0 if the ray begins in it or on
+/// its surface. A ray of direction 0 meets what its origin is in, at 0.
 ///
 /// With `filtered` and `exact` whether a ray meets a shape is decided exactly: none slips through a closed mesh, not
 /// through an edge and not through a vertex. Times are the true ones rounded to the nearest double, by which they are
