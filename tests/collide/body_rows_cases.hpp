@@ -59,8 +59,8 @@ void check_rays_among(const Policy& on, const scene_of_bodies<Policy, Set>& scen
         hits += truth.size();
         wrong += any[k] != (truth.empty() ? 0 : 1);
         const body_hit<T> none{no_id, no_id, infinity<T>};
-        wrong += first[k] != (truth.empty() ? none
-                                            : body_hit<T>{truth[0].body, truth[0].id, detail::time_as<T>(truth[0].time)});
+        wrong +=
+            first[k] != (truth.empty() ? none : body_hit<T>{truth[0].body, truth[0].id, detail::time_as<T>(truth[0].time)});
         for (const true_hit& h : truth) {
             const body_hit_of_ray<T> expected{static_cast<std::uint32_t>(k), h.body, h.id, detail::time_as<T>(h.time)};
             wrong += at >= every.size() || every[at] != expected;
@@ -114,7 +114,8 @@ template <class Policy, class Set>
 auto lines_among(const scene_of_bodies<Policy, Set>& scene, std::size_t n, uniform& random) {
     using T = typename Set::scalar_type;
     const auto point = [&] {
-        const auto& pose = scene.bodies[static_cast<std::size_t>(random(0, static_cast<double>(scene.bodies.size()) - 0.01))].pose;
+        const auto& pose =
+            scene.bodies[static_cast<std::size_t>(random(0, static_cast<double>(scene.bodies.size()) - 0.01))].pose;
         return vec3<T>{pose.translation.x + T(random(-2, 2)), pose.translation.y + T(random(-2, 2)),
                        pose.translation.z + T(random(-2, 2))};
     };
@@ -174,8 +175,9 @@ void check_all_body_rows(const Policy& on) {
     const torus<T> ring(10, 6, 0.7, 0.3);
     const torus<T> small(5, 4, 0.4, 0.2);
     const mesh<T> one(std::vector<vec3<T>>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, std::vector<face>{{0, 1, 2}});
-    check_body_rows(on, std::vector{mesh<T>(ring.vertices, ring.faces), one, mesh<T>(), mesh<T>(small.vertices, small.faces)}, 14,
-                    3.0, 31);
+    check_body_rows(on,
+                    std::vector{mesh<T>(ring.vertices, ring.faces), one, mesh<T>(), mesh<T>(small.vertices, small.faces)},
+                    14, 3.0, 31);
     std::vector<sphere<T>> balls;
     for (int i = 0; i < 9; ++i) balls.push_back({{T(i % 3), T(i / 3), T(i % 2)}, T(0.75)});
     check_body_rows(on, std::vector{spheres<T>(balls), spheres<T>(std::vector{balls[0]})}, 10, 2.0, 32);
@@ -248,7 +250,8 @@ void check_body_distance(const Policy& on) {
         }
     }
     CHECK((touch > 2 && apart > 2));
-    CHECK_THROWS_AS((void)distance(on, make_bodies(on, std::vector{posed(make_bvh(on, one), rigid<T>{})}), {.below = -1}), error);
+    CHECK_THROWS_AS((void)distance(on, make_bodies(on, std::vector{posed(make_bvh(on, one), rigid<T>{})}), {.below = -1}),
+                    error);
 }
 
 }  // namespace abut::test

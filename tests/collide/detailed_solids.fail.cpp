@@ -3,5 +3,6 @@
 #include <abut/abut.hpp>
 
 int main() {
-    for (const auto& hit : abut::raycast_detailed(abut::serial{}, abut::spheres<float>(), abut::rays<float>())) (void)hit.side;
+    for (const auto& hit : abut::raycast_detailed(abut::serial{}, abut::spheres<float>(), abut::rays<float>()))
+        (void)hit.side;
 }

@@ -35,7 +35,8 @@ TEST_CASE("options of rays: bodies") {
         const auto& r = scene.rays[hit.ray];
         const double time = detail::hit_time<exact>(r, t);
         if (!some_rows_of_bodies{}(hit.ray, hit.body, hit.id)) continue;
-        if (is_kept(r.origin, r.direction, t, time, 0, 0, raycast_options<>{.most_t = 0.75, .side = ray_side::front})) expected.push_back(hit);
+        if (is_kept(r.origin, r.direction, t, time, 0, 0, raycast_options<>{.most_t = 0.75, .side = ray_side::front}))
+            expected.push_back(hit);
     }
     CHECK(expected.size() > 20);
     CHECK(all.size() > 3 * expected.size());

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Options of rays and points on every policy and executor: what is left of all hits when a plain loop drops what a filter, an
-// interval of times or a side leaves out. On a lattice of small integers times and sides are quotients and signs of integers.
+// Options of rays and points on every policy and executor: what is left of all hits when a plain loop drops what a filter,
+// an interval of times or a side leaves out. On a lattice of small integers times and sides are quotients and signs of
+// integers.
 
 #include <algorithm>
 #include <cmath>
@@ -57,8 +58,9 @@ struct lattice_hit {
     std::int64_t along, over;
     template <scalar T>
     lattice_hit(const vec3<T>& origin, const vec3<T>& direction, const triangle<T>& t) : along(0), over(0) {
-        const auto minus = [](const vec3<T>& p, const vec3<T>& q, std::int64_t (&to)[3]) {
-            to[0] = static_cast<std::int64_t>(p.x - q.x), to[1] = static_cast<std::int64_t>(p.y - q.y), to[2] = static_cast<std::int64_t>(p.z - q.z);
+        const auto minus = [](const vec3<T>& p, const vec3<T>& q, std::int64_t(&to)[3]) {
+            to[0] = static_cast<std::int64_t>(p.x - q.x), to[1] = static_cast<std::int64_t>(p.y - q.y),
+            to[2] = static_cast<std::int64_t>(p.z - q.z);
         };
         std::int64_t f[3], g[3], away[3], d[3];
         minus(t.b, t.a, f), minus(t.c, t.a, g), minus(t.a, origin, away), minus(direction, {0, 0, 0}, d);
@@ -123,7 +125,8 @@ void check_options(const On& on, const X& x, const Lines& lines, const std::vect
         wrong += side != (along < 0 ? ray_side::front : along > 0 ? ray_side::back : ray_side::any);
         wrong += !(w.x >= 0 && w.y >= 0 && w.z >= 0) || std::abs(static_cast<double>(w.x + w.y + w.z) - 1) > 1e-6;
         const auto apart = [&](T vec3<T>::*c) {
-            return std::abs(static_cast<double>(w.x * t.a.*c + w.y * t.b.*c + w.z * t.c.*c - (l.origin.*c + hit.t * l.direction().*c)));
+            return std::abs(
+                static_cast<double>(w.x * t.a.*c + w.y * t.b.*c + w.z * t.c.*c - (l.origin.*c + hit.t * l.direction().*c)));
         };
         wrong += apart(&vec3<T>::x) + apart(&vec3<T>::y) + apart(&vec3<T>::z) > (std::same_as<T, float> ? 1e-4 : 1e-12);
     }
@@ -145,9 +148,10 @@ void check_ray_options(const On& on, const Make& make) {
     check(raycast_options<>{});
     CHECK((kept > 500 && dropped == 0));
     for (const raycast_options<>& one :
-         {raycast_options<>{.least_t = 0.5}, raycast_options<>{.most_t = 0.5}, raycast_options<>{.least_t = 0.25, .most_t = 0.75},
-          raycast_options<>{.side = ray_side::front}, raycast_options<>{.most_t = 1, .side = ray_side::back},
-          raycast_options<>{.least_t = 0.5, .most_t = 0.5}, raycast_options<>{.least_t = 1, .most_t = 0.5}}) {
+         {raycast_options<>{.least_t = 0.5}, raycast_options<>{.most_t = 0.5},
+          raycast_options<>{.least_t = 0.25, .most_t = 0.75}, raycast_options<>{.side = ray_side::front},
+          raycast_options<>{.most_t = 1, .side = ray_side::back}, raycast_options<>{.least_t = 0.5, .most_t = 0.5},
+          raycast_options<>{.least_t = 1, .most_t = 0.5}}) {
         CAPTURE(one.least_t, one.most_t, static_cast<int>(one.side));
         check(one);
     }

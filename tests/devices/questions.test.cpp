@@ -3,6 +3,7 @@
 
 #include "collide/ray_options_cases.hpp"
 #include "devices/question_cases.hpp"
+#include "support/scenes.hpp"
 
 TEST_CASE("devices: points, rays and distances are asked of several policies as of one") {
     const int n = GENERATE(1, 2, 3, 5);
@@ -48,7 +49,8 @@ TEST_CASE("devices: options of rays and points") {
     const abut::triangle_soup<float> set(scene.triangles);
     const abut::rays<float> rows(scene.rays);
     const abut::raycast_options<abut::test::some_rows> options{.filter = {}};
-    CHECK((to_host(raycast(team, make_bvh(team, set), rows, options)) == to_host(raycast(abut::serial{}, set, rows, options))));
+    CHECK((to_host(raycast(team, make_bvh(team, set), rows, options)) ==
+           to_host(raycast(abut::serial{}, set, rows, options))));
     CHECK((to_host(raycast_all(team, divide(team, set), rows, options)) ==
            to_host(raycast_all(abut::serial{}, set, rows, options))));
 }
@@ -70,6 +72,40 @@ TEST_CASE("devices: points and rays among bodies") {
     CHECK((to_host(raycast(team, there, rows)) == to_host(raycast(abut::serial{}, here, rows))));
     CHECK((to_host(raycast_any(team, there, rows)) == to_host(raycast_any(abut::serial{}, here, rows))));
     CHECK((to_host(nearest(team, there, from, 3)) == to_host(nearest(abut::serial{}, here, from, 3))));
+}
+
+TEST_CASE("devices: how far bodies are apart") {
+    namespace cases = abut::test;
+    const int n = GENERATE(1, 2, 5);
+    const cases::host_team<abut::serial> team(n);
+    const cases::torus<float> ring(8, 5, 0.7, 0.3);
+    const abut::mesh<float> set(ring.vertices, ring.faces);
+    const auto tree = make_bvh(team, set);
+    const auto alone = make_bvh(abut::serial{}, set);
+    int touch = 0, apart = 0;
+    for (const double spread : {1.5, 8.0, 60.0}) {
+        cases::draws d(3, 97, static_cast<std::uint64_t>(spread));
+        cases::uniform random(4);
+        std::vector<abut::rigid<float>> poses;
+        for (int i = 0; i < 12; ++i) {
+            poses.push_back(cases::make_rotation<float>(d));
+            for (float* x : {&poses.back().translation.x, &poses.back().translation.y, &poses.back().translation.z}) {
+                *x = static_cast<float>(random(-spread, spread));
+            }
+        }
+        for (int i = 0; i < 12; ++i) {  // the same far away: each distance comes twice
+            poses.push_back(poses[static_cast<std::size_t>(i)]);
+            poses.back().translation.x += 1024;
+        }
+        const std::vector<std::uint32_t> all_of_one(poses.size(), 0);
+        const auto there = make_bodies(team, std::vector{tree}, all_of_one, poses);
+        const auto expected = distance(abut::serial{}, make_bodies(abut::serial{}, std::vector{alone}, all_of_one, poses));
+        REQUIRE(expected.has_value());
+        (expected->distance == 0 ? touch : apart) += 1;
+        CHECK(distance(team, there) == expected);
+        CHECK(!distance(team, there, {.below = static_cast<double>(expected->distance)}).has_value());
+    }
+    CHECK((touch > 0 && apart > 0));
 }
 
 TEST_CASE("devices: errors of questions") {

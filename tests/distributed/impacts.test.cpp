@@ -215,8 +215,8 @@ TEST_CASE("distributed: the first of impacts at one time is that of one machine"
         for (const division other : divisions) {
             const auto x = part_of_frames(sheet, how, on.rank(), on.size()).set();
             const auto y = part_of_frames(floor, other, on.rank(), on.size()).set();
-            const auto expected =
-                first_impact(serial{}, joined_parts(sheet, how, on.size()).set(), joined_parts(floor, other, on.size()).set());
+            const auto expected = first_impact(serial{}, joined_parts(sheet, how, on.size()).set(),
+                                               joined_parts(floor, other, on.size()).set());
             const auto found = first_impact(on, x, y);
             REQUIRE((expected.has_value() && found.has_value()));
             CHECK(found->time == expected->time);

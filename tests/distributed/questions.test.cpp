@@ -125,7 +125,8 @@ TEST_CASE("distributed: options of rays") {
         const divided_set a(triangles, how, on.ranks());
         const divided_set from(lines, division::uneven, on.ranks());
         const auto tree = make_bvh(on.local(), a.part);
-        for (const auto& options : {raycast_options<>{.least_t = 0.25, .most_t = 0.75}, raycast_options<>{.side = ray_side::back}}) {
+        for (const auto& options :
+             {raycast_options<>{.least_t = 0.25, .most_t = 0.75}, raycast_options<>{.side = ray_side::back}}) {
             const auto hits = to_host(raycast_all(serial{}, a.whole, from.whole, options));
             CHECK(hits.size() > 30);
             CHECK((lists_of_all(on.ranks(), to_host(raycast_all(on, tree, from.part, options))) == in_all_parts(hits)));
@@ -139,7 +140,8 @@ TEST_CASE("distributed: options of rays") {
             std::size_t wrong = 0;
             for (std::size_t k = 0; k < found.size(); ++k) {
                 const auto& [hit, side, weights] = expected[k];
-                wrong += found[k].hit != in_all_parts(std::vector{hit})[0] || found[k].side != side || found[k].weights != weights;
+                wrong += found[k].hit != in_all_parts(std::vector{hit})[0] || found[k].side != side ||
+                         found[k].weights != weights;
             }
             CHECK(wrong == 0);
         }

@@ -16,9 +16,11 @@ namespace {
 template <class Line, scalar T>
 int true_side(const Line& line, const triangle<T>& t) {
     const detail::line_of<T> l(line);
-    const auto x = to_integers(std::vector<T>{t.a.x, t.a.y, t.a.z, t.b.x, t.b.y, t.b.z, t.c.x, t.c.y, t.c.z, l.end.x, l.end.y,
-                                              l.end.z, l.start.x, l.start.y, l.start.z});
-    const auto less = [&](int i, int j, int k) { return integer(x[static_cast<std::size_t>(3 * i + k)] - x[static_cast<std::size_t>(3 * j + k)]); };
+    const auto x = to_integers(std::vector<T>{t.a.x, t.a.y, t.a.z, t.b.x, t.b.y, t.b.z, t.c.x, t.c.y, t.c.z, l.end.x,
+                                              l.end.y, l.end.z, l.start.x, l.start.y, l.start.z});
+    const auto less = [&](int i, int j, int k) {
+        return integer(x[static_cast<std::size_t>(3 * i + k)] - x[static_cast<std::size_t>(3 * j + k)]);
+    };
     integer sum = 0;
     const int order[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
     for (int p = 0; p < 6; ++p) {

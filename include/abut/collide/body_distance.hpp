@@ -5,6 +5,7 @@
 // Where none do, neighbours along a curve are measured, which gives a bound, and then the bodies whose boxes are no farther
 // apart than that. What is decided and measured of two bodies is what distance.hpp says of their posed indices.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -69,16 +70,16 @@ struct write_body_separation {
     }
 };
 
-/// All pairs of bodies whose boxes are near each other, as entries of a list.
-template <class Policy, class Index, class Nearness>
-auto pair_up_near(const Policy& on, const body_state<Index>& state, const char* function, const Nearness& near) {
+/// All pairs of bodies whose boxes are near each other, or a part of them, as entries of a list.
+template <class Policy, class Index, class Nearness, class Part>
+auto pair_up_near(const Policy& on, const body_state<Index>& state, const char* function, const Nearness& near,
+                  const Part& part) {
     const int bits = id_bits(state.tree.size());
     const pair_key key{bits, bits};
-    const auto keys = find_near(on, state.tree, key, true, whole_search{}, near);
-    return pair_up_entries<names_of_entries>(on, state.placed, state.placed, keys.size(),
-                                          near_bodies{keys.data(), key, state.with_shapes->data()},
-                                          list_options<before_first_touch<list_key>>{}, function,
-                                          "pairs of bodies whose boxes are near", near);
+    const auto keys = find_near(on, state.tree, key, true, part, near);
+    return pair_up_entries<names_of_entries>(
+        on, state.placed, state.placed, keys.size(), near_bodies{keys.data(), key, state.with_shapes->data()},
+        list_options<before_first_touch<list_key>>{}, function, "pairs of bodies whose boxes are near", near);
 }
 
 /// What a key of a pairing of bodies says.
@@ -103,50 +104,91 @@ execution::least_value nearest_of_entries(const Policy& on, const Pairing& pairi
     execution::buffer_of<Policy, std::uint64_t> none(on, n);
     fill(on, none.data(), n, no_pair);
     execution::best_of_all<space_of<Policy>> best(on, bound);
-    for_each_ordered(on, n, walk_entry<view_type, typename Pairing::tree_a, typename Pairing::tree_b>{view, none.data()}, best);
+    for_each_ordered(on, n, walk_entry<view_type, typename Pairing::tree_a, typename Pairing::tree_b>{view, none.data()},
+                     best);
     return best.least();
+}
+
+/// The nearest two so far: 0 of what touches.
+template <scalar T>
+struct bodies_apart {
+    double measure = infinity<double>;
+    std::optional<body_separation<T>> found = {};
+
+    [[nodiscard]] bool comes_before(const bodies_apart& other) const {
+        if (!found || !other.found) return found.has_value();
+        if (measure != other.measure) return measure < other.measure;
+        const auto ids = [](const body_separation<T>& x) { return std::array{x.body_a, x.body_b, x.a, x.b}; };
+        return ids(*found) < ids(*other.found);
+    }
+};
+
+/// The first of the bodies that touch, of a part of all pairs.
+template <class Policy, class Index, class Part>
+auto touching_bodies(const Policy& on, const bodies<Index>& all, const char* function, const Part& part) {
+    bodies_apart<typename Index::scalar_type> best;
+    auto pairing = pair_up_near(on, parts_of_bodies::of(all), function, near_enough_to_touch{}, part);
+    const std::size_t n = pairing.members.size();
+    const auto touches = first_touches(on, pairing, n);
+    const execution::least_value first =
+        reduce(on, n, execution::least_value{}, execution::lesser_value{}, entry_touch{touches.data()});
+    if (first.key != no_pair) best = {0, separation_of_bodies(on, pairing, first.key, true)};
+    return best;
+}
+
+/// Of bodies of which none touch: the nearest two below a bound, of a part of all pairs.
+template <class Policy, class Index, class Part>
+auto nearest_bodies(const Policy& on, const bodies<Index>& all, double below, const char* function, const Part& part) {
+    using T = typename Index::scalar_type;
+    const body_state<Index>& state = parts_of_bodies::of(all);
+    const std::size_t n = state.with_shapes->size();
+    const auto order = order_on_curve(on, typename bodies<Index>::boxes_type(state.boxes.data(), n));
+    const auto neighbours = pair_up_entries<names_of_entries>(
+        on, state.placed, state.placed, n - 1, next_in_order{order.data(), state.with_shapes->data()},
+        list_options<before_first_touch<list_key>>{}, function, "bodies", near_enough_to_touch{});
+    const double most = bound_below<T>(below), bound = least(most, nearest_of_entries(on, neighbours, most).value);
+    const T reach = rounded_up<T>(
+        least(bound * (1 + 64 * static_cast<double>(unit_roundoff<T>)), static_cast<double>(largest_finite<T>)));
+    const auto pairing = pair_up_near(on, state, function, near_in_distance<T>{distance_frame<T>(reach)}, part);
+    const execution::least_value found = nearest_of_entries(on, pairing, bound);
+    bodies_apart<T> best;
+    if (found.key != no_pair) best = {found.value, separation_of_bodies(on, pairing, found.key, false)};
+    return best;
+}
+
+/// The distance of bodies, by the best of all parts: of_parts(look) is the best that look(on, bodies, part) finds.
+template <scalar T, class OfParts>
+std::optional<body_separation<T>> least_of_bodies(const ask_distance& question, std::size_t bodies,
+                                                  const OfParts& of_parts) {
+    const double below = question.options.below;
+    const char* const function = question.function;
+    if (bodies < 2 || !(below > 0)) return std::nullopt;
+    bodies_apart<T> best = of_parts(
+        [&](const auto& on, const auto& all, const auto& part) { return touching_bodies(on, all, function, part); });
+    if (!best.found) {
+        best = of_parts([&](const auto& on, const auto& all, const auto& part) {
+            return nearest_bodies(on, all, below, function, part);
+        });
+    }
+    const bool is = best.found && (static_cast<double>(best.found->distance) < below || below == infinity<double>);
+    return is ? best.found : std::nullopt;
 }
 
 template <execution_policy Policy, class Index>
 auto ask_least(const Policy& on, const ask_distance& question, const bodies<Index>& all, each_other) {
     using T = typename Index::scalar_type;
-    using answer = std::optional<body_separation<T>>;
-    constexpr bool are = can_be_measured<Policy, Index, Index>();
-    if constexpr (are) {
-        const double below = question.options.below;
+    if constexpr (can_be_measured<Policy, Index, Index>()) {
         check(question.options, question.function);
         require_same_device(on, all, question.function);
-        const body_state<Index>& state = parts_of_bodies::of(all);
-        const std::size_t n = state.with_shapes->size();
-        if (n < 2 || !(below > 0)) return answer();
-        auto touching = pair_up_near(on, state, question.function, near_enough_to_touch{});
-        const std::size_t near = touching.members.size();
-        const auto touches = first_touches(on, touching, near);
-        const execution::least_value first =
-            reduce(on, near, execution::least_value{}, execution::lesser_value{}, entry_touch{touches.data()});
-        if (first.key != no_pair) return answer(separation_of_bodies(on, touching, first.key, true));
-
-        double bound = bound_below<T>(below);
-        const auto order = order_on_curve(on, typename bodies<Index>::boxes_type(state.boxes.data(), n));
-        const auto neighbours = pair_up_entries<names_of_entries>(
-            on, state.placed, state.placed, n - 1, next_in_order{order.data(), state.with_shapes->data()},
-            list_options<before_first_touch<list_key>>{}, question.function, "bodies", near_enough_to_touch{});
-        bound = least(bound, nearest_of_entries(on, neighbours, bound).value);
-        const T reach = rounded_up<T>(least(bound * (1 + 64 * static_cast<double>(unit_roundoff<T>)),
-                                            static_cast<double>(largest_finite<T>)));
-        const auto pairing =
-            pair_up_near(on, state, question.function, near_in_distance<T>{distance_frame<T>(reach)});
-        const execution::least_value found = nearest_of_entries(on, pairing, bound);
-        if (found.key == no_pair) return answer();
-        const body_separation<T> apart = separation_of_bodies(on, pairing, found.key, false);
-        const bool is = static_cast<double>(apart.distance) < below || below == infinity<double>;
-        return is ? answer(apart) : answer();
+        return least_of_bodies<T>(question, parts_of_bodies::of(all).with_shapes->size(),
+                                  [&](const auto& look) { return look(on, all, whole_search{}); });
     } else {
-        return answer();
+        return std::optional<body_separation<T>>();
     }
 }
 template <execution_policy Policy, class Index>
-auto ask_least(const Policy& on, const ask_distance& question, const std::vector<posed_object<Index>>& list, each_other all) {
+auto ask_least(const Policy& on, const ask_distance& question, const std::vector<posed_object<Index>>& list,
+               each_other all) {
     if constexpr (can_be_listed<Policy, Index>()) {
         return ask_least(on, question, bodies_of(on, list, question.function), all);
     } else {
@@ -154,18 +196,25 @@ auto ask_least(const Policy& on, const ask_distance& question, const std::vector
     }
 }
 
+/// What `distance` takes as bodies: those of one policy, or of several devices.
+template <class X>
+inline constexpr bool are_bodies = many_bodies<X>;
+
 }  // namespace detail
 
-/// How far apart the nearest two shapes of two different bodies are: a std::optional<body_separation<T>>. Of each two bodies it
-/// is what `distance` says of their posed indices; of equal distances, and of those that touch, it has the least bodies, then
-/// the least ids. It is empty where fewer than two bodies have shapes, and where nothing is nearer than `options.below`.
+/// How far apart the nearest two shapes of two different bodies are: a std::optional<body_separation<T>>. Of each two bodies
+/// it is what `distance` says of their posed indices; of equal distances, and of those that touch, it has the least bodies,
+/// then the least ids. It is empty where fewer than two bodies have shapes, and where nothing is nearer than
+/// `options.below`.
 ///
-/// Of several devices and of ranks: not yet; ask what lies on one, or the list of the pairs that may be near.
+/// Several devices (@ref devices), each of which has all bodies, share out the pairs of bodies. Bodies of ranks lie on one
+/// machine each: ask those of a rank by its local policy.
 ///
 ///     if (const auto apart = abut::distance(on, bodies)) use(apart->body_a, apart->body_b, apart->distance);
 /// @ingroup many_bodies
-template <execution_policy Policy, many_bodies Bodies>
-[[nodiscard]] auto distance(const Policy& on, const Bodies& all, const distance_options& options = {}) {
+template <executor On, class Bodies>
+    requires detail::are_bodies<Bodies>
+[[nodiscard]] auto distance(const On& on, const Bodies& all, const distance_options& options = {}) {
     return ask_least(on, detail::ask_distance{options}, all, detail::each_other{});
 }
 

@@ -2,8 +2,8 @@
 #pragma once
 
 // Bodies that points and lines ask (row_questions.hpp): a walk through the tree over the boxes around bodies, and from each
-// box that is reached through the body's own tree. What is kept has the body's number above the shape's id, so that of equals
-// the least body comes first, and of one body the least id: the answer is the best of what each body says alone.
+// box that is reached through the body's own tree. What is kept has the body's number above the shape's id, so that of
+// equals the least body comes first, and of one body the least id: the answer is the best of what each body says alone.
 
 #include <cstddef>
 #include <cstdint>
@@ -30,9 +30,7 @@ struct ball_to_bodies : shrinking_ball<T> {
 };
 template <scalar T>
 struct frame_of_bodies : world_frame<T> {
-    [[nodiscard]] ABUT_HD ball_to_bodies<T> ball_around(const vec3<T>& p) const {
-        return {world_frame<T>::ball_around(p)};
-    }
+    [[nodiscard]] ABUT_HD ball_to_bodies<T> ball_around(const vec3<T>& p) const { return {world_frame<T>::ball_around(p)}; }
 };
 /// And a line.
 template <scalar T>

@@ -512,9 +512,9 @@ auto ask_least(const Policy& on, const ask_distance& question, const X& x, const
 /// differ by less than docs/numerics.md says may be taken for each other. Points and distance are those of `distance` of the
 /// two shapes.
 ///
-/// Of several devices (@ref devices), where both arguments are divided, and of ranks (@ref distributed) each searches its own
-/// parts first; then shapes of b go to whose a-shapes may be as near to them as what was found: to all, where no rank has
-/// shapes of both sets. Of ranks the answer is a `global_separation`, the same on all; each gives the same options.
+/// Of several devices (@ref devices), where both arguments are divided, and of ranks (@ref distributed) each searches its
+/// own parts first; then shapes of b go to whose a-shapes may be as near to them as what was found: to all, where no rank
+/// has shapes of both sets. Of ranks the answer is a `global_separation`, the same on all; each gives the same options.
 ///
 /// @par Memory
 /// As in @ref queries. Nothing is stored for each pair. A call of a list of two entries or more takes 12 bytes for each

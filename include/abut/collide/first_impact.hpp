@@ -327,9 +327,7 @@ auto first_of_indices(const Policy& on, const Index& x, const Index& y, const im
     if constexpr (std::same_as<A, filtered> || std::same_as<A, exact>) {
         if (is_first_part_small<Within>(on, x, y)) first_part = first_part_of_step;
     }
-    const auto until = [&](double time) {
-        return first_until<A, Within>(on, x, y, time, options, fronts, function, part);
-    };
+    const auto until = [&](double time) { return first_until<A, Within>(on, x, y, time, options, fronts, function, part); };
     return first_of_step<A>(until, first_part);
 }
 
@@ -365,8 +363,8 @@ auto ask_motion(const Policy& on, const ask_first_impact<A, Within>& question, c
 /// one time, the first in the order of `impacts`. What is found so far prunes the search: it looks at a first part of the
 /// step, and at more where nothing touches in it; or at the whole step at once, where most shapes move by little of their
 /// size. For parts the trees are refitted; so under cuda the stream of an index's first such query has to outlive the index
-/// (see `refit`). `fast` and `conservative` look at the whole step. Arguments, times and errors are those of `impacts`. Fronts
-/// are left at the ends of the part of the step that was looked at last.
+/// (see `refit`). `fast` and `conservative` look at the whole step. Arguments, times and errors are those of `impacts`.
+/// Fronts are left at the ends of the part of the step that was looked at last.
 ///
 /// Several devices (@ref devices) look at the same part of the step; pieces of divided meshes are of the whole step.
 ///

@@ -402,9 +402,9 @@ given_fronts fronts_of(Fronts& all) {
 /// Of several devices (@ref devices) the answer lies in memory of the first one. Arguments are replicated meshes or indices,
 /// meshes in host memory, or divided by divide_mesh; of divided ones the list is sorted, numbers are those of the whole
 /// meshes, pieces of b come to the devices whose parts of a they come near, and all pieces of a device are there at a time,
-/// with an index; the first device holds 56 bytes for each impact, three times for a moment. Of ranks (@ref distributed) each
-/// gets a `global_impact` of its own part of a, 48 bytes each; parts have vertices of their own, so vertices on the border of
-/// two parts are in both, and so are edges between them; lists of all ranks are that of one machine kind by kind.
+/// with an index; the first device holds 56 bytes for each impact, three times for a moment. Of ranks (@ref distributed)
+/// each gets a `global_impact` of its own part of a, 48 bytes each; parts have vertices of their own, so vertices on the
+/// border of two parts are in both, and so are edges between them; lists of all ranks are that of one machine kind by kind.
 ///
 ///     const auto step = abut::moving(cloth_t0, cloth_t1);
 ///     for (const auto& i : to_host(abut::impacts(on, step, ball))) use(i.kind, i.vertices, i.time);

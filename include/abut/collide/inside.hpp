@@ -277,8 +277,7 @@ template <arithmetic A = filtered, executor On, class X, class Points>
 template <executor On, class X, class Points>
 [[nodiscard]] auto signed_distance(const On& on, const X& mesh, const Points& points, const inside_options& options = {}) {
     constexpr const char* function = "abut::signed_distance";
-    const auto where =
-        ask_rows(on, detail::ask_inside<filtered>{{}, function, bool(options.known_closed)}, mesh, points);
+    const auto where = ask_rows(on, detail::ask_inside<filtered>{{}, function, bool(options.known_closed)}, mesh, points);
     const auto near = ask_rows(on, detail::ask_nearest<false>{{}, function}, mesh, points);
     return make_of_answers(on, detail::by_its_policy{}, [&](const auto& local) {
         using local_policy = std::remove_cvref_t<decltype(local)>;

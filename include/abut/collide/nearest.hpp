@@ -58,8 +58,8 @@ template <class Filter = keep_all>
 struct nearest_options {
     /// How many of the nearest shapes.
     std::size_t count = 1;
-    /// filter(number of the point, id) -> bool, of bodies filter(number of the point, body, id): shapes for which it is false
-    /// are not there. As in query_options. Ranks take none: points of other ranks have no numbers there.
+    /// filter(number of the point, id) -> bool, of bodies filter(number of the point, body, id): shapes for which it is
+    /// false are not there. As in query_options. Ranks take none: points of other ranks have no numbers there.
     Filter filter = {};
 };
 
@@ -420,9 +420,8 @@ struct nearest_in_parts {
         using shapes_type = std::remove_const_t<decltype(there)>;
         using points_type = std::remove_const_t<decltype(from)>;
         const auto write = [&](const std::uint32_t* order, const execution::least_value* found) {
-            for_each_index(
-                on, from.size() * count,
-                write_measured<shapes_type, points_type, Ids>{there, from, unit, ids, order, found, out, count});
+            for_each_index(on, from.size() * count,
+                           write_measured<shapes_type, points_type, Ids>{there, from, unit, ids, order, found, out, count});
             synchronize(on);
         };
         if constexpr (!std::same_as<Filter, keep_all>) {
@@ -495,8 +494,9 @@ struct ask_nearest : question_of_points {
         const auto finish = [&](const std::uint32_t* order, const execution::least_value* near) {
             using row = found<T, operand_id<X>>;
             execution::buffer_of<Policy, row> out(on, from.size() * count);
-            for_each_index(on, out.size(),
-                           write_neighbors<row, shapes_type, points_type>{there, from, unit, order, near, out.data(), count});
+            for_each_index(
+                on, out.size(),
+                write_neighbors<row, shapes_type, points_type>{there, from, unit, order, near, out.data(), count});
             synchronize(on);
             return result<row, space_of<Policy>>(std::move(out));
         };
@@ -530,8 +530,8 @@ struct ask_nearest : question_of_points {
 ///
 /// Of several devices (@ref devices) the answer lies in memory of the first one; a divided index is asked in its parts, and
 /// each device holds 32 bytes (double: 48) a point. Of ranks (@ref distributed) a rank's own points look in all parts, and a
-/// row is a `global_neighbor`; in double, scenes whose coordinates differ by factors beyond 2^250 may differ in the last bits
-/// under a pose.
+/// row is a `global_neighbor`; in double, scenes whose coordinates differ by factors beyond 2^250 may differ in the last
+/// bits under a pose.
 ///
 /// @par Memory
 /// As in @ref queries; a vector or a span of points lies in host memory, and is copied under `cuda`. The result lies in the
@@ -561,7 +561,8 @@ template <executor On, class X, class Points>
 /// about, and infinity. What `index` and `points` may be, how accurate distances are, and that the answers are the same bits
 /// everywhere: as of the nearest one. With a cloud of points as the index these are the neighbours of points among points.
 ///
-/// Of several devices memory is `count` times as much as of the nearest one. Of ranks each gives the same `count`, below 2^31.
+/// Of several devices memory is `count` times as much as of the nearest one. Of ranks each gives the same `count`, below
+/// 2^31.
 ///
 /// It takes time in proportion to `count` for each shape that comes among the nearest so far: it is meant for counts up to
 /// some hundred. All within a distance: `within`.
@@ -591,7 +592,8 @@ template <executor On, class X, class Points>
 /// @ingroup queries
 template <executor On, class X, class Points, class Filter = keep_all>
 [[nodiscard]] auto nearest(const On& on, const X& index, const Points& points, const nearest_options<Filter>& options) {
-    return ask_rows(on, detail::ask_nearest<true, Filter>{{}, "abut::nearest", options.count, options.filter}, index, points);
+    return ask_rows(on, detail::ask_nearest<true, Filter>{{}, "abut::nearest", options.count, options.filter}, index,
+                    points);
 }
 
 }  // namespace abut

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Which hits a query of rays wants: all, or those that options keep. A query without options has the first type, and pays for
-// none.
+// Which hits a query of rays wants: all, or those that options keep. A query without options has the first type, and pays
+// for none.
 
 #include <concepts>
 #include <cstddef>
@@ -33,12 +33,12 @@ enum class ray_side : unsigned char {
 /// Options of `raycast`, `raycast_any`, `raycast_all` and `raycast_detailed`. A hit that they leave out is none: the first
 /// hit is the first of those that are left. With a filter write `raycast_options{.filter = f}` (see query_options).
 ///
-///     for (const auto& hit : abut::to_host(abut::raycast(on, index, rays, {.most_t = 5, .side = abut::ray_side::front}))) use(hit.t);
+///     const auto hits = abut::raycast(on, index, rays, {.most_t = 5, .side = abut::ray_side::front});
 /// @ingroup queries
 template <class Filter = keep_all>
 struct raycast_options {
-    /// filter(number of the ray, id) -> bool, of bodies filter(number of the ray, body, id): shapes for which it is false are
-    /// not met. As in query_options. Ranks take none: rays of other ranks have no numbers there.
+    /// filter(number of the ray, id) -> bool, of bodies filter(number of the ray, body, id): shapes for which it is false
+    /// are not met. As in query_options. Ranks take none: rays of other ranks have no numbers there.
     Filter filter = {};
     /// Hits before this time, or after `most_t`, are left out; those at one of them are not. Times are as the query compares
     /// them: the true ones rounded to the nearest double. A solid in which a ray begins is met at 0.
@@ -141,8 +141,8 @@ inline void check(const no_ray_options&, const char*) {}
 template <class Filter>
 void check(const raycast_options<Filter>& options, const char* function) {
     if (options.least_t >= 0 && options.most_t >= 0) return;
-    throw error(std::string(function) + ": least_t is " + shortest(options.least_t) + ", most_t is " + shortest(options.most_t) +
-                "; expected 0 or more");
+    throw error(std::string(function) + ": least_t is " + shortest(options.least_t) + ", most_t is " +
+                shortest(options.most_t) + "; expected 0 or more");
 }
 
 /// The hits that options want, of rows that may have numbers of their own.

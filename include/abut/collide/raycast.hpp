@@ -221,8 +221,8 @@ struct lines_and_shapes {
     [[nodiscard]] auto walk(const Rest&... rest) const {
         const length_unit<T> unit{};
         return Walk<A, decltype(ordered_walk_of(x)), decltype(frame_of(x, unit)), decltype(x.shapes()),
-                    decltype(looking.shapes()), Wanted>{ordered_walk_of(x), frame_of(x, unit), x.shapes(), looking.shapes(),
-                                                        wanted, rest...};
+                    decltype(looking.shapes()), Wanted>{
+            ordered_walk_of(x), frame_of(x, unit), x.shapes(), looking.shapes(), wanted, rest...};
     }
 };
 template <class Operand, class Looking>

@@ -215,7 +215,8 @@ struct ask_all_hits : question_of_lines<Options, ask_all_hits<A, Options>> {
     /// The list of one part: name(line, time and id) of each hit.
     template <class Policy, class X, class Lines, class Name>
     auto ask(const Policy& on, const X& x, const Lines& lines, const Name& name) const {
-        return look_for_all_hits<A, timed_hit>(on, lines_that_want(x, lines, options_in_part(this->options, name.ids)), name);
+        return look_for_all_hits<A, timed_hit>(on, lines_that_want(x, lines, options_in_part(this->options, name.ids)),
+                                               name);
     }
 };
 template <execution_policy Policy, class Question, class X, class Rows>
@@ -260,10 +261,12 @@ struct write_timed_hits {
 /// Arguments, and what is decided exactly, are those of `raycast`. Order is that of the times as `raycast` compares them, in
 /// double, also where t is a float. A ray through an edge meets both faces at it.
 ///
-/// Of several devices (@ref devices) the answer lies in memory of the first one, which holds 48 bytes a hit besides. Of ranks
-/// (@ref distributed) a row is a `global_hit_of_ray` of the rank's own rays, and the lists of all ranks, one after another, are
-/// the list of one machine; a rank holds the hits of others' rays in its part until all rays have come, 24 bytes each, besides
-/// its own, of which it holds 48 bytes more, and 2^31 hits or more of one rank's rays in one other part are a `capacity_error`.
+/// Of several devices (@ref devices) the answer lies in memory of the first one, which holds 48 bytes a hit besides. Of
+/// ranks
+/// (@ref distributed) a row is a `global_hit_of_ray` of the rank's own rays, and the lists of all ranks, one after another,
+/// are the list of one machine; a rank holds the hits of others' rays in its part until all rays have come, 24 bytes each,
+/// besides its own, of which it holds 48 bytes more, and 2^31 hits or more of one rank's rays in one other part are a
+/// `capacity_error`.
 ///
 /// @par Memory
 /// As in @ref queries. The result lies in the policy's memory, 12 bytes a hit in float and 16 in double. Scratch takes 72

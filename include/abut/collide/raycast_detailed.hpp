@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// raycast_detailed: what raycast finds, and of each hit where in the triangle it is and from which side. Rays walk as they do
-// for raycast; the rest is computed of their hits alone.
+// raycast_detailed: what raycast finds, and of each hit where in the triangle it is and from which side. Rays walk as they
+// do for raycast; the rest is computed of their hits alone.
 
 #include <cstddef>
 #include <cstdint>
@@ -122,14 +122,14 @@ struct ask_details : question_of_lines<Options, ask_details<A, Options>> {
 
 }  // namespace detail
 
-/// For each of `rays` what `raycast` says, with the options too, and of the triangle that is met first the barycentric weights
-/// of the place and the side: a `result` of `detailed_hit`. The side is decided exactly. Weights are computed in double, in one
-/// order of operations, and add up to 1 but for rounding; they are as good as the time and the ray's distance tell, and the
-/// same bits on every policy. Of triangles only; `index`, `rays` and executors are those of `raycast`.
+/// For each of `rays` what `raycast` says, with the options too, and of the triangle that is met first the barycentric
+/// weights of the place and the side: a `result` of `detailed_hit`. The side is decided exactly. Weights are computed in
+/// double, in one order of operations, and add up to 1 but for rounding; they are as good as the time and the ray's distance
+/// tell, and the same bits on every policy. Of triangles only; `index`, `rays` and executors are those of `raycast`.
 ///
 /// @par Memory
-/// As in @ref queries. The result lies in the policy's memory, 24 bytes a ray in float and 48 in double; scratch takes as much
-/// and 16 more.
+/// As in @ref queries. The result lies in the policy's memory, 24 bytes a ray in float and 48 in double; scratch takes as
+/// much and 16 more.
 ///
 /// @par Errors
 /// Those of `raycast`, and `error` where a time of the options is negative or NaN.

@@ -3,24 +3,24 @@
 
 // Questions that many points or lines (rows) ask, each by itself: what is nearest, what a line meets first, whether it meets
 // anything, whether a point is inside. A question is a type; executors (executor.hpp) answer it by overloads of ask_rows, of
-// which that of a policy is here. devices/rows.hpp and distributed/rows.hpp are for shapes in parts: each part answers all that
-// it is asked, and answers of two parts become one, so that nothing depends on how shapes are divided.
+// which that of a policy is here. devices/rows.hpp and distributed/rows.hpp are for shapes in parts: each part answers all
+// that it is asked, and answers of two parts become one, so that nothing depends on how shapes are divided.
 //
 // A question has
 //   function                          in whose name it throws
-//   takes<Policy, X, Rows, Whole>()   whether arguments will do, of which X is a whole set or a part; says in one line why not
+//   takes<Policy, X, Rows, Whole>()   whether arguments will do; X is a whole set or a part. Says in one line why not
 //   found<T, Id>                      what a caller gets of a row, by how shapes are named (by_id)
+//   filters                           whether numbers of rows matter: those of an operand (numbers_of), or places
 //   make_rows<T>(on, rows, function)  the rows as an operand
-//   filters                           whether numbers of rows matter: `rows.numbers(i)`, if the operand has them, or places
-//   check(on, x, rows, holder)        throws where it may not be asked; `holder` says who does not have all shapes, or is null
+//   check(on, x, rows, holder)        throws where it may not be asked; `holder`, or null, says who lacks some shapes
 //   largest(on, x, rows)              a number of which the greatest, of all parts, goes into the answer
 //   at_once(on, x, rows, largest)     a `result` of found, of a whole set
 //   in_parts<T>(largest)              what parts are asked, if the answer can be made of theirs; that has
 //     answer                          what one part says of a row; a row has per_row() of them
-//     ask(on, x, rows, ids, out)      what shapes x answer to rows, both operands, in the policy's memory; ids(i) is the id in
-//                                     the whole set of the part's shape i
+//     ask(on, x, rows, ids, out)      what shapes x answer to rows, both operands, in the policy's memory; ids(i) is
+//                                     the id in the whole set of the part's shape i
 //     merge(best, other)              takes into a row's answers those that another part gives
-//     may_change(row, best, part)     whether a part, of which the boxes are known, may have an answer that changes these
+//     may_change(row, best, part)     whether a part, by its boxes, may have an answer that changes these
 //     named<Found>(answer)            what a caller gets
 
 #include <concepts>
@@ -121,11 +121,16 @@ consteval bool is_row_filter() {
     if constexpr (!host_policy<Policy>) {
         return true;
     } else if constexpr (Bodies) {
-        constexpr bool is = requires(const Filter& f, std::uint32_t i) { { f(i, i, i) } -> std::convertible_to<bool>; };
-        static_assert(is, "abut: this filter is called as filter(row, body, id) const, three std::uint32_t, and returns bool");
+        constexpr bool is = requires(const Filter& f, std::uint32_t i) {
+            { f(i, i, i) } -> std::convertible_to<bool>;
+        };
+        static_assert(is,
+                      "abut: this filter is called as filter(row, body, id) const, three std::uint32_t, and returns bool");
         return is;
     } else {
-        constexpr bool is = requires(const Filter& f, std::uint32_t i) { { f(i, i) } -> std::convertible_to<bool>; };
+        constexpr bool is = requires(const Filter& f, std::uint32_t i) {
+            { f(i, i) } -> std::convertible_to<bool>;
+        };
         static_assert(is, "abut: this filter is called as filter(row, id) const, two std::uint32_t, and returns bool");
         return is;
     }

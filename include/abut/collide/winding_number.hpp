@@ -212,8 +212,8 @@ struct ask_winding_number : question_of_points {
 /// point is nearer to an edge than 2^-26 times that edge's length or so (docs/numerics.md). The same bits on every policy
 /// and for any number of threads; with a tolerance trees of other shape may give others.
 ///
-/// Several devices (@ref devices) share out the points, and the answer lies in memory of the first one. Triangles are added up
-/// in one order: so each device has the whole mesh, and ranks, of which each has a part, do not take this query.
+/// Several devices (@ref devices) share out the points, and the answer lies in memory of the first one. Triangles are added
+/// up in one order: so each device has the whole mesh, and ranks, of which each has a part, do not take this query.
 ///
 /// `mesh` is a mesh, a soup of triangles, a view of either, a triangle, or an index of any layout, posed or not. `points`
 /// are as of `nearest`.
@@ -236,8 +236,7 @@ struct ask_winding_number : question_of_points {
 ///
 /// @ingroup queries
 template <executor On, class X, class Points>
-[[nodiscard]] auto winding_number(const On& on, const X& mesh, const Points& points,
-                                  const winding_options& options = {}) {
+[[nodiscard]] auto winding_number(const On& on, const X& mesh, const Points& points, const winding_options& options = {}) {
     return ask_rows(on, detail::ask_winding_number{{}, options.tolerance}, mesh, points);
 }
 

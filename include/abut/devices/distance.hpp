@@ -4,9 +4,11 @@
 // distance on several devices: each looks at its share of the pairs, and at what of divided sets may be nearer than what is
 // known.
 
+#include <cstddef>
 #include <optional>
 
 #include <abut/collide/apart.hpp>
+#include <abut/collide/body_distance.hpp>
 #include <abut/collide/distance.hpp>
 #include <abut/devices/ask.hpp>
 #include <abut/devices/divide.hpp>
@@ -37,6 +39,29 @@ auto ask_least(const Team& team, const ask_distance& question, const X& x, const
         return least.template answer<separation<T>>(least.best(), below);
     } else {
         return std::optional<separation<float>>();
+    }
+}
+
+template <class Index>
+inline constexpr bool are_bodies<replicated<bodies<Index>>> = true;
+
+/// Of bodies, each device looks at its share of the pairs of them.
+template <execution::policy_team Team, class Index>
+auto ask_least(const Team& team, const ask_distance& question, const replicated<bodies<Index>>& all, each_other) {
+    using T = typename Index::scalar_type;
+    if constexpr (can_be_measured<typename Team::local_policy, Index, Index>()) {
+        check(question.options, question.function);
+        require_as_many(team, all, question.function);
+        const std::size_t n = parts_of_bodies::of(all[0]).with_shapes->size();
+        return least_of_bodies<T>(question, n, [&](const auto& look) {
+            bodies_apart<T> best;
+            for (const auto& one : each_of(team, [&](int k) { return look(team[k], all[k], share_of(team, k)); })) {
+                if (one.comes_before(best)) best = one;
+            }
+            return best;
+        });
+    } else {
+        return std::optional<body_separation<T>>();
     }
 }
 

@@ -2,8 +2,8 @@
 #pragma once
 
 // Questions of many points or lines (collide/row_questions.hpp) to several devices: nearest, raycast and its like, inside,
-// winding_number. Where each device has all shapes, the rows are shared out; where shapes are divided, each device answers all
-// rows of its part, and the first one merges the answers.
+// winding_number. Where each device has all shapes, the rows are shared out; where shapes are divided, each device answers
+// all rows of its part, and the first one merges the answers.
 
 #include <algorithm>
 #include <cstddef>
@@ -75,7 +75,7 @@ auto asked_on_each(const Team& team, const Question& question, const X& index, c
     return each_of(team, [&](int k) {
         auto x = make_asked(team[k], on_device(index, k), question);
         auto from = question.template make_rows<scalar_of_argument<type_on_device<X>>>(team[k], on_device(rows, k),
-                                                                                        question.function);
+                                                                                       question.function);
         return asked_there<decltype(x), decltype(from)>{std::move(x), std::move(from)};
     });
 }
@@ -86,7 +86,8 @@ consteval bool can_ask_devices() {
     static_assert(!is_divided<Rows>,
                   "abut: on several devices points, rays and segments are replicated or in host memory, not divided");
     if constexpr (!is_divided<Rows>) {
-        return Question::template takes<typename Team::local_policy, type_on_device<X>, type_on_device<Rows>, !is_divided<X>>();
+        return Question::template takes<typename Team::local_policy, type_on_device<X>, type_on_device<Rows>,
+                                        !is_divided<X>>();
     } else {
         return false;
     }
@@ -121,7 +122,8 @@ auto answers_to_shares(const Team& team, const Question& question, const std::ve
     };
     if (team.size() == 1) return ask(0, there.front().rows);
     auto found = each_of(team, [&](int k) {
-        return with_share_of_rows(team, k, there[static_cast<std::size_t>(k)].rows, [&](const auto& mine) { return ask(k, mine); });
+        return with_share_of_rows(team, k, there[static_cast<std::size_t>(k)].rows,
+                                  [&](const auto& mine) { return ask(k, mine); });
     });
     using value = typename decltype(found)::value_type::value_type;
     std::size_t n = 0;
@@ -195,23 +197,27 @@ auto ask_row_lists(const Team& team, const Question& question, const X& index, c
     using local = typename Team::local_policy;
     if constexpr (can_ask_devices<Team, Question, X, Rows>()) {
         using there_type = type_on_device<X>;
-        using hit =
-            found_by<Question, there_type, std::conditional_t<is_bodies<there_type>, body_and_id, std::uint32_t>>;
+        using hit = found_by<Question, there_type, std::conditional_t<is_bodies<there_type>, body_and_id, std::uint32_t>>;
         using list = result<timed_hit, space_of<local>>;
         const auto there = asked_on_each(team, question, index, rows);
         question.check(team[0], there.front().shapes, there.front().rows, nullptr);
-        const list hits = on_first(team, each_of(team, [&](int k) {
-            const auto& mine = there[static_cast<std::size_t>(k)];
-            const auto look = [&](const auto& some, const auto& numbers, const auto& ids) {
-                return list(question.ask(team[k], mine.shapes, some, name_timed_hit{numbers, ids}));
-            };
-            if constexpr (is_divided<X>) {
-                return look(mine.rows, same_number{}, index.ids(k));
-            } else {
-                return with_share_of_rows(team, k, mine.rows,
-                                          [&](const auto& some) { return look(some, rows_of(team, k), same_key{}); });
-            }
-        }), true, by_line_and_time{});
+        const list hits =
+            on_first(team,
+                     each_of(team,
+                             [&](int k) {
+                                 const auto& mine = there[static_cast<std::size_t>(k)];
+                                 const auto look = [&](const auto& some, const auto& numbers, const auto& ids) {
+                                     return list(question.ask(team[k], mine.shapes, some, name_timed_hit{numbers, ids}));
+                                 };
+                                 if constexpr (is_divided<X>) {
+                                     return look(mine.rows, same_number{}, index.ids(k));
+                                 } else {
+                                     return with_share_of_rows(team, k, mine.rows, [&](const auto& some) {
+                                         return look(some, rows_of(team, k), same_key{});
+                                     });
+                                 }
+                             }),
+                     true, by_line_and_time{});
         execution::buffer_of<local, hit> out(team[0], hits.size());
         for_each_index(team[0], hits.size(), write_timed_hits<hit>{hits.data(), {}, out.data()});
         synchronize(team[0]);

@@ -2,8 +2,8 @@
 #pragma once
 
 // impacts, self_impacts and the first of them of meshes in motion whose parts lie on many ranks. What comes to a rank are
-// pieces of b: the faces that come near its part of a during the step, with their vertices. The features of a piece have the order of those of the whole
-// part, and are all that a piece adds, so each pair is met once and has the same bits.
+// pieces of b: the faces that come near its part of a during the step, with their vertices. The features of a piece have the
+// order of those of the whole part, and are all that a piece adds, so each pair is met once and has the same bits.
 
 #include <algorithm>
 #include <array>
@@ -131,8 +131,8 @@ struct name_impacts_globally {
     }
 };
 
-/// Of the pairs of two ranks' parts of one mesh those that one of them is asked: each vertex with the other's faces, and edges
-/// if its own come first.
+/// Of the pairs of two ranks' parts of one mesh those that one of them is asked: each vertex with the other's faces, and
+/// edges if its own come first.
 template <class Pairs>
 struct pairs_of_ranks : Pairs {
     bool edges;
@@ -148,8 +148,8 @@ struct between_ranks : search_part {
     }
 };
 
-/// Asks this rank's part of x and its part of y, and what comes of other ranks' parts of y: ask(rank, a, b, ids, within, part),
-/// of indices and of vertices' ids. `Within` one mesh y is x. All ranks call it; it throws on all or on none.
+/// Asks this rank's part of x and its part of y, and what comes of other ranks' parts of y: ask(rank, a, b, ids, within,
+/// part), of indices and of vertices' ids. `Within` one mesh y is x. All ranks call it; it throws on all or on none.
 template <motion_arithmetic A, bool Within, class Local, class X, class Y, class Ask>
 void ask_all_meshes(const distributed<Local>& on, const X& x, const Y& y, const impact_options& options,
                     const char* function, const Ask& ask) {
@@ -205,11 +205,11 @@ auto ask_motion(const distributed<Local>& on, const ask_impacts<A, Within>& ques
         ask_all_meshes<A, Within>(
             on, x, y, options, function,
             [&](int rank, const auto& a, const auto& b, const global_ids& ids, auto within, const auto& part) {
-                const auto some = impacts_of_indices<A, decltype(within)::value>(local, a, b, options, no_fronts{}, function, part);
+                const auto some =
+                    impacts_of_indices<A, decltype(within)::value>(local, a, b, options, no_fronts{}, function, part);
                 all.add(local, rank, some.found.size(), [&](global_impact<T>* out, std::uint64_t* keys) {
-                    for_each_index(
-                        local, some.found.size(),
-                        name_impacts_globally<T>{some.found.data(), some.keys.data(), some.key, ids, out, keys});
+                    for_each_index(local, some.found.size(),
+                                   name_impacts_globally<T>{some.found.data(), some.keys.data(), some.key, ids, out, keys});
                 });
             });
         return joined(on, all, options.sorted, 34);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Questions of lines whose answers are lists (raycast_all) to sets whose parts lie on many ranks: lines go to all ranks whose
-// parts they pass, and lists come back.
+// Questions of lines whose answers are lists (raycast_all) to sets whose parts lie on many ranks: lines go to all ranks
+// whose parts they pass, and lists come back.
 
 #include <array>
 #include <cstddef>
@@ -145,7 +145,8 @@ auto all_hits_of_ranks(const distributed<Local>& on, const Question& question, c
         found.emplace_back(std::move(some));
     };
     hit_parcels hits(local, for_others, keep);
-    exchange_parcels(on, attempt, hits_room, [&](int from, int to) { return asks(to, from); }, hits);
+    exchange_parcels(
+        on, attempt, hits_room, [&](int from, int to) { return asks(to, from); }, hits);
     return found;
 }
 

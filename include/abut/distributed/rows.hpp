@@ -2,7 +2,8 @@
 #pragma once
 
 // Questions of many points or lines (collide/row_questions.hpp) to shapes whose parts lie on many ranks: nearest, raycast,
-// raycast_any, inside; raycast_all is in row_lists.hpp. A rank asks its own part first. Then its points or lines go to each other rank whose part may change what is known, and answers come back.
+// raycast_any, inside; raycast_all is in row_lists.hpp. A rank asks its own part first. Then its points or lines go to each
+// other rank whose part may change what is known, and answers come back.
 
 #include <algorithm>
 #include <cstddef>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What several policies that work together have to be, for who asks no more of them. team.hpp has the threads that drive them.
+// What several policies that work together have to be, for who asks no more of them. team.hpp has the threads that drive
+// them.
 
 #include <concepts>
 

@@ -52,7 +52,8 @@ ABUT_HD constexpr vec3<T> hit_weights(const Line& line, const triangle<T>& t, do
     const line_of<T> l(line);
     const auto unit = unit_for(merge(bounds(t), aabb<T>{l.origin, l.origin}), l.end);
     const vec3<double> from = way_between(t.a, l.origin, unit), along = way_between(l.start, l.end, unit);
-    const vec3<double> w = weights_of_point(plain_step(from, time, along), way_between(t.a, t.b, unit), way_between(t.a, t.c, unit));
+    const vec3<double> w =
+        weights_of_point(plain_step(from, time, along), way_between(t.a, t.b, unit), way_between(t.a, t.c, unit));
     return {static_cast<T>(w.x), static_cast<T>(w.y), static_cast<T>(w.z)};
 }
 

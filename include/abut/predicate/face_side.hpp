@@ -36,9 +36,9 @@ ABUT_NOINLINE ABUT_HD constexpr bool goes_along_exactly(const triangle<T>& t, co
     return v == verdict::unknown ? decide_at_any_span<goes_along_normal>(all.value) : v == verdict::yes;
 }
 
-/// 1 along the normal, so that the triangle is met from behind, -1 against it, and 0 along the plane, or of a triangle without
-/// area. Decided exactly, save by `fast`. In double the sum is off by less than 20 2^-53 times the product of the three
-/// magnitudes, as in narrow/hit_time.hpp; where these are between 2^-200 and 2^200 nothing underflows that matters.
+/// 1 along the normal, so that the triangle is met from behind, -1 against it, and 0 along the plane, or of a triangle
+/// without area. Decided exactly, save by `fast`. In double the sum is off by less than 20 2^-53 times the product of the
+/// three magnitudes, as in narrow/hit_time.hpp; where these are between 2^-200 and 2^200 nothing underflows that matters.
 template <arithmetic A, class Line, scalar T>
 ABUT_HD constexpr int side_of_face(const Line& line, const triangle<T>& t) {
     const line_of<T> l(line);
@@ -47,7 +47,8 @@ ABUT_HD constexpr int side_of_face(const Line& line, const triangle<T>& t) {
         const double side = magnitudes(f), other = magnitudes(g), length = magnitudes(d), sum = dot(cross(f, g), d);
         if (std::same_as<A, fast>) return sum > 0 ? 1 : sum < 0 ? -1 : 0;
         if (!ABUT_CONSTANT_EVALUATED() && least(side, other, length) > 0x1p-200 && greatest(side, other, length) < 0x1p200 &&
-            absolute(sum) > 0x1p-48 * (side * other * length) && !any_subnormal(in_a_row(t.a, t.b, t.c, l.end, l.start).value)) {
+            absolute(sum) > 0x1p-48 * (side * other * length) &&
+            !any_subnormal(in_a_row(t.a, t.b, t.c, l.end, l.start).value)) {
             return sum > 0 ? 1 : -1;
         }
     }
