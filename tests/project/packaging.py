@@ -67,7 +67,7 @@ def problems_of(root):
 SPOILED = [
     (CONFIG, "#define ABUT_VERSION_PATCH ", "#define ABUT_VERSION_PATCH 9"),
     ("docs/CITATION.cff", "date-released: \"20", "date-released: \"19"),
-    ("docs/CHANGELOG.md", "\n## [", "\n## [9."),
+    ("docs/CHANGELOG.md", "\n## [0.2.0]", "\n## [9.2.0]"),
     ("docs/building.md", "`find_package(abut 0.", "`find_package(abut 9."),
     (f"{RECIPES}/vcpkg/abut/vcpkg.json", "\"license\": ", "\"license\" "),
     (f"{RECIPES}/vcpkg/abut/portfile.cmake", "-DABUT_TESTS", "-DABUT_TEST"),

@@ -267,7 +267,7 @@ inline constexpr bool walks_both_at_once = true;
 template <class Filter, traversal Traversal, schedule Schedule>
 inline constexpr bool walks_both_at_once<query_options<Filter, Traversal, Schedule>> = Traversal == traversal::both_at_once;
 template <class Team, class Question, class Form, class Options>
-consteval bool can_ask_devices() {
+consteval bool can_ask_devices_for_pairs() {
     static_assert(walks_both_at_once<Options>, "abut: queries of several devices walk both_at_once");
     return walks_both_at_once<Options> &&
            form_there<Form>::type::template can_be_asked<typename Team::local_policy, Question, decltype(Options::filter)>();
@@ -302,7 +302,7 @@ auto ask_pairs(const Team& team, const Question& question, const Form& form, con
     using local = typename Team::local_policy;
     using there = typename form_there<Form>::type;
     using answer = typename Question::answer_type;
-    if constexpr (!can_ask_devices<Team, Question, Form, Options>()) {
+    if constexpr (!can_ask_devices_for_pairs<Team, Question, Form, Options>()) {
         return answer::template nothing<there, local>();
     } else if constexpr (Question::kind == answer_kind::list) {
         return on_first(team, lists_of_devices(team, question, form, options, function), options.sorted,
@@ -421,7 +421,7 @@ template <arithmetic A = filtered, execution::policy_team Team, class X, class Y
                                    const query_options<Filter, Traversal, Schedule>& options = {}) {
     const auto question = detail::ask_for<A>(detail::touching{}, detail::all_pairs{});
     using asked = std::remove_const_t<decltype(question)>;
-    if constexpr (detail::can_ask_devices<Team, asked, detail::two<X, Y>, query_options<Filter, Traversal, Schedule>>()) {
+    if constexpr (detail::can_ask_devices_for_pairs<Team, asked, detail::two<X, Y>, query_options<Filter, Traversal, Schedule>>()) {
         return detail::lists_of_devices(team, question, detail::two{a, b}, options, "abut::pairs_by_device");
     } else {
         return std::vector<result<index_pair, space_of<typename Team::local_policy>>>();
