@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// expect: `within` takes sets of .*cylinders and cones, and planes with any of these; not rays
+// expect: `within` takes sets of .*rays go with what they may meet
 #include <abut/abut.hpp>
 
-std::uint64_t near(const abut::cones<float>& a, const abut::rays<float>& b) {
+std::uint64_t near(const abut::points<float>& a, const abut::rays<float>& b) {
     return abut::count_within(abut::serial{}, a, b, 1);
 }

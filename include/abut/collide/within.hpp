@@ -62,7 +62,7 @@ consteval bool can_come_within() {
     static_assert(
         is,
         "abut: `within` takes sets of points, segments, triangles, spheres, capsules, boxes, hulls, cylinders and cones, and "
-        "planes with any of these; not rays");
+        "planes with any of these; rays go with what they may meet");
     return is;
 }
 
@@ -100,12 +100,12 @@ struct within_distance : relation {
 /// `within`, `count_within`, `any_within` and `for_each_within` of two arguments: `pairs`, `count`, `any` and
 /// `for_each_pair` with a distance; `self_within` and `count_self_within` of one. Arguments are those of @ref queries , of
 /// points, segments, triangles, spheres, capsules, boxes, convex hulls, cylinders and cones, each with any of these, and
-/// planes with any: so they find the neighbours of points as well as which parts of two meshes are closer than a clearance.
+/// planes with any, and rays with what they may meet: so they find the neighbours of points as well as which parts of two meshes are closer than a clearance.
 /// Lists of posed pairs (@ref lists ) and scenes of many bodies (@ref many_bodies ) have them too.
 ///
 /// The distance is a finite double, 0 or more, and taken exactly. A pair that is exactly so far apart belongs to the answer.
 /// `filtered`, the default, and `exact` decide that exactly, for every finite input, but for cylinders and cones with each
-/// other, of which they certify it (docs/guide.md); `fast` is approximate. With distance 0 the answer is that of `pairs`. Answers do not depend on the policy, the number of threads or the index. Under a pose that
+/// other and for rays, of which they certify it (docs/guide.md); `fast` is approximate. With distance 0 the answer is that of `pairs`. Answers do not depend on the policy, the number of threads or the index. Under a pose that
 /// is said of the placed coordinates, each rounded once, as in all queries (docs/numerics.md).
 ///
 /// @par Memory

@@ -48,7 +48,7 @@ ABUT_HD constexpr N magnitudes_of(const vec3<N>& v) {
     return magnitude_of(v.x) + magnitude_of(v.y) + magnitude_of(v.z);
 }
 template <class N>
-ABUT_HD constexpr vec3<N> normalised(const vec3<N>& v) {
+ABUT_HD constexpr vec3<N> way_of_length_1(const vec3<N>& v) {
     return inverse_root(dot(v, v)) * v;
 }
 /// One point as seen from another.
@@ -75,7 +75,7 @@ struct solid_in_numbers {
     ABUT_HD constexpr solid_in_numbers(const S& s, const vec3<scalar_type_of<S>>& origin)
         : first(seen_in<N>(axis_of(s).a, origin)),
           last(seen_in<N>(axis_of(s).b, origin)),
-          unit(normalised(seen_in<N>(axis_of(s).b, axis_of(s).a))),
+          unit(way_of_length_1(seen_in<N>(axis_of(s).b, axis_of(s).a))),
           radius(N(widened_exactly(s.radius))),
           is_cone(questions_of<S>::type::is_cone) {}
 
@@ -85,8 +85,8 @@ struct solid_in_numbers {
         const N along = dot(one, unit);
         vec3<N> across = one - along * unit;
         if (sense_of(dot(across, across) - N(is_wide<N> ? 0x1p-480 : 0x1p-90)) < 0) return sense_of(along) > 0 ? last : first;
-        across = normalised(across);
-        across = normalised(across - dot(across, unit) * unit);
+        across = way_of_length_1(across);
+        across = way_of_length_1(across - dot(across, unit) * unit);
         const vec3<N> rim = last + radius * across;
         if (is_cone) return sense_of(dot(one, rim - first)) > 0 ? rim : first;
         return sense_of(along) > 0 ? rim : first + radius * across;
@@ -96,7 +96,7 @@ struct solid_in_numbers {
     [[nodiscard]] ABUT_HD constexpr vec3<N> any_point() const { return first; }
 };
 
-/// The hull of some points, as corner_hull has them.
+/// The hull of some points, as hull_points has them.
 template <class N, class Points>
 struct points_in_numbers {
     Points points;
@@ -163,7 +163,7 @@ public:
     [[nodiscard]] ABUT_HD constexpr vec3<N> difference(std::uint32_t, std::uint32_t) const { return asked_.last; }
     ABUT_HD constexpr void look_back(const vec3<N>& way, std::uint32_t& i, std::uint32_t& j) const {
         i = j = ++asked_.count;
-        const vec3<N> one = sense_of(dot(way, way)) > 0 ? normalised(way) : vec3<N>{N(1.0), N{}, N{}};
+        const vec3<N> one = sense_of(dot(way, way)) > 0 ? way_of_length_1(way) : vec3<N>{N(1.0), N{}, N{}};
         asked_.last = x_.farthest(N(-1.0) * one) - y_.farthest(one);
     }
     [[nodiscard]] ABUT_HD constexpr bool are_apart(const vec3<N>& way, std::uint32_t, std::uint32_t) const {

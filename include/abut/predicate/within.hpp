@@ -4,7 +4,7 @@
 // `within`: are two shapes no farther apart than a distance? The distance of shapes that are convex hulls of points, or what
 // is within a radius of such a hull, from each other or from a plane, is compared with a number that is taken as it is. The
 // squared distance is a rational of the input, and so the answer is decided exactly. Cylinders and cones with all of these
-// are decided exactly as well, by signs of polynomials; with each other they are certified. Not for how far apart they are:
+// are decided exactly as well, by signs of polynomials; with each other they are certified, and so are rays. Not for how far apart they are:
 // that is distance (narrow/distance.hpp), which rounds.
 
 #include <concepts>
@@ -97,18 +97,19 @@ ABUT_HD constexpr verdict decide_within_open(const S& s, const U& t, double dist
 }  // namespace detail
 
 /// Two shapes whose distance can be compared with a number: points, segments, triangles, spheres, capsules, boxes, convex
-/// hulls, cylinders and cones, each with each, and a plane with any of these; of one scalar type.
+/// hulls, cylinders and cones, each with each, and a plane with any of these; and a ray with what it may meet, but for
+/// planes; of one scalar type.
 template <class S, class U>
 concept distance_decidable = detail::within_as_given<S, U> || detail::within_as_given<U, S>;
 
 /// Whether two closed shapes are no farther apart than `distance`, which is finite and 0 or more: points, segments,
-/// triangles, spheres, capsules, boxes, convex hulls, cylinders and cones with each other, and a plane with any of them. With
-/// `filtered` and `exact` the answer is right for every finite input, with the distance taken exactly as the double that it
+/// triangles, spheres, capsules, boxes, convex hulls, cylinders and cones with each other, a plane with any of them, and a ray
+/// with a triangle, sphere, capsule, box, hull, cylinder or cone. With `filtered` and `exact` the answer is right for every finite input, with the distance taken exactly as the double that it
 /// is, and the same on each compiler and device; `fast` is approximate. With distance 0 it is `intersects`. Constant
 /// expressions are decided in integers.
 ///
-/// Of two cylinders, two cones, or one of each the answer is certified: it may be yes as well where they are farther apart
-/// than a distance above 0, but by less than 2^-100 of the size of both.
+/// Of two cylinders, two cones, one of each, or a ray and another shape the answer is certified: it may be yes as well where
+/// they are farther apart than a distance above 0, but by less than 2^-100 of the size of both.
 ///
 ///     static_assert(abut::within(abut::sphere<float>{{0, 0, 5}, 1}, abut::vec3<float>{0, 0, 1}, 3));
 /// @ingroup one_pair
@@ -116,7 +117,8 @@ template <arithmetic A = filtered, shape S, shape U>
 [[nodiscard]] ABUT_HD constexpr bool within(const S& s, const U& t, double distance) {
     if constexpr (!distance_decidable<S, U>) {
         static_assert(distance_decidable<S, U>,
-                      "abut::within does not support this pair of shapes (both of one scalar type; not rays, nor two planes)");
+                      "abut::within does not support this pair of shapes (both of one scalar type; rays go with what they "
+                      "may meet, and planes not with planes)");
         return false;
     } else if constexpr (!detail::within_as_given<S, U>) {
         return within<A>(t, s, distance);
