@@ -456,9 +456,9 @@ void time_local(rows& all, std::size_t shapes, int runs) {
         write(k);
         return blocks[k].worst > 0 ? 1U : 0U;
     });
-    const abut::detail::ask_nearest<float> question{unit};
+    const abut::detail::nearest_in_parts<float> question{unit};
     std::vector<abut::detail::may_block_be_near<float>> may_blocks;
-    std::vector<abut::detail::may_be_changed<points_view, abut::detail::ask_nearest<float>>> may_points;
+    std::vector<abut::detail::may_be_changed<points_view, abut::detail::nearest_in_parts<float>>> may_points;
     for (const auto& part : parts) {
         may_blocks.push_back({blocks.data(), unit, part});
         may_points.push_back({all_points, question, best.data(), part});
