@@ -93,7 +93,8 @@ void check_sets_of_boxes(const Policy& on) {
         const auto same = as_hulls(some);
         const auto others = random_oriented_boxes<T>(50, random, 863, on_lattice);
         CHECK(check_boxes_against(on, set, same, oriented_boxes<T>(others), false) > 100);
-        CHECK(check_boxes_against(on, set, same, triangle_soup<T>(shape_maker<triangle<T>>(random, on_lattice)(60)), false) > 100);
+        CHECK(check_boxes_against(on, set, same, triangle_soup<T>(shape_maker<triangle<T>>(random, on_lattice)(60)), false) >
+              100);
         CHECK(check_boxes_against(on, set, same, spheres<T>(shape_maker<sphere<T>>(random, on_lattice)(60)), false) > 100);
         CHECK(check_boxes_against(on, set, same, boxes<T>(shape_maker<aabb<T>>(random, on_lattice)(60)), false) > 100);
         const auto along = shape_maker<aabb<T>>(random, on_lattice)(60);
@@ -123,13 +124,15 @@ void check_more_of_boxes(const Policy& on) {
     CHECK(to_host(self_pairs(on, tree)) == to_host(self_pairs(on, same)));
     CHECK(to_host(self_pairs(on, tree)).size() > 50);
     CHECK(to_host(within(on, posed(tree, pose), soup, 0.25)) == to_host(within(on, posed(same, pose), soup, 0.25)));
-    CHECK(to_host(within(on, posed(along_tree, pose), tree, 0.25)) == to_host(within(on, posed(along_same, pose), same, 0.25)));
+    CHECK(to_host(within(on, posed(along_tree, pose), tree, 0.25)) ==
+          to_host(within(on, posed(along_same, pose), same, 0.25)));
     CHECK(count_self_within(on, tree, 0.25) == count_self_within(on, same, 0.25));
 
     const auto how = to_host(contacts(on, tree, soup));
     CHECK(how.size() > 50);
     CHECK(same_bits(how, to_host(contacts(on, same, soup))));
-    CHECK(same_bits(to_host(contacts(on, posed(along_tree, pose), tree)), to_host(contacts(on, posed(along_same, pose), same))));
+    CHECK(same_bits(to_host(contacts(on, posed(along_tree, pose), tree)),
+                    to_host(contacts(on, posed(along_same, pose), same))));
     for (const auto& other : {soup, far}) {
         CHECK(distance(on, posed(tree, pose), other) == distance(on, posed(same, pose), other));
         CHECK(distance(on, posed(along_tree, pose), other) == distance(on, posed(along_same, pose), other));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 
-// A shape from outside that supplies all that a shape can: the tree of docs/examples, a trunk and a crown. Each query of trees
-// has to say what it says of all trunks and of all crowns together.
+// A shape from outside that supplies all that a shape can: the tree of docs/examples, a trunk and a crown. Each query of
+// trees has to say what it says of all trunks and of all crowns together.
 
 #include "../../docs/examples/tree.hpp"
 
@@ -21,8 +21,8 @@ using namespace abut;
 static_assert(placeable<plant::tree<float>> && approachable<plant::tree<double>>);
 static_assert(decidable_pair<plant::tree<float>, triangle<float>> && distance_decidable<plant::tree<float>, aabb<float>>);
 static_assert(intersects(sphere<float>{{0, 0, 9}, 1}, plant::tree<float>{{{{0, 0, 0}, {0, 0, 4}}, 1}, {{0, 0, 6}, 2}}));
-static_assert(contact_of(plane<float>{{0, 0, 1}, 7}, plant::tree<float>{{{{0, 0, 0}, {0, 0, 4}}, 1}, {{0, 0, 6}, 2}})->depth ==
-              1);
+static_assert(
+    contact_of(plane<float>{{0, 0, 1}, 7}, plant::tree<float>{{{{0, 0, 0}, {0, 0, 4}}, 1}, {{0, 0, 6}, 2}})->depth == 1);
 
 template <class T>
 std::vector<plant::tree<T>> random_trees(std::size_t n, test::uniform& random) {
@@ -53,7 +53,8 @@ void check_trees(const Policy& on, const std::vector<plant::tree<T>>& some, cons
     const auto there = make_bvh(on, other);
     test::draws d(871, 3, 1);
     const rigid<T> pose = test::make_pose<T>(d, 0.5);
-    const auto expected = both(to_host(pairs(on, posed(trunks, pose), there)), to_host(pairs(on, posed(crowns, pose), there)));
+    const auto expected =
+        both(to_host(pairs(on, posed(trunks, pose), there)), to_host(pairs(on, posed(crowns, pose), there)));
     CHECK(expected.size() > 15);
     CHECK(to_host(pairs(on, posed(forest, pose), there)) == expected);
     CHECK(to_host(pairs<exact>(on, posed(forest, pose), other)) == expected);
@@ -64,7 +65,8 @@ void check_trees(const Policy& on, const std::vector<plant::tree<T>>& some, cons
     const auto how = to_host(contacts(on, there, forest));
     CHECK(how.size() > 30);
     for (const contact<T>& c : how) {
-        const auto of_trunk = contact_of(other.view()[c.a], some[c.b].trunk), of_crown = contact_of(other.view()[c.a], some[c.b].crown);
+        const auto of_trunk = contact_of(other.view()[c.a], some[c.b].trunk),
+                   of_crown = contact_of(other.view()[c.a], some[c.b].crown);
         const T deepest = std::max(of_trunk ? of_trunk->depth : T(0), of_crown ? of_crown->depth : T(0));
         CHECK(c.depth == deepest);
         CHECK(((of_trunk && of_trunk->normal == c.normal) || (of_crown && of_crown->normal == c.normal)));
@@ -73,7 +75,8 @@ void check_trees(const Policy& on, const std::vector<plant::tree<T>>& some, cons
         rigid<T> away;
         away.translation = {beside, 0, 0};
         const auto apart = distance(on, posed(forest, away), there);
-        const auto of_trunks = distance(on, posed(trunks, away), there), of_crowns = distance(on, posed(crowns, away), there);
+        const auto of_trunks = distance(on, posed(trunks, away), there),
+                   of_crowns = distance(on, posed(crowns, away), there);
         CHECK(apart->distance == std::min(of_trunks->distance, of_crowns->distance));
         CHECK((apart->distance == 0) == (beside == 0));
         CHECK(distance(on, there, posed(forest, away))->distance == apart->distance);

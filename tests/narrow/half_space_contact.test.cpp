@@ -53,7 +53,8 @@ long double lowest(const half_space<T>& s, const std::vector<vec3<T>>& points, T
     const long double length = std::sqrt(wide(n.x) * wide(n.x) + wide(n.y) * wide(n.y) + wide(n.z) * wide(n.z));
     long double least = 1e30L;
     for (const vec3<T>& p : points) {
-        least = std::min(least, (wide(n.x) * wide(p.x) + wide(n.y) * wide(p.y) + wide(n.z) * wide(p.z) - wide(s.offset)) / length);
+        least = std::min(least,
+                         (wide(n.x) * wide(p.x) + wide(n.y) * wide(p.y) + wide(n.z) * wide(p.z) - wide(s.offset)) / length);
     }
     return least - wide(radius);
 }
@@ -136,7 +137,8 @@ void check_boxes() {
         const auto compare = [&](const auto& other, const auto& as_hull, tally& sum) {
             const auto c = contact_of(box, other);
             bool right = c == contact_of(same, as_hull) && contact_of(other, box) == contact_of(as_hull, same);
-            right = right && distance(box, other) == distance(same, as_hull) && distance(other, box) == distance(as_hull, same);
+            right =
+                right && distance(box, other) == distance(same, as_hull) && distance(other, box) == distance(as_hull, same);
             (c ? sum.touch : sum.apart) += 1;
             if (c) {
                 const double by = static_cast<double>(c->depth) + static_cast<double>(contact_bound(box, other));

@@ -32,7 +32,8 @@ static_assert(!intersects(floor_at_0, sphere<float>{{0, 0, 3}, 0x1.7ffffep1f}));
 static_assert(intersects(floor_at_0, aabb<float>{{0, 0, -9}, {1, 1, -8}}));
 static_assert(!intersects<exact>(floor_at_0, triangle<float>{{0, 0, 1}, {1, 0, 1}, {0, 1, 2}}));
 static_assert(within(floor_at_0, vec3<float>{0, 0, 2}, 2) && !within(vec3<float>{0, 0, 2}, floor_at_0, 0x1.fffffffffffffp0));
-static_assert(intersects(floor_at_0, half_space<float>{{0, 0, -2}, 0}) && intersects(half_space<float>{{0, 0, 2}, 9}, floor_at_0));
+static_assert(intersects(floor_at_0, half_space<float>{{0, 0, -2}, 0}) &&
+              intersects(half_space<float>{{0, 0, 2}, 9}, floor_at_0));
 static_assert(!intersects(floor_at_0, half_space<float>{{0, 0, -2}, -1e-45f}));
 static_assert(intersects(floor_at_0, half_space<float>{{0, 1e-45f, -2}, -9}));
 static_assert(intersects(floor_at_0, plane<float>{{0, 0, -3}, 6}) && !intersects(plane<float>{{0, 0, 3}, 6}, floor_at_0));
@@ -132,12 +133,22 @@ void check_family(bool on_lattice) {
         compare(s, hull<T>(points.data(), 4), hull_truth(points), of[5]);
         const auto box = test::random_oriented_box<T>(random, 841, i, on_lattice);
         compare(s, box, hull_truth(test::corners_of(box)), of[6]);
-        compare(s, cylinder<T>{{p, q}, radius},
-                [&](double distance) { return truth.near(p, q, radius, false, distance); }, of[7]);
-        compare(s, cone<T>{p, q, radius}, [&](double distance) { return truth.near(p, q, radius, true, distance); }, of[8]);
+        compare(
+            s, cylinder<T>{{p, q}, radius}, [&](double distance) { return truth.near(p, q, radius, false, distance); },
+            of[7]);
+        compare(
+            s, cone<T>{p, q, radius}, [&](double distance) { return truth.near(p, q, radius, true, distance); }, of[8]);
         const aabb<T> along = bounds(segment<T>{p, q});
-        compare(s, along, hull_truth({p, {p.x, p.y, q.z}, {p.x, q.y, p.z}, {p.x, q.y, q.z}, {q.x, p.y, p.z}, {q.x, p.y, q.z},
-                                      {q.x, q.y, p.z}, q}), of[6]);
+        compare(s, along,
+                hull_truth({p,
+                            {p.x, p.y, q.z},
+                            {p.x, q.y, p.z},
+                            {p.x, q.y, q.z},
+                            {q.x, p.y, p.z},
+                            {q.x, p.y, q.z},
+                            {q.x, q.y, p.z},
+                            q}),
+                of[6]);
     }
     for (const tally& t : of) {
         CAPTURE(&t - of, on_lattice, t.hits);

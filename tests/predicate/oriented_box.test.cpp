@@ -16,8 +16,8 @@
 #include "support/oriented_boxes.hpp"
 
 // Oriented boxes against every shape that hulls have stages with. The truth of hulls of points is linear programming in
-// unbounded integers, on corners that the test makes by itself; of round shapes what is decided of the hull of the same eight
-// corners, whose own truth is capsule_hull.test.cpp and revolution_hull.test.cpp.
+// unbounded integers, on corners that the test makes by itself; of round shapes what is decided of the hull of the same
+// eight corners, whose own truth is capsule_hull.test.cpp and revolution_hull.test.cpp.
 
 namespace {
 
@@ -31,12 +31,15 @@ static_assert(intersects(unit, sphere<float>{{0, 0, 3}, 2}) && !intersects<exact
 static_assert(intersects(unit, oriented_box<float>{{2, 2, 2}, {1, 1, 1}}));
 static_assert(!intersects(unit, oriented_box<float>{{2, 2, 0x1.000002p1f}, {1, 1, 1}}));
 static_assert(intersects(place(rigid<float>{.translation = {2, 0, 0}}, aabb<float>{{-1, -1, -1}, {1, 1, 1}}), unit));
-static_assert(intersects(turned, ray<double>{{0, 9, 0}, {0, -1, 0}}) && !intersects(turned, ray<double>{{0, 9, 0}, {0, 1, 0}}));
+static_assert(intersects(turned, ray<double>{{0, 9, 0}, {0, -1, 0}}) &&
+              !intersects(turned, ray<double>{{0, 9, 0}, {0, 1, 0}}));
 static_assert(within(unit, vec3<float>{0, 0, 3}, 2) && !within(vec3<float>{0, 0, 3}, unit, 0x1.fffffffffffffp0));
 static_assert(bounds(unit).lower == vec3<float>{-1, -1, -1} && bounds(unit).upper == vec3<float>{1, 1, 1});
 static_assert(decidable_pair<oriented_box<float>, hull<float>> || decidable_pair<hull<float>, oriented_box<float>>);
-static_assert(!decidable_pair<oriented_box<float>, triangle<double>> && !decidable_pair<triangle<double>, oriented_box<float>>);
-static_assert(distance_decidable<oriented_box<double>, plane<double>> && distance_decidable<capsule<float>, placed_box<float>>);
+static_assert(!decidable_pair<oriented_box<float>, triangle<double>> &&
+              !decidable_pair<triangle<double>, oriented_box<float>>);
+static_assert(distance_decidable<oriented_box<double>, plane<double>> &&
+              distance_decidable<capsule<float>, placed_box<float>>);
 
 struct tally {
     std::size_t pairs = 0, hits = 0, wrong = 0;
@@ -58,11 +61,17 @@ bool all_stages_say(const S& s, const U& t, bool truth) {
 }
 
 template <class T>
-std::vector<vec3<T>> corners_of(const triangle<T>& t) { return {t.a, t.b, t.c}; }
+std::vector<vec3<T>> corners_of(const triangle<T>& t) {
+    return {t.a, t.b, t.c};
+}
 template <class T>
-std::vector<vec3<T>> corners_of(const segment<T>& t) { return {t.a, t.b}; }
+std::vector<vec3<T>> corners_of(const segment<T>& t) {
+    return {t.a, t.b};
+}
 template <class T>
-std::vector<vec3<T>> corners_of(const vec3<T>& t) { return {t}; }
+std::vector<vec3<T>> corners_of(const vec3<T>& t) {
+    return {t};
+}
 template <class T>
 std::vector<vec3<T>> corners_of(const aabb<T>& box) {
     std::vector<vec3<T>> all;
@@ -73,9 +82,13 @@ std::vector<vec3<T>> corners_of(const aabb<T>& box) {
     return all;
 }
 template <class T>
-std::vector<vec3<T>> corners_of(const oriented_box<T>& box) { return test::corners_of(box); }
+std::vector<vec3<T>> corners_of(const oriented_box<T>& box) {
+    return test::corners_of(box);
+}
 template <class T>
-std::vector<vec3<T>> corners_of(const placed_box<T>& box) { return {box.corners, box.corners + 8}; }
+std::vector<vec3<T>> corners_of(const placed_box<T>& box) {
+    return {box.corners, box.corners + 8};
+}
 template <class T>
 std::vector<vec3<T>> corners_of(const hull<T>& h) {
     std::vector<vec3<T>> all;
@@ -237,7 +250,8 @@ TEST_CASE("oriented_box: what is none is refused, with its number") {
     CHECK(refused({{0, 0, 0}, {1, 1, 1}, {1, 0, 0, 0, 2, 0, 0, 0, 1}}) ==
           "abut::oriented_boxes: oriented box 1: rotation: squared length of a row differs from 1 by more than 2^-10 (3)");
     CHECK(refused({{0, 0, 0}, {1, 1, 1}, {1, 0, 0, 0, 1, 0, 0.25f, 0, 1}}) ==
-          "abut::oriented_boxes: oriented box 1: rotation: squared length of a row differs from 1 by more than 2^-10 (0.0625)");
+          "abut::oriented_boxes: oriented box 1: rotation: squared length of a row differs from 1 by more than 2^-10 "
+          "(0.0625)");
     CHECK(refused({{0, 0, 0}, {1, 1, 1}, {1, 0, 0, 0, 1, 0, 0, 0, -1}}) ==
           "abut::oriented_boxes: oriented box 1: rotation: it reflects: its determinant is negative (-1)");
     CHECK(refused({{0, 0, 0}, {1, 1, 1}, {1, 0, 0, 0, std::nanf(""), 0, 0, 0, 1}}).find("rotation") != std::string::npos);

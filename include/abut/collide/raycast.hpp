@@ -193,8 +193,8 @@ consteval bool can_be_met() {
         using line_type = typename shape_of_argument<Lines>::type;
         constexpr bool are = has_hit_time<shape_type, line_type>;
         static_assert(are,
-                      "abut: raycast looks for triangles, spheres, boxes, capsules, cylinders, cones or hulls, oriented boxes, "
-                      "or a shape of your own that has hit_time(line, shape), as docs/extending.md says");
+                      "abut: raycast looks for triangles, spheres, boxes, capsules, cylinders, cones or hulls, "
+                      "oriented boxes, or shapes that have hit_time(line, shape), as docs/extending.md says");
         constexpr bool has_walk = !is_grid<X>;
         static_assert(has_walk, "abut: raycast takes a tree, a set or one shape, and no grid");
         constexpr bool look = is_line<line_type>;

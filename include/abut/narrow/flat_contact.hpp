@@ -182,7 +182,8 @@ ABUT_NOINLINE ABUT_HD constexpr contact<T> contact_between(const aabb<T>& s, con
 
 /// Segments and points are triangles with equal corners, of a box and of a plane.
 template <class S, has_corners U>
-    requires(corners_of_shape<U> < 3 && (std::same_as<S, aabb<scalar_type_of<U>>> || std::same_as<S, plane<scalar_type_of<U>>>))
+    requires(corners_of_shape<U> < 3 &&
+             (std::same_as<S, aabb<scalar_type_of<U>>> || std::same_as<S, plane<scalar_type_of<U>>>))
 ABUT_HD constexpr auto contact_between(const S& s, const U& t) {
     const vec3<scalar_type_of<U>> a = core_of(t).at[0], b = core_of(t).at[corners_of_shape<U> - 1];
     return contact_between(s, triangle<scalar_type_of<U>>{a, b, b});

@@ -15,7 +15,6 @@
 #include <abut/predicate/hull_within.hpp>
 #include <abut/predicate/revolution.hpp>
 #include <abut/shape/half_space.hpp>
-#include <abut/shape/hull.hpp>
 
 namespace abut::detail {
 

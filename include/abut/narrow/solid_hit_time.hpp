@@ -197,8 +197,8 @@ concept has_hit_time = requires(const Line& line, const S& s) {
 namespace abut {
 
 /// When a ray or a segment meets a shape first, as `raycast` defines it: t, where origin + t direction (a + t (b - a) of a
-/// segment) is in the shape, rounded to the nearest double; or a negative number where they do not meet. Shapes are those that
-/// `raycast` looks for. The same bits on every device for `filtered` and `exact`; `fast` is approximate.
+/// segment) is in the shape, rounded to the nearest double; or a negative number where they do not meet. Shapes are those
+/// that `raycast` looks for. The same bits on every device for `filtered` and `exact`; `fast` is approximate.
 /// @ingroup one_pair
 template <arithmetic A = filtered, class Line, class S>
 [[nodiscard]] ABUT_HD constexpr double hit_time_of(const Line& line, const S& s) {

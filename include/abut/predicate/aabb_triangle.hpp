@@ -11,7 +11,6 @@
 #include <abut/predicate/certified_box.hpp>
 #include <abut/predicate/exact_box.hpp>
 #include <abut/shape/corners.hpp>
-#include <abut/shape/primitive.hpp>
 
 namespace abut {
 

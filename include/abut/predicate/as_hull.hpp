@@ -14,9 +14,7 @@
 #include <abut/predicate/plane_hull.hpp>
 #include <abut/predicate/ray_hull.hpp>
 #include <abut/predicate/revolution_hull.hpp>
-#include <abut/shape/hull.hpp>
 #include <abut/shape/oriented_box.hpp>
-#include <abut/shape/shape.hpp>
 
 namespace abut {
 
@@ -46,8 +44,9 @@ using hull_form_of = std::remove_cvref_t<decltype(hull_form(std::declval<const S
 template <class S, class U>
 concept pair_seen_as_hull =
     seen_as_hull<S> && !std::same_as<U, hull_form_of<S>> && std::same_as<scalar_type_of<S>, scalar_type_of<U>> &&
-    (requires(const hull_form_of<S>& s, const hull_form_of<U>& t) { resolve(s, t); } ||
-     requires(const hull_form_of<S>& s, const hull_form_of<U>& t) { resolve(t, s); });
+    (
+        requires(const hull_form_of<S>& s, const hull_form_of<U>& t) { resolve(s, t); } ||
+        requires(const hull_form_of<S>& s, const hull_form_of<U>& t) { resolve(t, s); });
 
 }  // namespace detail
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Does a shape touch a half space? It does if a point of it lies there, any one, or if it touches the plane at which the half
-// space ends: no shape gets from one side to the other without that. So all stages but those of a point are the plane's, and
-// a shape that has these needs no more. Planes and half spaces touch each other if their normals are not parallel, or by
-// their offsets.
+// Does a shape touch a half space? It does if a point of it lies there, any one, or if it touches the plane at which the
+// half space ends: no shape gets from one side to the other without that. So all stages but those of a point are the
+// plane's, and a shape that has these needs no more. Planes and half spaces touch each other if their normals are not
+// parallel, or by their offsets.
 
 #include <concepts>
 
@@ -18,7 +18,6 @@
 #include <abut/predicate/plane_plane.hpp>
 #include <abut/predicate/revolution.hpp>
 #include <abut/shape/half_space.hpp>
-#include <abut/shape/primitive.hpp>
 
 namespace abut {
 

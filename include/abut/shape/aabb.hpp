@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Boxes along the axes: solids, and what is around shapes. No box is ever too small: where arithmetic rounds, it rounds outward, to infinity where
-// no number is large enough.
+// Boxes along the axes: solids, and what is around shapes. No box is ever too small: where arithmetic rounds, it rounds
+// outward, to infinity where no number is large enough.
 //
 // Denormals. A thread may read denormal numbers as zero. Let z(x) be what it reads: 0 where |x| is below the smallest normal
 // number m, and else x. z is monotone: from x <= y follows z(x) <= z(y). So comparing a shape's lower end with another's

@@ -19,8 +19,8 @@ struct capsule {
     T radius;         ///< 0 or more
 };
 
-/// Around its two ends, and not around the box of its axis, since a minimum of denormal numbers is any of them where they are
-/// read as zero.
+/// Around its two ends, and not around the box of its axis, since a minimum of denormal numbers is any of them where they
+/// are read as zero.
 template <scalar T>
 ABUT_HD constexpr aabb<T> bounds(const capsule<T>& s) {
     return merge(bounds(sphere<T>{s.axis.a, s.radius}), bounds(sphere<T>{s.axis.b, s.radius}));

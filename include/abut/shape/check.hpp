@@ -13,7 +13,6 @@
 #include <abut/error.hpp>
 #include <abut/execution/buffer.hpp>
 #include <abut/execution/host.hpp>
-#include <abut/shape/form.hpp>
 #include <abut/shape/primitive.hpp>
 #include <abut/shape/shape.hpp>
 #include <abut/shape/view.hpp>
@@ -55,8 +54,8 @@ struct fetch_shape {
     ABUT_HD void operator()(std::size_t i) const { out[i] = shapes[which]; }
 };
 
-/// What is wrong with a shape that is not valid, as an exception. Of a shape in motion: what is wrong at one of its two times.
-/// Of a shape of the caller's own: what is wrong with its box, or else that its own is_valid says no.
+/// What is wrong with a shape that is not valid, as an exception. Of a shape in motion: what is wrong at one of its two
+/// times. Of a shape of the caller's own: what is wrong with its box, or else that its own is_valid says no.
 template <shape S>
 [[noreturn]] void refuse(const std::string& function, const std::string& element, std::size_t i, const S& s) {
     shape_flaw flaw;

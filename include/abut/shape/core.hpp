@@ -4,7 +4,7 @@
 // What a shape is made around: its core, which is the hull of some corners or a box, and how far around that it reaches. A
 // ball is a point and a radius, a capsule a segment and a radius; triangles, segments, points and boxes are their own cores.
 // Distances of shapes are those of their cores, less the radii. Not for how cores are measured: narrow/nearest_ways.hpp
-// measures them in floating point, and predicate/exact_within.hpp compares them exactly. Each core is in the file of its shape.
+// measures them in floating point, and predicate/exact_within.hpp compares them exactly.
 
 #include <abut/shape/corners.hpp>
 #include <abut/shape/primitive.hpp>

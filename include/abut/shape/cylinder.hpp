@@ -10,8 +10,8 @@ namespace abut {
 /// @addtogroup shapes
 ///@{
 
-/// All points within `radius` of a point of the axis, at right angles to it: a solid, with flat ends. An axis without length is
-/// at right angles to every direction, which leaves the ball around it. Radius 0 is the axis itself; a negative radius is
+/// All points within `radius` of a point of the axis, at right angles to it: a solid, with flat ends. An axis without length
+/// is at right angles to every direction, which leaves the ball around it. Radius 0 is the axis itself; a negative radius is
 /// no cylinder.
 template <scalar T>
 struct cylinder {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What the file of each shape says of it, beside the struct: `bounds`, `place`, `flaw_of`, `reach_of`, what it is called, and
-// the core that it is made around. Here is what these are made of. Not for shapes of the caller's own, which need less
+// What the file of each shape says of it, beside the struct: `bounds`, `place`, `flaw_of`, `reach_of`, what it is called,
+// and the core that it is made around. Here is what these are made of. Not for shapes of the caller's own, which need less
 // (shape/shape.hpp).
 
 #include <cstddef>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Boxes whose faces lie along no axes: `oriented_box`, and `placed_box`, which any box is under a pose. Both are the hulls of
-// eight corners, each rounded once, and all that is decided about them is decided about those (predicate/as_hull.hpp). Not
-// the bounding volume `obb` (obb.hpp), which may be larger than what it is around.
+// Boxes whose faces lie along no axes: `oriented_box`, and `placed_box`, which any box is under a pose. Both are the hulls
+// of eight corners, each rounded once, and all that is decided about them is decided about those (predicate/as_hull.hpp).
+// Not the bounding volume `obb` (obb.hpp), which may be larger than what it is around.
 
 #include <abut/shape/form.hpp>
 #include <abut/shape/hull.hpp>
@@ -82,7 +82,8 @@ ABUT_HD constexpr double rotation_error(const T (&m)[9], int i, int j) {
     const double xy = plain_sum(plain_product(a.x, b.x), plain_product(a.y, b.y));
     return plain_sum(plain_sum(xy, plain_product(a.z, b.z)), i == j ? -1.0 : 0.0);
 }
-/// Of numbers that are finite. A determinant is near 1 or -1 where rows are orthonormal, so that its rounding does not matter.
+/// Of numbers that are finite. A determinant is near 1 or -1 where rows are orthonormal, so that its rounding does not
+/// matter.
 template <scalar T>
 ABUT_HD constexpr shape_flaw flaw_of_rotation(const T (&m)[9]) {
     for (int k = 0; k < 6; ++k) {

@@ -51,7 +51,8 @@ struct plane_reach {
         const T height = dot(query.normal, box.lower + box.upper) - (query.offset + query.offset);
         const T size = dot(n, reach) + (absolute(query.offset) + absolute(query.offset));
         const T lost = slack * size + tiny * (magnitudes(n) + magnitudes(reach) + 1);
-        return !((Solid ? height : absolute(height)) > dot(n, box.upper - box.lower) + lost && size < largest_finite<T> / 16);
+        return !((Solid ? height : absolute(height)) > dot(n, box.upper - box.lower) + lost &&
+                 size < largest_finite<T> / 16);
     }
 };
 

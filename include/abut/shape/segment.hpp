@@ -46,11 +46,12 @@ ABUT_HD constexpr corner_hull<T, 2> core_of(const segment<T>& s) {
     return {{s.a, s.b}};
 }
 
-// This and plane_reach (plane.hpp) compare sums of products whose magnitudes add up to `size`. Each number carries at most six roundings, two
-// numbers twelve, of 2u each in any rounding mode; 32u is more. Let m be the smallest normal number. Where denormals are
-// read as zero and flushed to zero, a number is off by less than m, a sum of two by 3 m, the difference of two sums by 7 m:
-// so a product by 7 m times its other factor, or by m where it vanishes itself. Added up, that is below 26 m times the one
-// factor, 19 m times the other, and 12 m. Where `size` is so large that something may overflow, every box is kept.
+// This and plane_reach (plane.hpp) compare sums of products whose magnitudes add up to `size`. Each number carries at most
+// six roundings, two numbers twelve, of 2u each in any rounding mode; 32u is more. Let m be the smallest normal number.
+// Where denormals are read as zero and flushed to zero, a number is off by less than m, a sum of two by 3 m, the difference
+// of two sums by 7 m: so a product by 7 m times its other factor, or by m where it vanishes itself. Added up, that is below
+// 26 m times the one factor, 19 m times the other, and 12 m. Where `size` is so large that something may overflow, every box
+// is kept.
 
 /// A segment, or what is within a radius of it: by its box, and by the three axes that are orthogonal to it and to a
 /// coordinate axis, on which a segment is a point. A segment that runs across a scene touches few of the boxes in its own

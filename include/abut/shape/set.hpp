@@ -87,9 +87,9 @@ struct put_shape {
 /// @defgroup sets Sets
 ///
 /// What queries ask about. `shapes<Shape>` holds shapes as they are: `triangle_soup`, `spheres`, `points`, `segments`,
-/// `capsules`, `cylinders`, `cones`, `boxes` and `oriented_boxes` are its names for the library's own. `equal_spheres` shares a radius, `mesh` and
-/// `edge_mesh` share vertices. `vertices`, `edges` and `welded` make sets of a mesh. A shape's id is its position in the set,
-/// from 0. A set is checked when it is made and never changes after that. Empty sets are legal.
+/// `capsules`, `cylinders`, `cones`, `boxes` and `oriented_boxes` are its names for the library's own. `equal_spheres` shares
+/// a radius, `mesh` and `edge_mesh` share vertices. `vertices`, `edges` and `welded` make sets of a mesh. A shape's id is its
+/// position in the set, from 0. A set is checked when it is made and never changes after that. Empty sets are legal.
 ///
 /// @par Memory
 /// A constructor copies its input from host memory to that of the policy, or to the host's where no policy is given. Input
