@@ -8,6 +8,7 @@
 #include "collide/contact_cases.hpp"
 #include "collide/query_cases.hpp"
 #include "support/catch.hpp"
+#include "support/surfaces.hpp"
 #include "support/poses.hpp"
 
 namespace abut::test {
@@ -395,6 +396,36 @@ TEST_CASE("async: a graph asks again about what has moved") {
     CHECK(seen[1] != seen[2]);
     cudaGraphExecDestroy(executable);
     cudaGraphDestroy(graph);
+}
+
+TEST_CASE("async: within and self queries, by the stream in place of the policy") {
+    const cuda on;
+    const auto from = ball_surface<float>(2, 1.0);
+    const mesh<float> set(from.vertices, from.faces);
+    const auto tree = make_bvh(on, set);
+    rigid<float> away;
+    away.translation = {1.75f, 0.5f, 0};
+    const auto other = posed(tree, away);
+    (void)any(on, tree, other);
+    async_result<index_pair> near(on, 200'000), self(on, 200'000);
+    async_value<std::uint64_t> counted(on), counted_self(on);
+    async_value<bool> is(on), is_not(on);
+    within(async(on, near), tree, other, 0.25);
+    count_within(async(on, counted), tree, other, 0.25);
+    any_within(async(on, is), tree, other, 0.25);
+    any_within(async(on, is_not), tree, posed(tree, {.translation = {9, 0, 0}}), 0.25);
+    self_within(async(on, self), tree, 0.125);
+    count_self_pairs(async(on, counted_self), tree, {.coincident = coincident_vertices::merged});
+    const auto expected = to_host(within(on, tree, other, 0.25));
+    CHECK(expected.size() > 100);
+    CHECK((to_host(wait(on, near)) == expected));
+    CHECK(wait(on, counted) == expected.size());
+    CHECK(wait(on, is));
+    CHECK_FALSE(wait(on, is_not));
+    CHECK((to_host(wait(on, self)) == to_host(self_within(on, tree, 0.125))));
+    CHECK(wait(on, counted_self) == count_self_pairs(on, tree, {.coincident = coincident_vertices::merged}));
+    CHECK_THROWS_WITH(count_within(async(on, counted), tree, other, -1), "abut::count_within_async: distance is -1; expected a "
+                                                                         "finite number, 0 or more");
 }
 
 TEST_CASE("async: two streams at once") {

@@ -96,7 +96,7 @@ struct solid_in_numbers {
     [[nodiscard]] ABUT_HD constexpr vec3<N> any_point() const { return first; }
 };
 
-/// The hull of some points, as hull_points has them.
+/// The hull of some points, as corner_hull has them.
 template <class N, class Points>
 struct points_in_numbers {
     Points points;
