@@ -9,7 +9,6 @@
 #include <utility>
 
 #include <abut/arithmetic/arithmetic.hpp>
-#include <abut/predicate/capsule_hull.hpp>
 #include <abut/predicate/hull_hull.hpp>
 #include <abut/predicate/plane_hull.hpp>
 #include <abut/predicate/ray_hull.hpp>

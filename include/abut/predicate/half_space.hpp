@@ -12,7 +12,6 @@
 #include <abut/arithmetic/exact_stages.hpp>
 #include <abut/arithmetic/plain_sign.hpp>
 #include <abut/predicate/as_hull.hpp>
-#include <abut/predicate/capsule_hull.hpp>
 #include <abut/predicate/hull_within.hpp>
 #include <abut/predicate/plane_core.hpp>
 #include <abut/predicate/plane_plane.hpp>

@@ -78,6 +78,9 @@ struct corner_hull {
     ABUT_HD constexpr hull<T> as_hull() const { return {at, std::size_t{N}}; }
 };
 
+template <scalar T, int N>
+using hull_points = corner_hull<T, N>;
+
 /// What a shape is made around (core.hpp). A point is its own core.
 template <scalar T>
 ABUT_HD constexpr corner_hull<T, 1> core_of(const vec3<T>& p) {
