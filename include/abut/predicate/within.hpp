@@ -29,7 +29,7 @@ namespace detail {
 // none of it a point tells (half_space.hpp). The others are written in one order of two shapes.
 
 template <arithmetic A, class S, class U>
-ABUT_HD constexpr verdict decide_within_in_place(const S& s, const U& t, double distance) {
+ABUT_HD constexpr verdict decide_within_in_order(const S& s, const U& t, double distance) {
     if constexpr (requires { decide_within<A>(s, t, distance); }) {
         return decide_within<A>(s, t, distance);
     } else {
@@ -37,7 +37,7 @@ ABUT_HD constexpr verdict decide_within_in_place(const S& s, const U& t, double 
     }
 }
 template <class S, class U>
-ABUT_HD constexpr bool resolve_within_in_place(const S& s, const U& t, double distance) {
+ABUT_HD constexpr bool resolve_within_in_order(const S& s, const U& t, double distance) {
     if constexpr (requires { resolve_within(s, t, distance); }) {
         return resolve_within(s, t, distance);
     } else {
@@ -57,7 +57,7 @@ template <arithmetic A, class S, class U>
 ABUT_HD constexpr verdict decide_within(const S& s, const U& t, double distance) {
     const auto a = hull_form(s);
     const auto b = hull_form(t);
-    return decide_within_in_place<A>(a.as_hull(), b.as_hull(), distance);
+    return decide_within_in_order<A>(a.as_hull(), b.as_hull(), distance);
 }
 template <arithmetic A, class S, class U>
     requires(within_as_hull<S, U> && std::same_as<A, filtered>)
@@ -75,19 +75,19 @@ template <class S, class U>
 ABUT_NOINLINE ABUT_HD constexpr bool resolve_within(const S& s, const U& t, double distance) {
     const auto a = hull_form(s);
     const auto b = hull_form(t);
-    return resolve_within_in_place(a.as_hull(), b.as_hull(), distance);
+    return resolve_within_in_order(a.as_hull(), b.as_hull(), distance);
 }
 
 template <arithmetic A, scalar T, beside_plane<T> S>
 ABUT_HD constexpr verdict decide_within(const half_space<T>& s, const S& t, double distance) {
     const verdict v = decide<A>(s, any_point_of(t));
     const auto shape = hull_form(t);
-    return v == verdict::yes ? v : v || decide_within_in_place<A>(surface_of(s), shape.as_hull(), distance);
+    return v == verdict::yes ? v : v || decide_within_in_order<A>(surface_of(s), shape.as_hull(), distance);
 }
 template <scalar T, beside_plane<T> S>
 ABUT_HD constexpr bool resolve_within(const half_space<T>& s, const S& t, double distance) {
     const auto shape = hull_form(t);
-    return resolve(s, any_point_of(t)) || resolve_within_in_place(surface_of(s), shape.as_hull(), distance);
+    return resolve(s, any_point_of(t)) || resolve_within_in_order(surface_of(s), shape.as_hull(), distance);
 }
 
 /// Shapes in the order in which their stages are written.
