@@ -15,7 +15,7 @@
 TEST_CASE("relation: one of a caller's own on a device") {
     using namespace abut;
     using namespace abut::test;
-    const cuda on;
+    const abut::cuda on;
     const auto one = lattice_triangles(300, 11), other = lattice_triangles(250, 12);
     const shapes<triangle<float>> a(one), b(other);
     const auto tree_a = make_bvh(on, a), tree_b = make_bvh(on, b);

@@ -6,6 +6,7 @@
 #include <abut/collide/body_pairs.hpp>
 #include <abut/collide/list.hpp>
 #include <abut/collide/list_distance.hpp>
+#include <abut/collide/within.hpp>
 #include <abut/index/bvh.hpp>
 
 #include "questions.hpp"

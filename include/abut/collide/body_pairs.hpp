@@ -14,6 +14,7 @@
 #include <vector>
 
 #include <abut/collide/bodies.hpp>
+#include <abut/collide/contacts.hpp>
 #include <abut/collide/list_pairing.hpp>
 #include <abut/collide/question.hpp>
 #include <abut/collide/self_pairing.hpp>

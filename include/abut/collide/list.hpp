@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include <abut/collide/contacts.hpp>
 #include <abut/collide/list_pairing.hpp>
 #include <abut/collide/placed.hpp>
 #include <abut/collide/question.hpp>

@@ -101,6 +101,11 @@ struct count_of_each : relation_of_each<A, Relation> {
     }
 };
 
+template <class Options>
+inline constexpr bool has_filter = requires(const Options& options) {
+    options.filter;
+};
+
 /// One policy, at once.
 template <execution_policy Policy, class Each, class Form, class Options>
 auto ask_entries(const Policy& on, const Each& each, const Form& form, const Options& options, const char* function) {

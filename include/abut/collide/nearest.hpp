@@ -104,7 +104,7 @@ struct walk_from_points {
     Points points;
     Judge judge;
     const std::uint32_t* order;  ///< null for their own
-    [[no_unique_address]] Wanted wanted;
+    Wanted wanted;
 
     ABUT_CALLS_ANY
     template <class Best>
@@ -410,7 +410,7 @@ struct nearest_in_parts {
     using answer = measured_neighbor<T>;
     length_unit<T> unit;
     std::size_t count = 1;
-    [[no_unique_address]] Filter filter = {};
+    Filter filter = {};
 
     [[nodiscard]] ABUT_HD std::size_t per_row() const { return count; }
     template <class Policy, class Operand, class Rows, class Ids>
@@ -461,7 +461,7 @@ struct ask_nearest : question_of_points {
     using found = by_id<Id, neighbor<T>, body_neighbor<T>, global_neighbor<T>>;
     const char* function = "abut::nearest";
     std::size_t count = 1;
-    [[no_unique_address]] Filter filter = {};
+    Filter filter = {};
 
     template <class Policy, class X, class Points, bool Whole>
     static consteval bool takes() {

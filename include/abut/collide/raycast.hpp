@@ -87,7 +87,7 @@ struct walk_along_lines {
 
     struct look {
         typename Lines::shape_type line;
-        [[no_unique_address]] typename Wanted::row_type row;
+        typename Wanted::row_type row;
         double earliest = infinity<double>;  ///< the least time that the first shape so far may have; the sink has the most
 
         ABUT_CALLS_ANY
@@ -134,7 +134,7 @@ struct walk_to_any {
 
     struct look {
         typename Lines::shape_type line;
-        [[no_unique_address]] typename Wanted::row_type row;
+        typename Wanted::row_type row;
         bool met = false;
 
         ABUT_CALLS_ANY
@@ -274,7 +274,7 @@ ABUT_HD bool may_meet(const Line& line, const part_bounds<T>& part, double last)
 template <class Options, class Question>
 struct question_of_lines : row_question {
     static constexpr bool filters = has_filter<Options>;
-    [[no_unique_address]] Options options = {};
+    Options options = {};
 
     template <class Policy, class X, class Lines, bool Whole>
     static consteval bool takes() {

@@ -66,7 +66,7 @@ struct count_along_lines {
 
     struct look {
         typename Lines::shape_type line;
-        [[no_unique_address]] typename Wanted::row_type row;
+        typename Wanted::row_type row;
         execution::least_value* few;
         std::uint64_t count = 0;
 
