@@ -102,7 +102,7 @@ struct count_of_each : relation_of_each<A, Relation> {
 };
 
 template <class Options>
-inline constexpr bool has_filter = requires(const Options& options) {
+inline constexpr bool names_filter = requires(const Options& options) {
     options.filter;
 };
 

@@ -357,7 +357,7 @@ auto ask_entries(const Team& team, const Each& each, const Form& form, const Opt
     if constexpr (Each::template can_be_asked<local, there>()) {
         found_lists<local, found_type> found(static_cast<std::size_t>(team.size()));
         share_entries(team, form.list, function, [&](int k, const auto& mine, const entries_of_part& position) {
-            if constexpr (has_filter<Options>) {
+            if constexpr (names_filter<Options>) {
                 found[static_cast<std::size_t>(k)] =
                     each.find(team[k], mine, options_of_part(options_of_one(options), position), function, position);
             } else {

@@ -461,7 +461,7 @@ auto ask_entries(const distributed<Local>& on, const Each& each, const Form& for
     result<typename Each::template found_type<Form>, space_of<Local>> found;
     if constexpr (Each::template can_be_asked<Local, Form>()) {
         ask_own_entries(on, form.list, [&](const entries_of_rank& position) {
-            if constexpr (has_filter<Options>) {
+            if constexpr (names_filter<Options>) {
                 found = each.find(on.local(), form, options_of_part(options, position), function, position);
             } else {
                 found = each.find(on.local(), form, options, function, position);
