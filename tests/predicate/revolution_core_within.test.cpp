@@ -62,11 +62,11 @@ static_assert(distance_decidable<cylinder<float>, segment<float>> && distance_de
               distance_decidable<hull<double>, cylinder<double>> && distance_decidable<cone<float>, hull<float>> &&
               !distance_decidable<cone<float>, hull<double>>);
 
-using tally = test::within_tally;
+using core_tally = test::within_tally;
 
 /// Every stage; `fast` is counted where it is unlike.
 template <class S, class U>
-void examine_stages(const S& s, const U& t, double d, bool truth, std::uint64_t index, tally& sum) {
+void examine_stages(const S& s, const U& t, double d, bool truth, std::uint64_t index, core_tally& sum) {
     const verdict lie = to_verdict(!truth), by_filter = detail::decide_within<filtered>(s, t, d),
                   late = detail::decide_within_late<filtered>(s, t, d), by_limbs = detail::decide_within<exact>(s, t, d);
     ++sum.pairs;
@@ -85,7 +85,7 @@ void examine_stages(const S& s, const U& t, double d, bool truth, std::uint64_t 
 
 /// Beside the distance, as it is measured; where the bounds of the oracle do not tell, nothing is asked.
 template <class S, class U>
-void examine(const S& s, const U& t, std::uint64_t index, tally& sum) {
+void examine(const S& s, const U& t, std::uint64_t index, core_tally& sum) {
     if (!is_valid(s)) return;
     if constexpr (!std::same_as<U, hull<scalar_type_of<S>>>) {
         if (!is_valid(t)) return;
@@ -117,7 +117,7 @@ constexpr int kinds = 5;
 constexpr const char* name_of_kind[kinds] = {"segments", "triangles", "boxes", "capsules", "hulls"};
 
 template <class Solid>
-void examine_case(const test::revolution_case<scalar_type_of<Solid>>& c, std::uint64_t k, tally (&sum)[kinds]) {
+void examine_case(const test::revolution_case<scalar_type_of<Solid>>& c, std::uint64_t k, core_tally (&sum)[kinds]) {
     using T = scalar_type_of<Solid>;
     const Solid s = test::solid_of<Solid>(c.axis, c.radius);
     const triangle<T> t{c.corner[0], c.corner[1], c.corner[2]};
@@ -139,7 +139,7 @@ void examine_case(const test::revolution_case<scalar_type_of<Solid>>& c, std::ui
 
 /// Shapes of each kind on the far side of the parallel plane, with a point in it opposite; a capsule's radius is taken off.
 template <class Solid>
-void examine_tie(std::uint64_t k, tally (&sum)[kinds]) {
+void examine_tie(std::uint64_t k, core_tally (&sum)[kinds]) {
     using T = scalar_type_of<Solid>;
     constexpr bool is_cone = std::same_as<Solid, cone<T>>;
     test::draws draw(test::sample_seed, is_cone ? 96 : 95, k);
@@ -195,9 +195,9 @@ TEMPLATE_TEST_CASE("within, cylinders and cones: edges, faces and hulls in every
     using namespace abut;
     using namespace revolution_core_within;
     using T = scalar_type_of<TestType>;
-    tally total[kinds];
-    const auto add = [&](const char* name, const tally(&sum)[kinds]) {
-        tally of_family;
+    core_tally total[kinds];
+    const auto add = [&](const char* name, const core_tally(&sum)[kinds]) {
+        core_tally of_family;
         for (int i = 0; i < kinds; ++i) of_family += sum[i], total[i] += sum[i];
         CAPTURE(name);
         CHECK(of_family.wrong == 0);
@@ -206,14 +206,14 @@ TEMPLATE_TEST_CASE("within, cylinders and cones: edges, faces and hulls in every
     for (int i = 0; i < test::revolution_family_count; ++i) {
         const auto f = static_cast<test::revolution_family>(i);
         const bool is_long = f >= test::revolution_family::mixed_exponents;
-        tally sum[kinds];
+        core_tally sum[kinds];
         for (std::uint64_t k = 0; k < test::some_samples(is_long ? 1000 : 250); ++k) {
             examine_case<TestType>(
                 test::make_revolution_case<T>(test::sample_seed + 9, f, k, std::same_as<TestType, cone<T>>), k, sum);
         }
         add(test::name_of(f), sum);
     }
-    tally sum[2][kinds];
+    core_tally sum[2][kinds];
     for (std::uint64_t k = 0; k < test::some_samples(100); ++k) {
         examine_case<TestType>(test::nearly_parallel<TestType>(k), k, sum[0]);
         examine_case<TestType>(test::over_needle<TestType>(k), k, sum[1]);
@@ -232,7 +232,7 @@ TEMPLATE_TEST_CASE("within, cylinders and cones: edges, faces and hulls that are
                    abut::cylinder<double>, abut::cone<float>, abut::cone<double>) {
     using namespace abut;
     using namespace revolution_core_within;
-    tally sum[kinds];
+    core_tally sum[kinds];
     for (std::uint64_t k = 0; k < test::some_samples(50); ++k) examine_tie<TestType>(k, sum);
     for (int i = 0; i < kinds; ++i) {
         CAPTURE(name_of_kind[i]);
