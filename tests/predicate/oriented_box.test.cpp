@@ -123,10 +123,10 @@ void check_hulls_of_points(bool on_lattice) {
         const auto box = test::random_oriented_box<T>(random, 811, i, on_lattice);
         const vec3<T> p = make.point();
         // Some corners of the box itself, which it touches in nothing else.
-        const vec3<T> corner = corners_of(box)[i % 8];
-        compare(0, box, triangle<T>{i % 3 == 0 ? corner : p, make.near(p), make.near(p)});
-        compare(1, box, segment<T>{i % 3 == 0 ? corner : p, make.near(p)});
-        compare(2, box, i % 3 == 0 ? corner : p);
+        const vec3<T> its_corner = corners_of(box)[i % 8];
+        compare(0, box, triangle<T>{i % 3 == 0 ? its_corner : p, make.near(p), make.near(p)});
+        compare(1, box, segment<T>{i % 3 == 0 ? its_corner : p, make.near(p)});
+        compare(2, box, i % 3 == 0 ? its_corner : p);
         compare(3, box, bounds(segment<T>{p, make.near(p)}));
         compare(4, box, test::random_oriented_box<T>(random, 812, i, on_lattice));
         test::draws d(813, 7, i);
@@ -137,8 +137,8 @@ void check_hulls_of_points(bool on_lattice) {
             pose = test::make_pose<T>(d, 0.25);
         }
         compare(5, box, place(pose, bounds(segment<T>{p, make.near(p)})));
-        const std::vector<vec3<T>> points{p, make.near(p), make.near(p), make.near(p), make.near(p)};
-        compare(6, box, hull<T>(points.data(), points.size()));
+        const std::vector<vec3<T>> core{p, make.near(p), make.near(p), make.near(p), make.near(p)};
+        compare(6, box, hull<T>(core.data(), core.size()));
     }
     for (const tally& t : of) {
         CAPTURE(&t - of, on_lattice, t.hits);
@@ -155,8 +155,8 @@ void check_as_hull(bool on_lattice) {
     maker<T> make{random, on_lattice};
     tally touch[6], near[6];
     const auto compare = [&](int kind, const oriented_box<T>& box, const auto& other) {
-        const auto points = corners_of(box);
-        const hull<T> same(points.data(), points.size());
+        const auto core = corners_of(box);
+        const hull<T> same(core.data(), core.size());
         const bool truth = intersects<exact>(same, other);
         touch[kind].add(truth, all_stages_say(box, other, truth));
         using other_type = std::remove_cvref_t<decltype(other)>;
