@@ -2,7 +2,7 @@
 //
 // usage: bench_fronts [--frames=N] [--json=OUT.json] [FOLDER...]
 //
-// Queries from a front (traverse/front.hpp) beside the same from the roots, on one core, for 40 frames, or N. Names:
+// Queries from a front (experimental/front.hpp) beside the same from the roots, on one core, for 40 frames, or N. Names:
 //
 //   sheet/STEP/QUERY        a rolled-up sheet of 100,352 triangles with a wave that runs along it; in a frame the fastest
 //                           vertex moves by STEP edges

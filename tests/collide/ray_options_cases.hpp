@@ -124,7 +124,7 @@ void check_options(const On& on, const X& x, const Lines& lines, const std::vect
         const std::int64_t along = lattice_hit(l.origin, l.direction(), t).along;
         wrong += side != (along < 0 ? ray_side::front : along > 0 ? ray_side::back : ray_side::any);
         wrong += !(w.x >= 0 && w.y >= 0 && w.z >= 0) || std::abs(static_cast<double>(w.x + w.y + w.z) - 1) > 1e-6;
-        const auto apart = [&](T vec3<T>::*c) {
+        const auto apart = [&, w = w, hit = hit](T vec3<T>::*c) {
             return std::abs(
                 static_cast<double>(w.x * t.a.*c + w.y * t.b.*c + w.z * t.c.*c - (l.origin.*c + hit.t * l.direction().*c)));
         };

@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include <abut/collide/list_within.hpp>
 
 #include "collide/within_cases.hpp"
 

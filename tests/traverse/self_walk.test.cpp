@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <abut/abut.hpp>
+#include <abut/experimental/breadth_first.hpp>
 
 #include "support/catch.hpp"
 #include "support/scenes.hpp"
