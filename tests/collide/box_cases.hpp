@@ -147,7 +147,7 @@ void check_more_of_boxes(const Policy& on) {
 
     std::vector<ray<T>> lines;
     for (int i = 0; i < 60; ++i) lines.push_back({random.template point<T>(-3, 3), random.template point<T>(-1, 1)});
-    for (int i = 0; i < 60; ++i) lines.push_back({lines[i].origin, corners_of(some[i % 40])[i % 8] - lines[i].origin});
+    for (std::size_t i = 0; i < 60; ++i) lines.push_back({lines[i].origin, corners_of(some[i % 40])[i % 8] - lines[i].origin});
     const auto rows = copy_to(on, rays<T>(lines));
     CHECK(to_host(raycast(on, tree, rows)) == to_host(raycast(on, same, rows)));
     CHECK(to_host(raycast(on, posed(along_tree, pose), rows)) == to_host(raycast(on, posed(along_same, pose), rows)));

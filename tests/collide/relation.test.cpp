@@ -78,7 +78,8 @@ void check_each_entry(const Policy& on) {
     const auto is = to_host(any_each(on, list)), near = to_host(any_within_each(on, list, 0.25));
     const auto counts = to_host(count_each(on, list));
     const list_options<keep_odd> odd{.filter = {}};
-    const auto is_odd = to_host(any_each<exact>(on, list, odd)), count_odd = to_host(count_each(on, list, odd));
+    const auto is_odd = to_host(any_each<exact>(on, list, odd));
+    const auto count_odd = to_host(count_each(on, list, odd));
     REQUIRE(is.size() == list.size());
     REQUIRE(counts.size() == list.size());
     std::size_t wrong = 0, touching = 0, more = 0;
