@@ -50,19 +50,18 @@ NAMES = {
     "io/write.hpp": "const abut::result<abut::index_pair, abut::host_space> pairs;",
     "collide/impact_index.hpp": STEP,
     "collide/first_impact.hpp": STEP,
-    "collide/list.hpp": GEAR,
     "collide/list_distance.hpp": GEAR + "std::vector<abut::posed_pair<decltype(gear)>> list; float clearance = 9;",
+    "collide/body_distance.hpp": GEAR + "const std::vector<abut::posed_object<decltype(gear)>> bodies;",
+    "collide/ray_options.hpp": "const abut::rays<float> rays; const auto index = abut::make_bvh(on, mesh);",
     "collide/list_each.hpp": GEAR + "std::vector<abut::posed_pair<decltype(gear)>> configurations;",
     "collide/within.hpp": GEAR + "const std::vector<abut::posed_pair<decltype(gear)>> list;"
                                  "const std::vector<abut::posed_object<decltype(gear)>> bodies;",
-    "collide/async.hpp": "const auto& a = mesh; const auto& b = other;",
     "io/write_gltf.hpp": "const abut::spheres<float> spheres; const std::vector<abut::contact<float>> contacts;",
     "io/write_html.hpp": "abut::io::gltf_scene scene;",
     "io/write_sets.hpp": "const abut::spheres<float> grains; const abut::boxes<float> boxes; const abut::segments<float> segments;"
                          "const std::vector<float> lengths;",
     "collide/bodies.hpp": GEAR + "std::vector<abut::posed_object<decltype(gear)>> list;"
                                  "std::vector<abut::rigid<float>> poses;",
-    "collide/body_pairs.hpp": GEAR,
     "collide/advise.hpp": "const auto& voxels = mesh; const auto& tool = other;",
     "collide/query.hpp": GEAR + "std::vector<int> flags(9); int* const touched = flags.data();",
     "collide/contacts.hpp": "const auto& tool = other; const abut::rigid<float> pose;",

@@ -328,10 +328,8 @@ private:
 /// A policy's stream as who answers a query, and where it leaves its outcome there: an `async_value` of `bool` for `any` and
 /// the like, of `std::uint64_t` for numbers, an `async_result` for lists. The query returns nothing, and does not wait.
 /// Queries of pairs of two arguments, or of one alone, take it: any, count, pairs, contacts, within, self_pairs and the others
-/// of these. Both have to live as long as the call.
-///
-///     abut::async_result<abut::index_pair> near(on, 1000);
-///     abut::within(abut::async(on, near), a, b, 0.01);
+/// of these: `abut::within(abut::async(on, near), a, b, 0.01)`, where `near` is an `async_result<index_pair>`. Both have to
+/// live as long as the call.
 template <execution_policy Policy, class Outcome>
 class async {
 public:
