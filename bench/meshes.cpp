@@ -24,6 +24,8 @@
 #include <benchmark/benchmark.h>
 
 #include <abut/abut.hpp>
+#include <abut/experimental/breadth_first.hpp>
+#include <abut/experimental/descent_rules.hpp>
 
 #include "any_scenes.hpp"
 #include "meshes_main.hpp"

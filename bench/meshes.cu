@@ -25,6 +25,8 @@
 #include <vector>
 
 #include <abut/cuda.hpp>
+#include <abut/experimental/breadth_first.hpp>
+#include <abut/experimental/descent_rules.hpp>
 
 #include "cuda_table.hpp"
 #include "meshes_scene.hpp"

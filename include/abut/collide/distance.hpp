@@ -117,11 +117,11 @@ template <class Policy>
 class ids_of_trees {
 public:
     template <class Trees>
-    ids_of_trees(const Policy& on, const Trees& trees) {
+    ids_of_trees(const Policy& policy, const Trees& trees) {
         for (const auto& tree : trees) {
             const auto view = tree.view();
             const auto& own = tree.stored();
-            if (own.least_ids == nullptr) made_.push_back(make_least_ids(on, view.nodes, own.nodes.size(), view.top));
+            if (own.least_ids == nullptr) made_.push_back(make_least_ids(policy, view.nodes, own.nodes.size(), view.top));
             all_.push_back(own.least_ids == nullptr ? made_.back().data() : own.least_ids->data());
         }
     }

@@ -6,6 +6,8 @@
 
 #include <concepts>
 
+#include <abut/config.hpp>
+
 namespace abut::execution {
 
 class crew;  // team.hpp
