@@ -45,3 +45,21 @@ TEST_CASE("bodies: rays and points in trees of other layouts") {
 }
 
 }  // namespace abut::test
+
+TEST_CASE("bodies of boxes, which poses turn, are asked by rays, points and distances") {
+    using namespace abut;
+    const serial on;
+    const boxes<float> one(std::vector<aabb<float>>{{{0, 0, 0}, {1, 1, 1}}});
+    const auto tree = make_bvh(on, one);
+    rigid<float> away;
+    away.translation = {3, 0, 0};
+    const std::vector<posed_object<std::remove_const_t<decltype(tree)>>> all{posed(tree, rigid<float>{}), posed(tree, away)};
+    const auto hit = to_host(raycast(on, all, ray<float>{{3.5f, 0.5f, -3}, {0, 0, 1}}));
+    CHECK((hit[0].body == 1 && hit[0].id == 0 && hit[0].t == 3));
+    const auto near = to_host(nearest(on, all, vec3<float>{2.5f, 0.5f, 0.5f}));
+    CHECK((near[0].body == 1 && near[0].distance == 0.5f));
+    CHECK(distance(on, all)->distance == 2);
+    CHECK_FALSE(any(on, all));
+    CHECK(any_within(on, all, 2.0));
+    CHECK_FALSE(any_within(on, all, 1.9375));
+}

@@ -82,7 +82,7 @@ struct line_reach<ordered_body_walk<Index>, T> {
 template <class Index>
 struct shapes_of_bodies {
     using scalar_type = typename Index::scalar_type;
-    using shape_type = typename Index::shape_type;
+    using shape_type = shape_in_world<Index>;
     using memory_space = typename Index::memory_space;
 
     placed_view<Index> all;
@@ -129,11 +129,11 @@ template <class Index>
 inline constexpr bool is_bodies<std::vector<posed_object<Index>>> = true;
 template <class Index>
 struct shape_of_argument<bodies<Index>> {
-    using type = typename Index::shape_type;
+    using type = shape_in_world<Index>;
 };
 template <class Index>
 struct shape_of_argument<std::vector<posed_object<Index>>> {
-    using type = typename Index::shape_type;
+    using type = shape_in_world<Index>;
 };
 template <class Policy, class Index, class Question>
 auto make_asked(const Policy& on, const bodies<Index>& all, const Question& question) {

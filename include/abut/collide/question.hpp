@@ -286,7 +286,7 @@ auto pair_up_with_others(const Policy& on, const X& x, const Others& others, con
                          how.template nearness<typename Others::scalar_type>());
 }
 
-/// Arguments of which each is a list or a scene by itself: list.hpp and bodies.hpp say what its form is (`type`), and what
+/// Arguments of which each is a list or a scene by itself: list.hpp and body_pairs.hpp say what its form is (`type`), and what
 /// options it takes (`options`, and `takes<Options>`).
 template <class X>
 struct form_of_scene;
