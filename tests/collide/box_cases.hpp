@@ -23,16 +23,6 @@
 
 namespace abut::test {
 
-template <class T>
-std::vector<vec3<T>> corners_of(const aabb<T>& box) {
-    std::vector<vec3<T>> all;
-    for (int i = 0; i < 8; ++i) {
-        all.push_back({(i & 1) != 0 ? box.upper.x : box.lower.x, (i & 2) != 0 ? box.upper.y : box.lower.y,
-                       (i & 4) != 0 ? box.upper.z : box.lower.z});
-    }
-    return all;
-}
-
 /// The same as hulls.
 template <class Box>
 auto as_hulls(const std::vector<Box>& boxes) {

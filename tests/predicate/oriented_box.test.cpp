@@ -74,12 +74,7 @@ std::vector<vec3<T>> corners_of(const vec3<T>& t) {
 }
 template <class T>
 std::vector<vec3<T>> corners_of(const aabb<T>& box) {
-    std::vector<vec3<T>> all;
-    for (int i = 0; i < 8; ++i) {
-        all.push_back({(i & 1) != 0 ? box.upper.x : box.lower.x, (i & 2) != 0 ? box.upper.y : box.lower.y,
-                       (i & 4) != 0 ? box.upper.z : box.lower.z});
-    }
-    return all;
+    return test::corners_of(box);
 }
 template <class T>
 std::vector<vec3<T>> corners_of(const oriented_box<T>& box) {

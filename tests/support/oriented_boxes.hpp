@@ -15,6 +15,17 @@
 
 namespace abut::test {
 
+/// Bit k of a corner's number says on which side it is of axis k.
+template <class T>
+std::vector<vec3<T>> corners_of(const aabb<T>& box) {
+    std::vector<vec3<T>> all;
+    for (int i = 0; i < 8; ++i) {
+        all.push_back({(i & 1) != 0 ? box.upper.x : box.lower.x, (i & 2) != 0 ? box.upper.y : box.lower.y,
+                       (i & 4) != 0 ? box.upper.z : box.lower.z});
+    }
+    return all;
+}
+
 /// By definition.
 template <scalar T>
 std::vector<vec3<T>> corners_of(const oriented_box<T>& box) {

@@ -196,10 +196,6 @@ auto ask_least(const Policy& on, const ask_distance& question, const std::vector
     }
 }
 
-/// What `distance` takes as bodies: those of one policy, or of several devices.
-template <class X>
-inline constexpr bool are_bodies = many_bodies<X>;
-
 }  // namespace detail
 
 /// How far apart the nearest two shapes of two different bodies are: a std::optional<body_separation<T>>. Of each two bodies
@@ -212,8 +208,7 @@ inline constexpr bool are_bodies = many_bodies<X>;
 ///
 ///     if (const auto apart = abut::distance(on, bodies)) use(apart->body_a, apart->body_b, apart->distance);
 /// @ingroup many_bodies
-template <executor On, class Bodies>
-    requires detail::are_bodies<Bodies>
+template <executor On, many_bodies Bodies>
 [[nodiscard]] auto distance(const On& on, const Bodies& all, const distance_options& options = {}) {
     return ask_least(on, detail::ask_distance{options}, all, detail::each_other{});
 }

@@ -11,6 +11,7 @@
 #include <abut/collide/body_distance.hpp>
 #include <abut/collide/distance.hpp>
 #include <abut/devices/ask.hpp>
+#include <abut/devices/bodies.hpp>
 #include <abut/devices/divide.hpp>
 #include <abut/execution/team.hpp>
 
@@ -41,9 +42,6 @@ auto ask_least(const Team& team, const ask_distance& question, const X& x, const
         return std::optional<separation<float>>();
     }
 }
-
-template <class Index>
-inline constexpr bool are_bodies<replicated<bodies<Index>>> = true;
 
 /// Of bodies, each device looks at its share of the pairs of them.
 template <execution::policy_team Team, class Index>
