@@ -128,17 +128,19 @@ struct plain_measured : plain_pair<S, U> {
         return plain_dot(boxes, boxes) < plain_product(gap, gap) ? gap : positive_distance(s, t, gap);
     }
     [[nodiscard]] ABUT_HD constexpr separation<T> separation_of(const S& s, const U& t) const {
-        return {0, 0, end(core_of(s), this->part_a, this->along_a(), this->radius_a), end(core_of(t), this->part_b, this->along_b(), -this->radius_b),
+        const double per_length = 1 / this->length;
+        return {0, 0, end(core_of(s), this->part_a, this->along_a(), plain_product(this->radius_a, per_length)),
+                end(core_of(t), this->part_b, this->along_b(), -plain_product(this->radius_b, per_length)),
                 rounded_distance<T>(distance(s, t))};
     }
 
 private:
     template <int N>
-    [[nodiscard]] ABUT_HD constexpr vec3<T> end(const corner_hull<T, N>& core, double part, vec3<double> along, double radius) const {
+    [[nodiscard]] ABUT_HD constexpr vec3<T> end(const corner_hull<T, N>& core, double part, vec3<double> along, double of_way) const {
         const bool at_end = N > 1 && part == 1;
         const vec3<T>& from = core.at[at_end ? N - 1 : 0];
         if (at_end) along = {0, 0, 0};
-        if (radius != 0) along = plain_step(along, radius / this->length, this->way);
+        if (of_way != 0) along = plain_step(along, of_way, this->way);
         const auto one = [](T x, double step) { return rounded(static_cast<T>(plain_sum(static_cast<double>(x), step))); };
         return {one(from.x, along.x), one(from.y, along.y), one(from.z, along.z)};
     }

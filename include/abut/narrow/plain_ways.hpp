@@ -22,9 +22,13 @@
 // 4 r^2 / sin^2. With r <= 2^-48 size <= 2^-44 D, sin^2 >= 2^-10 and |w| >= 2^-20 size the way is longer than the least one
 // by less than u D / 16. Here `size` is the sum of the magnitudes of d, e, f and of the radii: D <= size <= 10D.
 //
+// Axes at smaller angles are tried at their ends, where each foot is well-conditioned, and the way w from there, taken
+// orthogonal to edges inside which it ends, bounds all others by the same convexity: none is shorter by more than the sum of
+// |w.e| and |w.f|, as far as they lead into [0, 1], over |w|. That is to be no more than size u / 4. Axes that cross are left.
+//
 // So shapes are surely apart, or surely touch, where length and radii differ by more than 16u size.
 //
-// Sizes are between 2^-200 and 2^200, and axes not below 2^-30 of that, or nothing is said: what underflows is nothing
+// Sizes are between 2^-200 and 2^200 (of float 2^100, so that points do not leave its range), and axes not below 2^-30 of that, or nothing is said: what underflows is nothing
 // beside the rest.
 
 #include <cstddef>
@@ -54,6 +58,11 @@ ABUT_HD constexpr vec3<double> plain_way_to(const vec3<T>& from, const vec3<T>& 
     return {plain_step_from(from.x, to.x), plain_step_from(from.y, to.y), plain_step_from(from.z, to.z)};
 }
 
+/// x v, coordinate by coordinate.
+ABUT_HD constexpr vec3<double> plain_times(double x, const vec3<double>& v) {
+    return {plain_product(x, v.x), plain_product(x, v.y), plain_product(x, v.z)};
+}
+
 /// x where it lies in [0, 1], or the end that it is beyond; 0 for NaN.
 ABUT_HD constexpr double into_unit_of_doubles(double x) { return least(greatest(x, 0.0), 1.0); }
 
@@ -80,7 +89,7 @@ struct plain_cores {
             e = plain_way_to(a.at[0], a.at[N - 1]);
             size = plain_sum(size, magnitudes_of(e));
         }
-        if (!(size > 0x1p-200 && size < 0x1p200)) return;
+        if (!(size > 0x1p-200 && size < (std::same_as<T, float> ? 0x1p100 : 0x1p200))) return;
         const double all = plain_product(size, size);
         is_good = true;
         if constexpr (M > 1) {
@@ -100,18 +109,22 @@ struct plain_cores {
                 part_b = into_unit_of_doubles(plain_product(plain_sum(plain_product(part_a, ef), -df), per_ff));
                 part_a = into_unit_of_doubles(plain_product(plain_sum(plain_product(part_b, ef), de), per_ee));
                 way = plain_step(plain_step(d, part_b, f), -part_a, e);
-                is_good = is_good && determinant >= 0x1p-10 * whole && ee > 0x1p-60 * all;
-                const double most = 0x1p-96 * all;
-                const double of_e = slope(plain_dot(way, e), part_a), of_f = slope(-plain_dot(way, f), part_b);
-                is_good = is_good && of_e * of_e <= most * ee && of_f * of_f <= most * ff;
+                is_good = is_good && ee > 0x1p-60 * all;
+                if (determinant >= 0x1p-10 * whole) {
+                    const double most = 0x1p-96 * all, of_e = slope_a(way), of_f = slope_b(way);
+                    is_good = is_good && of_e * of_e <= most * ee && of_f * of_f <= most * ff;
+                } else if (is_good) {
+                    is_good = take_ends(de, df);
+                }
             } else {
                 part_b = into_unit_of_doubles(-plain_product(df, per_ff));
                 way = plain_step(d, part_b, f);
             }
         }
         const double square = plain_dot(way, way);
-        length = contact_math::root(contact_math::one_double{square}).high;
         is_good = is_good && square > 0x1p-40 * all;
+        if (!is_good) return;
+        length = contact_math::root(contact_math::one_double{square}).high;
     }
 
     /// Whether shapes with these radii around the cores touch, where that is sure.
@@ -122,8 +135,8 @@ struct plain_cores {
     }
     /// From the first corner of a core to where the way begins, or ends.
     ///@{
-    [[nodiscard]] ABUT_HD constexpr vec3<double> along_a() const { return times(part_a, e); }
-    [[nodiscard]] ABUT_HD constexpr vec3<double> along_b() const { return times(part_b, f); }
+    [[nodiscard]] ABUT_HD constexpr vec3<double> along_a() const { return plain_times(part_a, e); }
+    [[nodiscard]] ABUT_HD constexpr vec3<double> along_b() const { return plain_times(part_b, f); }
     ///@}
     /// The way again, orthogonal to edges inside which it ends but for roundings of its own length.
     [[nodiscard]] ABUT_HD constexpr vec3<double> straightened() const {
@@ -151,14 +164,32 @@ struct plain_cores {
     }
 
 private:
-    ABUT_HD static constexpr vec3<double> times(double x, const vec3<double>& v) {
-        return {plain_product(x, v.x), plain_product(x, v.y), plain_product(x, v.z)};
-    }
     ABUT_HD static constexpr double magnitudes_of(const vec3<double>& v) {
         return plain_sum(plain_sum(absolute(v.x), absolute(v.y)), absolute(v.z));
     }
     /// 1 / x, where that is in range.
     ABUT_HD static constexpr double inverse(double x) { return x > 0x1p-900 ? 1 / x : 0; }
+    /// Of axes that are nearly parallel, the least way from an end. Whether it is the least of all.
+    ABUT_NOINLINE ABUT_HD constexpr bool take_ends(double de, double df) {
+        double least_square = infinity<double>;
+        const auto offer = [&](double at_a, double at_b) {
+            const vec3<double> w = plain_step(plain_step(d, at_b, f), -at_a, e);
+            const double square = contact_math::plain_dot(w, w);
+            if (square < least_square) least_square = square, way = w, part_a = at_a, part_b = at_b;
+        };
+        for (int end = 0; end < 2; ++end) {
+            offer(end, into_unit_of_doubles(plain_product(plain_sum(end * ef, -df), per_ff)));
+            offer(into_unit_of_doubles(plain_product(plain_sum(end * ef, de), per_ee)), end);
+        }
+        const vec3<double> w = straightened();
+        const double slopes = plain_sum(absolute(slope_a(w)), absolute(slope_b(w))), most = 0x1p-55 * size;
+        return slopes * slopes <= most * most * least_square;
+    }
+    /// What is left of the slopes along the edges.
+    ///@{
+    [[nodiscard]] ABUT_HD constexpr double slope_a(const vec3<double>& w) const { return slope(contact_math::plain_dot(w, e), part_a); }
+    [[nodiscard]] ABUT_HD constexpr double slope_b(const vec3<double>& w) const { return slope(-contact_math::plain_dot(w, f), part_b); }
+    ///@}
     /// What is left of a slope that should be 0, or at 0 not above, or at 1 not below.
     ABUT_HD static constexpr double slope(double x, double at) {
         return at <= 0 ? greatest(x, 0.0) : at >= 1 ? least(x, 0.0) : x;
@@ -185,10 +216,9 @@ template <class S, class U>
 concept has_plain_pair = corners_of_core<S> >= 1 && corners_of_core<S> <= corners_of_core<U> && corners_of_core<U> <= 2 &&
                          std::same_as<scalar_type_of<S>, scalar_type_of<U>>;
 
-/// v / |v| for a v of moderate length, that is within 1.5 units of roundoff of length 1. What a first quotient is off from
-/// that is n.n - 1, in which squares of halves are exact, and the sums lose 2^-53.
-ABUT_HD constexpr vec3<double> plain_unit(const vec3<double>& v, double length) {
-    const vec3<double> n{v.x / length, v.y / length, v.z / length};
+/// n again, a vector that is a few units of roundoff off from length 1, within 1.5 units. What it is off is n.n - 1, in which
+/// squares of halves are exact, and the sums lose 2^-53.
+ABUT_HD constexpr vec3<double> plain_unit(const vec3<double>& n) {
     const auto half = [](double x) { return ABUT_BIT_CAST(double, ABUT_BIT_CAST(std::uint64_t, x) & ~std::uint64_t{0x7ffffff}); };
     const vec3<double> h{half(n.x), half(n.y), half(n.z)}, rest = contact_math::plain_difference(n, h);
     const double high = plain_sum(plain_sum(plain_sum(plain_product(h.x, h.x), -1.0), plain_product(h.y, h.y)), plain_product(h.z, h.z));

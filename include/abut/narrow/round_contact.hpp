@@ -146,14 +146,15 @@ ABUT_NOINLINE ABUT_HD constexpr auto first_contact_of(const S& s, const U& t) {
     if (answer.touch != verdict::yes) return answer;
     const point away = negated(both.straightened());
     const double distance = root(one_double{plain_dot(away, away)}).high, radii = both.radii();
-    const point n = std::same_as<T, float> ? as_stored_direction<T>({away.x / distance, away.y / distance, away.z / distance})
-                                           : plain_unit(away, distance);
+    const double per_distance = 1 / distance;
+    const point straight = plain_times(per_distance, away);
+    const point n = std::same_as<T, float> ? as_stored_direction<T>(straight) : plain_unit(straight);
     const double depth = plain_sum(both.overlap(n), radii);
     const double excess = plain_sum(depth, -plain_sum(radii, -distance));
     if (!(excess <= tolerable_excess<T> / 2 * static_cast<double>(greatest(magnitude_of(s), magnitude_of(t))))) return first_contact<T>{};
     const double from = greatest(plain_sum(distance, -both.radius_a), -both.radius_b);
     const double to = least(plain_sum(distance, both.radius_a), both.radius_b);
-    double part = plain_sum(from, to) / 2 / distance;
+    double part = plain_product(plain_sum(from, to) / 2, per_distance);
     if constexpr (!(std::same_as<S, sphere<T>> && std::same_as<U, sphere<T>>)) part = into_unit_of_doubles(part);
     const point where = plain_step(both.along_b(), part, away);
     const vec3<T> begin = core_of(t).at[0];
