@@ -86,12 +86,42 @@ ABUT_NOINLINE ABUT_HD constexpr void offer_faces(const box_and_ball& pair, const
 
 namespace abut::detail {
 
+/// The same of a box and a sphere in plain doubles (plain_ways.hpp): along the way to the centre, or if that is inside, along
+/// an axis.
+template <scalar T, class U>
+    requires(has_radius<U> && has_plain_pair<aabb<T>, U>)
+ABUT_NOINLINE ABUT_HD constexpr first_contact<T> first_contact_of(const aabb<T>& s, const U& t) {
+    using namespace contact_math;
+    const plain_pair<aabb<T>, U> both(s, t);
+    first_contact<T> answer{both.touch()};
+    if (answer.touch == verdict::no) return answer;
+    const double radius = both.radius_b;
+    if (answer.touch == verdict::yes) {
+        const point n = plain_normal<T>(plain_times(-1 / both.length, both.way()));
+        answer.found = plain_contact(both.nearest, n, plain_sum(radius, plain_dot(n, both.way())));
+    } else if (is_zero(both.way())) {
+        const point lower = plain_way_to(s.lower, t.center), upper = plain_way_to(t.center, s.upper);
+        if (!are_plain_sizes<T>(plain_sum(plain_sum(radius, plain_magnitudes(lower)), plain_magnitudes(upper)))) return answer;
+        least_overlap way;
+        for (int k = 0; k < 3; ++k) {
+            const point n{k == 0 ? 1.0 : 0.0, k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0};
+            way.offer(n, plain_sum(radius, coordinate(lower, k)));
+            way.offer(negated(n), plain_sum(radius, coordinate(upper, k)));
+        }
+        answer = {verdict::yes, plain_contact(t.center, way.normal, way.depth)};
+    }
+    return answer;
+}
+
 /// The point is the box's one that is nearest to the axis, or the middle of the axis's part in the box.
 template <scalar T, class S>
     requires(has_radius<S> && has_point_or_axis<S> && std::same_as<scalar_type_of<S>, T>)
 ABUT_NOINLINE ABUT_HD constexpr contact<T> contact_between(const aabb<T>& s, const S& t) {
     using namespace contact_math;
     using N = number_for<T>;
+    if constexpr (has_plain_pair<aabb<T>, S>) {
+        if (const auto first = first_contact_of(s, t); first.touch == verdict::yes) return first.found;
+    }
     const common_scale scale(s, t);
     const segment<T> axis = axis_around(t);
     const box_and_ball pair{scale(s.lower), scale(s.upper), {scale(axis.a), scale(axis.b)}, scale(t.radius)};

@@ -113,38 +113,24 @@ ABUT_HD constexpr T rounded_distance(double distance) {
     return d > 0 ? d : least_positive;
 }
 
-/// Two shapes by a closed form in plain doubles, where that is good enough: `touch()` is known then.
+/// Two shapes that are apart, by a closed form in plain doubles. Their boxes are asked where the way is along an axis, but for
+/// what radii leave room for: elsewhere they are nearer to each other. What is rounded is below 16u size, as plain_ways.hpp
+/// says.
 template <class S, class U>
-struct plain_measured : plain_pair<S, U> {
+ABUT_HD constexpr double plain_distance(const S& s, const U& t, const plain_pair<S, U>& both) {
+    const double gap = plain_sum(both.length, -both.radii()), inside = plain_sum(0x1p-49 * both.size, -both.radii());
+    const auto beyond = [&](double x) { return greatest(plain_sum(absolute(x), inside), 0.0); };
+    const vec3<double> boxes{beyond(both.way().x), beyond(both.way().y), beyond(both.way().z)};
+    return plain_dot(boxes, boxes) < plain_product(gap, gap) ? gap : positive_distance(s, t, gap);
+}
+template <class S, class U>
+ABUT_HD constexpr auto plain_separation(const S& s, const U& t, const plain_pair<S, U>& both) {
     using T = scalar_type_of<S>;
-
-    ABUT_HD constexpr plain_measured(const S& s, const U& t) : plain_pair<S, U>(s, t) {}
-    /// Of two that are apart. Their boxes are asked where the way is along an axis, but for what radii leave room for:
-    /// elsewhere they are nearer to each other. What is rounded is below 16u size, as in plain_ways.hpp.
-    [[nodiscard]] ABUT_HD constexpr double distance(const S& s, const U& t) const {
-        const double gap = plain_sum(this->length, -this->radii()), inside = plain_sum(0x1p-49 * this->size, -this->radii());
-        const auto beyond = [&](double x) { return greatest(plain_sum(absolute(x), inside), 0.0); };
-        const vec3<double> boxes{beyond(this->way.x), beyond(this->way.y), beyond(this->way.z)};
-        return plain_dot(boxes, boxes) < plain_product(gap, gap) ? gap : positive_distance(s, t, gap);
-    }
-    [[nodiscard]] ABUT_HD constexpr separation<T> separation_of(const S& s, const U& t) const {
-        const double per_length = 1 / this->length;
-        return {0, 0, end(core_of(s), this->part_a, this->along_a(), plain_product(this->radius_a, per_length)),
-                end(core_of(t), this->part_b, this->along_b(), -plain_product(this->radius_b, per_length)),
-                rounded_distance<T>(distance(s, t))};
-    }
-
-private:
-    template <int N>
-    [[nodiscard]] ABUT_HD constexpr vec3<T> end(const corner_hull<T, N>& core, double part, vec3<double> along, double of_way) const {
-        const bool at_end = N > 1 && part == 1;
-        const vec3<T>& from = core.at[at_end ? N - 1 : 0];
-        if (at_end) along = {0, 0, 0};
-        if (of_way != 0) along = plain_step(along, of_way, this->way);
-        const auto one = [](T x, double step) { return rounded(static_cast<T>(plain_sum(static_cast<double>(x), step))); };
-        return {one(from.x, along.x), one(from.y, along.y), one(from.z, along.z)};
-    }
-};
+    const double per_length = 1 / both.length;
+    return separation<T>{0, 0, both.on_a(s).at(plain_product(both.radius_a, per_length), both.way()),
+                         both.on_b(t).at(-plain_product(both.radius_b, per_length), both.way()),
+                         rounded_distance<T>(plain_distance(s, t, both))};
+}
 
 /// Two shapes that do not touch, measured.
 template <scalar T>
@@ -281,8 +267,8 @@ ABUT_NOINLINE ABUT_HD constexpr distance_and_way distance_apart(const S& s, cons
         return {positive_distance(s, t, revolution_over_plane(s, t, common_unit(s, t)).distance())};
     } else {
         if constexpr (has_plain_pair<S, U>) {
-            const plain_measured<S, U> first(s, t);
-            if (first.touch() == verdict::no) return {first.distance(s, t), first.way};
+            const plain_pair<S, U> first(s, t);
+            if (first.touch() == verdict::no) return {plain_distance(s, t, first), first.way()};
         }
         const measured_pair<scalar_type_of<S>> m(s, t);
         return {positive_distance(s, t, m.distance()), m.nearest.way};
@@ -315,8 +301,8 @@ ABUT_NOINLINE ABUT_HD constexpr auto separation_apart(const S& s, const U& t) {
                              rounded_distance<T>(positive_distance(s, t, m.distance()))};
     } else {
         if constexpr (has_plain_pair<S, U>) {
-            const plain_measured<S, U> first(s, t);
-            if (first.touch() == verdict::no) return first.separation_of(s, t);
+            const plain_pair<S, U> first(s, t);
+            if (first.touch() == verdict::no) return plain_separation(s, t, first);
         }
         const measured_pair<T> m(s, t);
         return separation<T>{0, 0, m.point_on_a(s), m.point_on_b(t),
@@ -401,9 +387,9 @@ ABUT_HD constexpr auto separation_of(const S& s, const U& t) {
     } else if constexpr (!contact_pair<S, U> && measured_hulls<U, S> && !on_device) {
         return reversed(separation_of(t, s));
     } else if constexpr (contact_pair<S, U> && has_plain_pair<S, U>) {
-        const plain_measured<S, U> first(s, t);
+        const plain_pair<S, U> first(s, t);
         const verdict touch = first.touch();
-        if (touch == verdict::no) return first.separation_of(s, t);
+        if (touch == verdict::no) return plain_separation(s, t, first);
         return separation_of(s, t, touch == verdict::yes || intersects(s, t));
     } else if constexpr (!contact_pair<S, U> && has_plain_pair<U, S>) {
         return reversed(separation_of(t, s));

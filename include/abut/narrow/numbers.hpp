@@ -131,7 +131,7 @@ ABUT_HD constexpr double largest_of(const point& p) { return greatest(absolute(p
 ABUT_INLINE ABUT_HD constexpr double plain_dot(const point& a, const point& b) {
     return plain_sum(plain_sum(plain_product(a.x, b.x), plain_product(a.y, b.y)), plain_product(a.z, b.z));
 }
-ABUT_HD constexpr point plain_difference(const point& a, const point& b) {
+ABUT_INLINE ABUT_HD constexpr point plain_difference(const point& a, const point& b) {
     return {plain_sum(a.x, -b.x), plain_sum(a.y, -b.y), plain_sum(a.z, -b.z)};
 }
 
@@ -248,7 +248,7 @@ ABUT_HD constexpr T rounded_within(double x) {
     return x > far ? largest_finite<T> : x < -far ? -largest_finite<T> : rounded(static_cast<T>(x));
 }
 
-ABUT_HD constexpr vec3<double> plain_cross(const vec3<double>& a, const vec3<double>& b) {
+ABUT_INLINE ABUT_HD constexpr vec3<double> plain_cross(const vec3<double>& a, const vec3<double>& b) {
     const auto minor = [](double s, double t, double x, double y) {
         return plain_sum(plain_product(s, t), -plain_product(x, y));
     };

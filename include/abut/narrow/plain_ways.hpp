@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The first stage of distances and contacts between points, segments, spheres and capsules: closed forms in plain doubles,
+// The first stage of distances and contacts between points, segments, spheres, capsules and boxes: closed forms in plain doubles,
 // each operation rounded by itself, so that all compilers and devices find the same numbers, and all choose alike whether
 // those are good enough. Where they are not, what nearest_ways.hpp and round_contact.hpp compute is the answer. Not for
 // decisions that rounding leaves open: those are left open here too.
@@ -40,6 +40,7 @@
 #include <abut/arithmetic/magnitude.hpp>
 #include <abut/narrow/directions.hpp>
 #include <abut/narrow/numbers.hpp>
+#include <abut/predicate/aabb_sphere.hpp>
 #include <abut/shape/core.hpp>
 #include <abut/shape/form.hpp>
 #include <abut/shape/primitive.hpp>
@@ -63,6 +64,15 @@ ABUT_HD constexpr vec3<double> plain_times(double x, const vec3<double>& v) {
     return {plain_product(x, v.x), plain_product(x, v.y), plain_product(x, v.z)};
 }
 
+ABUT_HD constexpr double plain_magnitudes(const vec3<double>& v) {
+    return plain_sum(plain_sum(absolute(v.x), absolute(v.y)), absolute(v.z));
+}
+/// Whether nothing leaves the range that is computed from lengths of this sum.
+template <scalar T>
+ABUT_HD constexpr bool are_plain_sizes(double size) {
+    return size > 0x1p-200 && size < (std::same_as<T, float> ? 0x1p100 : 0x1p200);
+}
+
 /// x where it lies in [0, 1], or the end that it is beyond; 0 for NaN.
 ABUT_HD constexpr double into_unit_of_doubles(double x) { return least(greatest(x, 0.0), 1.0); }
 
@@ -79,17 +89,17 @@ struct plain_cores {
 
     template <scalar T>
     ABUT_HD constexpr plain_cores(const corner_hull<T, N>& a, const corner_hull<T, M>& b, double radii)
-        : d(plain_way_to(a.at[0], b.at[0])), way(d), size(plain_sum(magnitudes_of(d), radii)) {
+        : d(plain_way_to(a.at[0], b.at[0])), way(d), size(plain_sum(plain_magnitudes(d), radii)) {
         using contact_math::plain_dot;
         if constexpr (M > 1) {
             f = plain_way_to(b.at[0], b.at[M - 1]);
-            size = plain_sum(size, magnitudes_of(f));
+            size = plain_sum(size, plain_magnitudes(f));
         }
         if constexpr (N > 1) {
             e = plain_way_to(a.at[0], a.at[N - 1]);
-            size = plain_sum(size, magnitudes_of(e));
+            size = plain_sum(size, plain_magnitudes(e));
         }
-        if (!(size > 0x1p-200 && size < (std::same_as<T, float> ? 0x1p100 : 0x1p200))) return;
+        if (!are_plain_sizes<T>(size)) return;
         const double all = plain_product(size, size);
         is_good = true;
         if constexpr (M > 1) {
@@ -127,17 +137,6 @@ struct plain_cores {
         length = contact_math::root(contact_math::one_double{square}).high;
     }
 
-    /// Whether shapes with these radii around the cores touch, where that is sure.
-    [[nodiscard]] ABUT_HD constexpr verdict touch(double radii) const {
-        if (!is_good) return verdict::unknown;
-        const double gap = plain_sum(length, -radii), open = 0x1p-49 * size;
-        return gap > open ? verdict::no : gap < -open ? verdict::yes : verdict::unknown;
-    }
-    /// From the first corner of a core to where the way begins, or ends.
-    ///@{
-    [[nodiscard]] ABUT_HD constexpr vec3<double> along_a() const { return plain_times(part_a, e); }
-    [[nodiscard]] ABUT_HD constexpr vec3<double> along_b() const { return plain_times(part_b, f); }
-    ///@}
     /// The way again, orthogonal to edges inside which it ends but for roundings of its own length.
     [[nodiscard]] ABUT_HD constexpr vec3<double> straightened() const {
         using contact_math::plain_dot;
@@ -164,9 +163,6 @@ struct plain_cores {
     }
 
 private:
-    ABUT_HD static constexpr double magnitudes_of(const vec3<double>& v) {
-        return plain_sum(plain_sum(absolute(v.x), absolute(v.y)), absolute(v.z));
-    }
     /// 1 / x, where that is in range.
     ABUT_HD static constexpr double inverse(double x) { return x > 0x1p-900 ? 1 / x : 0; }
     /// Of axes that are nearly parallel, the least way from an end. Whether it is the least of all.
@@ -196,25 +192,89 @@ private:
     }
 };
 
-/// Shapes whose cores have these corners, with their radii in double.
-template <class S, class U>
-struct plain_pair : plain_cores<corners_of_core<S>, corners_of_core<U>> {
-    using cores = plain_cores<corners_of_core<S>, corners_of_core<U>>;
-    double radius_a, radius_b;
+/// What a pair of shapes knows of the way between their cores: `length`, `size` and `way`, and whether these are good.
+struct plain_gap {
+    double radius_a, radius_b, length = 0, size = 0;
+    bool is_good = false;
 
-    ABUT_HD constexpr plain_pair(const S& s, const U& t)
-        : cores(core_of(s), core_of(t),
-                plain_step_from(-radius_around_core(s), radius_around_core(t))),
-          radius_a(static_cast<double>(radius_around_core(s))),
-          radius_b(static_cast<double>(radius_around_core(t))) {}
     [[nodiscard]] ABUT_HD constexpr double radii() const { return plain_sum(radius_a, radius_b); }
-    [[nodiscard]] ABUT_HD constexpr verdict touch() const { return cores::touch(radii()); }
+    /// Whether the shapes touch, where that is sure.
+    [[nodiscard]] ABUT_HD constexpr verdict touch() const {
+        if (!is_good) return verdict::unknown;
+        const double gap = plain_sum(length, -radii()), open = 0x1p-49 * size;
+        return gap > open ? verdict::no : gap < -open ? verdict::yes : verdict::unknown;
+    }
 };
 
-/// Points, segments, spheres and capsules with each other, in the order of their contacts.
+/// A point that is not rounded: from a corner of a shape.
+template <scalar T>
+struct plain_place {
+    vec3<T> from;
+    vec3<double> along{0, 0, 0};
+
+    /// Rounded, and so far along a way from there.
+    [[nodiscard]] ABUT_HD constexpr vec3<T> at(double part, const vec3<double>& way) const {
+        const vec3<double> v = part == 0 ? along : plain_step(along, part, way);
+        const auto one = [](T x, double step) { return rounded(static_cast<T>(plain_sum(static_cast<double>(x), step))); };
+        return {one(from.x, v.x), one(from.y, v.y), one(from.z, v.z)};
+    }
+};
+
+/// Of shapes in the order of their contacts.
 template <class S, class U>
-concept has_plain_pair = corners_of_core<S> >= 1 && corners_of_core<S> <= corners_of_core<U> && corners_of_core<U> <= 2 &&
-                         std::same_as<scalar_type_of<S>, scalar_type_of<U>>;
+struct plain_pair;
+
+/// Points, segments, spheres and capsules.
+template <class S, class U>
+    requires(corners_of_core<S> >= 1 && corners_of_core<S> <= corners_of_core<U> && corners_of_core<U> <= 2 &&
+             std::same_as<scalar_type_of<S>, scalar_type_of<U>>)
+struct plain_pair<S, U> : plain_gap {
+    using T = scalar_type_of<S>;
+    plain_cores<corners_of_core<S>, corners_of_core<U>> cores;
+
+    ABUT_HD constexpr plain_pair(const S& s, const U& t)
+        : plain_gap{static_cast<double>(radius_around_core(s)), static_cast<double>(radius_around_core(t))},
+          cores(core_of(s), core_of(t), plain_step_from(-radius_a, radius_b)) {
+        length = cores.length, size = cores.size, is_good = cores.is_good;
+    }
+    [[nodiscard]] ABUT_HD constexpr const vec3<double>& way() const { return cores.way; }
+    [[nodiscard]] ABUT_HD constexpr plain_place<T> on_a(const S& s) const { return place_in(core_of(s), cores.part_a, cores.e); }
+    [[nodiscard]] ABUT_HD constexpr plain_place<T> on_b(const U& t) const { return place_in(core_of(t), cores.part_b, cores.f); }
+
+private:
+    template <int N>
+    ABUT_HD static constexpr plain_place<T> place_in(const corner_hull<T, N>& core, double part, const vec3<double>& edge) {
+        if constexpr (N == 1) return {core.at[0]};
+        if (part == 1) return {core.at[N - 1]};
+        return {core.at[0], plain_times(part, edge)};
+    }
+};
+
+/// A box, and a point or a sphere. The way is from the box's point with coordinates of the box or of the centre, and so but
+/// rounded once in each coordinate. It has no length if and only if the centre is in the box.
+template <scalar T, class U>
+    requires(corners_of_core<U> == 1 && std::same_as<scalar_type_of<U>, T>)
+struct plain_pair<aabb<T>, U> : plain_gap {
+    vec3<T> nearest;
+    vec3<double> from_box;
+
+    ABUT_HD constexpr plain_pair(const aabb<T>& s, const U& t)
+        : plain_gap{0, static_cast<double>(radius_around_core(t))},
+          nearest(nearest_in_box(s, core_of(t).at[0])),
+          from_box(plain_way_to(nearest, core_of(t).at[0])) {
+        size = plain_step_from(-radius_b, plain_magnitudes(from_box));
+        if (!are_plain_sizes<T>(size)) return;
+        const double square = contact_math::plain_dot(from_box, from_box);
+        length = contact_math::root(contact_math::one_double{square}).high;
+        is_good = square > 0x1p-40 * plain_product(size, size);
+    }
+    [[nodiscard]] ABUT_HD constexpr const vec3<double>& way() const { return from_box; }
+    [[nodiscard]] ABUT_HD constexpr plain_place<T> on_a(const aabb<T>&) const { return {nearest}; }
+    [[nodiscard]] ABUT_HD constexpr plain_place<T> on_b(const U& t) const { return {core_of(t).at[0]}; }
+};
+
+template <class S, class U>
+concept has_plain_pair = requires { sizeof(plain_pair<S, U>); };
 
 /// n again, a vector that is a few units of roundoff off from length 1, within 1.5 units. What it is off is n.n - 1, in which
 /// squares of halves are exact, and the sums lose 2^-53.

@@ -133,34 +133,39 @@ struct first_contact {
     contact<T> found{};
 };
 
+/// A unit vector along one whose length is 1 but for a few roundings, as contacts hold it.
+template <scalar T>
+ABUT_HD constexpr contact_math::point plain_normal(const contact_math::point& n) {
+    return std::same_as<T, float> ? contact_math::as_stored_direction<T>(n) : plain_unit(n);
+}
+template <scalar T>
+ABUT_HD constexpr contact<T> plain_contact(const vec3<T>& where, const contact_math::point& n, double depth) {
+    const auto one = [](double x) { return static_cast<T>(plain_sum(x, 0.0)); };  // not -0
+    return {0, 0, where, {one(n.x), one(n.y), one(n.z)}, rounded(static_cast<T>(greatest(depth, 0.0)))};
+}
+
 /// The numbers of the contact below in plain doubles (plain_ways.hpp). The depth is the overlap along the normal as it is
 /// stored, and the normal is right where that is the least there can be, the radii less the distance, but for a part of
 /// contact_bound.
 template <class S, class U>
-    requires has_plain_pair<S, U>
+    requires(has_plain_pair<S, U> && corners_of_core<S> > 0)
 ABUT_NOINLINE ABUT_HD constexpr auto first_contact_of(const S& s, const U& t) {
     using namespace contact_math;
     using T = scalar_type_of<S>;
     const plain_pair<S, U> both(s, t);
     first_contact<T> answer{both.touch()};
     if (answer.touch != verdict::yes) return answer;
-    const point away = negated(both.straightened());
-    const double distance = root(one_double{plain_dot(away, away)}).high, radii = both.radii();
-    const double per_distance = 1 / distance;
-    const point straight = plain_times(per_distance, away);
-    const point n = std::same_as<T, float> ? as_stored_direction<T>(straight) : plain_unit(straight);
-    const double depth = plain_sum(both.overlap(n), radii);
-    const double excess = plain_sum(depth, -plain_sum(radii, -distance));
-    if (!(excess <= tolerable_excess<T> / 2 * static_cast<double>(greatest(magnitude_of(s), magnitude_of(t))))) return first_contact<T>{};
+    const point away = negated(both.cores.straightened());
+    const double distance = root(one_double{plain_dot(away, away)}).high, radii = both.radii(), per_distance = 1 / distance;
+    const point n = plain_normal<T>(plain_times(per_distance, away));
+    const double depth = plain_sum(both.cores.overlap(n), radii), excess = plain_sum(depth, -plain_sum(radii, -distance));
+    const auto magnitude = static_cast<double>(greatest(magnitude_of(s), magnitude_of(t)));
+    if (!(excess <= tolerable_excess<T> / 2 * magnitude)) return first_contact<T>{};
     const double from = greatest(plain_sum(distance, -both.radius_a), -both.radius_b);
     const double to = least(plain_sum(distance, both.radius_a), both.radius_b);
     double part = plain_product(plain_sum(from, to) / 2, per_distance);
     if constexpr (!(std::same_as<S, sphere<T>> && std::same_as<U, sphere<T>>)) part = into_unit_of_doubles(part);
-    const point where = plain_step(both.along_b(), part, away);
-    const vec3<T> begin = core_of(t).at[0];
-    const auto back = [](T x, double step) { return rounded(static_cast<T>(plain_sum(static_cast<double>(x), step))); };
-    answer.found = {0, 0, {back(begin.x, where.x), back(begin.y, where.y), back(begin.z, where.z)},
-                    {static_cast<T>(n.x), static_cast<T>(n.y), static_cast<T>(n.z)}, rounded(static_cast<T>(greatest(depth, 0.0)))};
+    answer.found = plain_contact(both.on_b(t).at(part, away), n, depth);
     return answer;
 }
 
