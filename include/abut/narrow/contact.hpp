@@ -10,6 +10,7 @@
 #include <abut/narrow/flat_contact.hpp>
 #include <abut/narrow/half_space_contact.hpp>
 #include <abut/narrow/hull_contact.hpp>
+#include <abut/narrow/plain_box.hpp>
 #include <abut/narrow/revolution_contact.hpp>
 #include <abut/narrow/revolution_hull_contact.hpp>
 #include <abut/narrow/revolution_pair_contact.hpp>
@@ -72,10 +73,30 @@ ABUT_HD constexpr auto contact_in_any_order(const S& s, const U& t) {
         const auto b = hull_form(t);
         return contact_in_any_order(a.as_hull(), b.as_hull());
     } else if constexpr (contact_pair<S, U>) {
+        if constexpr (refers_to_memory<S> && has_first_contact<S, U>) {
+            if (const auto first = first_contact_of(s, t); first.touch == verdict::yes) return first.found;
+        }
         return contact_between(s, t);
     } else {
         static_assert(contact_pair<U, S>, "abut: there are no contacts of this pair of shapes");
-        return reversed(contact_between(t, s));
+        return reversed(contact_in_any_order(t, s));
+    }
+}
+
+/// What the closed form tells, nothing where there is none.
+template <scalar T, class S, class U>
+ABUT_HD constexpr first_contact<T> first_contact_in_any_order(const S& s, const U& t) {
+    if constexpr (seen_as_hull<S> || seen_as_hull<U>) {
+        const auto a = hull_form(s);
+        const auto b = hull_form(t);
+        return first_contact_in_any_order<T>(a.as_hull(), b.as_hull());
+    } else if constexpr (has_first_contact<S, U>) {
+        return first_contact_of(s, t);
+    } else if constexpr (!contact_pair<S, U> && has_first_contact<U, S>) {
+        const auto first = first_contact_of(t, s);
+        return {first.touch, reversed(first.found)};
+    } else {
+        return {};
     }
 }
 
@@ -93,14 +114,10 @@ template <arithmetic A = filtered, class S, class U>
 [[nodiscard]] ABUT_HD constexpr auto contact_of(const S& s, const U& t) {
     using found = decltype(detail::contact_in_any_order(s, t));
     using T = decltype(found::depth);
-    if constexpr (std::same_as<A, filtered> && detail::has_first_contact<S, U>) {
-        const auto first = detail::first_contact_of(detail::as_stored(s), detail::as_stored(t));
+    if constexpr (std::same_as<A, filtered>) {
+        const auto first = detail::first_contact_in_any_order<T>(detail::as_stored(s), detail::as_stored(t));
         if (first.touch == verdict::no) return optional_contact<T>();
         if (first.touch == verdict::yes) return optional_contact<T>(first.found);
-    } else if constexpr (std::same_as<A, filtered> && detail::has_first_contact<U, S> && !detail::contact_pair<S, U>) {
-        const auto first = detail::first_contact_of(detail::as_stored(t), detail::as_stored(s));
-        if (first.touch == verdict::no) return optional_contact<T>();
-        if (first.touch == verdict::yes) return optional_contact<T>(detail::reversed(first.found));
     }
     if (!intersects<A>(s, t)) return optional_contact<T>();
     return optional_contact<T>(detail::contact_in_any_order(detail::as_stored(s), detail::as_stored(t)));

@@ -18,6 +18,7 @@
 #include <abut/narrow/nearest_point.hpp>
 #include <abut/narrow/nearest_ways.hpp>
 #include <abut/narrow/numbers.hpp>
+#include <abut/narrow/plain_box.hpp>
 #include <abut/narrow/plain_ways.hpp>
 #include <abut/narrow/revolution_contact.hpp>
 #include <abut/narrow/revolution_hull_distance.hpp>
@@ -254,6 +255,10 @@ ABUT_HD constexpr triangle<T> nearest_triangle_of(const S& s, const hull<T>& h) 
 /// Of two shapes that do not touch, rounded to double: positive, or infinite.
 template <class S, class U>
 ABUT_NOINLINE ABUT_HD constexpr distance_and_way distance_apart(const S& s, const U& t) {
+    if constexpr (has_plain_pair<S, U>) {
+        const plain_pair<S, U> first(s, t);
+        if (first.touch() == verdict::no) return {plain_distance(s, t, first), first.way()};
+    }
     if constexpr (measured_hulls<S, U>) {
         return with_measured_hulls(s, t, false, [&](const auto& m) {
             return distance_and_way{positive_distance_of(t, m), m.way()};
@@ -266,10 +271,6 @@ ABUT_NOINLINE ABUT_HD constexpr distance_and_way distance_apart(const S& s, cons
         if (t.normal == vec3<scalar_type_of<S>>{0, 0, 0}) return {};
         return {positive_distance(s, t, revolution_over_plane(s, t, common_unit(s, t)).distance())};
     } else {
-        if constexpr (has_plain_pair<S, U>) {
-            const plain_pair<S, U> first(s, t);
-            if (first.touch() == verdict::no) return {plain_distance(s, t, first), first.way()};
-        }
         const measured_pair<scalar_type_of<S>> m(s, t);
         return {positive_distance(s, t, m.distance()), m.nearest.way};
     }
@@ -286,6 +287,10 @@ ABUT_HD constexpr auto separation_of_hulls_apart(const U& t, const Measured& m) 
 template <class S, class U>
 ABUT_NOINLINE ABUT_HD constexpr auto separation_apart(const S& s, const U& t) {
     using T = scalar_type_of<S>;
+    if constexpr (has_plain_pair<S, U>) {
+        const plain_pair<S, U> first(s, t);
+        if (first.touch() == verdict::no) return plain_separation(s, t, first);
+    }
     if constexpr (measured_hulls<S, U>) {
         return with_measured_hulls(s, t, false, [&](const auto& m) { return separation_of_hulls_apart(t, m); });
     } else if constexpr (requires { s.normal; }) {
@@ -300,10 +305,6 @@ ABUT_NOINLINE ABUT_HD constexpr auto separation_apart(const S& s, const U& t) {
         return separation<T>{0, 0, m.point_on_solid(), m.point_on_plane(),
                              rounded_distance<T>(positive_distance(s, t, m.distance()))};
     } else {
-        if constexpr (has_plain_pair<S, U>) {
-            const plain_pair<S, U> first(s, t);
-            if (first.touch() == verdict::no) return plain_separation(s, t, first);
-        }
         const measured_pair<T> m(s, t);
         return separation<T>{0, 0, m.point_on_a(s), m.point_on_b(t),
                              rounded_distance<T>(positive_distance(s, t, m.distance()))};
@@ -354,6 +355,10 @@ ABUT_HD constexpr auto separation_of(const S& s, const U& t, [[maybe_unused]] bo
             if (!touch) return separation_apart(s, t);
         }
         vec3<T> shared{};
+        if constexpr (refers_to_memory<S> && has_first_contact<S, U>) {
+            const auto first = first_contact_of(s, t);
+            if (first.touch == verdict::yes) return separation<T>{0, 0, first.found.point, first.found.point, T(0)};
+        }
         if constexpr (measured_hulls<S, U>) {
             shared = with_measured_hulls(s, t, true, [](const auto& m) { return m.shared_point(); });
         } else if constexpr (solid_of_revolution<S>) {
@@ -371,6 +376,12 @@ template <class S, class U>
 ABUT_HD constexpr auto separation_of(const S& s, const U& t) {
     using T = scalar_type_of<S>;
     constexpr bool on_device = ABUT_DEVICE_CODE != 0;
+    if constexpr (contact_pair<S, U> && has_plain_pair<S, U>) {
+        const plain_pair<S, U> first(s, t);
+        const verdict touch = first.touch();
+        if (touch == verdict::no) return plain_separation(s, t, first);
+        if (touch == verdict::yes) return separation_of(s, t, true);
+    }
     if constexpr (own_separation<S, U> || own_separation<U, S>) {
         return separation_of(s, t, false);
     } else if constexpr (seen_as_hull<S> || seen_as_hull<U>) {
@@ -386,11 +397,6 @@ ABUT_HD constexpr auto separation_of(const S& s, const U& t) {
         });
     } else if constexpr (!contact_pair<S, U> && measured_hulls<U, S> && !on_device) {
         return reversed(separation_of(t, s));
-    } else if constexpr (contact_pair<S, U> && has_plain_pair<S, U>) {
-        const plain_pair<S, U> first(s, t);
-        const verdict touch = first.touch();
-        if (touch == verdict::no) return plain_separation(s, t, first);
-        return separation_of(s, t, touch == verdict::yes || intersects(s, t));
     } else if constexpr (!contact_pair<S, U> && has_plain_pair<U, S>) {
         return reversed(separation_of(t, s));
     } else {

@@ -20,6 +20,7 @@
 
 #include <abut/arithmetic/arithmetic.hpp>
 #include <abut/arithmetic/magnitude.hpp>
+#include <abut/predicate/certified_corner_box.hpp>
 #include <abut/predicate/gjk.hpp>
 #include <abut/predicate/hull_numbers.hpp>
 #include <abut/shape/core.hpp>
@@ -159,6 +160,13 @@ ABUT_HD constexpr verdict decide(const S& s, const hull<T>& h) {
     } else {
         constexpr bool certified = std::same_as<A, filtered>;
         using number = typename detail::hulls_in_floats<certified, T>::number;
+        if constexpr (certified && std::same_as<S, sphere<T>>) {
+            if (h.count == 8) {
+                const auto near = [&](const vec3<T>* at) { return detail::near_corner_box(at, s.center, static_cast<double>(s.radius)); };
+                const verdict v = detail::with_eight_points(h, near);
+                if (v != verdict::unknown) return v;
+            }
+        }
         return detail::near_in_floats<certified>(core.as_hull(), static_cast<number>(s.radius), h);
     }
 }

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The first stage of distances and contacts between a box under a pose and a point or a sphere, as plain_ways.hpp is of
+// other pairs: of hulls of eight points in the order of a box's corners, which rounding may leave somewhat askew. In the
+// frame of three edges the feature that is nearest to the centre is plain; the way from it is measured between the corners
+// themselves; and no corner lies ahead of the feature along the way, or the answer is left to hull_distance.hpp and
+// hull_contact.hpp. Not for hulls that are no boxes.
+//
+// A face's four corners need not lie in one plane: of both ways to divide it in triangles the one is taken that has all
+// corners behind it, and the foot inside but for 2^-45 of it. A corner may be ahead by 2u size, where `size` is the sum of magnitudes of the centre and the edges as
+// they are seen from the first corner, and of the radius, below 8D. So the distance is within 16uD of that of the feature,
+// and within 30uD of the true one, with the roundings that plain_ways.hpp counts.
+
+#include <cstddef>
+
+#include <abut/arithmetic/error_free.hpp>
+#include <abut/arithmetic/magnitude.hpp>
+#include <abut/narrow/directions.hpp>
+#include <abut/narrow/numbers.hpp>
+#include <abut/narrow/plain_ways.hpp>
+#include <abut/narrow/round_contact.hpp>
+#include <abut/predicate/certified_corner_box.hpp>
+#include <abut/shape/core.hpp>
+#include <abut/shape/hull.hpp>
+
+namespace abut::detail {
+
+/// The corners of a box and a point, as they are seen from the first corner.
+template <scalar T>
+struct plain_corner_box {
+    vec3<double> q[8]{}, p{};
+    double off = 0;  ///< how far corners are from sums of edges
+    plain_place<T> nearest{};
+    vec3<double> way{}, ahead{};  ///< from there to the point; of any length, along it, but orthogonal to the feature
+    double size = 0;
+    bool is_good = false, is_inside = false;
+
+    plain_corner_box() = default;
+    ABUT_NOINLINE ABUT_HD constexpr plain_corner_box(const vec3<T>* h, const vec3<T>& center, double radius)
+        : p(plain_way_to(h[0], center)), size(plain_step_from(-radius, plain_magnitudes(p))) {
+        using contact_math::plain_difference;
+        using contact_math::plain_dot;
+        for (int i = 1; i < 8; ++i) q[i] = plain_way_to(h[0], h[i]);
+        for (int k = 1; k < 8; k *= 2) size = plain_sum(size, plain_magnitudes(q[k]));
+        if (!are_plain_sizes<T>(size)) return;
+        const double all = plain_product(size, size);
+        int corner = 0, free = 0, free_count = 0;
+        bool are_edges = true;
+        for (int k = 1; k < 8; k *= 2) {
+            const double square = plain_dot(q[k], q[k]), along = plain_dot(q[k], p);
+            are_edges = are_edges && square > 0x1p-60 * all;
+            if (along >= square) corner += k;
+            if (along > 0 && along < square) free += k, ++free_count;
+        }
+        if (!are_edges) return;
+        if (free_count == 3) {
+            is_inside = true;
+            for (int i = 3; i < 8; ++i) {
+                if (i == 4) continue;
+                vec3<double> sum{0, 0, 0};
+                for (int k = 1; k < 8; k *= 2) {
+                    if ((i & k) != 0) sum = plain_step(sum, 1, q[k]);
+                }
+                off = greatest(off, plain_magnitudes(plain_difference(q[i], sum)));
+            }
+            return;
+        }
+        nearest.from = h[corner];
+        way = ahead = plain_way_to(h[corner], center);
+        if (free_count == 1) {
+            const vec3<double> edge = plain_way_to(h[corner], h[corner + free]);
+            const double per_square = 1 / plain_dot(edge, edge);
+            const double part = into_unit_of_doubles(plain_product(plain_dot(way, edge), per_square));
+            nearest.along = plain_times(part, edge);
+            way = plain_step(way, -part, edge);
+            ahead = plain_step(way, -plain_product(plain_dot(way, edge), per_square), edge);
+            is_good = has_all_behind(corner);
+        } else if (free_count == 2) {
+            const int one = free & -free, other = free - one;
+            const vec3<double> b = plain_way_to(h[corner], h[corner + one]), d = plain_way_to(h[corner], h[corner + other]),
+                               c = plain_way_to(h[corner], h[corner + free]), to_center = way;
+            const double bb = plain_dot(b, b), dd = plain_dot(d, d), x = plain_product(plain_dot(way, b), dd),
+                         y = plain_product(plain_dot(way, d), bb), whole = plain_product(bb, dd);
+            const auto take = [&](const vec3<double>& u, const vec3<double>& v, const vec3<double>& from, int at) {
+                const vec3<double> n = plain_cross(u, v), seen = plain_difference(to_center, from);
+                const double height = plain_dot(n, seen), square = plain_dot(n, n), part = height / square;
+                const double of_u = plain_dot(n, plain_cross(seen, v)), of_v = plain_dot(n, plain_cross(u, seen));
+                if (!(least(of_u, of_v, plain_sum(square, -plain_sum(of_u, of_v))) >= -0x1p-45 * square)) return false;
+                way = plain_times(part, n);
+                ahead = height < 0 ? contact_math::negated(n) : n;
+                nearest.along = plain_difference(to_center, way);
+                return has_all_behind(at);
+            };
+            const vec3<double> zero{0, 0, 0};
+            is_good = x < y ? take(c, d, zero, corner) : take(b, c, zero, corner);
+            if (!is_good) {
+                is_good = plain_sum(x, y) <= whole
+                              ? take(b, d, zero, corner)
+                              : take(plain_difference(c, b), plain_difference(d, b), b, corner + one);
+            }
+        } else {
+            is_good = has_all_behind(corner);
+        }
+        is_good = is_good && plain_dot(way, way) > 0x1p-40 * all;
+    }
+    /// How far a corner lies along n.
+    [[nodiscard]] ABUT_HD constexpr double farthest(const vec3<double>& n) const {
+        double most = 0;
+        for (int i = 1; i < 8; ++i) most = greatest(most, contact_math::plain_dot(n, q[i]));
+        return most;
+    }
+
+private:
+    [[nodiscard]] ABUT_HD constexpr bool has_all_behind(int corner) const {
+        const double beyond = plain_sum(farthest(ahead), -contact_math::plain_dot(ahead, q[corner])), slack = 0x1p-52 * size;
+        return beyond <= 0 || beyond * beyond <= slack * slack * contact_math::plain_dot(ahead, ahead);
+    }
+};
+
+/// A hull, and a point or a sphere.
+template <scalar T, class U>
+    requires(corners_of_core<U> == 1 && std::same_as<scalar_type_of<U>, T>)
+struct plain_pair<hull<T>, U> : plain_gap {
+    plain_corner_box<T> box;
+
+    ABUT_HD constexpr plain_pair(const hull<T>& s, const U& t)
+        : plain_gap{0, static_cast<double>(radius_around_core(t))},
+          box(s.count != 8 ? plain_corner_box<T>() : with_eight_points(s, [&](const vec3<T>* h) {
+              return plain_corner_box<T>(h, core_of(t).at[0], radius_b);
+          })) {
+        size = box.size, is_good = box.is_good;
+        if (is_good) length = contact_math::root(contact_math::one_double{contact_math::plain_dot(box.way, box.way)}).high;
+    }
+    [[nodiscard]] ABUT_HD constexpr const vec3<double>& way() const { return box.way; }
+    [[nodiscard]] ABUT_HD constexpr const plain_place<T>& on_a(const hull<T>&) const { return box.nearest; }
+    [[nodiscard]] ABUT_HD constexpr plain_place<T> on_b(const U& t) const { return {core_of(t).at[0]}; }
+};
+
+/// As of a box and a sphere (box_contact.hpp). A centre inside leaves along one of three normals, each the product of two
+/// edges. Corners that are off by a few roundings of themselves move overlaps by as much, which contact_bound covers.
+template <scalar T, class U>
+    requires has_plain_pair<hull<T>, U>
+ABUT_NOINLINE ABUT_HD constexpr first_contact<T> first_contact_of(const hull<T>& s, const U& t) {
+    using namespace contact_math;
+    const plain_pair<hull<T>, U> both(s, t);
+    first_contact<T> answer{both.touch()};
+    if (answer.touch == verdict::no) return answer;
+    const auto& box = both.box;
+    const auto magnitude = static_cast<double>(greatest(magnitude_of(s), magnitude_of(t)));
+    const double radius = both.radius_b;
+    const auto unit = [](const point& v) { return plain_normal<T>(plain_times(1 / root(one_double{plain_dot(v, v)}).high, v)); };
+    const auto overlap = [&](const point& n) {  // along -n
+        return plain_sum(plain_sum(radius, -plain_dot(n, box.p)), box.farthest(n));
+    };
+    if (answer.touch == verdict::yes) {
+        const point n = unit(box.ahead);
+        const double depth = overlap(n), excess = plain_sum(depth, -plain_sum(radius, -both.length));
+        if (!(excess <= tolerable_excess<T> / 2 * magnitude)) return first_contact<T>{};
+        answer.found = plain_contact(box.nearest.at(0, n), negated(n), depth);
+    } else if (box.is_inside && box.off <= 8 * static_cast<double>(unit_roundoff<T>) * magnitude) {
+        const double sure = plain_sum(radius, plain_sum(4 * box.off, 0x1p-44 * box.size));
+        least_overlap way;
+        for (int k = 0; k < 3; ++k) {
+            const point n = unit(plain_cross(box.q[k == 0 ? 2 : 1], box.q[k == 2 ? 2 : 4]));
+            for (const point& m : {n, negated(n)}) {
+                const double depth = overlap(m);
+                if (!(depth > sure)) return answer;
+                way.offer(negated(m), depth);
+            }
+        }
+        answer = {verdict::yes, plain_contact(core_of(t).at[0], way.normal, way.depth)};
+    }
+    return answer;
+}
+
+}  // namespace abut::detail
