@@ -90,9 +90,8 @@ namespace abut::detail {
 /// an axis.
 template <scalar T, class U>
     requires(has_radius<U> && has_plain_pair<aabb<T>, U>)
-ABUT_NOINLINE ABUT_HD constexpr first_contact<T> first_contact_of(const aabb<T>& s, const U& t) {
+ABUT_NOINLINE ABUT_HD constexpr first_contact<T> first_contact_of(const aabb<T>& s, const U& t, const plain_pair<aabb<T>, U>& both) {
     using namespace contact_math;
-    const plain_pair<aabb<T>, U> both(s, t);
     first_contact<T> answer{both.touch()};
     if (answer.touch == verdict::no) return answer;
     const double radius = both.radius_b;
@@ -120,7 +119,7 @@ ABUT_NOINLINE ABUT_HD constexpr contact<T> contact_between(const aabb<T>& s, con
     using namespace contact_math;
     using N = number_for<T>;
     if constexpr (has_plain_pair<aabb<T>, S>) {
-        if (const auto first = first_contact_of(s, t); first.touch == verdict::yes) return first.found;
+        if (const auto first = first_contact_of(s, t, plain_pair<aabb<T>, S>(s, t)); first.touch == verdict::yes) return first.found;
     }
     const common_scale scale(s, t);
     const segment<T> axis = axis_around(t);

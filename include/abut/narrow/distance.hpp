@@ -356,7 +356,7 @@ ABUT_HD constexpr auto separation_of(const S& s, const U& t, [[maybe_unused]] bo
         }
         vec3<T> shared{};
         if constexpr (refers_to_memory<S> && has_first_contact<S, U>) {
-            const auto first = first_contact_of(s, t);
+            const auto first = first_contact_of(s, t, plain_pair<S, U>(s, t));
             if (first.touch == verdict::yes) return separation<T>{0, 0, first.found.point, first.found.point, T(0)};
         }
         if constexpr (measured_hulls<S, U>) {
@@ -380,6 +380,10 @@ ABUT_HD constexpr auto separation_of(const S& s, const U& t) {
         const plain_pair<S, U> first(s, t);
         const verdict touch = first.touch();
         if (touch == verdict::no) return plain_separation(s, t, first);
+        if constexpr (has_first_contact<S, U>) {
+            const auto found = first_contact_of(s, t, first);
+            if (found.touch == verdict::yes) return separation<T>{0, 0, found.found.point, found.found.point, T(0)};
+        }
         if (touch == verdict::yes) return separation_of(s, t, true);
     }
     if constexpr (own_separation<S, U> || own_separation<U, S>) {

@@ -141,9 +141,8 @@ struct plain_pair<hull<T>, U> : plain_gap {
 /// edges. Corners that are off by a few roundings of themselves move overlaps by as much, which contact_bound covers.
 template <scalar T, class U>
     requires has_plain_pair<hull<T>, U>
-ABUT_NOINLINE ABUT_HD constexpr first_contact<T> first_contact_of(const hull<T>& s, const U& t) {
+ABUT_NOINLINE ABUT_HD constexpr first_contact<T> first_contact_of(const hull<T>& s, const U& t, const plain_pair<hull<T>, U>& both) {
     using namespace contact_math;
-    const plain_pair<hull<T>, U> both(s, t);
     first_contact<T> answer{both.touch()};
     if (answer.touch == verdict::no) return answer;
     const auto& box = both.box;

@@ -149,10 +149,9 @@ ABUT_HD constexpr contact<T> plain_contact(const vec3<T>& where, const contact_m
 /// contact_bound.
 template <class S, class U>
     requires(has_plain_pair<S, U> && corners_of_core<S> > 0)
-ABUT_NOINLINE ABUT_HD constexpr auto first_contact_of(const S& s, const U& t) {
+ABUT_NOINLINE ABUT_HD constexpr auto first_contact_of(const S& s, const U& t, const plain_pair<S, U>& both) {
     using namespace contact_math;
     using T = scalar_type_of<S>;
-    const plain_pair<S, U> both(s, t);
     first_contact<T> answer{both.touch()};
     if (answer.touch != verdict::yes) return answer;
     const point away = negated(both.cores.straightened());
@@ -196,7 +195,7 @@ ABUT_NOINLINE ABUT_HD constexpr contact<T> contact_between(const capsule<T>& s, 
 template <scalar T>
 ABUT_NOINLINE ABUT_HD constexpr contact<T> contact_between(const sphere<T>& s, const sphere<T>& t) {
     using namespace contact_math;
-    if (const auto first = first_contact_of(s, t); first.touch == verdict::yes) return first.found;
+    if (const auto first = first_contact_of(s, t, plain_pair<sphere<T>, sphere<T>>(s, t)); first.touch == verdict::yes) return first.found;
     const common_scale scale(s, t);
     const point a = scale(s.center), b = scale(t.center);
     const double radius_a = scale(s.radius), radius_b = scale(t.radius);
@@ -221,7 +220,7 @@ template <class S, class U>
 ABUT_NOINLINE ABUT_HD constexpr auto contact_between(const S& s, const U& t) {
     using namespace contact_math;
     using T = scalar_type_of<S>;
-    if (const auto first = first_contact_of(s, t); first.touch == verdict::yes) return first.found;
+    if (const auto first = first_contact_of(s, t, plain_pair<S, U>(s, t)); first.touch == verdict::yes) return first.found;
     const common_scale scale(s, t);
     const segment<T> axis = axis_around(s), other = axis_around(t);
     const triangle<T> flat{other.a, other.b, other.b};
@@ -244,7 +243,7 @@ ABUT_NOINLINE ABUT_HD constexpr auto contact_between(const S& s, const U& t) {
 /// Segments are triangles with two equal corners, points are spheres of radius 0.
 template <scalar T>
 ABUT_HD constexpr contact<T> contact_between(const sphere<T>& s, const segment<T>& t) {
-    if (const auto first = first_contact_of(s, t); first.touch == verdict::yes) return first.found;
+    if (const auto first = first_contact_of(s, t, plain_pair<sphere<T>, segment<T>>(s, t)); first.touch == verdict::yes) return first.found;
     return contact_between(s, triangle<T>{t.a, t.b, t.b});
 }
 template <scalar T>
