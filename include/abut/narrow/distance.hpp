@@ -191,6 +191,7 @@ struct measured_plane {
         constexpr int last = decltype(core)::corners - 1;
         on_plane = on_shape = core.at[0];
         if (is_zero(widened(s.normal))) return;
+        if (measure_plainly(s, core, static_cast<double>(radius_around_core(t)))) return;
         const common_scale scale(s, t);
         const corners corner{{scale(core.at[0]), scale(core.at[last > 0 ? 1 : 0]), scale(core.at[last])}};
         const plane_heights<3> over(s, corner.at, scale);
@@ -225,6 +226,32 @@ struct measured_plane {
             const measured_plane other(s, fan_triangle(h, i));
             if (other.length < length) *this = other;
         }
+    }
+
+private:
+    /// In plain doubles, if they tell to which side of the plane the shape is.
+    template <int N>
+    ABUT_HD constexpr bool measure_plainly(const plane<T>& s, const corner_hull<T, N>& core, double radius) {
+        double size = radius;
+        for (const vec3<T>& p : core.at) size = greatest(size, contact_math::largest_of(widened(p)));
+        const contact_math::plain_plane over(s, size);
+        if (!over.is_good) return false;
+        double height = infinity<double>;
+        for (const vec3<T>& p : core.at) {
+            const double other = over.height(widened(p));
+            if (absolute(other) < absolute(height)) height = other, on_shape = p;
+        }
+        if (!(absolute(height) > 0x1p-40 * size)) return false;
+        const vec3<T> from = on_shape;
+        const auto step = [](T x, double by) { return rounded(static_cast<T>(plain_sum(static_cast<double>(x), by))); };
+        const auto along = [&](double by) {
+            const vec3<double> v = plain_times(by, over.unit);
+            return vec3<T>{step(from.x, v.x), step(from.y, v.y), step(from.z, v.z)};
+        };
+        length = plain_sum(absolute(height), -radius);
+        on_plane = along(-height);
+        if (radius != 0) on_shape = along(height > 0 ? -radius : radius);
+        return true;
     }
 };
 

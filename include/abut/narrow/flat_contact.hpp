@@ -8,6 +8,7 @@
 #include <abut/narrow/directions.hpp>
 #include <abut/narrow/nearest.hpp>
 #include <abut/narrow/numbers.hpp>
+#include <abut/narrow/plain_ways.hpp>
 #include <abut/predicate/near_cores.hpp>
 #include <abut/predicate/plane_core.hpp>
 #include <abut/shape/core.hpp>
@@ -70,6 +71,53 @@ struct plane_heights {
         }
     }
 };
+
+/// The same in plain doubles, where numbers are of moderate size. The direction is within 2u, so that a height is within 9u of
+/// itself and of how far its point is from the origin.
+struct plain_plane {
+    point unit{};
+    double offset = 0;
+    bool is_good = false;
+
+    /// `size`: of what is measured, as it is seen from the origin.
+    template <scalar T>
+    ABUT_HD constexpr plain_plane(const plane<T>& s, double size) {
+        const point given = widened(s.normal);
+        const auto off = static_cast<double>(s.offset);
+        const double most = largest_of(given);
+        if (!(most > 0x1p-200 && most < 0x1p200 && absolute(off) < 0x1p400)) return;
+        const double per_length = 1 / root(one_double{plain_dot(given, given)}).high;
+        unit = plain_unit(plain_times(per_length, given));
+        offset = plain_product(off, per_length);
+        is_good = are_plain_sizes<T>(greatest(size, absolute(offset)));
+    }
+    [[nodiscard]] ABUT_HD constexpr double height(const point& p) const { return plain_sum(plain_dot(unit, p), -offset); }
+};
+
+/// The contact of a plane with one or two corners around which a shape reaches that far. Not where heights are too near to 0,
+/// or to each other's opposites, for rounding to tell to which side it is.
+template <scalar T>
+ABUT_NOINLINE ABUT_HD constexpr first_contact<T> first_contact_with_plane(const plane<T>& s, const vec3<T>& a, const vec3<T>& b,
+                                                                          T radius) {
+    const auto magnitude = static_cast<double>(greatest(magnitude_of(a), magnitude_of(b), radius));
+    const plain_plane over(s, magnitude);
+    if (!over.is_good) return {};
+    const point p = widened(a), q = widened(b), n = std::same_as<T, float> ? as_stored_direction<T>(over.unit) : over.unit;
+    const double from = over.height(p), to = over.height(q), lowest = least(from, to), highest = greatest(from, to);
+    const auto reach = static_cast<double>(radius);
+    least_overlap way;
+    way.offer(negated(n), plain_sum(reach, -lowest));
+    way.offer(n, plain_sum(reach, highest));
+    const double open = 0x1p-46 * magnitude;
+    if (!(absolute(plain_sum(lowest, highest)) > open && way.depth > open)) return {};
+    const bool is_from = absolute(from) <= absolute(to), passes = lowest <= 0 && highest >= 0;
+    if (passes && !(least(-lowest, highest) > open) && !(a == b)) return {};
+    // On the way from one corner to the other, or the foot of the nearer one.
+    point where = plain_step(is_from ? p : q, -(is_from ? from : to), n);
+    if (passes && !(a == b)) where = plain_step(p, from / plain_sum(from, -to), plain_difference(q, p));
+    const auto one = [](double x) { return rounded(static_cast<T>(x)); };
+    return {verdict::yes, plain_contact(vec3<T>{one(where.x), one(where.y), one(where.z)}, way.normal, way.depth)};
+}
 
 template <class P>
 ABUT_HD constexpr auto& coordinate(P& p, int axis) {
@@ -210,6 +258,9 @@ ABUT_HD constexpr contact<T> contact_with_plane(const plane<T>& s, const corner_
                                                 const contact_math::common_scale& scale) {
     using namespace contact_math;
     if (is_zero(widened(s.normal))) return {0, 0, core.at[0], {0, 0, 1}, largest_finite<T>};
+    if (const auto first = first_contact_with_plane(s, core.at[0], core.at[N - 1], radius); first.touch == verdict::yes) {
+        return first.found;
+    }
     const corners corner{{scale(core.at[0]), scale(core.at[N - 1]), scale(core.at[N - 1])}};
     const plane_heights<3> over(s, corner.at, scale);
     const auto& height = over.height;

@@ -28,6 +28,25 @@ ABUT_NOINLINE ABUT_HD constexpr contact<T> contact_between(const half_space<T>& 
     const hull<T>& h = core.as_hull();
     if (is_zero(widened(s.normal))) return {0, 0, h[0], {0, 0, 1}, largest_finite<T>};
     const plane<T> surface = surface_of(s);
+    const auto magnitude = static_cast<double>(magnitude_of(t));
+    // In plain doubles, where the plane is no farther from the origin than the shape.
+    if (const plain_plane plain(surface, magnitude); plain.is_good && absolute(plain.offset) < 2 * magnitude) {
+        point sum{0, 0, 0}, origin = widened(h[0]);
+        double lowest = infinity<double>, count = 0;
+        for (std::size_t i = 0; i < h.count; ++i) {
+            const point at = widened(h[i]);
+            const double height = plain.height(at);
+            if (height > lowest) continue;
+            if (height < lowest) lowest = height, origin = at, sum = {0, 0, 0}, count = 0;
+            sum = plain_step(sum, 1, plain_difference(at, origin));
+            count += 1;
+        }
+        const point n = std::same_as<T, float> ? as_stored_direction<T>(plain.unit) : plain.unit;
+        const auto reach = static_cast<double>(radius_around_core(t));
+        const point where = plain_step(plain_step(origin, 1 / count, sum), -reach, n);
+        const auto one = [](double x) { return rounded(static_cast<T>(x)); };
+        return plain_contact(vec3<T>{one(where.x), one(where.y), one(where.z)}, negated(n), plain_sum(reach, -lowest));
+    }
     const common_scale scale(surface, t);
     common_scale deep = scale;  // of heights, where the plane is far
     point first{}, n{}, sum{0, 0, 0};

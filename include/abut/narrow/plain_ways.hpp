@@ -286,4 +286,22 @@ ABUT_HD constexpr vec3<double> plain_unit(const vec3<double>& n) {
     return plain_step(n, -plain_sum(high, low) / 2, n);
 }
 
+/// What a closed form knows of two shapes: whether they touch, and if so their contact.
+template <scalar T>
+struct first_contact {
+    verdict touch = verdict::unknown;
+    contact<T> found{};
+};
+
+/// A unit vector along one whose length is 1 but for a few roundings, as contacts hold it.
+template <scalar T>
+ABUT_HD constexpr contact_math::point plain_normal(const contact_math::point& n) {
+    return std::same_as<T, float> ? contact_math::as_stored_direction<T>(n) : plain_unit(n);
+}
+template <scalar T>
+ABUT_HD constexpr contact<T> plain_contact(const vec3<T>& where, const contact_math::point& n, double depth) {
+    const auto one = [](double x) { return static_cast<T>(plain_sum(x, 0.0)); };  // not -0
+    return {0, 0, where, {one(n.x), one(n.y), one(n.z)}, rounded(static_cast<T>(greatest(depth, 0.0)))};
+}
+
 }  // namespace abut::detail
