@@ -60,6 +60,10 @@ concept contact_pair = requires(const hull_form_of<S>& s, const hull_form_of<U>&
     contact_between(s, t);
 };
 
+/// Those whose closed form may tell the contact, and whether there is one.
+template <class S, class U>
+concept has_first_contact = contact_pair<S, U> && requires(const S& s, const U& t) { first_contact_of(s, t); };
+
 /// In either order.
 template <class S, class U>
 ABUT_HD constexpr auto contact_in_any_order(const S& s, const U& t) {
@@ -89,6 +93,15 @@ template <arithmetic A = filtered, class S, class U>
 [[nodiscard]] ABUT_HD constexpr auto contact_of(const S& s, const U& t) {
     using found = decltype(detail::contact_in_any_order(s, t));
     using T = decltype(found::depth);
+    if constexpr (std::same_as<A, filtered> && detail::has_first_contact<S, U>) {
+        const auto first = detail::first_contact_of(detail::as_stored(s), detail::as_stored(t));
+        if (first.touch == verdict::no) return optional_contact<T>();
+        if (first.touch == verdict::yes) return optional_contact<T>(first.found);
+    } else if constexpr (std::same_as<A, filtered> && detail::has_first_contact<U, S> && !detail::contact_pair<S, U>) {
+        const auto first = detail::first_contact_of(detail::as_stored(t), detail::as_stored(s));
+        if (first.touch == verdict::no) return optional_contact<T>();
+        if (first.touch == verdict::yes) return optional_contact<T>(detail::reversed(first.found));
+    }
     if (!intersects<A>(s, t)) return optional_contact<T>();
     return optional_contact<T>(detail::contact_in_any_order(detail::as_stored(s), detail::as_stored(t)));
 }

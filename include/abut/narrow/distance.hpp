@@ -18,6 +18,7 @@
 #include <abut/narrow/nearest_point.hpp>
 #include <abut/narrow/nearest_ways.hpp>
 #include <abut/narrow/numbers.hpp>
+#include <abut/narrow/plain_ways.hpp>
 #include <abut/narrow/revolution_contact.hpp>
 #include <abut/narrow/revolution_hull_distance.hpp>
 #include <abut/narrow/revolution_plane.hpp>
@@ -102,6 +103,48 @@ ABUT_HD constexpr double positive_distance_of(const U& t, const Measured& m) {
     }
 }
 ///@}
+
+template <scalar T>
+ABUT_HD constexpr T rounded_distance(double distance) {
+    const T d = distance > static_cast<double>(largest_finite<T>) * (1 + static_cast<double>(unit_roundoff<T>) / 2)
+                    ? infinity<T>
+                    : rounded(static_cast<T>(distance));
+    constexpr T least_positive = ABUT_BIT_CAST(T, typename float_format<T>::word{1});
+    return d > 0 ? d : least_positive;
+}
+
+/// Two shapes by a closed form in plain doubles, where that is good enough: `touch()` is known then.
+template <class S, class U>
+struct plain_measured : plain_pair<S, U> {
+    using T = scalar_type_of<S>;
+
+    ABUT_HD constexpr plain_measured(const S& s, const U& t) : plain_pair<S, U>(s, t) {}
+    /// Of two that are apart. Their boxes are asked where the way is along an axis, but for what radii leave room for:
+    /// elsewhere they are nearer to each other. What is rounded is below 16u size, as in plain_ways.hpp.
+    [[nodiscard]] ABUT_HD constexpr double distance(const S& s, const U& t) const {
+        const double gap = plain_sum(this->length, -this->radii()), inside = plain_sum(0x1p-49 * this->size, -this->radii());
+        const auto beyond = [&](double x) { return greatest(plain_sum(absolute(x), inside), 0.0); };
+        const vec3<double> boxes{beyond(this->way.x), beyond(this->way.y), beyond(this->way.z)};
+        return plain_dot(boxes, boxes) < plain_product(gap, gap) ? gap : positive_distance(s, t, gap);
+    }
+    [[nodiscard]] ABUT_HD constexpr separation<T> separation_of(const S& s, const U& t) const {
+        const double per_length = 1 / this->length;
+        return {0, 0, end(core_of(s), this->part_a, this->along_a(), plain_product(this->radius_a, per_length)),
+                end(core_of(t), this->part_b, this->along_b(), -plain_product(this->radius_b, per_length)),
+                rounded_distance<T>(distance(s, t))};
+    }
+
+private:
+    template <int N>
+    [[nodiscard]] ABUT_HD constexpr vec3<T> end(const corner_hull<T, N>& core, double part, vec3<double> along, double of_way) const {
+        const bool at_end = N > 1 && part == 1;
+        const vec3<T>& from = core.at[at_end ? N - 1 : 0];
+        if (at_end) along = {0, 0, 0};
+        if (of_way != 0) along = plain_step(along, of_way, this->way);
+        const auto one = [](T x, double step) { return rounded(static_cast<T>(plain_sum(static_cast<double>(x), step))); };
+        return {one(from.x, along.x), one(from.y, along.y), one(from.z, along.z)};
+    }
+};
 
 /// Two shapes that do not touch, measured.
 template <scalar T>
@@ -237,18 +280,13 @@ ABUT_NOINLINE ABUT_HD constexpr distance_and_way distance_apart(const S& s, cons
         if (t.normal == vec3<scalar_type_of<S>>{0, 0, 0}) return {};
         return {positive_distance(s, t, revolution_over_plane(s, t, common_unit(s, t)).distance())};
     } else {
+        if constexpr (has_plain_pair<S, U>) {
+            const plain_measured<S, U> first(s, t);
+            if (first.touch() == verdict::no) return {first.distance(s, t), first.way};
+        }
         const measured_pair<scalar_type_of<S>> m(s, t);
         return {positive_distance(s, t, m.distance()), m.nearest.way};
     }
-}
-
-template <scalar T>
-ABUT_HD constexpr T rounded_distance(double distance) {
-    const T d = distance > static_cast<double>(largest_finite<T>) * (1 + static_cast<double>(unit_roundoff<T>) / 2)
-                    ? infinity<T>
-                    : rounded(static_cast<T>(distance));
-    constexpr T least_positive = ABUT_BIT_CAST(T, typename float_format<T>::word{1});
-    return d > 0 ? d : least_positive;
 }
 
 /// Of measured hulls that do not touch, with the points, and ids 0.
@@ -276,6 +314,10 @@ ABUT_NOINLINE ABUT_HD constexpr auto separation_apart(const S& s, const U& t) {
         return separation<T>{0, 0, m.point_on_solid(), m.point_on_plane(),
                              rounded_distance<T>(positive_distance(s, t, m.distance()))};
     } else {
+        if constexpr (has_plain_pair<S, U>) {
+            const plain_measured<S, U> first(s, t);
+            if (first.touch() == verdict::no) return first.separation_of(s, t);
+        }
         const measured_pair<T> m(s, t);
         return separation<T>{0, 0, m.point_on_a(s), m.point_on_b(t),
                              rounded_distance<T>(positive_distance(s, t, m.distance()))};
@@ -357,6 +399,13 @@ ABUT_HD constexpr auto separation_of(const S& s, const U& t) {
             return separation<T>{0, 0, shared, shared, T(0)};
         });
     } else if constexpr (!contact_pair<S, U> && measured_hulls<U, S> && !on_device) {
+        return reversed(separation_of(t, s));
+    } else if constexpr (contact_pair<S, U> && has_plain_pair<S, U>) {
+        const plain_measured<S, U> first(s, t);
+        const verdict touch = first.touch();
+        if (touch == verdict::no) return first.separation_of(s, t);
+        return separation_of(s, t, touch == verdict::yes || intersects(s, t));
+    } else if constexpr (!contact_pair<S, U> && has_plain_pair<U, S>) {
         return reversed(separation_of(t, s));
     } else {
         return separation_of(s, t, intersects(s, t));

@@ -8,6 +8,7 @@
 #include <abut/narrow/directions.hpp>
 #include <abut/narrow/nearest.hpp>
 #include <abut/narrow/numbers.hpp>
+#include <abut/narrow/plain_ways.hpp>
 #include <abut/narrow/triangle_contact.hpp>
 #include <abut/predicate/near_cores.hpp>
 #include <abut/predicate/plane_core.hpp>
@@ -125,6 +126,44 @@ ABUT_HD constexpr segment<scalar_type_of<S>> axis_around(const S& s) {
     return {core.at[0], core.at[corners_of_core<S> - 1]};
 }
 
+/// What a closed form knows of two shapes: whether they touch, and if so their contact.
+template <scalar T>
+struct first_contact {
+    verdict touch = verdict::unknown;
+    contact<T> found{};
+};
+
+/// The numbers of the contact below in plain doubles (plain_ways.hpp). The depth is the overlap along the normal as it is
+/// stored, and the normal is right where that is the least there can be, the radii less the distance, but for a part of
+/// contact_bound.
+template <class S, class U>
+    requires has_plain_pair<S, U>
+ABUT_NOINLINE ABUT_HD constexpr auto first_contact_of(const S& s, const U& t) {
+    using namespace contact_math;
+    using T = scalar_type_of<S>;
+    const plain_pair<S, U> both(s, t);
+    first_contact<T> answer{both.touch()};
+    if (answer.touch != verdict::yes) return answer;
+    const point away = negated(both.straightened());
+    const double distance = root(one_double{plain_dot(away, away)}).high, radii = both.radii();
+    const double per_distance = 1 / distance;
+    const point straight = plain_times(per_distance, away);
+    const point n = std::same_as<T, float> ? as_stored_direction<T>(straight) : plain_unit(straight);
+    const double depth = plain_sum(both.overlap(n), radii);
+    const double excess = plain_sum(depth, -plain_sum(radii, -distance));
+    if (!(excess <= tolerable_excess<T> / 2 * static_cast<double>(greatest(magnitude_of(s), magnitude_of(t))))) return first_contact<T>{};
+    const double from = greatest(plain_sum(distance, -both.radius_a), -both.radius_b);
+    const double to = least(plain_sum(distance, both.radius_a), both.radius_b);
+    double part = plain_product(plain_sum(from, to) / 2, per_distance);
+    if constexpr (!(std::same_as<S, sphere<T>> && std::same_as<U, sphere<T>>)) part = into_unit_of_doubles(part);
+    const point where = plain_step(both.along_b(), part, away);
+    const vec3<T> begin = core_of(t).at[0];
+    const auto back = [](T x, double step) { return rounded(static_cast<T>(plain_sum(static_cast<double>(x), step))); };
+    answer.found = {0, 0, {back(begin.x, where.x), back(begin.y, where.y), back(begin.z, where.z)},
+                    {static_cast<T>(n.x), static_cast<T>(n.y), static_cast<T>(n.z)}, rounded(static_cast<T>(greatest(depth, 0.0)))};
+    return answer;
+}
+
 // All of shapes that are known to touch, with ids 0.
 
 /// The triangle's point nearest to the centre.
@@ -152,6 +191,7 @@ ABUT_NOINLINE ABUT_HD constexpr contact<T> contact_between(const capsule<T>& s, 
 template <scalar T>
 ABUT_NOINLINE ABUT_HD constexpr contact<T> contact_between(const sphere<T>& s, const sphere<T>& t) {
     using namespace contact_math;
+    if (const auto first = first_contact_of(s, t); first.touch == verdict::yes) return first.found;
     const common_scale scale(s, t);
     const point a = scale(s.center), b = scale(t.center);
     const double radius_a = scale(s.radius), radius_b = scale(t.radius);
@@ -176,6 +216,7 @@ template <class S, class U>
 ABUT_NOINLINE ABUT_HD constexpr auto contact_between(const S& s, const U& t) {
     using namespace contact_math;
     using T = scalar_type_of<S>;
+    if (const auto first = first_contact_of(s, t); first.touch == verdict::yes) return first.found;
     const common_scale scale(s, t);
     const segment<T> axis = axis_around(s), other = axis_around(t);
     const triangle<T> flat{other.a, other.b, other.b};
@@ -198,6 +239,7 @@ ABUT_NOINLINE ABUT_HD constexpr auto contact_between(const S& s, const U& t) {
 /// Segments are triangles with two equal corners, points are spheres of radius 0.
 template <scalar T>
 ABUT_HD constexpr contact<T> contact_between(const sphere<T>& s, const segment<T>& t) {
+    if (const auto first = first_contact_of(s, t); first.touch == verdict::yes) return first.found;
     return contact_between(s, triangle<T>{t.a, t.b, t.b});
 }
 template <scalar T>

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The first stage of distances and contacts between points, segments, spheres and capsules: closed forms in plain doubles,
+// each operation rounded by itself, so that all compilers and devices find the same numbers, and all choose alike whether
+// those are good enough. Where they are not, what nearest_ways.hpp and round_contact.hpp compute is the answer. Not for
+// decisions that rounding leaves open: those are left open here too.
+//
+// Let a0, e and b0, f be the first ends and the edges of both axes, d the way from a0 to b0, and
+//     w(s, t) = d + t f - s e,    s, t in [0, 1],
+// which is least for s from the lines' nearest points, t from the foot of that, and s from the foot of that, each brought
+// to [0, 1] (C. Ericson, Real-Time Collision Detection (2005), 5.1.9). Why a way that passes is good enough: u = 2^-53; D is
+// the largest distance of two points of both shapes, so that d and way are no longer than D, and e and f than 2D.
+//
+// Whatever s and t are, they name two points of the cores. Rounding d (uD), e and f (2uD each), their products (2uD each),
+// and the sums (uD each) leaves w within 11uD of the way between these. Its length is within 2.5u of itself, radii add 2uD:
+// the distance is no more than 15.5uD below the true one.
+//
+// Nor is it above. Let r bound what is left of the slope, |w.e| / |e| for s inside, or what of it leads into [0, 1] at its
+// ends, and alike of f. For the least w* and v = w - w*, convexity gives |w|^2 - |w*|^2 = 2 w.v - |v|^2, and w.v is no more
+// than r (|ds e| + |dt f|) <= 2 r |v| / sin, where sin is that of the angle between the axes. So the difference is below
+// 4 r^2 / sin^2. With r <= 2^-48 size <= 2^-44 D, sin^2 >= 2^-10 and |w| >= 2^-20 size the way is longer than the least one
+// by less than u D / 16. Here `size` is the sum of the magnitudes of d, e, f and of the radii: D <= size <= 10D.
+//
+// Axes at smaller angles are tried at their ends, where each foot is well-conditioned, and the way w from there, taken
+// orthogonal to edges inside which it ends, bounds all others by the same convexity: none is shorter by more than the sum of
+// |w.e| and |w.f|, as far as they lead into [0, 1], over |w|. That is to be no more than size u / 4. Axes that cross are left.
+//
+// So shapes are surely apart, or surely touch, where length and radii differ by more than 16u size.
+//
+// Sizes are between 2^-200 and 2^200 (of float 2^100, so that points do not leave its range), and axes not below 2^-30 of that, or nothing is said: what underflows is nothing
+// beside the rest.
+
+#include <cstddef>
+#include <cstdint>
+
+#include <abut/arithmetic/arithmetic.hpp>
+#include <abut/arithmetic/error_free.hpp>
+#include <abut/arithmetic/limits.hpp>
+#include <abut/arithmetic/magnitude.hpp>
+#include <abut/narrow/directions.hpp>
+#include <abut/narrow/numbers.hpp>
+#include <abut/shape/core.hpp>
+#include <abut/shape/form.hpp>
+#include <abut/shape/primitive.hpp>
+
+namespace abut::detail {
+
+/// y - x in double, rounded once. In constant expressions, where nothing may overflow, a number that is as far out of range.
+template <scalar T>
+ABUT_HD constexpr double plain_step_from(T x, T y) {
+    const auto from = static_cast<double>(x), to = static_cast<double>(y);
+    if (ABUT_CONSTANT_EVALUATED() && absolute(to / 4 - from / 4) > 0x1p900) return 0x1p900;
+    return plain_sum(to, -from);
+}
+template <scalar T>
+ABUT_HD constexpr vec3<double> plain_way_to(const vec3<T>& from, const vec3<T>& to) {
+    return {plain_step_from(from.x, to.x), plain_step_from(from.y, to.y), plain_step_from(from.z, to.z)};
+}
+
+/// x v, coordinate by coordinate.
+ABUT_HD constexpr vec3<double> plain_times(double x, const vec3<double>& v) {
+    return {plain_product(x, v.x), plain_product(x, v.y), plain_product(x, v.z)};
+}
+
+/// x where it lies in [0, 1], or the end that it is beyond; 0 for NaN.
+ABUT_HD constexpr double into_unit_of_doubles(double x) { return least(greatest(x, 0.0), 1.0); }
+
+/// Two cores of one or two corners, the one of fewer first, and the least way from the first to the second.
+template <int N, int M>
+struct plain_cores {
+    vec3<double> d, e{0, 0, 0}, f{0, 0, 0};
+    double ee = 0, ef = 0, ff = 0;                      ///< products of edges
+    double per_ee = 0, per_ff = 0, per_determinant = 0;  ///< 1 / them
+    double part_a = 0, part_b = 0;                                ///< where it begins and ends, in parts of the edges
+    vec3<double> way;
+    double length = 0, size;
+    bool is_good = false;
+
+    template <scalar T>
+    ABUT_HD constexpr plain_cores(const corner_hull<T, N>& a, const corner_hull<T, M>& b, double radii)
+        : d(plain_way_to(a.at[0], b.at[0])), way(d), size(plain_sum(magnitudes_of(d), radii)) {
+        using contact_math::plain_dot;
+        if constexpr (M > 1) {
+            f = plain_way_to(b.at[0], b.at[M - 1]);
+            size = plain_sum(size, magnitudes_of(f));
+        }
+        if constexpr (N > 1) {
+            e = plain_way_to(a.at[0], a.at[N - 1]);
+            size = plain_sum(size, magnitudes_of(e));
+        }
+        if (!(size > 0x1p-200 && size < (std::same_as<T, float> ? 0x1p100 : 0x1p200))) return;
+        const double all = plain_product(size, size);
+        is_good = true;
+        if constexpr (M > 1) {
+            ff = plain_dot(f, f);
+            per_ff = inverse(ff);
+            is_good = ff > 0x1p-60 * all;
+            const double df = plain_dot(d, f);
+            if constexpr (N > 1) {
+                ee = plain_dot(e, e);
+                per_ee = inverse(ee);
+                ef = plain_dot(e, f);
+                const double de = plain_dot(d, e), whole = plain_product(ee, ff);
+                const double determinant = plain_sum(whole, -plain_product(ef, ef));
+                per_determinant = inverse(determinant);
+                const double first = plain_sum(plain_product(de, ff), -plain_product(df, ef));
+                part_a = into_unit_of_doubles(plain_product(first, per_determinant));
+                part_b = into_unit_of_doubles(plain_product(plain_sum(plain_product(part_a, ef), -df), per_ff));
+                part_a = into_unit_of_doubles(plain_product(plain_sum(plain_product(part_b, ef), de), per_ee));
+                way = plain_step(plain_step(d, part_b, f), -part_a, e);
+                is_good = is_good && ee > 0x1p-60 * all;
+                if (determinant >= 0x1p-10 * whole) {
+                    const double most = 0x1p-96 * all, of_e = slope_a(way), of_f = slope_b(way);
+                    is_good = is_good && of_e * of_e <= most * ee && of_f * of_f <= most * ff;
+                } else if (is_good) {
+                    is_good = take_ends(de, df);
+                }
+            } else {
+                part_b = into_unit_of_doubles(-plain_product(df, per_ff));
+                way = plain_step(d, part_b, f);
+            }
+        }
+        const double square = plain_dot(way, way);
+        is_good = is_good && square > 0x1p-40 * all;
+        if (!is_good) return;
+        length = contact_math::root(contact_math::one_double{square}).high;
+    }
+
+    /// Whether shapes with these radii around the cores touch, where that is sure.
+    [[nodiscard]] ABUT_HD constexpr verdict touch(double radii) const {
+        if (!is_good) return verdict::unknown;
+        const double gap = plain_sum(length, -radii), open = 0x1p-49 * size;
+        return gap > open ? verdict::no : gap < -open ? verdict::yes : verdict::unknown;
+    }
+    /// From the first corner of a core to where the way begins, or ends.
+    ///@{
+    [[nodiscard]] ABUT_HD constexpr vec3<double> along_a() const { return plain_times(part_a, e); }
+    [[nodiscard]] ABUT_HD constexpr vec3<double> along_b() const { return plain_times(part_b, f); }
+    ///@}
+    /// The way again, orthogonal to edges inside which it ends but for roundings of its own length.
+    [[nodiscard]] ABUT_HD constexpr vec3<double> straightened() const {
+        using contact_math::plain_dot;
+        if constexpr (M == 1) return way;
+        const bool in_b = part_b > 0 && part_b < 1;
+        const double rest_f = in_b ? plain_dot(way, f) : 0;
+        double of_t = -plain_product(rest_f, per_ff);
+        if constexpr (N == 1) return plain_step(way, of_t, f);
+        const bool in_a = part_a > 0 && part_a < 1;
+        const double rest_e = in_a ? plain_dot(way, e) : 0;
+        double of_s = plain_product(rest_e, per_ee);
+        if (in_a && in_b) {
+            of_s = plain_product(plain_sum(plain_product(rest_e, ff), -plain_product(rest_f, ef)), per_determinant);
+            of_t = plain_product(plain_sum(plain_product(rest_e, ef), -plain_product(rest_f, ee)), per_determinant);
+        }
+        return plain_step(plain_step(way, of_t, f), -of_s, e);
+    }
+    /// How far a has to go along n to be apart from b, but for radii.
+    [[nodiscard]] ABUT_HD constexpr double overlap(const vec3<double>& n) const {
+        double most = contact_math::plain_dot(n, d);
+        if constexpr (M > 1) most = plain_sum(most, greatest(contact_math::plain_dot(n, f), 0.0));
+        if constexpr (N > 1) most = plain_sum(most, -least(contact_math::plain_dot(n, e), 0.0));
+        return most;
+    }
+
+private:
+    ABUT_HD static constexpr double magnitudes_of(const vec3<double>& v) {
+        return plain_sum(plain_sum(absolute(v.x), absolute(v.y)), absolute(v.z));
+    }
+    /// 1 / x, where that is in range.
+    ABUT_HD static constexpr double inverse(double x) { return x > 0x1p-900 ? 1 / x : 0; }
+    /// Of axes that are nearly parallel, the least way from an end. Whether it is the least of all.
+    ABUT_NOINLINE ABUT_HD constexpr bool take_ends(double de, double df) {
+        double least_square = infinity<double>;
+        const auto offer = [&](double at_a, double at_b) {
+            const vec3<double> w = plain_step(plain_step(d, at_b, f), -at_a, e);
+            const double square = contact_math::plain_dot(w, w);
+            if (square < least_square) least_square = square, way = w, part_a = at_a, part_b = at_b;
+        };
+        for (int end = 0; end < 2; ++end) {
+            offer(end, into_unit_of_doubles(plain_product(plain_sum(end * ef, -df), per_ff)));
+            offer(into_unit_of_doubles(plain_product(plain_sum(end * ef, de), per_ee)), end);
+        }
+        const vec3<double> w = straightened();
+        const double slopes = plain_sum(absolute(slope_a(w)), absolute(slope_b(w))), most = 0x1p-55 * size;
+        return slopes * slopes <= most * most * least_square;
+    }
+    /// What is left of the slopes along the edges.
+    ///@{
+    [[nodiscard]] ABUT_HD constexpr double slope_a(const vec3<double>& w) const { return slope(contact_math::plain_dot(w, e), part_a); }
+    [[nodiscard]] ABUT_HD constexpr double slope_b(const vec3<double>& w) const { return slope(-contact_math::plain_dot(w, f), part_b); }
+    ///@}
+    /// What is left of a slope that should be 0, or at 0 not above, or at 1 not below.
+    ABUT_HD static constexpr double slope(double x, double at) {
+        return at <= 0 ? greatest(x, 0.0) : at >= 1 ? least(x, 0.0) : x;
+    }
+};
+
+/// Shapes whose cores have these corners, with their radii in double.
+template <class S, class U>
+struct plain_pair : plain_cores<corners_of_core<S>, corners_of_core<U>> {
+    using cores = plain_cores<corners_of_core<S>, corners_of_core<U>>;
+    double radius_a, radius_b;
+
+    ABUT_HD constexpr plain_pair(const S& s, const U& t)
+        : cores(core_of(s), core_of(t),
+                plain_step_from(-radius_around_core(s), radius_around_core(t))),
+          radius_a(static_cast<double>(radius_around_core(s))),
+          radius_b(static_cast<double>(radius_around_core(t))) {}
+    [[nodiscard]] ABUT_HD constexpr double radii() const { return plain_sum(radius_a, radius_b); }
+    [[nodiscard]] ABUT_HD constexpr verdict touch() const { return cores::touch(radii()); }
+};
+
+/// Points, segments, spheres and capsules with each other, in the order of their contacts.
+template <class S, class U>
+concept has_plain_pair = corners_of_core<S> >= 1 && corners_of_core<S> <= corners_of_core<U> && corners_of_core<U> <= 2 &&
+                         std::same_as<scalar_type_of<S>, scalar_type_of<U>>;
+
+/// n again, a vector that is a few units of roundoff off from length 1, within 1.5 units. What it is off is n.n - 1, in which
+/// squares of halves are exact, and the sums lose 2^-53.
+ABUT_HD constexpr vec3<double> plain_unit(const vec3<double>& n) {
+    const auto half = [](double x) { return ABUT_BIT_CAST(double, ABUT_BIT_CAST(std::uint64_t, x) & ~std::uint64_t{0x7ffffff}); };
+    const vec3<double> h{half(n.x), half(n.y), half(n.z)}, rest = contact_math::plain_difference(n, h);
+    const double high = plain_sum(plain_sum(plain_sum(plain_product(h.x, h.x), -1.0), plain_product(h.y, h.y)), plain_product(h.z, h.z));
+    const double low = plain_sum(plain_product(2.0, contact_math::plain_dot(h, rest)), contact_math::plain_dot(rest, rest));
+    return plain_step(n, -plain_sum(high, low) / 2, n);
+}
+
+}  // namespace abut::detail
