@@ -18,6 +18,8 @@
 #                 the programs and this script there, and build/report/results back
 #   --from DIR    nothing is run: the results are those in DIR, with folders cpu and cuda
 #   --no-install  fails where a package is missing
+#
+# ABUT_PEERS is a folder of checkouts of libraries that are no packages (bench/peers.cmake): bench_peers goes without what is not there.
 set -eu
 here=$(pwd)
 cd "$(dirname "$0")/.."
@@ -62,6 +64,7 @@ cpu nearest bench_nearest $G $I --benchmark_filter=/100000/
 cpu distance bench_distance $G $I --meshes=@D@/meshes
 cpu within bench_within $G $I --meshes=@D@/meshes
 cpu hulls bench_hulls $G $I
+cpu peers bench_peers --json={}
 cpu raycast bench_raycast $G $I --mesh=@D@/meshes/armadillo_345944.ply
 cpu descents bench_descents --json={} --mesh=@D@/meshes/armadillo_345944.ply
 cpu descents_138376 bench_descents --json={} --mesh=@D@/meshes/armadillo_138376.ply
@@ -162,7 +165,7 @@ if [ -z "$from" ]; then
         say 'building the benchmarks in build/report'
         mkdir -p build
         cmake --preset default -B build/report -DABUT_TESTS=OFF -DABUT_EXAMPLES=OFF -DABUT_BENCH=ON -DABUT_WERROR=OFF \
-            -DABUT_CUDA=$cuda >build/report.log 2>&1 || { cat build/report.log; fail 'configuring failed'; }
+            -DABUT_CUDA=$cuda -DABUT_PEERS="${ABUT_PEERS:-}" >build/report.log 2>&1 || { cat build/report.log; fail 'configuring failed'; }
         grep '^-- abut: ' build/report.log || true
         targets=$(table | while read -r kind name program rest; do
             if asked_for "$name" "$only" && asked_for "$kind" "$kinds" && { [ "$kind" = cpu ] || [ $cuda = ON ]; }; then

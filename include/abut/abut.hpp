@@ -27,6 +27,7 @@
 #include <abut/collide/raycast_detailed.hpp>
 #include <abut/collide/reduce_contacts.hpp>
 #include <abut/collide/self_pairs.hpp>
+#include <abut/collide/touching_bodies.hpp>
 #include <abut/collide/validate.hpp>
 #include <abut/collide/winding_number.hpp>
 #include <abut/collide/within.hpp>

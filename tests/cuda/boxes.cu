@@ -6,5 +6,3 @@
 #include "support/catch.hpp"
 
 TEST_CASE("oriented boxes: pairs, cuda") { abut::test::check_sets_of_boxes<float>(abut::cuda{}); }
-TEST_CASE("oriented boxes: more queries, cuda") { abut::test::check_more_of_boxes<float>(abut::cuda{}); }
-TEST_CASE("half spaces: queries, cuda") { abut::test::check_half_spaces<float>(abut::cuda{}); }

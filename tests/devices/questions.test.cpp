@@ -4,6 +4,7 @@
 #include "collide/ray_options_cases.hpp"
 #include "devices/question_cases.hpp"
 #include "support/scenes.hpp"
+#include "support/surfaces.hpp"
 
 TEST_CASE("devices: points, rays and distances are asked of several policies as of one") {
     const int n = GENERATE(1, 2, 3, 5);
@@ -111,4 +112,31 @@ TEST_CASE("devices: how far bodies are apart") {
 TEST_CASE("devices: errors of questions") {
     using abut::serial;
     abut::test::device_cases::check_question_errors<float>(abut::test::host_team<serial>(2), abut::test::host_team<serial>(3));
+}
+
+TEST_CASE("devices: bodies as wholes") {
+    using namespace abut;
+    const test::host_team<serial> team(GENERATE(1, 2, 5));
+    const test::torus<float> shape(12, 8, 0.7F, 0.3F);
+    const triangle_soup<float> set(test::triangles_of(shape.vertices, shape.faces));
+    const spheres<float> grains({{{0, 0, 0}, 0.25F}, {{0.5F, 0, 0}, 0.125F}});
+    std::vector<rigid<float>> poses;
+    for (int i = 0; i < 30; ++i) {
+        poses.push_back({.translation = {0.4F * static_cast<float>(i % 5), 0.3F * static_cast<float>(i / 5), 0}});
+    }
+    const std::vector<std::uint32_t> all_of_one(poses.size());
+    const auto meshes = make_bodies(team, std::vector{make_bvh(team, replicate(team, set))}, all_of_one, poses);
+    const auto balls = make_bodies(team, std::vector{make_bvh(team, replicate(team, grains))}, all_of_one, poses);
+    const serial on;
+    const auto meshes_here = make_bodies(on, std::vector{make_bvh(on, set)}, all_of_one, poses);
+    const auto balls_here = make_bodies(on, std::vector{make_bvh(on, grains)}, all_of_one, poses);
+    const auto touching = to_host(touching_bodies(on, meshes_here));
+    CHECK(touching.size() > 30);
+    CHECK((to_host(touching_bodies(team, meshes)) == touching));
+    CHECK((to_host(bodies_within(team, meshes, 0.1)) == to_host(bodies_within(on, meshes_here, 0.1))));
+    const auto both = between(meshes, balls);
+    const auto both_here = between(meshes_here, balls_here);
+    CHECK((to_host(touching_bodies(team, both)) == to_host(touching_bodies(on, both_here))));
+    CHECK((to_host(pairs(team, both)) == to_host(pairs(on, both_here))));
+    CHECK(count(team, both) == count(on, both_here));
 }

@@ -78,8 +78,8 @@ auto pair_up_near(const Policy& on, const body_state<Index>& state, const char* 
     const pair_key key{bits, bits};
     const auto keys = find_near(on, state.tree, key, true, part, near);
     return pair_up_entries<names_of_entries>(
-        on, state.placed, state.placed, keys.size(), near_bodies{keys.data(), key, state.with_shapes->data()},
-        list_options<before_first_touch<list_key>>{}, function, "pairs of bodies whose boxes are near", near);
+        on, state.placed, state.placed, keys.size(), near_bodies{keys.data(), key, state.with_shapes->data(), state.with_shapes->data()},
+        list_options<before_first_touch<list_key>>{}, function, noun_of_near, near);
 }
 
 /// What a key of a pairing of bodies says.

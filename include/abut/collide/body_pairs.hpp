@@ -81,7 +81,7 @@ struct body_contact {
 };
 
 /// Options of queries of many bodies; with a filter write `body_options{.filter = f}` (see query_options). See list_options.
-template <class Filter = keep_all, schedule Schedule = schedule::shared_list>
+template <class Filter = keep_all, schedule Schedule = schedule::shared_list, class Bodies = keep_all>
 struct body_options {
     /// Results sorted by body_a, then body_b, a and b. Without it the order is any, and may differ from call to call.
     flag sorted = true;
@@ -93,6 +93,10 @@ struct body_options {
     flag discard_sideways = false;
     /// As in query_options, for the walk of the bodies' trees.
     schedule_options scheduling = {};
+    /// bodies(body_a, body_b) -> bool, two std::uint32_t: two bodies for which it is false are not looked at. It is asked once
+    /// of each two whose boxes are near, and so costs nothing beside a filter of shapes: a matrix of allowed collisions goes
+    /// here. As a filter it is trivially copyable, ABUT_HD under cuda, and called concurrently.
+    Bodies bodies = {};
 };
 
 namespace detail {
@@ -110,7 +114,28 @@ inline constexpr bool is_many_bodies<std::vector<posed_object<Index>>> = true;
 template <class X>
 concept many_bodies = detail::is_many_bodies<X>;
 
+/// Two scenes, of which each body of the one is asked about with each of the other: a scene of its own, which queries of pairs
+/// take. So bodies of different kinds of indices meet. Made by `between`.
+template <many_bodies A, many_bodies B>
+struct bodies_between {
+    A a;  ///< body_a is one of these, and may be the higher number
+    B b;  ///< body_b is one of these
+};
+/// Each body of `a` with each of `b`. Bodies are not copied, but share what they hold. Where both are one scene, each body
+/// meets itself too.
+///
+///     const auto hits = abut::pairs(on, abut::between(robots, crates));  // body_a is a robot, body_b a crate
+template <many_bodies A, many_bodies B>
+[[nodiscard]] bodies_between<A, B> between(const A& a, const B& b) {
+    return {a, b};
+}
+
 namespace detail {
+
+template <class X>
+inline constexpr bool is_bodies_between = false;
+template <class A, class B>
+inline constexpr bool is_bodies_between<bodies_between<A, B>> = true;
 
 /// What bodies are of.
 template <class Bodies>
@@ -119,6 +144,20 @@ template <class Index>
 struct index_of_bodies<bodies<Index>> : std::type_identity<Index> {};
 template <class Index>
 struct index_of_bodies<std::vector<posed_object<Index>>> : std::type_identity<Index> {};
+template <class A, class B>
+struct index_of_bodies<bodies_between<A, B>> : index_of_bodies<A> {};
+/// And what those are of that they meet.
+template <class Bodies>
+struct other_index_of_bodies : index_of_bodies<Bodies> {};
+template <class A, class B>
+struct other_index_of_bodies<bodies_between<A, B>> : index_of_bodies<B> {};
+
+/// The same options with another filter of shapes. All members are named here, so that none is lost.
+template <class Filter, schedule Schedule, class Bodies, class Other>
+body_options<Other, Schedule, Bodies> with_filter(const body_options<Filter, Schedule, Bodies>& options, const Other& filter) {
+    const auto& [sorted, old, most_pairs, discard_sideways, scheduling, bodies] = options;
+    return {sorted, filter, most_pairs, discard_sideways, scheduling, bodies};
+}
 
 /// How shapes of an entry are named where the entries are pairs of bodies.
 struct names_of_bodies {
@@ -153,77 +192,145 @@ struct judge_boxes {
 struct near_bodies {
     const std::uint64_t* keys;
     pair_key key;
-    const std::uint32_t* with_shapes;
-    ABUT_HD index_pair operator()(std::size_t i) const { return {with_shapes[key.a(keys[i])], with_shapes[key.b(keys[i])]}; }
+    const std::uint32_t *of_a, *of_b;  ///< bodies that have shapes
+    ABUT_HD index_pair operator()(std::size_t i) const { return {of_a[key.a(keys[i])], of_b[key.b(keys[i])]}; }
 };
 
-/// The keys of all pairs of boxes that are near each other; ascending if they are to be.
-template <class Policy, class Tree, class Part = whole_search, class Nearness = near_enough_to_touch>
-auto find_near(const Policy& on, const Tree& tree, const pair_key& key, bool sorted, const Part& part = {},
-               const Nearness& near = {}) {
-    using operand = indexed_operand<Tree>;
-    constexpr schedule schedule_of_all = default_schedule<traversal::both_at_once>;
-    const self_pairing<operand, keep_all, traversal::both_at_once, schedule_of_all, Nearness> pairing{{tree}, key, {}, near};
-    const auto frame = box_overlap(pairing.x, pairing.x, near);
-    const judge_boxes<std::remove_const_t<decltype(frame)>> judge{frame};
-    key_queue<Policy> found(on, std::max(8 * tree.size(), std::size_t{1} << 16));
+/// A filter of bodies, of the leaves of two trees.
+template <class Bodies>
+struct wants_bodies {
+    Bodies wanted;
+    const std::uint32_t *of_a, *of_b;
+    ABUT_CALLS_ANY
+    ABUT_HD bool operator()(std::uint32_t a, std::uint32_t b) const { return wanted(of_a[a], of_b[b]); }
+};
+template <class Policy, class Bodies>
+auto filter_of_leaves(const Policy& on, const Bodies& wanted, const std::uint32_t* of_a, const std::uint32_t* of_b) {
+    require_callable(on, wanted, std::uint32_t{}, std::uint32_t{});
+    if constexpr (std::same_as<Bodies, keep_all>) {
+        return wanted;
+    } else {
+        return wants_bodies<Bodies>{wanted, of_a, of_b};
+    }
+}
+
+/// The keys of all pairs of boxes of a pairing that are near each other, or of a part of them; ascending if they are to be.
+template <class Policy, class Pairing, class Frame, class Part>
+auto keys_of_near(const Policy& on, const Pairing& pairing, const Frame& frame, std::size_t boxes, bool sorted,
+                  const Part& part) {
+    const judge_boxes<Frame> judge{frame};
+    key_queue<Policy> found(on, std::max(8 * boxes, std::size_t{1} << 16));
     if constexpr (std::same_as<Part, whole_search>) {
         search(on, pairing, judge, found);
     } else {
         search(on, in_part(pairing, part), judge, found);
     }
     auto keys = found.take();
-    if (sorted) sort_keys(on, keys, key.bits());
+    if (sorted) sort_keys(on, keys, pairing.key.bits());
     return keys;
 }
+inline constexpr schedule schedule_of_bodies = default_schedule<traversal::both_at_once>;
+/// Of one tree.
+template <class Policy, class Tree, class Part = whole_search, class Nearness = near_enough_to_touch, class Filter = keep_all>
+auto find_near(const Policy& on, const Tree& tree, const pair_key& key, bool sorted, const Part& part = {},
+               const Nearness& near = {}, const Filter& wanted = {}) {
+    const self_pairing<indexed_operand<Tree>, Filter, traversal::both_at_once, schedule_of_bodies, Nearness> pairing{
+        {tree}, key, {.filter = wanted}, near};
+    return keys_of_near(on, pairing, box_overlap(pairing.x, pairing.x, near), tree.size(), sorted, part);
+}
+/// Of two.
+template <class Policy, class TreeA, class TreeB, class Part, class Nearness, class Filter>
+auto find_near(const Policy& on, const TreeA& a, const TreeB& b, const pair_key& key, bool sorted, const Part& part,
+               const Nearness& near, const Filter& wanted) {
+    const pairing<indexed_operand<TreeA>, indexed_operand<TreeB>, Filter, traversal::both_at_once, schedule_of_bodies, Nearness>
+        both{{a}, {b}, key, {.filter = wanted}, near};
+    return keys_of_near(on, both, box_overlap(both.a, both.b, near), a.size() + b.size(), sorted, part);
+}
+
+template <class X>
+inline constexpr bool is_list_of_bodies = false;
+template <class Index>
+inline constexpr bool is_list_of_bodies<std::vector<posed_object<Index>>> = true;
+/// Bodies as they are, or of a list.
+template <class Policy, class X>
+auto kept_bodies(const Policy& on, const X& x, const char* function) {
+    if constexpr (is_list_of_bodies<X>) {
+        return bodies_of(on, x, function);
+    } else {
+        return x;
+    }
+}
+
+inline constexpr const char* noun_of_near = "pairs of bodies whose boxes are near";
 
 /// Bodies, ready to be asked, of all pairs that are near each other or of a part of those; errors are thrown in the name of
 /// `function`. Keys of results ascend as bodies do if entries are `sorted`.
-template <class Policy, class Index, class Filter, schedule Schedule, class Part = whole_search,
-          class Nearness = near_enough_to_touch>
-auto pair_up_bodies(const Policy& on, const bodies<Index>& all, const body_options<Filter, Schedule>& options, bool sorted,
-                    const char* function, const Part& part = {}, const Nearness& near = {}) {
+template <class Policy, class Index, class Options, class Part, class Nearness>
+auto pair_up_bodies(const Policy& on, const bodies<Index>& all, const Options& options, bool sorted, const char* function,
+                    const Part& part, const Nearness& near) {
     require_callable(on, options.filter, body_pair{});
     require_same_device(on, all, function);
     const body_state<Index>& state = parts_of_bodies::of(all);
+    const std::uint32_t* const of = state.with_shapes->data();
     const int bits = id_bits(state.tree.size());
     const pair_key key{bits, bits};
-    const auto keys = find_near(on, state.tree, key, sorted, part, near);
-    const near_bodies entries{keys.data(), key, state.with_shapes->data()};
-    return pair_up_entries<names_of_bodies>(on, state.placed, state.placed, keys.size(), entries, options, function,
-                                            "pairs of bodies whose boxes are near", near);
+    const auto keys = find_near(on, state.tree, key, sorted, part, near, filter_of_leaves(on, options.bodies, of, of));
+    return pair_up_entries<names_of_bodies>(on, state.placed, state.placed, keys.size(), near_bodies{keys.data(), key, of, of},
+                                            options, function, noun_of_near, near);
 }
-template <class Policy, class Index, class Filter, schedule Schedule, class Part = whole_search,
-          class Nearness = near_enough_to_touch>
-auto pair_up_bodies(const Policy& on, const std::vector<posed_object<Index>>& list,
-                    const body_options<Filter, Schedule>& options, bool sorted, const char* function, const Part& part = {},
-                    const Nearness& near = {}) {
-    return pair_up_bodies(on, bodies_of(on, list, function), options, sorted, function, part, near);
+template <class Policy, class Index, class Options, class Part, class Nearness>
+auto pair_up_bodies(const Policy& on, const std::vector<posed_object<Index>>& list, const Options& options, bool sorted,
+                    const char* function, const Part& part, const Nearness& near) {
+    return pair_up_bodies(on, kept_bodies(on, list, function), options, sorted, function, part, near);
+}
+template <class Policy, class A, class B, class Options, class Part, class Nearness>
+auto pair_up_bodies(const Policy& on, const bodies_between<A, B>& both, const Options& options, bool sorted,
+                    const char* function, const Part& part, const Nearness& near) {
+    if constexpr (is_list_of_bodies<A> || is_list_of_bodies<B>) {
+        const auto a = kept_bodies(on, both.a, function);
+        const auto b = kept_bodies(on, both.b, function);
+        return pair_up_bodies(on, between(a, b), options, sorted, function, part, near);
+    } else {
+        require_callable(on, options.filter, body_pair{});
+        require_same_device(on, both.a, function);
+        require_same_device(on, both.b, function);
+        const auto& a = parts_of_bodies::of(both.a);
+        const auto& b = parts_of_bodies::of(both.b);
+        const std::uint32_t *const of_a = a.with_shapes->data(), *const of_b = b.with_shapes->data();
+        const pair_key key{id_bits(a.tree.size()), id_bits(b.tree.size())};
+        const auto keys =
+            find_near(on, a.tree, b.tree, key, sorted, part, near, filter_of_leaves(on, options.bodies, of_a, of_b));
+        return pair_up_entries<names_of_bodies>(on, a.placed, b.placed, keys.size(),
+                                                near_bodies{keys.data(), key, of_a, of_b}, options, function, noun_of_near,
+                                                near);
+    }
 }
 
 /// Bodies as a form of arguments (question.hpp).
 template <class Bodies>
 struct form_of_bodies {
-    using index_type = typename index_of_bodies<Bodies>::type;
-    using scalar_type = typename index_type::scalar_type;
+    using index_a = typename index_of_bodies<Bodies>::type;
+    using index_b = typename other_index_of_bodies<Bodies>::type;
+    using scalar_type = typename index_a::scalar_type;
     using pair_type = body_pair;
     template <scalar T>
     using contact_type = body_contact<T>;
     struct order {
         template <class Found>
         ABUT_HD bool operator()(const Found& x, const Found& y) const {
-            return x.body_a != y.body_a   ? x.body_a < y.body_a
-                   : x.body_b != y.body_b ? x.body_b < y.body_b
-                                          : by_ids{}(x, y);
+            if constexpr (!std::same_as<Found, index_pair>) {  // which is two bodies
+                if (x.body_a != y.body_a) return x.body_a < y.body_a;
+                if (x.body_b != y.body_b) return x.body_b < y.body_b;
+            }
+            return by_ids{}(x, y);
         }
     };
     const Bodies& all;
 
     template <class Policy, class Question, class>
     static consteval bool can_be_asked() {
-        if constexpr (can_be_listed<Policy, index_type>()) {
-            using shape_type = shape_in_world<index_type>;
-            return Question::template takes<shape_type, shape_type>();
+        if constexpr (can_be_listed<Policy, index_a, index_b>()) {
+            return Question::template takes<shape_in_world<index_a>, shape_in_world<index_b>>();
         } else {
             return false;
         }
@@ -232,14 +339,15 @@ struct form_of_bodies {
     auto pair_up(const Policy& on, const Relation& how, const Options& options, bool in_order, const char* function,
                  const Part& part = {}) const {
         return pair_up_bodies(on, all, options, in_order, function, part,
-                              how.template nearness<typename index_type::scalar_type>());
+                              how.template nearness<scalar_type>());
     }
 };
 template <class Options>
 inline constexpr bool are_body_options = false;
-template <class Filter, schedule Schedule>
-inline constexpr bool are_body_options<body_options<Filter, Schedule>> = true;
-template <many_bodies Bodies>
+template <class Filter, schedule Schedule, class Wanted>
+inline constexpr bool are_body_options<body_options<Filter, Schedule, Wanted>> = true;
+template <class Bodies>
+    requires(many_bodies<Bodies> || is_bodies_between<Bodies>)
 struct form_of_scene<Bodies> {
     using type = form_of_bodies<Bodies>;
     using options = body_options<>;

@@ -26,11 +26,15 @@ struct until_found : closes_entries {
     std::uint32_t* found;  ///< of each entry
     [[nodiscard]] ABUT_HD bool is_open(std::uint32_t entry) const { return execution::atomic_load(found + entry) == 0; }
     ABUT_CALLS_ANY
-    ABUT_HD bool operator()(const tagged_pair& of) const { return is_open(of.pair) && filter(of); }
+    template <class Pair>
+    ABUT_HD bool operator()(const Pair& of) const {
+        return is_open(of.pair) && filter(of);
+    }
 };
 struct mark_entry {
     std::uint32_t* found;
-    ABUT_HD visit operator()(const tagged_pair& of) const {
+    template <class Pair>
+    ABUT_HD visit operator()(const Pair& of) const {
         execution::atomic_store(found + of.pair, 1);
         return visit::proceed;
     }

@@ -279,9 +279,24 @@ struct is_entry_with {
 };
 
 /// The schedule of options.
-template <template <class, schedule> class Options, class Filter, schedule Schedule>
-execution::scheduled<Schedule> scheduled_by(const Options<Filter, Schedule>& options) {
+template <template <class, schedule, class...> class Options, class Filter, schedule Schedule, class... More>
+execution::scheduled<Schedule> scheduled_by(const Options<Filter, Schedule, More...>& options) {
     return {options.scheduling};
+}
+
+/// Judges the candidates of all entries that `list` sees, by loops that `run` runs (judged_loops in search.hpp).
+template <class Policy, class Pairing, class View, class Options, class Run>
+void judge_entries(const Policy& on, const Pairing& of, const View& list, const Options& options, const Run& run) {
+    using tree_a = typename Pairing::tree_a;
+    using tree_b = typename Pairing::tree_b;
+    const some_entries all{nullptr, of.members.size()};
+    const expand_entry<View, tree_a, tree_b> step{list,
+                                                  of.all_walked ? all : some_entries{of.walked.data(), of.walked.size()}};
+    const auto how = scheduled_by(options);
+    run([&](const auto& judge, auto&... sinks) { return for_each_descendant(on, how, step, judge, sinks...); });
+    if (of.looked.size() == 0) return;
+    const look_up_entry<View, tree_a, tree_b, decltype(Pairing::near)> each{list, {of.looked.data(), of.looked.size()}, of.near};
+    run([&](const auto& judge, auto&... sinks) { return for_each_candidate(on, of.looked.size(), each, judge, sinks...); });
 }
 
 /// A list that is asked about the pairs of its entries.
@@ -314,13 +329,7 @@ struct list_pairing {
 
     template <class Run>
     void judge_candidates(const Policy& on, const Run& run) const {
-        const some_entries all{nullptr, members.size()};
-        const expand step{view(), all_walked ? all : some_entries{walked.data(), walked.size()}};
-        const auto how = scheduled_by(options);
-        run([&](const auto& judge, auto&... sinks) { return for_each_descendant(on, how, step, judge, sinks...); });
-        if (looked.size() == 0) return;
-        const look_up_entry<view_type, tree_a, tree_b, Nearness> each{view(), {looked.data(), looked.size()}, near};
-        run([&](const auto& judge, auto&... sinks) { return for_each_candidate(on, looked.size(), each, judge, sinks...); });
+        judge_entries(on, *this, view(), options, run);
     }
 };
 

@@ -223,10 +223,20 @@ struct goes_down {
 
     /// Throws in the name of a function where options lack something.
     static void check(const auto&, const char*) {}
+    /// Whether the boxes of two trees' roots tell that there is nothing to find; a host reads them. So nothing is set up then.
+    template <class Policy, class Expand>
+    static bool are_apart([[maybe_unused]] const Expand& expand) {
+        if constexpr (host_policy<Policy> && requires { expand.walk.overlap(expand.walk.a.root_bounds(), expand.walk.b.root_bounds()); }) {
+            return !expand.walk.overlap(expand.walk.a.root_bounds(), expand.walk.b.root_bounds());
+        } else {
+            return false;
+        }
+    }
     /// Judges what is found below the trees of two operands, which may be one, by loops that `run` runs.
     template <class Policy, class A, class B, class Expand, class Filter, traversal Traversal, schedule Schedule, class Run>
     static void descend(const Policy& on, const A&, const B&, const Expand& expand,
                         const query_options<Filter, Traversal, Schedule>& options, const Run& run) {
+        if (are_apart<Policy>(expand)) return;
         const execution::scheduled<Schedule> how{options.scheduling};
         const auto from = [&](const auto& step) {
             run([&](const auto& judge, auto&... sinks) { return for_each_descendant(on, how, step, judge, sinks...); });

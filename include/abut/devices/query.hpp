@@ -175,6 +175,9 @@ struct form_there<form_of_list<replicated<IndexA>, replicated<IndexB>>>
     : std::type_identity<form_of_list<IndexA, IndexB>> {};
 template <class Index>
 struct form_there<form_of_bodies<replicated<bodies<Index>>>> : std::type_identity<form_of_bodies<bodies<Index>>> {};
+template <class A, class B>
+struct form_there<form_of_bodies<bodies_between<replicated<A>, replicated<B>>>>
+    : std::type_identity<form_of_bodies<bodies_between<A, B>>> {};
 
 // ask_shares(team, relation, form, options, function, in_order, is_over, ask): ask(k, pairing, names) on each device, on a
 // thread of its own, once or several times, so that all pairs are looked at, each once; no more of them once is_over(k).
@@ -254,9 +257,21 @@ void ask_shares(const Team& team, const Relation& how, const form_of_list<A, B>&
 template <class Team, class Relation, class Bodies, class Options, class IsOver, class Ask>
 void ask_shares(const Team& team, const Relation& how, const form_of_bodies<Bodies>& all, const Options& options,
                 const char* function, bool in_order, const IsOver&, const Ask& ask) {
-    require_as_many(team, all.all, function);
+    if constexpr (is_bodies_between<Bodies>) {
+        require_as_many(team, all.all.a, function);
+        require_as_many(team, all.all.b, function);
+    } else {
+        require_as_many(team, all.all, function);
+    }
     execution::on_each(team, [&](int k) {
-        const typename form_there<form_of_bodies<Bodies>>::type there{all.all[k]};
+        const auto bodies_there = [&] {
+            if constexpr (is_bodies_between<Bodies>) {
+                return between(all.all.a[k], all.all.b[k]);
+            } else {
+                return all.all[k];
+            }
+        }();
+        const typename form_there<form_of_bodies<Bodies>>::type there{bodies_there};
         ask(k, there.pair_up(team[k], how, options_of_one(options), in_order, function, share_of(team, k)), own_names{});
     });
 }

@@ -168,9 +168,9 @@ void radix_sort(const Policy& on, buffer<Key, Space>& keys, buffer<Value, Space>
     using digit = detail::digit_of_keys<Key>;
     using bucket = detail::sort_bucket<Key, Value>;
     const int digits = (bits + digit::most_bits - 1) / digit::most_bits;
-    if (digits <= 0) return;
-    const int longest = (bits + digits - 1) / digits;
     const std::size_t n = keys.size();
+    if (digits <= 0 || n < 2) return;
+    const int longest = (bits + digits - 1) / digits;
     const detail::equal_parts parts = detail::parts_for(on, n);
     buffer<std::size_t, Space> counts(on, (parts.count << std::max(longest, bucket::most_bits)) + 1);
     buffer<Key, Space> other_keys(on, n);

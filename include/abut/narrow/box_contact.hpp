@@ -86,11 +86,12 @@ ABUT_NOINLINE ABUT_HD constexpr void offer_faces(const box_and_ball& pair, const
 
 namespace abut::detail {
 
-/// The same of a box and a sphere in plain doubles (plain_ways.hpp): along the way to the centre, or if that is inside, along
-/// an axis.
+/// The same of a box and a sphere in plain doubles (plain_ways.hpp): along the way to the centre, or if that is inside,
+/// along an axis.
 template <scalar T, class U>
     requires(has_radius<U> && has_plain_pair<aabb<T>, U>)
-ABUT_NOINLINE ABUT_HD constexpr first_contact<T> first_contact_of(const aabb<T>& s, const U& t, const plain_pair<aabb<T>, U>& both) {
+ABUT_NOINLINE ABUT_HD constexpr first_contact<T> first_contact_of(const aabb<T>& s, const U& t,
+                                                                  const plain_pair<aabb<T>, U>& both) {
     using namespace contact_math;
     first_contact<T> answer{both.touch()};
     if (answer.touch == verdict::no) return answer;
@@ -100,7 +101,8 @@ ABUT_NOINLINE ABUT_HD constexpr first_contact<T> first_contact_of(const aabb<T>&
         answer.found = plain_contact(both.nearest, n, plain_sum(radius, plain_dot(n, both.way())));
     } else if (is_zero(both.way())) {
         const point lower = plain_way_to(s.lower, t.center), upper = plain_way_to(t.center, s.upper);
-        if (!are_plain_sizes<T>(plain_sum(plain_sum(radius, plain_magnitudes(lower)), plain_magnitudes(upper)))) return answer;
+        if (!are_plain_sizes<T>(plain_sum(plain_sum(radius, plain_magnitudes(lower)), plain_magnitudes(upper))))
+            return answer;
         least_overlap way;
         for (int k = 0; k < 3; ++k) {
             const point n{k == 0 ? 1.0 : 0.0, k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0};
@@ -119,7 +121,8 @@ ABUT_NOINLINE ABUT_HD constexpr contact<T> contact_between(const aabb<T>& s, con
     using namespace contact_math;
     using N = number_for<T>;
     if constexpr (has_plain_pair<aabb<T>, S>) {
-        if (const auto first = first_contact_of(s, t, plain_pair<aabb<T>, S>(s, t)); first.touch == verdict::yes) return first.found;
+        if (const auto first = first_contact_of(s, t, plain_pair<aabb<T>, S>(s, t)); first.touch == verdict::yes)
+            return first.found;
     }
     const common_scale scale(s, t);
     const segment<T> axis = axis_around(t);

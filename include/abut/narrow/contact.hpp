@@ -63,7 +63,8 @@ concept contact_pair = requires(const hull_form_of<S>& s, const hull_form_of<U>&
 
 /// Those whose closed form may tell the contact, and whether there is one.
 template <class S, class U>
-concept has_first_contact = contact_pair<S, U> && requires(const S& s, const U& t) { first_contact_of(s, t, plain_pair<S, U>(s, t)); };
+concept has_first_contact =
+    contact_pair<S, U> && requires(const S& s, const U& t) { first_contact_of(s, t, plain_pair<S, U>(s, t)); };
 
 /// In either order.
 template <class S, class U>
@@ -74,7 +75,8 @@ ABUT_HD constexpr auto contact_in_any_order(const S& s, const U& t) {
         return contact_in_any_order(a.as_hull(), b.as_hull());
     } else if constexpr (contact_pair<S, U>) {
         if constexpr (refers_to_memory<S> && has_first_contact<S, U>) {
-            if (const auto first = first_contact_of(s, t, plain_pair<S, U>(s, t)); first.touch == verdict::yes) return first.found;
+            if (const auto first = first_contact_of(s, t, plain_pair<S, U>(s, t)); first.touch == verdict::yes)
+                return first.found;
         }
         return contact_between(s, t);
     } else {

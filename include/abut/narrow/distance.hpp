@@ -19,6 +19,7 @@
 #include <abut/narrow/nearest_ways.hpp>
 #include <abut/narrow/numbers.hpp>
 #include <abut/narrow/plain_box.hpp>
+#include <abut/narrow/plain_distance.hpp>
 #include <abut/narrow/plain_ways.hpp>
 #include <abut/narrow/revolution_contact.hpp>
 #include <abut/narrow/revolution_hull_distance.hpp>
@@ -114,9 +115,9 @@ ABUT_HD constexpr T rounded_distance(double distance) {
     return d > 0 ? d : least_positive;
 }
 
-/// Two shapes that are apart, by a closed form in plain doubles. Their boxes are asked where the way is along an axis, but for
-/// what radii leave room for: elsewhere they are nearer to each other. What is rounded is below 16u size, as plain_ways.hpp
-/// says.
+/// Two shapes that are apart, by a closed form in plain doubles. Their boxes are asked where the way is along an axis, but
+/// for what radii leave room for: elsewhere they are nearer to each other. What is rounded is below 16u size, as
+/// plain_ways.hpp says.
 template <class S, class U>
 ABUT_HD constexpr double plain_distance(const S& s, const U& t, const plain_pair<S, U>& both) {
     const double gap = plain_sum(both.length, -both.radii()), inside = plain_sum(0x1p-49 * both.size, -both.radii());
@@ -286,6 +287,10 @@ ABUT_NOINLINE ABUT_HD constexpr distance_and_way distance_apart(const S& s, cons
         const plain_pair<S, U> first(s, t);
         if (first.touch() == verdict::no) return {plain_distance(s, t, first), first.way()};
     }
+    if constexpr (searched_plainly<S, U>) {
+        const measured_plainly<scalar_type_of<S>> m(s, t);
+        if (m.nearest.is_sure) return {positive_distance(s, t, m.distance()), m.nearest.way};
+    }
     if constexpr (measured_hulls<S, U>) {
         return with_measured_hulls(s, t, false, [&](const auto& m) {
             return distance_and_way{positive_distance_of(t, m), m.way()};
@@ -308,6 +313,12 @@ template <class U, class Measured>
 ABUT_HD constexpr auto separation_of_hulls_apart(const U& t, const Measured& m) {
     using T = scalar_type_of<U>;
     return separation<T>{0, 0, m.point_on_a(), m.point_on_b(), rounded_distance<T>(positive_distance_of(t, m))};
+}
+
+/// The same of a solid and a shape that the search in doubles knows.
+template <class S, class U, scalar T>
+ABUT_HD constexpr separation<T> separation_of_searched(const S& s, const U& t, const measured_plainly<T>& m) {
+    return {0, 0, m.point_on_a(), m.point_on_b(t), rounded_distance<T>(positive_distance(s, t, m.distance()))};
 }
 
 /// The same of any shapes.
@@ -353,6 +364,14 @@ concept own_separation = requires(const S& s, const U& t) {
 template <class S, class U>
 concept measurable = contact_pair<S, U> || contact_pair<U, S> || own_separation<S, U> || own_separation<U, S>;
 
+/// Of a solid and what the search in doubles has looked at.
+template <class S, class U, scalar T>
+ABUT_HD constexpr separation<T> separation_by(const S& s, const U& t, const measured_plainly<T>& m, bool touch) {
+    if (!touch) return m.nearest.is_sure ? separation_of_searched(s, t, m) : separation_apart(s, t);
+    const vec3<T> shared = m.knows_shared_point() ? m.shared_point() : shared_point_of(s, t);
+    return {0, 0, shared, shared, T(0)};
+}
+
 /// Two shapes of which it is known whether they touch.
 template <class S, class U>
 ABUT_HD constexpr auto separation_of(const S& s, const U& t, [[maybe_unused]] bool touch) {
@@ -379,6 +398,7 @@ ABUT_HD constexpr auto separation_of(const S& s, const U& t, [[maybe_unused]] bo
         if constexpr (is_half_space<S>) {
             if (!touch) return separation_of(surface_of(s), t, false);
         } else {
+            if constexpr (searched_plainly<S, U>) return separation_by(s, t, measured_plainly<T>(s, t), touch);
             if (!touch) return separation_apart(s, t);
         }
         vec3<T> shared{};
@@ -419,6 +439,12 @@ ABUT_HD constexpr auto separation_of(const S& s, const U& t) {
         const auto a = hull_form(s);
         const auto b = hull_form(t);
         return separation_of(a.as_hull(), b.as_hull());
+    } else if constexpr (searched_plainly<S, U>) {
+        if (!have_axes(s, t)) return separation_of(s, t, intersects(s, t));
+        const measured_plainly<T> m(s, t);
+        return m.are_apart() ? separation_of_searched(s, t, m) : separation_by(s, t, m, intersects(s, t));
+    } else if constexpr (!contact_pair<S, U> && searched_plainly<U, S>) {
+        return reversed(separation_of(t, s));
     } else if constexpr (measured_hulls<S, U> && !on_device) {
         const auto ask = [&] { return intersects(s, t); };
         return with_asked_hulls(s, t, ask, [&](const auto& m, bool touch) {

@@ -72,8 +72,8 @@ struct plane_heights {
     }
 };
 
-/// The same in plain doubles, where numbers are of moderate size. The direction is within 2u, so that a height is within 9u of
-/// itself and of how far its point is from the origin.
+/// The same in plain doubles, where numbers are of moderate size. The direction is within 2u, so that a height is within 9u
+/// of itself and of how far its point is from the origin.
 struct plain_plane {
     point unit{};
     double offset = 0;
@@ -94,11 +94,11 @@ struct plain_plane {
     [[nodiscard]] ABUT_HD constexpr double height(const point& p) const { return plain_sum(plain_dot(unit, p), -offset); }
 };
 
-/// The contact of a plane with one or two corners around which a shape reaches that far. Not where heights are too near to 0,
-/// or to each other's opposites, for rounding to tell to which side it is.
+/// The contact of a plane with one or two corners around which a shape reaches that far. Not where heights are too near to
+/// 0, or to each other's opposites, for rounding to tell to which side it is.
 template <scalar T>
-ABUT_NOINLINE ABUT_HD constexpr first_contact<T> first_contact_with_plane(const plane<T>& s, const vec3<T>& a, const vec3<T>& b,
-                                                                          T radius) {
+ABUT_NOINLINE ABUT_HD constexpr first_contact<T> first_contact_with_plane(const plane<T>& s, const vec3<T>& a,
+                                                                          const vec3<T>& b, T radius) {
     const auto magnitude = static_cast<double>(greatest(magnitude_of(a), magnitude_of(b), radius));
     const plain_plane over(s, magnitude);
     if (!over.is_good) return {};

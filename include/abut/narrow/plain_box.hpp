@@ -8,9 +8,10 @@
 // hull_contact.hpp. Not for hulls that are no boxes.
 //
 // A face's four corners need not lie in one plane: of both ways to divide it in triangles the one is taken that has all
-// corners behind it, and the foot inside but for 2^-45 of it. A corner may be ahead by 2u size, where `size` is the sum of magnitudes of the centre and the edges as
-// they are seen from the first corner, and of the radius, below 8D. So the distance is within 16uD of that of the feature,
-// and within 30uD of the true one, with the roundings that plain_ways.hpp counts.
+// corners behind it, and the foot inside but for 2^-45 of it. A corner may be ahead by 2u size, where `size` is the sum of
+// magnitudes of the centre and the edges as they are seen from the first corner, and of the radius, below 8D. So the
+// distance is within 16uD of that of the feature, and within 30uD of the true one, with the roundings that plain_ways.hpp
+// counts.
 
 #include <cstddef>
 
@@ -95,9 +96,8 @@ struct plain_corner_box {
             const vec3<double> zero{0, 0, 0};
             is_good = x < y ? take(c, d, zero, corner) : take(b, c, zero, corner);
             if (!is_good) {
-                is_good = plain_sum(x, y) <= whole
-                              ? take(b, d, zero, corner)
-                              : take(plain_difference(c, b), plain_difference(d, b), b, corner + one);
+                is_good = plain_sum(x, y) <= whole ? take(b, d, zero, corner)
+                                                   : take(plain_difference(c, b), plain_difference(d, b), b, corner + one);
             }
         } else {
             is_good = has_all_behind(corner);
@@ -141,14 +141,17 @@ struct plain_pair<hull<T>, U> : plain_gap {
 /// edges. Corners that are off by a few roundings of themselves move overlaps by as much, which contact_bound covers.
 template <scalar T, class U>
     requires has_plain_pair<hull<T>, U>
-ABUT_NOINLINE ABUT_HD constexpr first_contact<T> first_contact_of(const hull<T>& s, const U& t, const plain_pair<hull<T>, U>& both) {
+ABUT_NOINLINE ABUT_HD constexpr first_contact<T> first_contact_of(const hull<T>& s, const U& t,
+                                                                  const plain_pair<hull<T>, U>& both) {
     using namespace contact_math;
     first_contact<T> answer{both.touch()};
     if (answer.touch == verdict::no) return answer;
     const auto& box = both.box;
     const auto magnitude = static_cast<double>(greatest(magnitude_of(s), magnitude_of(t)));
     const double radius = both.radius_b;
-    const auto unit = [](const point& v) { return plain_normal<T>(plain_times(1 / root(one_double{plain_dot(v, v)}).high, v)); };
+    const auto unit = [](const point& v) {
+        return plain_normal<T>(plain_times(1 / root(one_double{plain_dot(v, v)}).high, v));
+    };
     const auto overlap = [&](const point& n) {  // along -n
         return plain_sum(plain_sum(radius, -plain_dot(n, box.p)), box.farthest(n));
     };

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The first stage of distances and contacts between points, segments, spheres, capsules and boxes: closed forms in plain doubles,
-// each operation rounded by itself, so that all compilers and devices find the same numbers, and all choose alike whether
-// those are good enough. Where they are not, what nearest_ways.hpp and round_contact.hpp compute is the answer. Not for
-// decisions that rounding leaves open: those are left open here too.
+// The first stage of distances and contacts between points, segments, spheres, capsules and boxes: closed forms in plain
+// doubles, each operation rounded by itself, so that all compilers and devices find the same numbers, and all choose alike
+// whether those are good enough. Where they are not, what nearest_ways.hpp and round_contact.hpp compute is the answer. Not
+// for decisions that rounding leaves open: those are left open here too.
 //
 // Let a0, e and b0, f be the first ends and the edges of both axes, d the way from a0 to b0, and
 //     w(s, t) = d + t f - s e,    s, t in [0, 1],
@@ -24,12 +24,13 @@
 //
 // Axes at smaller angles are tried at their ends, where each foot is well-conditioned, and the way w from there, taken
 // orthogonal to edges inside which it ends, bounds all others by the same convexity: none is shorter by more than the sum of
-// |w.e| and |w.f|, as far as they lead into [0, 1], over |w|. That is to be no more than size u / 4. Axes that cross are left.
+// |w.e| and |w.f|, as far as they lead into [0, 1], over |w|. That is to be no more than size u / 4. Axes that cross are
+// left.
 //
 // So shapes are surely apart, or surely touch, where length and radii differ by more than 16u size.
 //
-// Sizes are between 2^-200 and 2^200 (of float 2^100, so that points do not leave its range), and axes not below 2^-30 of that, or nothing is said: what underflows is nothing
-// beside the rest.
+// Sizes are between 2^-200 and 2^200 (of float 2^100, so that points do not leave its range), and axes not below 2^-30 of
+// that, or nothing is said: what underflows is nothing beside the rest.
 
 #include <cstddef>
 #include <cstdint>
@@ -238,8 +239,12 @@ struct plain_pair<S, U> : plain_gap {
         length = cores.length, size = cores.size, is_good = cores.is_good;
     }
     [[nodiscard]] ABUT_HD constexpr const vec3<double>& way() const { return cores.way; }
-    [[nodiscard]] ABUT_HD constexpr plain_place<T> on_a(const S& s) const { return place_in(core_of(s), cores.part_a, cores.e); }
-    [[nodiscard]] ABUT_HD constexpr plain_place<T> on_b(const U& t) const { return place_in(core_of(t), cores.part_b, cores.f); }
+    [[nodiscard]] ABUT_HD constexpr plain_place<T> on_a(const S& s) const {
+        return place_in(core_of(s), cores.part_a, cores.e);
+    }
+    [[nodiscard]] ABUT_HD constexpr plain_place<T> on_b(const U& t) const {
+        return place_in(core_of(t), cores.part_b, cores.f);
+    }
 
 private:
     template <int N>

@@ -177,7 +177,8 @@ ABUT_NOINLINE ABUT_HD constexpr contact<T> contact_between(const capsule<T>& s, 
 template <scalar T>
 ABUT_NOINLINE ABUT_HD constexpr contact<T> contact_between(const sphere<T>& s, const sphere<T>& t) {
     using namespace contact_math;
-    if (const auto first = first_contact_of(s, t, plain_pair<sphere<T>, sphere<T>>(s, t)); first.touch == verdict::yes) return first.found;
+    if (const auto first = first_contact_of(s, t, plain_pair<sphere<T>, sphere<T>>(s, t)); first.touch == verdict::yes)
+        return first.found;
     const common_scale scale(s, t);
     const point a = scale(s.center), b = scale(t.center);
     const double radius_a = scale(s.radius), radius_b = scale(t.radius);
@@ -225,7 +226,8 @@ ABUT_NOINLINE ABUT_HD constexpr auto contact_between(const S& s, const U& t) {
 /// Segments are triangles with two equal corners, points are spheres of radius 0.
 template <scalar T>
 ABUT_HD constexpr contact<T> contact_between(const sphere<T>& s, const segment<T>& t) {
-    if (const auto first = first_contact_of(s, t, plain_pair<sphere<T>, segment<T>>(s, t)); first.touch == verdict::yes) return first.found;
+    if (const auto first = first_contact_of(s, t, plain_pair<sphere<T>, segment<T>>(s, t)); first.touch == verdict::yes)
+        return first.found;
     return contact_between(s, triangle<T>{t.a, t.b, t.b});
 }
 template <scalar T>

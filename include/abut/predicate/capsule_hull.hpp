@@ -162,7 +162,9 @@ ABUT_HD constexpr verdict decide(const S& s, const hull<T>& h) {
         using number = typename detail::hulls_in_floats<certified, T>::number;
         if constexpr (certified && std::same_as<S, sphere<T>>) {
             if (h.count == 8) {
-                const auto near = [&](const vec3<T>* at) { return detail::near_corner_box(at, s.center, static_cast<double>(s.radius)); };
+                const auto near = [&](const vec3<T>* at) {
+                    return detail::near_corner_box(at, s.center, static_cast<double>(s.radius));
+                };
                 const verdict v = detail::with_eight_points(h, near);
                 if (v != verdict::unknown) return v;
             }

@@ -38,10 +38,12 @@ ABUT_HD constexpr auto with_eight_points(const hull<T>& h, const F& f) {
 template <scalar T>
 ABUT_NOINLINE ABUT_HD constexpr verdict near_corner_box(const vec3<T>* h, const vec3<T>& center, double radius) {
     const vec3<T> first = h[0];
-    const vec3<double> p = relative_to(first, center), e[3] = {relative_to(first, h[1]), relative_to(first, h[2]), relative_to(first, h[4])};
+    const vec3<double> p = relative_to(first, center),
+                       e[3] = {relative_to(first, h[1]), relative_to(first, h[2]), relative_to(first, h[4])};
     const vec3<double> ef = e[0] + e[1];
-    const double off = greatest(magnitudes(relative_to(first, h[3]) - ef), magnitudes(relative_to(first, h[5]) - (e[0] + e[2])),
-                                magnitudes(relative_to(first, h[6]) - (e[1] + e[2])), magnitudes(relative_to(first, h[7]) - (ef + e[2])));
+    const double off =
+        greatest(magnitudes(relative_to(first, h[3]) - ef), magnitudes(relative_to(first, h[5]) - (e[0] + e[2])),
+                 magnitudes(relative_to(first, h[6]) - (e[1] + e[2])), magnitudes(relative_to(first, h[7]) - (ef + e[2])));
     const double size = magnitudes(p) + (magnitudes(e[0]) + magnitudes(e[1]) + magnitudes(e[2]));
     if (!(size < 0x1p240 && radius < 0x1p240 && off < size)) return verdict::unknown;
     const double slack = off + (0x1p-46 * size + (std::same_as<T, float> ? 0x1p-110 : 0x1p-1000));

@@ -139,11 +139,26 @@ void check_finite(const rigid<T>& pose, const std::string& function) {
     }
 }
 
+/// Whether `check` below takes the pose: true is certain under every compiler, whether it contracts or not. Where this is false,
+/// the host has to look.
+template <scalar T>
+ABUT_HD constexpr bool is_surely_rigid(const rigid<T>& pose) {
+    constexpr double tolerance = rotation_tolerance * (1 - 0x1p-20);  // the rest is for rounding
+    const vec3<double> x = widened(row(pose.rotation, 0)), y = widened(row(pose.rotation, 1)),
+                       z = widened(row(pose.rotation, 2));
+    // Comparisons with NaN are false.
+    return absolute(dot(x, x) - 1) <= tolerance && absolute(dot(y, y) - 1) <= tolerance &&
+        absolute(dot(z, z) - 1) <= tolerance && absolute(dot(x, y)) <= tolerance && absolute(dot(y, z)) <= tolerance &&
+        absolute(dot(z, x)) <= tolerance && dot(cross(x, y), z) > 0 &&
+        magnitudes(widened(pose.translation)) < infinity<double>;
+}
+
 /// Throws invalid_geometry in the name of `function` where a pose is none: where a number is not finite, where two rows'
 /// product is off by more than `rotation_tolerance` (index: the row; value: by how much), or where the rotation reflects
 /// (index 0; value: its determinant).
 template <scalar T>
-void check(const rigid<T>& pose, const std::string& function) {
+void check(const rigid<T>& pose, const auto& function) {
+    if (is_surely_rigid(pose)) return;
     check_finite(pose, function);
     const vec3<double> rows[3] = {widened(row(pose.rotation, 0)), widened(row(pose.rotation, 1)),
                                   widened(row(pose.rotation, 2))};
@@ -164,20 +179,6 @@ void check(const rigid<T>& pose, const std::string& function) {
     if (determinant < 0) {
         throw invalid_geometry(function, "rotation", 0, "it reflects: its determinant is negative", determinant);
     }
-}
-
-/// Whether `check` takes the pose: true is certain under every compiler, whether it contracts or not. Where this is false,
-/// the host has to look.
-template <scalar T>
-ABUT_HD constexpr bool is_surely_rigid(const rigid<T>& pose) {
-    constexpr double tolerance = rotation_tolerance * (1 - 0x1p-20);  // the rest is for rounding
-    const vec3<double> x = widened(row(pose.rotation, 0)), y = widened(row(pose.rotation, 1)),
-                       z = widened(row(pose.rotation, 2));
-    // Comparisons with NaN are false.
-    return absolute(dot(x, x) - 1) <= tolerance && absolute(dot(y, y) - 1) <= tolerance &&
-        absolute(dot(z, z) - 1) <= tolerance && absolute(dot(x, y)) <= tolerance && absolute(dot(y, z)) <= tolerance &&
-        absolute(dot(z, x)) <= tolerance && dot(cross(x, y), z) > 0 &&
-        magnitudes(widened(pose.translation)) < infinity<double>;
 }
 
 }  // namespace detail

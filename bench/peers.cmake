@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: MIT
+#
+# Libraries that no distribution packages, out of checkouts: ABUT_PEERS is a folder with coal/ and tinybvh/, each where it is wanted.
+# They are packages like others (cmake/development.cmake): a source that includes one that is not there is left out.
+
+set(ABUT_PEERS "" CACHE PATH "Folder of checkouts of libraries that benchmarks are compared with: coal, tinybvh")
+
+# The definition says which version of a peer it is.
+function(abut_peer_version target name number)
+    execute_process(COMMAND git -C ${ABUT_PEERS}/${name} log -1 --format=%h OUTPUT_VARIABLE commit ERROR_QUIET
+                    OUTPUT_STRIP_TRAILING_WHITESPACE)
+    string(TOUPPER ${name} name)
+    target_compile_definitions(${target} INTERFACE "ABUT_${name}_VERSION=\"${number} ${commit}\"")
+endfunction()
+
+# Coal's narrow phase, its trees of faces and its broad phases: all but files of meshes, serialisation and octrees, for which it wants
+# more libraries. The headers that its own build writes say no more than what is visible and which version it is.
+find_package(Eigen3 QUIET NO_MODULE)
+if(EXISTS ${ABUT_PEERS}/coal/package.xml AND TARGET Eigen3::Eigen AND TARGET Boost::headers)
+    file(STRINGS ${ABUT_PEERS}/coal/package.xml package REGEX "<version>")
+    string(REGEX MATCH "([0-9]+)\\.([0-9]+)\\.([0-9]+)" version "${package}")
+    set(headers ${CMAKE_CURRENT_BINARY_DIR}/peers)
+    file(CONFIGURE OUTPUT ${headers}/coal/config.hh CONTENT "#pragma once
+#define COAL_MAJOR_VERSION ${CMAKE_MATCH_1}
+#define COAL_MINOR_VERSION ${CMAKE_MATCH_2}
+#define COAL_PATCH_VERSION ${CMAKE_MATCH_3}
+#define COAL_DLLAPI
+#define COAL_LOCAL
+#define COAL_EXPLICIT_INSTANTIATION_DECLARATION_DLLAPI
+#define COAL_EXPLICIT_INSTANTIATION_DEFINITION_DLLAPI
+")
+    file(CONFIGURE OUTPUT ${headers}/coal/deprecated.hh CONTENT "#pragma once
+#define COAL_DEPRECATED
+#define COAL_DEPRECATED_MESSAGE(text)
+")
+    file(CONFIGURE OUTPUT ${headers}/coal/warning.hh CONTENT "#pragma once\n")
+    file(GLOB_RECURSE sources ${ABUT_PEERS}/coal/src/*.cpp)
+    list(FILTER sources EXCLUDE REGEX "/(mesh_loader|serialization)/|/octree.cpp$")
+    add_library(abut_coal STATIC EXCLUDE_FROM_ALL ${sources})
+    target_include_directories(abut_coal SYSTEM PUBLIC ${ABUT_PEERS}/coal/include ${headers})
+    target_include_directories(abut_coal SYSTEM PRIVATE ${ABUT_PEERS}/coal/src)
+    target_compile_features(abut_coal PUBLIC cxx_std_20)
+    target_compile_options(abut_coal PRIVATE -w)
+    target_link_libraries(abut_coal PUBLIC Eigen3::Eigen Boost::headers)
+    abut_peer_version(abut_coal coal ${version})
+endif()
+abut_package(coal "<coal/" "coal in ABUT_PEERS" abut_coal)
+
+if(EXISTS ${ABUT_PEERS}/tinybvh/tiny_bvh.h)
+    file(STRINGS ${ABUT_PEERS}/tinybvh/tiny_bvh.h parts REGEX "#define TINY_BVH_VERSION_(MAJOR|MINOR|SUB)")
+    string(REGEX MATCHALL "[0-9]+" parts "${parts}")
+    list(JOIN parts "." version)
+    add_library(abut_tinybvh INTERFACE)
+    target_include_directories(abut_tinybvh SYSTEM INTERFACE ${ABUT_PEERS}/tinybvh)
+    abut_peer_version(abut_tinybvh tinybvh ${version})
+endif()
+abut_package(tinybvh "<tiny_bvh" "tinybvh in ABUT_PEERS" abut_tinybvh)

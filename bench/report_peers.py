@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: MIT
+"""The table of bench/peers.cpp: abut beside libraries out of checkouts."""
+
+from report_core import *  # noqa: F403
+
+QUESTIONS = {"boolean": "do they touch", "distance": "distance", "contact": "contact", "ties": "do they touch: ties"}
+
+
+@in_table("peers")
+def peers(results):
+    r = results["cpu/peers"]
+    others = [name for name in r.parts("boolean/", 2) if name != "abut"]
+    lines = []
+    for question, title in QUESTIONS.items():
+        rows = []
+        for pair in r.parts(f"{question}/", 1):
+            def of(library, key):
+                return r.get(f"{question}/{pair}/{library}", key)
+            row = [pair.replace("_", ", "), shown(of("abut", "ns")), f"{whole(of('abut', 'wrong'))} of {whole(of('abut', 'of'))}"]
+            for name in others:
+                row += [shown(of(name, "ns")), f"{of(name, 'over'):.2f}", whole(of(name, "wrong"))]
+            if question in ("distance", "contact"):
+                row += [f"{of(name, 'worst'):.1e}" for name in ["abut"] + others]
+            rows.append(row)
+        head = [title, "abut, ns", "wrong"]
+        for name in others:
+            head += [f"{name}, ns", f"abut / {name}", "wrong"]
+        if question in ("distance", "contact"):
+            head += [f"{name}, off by at most" for name in ["abut"] + others]
+        lines += table(head, rows)
+    versions = ", ".join(f"{name} {r.context[name]}" for name in others)
+    return lines + made_on(r, f". {versions}")

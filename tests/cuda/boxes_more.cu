@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: MIT
+// long to compile
+#include <abut/cuda.hpp>
+
+#include "collide/box_cases.hpp"
+#include "support/catch.hpp"
+
+TEST_CASE("oriented boxes: more queries, cuda") { abut::test::check_more_of_boxes<float>(abut::cuda{}); }

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+// long to compile
+//
+// Every stage of all pairs of a cylinder and another shape.
+#include <abut/cuda.hpp>
+
+#include "cuda/predicate_cases.hpp"
+#include "support/catch.hpp"
+
+TEMPLATE_TEST_CASE("cylinders: cuda decides every family as the host does", "", abut::cylinder<float>, abut::cylinder<double>) {
+    abut::test::check_revolutions<TestType>(abut::cuda{});
+}
