@@ -6,12 +6,14 @@
 #include <cstdio>
 #include <limits>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "support/catch.hpp"
 #include "support/contact_oracles.hpp"
 #include "support/families.hpp"
 #include "support/other_shapes.hpp"
+#include "support/plain_pairs.hpp"
 #include "support/samples.hpp"
 #include "support/solid_pairs.hpp"
 #include "support/triangle_families.hpp"
@@ -310,6 +312,45 @@ TEMPLATE_TEST_CASE("distance: edges that are nearly parallel, and needles, again
     const distance_tally total = check_distances("nearly parallel", some_samples(2), nearly_parallel<TestType>);
     std::printf("distance, nearly parallel: off by %.2f, points by %.2f\n", total.distance, total.point);
     CHECK(total.touching < total.pairs / 2);
+}
+
+TEMPLATE_TEST_CASE("distance: pairs that a closed form just knows, or not, against 300 bits", "", float, double) {
+    using T = TestType;
+    std::uint64_t known = 0, pairs = 0;
+    const auto note = [&](const auto& s, const auto& t) {
+        ++pairs;
+        known += detail::plain_pair<std::remove_cvref_t<decltype(s)>, std::remove_cvref_t<decltype(t)>>(s, t).touch() != verdict::unknown;
+    };
+    const auto axes = check_distances("capsules", sample_count() / 2, [&](std::uint64_t i) {
+        const auto p = make_plain_capsules<T>(i);
+        note(p.first, p.second);
+        return p;
+    });
+    const auto mixed = check_distances("spheres and segments", sample_count() / 2, [&](std::uint64_t i) {
+        const auto p = make_plain_capsules<T>(8 * i + 3);
+        const sphere<T> ball{p.first.axis.a, p.first.radius};
+        note(ball, p.second);
+        return std::pair(ball, p.second);
+    });
+    check_total("axes beside each other", axes);
+    CHECK(mixed.touching > mixed.pairs / 200);
+    CHECK(known > pairs / 2);
+    CHECK(known < pairs * 99 / 100);
+    known = pairs = 0;
+    distance_tally boxes;
+    for (std::uint64_t i = 0; i < sample_count() / 8; ++i) {
+        const auto [box, ball] = make_plain_box_and_ball<T>(i);
+        const auto corners = detail::points_of(box);
+        note(corners.as_hull(), ball);
+        if (const char* const wrong = wrong_with_distance(corners.as_hull(), ball, boxes)) {
+            CAPTURE(i);
+            FAIL_CHECK(wrong);
+        }
+        CHECK(distance(box, ball) == distance(corners.as_hull(), ball));
+    }
+    check_total("balls beside boxes under a pose", boxes);
+    CHECK(known > pairs / 4);
+    CHECK(known < pairs * 99 / 100);
 }
 
 TEST_CASE("distance: by hand, and in constant expressions") {

@@ -7,6 +7,8 @@
 
 #include "support/catch.hpp"
 #include "support/contact_oracles.hpp"
+#include "support/plain_pairs.hpp"
+#include "support/samples.hpp"
 #include "support/solid_pairs.hpp"
 
 namespace abut::test {
@@ -56,6 +58,52 @@ TEMPLATE_TEST_CASE("contacts without a triangle are what they say, in each famil
     total += check_solid_contacts<plane<T>, capsule<T>>("plane, capsule", 40);
     total += check_solid_contacts<plane<T>, aabb<T>>("plane, box", 40);
     check_total("contacts without a triangle", total, 3000);
+}
+
+/// The depth is the least move in any direction, out of the polytope of the corners.
+template <scalar T>
+const char* wrong_with_ball_in_box(const sphere<T>& s, const hull<T>& h, contact_tally& tally) {
+    const auto c = contact_of(s, h), back = contact_of(h, s);
+    if (c.has_value() != intersects<exact>(s, h) || back.has_value() != c.has_value()) return "found is not what touches";
+    if (!c) return nullptr;
+    if (back.value() != detail::reversed(c.value())) return "the other order is not the reverse";
+    if (const char* const wrong = wrong_with(s, h, *c, tally)) return wrong;
+    const wide gap = distance_from(widest(s.center), h), bound = wide(contact_bound(s, h));
+    if (gap > 0) return compare_depth(c->depth, wide(s.radius) - gap, bound, tally);
+    least_of least(s, h);
+    offer_all_features(least, hull_of(h), hull_of(s));
+    return least.none() ? nullptr : compare_depth(c->depth, least.value(), bound, tally);
+}
+
+TEMPLATE_TEST_CASE("contacts of pairs that a closed form just knows, or not", "", float, double) {
+    using T = TestType;
+    contact_tally capsules, balls;
+    std::uint64_t known = 0, of_boxes = 0;
+    for (std::uint64_t i = 0; i < sample_count(); ++i) {
+        const auto [s, t] = make_plain_capsules<T>(i);
+        INFO("pair " << i);
+        const char* const wrong = check_contact(s, t, capsules);
+        if (wrong != nullptr) FAIL_CHECK(wrong);
+        known += detail::first_contact_in_any_order<T>(s, t).touch == verdict::yes;
+        if (i % 2 == 0) continue;
+        const char* const of_ball = check_contact(sphere<T>{s.axis.a, s.radius}, t, capsules);
+        if (of_ball != nullptr) FAIL_CHECK(of_ball);
+    }
+    for (std::uint64_t i = 0; i < sample_count() / 4; ++i) {
+        const auto [box, ball] = make_plain_box_and_ball<T>(i);
+        const auto corners = detail::points_of(box);
+        INFO("box " << i);
+        const char* const wrong = wrong_with_ball_in_box(ball, corners.as_hull(), balls);
+        if (wrong != nullptr) FAIL_CHECK(wrong);
+        of_boxes += detail::first_contact_in_any_order<T>(box, ball).touch == verdict::yes;
+        CHECK(contact_of(box, ball) == contact_of(corners.as_hull(), ball));
+    }
+    check_total("capsules, as near as can be", capsules, sample_count() / 8);
+    check_total("balls and boxes under a pose", balls, sample_count() / 16);
+    std::printf("of them first known: %llu, %llu\n", static_cast<unsigned long long>(known), static_cast<unsigned long long>(of_boxes));
+    CHECK(known > sample_count() / 8);
+    CHECK(of_boxes > sample_count() / 40);
+    CHECK(of_boxes < balls.touching);
 }
 
 TEST_CASE("contacts without a triangle: by hand, and in constant expressions") {

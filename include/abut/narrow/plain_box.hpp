@@ -67,9 +67,14 @@ struct plain_corner_box {
             }
             return;
         }
-        nearest.from = h[corner];
-        way = ahead = plain_way_to(h[corner], center);
-        if (free_count == 1) {
+        const auto look_from = [&](int from) {
+            nearest.from = h[from];
+            way = ahead = plain_way_to(h[from], center);
+        };
+        look_from(corner);
+        if (free_count == 0) {
+            is_good = has_all_behind(corner);
+        } else if (free_count == 1) {
             const vec3<double> edge = plain_way_to(h[corner], h[corner + free]);
             const double per_square = 1 / plain_dot(edge, edge);
             const double part = into_unit_of_doubles(plain_product(plain_dot(way, edge), per_square));
@@ -77,30 +82,24 @@ struct plain_corner_box {
             way = plain_step(way, -part, edge);
             ahead = plain_step(way, -plain_product(plain_dot(way, edge), per_square), edge);
             is_good = has_all_behind(corner);
-        } else if (free_count == 2) {
+        } else {
             const int one = free & -free, other = free - one;
-            const vec3<double> b = plain_way_to(h[corner], h[corner + one]), d = plain_way_to(h[corner], h[corner + other]),
-                               c = plain_way_to(h[corner], h[corner + free]), to_center = way;
-            const double bb = plain_dot(b, b), dd = plain_dot(d, d), x = plain_product(plain_dot(way, b), dd),
-                         y = plain_product(plain_dot(way, d), bb), whole = plain_product(bb, dd);
-            const auto take = [&](const vec3<double>& u, const vec3<double>& v, const vec3<double>& from, int at) {
-                const vec3<double> n = plain_cross(u, v), seen = plain_difference(to_center, from);
-                const double height = plain_dot(n, seen), square = plain_dot(n, n), part = height / square;
+            const auto part_of = [&](int k) { return plain_dot(way, q[k]) / plain_dot(q[k], q[k]); };
+            const double x = part_of(one), y = part_of(other);
+            // A triangle of one of the face's corners and both beside it.
+            const auto take = [&](int from) {
+                look_from(from);
+                const vec3<double> u = plain_way_to(h[from], h[from ^ one]), v = plain_way_to(h[from], h[from ^ other]),
+                                   n = plain_cross(u, v), seen = way;
+                const double height = plain_dot(n, seen), square = plain_dot(n, n);
                 const double of_u = plain_dot(n, plain_cross(seen, v)), of_v = plain_dot(n, plain_cross(u, seen));
                 if (!(least(of_u, of_v, plain_sum(square, -plain_sum(of_u, of_v))) >= -0x1p-45 * square)) return false;
-                way = plain_times(part, n);
+                way = plain_times(height / square, n);
                 ahead = height < 0 ? contact_math::negated(n) : n;
-                nearest.along = plain_difference(to_center, way);
-                return has_all_behind(at);
+                nearest.along = plain_difference(seen, way);
+                return has_all_behind(from);
             };
-            const vec3<double> zero{0, 0, 0};
-            is_good = x < y ? take(c, d, zero, corner) : take(b, c, zero, corner);
-            if (!is_good) {
-                is_good = plain_sum(x, y) <= whole ? take(b, d, zero, corner)
-                                                   : take(plain_difference(c, b), plain_difference(d, b), b, corner + one);
-            }
-        } else {
-            is_good = has_all_behind(corner);
+            is_good = take(x < y ? corner + other : corner + one) || take(plain_sum(x, y) <= 1 ? corner : corner + free);
         }
         is_good = is_good && plain_dot(way, way) > 0x1p-40 * all;
     }
