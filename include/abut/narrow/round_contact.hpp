@@ -146,7 +146,7 @@ ABUT_NOINLINE ABUT_HD constexpr auto first_contact_of(const S& s, const U& t, co
     const double to = least(plain_sum(distance, both.radius_a), both.radius_b);
     double part = plain_product(plain_sum(from, to) / 2, per_distance);
     if constexpr (!(std::same_as<S, sphere<T>> && std::same_as<U, sphere<T>>)) part = into_unit_of_doubles(part);
-    answer.found = plain_contact(both.on_b(t).at(part, away), n, depth);
+    answer.found = plain_contact(both.on_b(t).at(-part, both.way()), n, depth);
     return answer;
 }
 
