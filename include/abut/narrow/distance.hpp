@@ -228,6 +228,8 @@ struct measured_plane {
             if (other.length < length) *this = other;
         }
     }
+    /// The box around a plane is everything: there is no distance from it that this might be below.
+    [[nodiscard]] ABUT_HD constexpr double positive_length() const { return greatest(length, 0x1p-1074); }
 
 private:
     /// In plain doubles, if they tell to which side of the plane the shape is.
@@ -296,7 +298,7 @@ ABUT_NOINLINE ABUT_HD constexpr distance_and_way distance_apart(const S& s, cons
             return distance_and_way{positive_distance_of(t, m), m.way()};
         });
     } else if constexpr (requires { s.normal; }) {
-        return {positive_distance(s, t, measured_plane(s, t).length)};
+        return {measured_plane(s, t).positive_length()};
     } else if constexpr (measured_revolution_and_hull<S, U>) {
         return distance_apart(s, nearest_triangle_of(s, t));
     } else if constexpr (measured_revolution_over_plane<S, U>) {
@@ -333,7 +335,7 @@ ABUT_NOINLINE ABUT_HD constexpr auto separation_apart(const S& s, const U& t) {
         return with_measured_hulls(s, t, false, [&](const auto& m) { return separation_of_hulls_apart(t, m); });
     } else if constexpr (requires { s.normal; }) {
         const measured_plane<T> m(s, t);
-        return separation<T>{0, 0, m.on_plane, m.on_shape, rounded_distance<T>(positive_distance(s, t, m.length))};
+        return separation<T>{0, 0, m.on_plane, m.on_shape, rounded_distance<T>(m.positive_length())};
     } else if constexpr (measured_revolution_and_hull<S, U>) {
         return separation_apart(s, nearest_triangle_of(s, t));
     } else if constexpr (measured_revolution_over_plane<S, U>) {
