@@ -337,6 +337,19 @@ TEMPLATE_TEST_CASE("distance: pairs that a closed form just knows, or not, again
     CHECK(known > pairs / 2);
     CHECK(known < pairs * 99 / 100);
     known = pairs = 0;
+    distance_tally beside = check_distances("boxes and capsules", sample_count() / 8, [&](std::uint64_t i) {
+        const auto p = make_plain_box_and_capsule<T>(i);
+        note(p.first, p.second);
+        return p;
+    });
+    beside += check_distances("boxes and segments", sample_count() / 8, [&](std::uint64_t i) {
+        const auto p = make_plain_box_and_capsule<T>(i);
+        return std::pair(p.first, p.second.axis);
+    });
+    check_total("capsules and segments beside boxes", beside);
+    CHECK(known > pairs / 4);
+    CHECK(known < pairs * 99 / 100);
+    known = pairs = 0;
     distance_tally boxes;
     for (std::uint64_t i = 0; i < sample_count() / 8; ++i) {
         const auto [box, ball] = make_plain_box_and_ball<T>(i);

@@ -89,6 +89,14 @@ TEMPLATE_TEST_CASE("contacts of pairs that a closed form just knows, or not", ""
         const char* const of_ball = check_contact(sphere<T>{s.axis.a, s.radius}, t, capsules);
         if (of_ball != nullptr) FAIL_CHECK(of_ball);
     }
+    contact_tally beside;
+    for (std::uint64_t i = 0; i < sample_count() / 4; ++i) {
+        const auto [box, rod] = make_plain_box_and_capsule<T>(i);
+        INFO("box and capsule " << i);
+        const char* const wrong = check_contact(box, rod, beside);
+        if (wrong != nullptr) FAIL_CHECK(wrong);
+    }
+    check_total("capsules beside boxes", beside, sample_count() / 16);
     for (std::uint64_t i = 0; i < sample_count() / 4; ++i) {
         const auto [box, ball] = make_plain_box_and_ball<T>(i);
         const auto corners = detail::points_of(box);

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <utility>
 
+#include <abut/arithmetic/vec.hpp>
 #include <abut/shape/oriented_box.hpp>
 #include <abut/shape/primitive.hpp>
 
@@ -90,6 +91,33 @@ std::pair<placed_box<T>, sphere<T>> make_plain_box_and_ball(std::uint64_t i) {
                       coordinate(static_cast<double>(h.z))};
     const double radius = beyond == 0 ? d.uniform(0, 1) : radii_for(d, gap * std::sqrt(beyond));
     return {box, {place(pose, round_to<T>(local)), static_cast<T>(radius)}};
+}
+
+/// A box along the axes, and a capsule whose axis passes a point beyond a face, an edge or a corner of it, along an edge or
+/// a face but for an angle down to 2^-60, or across; or one that begins inside.
+template <scalar T>
+std::pair<aabb<T>, capsule<T>> make_plain_box_and_capsule(std::uint64_t i) {
+    using namespace construction;
+    draws d(plain_seed, 3, i);
+    const int kind = static_cast<int>(i % 8);
+    const auto half = [&] { return std::ldexp(d.uniform(0.5, 1), kind == 3 ? -d.below(24) : 0); };
+    const point size{kind == 5 ? 0 : half(), half(), half()}, at = kind == 2 ? cube(d, 0x1p20) : cube(d, 1);
+    const double gap = std::ldexp(d.uniform(0.5, 1), -d.below(25));
+    point away{0, 0, 0}, foot{0, 0, 0}, line = cube(d, 1);
+    const auto turn = [&](double side, double& out, double& on, double& along_it) {
+        const int where = d.below(3);
+        out = where == 0 ? 0 : where == 1 ? 1 : -1;
+        on = where == 0 ? side * d.uniform(-1, 1) : out * side;
+        if (where != 0 && kind < 6) along_it *= std::ldexp(1.0, -d.below(61));  // it hardly leaves the face
+    };
+    turn(size.x, away.x, foot.x, line.x), turn(size.y, away.y, foot.y, line.y), turn(size.z, away.z, foot.z, line.z);
+    const double beyond = length(away);
+    const point passes = along(along(at, 1, foot), gap, away);
+    const double from = d.uniform(-2, 0.5), to = from + d.uniform(0.1, 2);
+    const vec3<T> center = round_to<T>(at), h = round_to<T>(size);
+    const double radius = beyond == 0 ? d.uniform(0, 1) : radii_for(d, gap * beyond);
+    return {{center - h, center + h},
+            {{round_to<T>(along(passes, from, line)), round_to<T>(along(passes, to, line))}, static_cast<T>(radius)}};
 }
 
 }  // namespace abut::test

@@ -75,10 +75,11 @@ ABUT_NOINLINE ABUT_HD constexpr void offer_faces(const box_and_ball& pair, const
         way.offer(n, pair.overlap(n));
         way.offer(negated(n), pair.overlap(negated(n)));
     };
-    const vec3<two_doubles> along = edge_between(axis.a, axis.b).direction;
+    const point along = rounded_off(edge_between(axis.a, axis.b).direction);
     for (const point& n : {point{1, 0, 0}, point{0, 1, 0}, point{0, 0, 1}}) {
         offer_both(n);
-        if (!is_zero(along)) offer_both(as_stored_direction<T>(unit_cross(as<two_doubles>(n), along)));
+        const point across = plain_cross(n, along);  // rounds nothing
+        if (!is_zero(across)) offer_both(plain_normal<T>(unit_vector(as<one_double>(across))));
     }
 }
 
@@ -89,7 +90,7 @@ namespace abut::detail {
 /// The same of a box and a sphere in plain doubles (plain_ways.hpp): along the way to the centre, or if that is inside,
 /// along an axis.
 template <scalar T, class U>
-    requires(has_radius<U> && has_plain_pair<aabb<T>, U>)
+    requires(has_radius<U> && corners_of_core<U> == 1 && has_plain_pair<aabb<T>, U>)
 ABUT_NOINLINE ABUT_HD constexpr first_contact<T> first_contact_of(const aabb<T>& s, const U& t,
                                                                   const plain_pair<aabb<T>, U>& both) {
     using namespace contact_math;
@@ -111,6 +112,24 @@ ABUT_NOINLINE ABUT_HD constexpr first_contact<T> first_contact_of(const aabb<T>&
         }
         answer = {verdict::yes, plain_contact(t.center, way.normal, way.depth)};
     }
+    return answer;
+}
+
+/// The same of a box and a capsule whose axis is not in it. The normal is right as in round_contact.hpp.
+template <scalar T, class U>
+    requires(has_radius<U> && corners_of_core<U> == 2 && has_plain_pair<aabb<T>, U>)
+ABUT_NOINLINE ABUT_HD constexpr first_contact<T> first_contact_of(const aabb<T>& s, const U& t,
+                                                                  const plain_pair<aabb<T>, U>& both) {
+    using namespace contact_math;
+    first_contact<T> answer{both.touch()};
+    if (answer.touch != verdict::yes) return answer;
+    const point& ahead = both.box.ahead;
+    const double per_length = 1 / root(one_double{plain_dot(ahead, ahead)}).high;
+    const point n = plain_normal<T>(plain_times(-per_length, ahead));
+    const double depth = plain_sum(both.radius_b, both.box.overlap(n)), least_depth = plain_sum(both.radius_b, -both.length);
+    const auto magnitude = static_cast<double>(greatest(magnitude_of(s), magnitude_of(t)));
+    if (!(plain_sum(depth, -least_depth) <= tolerable_excess<T> / 2 * magnitude)) return {};
+    answer.found = plain_contact(both.on_a(s).at(0, n), n, depth);
     return answer;
 }
 

@@ -278,6 +278,114 @@ struct plain_pair<aabb<T>, U> : plain_gap {
     [[nodiscard]] ABUT_HD constexpr plain_place<T> on_b(const U& t) const { return {core_of(t).at[0]}; }
 };
 
+/// A box and an edge, seen from where the edge begins, and its place that is nearest to the box: there the slope of the
+/// squared distance, which rises along the edge and is straight between the places where coordinates enter or leave the box,
+/// passes 0. Only the last test is trusted: as of edges that are nearly parallel, no other way is shorter by more than is
+/// left of the slope, over the way's length.
+struct plain_box_and_edge {
+    vec3<double> lower, upper, e;
+    double part = 0, size = 0;
+    vec3<double> way{}, ahead{};  ///< the same, orthogonal to the edge inside of which it ends
+    bool is_good = false;
+
+    template <scalar T>
+    ABUT_NOINLINE ABUT_HD constexpr plain_box_and_edge(const aabb<T>& box, const corner_hull<T, 2>& edge, double radius)
+        : lower(plain_way_to(edge.at[0], box.lower)),
+          upper(plain_way_to(edge.at[0], box.upper)),
+          e(plain_way_to(edge.at[0], edge.at[1])),
+          size(plain_step_from(-radius, plain_magnitudes(greatest(absolute(lower), absolute(upper))))) {
+        using contact_math::plain_dot;
+        size = plain_sum(size, plain_magnitudes(e));
+        if (!are_plain_sizes<T>(size)) return;
+        double from = 0, to = 1;
+        const auto look = [&](double start, double step) {
+            const double x = absolute(step) > 0x1p-800 ? start / step : 0;
+            if (x > from && x < to) (plain_dot(outside(x), e) <= 0 ? from : to) = x;
+        };
+        if (plain_dot(outside(0), e) >= 0) {
+            to = 0;
+        } else if (plain_dot(outside(1), e) <= 0) {
+            from = 1;
+        } else {
+            look(lower.x, e.x), look(upper.x, e.x);
+            look(lower.y, e.y), look(upper.y, e.y);
+            look(lower.z, e.z), look(upper.z, e.z);
+        }
+        part = from == 1 ? 1 : 0;
+        if (from < to && to > 0 && from < 1) {
+            // Straight between both: of the coordinates that are outside in the middle.
+            const vec3<double> amid = outside((from + to) / 2);
+            double along = 0, square = 0;
+            const auto add = [&](double off, double low, double high, double step) {
+                if (off == 0) return;
+                along = plain_sum(along, plain_product(step, off < 0 ? low : high));
+                square = plain_sum(square, plain_product(step, step));
+            };
+            add(amid.x, lower.x, upper.x, e.x), add(amid.y, lower.y, upper.y, e.y), add(amid.z, lower.z, upper.z, e.z);
+            part = square > 0 ? least(greatest(along / square, from), to) : from;
+            way = outside(part);
+            const vec3<double> active{way.x == 0 ? 0 : e.x, way.y == 0 ? 0 : e.y, way.z == 0 ? 0 : e.z};
+            const double active_square = plain_dot(active, active);
+            if (!(active_square > 0x1p-900)) return;
+            ahead = plain_step(way, -plain_dot(way, active) / active_square, active);
+        } else {
+            way = ahead = part == 1 ? outside_of(plain_way_to(edge.at[1], box.lower), plain_way_to(edge.at[1], box.upper))
+                                    : outside(0);
+        }
+        const double slope = plain_dot(ahead, e), left = part <= 0   ? least(slope, 0.0)
+                                                         : part >= 1 ? greatest(slope, 0.0)
+                                                                     : slope;
+        const double square = plain_dot(way, way), most = 0x1p-55 * size;
+        is_good = left * left <= most * most * square && square > 0x1p-40 * plain_product(size, size) &&
+                  ahead.x * way.x >= 0 && ahead.y * way.y >= 0 && ahead.z * way.z >= 0;
+    }
+    /// How far the box has to go along n.
+    [[nodiscard]] ABUT_HD constexpr double overlap(const vec3<double>& n) const {
+        const vec3<double> first{n.x > 0 ? lower.x : upper.x, n.y > 0 ? lower.y : upper.y, n.z > 0 ? lower.z : upper.z};
+        return plain_sum(greatest(contact_math::plain_dot(n, e), 0.0), -contact_math::plain_dot(n, first));
+    }
+
+private:
+    /// From the box to a place on the edge, in each coordinate.
+    [[nodiscard]] ABUT_HD constexpr vec3<double> outside(double x) const {
+        const vec3<double> p = plain_times(x, e);
+        return contact_math::plain_difference(p, least(greatest(p, lower), upper));
+    }
+    ABUT_HD static constexpr vec3<double> outside_of(const vec3<double>& low, const vec3<double>& high) {
+        return contact_math::negated(least(greatest(vec3<double>{0, 0, 0}, low), high));
+    }
+};
+
+/// A box, and a segment or a capsule.
+template <scalar T, class U>
+    requires(corners_of_core<U> == 2 && std::same_as<scalar_type_of<U>, T>)
+struct plain_pair<aabb<T>, U> : plain_gap {
+    plain_box_and_edge box;
+    vec3<T> start;
+
+    ABUT_HD constexpr plain_pair(const aabb<T>& s, const U& t)
+        : plain_gap{0, static_cast<double>(radius_around_core(t))}, box(s, core_of(t), radius_b), start(core_of(t).at[0]) {
+        size = box.size, is_good = box.is_good;
+        if (is_good) length = contact_math::root(contact_math::one_double{contact_math::plain_dot(box.way, box.way)}).high;
+    }
+    [[nodiscard]] ABUT_HD constexpr const vec3<double>& way() const { return box.way; }
+    [[nodiscard]] ABUT_HD constexpr plain_place<T> on_a(const aabb<T>& s) const {
+        plain_place<T> place{start, plain_times(box.part, box.e)};
+        const auto hold = [](double off, T low, T high, T& from, double& along) {
+            if (off != 0) from = off < 0 ? low : high, along = 0;
+        };
+        hold(box.way.x, s.lower.x, s.upper.x, place.from.x, place.along.x);
+        hold(box.way.y, s.lower.y, s.upper.y, place.from.y, place.along.y);
+        hold(box.way.z, s.lower.z, s.upper.z, place.from.z, place.along.z);
+        return place;
+    }
+    [[nodiscard]] ABUT_HD constexpr plain_place<T> on_b(const U& t) const {
+        const auto core = core_of(t);
+        if (box.part == 1) return {core.at[1]};
+        return {core.at[0], plain_times(box.part, box.e)};
+    }
+};
+
 template <class S, class U>
 concept has_plain_pair = requires { sizeof(plain_pair<S, U>); };
 
