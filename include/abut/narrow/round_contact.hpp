@@ -8,6 +8,7 @@
 #include <abut/narrow/directions.hpp>
 #include <abut/narrow/nearest.hpp>
 #include <abut/narrow/numbers.hpp>
+#include <abut/narrow/plain_triangle.hpp>
 #include <abut/narrow/plain_ways.hpp>
 #include <abut/narrow/triangle_contact.hpp>
 #include <abut/predicate/near_cores.hpp>
@@ -130,7 +131,7 @@ ABUT_HD constexpr segment<scalar_type_of<S>> axis_around(const S& s) {
 /// stored, and the normal is right where that is the least there can be, the radii less the distance, but for a part of
 /// contact_bound.
 template <class S, class U>
-    requires(has_plain_pair<S, U> && corners_of_core<S> > 0)
+    requires(has_plain_pair<S, U> && corners_of_core<S> > 0 && corners_of_core<U> < 3)
 ABUT_NOINLINE ABUT_HD constexpr auto first_contact_of(const S& s, const U& t, const plain_pair<S, U>& both) {
     using namespace contact_math;
     using T = scalar_type_of<S>;
@@ -156,6 +157,8 @@ ABUT_NOINLINE ABUT_HD constexpr auto first_contact_of(const S& s, const U& t, co
 template <scalar T>
 ABUT_NOINLINE ABUT_HD constexpr contact<T> contact_between(const sphere<T>& s, const triangle<T>& t) {
     using namespace contact_math;
+    const plain_pair<sphere<T>, triangle<T>> both(s, t);
+    if (const auto first = first_contact_of(s, t, both); first.touch == verdict::yes) return first.found;
     const common_scale scale(s, t);
     const segment<T> axis{s.center, s.center};
     const round_pair pair(scale, s, axis, t);
