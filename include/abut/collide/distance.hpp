@@ -437,7 +437,7 @@ void look_for_nearest_pair(const Policy& on, const Pairing& pairing, const Index
     using T = typename decltype(both.a)::scalar_type;
     const auto look = [&](auto walk, const auto& sight) {
         using walk_type = decltype(walk);
-        const auto watch = watch_ties<Policy, true>(walk, x.shapes());
+        [[maybe_unused]] const auto watch = watch_ties<Policy, true>(walk, x.shapes());
         using sight_type = std::remove_cvref_t<decltype(sight)>;
         const look_from_shapes<RowsAreB, walk_type, sight_type, std::remove_const_t<decltype(both)>> each{walk, sight, both};
         for_each_ordered(on, rows, walk_of_part(each, pairing.part), best);
