@@ -196,7 +196,7 @@ void check_points(const Policy& on) {
     const auto odd = [](std::uint32_t, std::uint32_t id) { return id % 2 == 1; };
     check(
         tree, 3,
-        [&](const auto& index) { return nearest(on, index, points, nearest_options{.count = 3, .filter = odd}); },
+        [&](const auto& index) { return nearest(on, index, points, nearest_options<decltype(odd)>{.count = 3, .filter = odd}); },
         [&](std::uint32_t id) { return odd(0, id); });
 }
 
@@ -236,7 +236,7 @@ void check_lines(const Policy& on) {
     check(make_bvh(on, marks_at(cells), {.builder = bvh_builder::sah}));
     check(posed(tree, rigid<float>{}));
     const auto odd = [](std::uint32_t, std::uint32_t id) { return id % 2 == 1; };
-    const auto of_odd = to_host(raycast(on, tree, lines, raycast_options{.filter = odd}));
+    const auto of_odd = to_host(raycast(on, tree, lines, raycast_options<decltype(odd)>{.filter = odd}));
     for (std::size_t k = 0; k < of_odd.size(); ++k) {
         if (expected[k] == no_id || of_odd[k].id == no_id) continue;
         CHECK(of_odd[k].id % 2 == 1);

@@ -593,7 +593,8 @@ auto ask_least(const Policy& on, const ask_distance& question, const X& x, const
 /// has shapes of both sets. Of ranks the answer is a `global_separation`, the same on all; each gives the same options.
 ///
 /// @par Memory
-/// As in @ref queries. Nothing is stored for each pair. A call of a list of two entries or more takes 12 bytes for each
+/// As in @ref queries. Nothing is stored for each pair. Where many pairs are equally far apart, a call of two trees takes 12
+/// bytes for each shape in host memory while it works, and 4 more for a moment; not under `cuda`. A call of a list of two entries or more takes 12 bytes for each
 /// shape of its trees in host memory where something touches, unless these keep their least ids. Under `cuda` a walk of two
 /// trees keeps a stack of 289 pairs of nodes, 3.5 KB in float and 4.6 KB in double, in the device's local memory, which CUDA
 /// sets aside once for all threads that the device holds at a time.

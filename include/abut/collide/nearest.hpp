@@ -569,7 +569,8 @@ struct ask_nearest : question_of_points {
 ///
 /// @par Memory
 /// As in @ref queries; a vector or a span of points lies in host memory, and is copied under `cuda`. The result lies in the
-/// policy's memory, 20 bytes a point in float and 40 in double.
+/// policy's memory, 20 bytes a point in float and 40 in double. Among many shapes that are
+/// equally near a host takes 12 bytes for each shape of a tree while it works, and 4 more for a moment.
 ///
 /// @par Errors
 /// - `invalid_geometry`: a view, a single shape or a row of points holds no geometry, or a pose is no rotation.

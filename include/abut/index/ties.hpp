@@ -44,8 +44,8 @@ struct known_below {
 /// What belongs to it.
 class ties_of_tree {
 public:
-    /// Of a tree with shapes that lie in host memory. In time proportional to their number; 16 bytes a shape at most, and 4
-    /// while it is made. Throws std::bad_alloc.
+    /// Of a tree with shapes that lie in host memory. In time proportional to their number (of copies, as for a sort);
+    /// 12 bytes a shape at most, and 4 more while it works. Throws std::bad_alloc.
     template <bvh_layout Tree, shape_view Shapes>
     void find(const Tree& tree, const Shapes& shapes) {
         if (tree.size() < 2) return;

@@ -152,9 +152,9 @@ private:
         std::uint32_t met = 0;
 
         told() = default;
-        explicit told(const tie_watch* watch) { learn(watch); }
-        void learn(const tie_watch* watch) {
-            if (watch != nullptr) of_a = {watch->known(0)}, of_b = {watch->known(1)};
+        explicit told(const tie_watch* from) { learn(from); }
+        void learn(const tie_watch* from) {
+            if (from != nullptr) of_a = {from->known(0)}, of_b = {from->known(1)};
         }
     };
     ABUT_CALLS_ANY
@@ -257,6 +257,7 @@ private:
     }
 
     /// Adds the pairs of children that the reach keeps.
+    ABUT_CALLS_ANY
     template <class Reach, class Pending>
     ABUT_HD void open(const item& at, const told& ties, const Reach& reach, Pending& pending) const {
         const node_or_leaf at_a(at.a, A::width), at_b(at.b, B::width);
