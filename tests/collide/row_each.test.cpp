@@ -56,7 +56,7 @@ TEMPLATE_TEST_CASE("spheres and points of a lattice, by whole numbers", "", floa
     const int shapes_of[][3] = {{40, 40, 40}, {300, 300, 1}, {1, 2000, 1}, {1, 1, 1}};
     const T units[] = {1, std::is_same_v<T, float> ? T(0x1p-140) : T(0x1p-1060), std::is_same_v<T, float> ? T(0x1p110) : T(0x1p1000)};
     for (const auto& size : shapes_of) {
-        for (const std::uint32_t n : {1u, 3u, 4000u}) {
+        for (const std::uint32_t n : {1u, 300u, 4000u}) {
             draws d;
             std::vector<vec3<int>> at, from;
             std::vector<int> radii;
@@ -65,7 +65,7 @@ TEMPLATE_TEST_CASE("spheres and points of a lattice, by whole numbers", "", floa
                 at.push_back({next(size[0]), next(size[1]), next(size[2])});
             }
             for (int i = 0; i < 1500; ++i) {
-                const auto next = [&d](int below) { return static_cast<int>(d(static_cast<std::uint32_t>(below + 20))) - 10; };
+                const auto next = [&d](int below) { return static_cast<int>(d(static_cast<std::uint32_t>(below + 6))) - 3; };
                 from.push_back({next(size[0]), next(size[1]), next(size[2])});
                 radii.push_back(static_cast<int>(d(i % 10 == 0 ? 30 : 5)));
             }
@@ -83,7 +83,7 @@ TEMPLATE_TEST_CASE("spheres and points of a lattice, by whole numbers", "", floa
                 hits += met;
                 touching += touches;
             }
-            CHECK((n < 4000 || (hits > 5 && touching > 2)));
+            CHECK((n == 1 || (hits > 15 && touching > 3)));
             for (const T unit : units) {
                 std::vector<vec3<T>> points_at;
                 std::vector<sphere<T>> balls;
