@@ -96,7 +96,7 @@ ABUT_HD constexpr double constant_root(double x) {
 }
 
 /// Square roots of what is not negative.
-ABUT_HD constexpr one_double root(one_double x) {
+ABUT_INLINE ABUT_HD constexpr one_double root(one_double x) {
     if (x.high == 0) return x;
     if (ABUT_CONSTANT_EVALUATED()) return {constant_root(x.high)};
     return {std::sqrt(x.high)};
@@ -128,10 +128,10 @@ ABUT_HD constexpr point negated(const point& p) { return {-p.x, -p.y, -p.z}; }
 ABUT_HD constexpr double largest_of(const point& p) { return greatest(absolute(p.x), absolute(p.y), absolute(p.z)); }
 
 /// In doubles, rounded one by one.
-ABUT_HD constexpr double plain_dot(const point& a, const point& b) {
+ABUT_INLINE ABUT_HD constexpr double plain_dot(const point& a, const point& b) {
     return plain_sum(plain_sum(plain_product(a.x, b.x), plain_product(a.y, b.y)), plain_product(a.z, b.z));
 }
-ABUT_HD constexpr point plain_difference(const point& a, const point& b) {
+ABUT_INLINE ABUT_HD constexpr point plain_difference(const point& a, const point& b) {
     return {plain_sum(a.x, -b.x), plain_sum(a.y, -b.y), plain_sum(a.z, -b.z)};
 }
 
@@ -248,14 +248,14 @@ ABUT_HD constexpr T rounded_within(double x) {
     return x > far ? largest_finite<T> : x < -far ? -largest_finite<T> : rounded(static_cast<T>(x));
 }
 
-ABUT_HD constexpr vec3<double> plain_cross(const vec3<double>& a, const vec3<double>& b) {
+ABUT_INLINE ABUT_HD constexpr vec3<double> plain_cross(const vec3<double>& a, const vec3<double>& b) {
     const auto minor = [](double s, double t, double x, double y) {
         return plain_sum(plain_product(s, t), -plain_product(x, y));
     };
     return {minor(a.y, b.z, a.z, b.y), minor(a.z, b.x, a.x, b.z), minor(a.x, b.y, a.y, b.x)};
 }
 /// p + t v
-ABUT_HD constexpr vec3<double> plain_step(const vec3<double>& p, double t, const vec3<double>& v) {
+ABUT_INLINE ABUT_HD constexpr vec3<double> plain_step(const vec3<double>& p, double t, const vec3<double>& v) {
     return {plain_sum(p.x, plain_product(t, v.x)), plain_sum(p.y, plain_product(t, v.y)),
             plain_sum(p.z, plain_product(t, v.z))};
 }
