@@ -370,7 +370,7 @@ concept measurable = contact_pair<S, U> || contact_pair<U, S> || own_separation<
 template <class S, class U, scalar T>
 ABUT_HD constexpr separation<T> separation_by(const S& s, const U& t, const measured_plainly<T>& m, bool touch) {
     if (!touch) return m.nearest.is_sure ? separation_of_searched(s, t, m) : separation_apart(s, t);
-    const vec3<T> shared = m.knows_shared_point() ? m.shared_point() : shared_point_of(s, t);
+    const vec3<T> shared = m.nearest.knows_shared_point() ? m.shared_point() : shared_point_of(s, t);
     return {0, 0, shared, shared, T(0)};
 }
 
