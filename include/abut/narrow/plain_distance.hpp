@@ -89,10 +89,7 @@ private:
     template <class S, class U>
     ABUT_HD constexpr void look(const S& s, const U& t) {
         origin = widened(axis_of(s).a);
-        nearest = with_seen_plainly(s, t, origin, [](const auto& a, const auto& b) {
-            plain_simplex at;
-            return search_in_doubles(a, b, at);
-        });
+        nearest = with_seen_plainly(s, t, origin, [](const auto& a, const auto& b) { return nearest_in_doubles(a, b); });
     }
     [[nodiscard]] ABUT_HD constexpr vec3<T> placed(const vec3<double>& p) const { return from_seen<T>(origin, p); }
 };

@@ -454,6 +454,25 @@ ABUT_NOINLINE ABUT_HD constexpr plain_guess finish_search(const plain_solid& a, 
     return by_a ? guess(here, there) : guess(there, here);
 }
 
+/// Whether a guess is as near as the shapes are, but for `enough`; if so it is what is found.
+template <class A, class B>
+ABUT_HD constexpr bool settles(const A& a, const B& b, const plain_guess& g, double enough, plain_nearest& found) {
+    using namespace contact_math;
+    const point way = plain_difference(g.on_b, g.on_a);
+    const double length = root(one_double{plain_dot(way, way)}).high,
+                 of_along = root(one_double{plain_dot(g.along, g.along)}).high;
+    if (!g.is || !(of_along > 0)) return false;
+    const point back = plain_difference(b.farthest(negated(g.along)), a.farthest(g.along));
+    const double ahead = plain_dot(g.along, back) / of_along;
+    if (!(plain_sum(length, -ahead) <= enough)) return false;
+    found.length = length, found.least = ahead, found.is_sure = true;
+    found.on_a = g.on_a, found.on_b = g.on_b, found.way = way, found.along = g.along;
+    return true;
+}
+
+/// Sizes in whose range no square overflows, and what underflows is nothing beside the rest.
+ABUT_HD constexpr bool is_searched(double size) { return size > 0x1p-150 && size < 0x1p150; }
+
 /// Looks for it. Of a device one function, out of line.
 template <class A, class B>
 ABUT_NOINLINE ABUT_HD constexpr plain_nearest search_in_doubles(const A& a, const B& b, plain_simplex& at) {
@@ -461,7 +480,7 @@ ABUT_NOINLINE ABUT_HD constexpr plain_nearest search_in_doubles(const A& a, cons
     constexpr int most_steps = 40;
     plain_nearest found;
     found.size = greatest(a.size, b.size);
-    if (!(found.size > 0x1p-150 && found.size < 0x1p150)) return found;
+    if (!is_searched(found.size)) return found;
     const double enough = 0x1p-51 * found.size;
     point along{0, 0, 0};
     double near = 0x1p-3;
@@ -486,18 +505,7 @@ ABUT_NOINLINE ABUT_HD constexpr plain_nearest search_in_doubles(const A& a, cons
         if constexpr (requires { finish_search(a, b, at); }) {
             if (step > 0 && plain_sum(found.length, -found.least) < plain_product(near, found.length)) {
                 near = plain_product(near, 0x1p-6);
-                const plain_guess g = finish_search(a, b, at);
-                const point way = plain_difference(g.on_b, g.on_a);
-                const double length = root(one_double{plain_dot(way, way)}).high, of_along = root(one_double{plain_dot(g.along, g.along)}).high;
-                if (g.is && of_along > 0) {
-                    const point back = plain_difference(b.farthest(negated(g.along)), a.farthest(g.along));
-                    const double ahead = plain_dot(g.along, back) / of_along;
-                    if (plain_sum(length, -ahead) <= enough) {
-                        found.length = length, found.least = ahead, found.is_sure = true;
-                        found.on_a = g.on_a, found.on_b = g.on_b, found.way = way, found.along = g.along;
-                        return found;
-                    }
-                }
+                if (settles(a, b, finish_search(a, b, at), enough, found)) return found;
             }
         }
     }
@@ -507,6 +515,21 @@ ABUT_NOINLINE ABUT_HD constexpr plain_nearest search_in_doubles(const A& a, cons
     found.way = at.mean;
     found.along = at.along;
     return found;
+}
+
+/// The same, and of a solid and a point in closed form.
+template <class A, class B>
+ABUT_HD constexpr plain_nearest nearest_in_doubles(const A& a, const B& b) {
+    if constexpr (std::same_as<A, plain_solid> && std::same_as<B, plain_core<1>>) {
+        plain_nearest found;
+        found.size = greatest(a.size, b.size);
+        if (is_searched(found.size)) {
+            const plain_solid::foot f = a.foot_of(b.at[0]);
+            if (settles(a, b, {f.at, b.at[0], f.normal, true}, 0x1p-51 * found.size, found)) return found;
+        }
+    }
+    plain_simplex at;
+    return search_in_doubles(a, b, at);
 }
 
 }  // namespace abut::detail
