@@ -113,12 +113,11 @@ ABUT_HD constexpr least_overlap way_out(const round_pair& pair, const segment<T>
 
 namespace abut::detail {
 
-/// Points, segments, spheres and capsules with each other, but for those below. Of cores with as many corners the shape
-/// without a radius comes first.
+/// Points, segments, spheres and capsules with each other, but for a sphere and a segment. Of cores with as many corners the
+/// shape without a radius comes first.
 template <class S, class U>
-concept pair_of_round_contact =
-    (pair_without_faces<S, U> || (std::same_as<S, U> && std::same_as<S, vec3<scalar_type_of<S>>>)) &&
-    !(corners_of_core<S> == corners_of_core<U> && has_radius<S> && !has_radius<U>);
+concept pair_of_round_contact = (pair_without_faces<S, U> || (std::same_as<S, U> && corners_of_core<S> == 1)) &&
+                                !(corners_of_core<S> == corners_of_core<U> && has_radius<S> && !has_radius<U>);
 
 /// The segment that a shape is around, which may be a point.
 template <class S>
@@ -126,6 +125,9 @@ ABUT_HD constexpr segment<scalar_type_of<S>> axis_around(const S& s) {
     const auto core = core_of(s);
     return {core.at[0], core.at[corners_of_core<S> - 1]};
 }
+
+template <class S, class U>
+inline constexpr bool are_spheres = has_radius<S> && has_radius<U> && corners_of_core<S> + corners_of_core<U> == 2;
 
 /// The numbers of the contact below in plain doubles (plain_ways.hpp). The depth is the overlap along the normal as it is
 /// stored, and the normal is right where that is the least there can be, the radii less the distance, but for a part of
@@ -146,7 +148,7 @@ ABUT_NOINLINE ABUT_HD constexpr auto first_contact_of(const S& s, const U& t, co
     const double from = greatest(plain_sum(distance, -both.radius_a), -both.radius_b);
     const double to = least(plain_sum(distance, both.radius_a), both.radius_b);
     double part = plain_product(plain_sum(from, to) / 2, per_distance);
-    if constexpr (!(std::same_as<S, sphere<T>> && std::same_as<U, sphere<T>>)) part = into_unit_of_doubles(part);
+    if (!are_spheres<S, U>) part = into_unit_of_doubles(part);
     answer.found = plain_contact(both.on_b(t).at(-part, both.way()), n, depth);
     return answer;
 }
@@ -176,31 +178,9 @@ ABUT_NOINLINE ABUT_HD constexpr contact<T> contact_between(const capsule<T>& s, 
     return assembled<T>(scale, found.nearest.at.on_b, way_out<T>(pair, s.axis, t, found.nearest.away, found.crosses));
 }
 
-/// Along the line through both centres, the middle of what both spheres have of it.
-template <scalar T>
-ABUT_NOINLINE ABUT_HD constexpr contact<T> contact_between(const sphere<T>& s, const sphere<T>& t) {
-    using namespace contact_math;
-    if (const auto first = first_contact_of(s, t, plain_pair<sphere<T>, sphere<T>>(s, t)); first.touch == verdict::yes)
-        return first.found;
-    const common_scale scale(s, t);
-    const point a = scale(s.center), b = scale(t.center);
-    const double radius_a = scale(s.radius), radius_b = scale(t.radius);
-    const auto away = between<number_for<T>>(b, a);
-    const point straight = as_stored_direction<T>(unit_vector(away));
-    least_overlap way;
-    const point n = is_zero(straight) ? way.normal : straight;
-    const double distance = plain_dot(n, rounded_off(away));
-    way.offer(n, plain_sum(plain_sum(radius_a, radius_b), -distance));
-    const double from = greatest(plain_sum(distance, -radius_a), -radius_b);
-    const double to = least(plain_sum(distance, radius_a), radius_b), middle = plain_sum(from, to) / 2;
-    const point where{plain_sum(b.x, plain_product(middle, n.x)), plain_sum(b.y, plain_product(middle, n.y)),
-                      plain_sum(b.z, plain_product(middle, n.z))};
-    return assembled<T>(scale, where, way);
-}
-
 /// Of shapes around points and segments: from the points of both cores that are nearest to each other. The point is the
 /// middle of what both shapes have of the line through these, or the one of the two that is nearer to that middle, if it is
-/// not between them.
+/// not between them; of spheres it may be anywhere on the line.
 template <class S, class U>
     requires pair_of_round_contact<S, U>
 ABUT_NOINLINE ABUT_HD constexpr auto contact_between(const S& s, const U& t) {
@@ -220,8 +200,8 @@ ABUT_NOINLINE ABUT_HD constexpr auto contact_between(const S& s, const U& t) {
     if (distance > 0) {
         const double from = greatest(plain_sum(distance, -radius_a), -radius_b);
         const double to = least(plain_sum(distance, radius_a), radius_b);
-        const double part = into_unit(one_double::of(plain_sum(from, to) / 2 / distance)).high;
-        where = plain_step(on_b, part, rounded_off(found.away));
+        const double part = plain_sum(from, to) / 2 / distance;
+        where = plain_step(on_b, are_spheres<S, U> ? part : into_unit_of_doubles(part), rounded_off(found.away));
     }
     return assembled<T>(scale, where, way_out<T>(pair, axis, flat, found.away, false));
 }
