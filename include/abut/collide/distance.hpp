@@ -241,12 +241,13 @@ struct walk_from_depth : walk_two<Walk, Reach, View, InWorld> {
         once ? this->walk.descend(at, mine, best, visitor) : this->walk(at, mine, best, visitor);
     }
 };
-/// Of a host: the thread that begins alone, from the roots; and all threads, from what it left.
+/// Of a host: from the roots, so many steps; and from what is left then.
 ///@{
 template <class Walk, class Reach, class View, bool InWorld>
 struct walk_alone : walk_two<Walk, Reach, View, InWorld> {
-    typename Walk::nearest_first& pending;
-    std::size_t most;  ///< pairs of nodes that are opened
+    using heap = typename Walk::template nearest_first<1024>;
+    heap& pending;
+    std::size_t most;
 
     template <class Best>
     void operator()(std::size_t, Best& best) const {
@@ -260,15 +261,18 @@ struct walk_alone : walk_two<Walk, Reach, View, InWorld> {
 template <class Walk, class Reach, class View, bool InWorld>
 struct walk_from_rest : walk_two<Walk, Reach, View, InWorld> {
     static constexpr std::size_t grain = 4;
-    const typename Walk::entry* from;
+    const typename Walk::entry* from;  ///< null for the roots
 
     template <class Best>
     void operator()(std::size_t i, Best& best) const {
         Reach mine = this->reach;
         offer_distance<false, Best, Reach> offer{best, mine};
-        typename Walk::nearest_first pending;
-        pending.add(from[i]);
-        this->walk.go_on(pending, static_cast<std::size_t>(-1), mine, best, offer_pair<InWorld, View, Best, Reach>{this->both, offer});
+        const offer_pair<InWorld, View, Best, Reach> visitor{this->both, offer};
+        if (from == nullptr) {
+            this->walk({this->walk.a.root().index(), this->walk.b.root().index()}, mine, best, visitor);
+        } else {
+            this->walk.below(from[i], mine, best, visitor);
+        }
     }
 };
 ///@}
@@ -402,21 +406,25 @@ void walk_two_trees(const Policy& on, const Pairing& pairing, Walk walk, const R
     constexpr bool is_shared = !std::same_as<std::remove_cvref_t<decltype(pairing.part)>, whole_search>;
     constexpr bool in_world = !decltype(pairing.a)::is_posed && !decltype(pairing.b)::is_posed;
     if constexpr (host_policy<Policy> && !is_shared) {
-        // The calling thread begins alone, so that what is done soon costs no more than on one thread.
-        constexpr std::size_t break_even = 1024;
         ties_of watch(walk.a, both.a, walk.b, both.b);
         if constexpr (requires { trees_with_least_ids(pairing.a), trees_with_least_ids(pairing.b); }) {
             const auto &a = pairing.a.tree_with_least_ids().stored(), &b = pairing.b.tree_with_least_ids().stored();
             if (a.least_ids != nullptr && b.least_ids != nullptr) watch.begin_with(a.least_ids->data(), b.least_ids->data());
         }
         walk.watch = &watch;
-        typename Walk::nearest_first rest;
-        const std::size_t most = concurrency(on) > 1 ? break_even : static_cast<std::size_t>(-1);
-        for_each_ordered(serial{}, 1, walk_alone<Walk, Reach, view, in_world>{{walk, reach, both}, rest, most}, best);
-        if (rest.count == 0) return;
-        std::sort_heap(rest.at, rest.at + rest.count, Walk::nearest_first::is_farther);
+        if (concurrency(on) == 1) {
+            const walk_from_rest<Walk, Reach, view, in_world> all{{walk, reach, both}, nullptr};
+            return for_each_ordered(serial{}, 1, all, best);
+        }
+        // The calling thread begins alone, so that what is done soon costs no more than on one thread.
+        constexpr std::size_t break_even = 256;  // steps: some 50 us
+        using alone = walk_alone<Walk, Reach, view, in_world>;
+        typename alone::heap rest;
+        for_each_ordered(serial{}, 1, alone{{walk, reach, both}, rest, break_even}, best);
+        std::sort_heap(rest.at, rest.at + rest.count, rest.is_farther);
         std::reverse(rest.at, rest.at + rest.count);
-        for_each_ordered(on, static_cast<std::size_t>(rest.count), walk_from_rest<Walk, Reach, view, in_world>{{walk, reach, both}, rest.at}, best);
+        const walk_from_rest<Walk, Reach, view, in_world> others{{walk, reach, both}, rest.at};
+        for_each_ordered(on, static_cast<std::size_t>(rest.count), others, best);
     } else {
         const auto from_depth = [&](int level, bool once, const auto& part) {
             const seeds_below<Walk> from(walk, level);

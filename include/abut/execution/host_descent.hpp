@@ -119,7 +119,8 @@ struct descent_loop {
     const Expand& expand;
     const Judge& judge;
     next_level<Expand>& start;
-    /// Of who begins alone: items that it opens before it leaves others, and seeds, in `start`. 0 for a share of all.
+    /// Of who begins alone: items that it opens and candidates that it judges before it leaves other items, and seeds, in
+    /// `start`. 0 for a share of all.
     std::size_t most_alone = 0;
 
     template <class Over, class... Sinks>
@@ -143,9 +144,10 @@ struct descent_loop {
             mine.items[mine.count++] = most_alone > 0 ? step.seed(i) : start.items[i - early];
             while (mine.count > 0 && left > 0) {
                 const std::size_t opened = expand_newest(step, mine, 0, width.next());
-                left -= opened < left ? opened : left;
+                left -= std::min(opened, left);
                 if (mine.found >= at_a_time || mine.count == 0 || left == 0) {
                     judge_all<AnyWillDo>(mine.candidates, mine.found, judge, open, sinks...);
+                    left -= std::min(mine.found, left);
                     mine.found = 0;
                 }
                 if (over()) return;
@@ -164,7 +166,7 @@ template <range_policy Policy, expander Expand, class Judge, class... Queues>
 std::uint64_t for_each_descendant(const Policy& on, const Expand& expand, const Judge& judge, Queues&... queues) {
     // Who only wants to know whether there is one starts soon, and so does who is spared work by the first.
     constexpr bool any_will_do = (is_eager<sink_of<Queues>> || ...);
-    constexpr std::size_t break_even = 1024;  // items: some 50 us
+    constexpr std::size_t break_even = 1024;  // items and candidates: some 50 us
     const auto threads = static_cast<std::size_t>(concurrency(on));
     const std::size_t grain = any_will_do ? 1 : 4, seeds = expand.seeds();
     detail::next_level<Expand> start;

@@ -50,12 +50,12 @@ struct ordered_pair_walk {
         T least;
     };
     /// A heap of a host: the nearest is taken. What is no number counts as 0.
+    template <int Room = 256>
     struct nearest_first {
-        static constexpr int room = 256;
-        entry at[std::size_t{room}];  // not initialised
+        entry at[std::size_t{Room}];  // not initialised
         int count = 0;
 
-        [[nodiscard]] bool has_room() const { return count <= room - most_children; }
+        [[nodiscard]] bool has_room() const { return count <= Room - most_children; }
         void add(entry one) {
             one.least = one.least > 0 ? one.least : 0;
             at[count++] = one;
@@ -79,28 +79,35 @@ struct ordered_pair_walk {
         tighten(reach, best, bound);
         walk_depth_first({from, least_of(from, reach)}, told(), reach, best, bound, visitor);
 #else
-        nearest_first pending;
+        nearest_first<> pending;
         begin(from, pending, reach, best, visitor);
-        go_on(pending, static_cast<std::size_t>(-1), reach, best, visitor);
+        go_on(pending, all_steps, reach, best, visitor);
 #endif
     }
-    /// The same in parts, on a host: what is to be walked; and a walk that leaves the rest when so many pairs are opened and
-    /// enough wait to be shared out.
+    /// The same in parts, on a host: what is to be walked; and a walk that leaves the rest after `most` steps, or where there is
+    /// no more room for it.
     ///@{
-    template <shrinking_pair_reach<T> Reach, class Best, class Visitor>
-    void begin(const item& from, nearest_first& pending, Reach& reach, const Best& best, const Visitor& visitor) const {
+    static constexpr std::size_t all_steps = static_cast<std::size_t>(-1);
+    template <class Pending, shrinking_pair_reach<T> Reach, class Best, class Visitor>
+    void begin(const item& from, Pending& pending, Reach& reach, const Best& best, const Visitor& visitor) const {
         double bound = infinity<double>;
         tighten(reach, best, bound);
         pending.add({from, least_of(from, reach)});
         if (!(bound < infinity<double>)) descend(from, reach, best, visitor);
     }
     template <shrinking_pair_reach<T> Reach, class Best, class Visitor>
-    void go_on(nearest_first& pending, std::size_t most, Reach& reach, const Best& best, const Visitor& visitor) const {
+    void below(const entry& from, Reach& reach, const Best& best, const Visitor& visitor) const {
+        nearest_first<> pending;
+        pending.add(from);
+        go_on(pending, all_steps, reach, best, visitor);
+    }
+    template <class Pending, shrinking_pair_reach<T> Reach, class Best, class Visitor>
+    void go_on(Pending& pending, std::size_t most, Reach& reach, const Best& best, const Visitor& visitor) const {
         double bound = infinity<double>;
         tighten(reach, best, bound);
         told ties(watch);
-        for (std::size_t opened = 0; pending.count > 0; ++opened) {
-            if (opened >= most && !pending.has_room()) return;
+        for (std::size_t steps = 0; pending.count > 0; ++steps) {
+            if (most != all_steps && (steps >= most || !pending.has_room())) return;
             const entry at = pending.take();
             if (!reach.keeps(at.least)) {
                 pending.count = 0;
