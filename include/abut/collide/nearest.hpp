@@ -134,7 +134,9 @@ struct walk_from_points {
             const double value = judge.measure(shapes[id], p, best.bound());
             const bool is_tie = value == best.bound();
             best.offer(value, id);
-            if constexpr (requires { walk.watch; Best::keeps_few; }) offer_copies(value, static_cast<std::uint32_t>(id), best);
+            if constexpr (requires { walk.watch; Best::keeps_few; }) {
+                offer_copies(value, static_cast<std::uint32_t>(id), best);
+            }
             return is_tie;
         });
     }
@@ -145,7 +147,8 @@ struct walk_from_points {
 private:
     /// A walk that passes over copies comes to the first of them alone; of the few nearest others may be wanted.
     template <class Best>
-    ABUT_HD void offer_copies([[maybe_unused]] double value, [[maybe_unused]] std::uint32_t id, [[maybe_unused]] Best& best) const {
+    ABUT_HD void offer_copies([[maybe_unused]] double value, [[maybe_unused]] std::uint32_t id,
+                              [[maybe_unused]] Best& best) const {
 #if !ABUT_DEVICE_CODE
         if (walk.watch == nullptr || !walk.watch->is_known()) return;
         const std::uint32_t* const next = walk.watch->known(0).copies;

@@ -418,10 +418,11 @@ struct ask_any_hit : question_of_lines<Options, ask_any_hit<A, Options>> {
 /// `global_ray_hit`.
 ///
 /// @par Memory
-/// As in @ref queries. The result lies in the policy's memory, 8 bytes a ray in float and 16 in double. Among many shapes that are
-/// equally near a host takes 12 bytes for each shape of a tree while it works, and 4 more for a moment.
-/// Under `cuda` the last stage has a stack of 1.7 KB in float and 8.7 KB in double for triangles, and of 4.3 and 23 KB for
-/// spheres, boxes, capsules, cylinders and cones. CUDA sets that aside once for all threads that the device holds at a time.
+/// As in @ref queries. The result lies in the policy's memory, 8 bytes a ray in float and 16 in double. Among many shapes
+/// that are equally near a host takes 12 bytes for each shape of a tree while it works, and 4 more for a moment. Under
+/// `cuda` the last stage has a stack of 1.7 KB in float and 8.7 KB in double for triangles, and of 4.3 and 23 KB for
+/// spheres, boxes, capsules, cylinders and cones. CUDA sets that aside once for all threads that the device holds at a
+/// time.
 ///
 /// @par Errors
 /// - `invalid_geometry`: a view, a single shape or a ray has a number that is not finite, or a pose is no rotation.
