@@ -138,8 +138,8 @@ public:
     }
 
 protected:
-    /// What is to be known costs some 20 ns a shape; a tie costs as much or more where a point or a line looks, and 400 ns of
-    /// two shapes.
+    /// What is to be known costs some 20 ns a shape; a tie costs as much or more where a point looks, and 400 ns of two shapes
+    /// or of a line.
     explicit tie_watch(std::size_t enough) : enough_(enough + 64) {}
     ~tie_watch() = default;
     virtual void find(ties_of_tree* trees) const = 0;
@@ -157,8 +157,9 @@ private:
 template <class... Looked>
 class ties_of : public tie_watch {
 public:
-    explicit ties_of(const Looked&... looked)
-        : tie_watch((looked.size() + ...) / (sizeof...(Looked) == 2 ? 16 : 64)), looked_(looked...) {}
+    /// It is found out after a tie for each so many shapes.
+    explicit ties_of(std::size_t shapes_a_tie, const Looked&... looked)
+        : tie_watch((looked.size() + ...) / 2 / shapes_a_tie), looked_(looked...) {}
 
 private:
     void find(ties_of_tree* trees) const override {
