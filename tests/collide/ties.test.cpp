@@ -113,7 +113,8 @@ std::size_t measured_by(const Ask& ask) {
 
 /// Trees with and without least ids, of two layouts, one posed, and one side without a tree.
 template <class Policy>
-void check_pairs(const Policy& on, const std::vector<cell>& a, const std::vector<cell>& b, std::size_t most, bool are_copies) {
+void check_pairs(const Policy& on, const std::vector<cell>& a, const std::vector<cell>& b, std::size_t most,
+                 bool are_copies) {
     const auto set_a = marks_at(a), set_b = marks_at(b);
     const index_pair expected = nearest_of(a, b);
     const auto check = [&](const auto& x, const auto& y, std::size_t most_measured) {
@@ -194,9 +195,9 @@ void check_points(const Policy& on) {
     check_trees(600, [&](const auto& index) { return nearest(on, index, points, 600); });
     // A filter tells copies apart.
     const auto odd = [](std::uint32_t, std::uint32_t id) { return id % 2 == 1; };
+    const nearest_options<decltype(odd)> of_odd{.count = 3, .filter = odd};
     check(
-        tree, 3,
-        [&](const auto& index) { return nearest(on, index, points, nearest_options<decltype(odd)>{.count = 3, .filter = odd}); },
+        tree, 3, [&](const auto& index) { return nearest(on, index, points, of_odd); },
         [&](std::uint32_t id) { return odd(0, id); });
 }
 

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iterator>
+#include <random>
 #include <string>
 
 #include <abut/predicate/intersects.hpp>
@@ -594,6 +595,31 @@ TEST_CASE("time of impact: a vertex at rest by a narrow face is not nearer than 
     };
     CHECK(time(distance * (1 + 1e-12)) == 0);
     CHECK(time(distance * (1 - 1e-8)) == -1);
+}
+
+TEMPLATE_TEST_CASE("points that all come to one place meet there, unless they touch at the start", "", float, double) {
+    using T = TestType;
+    std::mt19937 random(20261128);
+    const auto coordinate = [&] { return static_cast<T>(static_cast<int>(random() % 5) - 2); };  // many touch, many are flat
+    const auto point = [&] { return vec3<T>{coordinate(), coordinate(), coordinate()}; };
+    int at_start = 0, at_end = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const vec3<T> end = i % 3 == 0 ? point() : vec3<T>{T(0.3), T(-0.7), T(0.1)};
+        const vec3<T> a = point(), b = point(), c = point(), d = point();
+        const auto check = [&](const auto& s, const auto& t, bool touch) {
+            const double when = time_of_impact(s, t);
+            CHECK(when == time_of_impact<exact>(s, t));
+            CHECK(when == (touch ? 0 : 1));
+            (touch ? at_start : at_end) += 1;
+        };
+        const triangle<T> face{a, b, c}, last_face{end, end, end};
+        const segment<T> one{a, b}, other{c, d}, last_edge{end, end};
+        check(moving(d, end), moving(face, last_face), intersects<exact>(segment<T>{d, d}, face));
+        check(moving(one, last_edge), moving(other, last_edge),
+              intersects<exact>(triangle<T>{a, b, b}, triangle<T>{c, d, d}));
+    }
+    CHECK(at_start > 100);
+    CHECK(at_end > 1000);
 }
 
 }  // namespace abut::test

@@ -406,7 +406,7 @@ void walk_two_trees(const Policy& on, const Pairing& pairing, Walk walk, const R
     constexpr bool is_shared = !std::same_as<std::remove_cvref_t<decltype(pairing.part)>, whole_search>;
     constexpr bool in_world = !decltype(pairing.a)::is_posed && !decltype(pairing.b)::is_posed;
     if constexpr (host_policy<Policy> && !is_shared) {
-        ties_of watch(walk.a, both.a, walk.b, both.b);
+        ties_of watch(32, walk.a, both.a, walk.b, both.b);
         if constexpr (requires { trees_with_least_ids(pairing.a), trees_with_least_ids(pairing.b); }) {
             const auto &a = pairing.a.tree_with_least_ids().stored(), &b = pairing.b.tree_with_least_ids().stored();
             if (a.least_ids != nullptr && b.least_ids != nullptr) watch.begin_with(a.least_ids->data(), b.least_ids->data());
@@ -428,8 +428,8 @@ void walk_two_trees(const Policy& on, const Pairing& pairing, Walk walk, const R
     } else {
         const auto from_depth = [&](int level, bool once, const auto& part) {
             const seeds_below<Walk> from(walk, level);
-            for_each_ordered(on, from.count(),
-                             walk_of_part(walk_from_depth<Walk, Reach, view, in_world>{{walk, reach, both}, from, once}, part), best);
+            const walk_from_depth<Walk, Reach, view, in_world> below{{walk, reach, both}, from, once};
+            for_each_ordered(on, from.count(), walk_of_part(below, part), best);
         };
         const int depth = std::max(depth_of_seeds(concurrency(on), host_policy<Policy>), is_shared ? 6 : 0);
         // Whoever begins without a bound looks in vain: many short looks find a good one. It is worth the same to each part.
@@ -445,7 +445,7 @@ void look_for_nearest_pair(const Policy& on, const Pairing& pairing, const Index
     using T = typename decltype(both.a)::scalar_type;
     const auto look = [&](auto walk, const auto& sight) {
         using walk_type = decltype(walk);
-        [[maybe_unused]] const auto watch = watch_ties<Policy, true>(walk, x.shapes());
+        [[maybe_unused]] const auto watch = watch_ties<Policy, true>(64, walk, x.shapes());
         using sight_type = std::remove_cvref_t<decltype(sight)>;
         const look_from_shapes<RowsAreB, walk_type, sight_type, std::remove_const_t<decltype(both)>> each{walk, sight, both};
         for_each_ordered(on, rows, walk_of_part(each, pairing.part), best);
@@ -601,11 +601,11 @@ auto ask_least(const Policy& on, const ask_distance& question, const X& x, const
 /// has shapes of both sets. Of ranks the answer is a `global_separation`, the same on all; each gives the same options.
 ///
 /// @par Memory
-/// As in @ref queries. Nothing is stored for each pair. Where many pairs are equally far apart, a call of two trees takes 12
-/// bytes for each shape in host memory while it works, and 4 more for a moment; not under `cuda`. A call of a list of two entries or more takes 12 bytes for each
-/// shape of its trees in host memory where something touches, unless these keep their least ids. Under `cuda` a walk of two
-/// trees keeps a stack of 289 pairs of nodes, 3.5 KB in float and 4.6 KB in double, in the device's local memory, which CUDA
-/// sets aside once for all threads that the device holds at a time.
+/// As in @ref queries. Nothing is stored for each pair. Where many pairs are equally far apart, a call of two trees takes
+/// 12 bytes for each shape in host memory while it works, and 4 more for a moment; not under `cuda`. A call of a list of
+/// two entries or more takes 12 bytes for each shape of its trees in host memory where something touches, unless these keep
+/// their least ids. Under `cuda` a walk of two trees keeps a stack of 289 pairs of nodes, 3.5 KB in float and 4.6 KB in
+/// double, in the device's local memory, which CUDA sets aside once for all threads that the device holds at a time.
 ///
 /// @par Errors
 /// As in @ref queries, and `error` where `below` is negative or NaN.

@@ -96,15 +96,17 @@ auto shapes_wanted(const Filter& filter, const Rows& rows) {
 
 template <class Walk, shape_view Shapes>
 struct watch_of_walk : ties_of<decltype(Walk::tree), Shapes> {
-    watch_of_walk(Walk& walk, const Shapes& shapes) : ties_of<decltype(Walk::tree), Shapes>(walk.tree, shapes) {
+    watch_of_walk(std::size_t shapes_a_tie, Walk& walk, const Shapes& shapes)
+        : ties_of<decltype(Walk::tree), Shapes>(shapes_a_tie, walk.tree, shapes) {
         walk.watch = this;
     }
 };
 /// Has a walk through a tree of a host watch for ties, as long as what is returned lives. Copies have to be `Alike` to it.
 template <class Policy, bool Alike, class Walk, shape_view Shapes>
-auto watch_ties([[maybe_unused]] Walk& walk, [[maybe_unused]] const Shapes& shapes) {
+auto watch_ties([[maybe_unused]] std::size_t shapes_a_tie, [[maybe_unused]] Walk& walk,
+                [[maybe_unused]] const Shapes& shapes) {
     if constexpr (host_policy<Policy> && Alike && requires { walk.watch = nullptr; }) {
-        return watch_of_walk<Walk, Shapes>(walk, shapes);
+        return watch_of_walk<Walk, Shapes>(shapes_a_tie, walk, shapes);
     } else {
         return 0;
     }
@@ -134,7 +136,9 @@ struct walk_from_points {
             const double value = judge.measure(shapes[id], p, best.bound());
             const bool is_tie = value == best.bound();
             best.offer(value, id);
-            if constexpr (requires { walk.watch; Best::keeps_few; }) offer_copies(value, static_cast<std::uint32_t>(id), best);
+            if constexpr (requires { walk.watch; Best::keeps_few; }) {
+                offer_copies(value, static_cast<std::uint32_t>(id), best);
+            }
             return is_tie;
         });
     }
@@ -145,7 +149,8 @@ struct walk_from_points {
 private:
     /// A walk that passes over copies comes to the first of them alone; of the few nearest others may be wanted.
     template <class Best>
-    ABUT_HD void offer_copies([[maybe_unused]] double value, [[maybe_unused]] std::uint32_t id, [[maybe_unused]] Best& best) const {
+    ABUT_HD void offer_copies([[maybe_unused]] double value, [[maybe_unused]] std::uint32_t id,
+                              [[maybe_unused]] Best& best) const {
 #if !ABUT_DEVICE_CODE
         if (walk.watch == nullptr || !walk.watch->is_known()) return;
         const std::uint32_t* const next = walk.watch->known(0).copies;
@@ -324,7 +329,7 @@ void walk_alone_from_points(const Policy& on, const Operand& x, const Points& po
     auto walk = ordered_walk_of(x);
     const auto frame = frame_of(x, judge.unit);
     const auto there = x.shapes();
-    [[maybe_unused]] const auto watch = watch_ties<Policy, std::same_as<Wanted, all_shapes_wanted>>(walk, there);
+    [[maybe_unused]] const auto watch = watch_ties<Policy, std::same_as<Wanted, all_shapes_wanted>>(8, walk, there);
     using walk_type = walk_from_points<std::remove_const_t<decltype(walk)>, std::remove_const_t<decltype(frame)>,
                                        std::remove_const_t<decltype(there)>, Points, Judge, Wanted>;
     for_each_ordered(on, points.size(), walk_type{walk, frame, there, points, judge, order, wanted}, best);

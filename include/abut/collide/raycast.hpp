@@ -254,7 +254,7 @@ auto look_for_first_hits(const Policy& on, const Both& both, bool in_scalars, co
     if (both.has_nothing()) return finish(nullptr);
     execution::best_of_each<space_of<Policy>> best(on, both.size(), both.wanted.most());
     from_each each{both.template walk<walk_along_lines, A>(in_scalars)};
-    [[maybe_unused]] const auto watch = watch_ties<Policy, !Both::filters>(each.all.walk, both.x.shapes());
+    [[maybe_unused]] const auto watch = watch_ties<Policy, !Both::filters>(64, each.all.walk, both.x.shapes());
     for_each_ordered(on, both.size(), each, best);
     return finish(best.data());
 }
@@ -418,10 +418,11 @@ struct ask_any_hit : question_of_lines<Options, ask_any_hit<A, Options>> {
 /// `global_ray_hit`.
 ///
 /// @par Memory
-/// As in @ref queries. The result lies in the policy's memory, 8 bytes a ray in float and 16 in double. Among many shapes that are
-/// equally near a host takes 12 bytes for each shape of a tree while it works, and 4 more for a moment.
-/// Under `cuda` the last stage has a stack of 1.7 KB in float and 8.7 KB in double for triangles, and of 4.3 and 23 KB for
-/// spheres, boxes, capsules, cylinders and cones. CUDA sets that aside once for all threads that the device holds at a time.
+/// As in @ref queries. The result lies in the policy's memory, 8 bytes a ray in float and 16 in double. Among many shapes
+/// that are equally near a host takes 12 bytes for each shape of a tree while it works, and 4 more for a moment. Under
+/// `cuda` the last stage has a stack of 1.7 KB in float and 8.7 KB in double for triangles, and of 4.3 and 23 KB for
+/// spheres, boxes, capsules, cylinders and cones. CUDA sets that aside once for all threads that the device holds at a
+/// time.
 ///
 /// @par Errors
 /// - `invalid_geometry`: a view, a single shape or a ray has a number that is not finite, or a pose is no rotation.

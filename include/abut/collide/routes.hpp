@@ -223,11 +223,12 @@ struct goes_down {
 
     /// Throws in the name of a function where options lack something.
     static void check(const auto&, const char*) {}
-    /// Whether the boxes of two trees' roots tell that there is nothing to find; a host reads them. So nothing is set up then.
+    /// Whether the boxes of two trees' roots tell that there is nothing to find. Only a host reads them.
     template <class Policy, class Expand>
     static bool are_apart([[maybe_unused]] const Expand& expand) {
-        if constexpr (host_policy<Policy> && requires { expand.walk.overlap(expand.walk.a.root_bounds(), expand.walk.b.root_bounds()); }) {
-            return !expand.walk.overlap(expand.walk.a.root_bounds(), expand.walk.b.root_bounds());
+        [[maybe_unused]] const auto& walk = expand.walk;
+        if constexpr (host_policy<Policy> && requires { walk.overlap(walk.a.root_bounds(), walk.b.root_bounds()); }) {
+            return !walk.overlap(walk.a.root_bounds(), walk.b.root_bounds());
         } else {
             return false;
         }

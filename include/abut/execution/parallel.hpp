@@ -23,8 +23,9 @@ inline int concurrency([[maybe_unused]] const openmp& on) {
 #if defined(_OPENMP)
     if (omp_get_active_level() >= omp_get_max_active_levels()) return 1;
     constexpr int for_each_processor = 8;
+    static const int processors = omp_get_num_procs();  // a call of the system, each time
     const int wanted = on.threads > 0 ? on.threads : omp_get_max_threads();
-    return std::max(1, std::min({wanted, for_each_processor * omp_get_num_procs(), omp_get_thread_limit()}));
+    return std::max(1, std::min({wanted, for_each_processor * processors, omp_get_thread_limit()}));
 #else
     return 1;
 #endif

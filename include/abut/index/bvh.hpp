@@ -259,41 +259,43 @@ public:
     using storage = typename Layout::template storage<scalar_type, Space>;  ///< what owns the nodes
 
     /// For builders: of a set and the nodes over it, which are not checked.
-    bvh(Set set, std::shared_ptr<const storage> tree) : set_(std::move(set)), tree_(std::move(tree)) {}
+    bvh(Set set, std::shared_ptr<const storage> tree)
+        : parts_(std::make_shared<parts>(std::move(set), std::move(tree))) {}
 
     /// The set, in the memory of the tree.
-    [[nodiscard]] const Set& set() const { return set_; }
+    [[nodiscard]] const Set& set() const { return parts_->set; }
     /// Number of shapes.
-    [[nodiscard]] std::size_t size() const { return set_.size(); }
+    [[nodiscard]] std::size_t size() const { return set().size(); }
     /// What kernels and walks read; for as long as the tree lives.
-    [[nodiscard]] view_type view() const { return tree_->view_of(set_.size()); }
+    [[nodiscard]] view_type view() const { return stored().view_of(size()); }
     /// The CUDA device that the tree lies on; -1 for the host.
-    [[nodiscard]] int device() const { return tree_->root.device(); }
+    [[nodiscard]] int device() const { return stored().root.device(); }
     /// Memory of the tree itself, in bytes, without least ids and what refit keeps.
-    [[nodiscard]] std::size_t bytes() const { return tree_->bytes(); }
+    [[nodiscard]] std::size_t bytes() const { return stored().bytes(); }
     /// What owns the nodes.
-    [[nodiscard]] const storage& stored() const { return *tree_; }
+    [[nodiscard]] const storage& stored() const { return *parts_->tree; }
     /// The box around all shapes; empty where there are none. The first call on a tree in device memory copies it to the
     /// host and waits for that.
     [[nodiscard]] aabb<scalar_type> bounds() const {
-        std::call_once(known_->once, [this] {
+        std::call_once(parts_->once, [this] {
             bvh_root<scalar_type> root{empty_box<scalar_type>(), {}};
-            tree_->root.read(&root);
-            known_->bounds = root.bounds;
+            stored().root.read(&root);
+            parts_->bounds = root.bounds;
         });
-        return known_->bounds;
+        return parts_->bounds;
     }
 
 private:
-    /// What has been copied to the host.
-    struct known {
-        std::once_flag once;
-        aabb<scalar_type> bounds;
-    };
+    /// All of a tree: so a copy counts one owner, and not one for each part. Queries copy trees.
+    struct parts {
+        Set set;
+        std::shared_ptr<const storage> tree;
+        std::once_flag once{};
+        aabb<scalar_type> bounds{};  ///< copied to the host
 
-    Set set_;
-    std::shared_ptr<const storage> tree_;
-    std::shared_ptr<known> known_ = std::make_shared<known>();
+        parts(Set s, std::shared_ptr<const storage> t) : set(std::move(s)), tree(std::move(t)) {}
+    };
+    std::shared_ptr<parts> parts_;
 };
 
 /// In the place of <abut/experimental/leafless.hpp>, which has it of trees in the standard layout: does not compile.

@@ -69,7 +69,8 @@ public:
             std::uint32_t least = none, link = 0, first = none;
             bool copies = true;
             for (int slot = 0; slot < tree.children(node); ++slot) {
-                const bvh_child child = tree.child(node, slot), below{child.is_leaf() ? child.bits : of_nodes_[child.index()]};
+                const bvh_child child = tree.child(node, slot);
+                const bvh_child below{child.is_leaf() ? child.bits : of_nodes_[child.index()]};
                 copies = copies && below.is_leaf() && (slot == 0 || are_copies(shapes, first, below.index()));
                 first = slot == 0 ? below.index() : first;
                 if (below.index() >= least && slot > 0) continue;
@@ -120,7 +121,9 @@ public:
 
     /// Whether it is known by now what lies below the nodes; and what it is, of tree k.
     [[nodiscard]] bool is_known() const { return is_known_.load(std::memory_order_acquire); }
-    [[nodiscard]] known_below known(std::size_t k) const { return is_known() ? trees_[k].known() : known_below{least_ids_[k]}; }
+    [[nodiscard]] known_below known(std::size_t k) const {
+        return is_known() ? trees_[k].known() : known_below{least_ids_[k]};
+    }
     /// Of trees that keep their least ids.
     void begin_with(const std::uint32_t* of_a, const std::uint32_t* of_b) { least_ids_ = {of_a, of_b}; }
     /// A walk has met one more, beyond a few. Whether it is known from now on, where it was not.
@@ -135,8 +138,8 @@ public:
     }
 
 protected:
-    /// What is to be known costs some 20 ns a shape; a tie costs as much or more where a point or a line looks, and 400 ns of
-    /// two shapes.
+    /// What is to be known costs some 20 ns a shape; a tie costs as much or more where a point looks, and 400 ns of two shapes
+    /// or of a line.
     explicit tie_watch(std::size_t enough) : enough_(enough + 64) {}
     ~tie_watch() = default;
     virtual void find(ties_of_tree* trees) const = 0;
@@ -154,7 +157,9 @@ private:
 template <class... Looked>
 class ties_of : public tie_watch {
 public:
-    explicit ties_of(const Looked&... looked) : tie_watch((looked.size() + ...) / (sizeof...(Looked) == 2 ? 16 : 64)), looked_(looked...) {}
+    /// It is found out after a tie for each so many shapes.
+    explicit ties_of(std::size_t shapes_a_tie, const Looked&... looked)
+        : tie_watch((looked.size() + ...) / 2 / shapes_a_tie), looked_(looked...) {}
 
 private:
     void find(ties_of_tree* trees) const override {

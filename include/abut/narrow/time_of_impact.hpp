@@ -121,6 +121,10 @@ ABUT_NOINLINE ABUT_HD constexpr time_in_bits filtered_time(const moving_points<T
     const auto known = [](verdict v) {
         return time_in_bits{v == verdict::yes ? 0 : v == verdict::no ? time_in_bits::none : time_in_bits::unknown};
     };
+    if (come_together(p)) {
+        const verdict start = at_start();
+        return start == verdict::no ? time_in_bits{std::int64_t{1} << time_bits} : known(start);
+    }
     if (axis >= 0) {
         const verdict start = at_start();
         if (start != verdict::no) return known(start);

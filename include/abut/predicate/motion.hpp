@@ -4,7 +4,9 @@
 // Does a moving vertex touch a moving triangle, or a moving segment another, at any time of a step? The stages of these two
 // pairs; narrow/time_of_impact.hpp says when. What the last stage needs is more than a device has: it is the host's alone.
 
+#include <concepts>
 #include <cstdint>
+#include <type_traits>
 
 #include <abut/arithmetic/arithmetic.hpp>
 #include <abut/arithmetic/exact_stages.hpp>
@@ -51,6 +53,19 @@ ABUT_NOINLINE ABUT_HD constexpr verdict touch_at_start(const moving_points<T>& p
     }
 }
 
+/// Whether all points come to one place at t = 1. Before that all is as it was at the start, but smaller: so the features
+/// touch at t = 1, and before that only if they do so at the start. By bits: some modes take denormal numbers for 0.
+template <scalar T>
+ABUT_HD constexpr bool come_together(const moving_points<T>& p) {
+    using bits = std::conditional_t<std::same_as<T, float>, std::uint32_t, std::uint64_t>;
+    const auto alike = [](T x, T y) { return ABUT_BIT_CAST(bits, x) == ABUT_BIT_CAST(bits, y); };
+    const vec3<T>& at = p.t1[0];
+    for (int i = 1; i < 4; ++i) {
+        if (!(alike(at.x, p.t1[i].x) && alike(at.y, p.t1[i].y) && alike(at.z, p.t1[i].z))) return false;
+    }
+    return true;
+}
+
 /// The time of impact, a multiple of 2^-40 that is not above it, times 2^40; or -1. On hosts.
 template <bool Edges, scalar T>
 std::int64_t exact_time(const moving_points<T>& p) {
@@ -84,6 +99,7 @@ template <arithmetic A, class S, class U>
 ABUT_NOINLINE ABUT_HD constexpr verdict decide_late(const S& s, const U& t) {
     constexpr bool edges = detail::is_moving_edge<S>;
     const auto points = detail::points_of(s, t);
+    if (detail::come_together(points)) return verdict::yes;
     const detail::motion_filter<edges> filter(points);
     const std::uint32_t shared = detail::shared_coordinates<edges>(points);
     const int axis = detail::axis_of_plane<edges>(shared);

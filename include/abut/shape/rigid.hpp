@@ -139,8 +139,8 @@ void check_finite(const rigid<T>& pose, const std::string& function) {
     }
 }
 
-/// Whether `check` below takes the pose: true is certain under every compiler, whether it contracts or not. Where this is false,
-/// the host has to look.
+/// Whether `check` below takes the pose: true is certain under every compiler, whether it contracts or not. Where this is
+/// false, the host has to look.
 template <scalar T>
 ABUT_HD constexpr bool is_surely_rigid(const rigid<T>& pose) {
     constexpr double tolerance = rotation_tolerance * (1 - 0x1p-20);  // the rest is for rounding

@@ -147,12 +147,13 @@ struct ties_met {
 #endif
         visitor(id);
     }
-    /// Whether what is below a child cannot come before the best: nothing is less than 0.
+    /// Whether what is below a child cannot come before the best: nothing is less than 0. By bits: some modes take denormal
+    /// numbers for it.
     template <class Best>
     [[nodiscard]] ABUT_HD bool is_passed_over([[maybe_unused]] bvh_child child, [[maybe_unused]] const Best& best) const {
 #if !ABUT_DEVICE_CODE
         if constexpr (requires { best.known(); }) {
-            if (below.of_nodes == nullptr || best.bound() > 0) return false;
+            if (below.of_nodes == nullptr || ABUT_BIT_CAST(std::uint64_t, best.bound()) != 0) return false;
             return (child.is_leaf() ? child.index() : below.least_id(child.index())) > best.known().key;
         }
 #endif
