@@ -3,13 +3,19 @@
 // Coal's shapes in double, each kind of pair looked up once, as ComputeCollision and ComputeDistance do, with its own tolerances.
 // Where shapes meet it is not asked how deep unless contacts are asked for.
 
+#include <functional>
 #include <memory>
+#include <vector>
 
+#include <coal/BVH/BVH_model.h>
+#include <coal/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <coal/collision.h>
+#include <coal/collision_object.h>
 #include <coal/distance.h>
 #include <coal/shape/convex.h>
 #include <coal/shape/geometric_shapes.h>
 
+#include "arm.hpp"
 #include "peer.hpp"
 
 namespace {
@@ -84,7 +90,105 @@ ask make(const shape& first, const shape& second, question asked) {
     };
 }
 
+// --- states of an arm
+
+/// Objects of a scene, each made once; links are moved.
+struct arm_objects {
+    std::vector<coal::CollisionObject> room, links;
+    std::vector<std::size_t> numbers;  ///< of the room's, to which its objects point
+
+    explicit arm_objects(const arm_scene& s) {
+        for (const auto& box : s.room) {
+            abut::rigid<double> pose{.translation = box.center};
+            for (int k = 0; k < 9; ++k) pose.rotation[k] = box.rotation[k];
+            room.emplace_back(made(shape{"", kind::box, 0, 0, box.half}), made(pose));
+        }
+        if (s.room.empty()) {
+            const auto mesh = std::make_shared<coal::BVHModel<coal::OBBRSS>>();
+            std::vector<coal::Vec3s> vertices;
+            std::vector<coal::Triangle> faces;
+            for (const vec3& p : s.vertices) vertices.emplace_back(p.x, p.y, p.z);
+            for (const auto& f : s.faces) faces.emplace_back(f[0], f[1], f[2]);
+            mesh->beginModel();
+            mesh->addSubModel(vertices, faces);
+            mesh->endModel();
+            room.emplace_back(mesh);
+        }
+        for (const shape& link : s.links) links.emplace_back(made(link));
+        numbers.resize(room.size());
+        for (std::size_t i = 0; i < room.size(); ++i) {
+            numbers[i] = i;
+            room[i].setUserData(&numbers[i]);
+        }
+    }
+    void move(const arm_scene& s, std::size_t state, std::size_t link) {
+        links[link].setTransform(made(s.poses[state][link]));
+        links[link].computeAABB();
+    }
+    bool meet(std::size_t link, coal::CollisionObject& other) {
+        result.clear();
+        return coal::collide(&links[link], &other, request, result) != 0;
+    }
+    coal::CollisionRequest request{coal::NO_REQUEST, 1};
+    coal::CollisionResult result;
+};
+
+/// All links with all of the room, or with those whose boxes meet, until something does.
+template <bool Boxes>
+std::function<void(collisions&)> arm_by_loop(const arm_scene& s) {
+    const auto all = std::make_shared<arm_objects>(s);
+    return [&s, all](collisions& out) {
+        out.assign(s.poses.size(), 0);
+        for (std::size_t i = 0; i < s.poses.size(); ++i) {
+            for (std::size_t k = 0; k < s.links.size() && out[i] == 0; ++k) {
+                all->move(s, i, k);
+                for (std::size_t j = 0; j < all->room.size() && out[i] == 0; ++j) {
+                    if (!s.room.empty() && arm_scene::is_allowed(k, j)) continue;
+                    if (Boxes && !all->links[k].getAABB().overlap(all->room[j].getAABB())) continue;
+                    out[i] = all->meet(k, all->room[j]);
+                }
+            }
+        }
+    };
+}
+
+/// By its dynamic tree of boxes.
+std::function<void(collisions&)> arm_by_tree(const arm_scene& s) {
+    struct callback : coal::CollisionCallBackBase {
+        arm_objects* all = nullptr;
+        std::size_t link = 0;
+        bool in_room = false, met = false;
+        bool collide(coal::CollisionObject* o1, coal::CollisionObject* o2) override {
+            coal::CollisionObject* const other = o1 == &all->links[link] ? o2 : o1;
+            if (in_room && arm_scene::is_allowed(link, *static_cast<std::size_t*>(other->getUserData()))) return false;
+            met = all->meet(link, *other);
+            return met;
+        }
+    };
+    const auto all = std::make_shared<arm_objects>(s);
+    const auto tree = std::make_shared<coal::DynamicAABBTreeCollisionManager>();
+    for (coal::CollisionObject& o : all->room) tree->registerObject(&o);
+    tree->setup();
+    return [&s, all, tree](collisions& out) {
+        out.assign(s.poses.size(), 0);
+        callback each;
+        each.all = all.get();
+        each.in_room = !s.room.empty();
+        for (std::size_t i = 0; i < s.poses.size(); ++i) {
+            for (std::size_t k = 0; k < s.links.size() && out[i] == 0; ++k) {
+                all->move(s, i, k);
+                each.link = k, each.met = false;
+                tree->collide(&all->links[k], &each);
+                out[i] = each.met;
+            }
+        }
+    };
+}
+
 const bool added = [] {
+    arm_checkers().push_back({"Coal", arm_by_loop<false>});
+    arm_checkers().push_back({"Coal_boxes", arm_by_loop<true>});
+    arm_checkers().push_back({"Coal_tree", arm_by_tree});
     libraries().push_back({"Coal", ABUT_COAL_VERSION, make});
     return true;
 }();

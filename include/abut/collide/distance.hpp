@@ -182,24 +182,50 @@ struct offer_distance {
     vec3<double> along{0, 0, 0};  ///< the way between the nearest so far
 
     ABUT_CALLS_ANY
+    /// Whether they are as near as the best.
     template <class S, class U>
-    ABUT_HD void operator()(const S& s, const U& t, std::uint64_t key) {
+    ABUT_HD bool operator()(const S& s, const U& t, std::uint64_t key) {
         const double bound = best.bound();
         const distance_and_way found = measure_apart{}.look(s, t, bound, along);
         best.offer(found.distance, key);
-        if (!(found.distance < bound)) return;
+        if (!(found.distance < bound)) return found.distance == bound && bound < infinity<double>;
         along = found.way;
         reach.turn_to(Reversed ? vec3<double>{-along.x, -along.y, -along.z} : along);
+        return false;
     }
 };
 
-/// Two trees, down from pairs of nodes at a depth.
-template <class Walk, class Reach, class View>
-struct walk_from_pairs {
-    static constexpr std::size_t grain = 16;
+/// What a walk through two trees does with a pair of shapes. `InWorld` says that the trees' boxes are there.
+template <bool InWorld, class View, class Best, class Reach>
+struct offer_pair {
+    View both;
+    offer_distance<false, Best, Reach>& offer;
+
+    ABUT_CALLS_ANY
+    ABUT_HD bool operator()(std::uint32_t id_a, std::uint32_t id_b) const {
+        return offer(both.a[id_a], both.b[id_b], both.pack(id_a, id_b));
+    }
+    [[nodiscard]] bool may_come_first(std::uint32_t id_a, std::uint32_t id_b) const {
+        return both.pack(id_a, id_b) < offer.best.known().key;
+    }
+    /// No distance is measured below that of the boxes (narrow/distance.hpp).
+    template <scalar T>
+    [[nodiscard]] bool may_be_nearer(const aabb<T>& a, const aabb<T>& b) const requires InWorld {
+        return gap_of_boxes(a, b) < offer.best.known().value;
+    }
+};
+
+/// Two trees, down from pairs of nodes.
+template <class Walk, class Reach, class View, bool InWorld>
+struct walk_two {
     Walk walk;
     Reach reach;
     View both;
+};
+/// From all at a depth.
+template <class Walk, class Reach, class View, bool InWorld>
+struct walk_from_depth : walk_two<Walk, Reach, View, InWorld> {
+    static constexpr std::size_t grain = 16;
     seeds_below<Walk> from;
     bool once;  ///< one pair of shapes below each, for a first bound
 
@@ -209,14 +235,47 @@ struct walk_from_pairs {
         const auto at = from(i);
         constexpr std::uint32_t nowhere = decltype(from.a)::nowhere;
         if (at.a == nowhere || at.b == nowhere) return;
-        Reach mine = reach;
+        Reach mine = this->reach;
         offer_distance<false, Best, Reach> offer{best, mine};
-        const auto visit_pair = [&](std::uint32_t id_a, std::uint32_t id_b) {
-            offer(both.a[id_a], both.b[id_b], both.pack(id_a, id_b));
-        };
-        once ? walk.descend(at, mine, best, visit_pair) : walk(at, mine, best, visit_pair);
+        const offer_pair<InWorld, View, Best, Reach> visitor{this->both, offer};
+        once ? this->walk.descend(at, mine, best, visitor) : this->walk(at, mine, best, visitor);
     }
 };
+/// Of a host: from the roots, so many steps; and from what is left then.
+///@{
+template <class Walk, class Reach, class View, bool InWorld>
+struct walk_alone : walk_two<Walk, Reach, View, InWorld> {
+    using heap = typename Walk::template nearest_first<1024>;
+    heap& pending;
+    std::size_t most;
+
+    template <class Best>
+    void operator()(std::size_t, Best& best) const {
+        Reach mine = this->reach;
+        offer_distance<false, Best, Reach> offer{best, mine};
+        const offer_pair<InWorld, View, Best, Reach> visitor{this->both, offer};
+        this->walk.begin({this->walk.a.root().index(), this->walk.b.root().index()}, pending, mine, best, visitor);
+        this->walk.go_on(pending, most, mine, best, visitor);
+    }
+};
+template <class Walk, class Reach, class View, bool InWorld>
+struct walk_from_rest : walk_two<Walk, Reach, View, InWorld> {
+    static constexpr std::size_t grain = 4;
+    const typename Walk::entry* from;  ///< null for the roots
+
+    template <class Best>
+    void operator()(std::size_t i, Best& best) const {
+        Reach mine = this->reach;
+        offer_distance<false, Best, Reach> offer{best, mine};
+        const offer_pair<InWorld, View, Best, Reach> visitor{this->both, offer};
+        if (from == nullptr) {
+            this->walk({this->walk.a.root().index(), this->walk.b.root().index()}, mine, best, visitor);
+        } else {
+            this->walk.below(from[i], mine, best, visitor);
+        }
+    }
+};
+///@}
 
 /// What of an ordered walk falls to a part of a search. Neighbours that are walked at a time all have work, or none.
 template <class Walk>
@@ -269,9 +328,9 @@ struct look_from_shapes {
         offer_distance<RowsAreB, Best, decltype(reach)> offer{best, reach};
         walk(reach, best, [&](std::uint32_t found) {
             if constexpr (RowsAreB) {
-                offer(both.a[found], shape, both.pack(found, row));
+                return offer(both.a[found], shape, both.pack(found, row));
             } else {
-                offer(shape, both.b[found], both.pack(row, found));
+                return offer(shape, both.b[found], both.pack(row, found));
             }
         });
     }
@@ -341,18 +400,42 @@ inline int depth_of_seeds(int concurrency, bool on_host) {
 
 /// All pairs of two trees of two shapes or more.
 template <class Policy, class Pairing, class Walk, class Reach, class Best>
-void walk_two_trees(const Policy& on, const Pairing& pairing, const Walk& walk, const Reach& reach, Best& best) {
+void walk_two_trees(const Policy& on, const Pairing& pairing, Walk walk, const Reach& reach, Best& best) {
     const auto both = pairing.view();
+    using view = std::remove_const_t<decltype(both)>;
     constexpr bool is_shared = !std::same_as<std::remove_cvref_t<decltype(pairing.part)>, whole_search>;
-    const auto from_depth = [&](int level, bool once, const auto& part) {
-        const seeds_below<Walk> from(walk, level);
-        const walk_from_pairs<Walk, Reach, std::remove_const_t<decltype(both)>> below{walk, reach, both, from, once};
-        for_each_ordered(on, from.count(), walk_of_part(below, part), best);
-    };
-    const int depth = std::max(depth_of_seeds(concurrency(on), host_policy<Policy>), is_shared ? 6 : 0);
-    // Whoever begins without a bound looks in vain: many short looks find a good one. It is worth the same to each part.
-    if (depth > 0) from_depth(4, true, whole_search{});
-    from_depth(depth, false, pairing.part);
+    constexpr bool in_world = !decltype(pairing.a)::is_posed && !decltype(pairing.b)::is_posed;
+    if constexpr (host_policy<Policy> && !is_shared) {
+        ties_of watch(walk.a, both.a, walk.b, both.b);
+        if constexpr (requires { trees_with_least_ids(pairing.a), trees_with_least_ids(pairing.b); }) {
+            const auto &a = pairing.a.tree_with_least_ids().stored(), &b = pairing.b.tree_with_least_ids().stored();
+            if (a.least_ids != nullptr && b.least_ids != nullptr) watch.begin_with(a.least_ids->data(), b.least_ids->data());
+        }
+        walk.watch = &watch;
+        if (concurrency(on) == 1) {
+            const walk_from_rest<Walk, Reach, view, in_world> all{{walk, reach, both}, nullptr};
+            return for_each_ordered(serial{}, 1, all, best);
+        }
+        // The calling thread begins alone, so that what is done soon costs no more than on one thread.
+        constexpr std::size_t break_even = 256;  // steps: some 50 us
+        using alone = walk_alone<Walk, Reach, view, in_world>;
+        typename alone::heap rest;
+        for_each_ordered(serial{}, 1, alone{{walk, reach, both}, rest, break_even}, best);
+        std::sort_heap(rest.at, rest.at + rest.count, rest.is_farther);
+        std::reverse(rest.at, rest.at + rest.count);
+        const walk_from_rest<Walk, Reach, view, in_world> others{{walk, reach, both}, rest.at};
+        for_each_ordered(on, static_cast<std::size_t>(rest.count), others, best);
+    } else {
+        const auto from_depth = [&](int level, bool once, const auto& part) {
+            const seeds_below<Walk> from(walk, level);
+            for_each_ordered(on, from.count(),
+                             walk_of_part(walk_from_depth<Walk, Reach, view, in_world>{{walk, reach, both}, from, once}, part), best);
+        };
+        const int depth = std::max(depth_of_seeds(concurrency(on), host_policy<Policy>), is_shared ? 6 : 0);
+        // Whoever begins without a bound looks in vain: many short looks find a good one. It is worth the same to each part.
+        if (depth > 0) from_depth(4, true, whole_search{});
+        from_depth(depth, false, pairing.part);
+    }
 }
 
 /// The shapes of one operand look in the other.
@@ -360,8 +443,9 @@ template <bool RowsAreB, class Policy, class Pairing, class Index, class Best>
 void look_for_nearest_pair(const Policy& on, const Pairing& pairing, const Index& x, std::size_t rows, Best& best) {
     const auto both = pairing.view();
     using T = typename decltype(both.a)::scalar_type;
-    const auto look = [&](const auto& walk, const auto& sight) {
-        using walk_type = std::remove_cvref_t<decltype(walk)>;
+    const auto look = [&](auto walk, const auto& sight) {
+        using walk_type = decltype(walk);
+        [[maybe_unused]] const auto watch = watch_ties<Policy, true>(walk, x.shapes());
         using sight_type = std::remove_cvref_t<decltype(sight)>;
         const look_from_shapes<RowsAreB, walk_type, sight_type, std::remove_const_t<decltype(both)>> each{walk, sight, both};
         for_each_ordered(on, rows, walk_of_part(each, pairing.part), best);
@@ -517,7 +601,8 @@ auto ask_least(const Policy& on, const ask_distance& question, const X& x, const
 /// has shapes of both sets. Of ranks the answer is a `global_separation`, the same on all; each gives the same options.
 ///
 /// @par Memory
-/// As in @ref queries. Nothing is stored for each pair. A call of a list of two entries or more takes 12 bytes for each
+/// As in @ref queries. Nothing is stored for each pair. Where many pairs are equally far apart, a call of two trees takes 12
+/// bytes for each shape in host memory while it works, and 4 more for a moment; not under `cuda`. A call of a list of two entries or more takes 12 bytes for each
 /// shape of its trees in host memory where something touches, unless these keep their least ids. Under `cuda` a walk of two
 /// trees keeps a stack of 289 pairs of nodes, 3.5 KB in float and 4.6 KB in double, in the device's local memory, which CUDA
 /// sets aside once for all threads that the device holds at a time.

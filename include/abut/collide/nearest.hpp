@@ -23,6 +23,7 @@
 #include <abut/execution/host.hpp>
 #include <abut/execution/ordered.hpp>
 #include <abut/index/curve_order.hpp>
+#include <abut/index/ties.hpp>
 #include <abut/narrow/nearest_point.hpp>
 #include <abut/traverse/ordered_walk.hpp>
 
@@ -93,6 +94,22 @@ auto shapes_wanted(const Filter& filter, const Rows& rows) {
     }
 }
 
+template <class Walk, shape_view Shapes>
+struct watch_of_walk : ties_of<decltype(Walk::tree), Shapes> {
+    watch_of_walk(Walk& walk, const Shapes& shapes) : ties_of<decltype(Walk::tree), Shapes>(walk.tree, shapes) {
+        walk.watch = this;
+    }
+};
+/// Has a walk through a tree of a host watch for ties, as long as what is returned lives. Copies have to be `Alike` to it.
+template <class Policy, bool Alike, class Walk, shape_view Shapes>
+auto watch_ties([[maybe_unused]] Walk& walk, [[maybe_unused]] const Shapes& shapes) {
+    if constexpr (host_policy<Policy> && Alike && requires { walk.watch = nullptr; }) {
+        return watch_of_walk<Walk, Shapes>(walk, shapes);
+    } else {
+        return 0;
+    }
+}
+
 /// A walk through an index from each of many points, in an order of theirs. (To begin each with what is nearest to the one
 /// before was tried. It spares a walk one node in sixty: nearest first, the first shape that it meets is good enough.)
 template <class Walk, class Frame, shape_view Shapes, shape_view Points, class Judge, class Wanted>
@@ -113,11 +130,27 @@ struct walk_from_points {
         const auto p = points[row];
         auto reach = frame.ball_around(p);
         walk(reach, best, [&](walk_id<Walk> id) {
-            if (wanted(row, id)) best.offer(judge.measure(shapes[id], p, best.bound()), id);
+            if (!wanted(row, id)) return false;
+            const double value = judge.measure(shapes[id], p, best.bound());
+            const bool is_tie = value == best.bound();
+            best.offer(value, id);
+            if constexpr (requires { walk.watch; Best::keeps_few; }) offer_copies(value, static_cast<std::uint32_t>(id), best);
+            return is_tie;
         });
     }
     ABUT_INLINE void prefetch(std::size_t i) const {
         if (order != nullptr) prefetch_shape(points, order[i], 0);
+    }
+
+private:
+    /// A walk that passes over copies comes to the first of them alone; of the few nearest others may be wanted.
+    template <class Best>
+    ABUT_HD void offer_copies([[maybe_unused]] double value, [[maybe_unused]] std::uint32_t id, [[maybe_unused]] Best& best) const {
+#if !ABUT_DEVICE_CODE
+        if (walk.watch == nullptr || !walk.watch->is_known()) return;
+        const std::uint32_t* const next = walk.watch->known(0).copies;
+        while (next[id] != known_below::none && !best.known().comes_before({value, id})) best.offer(value, id = next[id]);
+#endif
     }
 };
 
@@ -288,9 +321,10 @@ execution::buffer_of<Policy, std::uint32_t> order_of_points(const Policy& on, co
 template <class Policy, class Operand, shape_view Points, class Judge, class Best, class Wanted = all_shapes_wanted>
 void walk_alone_from_points(const Policy& on, const Operand& x, const Points& points, const Judge& judge,
                             const std::uint32_t* order, Best& best, const Wanted& wanted = {}) {
-    const auto walk = ordered_walk_of(x);
+    auto walk = ordered_walk_of(x);
     const auto frame = frame_of(x, judge.unit);
     const auto there = x.shapes();
+    [[maybe_unused]] const auto watch = watch_ties<Policy, std::same_as<Wanted, all_shapes_wanted>>(walk, there);
     using walk_type = walk_from_points<std::remove_const_t<decltype(walk)>, std::remove_const_t<decltype(frame)>,
                                        std::remove_const_t<decltype(there)>, Points, Judge, Wanted>;
     for_each_ordered(on, points.size(), walk_type{walk, frame, there, points, judge, order, wanted}, best);
@@ -535,7 +569,8 @@ struct ask_nearest : question_of_points {
 ///
 /// @par Memory
 /// As in @ref queries; a vector or a span of points lies in host memory, and is copied under `cuda`. The result lies in the
-/// policy's memory, 20 bytes a point in float and 40 in double.
+/// policy's memory, 20 bytes a point in float and 40 in double. Among many shapes that are
+/// equally near a host takes 12 bytes for each shape of a tree while it works, and 4 more for a moment.
 ///
 /// @par Errors
 /// - `invalid_geometry`: a view, a single shape or a row of points holds no geometry, or a pose is no rotation.

@@ -134,6 +134,12 @@ private:
     }
 };
 
+/// Whether of two copies of a shape both are wanted or none is: a filter may tell them apart.
+template <class Wanted>
+inline constexpr bool takes_copies_alike = true;
+template <class Filter, class Numbers, bool Bodies>
+inline constexpr bool takes_copies_alike<some_hits_wanted<Filter, Numbers, Bodies>> = std::same_as<Filter, keep_all>;
+
 /// Options of a query that is given none.
 struct no_ray_options {};
 

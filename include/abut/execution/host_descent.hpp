@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// for_each_descendant of `serial` and `openmp`: the first levels make a list, from which threads fetch; each goes depth
-// first.
+// for_each_descendant of `serial` and `openmp`: depth first, of the calling thread alone to begin with. What is left where
+// that takes longer makes a list, from which threads fetch; each goes depth first.
 
 #include <algorithm>
 #include <cstddef>
@@ -105,22 +105,23 @@ ABUT_INLINE std::size_t expand_newest(const Expand& step, descent<Expand>& mine,
 
 /// Level by level until there are `enough` items for threads to share.
 template <class Expand>
-next_level<Expand> first_levels(const Expand& expand, std::size_t enough) {
-    next_level<Expand> start;
-    for (std::size_t i = 0; i < expand.seeds(); ++i) append(start.items, expand.seed(i));
+void open_levels(const Expand& expand, std::size_t enough, next_level<Expand>& start) {
     while (!start.items.empty() && start.items.size() < enough) {
         const auto level = std::exchange(start.items, {});
         for (const auto& at : level) expand(at, start);
     }
-    return start;
 }
 
-/// Judges what was found on the first levels, then goes depth first from each of their items.
+/// Judges what was found on the first levels, then goes depth first from each of their items; or, of the thread that begins
+/// alone, from all seeds.
 template <class Expand, class Judge, bool AnyWillDo>
 struct descent_loop {
     const Expand& expand;
     const Judge& judge;
     next_level<Expand>& start;
+    /// Of who begins alone: items that it opens and candidates that it judges before it leaves other items, and seeds, in
+    /// `start`. 0 for a share of all.
+    std::size_t most_alone = 0;
 
     template <class Over, class... Sinks>
     void operator()(std::size_t begin, std::size_t end, const Over& over, Sinks&... sinks) const {
@@ -129,21 +130,29 @@ struct descent_loop {
         open_candidates<typename Expand::candidate, Sinks...> open;
         constexpr std::size_t at_a_time = AnyWillDo ? 1 : descent<Expand>::at_a_time;
         descent_width<Expand, AnyWillDo> width;
+        std::size_t left = most_alone > 0 ? most_alone : static_cast<std::size_t>(-1);
         for (std::size_t i = begin; i < end && !over(); ++i) {
             if (i < early) {
                 judge_all<true>(&start.candidates[i], 1, judge, open, sinks...);
                 continue;
             }
+            if (left == 0) {
+                append(start.items, step.seed(i));
+                continue;
+            }
             descent<Expand> mine;
-            mine.items[mine.count++] = start.items[i - early];
-            while (mine.count > 0) {
-                expand_newest(step, mine, 0, width.next());
-                if (mine.found >= at_a_time || mine.count == 0) {
+            mine.items[mine.count++] = most_alone > 0 ? step.seed(i) : start.items[i - early];
+            while (mine.count > 0 && left > 0) {
+                const std::size_t opened = expand_newest(step, mine, 0, width.next());
+                left -= std::min(opened, left);
+                if (mine.found >= at_a_time || mine.count == 0 || left == 0) {
                     judge_all<AnyWillDo>(mine.candidates, mine.found, judge, open, sinks...);
+                    left -= std::min(mine.found, left);
                     mine.found = 0;
                 }
                 if (over()) return;
             }
+            for (std::size_t k = 0; k < mine.count; ++k) append(start.items, mine.items[k]);
         }
         open.finish(judge, sinks...);
     }
@@ -151,17 +160,26 @@ struct descent_loop {
 
 }  // namespace detail
 
+/// The calling thread begins alone. What is done soon costs no more than on one thread; what is not is shared out.
 template <range_policy Policy, expander Expand, class Judge, class... Queues>
     requires candidate_judge<Judge, typename Expand::candidate, sink_of<Queues>...>
 std::uint64_t for_each_descendant(const Policy& on, const Expand& expand, const Judge& judge, Queues&... queues) {
     // Who only wants to know whether there is one starts soon, and so does who is spared work by the first.
     constexpr bool any_will_do = (is_eager<sink_of<Queues>> || ...);
-    const std::size_t threads = static_cast<std::size_t>(concurrency(on));
-    const std::size_t enough = threads == 1 ? 1 : (any_will_do ? 4 : 128) * threads, grain = any_will_do ? 1 : 4;
-    auto start = detail::first_levels(expand, enough);
-    const std::size_t n = start.candidates.size() + start.items.size();
-    const detail::descent_loop<Expand, Judge, any_will_do> loop{expand, judge, start};
-    detail::gather(on, n, grain, loop, queues...);
+    constexpr std::size_t break_even = 1024;  // items and candidates: some 50 us
+    const auto threads = static_cast<std::size_t>(concurrency(on));
+    const std::size_t grain = any_will_do ? 1 : 4, seeds = expand.seeds();
+    detail::next_level<Expand> start;
+    detail::thread_sinks<Queues...> sinks(static_cast<int>(threads), queues...);
+    detail::descent_loop<Expand, Judge, any_will_do> loop{expand, judge, start,
+                                                          threads == 1 ? static_cast<std::size_t>(-1) : break_even};
+    sinks.each(serial{}, seeds, seeds, loop);
+    if (!start.items.empty() && !sinks.is_over()) {
+        loop.most_alone = 0;
+        detail::open_levels(expand, (any_will_do ? 4 : 128) * threads, start);
+        sinks.each(on, start.candidates.size() + start.items.size(), grain, loop);
+    }
+    sinks.merge(on);
     return 0;
 }
 

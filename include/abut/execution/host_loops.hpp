@@ -49,22 +49,25 @@ void for_each_task(const Policy& on, std::size_t n, const F& f) {
 
 namespace detail {
 
-/// The sinks of the threads that a loop over [0, n) takes. `each` runs loop(begin, end, over, sinks...) over ranges of it,
-/// where over() says that there is no need to go on: a sink says so, or another thread's functor has thrown. `merge`
-/// hands the sinks' content to the queues.
+/// The sinks of the threads that loops take. `each` runs loop(begin, end, over, sinks...) over ranges of [0, n), where over()
+/// says that there is no need to go on: a sink says so, or another thread's functor has thrown. `merge` hands the sinks'
+/// content to the queues.
 template <class... Queues>
 class thread_sinks {
 public:
-    thread_sinks(int threads, std::size_t n, std::size_t grain, Queues&... queues)
-        : n_(n), grain_(grain), queues_(queues...) {
+    thread_sinks(int threads, Queues&... queues) : queues_(queues...) {
         all_.reserve(static_cast<std::size_t>(threads));
         for (int t = 0; t < threads; ++t) all_.emplace_back(queues.make_sink()...);
     }
 
     template <class Policy, class Loop>
-    void each(const Policy& on, const Loop& loop) {
+    void each(const Policy& on, std::size_t n, std::size_t grain, const Loop& loop) {
         failure_flag failed;
-        for_each_range(on, n_, grain_, part<Loop>{*this, loop, failed});
+        for_each_range(on, n, grain, part<Loop>{*this, loop, failed});
+    }
+    /// Whether what the calling thread has found says that there is no need to go on.
+    [[nodiscard]] bool is_over() const {
+        return std::apply([](const auto&... sink) { return execution::is_over(sink...); }, all_.front());
     }
 
     template <class Policy>
@@ -88,7 +91,7 @@ private:
             sinks mine = std::move(kept);
             try {
                 const auto with_sinks = [&](auto&... sink) {
-                    const auto over = [&] { return failed.raised() || is_over(sink...); };
+                    const auto over = [&] { return failed.raised() || execution::is_over(sink...); };
                     loop(begin, end, over, sink...);
                 };
                 std::apply(with_sinks, mine);
@@ -107,7 +110,6 @@ private:
         std::get<K>(queues_).merge(on, locals);
     }
 
-    std::size_t n_, grain_;
     std::tuple<Queues&...> queues_;
     std::vector<sinks> all_;
 };
@@ -115,8 +117,8 @@ private:
 /// Runs loop(begin, end, over, sinks...) over ranges of [0, n), and hands what is gathered to the queues.
 template <class Policy, class Loop, class... Queues>
 void gather(const Policy& on, std::size_t n, std::size_t grain, const Loop& loop, Queues&... queues) {
-    thread_sinks<Queues...> sinks(n <= grain ? 1 : concurrency(on), n, grain, queues...);
-    sinks.each(on, loop);
+    thread_sinks<Queues...> sinks(n <= grain ? 1 : concurrency(on), queues...);
+    sinks.each(on, n, grain, loop);
     sinks.merge(on);
 }
 

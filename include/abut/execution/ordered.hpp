@@ -10,7 +10,8 @@
 //   until_stopped             for walks that keep what they find themselves, and may end before all is seen
 //
 // All but the last take sink.offer(value, key), and keep the least value and, of equal ones, the least key; sink.bound() is
-// what values have to stay below, or equal, to matter, and the first kind's sink.known() what it has. Values are doubles, 0
+// what values have to stay below, or equal, to matter, and sink.known() what has to come before others: of the second kind
+// the last of what it keeps, of the third what one thread has. Values are doubles, 0
 // or more. What is left does not depend on the order in which values come, and so not on threads, as long as nothing at the
 // bound is left out.
 
@@ -92,6 +93,7 @@ public:
         least_value* out;
         std::size_t count;
         least_value* mine = nullptr;
+        static constexpr bool keeps_few = true;
 
         ABUT_HD void begin(std::size_t i) {
             mine = out + i * count;
@@ -106,6 +108,7 @@ public:
             mine[to] = one;
         }
         [[nodiscard]] ABUT_HD double bound() const { return mine[count - 1].value; }
+        [[nodiscard]] ABUT_HD const least_value& known() const { return mine[count - 1]; }
         ABUT_HD void end(std::size_t) {}
         ABUT_HD void close() {}
     };
@@ -146,6 +149,7 @@ public:
             atomic_min(word, ABUT_BIT_CAST(std::uint64_t, mine.value));
         }
         [[nodiscard]] ABUT_HD double bound() const { return ABUT_BIT_CAST(double, atomic_load(word)); }
+        [[nodiscard]] ABUT_HD const least_value& known() const { return mine; }
         ABUT_HD void end(std::size_t) {}
         ABUT_HD void close() { out->offer(mine.value, mine.key); }
     };
@@ -156,7 +160,7 @@ public:
     /// The least of all loops so far.
     [[nodiscard]] least_value least() const { return least_; }
 
-    [[nodiscard]] sink make_sink(std::size_t thread) { return {&word_, of_threads_.data() + thread}; }
+    [[nodiscard]] sink make_sink(std::size_t thread) { return {&word_, of_threads_.data() + thread, least_}; }
     template <class Policy>
     void begin(const Policy& on, std::size_t threads) {
         of_threads_ = buffer<least_value, host_space>(on, threads);

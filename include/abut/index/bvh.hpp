@@ -240,8 +240,8 @@ struct bvh_options {
     /// By which rule shapes are joined or divided.
     bvh_builder builder = bvh_builder::linear;
     /// Whether to keep the least id of the shapes below each node, 4 bytes a shape: for trees that are asked for `distance`
-    /// again and again where something touches. Trees that are refitted or converted share them. Of serial and openmp; a
-    /// device has no use for them and keeps none.
+    /// again and again where something touches, or much is equally far. Trees that are refitted or converted share them. Of
+    /// serial and openmp; a device has no use for them and keeps none.
     bool least_ids = false;
 };
 

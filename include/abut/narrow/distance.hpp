@@ -282,6 +282,21 @@ ABUT_HD constexpr triangle<T> nearest_triangle_of(const S& s, const hull<T>& h) 
     return nearest_triangle<S, decltype(measure)>(s, h, measure).best;
 }
 
+/// Of a solid and a shape that the search in doubles knows. Boxes are nearer to each other than shapes, but where the way is
+/// along an axis: coordinate by coordinate they are no farther apart than the ends of the way, less the radius.
+template <class S, class U, scalar T>
+ABUT_HD constexpr double distance_of_searched(const S& s, const U& t, const measured_plainly<T>& m) {
+    const double distance = m.distance();
+    if (m.radius_b > 0) {
+        const double inside = plain_sum(0x1p-48 * plain_sum(m.nearest.size, m.radius_b), -m.radius_b);
+        const auto beyond = [&](double x) { return greatest(plain_sum(absolute(x), inside), 0.0); };
+        const vec3<double>& way = m.nearest.way;
+        const vec3<double> boxes{beyond(way.x), beyond(way.y), beyond(way.z)};
+        if (contact_math::plain_dot(boxes, boxes) < plain_product(distance, distance)) return distance;
+    }
+    return positive_distance(s, t, distance);
+}
+
 /// Of two shapes that do not touch, rounded to double: positive, or infinite.
 template <class S, class U>
 ABUT_NOINLINE ABUT_HD constexpr distance_and_way distance_apart(const S& s, const U& t) {
@@ -291,7 +306,7 @@ ABUT_NOINLINE ABUT_HD constexpr distance_and_way distance_apart(const S& s, cons
     }
     if constexpr (searched_plainly<S, U>) {
         const measured_plainly<scalar_type_of<S>> m(s, t);
-        if (m.nearest.is_sure) return {positive_distance(s, t, m.distance()), m.nearest.way};
+        if (m.nearest.is_sure) return {distance_of_searched(s, t, m), m.nearest.way};
     }
     if constexpr (measured_hulls<S, U>) {
         return with_measured_hulls(s, t, false, [&](const auto& m) {
@@ -320,7 +335,7 @@ ABUT_HD constexpr auto separation_of_hulls_apart(const U& t, const Measured& m) 
 /// The same of a solid and a shape that the search in doubles knows.
 template <class S, class U, scalar T>
 ABUT_HD constexpr separation<T> separation_of_searched(const S& s, const U& t, const measured_plainly<T>& m) {
-    return {0, 0, m.point_on_a(), m.point_on_b(t), rounded_distance<T>(positive_distance(s, t, m.distance()))};
+    return {0, 0, m.point_on_a(), m.point_on_b(t), rounded_distance<T>(distance_of_searched(s, t, m))};
 }
 
 /// The same of any shapes.
@@ -370,7 +385,7 @@ concept measurable = contact_pair<S, U> || contact_pair<U, S> || own_separation<
 template <class S, class U, scalar T>
 ABUT_HD constexpr separation<T> separation_by(const S& s, const U& t, const measured_plainly<T>& m, bool touch) {
     if (!touch) return m.nearest.is_sure ? separation_of_searched(s, t, m) : separation_apart(s, t);
-    const vec3<T> shared = m.knows_shared_point() ? m.shared_point() : shared_point_of(s, t);
+    const vec3<T> shared = m.nearest.knows_shared_point() ? m.shared_point() : shared_point_of(s, t);
     return {0, 0, shared, shared, T(0)};
 }
 

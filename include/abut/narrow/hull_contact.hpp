@@ -26,6 +26,8 @@
 #include <abut/narrow/flat_contact.hpp>
 #include <abut/narrow/hull_distance.hpp>
 #include <abut/narrow/numbers.hpp>
+#include <abut/narrow/plain_depth.hpp>
+#include <abut/narrow/plain_search.hpp>
 #include <abut/predicate/gjk.hpp>
 #include <abut/predicate/hull_numbers.hpp>
 #include <abut/predicate/hull_within.hpp>
@@ -312,12 +314,39 @@ ABUT_HD constexpr contact_math::point least_way_of_hulls(const hull<T>& a, const
     return polytope.least_way();
 }
 
-/// Of a hull, and one with a radius around it. Where the cores do not touch, they go apart along the way between the points
-/// that are nearest to each other.
+/// Of a hull, and one with a radius around it, as doubles know them. Where the cores do not touch, they go apart along the
+/// way between the points that are nearest to each other. False where they do not know it.
+template <scalar T>
+ABUT_NOINLINE ABUT_HD constexpr bool find_contact_in_doubles(const hull<T>& a, const hull<T>& b, T radius, contact<T>& found) {
+    using namespace contact_math;
+    const point origin = widened(a[0]);
+    const plain_points<T> seen_a(a, origin), seen_b(b, origin);
+    plain_simplex at;
+    const plain_nearest nearest = search_in_doubles(seen_a, seen_b, at);
+    if (!nearest.knows_shared_point()) return false;
+    plain_way_out out{negated(nearest.along), -nearest.length, true};
+    if (nearest.meet) {
+        out = way_out_in_doubles<T>(seen_a, seen_b, at, nearest.size);
+    } else {
+        if (!(radius > 0 && nearest.length > 0)) return false;
+    }
+    const point n = as_stored_direction<T>(unit_vector(as<two_doubles>(out.normal)));
+    const double overlap = plain_dot(n, plain_difference(seen_b.farthest(n), seen_a.farthest(negated(n))));
+    const double enough = plain_product(0x1p-50 + static_cast<double>(unit_roundoff<T>) / 2, nearest.size);
+    if (!(out.is_sure && plain_sum(overlap, -out.depth) <= enough)) return false;
+    const double depth = plain_sum(overlap, static_cast<double>(radius));
+    found = {0, 0, from_seen<T>(origin, nearest.on_a), {static_cast<T>(n.x), static_cast<T>(n.y), static_cast<T>(n.z)},
+             rounded_within<T>(depth > 0 ? depth : 0)};
+    return true;
+}
+
+/// The same, and in integers where doubles do not know it.
 template <scalar T>
 ABUT_NOINLINE ABUT_HD constexpr contact<T> contact_of_hulls(const hull<T>& a, const hull<T>& b, T radius,
                                                             const contact_math::common_scale& scale) {
     using namespace contact_math;
+    contact<T> in_doubles{};
+    if (find_contact_in_doubles(a, b, radius, in_doubles)) return in_doubles;
     using measured_pair = measured_hull_pair<T>;
     const measured_pair measured(a, T(0), b, radius);
     const auto& nearest = measured.nearest;

@@ -57,7 +57,8 @@ struct measured_plainly {
             if (precedes(t, s)) {
                 look(t, s);
                 is_swapped = true;
-                nearest = {nearest.on_b, nearest.on_a, contact_math::negated(nearest.way), nearest.length, nearest.least,
+                nearest = {nearest.on_b, nearest.on_a, contact_math::negated(nearest.way),
+                           contact_math::negated(nearest.along), nearest.length, nearest.least,
                            nearest.size, nearest.meet, nearest.is_sure};
                 return;
             }
@@ -83,22 +84,14 @@ struct measured_plainly {
     [[nodiscard]] ABUT_HD constexpr vec3<T> shared_point() const {
         return placed(is_swapped ? nearest.on_b : nearest.on_a);
     }
-    [[nodiscard]] ABUT_HD constexpr bool knows_shared_point() const {
-        if (nearest.is_sure) return true;
-        const vec3<double> gap = contact_math::plain_difference(nearest.on_a, nearest.on_b);
-        return nearest.meet && contact_math::largest_of(gap) <= 0x1p-51 * nearest.size;
-    }
 
 private:
     template <class S, class U>
     ABUT_HD constexpr void look(const S& s, const U& t) {
         origin = widened(axis_of(s).a);
-        nearest = with_seen_plainly(s, t, origin, [](const auto& a, const auto& b) { return search_in_doubles(a, b); });
+        nearest = with_seen_plainly(s, t, origin, [](const auto& a, const auto& b) { return nearest_in_doubles(a, b); });
     }
-    [[nodiscard]] ABUT_HD constexpr vec3<T> placed(const vec3<double>& p) const {
-        return {rounded_within<T>(plain_sum(origin.x, p.x)), rounded_within<T>(plain_sum(origin.y, p.y)),
-                rounded_within<T>(plain_sum(origin.z, p.z))};
-    }
+    [[nodiscard]] ABUT_HD constexpr vec3<T> placed(const vec3<double>& p) const { return from_seen<T>(origin, p); }
 };
 
 /// Whether the search may be asked.

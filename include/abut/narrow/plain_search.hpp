@@ -32,7 +32,7 @@
 
 namespace abut::detail {
 
-// --- shapes as seen from some point, which tell their farthest point along a way of any length ----------------------------
+// --- shapes as seen from some point, which tell any point, and the farthest one along a way of any length ------------------
 
 /// A cylinder or a cone whose axis has a length.
 struct plain_solid {
@@ -59,7 +59,7 @@ struct plain_solid {
         if ((is_cone && k == 0) || !(length > 0)) return end[k];
         return plain_step(end[k], radius / length, across);
     }
-    [[nodiscard]] ABUT_HD constexpr point middle() const { return contact_math::middle_of({end[0], end[1]}); }
+    [[nodiscard]] ABUT_HD constexpr point any() const { return contact_math::middle_of({end[0], end[1]}); }
 
     /// Where a foot lies: inside of a flat end, on a rim, inside of a side, or at an apex.
     enum class part : unsigned char { disc, rim, side, apex };
@@ -180,7 +180,7 @@ struct plain_box {
     [[nodiscard]] ABUT_HD constexpr point farthest(const point& n) const {
         return {n.x > 0 ? upper.x : lower.x, n.y > 0 ? upper.y : lower.y, n.z > 0 ? upper.z : lower.z};
     }
-    [[nodiscard]] ABUT_HD constexpr point middle() const { return contact_math::middle_of({lower, upper}); }
+    [[nodiscard]] ABUT_HD constexpr point any() const { return contact_math::middle_of({lower, upper}); }
 };
 
 /// A few points.
@@ -206,7 +206,7 @@ struct plain_core {
         }
         return at[best];
     }
-    [[nodiscard]] ABUT_HD constexpr point middle() const { return contact_math::middle_of({at[0], at[N - 1]}); }
+    [[nodiscard]] ABUT_HD constexpr point any() const { return contact_math::middle_of({at[0], at[N - 1]}); }
 };
 
 /// Points, of any number.
@@ -224,7 +224,6 @@ struct plain_points {
         aabb<double> box = kept.box();
         for (std::size_t i = kept.size(); i < h.count; ++i) box = merge(box, bounds(seen(i)));
         size = greatest(largest_of(box.lower), largest_of(box.upper));
-        middle_ = contact_math::middle_of({box.lower, box.upper});
     }
     [[nodiscard]] ABUT_HD constexpr point farthest(const point& n) const {
         const point back = contact_math::negated(n);
@@ -237,20 +236,27 @@ struct plain_points {
         }
         return first < kept.size() ? kept[first] : seen(first);
     }
-    [[nodiscard]] ABUT_HD constexpr point middle() const { return middle_; }
+    [[nodiscard]] ABUT_HD constexpr point any() const { return seen(0); }
 
 private:
     [[nodiscard]] ABUT_HD constexpr point seen(std::size_t i) const {
         return contact_math::plain_difference(widened(of[i]), origin);
     }
-    point middle_{0, 0, 0};
 };
+
+/// A point that was seen from an origin.
+template <scalar T>
+ABUT_HD constexpr vec3<T> from_seen(const vec3<double>& origin, const vec3<double>& p) {
+    return {rounded_within<T>(plain_sum(origin.x, p.x)), rounded_within<T>(plain_sum(origin.y, p.y)),
+            rounded_within<T>(plain_sum(origin.z, p.z))};
+}
 
 // --- the search -----------------------------------------------------------------------------------------------------------
 
 /// Where two shapes are nearest, as seen.
 struct plain_nearest {
     vec3<double> on_a{0, 0, 0}, on_b{0, 0, 0}, way{0, 0, 0};  ///< from a to b
+    vec3<double> along{0, 0, 0};                              ///< as the way, of any length, and better known where that is short
     double length = 0;                                        ///< of the way
     double least = 0;                                         ///< the distance is no less, but for rounding
     double size = 0;                                          ///< no more than D, and not much less
@@ -258,6 +264,11 @@ struct plain_nearest {
     bool is_sure = false;                                     ///< else it is as long as the distance, as is promised
 
     /// Whether they are farther apart than some length, for sure.
+    /// Whether the point on a is one of both, of shapes that touch.
+    [[nodiscard]] ABUT_HD constexpr bool knows_shared_point() const {
+        const vec3<double> gap = contact_math::plain_difference(on_a, on_b);
+        return is_sure || (meet && contact_math::largest_of(gap) <= 0x1p-51 * size);
+    }
     [[nodiscard]] ABUT_HD constexpr bool are_surely_beyond(double far) const {
         return least > plain_sum(far, plain_product(0x1p-43, plain_sum(size, far)));
     }
@@ -272,9 +283,22 @@ struct plain_simplex {
     point mean{0, 0, 0}, along{0, 0, 0};
     double square = infinity<double>;
 
-    /// Of features with the last corner, which is new, the nearest one, whose corners stay. False if it holds the origin,
-    /// with all four.
-    ABUT_HD constexpr bool reduce() {
+    enum class result : unsigned char { nearer, no_nearer, holds_origin };
+    /// Appends a difference. Of the features with it the nearest one is left, if that is nearer than what was; or all four
+    /// corners, if they hold the origin.
+    ABUT_HD constexpr result append(const point& p_of_a, const point& p_of_b, const point& difference) {
+        w[count] = difference, on_a[count] = p_of_a, on_b[count] = p_of_b;
+        ++count;
+        return reduce();
+    }
+    [[nodiscard]] ABUT_HD constexpr point mean_of(const point (&at)[4]) const {
+        point sum = at[0];
+        for (int k = 1; k < count; ++k) sum = plain_step(sum, weight[k], contact_math::plain_difference(at[k], at[0]));
+        return sum;
+    }
+
+private:
+    ABUT_HD constexpr result reduce() {
         using namespace contact_math;
         const int last = count - 1;
         const point p = w[last];
@@ -311,18 +335,15 @@ struct plain_simplex {
         }
         if (is_inside) {
             hold(e, p);
-            return false;
+            return result::holds_origin;
+        }
+        if (!(best_.square < square)) {
+            --count;
+            return result::no_nearer;
         }
         take(e);
-        return true;
+        return best_.square > 0 ? result::nearer : result::holds_origin;
     }
-    [[nodiscard]] ABUT_HD constexpr point mean_of(const point (&at)[4]) const {
-        point sum = at[0];
-        for (int k = 1; k < count; ++k) sum = plain_step(sum, weight[k], contact_math::plain_difference(at[k], at[0]));
-        return sum;
-    }
-
-private:
     struct feature {
         double square;
         point mean, along;
@@ -433,20 +454,39 @@ ABUT_NOINLINE ABUT_HD constexpr plain_guess finish_search(const plain_solid& a, 
     return by_a ? guess(here, there) : guess(there, here);
 }
 
+/// Whether a guess is as near as the shapes are, but for `enough`; if so it is what is found.
+template <class A, class B>
+ABUT_HD constexpr bool settles(const A& a, const B& b, const plain_guess& g, double enough, plain_nearest& found) {
+    using namespace contact_math;
+    const point way = plain_difference(g.on_b, g.on_a);
+    const double length = root(one_double{plain_dot(way, way)}).high,
+                 of_along = root(one_double{plain_dot(g.along, g.along)}).high;
+    if (!g.is || !(of_along > 0)) return false;
+    const point back = plain_difference(b.farthest(negated(g.along)), a.farthest(g.along));
+    const double ahead = plain_dot(g.along, back) / of_along;
+    if (!(plain_sum(length, -ahead) <= enough)) return false;
+    found.length = length, found.least = ahead, found.is_sure = true;
+    found.on_a = g.on_a, found.on_b = g.on_b, found.way = way, found.along = g.along;
+    return true;
+}
+
+/// Sizes in whose range no square overflows, and what underflows is nothing beside the rest.
+ABUT_HD constexpr bool is_searched(double size) { return size > 0x1p-150 && size < 0x1p150; }
+
 /// Looks for it. Of a device one function, out of line.
 template <class A, class B>
-ABUT_NOINLINE ABUT_HD constexpr plain_nearest search_in_doubles(const A& a, const B& b) {
+ABUT_NOINLINE ABUT_HD constexpr plain_nearest search_in_doubles(const A& a, const B& b, plain_simplex& at) {
     using namespace contact_math;
     constexpr int most_steps = 40;
     plain_nearest found;
     found.size = greatest(a.size, b.size);
-    if (!(found.size > 0x1p-150 && found.size < 0x1p150)) return found;
+    if (!is_searched(found.size)) return found;
     const double enough = 0x1p-51 * found.size;
-    plain_simplex at;
-    point along = plain_difference(b.middle(), a.middle());
-    double before = infinity<double>, near = 0x1p-3;
+    point along{0, 0, 0};
+    double near = 0x1p-3;
     for (int step = 0; step < most_steps; ++step) {
-        const point p = a.farthest(along), q = b.farthest(negated(along)), w = plain_difference(q, p);
+        const point p = step == 0 ? a.any() : a.farthest(along), q = step == 0 ? b.any() : b.farthest(negated(along)),
+                    w = plain_difference(q, p);
         if (step > 0) {
             const double of_along = root(one_double{plain_dot(along, along)}).high;
             if (!(of_along > 0)) break;
@@ -457,38 +497,15 @@ ABUT_NOINLINE ABUT_HD constexpr plain_nearest search_in_doubles(const A& a, cons
                 break;
             }
         }
-        at.w[at.count] = w, at.on_a[at.count] = p, at.on_b[at.count] = q;
-        ++at.count;
-        plain_simplex next = at;
-        if (!next.reduce()) {
-            at = next;
-            found.meet = true;
-            break;
-        }
-        if (!(next.square < before)) break;
-        at = next;
-        if (!(at.square > 0)) {
-            found.meet = true;
-            break;
-        }
-        before = at.square;
+        const auto result = at.append(p, q, w);
+        found.meet = result == plain_simplex::result::holds_origin;
+        if (result != plain_simplex::result::nearer) break;
         along = at.along;
         found.length = root(one_double{at.square}).high;
         if constexpr (requires { finish_search(a, b, at); }) {
             if (step > 0 && plain_sum(found.length, -found.least) < plain_product(near, found.length)) {
                 near = plain_product(near, 0x1p-6);
-                const plain_guess g = finish_search(a, b, at);
-                const point way = plain_difference(g.on_b, g.on_a);
-                const double length = root(one_double{plain_dot(way, way)}).high, of_along = root(one_double{plain_dot(g.along, g.along)}).high;
-                if (g.is && of_along > 0) {
-                    const point back = plain_difference(b.farthest(negated(g.along)), a.farthest(g.along));
-                    const double ahead = plain_dot(g.along, back) / of_along;
-                    if (plain_sum(length, -ahead) <= enough) {
-                        found.length = length, found.least = ahead, found.is_sure = true;
-                        found.on_a = g.on_a, found.on_b = g.on_b, found.way = way;
-                        return found;
-                    }
-                }
+                if (settles(a, b, finish_search(a, b, at), enough, found)) return found;
             }
         }
     }
@@ -496,7 +513,23 @@ ABUT_NOINLINE ABUT_HD constexpr plain_nearest search_in_doubles(const A& a, cons
     found.on_a = at.mean_of(at.on_a);
     found.on_b = at.mean_of(at.on_b);
     found.way = at.mean;
+    found.along = at.along;
     return found;
+}
+
+/// The same, and of a solid and a point in closed form.
+template <class A, class B>
+ABUT_HD constexpr plain_nearest nearest_in_doubles(const A& a, const B& b) {
+    if constexpr (std::same_as<A, plain_solid> && std::same_as<B, plain_core<1>>) {
+        plain_nearest found;
+        found.size = greatest(a.size, b.size);
+        if (is_searched(found.size)) {
+            const plain_solid::foot f = a.foot_of(b.at[0]);
+            if (settles(a, b, {f.at, b.at[0], f.normal, true}, 0x1p-51 * found.size, found)) return found;
+        }
+    }
+    plain_simplex at;
+    return search_in_doubles(a, b, at);
 }
 
 }  // namespace abut::detail

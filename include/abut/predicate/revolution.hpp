@@ -18,6 +18,7 @@
 #include <abut/predicate/aabb_capsule.hpp>
 #include <abut/predicate/aabb_sphere.hpp>
 #include <abut/predicate/capsule_triangle.hpp>
+#include <abut/predicate/certified_cylinder_ball.hpp>
 #include <abut/predicate/near_cores.hpp>
 #include <abut/predicate/plane_core.hpp>
 #include <abut/predicate/sphere_sphere.hpp>
@@ -235,7 +236,10 @@ requires detail::revolution_pair<S, U> ABUT_HD constexpr verdict decide(const S&
     if constexpr (std::same_as<A, exact>) {
         return detail::ask_integers<typename question::type>(question::values(s, t).value);
     } else if constexpr (std::same_as<A, filtered>) {
-        if constexpr (question::has_capsule_filter) {
+        if constexpr (std::same_as<S, cylinder<scalar_type_of<S>>> && std::same_as<U, sphere<scalar_type_of<S>>>) {
+            const verdict v = detail::near_cylinder(s, t.center, static_cast<double>(t.radius));
+            if (v != verdict::unknown) return v;
+        } else if constexpr (question::has_capsule_filter) {
             if (detail::decide_in_place<filtered>(detail::capsule_around(s), t) == verdict::no) return verdict::no;
         }
         return detail::ask_estimates<typename question::type>(question::values(s, t).value);

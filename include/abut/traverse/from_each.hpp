@@ -29,13 +29,14 @@ namespace abut::detail {
 template <bvh_layout Tree>
 class steps_through_tree {
 public:
-    explicit steps_through_tree(const Tree& tree) : tree_(tree) {}
+    explicit steps_through_tree(const ordered_tree_walk<Tree>& walk) : tree_(walk.tree), watch_(walk.watch) {}
 
     template <class Reach, class Best>
     void begin(Reach& reach, const Best& best) {
         bound_ = infinity<double>;
         tighten(reach, best, bound_);
-        place_.begin(tree_);
+        ties_ = ties_met(watch_);
+        place_.begin(tree_, ties_.below);
         is_asked_for_ = false;
     }
 
@@ -46,13 +47,13 @@ public:
         if (!reach.keeps(place_.at.least)) {
             if (!place_.next(reach, pending_)) return false;
         } else if (!child.is_leaf()) {
-            if (!place_.descend(tree_, reach, pending_)) return false;
+            if (!place_.descend(tree_, ties_.below, reach, pending_)) return false;
         } else if (!is_asked_for_) {
             prefetch_shape(shapes, child.index(), 1);
             is_asked_for_ = true;
             return true;
         } else {
-            visitor(child.index());
+            ties_.visit(visitor, child.index());
             tighten(reach, best, bound_);
             if (!place_.next(reach, pending_)) return false;
         }
@@ -67,6 +68,8 @@ public:
 
 private:
     Tree tree_;
+    tie_watch* watch_;
+    ties_met ties_{nullptr};
     place_in_tree<Tree> place_;
     typename place_in_tree<Tree>::room pending_;
     double bound_;
@@ -92,7 +95,7 @@ class steps_from {
     using reach_type = reach_of_look<All>;
 
 public:
-    explicit steps_from(const All& all) : all_(&all), steps_(all.walk.tree) {}
+    explicit steps_from(const All& all) : all_(&all), steps_(all.walk) {}
 
     template <class Sink>
     void begin(std::size_t i, const Sink& sink) {
@@ -102,7 +105,7 @@ public:
     }
     template <class Sink>
     bool step(Sink& sink) {
-        return steps_.step(all_->shapes, *reach_, sink, [&](std::uint32_t id) { look_(*all_, id, sink); });
+        return steps_.step(all_->shapes, *reach_, sink, [&](std::uint32_t id) { return look_(*all_, id, sink); });
     }
     template <class Sink>
     void end(std::size_t i, Sink& sink) {
@@ -222,7 +225,7 @@ public:
     template <class Sink>
     ABUT_NOINLINE bool operator()(std::size_t first, std::size_t last, Sink& sink) {
         constexpr std::size_t few = 8;
-        if (last - first < few) return false;
+        if (last - first < few || (all_->walk.watch != nullptr && all_->walk.watch->is_known())) return false;
         line_bounds<T> between(all_->seen(first));
         for (std::size_t i = first + 1; i < last; ++i) between.add(all_->seen(i));
         if (!(apart(between, last - first) <= size_of_shape_)) return false;
@@ -235,7 +238,10 @@ public:
             auto look = all_->start(i);
             if (entries_.count() > 0) {
                 reach_of_look<All> reach(all_->seen(i));
-                walk(reach, sink, [&](std::uint32_t id) { look(*all_, id, sink); });
+                ties_met ties(all_->walk.watch);
+                walk(reach, sink, [&](std::uint32_t id) {
+                    ties.visit([&](std::uint32_t shape) { return look(*all_, shape, sink); }, id);
+                });
             }
             look.end(*all_, i, sink);
             sink.end(i);
@@ -320,8 +326,8 @@ private:
 };
 
 /// A functor for for_each_ordered: a walk from each index. `all` has `walk` and `shapes`; all.start(i) is what looks from
-/// index i: its look(all, id, sink) at shapes that it comes to, and look.end(all, i, sink) after the last. all.seen(i) is the
-/// line along which it looks.
+/// index i: its look(all, id, sink) at shapes that it comes to, and look.end(all, i, sink) after the last. Where the least is
+/// looked for, a look says whether it was at a tie. all.seen(i) is the line along which it looks.
 template <class All>
 struct from_each {
     All all;
@@ -331,7 +337,7 @@ struct from_each {
     ABUT_HD void operator()(std::size_t i, Sink& sink) const {
         auto look = all.start(i);
         reach_of_look<All> reach(all.seen(i));
-        all.walk(reach, sink, [&](walk_id<decltype(All::walk)> id) { look(all, id, sink); });
+        all.walk(reach, sink, [&](walk_id<decltype(All::walk)> id) { return look(all, id, sink); });
         look.end(all, i, sink);
     }
     [[nodiscard]] bool pays_in_steps() const requires goes_in_steps<decltype(All::walk)> { return all.walk.pays_in_steps(); }

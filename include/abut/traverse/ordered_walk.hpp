@@ -14,6 +14,7 @@
 #include <abut/execution/ordered.hpp>
 #include <abut/index/bvh.hpp>
 #include <abut/index/grid.hpp>
+#include <abut/index/ties.hpp>
 #include <abut/shape/bounds.hpp>
 #include <abut/shape/point_reach.hpp>
 #include <abut/shape/ray_reach.hpp>
@@ -61,14 +62,14 @@ struct place_in_tree {
     int waiting;
     using room = entry[bvh_max_depth * (Tree::width - 1) + 1];
 
-    ABUT_HD void begin(const Tree& tree) {
-        at = {tree.root(), T(0)};
+    ABUT_HD void begin(const Tree& tree, const known_below& below) {
+        at = {below.fold(tree.root()), T(0)};
         waiting = 0;
     }
 
-    /// From an inner node on. False where nothing is left.
+    /// From an inner node on. False where nothing is left. Nodes of copies alone are taken for the first of these.
     template <class Reach>
-    ABUT_HD bool descend(const Tree& tree, const Reach& reach, room& pending) {
+    ABUT_HD bool descend(const Tree& tree, const known_below& below, const Reach& reach, room& pending) {
         const auto& node = tree.fetch(at.child.index());
         if constexpr (requires { Reach::takes_four; }) {
             // The nearest goes on; the others wait, the farthest below. Often there is one alone.
@@ -78,7 +79,7 @@ struct place_in_tree {
             const auto take = [&] {
                 const auto slot = static_cast<int>(lowest_bit(kept));
                 kept &= kept - 1;
-                return entry{tree.child(node, slot), least_of[slot]};
+                return entry{below.fold(tree.child(node, slot)), least_of[slot]};
             };
             at = take();
             const int first = waiting;
@@ -95,10 +96,10 @@ struct place_in_tree {
                 tree.prefetch(other.child);
             }
         } else {
-            at = {tree.child(node, 0), least_in_slot(reach, tree, node, 0)};
+            at = {below.fold(tree.child(node, 0)), least_in_slot(reach, tree, node, 0)};
             tree.prefetch(at.child);
             for (int slot = 1; slot < tree.children(node); ++slot) {
-                entry other{tree.child(node, slot), least_in_slot(reach, tree, node, slot)};
+                entry other{below.fold(tree.child(node, slot)), least_in_slot(reach, tree, node, slot)};
                 tree.prefetch(other.child);
                 if (other.least < at.least) {
                     const entry before = at;
@@ -123,6 +124,42 @@ struct place_in_tree {
     }
 };
 
+/// Ties as one walk of a tree meets them, on a host: what is known lets it pass over copies (index/ties.hpp).
+struct ties_met {
+    tie_watch* watch;
+    known_below below{};
+    std::uint32_t count = 0;
+
+    ABUT_HD explicit ties_met([[maybe_unused]] tie_watch* of_call) : watch(of_call) {
+#if !ABUT_DEVICE_CODE
+        if (watch != nullptr) below = watch->known(0);
+#endif
+    }
+    /// Has a visitor look at a shape. It says whether that is as near as the best, if it can tell.
+    ABUT_CALLS_ANY
+    template <class Visitor>
+    ABUT_HD void visit(const Visitor& visitor, std::uint32_t id) {
+#if !ABUT_DEVICE_CODE
+        if constexpr (std::same_as<decltype(visitor(id)), bool>) {
+            if (visitor(id) && watch != nullptr && ++count > tie_watch::few && watch->met()) below = watch->known(0);
+            return;
+        }
+#endif
+        visitor(id);
+    }
+    /// Whether what is below a child cannot come before the best: nothing is less than 0.
+    template <class Best>
+    [[nodiscard]] ABUT_HD bool is_passed_over([[maybe_unused]] bvh_child child, [[maybe_unused]] const Best& best) const {
+#if !ABUT_DEVICE_CODE
+        if constexpr (requires { best.known(); }) {
+            if (below.of_nodes == nullptr || best.bound() > 0) return false;
+            return (child.is_leaf() ? child.index() : below.least_id(child.index())) > best.known().key;
+        }
+#endif
+        return false;
+    }
+};
+
 /// A walk through a tree, nearest child first. The others wait, and are dropped when their turn comes if the reach has
 /// shrunk below their distance. Leaves wait like nodes. A walk without branches on what is nearer and what is kept was
 /// tried, also with four nodes at a time: it took half as long again on one core, which guesses right more often than not.
@@ -130,6 +167,7 @@ template <bvh_layout Tree>
 struct ordered_tree_walk {
     using T = typename Tree::scalar_type;
     Tree tree;
+    tie_watch* watch = nullptr;  ///< of walks that are about the least alone, on a host
 
     /// Whether walks of many indices at once are faster in steps: in a tree that a core's own cache does not hold.
     [[nodiscard]] bool pays_in_steps() const { return tree.size() >= std::size_t{1} << 16; }
@@ -141,12 +179,13 @@ struct ordered_tree_walk {
         typename place_in_tree<Tree>::room pending;  // not initialised
         double bound = infinity<double>;
         tighten(reach, best, bound);
-        place.begin(tree);
+        ties_met ties(watch);
+        place.begin(tree, ties.below);
         for (;;) {
-            while (reach.keeps(place.at.least) && !place.at.child.is_leaf()) {
-                if (!place.descend(tree, reach, pending)) return;
+            while (reach.keeps(place.at.least) && !place.at.child.is_leaf() && !ties.is_passed_over(place.at.child, best)) {
+                if (!place.descend(tree, ties.below, reach, pending)) return;
             }
-            if (reach.keeps(place.at.least)) visitor(place.at.child.index());
+            if (place.at.child.is_leaf() && reach.keeps(place.at.least)) ties.visit(visitor, place.at.child.index());
             tighten(reach, best, bound);
             if (!place.next(reach, pending)) return;
         }

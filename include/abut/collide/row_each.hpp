@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// any_each and any_within_each of rows: of each shape of a set whether it meets anything of another one. On a host a row looks in
+// the index and decides as it goes, until it meets something; many rows look for points in cells that are made for the call.
+// Elsewhere the pairs of rows are left out that have met something. Not for which shapes they meet: `pairs` tells.
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <utility>
+
+#include <abut/collide/operand.hpp>
+#include <abut/collide/options.hpp>
+#include <abut/collide/pair_up.hpp>
+#include <abut/collide/parts.hpp>
+#include <abut/collide/question.hpp>
+#include <abut/collide/row_questions.hpp>
+#include <abut/collide/within.hpp>
+#include <abut/execution/atomic.hpp>
+#include <abut/execution/host.hpp>
+#include <abut/traverse/point_cells.hpp>
+
+namespace abut {
+
+/// Options of `any_each` and `any_within_each` of rows. With a filter write `each_options{.filter = f}` (see query_options).
+/// @ingroup queries
+template <class Filter = keep_all>
+struct each_options {
+    /// filter(number of the row, id) -> bool: shapes for which it is false are not met. As in query_options. Ranks take none:
+    /// rows of other ranks have no numbers there.
+    Filter filter = {};
+};
+
+namespace detail {
+
+/// A filter of rows, by their numbers, as one of pairs of an id and a row.
+template <class Filter, class Numbers>
+struct wanted_by_row {
+    Filter filter;
+    Numbers numbers;
+    ABUT_CALLS_ANY
+    [[nodiscard]] ABUT_HD bool operator()(std::uint32_t id, std::uint32_t row) const {
+        return filter(static_cast<std::uint32_t>(numbers(row)), id);
+    }
+};
+template <class Numbers>
+struct wanted_by_row<keep_all, Numbers> : keep_all {
+    wanted_by_row(const keep_all&, const Numbers&) {}
+};
+
+/// visitor(id, surely) -> visit for what a reach may keep, until it says stop; `surely` where it touches beyond doubt.
+///@{
+template <class Walk, class Reach, class Visitor>
+void look_in(const Walk& walk, Reach& reach, const Visitor& visitor) {
+    if (!walk.may_touch(reach)) return;
+    typename Walk::cursor at;
+    walk.for_each(reach, at, [] { return false; }, [&](std::uint32_t id) { return visitor(id, false); });
+}
+template <scalar T, class Reach, class Visitor>
+void look_in(const point_cells<T>* cells, Reach& reach, const Visitor& visitor) {
+    cells->for_each(reach, visitor);
+}
+///@}
+
+/// Of each row whether it meets anything, by a walk that ends at the first shape that it meets. On a host, where a judge has
+/// all it needs.
+template <class Walk, class Shapes, class Rows, class Wanted, class Judge, class Nearness>
+struct look_until_met {
+    Walk walk;
+    Shapes shapes;
+    Rows rows;
+    Wanted wanted;
+    Judge judge;
+    Nearness near;
+    std::uint8_t* out;
+
+    void operator()(std::size_t i) const {
+        const auto row = rows[i];
+        auto reach = near.reach(row);
+        bool met = false;
+        look_in(walk, reach, [&](std::uint32_t id, bool surely) {
+            if (!wanted(id, static_cast<std::uint32_t>(i))) return visit::proceed;
+            met = surely || meets(shapes[id], row);
+            return met ? visit::stop : visit::proceed;
+        });
+        out[i] = met ? 1 : 0;
+    }
+
+private:
+    template <class S, class U>
+    [[nodiscard]] bool meets(const S& s, const U& row) const {
+        verdict v = judge.decide(s, row);
+        if (v == verdict::unknown) v = judge.finish(s, row);
+        return v == verdict::unknown ? judge.resolve(s, row) : v == verdict::yes;
+    }
+};
+
+/// Elsewhere: pairs of rows that have met nothing yet.
+template <class Wanted>
+struct until_row_met {
+    Wanted wanted;
+    std::uint32_t* met;  ///< of each row
+    ABUT_CALLS_ANY
+    ABUT_HD bool operator()(std::uint32_t id, std::uint32_t row) const {
+        return execution::atomic_load(met + row) == 0 && wanted(id, row);
+    }
+};
+struct mark_row {
+    std::uint32_t* met;
+    ABUT_HD visit operator()(const index_pair& of) const {
+        execution::atomic_store(met + of.b, 1);
+        return visit::proceed;
+    }
+};
+struct write_met {
+    const std::uint32_t* met;
+    std::uint8_t* out;
+    ABUT_HD void operator()(std::size_t i) const { out[i] = met[i] != 0 ? 1 : 0; }
+};
+
+/// Whether a row has the relation to any shape: 1 or 0.
+template <arithmetic A, class Relation, class Filter>
+struct ask_any_met : row_question {
+    template <scalar, class>
+    using found = std::uint8_t;
+    using answer = std::uint8_t;
+    static constexpr bool filters = !std::same_as<Filter, keep_all>;
+    const char* function;
+    Relation relation;
+    Filter filter;
+
+    template <class Policy, class X, class Rows, bool Whole>
+    static consteval bool takes() {
+        static_assert(!is_bodies<X>, "abut: rows are asked about a set, an index or a shape; bodies are asked as a list of pairs");
+        if constexpr (is_bodies<X>) {
+            return false;
+        } else if constexpr (!can_both_be_asked<Policy, X, Rows>()) {
+            return false;
+        } else if constexpr (!Relation::template decides<typename shape_of_argument<X>::type,
+                                                         typename shape_of_argument<Rows>::type>()) {
+            return false;
+        } else {
+            return is_row_filter<Policy, Filter, false>();
+        }
+    }
+    template <class Policy, class X, class Rows>
+    void check(const Policy&, const X&, const Rows&, const char*) const {
+        relation.check(function);
+    }
+    template <scalar T, class Policy, class Rows>
+    auto make_rows(const Policy& on, const Rows& rows, const char*) const {
+        return make_operand(on, rows, function);
+    }
+    template <class Policy, class X, class Rows>
+    auto at_once(const Policy& on, const X& x, const Rows& rows, double) const {
+        execution::buffer_of<Policy, answer> out(on, rows.shapes().size());
+        ask(on, x, rows, same_key{}, out.data());
+        return result<answer, space_of<Policy>>(std::move(out));
+    }
+    template <scalar T>
+    [[nodiscard]] ask_any_met in_parts(double) const {
+        return *this;
+    }
+    template <class Policy, class Operand, class Rows, class Ids>
+    void ask(const Policy& on, const Operand& x, const Rows& rows, const Ids& ids, answer* out) const {
+        using T = typename std::remove_cvref_t<decltype(x.shapes())>::scalar_type;
+        const auto mine = filter_in_part(filter, ids);
+        const wanted_by_row<std::remove_const_t<decltype(mine)>, decltype(numbers_of(rows))> wanted{mine, numbers_of(rows)};
+        const auto near = relation.template nearness<T>();
+        const auto judge = relation.template judge<A>();
+        const std::size_t n = rows.shapes().size();
+        if (n == 0 || x.shapes().size() == 0) {
+            fill(on, out, n, answer{0});
+            return;
+        }
+        if constexpr (host_policy<Policy>) {
+            const auto look = [&](const auto& walk) {
+                using walk_type = std::remove_cvref_t<decltype(walk)>;
+                for_each_index(on, n, look_until_met<walk_type, decltype(x.shapes()), decltype(rows.shapes()), decltype(wanted),
+                                                     decltype(judge), decltype(near)>{
+                                          walk, x.shapes(), rows.shapes(), wanted, judge, near, out});
+            };
+            if constexpr (std::same_as<typename decltype(x.shapes())::shape_type, vec3<T>>) {
+                if (n >= (Operand::is_indexed ? x.shapes().size() / 8 : 16)) {  // or the cells cost more than they save
+                    const point_cells<T> cells(x.shapes());
+                    return look(&cells);
+                }
+            }
+            if constexpr (Operand::is_indexed) return look(x.walk());
+        }
+        if constexpr (!host_policy<Policy> || !Operand::is_indexed) {
+            execution::buffer_of<Policy, std::uint32_t> met(on, n);
+            fill(on, met.data(), n, std::uint32_t{0});
+            const query_options<until_row_met<std::remove_const_t<decltype(wanted)>>> options{.filter = {wanted, met.data()}};
+            visited_by(mark_row{met.data()}).template find<A>(on, pair_operands(on, x, rows, options, near), relation);
+            for_each_index(on, n, write_met{met.data(), out});
+        }
+        synchronize(on);
+    }
+    ABUT_HD void merge(answer* best, const answer* other) const {
+        if (*other != 0) *best = 1;
+    }
+    template <class Row, scalar T>
+    ABUT_HD bool may_change(const Row& row, const answer* best, const part_bounds<T>& part) const {
+        return *best == 0 && part.reaches(relation.template nearness<T>().reach(row).bounds());
+    }
+    template <class Found>
+    [[nodiscard]] ABUT_HD Found named(const answer& met) const {
+        return met;
+    }
+};
+
+}  // namespace detail
+
+/// Which of `rows` meet anything: a `result` of `std::uint8_t`, in the order of the rows, 1 where a row touches a shape of
+/// `index` and the filter wants the two, else 0. It is what `pairs` says of them, and takes less time: a row is looked at no
+/// more once it has met something. So thousands of states of a robot, each of some spheres, are one call.
+///
+/// `index` is a tree of any layout, a grid, a set, a view or one shape, posed or not; `rows` is a set, a view or one shape: of
+/// any two shapes that `pairs` takes. On a host `wide` trees are the fastest.
+///
+/// Of several devices (@ref devices) the answer lies in memory of the first one. Of ranks (@ref distributed) a rank's own rows
+/// look in all parts.
+///
+/// @par Memory
+/// As in @ref queries. The result lies in the policy's memory, 1 byte a row. Where there is no index, and on a device, the
+/// call takes 4 bytes a row more.
+///
+/// @par Errors
+/// As in @ref queries.
+///
+/// @par Synchronisation
+/// Returns when the answers are complete; under `cuda` it waits for the policy's stream.
+///
+/// @par Example
+///
+///     const auto collides = abut::to_host(abut::any_each(on, room, links));  // spheres of all states, one after another
+///
+/// @ingroup queries
+template <arithmetic A = filtered, executor On, class X, class Rows, class Filter = keep_all>
+    requires(!detail::scene<X>)
+[[nodiscard]] auto any_each(const On& on, const X& index, const Rows& rows, const each_options<Filter>& options = {}) {
+    return ask_rows(on, detail::ask_any_met<A, detail::touching, Filter>{{}, "abut::any_each", {}, options.filter}, index, rows);
+}
+
+/// Which of `rows` come within a distance of anything: as `any_each`, of shapes that are no farther apart than `distance`, which
+/// is as in `within`.
+/// @ingroup within
+template <arithmetic A = filtered, executor On, class X, class Rows, class Filter = keep_all>
+    requires(!detail::scene<X>)
+[[nodiscard]] auto any_within_each(const On& on, const X& index, const Rows& rows, double distance,
+                                   const each_options<Filter>& options = {}) {
+    return ask_rows(on,
+                    detail::ask_any_met<A, detail::within_distance, Filter>{
+                        {}, "abut::any_within_each", detail::within_distance(distance), options.filter},
+                    index, rows);
+}
+
+}  // namespace abut

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What walks for the least value know of equal ones, on a host. The least id wins among ties, so that where nothing is known
+// every tie has to be visited: that makes n copies of a shape cost n visits each time. A walk therefore counts the ties that
+// it meets. Once they have cost about as much, it is found out for the rest of the call which nodes hold copies of one shape
+// alone, and the least id below each node (least_ids.hpp). Copies are as near and are met as soon as each other, whatever
+// is measured, so that one visit is enough for all of them. No tree keeps what was found.
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <mutex>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <abut/index/bvh.hpp>
+#include <abut/shape/view.hpp>
+
+namespace abut::detail {
+
+/// What lies below the nodes of a tree, as walks read it. Null where it is not known; so it is on a device.
+struct known_below {
+    static constexpr std::uint32_t none = static_cast<std::uint32_t>(-1);
+    const std::uint32_t* of_nodes = nullptr;  ///< a leaf of the least id, if all are copies of its shape, or else that id
+    const std::uint32_t* links = nullptr;     ///< the links to the leaves of the least ids (traverse/pair_walk.hpp)
+    const std::uint32_t* copies = nullptr;    ///< by shapes: the next copy by ids, of those below one node, or none
+
+    /// A child, or if copies of one shape are all that is below it, the leaf of the least of these.
+    [[nodiscard]] ABUT_INLINE ABUT_HD bvh_child fold([[maybe_unused]] bvh_child child) const {
+#if !ABUT_DEVICE_CODE
+        if (of_nodes != nullptr && !child.is_leaf() && bvh_child{of_nodes[child.index()]}.is_leaf()) {
+            return {of_nodes[child.index()]};
+        }
+#endif
+        return child;
+    }
+    [[nodiscard]] std::uint32_t least_id(std::uint32_t node) const { return bvh_child{of_nodes[node]}.index(); }
+};
+
+/// What belongs to it.
+class ties_of_tree {
+public:
+    /// Of a tree with shapes that lie in host memory. In time proportional to their number (of copies, as for a sort);
+    /// 12 bytes a shape at most, and 4 more while it works. Throws std::bad_alloc.
+    template <bvh_layout Tree, shape_view Shapes>
+    void find(const Tree& tree, const Shapes& shapes) {
+        if (tree.size() < 2) return;
+        constexpr std::uint32_t width = Tree::width;
+        std::vector<std::uint32_t> order{tree.root().index()};  // parents first
+        std::uint32_t last = 0;
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            const std::uint32_t at = order[i];
+            if (at > last) last = at;
+            const auto& node = tree.fetch(at);
+            for (int slot = 0; slot < tree.children(node); ++slot) {
+                if (!tree.child(node, slot).is_leaf()) order.push_back(tree.child(node, slot).index());
+            }
+        }
+        of_nodes_.resize(std::size_t{last} + 1);
+        links_.resize(of_nodes_.size());
+        copies_.assign(tree.size(), none);
+        for (std::size_t i = order.size(); i-- > 0;) {
+            const std::uint32_t at = order[i];
+            const auto& node = tree.fetch(at);
+            std::uint32_t least = none, link = 0, first = none;
+            bool copies = true;
+            for (int slot = 0; slot < tree.children(node); ++slot) {
+                const bvh_child child = tree.child(node, slot), below{child.is_leaf() ? child.bits : of_nodes_[child.index()]};
+                copies = copies && below.is_leaf() && (slot == 0 || are_copies(shapes, first, below.index()));
+                first = slot == 0 ? below.index() : first;
+                if (below.index() >= least && slot > 0) continue;
+                least = below.index();
+                link = child.is_leaf() ? width * at + static_cast<std::uint32_t>(slot) : links_[child.index()];
+            }
+            if (copies) join(tree, node);
+            of_nodes_[at] = copies ? bvh_child::leaf(least).bits : least;
+            links_[at] = link;
+        }
+    }
+    [[nodiscard]] known_below known() const { return {of_nodes_.data(), links_.data(), copies_.data()}; }
+
+private:
+    static constexpr std::uint32_t none = known_below::none;
+    /// By their bits: then what is computed of them is the same. What is told apart here though it is equal is visited.
+    template <shape_view Shapes>
+    static bool are_copies(const Shapes& shapes, std::uint32_t i, std::uint32_t j) {
+        const typename Shapes::shape_type s = shapes[i], t = shapes[j];
+        return std::memcmp(&s, &t, sizeof(s)) == 0;
+    }
+    /// The copies below the children of a node are those below the node, ascending.
+    template <bvh_layout Tree>
+    void join(const Tree& tree, const typename Tree::node_type& node) {
+        std::uint32_t all = none;
+        for (int slot = 0; slot < tree.children(node); ++slot) {
+            const bvh_child child = tree.child(node, slot);
+            std::uint32_t other = child.is_leaf() ? child.index() : bvh_child{of_nodes_[child.index()]}.index();
+            std::uint32_t* end = &all;
+            while (*end != none && other != none) {
+                if (other < *end) std::swap(other, *end);
+                end = &copies_[*end];
+            }
+            if (other != none) *end = other;
+        }
+    }
+
+    std::vector<std::uint32_t> of_nodes_, links_, copies_;
+};
+
+/// Counts the ties that walks of one call meet, from any threads.
+class tie_watch {
+public:
+    static constexpr std::uint32_t few = 16;  ///< ties of one walk that are none to care about: neighbours share a corner
+
+    tie_watch(const tie_watch&) = delete;
+    tie_watch& operator=(const tie_watch&) = delete;
+
+    /// Whether it is known by now what lies below the nodes; and what it is, of tree k.
+    [[nodiscard]] bool is_known() const { return is_known_.load(std::memory_order_acquire); }
+    [[nodiscard]] known_below known(std::size_t k) const { return is_known() ? trees_[k].known() : known_below{least_ids_[k]}; }
+    /// Of trees that keep their least ids.
+    void begin_with(const std::uint32_t* of_a, const std::uint32_t* of_b) { least_ids_ = {of_a, of_b}; }
+    /// A walk has met one more, beyond a few. Whether it is known from now on, where it was not.
+    bool met() {
+        if (is_known() || met_.fetch_add(1, std::memory_order_relaxed) + 1 < enough_) return false;
+        const std::scoped_lock lock(making_);
+        if (!is_known()) {
+            find(trees_.data());
+            is_known_.store(true, std::memory_order_release);
+        }
+        return true;
+    }
+
+protected:
+    /// What is to be known costs some 20 ns a shape; a tie costs as much or more where a point or a line looks, and 400 ns of
+    /// two shapes.
+    explicit tie_watch(std::size_t enough) : enough_(enough + 64) {}
+    ~tie_watch() = default;
+    virtual void find(ties_of_tree* trees) const = 0;
+
+private:
+    std::size_t enough_;
+    std::atomic<std::size_t> met_{0};
+    std::atomic<bool> is_known_{false};
+    std::mutex making_;
+    std::array<ties_of_tree, 2> trees_;
+    std::array<const std::uint32_t*, 2> least_ids_{};
+};
+
+/// The same of one tree, or of two: tree, shapes, tree, shapes.
+template <class... Looked>
+class ties_of : public tie_watch {
+public:
+    explicit ties_of(const Looked&... looked) : tie_watch((looked.size() + ...) / (sizeof...(Looked) == 2 ? 16 : 64)), looked_(looked...) {}
+
+private:
+    void find(ties_of_tree* trees) const override {
+        trees[0].find(std::get<0>(looked_), std::get<1>(looked_));
+        if constexpr (sizeof...(Looked) == 4) trees[1].find(std::get<2>(looked_), std::get<3>(looked_));
+    }
+    std::tuple<Looked...> looked_;
+};
+
+}  // namespace abut::detail

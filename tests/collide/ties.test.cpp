@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: MIT
+
+#include <abut/abut.hpp>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "support/catch.hpp"
+
+// What is as near, or is met as soon: the least ids are found, and not by a visit of each tie. All coordinates are small
+// integers, so that oracles need no formula of the library's: squared distances are integers.
+
+namespace marks {
+
+/// Counts what is measured, in any thread.
+std::atomic<std::size_t> measured{0};
+
+/// A box by another name.
+struct mark {
+    using scalar_type = float;
+    abut::aabb<float> box;
+};
+abut::aabb<float> bounds(const mark& m) { return m.box; }
+mark place(const abut::rigid<float>& pose, const mark& m) {
+    return {{place(pose, m.box.lower), place(pose, m.box.upper)}};  // poses of these tests turn nothing
+}
+bool resolve(const mark& m, const mark& n) { return overlaps(m.box, n.box); }
+template <abut::arithmetic A>
+abut::verdict decide(const mark& m, const mark& n) {
+    return abut::to_verdict(resolve(m, n));
+}
+abut::separation<float> separation_between(const mark& m, const mark& n) {
+    ++measured;
+    return abut::distance(m.box, n.box);
+}
+abut::vec3<float> nearest_point(const mark& m, const abut::vec3<float>& p) {
+    ++measured;
+    return abut::nearest_point(m.box, p);
+}
+template <abut::arithmetic A, class Line>
+double hit_time(const Line& line, const mark& m) {
+    ++measured;
+    return abut::hit_time_of<A>(line, m.box);
+}
+
+}  // namespace marks
+
+namespace abut::test {
+
+using marks::mark;
+using whole = std::int64_t;
+
+struct cell {
+    whole x, y, z, wide = 0;  ///< a box of so much along x and y, and none along z
+};
+mark mark_at(const cell& c) {
+    const auto f = [](whole x) { return static_cast<float>(x); };
+    return {{{f(c.x), f(c.y), f(c.z)}, {f(c.x + c.wide), f(c.y + c.wide), f(c.z)}}};
+}
+shapes<mark> marks_at(const std::vector<cell>& cells) {
+    std::vector<mark> all;
+    for (const cell& c : cells) all.push_back(mark_at(c));
+    return shapes<mark>(all);
+}
+whole squared_gap(const cell& a, const cell& b) {
+    const auto gap = [](whole x, whole wide_x, whole y, whole wide_y) {
+        return std::max<whole>({x - (y + wide_y), y - (x + wide_x), 0});
+    };
+    const whole dx = gap(a.x, a.wide, b.x, b.wide), dy = gap(a.y, a.wide, b.y, b.wide), dz = a.z - b.z;
+    return dx * dx + dy * dy + dz * dz;
+}
+index_pair nearest_of(const std::vector<cell>& a, const std::vector<cell>& b) {
+    whole least = 1 << 30;
+    index_pair best{};
+    for (std::uint32_t i = 0; i < a.size(); ++i) {
+        for (std::uint32_t j = 0; j < b.size(); ++j) {
+            const whole d = squared_gap(a[i], b[j]);
+            if (d < least) least = d, best = {i, j};
+        }
+    }
+    return best;
+}
+std::vector<cell> shuffled(std::vector<cell> cells, unsigned seed) {
+    std::shuffle(cells.begin(), cells.end(), std::mt19937(seed));
+    return cells;
+}
+/// So many copies of each place.
+std::vector<cell> copies_of(const std::vector<cell>& places, std::size_t each, unsigned seed) {
+    std::vector<cell> cells;
+    for (const cell& c : places) cells.insert(cells.end(), each, c);
+    return shuffled(cells, seed);
+}
+/// A plate of tiles in the plane z.
+std::vector<cell> plate(whole side, whole z, unsigned seed) {
+    std::vector<cell> cells;
+    for (whole x = 0; x < side; ++x) {
+        for (whole y = 0; y < side; ++y) cells.push_back({2 * x, 2 * y, z, 2});
+    }
+    return shuffled(cells, seed);
+}
+template <class Ask>
+std::size_t measured_by(const Ask& ask) {
+    marks::measured = 0;
+    ask();
+    return marks::measured;
+}
+
+/// Trees with and without least ids, of two layouts, one posed, and one side without a tree.
+template <class Policy>
+void check_pairs(const Policy& on, const std::vector<cell>& a, const std::vector<cell>& b, std::size_t most, bool are_copies) {
+    const auto set_a = marks_at(a), set_b = marks_at(b);
+    const index_pair expected = nearest_of(a, b);
+    const auto check = [&](const auto& x, const auto& y, std::size_t most_measured) {
+        const std::size_t asked = measured_by([&] {
+            const auto found = distance(on, x, y);
+            REQUIRE(found);
+            CHECK((index_pair{found->a, found->b} == expected));
+        });
+        CHECK(asked <= most_measured);
+    };
+    const auto tree_a = make_bvh(on, set_a), tree_b = make_bvh(on, set_b);
+    check(tree_a, tree_b, most);
+    check(wide(on, tree_a), wide(on, tree_b), most);
+    check(quantised(on, tree_a), wide(on, tree_b), are_copies ? most : a.size() * b.size());
+    check(make_bvh(on, set_a, {.builder = bvh_builder::sah}), tree_b, most);
+    check(make_bvh(on, set_a, {.least_ids = true}), make_bvh(on, set_b, {.least_ids = true}), most);
+    if (are_copies) {
+        rigid<float> pose;
+        pose.translation = {0, 0, 64};
+        check(posed(tree_a, pose), posed(tree_b, pose), most);
+        check(tree_a, set_b, 20 * b.size());
+    }
+}
+
+template <class Policy>
+void check_all_pairs(const Policy& on) {
+    const std::size_t each = 300;
+    const auto one = copies_of({{0, 0, 0}}, 1000, 1), other = copies_of({{3, 4, 12}}, 1000, 2);
+    check_pairs(on, one, other, 2000, true);
+    // Four of the places are equally far from four others.
+    const auto some = copies_of({{0, 0, 0}, {0, 9, 0}, {9, 0, 0}, {9, 9, 0}, {4, 4, -9}}, each, 3);
+    const auto others = copies_of({{0, 0, 5}, {0, 9, 5}, {9, 0, 5}, {9, 9, 5}, {4, 4, 20}}, each, 4);
+    check_pairs(on, some, others, 4000, true);
+    check_pairs(on, copies_of({{0, 0, 0, 7}}, each, 5), copies_of({{9, 3, 1, 2}, {3, 9, 1, 2}}, each, 6), 2000, true);
+}
+
+template <class Policy>
+void check_points(const Policy& on) {
+    const auto cells = copies_of({{0, 0, 0}, {8, 0, 0}, {0, 8, 0}, {3, 3, 9}}, 500, 7);
+    const auto set = marks_at(cells);
+    std::vector<vec3<float>> points;
+    std::vector<cell> from;
+    std::mt19937 random(8);
+    for (int k = 0; k < 300; ++k) {
+        from.push_back({whole(random() % 9), whole(random() % 9), whole(random() % 9)});  // many are as near to two of them
+        points.push_back(mark_at(from.back()).box.lower);
+    }
+    const auto in_order = [&](const cell& p, const auto& wanted) {
+        std::vector<std::pair<whole, std::uint32_t>> all;
+        for (std::uint32_t i = 0; i < cells.size(); ++i) {
+            if (wanted(i)) all.emplace_back(squared_gap(p, cells[i]), i);
+        }
+        std::sort(all.begin(), all.end());
+        return all;
+    };
+    const auto check = [&](const auto& index, std::size_t count, const auto& ask, const auto& wanted) {
+        const auto found = to_host(ask(index));
+        REQUIRE(found.size() == count * points.size());
+        std::size_t wrong = 0;
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            const auto expected = in_order(from[k], wanted);
+            for (std::size_t j = 0; j < count; ++j) wrong += found[count * k + j].id != expected[j].second;
+        }
+        CHECK(wrong == 0);
+    };
+    const auto all = [](std::uint32_t) { return true; };
+    const auto tree = make_bvh(on, set);
+    const auto check_trees = [&](std::size_t count, const auto& ask) {
+        const std::size_t most = 40 * points.size() + cells.size() / 4 + 100;
+        CHECK(measured_by([&] { check(tree, count, ask, all); }) <= most + points.size() * count);
+        CHECK(measured_by([&] { check(wide(on, tree), count, ask, all); }) <= most + points.size() * count);
+        CHECK(measured_by([&] { check(posed(quantised(on, tree), rigid<float>{}), count, ask, all); }) <=
+              most + points.size() * count);
+        check(set, count, ask, all);
+    };
+    check_trees(1, [&](const auto& index) { return nearest(on, index, points); });
+    check_trees(7, [&](const auto& index) { return nearest(on, index, points, 7); });
+    check_trees(600, [&](const auto& index) { return nearest(on, index, points, 600); });
+    // A filter tells copies apart.
+    const auto odd = [](std::uint32_t, std::uint32_t id) { return id % 2 == 1; };
+    check(
+        tree, 3,
+        [&](const auto& index) { return nearest(on, index, points, nearest_options<decltype(odd)>{.count = 3, .filter = odd}); },
+        [&](std::uint32_t id) { return odd(0, id); });
+}
+
+template <class Policy>
+void check_lines(const Policy& on) {
+    // Two stacks, of copies at each height.
+    const auto cells = copies_of({{0, 0, 1, 4}, {0, 0, 2, 4}, {0, 0, 7, 4}, {8, 0, 3, 4}, {8, 0, 4, 4}}, 400, 9);
+    const auto tree = make_bvh(on, marks_at(cells));
+    std::vector<ray<float>> all;
+    std::vector<std::uint32_t> expected;
+    std::mt19937 random(10);
+    for (int k = 0; k < 400; ++k) {
+        const whole x = whole(random() % 13), y = whole(random() % 6), z = whole(random() % 8);
+        const float side = 0.25f;  // within a tile, or beside all
+        all.push_back({{static_cast<float>(x) + side, static_cast<float>(y) + side, static_cast<float>(z)}, {0, 0, 1}});
+        std::uint32_t first = no_id;
+        for (std::uint32_t i = 0; i < cells.size(); ++i) {
+            const cell& c = cells[i];
+            if (x < c.x || x >= c.x + c.wide || y >= c.wide || c.z < z) continue;
+            if (first == no_id || c.z < cells[first].z) first = i;
+        }
+        expected.push_back(first);
+    }
+    const rays<float> lines(all);
+    const auto check = [&](const auto& index) {
+        const std::size_t asked = measured_by([&] {
+            const auto found = to_host(raycast(on, index, lines));
+            std::size_t wrong = 0, hits = 0;
+            for (std::size_t k = 0; k < found.size(); ++k) wrong += found[k].id != expected[k], hits += found[k].id != no_id;
+            CHECK(wrong == 0);
+            CHECK(hits > 50);
+        });
+        CHECK(asked <= 60 * lines.size() + cells.size());
+    };
+    check(tree);
+    check(wide(on, tree));
+    check(make_bvh(on, marks_at(cells), {.builder = bvh_builder::sah}));
+    check(posed(tree, rigid<float>{}));
+    const auto odd = [](std::uint32_t, std::uint32_t id) { return id % 2 == 1; };
+    const auto of_odd = to_host(raycast(on, tree, lines, raycast_options<decltype(odd)>{.filter = odd}));
+    for (std::size_t k = 0; k < of_odd.size(); ++k) {
+        if (expected[k] == no_id || of_odd[k].id == no_id) continue;
+        CHECK(of_odd[k].id % 2 == 1);
+        CHECK(of_odd[k].id >= expected[k]);
+    }
+}
+
+}  // namespace abut::test
+
+using namespace abut;
+
+TEST_CASE("ties: the distance of copies") {
+    test::check_all_pairs(serial{});
+    test::check_all_pairs(openmp{1});
+    test::check_all_pairs(openmp{3});
+}
+
+TEST_CASE("ties: the distance of parallel plates") {
+    const auto a = test::plate(30, 0, 11), b = test::plate(30, 1, 12);
+    for (const auto& on : {openmp{1}, openmp{3}}) {
+        test::check_pairs(serial{}, a, b, 2000, false);
+        test::check_pairs(on, a, b, 2000, false);
+    }
+    // Beside each other: the edges are near, and all of these equally.
+    auto beside = test::plate(30, 0, 13);
+    for (auto& c : beside) c.x += 70;
+    test::check_pairs(serial{}, a, beside, 2000, false);
+}
+
+TEST_CASE("ties: the nearest of copies, one and several") {
+    test::check_points(serial{});
+    test::check_points(openmp{3});
+}
+
+TEST_CASE("ties: rays that meet copies") {
+    test::check_lines(serial{});
+    test::check_lines(openmp{3});
+}
+
+TEST_CASE("ties: points on many shapes, which are no copies") {
+    // All triangles of a fan have the corner in common; so all are at distance 0 from it.
+    std::vector<vec3<float>> vertices{{0, 0, 0}};
+    std::vector<std::array<std::uint32_t, 3>> faces;
+    const std::uint32_t n = 600;
+    for (std::uint32_t k = 0; k < n; ++k) {
+        const auto x = static_cast<float>(k % 37) - 18, y = static_cast<float>(k % 41) - 20;
+        vertices.push_back({x, y, static_cast<float>(k % 3) + 1});
+    }
+    for (std::uint32_t k = 0; k < n; ++k) faces.push_back({0, 1 + k, 1 + (k + 1) % n});
+    std::shuffle(faces.begin(), faces.end(), std::mt19937(14));
+    const serial on;
+    const auto tree = make_bvh(on, mesh<float>(vertices, faces));
+    const std::vector<vec3<float>> points(200, vec3<float>{0, 0, 0});
+    for (const auto& near : to_host(nearest(on, tree, points))) CHECK(near.id == 0);
+    const auto few = to_host(nearest(on, wide(on, tree), points, 5));
+    for (std::size_t k = 0; k < few.size(); ++k) CHECK(few[k].id == k % 5);
+}
