@@ -51,8 +51,11 @@ struct plain_corner_box {
         for (int k = 1; k < 8; k *= 2) {
             const double square = plain_dot(q[k], q[k]), along = plain_dot(q[k], p);
             are_edges = are_edges && square > 0x1p-60 * all;
-            if (along >= square) corner += k;
-            if (along > 0 && along < square) free += k, ++free_count;
+            // Without branches, which nobody can predict.
+            const int is_beyond = along >= square ? 1 : 0, is_amid = (along > 0 ? 1 : 0) - is_beyond;
+            corner += k * is_beyond;
+            free += k * is_amid;
+            free_count += is_amid;
         }
         if (!are_edges) return;
         if (free_count == 3) {
@@ -104,14 +107,14 @@ struct plain_corner_box {
         is_good = is_good && plain_dot(way, way) > 0x1p-40 * all;
     }
     /// How far a corner lies along n.
-    [[nodiscard]] ABUT_HD constexpr double farthest(const vec3<double>& n) const {
+    [[nodiscard]] ABUT_INLINE ABUT_HD constexpr double farthest(const vec3<double>& n) const {
         double most = 0;
         for (int i = 1; i < 8; ++i) most = greatest(most, contact_math::plain_dot(n, q[i]));
         return most;
     }
 
 private:
-    [[nodiscard]] ABUT_HD constexpr bool has_all_behind(int corner) const {
+    [[nodiscard]] ABUT_INLINE ABUT_HD constexpr bool has_all_behind(int corner) const {
         const double beyond = plain_sum(farthest(ahead), -contact_math::plain_dot(ahead, q[corner])), slack = 0x1p-52 * size;
         return beyond <= 0 || beyond * beyond <= slack * slack * contact_math::plain_dot(ahead, ahead);
     }
@@ -164,11 +167,12 @@ ABUT_NOINLINE ABUT_HD constexpr first_contact<T> first_contact_of(const hull<T>&
         least_overlap way;
         for (int k = 0; k < 3; ++k) {
             const point n = unit(plain_cross(box.q[k == 0 ? 2 : 1], box.q[k == 2 ? 2 : 4]));
-            for (const point& m : {n, negated(n)}) {
-                const double depth = overlap(m);
-                if (!(depth > sure)) return answer;
-                way.offer(negated(m), depth);
-            }
+            const extent over = extent_of(box.q, n, point{0, 0, 0});
+            const double amid = plain_dot(n, box.p), ahead = plain_sum(plain_sum(radius, -amid), over.upper),
+                         behind = plain_sum(plain_sum(radius, amid), -over.lower);
+            if (!(ahead > sure && behind > sure)) return answer;
+            way.offer(negated(n), ahead);
+            way.offer(n, behind);
         }
         answer = {verdict::yes, plain_contact(core_of(t).at[0], way.normal, way.depth)};
     }

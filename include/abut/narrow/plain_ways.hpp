@@ -142,18 +142,16 @@ struct plain_cores {
     [[nodiscard]] ABUT_HD constexpr vec3<double> straightened() const {
         using contact_math::plain_dot;
         if constexpr (M == 1) return way;
-        const bool in_b = part_b > 0 && part_b < 1;
-        const double rest_f = in_b ? plain_dot(way, f) : 0;
-        double of_t = -plain_product(rest_f, per_ff);
-        if constexpr (N == 1) return plain_step(way, of_t, f);
-        const bool in_a = part_a > 0 && part_a < 1;
-        const double rest_e = in_a ? plain_dot(way, e) : 0;
-        double of_s = plain_product(rest_e, per_ee);
-        if (in_a && in_b) {
-            of_s = plain_product(plain_sum(plain_product(rest_e, ff), -plain_product(rest_f, ef)), per_determinant);
-            of_t = plain_product(plain_sum(plain_product(rest_e, ef), -plain_product(rest_f, ee)), per_determinant);
-        }
-        return plain_step(plain_step(way, of_t, f), -of_s, e);
+        // Of edges inside which it does not end nothing counts. Without branches, which nobody can predict.
+        const double on_b = part_b > 0 && part_b < 1 ? 1.0 : 0.0, rest_f = plain_product(on_b, plain_dot(way, f));
+        if constexpr (N == 1) return plain_step(way, -plain_product(rest_f, per_ff), f);
+        const double on_a = part_a > 0 && part_a < 1 ? 1.0 : 0.0, rest_e = plain_product(on_a, plain_dot(way, e));
+        const double both = on_a * on_b, mixed = plain_product(both, ef);
+        const double per =
+            plain_sum(plain_product(both, per_determinant), plain_product(1 - both, plain_product(per_ee, per_ff)));
+        const double of_e = plain_sum(plain_product(rest_e, ff), -plain_product(rest_f, mixed));
+        const double of_f = plain_sum(plain_product(rest_e, mixed), -plain_product(rest_f, ee));
+        return plain_step(plain_step(way, plain_product(of_f, per), f), -plain_product(of_e, per), e);
     }
     /// How far a has to go along n to be apart from b, but for radii.
     [[nodiscard]] ABUT_HD constexpr double overlap(const vec3<double>& n) const {
@@ -189,7 +187,7 @@ private:
     ///@}
     /// What is left of a slope that should be 0, or at 0 not above, or at 1 not below.
     ABUT_HD static constexpr double slope(double x, double at) {
-        return at <= 0 ? greatest(x, 0.0) : at >= 1 ? least(x, 0.0) : x;
+        return least(greatest(x, at <= 0 ? 0 : -infinity<double>), at >= 1 ? 0 : infinity<double>);
     }
 };
 
@@ -250,8 +248,8 @@ private:
     template <int N>
     ABUT_HD static constexpr plain_place<T> place_in(const corner_hull<T, N>& core, double part, const vec3<double>& edge) {
         if constexpr (N == 1) return {core.at[0]};
-        if (part == 1) return {core.at[N - 1]};
-        return {core.at[0], plain_times(part, edge)};
+        const int end = part == 1 ? 1 : 0;
+        return {core.at[end * (N - 1)], plain_times(part - end, edge)};
     }
 };
 
@@ -391,7 +389,7 @@ concept has_plain_pair = requires { sizeof(plain_pair<S, U>); };
 
 /// n again, a vector that is a few units of roundoff off from length 1, within 1.5 units. What it is off is n.n - 1, in which
 /// squares of halves are exact, and the sums lose 2^-53.
-ABUT_HD constexpr vec3<double> plain_unit(const vec3<double>& n) {
+ABUT_INLINE ABUT_HD constexpr vec3<double> plain_unit(const vec3<double>& n) {
     const auto half = [](double x) { return ABUT_BIT_CAST(double, ABUT_BIT_CAST(std::uint64_t, x) & ~std::uint64_t{0x7ffffff}); };
     const vec3<double> h{half(n.x), half(n.y), half(n.z)}, rest = contact_math::plain_difference(n, h);
     const double high = plain_sum(plain_sum(plain_sum(plain_product(h.x, h.x), -1.0), plain_product(h.y, h.y)), plain_product(h.z, h.z));
