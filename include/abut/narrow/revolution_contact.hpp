@@ -87,11 +87,12 @@ namespace abut::detail::contact_math {
 struct quarter_point {
     double c, s;
 };
-ABUT_HD constexpr quarter_point between_quarter_points(const quarter_point& p, const quarter_point& q, double share) {
-    const double c = plain_sum(p.c, plain_product(share, plain_sum(q.c, -p.c))),
-                 s = plain_sum(p.s, plain_product(share, plain_sum(q.s, -p.s)));
+ABUT_HD constexpr quarter_point unit_quarter_point(double c, double s) {
     const double length = root(one_double{plain_sum(plain_product(c, c), plain_product(s, s))}).high;
     return {c / length, s / length};
+}
+ABUT_HD constexpr quarter_point between_quarter_points(const quarter_point& p, const quarter_point& q) {
+    return unit_quarter_point(plain_sum(p.c, q.c), plain_sum(p.s, q.s));
 }
 
 /// An ellipse around the origin with half axes `a` >= `b` > 0, and a point with x >= 0.
@@ -106,7 +107,7 @@ struct ellipse_and_point {
             // Where it rises the least, over s c.
             const double p = plain_product(b, -y), q = plain_product(a, x);
             for (int i = 0; i < few_steps; ++i) {
-                const quarter_point m = between_quarter_points(from, to, 0.5);
+                const quarter_point m = between_quarter_points(from, to);
                 const bool is_before = plain_product(p, cube(m.c)) > plain_product(q, cube(m.s));
                 is_before ? from = m : to = m;
             }
@@ -114,30 +115,36 @@ struct ellipse_and_point {
             to = {0, 1};
             if (!found) return from;
         }
-        // In turns of three, the chord is taken twice, and the middle once; of an end that stays, half the rise.
-        double below = rise(from), above = rise(to);
-        int stayed = 0;
+        // By tangents, and halves where these lead out. The move is least there, and so off by the square of what the place is.
+        quarter_point m = between_quarter_points(from, to);
         for (int i = 0; i < most_steps; ++i) {
-            if (!(plain_sum(absolute(plain_sum(to.c, -from.c)), absolute(plain_sum(to.s, -from.s))) > 0x1p-52)) break;
-            const bool halve = i % 3 == 2 || !(below < 0 && above > 0);
-            const quarter_point m = between_quarter_points(from, to, halve ? 0.5 : below / plain_sum(below, -above));
-            const double here = rise(m);
-            if (here < 0) {
-                from = m, below = here;
-                if (stayed == 1) above /= 2;
-                stayed = 1;
+            const double here = rise(m), steep = steepness(m);
+            here < 0 ? from = m : to = m;
+            const double turn = steep > 0 ? -here / steep : 2;
+            const quarter_point next = unit_quarter_point(plain_sum(m.c, -plain_product(turn, m.s)),
+                                                          plain_sum(m.s, plain_product(turn, m.c)));
+            if (absolute(turn) < 1 && is_between(from, next, to)) {
+                m = next;
+                if (absolute(turn) < 0x1p-27) break;
             } else {
-                to = m, above = here;
-                if (stayed == -1) below /= 2;
-                stayed = -1;
+                m = between_quarter_points(from, to);
             }
         }
-        return to;
+        return m;
     }
 
 private:
-    static constexpr int most_steps = 150, few_steps = 12;  ///< where it rises the least need not be known so well
+    static constexpr int most_steps = 60, few_steps = 12;  ///< where it rises the least need not be known so well
     ABUT_HD static constexpr double cube(double t) { return plain_product(plain_product(t, t), t); }
+    ABUT_HD static constexpr bool is_between(const quarter_point& from, const quarter_point& m, const quarter_point& to) {
+        return m.s >= from.s && m.c <= from.c && m.s <= to.s && m.c >= to.c;
+    }
+    /// How it rises with the angle.
+    [[nodiscard]] ABUT_HD constexpr double steepness(const quarter_point& p) const {
+        const double edge = plain_sum(plain_product(plain_product(a, x), p.c), plain_product(plain_product(b, y), p.s));
+        const double squares = plain_product(plain_sum(a, b), plain_sum(a, -b));
+        return plain_sum(edge, -plain_product(squares, plain_product(plain_sum(p.c, p.s), plain_sum(p.c, -p.s))));
+    }
     [[nodiscard]] ABUT_HD constexpr double rise(const quarter_point& p) const {
         const double edge = plain_sum(plain_product(plain_product(a, x), p.s), -plain_product(plain_product(b, y), p.c));
         const double squares = plain_product(plain_sum(a, b), plain_sum(a, -b));

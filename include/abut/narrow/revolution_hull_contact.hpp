@@ -212,15 +212,16 @@ ABUT_NOINLINE ABUT_HD constexpr bool find_way_out(const plain_solid& a, const pl
         }
         pair.offer(n);
     };
-    const double little = plain_product(0x1p-14, size), least_gain = plain_product(0x1p-50, size);
-    while (polytope.is_closed()) {
+    for (;;) {
+        if (!polytope.is_closed()) return false;
         const int f = polytope.nearest();
         look_beside(f);
-        if (plain_sum(pair.depth(), -polytope.distance_of(f)) <= least_gain) break;
+        const double depth = pair.depth();
+        if (!(depth > 0x1p-20 * size)) return false;
+        if (plain_sum(depth, -polytope.distance_of(f)) <= 0x1p-14 * depth) break;
         (void)polytope.look(polytope.normal_of(f));
-        if (plain_sum(pair.depth(), -polytope.distance_of(f)) <= little || !polytope.grow(f)) break;
+        if (!polytope.grow(f)) return false;
     }
-    if (!polytope.is_closed()) return false;
     for (int f = 0; f < polytope.faces(); ++f) {
         if (polytope.distance_of(f) < pair.depth()) look_beside(f);
     }
@@ -295,7 +296,7 @@ ABUT_NOINLINE ABUT_HD constexpr bool find_contact_in_doubles(const S& s, const h
     const seen_round_solid solid(a, nearest.size);
     least_overlap way;
     if (!find_way_out(a, b, at, solid, nearest.size, way)) return false;
-    const point& n = way.normal;
+    const point n = way.normal;
     found = {0, 0, from_seen<T>(origin, nearest.on_a), {static_cast<T>(n.x), static_cast<T>(n.y), static_cast<T>(n.z)},
              rounded_within<T>(way.depth > 0 ? way.depth : 0)};
     return true;
