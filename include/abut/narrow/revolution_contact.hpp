@@ -34,6 +34,7 @@
 #include <abut/narrow/flat_contact.hpp>
 #include <abut/narrow/hull_contact.hpp>
 #include <abut/narrow/numbers.hpp>
+#include <abut/narrow/plain_distance.hpp>
 #include <abut/narrow/revolution_foot.hpp>
 #include <abut/narrow/revolution_plane.hpp>
 #include <abut/narrow/revolution_ways.hpp>
@@ -86,10 +87,12 @@ namespace abut::detail::contact_math {
 struct quarter_point {
     double c, s;
 };
-ABUT_HD constexpr quarter_point between_quarter_points(const quarter_point& p, const quarter_point& q) {
-    const double c = plain_sum(p.c, q.c), s = plain_sum(p.s, q.s);
+ABUT_HD constexpr quarter_point unit_quarter_point(double c, double s) {
     const double length = root(one_double{plain_sum(plain_product(c, c), plain_product(s, s))}).high;
     return {c / length, s / length};
+}
+ABUT_HD constexpr quarter_point between_quarter_points(const quarter_point& p, const quarter_point& q) {
+    return unit_quarter_point(plain_sum(p.c, q.c), plain_sum(p.s, q.s));
 }
 
 /// An ellipse around the origin with half axes `a` >= `b` > 0, and a point with x >= 0.
@@ -112,16 +115,36 @@ struct ellipse_and_point {
             to = {0, 1};
             if (!found) return from;
         }
-        for (int i = 0; i < steps; ++i) {
-            const quarter_point m = between_quarter_points(from, to);
-            rise(m) < 0 ? from = m : to = m;
+        // By tangents, and halves where these lead out. The move is least there, and so off by the square of what the place is.
+        quarter_point m = between_quarter_points(from, to);
+        for (int i = 0; i < most_steps; ++i) {
+            const double here = rise(m), steep = steepness(m);
+            here < 0 ? from = m : to = m;
+            const double turn = steep > 0 ? -here / steep : 2;
+            const quarter_point next = unit_quarter_point(plain_sum(m.c, -plain_product(turn, m.s)),
+                                                          plain_sum(m.s, plain_product(turn, m.c)));
+            if (absolute(turn) < 1 && is_between(from, next, to)) {
+                m = next;
+                if (absolute(turn) < 0x1p-27) break;
+            } else {
+                m = between_quarter_points(from, to);
+            }
         }
-        return to;
+        return m;
     }
 
 private:
-    static constexpr int steps = 56, few_steps = 24;  ///< where it rises the least need not be known so well
+    static constexpr int most_steps = 60, few_steps = 12;  ///< where it rises the least need not be known so well
     ABUT_HD static constexpr double cube(double t) { return plain_product(plain_product(t, t), t); }
+    ABUT_HD static constexpr bool is_between(const quarter_point& from, const quarter_point& m, const quarter_point& to) {
+        return m.s >= from.s && m.c <= from.c && m.s <= to.s && m.c >= to.c;
+    }
+    /// How it rises with the angle.
+    [[nodiscard]] ABUT_HD constexpr double steepness(const quarter_point& p) const {
+        const double edge = plain_sum(plain_product(plain_product(a, x), p.c), plain_product(plain_product(b, y), p.s));
+        const double squares = plain_product(plain_sum(a, b), plain_sum(a, -b));
+        return plain_sum(edge, -plain_product(squares, plain_product(plain_sum(p.c, p.s), plain_sum(p.c, -p.s))));
+    }
     [[nodiscard]] ABUT_HD constexpr double rise(const quarter_point& p) const {
         const double edge = plain_sum(plain_product(plain_product(a, x), p.s), -plain_product(plain_product(b, y), p.c));
         const double squares = plain_product(plain_sum(a, b), plain_sum(a, -b));
@@ -135,6 +158,7 @@ struct seen_round_solid {
     point axis, end[2];  ///< the first end of a cone is its apex
     double radius;
     bool is_cone, is_capsule;
+    double size = 1;  ///< of all, about
     two_doubles side_along{1, 0}, side_out{0, 0};  ///< of a cone's side, from the apex to the rim
 
     template <class S>
@@ -145,13 +169,18 @@ struct seen_round_solid {
           radius(scale(s.radius)),
           is_cone(requires { s.apex; }),
           is_capsule(!solid_of_revolution<S>) {
-        if (!is_cone) return;
-        const double height = plain_dot(axis, plain_difference(end[1], end[0]));
-        const vec3<two_doubles> side = brought_to_one(as<two_doubles>({height > 0 ? height : 0, radius, 0}));
-        const two_doubles length = root(side.x * side.x + side.y * side.y);
-        if (!(length.high > 0)) return;
-        side_along = side.x / length;
-        side_out = side.y / length;
+        know_side();
+    }
+    /// As the search in doubles sees one: in lengths, of which `size` is about the largest.
+    ABUT_HD constexpr seen_round_solid(const plain_solid& s, double size_of_all)
+        : along(as<two_doubles>(s.axis)),
+          axis(s.axis),
+          end{s.end[0], s.end[1]},
+          radius(s.radius),
+          is_cone(s.is_cone),
+          is_capsule(false),
+          size(size_of_all) {
+        know_side();
     }
     [[nodiscard]] ABUT_HD constexpr bool has_rim(int k) const { return !is_capsule && radius > 0 && !(is_cone && k == 0); }
 
@@ -178,6 +207,15 @@ struct seen_round_solid {
     }
 
 private:
+    ABUT_HD constexpr void know_side() {
+        if (!is_cone) return;
+        const double height = plain_dot(axis, plain_difference(end[1], end[0]));
+        const vec3<two_doubles> side = brought_to_one(as<two_doubles>({height > 0 ? height : 0, radius, 0}));
+        const two_doubles length = root(side.x * side.x + side.y * side.y);
+        if (!(length.high > 0)) return;
+        side_along = side.x / length;
+        side_out = side.y / length;
+    }
     template <class S>
     ABUT_HD static constexpr auto ends_of(const S& s) {
         if constexpr (solid_of_revolution<S>) {
@@ -202,6 +240,17 @@ struct seen_corners {
     }
     [[nodiscard]] ABUT_HD constexpr double reach(const point& n) const {
         return plain_sum(extent_of(at, n, {0, 0, 0}).upper, around);
+    }
+};
+
+/// A box, seen from the same point.
+struct seen_box {
+    point lower, upper;
+    [[nodiscard]] ABUT_HD constexpr point corner(int i) const {
+        return {(i & 1) != 0 ? upper.x : lower.x, (i & 2) != 0 ? upper.y : lower.y, (i & 4) != 0 ? upper.z : lower.z};
+    }
+    [[nodiscard]] ABUT_HD constexpr double reach(const point& n) const {
+        return plain_dot(n, corner((n.x > 0 ? 1 : 0) | (n.y > 0 ? 2 : 0) | (n.z > 0 ? 4 : 0)));
     }
 };
 
@@ -242,28 +291,44 @@ public:
         offer_side(is_zero(out) ? any_orthogonal(solid_.along) : out);
     }
     /// The side and the rims go away from an edge, a point of which is p.
-    ABUT_HD constexpr void offer_edge(const point& p, const vec3<two_doubles>& edge) {
-        const point e = unit_vector(edge);
-        if (is_zero(e)) return;
-        point across = unit_cross(solid_.along, edge);
-        if (is_zero(across)) across = any_orthogonal(solid_.along);
-        const double slope = plain_dot(e, solid_.axis);
-        if (!solid_.is_cone) {
-            offer_side(across);
-            offer_side(negated(across));
-        } else {
-            // Of the directions u across the axis for which the side's normal is across the edge.
-            const point flat = plain_cross(across, solid_.axis);  // of the edge, as seen along the axis; or against it
-            const double of_flat = plain_dot(e, flat);
-            const double part = plain_product(solid_.side_out.high, slope),
-                         whole = plain_product(solid_.side_along.high, of_flat);
-            if (absolute(part) <= absolute(whole) && whole != 0) {
-                const double c = part / whole;
-                const double s = root(one_double{plain_product(plain_sum(1.0, c), plain_sum(1.0, -c))}).high;
-                for (int k = -1; k < 2; k += 2) offer_side(plain_step(times(c, flat), k * s, across));
-            }
+    ABUT_HD constexpr void offer_edge(const point& p, const point& along_edge) {
+        const direction_of_edge edge(solid_, along_edge);
+        offer_side_of_edge(edge);
+        offer_rims_of_edge(p, edge);
+    }
+    /// A direction, and what is across it and the axis.
+    struct direction_of_edge {
+        point e, across;
+        double slope;
+
+        ABUT_HD constexpr direction_of_edge(const seen_round_solid& solid, const point& along)
+            : e(unit_vector(as<one_double>(along))),
+              across(unit_vector(as<one_double>(part_across(plain_cross(solid.axis, e), solid.axis)))),
+              slope(plain_dot(e, solid.axis)) {
+            // Where the product is next to nothing, it is across the axis all the same, and so nearly across the edge.
+            if (is_zero(across)) across = any_orthogonal(solid.along);
         }
-        for (int k = solid_.is_cone ? 1 : 0; k < 2; ++k) offer_rim(solid_.end[k], p, e, across, slope);
+    };
+    ABUT_HD constexpr void offer_side_of_edge(const direction_of_edge& edge) {
+        if (is_zero(edge.e)) return;
+        if (!solid_.is_cone) {
+            offer_side(edge.across);
+            offer_side(negated(edge.across));
+            return;
+        }
+        // Of the directions u across the axis for which the side's normal is across the edge.
+        const point flat = plain_cross(edge.across, solid_.axis);  // of the edge, as seen along the axis; or against it
+        const double of_flat = plain_dot(edge.e, flat);
+        const double part = plain_product(solid_.side_out.high, edge.slope),
+                     whole = plain_product(solid_.side_along.high, of_flat);
+        if (!(absolute(part) <= absolute(whole) && whole != 0)) return;
+        const double c = part / whole;
+        const double s = root(one_double{plain_product(plain_sum(1.0, c), plain_sum(1.0, -c))}).high;
+        for (int k = -1; k < 2; k += 2) offer_side(plain_step(times(c, flat), k * s, edge.across));
+    }
+    ABUT_HD constexpr void offer_rims_of_edge(const point& p, const direction_of_edge& edge) {
+        if (is_zero(edge.e)) return;
+        for (int k = solid_.is_cone ? 1 : 0; k < 2; ++k) offer_rim(solid_.end[k], p, edge.e, edge.across, edge.slope);
     }
 
     /// All of a triangle, a segment or a point, whose corners are seen at `at`.
@@ -271,7 +336,7 @@ public:
     ABUT_HD constexpr void offer_corners(const corner_hull<T, N>& t, const point (&at)[std::size_t{N}]) {
         if constexpr (N == 3) offer_both(face_normal(triangle<T>{t.at[0], t.at[1], t.at[2]}));
         for (int i = 0; i < N; ++i) offer_corner(at[i]);
-        for (int i = 0; i < t.edges; ++i) offer_edge(at[i], edge_between(t.at[i], t.at[i + 1 == N ? 0 : i + 1]).direction);
+        for (int i = 0; i < t.edges; ++i) offer_edge(at[i], rounded_off(edge_between(t.at[i], t.at[i + 1 == N ? 0 : i + 1]).direction));
     }
 
 protected:
@@ -302,7 +367,7 @@ private:
         // other side crosses the larger axis.
         const double bx = plain_product(b, x / solid_.radius);
         const double within = plain_sum(b, -root(one_double{plain_sum(plain_product(bx, bx), plain_product(y, y))}).high);
-        const bool is_farther = within > best_.depth, is_outside = within < -0x1p-40;
+        const bool is_farther = within > best_.depth, is_outside = within < -0x1p-40 * solid_.size;
         const bool leave_out[2] = {is_farther || is_outside, is_farther || absolute(y) > best_.depth};
         for (int side = 0; side < 2; ++side) {
             if (leave_out[side]) continue;
@@ -341,16 +406,17 @@ ABUT_NOINLINE ABUT_HD constexpr contact_math::least_overlap way_out_of_box(const
     using namespace contact_math;
     const point origin = scale(axis_of(s).a);
     const seen_round_solid solid(s, origin, scale);
-    const corner_hull<T, 8> points = points_of(t);
-    const seen_corners<8> corners(points.at, origin, scale);
-    ways_out_of_solid<T, seen_corners<8>> pair(solid, corners);
+    const seen_box box{plain_difference(scale(t.lower), origin), plain_difference(scale(t.upper), origin)};
+    ways_out_of_solid<T, seen_box> pair(solid, box);
     const point axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     for (const point& n : axes) pair.offer_both(n);
     pair.offer_ends();
-    for (const point& p : corners.at) pair.offer_corner(p);
+    for (int i = 0; i < 8; ++i) pair.offer_corner(box.corner(i));
+    for (const point& n : axes) pair.offer_side_of_edge({solid, n});
     for (int axis = 0; axis < 3; ++axis) {
+        const typename ways_out_of_solid<T, seen_box>::direction_of_edge edge(solid, axes[axis]);
         for (int i = 0; i < 8; ++i) {
-            if ((i & (1 << axis)) == 0) pair.offer_edge(corners.at[i], as<two_doubles>(axes[axis]));
+            if ((i & (1 << axis)) == 0) pair.offer_rims_of_edge(box.corner(i), edge);
         }
     }
     return pair.way();
@@ -406,15 +472,19 @@ requires revolution_pair<S, U> ABUT_HD constexpr contact<scalar_type_of<S>> cont
         found.point = where;
     } else {
         const auto unit = common_unit(s, t);
-        const auto nearest = nearest_way_from<true>(s, core_of(t), unit);
-        if constexpr (std::same_as<U, sphere<T>>) {
-            found = assembled<T>(scale, {0, 0, 0}, way_out_of_ball(s, t, nearest.way, scale));
-        } else if constexpr (std::same_as<U, aabb<T>>) {
+        if constexpr (std::same_as<U, aabb<T>>) {
             found = assembled<T>(scale, {0, 0, 0}, way_out_of_box(s, t, scale));
+            const measured_plainly<T> m(s, t);
+            found.point = m.nearest.knows_shared_point() ? m.shared_point() : shared_point_of(s, t);
         } else {
-            found = assembled<T>(scale, {0, 0, 0}, way_out_of_corners(s, core_of(t), scale));
+            const auto nearest = nearest_way_from<true>(s, core_of(t), unit);
+            if constexpr (std::same_as<U, sphere<T>>) {
+                found = assembled<T>(scale, {0, 0, 0}, way_out_of_ball(s, t, nearest.way, scale));
+            } else {
+                found = assembled<T>(scale, {0, 0, 0}, way_out_of_corners(s, core_of(t), scale));
+            }
+            found.point = point_of_both(s, t, nearest, unit);
         }
-        found.point = point_of_both(s, t, nearest, unit);
     }
     return found;
 }
