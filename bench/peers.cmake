@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 #
-# Libraries that no distribution packages, out of checkouts: ABUT_PEERS is a folder with coal/ and tinybvh/, each where it is wanted.
+# Libraries that no distribution packages, out of checkouts: ABUT_PEERS is a folder with coal/, where it is wanted.
 # They are packages like others (cmake/development.cmake): a source that includes one that is not there is left out.
 
-set(ABUT_PEERS "" CACHE PATH "Folder of checkouts of libraries that benchmarks are compared with: coal, tinybvh")
+set(ABUT_PEERS "" CACHE PATH "Folder of checkouts of libraries that benchmarks are compared with: coal")
 
 # The definition says which version of a peer it is.
 function(abut_peer_version target name number)
@@ -45,13 +45,3 @@ if(EXISTS ${ABUT_PEERS}/coal/package.xml AND TARGET Eigen3::Eigen AND TARGET Boo
     abut_peer_version(abut_coal coal ${version})
 endif()
 abut_package(coal "<coal/" "coal in ABUT_PEERS" abut_coal)
-
-if(EXISTS ${ABUT_PEERS}/tinybvh/tiny_bvh.h)
-    file(STRINGS ${ABUT_PEERS}/tinybvh/tiny_bvh.h parts REGEX "#define TINY_BVH_VERSION_(MAJOR|MINOR|SUB)")
-    string(REGEX MATCHALL "[0-9]+" parts "${parts}")
-    list(JOIN parts "." version)
-    add_library(abut_tinybvh INTERFACE)
-    target_include_directories(abut_tinybvh SYSTEM INTERFACE ${ABUT_PEERS}/tinybvh)
-    abut_peer_version(abut_tinybvh tinybvh ${version})
-endif()
-abut_package(tinybvh "<tiny_bvh" "tinybvh in ABUT_PEERS" abut_tinybvh)

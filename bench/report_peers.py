@@ -28,5 +28,16 @@ def peers(results):
         if question in ("distance", "contact"):
             head += [f"{name}, off by at most" for name in ["abut"] + others]
         lines += table(head, rows)
+    scenes = r.parts("states/", 1)
+    if scenes:
+        rows = []
+        for scene in scenes:
+            for name in r.parts(f"states/{scene}/", 2):
+                def of(key):
+                    return r.get(f"states/{scene}/{name}", key)
+                rows.append([scene if name == "abut" else "", name.replace("_", ", by its ").replace("its boxes", "boxes"),
+                             shown(of("ns") / 1000), f"{of('over'):.2f}", f"{whole(of('wrong'))} of {whole(of('of'))}",
+                             whole(of("collide"))])
+        lines += table(["states of an arm", "", "us a state", "abut / it", "wrong", "collide"], rows, 2)
     versions = ", ".join(f"{name} {r.context[name]}" for name in others)
     return lines + made_on(r, f". {versions}")

@@ -157,8 +157,8 @@ TEMPLATE_TEST_CASE("rows of any shape are what pairs say of them", "", float, do
         check_all(set, looking, expected);
         const auto is_even = [](std::uint32_t row, std::uint32_t id) { return (row + id) % 2 == 0; };
         const auto tree = make_bvh(serial{}, set);
-        CHECK(to_host(any_each(openmp{2}, tree, rows, each_options{.filter = is_even})) == even);
-        CHECK(to_host(any_each(serial{}, set, rows, each_options{.filter = is_even})) == even);
+        CHECK(to_host(any_each(openmp{2}, tree, rows, each_options<std::remove_const_t<decltype(is_even)>>{is_even})) == even);
+        CHECK(to_host(any_each(serial{}, set, rows, each_options<std::remove_const_t<decltype(is_even)>>{is_even})) == even);
         CHECK(to_host(any_within_each(openmp{2}, tree, rows, 0.03)) == near);
         CHECK(to_host(any_within_each(serial{}, set, rows, 0.03)) == near);
         // Under a pose, as a list of placed shapes would be.

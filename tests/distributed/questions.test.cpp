@@ -85,6 +85,23 @@ void check_all_ray_queries(const distributed<Local>& on, const X& x, const Whole
 
 }  // namespace
 
+TEST_CASE("distributed: rows meet spheres and points of all parts") {
+    const distributed on(world(), serial{});
+    std::vector<sphere<float>> looking = balls_around<float>(100, 0, 83);
+    const divided_set<sphere<float>> rows(looking, division::even, on.ranks());
+    const auto check = [&]<class S>(const std::vector<S>& all) {
+        const divided_set<S> set(all, division::even, on.ranks());
+        const auto expected = to_host(any_each(serial{}, set.whole, rows.whole));
+        CHECK(std::count(expected.begin(), expected.end(), 1) > 10);
+        CHECK(std::count(expected.begin(), expected.end(), 0) > 10);
+        CHECK((lists_of_all(on.ranks(), to_host(any_each(on, set.part, rows.part))) == expected));
+        CHECK((lists_of_all(on.ranks(), to_host(any_within_each(on, make_bvh(serial{}, set.part), rows.part, 0.25))) ==
+               to_host(any_within_each(serial{}, set.whole, rows.whole, 0.25))));
+    };
+    check(balls_around<float>(80, 0, 84));
+    check(places_around<float>(1500, 85));
+}
+
 TEST_CASE("distributed: rays meet the triangles of all parts") {
     const distributed on(world(), serial{});
     const auto triangles = twice_on_lattice<float>(300, 81);
