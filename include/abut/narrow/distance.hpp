@@ -440,7 +440,8 @@ template <class S, class U>
 ABUT_HD constexpr auto separation_of(const S& s, const U& t) {
     using T = scalar_type_of<S>;
     constexpr bool on_device = ABUT_DEVICE_CODE != 0;
-    if constexpr (contact_pair<S, U> && has_plain_pair<S, U>) {
+    constexpr bool decided_sooner = std::same_as<S, aabb<T>> && !has_radius<U>;  // than measured
+    if constexpr (contact_pair<S, U> && has_plain_pair<S, U> && !decided_sooner) {
         const plain_pair<S, U> first(s, t);
         const verdict touch = first.touch();
         if (touch == verdict::no) return plain_separation(s, t, first);
