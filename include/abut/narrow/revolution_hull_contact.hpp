@@ -202,7 +202,8 @@ ABUT_NOINLINE ABUT_HD constexpr bool find_way_out(const plain_solid& a, const pl
             const int i = id[k], j = id[k == 2 ? 0 : k + 1];
             if (i < 0 || j < 0 || i == j) is_face = false;
             if (i >= 0 && j >= 0 && i != j && known.take(i, j)) {
-                pair.offer_edge(polytope.on_b(f, k), plain_difference(polytope.on_b(f, k == 2 ? 0 : k + 1), polytope.on_b(f, k)));
+                pair.offer_edge(polytope.on_b(f, k),
+                                as<two_doubles>(plain_difference(polytope.on_b(f, k == 2 ? 0 : k + 1), polytope.on_b(f, k))));
             }
         }
         const point& n = polytope.normal_of(f);
@@ -217,8 +218,8 @@ ABUT_NOINLINE ABUT_HD constexpr bool find_way_out(const plain_solid& a, const pl
         const int f = polytope.nearest();
         look_beside(f);
         const double depth = pair.depth();
-        if (!(depth > 0x1p-20 * size)) return false;
-        if (plain_sum(depth, -polytope.distance_of(f)) <= 0x1p-14 * depth) break;
+        if (!(depth > 0x1p-8 * size)) return false;
+        if (plain_sum(depth, -polytope.distance_of(f)) <= 0x1p-16 * depth) break;
         (void)polytope.look(polytope.normal_of(f));
         if (!polytope.grow(f)) return false;
     }
