@@ -43,9 +43,9 @@ public:
         constexpr std::uint8_t corner[4][3] = {{0, 1, 2}, {1, 0, 3}, {2, 1, 3}, {0, 2, 3}};
         constexpr std::uint8_t across[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
         is_closed_ = true;
-        for (int f = 0; f < 4; ++f) {
-            put(f, corner[f][0], corner[f][1], corner[f][2]);
-            for (int k = 0; k < 3; ++k) face_[f].across[k] = across[f][k];
+        for (int i = 0; i < 4; ++i) {
+            put(i, corner[i][0], corner[i][1], corner[i][2]);
+            for (int k = 0; k < 3; ++k) face_[i].across[k] = across[i][k];
         }
         faces_ = 4;
     }

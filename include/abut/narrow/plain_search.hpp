@@ -398,7 +398,6 @@ struct plain_guess {
 template <class B>
 ABUT_NOINLINE ABUT_HD constexpr plain_guess finish_search(const plain_solid& a, const B&, const plain_simplex& at) {
     using namespace contact_math;
-    using point = vec3<double>;
     point corner[3] = {at.on_b[0], {}, {}};
     int count = 1;
     for (int k = 1; k < at.count; ++k) {
