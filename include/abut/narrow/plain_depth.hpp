@@ -233,7 +233,7 @@ struct plain_way_out {
     bool is_sure = false;  ///< no move is shorter by more than 2^-50 of the shapes' size
 };
 
-/// Of polytopes, or of shapes that are nearly so where they are nearest to each other's far side.
+/// Of polytopes.
 template <scalar T, class A, class B>
 ABUT_NOINLINE ABUT_HD constexpr plain_way_out way_out_in_doubles(const A& a, const B& b, const plain_simplex& at, double size) {
     plain_way_out found;

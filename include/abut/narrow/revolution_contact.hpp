@@ -291,7 +291,7 @@ public:
         offer_side(is_zero(out) ? any_orthogonal(solid_.along) : out);
     }
     /// The side and the rims go away from an edge, a point of which is p.
-    ABUT_HD constexpr void offer_edge(const point& p, const point& along_edge) {
+    ABUT_HD constexpr void offer_edge(const point& p, const vec3<two_doubles>& along_edge) {
         const direction_of_edge edge(solid_, along_edge);
         offer_side_of_edge(edge);
         offer_rims_of_edge(p, edge);
@@ -301,11 +301,10 @@ public:
         point e, across;
         double slope;
 
-        ABUT_HD constexpr direction_of_edge(const seen_round_solid& solid, const point& along)
-            : e(unit_vector(as<one_double>(along))),
-              across(unit_vector(as<one_double>(part_across(plain_cross(solid.axis, e), solid.axis)))),
+        ABUT_HD constexpr direction_of_edge(const seen_round_solid& solid, const vec3<two_doubles>& along)
+            : e(unit_vector(along)),
+              across(unit_cross(solid.along, brought_to_one(along))),
               slope(plain_dot(e, solid.axis)) {
-            // Where the product is next to nothing, it is across the axis all the same, and so nearly across the edge.
             if (is_zero(across)) across = any_orthogonal(solid.along);
         }
     };
@@ -336,7 +335,7 @@ public:
     ABUT_HD constexpr void offer_corners(const corner_hull<T, N>& t, const point (&at)[std::size_t{N}]) {
         if constexpr (N == 3) offer_both(face_normal(triangle<T>{t.at[0], t.at[1], t.at[2]}));
         for (int i = 0; i < N; ++i) offer_corner(at[i]);
-        for (int i = 0; i < t.edges; ++i) offer_edge(at[i], rounded_off(edge_between(t.at[i], t.at[i + 1 == N ? 0 : i + 1]).direction));
+        for (int i = 0; i < t.edges; ++i) offer_edge(at[i], edge_between(t.at[i], t.at[i + 1 == N ? 0 : i + 1]).direction);
     }
 
 protected:
@@ -412,9 +411,9 @@ ABUT_NOINLINE ABUT_HD constexpr contact_math::least_overlap way_out_of_box(const
     for (const point& n : axes) pair.offer_both(n);
     pair.offer_ends();
     for (int i = 0; i < 8; ++i) pair.offer_corner(box.corner(i));
-    for (const point& n : axes) pair.offer_side_of_edge({solid, n});
+    for (const point& n : axes) pair.offer_side_of_edge({solid, as<two_doubles>(n)});
     for (int axis = 0; axis < 3; ++axis) {
-        const typename ways_out_of_solid<T, seen_box>::direction_of_edge edge(solid, axes[axis]);
+        const typename ways_out_of_solid<T, seen_box>::direction_of_edge edge(solid, as<two_doubles>(axes[axis]));
         for (int i = 0; i < 8; ++i) {
             if ((i & (1 << axis)) == 0) pair.offer_rims_of_edge(box.corner(i), edge);
         }

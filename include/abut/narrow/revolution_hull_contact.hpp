@@ -203,7 +203,8 @@ ABUT_NOINLINE ABUT_HD constexpr bool find_way_out(const plain_solid& a, const pl
             if (i < 0 || j < 0 || i == j) is_face = false;
             if (i >= 0 && j >= 0 && i != j && known.take(i, j)) {
                 is_new_face = true;
-                pair.offer_edge(polytope.on_b(f, k), plain_difference(polytope.on_b(f, k == 2 ? 0 : k + 1), polytope.on_b(f, k)));
+                const point& p = polytope.on_b(f, k);
+                pair.offer_edge(p, as<two_doubles>(plain_difference(polytope.on_b(f, k == 2 ? 0 : k + 1), p)));
             }
         }
         if (is_face && is_new_face) {
