@@ -105,11 +105,11 @@ ABUT_NOINLINE ABUT_HD constexpr first_contact<T> first_contact_of(const aabb<T>&
         if (!are_plain_sizes<T>(plain_sum(plain_sum(radius, plain_magnitudes(lower)), plain_magnitudes(upper))))
             return answer;
         least_overlap way;
-        for (int k = 0; k < 3; ++k) {
-            const point n{k == 0 ? 1.0 : 0.0, k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0};
-            way.offer(n, plain_sum(radius, coordinate(lower, k)));
-            way.offer(negated(n), plain_sum(radius, coordinate(upper, k)));
-        }
+        const auto offer = [&](const point& n, double to_lower, double to_upper) {
+            way.offer(n, plain_sum(radius, to_lower));
+            way.offer(negated(n), plain_sum(radius, to_upper));
+        };
+        offer({1, 0, 0}, lower.x, upper.x), offer({0, 1, 0}, lower.y, upper.y), offer({0, 0, 1}, lower.z, upper.z);
         answer = {verdict::yes, plain_contact(t.center, way.normal, way.depth)};
     }
     return answer;
