@@ -21,6 +21,7 @@
 #include <abut/arithmetic/error_free.hpp>
 #include <abut/arithmetic/limits.hpp>
 #include <abut/arithmetic/magnitude.hpp>
+#include <abut/narrow/directions.hpp>
 #include <abut/narrow/nearest.hpp>
 #include <abut/narrow/nearest_point.hpp>
 #include <abut/narrow/numbers.hpp>
