@@ -76,9 +76,10 @@ auto pair_up_near(const Policy& on, const body_state<Index>& state, const char* 
                   const Part& part) {
     const int bits = id_bits(state.tree.size());
     const pair_key key{bits, bits};
+    const std::uint32_t* const of = state.with_shapes->data();
     const auto keys = find_near(on, state.tree, key, true, part, near);
     return pair_up_entries<names_of_entries>(
-        on, state.placed, state.placed, keys.size(), near_bodies{keys.data(), key, state.with_shapes->data(), state.with_shapes->data()},
+        on, state.placed, state.placed, keys.size(), near_bodies{keys.data(), key, of, of},
         list_options<before_first_touch<list_key>>{}, function, noun_of_near, near);
 }
 

@@ -121,8 +121,8 @@ struct bodies_between {
     A a;  ///< body_a is one of these, and may be the higher number
     B b;  ///< body_b is one of these
 };
-/// Each body of `a` with each of `b`. Bodies are not copied, but share what they hold. Where both are one scene, each body
-/// meets itself too.
+/// Each body of `a` with each of `b`. `bodies` share what they hold; a list of posed indices is copied. Where both are one
+/// scene, each body meets itself too.
 ///
 ///     const auto hits = abut::pairs(on, abut::between(robots, crates));  // body_a is a robot, body_b a crate
 template <many_bodies A, many_bodies B>

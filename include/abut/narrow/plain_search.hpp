@@ -264,12 +264,12 @@ struct plain_nearest {
     bool meet = false;                                        ///< seemingly; then on_a and on_b are one point but for rounding
     bool is_sure = false;                                     ///< else it is as long as the distance, as is promised
 
-    /// Whether they are farther apart than some length, for sure.
     /// Whether the point on a is one of both, of shapes that touch.
     [[nodiscard]] ABUT_HD constexpr bool knows_shared_point() const {
         const vec3<double> gap = contact_math::plain_difference(on_a, on_b);
         return is_sure || (meet && contact_math::largest_of(gap) <= 0x1p-51 * size);
     }
+    /// Whether they are farther apart than some length, for sure.
     [[nodiscard]] ABUT_HD constexpr bool are_surely_beyond(double far) const {
         return least > plain_sum(far, plain_product(0x1p-43, plain_sum(size, far)));
     }
