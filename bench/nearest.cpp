@@ -13,7 +13,9 @@
 // The peers (bench/nearest/) are in the same run, where their packages are there.
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include <benchmark/benchmark.h>
 
@@ -21,6 +23,7 @@
 
 #include "../docs/examples/scene.hpp"
 #include "google.hpp"
+#include "nearest/peer.hpp"
 
 namespace {
 
@@ -110,6 +113,20 @@ void add(const char* policy, const Policy& on, const char* question = "nearest")
 }
 
 }  // namespace
+
+std::size_t nearest_peer::wrong_ids(const scene::surface<float>& mesh, const std::vector<abut::vec3<float>>& points,
+                                    const std::vector<std::uint32_t>& named) {
+    const abut::serial on;
+    const auto index = abut::make_bvh(on, abut::mesh<float>(mesh.vertices, mesh.faces), {.builder = abut::bvh_builder::sah});
+    const auto right = abut::nearest(on, index, abut::points<float>(points));
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (named[i] == right[i].id) continue;
+        const abut::mesh<float> both(mesh.vertices, {mesh.faces[named[i]], mesh.faces[right[i].id]});
+        wrong += abut::nearest(on, both, abut::points<float>(std::vector{points[i]}))[0].id != 0;  // of two as near the least id
+    }
+    return wrong;
+}
 
 int main(int argc, char** argv) {
     add<bvh>("serial", abut::serial{});

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
 #
-# Libraries that no distribution packages, out of checkouts: ABUT_PEERS is a folder with coal/, where it is wanted.
+# Libraries that no distribution packages, out of checkouts: ABUT_PEERS is a folder with coal/, tinybvh/
+# and fcpw/, each where it is wanted.
 # They are packages like others (cmake/development.cmake): a source that includes one that is not there is left out.
 
-set(ABUT_PEERS "" CACHE PATH "Folder of checkouts of libraries that benchmarks are compared with: coal")
+set(ABUT_PEERS "" CACHE PATH "Folder of checkouts of libraries that benchmarks are compared with: coal, tinybvh, fcpw")
 
 # The definition says which version of a peer it is.
 function(abut_peer_version target name number)
@@ -45,3 +46,25 @@ if(EXISTS ${ABUT_PEERS}/coal/package.xml AND TARGET Eigen3::Eigen AND TARGET Boo
     abut_peer_version(abut_coal coal ${version})
 endif()
 abut_package(coal "<coal/" "coal in ABUT_PEERS" abut_coal)
+
+# tinybvh is one header. Its tree of eight children wants AVX2, so its source alone is compiled with it.
+if(EXISTS ${ABUT_PEERS}/tinybvh/tiny_bvh.h)
+    file(STRINGS ${ABUT_PEERS}/tinybvh/tiny_bvh.h version REGEX "define TINY_BVH_VERSION_")
+    string(REGEX REPLACE "[^0-9]+" "." version "${version}")
+    string(REGEX MATCH "[0-9.]*[0-9]" version "${version}")
+    add_library(abut_tinybvh INTERFACE)
+    target_include_directories(abut_tinybvh SYSTEM INTERFACE ${ABUT_PEERS}/tinybvh)
+    abut_peer_version(abut_tinybvh tinybvh ${version})
+    set_source_files_properties(${CMAKE_CURRENT_SOURCE_DIR}/raycast/tinybvh.cpp PROPERTIES COMPILE_OPTIONS "-w;-mavx2;-mfma")
+endif()
+abut_package(tinybvh "<tiny_bvh" "tinybvh in ABUT_PEERS" abut_tinybvh)
+
+# FCPW is headers too, in vectors of eight floats by the headers of Enoki that lie in its tree.
+if(EXISTS ${ABUT_PEERS}/fcpw/include/fcpw/fcpw.h AND TARGET Eigen3::Eigen)
+    add_library(abut_fcpw INTERFACE)
+    target_include_directories(abut_fcpw SYSTEM INTERFACE ${ABUT_PEERS}/fcpw/include ${ABUT_PEERS}/fcpw/deps/enoki/include)
+    target_compile_definitions(abut_fcpw INTERFACE FCPW_USE_ENOKI FCPW_SIMD_WIDTH=8)
+    target_link_libraries(abut_fcpw INTERFACE Eigen3::Eigen)
+    set_source_files_properties(${CMAKE_CURRENT_SOURCE_DIR}/nearest/fcpw.cpp PROPERTIES COMPILE_OPTIONS "-w;-mavx2;-mfma;-mbmi2;-mlzcnt")
+endif()
+abut_package(fcpw "<fcpw/" "fcpw in ABUT_PEERS" abut_fcpw)

@@ -12,6 +12,7 @@
 //
 // Peers (bench/raycast/) are in the same run, where their packages are there.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -80,6 +81,40 @@ void add_inside(const char* index_name, const Policy& on, const Index& index, bo
 }
 
 }  // namespace
+
+const raycast_peer::truth& raycast_peer::truth_of(std::size_t kind) {
+    static std::array<truth, raycast_scene::kinds.size()> all;
+    truth& made = all[kind];
+    if (made.rays.empty()) {
+        const abut::serial on;
+        made.rays = raycast_scene::rays_at(mesh(), kind, raycast_scene::default_side);
+        const auto index = abut::make_bvh(on, abut::mesh<float>(mesh().vertices, mesh().faces), {.builder = abut::bvh_builder::sah});
+        for (const auto& hit : abut::raycast<abut::exact>(on, index, abut::rays<float>(made.rays))) made.ids.push_back(hit.id);
+    }
+    return made;
+}
+
+std::size_t raycast_peer::wrong_hits(std::size_t kind, const std::vector<std::uint32_t>& named) {
+    const truth& right = truth_of(kind);
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < named.size(); ++i) {
+        if (named[i] == right.ids[i]) continue;
+        if (named[i] == abut::no_id || right.ids[i] == abut::no_id) {
+            ++wrong;
+            continue;
+        }
+        const abut::mesh<float> both(mesh().vertices, {mesh().faces[named[i]], mesh().faces[right.ids[i]]});
+        const abut::rays<float> ray(std::vector{right.rays[i]});
+        wrong += abut::raycast<abut::exact>(abut::serial{}, both, ray)[0].id != 0;  // of equal times the least id
+    }
+    return wrong;
+}
+std::size_t raycast_peer::wrong_flags(std::size_t kind, const std::vector<std::uint8_t>& named) {
+    const truth& right = truth_of(kind);
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < named.size(); ++i) wrong += (named[i] != 0) != (right.ids[i] != abut::no_id);
+    return wrong;
+}
 
 int main(int argc, char** argv) {
     try {

@@ -25,9 +25,9 @@ void add(bool robust) {
                 std::uint32_t id;
                 float t;
             };
-            std::size_t hits = 0;
+            std::vector<answer> found;
             for (auto _ : state) {
-                std::vector<answer> found(rays.size());
+                found.assign(rays.size(), {});
                 RTCIntersectContext context;
                 rtcInitIntersectContext(&context);
                 for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -41,12 +41,10 @@ void add(bool robust) {
                     rtcIntersect1(index.get(), &context, &ray);
                     found[i] = {ray.hit.geomID == RTC_INVALID_GEOMETRY_ID ? static_cast<std::uint32_t>(-1) : ray.hit.primID, ray.ray.tfar};
                 }
-                state.PauseTiming();
-                hits = 0;
-                for (const answer& a : found) hits += a.id != static_cast<std::uint32_t>(-1);
-                state.ResumeTiming();
             }
-            raycast_peer::note(state, rays.size(), hits);
+            std::vector<std::uint32_t> named;
+            for (const answer& a : found) named.push_back(a.id);
+            raycast_peer::note_hits(state, kind, named);
         });
     }
 }
@@ -57,9 +55,9 @@ void add_occluded(bool robust) {
         raycast_peer::add(name, [=](benchmark::State& state) {
             const auto rays = raycast_scene::rays_at(raycast_peer::mesh(), kind, raycast_scene::default_side);
             const embree_peer::embree_scene index(raycast_peer::mesh(), robust);
-            std::size_t hits = 0;
+            std::vector<std::uint8_t> found;
             for (auto _ : state) {
-                std::vector<std::uint8_t> found(rays.size());
+                found.assign(rays.size(), 0);
                 RTCIntersectContext context;
                 rtcInitIntersectContext(&context);
                 for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -72,12 +70,8 @@ void add_occluded(bool robust) {
                     rtcOccluded1(index.get(), &context, &ray);
                     found[i] = ray.tfar < 0 ? 1 : 0;
                 }
-                state.PauseTiming();
-                hits = 0;
-                for (const std::uint8_t hit : found) hits += hit;
-                state.ResumeTiming();
             }
-            raycast_peer::note(state, rays.size(), hits);
+            raycast_peer::note_flags(state, kind, found);
         });
     }
 }
