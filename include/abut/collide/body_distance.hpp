@@ -107,6 +107,11 @@ execution::least_value nearest_of_entries(const Policy& on, const Pairing& pairi
     execution::best_of_all<space_of<Policy>> best(on, bound);
     for_each_ordered(on, n, walk_entry<view_type, typename Pairing::tree_a, typename Pairing::tree_b>{view, none.data()},
                      best);
+    if constexpr (!host_policy<Policy>) {
+        if (entries_with_nodes(pairing).count > 0) {
+            best.offer(nearest_in_trees(on, pairing, nullptr, least(bound, best.least().value), true).of(on, 0));
+        }
+    }
     return best.least();
 }
 

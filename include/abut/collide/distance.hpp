@@ -26,6 +26,7 @@
 #include <abut/collide/pair_up.hpp>
 #include <abut/collide/placed.hpp>
 #include <abut/collide/search.hpp>
+#include <abut/collide/shared_nearest.hpp>
 #include <abut/error.hpp>
 #include <abut/execution/atomic.hpp>
 #include <abut/execution/ordered.hpp>
@@ -393,10 +394,7 @@ struct walk_all_boxes {
 };
 
 /// How many levels down two trees are dealt out: so that each of `concurrency` threads finds some.
-inline int depth_of_seeds(int concurrency, bool on_host) {
-    if (concurrency <= 1) return 0;
-    return !on_host ? 9 : concurrency <= 16 ? 5 : 6;
-}
+inline int depth_of_seeds(int concurrency) { return concurrency <= 1 ? 0 : concurrency <= 16 ? 5 : 6; }
 
 /// All pairs of two trees of two shapes or more.
 template <class Policy, class Pairing, class Walk, class Reach, class Best>
@@ -425,16 +423,22 @@ void walk_two_trees(const Policy& on, const Pairing& pairing, Walk walk, const R
         std::reverse(rest.at, rest.at + rest.count);
         const walk_from_rest<Walk, Reach, view, in_world> others{{walk, reach, both}, rest.at};
         for_each_ordered(on, static_cast<std::size_t>(rest.count), others, best);
-    } else {
+    } else if constexpr (host_policy<Policy>) {
         const auto from_depth = [&](int level, bool once, const auto& part) {
             const seeds_below<Walk> from(walk, level);
             const walk_from_depth<Walk, Reach, view, in_world> below{{walk, reach, both}, from, once};
             for_each_ordered(on, from.count(), walk_of_part(below, part), best);
         };
-        const int depth = std::max(depth_of_seeds(concurrency(on), host_policy<Policy>), is_shared ? 6 : 0);
         // Whoever begins without a bound looks in vain: many short looks find a good one. It is worth the same to each part.
-        if (depth > 0) from_depth(4, true, whole_search{});
-        from_depth(depth, false, pairing.part);
+        from_depth(4, true, whole_search{});
+        from_depth(std::max(depth_of_seeds(concurrency(on)), 6), false, pairing.part);
+    } else {
+        const auto below = [&](int level, const auto& part) {
+            return two_trees<Walk, Reach, view, std::remove_cvref_t<decltype(part)>>{
+                walk, reach, both, seeds_below<Walk>(walk, level), part};
+        };
+        const shared_nearest<Policy> found(on, 1, best.bound(), below(4, whole_search{}), below(is_shared ? 6 : 5, pairing.part));
+        best.offer(found.of(on, 0));
     }
 }
 

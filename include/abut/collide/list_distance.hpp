@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// distance of a list: how far apart the two indices of each entry are, many pairs in one call. Each entry is walked by one
-// thread; what is decided and measured is that of two arguments (distance.hpp).
+// distance of a list: how far apart the two indices of each entry are, many pairs in one call. A host has a thread walk each
+// entry; threads of a device share the trees of all entries (shared_nearest.hpp). What is decided and measured is that of
+// two arguments (distance.hpp).
 
 #include <cstddef>
 #include <cstdint>
@@ -23,6 +24,7 @@ template <class View, class TreeA, class TreeB>
 struct walk_entry {
     static constexpr std::size_t grain = 1;
     using T = typename View::T;
+    static constexpr bool walks_trees = std::same_as<typename TreeA::memory_space, host_space>;
     View list;
     const std::uint64_t* touches;
 
@@ -39,7 +41,7 @@ struct walk_entry {
             look<true>(list.b.shape(of.b, list.b.object_of[of.b], 0), a, list.a.poses[of.a], entry, best);
         } else if (a.tree.size() == 1) {
             look<false>(list.a.shape(of.a, list.a.object_of[of.a], 0), b, list.b.poses[of.b], entry, best);
-        } else {
+        } else if constexpr (walks_trees) {
             near_posed_boxes<T> reach(list.a.poses[of.a], a.bounds, list.b.poses[of.b], b.bounds);
             offer_distance<false, Best, near_posed_boxes<T>> offer{best, reach};
             const ordered_pair_walk<TreeA, TreeB> walk{a.tree, b.tree};
@@ -88,6 +90,17 @@ struct write_separations {
     }
 };
 
+/// What the trees of entries have, in the place of what was found otherwise.
+struct take_nearest_of_trees {
+    some_entries walked;
+    const std::uint64_t *touches, *least, *keys;
+    execution::least_value* out;
+    ABUT_HD void operator()(std::size_t i) const {
+        const std::uint32_t entry = walked[i];
+        if (touches[entry] == no_pair && keys[entry] != no_pair) out[entry] = {ABUT_BIT_CAST(double, least[entry]), keys[entry]};
+    }
+};
+
 /// Whether distance takes a list of these indices.
 template <class Policy, class IndexA, class IndexB>
 consteval bool can_be_measured() {
@@ -114,6 +127,14 @@ auto distances_of(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>
     execution::best_of_each<space_of<Policy>> best(on, n, bound_below<T>(options.below > 0 ? options.below : 0));
     for_each_ordered(
         on, n, walk_entry<view_type, typename IndexA::view_type, typename IndexB::view_type>{view, touches.data()}, best);
+    if constexpr (!host_policy<Policy>) {
+        const some_entries walked = entries_with_nodes(pairing);
+        if (walked.count > 0 && options.below > 0) {
+            const auto found = nearest_in_trees(on, pairing, touches.data(), bound_below<T>(options.below), false);
+            for_each_index(on, walked.count, take_nearest_of_trees{walked, touches.data(), found.least.data(), found.keys.data(), best.data()});
+            synchronize(on);
+        }
+    }
     execution::buffer_of<Policy, separation<T>> out(on, n);
     for_each_index(on, n, write_separations<view_type>{view, touches.data(), best.data(), options.below, out.data()});
     synchronize(on);

@@ -71,10 +71,14 @@ public:
         }
     };
 
-    explicit best_of_all(const cuda& on, double bound = least_value{}.value) : word_(on, 1) {
+    explicit best_of_all(const cuda& on, double bound = least_value{}.value) : bound_(bound), word_(on, 1) {
         fill(on, word_.data(), 1, ABUT_BIT_CAST(std::uint64_t, bound));
     }
     [[nodiscard]] least_value least() const { return least_; }
+    /// What it began with.
+    [[nodiscard]] double bound() const { return bound_; }
+    /// What was found otherwise.
+    void offer(const least_value& found) { least_.offer(found.value, found.key); }
 
     [[nodiscard]] sink make_sink(std::size_t) { return {word_.data(), of_warps_.data()}; }
     void begin(const cuda& on, std::size_t n) {
@@ -89,6 +93,7 @@ public:
 
 private:
     least_value least_{};
+    double bound_;
     buffer<std::uint64_t, device_space> word_;
     buffer<least_value, device_space> of_warps_;
 };

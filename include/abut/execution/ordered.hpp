@@ -73,6 +73,7 @@ public:
 
     /// By index, in the policy's memory.
     [[nodiscard]] const least_value* data() const { return values_.data(); }
+    [[nodiscard]] least_value* data() { return values_.data(); }
 
     [[nodiscard]] sink make_sink(std::size_t /*thread*/) { return {values_.data(), most_}; }
     template <class Policy>

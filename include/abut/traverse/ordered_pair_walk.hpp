@@ -141,6 +141,30 @@ struct ordered_pair_walk {
         visitor(shape_of_leaf(a, at.a), shape_of_leaf(b, at.b));
     }
 
+    [[nodiscard]] ABUT_HD static bool is_pair_of_leaves(const item& at) { return (at.a & at.b & bvh_child::leaf_bit) != 0; }
+    /// One step of binary trees, as expanders take them (execution/roles.hpp): take(k, kept, pair, least) of the pairs k = 0 ... 3 of
+    /// children, which are constants to the compiler.
+    ABUT_CALLS_ANY
+    template <class Reach, class Take>
+    ABUT_INLINE ABUT_HD void open_four(const item& at, const Reach& reach, const Take& take) const {
+        static_assert(A::width == 2 && B::width == 2);
+        const node_or_leaf at_a(at.a, 2), at_b(at.b, 2);
+        const auto& of_a = a.fetch(at_a.node);
+        const auto& of_b = b.fetch(at_b.node);
+        const auto one = [&](auto k) {
+            constexpr int i = decltype(k)::value / 2, j = decltype(k)::value % 2;
+            const bool is = (!at_a.is_leaf || at_a.slot == i) && (!at_b.is_leaf || at_b.slot == j);
+            const T least = reach.least_between(reach.see_of_a(what_bounds<Reach>(a, of_a, i)),
+                                                reach.see_of_b(what_bounds<Reach>(b, of_b, j)));
+            take(k, is && reach.keeps(least),
+                 item{link_to(a.child(of_a, i), 2 * at_a.node + i), link_to(b.child(of_b, j), 2 * at_b.node + j)}, least);
+        };
+        one(std::integral_constant<int, 0>{});
+        one(std::integral_constant<int, 1>{});
+        one(std::integral_constant<int, 2>{});
+        one(std::integral_constant<int, 3>{});
+    }
+
 private:
     static constexpr int most_children = A::width * B::width;
     /// What is known of one tree, to half a pair.
@@ -239,7 +263,6 @@ private:
         }
     }
 
-    [[nodiscard]] ABUT_HD static bool is_pair_of_leaves(const item& at) { return (at.a & at.b & bvh_child::leaf_bit) != 0; }
     template <class Tree>
     [[nodiscard]] ABUT_HD static aabb<T> bounds_of(const Tree& tree, std::uint32_t bits) {
         const node_or_leaf at(bits, Tree::width);
