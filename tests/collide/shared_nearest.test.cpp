@@ -3,6 +3,8 @@
 // What a device does for `distance` (collide/shared_nearest.hpp), by the verbs of a host: the same pair as a host's own way finds, also
 // where more pairs are equally near than are kept. A device is asked in tests/cuda/distance.cu.
 
+#include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -34,7 +36,7 @@ execution::least_value shared_way(const Policy& on, const X& x, const Y& y, doub
     const auto view = pairing.view();
     using trees = two_trees<walk, near_posed_boxes<T>, std::remove_const_t<decltype(view)>, whole_search>;
     const trees first{both, reach, view, seeds_below<walk>(both, 4), {}}, all{both, reach, view, seeds_below<walk>(both, 5), {}};
-    return shared_nearest<Policy>(on, 1, bound, first, all, room).of(on, 0);
+    return shared_nearest<Policy>(on, 1, bound, first, all, room).of_one();
 }
 
 /// The same by the host's own way.
@@ -54,6 +56,12 @@ int check_both_ways(const X& x, const Y& y, double bound = none) {
         CHECK(shared_way(openmp{3}, x, y, bound, room) == (expected.value <= bound ? expected : execution::least_value{}));
     }
     return expected.key != detail::no_pair;
+}
+
+/// Of a slot.
+execution::least_value of(const detail::shared_nearest<serial>& all, std::size_t slot) {
+    if (all.keys()[slot] == detail::no_pair) return {};
+    return {std::bit_cast<double>(all.least()[slot]), all.keys()[slot]};
 }
 
 rigid<float> aside(float x, float y = 0.25f) { return {{0.6f, -0.8f, 0, 0.8f, 0.6f, 0, 0, 0, 1}, {x, y, 0.125f}}; }
@@ -118,7 +126,7 @@ TEST_CASE("shared nearest: the trees of a list, of each entry and of all") {
         int apart = 0;
         for (std::size_t k = 0; k + 1 < list.size(); ++k) {
             CAPTURE(k);
-            const execution::least_value found = each.of(on, k);
+            const execution::least_value found = of(each, k);
             CHECK((found.key == detail::no_pair) == (expected[k].distance == 0));
             if (found.key == detail::no_pair) continue;
             ++apart;
@@ -130,8 +138,8 @@ TEST_CASE("shared nearest: the trees of a list, of each entry and of all") {
         }
         CHECK(apart > 20);
         CHECK(apart < 40);
-        CHECK(each.of(on, list.size() - 1) == execution::least_value{});
-        CHECK(detail::nearest_in_trees(on, pairing, touches.data(), none, true, room).of(on, 0) == least);
-        CHECK(detail::nearest_in_trees(on, pairing, touches.data(), 0.5 * least.value, true, room).of(on, 0) == execution::least_value{});
+        CHECK(of(each, list.size() - 1) == execution::least_value{});
+        CHECK(detail::nearest_in_trees(on, pairing, touches.data(), none, true, room).of_one() == least);
+        CHECK(detail::nearest_in_trees(on, pairing, touches.data(), 0.5 * least.value, true, room).of_one() == execution::least_value{});
     }
 }

@@ -109,7 +109,7 @@ execution::least_value nearest_of_entries(const Policy& on, const Pairing& pairi
                      best);
     if constexpr (!host_policy<Policy>) {
         if (entries_with_nodes(pairing).count > 0) {
-            best.offer(nearest_in_trees(on, pairing, nullptr, least(bound, best.least().value), true).of(on, 0));
+            best.offer(nearest_in_trees(on, pairing, nullptr, least(bound, best.least().value), true).of_one());
         }
     }
     return best.least();

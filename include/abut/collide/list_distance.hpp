@@ -90,6 +90,15 @@ struct write_separations {
     }
 };
 
+/// Whether nothing touches in an entry, to be added up.
+struct is_entry_open {
+    some_entries walked;
+    const std::uint64_t* touches;
+    ABUT_HD unsigned operator()(std::size_t i) const { return touches[walked[i]] == no_pair; }
+};
+struct add_counts {
+    ABUT_HD unsigned operator()(unsigned a, unsigned b) const { return a + b; }
+};
 /// What the trees of entries have, in the place of what was found otherwise.
 struct take_nearest_of_trees {
     some_entries walked;
@@ -129,9 +138,10 @@ auto distances_of(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>
         on, n, walk_entry<view_type, typename IndexA::view_type, typename IndexB::view_type>{view, touches.data()}, best);
     if constexpr (!host_policy<Policy>) {
         const some_entries walked = entries_with_nodes(pairing);
-        if (walked.count > 0 && options.below > 0) {
+        const auto open = [&] { return reduce(on, walked.count, 0u, add_counts{}, is_entry_open{walked, touches.data()}); };
+        if (walked.count > 0 && options.below > 0 && open() > 0) {
             const auto found = nearest_in_trees(on, pairing, touches.data(), bound_below<T>(options.below), false);
-            for_each_index(on, walked.count, take_nearest_of_trees{walked, touches.data(), found.least.data(), found.keys.data(), best.data()});
+            for_each_index(on, walked.count, take_nearest_of_trees{walked, touches.data(), found.least(), found.keys(), best.data()});
             synchronize(on);
         }
     }

@@ -259,7 +259,6 @@ struct choose_least_key {
     Scene scene;
     nearest_so_far known;
     std::uint64_t* keys;  ///< of each slot
-    const std::uint64_t* kept = nullptr;
 
     ABUT_CALLS_ANY
     ABUT_HD bool operator()(std::uint64_t key, auto&...) const {
@@ -275,52 +274,70 @@ struct choose_least_key {
 template <class Scene>
 struct choose_among_kept {
     choose_least_key<Scene> choose;
+    const std::uint64_t *kept, *count;
+    std::uint64_t room;
     ABUT_CALLS_ANY
-    ABUT_HD void operator()(std::size_t i) const { choose(choose.kept[i]); }
+    ABUT_HD void operator()(std::size_t i) const {
+        if (i < *count && *count <= room) choose(kept[i]);
+    }
+};
+/// Nothing is known but a bound.
+struct begin_nearest {
+    std::size_t slots;
+    std::uint64_t bound;
+    std::uint64_t *least, *keys, *count;
+    std::uint32_t* way;
+    ABUT_HD void operator()(std::size_t i) const {
+        if (i < slots) least[i] = bound, keys[i] = static_cast<std::uint64_t>(-1);
+        if (i < 3 * slots) way[i] = 0;
+        if (i == 0) *count = 0;
+    }
 };
 
 /// Of each of n slots the least distance that is no more than a bound, and the least key of pairs as far apart; or no key.
 template <class Policy>
-struct shared_nearest {
-    execution::buffer_of<Policy, std::uint64_t> least, keys;
-
+class shared_nearest {
+public:
     static constexpr std::size_t enough_room = std::size_t{1} << 16;
 
     /// `first` is the scene from the seeds of which the short looks begin. Nothing is kept of more pairs than `room`.
     template <class First, class Scene>
     shared_nearest(const Policy& on, std::size_t n, double bound, const First& first, const Scene& scene,
-                       std::size_t room = enough_room)
-        : least(on, n), keys(on, n) {
+                   std::size_t room = enough_room)
+        : slots_(n), words_(on, 2 * n + 1) {
         execution::buffer_of<Policy, std::uint32_t> way(on, 3 * n);
-        execution::buffer_of<Policy, std::uint64_t> kept(on, room + 1);
-        fill(on, least.data(), n, ABUT_BIT_CAST(std::uint64_t, bound));
-        fill(on, keys.data(), n, static_cast<std::uint64_t>(-1));
-        fill(on, way.data(), 3 * n, std::uint32_t{0});
-        fill(on, kept.data() + room, 1, std::uint64_t{0});
-        const nearest_so_far known{least.data(), way.data()};
+        execution::buffer_of<Policy, std::uint64_t> kept(on, room);
+        std::uint64_t* const count = words_.data() + 2 * n;
+        for_each_index(on, 3 * n, begin_nearest{n, ABUT_BIT_CAST(std::uint64_t, bound), words_.data(), words_.data() + n, count, way.data()});
+        const nearest_so_far known{words_.data(), way.data()};
         for_each_index(on, first.seeds(), look_once<First>{first, known});
         const open_near_pairs<Scene> open{scene, known};
-        for_each_descendant(on, open, measure_near_pairs<Scene>{scene, known, kept.data(), kept.data() + room, room});
-        std::uint64_t count = 0;
-        download(on, kept.data() + room, 1, &count);
-        const choose_least_key<Scene> choose{scene, known, keys.data(), kept.data()};
-        if (count <= room) {
-            for_each_index(on, static_cast<std::size_t>(count), choose_among_kept<Scene>{choose});
-        } else {
+        for_each_descendant(on, open, measure_near_pairs<Scene>{scene, known, kept.data(), count, room});
+        const choose_least_key<Scene> choose{scene, known, words_.data() + n};
+        for_each_index(on, room, choose_among_kept<Scene>{choose, kept.data(), count, room});
+        // Of one slot all words come at once.
+        const std::size_t from = n == 1 ? 0 : 2;
+        download(on, n == 1 ? words_.data() : count, 3 - from, of_one_ + from);
+        if (of_one_[2] > room) {
             for_each_descendant(on, open, choose);
+            download(on, n == 1 ? words_.data() : count, 3 - from, of_one_ + from);
         }
-        synchronize(on);  // what is known goes
     }
-    /// Of a slot, on the host. Infinite, with no key, where nothing is no farther than the bound.
-    [[nodiscard]] execution::least_value of(const Policy& on, std::size_t slot) const {
-        execution::least_value found;
-        std::uint64_t bits = 0;
-        download(on, keys.data() + slot, 1, &found.key);
-        if (found.key == static_cast<std::uint64_t>(-1)) return found;
-        download(on, least.data() + slot, 1, &bits);
-        found.value = ABUT_BIT_CAST(double, bits);
-        return found;
+    /// By slots, in the policy's memory: bits of a double, and keys.
+    ///@{
+    [[nodiscard]] const std::uint64_t* least() const { return words_.data(); }
+    [[nodiscard]] const std::uint64_t* keys() const { return words_.data() + slots_; }
+    ///@}
+    /// Of the only slot. Infinite, with no key, where nothing is no farther than the bound.
+    [[nodiscard]] execution::least_value of_one() const {
+        if (of_one_[1] == static_cast<std::uint64_t>(-1)) return {};
+        return {ABUT_BIT_CAST(double, of_one_[0]), of_one_[1]};
     }
+
+private:
+    std::size_t slots_;
+    execution::buffer_of<Policy, std::uint64_t> words_;  ///< least distances, keys, and how many pairs were kept
+    std::uint64_t of_one_[3];                            ///< the same of one slot, on the host
 };
 
 /// Entries of a pairing both of whose trees have nodes.
