@@ -517,17 +517,8 @@ ABUT_NOINLINE ABUT_HD constexpr plain_nearest search_in_doubles(const A& a, cons
     return found;
 }
 
-/// The same, and of a solid and a point in closed form.
 template <class A, class B>
-ABUT_HD constexpr plain_nearest nearest_in_doubles(const A& a, const B& b) {
-    if constexpr (std::same_as<A, plain_solid> && std::same_as<B, plain_core<1>>) {
-        plain_nearest found;
-        found.size = greatest(a.size, b.size);
-        if (is_searched(found.size)) {
-            const plain_solid::foot f = a.foot_of(b.at[0]);
-            if (settles(a, b, {f.at, b.at[0], f.normal, true}, 0x1p-51 * found.size, found)) return found;
-        }
-    }
+ABUT_HD constexpr plain_nearest search_in_doubles(const A& a, const B& b) {
     plain_simplex at;
     return search_in_doubles(a, b, at);
 }

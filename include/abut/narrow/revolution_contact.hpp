@@ -35,6 +35,7 @@
 #include <abut/narrow/hull_contact.hpp>
 #include <abut/narrow/numbers.hpp>
 #include <abut/narrow/plain_distance.hpp>
+#include <abut/narrow/plain_foot.hpp>
 #include <abut/narrow/revolution_foot.hpp>
 #include <abut/narrow/revolution_plane.hpp>
 #include <abut/narrow/revolution_ways.hpp>
@@ -456,6 +457,9 @@ requires revolution_pair<S, U> ABUT_HD constexpr contact<scalar_type_of<S>> cont
     using namespace contact_math;
     using T = scalar_type_of<S>;
     if (is_point(axis_of(s))) return contact_with_ball(ball_around(s), t);
+    if constexpr (has_plain_pair<S, U>) {
+        if (const auto first = first_contact_of(s, t, plain_pair<S, U>(s, t)); first.touch == verdict::yes) return first.found;
+    }
     const common_scale scale(s, t);
     contact<T> found{};
     if constexpr (std::same_as<U, plane<T>>) {
