@@ -60,7 +60,8 @@ struct plain_solid {
         if ((is_cone && k == 0) || !(length > 0)) return end[k];
         return plain_step(end[k], radius / length, across);
     }
-    [[nodiscard]] ABUT_HD constexpr point any() const { return contact_math::middle_of({end[0], end[1]}); }
+    /// Not the middle: that is on the line between any two opposite points, which leaves a polytope no room.
+    [[nodiscard]] ABUT_HD constexpr point any() const { return end[0]; }
 
     /// Where a foot lies: inside of a flat end, on a rim, inside of a side, or at an apex.
     enum class part : unsigned char { disc, rim, side, apex };
