@@ -374,14 +374,18 @@ private:
         }
         count = kept;
     }
-    /// All four, by volumes.
+    /// All four, by volumes; and again, for what rounding left of the origin.
     ABUT_HD constexpr void hold(const point (&e)[3], const point& p) {
         using contact_math::plain_dot;
-        const double whole = plain_dot(e[0], plain_cross(e[1], e[2]));
+        const point across[3] = {plain_cross(e[1], e[2]), plain_cross(e[2], e[0]), plain_cross(e[0], e[1])};
+        const double whole = plain_dot(e[0], across[0]);
         if (whole == 0) return;
+        point left = p;
+        for (int k = 0; k < 3; ++k) weight[k] = -plain_dot(p, across[k]) / whole;
+        for (int k = 0; k < 3; ++k) left = plain_step(left, weight[k], e[k]);
         double rest = 1;
         for (int k = 0; k < 3; ++k) {
-            weight[k] = -plain_dot(p, plain_cross(e[k == 2 ? 0 : k + 1], e[k == 0 ? 2 : k - 1])) / whole;
+            weight[k] = plain_sum(weight[k], -plain_dot(left, across[k]) / whole);
             rest = plain_sum(rest, -weight[k]);
         }
         weight[3] = rest;
