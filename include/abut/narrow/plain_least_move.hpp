@@ -343,7 +343,8 @@ ABUT_NOINLINE ABUT_HD constexpr bool find_contact_as_seen(const A& a, const B& b
     const double overlap = plain_dot(n, plain_difference(b.farthest(n), a.farthest(negated(n)))),
                  enough = plain_product(0x1p-50 + static_cast<double>(unit_roundoff<T>) / 2, nearest.size);
     if (!(plain_sum(overlap, -out.depth) <= enough)) return false;
-    found = plain_contact(from_seen<T>(origin, nearest.on_a), n, plain_sum(overlap, radius));
+    found = plain_contact(from_seen<T>(origin, nearest.on_a), n, 0);
+    found.depth = rounded_within<T>(greatest(plain_sum(overlap, radius), 0.0));
     return true;
 }
 
