@@ -60,8 +60,9 @@ struct plain_solid {
         if ((is_cone && k == 0) || !(length > 0)) return end[k];
         return plain_step(end[k], radius / length, across);
     }
-    /// Not the middle: that is on the line between any two opposite points, which leaves a polytope no room.
-    [[nodiscard]] ABUT_HD constexpr point any() const { return end[0]; }
+    /// Neither the middle nor an end: points found from these may lie in one plane with the origin, which leaves a polytope no
+    /// room.
+    [[nodiscard]] ABUT_HD constexpr point any() const { return farthest({0.36, -0.48, 0.8}); }
 
     /// Where a foot lies: inside of a flat end, on a rim, inside of a side, or at an apex.
     enum class part : unsigned char { disc, rim, side, apex };
