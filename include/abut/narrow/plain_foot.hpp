@@ -56,8 +56,9 @@ struct plain_foot {
         double pe = plain_dot(p, e);
         height = root(one_double{ee}).high;
         per_height = 1 / height;
-        const point across = plain_step(p, -pe / ee, e);
+        const point across = plain_step(p, -plain_product(plain_product(pe, per_height), per_height), e);
         const double rho = root(one_double{plain_dot(across, across)}).high, out = plain_sum(rho, -radius);
+        const double per_rho = rho > 0x1p-20 * size ? 1 / rho : 0;  // nearer to the axis nothing is said that asks for it
         const double side_square = is_cone ? plain_sum(ee, plain_product(radius, radius)) : ee;
         if (2 * (is_cone ? plain_sum(pe, plain_product(rho, radius)) : pe) > side_square || pe > ee) {
             is_last = true;
@@ -67,13 +68,16 @@ struct plain_foot {
         }
         const double over_end = plain_product(pe, per_height);
         const double beyond = is_last ? over_end : -over_end;
-        // What p has of e, and of the direction across.
-        const auto look = [&](double along, double aside) {
-            return plain_step(plain_times(plain_product(along, per_height), e), rho > 0 ? aside / rho : 0, across);
+        // So much of e, and of the direction across.
+        const auto take = [&](double along, double aside) {
+            way = plain_step(plain_times(plain_product(along, per_height), e), plain_product(aside, per_rho), across);
         };
-        const auto take = [&](double along, double aside) { way = look(along, aside); };
-        const auto take_length = [&](double along, double aside) {
-            take(along, aside);
+        // A unit vector across the axis, without what rounding left along it.
+        const auto straight = [&] {
+            const double part = plain_product(plain_product(plain_dot(across, e), per_height), per_height);
+            return plain_times(per_rho, plain_step(across, -part, e));
+        };
+        const auto measure = [&] {
             length = root(one_double{plain_dot(way, way)}).high;
             ahead = plain_times(1 / length, way);
         };
@@ -84,7 +88,9 @@ struct plain_foot {
         };
         if (!is_cone) {
             if (beyond > 0 && out > 0) {
-                take_length(over_end, out);
+                if (!(per_rho > 0)) return;
+                take(over_end, out);
+                measure();
             } else if (beyond > 0) {
                 to_end();
             } else {
@@ -94,8 +100,8 @@ struct plain_foot {
                 } else {
                     take(0, out);
                     length = absolute(out);
-                    ahead = straight(across);
-                    if (contact_math::is_zero(ahead)) return;
+                    ahead = straight();
+                    if (!(per_rho > 0)) return;
                 }
                 if (is_inside && !(beyond < -0x1p-40 * size && out < -0x1p-40 * size)) return;
             }
@@ -110,7 +116,9 @@ struct plain_foot {
                 if (!is_last) return;
                 to_end();
             } else if (is_last ? reached >= 0 : reached <= 0) {
-                take_length(over_end, aside);
+                if (is_last && !(per_rho > 0)) return;
+                is_last ? take(over_end, out) : void(way = p);
+                measure();
             } else {
                 is_inside = !(over > 0);
                 if (is_inside && below > over) {
@@ -119,9 +127,8 @@ struct plain_foot {
                 } else {
                     take(-plain_product(over, k), plain_product(over, c));
                     length = absolute(over);
-                    const point aside_unit = straight(across);
-                    if (contact_math::is_zero(aside_unit)) return;
-                    ahead = plain_step(plain_times(plain_product(-k, per_height), e), c, aside_unit);
+                    ahead = plain_step(plain_times(plain_product(-k, per_height), e), c, straight());
+                    if (!(per_rho > 0)) return;
                 }
                 if (is_inside && !(below < -0x1p-40 * size && over < -0x1p-40 * size)) return;
             }
@@ -135,16 +142,6 @@ struct plain_foot {
         const double around = plain_product(radius, plain_product(root(one_double{plain_dot(turned, turned)}).high, per_height)),
                      along = plain_dot(n, e), first = is_last ? -along : 0, last = is_last ? 0 : along;
         return greatest(is_cone ? first : plain_sum(first, around), plain_sum(last, around));
-    }
-
-private:
-    /// A unit vector across the axis, without what rounding left along it; near the axis there is none.
-    [[nodiscard]] ABUT_HD constexpr vec3<double> straight(const vec3<double>& across) const {
-        using namespace contact_math;
-        const double part = plain_product(plain_product(plain_dot(across, e), per_height), per_height);
-        const point v = plain_step(across, -part, e);
-        const double of_v = root(one_double{plain_dot(v, v)}).high;
-        return of_v > 0x1p-20 * size ? plain_times(1 / of_v, v) : point{0, 0, 0};
     }
 };
 
