@@ -341,7 +341,7 @@ ABUT_NOINLINE ABUT_HD constexpr bool find_contact_as_seen(const A& a, const B& b
     if (!out.is_sure) return false;
     const point n = plain_normal<T>(unit_vector(as<one_double>(out.normal)));
     const double overlap = plain_dot(n, plain_difference(b.farthest(n), a.farthest(negated(n)))),
-                 enough = plain_product(0x1p-50 + static_cast<double>(unit_roundoff<T>) / 2, nearest.size);
+                 enough = plain_product(0x1p-50 + 2 * static_cast<double>(unit_roundoff<T>), nearest.size);
     if (!(plain_sum(overlap, -out.depth) <= enough)) return false;
     found = plain_contact(from_seen<T>(origin, nearest.on_a), n, 0);
     found.depth = rounded_within<T>(greatest(plain_sum(overlap, radius), 0.0));
