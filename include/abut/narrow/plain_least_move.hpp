@@ -333,8 +333,9 @@ template <scalar T, class A, class B>
 ABUT_NOINLINE ABUT_HD constexpr bool find_contact_as_seen(const A& a, const B& b, double radius, const vec3<double>& origin,
                                                           contact<T>& found) {
     using namespace contact_math;
+    // Points found from the middle, or an end, may lie in one plane with the origin, which leaves a polytope no room.
     plain_simplex at;
-    const plain_nearest nearest = search_in_doubles(a, b, at);
+    const plain_nearest nearest = search_in_doubles(a, b, at, {0.36, -0.48, 0.8});
     if (!nearest.knows_shared_point()) return false;
     plain_way_out out{negated(nearest.along), -nearest.length, nearest.length > 0x1p-20 * nearest.size && radius > 0};
     if (nearest.meet) out = least_move_in_doubles(a, b, at, nearest.size);

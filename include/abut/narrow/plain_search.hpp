@@ -60,9 +60,7 @@ struct plain_solid {
         if ((is_cone && k == 0) || !(length > 0)) return end[k];
         return plain_step(end[k], radius / length, across);
     }
-    /// Neither the middle nor an end: points found from these may lie in one plane with the origin, which leaves a polytope no
-    /// room.
-    [[nodiscard]] ABUT_HD constexpr point any() const { return farthest({0.36, -0.48, 0.8}); }
+    [[nodiscard]] ABUT_HD constexpr point any() const { return contact_math::middle_of({end[0], end[1]}); }
 
     /// Where a foot lies: inside of a flat end, on a rim, inside of a side, or at an apex.
     enum class part : unsigned char { disc, rim, side, apex };
@@ -479,19 +477,21 @@ ABUT_HD constexpr bool settles(const A& a, const B& b, const plain_guess& g, dou
 /// Sizes in whose range no square overflows, and what underflows is nothing beside the rest.
 ABUT_HD constexpr bool is_searched(double size) { return size > 0x1p-150 && size < 0x1p150; }
 
-/// Looks for it. Of a device one function, out of line.
+/// Looks for it, from the farthest points along a way, or from any. Of a device one function, out of line.
 template <class A, class B>
-ABUT_NOINLINE ABUT_HD constexpr plain_nearest search_in_doubles(const A& a, const B& b, plain_simplex& at) {
+ABUT_NOINLINE ABUT_HD constexpr plain_nearest search_in_doubles(const A& a, const B& b, plain_simplex& at,
+                                                                vec3<double> along = {0, 0, 0}) {
     using namespace contact_math;
     constexpr int most_steps = 40;
     plain_nearest found;
     found.size = greatest(a.size, b.size);
     if (!is_searched(found.size)) return found;
     const double enough = 0x1p-51 * found.size;
-    point along{0, 0, 0};
+    const bool from_any = is_zero(along);
     double near = 0x1p-3;
     for (int step = 0; step < most_steps; ++step) {
-        const point p = step == 0 ? a.any() : a.farthest(along), q = step == 0 ? b.any() : b.farthest(negated(along)),
+        const bool is_any = step == 0 && from_any;
+        const point p = is_any ? a.any() : a.farthest(along), q = is_any ? b.any() : b.farthest(negated(along)),
                     w = plain_difference(q, p);
         if (step > 0) {
             const double of_along = root(one_double{plain_dot(along, along)}).high;
