@@ -6,14 +6,14 @@
 // centre is beside that tells the foot and how far it is. Where rounding leaves open whether the centre is inside, or the
 // shapes touch, revolution_foot.hpp and revolution_contact.hpp answer.
 //
-// Let u = 2^-53, e the axis and p the centre as it is seen from the end of what is nearer, the axis or a cone's side; p is no longer than D, the largest distance
-// of two points of both shapes. Rounding e and p (u each, of themselves), their product (3u |p|), and the root of e.e and the
-// quotient (3.5u of the height) leaves the height over the end within 5u |p| and 3.5u of itself. What p has across the axis
-// is off by 3u |p|, its length by 2.5u of itself; what of it is left along the axis, some 8u |p|, counts with its square.
-// So both coordinates are off by less than 10u D together, the distance in the half plane by less than 13u D, and 15u D
-// without the radius. Which part the foot is on matters no more than that: where two are as near, they are near to each
-// other, as the solid is convex. `size` is the sum of magnitudes of p, e and the radii, above D and below 8D. The way is
-// longer than 2^-20 of it.
+// Let u = 2^-53, e the axis and p the centre as it is seen from the nearer end of that, or of a cone's side; p is no longer
+// than D, the largest distance of two points of both shapes. Rounding e and p (u each, of themselves), their product (3u
+// |p|), and the root of e.e and the quotient (3.5u of the height) leaves the height over the end within 5u |p| and 3.5u of
+// itself. What p has across the axis is off by 3u |p|, its length by 2.5u of itself; what of it is left along the axis, some
+// 8u |p|, counts with its square. So both coordinates are off by less than 10u D together, the distance in the half plane by
+// less than 13u D, and 15u D without the radius. Which part the foot is on matters no more than that: where two are as near,
+// they are near to each other, as the solid is convex. `size` is the sum of magnitudes of p, e and the radii, above D and
+// below 8D. The way is longer than 2^-20 of it.
 
 #include <concepts>
 
@@ -32,14 +32,14 @@ namespace abut::detail {
 /// A solid's axis and a point beside it, and the solid's point that is nearest to that.
 template <scalar T>
 struct plain_foot {
-    vec3<double> e, p{0, 0, 0};  ///< the axis, and the point as it is seen from the nearer end
+    vec3<double> e, p{0, 0, 0};  ///< the axis, and the point as it is seen from `end`
     vec3<T> end;
     double radius, size;
     double height = 0, per_height = 0;
-    bool is_cone, is_last = false;                       ///< whether that is the second end: of a cone the base
+    bool is_cone, is_last = false;  ///< whether that is the second end: of a cone the base
     bool is_good = false, is_inside = false;
-    vec3<double> way{0, 0, 0}, ahead{0, 0, 0};  ///< from the foot to the point; and of about length 1, as well known as rounding lets it
-    double length = 0;                                   ///< of the way; or inside, to the nearest part of the boundary
+    vec3<double> way{0, 0, 0}, ahead{0, 0, 0};  ///< from the foot to the point; and of about length 1, known better
+    double length = 0;                          ///< of the way; or inside, to the nearest part of the boundary
 
     template <solid_of_revolution S>
     ABUT_NOINLINE ABUT_HD constexpr plain_foot(const S& s, const vec3<T>& center, double radius_of_center)
@@ -139,7 +139,8 @@ struct plain_foot {
     [[nodiscard]] ABUT_HD constexpr double reach(const vec3<double>& n) const {
         using namespace contact_math;
         const point turned = plain_cross(n, e);
-        const double around = plain_product(radius, plain_product(root(one_double{plain_dot(turned, turned)}).high, per_height)),
+        const double around =
+                         plain_product(radius, plain_product(root(one_double{plain_dot(turned, turned)}).high, per_height)),
                      along = plain_dot(n, e), first = is_last ? -along : 0, last = is_last ? 0 : along;
         return greatest(is_cone ? first : plain_sum(first, around), plain_sum(last, around));
     }

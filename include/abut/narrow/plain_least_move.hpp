@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The first stage of contacts of a cylinder or a cone with boxes, hulls, segments, capsules and each other: the least move in
-// doubles whose operations are rounded one by one, with a certificate at its end. Not for decisions, and not for shapes that
-// hardly touch: where it knows nothing, revolution_contact.hpp and what belongs to it are asked.
+// The first stage of contacts of a cylinder or a cone with boxes, hulls, segments, capsules and each other: the least move
+// in doubles whose operations are rounded one by one, with a certificate at its end. Not for decisions, and not for shapes
+// that hardly touch: where it knows nothing, revolution_contact.hpp and what belongs to it are asked.
 //
-// Let K be the differences of a point of b and one of a, and h(m) how far K reaches along m, times the length of m. The least
-// move is the least of h over unit vectors. A polytope in K (plain_depth.hpp) bounds h from below along all ways, but where K
-// is round it would take very many corners. So the least is looked for near a face, by Newton's method, and a cap of ways
-// around it is certified otherwise:
+// Let K be the differences of a point of b and one of a, and h(m) how far K reaches along m, times the length of m. The
+// least move is the least of h over unit vectors. A polytope in K (plain_depth.hpp) bounds h from below along all ways, but
+// where K is round it would take very many corners. So the least is looked for near a face, by Newton's method, and a cap of
+// ways around it is certified otherwise:
 //
-// Let n be the way found, d = h(n), and v orthogonal to n. What reaches along n + v does so at least as far as the points that do
-// along n, and a rim goes along: of a rim with radius R around an axis, q what n has across that and t the unit vector
-// across both, R |q + w| >= R (|q| + w.q / |q|) + R (t.v)^2 / (2 (|q| + r)) for all |v| <= r. Where two points a way k apart
-// reach as far along n, as the ends of a side or an edge, the greater one is, for any share x of the second, at least their
-// mean by shares and min(x, 1 - x) |k.v|, which is at least min(x, 1 - x) (k.v)^2 / (|k| r). (Where one of the two lies on a rim and
-// the other does not, seven parts of the rim's term count, and one of this.) With the share that makes the terms linear in v
-// vanish, h(n + v) >= d + Q(v) / 2. If no eigenvalue of Q is less than d, that is at least d sqrt(1 + v.v): no way within the cap
-// has a shorter move. What is left of terms linear in v, and of k.n, is taken off d. All other ways the polytope has to tell.
+// Let n be the way found, d = h(n), and v orthogonal to n. What reaches along n + v does so at least as far as the points
+// that do along n, and a rim goes along: of a rim with radius R around an axis, q what n has across that and t the unit
+// vector across both, R |q + w| >= R (|q| + w.q / |q|) + R (t.v)^2 / (2 (|q| + r)) for all |v| <= r. Where two points a way
+// k apart reach as far along n, as the ends of a side or an edge, the greater one is, for any share x of the second, at
+// least their mean by shares and min(x, 1 - x) |k.v|, which is at least min(x, 1 - x) (k.v)^2 / (|k| r). (Where one of the
+// two lies on a rim and the other does not, seven parts of the rim's term count, and one of this.) With the share that makes
+// the terms linear in v vanish, h(n + v) >= d + Q(v) / 2. If no eigenvalue of Q is less than d, that is at least d sqrt(1 +
+// v.v): no way within the cap has a shorter move. What is left of terms linear in v, and of k.n, is taken off d. All other
+// ways the polytope has to tell.
 
 #include <concepts>
 
@@ -39,11 +40,11 @@ namespace abut::detail {
 /// The farthest point along a way, how it goes as that turns, and others that are about as far.
 struct plain_bend {
     vec3<double> at, other[2];
-    vec3<double> aside{0, 0, 0};          ///< the tangent of a rim, of length 1
+    vec3<double> aside{0, 0, 0};         ///< the tangent of a rim, of length 1
     double bend = 0, bend_of_other = 0;  ///< the rim's radius, over `across`
-    double across = 1;                    ///< what the way has across the axis
-    double flat = 0;                      ///< where the way is along an axis, the radius of the flat end, whose centre counts
-    bool is_triangle = false;             ///< which the three make up; else a sum of two edges, from `at` to the others
+    double across = 1;                   ///< what the way has across the axis
+    double flat = 0;                     ///< where the way is along an axis, the radius of the flat end, whose centre counts
+    bool is_triangle = false;            ///< which the three make up; else a sum of two edges, from `at` to the others
 };
 
 /// Along a unit vector.
@@ -173,12 +174,15 @@ private:
         using namespace contact_math;
         const plain_bend f = bend_of(a_, negated(n), few), g = bend_of(b_, n, few);
         const point size = absolute(n);
-        const point other = size.x <= size.y && size.x <= size.z ? point{1, 0, 0} : size.y <= size.z ? point{0, 1, 0} : point{0, 0, 1};
+        const point other = size.x <= size.y && size.x <= size.z ? point{1, 0, 0}
+                            : size.y <= size.z                   ? point{0, 1, 0}
+                                                                 : point{0, 0, 1};
         u_[0] = plain_cross(n, other);
         u_[0] = plain_times(1 / root(one_double{plain_dot(u_[0], u_[0])}).high, u_[0]);
         u_[1] = plain_cross(n, u_[0]);
         const point w = plain_difference(g.at, f.at);
-        const point k[kinks] = {plain_difference(f.at, f.other[0]), plain_difference(g.other[0], g.at), plain_difference(g.other[1], g.at)};
+        const point k[kinks] = {plain_difference(f.at, f.other[0]), plain_difference(g.other[0], g.at),
+                                plain_difference(g.other[1], g.at)};
         for (int i = 0; i < kinks; ++i) k_[i] = seen(k[i]), gap_[i] = absolute(plain_dot(n, k[i]));
         d_ = plain_dot(n, w);
         w_ = seen(w);
@@ -194,7 +198,8 @@ private:
         i = j = -1;
         const double xx = plain_sum(sum(bend_[0], t_[0].x, t_[0].x, bend_[1], t_[1].x, t_[1].x), -d_),
                      xy = sum(bend_[0], t_[0].x, t_[0].y, bend_[1], t_[1].x, t_[1].y),
-                     yy = plain_sum(sum(bend_[0], t_[0].y, t_[0].y, bend_[1], t_[1].y, t_[1].y), -d_), det = minor(xx, yy, xy, xy);
+                     yy = plain_sum(sum(bend_[0], t_[0].y, t_[0].y, bend_[1], t_[1].y, t_[1].y), -d_),
+                     det = minor(xx, yy, xy, xy);
         if (xx > 0 && det > 0) {
             v = {minor(xy, w_.y, yy, w_.x) / det, minor(xy, w_.x, xx, w_.y) / det};
             if (passes_none(v, -1)) return true;
@@ -205,12 +210,15 @@ private:
         const double square = dot(k, k), per = 1 / contact_math::root(contact_math::one_double{square}).high,
                      share = into_unit_of_doubles(-dot(w_, k) / square), to = gap_[i] / square;
         const flat along{-plain_product(per, k.y), plain_product(per, k.x)};
-        const double ta = dot(t_[0], along), tb = dot(t_[1], along), ba = bend_with(0, i, share), bb = bend_with(1, i, share);
+        const double ta = dot(t_[0], along), tb = dot(t_[1], along), ba = bend_with(0, i, share),
+                     bb = bend_with(1, i, share);
         const double curved = plain_sum(sum(ba, ta, ta, bb, tb, tb), -d_);
         if (curved > 0) {
-            const double rise = plain_sum(dot(along, w_), plain_product(to, sum(ba, ta, dot(t_[0], k), bb, tb, dot(t_[1], k))));
+            const double rise =
+                plain_sum(dot(along, w_), plain_product(to, sum(ba, ta, dot(t_[0], k), bb, tb, dot(t_[1], k))));
             const double by = -rise / curved;
-            v = {plain_sum(plain_product(to, k.x), plain_product(by, along.x)), plain_sum(plain_product(to, k.y), plain_product(by, along.y))};
+            v = {plain_sum(plain_product(to, k.x), plain_product(by, along.x)),
+                 plain_sum(plain_product(to, k.y), plain_product(by, along.y))};
             if (passes_none(v, i)) return true;
         }
         j = nearest_kink(i);
@@ -266,17 +274,20 @@ private:
         const flat ki = i >= 0 ? k_[i] : flat{0, 0}, kj = j >= 0 ? k_[j] : flat{0, 0};
         const flat rest{plain_sum(w_.x, plain_sum(plain_product(share_i, ki.x), plain_product(share_j, kj.x))),
                         plain_sum(w_.y, plain_sum(plain_product(share_i, ki.y), plain_product(share_j, kj.y)))};
-        const double left = root(one_double{dot(rest, rest)}).high, gap = plain_sum(i >= 0 ? gap_[i] : 0, j >= 0 ? gap_[j] : 0);
+        const double left = root(one_double{dot(rest, rest)}).high,
+                     gap = plain_sum(i >= 0 ? gap_[i] : 0, j >= 0 ? gap_[j] : 0);
         if (rise_i < 0 || rise_j < 0 || !(flat_ > 0 ? left < flat_ : plain_sum(left, gap) <= enough)) return false;
         const auto part_of = [&](int of) {
             const double bend = i == of ? bend_with(of, i, share_i) : bend_with(of, j, share_j);
             return plain_product(plain_product(is_mixed(of) ? 0.875 : 1, bend), across_[of]);
         };
-        const double ba = part_of(0), bb = part_of(1), around = 2 * greatest(plain_sum(flat_, -left), 0.0), most = plain_product(1 + 0x1p-20, d_);
+        const double ba = part_of(0), bb = part_of(1), around = 2 * greatest(plain_sum(flat_, -left), 0.0),
+                     most = plain_product(1 + 0x1p-20, d_);
         const double ii = root(one_double{dot(ki, ki)}).high, jj = root(one_double{dot(kj, kj)}).high;
         const double per_i = ii > 0 ? rise_i / ii : 0, per_j = jj > 0 ? rise_j / jj : 0;
         for (double r = 1; r >= narrowest; r /= 2) {
-            const double a = ba / plain_sum(across_[0], r), b = bb / plain_sum(across_[1], r), less = plain_sum(around / r, -most);
+            const double a = ba / plain_sum(across_[0], r), b = bb / plain_sum(across_[1], r),
+                         less = plain_sum(around / r, -most);
             const auto entry = [&](double at, double bt, double ik, double jk, double as, double bs, double is, double js) {
                 return plain_sum(sum(a, at, as, b, bt, bs), sum(per_i / r, ik, is, per_j / r, jk, js));
             };
@@ -295,7 +306,8 @@ private:
 
 /// As of polytopes, where one is round.
 template <class A, class B>
-ABUT_NOINLINE ABUT_HD constexpr plain_way_out least_move_in_doubles(const A& a, const B& b, const plain_simplex& at, double size) {
+ABUT_NOINLINE ABUT_HD constexpr plain_way_out least_move_in_doubles(const A& a, const B& b, const plain_simplex& at,
+                                                                    double size) {
     plain_way_out found;
     plain_polytope<A, B> polytope(a, b, at);
     plain_cap cap;
@@ -327,8 +339,8 @@ ABUT_NOINLINE ABUT_HD constexpr plain_way_out least_move_in_doubles(const A& a, 
     return found;
 }
 
-/// The contact of two shapes as the search sees them, b with a radius around it. Where these do not touch, they go apart along the way
-/// between the points that are nearest to each other. False where doubles do not know it.
+/// The contact of two shapes as the search sees them, b with a radius around it. Where these do not touch, they go apart
+/// along the way between the points that are nearest to each other. False where doubles do not know it.
 template <scalar T, class A, class B>
 ABUT_NOINLINE ABUT_HD constexpr bool find_contact_as_seen(const A& a, const B& b, double radius, const vec3<double>& origin,
                                                           contact<T>& found) {
@@ -356,9 +368,8 @@ ABUT_HD constexpr bool find_contact_in_doubles(const S& s, const U& t, contact<s
     const vec3<double> origin = widened(axis_of(s).a);
     double radius = 0;
     if constexpr (!solid_of_revolution<U>) radius = static_cast<double>(radius_around_core(t));
-    return with_seen_plainly(s, t, origin, [&](const auto& a, const auto& b) {
-        return find_contact_as_seen(a, b, radius, origin, found);
-    });
+    return with_seen_plainly(
+        s, t, origin, [&](const auto& a, const auto& b) { return find_contact_as_seen(a, b, radius, origin, found); });
 }
 
 }  // namespace abut::detail
