@@ -2,6 +2,7 @@
 #include <abut/narrow/contact.hpp>
 
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <string>
@@ -78,7 +79,65 @@ void check_all(const char* name) {
     CHECK(sum.moved * 10 > sum.touching * 5);
 }
 
+/// A cylinder or a cone of ordinary proportions, in any direction, near the origin.
+template <class S>
+S ordinary_solid(draws& d) {
+    using namespace construction;
+    using T = scalar_type_of<S>;
+    const point at = cube(d, 0.75);
+    const segment<T> axis{round_to<T>(at), round_to<T>(along(at, d.uniform(0.5, 2), unit(cube(d, 1))))};
+    return round_shape<S>(axis, rounded_to<T>(d.uniform(0.25, 1)));
+}
+/// How many of those that touch are known in plain doubles; some of them are looked at by the oracle.
+template <class S, class U>
+void check_first_stage(const char* name, std::uint64_t kind) {
+    using namespace construction;
+    using T = scalar_type_of<S>;
+    contact_figures sum;
+    std::size_t touching = 0, known = 0;
+    for (std::uint64_t k = 0; k < some_samples(10); ++k) {
+        draws d(pair_contact_seed, 200 + 2 * kind + sizeof(T) / 8, k);
+        const S s = ordinary_solid<S>(d);
+        const point at = cube(d, 1);
+        U t{};
+        if constexpr (std::same_as<U, aabb<T>>) {
+            t = {round_to<T>(along(at, -d.uniform(0.1, 1), {1, 1, 0.5})),
+                 round_to<T>(along(at, d.uniform(0.1, 1), {0.5, 1, 1}))};
+        } else if constexpr (std::same_as<U, sphere<T>>) {
+            t = {round_to<T>(at), rounded_to<T>(d.uniform(0, 1))};
+        } else {
+            t = ordinary_solid<U>(d);
+        }
+        if (!intersects(s, t)) continue;
+        ++touching;
+        contact<T> found{};
+        if constexpr (std::same_as<U, sphere<T>>) {
+            known += detail::first_contact_of(s, t, detail::plain_pair<S, U>(s, t)).touch == verdict::yes ? 1 : 0;
+        } else {
+            known += detail::find_contact_in_doubles(s, t, found) ? 1 : 0;
+        }
+        if (k % 4 == 0) check_contact(name, k, s, t, sum);
+    }
+    std::printf("%s: %zu of %zu known in doubles\n", name, known, touching);
+    CHECK(touching * 5 > some_samples(10));
+    CHECK(is_share_above(0.98, known, touching));
+    check_figures(name, sum);
+}
+
 }  // namespace
+
+TEMPLATE_TEST_CASE("contacts of ordinary cylinders and cones are known in plain doubles", "", float, double) {
+    using T = TestType;
+    check_first_stage<cylinder<T>, sphere<T>>("cylinder, sphere", 0);
+    check_first_stage<cone<T>, sphere<T>>("cone, sphere", 1);
+    check_first_stage<cylinder<T>, capsule<T>>("cylinder, capsule", 2);
+    check_first_stage<cone<T>, capsule<T>>("cone, capsule", 3);
+    check_first_stage<cylinder<T>, cylinder<T>>("two cylinders", 4);
+    check_first_stage<cone<T>, cylinder<T>>("cone, cylinder", 5);
+    check_first_stage<cone<T>, cone<T>>("two cones", 6);
+    check_first_stage<cylinder<T>, aabb<T>>("cylinder, box", 7);
+    check_first_stage<cone<T>, aabb<T>>("cone, box", 8);
+}
 
 TEMPLATE_TEST_CASE("contacts of cylinders, cones and capsules are what they say, in each family", "", float, double) {
     using T = TestType;

@@ -419,7 +419,7 @@ ABUT_HD constexpr auto separation_of(const S& s, const U& t, [[maybe_unused]] bo
             if (!touch) return separation_apart(s, t);
         }
         vec3<T> shared{};
-        if constexpr (refers_to_memory<S> && has_first_contact<S, U>) {
+        if constexpr ((refers_to_memory<S> || solid_of_revolution<S>) && has_first_contact<S, U>) {
             const auto first = first_contact_of(s, t, plain_pair<S, U>(s, t));
             if (first.touch == verdict::yes) return separation<T>{0, 0, first.found.point, first.found.point, T(0)};
         }

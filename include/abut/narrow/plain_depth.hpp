@@ -21,6 +21,12 @@
 
 namespace abut::detail {
 
+/// Ways no farther than an angle from a unit vector, as its cosine and sine tell; by default none.
+struct plain_cap {
+    vec3<double> middle{0, 0, 0};
+    double cosine = 2, sine = 0;
+};
+
 /// A polytope in the differences of a point of b and one of a. It takes some 10 KiB, and no other memory.
 template <class A, class B>
 class plain_polytope {
@@ -65,12 +71,28 @@ public:
     /// Corner k of a face, as a point of b.
     [[nodiscard]] ABUT_HD constexpr const point& on_b(int f, int k) const { return on_b_[face_[f].corner[k]]; }
     /// Whether no move is shorter than a length, rounding included.
-    [[nodiscard]] ABUT_HD constexpr bool are_all_beyond(double length) const {
-        if (!is_closed_) return false;
+    [[nodiscard]] ABUT_HD constexpr bool are_all_beyond(double length) const { return is_closed_ && open_face(length, {}) < 0; }
+    /// The nearest of the faces that do not tell that no move is shorter than a length, but for ways in a cap; or -1. Along a
+    /// way at an angle to a face's normal, whose plane is so far away, K reaches to that distance over the angle's cosine.
+    [[nodiscard]] ABUT_HD constexpr int open_face(double length, const plain_cap& cap) const {
+        using namespace contact_math;
+        int best = -1;
         for (int f = 0; f < faces_; ++f) {
-            if (!(distance_from(f, 0) >= length || distance_from(f, 1) >= length || distance_from(f, 2) >= length)) return false;
+            const double loose = plain_product(0x1p-51, loose_[f]), low = plain_sum(distance_[f], -plain_product(loose, far_));
+            if (low >= length || (best >= 0 && !(distance_[f] < distance_[best]))) continue;
+            if (distance_[f] >= length && (distance_from(f, 0) >= length || distance_from(f, 1) >= length || distance_from(f, 2) >= length))
+                continue;
+            const point& n = face_[f].normal;
+            const double cosine = plain_dot(n, cap.middle);
+            if (cosine >= cap.cosine) {
+                const point turned = plain_cross(n, cap.middle);
+                const double sine = root(one_double{plain_dot(turned, turned)}).high,
+                             at_border = plain_sum(plain_product(cap.cosine, cosine), plain_product(cap.sine, sine));
+                if (plain_product(plain_sum(at_border, plain_sum(8 * loose, 0x1p-48)), length) <= low) continue;
+            }
+            best = f;
         }
-        return true;
+        return best;
     }
     /// The farthest difference along a way, and its product with that.
     ABUT_HD constexpr double look(const point& n) {
@@ -100,6 +122,7 @@ private:
 
     ABUT_HD constexpr void put_corner(const point& w, const point& on_b) {
         w_[corners_] = w;
+        far_ = greatest(far_, plain_product(0x1.cp0, contact_math::largest_of(w)));
         on_b_[corners_++] = on_b;
     }
     /// A plane as known from one of its corners.
@@ -132,6 +155,7 @@ private:
         const double length = root(one_double{of.square}).high;
         made.normal = {of.normal.x / length, of.normal.y / length, of.normal.z / length};
         distance_[f] = of.distance / length;
+        loose_[f] = of.edges / of.square;
         if (!(distance_[f] > 0)) is_closed_ = false;
     }
     /// How far the plane of a face is at least, as known from its corner k.
@@ -208,6 +232,7 @@ private:
         if (from == to) return;
         face_[to] = face_[from];
         distance_[to] = distance_[from];
+        loose_[to] = loose_[from];
         for (int e = 0; e < 3; ++e) {
             face& beyond = face_[face_[to].across[e]];
             for (int k = 0; k < 3; ++k) {
@@ -220,7 +245,8 @@ private:
     const B& b_;
     point w_[most_corners + 1], on_b_[most_corners + 1], seen_{}, seen_b_{};
     face face_[most_faces];
-    double distance_[most_faces];
+    double distance_[most_faces], loose_[most_faces];  ///< of planes; and how much of what is rounded stays
+    double far_ = 0;  ///< no corner is farther away
     int corners_ = 0, faces_ = 0;
     bool is_closed_ = false;
 };

@@ -19,13 +19,13 @@
 
 namespace abut::detail {
 
-/// A cylinder or a cone, and another one, a box, a hull, or a shape around a point or a segment, in this order. A triangle
-/// is none of them: which of several nearest points it has is said elsewhere.
+/// A cylinder or a cone, and another one, a box, a hull, or a shape around a segment, in this order. A triangle is none of
+/// them: which of several nearest points it has is said elsewhere. A point has a closed form (plain_foot.hpp).
 template <class S, class U>
 concept searched_plainly =
     solid_of_revolution<S> && std::same_as<scalar_type_of<S>, scalar_type_of<U>> &&
     (std::same_as<S, U> || std::same_as<U, cylinder<scalar_type_of<U>>> || std::same_as<U, aabb<scalar_type_of<U>>> || std::same_as<U, hull<scalar_type_of<U>>> ||
-     corners_of_core<U> == 1 || corners_of_core<U> == 2);
+     corners_of_core<U> == 2);
 
 /// f(a, b) of both as the search sees them, from a point.
 template <class S, class U, class F>
@@ -89,7 +89,7 @@ private:
     template <class S, class U>
     ABUT_HD constexpr void look(const S& s, const U& t) {
         origin = widened(axis_of(s).a);
-        nearest = with_seen_plainly(s, t, origin, [](const auto& a, const auto& b) { return nearest_in_doubles(a, b); });
+        nearest = with_seen_plainly(s, t, origin, [](const auto& a, const auto& b) { return search_in_doubles(a, b); });
     }
     [[nodiscard]] ABUT_HD constexpr vec3<T> placed(const vec3<double>& p) const { return from_seen<T>(origin, p); }
 };

@@ -373,14 +373,18 @@ private:
         }
         count = kept;
     }
-    /// All four, by volumes.
+    /// All four, by volumes; and again, for what rounding left of the origin.
     ABUT_HD constexpr void hold(const point (&e)[3], const point& p) {
         using contact_math::plain_dot;
-        const double whole = plain_dot(e[0], plain_cross(e[1], e[2]));
+        const point across[3] = {plain_cross(e[1], e[2]), plain_cross(e[2], e[0]), plain_cross(e[0], e[1])};
+        const double whole = plain_dot(e[0], across[0]);
         if (whole == 0) return;
+        point left = p;
+        for (int k = 0; k < 3; ++k) weight[k] = -plain_dot(p, across[k]) / whole;
+        for (int k = 0; k < 3; ++k) left = plain_step(left, weight[k], e[k]);
         double rest = 1;
         for (int k = 0; k < 3; ++k) {
-            weight[k] = -plain_dot(p, plain_cross(e[k == 2 ? 0 : k + 1], e[k == 0 ? 2 : k - 1])) / whole;
+            weight[k] = plain_sum(weight[k], -plain_dot(left, across[k]) / whole);
             rest = plain_sum(rest, -weight[k]);
         }
         weight[3] = rest;
@@ -473,19 +477,21 @@ ABUT_HD constexpr bool settles(const A& a, const B& b, const plain_guess& g, dou
 /// Sizes in whose range no square overflows, and what underflows is nothing beside the rest.
 ABUT_HD constexpr bool is_searched(double size) { return size > 0x1p-150 && size < 0x1p150; }
 
-/// Looks for it. Of a device one function, out of line.
+/// Looks for it, from the farthest points along a way, or from any. Of a device one function, out of line.
 template <class A, class B>
-ABUT_NOINLINE ABUT_HD constexpr plain_nearest search_in_doubles(const A& a, const B& b, plain_simplex& at) {
+ABUT_NOINLINE ABUT_HD constexpr plain_nearest search_in_doubles(const A& a, const B& b, plain_simplex& at,
+                                                                vec3<double> along = {0, 0, 0}) {
     using namespace contact_math;
     constexpr int most_steps = 40;
     plain_nearest found;
     found.size = greatest(a.size, b.size);
     if (!is_searched(found.size)) return found;
     const double enough = 0x1p-51 * found.size;
-    point along{0, 0, 0};
+    const bool from_any = is_zero(along);
     double near = 0x1p-3;
     for (int step = 0; step < most_steps; ++step) {
-        const point p = step == 0 ? a.any() : a.farthest(along), q = step == 0 ? b.any() : b.farthest(negated(along)),
+        const bool is_any = step == 0 && from_any;
+        const point p = is_any ? a.any() : a.farthest(along), q = is_any ? b.any() : b.farthest(negated(along)),
                     w = plain_difference(q, p);
         if (step > 0) {
             const double of_along = root(one_double{plain_dot(along, along)}).high;
@@ -517,17 +523,8 @@ ABUT_NOINLINE ABUT_HD constexpr plain_nearest search_in_doubles(const A& a, cons
     return found;
 }
 
-/// The same, and of a solid and a point in closed form.
 template <class A, class B>
-ABUT_HD constexpr plain_nearest nearest_in_doubles(const A& a, const B& b) {
-    if constexpr (std::same_as<A, plain_solid> && std::same_as<B, plain_core<1>>) {
-        plain_nearest found;
-        found.size = greatest(a.size, b.size);
-        if (is_searched(found.size)) {
-            const plain_solid::foot f = a.foot_of(b.at[0]);
-            if (settles(a, b, {f.at, b.at[0], f.normal, true}, 0x1p-51 * found.size, found)) return found;
-        }
-    }
+ABUT_HD constexpr plain_nearest search_in_doubles(const A& a, const B& b) {
     plain_simplex at;
     return search_in_doubles(a, b, at);
 }

@@ -35,6 +35,8 @@
 #include <abut/narrow/hull_contact.hpp>
 #include <abut/narrow/numbers.hpp>
 #include <abut/narrow/plain_distance.hpp>
+#include <abut/narrow/plain_foot.hpp>
+#include <abut/narrow/plain_least_move.hpp>
 #include <abut/narrow/revolution_foot.hpp>
 #include <abut/narrow/revolution_plane.hpp>
 #include <abut/narrow/revolution_ways.hpp>
@@ -158,7 +160,6 @@ struct seen_round_solid {
     point axis, end[2];  ///< the first end of a cone is its apex
     double radius;
     bool is_cone, is_capsule;
-    double size = 1;  ///< of all, about
     two_doubles side_along{1, 0}, side_out{0, 0};  ///< of a cone's side, from the apex to the rim
 
     template <class S>
@@ -169,17 +170,6 @@ struct seen_round_solid {
           radius(scale(s.radius)),
           is_cone(requires { s.apex; }),
           is_capsule(!solid_of_revolution<S>) {
-        know_side();
-    }
-    /// As the search in doubles sees one: in lengths, of which `size` is about the largest.
-    ABUT_HD constexpr seen_round_solid(const plain_solid& s, double size_of_all)
-        : along(as<two_doubles>(s.axis)),
-          axis(s.axis),
-          end{s.end[0], s.end[1]},
-          radius(s.radius),
-          is_cone(s.is_cone),
-          is_capsule(false),
-          size(size_of_all) {
         know_side();
     }
     [[nodiscard]] ABUT_HD constexpr bool has_rim(int k) const { return !is_capsule && radius > 0 && !(is_cone && k == 0); }
@@ -366,7 +356,7 @@ private:
         // other side crosses the larger axis.
         const double bx = plain_product(b, x / solid_.radius);
         const double within = plain_sum(b, -root(one_double{plain_sum(plain_product(bx, bx), plain_product(y, y))}).high);
-        const bool is_farther = within > best_.depth, is_outside = within < -0x1p-40 * solid_.size;
+        const bool is_farther = within > best_.depth, is_outside = within < -0x1p-40;
         const bool leave_out[2] = {is_farther || is_outside, is_farther || absolute(y) > best_.depth};
         for (int side = 0; side < 2; ++side) {
             if (leave_out[side]) continue;
@@ -456,8 +446,14 @@ requires revolution_pair<S, U> ABUT_HD constexpr contact<scalar_type_of<S>> cont
     using namespace contact_math;
     using T = scalar_type_of<S>;
     if (is_point(axis_of(s))) return contact_with_ball(ball_around(s), t);
-    const common_scale scale(s, t);
+    if constexpr (has_plain_pair<S, U>) {
+        if (const auto first = first_contact_of(s, t, plain_pair<S, U>(s, t)); first.touch == verdict::yes) return first.found;
+    }
     contact<T> found{};
+    if constexpr (searched_plainly<S, U>) {
+        if (find_contact_in_doubles(s, t, found)) return found;
+    }
+    const common_scale scale(s, t);
     if constexpr (std::same_as<U, plane<T>>) {
         const vec3<T> where = shared_point_of(s, t);
         if (is_zero(widened(t.normal))) return {0, 0, where, {0, 0, 1}, largest_finite<T>};

@@ -17,9 +17,8 @@
 #include <abut/narrow/hull_contact.hpp>
 #include <abut/narrow/hull_distance.hpp>
 #include <abut/narrow/numbers.hpp>
-#include <abut/narrow/plain_depth.hpp>
 #include <abut/narrow/plain_hull_and_solid.hpp>
-#include <abut/narrow/plain_search.hpp>
+#include <abut/narrow/plain_least_move.hpp>
 #include <abut/narrow/revolution_contact.hpp>
 #include <abut/predicate/gjk.hpp>
 #include <abut/predicate/hull_numbers.hpp>
@@ -32,13 +31,6 @@
 namespace abut::detail {
 
 namespace contact_math {
-
-/// Points, as the search in doubles sees them.
-template <scalar T>
-struct seen_points {
-    const plain_points<T>& of;
-    [[nodiscard]] ABUT_HD constexpr double reach(const point& n) const { return plain_dot(n, of.farthest(n)); }
-};
 
 /// A hull, as seen from some point.
 template <scalar T>
@@ -146,91 +138,6 @@ private:
     std::uint32_t count_ = 1;
 };
 
-/// Corners and edges of a polytope's faces, as points of the hull, that were looked at.
-class known_features {
-public:
-    /// The number of a point, or none where there are too many.
-    ABUT_HD constexpr int number_of(const vec3<double>& p, bool& is_new) {
-        is_new = false;
-        for (int k = 0; k < count_; ++k) {
-            if (at_[k] == p) return k;
-        }
-        if (count_ == room) return -1;
-        is_new = true;
-        at_[count_] = p;
-        edges_[count_] = 0;
-        return count_++;
-    }
-    /// Whether an edge is new.
-    ABUT_HD constexpr bool take(int i, int j) {
-        const int low = i < j ? i : j, high = i < j ? j : i;
-        const bool is_new = (edges_[high] >> low & 1) == 0;
-        edges_[high] |= std::uint64_t{1} << low;
-        return is_new;
-    }
-
-private:
-    static constexpr int room = 64;
-    vec3<double> at_[room];
-    std::uint64_t edges_[room];
-    int count_ = 0;
-};
-
-/// The same in doubles, of shapes that they find to meet: a polytope of theirs grows until its nearest face is as far as the
-/// least move that is known beside corners and edges of the hull, but for a part of contact_bound. False where it does not
-/// come so far. Of float, rounding of the normal is most of that part.
-template <scalar T>
-ABUT_NOINLINE ABUT_HD constexpr bool find_way_out(const plain_solid& a, const plain_points<T>& b, const plain_simplex& at,
-                                                  const contact_math::seen_round_solid& solid, double size,
-                                                  contact_math::least_overlap& found) {
-    using namespace contact_math;
-    plain_polytope<plain_solid, plain_points<T>> polytope(a, b, at);
-    const seen_points<T> seen{b};
-    ways_out_of_solid<T, seen_points<T>> pair(solid, seen);
-    known_features known;
-    pair.offer_ends();
-    const auto look_beside = [&](int f) {
-        int id[3] = {};
-        for (int k = 0; k < 3; ++k) {
-            bool is_new = false;
-            const point& p = polytope.on_b(f, k);
-            id[k] = known.number_of(p, is_new);
-            if (is_new) pair.offer_corner(p);
-        }
-        bool is_face = true, is_new_face = false;
-        for (int k = 0; k < 3; ++k) {
-            const int i = id[k], j = id[k == 2 ? 0 : k + 1];
-            if (i < 0 || j < 0 || i == j) is_face = false;
-            if (i >= 0 && j >= 0 && i != j && known.take(i, j)) {
-                is_new_face = true;
-                const point& p = polytope.on_b(f, k);
-                pair.offer_edge(p, as<two_doubles>(plain_difference(polytope.on_b(f, k == 2 ? 0 : k + 1), p)));
-            }
-        }
-        if (is_face && is_new_face) {
-            pair.offer_both(unit_vector(as<one_double>(plain_cross(plain_difference(polytope.on_b(f, 1), polytope.on_b(f, 0)),
-                                                                   plain_difference(polytope.on_b(f, 2), polytope.on_b(f, 0))))));
-        }
-    };
-    const double enough = plain_product(std::same_as<T, float> ? 0x1p-23 : 0x1p-50, size);
-    for (;;) {
-        if (!polytope.is_closed()) return false;
-        const int f = polytope.nearest();
-        look_beside(f);
-        const double depth = pair.depth();
-        if (!(depth > 0x1p-20 * size)) return false;
-        if (plain_sum(depth, -polytope.distance_of(f)) <= enough) {
-            if (!polytope.are_all_beyond(plain_sum(depth, -2 * enough))) return false;
-            found = pair.way();
-            return true;
-        }
-        const point n = polytope.normal_of(f);
-        if (!(depth < infinity<double>)) pair.offer(n);
-        (void)polytope.look(n);
-        if (!polytope.grow(f)) return false;
-    }
-}
-
 /// A solid that has an axis with a length, and a hull.
 template <solid_of_revolution S, scalar T>
 ABUT_NOINLINE ABUT_HD constexpr contact_math::least_overlap way_out_of_hull(const S& s, const hull<T>& h,
@@ -283,25 +190,6 @@ ABUT_HD constexpr vec3<T> shared_point_of(const S& s, const hull<T>& h) {
     const segment<T> axis = axis_of(s);
     if (!touch_exactly(h, axis)) return shared_point_of(s, touching_triangle_of(s, h));
     return with_measured_hulls(h, axis, true, [](const auto& m) { return m.shared_point(); });
-}
-
-/// As doubles know them. False where they do not.
-template <solid_of_revolution S, scalar T>
-ABUT_NOINLINE ABUT_HD constexpr bool find_contact_in_doubles(const S& s, const hull<T>& h, contact<T>& found) {
-    using namespace contact_math;
-    const point origin = widened(axis_of(s).a);
-    const plain_solid a(s, origin);
-    const plain_points<T> b(h, origin);
-    plain_simplex at;
-    const plain_nearest nearest = search_in_doubles(a, b, at);
-    if (!nearest.meet || !nearest.knows_shared_point()) return false;
-    const seen_round_solid solid(a, nearest.size);
-    least_overlap way;
-    if (!find_way_out(a, b, at, solid, nearest.size, way)) return false;
-    const point n = way.normal;
-    found = {0, 0, from_seen<T>(origin, nearest.on_a), {static_cast<T>(n.x), static_cast<T>(n.y), static_cast<T>(n.z)},
-             rounded_within<T>(way.depth > 0 ? way.depth : 0)};
-    return true;
 }
 
 /// The normal points to the solid.
