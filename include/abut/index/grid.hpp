@@ -27,8 +27,9 @@ namespace abut {
 /// Options of make_grid.
 /// @ingroup indices
 struct grid_options {
-    /// Width of the base cells. 0 chooses twice the mean of the shapes' longest box sides: four radii for equal spheres. A
-    /// width under 2^-19 of the scene's extent is raised to that.
+    /// Width of the base cells. 0 chooses twice the mean of the shapes' longest box sides: four radii for equal spheres; for
+    /// points, which have none, as many cells as points in the box around them. A width under 2^-19 of the scene's extent is
+    /// raised to that.
     double cell_width = 0;
 };
 
@@ -176,6 +177,15 @@ struct add_extents {
     }
 };
 
+/// Half the width of `count` cubes that fill a box of these half sides, side by side along the axes along which it is wider.
+ABUT_HD inline double half_spacing(const vec3<double>& half, double count) {
+    const double a = longest(half), c = least(half.x, half.y, half.z),
+                 b = greatest(least(half.x, half.y), least(greatest(half.x, half.y), half.z));
+    if (!(a > 0)) return 0;
+    const double in_space = a * std::cbrt(b / a * (c / a) / count), in_plane = a * std::sqrt(b / a / count);
+    return in_space < c ? in_space : in_plane < b ? in_plane : a / count;
+}
+
 template <class T>
 struct set_frame {
     const extent_sum<T>* sum;
@@ -185,8 +195,10 @@ struct set_frame {
     ABUT_HD void operator()(std::size_t) const {
         constexpr double cells = 1 << grid_frame<T>::axis_bits;
         constexpr double tiny = 4 * smallest_normal<double>;
-        const double half_extent = longest(half_sides<double>(sum->box));
+        const vec3<double> half = half_sides<double>(sum->box);
+        const double half_extent = longest(half);
         double half_width = cell_width > 0 ? cell_width / 2 : 2 * (sum->half_sides / count);
+        if (half_width == 0) half_width = half_spacing(half, count);
         if (!(half_width <= half_extent)) half_width = half_extent;  // also where the sum has overflowed
         half_width = greatest(half_width, half_extent / cells, tiny);
         *frame = {sum->box, 0.5 / half_width, 0};
