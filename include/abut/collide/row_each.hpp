@@ -2,7 +2,7 @@
 #pragma once
 
 // any_each and any_within_each of rows: of each shape of a set whether it meets anything of another one. On a host a row looks in
-// the index and decides as it goes, until it meets something; many rows look for points in cells that are made for the call.
+// the index and decides as it goes, until it meets something; many rows look for points in cells (index/point_cells.hpp).
 // Elsewhere the pairs of rows are left out that have met something. Not for which shapes they meet: `pairs` tells.
 
 #include <concepts>
@@ -20,7 +20,7 @@
 #include <abut/collide/within.hpp>
 #include <abut/execution/atomic.hpp>
 #include <abut/execution/host.hpp>
-#include <abut/traverse/point_cells.hpp>
+#include <abut/index/point_cells.hpp>
 
 namespace abut {
 
@@ -50,19 +50,12 @@ struct wanted_by_row<keep_all, Numbers> : keep_all {
     wanted_by_row(const keep_all&, const Numbers&) {}
 };
 
-/// visitor(id, surely) -> visit for what a reach may keep, until it says stop; `surely` where it touches beyond doubt.
-///@{
-template <class Walk, class Reach, class Visitor>
-void look_in(const Walk& walk, Reach& reach, const Visitor& visitor) {
-    if (!walk.may_touch(reach)) return;
-    typename Walk::cursor at;
-    walk.for_each(reach, at, [] { return false; }, [&](std::uint32_t id) { return visitor(id, false); });
+template <class Judge, class S, class U>
+[[nodiscard]] bool surely_meets(const Judge& judge, const S& s, const U& row) {
+    verdict v = judge.decide(s, row);
+    if (v == verdict::unknown) v = judge.finish(s, row);
+    return v == verdict::unknown ? judge.resolve(s, row) : v == verdict::yes;
 }
-template <scalar T, class Reach, class Visitor>
-void look_in(const point_cells<T>* cells, Reach& reach, const Visitor& visitor) {
-    cells->for_each(reach, visitor);
-}
-///@}
 
 /// Of each row whether it meets anything, by a walk that ends at the first shape that it meets. On a host, where a judge has
 /// all it needs.
@@ -80,20 +73,94 @@ struct look_until_met {
         const auto row = rows[i];
         auto reach = near.reach(row);
         bool met = false;
-        look_in(walk, reach, [&](std::uint32_t id, bool surely) {
-            if (!wanted(id, static_cast<std::uint32_t>(i))) return visit::proceed;
-            met = surely || meets(shapes[id], row);
-            return met ? visit::stop : visit::proceed;
-        });
+        typename Walk::cursor at;
+        if (walk.may_touch(reach)) {
+            walk.for_each(reach, at, [] { return false; }, [&](std::uint32_t id) {
+                met = wanted(id, static_cast<std::uint32_t>(i)) && surely_meets(judge, shapes[id], row);
+                return met ? visit::stop : visit::proceed;
+            });
+        }
         out[i] = met ? 1 : 0;
+    }
+};
+
+/// The ball that has just the points that a row meets.
+///@{
+template <scalar T>
+sphere<T> ball_to_meet(const sphere<T>& s, const near_enough_to_touch&) {
+    return s;
+}
+template <scalar T>
+sphere<T> ball_to_meet(const vec3<T>& p, const near_enough_to_touch&) {
+    return {p, T(0)};
+}
+template <class Row, scalar T>
+    requires requires(const Row& row) { ball_to_meet(row, near_enough_to_touch{}); }
+sphere<T> ball_to_meet(const Row& row, const near_in_distance<T>& near) {
+    const sphere<T> ball = ball_to_meet(row, near_enough_to_touch{});
+    return {ball.center, ball.radius + near.frame.distance};
+}
+///@}
+
+/// The same of points in cells, of so many rows at a time: of balls first those are found that meet nothing by the cell of their
+/// centre alone, then those that have the point that is kept there. The memory of one row is on its way while another is looked at.
+template <scalar T, class Shapes, class Rows, class Wanted, class Judge, class Nearness>
+struct look_among_points {
+    static constexpr std::size_t at_a_time = 64;
+    const point_cells<T>* cells;
+    Shapes shapes;
+    Rows rows;
+    Wanted wanted;
+    Judge judge;
+    Nearness near;
+    std::uint8_t* out;
+
+    void operator()(std::size_t block) const {
+        const std::size_t begin = block * at_a_time, count = least(at_a_time, rows.size() - begin);
+        if constexpr (requires { ball_to_meet(rows[0], near); }) {
+            ball_in_cells ball[at_a_time];
+            std::uint8_t open[at_a_time];
+            std::size_t left = 0, last = 0;
+            for (std::size_t k = 0; k < count; ++k) {
+                const sphere<T> of_row = ball_to_meet(rows[begin + k], near);
+                ball[k] = cells->in_cells(of_row.center, of_row.radius);
+                out[begin + k] = 0;
+                open[left] = static_cast<std::uint8_t>(k);
+                left += cells->is_clear(ball[k]) ? 0 : 1;
+            }
+            for (std::size_t i = 0; i < left; ++i) {
+                const std::size_t k = open[i];
+                const std::uint32_t at = cells->near(ball[k]);
+                const bool met = cells->has_surely(ball[k], at) && is_wanted(cells->id(at), begin + k);
+                out[begin + k] = met ? 1 : 0;
+                open[last] = open[i];
+                last += met ? 0 : 1;
+            }
+            for (std::size_t i = 0; i < last; ++i) look(ball[open[i]], begin + open[i]);
+        } else {
+            for (std::size_t k = 0; k < count; ++k) look(near.reach(rows[begin + k]), begin + k);
+        }
     }
 
 private:
-    template <class S, class U>
-    [[nodiscard]] bool meets(const S& s, const U& row) const {
-        verdict v = judge.decide(s, row);
-        if (v == verdict::unknown) v = judge.finish(s, row);
-        return v == verdict::unknown ? judge.resolve(s, row) : v == verdict::yes;
+    [[nodiscard]] bool is_wanted(std::uint32_t id, std::size_t i) const { return wanted(id, static_cast<std::uint32_t>(i)); }
+    void look(const ball_in_cells& ball, std::size_t i) const {
+        std::uint8_t met = 0;
+        cells->for_each(ball, [&](std::uint32_t id, bool surely) {
+            met = is_wanted(id, i) && (surely || surely_meets(judge, shapes[id], rows[i])) ? 1 : 0;
+            return met == 0;
+        });
+        out[i] = met;
+    }
+    template <class Reach>
+    void look(Reach reach, std::size_t i) const {
+        std::uint8_t met = 0;
+        cells->for_each(reach.bounds(), [&](std::uint32_t id) {
+            const vec3<T> p = shapes[id];
+            met = reach(aabb<T>{p, p}) && is_wanted(id, i) && surely_meets(judge, p, rows[i]) ? 1 : 0;
+            return met == 0;
+        });
+        out[i] = met;
     }
 };
 
@@ -176,20 +243,28 @@ struct ask_any_met : row_question {
             return;
         }
         if constexpr (host_policy<Policy>) {
-            const auto look = [&](const auto& walk) {
-                using walk_type = std::remove_cvref_t<decltype(walk)>;
-                for_each_index(on, n, look_until_met<walk_type, decltype(x.shapes()), decltype(rows.shapes()), decltype(wanted),
-                                                     decltype(judge), decltype(near)>{
-                                          walk, x.shapes(), rows.shapes(), wanted, judge, near, out});
-            };
-            if constexpr (std::same_as<typename decltype(x.shapes())::shape_type, vec3<T>>) {
+            using shapes_type = decltype(x.shapes());
+            using rows_type = decltype(rows.shapes());
+            if constexpr (std::same_as<typename shapes_type::shape_type, vec3<T>>) {
+                using look = look_among_points<T, shapes_type, rows_type, decltype(wanted), decltype(judge), decltype(near)>;
+                const auto among = [&](const point_cells<T>& cells) {
+                    for_each_index(on, (n + look::at_a_time - 1) / look::at_a_time,
+                                   look{&cells, x.shapes(), rows.shapes(), wanted, judge, near, out});
+                };
+                if constexpr (requires { x.clearances(); }) {
+                    if (x.clearances() != nullptr && x.clearances()->is_there()) return among(*x.clearances());
+                }
                 // Of fewer rows the cells would cost more than they save: they take as long as half a walk for each point.
                 if (n >= (Operand::is_indexed ? 2 * x.shapes().size() : 16)) {
-                    const point_cells<T> cells(x.shapes());
-                    return look(&cells);
+                    const point_cells<T> cells(x.shapes(), n);
+                    if (cells.is_there()) return among(cells);
                 }
             }
-            if constexpr (Operand::is_indexed) return look(x.walk());
+            if constexpr (Operand::is_indexed) {
+                for_each_index(on, n, look_until_met<decltype(x.walk()), shapes_type, rows_type, decltype(wanted), decltype(judge),
+                                                     decltype(near)>{x.walk(), x.shapes(), rows.shapes(), wanted, judge, near, out});
+                return;
+            }
         }
         if constexpr (!host_policy<Policy> || !Operand::is_indexed) {
             execution::buffer_of<Policy, std::uint32_t> met(on, n);
@@ -220,15 +295,16 @@ struct ask_any_met : row_question {
 /// more once it has met something. So thousands of states of a robot, each of some spheres, are one call.
 ///
 /// `index` is a tree of any layout, a grid, a set, a view or one shape, posed or not; `rows` is a set, a view or one shape: of
-/// any two shapes that `pairs` takes. On a host `wide` trees are the fastest.
+/// any two shapes that `pairs` takes. On a host `wide` trees are the fastest; for spheres against points a grid that keeps clearances
+/// (grid_options) is.
 ///
 /// Of several devices (@ref devices) the answer lies in memory of the first one. Of ranks (@ref distributed) a rank's own rows
 /// look in all parts.
 ///
 /// @par Memory
 /// As in @ref queries. The result lies in the policy's memory, 1 byte a row. Where there is no index, and on a device, the
-/// call takes 4 bytes a row more. On a host it takes up to 25 bytes a point more in single precision and 37 in double, where many
-/// rows look for points.
+/// call takes 4 bytes a row more. On a host it takes up to 37 bytes a point more, where many rows look for points and these keep
+/// no clearances (grid_options).
 ///
 /// @par Errors
 /// As in @ref queries.

@@ -19,6 +19,7 @@
 #include <abut/execution/atomic.hpp>
 #include <abut/execution/buffer.hpp>
 #include <abut/index/operand.hpp>
+#include <abut/index/point_cells.hpp>
 #include <abut/shape/bounds.hpp>
 #include <abut/shape/box_measure.hpp>
 
@@ -31,6 +32,10 @@ struct grid_options {
     /// points, which have none, as many cells as points in the box around them. A width under 2^-19 of the scene's extent is
     /// raised to that.
     double cell_width = 0;
+    /// Whether a grid of points keeps distances to the nearest point as well, for `any_each` and `any_within_each` of spheres,
+    /// which take a tenth to a half of the time then: 25 bytes a point more, and up to 0.7 us a point while it is built. Of
+    /// serial and openmp; a device has no use for them and keeps none.
+    bool clearances = false;
 };
 
 /// How space is cut. Lies with the cells: a build does not wait for it, and walks read it where they run.
@@ -125,6 +130,7 @@ public:
         execution::buffer<std::uint64_t, Space> keys;             ///< of each slot
         execution::buffer<std::uint32_t, Space> starts;           ///< of each slot, and the end
         execution::buffer<grid_item<scalar_type>, Space> items;   ///< as many as shapes
+        std::shared_ptr<const detail::point_cells<scalar_type>> clearances = {};  ///< of points, where asked for
     };
 
     /// For make_grid: of a set and the cells over it, which are not checked.
@@ -144,8 +150,10 @@ public:
     /// Memory of the grid itself, in bytes.
     [[nodiscard]] std::size_t bytes() const {
         return cells_->frame.capacity_bytes() + cells_->keys.capacity_bytes() + cells_->starts.capacity_bytes() +
-               cells_->items.capacity_bytes();
+               cells_->items.capacity_bytes() + (clearances() != nullptr ? clearances()->bytes() : 0);
     }
+    /// What grid_options::clearances asks for; null where nobody did. For the library's own use.
+    [[nodiscard]] const detail::point_cells<scalar_type>* clearances() const { return cells_->clearances.get(); }
 
 private:
     Set set_;
@@ -291,6 +299,11 @@ template <execution_policy Policy, class Set>
                 on, n,
                 detail::put_in_cells<shapes_type>{shapes, cells->starts.data(), position.data(), cells->items.data()});
             synchronize(on);
+            if constexpr (host_policy<Policy> && std::same_as<typename grid_type::shape_type, vec3<T>>) {
+                if (options.clearances) {
+                    cells->clearances = std::make_shared<const detail::point_cells<T>>(shapes, static_cast<std::size_t>(-1));
+                }
+            }
         }
         return grid_type(std::move(resident), std::move(cells));
     } else {
@@ -301,7 +314,7 @@ template <execution_policy Policy, class Set>
 /// The same with a cell width alone.
 template <execution_policy Policy, class Set>
 [[nodiscard]] auto make_grid(const Policy& on, const Set& set, double cell_width) {
-    return make_grid(on, set, grid_options{cell_width});
+    return make_grid(on, set, grid_options{.cell_width = cell_width});
 }
 
 ///@}
