@@ -121,6 +121,17 @@ public:
             return true;
         };
         const int z0 = cell(2, b.z - reach), z1 = cell(2, b.z + reach);
+        if (reach < 1) {
+            const auto x0 = static_cast<std::size_t>(cell(0, b.x - reach)), x1 = static_cast<std::size_t>(cell(0, b.x + reach)) + 1;
+            const int y0 = cell(1, b.y - reach), y1 = cell(1, b.y + reach);
+            for (int k = z0; k <= z1; ++k) {
+                for (int j = y0; j <= y1; ++j) {
+                    const std::size_t first = number(0, j, k);
+                    if (!row(starts_[first + x0], starts_[first + x1])) return;
+                }
+            }
+            return;
+        }
         for (int i = 0; i <= z1 - z0; ++i) {
             const int k = (z0 + z1) / 2 + from_middle(i);
             const float away_z = beside(k, b.z), left_z = limit - away_z * away_z;
