@@ -42,6 +42,16 @@ void check_all(const Set& set, const std::vector<S>& all, const answers& expecte
     const auto kept = make_grid(serial{}, set, {.clearances = true});
     CHECK(to_host(any_each(serial{}, kept, rows)) == expected);
     CHECK(to_host(any_each<exact>(openmp{3}, kept, rows)) == expected);
+    // In groups: as many as a few spheres, more than a thread takes at a time, and all.
+    for (const std::size_t group : {std::size_t{2}, std::size_t{5}, std::size_t{100}, all.size()}) {
+        if (all.size() % group != 0) continue;
+        answers of_groups(all.size() / group);
+        for (std::size_t i = 0; i < all.size(); ++i) of_groups[i / group] |= expected[i];
+        const each_options<> options{.group = group};
+        CHECK(to_host(any_each(serial{}, set, rows, options)) == of_groups);
+        CHECK(to_host(any_each(openmp{2}, tree, rows, options)) == of_groups);
+        CHECK(to_host(any_each(openmp{3}, kept, rows, options)) == of_groups);
+    }
     // A few at a time look in the tree, and many in cells.
     for (std::size_t first = 0; first < all.size(); first += 97) {
         const std::vector some(all.begin() + static_cast<std::ptrdiff_t>(first),
@@ -250,5 +260,12 @@ TEST_CASE("no rows, no shapes, and numbers that are none") {
     CHECK(to_host(any_each(serial{}, some, sphere<float>{{0, 0, 0}, 1})) == answers{1});
     CHECK(to_host(any_within_each(serial{}, make_bvh(serial{}, some), two, 4.1)) == answers{1, 1});
     CHECK_THROWS_AS(any_within_each(serial{}, some, two, -1), error);
+    CHECK(to_host(any_each(serial{}, some, two, {.group = 2})) == answers{1});
+    CHECK(to_host(any_within_each(serial{}, make_bvh(serial{}, some), two, 4.1, {.group = 2})) == answers{1});
+    CHECK(to_host(any_each(serial{}, empty, two, {.group = 2})) == answers{0});
+    CHECK(to_host(any_each(serial{}, some, none, {.group = 2})).empty());
+    CHECK_THROWS_WITH(any_each(serial{}, some, two, {.group = 3}),
+                      "abut::any_each: group is 3; expected a divisor of the number of rows, 2");
+    CHECK_THROWS_AS(any_each(serial{}, some, two, {.group = 0}), error);
     CHECK_THROWS_AS(any_each(serial{}, some, sphere<float>{{0, 0, 0}, -1}), invalid_geometry);
 }

@@ -8,6 +8,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <type_traits>
 #include <utility>
 
@@ -18,6 +19,7 @@
 #include <abut/collide/question.hpp>
 #include <abut/collide/row_questions.hpp>
 #include <abut/collide/within.hpp>
+#include <abut/error.hpp>
 #include <abut/execution/atomic.hpp>
 #include <abut/execution/host.hpp>
 #include <abut/index/point_cells.hpp>
@@ -31,6 +33,9 @@ struct each_options {
     /// filter(number of the row, id) -> bool: shapes for which it is false are not met. As in query_options. Ranks take none:
     /// rows of other ranks have no numbers there.
     Filter filter = {};
+    /// How many rows one after another share an answer, as the links of a robot's state do: 1 if any of them meets anything, and
+    /// then no more of them is looked at. The number of rows has to be a multiple of it. Policies alone take groups.
+    std::size_t group = 1;
 };
 
 namespace detail {
@@ -57,8 +62,8 @@ template <class Judge, class S, class U>
     return v == verdict::unknown ? judge.resolve(s, row) : v == verdict::yes;
 }
 
-/// Of each row whether it meets anything, by a walk that ends at the first shape that it meets. On a host, where a judge has
-/// all it needs.
+/// Of each group of rows whether one meets anything, by walks that end at the first shape that is met. On a host, where a judge
+/// has all it needs.
 template <class Walk, class Shapes, class Rows, class Wanted, class Judge, class Nearness>
 struct look_until_met {
     Walk walk;
@@ -67,20 +72,22 @@ struct look_until_met {
     Wanted wanted;
     Judge judge;
     Nearness near;
+    std::size_t group;
     std::uint8_t* out;
 
-    void operator()(std::size_t i) const {
-        const auto row = rows[i];
-        auto reach = near.reach(row);
+    void operator()(std::size_t g) const {
         bool met = false;
-        typename Walk::cursor at;
-        if (walk.may_touch(reach)) {
+        for (std::size_t i = g * group; i < (g + 1) * group && !met; ++i) {
+            const auto row = rows[i];
+            auto reach = near.reach(row);
+            typename Walk::cursor at;
+            if (!walk.may_touch(reach)) continue;
             walk.for_each(reach, at, [] { return false; }, [&](std::uint32_t id) {
                 met = wanted(id, static_cast<std::uint32_t>(i)) && surely_meets(judge, shapes[id], row);
                 return met ? visit::stop : visit::proceed;
             });
         }
-        out[i] = met ? 1 : 0;
+        out[g] = met ? 1 : 0;
     }
 };
 
@@ -113,10 +120,19 @@ struct look_among_points {
     Wanted wanted;
     Judge judge;
     Nearness near;
+    std::size_t group;
     std::uint8_t* out;
 
+    /// Rows of whole groups that one thread looks at.
+    [[nodiscard]] std::size_t in_block() const { return greatest(at_a_time / group, std::size_t{1}) * group; }
     void operator()(std::size_t block) const {
-        const std::size_t begin = block * at_a_time, count = least(at_a_time, rows.size() - begin);
+        const std::size_t first = block * in_block(), end = least(first + in_block(), rows.size());
+        for (std::size_t g = first / group; g < end / group; ++g) out[g] = 0;
+        for (std::size_t begin = first; begin < end; begin += at_a_time) look_at(begin, least(at_a_time, end - begin));
+    }
+
+private:
+    void look_at(std::size_t begin, std::size_t count) const {
         if constexpr (requires { ball_to_meet(rows[0], near); }) {
             ball_in_cells ball[at_a_time];
             std::uint8_t open[at_a_time];
@@ -124,7 +140,6 @@ struct look_among_points {
             for (std::size_t k = 0; k < count; ++k) {
                 const sphere<T> of_row = ball_to_meet(rows[begin + k], near);
                 ball[k] = cells->in_cells(of_row.center, of_row.radius);
-                out[begin + k] = 0;
                 open[left] = static_cast<std::uint8_t>(k);
                 left += cells->is_clear(ball[k]) ? 0 : 1;
             }
@@ -132,25 +147,26 @@ struct look_among_points {
                 const std::size_t k = open[i];
                 const std::uint32_t at = cells->near(ball[k]);
                 const bool met = cells->has_surely(ball[k], at) && is_wanted(cells->id(at), begin + k);
-                out[begin + k] = met ? 1 : 0;
+                out[(begin + k) / group] |= met ? 1 : 0;
                 open[last] = open[i];
                 last += met ? 0 : 1;
             }
             for (std::size_t i = 0; i < last; ++i) look(ball[open[i]], begin + open[i]);
         } else {
-            for (std::size_t k = 0; k < count; ++k) look(near.reach(rows[begin + k]), begin + k);
+            for (std::size_t k = 0; k < count; ++k) {
+                if (out[(begin + k) / group] == 0) look(near.reach(rows[begin + k]), begin + k);
+            }
         }
     }
-
-private:
     [[nodiscard]] bool is_wanted(std::uint32_t id, std::size_t i) const { return wanted(id, static_cast<std::uint32_t>(i)); }
     void look(const ball_in_cells& ball, std::size_t i) const {
-        std::uint8_t met = 0;
+        std::uint8_t met = out[i / group];
+        if (met != 0) return;
         cells->for_each(ball, [&](std::uint32_t id, bool surely) {
             met = is_wanted(id, i) && (surely || surely_meets(judge, shapes[id], rows[i])) ? 1 : 0;
             return met == 0;
         });
-        out[i] = met;
+        out[i / group] = met;
     }
     template <class Reach>
     void look(Reach reach, std::size_t i) const {
@@ -160,24 +176,26 @@ private:
             met = reach(aabb<T>{p, p}) && is_wanted(id, i) && surely_meets(judge, p, rows[i]) ? 1 : 0;
             return met == 0;
         });
-        out[i] = met;
+        out[i / group] = met;
     }
 };
 
-/// Elsewhere: pairs of rows that have met nothing yet.
+/// Elsewhere: pairs of rows whose group has met nothing yet.
 template <class Wanted>
 struct until_row_met {
     Wanted wanted;
-    std::uint32_t* met;  ///< of each row
+    std::uint32_t group;
+    std::uint32_t* met;  ///< of each group
     ABUT_CALLS_ANY
     ABUT_HD bool operator()(std::uint32_t id, std::uint32_t row) const {
-        return execution::atomic_load(met + row) == 0 && wanted(id, row);
+        return execution::atomic_load(met + row / group) == 0 && wanted(id, row);
     }
 };
 struct mark_row {
+    std::uint32_t group;
     std::uint32_t* met;
     ABUT_HD visit operator()(const index_pair& of) const {
-        execution::atomic_store(met + of.b, 1);
+        execution::atomic_store(met + of.b / group, 1);
         return visit::proceed;
     }
 };
@@ -187,7 +205,7 @@ struct write_met {
     ABUT_HD void operator()(std::size_t i) const { out[i] = met[i] != 0 ? 1 : 0; }
 };
 
-/// Whether a row has the relation to any shape: 1 or 0.
+/// Whether a row, or one of a group, has the relation to any shape: 1 or 0.
 template <arithmetic A, class Relation, class Filter>
 struct ask_any_met : row_question {
     template <scalar, class>
@@ -197,6 +215,7 @@ struct ask_any_met : row_question {
     const char* function;
     Relation relation;
     Filter filter;
+    std::size_t group = 1;
 
     template <class Policy, class X, class Rows, bool Whole>
     static consteval bool takes() {
@@ -213,8 +232,12 @@ struct ask_any_met : row_question {
         }
     }
     template <class Policy, class X, class Rows>
-    void check(const Policy&, const X&, const Rows&, const char*) const {
+    void check(const Policy&, const X&, const Rows& rows, const char*) const {
         relation.check(function);
+        if (const std::size_t n = rows.shapes().size(); group == 0 || n % group != 0) {
+            throw error(std::string(function) + ": group is " + std::to_string(group) + "; expected a divisor of the number of rows, " +
+                        std::to_string(n));
+        }
     }
     template <scalar T, class Policy, class Rows>
     auto make_rows(const Policy& on, const Rows& rows, const char*) const {
@@ -222,7 +245,7 @@ struct ask_any_met : row_question {
     }
     template <class Policy, class X, class Rows>
     auto at_once(const Policy& on, const X& x, const Rows& rows, double) const {
-        execution::buffer_of<Policy, answer> out(on, rows.shapes().size());
+        execution::buffer_of<Policy, answer> out(on, rows.shapes().size() / group);
         ask(on, x, rows, same_key{}, out.data());
         return result<answer, space_of<Policy>>(std::move(out));
     }
@@ -237,9 +260,9 @@ struct ask_any_met : row_question {
         const wanted_by_row<std::remove_const_t<decltype(mine)>, decltype(numbers_of(rows))> wanted{mine, numbers_of(rows)};
         const auto near = relation.template nearness<T>();
         const auto judge = relation.template judge<A>();
-        const std::size_t n = rows.shapes().size();
+        const std::size_t n = rows.shapes().size(), groups = n / group;
         if (n == 0 || x.shapes().size() == 0) {
-            fill(on, out, n, answer{0});
+            fill(on, out, groups, answer{0});
             return;
         }
         if constexpr (host_policy<Policy>) {
@@ -248,8 +271,8 @@ struct ask_any_met : row_question {
             if constexpr (std::same_as<typename shapes_type::shape_type, vec3<T>>) {
                 using look = look_among_points<T, shapes_type, rows_type, decltype(wanted), decltype(judge), decltype(near)>;
                 const auto among = [&](const point_cells<T>& cells) {
-                    for_each_index(on, (n + look::at_a_time - 1) / look::at_a_time,
-                                   look{&cells, x.shapes(), rows.shapes(), wanted, judge, near, out});
+                    const look all{&cells, x.shapes(), rows.shapes(), wanted, judge, near, group, out};
+                    for_each_index(on, (n + all.in_block() - 1) / all.in_block(), all);
                 };
                 if constexpr (requires { x.clearances(); }) {
                     if (x.clearances() != nullptr && x.clearances()->is_there()) return among(*x.clearances());
@@ -261,17 +284,19 @@ struct ask_any_met : row_question {
                 }
             }
             if constexpr (Operand::is_indexed) {
-                for_each_index(on, n, look_until_met<decltype(x.walk()), shapes_type, rows_type, decltype(wanted), decltype(judge),
-                                                     decltype(near)>{x.walk(), x.shapes(), rows.shapes(), wanted, judge, near, out});
+                for_each_index(on, groups, look_until_met<decltype(x.walk()), shapes_type, rows_type, decltype(wanted), decltype(judge),
+                                                          decltype(near)>{x.walk(), x.shapes(), rows.shapes(), wanted, judge, near,
+                                                                          group, out});
                 return;
             }
         }
         if constexpr (!host_policy<Policy> || !Operand::is_indexed) {
-            execution::buffer_of<Policy, std::uint32_t> met(on, n);
-            fill(on, met.data(), n, std::uint32_t{0});
-            const query_options<until_row_met<std::remove_const_t<decltype(wanted)>>> options{.filter = {wanted, met.data()}};
-            visited_by(mark_row{met.data()}).template find<A>(on, pair_operands(on, x, rows, options, near), relation);
-            for_each_index(on, n, write_met{met.data(), out});
+            const auto each = static_cast<std::uint32_t>(group);
+            execution::buffer_of<Policy, std::uint32_t> met(on, groups);
+            fill(on, met.data(), groups, std::uint32_t{0});
+            const query_options<until_row_met<std::remove_const_t<decltype(wanted)>>> options{.filter = {wanted, each, met.data()}};
+            visited_by(mark_row{each, met.data()}).template find<A>(on, pair_operands(on, x, rows, options, near), relation);
+            for_each_index(on, groups, write_met{met.data(), out});
         }
         synchronize(on);
     }
@@ -288,11 +313,21 @@ struct ask_any_met : row_question {
     }
 };
 
+template <executor On, class Question, class X, class Rows>
+auto ask_each(const On& on, const Question& question, const X& index, const Rows& rows) {
+    if constexpr (!execution_policy<On>) {
+        if (question.group != 1) throw error(std::string(question.function) + ": rows are in groups; policies alone take these");
+    }
+    return ask_rows(on, question, index, rows);
+}
+
 }  // namespace detail
 
 /// Which of `rows` meet anything: a `result` of `std::uint8_t`, in the order of the rows, 1 where a row touches a shape of
 /// `index` and the filter wants the two, else 0. It is what `pairs` says of them, and takes less time: a row is looked at no
 /// more once it has met something. So thousands of states of a robot, each of some spheres, are one call.
+///
+/// With `each_options{.group = k}` it is one answer of each k rows one after another, and so of each state.
 ///
 /// `index` is a tree of any layout, a grid, a set, a view or one shape, posed or not; `rows` is a set, a view or one shape: of
 /// any two shapes that `pairs` takes. On a host `wide` trees are the fastest; for spheres against points a grid that keeps clearances
@@ -302,12 +337,12 @@ struct ask_any_met : row_question {
 /// look in all parts.
 ///
 /// @par Memory
-/// As in @ref queries. The result lies in the policy's memory, 1 byte a row. Where there is no index, and on a device, the
-/// call takes 4 bytes a row more. On a host it takes up to 37 bytes a point more, where many rows look for points and these keep
+/// As in @ref queries. The result lies in the policy's memory, 1 byte a row, or a group of rows. Where there is no index, and
+/// on a device, the call takes 4 bytes a row, or group, more. On a host it takes up to 37 bytes a point more, where many rows look for points and these keep
 /// no clearances (grid_options).
 ///
 /// @par Errors
-/// As in @ref queries.
+/// As in @ref queries; and `error` where the number of rows is no multiple of the group, or where several devices or ranks get one.
 ///
 /// @par Synchronisation
 /// Returns when the answers are complete; under `cuda` it waits for the policy's stream.
@@ -320,7 +355,8 @@ struct ask_any_met : row_question {
 template <arithmetic A = filtered, executor On, class X, class Rows, class Filter = keep_all>
     requires(!detail::scene<X>)
 [[nodiscard]] auto any_each(const On& on, const X& index, const Rows& rows, const each_options<Filter>& options = {}) {
-    return ask_rows(on, detail::ask_any_met<A, detail::touching, Filter>{{}, "abut::any_each", {}, options.filter}, index, rows);
+    return detail::ask_each(
+        on, detail::ask_any_met<A, detail::touching, Filter>{{}, "abut::any_each", {}, options.filter, options.group}, index, rows);
 }
 
 /// Which of `rows` come within a distance of anything: as `any_each`, of shapes that are no farther apart than `distance`, which
@@ -330,10 +366,10 @@ template <arithmetic A = filtered, executor On, class X, class Rows, class Filte
     requires(!detail::scene<X>)
 [[nodiscard]] auto any_within_each(const On& on, const X& index, const Rows& rows, double distance,
                                    const each_options<Filter>& options = {}) {
-    return ask_rows(on,
-                    detail::ask_any_met<A, detail::within_distance, Filter>{
-                        {}, "abut::any_within_each", detail::within_distance(distance), options.filter},
-                    index, rows);
+    return detail::ask_each(on,
+                            detail::ask_any_met<A, detail::within_distance, Filter>{
+                                {}, "abut::any_within_each", detail::within_distance(distance), options.filter, options.group},
+                            index, rows);
 }
 
 }  // namespace abut
