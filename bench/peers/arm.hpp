@@ -103,6 +103,8 @@ template <abut::arithmetic A, class Index, class Rows, class Make>
 void check_links(const Index& index, const arm_scene& s, std::size_t first, const Make& make, collisions& out) {
     std::vector<std::uint32_t> open;
     std::vector<Rows> rows;
+    open.reserve(s.poses.size());
+    rows.reserve(s.poses.size() * s.links.size() / 2);
     for (std::uint32_t i = 0; i < s.poses.size(); ++i) {
         if (out[i] != 0) continue;
         open.push_back(i);
@@ -116,9 +118,9 @@ void check_links(const Index& index, const arm_scene& s, std::size_t first, cons
             return !(in_room && arm_scene::is_allowed(first + 2 * (row % per_state), id));
         }
     };
-    const auto met = abut::any_each<A>(abut::serial{}, index, abut::shapes<Rows>(rows),
-                                       abut::each_options<allowed>{{first, per_state, !s.room.empty()}});
-    for (std::size_t i = 0; i < met.size(); ++i) out[open[i / per_state]] |= met[i];
+    const auto met = abut::any_each<A>(abut::serial{}, index, abut::shapes_view<Rows>(rows.data(), rows.size()),
+                                       abut::each_options<allowed>{{first, per_state, !s.room.empty()}, per_state});
+    for (std::size_t i = 0; i < met.size(); ++i) out[open[i]] = met[i];
 }
 
 template <abut::arithmetic A>

@@ -39,6 +39,19 @@ void check_all(const Set& set, const std::vector<S>& all, const answers& expecte
     CHECK(to_host(any_each(serial{}, tree, rows)) == expected);
     CHECK(to_host(any_each<exact>(openmp{3}, wide(serial{}, tree), rows)) == expected);
     CHECK(to_host(any_each(openmp{3}, make_grid(serial{}, set), rows)) == expected);
+    const auto kept = make_grid(serial{}, set, {.clearances = true});
+    CHECK(to_host(any_each(serial{}, kept, rows)) == expected);
+    CHECK(to_host(any_each<exact>(openmp{3}, kept, rows)) == expected);
+    // In groups: as many as a few spheres, more than a thread takes at a time, and all.
+    for (const std::size_t group : {std::size_t{2}, std::size_t{5}, std::size_t{100}, all.size()}) {
+        if (all.size() % group != 0) continue;
+        answers of_groups(all.size() / group);
+        for (std::size_t i = 0; i < all.size(); ++i) of_groups[i / group] |= expected[i];
+        const each_options<> options{.group = group};
+        CHECK(to_host(any_each(serial{}, set, rows, options)) == of_groups);
+        CHECK(to_host(any_each(openmp{2}, tree, rows, options)) == of_groups);
+        CHECK(to_host(any_each(openmp{3}, kept, rows, options)) == of_groups);
+    }
     // A few at a time look in the tree, and many in cells.
     for (std::size_t first = 0; first < all.size(); first += 97) {
         const std::vector some(all.begin() + static_cast<std::ptrdiff_t>(first),
@@ -161,6 +174,9 @@ TEMPLATE_TEST_CASE("rows of any shape are what pairs say of them", "", float, do
         CHECK(to_host(any_each(serial{}, set, rows, each_options<std::remove_const_t<decltype(is_even)>>{is_even})) == even);
         CHECK(to_host(any_within_each(openmp{2}, tree, rows, 0.03)) == near);
         CHECK(to_host(any_within_each(serial{}, set, rows, 0.03)) == near);
+        const auto kept = make_grid(serial{}, set, {.clearances = true});
+        CHECK(to_host(any_each(serial{}, kept, rows, each_options<std::remove_const_t<decltype(is_even)>>{is_even})) == even);
+        CHECK(to_host(any_within_each(openmp{2}, kept, rows, 0.03)) == near);
         // Under a pose, as a list of placed shapes would be.
         const rigid<T> pose{.rotation = {0, -1, 0, 1, 0, 0, 0, 0, 1}, .translation = {T(0.1), T(-0.2), T(0.05)}};
         answers placed;
@@ -170,11 +186,69 @@ TEMPLATE_TEST_CASE("rows of any shape are what pairs say of them", "", float, do
         }
         CHECK(placed != expected);
         CHECK(to_host(any_each(serial{}, posed(tree, pose), rows)) == placed);
+        CHECK(to_host(any_each(serial{}, posed(set, pose), rows)) == placed);
+        CHECK(to_host(any_each(serial{}, posed(kept, pose), rows)) == placed);
     };
     check(faces, links);
     check(faces, boxes);
     check(cloud, links);
     check(cloud, boxes);
+    std::vector<sphere<T>> balls;
+    for (const auto& link : links) balls.push_back({link.axis.a, link.radius});
+    check(cloud, balls);
+}
+
+TEMPLATE_TEST_CASE("balls of all sizes among points at all distances, on a surface and far away", "", float, double) {
+    using T = TestType;
+    // Most of the points are on a sphere, a few in one place, and in another test some are far away from the rest, so that the
+    // rest is in one cell. Centres on and beside points, and far out; radii from the least number to beyond the extent, and those
+    // that all but reach a point.
+    for (const T far : {T(1), T(0x1p18), T(0x1p60)}) {
+        draws d;
+        const auto number = [&d](double low, double high) { return static_cast<T>(low + (high - low) * d(1u << 24) * 0x1p-24); };
+        std::vector<vec3<T>> cloud;
+        while (cloud.size() < 700) {
+            const vec3<T> p{number(-1, 1), number(-1, 1), number(-1, 1)};
+            if (const T square = dot(p, p); square > T(0.1)) cloud.push_back(1 / std::sqrt(square) * p);
+        }
+        for (int i = 0; i < 50; ++i) cloud.push_back({T(0.5), T(0.25), T(-0.125)});
+        cloud.push_back({far, 0, far});
+        std::vector<sphere<T>> balls;
+        for (int i = 0; i < 2000; ++i) {
+            const vec3<T> p = cloud[d(751)], q{number(-1.5, 1.5), number(-1.5, 1.5), number(-1.5, 1.5)};
+            const vec3<T> center = i % 3 == 0 ? q : i % 3 == 1 ? p + std::ldexp(T(1), -static_cast<int>(d(40))) * q : far * q;
+            const vec3<T> way = center - p;
+            const T exactly = std::sqrt(dot(way, way));
+            const T radii[] = {exactly, std::nextafter(exactly, T(0)), std::nextafter(exactly, 4 * far),
+                               std::ldexp(number(0, 1), -static_cast<int>(d(60))), 0, std::numeric_limits<T>::denorm_min(), std::numeric_limits<T>::max(), far * number(0, 2)};
+            balls.push_back({center, radii[d(8)]});
+        }
+        answers expected;
+        for (const auto& ball : balls) {
+            bool met = false;
+            for (const auto& p : cloud) met |= intersects<exact>(p, ball);
+            expected.push_back(met);
+        }
+        CHECK(std::count(expected.begin(), expected.end(), 1) > 500);
+        CHECK(std::count(expected.begin(), expected.end(), 0) > 500);
+        check_all(points<T>(cloud), balls, expected);
+    }
+}
+
+TEST_CASE("distances that a grid keeps take the memory that is promised") {
+    draws d;
+    std::vector<vec3<float>> cloud;
+    const auto number = [&d] { return static_cast<float>(d(1u << 24)) * 0x1p-24f; };
+    for (int i = 0; i < 20000; ++i) cloud.push_back({number(), number(), i % 2 == 0 ? 0.0f : number()});
+    const points<float> set(cloud);
+    const std::size_t plain = make_grid(serial{}, set).bytes(), kept = make_grid(serial{}, set, {.clearances = true}).bytes();
+    CHECK(kept > plain + 16 * cloud.size());
+    CHECK(kept <= plain + 25 * cloud.size() + 1000);
+    // Of what are no points, and of points in one place, there are none.
+    const spheres<float> balls(std::vector<sphere<float>>{{{0, 0, 0}, 1}});
+    CHECK(make_grid(serial{}, balls, {.clearances = true}).bytes() == make_grid(serial{}, balls).bytes());
+    const points<float> same(std::vector<vec3<float>>(300, {1, 2, 3}));
+    CHECK(make_grid(serial{}, same, {.clearances = true}).bytes() < make_grid(serial{}, same).bytes() + 200);
 }
 
 TEST_CASE("no rows, no shapes, and numbers that are none") {
@@ -186,5 +260,12 @@ TEST_CASE("no rows, no shapes, and numbers that are none") {
     CHECK(to_host(any_each(serial{}, some, sphere<float>{{0, 0, 0}, 1})) == answers{1});
     CHECK(to_host(any_within_each(serial{}, make_bvh(serial{}, some), two, 4.1)) == answers{1, 1});
     CHECK_THROWS_AS(any_within_each(serial{}, some, two, -1), error);
+    CHECK(to_host(any_each(serial{}, some, two, {.group = 2})) == answers{1});
+    CHECK(to_host(any_within_each(serial{}, make_bvh(serial{}, some), two, 4.1, {.group = 2})) == answers{1});
+    CHECK(to_host(any_each(serial{}, empty, two, {.group = 2})) == answers{0});
+    CHECK(to_host(any_each(serial{}, some, none, {.group = 2})).empty());
+    CHECK_THROWS_WITH(any_each(serial{}, some, two, {.group = 3}),
+                      "abut::any_each: group is 3; expected a divisor of the number of rows, 2");
+    CHECK_THROWS_AS(any_each(serial{}, some, two, {.group = 0}), error);
     CHECK_THROWS_AS(any_each(serial{}, some, sphere<float>{{0, 0, 0}, -1}), invalid_geometry);
 }

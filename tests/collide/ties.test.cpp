@@ -255,6 +255,12 @@ TEST_CASE("ties: the distance of copies") {
     test::check_all_pairs(openmp{3});
 }
 
+TEST_CASE("ties: the distance of so many copies that a wide walk has no room for all that waits") {
+    const std::vector<test::cell> one(4000, {0, 0, 0}), other(4000, {3, 4, 12});
+    test::check_pairs(serial{}, one, other, 4000, true);
+    test::check_pairs(openmp{3}, one, other, 8000, true);
+}
+
 TEST_CASE("ties: the distance of parallel plates") {
     const auto a = test::plate(30, 0, 11), b = test::plate(30, 1, 12);
     for (const auto& on : {openmp{1}, openmp{3}}) {

@@ -71,6 +71,7 @@ struct indexed_operand<grid<Set, Space>> {
 
     [[nodiscard]] auto shapes() const { return view_of(index.set()); }
     [[nodiscard]] auto walk() const { return grid_walk<typename grid<Set, Space>::view_type>{index.view()}; }
+    [[nodiscard]] const auto* clearances() const { return index.clearances(); }
     template <class Policy>
     [[nodiscard]] aabb<T> bounds(const Policy& on) const {
         aabb<T> box;

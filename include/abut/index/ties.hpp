@@ -126,9 +126,10 @@ public:
     }
     /// Of trees that keep their least ids.
     void begin_with(const std::uint32_t* of_a, const std::uint32_t* of_b) { least_ids_ = {of_a, of_b}; }
-    /// A walk has met one more, beyond a few. Whether it is known from now on, where it was not.
+    /// A walk has met one more, beyond a few. Whether it is known by now: another walk may have met enough.
     bool met() {
-        if (is_known() || met_.fetch_add(1, std::memory_order_relaxed) + 1 < enough_) return false;
+        if (is_known()) return true;
+        if (met_.fetch_add(1, std::memory_order_relaxed) + 1 < enough_) return false;
         const std::scoped_lock lock(making_);
         if (!is_known()) {
             find(trees_.data());

@@ -10,6 +10,7 @@
 
 #include <abut/arithmetic/arithmetic.hpp>
 #include <abut/predicate/capsule_hull.hpp>
+#include <abut/predicate/certified_oriented.hpp>
 #include <abut/predicate/hull_hull.hpp>
 #include <abut/predicate/plane_hull.hpp>
 #include <abut/predicate/ray_hull.hpp>
@@ -54,6 +55,9 @@ concept pair_seen_as_hull =
 template <arithmetic A, class S, class U>
     requires detail::pair_seen_as_hull<S, U>
 ABUT_HD constexpr verdict decide(const S& s, const U& t) {
+    if constexpr (std::same_as<A, filtered> && requires { detail::near_oriented(s, t); }) {
+        if (const verdict v = detail::near_oriented(s, t); v != verdict::unknown) return v;
+    }
     const auto a = detail::hull_form(s);
     const auto b = detail::hull_form(t);
     return detail::decide_in_place<A>(a.as_hull(), b.as_hull());

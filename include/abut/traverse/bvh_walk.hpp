@@ -3,10 +3,13 @@
 
 // One query against a tree: a depth-first walk with a stack of the inner nodes still to see.
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include <abut/index/bvh.hpp>
+#include <abut/shape/box_lanes.hpp>
 #include <abut/traverse/traversal.hpp>
 
 namespace abut::detail {
@@ -97,14 +100,24 @@ private:
     ABUT_HD bool for_each_below_wide(Reach& reach, Cursor& at, const Rests& rests, Visitor& visitor) const {
         std::uint32_t* const pending = at.pending;
         int waiting = at.waiting;
+        [[maybe_unused]] const auto around = box_lanes<scalar_type>::all(reach.bounds());
         while (waiting > 0) {
             if (rests()) {
                 at.waiting = waiting;
                 return true;
             }
             const auto& all = tree.fetch(pending[--waiting]);
-            for (int slot = 0; slot < tree.children(all); ++slot) {
-                if (!reach(tree.bounds(all, slot))) continue;
+            unsigned left = (1u << tree.children(all)) - 1;
+            // All four by the box around the reach, and what that keeps by the reach. A line's box tells little.
+            if constexpr (!requires { reach.shrink_to(1.0); }) {
+                const decltype(overlaps(around, around)) boxes[] = {overlaps(around, tree.all_bounds(all))};
+                left &= bits_of(boxes);
+            }
+            for (; left != 0; left &= left - 1) {
+                const int slot = static_cast<int>(lowest_bit(left));
+                if constexpr (!std::same_as<std::remove_cv_t<Reach>, box_reach<scalar_type>>) {
+                    if (!reach(tree.bounds(all, slot))) continue;
+                }
                 const bvh_child child = tree.child(all, slot);
                 if (child.is_leaf()) {
                     if (visitor(child.index()) == visit::stop) return false;

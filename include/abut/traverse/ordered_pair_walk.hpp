@@ -77,7 +77,8 @@ struct ordered_pair_walk {
 #if ABUT_DEVICE_CODE
         double bound = infinity<double>;
         tighten(reach, best, bound);
-        walk_depth_first({from, least_of(from, reach)}, told(), reach, best, bound, visitor);
+        told nothing;
+        walk_depth_first({from, least_of(from, reach)}, nothing, reach, best, bound, visitor);
 #else
         nearest_first<> pending;
         begin(from, pending, reach, best, visitor);
@@ -247,7 +248,7 @@ private:
 
     ABUT_CALLS_ANY
     template <class Reach, class Best, class Visitor>
-    ABUT_HD void walk_depth_first(const entry& from, told ties, Reach& reach, const Best& best, double& bound,
+    ABUT_HD void walk_depth_first(const entry& from, told& ties, Reach& reach, const Best& best, double& bound,
                                   const Visitor& visitor) const {
         newest_first pending;
         pending.add(from);
