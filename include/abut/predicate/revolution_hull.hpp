@@ -238,6 +238,8 @@ public:
         }
     }
 
+    [[nodiscard]] ABUT_HD constexpr std::size_t size() const { return static_cast<std::size_t>(count_); }
+    [[nodiscard]] ABUT_HD constexpr const vec3<T>& operator[](std::size_t i) const { return corner_[i]; }
     /// Whether asks(triangle) holds of any triangle of theirs.
     template <class Ask>
     [[nodiscard]] ABUT_HD constexpr bool any_triangle(const Ask& asks) const {

@@ -253,15 +253,47 @@ ABUT_HD constexpr features_near_solid<AtAnySpan, S> features_near(const S& s, co
     return {s, widened_exactly(radius_around_core(t)), distance};
 }
 
-/// Whether a triangle that does not touch the solid is within a distance, by all stages one after another.
-template <solid_of_revolution S, scalar T>
-ABUT_HD constexpr bool is_exactly_near(const S& s, const triangle<T>& t, double distance) {
-    const corner_hull<T, 3> core = points_of(t);
-    verdict v = ABUT_CONSTANT_EVALUATED() ? verdict::unknown
-                                          : search_near_solid<true>(s, core.as_hull(), reach_to_core(t, distance));
-    if (v == verdict::unknown) v = features_near<false>(s, t, distance).any(core);
-    if (v == verdict::unknown) v = features_near<true>(s, t, distance).any(core);
+/// Whether an edge or the inside of a face that does not touch the solid is within a distance of it, by all stages one after
+/// another. Of a face whose edges are not.
+///@{
+template <int N, solid_of_revolution S, scalar T, class Ask>
+ABUT_HD constexpr bool is_exactly_near(const S& s, const corner_hull<T, N>& core, double distance, const Ask& ask) {
+    verdict v = ABUT_CONSTANT_EVALUATED() ? verdict::unknown : search_near_solid<true>(s, core.as_hull(), rounded(distance));
+    if (v == verdict::unknown) v = ask(features_near_solid<false, S>{s, 0, distance});
+    if (v == verdict::unknown) v = ask(features_near_solid<true, S>{s, 0, distance});
     return v == verdict::yes;
+}
+template <solid_of_revolution S, scalar T>
+ABUT_NOINLINE ABUT_HD constexpr bool is_edge_near(const S& s, const vec3<T>& p, const vec3<T>& q, double distance) {
+    return is_exactly_near(s, corner_hull<T, 2>{{p, q}}, distance, [&](const auto& f) { return f.edge(p, q); });
+}
+template <solid_of_revolution S, scalar T>
+ABUT_NOINLINE ABUT_HD constexpr bool is_face_near(const S& s, const vec3<T>& p, const vec3<T>& q, const vec3<T>& t,
+                                                  double distance) {
+    return is_exactly_near(s, corner_hull<T, 3>{{p, q, t}}, distance, [&](const auto& f) { return f.face(p, q, t); });
+}
+///@}
+
+/// Whether an edge or a face of n points is so near, one of whose corners is of those that `is_first` says.
+template <solid_of_revolution S, class Points, class First>
+ABUT_HD constexpr bool any_feature_near(const S& s, const Points& p, std::size_t n, double distance, const First& is_first) {
+    const auto is_asked = [&](std::size_t j, std::size_t i) { return j == i || (j < i && is_first(j)); };
+    for (std::size_t i = 0; i < n; ++i) {
+        if (!is_first(i)) continue;
+        for (std::size_t j = 0; j < n; ++j) {
+            if ((j == i || !is_asked(j, i)) && is_edge_near(s, p[i], p[j], distance)) return true;
+        }
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+        if (!is_first(i)) continue;
+        for (std::size_t j = 0; j < n; ++j) {
+            if (is_asked(j, i)) continue;
+            for (std::size_t k = j + 1; k < n; ++k) {
+                if (!is_asked(k, i) && is_face_near(s, p[i], p[j], p[k], distance)) return true;
+            }
+        }
+    }
+    return false;
 }
 
 /// Whether any triangle of a hull's points is so near, where the hull does not touch the solid: of a few corners, or of all
@@ -276,18 +308,10 @@ ABUT_NOINLINE ABUT_HD constexpr verdict any_triangle_near(const S& s, const hull
     const verdict v = search_origin<sought::meeting>(x, found.at, found.w);
     if (v != verdict::unknown) return v;
     const steepest_way<S, T> steepest(x, h, found);
-    const auto is_near = [&](const triangle<T>& t) { return is_exactly_near(s, t, distance); };
-    if (nearest_corners<S, T>(x, h, steepest.way).any_triangle(is_near)) return verdict::yes;
+    const nearest_corners<S, T> few(x, h, steepest.way);
+    if (any_feature_near(s, few, few.size(), distance, [](std::size_t) { return true; })) return verdict::yes;
     if (!ask_all) return verdict::unknown;
-    for (std::size_t i = 0; i < h.count; ++i) {
-        if (!x.is_near(steepest.way, i)) continue;
-        for (std::size_t j = 0; j < h.count; ++j) {
-            for (std::size_t k = j; k < h.count; ++k) {
-                if (is_near({h[i], h[j], h[k]})) return verdict::yes;
-            }
-        }
-    }
-    return verdict::no;
+    return to_verdict(any_feature_near(s, h, h.count, distance, [&](std::size_t i) { return x.is_near(steepest.way, i); }));
 }
 
 /// The first stage, as above.
