@@ -61,47 +61,6 @@ struct estimate {
     }
 };
 
-/// An estimate times 2^exponent, for numbers of any span: the larger of `value` and `error` is 1 or more and below 2, or both
-/// are 0. An error that is not 0 is at least 2^-54 of that, so that nothing underflows that matters beside it.
-struct far_estimate : estimate {
-    std::int64_t exponent = 0;
-
-    /// As it is.
-    ABUT_HD static constexpr far_estimate of(const binary_parts& p) { return in_range({static_cast<double>(p.mantissa), 0}, p.exponent); }
-
-    ABUT_HD friend constexpr far_estimate operator+(const far_estimate& a, const far_estimate& b) {
-        if (a.is_zero()) return b;
-        if (b.is_zero()) return a;
-        const bool first = a.exponent > b.exponent;
-        const far_estimate& large = first ? a : b;
-        return in_range(large.here() + (first ? b : a).under(large.exponent), large.exponent);
-    }
-    ABUT_HD friend constexpr far_estimate operator-(const far_estimate& a) { return {{-a.value, a.error}, a.exponent}; }
-    ABUT_HD friend constexpr far_estimate operator-(const far_estimate& a, const far_estimate& b) { return a + -b; }
-    ABUT_HD friend constexpr far_estimate operator*(const far_estimate& a, const far_estimate& b) {
-        return in_range(a.here() * b.here(), a.exponent + b.exponent);
-    }
-
-private:
-    [[nodiscard]] ABUT_HD constexpr bool is_zero() const { return value == 0 && error == 0; }
-    [[nodiscard]] ABUT_HD constexpr const estimate& here() const { return *this; }
-    /// In units of an exponent that is no smaller.
-    [[nodiscard]] ABUT_HD constexpr estimate under(std::int64_t unit) const {
-        if (unit - exponent > 900) return {0, 0x1p-890};
-        const double down = power_of_two<double>(static_cast<int>(exponent - unit));
-        return {value * down, error * down};
-    }
-    ABUT_HD static constexpr far_estimate in_range(const estimate& x, std::int64_t exponent) {
-        const double size = greatest(absolute(x.value), x.error);
-        if (size == 0) return {};
-        const int up = static_cast<int>(ABUT_BIT_CAST(std::uint64_t, size) >> 52) - 1023;
-        const double by = power_of_two<double>(-up);
-        return {{x.value * by, x.error * by}, exponent + up};
-    }
-};
-ABUT_HD constexpr far_estimate square(const far_estimate& a) { return a * a; }
-ABUT_HD constexpr far_estimate square(const vec3<far_estimate>& a) { return dot(a, a); }
-
 /// What is known of a number, and how far off it may be.
 ///@{
 ABUT_HD constexpr double value_of(double x) { return x; }
@@ -130,7 +89,6 @@ ABUT_HD constexpr int sign_or_unknown(const estimate& a) {
     const double error = (1 + 0x1p-30) * a.error;
     return a.value > error ? 1 : a.value < -error ? -1 : a.error == 0 ? 0 : unknown_sign;
 }
-ABUT_HD constexpr int sign_or_unknown(const far_estimate& a) { return sign_or_unknown(static_cast<const estimate&>(a)); }
 ///@}
 
 // Questions in three-valued logic, of exact numbers and of estimates.
@@ -210,15 +168,6 @@ ABUT_HD constexpr verdict ask_estimates(const T (&value)[V]) {
     if (unit == 0) return verdict::unknown;
     estimate number[V]{};
     for (int i = 0; i < int{V}; ++i) number[i] = {static_cast<double>(value[i]) * unit, 0};
-    return Question::ask(number);
-}
-
-/// The same of values of any span, which takes several times as long.
-template <class Question, scalar T, std::size_t V>
-ABUT_NOINLINE ABUT_HD constexpr verdict ask_far_estimates(const T (&value)[V]) {
-    far_estimate number[V]{};
-    ABUT_ROLLED
-    for (int i = 0; i < int{V}; ++i) number[i] = far_estimate::of(take_apart(value[i]));
     return Question::ask(number);
 }
 
