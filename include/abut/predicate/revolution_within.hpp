@@ -274,28 +274,6 @@ ABUT_NOINLINE ABUT_HD constexpr bool is_face_near(const S& s, const vec3<T>& p, 
 }
 ///@}
 
-/// Whether an edge or a face of n points is so near, one of whose corners is of those that `is_first` says.
-template <solid_of_revolution S, class Points, class First>
-ABUT_HD constexpr bool any_feature_near(const S& s, const Points& p, std::size_t n, double distance, const First& is_first) {
-    const auto is_asked = [&](std::size_t j, std::size_t i) { return j == i || (j < i && is_first(j)); };
-    for (std::size_t i = 0; i < n; ++i) {
-        if (!is_first(i)) continue;
-        for (std::size_t j = 0; j < n; ++j) {
-            if ((j == i || !is_asked(j, i)) && is_edge_near(s, p[i], p[j], distance)) return true;
-        }
-    }
-    for (std::size_t i = 0; i < n; ++i) {
-        if (!is_first(i)) continue;
-        for (std::size_t j = 0; j < n; ++j) {
-            if (is_asked(j, i)) continue;
-            for (std::size_t k = j + 1; k < n; ++k) {
-                if (!is_asked(k, i) && is_face_near(s, p[i], p[j], p[k], distance)) return true;
-            }
-        }
-    }
-    return false;
-}
-
 /// Whether any triangle of a hull's points is so near, where the hull does not touch the solid: of a few corners, or of all
 /// but those that are surely too far on a way; `unknown` if only a few are asked, and are not near.
 template <solid_of_revolution S, scalar T>
@@ -309,9 +287,11 @@ ABUT_NOINLINE ABUT_HD constexpr verdict any_triangle_near(const S& s, const hull
     if (v != verdict::unknown) return v;
     const steepest_way<S, T> steepest(x, h, found);
     const nearest_corners<S, T> few(x, h, steepest.way);
-    if (any_feature_near(s, few, few.size(), distance, [](std::size_t) { return true; })) return verdict::yes;
+    const auto edge = [&](const vec3<T>& p, const vec3<T>& q) { return is_edge_near(s, p, q, distance); };
+    const auto face = [&](const vec3<T>& p, const vec3<T>& q, const vec3<T>& r) { return is_face_near(s, p, q, r, distance); };
+    if (any_feature(few, few.size(), all_points(), edge, face)) return verdict::yes;
     if (!ask_all) return verdict::unknown;
-    return to_verdict(any_feature_near(s, h, h.count, distance, [&](std::size_t i) { return x.is_near(steepest.way, i); }));
+    return to_verdict(any_feature(h, h.count, [&](std::size_t i) { return x.is_near(steepest.way, i); }, edge, face));
 }
 
 /// The first stage, as above.
