@@ -314,3 +314,51 @@ TEMPLATE_TEST_CASE("distance of hulls and planes: as by definition, in every fam
         CHECK(sum.nearest < 16);
     }
 }
+
+// Small shapes far from the origin, where a coordinate's own rounding is all that a point may be off: it happens once, not for
+// a point of the core and again for the radius. The bound is that of docs/numerics.md, without a factor.
+TEMPLATE_TEST_CASE("distance of round shapes: points are rounded once where coordinates are large", "", float, double) {
+    using T = TestType;
+    const wide u(unit_roundoff<T>);
+    const T far = std::same_as<T, float> ? T(0x1p16) : T(0x1p28);
+    std::uint64_t apart = 0;
+    double worst = 0;
+    const auto check = [&](const vec3<T>& q, const test::point_list<T>& core, T radius, const wide& farthest) {
+        const wide gap = sqrt(test::square_of_gap(test::differences<T>({q}, core)));
+        const wide off = abs(gap - wide(radius)), rounding = u * test::length_of(test::widest(q));
+        worst = std::max(worst, static_cast<double>(off / rounding));
+        CHECK(off <= 16 * wide(0x1p-53) * farthest + rounding);
+    };
+    for (std::uint64_t k = 0; k < test::sample_count(); ++k) {
+        test::draws d(test::sample_seed, 31, k);
+        const auto near = [&](double size) {
+            const auto one = [&] { return static_cast<T>(static_cast<double>(far) + d.uniform(0, size)); };
+            return vec3<T>{one(), one(), one()};
+        };
+        test::point_list<T> a;
+        for (int n = 1 + d.below(4); n > 0; --n) a.push_back(near(4));
+        const test::point_list<T> b{near(4), near(4)};
+        const T radius = static_cast<T>(d.uniform(0.01, 1));
+        const hull<T> h = test::hull_over(a);
+        wide farthest = 0;
+        for (const wide_point& way : test::differences(a, b)) farthest = std::max(farthest, test::length_of(way));
+        farthest += wide(radius);
+        const auto ask = [&](const auto& s, const test::point_list<T>& points, const auto& t, const test::point_list<T>& core) {
+            const separation<T> found = distance(s, t);
+            if (found.distance == 0) return;
+            ++apart;
+            if (points.size() < 4) check(found.point_a, points, T(0), farthest);
+            check(found.point_b, core, radius, farthest);
+        };
+        const capsule<T> rod{{b[0], b[1]}, radius};
+        const sphere<T> ball{b[0], radius};
+        ask(h, a, rod, b);
+        ask(h, a, ball, {b[0]});
+        ask(a[0], {a[0]}, rod, b);
+        if (a.size() > 2) ask(triangle<T>{a[0], a[1], a[2]}, {a[0], a[1], a[2]}, rod, b);
+        if (a.size() > 2) ask(triangle<T>{a[0], a[1], a[2]}, {a[0], a[1], a[2]}, ball, {b[0]});
+    }
+    std::printf("round shapes far away: %llu apart, off by %.3f of a coordinate's rounding\n",
+                static_cast<unsigned long long>(apart), worst);
+    CHECK(apart > test::sample_count());
+}

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <abut/narrow/hull_hit_time.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "support/catch.hpp"
@@ -157,4 +161,81 @@ TEST_CASE("rays and hulls: of many points") {
         CHECK(detail::hit_time<filtered>(ray<double>{{-3, to.y, 6}, {2, 0, 0}}, square) == 1.5);
     }
     CHECK(hits > 100);
+}
+
+// All points are in one plane with the line: a few of a small lattice, so that the line goes through points, along sides and
+// past all of them, in planes of any direction.
+TEMPLATE_TEST_CASE("rays and hulls: in one plane, times are the true ones, rounded once", "", float, double) {
+    using T = TestType;
+    std::uint64_t hits = 0, lines = 0;
+    for (std::uint64_t k = 0; k < test::sample_count() / 10; ++k) {
+        test::draws d(test::sample_seed, 14, k);
+        const auto whole = [&](int n) { return static_cast<T>(d.below(2 * n + 1)) - static_cast<T>(n); };
+        const vec3<T> u{whole(3), whole(3), whole(3)}, v{whole(3), whole(3), whole(3)};
+        const T unit = k % 3 == 0 ? std::ldexp(T(1), k % 2 == 0 ? 40 : -60) : T(1);  // of some of the points
+        const auto point = [&](int n, T scale) { return scale * (whole(n) * u + whole(n) * v); };
+        test::point_list<T> p;
+        for (std::uint64_t n = 1 + d.below(7); n > 0; --n) p.push_back(point(2, n % 2 == 0 ? unit : T(1)));
+        const ray<T> r{point(3, T(1)), point(2, unit)};
+        const segment<T> s{r.origin, d.below(2) == 0 ? point(3, T(1)) : p[0]};
+        bool hit = false;
+        const char* wrong = wrong_with_time(r, p, r.origin, hit);
+        hits += hit;
+        if (wrong == nullptr) wrong = wrong_with_ray(r, p, hit);
+        if (wrong == nullptr) wrong = wrong_with_time(s, p, s.a, hit);
+        hits += hit;
+        lines += 2;
+        INFO(k);
+        if (wrong != nullptr) FAIL_CHECK(wrong);
+    }
+    CHECK(hits * 5 > lines);
+    CHECK(hits * 5 < lines * 4);
+}
+
+// Of many points in one plane with the line, the side is found by looking at each a few times, in whatever order they come.
+TEST_CASE("rays and hulls: of many points in one plane") {
+    for (const int n : {50, 2000, 20000}) {
+        for (int kind = 0; kind < 6; ++kind) {
+            test::draws d(test::sample_seed, 15, static_cast<std::uint64_t>(6 * n + kind));
+            test::point_list<double> p;
+            for (int i = 0; i < n; ++i) {
+                const double angle = 6.283185307179586 * i / n, x = i - n / 2;
+                const double far = std::ldexp(i % 2 == 0 ? 1.0 : -1.0, i * 400 / n);
+                const vec3<double> all[6] = {{std::cos(angle), std::sin(angle), 0.25},
+                                             {x * x, x, 0.25},
+                                             {-x * x, 0.25, -x},
+                                             {d.uniform(-1, 1), d.uniform(-1, 1), 0.25},
+                                             {0.25, d.uniform(-1, 1) * std::cos(angle), std::sin(angle)},
+                                             {far * far, far, 0.25}};
+                p.push_back(all[kind]);
+            }
+            for (int order = 0; order < 3; ++order) {
+                if (order == 1) std::reverse(p.begin(), p.end());
+                if (order == 2) {
+                    for (std::size_t i = p.size() - 1; i > 0; --i) std::swap(p[i], p[d.below(static_cast<int>(i + 1))]);
+                }
+                const vec3<double> to = 0.5 * p[0] + 0.5 * p[p.size() / 3];
+                const vec3<double> way{kind == 4 ? 0.0 : 1.0, kind == 4 ? 1.0 : 0.0, kind == 2 ? 0.25 : kind == 4 ? 1.0 : 0.0};
+                const ray<double> r{to - 0x1p40 * way, 0x1p40 * way};
+                const hull<double> h = test::hull_over(p);
+                detail::line_and_hull<detail::limbs_of_any<double>, true, double> both(h, r.origin, r.direction, {0, 0, 0});
+                detail::hull_triangle at;
+                REQUIRE(both.find(at) == verdict::yes);
+                REQUIRE(both.is_flat());
+                const auto looks = both.find_first(at);
+                INFO(n << " points, kind " << kind << ", order " << order << ": " << static_cast<double>(looks) / n);
+                CHECK(looks <= static_cast<std::uint64_t>((kind == 3 || kind == 4 ? 8 : 4) * n));
+                const double time = detail::hit_time<filtered>(r, h);
+                REQUIRE(time >= 0);
+                if (kind == 5) continue;
+                // No point is before the side.
+                const vec3<double> a = p[at.corner[0]], b = p[at.corner[1]];
+                bool is_first = true;
+                for (const vec3<double>& q : p) {
+                    is_first = is_first && detail::hit_time<filtered>(r, triangle<double>{a, b, q}) >= time;
+                }
+                CHECK(is_first);
+            }
+        }
+    }
 }

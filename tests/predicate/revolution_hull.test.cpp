@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <abut/predicate/intersects.hpp>
+#include <abut/predicate/within.hpp>
 #include <abut/shape/bounds.hpp>
 #include <abut/shape/reach.hpp>
 
@@ -156,4 +157,51 @@ TEST_CASE("cylinders and hulls, a row of points beside a rim") {
     const hull<double> h(points.data(), points.size());
     CHECK_FALSE(intersects(cylinder<double>{{{0, 0, 0}, {0, 0, 1}}, std::nextafter(5.0, 0.0)}, h));
     CHECK(intersects(cylinder<double>{{{0, 0, 0}, {0, 0, 1}}, 5}, h));
+}
+
+// With numbers of all exponents the search in double tells little, and integers are asked of edges and faces, each once: as of all
+// triangles, one by one.
+TEMPLATE_TEST_CASE("hulls and solids: of all exponents, as triangle by triangle", "", abut::cylinder<double>, abut::cone<double>) {
+    using S = TestType;
+    int touching = 0, near = 0, all = 0;
+    for (std::uint64_t k = 0; k < test::sample_count() / 100; ++k) {
+        test::draws d(test::sample_seed, 51, k);
+        const int range = k % 4 == 0 ? 1000 : k % 4 == 1 ? 200 : k % 4 == 2 ? 40 : 5;
+        const auto number = [&] {
+            const double x = std::ldexp(d.uniform(1, 2), d.below(2 * range + 1) - range);
+            return d.below(2) == 0 ? x : -x;
+        };
+        const auto point = [&] { return vec3<double>{number(), number(), number()}; };
+        std::vector<vec3<double>> p;
+        for (int n = 3 + d.below(4); n > 0; --n) p.push_back(point());
+        S s{};
+        if constexpr (requires { s.apex; }) {
+            s = S{point(), point(), std::abs(number())};
+        } else {
+            s = S{{point(), point()}, std::abs(number())};
+        }
+        const hull<double> h(p.data(), p.size());
+        const double distance = std::abs(number());
+        bool touch = intersects(h, detail::axis_of(s)), is_near = false;
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            for (std::size_t j = i + 1; j < p.size(); ++j) {
+                for (std::size_t l = j + 1; l < p.size(); ++l) {
+                    const triangle<double> t{p[i], p[j], p[l]};
+                    touch = touch || intersects(s, t);
+                    is_near = is_near || within(s, t, distance);
+                }
+            }
+        }
+        is_near = is_near || touch;
+        INFO(k);
+        CHECK(intersects(s, h) == touch);
+        CHECK(resolve(s, h) == touch);
+        CHECK(within(s, h, distance) == is_near);
+        ++all;
+        touching += touch;
+        near += is_near;
+    }
+    CHECK(touching * 5 > all);
+    CHECK(near > touching);
+    CHECK(near < all);
 }

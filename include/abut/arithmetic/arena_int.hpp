@@ -101,9 +101,12 @@ public:
     ///@}
     /// Adds `times` a b.
     ABUT_NOINLINE ABUT_HD constexpr arena_sum& add_times(int times, const arena_int& a, const arena_int& b) {
-        ABUT_ROLLED
-        for (int i = 0; i < (times < 0 ? -times : times); ++i) add(a, b, times < 0);
-        return *this;
+        if (a.count == 0) return *this;
+        const arena_scope scope(in_);
+        const auto factor = static_cast<std::uint64_t>(times < 0 ? -times : times);
+        arena_sum more(in_, a.count + 1);
+        add_product(more.limb_, more.count_, &factor, 1, a.limb, a.count, false);
+        return add(more, b, times < 0);
     }
     /// Adds value 2^shift.
     ABUT_HD constexpr void add_shifted(std::int64_t value, int shift) {

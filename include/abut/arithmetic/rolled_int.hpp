@@ -22,21 +22,68 @@ ABUT_HD constexpr std::uint64_t limb_of(const std::uint64_t* a, int n, int i) {
     return i < n ? a[i] : mask_if(static_cast<std::int64_t>(a[n - 1]) < 0);
 }
 
-/// r += a b, or r -= a b, modulo 2^(64 n), for an r of n limbs.
+/// r += x b, or r -= x b, modulo 2^(64 n), of limbs without a sign.
+ABUT_HD constexpr void add_row(std::uint64_t* r, int n, std::uint64_t x, const std::uint64_t* b, int limbs, bool negated) {
+    const int both = limbs < n ? limbs : n;
+    std::uint64_t carry = 0;
+    int j = 0;
+    if (negated) {
+        ABUT_ROLLED
+        for (; j < both; ++j) {
+            const uint128 t = static_cast<uint128>(x) * b[j] + carry;
+            const std::uint64_t low = lower_limb(t), before = r[j];
+            r[j] = before - low;
+            carry = upper_limb(t) + static_cast<std::uint64_t>(before < low);
+        }
+        ABUT_ROLLED
+        for (; carry != 0 && j < n; ++j) {
+            const std::uint64_t before = r[j];
+            r[j] = before - carry;
+            carry = static_cast<std::uint64_t>(before < carry);
+        }
+        return;
+    }
+    ABUT_ROLLED
+    for (; j < both; ++j) {
+        const uint128 t = static_cast<uint128>(x) * b[j] + r[j] + carry;
+        r[j] = lower_limb(t);
+        carry = upper_limb(t);
+    }
+    ABUT_ROLLED
+    for (; carry != 0 && j < n; ++j) {
+        r[j] += carry;
+        carry = static_cast<std::uint64_t>(r[j] < carry);
+    }
+}
+
+/// The limbs of a number in two's complement that are not 0 at its lower end, and not but its sign at its upper one.
+struct used_limbs {
+    int first = 0, end;
+    bool is_negative;
+
+    ABUT_HD constexpr used_limbs(const std::uint64_t* a, int n) : end(n), is_negative(static_cast<std::int64_t>(a[n - 1]) < 0) {
+        while (end > 1 && a[end - 1] == limb_of(a, end - 1, end - 1)) --end;
+        while (first < end && a[first] == 0) ++first;
+    }
+};
+
+/// r += a b, or r -= a b, modulo 2^(64 n), for an r of n limbs: what is taken without signs is taken back.
 ABUT_NOINLINE ABUT_HD constexpr void add_product(std::uint64_t* r, int n, const std::uint64_t* a, int limbs_a,
                                                  const std::uint64_t* b, int limbs_b, bool negated) {
-    ABUT_ROLLED
-    for (int i = 0; i < n; ++i) {
-        const std::uint64_t x = limb_of(a, limbs_a, i);
-        if (x == 0) continue;
-        std::uint64_t carry = negated ? x : 0;  // -b is ~b + 1
-        ABUT_ROLLED
-        for (int j = 0; i + j < n; ++j) {
-            const uint128 t = static_cast<uint128>(x) * (limb_of(b, limbs_b, j) ^ mask_if(negated)) + r[i + j] + carry;
-            r[i + j] = lower_limb(t);
-            carry = upper_limb(t);
+    const used_limbs x(a, limbs_a), y(b, limbs_b);
+    const auto add = [&](int at, std::uint64_t times, const std::uint64_t* of, const used_limbs& used, bool minus) {
+        if (at + used.first < n) {
+            add_row(r + at + used.first, n - at - used.first, times, of + used.first, used.end - used.first, minus);
         }
+    };
+    ABUT_ROLLED
+    for (int i = x.first; i < x.end; ++i) {
+        if (a[i] != 0) add(i, a[i], b, y, negated);
     }
+    if (x.is_negative) add(x.end, 1, b, y, !negated);
+    if (y.is_negative) add(y.end, 1, a, x, !negated);
+    const std::uint64_t one = 1;
+    if (x.is_negative && y.is_negative && x.end + y.end < n) add_row(r + x.end + y.end, n - x.end - y.end, 1, &one, 1, negated);
 }
 
 /// r += value 2^shift, or r -= it, modulo 2^(64 n).

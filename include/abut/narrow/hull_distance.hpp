@@ -223,8 +223,15 @@ struct nearest_in_hulls {
         (void)feature.find(w, at.count, (1u << at.count) - 1);
         return contact_math::unit_of(feature.way);
     }
-    [[nodiscard]] ABUT_HD constexpr vec3<double> point_on_a(const hull<T>& a) const { return mean(a, at.a); }
-    [[nodiscard]] ABUT_HD constexpr vec3<double> point_on_b(const hull<T>& b) const { return mean(b, at.b); }
+    /// And so far beyond; rounded together, since both may be small where coordinates are large.
+    ///@{
+    [[nodiscard]] ABUT_HD constexpr vec3<double> point_on_a(const hull<T>& a, const vec3<double>& beyond) const {
+        return mean(a, at.a, beyond);
+    }
+    [[nodiscard]] ABUT_HD constexpr vec3<double> point_on_b(const hull<T>& b, const vec3<double>& beyond) const {
+        return mean(b, at.b, beyond);
+    }
+    ///@}
     /// From a's point to b's: of differences, which are rounded once, and so as long as the distance wherever rounding lets
     /// it.
     [[nodiscard]] ABUT_HD constexpr vec3<double> way(const hull<T>& a, const hull<T>& b) const {
@@ -257,9 +264,8 @@ private:
         const bool meet = search_origin<sought::nearest>(x, at, w) == verdict::yes;
         measure(w, meet, unit.low);
     }
-    ABUT_HD constexpr vec3<double> mean(const hull<T>& h, const std::uint32_t (&ids)[4]) const {
+    ABUT_HD constexpr vec3<double> mean(const hull<T>& h, const std::uint32_t (&ids)[4], vec3<double> sum) const {
         const vec3<double> first = widened(h[ids[0]]);
-        vec3<double> sum{0, 0, 0};
         for (int k = 1; k < at.count; ++k) {
             sum = plain_step(sum, weight[k], contact_math::plain_difference(widened(h[ids[k]]), first));
         }
@@ -395,15 +401,17 @@ struct measured_hull_pair {
         return plain_sum(nearest.length, -plain_sum(radius_a, radius_b));
     }
     [[nodiscard]] ABUT_HD constexpr vec3<double> way() const { return nearest.way(a, b); }
-    [[nodiscard]] ABUT_HD constexpr vec3<T> point_on_a() const { return on_surface(nearest.point_on_a(a), radius_a); }
-    [[nodiscard]] ABUT_HD constexpr vec3<T> point_on_b() const { return on_surface(nearest.point_on_b(b), -radius_b); }
+    [[nodiscard]] ABUT_HD constexpr vec3<T> point_on_a() const { return narrowed(nearest.point_on_a(a, along_way(radius_a))); }
+    [[nodiscard]] ABUT_HD constexpr vec3<T> point_on_b() const { return narrowed(nearest.point_on_b(b, along_way(-radius_b))); }
     /// Of shapes that touch, one of which has no radius: a point of that one, which lies in both.
     [[nodiscard]] ABUT_HD constexpr vec3<T> shared_point() const { return radius_a == 0 ? point_on_a() : point_on_b(); }
 
 private:
-    [[nodiscard]] ABUT_HD constexpr vec3<T> on_surface(vec3<double> p, double along) const {
-        if (along != 0)
-            p = plain_step(p, along, contact_math::unit_vector(contact_math::as<contact_math::one_double>(way())));
+    [[nodiscard]] ABUT_HD constexpr vec3<double> along_way(double length) const {
+        using namespace contact_math;
+        return length == 0 ? point{0, 0, 0} : plain_step({0, 0, 0}, length, unit_vector(as<one_double>(way())));
+    }
+    ABUT_HD static constexpr vec3<T> narrowed(const vec3<double>& p) {
         return {rounded_within<T>(p.x), rounded_within<T>(p.y), rounded_within<T>(p.z)};
     }
 };

@@ -5,8 +5,9 @@
 // a face, which is one of the triangles of three of the hull's points that its line goes through: the one met first. From
 // any of these (predicate/ray_hull.hpp) the next one is made of two of its corners and a point in front of its plane, until
 // there is none. These are the steps of the simplex method, whose rule of R. G. Bland (New finite pivoting rules for the
-// simplex method, 1977) they follow while the line goes through an edge or a corner, so that they end. Then the time is that
-// of the triangle, rounded once (hit_time.hpp).
+// simplex method, 1977) they follow while the line goes through an edge or a corner, so that they end. Of a hull that is in
+// one plane with the line, a side takes the triangle's place. Then the time is that of the triangle, rounded once
+// (hit_time.hpp).
 
 #include <concepts>
 #include <cstddef>
@@ -31,9 +32,10 @@ public:
 
     ABUT_HD constexpr hull_entry(const line_of<T>& l, const hull<T>& h) : h_(h), signs_(h, l.origin, l.end, l.start) {}
 
-    ABUT_NOINLINE ABUT_HD constexpr line_meets find() {
-        const line_meets found = signs_.find(at);
-        if (found != line_meets::triangle) return found;
+    ABUT_NOINLINE ABUT_HD constexpr verdict find() {
+        const verdict found = signs_.find(at);
+        if (found != verdict::yes) return found;
+        if (signs_.is_flat()) return signs_.find_first(at), found;
         std::uint32_t next = 0;
         for (bool stays = false; look_ahead(next, stays);) stays = step(next);
         return found;
@@ -82,11 +84,11 @@ private:
 
 /// Where the line enters; decided for every finite input.
 template <scalar T>
-ABUT_NOINLINE ABUT_HD constexpr line_meets entry_of(const line_of<T>& l, const hull<T>& h, hull_triangle& at) {
+ABUT_NOINLINE ABUT_HD constexpr verdict entry_of(const line_of<T>& l, const hull<T>& h, hull_triangle& at) {
     hull_entry<2, T> entry(l, h);
-    line_meets found = entry.find();
+    verdict found = entry.find();
     at = entry.at;
-    if (found == line_meets::unknown) {
+    if (found == verdict::unknown) {
         hull_entry<limbs_of_any<T>, T> any(l, h);
         found = any.find();
         at = any.at;
@@ -99,22 +101,9 @@ template <arithmetic A, class Line, scalar T>
 ABUT_NOINLINE ABUT_HD constexpr double hit_time(const Line& line, const hull<T>& h) {
     const line_of<T> l(line);
     hull_triangle at;
-    const line_meets found = entry_of(l, h, at);
-    if (found == line_meets::nothing) return -1;
-    if (found == line_meets::triangle) {
-        const double time = hit_time<A>(line, triangle_of(h, at));
-        if (time >= 0) return time;
-    }
-    if (intersects<A>(h, l.origin)) return 0;
-    double least_time = infinity<double>;
-    if (found == line_meets::lines) {
-        (void)any_line_of(h, [&](const triangle<T>& t) {
-            const double time = hit_time<A>(line, t);
-            if (time >= 0) least_time = least(least_time, time);
-            return false;
-        });
-    }
-    return least_time < infinity<double> ? least_time : -1;
+    if (entry_of(l, h, at) != verdict::yes) return -1;
+    const double time = hit_time<A>(line, triangle_of(h, at));
+    return time < 0 && intersects<A>(h, l.origin) ? 0 : time;
 }
 
 /// Whether it does at all: the triangle that its line goes through first or later, or it begins or ends inside.
@@ -122,14 +111,13 @@ template <arithmetic A, class Line, scalar T>
 ABUT_NOINLINE ABUT_HD constexpr bool is_met(const Line& line, const hull<T>& h) {
     const line_of<T> l(line);
     hull_triangle at;
-    line_meets found = line_and_hull<2, true, T>(h, l.origin, l.end, l.start).find(at);
-    if (found == line_meets::unknown) {
+    verdict found = line_and_hull<2, true, T>(h, l.origin, l.end, l.start).find(at);
+    if (found == verdict::unknown) {
         found = line_and_hull<limbs_of_any<T>, true, T>(h, l.origin, l.end, l.start).find(at);
     }
-    if (found == line_meets::nothing) return false;
-    const auto is_line_met = [&](const triangle<T>& t) { return is_met<A>(line, t); };
-    if (found == line_meets::triangle ? is_line_met(triangle_of(h, at)) : any_line_of(h, is_line_met)) return true;
-    return intersects<A>(h, l.origin) || (std::same_as<Line, segment<T>> && intersects<A>(h, l.end));
+    return found == verdict::yes &&
+           (is_met<A>(line, triangle_of(h, at)) || intersects<A>(h, l.origin) ||
+            (std::same_as<Line, segment<T>> && intersects<A>(h, l.end)));
 }
 
 /// Of what is seen as a hull.

@@ -159,7 +159,7 @@ private:
 
 /// The ends of the first axis and of the second, and both radii.
 struct cylinders_meet {
-    static constexpr int most_limbs = 200;
+    static constexpr int most_limbs = 220;
 
     ABUT_HD static constexpr bool holds(const arena_int (&value)[14]) {
         const verdict at_sides = sides_meet(value);

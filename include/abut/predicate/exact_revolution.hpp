@@ -272,6 +272,27 @@ private:
     }
 };
 
+/// The same of a triangle that the axis does not meet, and whose edges do not touch.
+template <class Solid>
+struct revolution_meets_inside {
+    static constexpr int degree = 8;
+
+    template <class N>
+    ABUT_HD static constexpr verdict ask(const N (&value)[16]) {
+        const vec3<N> first = point_at(value, 0), last = point_at(value, 1);
+        const vec3<N> corner[3] = {point_at(value, 2), point_at(value, 3), point_at(value, 4)};
+        using difference = decltype(last - first);
+        const difference d = last - first, p[3] = {corner[0] - last, corner[1] - last, corner[2] - last};
+        const auto n = cross(corner[1] - corner[0], corner[2] - corner[1]);
+        const verdict met = disc_meets_face(p, n, d, value[15]);
+        if constexpr (Solid::is_cone) return met;
+        return or_else(met, [&] {
+            const difference a[3] = {corner[0] - first, corner[1] - first, corner[2] - first};
+            return disc_meets_face(a, n, d, value[15]);
+        });
+    }
+};
+
 /// A centre as seen from an end: whether it is within `reach` of the rim there. Degree 6.
 template <class W, class R>
 ABUT_HD constexpr verdict is_near_rim(const vec3<W>& v, const vec3<W>& d, const R& r, const R& reach) {

@@ -21,7 +21,9 @@
 //     h2 x^2 + h1 x + h0      h2 = 3b^2 - ac,  h1 = bc - 3ad,  h0 = bd - ae
 //     - k1 x - k0             k1 = h2 (c h2 - a h0 - 3b h1) + a h1^2,  k0 = h2 (d h2 - 3b h0) + a h1 h0
 //     I^3 - J^2               I = 3ae - 12bd + c^2,  J = 9ace + 18bcd - 27ad^2 - 27b^2 e - c^3
-// Degree 36.
+// Degree 36. First the quartic is split at a power of two or at a few, where by their lengths a term that is negative counts
+// most: it has a root if it is not positive there, and none where no coefficient of a part is negative, each in the basis of
+// Bernstein. That is of degree 6 still. Edges that nearly touch the torus are left, and few others.
 //
 // A cone's side. Let A = |e x d|^2, B = (a x d).(e x d), P = D A - r^2 (e.d)^2, V = |d.(a x e)|, and
 // W = (e.d) B - (a.d) A. The way from the line on the side, |w x d| D^(1/2) - r w.d over (D (D + r^2))^(1/2), is least at t
@@ -37,6 +39,8 @@
 
 #include <abut/arithmetic/arena_int.hpp>
 #include <abut/arithmetic/arithmetic.hpp>
+#include <abut/arithmetic/limits.hpp>
+#include <abut/arithmetic/magnitude.hpp>
 #include <abut/arithmetic/vec.hpp>
 #include <abut/predicate/exact_cylinders.hpp>
 #include <abut/predicate/exact_revolution.hpp>
@@ -80,6 +84,8 @@ struct quartic {
     /// At any x > 0.
     [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr bool has_root() const {
         if (sign(b) >= 0 && sign(c) >= 0 && sign(d) >= 0) return false;
+        const verdict seen = split();
+        if (seen != verdict::unknown) return seen == verdict::yes;
         const arena_scope scope(*a.in);
         chain_of_signs at_0, far_off;
         const auto append = [&](int first, int last) {
@@ -101,6 +107,67 @@ struct quartic {
     }
 
 private:
+    /// Whether it has one, as far as a few places tell.
+    [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr verdict split() const {
+        const arena_int* const term[5] = {&e, &d, &c, &b, &a};
+        const int digits[5] = {digits_of(e), digits_of(d), digits_of(c), digits_of(b), digits_of(a)};
+        int none_below = -largest_place, none_above = largest_place;  // powers of two
+        ABUT_ROLLED
+        for (int i = 1; i < 4; ++i) {
+            if (sign(*term[i]) >= 0) continue;
+            int from = -largest_place, to = largest_place;  // where that term counts most
+            ABUT_ROLLED
+            for (int j = 0; j < 5; ++j) {
+                if (j < i) from = greatest(from, (digits[j] - digits[i]) / (i - j));
+                if (j > i) to = least(to, (digits[i] - digits[j]) / (j - i));
+            }
+            const int place = (from + to) / 2;
+            bool below = true, above = true;
+            if (is_positive_at(place, below, above) == verdict::no) return verdict::yes;
+            if (below) none_below = greatest(none_below, place);
+            if (above) none_above = least(none_above, place);
+            if (none_above <= none_below) return verdict::no;
+        }
+        return verdict::unknown;
+    }
+    /// At 2^place; and whether no coefficient is negative of the part below, and of that above.
+    [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr verdict is_positive_at(int place, bool& below, bool& above) const {
+        limb_arena& in = *a.in;
+        const arena_scope scope(in);
+        const int far = place < 0 ? -place : place, count = a.count + far / 16 + 2, most = far / 16 + 2;
+        below = above = false;
+        if (far >= largest_place || 5 * count + most > in.room - in.used) return verdict::unknown;
+        arena_sum p[5] = {arena_sum(in, count), arena_sum(in, count), arena_sum(in, count), arena_sum(in, count),
+                          arena_sum(in, count)};
+        const arena_int* const term[5] = {&e, &d, &c, &b, &a};
+        ABUT_ROLLED
+        for (int i = 0; i < 5; ++i) {
+            const arena_scope of_factor(in);
+            arena_sum factor(in, most);
+            factor.add_shifted(i == 2 ? 1 : 3, place < 0 ? far * (4 - i) : far * i);
+            p[i].add(*term[i], factor);
+        }
+        below = above = true;
+        ABUT_ROLLED
+        for (int last = 3; last >= 0; --last) {  // by P. de Casteljau's scheme
+            ABUT_ROLLED
+            for (int i = 0; i <= last; ++i) p[i].add(p[i + 1]);
+            below = below && sign(p[0]) >= 0;
+        }
+        ABUT_ROLLED
+        for (int i = 0; i < 4; ++i) above = above && sign(p[i]) >= 0;
+        return to_verdict(sign(p[0]) > 0);
+    }
+    static constexpr int largest_place = 1 << 14;
+
+    /// Of the magnitude, but for one.
+    ABUT_HD static constexpr int digits_of(const arena_int& x) {
+        const std::uint64_t fill = mask_if(sign(x) < 0);
+        int i = x.count - 1, bits = 0;
+        while (i > 0 && x.limb[i] == fill) --i;
+        for (std::uint64_t top = x.limb[i] ^ fill; top != 0; top >>= 1) ++bits;
+        return 64 * i + bits;
+    }
     [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr int sign_of_discriminant() const {
         const arena_scope scope(*a.in);
         const arena_int ae = a * e, bd = b * d, i = arena_sum(c, c).add_times(3, a, e).add_times(-12, b, d),
@@ -168,7 +235,7 @@ ABUT_NOINLINE ABUT_HD constexpr bool is_near_side(const vec3<arena_int>& a, cons
 /// not touch the solid, is within the sum of both.
 template <class Solid>
 struct revolution_within_of_edge {
-    static constexpr int most_limbs = 560;
+    static constexpr int most_limbs = 580;
 
     ABUT_HD static constexpr bool holds(const arena_int (&value)[15]) {
         const arena_scope scope(*value[0].in);
@@ -210,7 +277,7 @@ private:
 /// touch the solid, and no edge is so near, is within the sum of both.
 template <class Solid>
 struct revolution_within_of_face {
-    static constexpr int most_limbs = 560;
+    static constexpr int most_limbs = 580;
 
     ABUT_HD static constexpr bool holds(const arena_int (&value)[18]) {
         const arena_scope scope(*value[0].in);

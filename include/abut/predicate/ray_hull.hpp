@@ -7,7 +7,7 @@
 //
 // All that is asked of numbers are the sides on which the line passes those of two points, the sign of (p x q).d for ways p
 // and q from its origin and its direction d. Of a hull that has no extent as seen along the line, all points are in one
-// plane with it; then the ray meets what it meets of the lines between two points.
+// plane with it; then the triangle is a side between two points that the line passes between, or a point on it.
 
 #include <concepts>
 #include <cstddef>
@@ -27,11 +27,8 @@ namespace abut {
 
 namespace detail {
 
-/// What a line goes through: nothing; a triangle; only what lines between two points have in common with it; or that is not
-/// known.
-enum class line_meets : unsigned char { nothing, triangle, lines, unknown };
-
-/// Three of a hull's points: (p x q).d and so on are 0 or more, and one of them is not 0.
+/// Three of a hull's points: (p x q).d and so on are 0 or more, and one of them is not 0. Or, where all points are in one
+/// plane with the line, two or one of them, of which the last is repeated.
 struct hull_triangle {
     std::uint32_t corner[3] = {};
 };
@@ -53,18 +50,18 @@ public:
     }
 
     /// A triangle that the line goes through, if there is one.
-    [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr line_meets find(hull_triangle& t) {
-        if (Room > 0 && !fits_) return line_meets::unknown;
+    [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr verdict find(hull_triangle& t) {
+        if (Room > 0 && !fits_) return verdict::unknown;
         const auto n = static_cast<std::uint32_t>(h_.count);
         std::uint32_t right = 0, on_line = n;
         while (right < n && is_on_line(right)) ++right;
-        if (is_lost_) return line_meets::unknown;
-        if (right == n) return line_meets::lines;
+        if (is_lost_) return verdict::unknown;
+        if (right == n) return begin_flat(t, 0, 0);
         std::uint32_t left = right;
         for (std::uint32_t p = 0; p < n && on_line == n; ++p) {
             if (p == right || p == left) continue;
             const int of_right = side(right, p), of_left = side(left, p);
-            if (is_lost_) return line_meets::unknown;
+            if (is_lost_) return verdict::unknown;
             if (of_right == 0 && of_left == 0) {
                 if (is_on_line(p)) {
                     on_line = p;
@@ -73,14 +70,14 @@ public:
                 }
             } else if (of_right <= 0 && of_left >= 0) {
                 t = {{right, left, p}};
-                return line_meets::triangle;
+                return verdict::yes;
             } else if (of_left > 0) {
                 left = p;
             } else if (of_right < 0) {
                 right = p;
             }
         }
-        return on_line == n ? line_meets::nothing : complete(right, on_line, t);
+        return on_line == n ? verdict::no : complete(right, on_line, t);
     }
 
     /// The sign of (p x q).d
@@ -92,8 +89,31 @@ public:
         const vec3<T> from = h_[t.corner[0]];
         return sign_of({from, h_[p]}, {from, h_[t.corner[1]]}, {from, h_[t.corner[2]]});
     }
-    /// Whether a sign was not known.
-    [[nodiscard]] ABUT_HD constexpr bool is_lost() const { return is_lost_; }
+    /// Whether all points are in one plane with the line, as `find` found out.
+    [[nodiscard]] ABUT_HD constexpr bool is_flat() const { return is_flat_; }
+    /// Then the side or the point of the hull that the line comes to first, from what `find` found. Returns how often points
+    /// were looked at. The two ends are on the line or left of it, and right of it: a point before the side takes the place
+    /// of one of them, until there is none. So the line meets each side before the last one, or turns it about a point that
+    /// is on the line. Where all points are in convex position, they are looked at no more than four times each.
+    ABUT_NOINLINE ABUT_HD constexpr std::uint64_t find_first(hull_triangle& t) {
+        const std::uint32_t n = static_cast<std::uint32_t>(h_.count), of = t.corner[0];
+        choose_axis(of);
+        std::uint32_t a = of, b = n, on_line = n;
+        std::uint64_t looks = n;
+        for (std::uint32_t p = 0; p < n; ++p) {
+            const int s = beside(p);
+            if (s < 0) b = p;
+            if (s == 0 && (on_line == n || is_before(p, on_line))) on_line = p;
+        }
+        if (b == n) return begin_flat(t, on_line, on_line), looks;
+        for (std::uint32_t p = 0, since = 0; since < n; ++since, ++looks, p = p + 1 < n ? p + 1 : 0) {
+            if (turn({h_[a], h_[b]}, {h_[a], h_[p]}) >= 0) continue;
+            (beside(p) < 0 ? b : a) = p;
+            since = 0;
+        }
+        begin_flat(t, a, b);
+        return looks;
+    }
 
 private:
     static constexpr int room = Room > 0 ? Room : 1;
@@ -119,6 +139,51 @@ private:
         }
         is_lost_ = true;
         return 0;
+    }
+    /// A side of a hull that is in one plane with the line.
+    ABUT_HD constexpr verdict begin_flat(hull_triangle& t, std::uint32_t p, std::uint32_t q) {
+        is_flat_ = true;
+        t = {{p, q, q}};
+        return verdict::yes;
+    }
+    /// The coordinate of d x p that is seen of such a hull: its largest one, whose sign is that of the left.
+    ABUT_NOINLINE ABUT_HD constexpr void choose_axis(std::uint32_t p) {
+        if constexpr (Room > 0) {
+            const auto v = across(p);
+            const int x = bits_of(v.x), y = bits_of(v.y), z = bits_of(v.z);
+            axis_ = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+            left_ = axis_ == 0 ? v.x.sign() : axis_ == 1 ? v.y.sign() : v.z.sign();
+        }
+    }
+    /// With that coordinate as the last one.
+    template <class N>
+    [[nodiscard]] ABUT_HD constexpr vec3<N> turned(const vec3<N>& v) const {
+        return axis_ == 0 ? vec3<N>{v.y, v.z, v.x} : axis_ == 1 ? vec3<N>{v.z, v.x, v.y} : v;
+    }
+    /// Whether a way goes to the left of another one, 1, or to its right, -1.
+    [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr int turn(const way& p, const way& q) const {
+        if (Sifted && !ABUT_CONSTANT_EVALUATED()) {
+            const vec3<double> v = turned(relative_to(p.from, p.to)), w = turned(relative_to(q.from, q.to));
+            const double x = v.x * w.y, y = v.y * w.x, length = greatest(magnitudes(v), magnitudes(w));
+            const double bound = 0x1p-48 * (absolute(x) + absolute(y)) +
+                                 (lost_of_differences<T> * 0x1p4 * length + 0x1p-960);
+            if (length < 0x1p300 && absolute(x - y) > bound) return x > y ? left_ : -left_;
+        }
+        if constexpr (Room > 0) {
+            const integers x = in_integers();
+            const auto v = turned(x.between(p.from, p.to)), w = turned(x.between(q.from, q.to));
+            return cross(v, w).z.sign() * left_;
+        }
+        return 0;
+    }
+    [[nodiscard]] ABUT_HD constexpr int beside(std::uint32_t p) const { return turn({start_, end_}, {origin_, h_[p]}); }
+    /// Of two points on the line, whether it comes to the first one first.
+    [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr bool is_before(std::uint32_t p, std::uint32_t q) const {
+        if constexpr (Room > 0) {
+            const integers x = in_integers();
+            return sign_of_dot(x.between(start_, end_), x.between(h_[p], h_[q])) > 0;
+        }
+        return false;
     }
     /// d x p, of no length if p is on the line.
     [[nodiscard]] ABUT_HD constexpr auto across(std::uint32_t p) const {
@@ -149,22 +214,23 @@ private:
         return false;
     }
     /// A triangle with a point that is beside the line and one that is on the line or opposite.
-    [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr line_meets complete(std::uint32_t beside, std::uint32_t other,
-                                                                      hull_triangle& t) {
+    [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr verdict complete(std::uint32_t beside, std::uint32_t other,
+                                                                   hull_triangle& t) {
         for (std::uint32_t p = 0; p < h_.count; ++p) {
             const int s = side(beside, p);
-            if (is_lost_) return line_meets::unknown;
+            if (is_lost_) return verdict::unknown;
             if (s == 0) continue;
             t = s > 0 ? hull_triangle{{other, beside, p}} : hull_triangle{{beside, other, p}};
-            return line_meets::triangle;
+            return verdict::yes;
         }
-        return line_meets::lines;
+        return begin_flat(t, beside, other);
     }
 
     const hull<T>& h_;
     vec3<T> origin_, end_, start_;
     unit_of_hulls<T> unit_{hull<T>(), hull<T>()};
-    bool fits_ = true, is_lost_ = false;
+    bool fits_ = true, is_lost_ = false, is_flat_ = false;
+    int axis_ = 0, left_ = 0;
 };
 
 template <scalar T>
@@ -172,35 +238,15 @@ ABUT_HD constexpr triangle<T> triangle_of(const hull<T>& h, const hull_triangle&
     return {h[t.corner[0]], h[t.corner[1]], h[t.corner[2]]};
 }
 
-/// Calls f(triangle) -> bool for the lines between two points, as triangles with two equal corners, until it says true.
-template <scalar T, class F>
-ABUT_HD constexpr bool any_line_of(const hull<T>& h, const F& f) {
-    for (std::size_t i = 0; i < h.count; ++i) {
-        for (std::size_t j = i + 1; j < h.count || j == 1; ++j) {
-            const vec3<T> q = h[j < h.count ? j : i];
-            if (f(triangle<T>{h[i], q, q})) return true;
-        }
-    }
-    return false;
-}
-
 /// By one line_and_hull; `ask` is a stage that a triangle or a point is asked in.
 template <int Room, bool Sifted, scalar T, class Ask>
 ABUT_NOINLINE ABUT_HD constexpr verdict decide_ray(const ray<T>& r, const hull<T>& h, const Ask& ask) {
     line_and_hull<Room, Sifted, T> both(h, r.origin, r.direction, vec3<T>{0, 0, 0});
     hull_triangle t;
-    const line_meets found = both.find(t);
-    if (found == line_meets::unknown) return verdict::unknown;
-    if (found == line_meets::nothing) return verdict::no;
-    verdict met = verdict::no;
-    if (found == line_meets::triangle) {
-        met = ask(r, triangle_of(h, t));
-    } else {
-        (void)any_line_of(h, [&](const triangle<T>& line) {
-            met = met || ask(r, line);
-            return met == verdict::yes;
-        });
-    }
+    const verdict found = both.find(t);
+    if (found != verdict::yes) return found;
+    // What the line has in common with a flat hull holds the origin, or is all ahead of it or all behind.
+    const verdict met = ask(r, triangle_of(h, t));
     return met == verdict::yes ? met : met || ask(h, r.origin);
 }
 

@@ -198,6 +198,14 @@ struct is_ahead_of_solid {
     }
 };
 
+/// Whether the answer is yes, by all stages one after another.
+template <class Question, scalar T, std::size_t V>
+ABUT_HD constexpr bool holds_at_last(const T (&value)[V]) {
+    verdict v = ABUT_CONSTANT_EVALUATED() ? verdict::unknown : ask_estimates<Question>(value);
+    if (v == verdict::unknown) v = ask_integers<Question>(value);
+    return v == verdict::unknown ? decide_at_any_length<asked_exactly<Question>>(value) : v == verdict::yes;
+}
+
 /// Whether all of a hull is ahead of a solid along (b - a) x (q - p), or along the opposite.
 template <solid_of_revolution S, scalar T>
 ABUT_NOINLINE ABUT_HD constexpr bool are_apart_along(const S& s, const hull<T>& h, const vec3<T>& a, const vec3<T>& b,
@@ -209,10 +217,8 @@ ABUT_NOINLINE ABUT_HD constexpr bool are_apart_along(const S& s, const hull<T>& 
         bool all = true;
         ABUT_ROLLED
         for (std::size_t i = 0; i < h.count && all; ++i) {
-            const auto row = in_a_row(axis.a, axis.b, sense == 0 ? a : b, sense == 0 ? b : a, p, q, h[i], s.radius);
-            verdict v = ABUT_CONSTANT_EVALUATED() ? verdict::unknown : ask_estimates<question>(row.value);
-            if (v == verdict::unknown) v = ask_integers<question>(row.value);
-            all = v == verdict::unknown ? decide_at_any_length<asked_exactly<question>>(row.value) : v == verdict::yes;
+            const vec3<T>&from = sense == 0 ? a : b, &to = sense == 0 ? b : a;
+            all = holds_at_last<question>(in_a_row(axis.a, axis.b, from, to, p, q, h[i], s.radius).value);
         }
         if (all) return true;
     }
@@ -238,21 +244,8 @@ public:
         }
     }
 
-    /// Whether asks(triangle) holds of any triangle of theirs.
-    template <class Ask>
-    [[nodiscard]] ABUT_HD constexpr bool any_triangle(const Ask& asks) const {
-        ABUT_ROLLED
-        for (int i = 0; i < count_; ++i) {
-            ABUT_ROLLED
-            for (int j = i; j < count_; ++j) {
-                ABUT_ROLLED
-                for (int k = j; k < count_; ++k) {
-                    if (asks(triangle<T>{corner_[i], corner_[j], corner_[k]})) return true;
-                }
-            }
-        }
-        return false;
-    }
+    [[nodiscard]] ABUT_HD constexpr std::size_t size() const { return static_cast<std::size_t>(count_); }
+    [[nodiscard]] ABUT_HD constexpr const vec3<T>& operator[](std::size_t i) const { return corner_[i]; }
     /// Whether the two are apart along the normal of a face of three of them, across an edge of two and the axis, or from
     /// the axis towards one.
     [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr bool are_apart(const S& s, const hull<T>& h) const {
@@ -323,39 +316,58 @@ ABUT_HD constexpr bool touch_exactly(const S& s, const U& t) {
     return v == verdict::unknown ? resolve(s, t) : v == verdict::yes;
 }
 
-/// Where a solid touches a hull.
-enum class touch_of_hull { none, at_axis, at_triangle };
+/// Whether edge(p, q) or face(p, q, r) holds of any edge or face of n points, one of whose corners is of those that is_first(i)
+/// says. All edges are asked first, and each once.
+template <class Points, class First, class Edge, class Face>
+ABUT_HD constexpr bool any_feature(const Points& p, std::size_t n, const First& is_first, const Edge& edge, const Face& face) {
+    const auto is_asked = [&](std::size_t j, std::size_t i) { return j == i || (j < i && is_first(j)); };
+    for (std::size_t i = 0; i < n; ++i) {
+        if (!is_first(i)) continue;
+        for (std::size_t j = 0; j < n; ++j) {
+            if ((j == i || !is_asked(j, i)) && edge(p[i], p[j])) return true;
+        }
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+        if (!is_first(i)) continue;
+        for (std::size_t j = 0; j < n; ++j) {
+            if (is_asked(j, i)) continue;
+            for (std::size_t k = j + 1; k < n; ++k) {
+                if (!is_asked(k, i) && face(p[i], p[j], p[k])) return true;
+            }
+        }
+    }
+    return false;
+}
+/// The first argument of it where all points are of those.
+struct all_points {
+    ABUT_HD constexpr bool operator()(std::size_t) const { return true; }
+};
 
-/// The axis of a solid, which has a length, or a triangle of a hull's points that touches it.
+/// Whether a solid, whose axis has a length, touches a hull.
 template <solid_of_revolution S, scalar T>
-ABUT_NOINLINE ABUT_HD constexpr touch_of_hull find_touch(const S& s, const hull<T>& h, triangle<T>& where) {
+ABUT_NOINLINE ABUT_HD constexpr bool touches_hull(const S& s, const hull<T>& h) {
     const segment<T> axis = axis_of(s);
-    if (!overlaps(bounds(s), bounds(h))) return touch_of_hull::none;  // where numbers leave the range of the search
-    if (touch_exactly(h, axis)) return touch_of_hull::at_axis;
-    if (all_are_beyond(h, axis.a, axis.b) || all_are_beyond(h, axis.b, axis.a)) return touch_of_hull::none;
+    if (!overlaps(bounds(s), bounds(h))) return false;  // where numbers leave the range of the search
+    if (touch_exactly(h, axis)) return true;
+    if (all_are_beyond(h, axis.a, axis.b) || all_are_beyond(h, axis.b, axis.a)) return false;
     const corner_hull<T, 2> points = points_of(axis);
     const hull<T> ends = points.as_hull();
     points_of_solid asked;
     const hull_and_solid<true, S> x(h, s, ends, asked);
     found_simplex found;
-    if (search_origin<sought::meeting>(x, found.at, found.w) == verdict::no) return touch_of_hull::none;
-    const auto touches = [&](const triangle<T>& t) {
-        where = t;
-        return touch_exactly(s, t);
+    if (search_origin<sought::meeting>(x, found.at, found.w) == verdict::no) return false;
+    const auto edge = [&](const vec3<T>& p, const vec3<T>& q) { return touch_exactly(s, segment<T>{p, q}); };
+    const auto face = [&](const vec3<T>& p, const vec3<T>& q, const vec3<T>& r) {
+        const triangle<T> t{p, q, r};
+        if (!ABUT_CONSTANT_EVALUATED() && decide_in_place<filtered>(capsule_around(s), t) == verdict::no) return false;
+        return holds_at_last<revolution_meets_inside<typename questions_of<S>::type>>(
+            values_of(axis, s.radius, points_of(t)).value);
     };
     const steepest_way<S, T> steepest(x, h, found);
-    const nearest_corners<S, T> corners(x, h, steepest.way);
-    if (corners.any_triangle(touches)) return touch_of_hull::at_triangle;
-    if (corners.are_apart(s, h)) return touch_of_hull::none;
-    for (std::size_t i = 0; i < h.count; ++i) {
-        if (!x.is_near(steepest.way, i)) continue;
-        for (std::size_t j = 0; j < h.count; ++j) {
-            for (std::size_t k = j; k < h.count; ++k) {
-                if (touches({h[i], h[j], h[k]})) return touch_of_hull::at_triangle;
-            }
-        }
-    }
-    return touch_of_hull::none;
+    const nearest_corners<S, T> few(x, h, steepest.way);
+    if (any_feature(few, few.size(), all_points(), edge, face)) return true;
+    if (few.are_apart(s, h)) return false;
+    return any_feature(h, h.count, [&](std::size_t i) { return x.is_near(steepest.way, i); }, edge, face);
 }
 
 }  // namespace detail
@@ -373,8 +385,7 @@ ABUT_HD constexpr verdict decide(const S& s, const hull<scalar_type_of<S>>& h) {
 template <detail::solid_of_revolution S>
 ABUT_NOINLINE ABUT_HD constexpr bool resolve(const S& s, const hull<scalar_type_of<S>>& h) {
     if (detail::is_point(detail::axis_of(s))) return detail::touch_exactly(detail::ball_around(s), h);
-    triangle<scalar_type_of<S>> where{};
-    return detail::find_touch(s, h, where) != detail::touch_of_hull::none;
+    return detail::touches_hull(s, h);
 }
 
 }  // namespace abut

@@ -253,16 +253,26 @@ ABUT_HD constexpr features_near_solid<AtAnySpan, S> features_near(const S& s, co
     return {s, widened_exactly(radius_around_core(t)), distance};
 }
 
-/// Whether a triangle that does not touch the solid is within a distance, by all stages one after another.
-template <solid_of_revolution S, scalar T>
-ABUT_HD constexpr bool is_exactly_near(const S& s, const triangle<T>& t, double distance) {
-    const corner_hull<T, 3> core = points_of(t);
-    verdict v = ABUT_CONSTANT_EVALUATED() ? verdict::unknown
-                                          : search_near_solid<true>(s, core.as_hull(), reach_to_core(t, distance));
-    if (v == verdict::unknown) v = features_near<false>(s, t, distance).any(core);
-    if (v == verdict::unknown) v = features_near<true>(s, t, distance).any(core);
+/// Whether an edge or the inside of a face that does not touch the solid is within a distance of it, by all stages one after
+/// another. Of a face whose edges are not.
+///@{
+template <int N, solid_of_revolution S, scalar T, class Ask>
+ABUT_HD constexpr bool is_exactly_near(const S& s, const corner_hull<T, N>& core, double distance, const Ask& ask) {
+    verdict v = ABUT_CONSTANT_EVALUATED() ? verdict::unknown : search_near_solid<true>(s, core.as_hull(), rounded(distance));
+    if (v == verdict::unknown) v = ask(features_near_solid<false, S>{s, 0, distance});
+    if (v == verdict::unknown) v = ask(features_near_solid<true, S>{s, 0, distance});
     return v == verdict::yes;
 }
+template <solid_of_revolution S, scalar T>
+ABUT_NOINLINE ABUT_HD constexpr bool is_edge_near(const S& s, const vec3<T>& p, const vec3<T>& q, double distance) {
+    return is_exactly_near(s, corner_hull<T, 2>{{p, q}}, distance, [&](const auto& f) { return f.edge(p, q); });
+}
+template <solid_of_revolution S, scalar T>
+ABUT_NOINLINE ABUT_HD constexpr bool is_face_near(const S& s, const vec3<T>& p, const vec3<T>& q, const vec3<T>& t,
+                                                  double distance) {
+    return is_exactly_near(s, corner_hull<T, 3>{{p, q, t}}, distance, [&](const auto& f) { return f.face(p, q, t); });
+}
+///@}
 
 /// Whether any triangle of a hull's points is so near, where the hull does not touch the solid: of a few corners, or of all
 /// but those that are surely too far on a way; `unknown` if only a few are asked, and are not near.
@@ -276,18 +286,12 @@ ABUT_NOINLINE ABUT_HD constexpr verdict any_triangle_near(const S& s, const hull
     const verdict v = search_origin<sought::meeting>(x, found.at, found.w);
     if (v != verdict::unknown) return v;
     const steepest_way<S, T> steepest(x, h, found);
-    const auto is_near = [&](const triangle<T>& t) { return is_exactly_near(s, t, distance); };
-    if (nearest_corners<S, T>(x, h, steepest.way).any_triangle(is_near)) return verdict::yes;
+    const nearest_corners<S, T> few(x, h, steepest.way);
+    const auto edge = [&](const vec3<T>& p, const vec3<T>& q) { return is_edge_near(s, p, q, distance); };
+    const auto face = [&](const vec3<T>& p, const vec3<T>& q, const vec3<T>& r) { return is_face_near(s, p, q, r, distance); };
+    if (any_feature(few, few.size(), all_points(), edge, face)) return verdict::yes;
     if (!ask_all) return verdict::unknown;
-    for (std::size_t i = 0; i < h.count; ++i) {
-        if (!x.is_near(steepest.way, i)) continue;
-        for (std::size_t j = 0; j < h.count; ++j) {
-            for (std::size_t k = j; k < h.count; ++k) {
-                if (is_near({h[i], h[j], h[k]})) return verdict::yes;
-            }
-        }
-    }
-    return verdict::no;
+    return to_verdict(any_feature(h, h.count, [&](std::size_t i) { return x.is_near(steepest.way, i); }, edge, face));
 }
 
 /// The first stage, as above.
