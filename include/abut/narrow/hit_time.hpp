@@ -128,9 +128,10 @@ ABUT_HD constexpr double hit_time(const Line& line, const triangle<T>& t) {
     }
 }
 
-/// hit_time, not inlined: for where it is seldom asked for.
+/// hit_time, not inlined: for where it is seldom asked for. Arguments go in registers: what a kernel hands on by its address it
+/// has to keep in memory.
 template <arithmetic A, class Line, scalar T>
-ABUT_NOINLINE ABUT_HD constexpr double hit_time_apart(const Line& line, const triangle<T>& t) {
+ABUT_NOINLINE ABUT_HD constexpr double hit_time_apart(Line line, triangle<T> t) {
     return hit_time<A>(line, t);
 }
 
