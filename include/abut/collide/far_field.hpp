@@ -37,6 +37,7 @@
 #include <abut/index/bvh.hpp>
 #include <abut/index/walk_order.hpp>
 #include <abut/narrow/nearest_point.hpp>
+#include <abut/narrow/four_doubles.hpp>
 #include <abut/narrow/numbers.hpp>
 #include <abut/shape/primitive.hpp>
 
@@ -45,12 +46,13 @@ namespace abut::detail {
 /// The symmetric part without trace of the moments of some triangles about a centre.
 struct winding_moments {
     using point = vec3<double>;
-    point center;
-    double radius;        ///< no corner is farther from the centre
-    double area, spread;  ///< the triangles' area, and R2 or more
+    point center, lower, upper;  ///< and the box around the corners
+    double radius;               ///< no corner is farther from the centre
+    double area, spread;         ///< the triangles' area, and R2 or more
     point s;
     double m[6];   ///< xx, yy, zz, xy, yz, zx; each as often as it occurs in M[u, u]
     double q[10];  ///< xxx, yyy, zzz, xxy, yyz, zzx, xyy, yzz, zxx, xyz; each as often as it occurs in Q[u, u, u]
+    std::uint32_t count;  ///< of triangles
 };
 
 namespace winding {
@@ -133,6 +135,13 @@ ABUT_HD winding_moments moments_of(const triangle<T>& t, const length_unit<doubl
     sums.add_to_q(n, form);
     winding_moments of;
     of.center = contact_math::rounded_off(center);
+    of.lower = contact_math::rounded_off(vector{{least(a.x.high, b.x.high, c.x.high)},
+                                                {least(a.y.high, b.y.high, c.y.high)},
+                                                {least(a.z.high, b.z.high, c.z.high)}});
+    of.upper = contact_math::rounded_off(vector{{greatest(a.x.high, b.x.high, c.x.high)},
+                                                {greatest(a.y.high, b.y.high, c.y.high)},
+                                                {greatest(a.z.high, b.z.high, c.z.high)}});
+    of.count = 1;
     of.radius = greatest(length_of(to_a), length_of(to_b), length_of(to_c));
     of.area = length_of(n);
     of.spread = (number(of.area) * (form[0] + form[1] + form[2])).high;
@@ -155,6 +164,12 @@ ABUT_HD inline winding_moments joined_moments(const winding_moments* parts, int 
     winding_moments all;
     all.center = contact_math::rounded_off(center);
     all.area = area.high;
+    all.lower = parts[0].lower, all.upper = parts[0].upper, all.count = parts[0].count;
+    for (int k = 1; k < count; ++k) {
+        all.lower = least(all.lower, parts[k].lower);
+        all.upper = greatest(all.upper, parts[k].upper);
+        all.count += parts[k].count;
+    }
     one_double spread{};
     double radius = 0;
     vector s{};
@@ -179,49 +194,60 @@ ABUT_HD inline winding_moments joined_moments(const winding_moments* parts, int 
         for (int j = 0; j < 6; ++j) twice[j] = number(2) * m[j];
         sums.add_to_q(way, twice);
     }
-    all.radius = plain_product(radius, 1 + 0x1p-46);
+    // The box's farthest corner may be nearer than what the parts' balls say.
+    const vec3<double> far = greatest(contact_math::plain_difference(all.upper, all.center),
+                                      contact_math::plain_difference(all.center, all.lower));
+    all.radius = plain_product(least(radius, length_of(vector_of(far))), 1 + 0x1p-46);
     all.spread = spread.high;
     all.s = contact_math::rounded_off(s);
     sums.write_harmonic(all);
     return all;
 }
 
-/// A far field from a point: what it says, and by how much it may be off.
-struct seen_from_afar {
-    double value, error;
-};
-
 inline constexpr double per_full_angle = 0.079577471545947668;  ///< 1 / (4 pi)
 
-/// Whether the far field is off by no more than `most`, and if so `seen`. Nothing is far at distances whose sixth power is
-/// out of range, nor where the gap to the ball around the triangles has lost its digits.
-ABUT_HD inline bool is_far(const winding_moments& of, const vec3<double>& p, double most, seen_from_afar& seen) {
-    using namespace winding;
-    const vector v = vector_of(of.center) - vector_of(p);
-    const one_double squared = dot(v, v);
-    if (!(squared.high > 0x1p-300 && squared.high < 0x1p300)) return false;
-    const one_double d = contact_math::root(squared), r = number(of.radius), gap = d - r;
-    if (!(gap.high > plain_product(0x1p-20, d.high))) return false;
-    const one_double above =
-        number(per_full_angle * (1 + 0x1p-30)) * (number(of.spread) * r * (number(4) * d - number(3) * r));
-    const one_double below = squared * squared * (gap * gap);
-    if (!(above.high <= plain_product(most, below.high))) return false;
-    const one_double inverse = number(1) / d;
-    const vector u = scale(inverse, v);
-    const auto form = [&](const double (&m)[6], const vector& w) {
-        return number(m[0]) * (w.x * w.x) + number(m[1]) * (w.y * w.y) + number(m[2]) * (w.z * w.z) +
-               number(m[3]) * (w.x * w.y) + number(m[4]) * (w.y * w.z) + number(m[5]) * (w.z * w.x);
-    };
-    const auto& q = of.q;
-    const one_double xx = u.x * u.x, yy = u.y * u.y, zz = u.z * u.z;
-    const one_double cubic = u.x * (number(q[0]) * xx + number(q[6]) * yy + number(q[5]) * zz) +
-                             u.y * (number(q[1]) * yy + number(q[7]) * zz + number(q[3]) * xx) +
-                             u.z * (number(q[2]) * zz + number(q[8]) * xx + number(q[4]) * yy) +
-                             number(q[9]) * (u.x * (u.y * u.z));
-    const one_double of_s = dot(vector_of(of.s), u), of_m = number(-3) * form(of.m, u), of_q = number(7.5) * cubic;
-    const one_double all = inverse * inverse * (of_s + inverse * (of_m + inverse * of_q));
-    seen = {plain_product(per_full_angle, all.high), (above / below).high};
-    return true;
+/// What a walk reads of a node's far field: coefficients of S.v, M[v, v] and Q[v, v, v], over 4 pi and with the factors of
+/// the expansion. Of M and of Q those that say all.
+struct alignas(64) far_terms {
+    double of[16];
+};
+ABUT_HD inline far_terms terms_of(const winding_moments& all) {
+    const vec3<double>& s = all.s;
+    const double *const m = all.m, *const q = all.q, unit = per_full_angle;
+    far_terms terms{{s.x, s.y, s.z, m[0], m[1], m[3], m[4], m[5], q[0], q[1], q[2], q[6], q[7], q[8], q[9], 0}};
+    for (int k = 0; k < 15; ++k) terms.of[k] = plain_product(terms.of[k], k < 3 ? unit : k < 8 ? -3 * unit : 7.5 * unit);
+    return terms;
+}
+/// The factor of a bound that does not depend on the point: R2 / (4 pi r^2), and a little more for what is rounded.
+ABUT_HD inline double far_weight(const winding_moments& all) {
+    if (!(all.spread > 0)) return 0;
+    const double per_radius = per_full_angle * (1 + 0x1p-30) / all.radius;
+    return plain_product(all.spread / all.radius, per_radius);
+}
+
+/// By how much a far field may be off at a distance whose square is given: infinite where the point is not outside of the
+/// ball, at distances whose sixth power is out of range, and where the gap to the ball has lost its digits.
+template <class N>
+ABUT_INLINE ABUT_HD N far_error(const N& squared, const N& radius, const N& weight) {
+    using contact_math::root;
+    using contact_math::select;
+    const N one = N::of(1), inverse = one / root(squared), x = radius * inverse, gap = one - x;
+    const N error = weight * (inverse * inverse) * (x * x * x) * (N::of(4) - N::of(3) * x) / (gap * gap);
+    const auto is_outside = (gap > N::of(0x1p-20)) & (squared > N::of(0x1p-300)) & (squared < N::of(0x1p300));
+    return select(is_outside, error, N::of(infinity<double>));
+}
+
+/// The far field at v from the centre of a node, of which term(k) are the coefficients.
+template <class N, class Term>
+ABUT_INLINE ABUT_HD N far_value(const vec3<N>& v, const Term& term) {
+    using contact_math::root;
+    const N xx = v.x * v.x, yy = v.y * v.y, zz = v.z * v.z, x_z = xx - zz, y_z = yy - zz, x_y = xx - yy;
+    const N inverse = N::of(1) / root(xx + yy + zz), square = inverse * inverse, yz = v.y * v.z;
+    const N of_s = term(0) * v.x + term(1) * v.y + term(2) * v.z;
+    const N of_m = term(3) * x_z + term(4) * y_z + term(5) * (v.x * v.y) + term(6) * yz + term(7) * (v.z * v.x);
+    const N of_q = v.x * (term(8) * (x_z - (zz + zz)) + term(11) * y_z) - v.y * (term(9) * (x_y + (xx + xx)) + term(12) * x_z) +
+                   v.z * (term(13) * x_y - term(10) * (y_z + (yy + yy))) + term(14) * (v.x * yz);
+    return inverse * square * (of_s + square * (of_m + square * of_q));
 }
 
 // --- of all nodes of a tree, from the leaves up --------------------------------------------------------------------------
@@ -298,20 +324,27 @@ private:
     }
 };
 
+/// The parents of a tree's inner nodes, `count` of them; no_link of the root. May return before they are there.
+template <class Policy, bvh_layout Tree>
+execution::buffer_of<Policy, std::uint32_t> parents_of_nodes(const Policy& on, const Tree& tree, std::size_t count) {
+    execution::buffer_of<Policy, std::uint32_t> above(on, count);
+    for_each_index(on, count, write_parents<Tree>{tree, above.data()});
+    return above;
+}
+
 /// Of a tree with inner nodes, `count` of them, by their numbers; `largest` is no less than any coordinate of a shape. May
 /// return before they are there.
 template <class Policy, bvh_layout Tree, shape_view Shapes>
 execution::buffer_of<Policy, winding_moments> moments_of_nodes(const Policy& on, const Tree& tree, std::size_t count,
                                                                const Shapes& shapes, const length_unit<double>& unit,
-                                                               double largest) {
+                                                               double largest, const std::uint32_t* above) {
     using gather = gather_moments<Tree, Shapes>;
     execution::buffer_of<Policy, winding_moments> moments(on, count);
-    execution::buffer_of<Policy, std::uint32_t> above(on, count), reached(on, gather::words * count);
-    for_each_index(on, count, write_parents<Tree>{tree, above.data()});
+    execution::buffer_of<Policy, std::uint32_t> reached(on, gather::words * count);
     fill(on, reached.data(), reached.size(), std::uint32_t{0});
     // In each of 96 levels at most a centre is rounded, and the areas that weigh it: by 200 units of roundoff or less.
     const double off_center = plain_product(0x1p-38, unit.of(largest));
-    for_each_index(on, count, gather{tree, shapes, unit, off_center, above.data(), reached.data(), moments.data()});
+    for_each_index(on, count, gather{tree, shapes, unit, off_center, above, reached.data(), moments.data()});
     return moments;
 }
 

@@ -14,8 +14,8 @@
 #include <type_traits>
 #include <utility>
 
-#include <abut/collide/far_field.hpp>
 #include <abut/collide/nearest.hpp>
+#include <abut/collide/winding_index.hpp>
 #include <abut/narrow/solid_angle.hpp>
 
 namespace abut {
@@ -61,70 +61,195 @@ struct wind_around_all {
     }
 };
 
-/// A tree's triangles, and together those that are far. From left to right.
-template <bvh_layout Tree, shape_view Shapes, shape_view Points>
-struct wind_around_tree {
-    Tree tree;
-    Shapes shapes;
+/// The sum of one point, through an index.
+///
+/// What may be off by most is looked at more closely first, until all together may be off by no more than the tolerance. So
+/// a list holds nodes that wait, with what each may be off by, and those above a level are opened; the level falls by a
+/// quarter at a time. Where the list is full, the walk begins again, depth first: all nodes above a level are opened, and
+/// the level falls until the rest is off by no more than the tolerance. Either way the order of the sum depends on the index
+/// and the point alone.
+template <scalar T>
+class winding_walk {
+    using one_double = contact_math::one_double;
+
+public:
+    ABUT_HD winding_walk(const winding_view<T>& in, const vec3<T>& p)
+        : in_(in),
+          p_(p),
+          from_{in.unit.of(static_cast<double>(p.x)), in.unit.of(static_cast<double>(p.y)),
+                in.unit.of(static_cast<double>(p.z))} {}
+
+    /// All triangles, in the order of the index.
+    ABUT_HD double add_all() {
+        for (std::size_t k = 0; k < in_.block_count; ++k) add_block(static_cast<std::uint32_t>(k));
+        return sum_.total();
+    }
+    ABUT_HD double add_within(double tolerance) {
+        if ((in_.root & winding_node::of_block) != 0) return add_all();
+        // Less for what is rounded in sums of bounds.
+        tolerance = plain_product(tolerance, 1 - 0x1p-20);
+        double level = tolerance;
+        if (!open_largest(tolerance, level)) {
+            sum_ = {};
+            while (!walk_down<false>(level, tolerance)) level = plain_product(level, 0.25);
+            walk_down<true>(level, tolerance);
+            return sum_.total();
+        }
+        for (int k = 0; k < waiting_; k += 4) add_far(slot_ + k, waiting_ - k);
+        return sum_.total();
+    }
+
+private:
+    static constexpr int room = 512;
+    static_assert(room >= bvh_max_depth * 3 + 1);
+
+    ABUT_HD void add_block(std::uint32_t block) {
+        double shares[4];
+        solid_angle_shares(in_.blocks[block], p_, shares);
+        for (const double share : shares) sum_.add(share);
+    }
+
+    /// What the far fields of a node's children may be off by.
+    ABUT_HD void bound(const winding_node& node, double (&error)[4]) const {
+#if ABUT_VECTORS
+        using number = contact_math::four_doubles;
+        const vec3<number> v{number::load(node.center[0]) - number::of(from_.x),
+                             number::load(node.center[1]) - number::of(from_.y),
+                             number::load(node.center[2]) - number::of(from_.z)};
+        far_error(dot(v, v), number::load(node.radius), number::load(node.weight)).high.store(error);
+#else
+        for (int k = 0; k < 4; ++k) {
+            const vec3<one_double> v = way_to(node, k);
+            error[k] = far_error(dot(v, v), one_double{node.radius[k]}, one_double{node.weight[k]}).high;
+        }
+#endif
+    }
+    [[nodiscard]] ABUT_HD vec3<one_double> way_to(const winding_node& node, int k) const {
+        return {one_double::difference(node.center[0][k], from_.x), one_double::difference(node.center[1][k], from_.y),
+                one_double::difference(node.center[2][k], from_.z)};
+    }
+
+    /// Adds the far fields of the first four slots of a list.
+    ABUT_HD void add_far(const std::uint32_t* slots, int count) {
+#if ABUT_VECTORS
+        using number = contact_math::four_doubles;
+        const std::uint32_t a = slots[0], b = slots[count > 1 ? 1 : 0], c = slots[count > 2 ? 2 : 0], d = slots[count > 3 ? 3 : 0];
+        const double *const ta = in_.terms[a].of, *const tb = in_.terms[b].of, *const tc = in_.terms[c].of,
+                            *const td = in_.terms[d].of;
+        const auto center = [&](int axis) {
+            const auto of = [&](std::uint32_t slot) { return in_.nodes[slot / 4].center[axis][slot % 4]; };
+            return number{number::row::of(of(a), of(b), of(c), of(d))};
+        };
+        const vec3<number> v{center(0) - number::of(from_.x), center(1) - number::of(from_.y), center(2) - number::of(from_.z)};
+        double value[4];
+        far_value(v, [&](int k) { return number{number::row::of(ta[k], tb[k], tc[k], td[k])}; }).high.store(value);
+        for (int k = 0; k < 4 && k < count; ++k) sum_.add(value[k]);
+#else
+        for (int k = 0; k < 4 && k < count; ++k) {
+            const double* const term = in_.terms[slots[k]].of;
+            const auto at = [&](int j) { return one_double{term[j]}; };
+            sum_.add(far_value(way_to(in_.nodes[slots[k] / 4], static_cast<int>(slots[k] % 4)), at).high);
+        }
+#endif
+    }
+
+    /// Adds a node's blocks, and puts its other children on the list; returns what these may be off by. There is room.
+    ABUT_HD double open(std::uint32_t number) {
+        const winding_node& node = in_.nodes[number];
+        double error[4], all = 0;
+        bound(node, error);
+        for (std::uint32_t k = 0; k < node.count; ++k) {
+            slot_[waiting_] = 4 * number + k;
+            error_[waiting_++] = error[k];
+            all = plain_sum(all, error[k]);
+        }
+        return all;
+    }
+    /// False where the list is full. `level` is that down to which it came.
+    ABUT_HD bool open_largest(double tolerance, double& level) {
+        double all = open(in_.root);
+        for (;; level = plain_product(level, 0.25)) {
+            for (int i = 0; i < waiting_;) {
+                if (!(error_[i] > level)) {
+                    ++i;
+                    continue;
+                }
+                const std::uint32_t child = in_.nodes[slot_[i] / 4].child[slot_[i] % 4];
+                all = plain_sum(all, -error_[i]);
+                --waiting_;
+                error_[i] = error_[waiting_];
+                slot_[i] = slot_[waiting_];
+                if ((child & winding_node::of_block) != 0) {
+                    add_block(child ^ winding_node::of_block);
+                } else {
+                    if (waiting_ + 4 > room) return false;
+                    all = plain_sum(all, open(child));
+                }
+                if (all <= tolerance) return true;
+            }
+            // Infinite ones are gone, and the sum begins again.
+            all = 0;
+            for (int i = 0; i < waiting_; ++i) all = plain_sum(all, error_[i]);
+            if (all <= tolerance) return true;
+        }
+    }
+
+    /// Opens all nodes above the level. True if the rest is off by no more than the tolerance; adds up only if asked to.
+    template <bool Adds>
+    ABUT_HD bool walk_down(double level, double tolerance) {
+        double all = 0;
+        std::uint32_t far[4];
+        int count = 0;
+        waiting_ = 0;
+        slot_[waiting_++] = in_.root;
+        while (waiting_ > 0) {
+            const std::uint32_t number = slot_[--waiting_];
+            const winding_node& node = in_.nodes[number];
+            double error[4];
+            bound(node, error);
+            for (std::uint32_t k = 0; k < node.count; ++k) {
+                const std::uint32_t child = node.child[k];
+                if (!(error[k] > level)) {
+                    all = plain_sum(all, error[k]);
+                    if (!Adds) continue;
+                    far[count++] = 4 * number + k;
+                    if (count == 4) add_far(far, 4), count = 0;
+                } else if ((child & winding_node::of_block) == 0) {
+                    slot_[waiting_++] = child;
+                } else if (Adds) {
+                    add_block(child ^ winding_node::of_block);
+                }
+            }
+            if (!Adds && !(all <= tolerance)) return false;
+        }
+        if (count > 0) add_far(far, count);
+        return true;
+    }
+
+    const winding_view<T>& in_;
+    vec3<T> p_;
+    vec3<double> from_;
+    long_sum sum_;
+    int waiting_ = 0;
+    double error_[room];  // these are not initialised
+    std::uint32_t slot_[room];
+};
+
+/// The triangles of an index.
+template <scalar T, shape_view Points>
+struct wind_around_index {
+    winding_view<T> in;
     Points points;
-    const winding_moments* moments;  ///< of the nodes
-    length_unit<double> unit;        ///< that of the moments
     double tolerance;
     const std::uint32_t* order;  ///< of the points; null for their own
     double* out;
 
     ABUT_HD void operator()(std::size_t i) const {
         const std::size_t k = order == nullptr ? i : order[i];
-        const auto p = points[k];
-        const auto in_unit = [&](auto x) { return unit.of(static_cast<double>(x)); };
-        const vec3<double> from{in_unit(p.x), in_unit(p.y), in_unit(p.z)};
-        // Errors are allowed in proportion to area. What some nodes leave over others may use.
-        const double per_area = plain_product(tolerance, 1 - 0x1p-20) / moments[tree.root().index()].area;
-        double allowed = 0;
-        long_sum sum;
-        bvh_child pending[bvh_max_depth * (Tree::width - 1) + 1];  // not initialised
-        int waiting = 0;
-        pending[waiting++] = tree.root();
-        while (waiting > 0) {
-            const bvh_child child = pending[--waiting];
-            if (child.is_leaf()) {
-                sum.add(solid_angle_share(shapes[child.index()], p));
-                continue;
-            }
-            const winding_moments& of = moments[child.index()];
-            const double most = plain_sum(allowed, plain_product(per_area, of.area));
-            seen_from_afar seen;
-            if (is_far(of, from, most, seen)) {
-                sum.add(seen.value);
-                allowed = plain_sum(most, -seen.error);
-                continue;
-            }
-            const auto& node = tree.fetch(child.index());
-            for (int slot = tree.children(node); slot-- > 0;) pending[waiting++] = tree.child(node, slot);
-        }
-        out[k] = sum.total();
+        winding_walk<T> walk(in, points[k]);
+        out[k] = tolerance > 0 ? walk.add_within(tolerance) : walk.add_all();
     }
 };
-
-template <class Operand>
-const auto& index_of(const Operand& x) {
-    if constexpr (Operand::is_posed) {
-        return index_of(x.operand);
-    } else {
-        return x.index;
-    }
-}
-
-/// A power of two that brings the largest coordinate to [1, 2), or as near to it as such a number can.
-template <scalar T>
-length_unit<double> unit_of_far_field([[maybe_unused]] double largest) {
-    length_unit<double> unit;
-    if (std::same_as<T, float> || !(largest > 0)) return unit;
-    const int e = contact_math::exponent_of(least(largest, largest_finite<double>)), k = greatest(-1000, least(1000, -e));
-    unit.per_length = contact_math::power_of_two(k);
-    unit.unit = contact_math::power_of_two(-k);
-    return unit;
-}
 
 /// Whether `winding_number` takes both arguments.
 template <class Policy, class X, class Points>
@@ -142,6 +267,15 @@ consteval bool can_wind() {
     }
 }
 
+template <class Operand, class Policy, scalar T, memory_space Space, shape_view Points>
+void wind_around_made(const Policy& on, const winding_storage<T, Space>& made, const Points& from, double tolerance,
+                      double* out) {
+    const winding_view<T> in{made.nodes.data(), made.terms.data(), made.blocks.data(), made.blocks.size(), made.root, made.unit};
+    const auto order = order_of_points<Operand>(on, from);
+    for_each_task(on, from.size(), wind_around_index<T, Points>{in, from, tolerance, order.data(), out});
+    synchronize(on);
+}
+
 /// The answers of all points to `out`, in the policy's memory; complete when it returns.
 template <class Policy, class Operand, class Rows>
 void wind_around(const Policy& on, const Operand& x, const Rows& rows, double tolerance, double* out) {
@@ -149,19 +283,10 @@ void wind_around(const Policy& on, const Operand& x, const Rows& rows, double to
     const auto from = rows.shapes();
     using shapes_type = std::remove_const_t<decltype(there)>;
     using points_type = std::remove_const_t<decltype(from)>;
-    using T = typename shapes_type::scalar_type;
     if constexpr (Operand::has_tree) {
-        if (tolerance > 0 && there.size() > 1 && from.size() > 0) {
-            const auto tree = x.tree();
-            const double largest = largest_coordinate(on, x);
-            const auto unit = unit_of_far_field<T>(largest);
-            const auto moments = moments_of_nodes(on, tree, index_of(x).stored().nodes.size(), there, unit, largest);
-            const auto order = order_of_points<Operand>(on, from);
-            using around_tree = wind_around_tree<std::remove_const_t<decltype(tree)>, shapes_type, points_type>;
-            for_each_task(on, from.size(),
-                          around_tree{tree, there, from, moments.data(), unit, tolerance, order.data(), out});
-            synchronize(on);
-            return;
+        if (tolerance > 0 && from.size() > 0) {
+            const auto made = winding_storage_of(on, x);
+            return wind_around_made<Operand>(on, made, from, tolerance, out);
         }
     }
     for_each_task(on, from.size(), wind_around_all<shapes_type, points_type>{there, from, out});

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// make_winding_index: what winding_number looks in, made once: far fields of a tree's nodes (far_field.hpp), four at a time,
+// and the triangles below in fours. Not for other queries: those look in the tree.
+//
+// Its nodes stand for those of a tree of four children a node, and for every second level of a binary one. What has four
+// triangles or fewer is a block of them. No result depends on how nodes and blocks are numbered.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <type_traits>
+#include <utility>
+
+#include <abut/collide/far_field.hpp>
+#include <abut/collide/nearest.hpp>
+#include <abut/execution/buffer.hpp>
+#include <abut/index/bvh.hpp>
+#include <abut/narrow/solid_angle.hpp>
+
+namespace abut {
+
+namespace detail {
+
+/// Four children at most: inner nodes, and blocks with `of_block` set in their numbers.
+struct alignas(64) winding_node {
+    static constexpr std::uint32_t of_block = std::uint32_t{1} << 31;
+
+    double center[3][4], radius[4], weight[4];  ///< as of winding_moments and far_weight
+    std::uint32_t child[4], count;
+};
+
+/// What a walk reads.
+template <scalar T>
+struct winding_view {
+    const winding_node* nodes;
+    const far_terms* terms;  ///< four a node
+    const four_triangles<T>* blocks;
+    std::size_t block_count;  ///< 0 of no triangles
+    std::uint32_t root;       ///< a child's number
+    length_unit<double> unit;
+};
+
+template <scalar T, memory_space Space>
+struct winding_storage {
+    execution::buffer<winding_node, Space> nodes;
+    execution::buffer<far_terms, Space> terms;
+    execution::buffer<four_triangles<T>, Space> blocks;
+    std::uint32_t root = winding_node::of_block;
+    length_unit<double> unit;
+};
+
+/// A power of two that brings the largest coordinate to [1, 2), or as near to it as such a number can.
+inline length_unit<double> unit_of_far_field(double largest) {
+    length_unit<double> unit;
+    if (!(largest > 0)) return unit;
+    const int e = contact_math::exponent_of(least(largest, largest_finite<double>)), k = greatest(-1000, least(1000, -e));
+    unit.per_length = contact_math::power_of_two(k);
+    unit.unit = contact_math::power_of_two(-k);
+    return unit;
+}
+
+/// What becomes of a tree's node in an index.
+template <bvh_layout Tree>
+struct winding_slots {
+    Tree tree;
+    const winding_moments* moments;
+    const std::uint32_t* above;
+
+    [[nodiscard]] ABUT_HD bool is_block(bvh_child child) const { return child.is_leaf() || moments[child.index()].count <= 4; }
+    /// Whether a node of the index stands for it.
+    [[nodiscard]] ABUT_HD bool is_node(std::uint32_t number) const {
+        if (moments[number].count <= 4) return false;
+        bool is_even = true;
+        if (Tree::width == 2) {
+            for (std::uint32_t at = above[number]; at != no_link; at = above[at]) is_even = !is_even;
+        }
+        return is_even;
+    }
+    /// Its children in the index.
+    ABUT_HD int children(std::uint32_t number, bvh_child (&out)[4]) const {
+        const auto& node = tree.fetch(number);
+        int count = 0;
+        for (int slot = 0; slot < tree.children(node); ++slot) {
+            const bvh_child child = tree.child(node, slot);
+            if (Tree::width > 2 || is_block(child)) {
+                out[count++] = child;
+                continue;
+            }
+            const auto& below = tree.fetch(child.index());
+            for (int k = 0; k < 2; ++k) out[count++] = tree.child(below, k);
+        }
+        return count;
+    }
+};
+
+/// How many nodes, 0 or 1, and blocks stand for each of the tree's nodes.
+template <bvh_layout Tree>
+struct count_winding_slots {
+    winding_slots<Tree> slots;
+    std::uint32_t* nodes;
+    std::uint32_t* blocks;
+
+    ABUT_HD void operator()(std::size_t i) const {
+        const auto number = static_cast<std::uint32_t>(i);
+        nodes[i] = slots.is_node(number) ? 1 : 0;
+        blocks[i] = 0;
+        if (nodes[i] == 0) return;
+        bvh_child child[4];
+        const int count = slots.children(number, child);
+        for (int k = 0; k < count; ++k) blocks[i] += slots.is_block(child[k]) ? 1 : 0;
+    }
+};
+
+/// The four triangles or fewer below a child; the last places hold points.
+template <bvh_layout Tree, shape_view Shapes, scalar T>
+ABUT_HD void fill_block(const Tree& tree, const Shapes& shapes, bvh_child child, four_triangles<T>& block) {
+    bvh_child pending[4] = {child};
+    int waiting = 1, filled = 0;
+    while (waiting > 0) {
+        const bvh_child at = pending[--waiting];
+        if (!at.is_leaf()) {
+            const auto& node = tree.fetch(at.index());
+            for (int slot = tree.children(node); slot-- > 0;) pending[waiting++] = tree.child(node, slot);
+            continue;
+        }
+        const triangle<T> t = shapes[at.index()];
+        const vec3<T> corner[] = {t.a, t.b, t.c};
+        for (int k = 0; k < 3; ++k) {
+            block.at[3 * k][filled] = corner[k].x;
+            block.at[3 * k + 1][filled] = corner[k].y;
+            block.at[3 * k + 2][filled] = corner[k].z;
+        }
+        ++filled;
+    }
+    for (; filled < 4; ++filled) {
+        for (int k = 0; k < 9; ++k) block.at[k][filled] = block.at[k % 3][0];
+    }
+}
+template <bvh_layout Tree, shape_view Shapes, scalar T>
+struct fill_one_block {
+    Tree tree;
+    Shapes shapes;
+    bvh_child child;
+    four_triangles<T>* block;
+    ABUT_HD void operator()(std::size_t) const { fill_block(tree, shapes, child, *block); }
+};
+
+/// Writes what stands for each of the tree's nodes.
+template <bvh_layout Tree, shape_view Shapes>
+struct write_winding_nodes {
+    using T = typename Shapes::scalar_type;
+    winding_slots<Tree> slots;
+    Shapes shapes;
+    length_unit<double> unit;
+    const std::uint32_t* node_at;   ///< where a node's number begins; and the end
+    const std::uint32_t* block_at;  ///< likewise
+    winding_node* nodes;
+    far_terms* terms;
+    four_triangles<T>* blocks;
+
+    ABUT_HD void operator()(std::size_t i) const {
+        const std::uint32_t number = node_at[i];
+        if (node_at[i + 1] == number) return;
+        std::uint32_t block = block_at[i];
+        bvh_child child[4];
+        winding_node node;
+        node.count = static_cast<std::uint32_t>(slots.children(static_cast<std::uint32_t>(i), child));
+        for (std::uint32_t k = 0; k < 4; ++k) {
+            const bvh_child one = child[k < node.count ? k : 0];
+            const winding_moments of = one.is_leaf() ? moments_of(shapes[one.index()], unit) : slots.moments[one.index()];
+            node.center[0][k] = of.center.x, node.center[1][k] = of.center.y, node.center[2][k] = of.center.z;
+            node.radius[k] = of.radius;
+            node.weight[k] = far_weight(of);
+            node.child[k] = 0;
+            terms[4 * number + k] = terms_of(of);
+            if (k >= node.count) continue;
+            if (slots.is_block(one)) {
+                node.child[k] = winding_node::of_block | block;
+                fill_block(slots.tree, shapes, one, blocks[block++]);
+            } else {
+                node.child[k] = node_at[one.index()];
+            }
+        }
+        nodes[number] = node;
+    }
+};
+
+/// Of a tree with shapes, as they are placed. May return before it is there.
+template <class Policy, bvh_layout Tree, shape_view Shapes>
+auto winding_storage_of(const Policy& on, const Tree& tree, bvh_child root, std::size_t tree_nodes, const Shapes& shapes,
+                        double largest) {
+    using T = typename Shapes::scalar_type;
+    winding_storage<T, space_of<Policy>> made;
+    made.unit = unit_of_far_field(largest);
+    const auto one_block = [&] {
+        made.blocks = execution::buffer_of<Policy, four_triangles<T>>(on, 1);
+        for_each_index(on, 1, fill_one_block<Tree, Shapes, T>{tree, shapes, root, made.blocks.data()});
+    };
+    if (root.is_leaf()) {
+        one_block();
+        return made;
+    }
+    const auto above = parents_of_nodes(on, tree, tree_nodes);
+    const auto moments = moments_of_nodes(on, tree, tree_nodes, shapes, made.unit, largest, above.data());
+    if (shapes.size() <= 4) {
+        one_block();
+        return made;
+    }
+    const winding_slots<Tree> slots{tree, moments.data(), above.data()};
+    execution::buffer_of<Policy, std::uint32_t> node_at(on, tree_nodes + 1), block_at(on, tree_nodes + 1);
+    for_each_index(on, tree_nodes, count_winding_slots<Tree>{slots, node_at.data(), block_at.data()});
+    exclusive_scan(on, node_at.data(), tree_nodes);
+    exclusive_scan(on, block_at.data(), tree_nodes);
+    std::uint32_t nodes = 0, blocks = 0;
+    download(on, node_at.data() + tree_nodes, 1, &nodes);
+    download(on, block_at.data() + tree_nodes, 1, &blocks);
+    download(on, node_at.data() + root.index(), 1, &made.root);
+    made.nodes = execution::buffer_of<Policy, winding_node>(on, nodes);
+    made.terms = execution::buffer_of<Policy, far_terms>(on, 4 * std::size_t{nodes});
+    made.blocks = execution::buffer_of<Policy, four_triangles<T>>(on, blocks);
+    for_each_index(on, tree_nodes,
+                   write_winding_nodes<Tree, Shapes>{slots, shapes, made.unit, node_at.data(), block_at.data(),
+                                                     made.nodes.data(), made.terms.data(), made.blocks.data()});
+    return made;
+}
+
+template <class Operand>
+const auto& index_of(const Operand& x) {
+    if constexpr (Operand::is_posed) {
+        return index_of(x.operand);
+    } else {
+        return x.index;
+    }
+}
+/// Of an operand with a tree. Complete when it returns.
+template <class Policy, class Operand>
+auto winding_storage_of(const Policy& on, const Operand& x) {
+    const auto shapes = x.shapes();
+    using T = typename std::remove_const_t<decltype(shapes)>::scalar_type;
+    winding_storage<T, space_of<Policy>> made;
+    if (shapes.size() > 0) {
+        const auto& stored = index_of(x).stored();
+        bvh_root<std::remove_cvref_t<decltype(x.tree().root_bounds().lower.x)>> root;
+        download(on, stored.root.data(), 1, &root);
+        made = winding_storage_of(on, x.tree(), root.child, stored.nodes.size(), shapes, largest_coordinate(on, x));
+    }
+    synchronize(on);
+    return made;
+}
+
+}  // namespace detail
+
+}  // namespace abut
