@@ -37,11 +37,43 @@
 #include <abut/index/bvh.hpp>
 #include <abut/index/walk_order.hpp>
 #include <abut/narrow/nearest_point.hpp>
-#include <abut/narrow/four_doubles.hpp>
 #include <abut/narrow/numbers.hpp>
+#include <abut/narrow/rounded_lanes.hpp>
 #include <abut/shape/primitive.hpp>
 
 namespace abut::detail {
+
+/// Where moments are made: the middle of the triangles' box is the origin, and its longest side comes to [1, 4), or as near
+/// to it as powers of two go.
+struct winding_frame {
+    double scale = 1;  ///< the largest coordinate comes to [1, 2)
+    vec3<double> middle{0, 0, 0};
+    double per_length = 1;
+
+    winding_frame() = default;
+    /// Of the lowest and the highest coordinates.
+    winding_frame(const vec3<double>& lower, const vec3<double>& upper) {
+        const auto power = [](double x) {
+            const int e = contact_math::exponent_of(least(x, largest_finite<double>));
+            return contact_math::power_of_two(greatest(-1000, least(1000, -e)));
+        };
+        const double largest = greatest(magnitude(lower), magnitude(upper));
+        if (!(largest > 0)) return;
+        scale = power(largest);
+        middle = of(0.5 * lower) + of(0.5 * upper);
+        const double size = magnitude(of(upper));
+        if (size > 0) per_length = power(size);
+    }
+    [[nodiscard]] ABUT_HD vec3<double> of(const vec3<double>& p) const {
+        const auto one = [&](double x, double from) {
+            return plain_product(plain_sum(plain_product(x, scale), -from), per_length);
+        };
+        return {one(p.x, middle.x), one(p.y, middle.y), one(p.z, middle.z)};
+    }
+
+private:
+    static double magnitude(const vec3<double>& v) { return contact_math::largest_of(v); }
+};
 
 /// The symmetric part without trace of the moments of some triangles about a centre.
 struct winding_moments {
@@ -106,13 +138,13 @@ struct moment_sums {
 
 }  // namespace winding
 
-/// Of one triangle, about the mean of its corners as it is rounded. `unit` is what lengths are measured in.
+/// Of one triangle, about the mean of its corners as it is rounded. 
 template <scalar T>
-ABUT_HD winding_moments moments_of(const triangle<T>& t, const length_unit<double>& unit) {
+ABUT_HD winding_moments moments_of(const triangle<T>& t, const winding_frame& frame) {
     using namespace winding;
     const auto corner = [&](const vec3<T>& p) {
-        return vector{number(unit.of(static_cast<double>(p.x))), number(unit.of(static_cast<double>(p.y))),
-                      number(unit.of(static_cast<double>(p.z)))};
+        const vec3<double> at = frame.of(widened(p));
+        return vector_of(at);
     };
     const vector a = corner(t.a), b = corner(t.b), c = corner(t.c);
     const auto third = [](const vector& v) { return vector{v.x / number(3), v.y / number(3), v.z / number(3)}; };
@@ -206,47 +238,60 @@ ABUT_HD inline winding_moments joined_moments(const winding_moments* parts, int 
 
 inline constexpr double per_full_angle = 0.079577471545947668;  ///< 1 / (4 pi)
 
-/// What a walk reads of a node's far field: coefficients of S.v, M[v, v] and Q[v, v, v], over 4 pi and with the factors of
-/// the expansion. Of M and of Q those that say all.
-struct alignas(64) far_terms {
-    double of[16];
+/// What a walk reads of the far fields of four nodes: coefficients of S.v, M[v, v] and Q[v, v, v], over 4 pi and with the
+/// factors of the expansion; of M and of Q those that say all. One is the sum of two floats, of which the first may do.
+struct alignas(16) far_terms {
+    float high[15][4], low[15][4];
 };
-ABUT_HD inline far_terms terms_of(const winding_moments& all) {
-    const vec3<double>& s = all.s;
-    const double *const m = all.m, *const q = all.q, unit = per_full_angle;
-    far_terms terms{{s.x, s.y, s.z, m[0], m[1], m[3], m[4], m[5], q[0], q[1], q[2], q[6], q[7], q[8], q[9], 0}};
-    for (int k = 0; k < 15; ++k) terms.of[k] = plain_product(terms.of[k], k < 3 ? unit : k < 8 ? -3 * unit : 7.5 * unit);
-    return terms;
-}
-/// The factor of a bound that does not depend on the point: R2 / (4 pi r^2), and a little more for what is rounded.
-ABUT_HD inline double far_weight(const winding_moments& all) {
-    if (!(all.spread > 0)) return 0;
-    const double per_radius = per_full_angle * (1 + 0x1p-30) / all.radius;
-    return plain_product(all.spread / all.radius, per_radius);
+/// And what its error is made of: the radius; the factor of the bound that does not depend on the point, R2 / (4 pi r^2); and
+/// a bound on what floats may lose, as a factor of 1 / d^2. Rounded up.
+struct far_bounds {
+    float radius, weight, noise;
+};
+
+ABUT_HD inline float rounded_up(double x) { return static_cast<float>(plain_product(x, 1 + 0x1p-20) + 0x1p-120); }
+
+ABUT_HD inline far_bounds write_far_terms(const winding_moments& all, far_terms& terms, int node) {
+    const double *const m = all.m, *const q = all.q, unit = per_full_angle, r = all.radius;
+    const double of[15] = {all.s.x, all.s.y, all.s.z, m[0], m[1], m[3], m[4], m[5], q[0], q[1], q[2], q[6], q[7], q[8], q[9]};
+    double sum[3] = {};
+    for (int k = 0; k < 15; ++k) {
+        const int degree = k < 3 ? 0 : k < 8 ? 1 : 2;
+        const double term = plain_product(of[k], degree == 0 ? unit : degree == 1 ? -3 * unit : 7.5 * unit);
+        const auto high = static_cast<float>(term);
+        terms.high[k][node] = high;
+        terms.low[k][node] = static_cast<float>(plain_sum(term, -static_cast<double>(high)));
+        sum[degree] = plain_sum(sum[degree], absolute(term));
+    }
+    if (!(r > 0)) return {rounded_up(0), 0, 0};
+    // Less than forty roundings are one upon another, of parts that add up to no more than this: a coefficient of Q comes with
+    // a polynomial of at most 3/2 d^3, and r < d.
+    const double parts = plain_sum(plain_sum(sum[0], sum[1] / r), 1.5 * (sum[2] / r) / r);
+    return {rounded_up(r), rounded_up(plain_product(all.spread / r / r, per_full_angle * (1 + 0x1p-8))),
+            rounded_up(plain_product(40 * 0x1p-24, parts))};
 }
 
-/// By how much a far field may be off at a distance whose square is given: infinite where the point is not outside of the
-/// ball, at distances whose sixth power is out of range, and where the gap to the ball has lost its digits.
+/// By how much a far field may be off at a distance whose square is given, in floats: infinite where the gap to the ball has
+/// lost its digits, and where products are out of range. The weight makes up for what is rounded here: of the gap by 2^-11 or
+/// less.
 template <class N>
-ABUT_INLINE ABUT_HD N far_error(const N& squared, const N& radius, const N& weight) {
-    using contact_math::root;
-    using contact_math::select;
-    const N one = N::of(1), inverse = one / root(squared), x = radius * inverse, gap = one - x;
-    const N error = weight * (inverse * inverse) * (x * x * x) * (N::of(4) - N::of(3) * x) / (gap * gap);
-    const auto is_outside = (gap > N::of(0x1p-20)) & (squared > N::of(0x1p-300)) & (squared < N::of(0x1p300));
-    return select(is_outside, error, N::of(infinity<double>));
+ABUT_INLINE ABUT_HD N far_error(const N& squared, const N& radius, const N& weight, const N& noise) {
+    const N one = N::of(1), inverse = one / root(squared), square = inverse * inverse, x = radius * inverse, gap = one - x;
+    const N error = (weight * square * (x * x * x) * (N::of(4) - N::of(3) * x)) / (gap * gap) + noise * square;
+    const auto is_outside = (gap > N::of(0x1p-10f)) & (squared > N::of(1e-30f)) & (squared < N::of(1e30f));
+    return select(is_outside, error + N::of(1e-30f), N::of(infinity<float>));
 }
 
-/// The far field at v from the centre of a node, of which term(k) are the coefficients.
-template <class N, class Term>
-ABUT_INLINE ABUT_HD N far_value(const vec3<N>& v, const Term& term) {
-    using contact_math::root;
+/// The far field at v from the centre of a node, of which these are the coefficients.
+template <class N>
+ABUT_INLINE ABUT_HD N far_value(const vec3<N>& v, const N (&term)[15]) {
     const N xx = v.x * v.x, yy = v.y * v.y, zz = v.z * v.z, x_z = xx - zz, y_z = yy - zz, x_y = xx - yy;
     const N inverse = N::of(1) / root(xx + yy + zz), square = inverse * inverse, yz = v.y * v.z;
-    const N of_s = term(0) * v.x + term(1) * v.y + term(2) * v.z;
-    const N of_m = term(3) * x_z + term(4) * y_z + term(5) * (v.x * v.y) + term(6) * yz + term(7) * (v.z * v.x);
-    const N of_q = v.x * (term(8) * (x_z - (zz + zz)) + term(11) * y_z) - v.y * (term(9) * (x_y + (xx + xx)) + term(12) * x_z) +
-                   v.z * (term(13) * x_y - term(10) * (y_z + (yy + yy))) + term(14) * (v.x * yz);
+    const N of_s = term[0] * v.x + term[1] * v.y + term[2] * v.z;
+    const N of_m = term[3] * x_z + term[4] * y_z + term[5] * (v.x * v.y) + term[6] * yz + term[7] * (v.z * v.x);
+    const N of_q = v.x * (term[8] * (x_z - (zz + zz)) + term[11] * y_z) - v.y * (term[9] * (x_y + (xx + xx)) + term[12] * x_z) +
+                   v.z * (term[13] * x_y - term[10] * (y_z + (yy + yy))) + term[14] * (v.x * yz);
+    // One factor at a time: the terms and their powers of the distance are far apart.
     return inverse * square * (of_s + square * (of_m + square * of_q));
 }
 
@@ -277,7 +322,7 @@ struct gather_moments {
 
     Tree tree;
     Shapes shapes;
-    length_unit<double> unit;
+    winding_frame frame;
     double off_center;  ///< centres of areas are no farther from what is computed
     const std::uint32_t* above;
     std::uint32_t* reached;  ///< 0 at the start
@@ -300,7 +345,7 @@ private:
             winding_moments parts[std::size_t{Tree::width}];
             for (int k = 0; k < children; ++k) {
                 const bvh_child child = tree.child(node, k);
-                parts[k] = child.is_leaf() ? moments_of(shapes[child.index()], unit) : moments[child.index()];
+                parts[k] = child.is_leaf() ? moments_of(shapes[child.index()], frame) : moments[child.index()];
             }
             moments[number] = joined_moments(parts, children, off_center);
             const std::uint32_t next = above[number];
@@ -332,19 +377,18 @@ execution::buffer_of<Policy, std::uint32_t> parents_of_nodes(const Policy& on, c
     return above;
 }
 
-/// Of a tree with inner nodes, `count` of them, by their numbers; `largest` is no less than any coordinate of a shape. May
+/// Of a tree with inner nodes, `count` of them, by their numbers. May
 /// return before they are there.
 template <class Policy, bvh_layout Tree, shape_view Shapes>
 execution::buffer_of<Policy, winding_moments> moments_of_nodes(const Policy& on, const Tree& tree, std::size_t count,
-                                                               const Shapes& shapes, const length_unit<double>& unit,
-                                                               double largest, const std::uint32_t* above) {
+                                                               const Shapes& shapes, const winding_frame& frame,
+                                                               const std::uint32_t* above) {
     using gather = gather_moments<Tree, Shapes>;
     execution::buffer_of<Policy, winding_moments> moments(on, count);
     execution::buffer_of<Policy, std::uint32_t> reached(on, gather::words * count);
     fill(on, reached.data(), reached.size(), std::uint32_t{0});
     // In each of 96 levels at most a centre is rounded, and the areas that weigh it: by 200 units of roundoff or less.
-    const double off_center = plain_product(0x1p-38, unit.of(largest));
-    for_each_index(on, count, gather{tree, shapes, unit, off_center, above, reached.data(), moments.data()});
+    for_each_index(on, count, gather{tree, shapes, frame, 0x1p-37, above, reached.data(), moments.data()});
     return moments;
 }
 

@@ -27,7 +27,8 @@ namespace detail {
 struct alignas(64) winding_node {
     static constexpr std::uint32_t of_block = std::uint32_t{1} << 31;
 
-    double center[3][4], radius[4], weight[4];  ///< as of winding_moments and far_weight
+    double center[3][4];
+    float radius[4], weight[4], noise[4];  ///< as of far_bounds
     std::uint32_t child[4], count;
 };
 
@@ -35,11 +36,11 @@ struct alignas(64) winding_node {
 template <scalar T>
 struct winding_view {
     const winding_node* nodes;
-    const far_terms* terms;  ///< four a node
+    const far_terms* terms;  ///< of each node
     const four_triangles<T>* blocks;
     std::size_t block_count;  ///< 0 of no triangles
     std::uint32_t root;       ///< a child's number
-    length_unit<double> unit;
+    winding_frame frame;
 };
 
 template <scalar T, memory_space Space>
@@ -48,18 +49,8 @@ struct winding_storage {
     execution::buffer<far_terms, Space> terms;
     execution::buffer<four_triangles<T>, Space> blocks;
     std::uint32_t root = winding_node::of_block;
-    length_unit<double> unit;
+    winding_frame frame;
 };
-
-/// A power of two that brings the largest coordinate to [1, 2), or as near to it as such a number can.
-inline length_unit<double> unit_of_far_field(double largest) {
-    length_unit<double> unit;
-    if (!(largest > 0)) return unit;
-    const int e = contact_math::exponent_of(least(largest, largest_finite<double>)), k = greatest(-1000, least(1000, -e));
-    unit.per_length = contact_math::power_of_two(k);
-    unit.unit = contact_math::power_of_two(-k);
-    return unit;
-}
 
 /// What becomes of a tree's node in an index.
 template <bvh_layout Tree>
@@ -153,7 +144,7 @@ struct write_winding_nodes {
     using T = typename Shapes::scalar_type;
     winding_slots<Tree> slots;
     Shapes shapes;
-    length_unit<double> unit;
+    winding_frame frame;
     const std::uint32_t* node_at;   ///< where a node's number begins; and the end
     const std::uint32_t* block_at;  ///< likewise
     winding_node* nodes;
@@ -169,12 +160,11 @@ struct write_winding_nodes {
         node.count = static_cast<std::uint32_t>(slots.children(static_cast<std::uint32_t>(i), child));
         for (std::uint32_t k = 0; k < 4; ++k) {
             const bvh_child one = child[k < node.count ? k : 0];
-            const winding_moments of = one.is_leaf() ? moments_of(shapes[one.index()], unit) : slots.moments[one.index()];
+            const winding_moments of = one.is_leaf() ? moments_of(shapes[one.index()], frame) : slots.moments[one.index()];
             node.center[0][k] = of.center.x, node.center[1][k] = of.center.y, node.center[2][k] = of.center.z;
-            node.radius[k] = of.radius;
-            node.weight[k] = far_weight(of);
+            const far_bounds bounds = write_far_terms(of, terms[number], static_cast<int>(k));
+            node.radius[k] = bounds.radius, node.weight[k] = bounds.weight, node.noise[k] = bounds.noise;
             node.child[k] = 0;
-            terms[4 * number + k] = terms_of(of);
             if (k >= node.count) continue;
             if (slots.is_block(one)) {
                 node.child[k] = winding_node::of_block | block;
@@ -189,11 +179,11 @@ struct write_winding_nodes {
 
 /// Of a tree with shapes, as they are placed. May return before it is there.
 template <class Policy, bvh_layout Tree, shape_view Shapes>
-auto winding_storage_of(const Policy& on, const Tree& tree, bvh_child root, std::size_t tree_nodes, const Shapes& shapes,
-                        double largest) {
+auto winding_storage_of(const Policy& on, const Tree& tree, bvh_child root, std::size_t tree_nodes, const Shapes& shapes) {
     using T = typename Shapes::scalar_type;
     winding_storage<T, space_of<Policy>> made;
-    made.unit = unit_of_far_field(largest);
+    const aabb<T> box = reduce(on, shapes.size(), empty_box<T>(), merge_boxes{}, box_of_shape<Shapes>{shapes});
+    made.frame = winding_frame(widened(box.lower), widened(box.upper));
     const auto one_block = [&] {
         made.blocks = execution::buffer_of<Policy, four_triangles<T>>(on, 1);
         for_each_index(on, 1, fill_one_block<Tree, Shapes, T>{tree, shapes, root, made.blocks.data()});
@@ -203,7 +193,7 @@ auto winding_storage_of(const Policy& on, const Tree& tree, bvh_child root, std:
         return made;
     }
     const auto above = parents_of_nodes(on, tree, tree_nodes);
-    const auto moments = moments_of_nodes(on, tree, tree_nodes, shapes, made.unit, largest, above.data());
+    const auto moments = moments_of_nodes(on, tree, tree_nodes, shapes, made.frame, above.data());
     if (shapes.size() <= 4) {
         one_block();
         return made;
@@ -218,10 +208,10 @@ auto winding_storage_of(const Policy& on, const Tree& tree, bvh_child root, std:
     download(on, block_at.data() + tree_nodes, 1, &blocks);
     download(on, node_at.data() + root.index(), 1, &made.root);
     made.nodes = execution::buffer_of<Policy, winding_node>(on, nodes);
-    made.terms = execution::buffer_of<Policy, far_terms>(on, 4 * std::size_t{nodes});
+    made.terms = execution::buffer_of<Policy, far_terms>(on, nodes);
     made.blocks = execution::buffer_of<Policy, four_triangles<T>>(on, blocks);
     for_each_index(on, tree_nodes,
-                   write_winding_nodes<Tree, Shapes>{slots, shapes, made.unit, node_at.data(), block_at.data(),
+                   write_winding_nodes<Tree, Shapes>{slots, shapes, made.frame, node_at.data(), block_at.data(),
                                                      made.nodes.data(), made.terms.data(), made.blocks.data()});
     return made;
 }
@@ -244,7 +234,7 @@ auto winding_storage_of(const Policy& on, const Operand& x) {
         const auto& stored = index_of(x).stored();
         bvh_root<std::remove_cvref_t<decltype(x.tree().root_bounds().lower.x)>> root;
         download(on, stored.root.data(), 1, &root);
-        made = winding_storage_of(on, x.tree(), root.child, stored.nodes.size(), shapes, largest_coordinate(on, x));
+        made = winding_storage_of(on, x.tree(), root.child, stored.nodes.size(), shapes);
     }
     synchronize(on);
     return made;

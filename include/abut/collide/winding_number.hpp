@@ -63,176 +63,222 @@ struct wind_around_all {
 
 /// The sum of one point, through an index.
 ///
-/// What may be off by most is looked at more closely first, until all together may be off by no more than the tolerance. So
-/// a list holds nodes that wait, with what each may be off by, and those above a level are opened; the level falls by a
-/// quarter at a time. Where the list is full, the walk begins again, depth first: all nodes above a level are opened, and
-/// the level falls until the rest is off by no more than the tolerance. Either way the order of the sum depends on the index
-/// and the point alone.
+/// What may be off by most is looked at more closely first, until all together may be off by no more than the tolerance. A
+/// list holds the nodes that were opened, with what each of their children may be off by. Children above a level are opened,
+/// and the level falls by a quarter at a time. Where the list is full, the walk begins again, depth first: all above a level
+/// is opened, and the level falls until the rest is off by no more than the tolerance. Either way the order of the sum
+/// depends on the index and the point alone.
 template <scalar T>
 class winding_walk {
-    using one_double = contact_math::one_double;
-
 public:
-    ABUT_HD winding_walk(const winding_view<T>& in, const vec3<T>& p)
-        : in_(in),
-          p_(p),
-          from_{in.unit.of(static_cast<double>(p.x)), in.unit.of(static_cast<double>(p.y)),
-                in.unit.of(static_cast<double>(p.z))} {}
+    ABUT_HD winding_walk(const winding_view<T>& in, const vec3<T>& p) : in_(in), p_(p), from_(in.frame.of(widened(p))) {}
 
     /// All triangles, in the order of the index.
     ABUT_HD double add_all() {
         for (std::size_t k = 0; k < in_.block_count; ++k) add_block(static_cast<std::uint32_t>(k));
-        return sum_.total();
+        return near_.total();
     }
+    /// In floats, where what these may lose is within the tolerance.
     ABUT_HD double add_within(double tolerance) {
-        if ((in_.root & winding_node::of_block) != 0) return add_all();
-        // Less for what is rounded in sums of bounds.
-        tolerance = plain_product(tolerance, 1 - 0x1p-20);
-        double level = tolerance;
-        if (!open_largest(tolerance, level)) {
-            sum_ = {};
-            while (!walk_down<false>(level, tolerance)) level = plain_product(level, 0.25);
-            walk_down<true>(level, tolerance);
-            return sum_.total();
-        }
-        for (int k = 0; k < waiting_; k += 4) add_far(slot_ + k, waiting_ - k);
-        return sum_.total();
+        if ((in_.root & winding_node::of_block) != 0 || !(tolerance > 1e-15)) return add_all();
+        return tolerance > 0x1p-12 ? add_far_fields<float>(tolerance) : add_far_fields<double>(tolerance);
     }
 
 private:
     static constexpr int room = 512;
-    static_assert(room >= bvh_max_depth * 3 + 1);
+    static_assert(room >= 3 * bvh_max_depth + 1);
+    struct opened {
+        std::uint32_t node;
+        float error[4];  ///< below 0 of what was opened in turn
+    };
 
     ABUT_HD void add_block(std::uint32_t block) {
         double shares[4];
         solid_angle_shares(in_.blocks[block], p_, shares);
-        for (const double share : shares) sum_.add(share);
+        for (const double share : shares) near_.add(share);
+    }
+
+    template <scalar F>
+    ABUT_HD double add_far_fields(double tolerance) {
+        // Less for what is rounded in sums of bounds.
+        tolerance = plain_product(tolerance, 1 - 0x1p-20);
+        double level = tolerance;
+        if (open_largest<F>(tolerance, level)) {
+            for (int i = 0; i < count_; ++i) add_far<F>(list_[i]);
+        } else {
+            near_ = {};
+            while (!walk_down<F, false>(level, tolerance)) level = plain_product(level, 0.25);
+            walk_down<F, true>(level, tolerance);
+        }
+        near_.add(plain_sum(plain_sum(far_[0], far_[1]), plain_sum(far_[2], far_[3])));
+        return near_.total();
     }
 
     /// What the far fields of a node's children may be off by.
-    ABUT_HD void bound(const winding_node& node, double (&error)[4]) const {
+    template <scalar F>
+    ABUT_HD void bound(opened& at) const {
+        constexpr bool is_float = std::same_as<F, float>;
+        const winding_node& node = in_.nodes[at.node];
 #if ABUT_VECTORS
-        using number = contact_math::four_doubles;
-        const vec3<number> v{number::load(node.center[0]) - number::of(from_.x),
-                             number::load(node.center[1]) - number::of(from_.y),
-                             number::load(node.center[2]) - number::of(from_.z)};
-        far_error(dot(v, v), number::load(node.radius), number::load(node.weight)).high.store(error);
+        using number = four_rounded<float>;
+        const auto v = in_floats(ways_to(node));
+        const number noise = is_float ? number::load(node.noise) : number::of(0);
+        far_error(dot(v, v), number::load(node.radius), number::load(node.weight), noise).value.store(at.error);
+#else
+        using number = one_rounded<float>;
+        for (int k = 0; k < 4; ++k) {
+            const auto v = in_floats(way_to(node, k));
+            const number noise{is_float ? node.noise[k] : 0.0f};
+            at.error[k] = far_error(dot(v, v), number{node.radius[k]}, number{node.weight[k]}, noise).value;
+        }
+#endif
+        for (std::uint32_t k = node.count; k < 4; ++k) at.error[k] = -1;
+    }
+#if ABUT_VECTORS
+    [[nodiscard]] ABUT_INLINE vec3<four_rounded<double>> ways_to(const winding_node& node) const {
+        using wide = four_rounded<double>;
+        return {wide::load(node.center[0]) - wide::of(from_.x), wide::load(node.center[1]) - wide::of(from_.y),
+                wide::load(node.center[2]) - wide::of(from_.z)};
+    }
+#endif
+    [[nodiscard]] ABUT_HD vec3<one_rounded<double>> way_to(const winding_node& node, int k) const {
+        return {{plain_sum(node.center[0][k], -from_.x)},
+                {plain_sum(node.center[1][k], -from_.y)},
+                {plain_sum(node.center[2][k], -from_.z)}};
+    }
+
+    /// Adds the far fields of a node's children that were not opened: each to a sum of its own.
+    template <scalar F>
+    ABUT_HD void add_far(const opened& at) {
+        constexpr bool is_float = std::same_as<F, float>;
+        const winding_node& node = in_.nodes[at.node];
+        const far_terms& terms = in_.terms[at.node];
+        F values[4];
+#if ABUT_VECTORS
+        using number = four_rounded<F>;
+        number term[15];
+        if constexpr (is_float) {
+            for (int j = 0; j < 15; ++j) term[j] = number::load(terms.high[j]);
+            far_value(in_floats(ways_to(node)), term).value.store(values);
+        } else {
+            for (int j = 0; j < 15; ++j) {
+                const float *const high = terms.high[j], *const low = terms.low[j];
+                term[j] = number::of(high[0], high[1], high[2], high[3]) + number::of(low[0], low[1], low[2], low[3]);
+            }
+            far_value(ways_to(node), term).value.store(values);
+        }
 #else
         for (int k = 0; k < 4; ++k) {
-            const vec3<one_double> v = way_to(node, k);
-            error[k] = far_error(dot(v, v), one_double{node.radius[k]}, one_double{node.weight[k]}).high;
+            if (at.error[k] < 0) continue;
+            one_rounded<F> term[15];
+            for (int j = 0; j < 15; ++j) {
+                term[j].value = terms.high[j][k];
+                if (!is_float) term[j].value = plain_sum(term[j].value, static_cast<F>(terms.low[j][k]));
+            }
+            if constexpr (is_float) {
+                values[k] = far_value(in_floats(way_to(node, k)), term).value;
+            } else {
+                values[k] = far_value(way_to(node, k), term).value;
+            }
         }
 #endif
-    }
-    [[nodiscard]] ABUT_HD vec3<one_double> way_to(const winding_node& node, int k) const {
-        return {one_double::difference(node.center[0][k], from_.x), one_double::difference(node.center[1][k], from_.y),
-                one_double::difference(node.center[2][k], from_.z)};
+        for (int k = 0; k < 4; ++k) {
+            if (!(at.error[k] < 0)) far_[k] = plain_sum(far_[k], static_cast<double>(values[k]));
+        }
     }
 
-    /// Adds the far fields of the first four slots of a list.
-    ABUT_HD void add_far(const std::uint32_t* slots, int count) {
+    /// Which children are above a level.
+    ABUT_HD static unsigned above(const opened& at, float level) {
 #if ABUT_VECTORS
-        using number = contact_math::four_doubles;
-        const std::uint32_t a = slots[0], b = slots[count > 1 ? 1 : 0], c = slots[count > 2 ? 2 : 0], d = slots[count > 3 ? 3 : 0];
-        const double *const ta = in_.terms[a].of, *const tb = in_.terms[b].of, *const tc = in_.terms[c].of,
-                            *const td = in_.terms[d].of;
-        const auto center = [&](int axis) {
-            const auto of = [&](std::uint32_t slot) { return in_.nodes[slot / 4].center[axis][slot % 4]; };
-            return number{number::row::of(of(a), of(b), of(c), of(d))};
-        };
-        const vec3<number> v{center(0) - number::of(from_.x), center(1) - number::of(from_.y), center(2) - number::of(from_.z)};
-        double value[4];
-        far_value(v, [&](int k) { return number{number::row::of(ta[k], tb[k], tc[k], td[k])}; }).high.store(value);
-        for (int k = 0; k < 4 && k < count; ++k) sum_.add(value[k]);
+        using row = lanes<float>;
+        typename row::mask which[1] = {row::load(at.error) > row::all(level)};
+        return bits_of(which);
 #else
-        for (int k = 0; k < 4 && k < count; ++k) {
-            const double* const term = in_.terms[slots[k]].of;
-            const auto at = [&](int j) { return one_double{term[j]}; };
-            sum_.add(far_value(way_to(in_.nodes[slots[k] / 4], static_cast<int>(slots[k] % 4)), at).high);
-        }
+        unsigned bits = 0;
+        for (int k = 0; k < 4; ++k) bits |= (at.error[k] > level ? 1u : 0u) << k;
+        return bits;
 #endif
     }
-
-    /// Adds a node's blocks, and puts its other children on the list; returns what these may be off by. There is room.
-    ABUT_HD double open(std::uint32_t number) {
-        const winding_node& node = in_.nodes[number];
-        double error[4], all = 0;
-        bound(node, error);
-        for (std::uint32_t k = 0; k < node.count; ++k) {
-            slot_[waiting_] = 4 * number + k;
-            error_[waiting_++] = error[k];
-            all = plain_sum(all, error[k]);
-        }
+    ABUT_HD static double all_of(const opened& at) {
+        double all = 0;
+        for (int k = 0; k < 4; ++k) all = plain_sum(all, static_cast<double>(at.error[k] < 0 ? 0 : at.error[k]));
         return all;
     }
+
     /// False where the list is full. `level` is that down to which it came.
+    template <scalar F>
     ABUT_HD bool open_largest(double tolerance, double& level) {
-        double all = open(in_.root);
+        count_ = 1;
+        list_[0].node = in_.root;
+        bound<F>(list_[0]);
+        double all = infinity<double>;
         for (;; level = plain_product(level, 0.25)) {
-            for (int i = 0; i < waiting_;) {
-                if (!(error_[i] > level)) {
-                    ++i;
-                    continue;
+            const auto rounded_level = static_cast<float>(level);
+            for (int i = 0; i < count_; ++i) {
+                for (unsigned which = above(list_[i], rounded_level); which != 0; which &= which - 1) {
+                    const auto k = static_cast<int>(lowest_bit(which));
+                    const std::uint32_t child = in_.nodes[list_[i].node].child[k];
+                    double more = -static_cast<double>(list_[i].error[k]);
+                    list_[i].error[k] = -1;
+                    if ((child & winding_node::of_block) != 0) {
+                        add_block(child ^ winding_node::of_block);
+                    } else {
+                        if (count_ == room) return false;
+                        opened& next = list_[count_++];
+                        next.node = child;
+                        bound<F>(next);
+                        more = plain_sum(more, all_of(next));
+                    }
+                    if (!(all < infinity<double>)) continue;
+                    all = plain_sum(all, more);
+                    if (all <= tolerance) return true;
                 }
-                const std::uint32_t child = in_.nodes[slot_[i] / 4].child[slot_[i] % 4];
-                all = plain_sum(all, -error_[i]);
-                --waiting_;
-                error_[i] = error_[waiting_];
-                slot_[i] = slot_[waiting_];
-                if ((child & winding_node::of_block) != 0) {
-                    add_block(child ^ winding_node::of_block);
-                } else {
-                    if (waiting_ + 4 > room) return false;
-                    all = plain_sum(all, open(child));
-                }
-                if (all <= tolerance) return true;
             }
             // Infinite ones are gone, and the sum begins again.
             all = 0;
-            for (int i = 0; i < waiting_; ++i) all = plain_sum(all, error_[i]);
+            for (int i = 0; i < count_; ++i) all = plain_sum(all, all_of(list_[i]));
             if (all <= tolerance) return true;
         }
     }
 
-    /// Opens all nodes above the level. True if the rest is off by no more than the tolerance; adds up only if asked to.
-    template <bool Adds>
+    /// Opens all that is above the level. True if the rest is off by no more than the tolerance; adds up only if asked to.
+    template <scalar F, bool Adds>
     ABUT_HD bool walk_down(double level, double tolerance) {
+        const auto rounded_level = static_cast<float>(level);
         double all = 0;
-        std::uint32_t far[4];
-        int count = 0;
-        waiting_ = 0;
-        slot_[waiting_++] = in_.root;
-        while (waiting_ > 0) {
-            const std::uint32_t number = slot_[--waiting_];
-            const winding_node& node = in_.nodes[number];
-            double error[4];
-            bound(node, error);
-            for (std::uint32_t k = 0; k < node.count; ++k) {
-                const std::uint32_t child = node.child[k];
-                if (!(error[k] > level)) {
-                    all = plain_sum(all, error[k]);
-                    if (!Adds) continue;
-                    far[count++] = 4 * number + k;
-                    if (count == 4) add_far(far, 4), count = 0;
-                } else if ((child & winding_node::of_block) == 0) {
-                    slot_[waiting_++] = child;
+        count_ = 0;
+        list_[count_++].node = in_.root;
+        while (count_ > 0) {
+            opened at = list_[--count_];
+            bound<F>(at);
+            unsigned which = above(at, rounded_level);
+            for (unsigned rest = which; rest != 0; rest &= rest - 1) {
+                const auto k = static_cast<int>(lowest_bit(rest));
+                at.error[k] = -1;
+                const std::uint32_t child = in_.nodes[at.node].child[k];
+                if ((child & winding_node::of_block) == 0) {
+                    list_[count_++].node = child;
                 } else if (Adds) {
                     add_block(child ^ winding_node::of_block);
                 }
             }
-            if (!Adds && !(all <= tolerance)) return false;
+            if (Adds) {
+                add_far<F>(at);
+            } else {
+                all = plain_sum(all, all_of(at));
+                if (!(all <= tolerance)) return false;
+            }
         }
-        if (count > 0) add_far(far, count);
         return true;
     }
 
     const winding_view<T>& in_;
     vec3<T> p_;
     vec3<double> from_;
-    long_sum sum_;
-    int waiting_ = 0;
-    double error_[room];  // these are not initialised
-    std::uint32_t slot_[room];
+    long_sum near_;
+    double far_[4] = {};
+    int count_;
+    opened list_[room];  // not initialised
 };
 
 /// The triangles of an index.
@@ -270,7 +316,7 @@ consteval bool can_wind() {
 template <class Operand, class Policy, scalar T, memory_space Space, shape_view Points>
 void wind_around_made(const Policy& on, const winding_storage<T, Space>& made, const Points& from, double tolerance,
                       double* out) {
-    const winding_view<T> in{made.nodes.data(), made.terms.data(), made.blocks.data(), made.blocks.size(), made.root, made.unit};
+    const winding_view<T> in{made.nodes.data(), made.terms.data(), made.blocks.data(), made.blocks.size(), made.root, made.frame};
     const auto order = order_of_points<Operand>(on, from);
     for_each_task(on, from.size(), wind_around_index<T, Points>{in, from, tolerance, order.data(), out});
     synchronize(on);

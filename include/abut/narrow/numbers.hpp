@@ -31,7 +31,6 @@ struct one_double {
     friend ABUT_HD constexpr one_double operator/(one_double a, one_double b) { return {a.high / b.high}; }
     friend ABUT_HD constexpr one_double operator-(one_double a) { return {-a.high}; }
     friend ABUT_HD constexpr bool operator<(one_double a, one_double b) { return a.high < b.high; }
-    friend ABUT_HD constexpr bool operator>(one_double a, one_double b) { return a.high > b.high; }
 };
 
 /// high + low, where |low| is at most half a unit in the last place of high: 106 bits or more. Sums and products have

@@ -28,8 +28,8 @@
 #include <abut/arithmetic/vec.hpp>
 #include <abut/config.hpp>
 #include <abut/narrow/exact_hit_time.hpp>
-#include <abut/narrow/four_doubles.hpp>
 #include <abut/narrow/numbers.hpp>
+#include <abut/narrow/rounded_lanes.hpp>
 #include <abut/shape/primitive.hpp>
 
 namespace abut::detail {
@@ -227,13 +227,13 @@ struct four_triangles {
 #if ABUT_VECTORS
 /// From p to three coordinates of all.
 template <scalar T>
-ABUT_INLINE vec3<contact_math::four_doubles> ways_to(const four_triangles<T>& of, int first, const vec3<T>& p) {
-    using number = contact_math::four_doubles;
+ABUT_INLINE vec3<four_rounded<double>> ways_to(const four_triangles<T>& of, int first, const vec3<T>& p) {
+    using number = four_rounded<double>;
     const T* const x = of.at[first];
     if constexpr (std::same_as<T, double>) {
         return {number::load(x) - number::of(p.x), number::load(x + 4) - number::of(p.y), number::load(x + 8) - number::of(p.z)};
     } else {
-        const auto row = [&](int k) { return number{number::row::of(x[k], x[k + 1], x[k + 2], x[k + 3])}; };
+        const auto row = [&](int k) { return number::of(x[k], x[k + 1], x[k + 2], x[k + 3]); };
         return {row(0) - number::of(p.x), row(4) - number::of(p.y), row(8) - number::of(p.z)};
     }
 }
@@ -250,7 +250,7 @@ ABUT_INLINE void rotate_some(const Mask& once, const Mask& twice, V& a, V& b, V&
 template <scalar T>
 ABUT_HD void solid_angle_shares(const four_triangles<T>& of, const vec3<T>& p, double* out) {
 #if ABUT_VECTORS
-    using number = contact_math::four_doubles;
+    using number = four_rounded<double>;
     vec3<number> a = ways_to(of, 0, p), b = ways_to(of, 3, p), c = ways_to(of, 6, p);
     number of_a = root(dot(a, a)), of_b = root(dot(b, b)), of_c = root(dot(c, c));
     const number smallest = number::of(0x1p-250), largest = number::of(0x1p250);
@@ -263,7 +263,7 @@ ABUT_HD void solid_angle_shares(const four_triangles<T>& of, const vec3<T>& p, d
     const half_angle<number> half(a, b, c, of_a, of_b, of_c);
     const number bound = number::of(0.125) * half.product;
     is_plain = is_plain & ((half.x > bound) | (absolute(half.y) > bound));
-    angles_in_turns(half.y, half.x).high.store(out);
+    angles_in_turns(half.y, half.x).value.store(out);
     typename number::mask row[1] = {is_plain};
     for (unsigned left = bits_of(row) ^ 15u; left != 0; left &= left - 1) {
         const auto k = static_cast<int>(lowest_bit(left));
