@@ -7,6 +7,7 @@
 // Its nodes stand for those of a tree of four children a node, and for every second level of a binary one. What has four
 // triangles or fewer is a block of them. No result depends on how nodes and blocks are numbered.
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -15,9 +16,11 @@
 
 #include <abut/collide/far_field.hpp>
 #include <abut/collide/nearest.hpp>
+#include <abut/collide/operand.hpp>
 #include <abut/execution/buffer.hpp>
 #include <abut/index/bvh.hpp>
 #include <abut/narrow/solid_angle.hpp>
+#include <abut/shape/posed.hpp>
 
 namespace abut {
 
@@ -241,5 +244,70 @@ auto winding_storage_of(const Policy& on, const Operand& x) {
 }
 
 }  // namespace detail
+
+/// The triangles of a mesh as `winding_number` looks at them: made once of what it would be asked of, where points come a few
+/// at a time. It keeps the triangles itself, as they were placed: neither the mesh nor a tree has to stay. Immutable; copies
+/// share memory, and any number of threads may ask.
+/// @ingroup indices
+template <scalar T, memory_space Space>
+class winding_index {
+public:
+    using scalar_type = T;            ///< float or double
+    using shape_type = triangle<T>;   ///< what a shape is
+    using memory_space = Space;       ///< where the memory lies
+    using storage = detail::winding_storage<T, Space>;  ///< what owns the nodes and the triangles
+
+    /// For make_winding_index.
+    winding_index(std::size_t count, std::shared_ptr<const storage> made) : count_(count), made_(std::move(made)) {}
+
+    /// Number of triangles.
+    [[nodiscard]] std::size_t size() const { return count_; }
+    /// The CUDA device that it lies on; -1 for the host.
+    [[nodiscard]] int device() const { return made_->blocks.device(); }
+    /// Its memory, in bytes.
+    [[nodiscard]] std::size_t bytes() const {
+        return made_->nodes.capacity_bytes() + made_->terms.capacity_bytes() + made_->blocks.capacity_bytes();
+    }
+    /// What walks read.
+    [[nodiscard]] const storage& stored() const { return *made_; }
+
+private:
+    std::size_t count_;
+    std::shared_ptr<const storage> made_;
+};
+
+/// A `winding_index` of a mesh, a soup of triangles, a view of either, or a tree of any layout over one; posed or not. Of a
+/// tree it takes the shape, and trees that are better to query give a better index: one of `ploc` or `sah`. Without a tree
+/// it makes one of `ploc`.
+///
+/// Some 180 bytes a triangle in single precision, 240 in double; scratch takes as much as 450 bytes a triangle. The same
+/// bits on every policy. Linear time but for the tree.
+///
+/// Lies in the policy's memory. Returns when it is done; under `cuda` it waits for the policy's stream, which has to outlive
+/// it. Errors are those of `winding_number`, and of `make_bvh`.
+///
+/// @snippet queries.cpp make_winding_index
+///
+/// @ingroup indices
+template <execution_policy Policy, class X>
+[[nodiscard]] auto make_winding_index(const Policy& on, const X& mesh) {
+    constexpr const char* function = "abut::make_winding_index";
+    using shape_type = typename detail::shape_of_argument<X>::type;
+    using T = scalar_type_of<shape_type>;
+    static_assert(std::same_as<shape_type, triangle<T>>,
+                  "abut: a winding index is of triangles: a mesh, a soup of triangles, or a tree of them");
+    if constexpr (!std::same_as<shape_type, triangle<T>>) {
+        return detail::refused{};
+    } else if constexpr (requires { detail::make_operand(on, mesh, function).tree(); }) {
+        const auto x = detail::make_operand(on, mesh, function);
+        using storage = typename winding_index<T, space_of<Policy>>::storage;
+        auto made = std::make_shared<const storage>(detail::winding_storage_of(on, x));
+        return winding_index<T, space_of<Policy>>(x.shapes().size(), std::move(made));
+    } else if constexpr (is_posed<X>) {
+        return make_winding_index(on, posed(make_bvh(on, mesh.object, {.builder = bvh_builder::ploc}), mesh.pose));
+    } else {
+        return make_winding_index(on, make_bvh(on, mesh, {.builder = bvh_builder::ploc}));
+    }
+}
 
 }  // namespace abut

@@ -132,6 +132,7 @@ private:
             at.error[k] = far_error(dot(v, v), number{node.radius[k]}, number{node.weight[k]}, noise).value;
         }
 #endif
+        if (node.count == 4) return;
         for (std::uint32_t k = node.count; k < 4; ++k) at.error[k] = -1;
     }
 #if ABUT_VECTORS
@@ -153,20 +154,23 @@ private:
         constexpr bool is_float = std::same_as<F, float>;
         const winding_node& node = in_.nodes[at.node];
         const far_terms& terms = in_.terms[at.node];
-        F values[4];
 #if ABUT_VECTORS
         using number = four_rounded<F>;
-        number term[15];
+        using wide = four_rounded<double>;
+        number term[15], value;
         if constexpr (is_float) {
             for (int j = 0; j < 15; ++j) term[j] = number::load(terms.high[j]);
-            far_value(in_floats(ways_to(node)), term).value.store(values);
+            value = far_value(in_floats(ways_to(node)), term);
         } else {
             for (int j = 0; j < 15; ++j) {
-                const float *const high = terms.high[j], *const low = terms.low[j];
-                term[j] = number::of(high[0], high[1], high[2], high[3]) + number::of(low[0], low[1], low[2], low[3]);
+                term[j] = in_doubles(four_rounded<float>::load(terms.high[j])) +
+                          in_doubles(four_rounded<float>::load(terms.low[j]));
             }
-            far_value(ways_to(node), term).value.store(values);
+            value = far_value(ways_to(node), term);
         }
+        const wide is_far = in_doubles(four_rounded<float>::load(at.error));
+        const wide kept = select(is_far < wide::of(0), wide::of(0), in_doubles(value));
+        (wide::load(far_) + kept).value.store(far_);
 #else
         for (int k = 0; k < 4; ++k) {
             if (at.error[k] < 0) continue;
@@ -175,16 +179,15 @@ private:
                 term[j].value = terms.high[j][k];
                 if (!is_float) term[j].value = plain_sum(term[j].value, static_cast<F>(terms.low[j][k]));
             }
+            one_rounded<F> value;
             if constexpr (is_float) {
-                values[k] = far_value(in_floats(way_to(node, k)), term).value;
+                value = far_value(in_floats(way_to(node, k)), term);
             } else {
-                values[k] = far_value(way_to(node, k), term).value;
+                value = far_value(way_to(node, k), term);
             }
+            far_[k] = plain_sum(far_[k], static_cast<double>(value.value));
         }
 #endif
-        for (int k = 0; k < 4; ++k) {
-            if (!(at.error[k] < 0)) far_[k] = plain_sum(far_[k], static_cast<double>(values[k]));
-        }
     }
 
     /// Which children are above a level.
@@ -200,9 +203,8 @@ private:
 #endif
     }
     ABUT_HD static double all_of(const opened& at) {
-        double all = 0;
-        for (int k = 0; k < 4; ++k) all = plain_sum(all, static_cast<double>(at.error[k] < 0 ? 0 : at.error[k]));
-        return all;
+        const auto of = [&](int k) { return static_cast<double>(greatest(at.error[k], 0.0f)); };
+        return plain_sum(plain_sum(of(0), of(1)), plain_sum(of(2), of(3)));
     }
 
     /// False where the list is full. `level` is that down to which it came.
@@ -297,12 +299,32 @@ struct wind_around_index {
     }
 };
 
+template <class X>
+inline constexpr bool is_winding_index = false;
+template <scalar T, memory_space Space>
+inline constexpr bool is_winding_index<winding_index<T, Space>> = true;
+
+/// What rows ask of an index that was made before.
+template <scalar T, memory_space Space>
+struct made_operand {
+    static constexpr bool is_indexed = true;
+    winding_index<T, Space> index;
+};
+template <class Policy, scalar T, memory_space Space, class Question>
+made_operand<T, Space> make_asked(const Policy& on, const winding_index<T, Space>& x, const Question& question) {
+    require_same_device(on, x, question.function);
+    return {x};
+}
+
 /// Whether `winding_number` takes both arguments.
 template <class Policy, class X, class Points>
 consteval bool can_wind() {
     static_assert(!is_bodies<X>, "abut: winding_number is of one mesh: ask a body's index, posed");
     if constexpr (is_bodies<X>) {
         return false;
+    } else if constexpr (is_winding_index<X>) {
+        using view = shapes_view<typename X::shape_type, typename X::memory_space>;
+        return lies_there<Policy, X>() && can_be_near<Policy, view, Points>();
     } else if constexpr (can_be_near<Policy, X, Points>()) {
         using shape_type = typename shape_of_argument<X>::type;
         constexpr bool are = std::same_as<shape_type, triangle<scalar_type_of<shape_type>>>;
@@ -361,7 +383,11 @@ struct ask_winding_number : question_of_points {
     template <class Policy, class X, class Points>
     auto at_once(const Policy& on, const X& x, const Points& points, double) const {
         execution::buffer_of<Policy, double> out(on, points.shapes().size());
-        wind_around(on, x, points, tolerance, out.data());
+        if constexpr (requires { x.shapes(); }) {
+            wind_around(on, x, points, tolerance, out.data());
+        } else {
+            wind_around_made<X>(on, x.index.stored(), points.shapes(), tolerance, out.data());
+        }
         return result<double, space_of<Policy>>(std::move(out));
     }
 };

@@ -142,6 +142,17 @@ ABUT_INLINE ABUT_HD auto in_floats(const four_rounded<double, R>& x) {
                                    static_cast<float>(at[3]));
 #endif
 }
+/// The same numbers.
+template <class R>
+ABUT_INLINE ABUT_HD auto in_doubles(const four_rounded<float, R>& x) {
+    float at[4];
+    x.value.store(at);
+    return four_rounded<double>::of(at[0], at[1], at[2], at[3]);
+}
+template <class R>
+ABUT_INLINE ABUT_HD auto in_doubles(const four_rounded<double, R>& x) {
+    return x;
+}
 template <class N>
 ABUT_INLINE ABUT_HD auto in_floats(const vec3<N>& v) {
     return vec3<decltype(in_floats(v.x))>{in_floats(v.x), in_floats(v.y), in_floats(v.z)};
