@@ -87,8 +87,9 @@ struct row {
     std::string library;
     double accuracy;
     ask answer;
-    double us = 1e300, alone = 1e300, worst = 0, rms = 0, make = 0;
-    std::vector<double> out;
+    double make;
+    double us = 1e300, alone = 1e300, worst = 0, rms = 0;
+    std::vector<double> out{};
 };
 
 void measure(const surface& s, bench::results& results, std::size_t count, int runs, const point& lower, const point& upper) {
@@ -117,8 +118,8 @@ void measure(const surface& s, bench::results& results, std::size_t count, int r
             rows.push_back({"abut", tolerance, [index](const auto& from, double accuracy, std::vector<double>& out) {
                                 const auto found = abut::winding_number(abut::serial{}, index, from, {.tolerance = accuracy});
                                 std::copy(found.begin(), found.end(), out.begin());
-                            }});
-            rows.back().make = made;
+                            },
+                            made});
         }
     }
     for (const auto& peer : winding_peer::libraries()) {
@@ -126,8 +127,7 @@ void measure(const surface& s, bench::results& results, std::size_t count, int r
         const ask answer = peer.make(s);
         const double made = processor_time() - start;
         for (const double accuracy : peer.accuracies) {
-            rows.push_back({peer.name, accuracy, answer});
-            rows.back().make = made;
+            rows.push_back({peer.name, accuracy, answer, made});
         }
     }
     const std::vector<point> one(1, points[0]);

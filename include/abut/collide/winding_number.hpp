@@ -7,6 +7,7 @@
 // (A. Jacobson, L. Kavan, O. Sorkine-Hornung: Robust Inside-Outside Segmentation using Generalized Winding Numbers, 2013).
 // A point is one thread's work, which adds up in a fixed order.
 
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -106,9 +107,15 @@ private:
         if (open_largest<F>(tolerance, level)) {
             for (int i = 0; i < count_; ++i) add_far<F>(list_[i]);
         } else {
-            near_ = {};
-            while (!walk_down<F, false>(level, tolerance)) level = plain_product(level, 0.25);
-            walk_down<F, true>(level, tolerance);
+            // What is left at the level where the list was full tells where the tolerance is: N nodes of 1 / N^(5/2) each.
+            double left = walk_down<F, false>(level);
+            do {
+                const double share = tolerance / left;
+                level = plain_product(level, plain_product(0.9, least(0.5, share * std::sqrt(share))));
+                near_ = {};
+                for (double& far : far_) far = 0;
+                left = walk_down<F, true>(level);
+            } while (!(left <= tolerance));
         }
         near_.add(plain_sum(plain_sum(far_[0], far_[1]), plain_sum(far_[2], far_[3])));
         return near_.total();
@@ -243,9 +250,9 @@ private:
         }
     }
 
-    /// Opens all that is above the level. True if the rest is off by no more than the tolerance; adds up only if asked to.
+    /// Opens all that is above the level. Returns by what the rest is off; adds it up only if asked to.
     template <scalar F, bool Adds>
-    ABUT_HD bool walk_down(double level, double tolerance) {
+    ABUT_HD double walk_down(double level) {
         const auto rounded_level = static_cast<float>(level);
         double all = 0;
         count_ = 0;
@@ -253,9 +260,8 @@ private:
         while (count_ > 0) {
             opened at = list_[--count_];
             bound<F>(at);
-            unsigned which = above(at, rounded_level);
-            for (unsigned rest = which; rest != 0; rest &= rest - 1) {
-                const auto k = static_cast<int>(lowest_bit(rest));
+            for (unsigned which = above(at, rounded_level); which != 0; which &= which - 1) {
+                const auto k = static_cast<int>(lowest_bit(which));
                 at.error[k] = -1;
                 const std::uint32_t child = in_.nodes[at.node].child[k];
                 if ((child & winding_node::of_block) == 0) {
@@ -264,14 +270,10 @@ private:
                     add_block(child ^ winding_node::of_block);
                 }
             }
-            if (Adds) {
-                add_far<F>(at);
-            } else {
-                all = plain_sum(all, all_of(at));
-                if (!(all <= tolerance)) return false;
-            }
+            if (Adds) add_far<F>(at);
+            all = plain_sum(all, all_of(at));
         }
-        return true;
+        return all;
     }
 
     const winding_view<T>& in_;

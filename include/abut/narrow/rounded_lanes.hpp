@@ -49,7 +49,11 @@ struct four_rounded {
     ABUT_INLINE friend four_rounded operator+(const four_rounded& a, const four_rounded& b) { return {a.value + b.value}; }
     ABUT_INLINE friend four_rounded operator-(const four_rounded& a, const four_rounded& b) { return {a.value - b.value}; }
     ABUT_INLINE friend four_rounded operator*(const four_rounded& a, const four_rounded& b) {
+#if defined(__SSE2__) && !defined(__FMA__) && !defined(__FMA4__)
+        return {a.value * b.value};  // there is no instruction that would contract it
+#else
         return {rounded(a.value * b.value)};
+#endif
     }
 #else
     ABUT_INLINE ABUT_HD friend four_rounded operator+(four_rounded a, const four_rounded& b) {
