@@ -298,7 +298,7 @@ template <execution_policy Policy, class X>
                   "abut: a winding index is of triangles: a mesh, a soup of triangles, or a tree of them");
     if constexpr (!std::same_as<shape_type, triangle<T>>) {
         return detail::refused{};
-    } else if constexpr (requires { detail::make_operand(on, mesh, function).tree(); }) {
+    } else if constexpr (decltype(detail::make_operand(on, mesh, function))::has_tree) {
         const auto x = detail::make_operand(on, mesh, function);
         using storage = typename winding_index<T, space_of<Policy>>::storage;
         auto made = std::make_shared<const storage>(detail::winding_storage_of(on, x));
