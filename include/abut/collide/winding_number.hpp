@@ -103,7 +103,7 @@ private:
     ABUT_HD double add_far_fields(double tolerance) {
         // Less for what is rounded in sums of bounds.
         tolerance = plain_product(tolerance, 1 - 0x1p-20);
-        double level = tolerance;
+        double level = plain_product(tolerance, 0.125);  // there are more nodes than eight
         if (open_largest<F>(tolerance, level)) {
             for (int i = 0; i < count_; ++i) add_far<F>(list_[i]);
         } else {
@@ -214,6 +214,19 @@ private:
         return plain_sum(plain_sum(of(0), of(1)), plain_sum(of(2), of(3)));
     }
 
+    /// Asks memory for what is read of children that are opened.
+    ABUT_HD void ask_for([[maybe_unused]] std::uint32_t node, [[maybe_unused]] unsigned which) const {
+#if !ABUT_DEVICE_CODE
+        for (; which != 0; which &= which - 1) {
+            const std::uint32_t child = in_.nodes[node].child[lowest_bit(which)];
+            if ((child & winding_node::of_block) != 0) continue;
+            const char* const at = reinterpret_cast<const char*>(in_.nodes + child);
+            const char* const terms = reinterpret_cast<const char*>(in_.terms + child);
+            for (std::size_t line = 0; line < sizeof(winding_node); line += 64) ABUT_PREFETCH(at + line);
+            for (std::size_t line = 0; line < sizeof(far_terms::high); line += 64) ABUT_PREFETCH(terms + line);
+        }
+#endif
+    }
     /// False where the list is full. `level` is that down to which it came.
     template <scalar F>
     ABUT_HD bool open_largest(double tolerance, double& level) {
@@ -224,7 +237,9 @@ private:
         for (;; level = plain_product(level, 0.25)) {
             const auto rounded_level = static_cast<float>(level);
             for (int i = 0; i < count_; ++i) {
-                for (unsigned which = above(list_[i], rounded_level); which != 0; which &= which - 1) {
+                unsigned which = above(list_[i], rounded_level);
+                ask_for(list_[i].node, which);
+                for (; which != 0; which &= which - 1) {
                     const auto k = static_cast<int>(lowest_bit(which));
                     const std::uint32_t child = in_.nodes[list_[i].node].child[k];
                     double more = -static_cast<double>(list_[i].error[k]);
