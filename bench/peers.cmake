@@ -1,16 +1,17 @@
 # SPDX-License-Identifier: MIT
 #
-# Libraries that no distribution packages, out of checkouts: ABUT_PEERS is a folder with coal/, where it is wanted.
+# Libraries that no distribution packages, out of checkouts: ABUT_PEERS is a folder with coal/ and libigl/, where they are wanted.
 # They are packages like others (cmake/development.cmake): a source that includes one that is not there is left out.
 
-set(ABUT_PEERS "" CACHE PATH "Folder of checkouts of libraries that benchmarks are compared with: coal")
+set(ABUT_PEERS "" CACHE PATH "Folder of checkouts of libraries that benchmarks are compared with: coal, libigl")
 
 # The definition says which version of a peer it is.
 function(abut_peer_version target name number)
     execute_process(COMMAND git -C ${ABUT_PEERS}/${name} log -1 --format=%h OUTPUT_VARIABLE commit ERROR_QUIET
                     OUTPUT_STRIP_TRAILING_WHITESPACE)
+    string(STRIP "${number} ${commit}" version)
     string(TOUPPER ${name} name)
-    target_compile_definitions(${target} INTERFACE "ABUT_${name}_VERSION=\"${number} ${commit}\"")
+    target_compile_definitions(${target} INTERFACE "ABUT_${name}_VERSION=\"${version}\"")
 endfunction()
 
 # Coal's narrow phase, its trees of faces and its broad phases: all but files of meshes, serialisation and octrees, for which it wants
@@ -45,3 +46,12 @@ if(EXISTS ${ABUT_PEERS}/coal/package.xml AND TARGET Eigen3::Eigen AND TARGET Boo
     abut_peer_version(abut_coal coal ${version})
 endif()
 abut_package(coal "<coal/" "coal in ABUT_PEERS" abut_coal)
+
+# libigl's headers alone. Its version has no place in them.
+if(EXISTS ${ABUT_PEERS}/libigl/include/igl/FastWindingNumberForSoups.h AND TARGET Eigen3::Eigen)
+    add_library(abut_libigl INTERFACE)
+    target_include_directories(abut_libigl SYSTEM INTERFACE ${ABUT_PEERS}/libigl/include)
+    target_link_libraries(abut_libigl INTERFACE Eigen3::Eigen)
+    abut_peer_version(abut_libigl libigl "")
+endif()
+abut_package(libigl "<igl/" "libigl in ABUT_PEERS" abut_libigl)
