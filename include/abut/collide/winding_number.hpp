@@ -107,18 +107,20 @@ private:
         if (open_largest<F>(tolerance, level)) {
             for (int i = 0; i < count_; ++i) add_far<F>(list_[i]);
         } else {
-            // What is left at the level where the list was full tells where the tolerance is: N nodes of 1 / N^(5/2) each.
-            double left = walk_down<F, false>(level);
-            do {
-                const double share = tolerance / left;
-                level = plain_product(level, plain_product(0.9, least(0.5, share * std::sqrt(share))));
+            for (double left = infinity<double>; !(left <= tolerance);) {
+                if (left < infinity<double>) level = plain_product(0.6, level_for(level, tolerance / left));
                 near_ = {};
                 for (double& far : far_) far = 0;
-                left = walk_down<F, true>(level);
-            } while (!(left <= tolerance));
+                left = walk_down<F>(level);
+            }
         }
         near_.add(plain_sum(plain_sum(far_[0], far_[1]), plain_sum(far_[2], far_[3])));
         return near_.total();
+    }
+
+    /// The level at which what is left is a share of what is left at another: of N nodes 1 / N^(5/2) each, about.
+    ABUT_HD static double level_for(double level, double share) {
+        return plain_product(level, plain_product(share, std::sqrt(share)));
     }
 
     /// What the far fields of a node's children may be off by.
@@ -227,7 +229,7 @@ private:
         }
 #endif
     }
-    /// False where the list is full. `level` is that down to which it came.
+    /// False where the list is full, or will be; `level` is then one that may do for the rest.
     template <scalar F>
     ABUT_HD bool open_largest(double tolerance, double& level) {
         count_ = 1;
@@ -247,7 +249,10 @@ private:
                     if ((child & winding_node::of_block) != 0) {
                         add_block(child ^ winding_node::of_block);
                     } else {
-                        if (count_ == room) return false;
+                        if (count_ == room) {
+                            level = plain_product(0.25, level);
+                            return false;
+                        }
                         opened& next = list_[count_++];
                         next.node = child;
                         bound<F>(next);
@@ -262,11 +267,18 @@ private:
             all = 0;
             for (int i = 0; i < count_; ++i) all = plain_sum(all, all_of(list_[i]));
             if (all <= tolerance) return true;
+            // As many nodes as the share's 3/5th power.
+            const double share = tolerance / all, more = static_cast<double>(room) / count_, cube = plain_product(plain_product(share, share), share),
+                         square = plain_product(more, more);
+            if (plain_product(plain_product(square, square), plain_product(more, cube)) < 1) {
+                level = plain_product(0.6, level_for(level, share));
+                return false;
+            }
         }
     }
 
-    /// Opens all that is above the level. Returns by what the rest is off; adds it up only if asked to.
-    template <scalar F, bool Adds>
+    /// Opens all that is above the level, and adds up the rest. Returns by what that may be off.
+    template <scalar F>
     ABUT_HD double walk_down(double level) {
         const auto rounded_level = static_cast<float>(level);
         double all = 0;
@@ -281,11 +293,11 @@ private:
                 const std::uint32_t child = in_.nodes[at.node].child[k];
                 if ((child & winding_node::of_block) == 0) {
                     list_[count_++].node = child;
-                } else if (Adds) {
+                } else {
                     add_block(child ^ winding_node::of_block);
                 }
             }
-            if (Adds) add_far<F>(at);
+            add_far<F>(at);
             all = plain_sum(all, all_of(at));
         }
         return all;
