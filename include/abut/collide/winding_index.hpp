@@ -31,7 +31,7 @@ struct alignas(64) winding_node {
     static constexpr std::uint32_t of_block = std::uint32_t{1} << 31;
 
     double center[3][4];
-    float radius[4], weight[4], noise[4];  ///< as of far_bounds
+    float radius[4], weight[4], noise[4], noise_of_high[4];  ///< as of far_bounds
     std::uint32_t child[4], count;
 };
 
@@ -167,6 +167,7 @@ struct write_winding_nodes {
             node.center[0][k] = of.center.x, node.center[1][k] = of.center.y, node.center[2][k] = of.center.z;
             const far_bounds bounds = write_far_terms(of, terms[number], static_cast<int>(k));
             node.radius[k] = bounds.radius, node.weight[k] = bounds.weight, node.noise[k] = bounds.noise;
+            node.noise_of_high[k] = bounds.noise_of_high;
             node.child[k] = 0;
             if (k >= node.count) continue;
             if (slots.is_block(one)) {

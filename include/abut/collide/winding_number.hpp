@@ -118,7 +118,7 @@ private:
         return near_.total();
     }
 
-    /// The level at which what is left is a share of what is left at another: of N nodes 1 / N^(5/2) each, about.
+    /// The level at which what is left is a share of what is left at another: of N nodes 1 / N^3 each, about.
     ABUT_HD static double level_for(double level, double share) {
         return plain_product(level, plain_product(share, std::sqrt(share)));
     }
@@ -132,13 +132,14 @@ private:
         using number = four_rounded<float>;
         const auto v = in_floats(ways_to(node));
         const number noise = is_float ? number::load(node.noise) : number::of(0);
-        far_error(dot(v, v), number::load(node.radius), number::load(node.weight), noise).value.store(at.error);
+        const number of_high = is_float ? number::load(node.noise_of_high) : number::of(0);
+        far_error(dot(v, v), number::load(node.radius), number::load(node.weight), noise, of_high).value.store(at.error);
 #else
         using number = one_rounded<float>;
         for (int k = 0; k < 4; ++k) {
             const auto v = in_floats(way_to(node, k));
-            const number noise{is_float ? node.noise[k] : 0.0f};
-            at.error[k] = far_error(dot(v, v), number{node.radius[k]}, number{node.weight[k]}, noise).value;
+            const number noise{is_float ? node.noise[k] : 0.0f}, of_high{is_float ? node.noise_of_high[k] : 0.0f};
+            at.error[k] = far_error(dot(v, v), number{node.radius[k]}, number{node.weight[k]}, noise, of_high).value;
         }
 #endif
         if (node.count == 4) return;
@@ -166,12 +167,12 @@ private:
 #if ABUT_VECTORS
         using number = four_rounded<F>;
         using wide = four_rounded<double>;
-        number term[15], value;
+        number term[far_terms::count], value;
         if constexpr (is_float) {
-            for (int j = 0; j < 15; ++j) term[j] = number::load(terms.high[j]);
+            for (int j = 0; j < far_terms::count; ++j) term[j] = number::load(terms.high[j]);
             value = far_value(in_floats(ways_to(node)), term);
         } else {
-            for (int j = 0; j < 15; ++j) {
+            for (int j = 0; j < far_terms::count; ++j) {
                 term[j] = in_doubles(four_rounded<float>::load(terms.high[j])) +
                           in_doubles(four_rounded<float>::load(terms.low[j]));
             }
@@ -183,8 +184,8 @@ private:
 #else
         for (int k = 0; k < 4; ++k) {
             if (at.error[k] < 0) continue;
-            one_rounded<F> term[15];
-            for (int j = 0; j < 15; ++j) {
+            one_rounded<F> term[far_terms::count];
+            for (int j = 0; j < far_terms::count; ++j) {
                 term[j].value = terms.high[j][k];
                 if (!is_float) term[j].value = plain_sum(term[j].value, static_cast<F>(terms.low[j][k]));
             }
@@ -267,10 +268,9 @@ private:
             all = 0;
             for (int i = 0; i < count_; ++i) all = plain_sum(all, all_of(list_[i]));
             if (all <= tolerance) return true;
-            // As many nodes as the share's 3/5th power.
-            const double share = tolerance / all, more = static_cast<double>(room) / count_, cube = plain_product(plain_product(share, share), share),
-                         square = plain_product(more, more);
-            if (plain_product(plain_product(square, square), plain_product(more, cube)) < 1) {
+            // N grows as the root of 1 / share.
+            const double share = tolerance / all, more = static_cast<double>(room) / count_;
+            if (plain_product(plain_product(more, more), share) < 1) {
                 level = plain_product(0.6, level_for(level, share));
                 return false;
             }
