@@ -114,7 +114,7 @@ void measure(const surface& s, bench::results& results, std::size_t count, int r
         const auto tree = abut::wide(on, abut::make_bvh(on, mesh, {.builder = abut::bvh_builder::sah}));
         const auto index = abut::make_winding_index(on, tree);
         const double made = processor_time() - start;
-        for (const double tolerance : {1e-3, 10.0, 3.0, 1.0, 0.3, 0.1, 0.03, 1e-2, 3e-3, 3e-4}) {
+        for (const double tolerance : {1e-3, 100.0, 30.0, 10.0, 3.0, 1.0, 0.3, 0.1, 0.03, 1e-2, 3e-3, 3e-4}) {
             rows.push_back({"abut", tolerance, [index](const auto& from, double accuracy, std::vector<double>& out) {
                                 const auto found = abut::winding_number(abut::serial{}, index, from, {.tolerance = accuracy});
                                 std::copy(found.begin(), found.end(), out.begin());

@@ -340,9 +340,9 @@ ABUT_INLINE ABUT_HD N far_error(const N& squared, const N& radius, const N& weig
     return select(is_outside, error + N::of(1e-30f), N::of(infinity<float>));
 }
 
-/// The far field at v from the centre of a node, of which these are the coefficients.
-template <class N>
-ABUT_INLINE ABUT_HD N far_value(const vec3<N>& v, const N (&term)[far_terms::count]) {
+/// The far field at v from the centre of a node, of which term[k] are the coefficients.
+template <class N, class Terms>
+ABUT_INLINE ABUT_HD N far_value(const vec3<N>& v, const Terms& term) {
     const N xx = v.x * v.x, yy = v.y * v.y, zz = v.z * v.z, x_z = xx - zz, y_z = yy - zz, x_y = xx - yy;
     const N xy = v.x * v.y, yz = v.y * v.z, zx = v.z * v.x, three = N::of(3);
     const N inverse = N::of(1) / root(xx + yy + zz), square = inverse * inverse;

@@ -146,6 +146,17 @@ private:
         for (std::uint32_t k = node.count; k < 4; ++k) at.error[k] = -1;
     }
 #if ABUT_VECTORS
+    /// Coefficients, which are read where they are needed.
+    struct rows_of_floats {
+        const float (*high)[4];
+        ABUT_INLINE four_rounded<float> operator[](int k) const { return four_rounded<float>::load(high[k]); }
+    };
+    struct rows_of_doubles {
+        const float (*high)[4], (*low)[4];
+        ABUT_INLINE four_rounded<double> operator[](int k) const {
+            return in_doubles(four_rounded<float>::load(high[k])) + in_doubles(four_rounded<float>::load(low[k]));
+        }
+    };
     [[nodiscard]] ABUT_INLINE vec3<four_rounded<double>> ways_to(const winding_node& node) const {
         using wide = four_rounded<double>;
         return {wide::load(node.center[0]) - wide::of(from_.x), wide::load(node.center[1]) - wide::of(from_.y),
@@ -165,18 +176,12 @@ private:
         const winding_node& node = in_.nodes[at.node];
         const far_terms& terms = in_.terms[at.node];
 #if ABUT_VECTORS
-        using number = four_rounded<F>;
         using wide = four_rounded<double>;
-        number term[far_terms::count], value;
+        four_rounded<F> value;
         if constexpr (is_float) {
-            for (int j = 0; j < far_terms::count; ++j) term[j] = number::load(terms.high[j]);
-            value = far_value(in_floats(ways_to(node)), term);
+            value = far_value(in_floats(ways_to(node)), rows_of_floats{terms.high});
         } else {
-            for (int j = 0; j < far_terms::count; ++j) {
-                term[j] = in_doubles(four_rounded<float>::load(terms.high[j])) +
-                          in_doubles(four_rounded<float>::load(terms.low[j]));
-            }
-            value = far_value(ways_to(node), term);
+            value = far_value(ways_to(node), rows_of_doubles{terms.high, terms.low});
         }
         const wide is_far = in_doubles(four_rounded<float>::load(at.error));
         const wide kept = select(is_far < wide::of(0), wide::of(0), in_doubles(value));
