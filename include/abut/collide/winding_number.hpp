@@ -177,14 +177,16 @@ private:
         const far_terms& terms = in_.terms[at.node];
 #if ABUT_VECTORS
         using wide = four_rounded<double>;
-        four_rounded<F> value;
+        using single = four_rounded<float>;
+        wide kept;
+        const single error = single::load(at.error);
         if constexpr (is_float) {
-            value = far_value(in_floats(ways_to(node)), rows_of_floats{terms.high});
+            const single value = far_value(in_floats(ways_to(node)), rows_of_floats{terms.high});
+            kept = in_doubles(select(error < single::of(0), single::of(0), value));
         } else {
-            value = far_value(ways_to(node), rows_of_doubles{terms.high, terms.low});
+            const wide value = far_value(ways_to(node), rows_of_doubles{terms.high, terms.low});
+            kept = select(in_doubles(error) < wide::of(0), wide::of(0), value);
         }
-        const wide is_far = in_doubles(four_rounded<float>::load(at.error));
-        const wide kept = select(is_far < wide::of(0), wide::of(0), in_doubles(value));
         (wide::load(far_) + kept).value.store(far_);
 #else
         for (int k = 0; k < 4; ++k) {

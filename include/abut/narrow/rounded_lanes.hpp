@@ -149,13 +149,17 @@ ABUT_INLINE ABUT_HD auto in_floats(const four_rounded<double, R>& x) {
 /// The same numbers.
 template <class R>
 ABUT_INLINE ABUT_HD auto in_doubles(const four_rounded<float, R>& x) {
-    float at[4];
-    x.value.store(at);
-    return four_rounded<double>::of(at[0], at[1], at[2], at[3]);
-}
-template <class R>
-ABUT_INLINE ABUT_HD auto in_doubles(const four_rounded<double, R>& x) {
-    return x;
+#if ABUT_VECTORS
+    typedef float two __attribute__((vector_size(8)));
+    typedef ABUT_VECTOR_OF(double) wide;
+    const auto& at = x.value.at[0];
+    return four_rounded<double>{{__builtin_convertvector((two{at[0], at[1]}), wide),
+                                 __builtin_convertvector((two{at[2], at[3]}), wide)}};
+#else
+    const auto& at = x.value.at;
+    return four_rounded<double>::of(static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2]),
+                                    static_cast<double>(at[3]));
+#endif
 }
 template <class N>
 ABUT_INLINE ABUT_HD auto in_floats(const vec3<N>& v) {
