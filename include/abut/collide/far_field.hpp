@@ -175,7 +175,7 @@ struct moment_sums {
 
 }  // namespace winding
 
-/// Of one triangle, about the mean of its corners as it is rounded. 
+/// Of one triangle, about the mean of its corners as it is rounded.
 template <scalar T>
 ABUT_HD winding_moments moments_of(const triangle<T>& t, const winding_frame& frame) {
     using namespace winding;
