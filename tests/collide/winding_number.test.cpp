@@ -49,7 +49,7 @@ seen_from_afar see_from_afar(const detail::winding_moments& of, const vec3<doubl
                                           single{sizeof(F) == 4 ? bounds.noise : 0.0f},
                                           single{sizeof(F) == 4 ? bounds.noise_of_high : 0.0f})
                             .value;
-    return {double(detail::far_value(vec3<number>{{F(v.x)}, {F(v.y)}, {F(v.z)}}, term).value), double(error)};
+    return {double(detail::far_value(vec3<number>{{F(v.x)}, {F(v.y)}, {F(v.z)}}, number{bounds.radius}, term).value), double(error)};
 }
 
 /// A cube from 0 to 1, facing outward.
@@ -271,6 +271,29 @@ TEMPLATE_TEST_CASE("winding number: of an index, few points and a mesh of many n
         CHECK(greatest_difference(of_some, wound(winding_number(serial{}, some, points))) <= 1e-2);
     }
     CHECK_THROWS_AS(winding_number(serial{}, index, points, {.tolerance = -1}), error);
+}
+
+TEST_CASE("winding number: a small body on a floor that is larger by all digits of a float") {
+    test::uniform random(480);
+    const test::torus<float> ring(60, 30, 1.2, 0.5);
+    const auto of_ring = test::triangles_of(ring.vertices, ring.faces);
+    for (const float half : {3e4f, 1e7f, 1e12f}) {
+        auto triangles = of_ring;
+        triangles.push_back({{-half, -half, -1}, {half, -half, -1}, {half, half, -1}});
+        triangles.push_back({{-half, -half, -1}, {half, half, -1}, {-half, half, -1}});
+        const triangle_soup<float> set(triangles);
+        const auto points = test::points_to_wind(of_ring, random, 60);
+        const auto exact = wound(winding_number(serial{}, set, points));
+        for (const auto& tree : {make_bvh(serial{}, set), make_bvh(serial{}, set, {.builder = bvh_builder::sah})}) {
+            const auto index = make_winding_index(serial{}, tree);
+            for (const double tolerance : {1e-6, 1e-4, 1e-3, 1e-1, 10.0}) {
+                CAPTURE(half, tolerance);
+                const auto found = wound(winding_number(serial{}, index, points, {.tolerance = tolerance}));
+                CHECK(greatest_difference(found, exact) <= tolerance + 1e-11);
+                CHECK(greatest_difference(found, exact) <= 0.5);
+            }
+        }
+    }
 }
 
 TEST_CASE("winding number: the bound of the far field is kept, and nearly reached") {

@@ -292,8 +292,9 @@ ABUT_HD inline winding_moments joined_moments(const winding_moments* parts, int 
 
 inline constexpr double per_full_angle = 0.079577471545947668;  ///< 1 / (4 pi)
 
-/// What a walk reads of the far fields of four nodes: coefficients of S.v, M[v, v], Q[v, v, v] and T[v, v, v, v], over 4 pi and
-/// with the factors of the expansion; of the forms those that say all. One is the sum of two floats, of which the first may do.
+/// What a walk reads of the far fields of four nodes: coefficients of S.u, M[u, u] / r, Q[u, u, u] / r^2 and T[u, u, u, u] / r^3,
+/// over 4 pi and with the factors of the expansion; of the forms those that say all. So all are like the area, and no product
+/// of floats is too small, however small the node. One is the sum of two floats, of which the first may do.
 struct alignas(16) far_terms {
     static constexpr int count = 24;
     float high[count][4], low[count][4];
@@ -307,25 +308,27 @@ struct far_bounds {
 ABUT_HD inline float rounded_up(double x) { return static_cast<float>(plain_product(x, 1 + 0x1p-20) + 0x1p-120); }
 
 ABUT_HD inline far_bounds write_far_terms(const winding_moments& all, far_terms& terms, int node) {
-    const double *const m = all.m, *const q = all.q, *const t = all.t, unit = per_full_angle, r = all.radius;
+    const double *const m = all.m, *const q = all.q, *const t = all.t, unit = per_full_angle;
+    const float radius = rounded_up(all.radius);
+    const auto r = static_cast<double>(radius);
     const double of[far_terms::count] = {all.s.x, all.s.y, all.s.z, m[0], m[1], m[3], m[4], m[5], q[0], q[1], q[2], q[6],
                                          q[7],    q[8],    q[9],    t[0], t[1], t[2], t[3], t[4], t[5], t[6], t[7], t[8]};
     double sum[4] = {};
     for (int k = 0; k < far_terms::count; ++k) {
         const int degree = k < 3 ? 0 : k < 8 ? 1 : k < 15 ? 2 : 3;
         const double factor = degree == 0 ? unit : degree == 1 ? -3 * unit : degree == 2 ? 7.5 * unit : -17.5 * unit;
-        const double term = plain_product(of[k], factor);
+        double term = plain_product(of[k], factor);
+        for (int power = 0; power < degree; ++power) term = term / r;
         const auto high = static_cast<float>(term);
         terms.high[k][node] = high;
         terms.low[k][node] = static_cast<float>(plain_sum(term, -static_cast<double>(high)));
         sum[degree] = plain_sum(sum[degree], absolute(term));
     }
-    if (!(r > 0)) return {rounded_up(0), 0, 0, 0};
     // Less than forty roundings are one upon another, of parts that add up to no more than this: a coefficient of Q comes with
-    // a polynomial of at most 3/2 d^3, one of T with 2 d^4, and r < d.
+    // a polynomial of at most 3/2, one of T with 2, and r < d.
     const auto noise = [](double parts) { return rounded_up(plain_product(40 * 0x1p-24, parts)); };
-    return {rounded_up(r), rounded_up(plain_product(all.spread / r / r, per_full_angle * (1 + 0x1p-8))),
-            noise(plain_sum(sum[0], sum[1] / r)), noise(plain_sum(1.5 * (sum[2] / r) / r, 2 * (sum[3] / r) / r / r))};
+    return {radius, rounded_up(plain_product(all.spread / r / r, per_full_angle * (1 + 0x1p-8))),
+            noise(plain_sum(sum[0], sum[1])), noise(plain_sum(1.5 * sum[2], 2 * sum[3]))};
 }
 
 /// By how much a far field may be off at a distance whose square is given, in floats: infinite where the gap to the ball has
@@ -340,12 +343,13 @@ ABUT_INLINE ABUT_HD N far_error(const N& squared, const N& radius, const N& weig
     return select(is_outside, error + N::of(1e-30f), N::of(infinity<float>));
 }
 
-/// The far field at v from the centre of a node, of which term[k] are the coefficients.
+/// The far field at `way` from the centre of a node, of which term[k] are the coefficients.
 template <class N, class Terms>
-ABUT_INLINE ABUT_HD N far_value(const vec3<N>& v, const Terms& term) {
+ABUT_INLINE ABUT_HD N far_value(const vec3<N>& way, const N& radius, const Terms& term) {
+    const N inverse = N::of(1) / root(dot(way, way)), x = radius * inverse;
+    const vec3<N> v{way.x * inverse, way.y * inverse, way.z * inverse};
     const N xx = v.x * v.x, yy = v.y * v.y, zz = v.z * v.z, x_z = xx - zz, y_z = yy - zz, x_y = xx - yy;
     const N xy = v.x * v.y, yz = v.y * v.z, zx = v.z * v.x, three = N::of(3);
-    const N inverse = N::of(1) / root(xx + yy + zz), square = inverse * inverse;
     const N x_3z = x_z - (zz + zz), y_3x = yy - three * xx, z_3y = zz - three * yy;
     const N of_s = term[0] * v.x + term[1] * v.y + term[2] * v.z;
     const N of_m = term[3] * x_z + term[4] * y_z + term[5] * xy + term[6] * yz + term[7] * zx;
@@ -356,7 +360,7 @@ ABUT_INLINE ABUT_HD N far_value(const vec3<N>& v, const Terms& term) {
                       term[17] * (zz * zz - three * (b + c - a));
     const N of_t = squares + xy * (term[18] * x_3z + term[21] * (yy - three * zz)) +
                    yz * (term[19] * y_3x + term[22] * (zz - three * xx)) + zx * (term[20] * z_3y + term[23] * (xx - three * yy));
-    return inverse * square * (of_s + square * (of_m + square * (of_q + square * of_t)));
+    return (inverse * inverse) * (of_s + x * (of_m + x * (of_q + x * of_t)));
 }
 
 // --- of all nodes of a tree, from the leaves up --------------------------------------------------------------------------

@@ -181,10 +181,10 @@ private:
         wide kept;
         const single error = single::load(at.error);
         if constexpr (is_float) {
-            const single value = far_value(in_floats(ways_to(node)), rows_of_floats{terms.high});
+            const single value = far_value(in_floats(ways_to(node)), single::load(node.radius), rows_of_floats{terms.high});
             kept = in_doubles(select(error < single::of(0), single::of(0), value));
         } else {
-            const wide value = far_value(ways_to(node), rows_of_doubles{terms.high, terms.low});
+            const wide value = far_value(ways_to(node), in_doubles(single::load(node.radius)), rows_of_doubles{terms.high, terms.low});
             kept = select(in_doubles(error) < wide::of(0), wide::of(0), value);
         }
         (wide::load(far_) + kept).value.store(far_);
@@ -198,9 +198,9 @@ private:
             }
             one_rounded<F> value;
             if constexpr (is_float) {
-                value = far_value(in_floats(way_to(node, k)), term);
+                value = far_value(in_floats(way_to(node, k)), one_rounded<F>{node.radius[k]}, term);
             } else {
-                value = far_value(way_to(node, k), term);
+                value = far_value(way_to(node, k), one_rounded<F>{node.radius[k]}, term);
             }
             far_[k] = plain_sum(far_[k], static_cast<double>(value.value));
         }
