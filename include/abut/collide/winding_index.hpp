@@ -98,12 +98,12 @@ struct count_winding_slots {
 
     ABUT_HD void operator()(std::size_t i) const {
         const auto number = static_cast<std::uint32_t>(i);
-        nodes[i] = slots.is_node(number) ? 1 : 0;
+        nodes[i] = slots.is_node(number) ? 1u : 0u;
         blocks[i] = 0;
         if (nodes[i] == 0) return;
         bvh_child child[4];
         const int count = slots.children(number, child);
-        for (int k = 0; k < count; ++k) blocks[i] += slots.is_block(child[k]) ? 1 : 0;
+        for (int k = 0; k < count; ++k) blocks[i] += slots.is_block(child[k]) ? 1u : 0u;
     }
 };
 
