@@ -125,7 +125,7 @@ private:
 
     /// What the far fields of a node's children may be off by.
     template <scalar F>
-    ABUT_HD void bound(opened& at) const {
+    ABUT_INLINE ABUT_HD void bound(opened& at) const {
         constexpr bool is_float = std::same_as<F, float>;
         const winding_node& node = in_.nodes[at.node];
 #if ABUT_VECTORS
@@ -171,7 +171,7 @@ private:
 
     /// Adds the far fields of a node's children that were not opened: each to a sum of its own.
     template <scalar F>
-    ABUT_HD void add_far(const opened& at) {
+    ABUT_INLINE ABUT_HD void add_far(const opened& at) {
         constexpr bool is_float = std::same_as<F, float>;
         const winding_node& node = in_.nodes[at.node];
         const far_terms& terms = in_.terms[at.node];
@@ -231,9 +231,7 @@ private:
             const std::uint32_t child = in_.nodes[node].child[lowest_bit(which)];
             if ((child & winding_node::of_block) != 0) continue;
             const char* const at = reinterpret_cast<const char*>(in_.nodes + child);
-            const char* const terms = reinterpret_cast<const char*>(in_.terms + child);
             for (std::size_t line = 0; line < sizeof(winding_node); line += 64) ABUT_PREFETCH(at + line);
-            for (std::size_t line = 0; line < sizeof(far_terms::high); line += 64) ABUT_PREFETCH(terms + line);
         }
 #endif
     }
