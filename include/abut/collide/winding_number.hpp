@@ -125,7 +125,7 @@ private:
 
     /// What the far fields of a node's children may be off by.
     template <scalar F>
-    ABUT_INLINE ABUT_HD void bound(opened& at) const {
+    ABUT_HD void bound(opened& at) const {
         constexpr bool is_float = std::same_as<F, float>;
         const winding_node& node = in_.nodes[at.node];
 #if ABUT_VECTORS
@@ -171,7 +171,7 @@ private:
 
     /// Adds the far fields of a node's children that were not opened: each to a sum of its own.
     template <scalar F>
-    ABUT_INLINE ABUT_HD void add_far(const opened& at) {
+    ABUT_HD void add_far(const opened& at) {
         constexpr bool is_float = std::same_as<F, float>;
         const winding_node& node = in_.nodes[at.node];
         const far_terms& terms = in_.terms[at.node];
