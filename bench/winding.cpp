@@ -4,7 +4,7 @@
 //
 // Winding numbers of points in a mesh's box, on one core in float: of all meshes of a folder that are named below, of a ball in
 // a box, and of a ball on a floor of two large triangles. A row, MESH/LIBRARY/ACCURACY, is a tolerance of abut's or an accuracy
-// of a peer's (bench/winding/, out of ABUT_PEERS). us is processor time for one of N points (5,000), all asked in one call, the
+// of a peer's (bench/winding/, out of ABUT_PEERS). us is processor time, of all threads, for one of N points (5,000), all asked in one call, the
 // least of N runs (7) in which the rows take turns; worst and rms are how far the answers to the first 300 are from the sum over all
 // triangles; alone is us for a call of one point; make is ms for what is made once. like is us of abut's at the same rms as the
 // peer's row, by a power law between abut's two rows around it, over us of the peer.
@@ -35,7 +35,7 @@ using point = abut::vec3<float>;
 
 double processor_time() {
     timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
     return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
 }
 
