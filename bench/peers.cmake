@@ -1,17 +1,17 @@
 # SPDX-License-Identifier: MIT
 #
-# Libraries that no distribution packages, out of checkouts: ABUT_PEERS is a folder with coal/, tinybvh/
-# and fcpw/, each where it is wanted.
-# They are packages like others (cmake/development.cmake): a source that includes one that is not there is left out.
+# Libraries that no distribution packages, out of checkouts: ABUT_PEERS is a folder with coal/, fcpw/, libigl/ and tinybvh/, each where it
+# is wanted. They are packages like others (cmake/development.cmake): a source that includes one that is not there is left out.
 
-set(ABUT_PEERS "" CACHE PATH "Folder of checkouts of libraries that benchmarks are compared with: coal, tinybvh, fcpw")
+set(ABUT_PEERS "" CACHE PATH "Folder of checkouts of libraries that benchmarks are compared with: coal, fcpw, libigl, tinybvh")
 
 # The definition says which version of a peer it is.
 function(abut_peer_version target name number)
     execute_process(COMMAND git -C ${ABUT_PEERS}/${name} log -1 --format=%h OUTPUT_VARIABLE commit ERROR_QUIET
                     OUTPUT_STRIP_TRAILING_WHITESPACE)
+    string(STRIP "${number} ${commit}" version)
     string(TOUPPER ${name} name)
-    target_compile_definitions(${target} INTERFACE "ABUT_${name}_VERSION=\"${number} ${commit}\"")
+    target_compile_definitions(${target} INTERFACE "ABUT_${name}_VERSION=\"${version}\"")
 endfunction()
 
 # Coal's narrow phase, its trees of faces and its broad phases: all but files of meshes, serialisation and octrees, for which it wants
@@ -68,3 +68,12 @@ if(EXISTS ${ABUT_PEERS}/fcpw/include/fcpw/fcpw.h AND TARGET Eigen3::Eigen)
     set_source_files_properties(${CMAKE_CURRENT_SOURCE_DIR}/nearest/fcpw.cpp PROPERTIES COMPILE_OPTIONS "-w;-mavx2;-mfma;-mbmi2;-mlzcnt")
 endif()
 abut_package(fcpw "<fcpw/" "fcpw in ABUT_PEERS" abut_fcpw)
+
+# libigl's headers alone. Its version has no place in them.
+if(EXISTS ${ABUT_PEERS}/libigl/include/igl/FastWindingNumberForSoups.h AND TARGET Eigen3::Eigen)
+    add_library(abut_libigl INTERFACE)
+    target_include_directories(abut_libigl SYSTEM INTERFACE ${ABUT_PEERS}/libigl/include)
+    target_link_libraries(abut_libigl INTERFACE Eigen3::Eigen)
+    abut_peer_version(abut_libigl libigl "")
+endif()
+abut_package(libigl "<igl/" "libigl in ABUT_PEERS" abut_libigl)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The table of bench/peers.cpp: abut beside libraries out of checkouts."""
+"""The tables of bench/peers.cpp and bench/winding.cpp: abut beside libraries out of checkouts."""
 
 from report_core import *  # noqa: F403
 
@@ -41,3 +41,22 @@ def peers(results):
         lines += table(["states of an arm", "", "us a state", "abut / it", "wrong", "collide"], rows, 2)
     versions = ", ".join(f"{name} {r.context[name]}" for name in others)
     return lines + made_on(r, f". {versions}")
+
+
+@in_table("winding")
+def winding(results):
+    r = results["cpu/winding"]
+    others = sorted({row.split("/")[1] for row in r.rows} - {"abut"})
+    rows = []
+    for mesh in r.parts("", 0):
+        for name in ["abut"] + others:
+            for accuracy in sorted(r.parts(f"{mesh}/{name}/", 2), key=float, reverse=name == "abut"):
+                def of(key):
+                    return r.get(f"{mesh}/{name}/{accuracy}", key)
+                rows.append([mesh.replace("_", " "), name, accuracy, shown(of("us")), shown(of("alone")),
+                             "" if name == "abut" else f"{of('like'):.2f}", f"{of('rms'):.1e}", f"{of('worst'):.1e}",
+                             shown(of("make"))])
+    head = ["points in the box of", "", "tolerance or accuracy", "us a point", "us, a point alone", "abut / it, at the same rms",
+            "off by, rms", "at most", "made once, ms"]
+    versions = ", ".join(f"{name} {r.context[name]}" for name in others)
+    return table(head, rows, 3) + made_on(r, f". {versions}")

@@ -65,6 +65,7 @@ cpu distance bench_distance $G $I --meshes=@D@/meshes
 cpu within bench_within $G $I --meshes=@D@/meshes
 cpu hulls bench_hulls $G $I
 cpu peers bench_peers --json={}
+cpu winding bench_winding @D@/meshes --json={}
 cpu raycast bench_raycast $G $I --mesh=@D@/meshes/armadillo_345944.ply
 cpu descents bench_descents --json={} --mesh=@D@/meshes/armadillo_345944.ply
 cpu descents_138376 bench_descents --json={} --mesh=@D@/meshes/armadillo_138376.ply

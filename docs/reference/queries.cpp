@@ -190,6 +190,14 @@ void query_inside() {
     const auto around = abut::winding_number(on, abut::make_bvh(on, open), points, {.tolerance = 1e-6});
     expect(around[0] > 0.6 && around[1] < 0.1);
     //! [winding_number]
+    //! [make_winding_index]
+    const auto index = abut::make_winding_index(on, abut::make_bvh(on, open, {.builder = abut::bvh_builder::sah}));
+    expect(abut::winding_number(on, index, points[0], {.tolerance = 1e-6})[0] > 0.6);
+    //! [make_winding_index]
+    //! [winding_number_exact]
+    const auto counts = abut::winding_number<abut::exact>(on, tetrahedron, points);
+    expect(counts[0].turns == 1 && counts[1].turns == 0 && counts[2].on_surface);
+    //! [winding_number_exact]
 }
 
 void query_mesh() {

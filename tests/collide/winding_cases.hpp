@@ -51,8 +51,23 @@ void check_winding_bits(const Policy& on) {
                   to_host(winding_number(serial{}, tree_here, points, options)));
             CHECK(to_host(winding_number(on, posed(tree, pose), points, options)) ==
                   to_host(winding_number(serial{}, posed(tree_here, pose), points, options)));
+            CHECK(to_host(winding_number(on, make_winding_index(on, there), points, options)) ==
+                  to_host(winding_number(serial{}, make_winding_index(serial{}, here), points, options)));
         }
     }
+    // More nodes than a walk's list has room for.
+    const torus<T> fine(120, 60, 1.2, 0.5);
+    const mesh<T> surface(fine.vertices, fine.faces);
+    const auto points = points_to_wind(triangles_of(fine.vertices, fine.faces), random, 24);
+    const auto index = make_winding_index(on, make_bvh(on, copy_to(on, surface)));
+    const auto index_here = make_winding_index(serial{}, make_bvh(serial{}, surface));
+    for (const double tolerance : {0.0, 1e-7, 1e-4, 1e-3}) {
+        CAPTURE(tolerance);
+        const winding_options options{.tolerance = tolerance};
+        CHECK(to_host(winding_number(on, index, points, options)) == to_host(winding_number(serial{}, index_here, points, options)));
+    }
+    CHECK(to_host(winding_number<exact>(on, copy_to(on, surface), points)) ==
+          to_host(winding_number<exact>(serial{}, surface, points)));
 }
 
 template <class T, class Policy>

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// inside: which of many points are inside of a closed mesh; signed_distance: how far they are from its surface.
+// inside: which of many points are inside of a closed mesh; winding_number<exact>: how often its surface goes round them;
+// signed_distance: how far they are from it.
 //
 // By definition a point that is on no triangle is inside if the way up from it, moved aside by as little as need be, crosses
-// an odd number of triangles (narrow/crossing.hpp). The walk is that of a ray.
+// an odd number of triangles (narrow/crossing.hpp). The surface goes round it as often as that way leaves it by triangles that
+// face up, less as often as it enters it by those that face down. The walk is that of a ray.
 
 #include <concepts>
 #include <cstddef>
@@ -42,7 +44,27 @@ struct inside_options {
     flag known_closed = false;
 };
 
+/// How often a closed surface goes round a point.
+/// @ingroup queries
+struct winding_count {
+    std::int32_t turns = 0;   ///< 0 on the surface
+    bool on_surface = false;  ///< on a triangle of the mesh, its edges and corners too
+
+    /// Whether both say the same.
+    bool operator==(const winding_count&) const = default;
+};
+
 namespace detail {
+
+/// What is told of crossings.
+template <class Answer>
+ABUT_HD Answer answer_of_crossings(std::int32_t turns, bool is_on) {
+    if constexpr (std::same_as<Answer, winding_count>) {
+        return {is_on ? 0 : turns, is_on};
+    } else {
+        return is_on ? containment::on_surface : turns % 2 != 0 ? containment::inside : containment::outside;
+    }
+}
 
 /// How a frame sees the ray up from a point.
 template <class Frame, scalar T>
@@ -51,31 +73,32 @@ ABUT_HD auto line_upward(const Frame& frame, const vec3<T>& p) {
 }
 
 /// A walk up from each of many points.
-template <arithmetic A, class Walk, class Frame, shape_view Shapes, shape_view Points>
+template <arithmetic A, class Answer, class Walk, class Frame, shape_view Shapes, shape_view Points>
 struct walk_upward {
     using T = typename Points::scalar_type;
     Walk walk;
     Frame frame;
     Shapes shapes;
     Points points;
-    containment* out;
+    Answer* out;
 
     struct look {
         vec3<T> p;
-        bool is_odd = false, is_on = false;
+        std::int32_t turns = 0;
+        bool is_on = false;
 
         ABUT_CALLS_ANY
         template <class Sink>
         ABUT_HD void operator()(const walk_upward& all, std::uint32_t id, Sink& sink) {
             if (is_on) return;
             const met_above found = crossing_of<A>(p, all.shapes[id]);
-            is_odd ^= found == met_above::crossing;
+            turns += found == met_above::leaving ? 1 : found == met_above::entering ? -1 : 0;
             is_on = found == met_above::start;
             if (is_on) sink.stop();
         }
         template <class Sink>
         ABUT_HD void end(const walk_upward& all, std::size_t i, Sink&) const {
-            all.out[i] = is_on ? containment::on_surface : is_odd ? containment::inside : containment::outside;
+            all.out[i] = answer_of_crossings<Answer>(turns, is_on);
         }
     };
     ABUT_HD look start(std::size_t i) const { return {points[i]}; }
@@ -93,21 +116,44 @@ struct face_at_odd_edge {
     }
 };
 
+/// The same of an edge that its faces do not go along as often one way as the other.
+struct face_at_turned_edge {
+    sorted_half_edges table;
+    ABUT_HD execution::least_value operator()(std::size_t i) const {
+        if (!table.is_edge(i) || !table.is_first(i)) return {};
+        std::int64_t forward = table.backward(i) ? -1 : 1;
+        for (std::size_t k = 1; table.goes_on(i, k); ++k) forward += table.backward(i + k) ? -1 : 1;
+        if (forward == 0) return {};
+        const auto more = static_cast<std::uint64_t>(forward < 0 ? -forward : forward);
+        return {static_cast<double>(mesh_edge_of{table}(static_cast<std::uint32_t>(i)).first_face), more};
+    }
+};
+
+/// Throws where a mesh is not closed, and if `turned` matters, where faces at an edge are turned against each other.
 template <class Policy, scalar T, memory_space Space>
-void require_closed(const Policy& on, const mesh_view<T, Space>& mesh, const char* function) {
+void require_closed(const Policy& on, const mesh_view<T, Space>& mesh, const char* function, bool turned = false) {
     check_sides(mesh.size(), function);
     const half_edge_table<Policy> sorted(on, mesh, id_bits(mesh.vertices.count));
     const sorted_half_edges table = sorted.view();
     const execution::least_value first =
         reduce(on, table.count, execution::least_value{}, execution::lesser_value{}, face_at_odd_edge{table});
-    if (first == execution::least_value{}) return;
-    throw invalid_geometry(function, "face", static_cast<std::size_t>(first.value),
-                           "the mesh is not closed: an edge of this face has an odd number of faces",
-                           static_cast<double>(first.key));
+    if (!(first == execution::least_value{})) {
+        throw invalid_geometry(function, "face", static_cast<std::size_t>(first.value),
+                               "the mesh is not closed: an edge of this face has an odd number of faces",
+                               static_cast<double>(first.key));
+    }
+    if (!turned) return;
+    const execution::least_value other =
+        reduce(on, table.count, execution::least_value{}, execution::lesser_value{}, face_at_turned_edge{table});
+    if (other == execution::least_value{}) return;
+    throw invalid_geometry(function, "face", static_cast<std::size_t>(other.value),
+                           "faces at an edge of this face are turned against each other: more go along it one way than the "
+                           "other, by",
+                           static_cast<double>(other.key));
 }
 template <class Policy, class View>
-void require_closed(const Policy& on, const posed_view<View>& mesh, const char* function) {
-    require_closed(on, mesh.shapes, function);
+void require_closed(const Policy& on, const posed_view<View>& mesh, const char* function, bool turned = false) {
+    require_closed(on, mesh.shapes, function, turned);
 }
 
 template <class X>
@@ -121,7 +167,7 @@ inline constexpr bool has_faces<posed_object<Object>> = has_faces<Object>;
 template <arithmetic A, class Policy, class X, class Points, bool Whole>
 consteval bool can_contain() {
     constexpr bool is_decided = !std::same_as<A, fast>;
-    static_assert(is_decided, "abut: inside is decided by `filtered` or `exact`");
+    static_assert(is_decided, "abut: inside and winding numbers are decided by `filtered` or `exact`");
     if constexpr (Whole) {
         constexpr bool is_mesh_or_tree = has_faces<X>;
         static_assert(is_mesh_or_tree, "abut: inside looks into a closed mesh: a mesh, a mesh_view, or a tree of one");
@@ -138,26 +184,26 @@ consteval bool can_contain() {
 }
 
 /// Writes where each point is, of shapes that bound a body.
-template <arithmetic A, class Policy, class Operand, class Queries>
-void look_upward(const Policy& on, const Operand& x, const Queries& queries, containment* out) {
+template <arithmetic A, class Policy, class Operand, class Queries, class Answer>
+void look_upward(const Policy& on, const Operand& x, const Queries& queries, Answer* out) {
     const auto there = x.shapes();
     const auto from = queries.shapes();
     using T = typename std::remove_const_t<decltype(from)>::scalar_type;
-    if (there.size() == 0) return fill(on, out, from.size(), containment::outside);
+    if (there.size() == 0) return fill(on, out, from.size(), answer_of_crossings<Answer>(0, false));
     const auto walk = ordered_walk_of(x);
     const auto frame = frame_of(x, length_unit<T>{});
-    using walk_type = walk_upward<A, std::remove_const_t<decltype(walk)>, std::remove_const_t<decltype(frame)>,
+    using walk_type = walk_upward<A, Answer, std::remove_const_t<decltype(walk)>, std::remove_const_t<decltype(frame)>,
                                   std::remove_const_t<decltype(there)>, std::remove_const_t<decltype(from)>>;
     execution::until_stopped until;
     for_each_ordered(on, from.size(), from_each{walk_type{walk, frame, there, from, out}}, until);
 }
 
-/// Where a point is: of a part, whether the way up from it crosses an odd number of the part's triangles.
-template <arithmetic A>
+/// Where a point is, or how often the surface goes round it: of a part, what the way up from it crosses of the part's triangles.
+template <arithmetic A, class Answer = containment>
 struct ask_inside : question_of_points {
     template <scalar, class>
-    using found = containment;
-    using answer = containment;
+    using found = Answer;
+    using answer = Answer;
     const char* function = "abut::inside";
     bool known_closed = false;
 
@@ -172,7 +218,8 @@ struct ask_inside : question_of_points {
             throw error(std::string(function) + ": no " + holder +
                         " to find out whether it is closed; expected {.known_closed = true}");
         }
-        if constexpr (requires { require_closed(on, x.shapes(), function); }) require_closed(on, x.shapes(), function);
+        constexpr bool turned = std::same_as<Answer, winding_count>;
+        if constexpr (requires { require_closed(on, x.shapes(), function); }) require_closed(on, x.shapes(), function, turned);
     }
     template <class Policy, class X, class Points>
     auto at_once(const Policy& on, const X& x, const Points& points, double) const {
@@ -189,13 +236,16 @@ struct ask_inside : question_of_points {
         look_upward<A>(on, x, rows, out);
         synchronize(on);
     }
+    ABUT_HD static bool is_on(containment c) { return c == containment::on_surface; }
+    ABUT_HD static bool is_on(const winding_count& c) { return c.on_surface; }
+    ABUT_HD static std::int32_t turns_of(containment c) { return c == containment::inside ? 1 : 0; }
+    ABUT_HD static std::int32_t turns_of(const winding_count& c) { return c.turns; }
     ABUT_HD void merge(answer* best, const answer* other) const {
-        const bool is_on = *best == containment::on_surface || *other == containment::on_surface;
-        *best = is_on ? containment::on_surface : *best == *other ? containment::outside : containment::inside;
+        *best = answer_of_crossings<answer>(turns_of(*best) + turns_of(*other), is_on(*best) || is_on(*other));
     }
     template <scalar T>
     ABUT_HD bool may_change(const vec3<T>& p, const answer* best, const part_bounds<T>& part) const {
-        return *best != containment::on_surface && may_meet(ray<T>{p, {0, 0, 1}}, part, infinity<double>);
+        return !is_on(*best) && may_meet(ray<T>{p, {0, 0, 1}}, part, infinity<double>);
     }
 };
 
@@ -253,6 +303,34 @@ struct write_signed {
 template <arithmetic A = filtered, executor On, class X, class Points>
 [[nodiscard]] auto inside(const On& on, const X& mesh, const Points& points, const inside_options& options = {}) {
     return ask_rows(on, detail::ask_inside<A>{{}, "abut::inside", bool(options.known_closed)}, mesh, points);
+}
+
+/// For each of `points` how often the surface of a closed mesh goes round it, exactly: a `result` of `winding_count`, in the
+/// order of the points. It is 1 inside of a mesh that faces outward, and 0 outside. Where two bodies of one mesh overlap it is
+/// 2, and in a hollow, whose faces face into it, it is 0: so it tells what bodies have in common from holes, which `inside`
+/// does not. Turned inside out it is -1. A point on a triangle, an edge or a corner is `on_surface`, as for `inside`.
+///
+/// Decided as `inside` is, with `filtered` as with `exact`: for every finite input, the same on every policy. Arguments,
+/// options, memory and errors are those of `inside`, 8 bytes a point; and where faces at an edge are turned against each
+/// other (as many of them have to go along it one way as the other), `invalid_geometry` is thrown.
+///
+/// @par Memory
+/// As in @ref queries. The result lies in the policy's memory, 8 bytes a point; scratch is that of `inside`.
+///
+/// @par Errors
+/// Those of `inside`.
+///
+/// @par Synchronisation
+/// Returns when the answers are complete; under `cuda` it waits for the policy's stream.
+///
+/// @par Example
+/// @snippet queries.cpp winding_number_exact
+///
+/// @ingroup queries
+template <arithmetic A, executor On, class X, class Points>
+[[nodiscard]] auto winding_number(const On& on, const X& mesh, const Points& points, const inside_options& options = {}) {
+    using question = detail::ask_inside<A, winding_count>;
+    return ask_rows(on, question{{}, "abut::winding_number", bool(options.known_closed)}, mesh, points);
 }
 
 /// For each of `points` what `nearest` says of it, with a distance that is below 0 where the point is `inside`, and 0 where

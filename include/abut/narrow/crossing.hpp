@@ -29,7 +29,8 @@ ABUT_HD constexpr met_above certified_crossing(const vec3<T>& p, const triangle<
     const double height = dot(cross(a, b), c);
     const double error_of_height = determinant_error<double> * (to_a * to_b) * to_c + flushed_in_three<T>(reach);
     if (!(absolute(height) > error_of_height)) return met_above::unknown;
-    return (height > 0) == (lowest > 0) ? met_above::crossing : met_above::nothing;
+    if ((height > 0) != (lowest > 0)) return met_above::nothing;
+    return lowest > 0 ? met_above::leaving : met_above::entering;
 }
 
 template <scalar T>

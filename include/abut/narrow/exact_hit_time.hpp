@@ -47,7 +47,7 @@ ABUT_HD constexpr int next_axis(int k) { return k == 2 ? 0 : k + 1; }
 
 /// What the way up from a point meets of a triangle: nothing, its inside, which it crosses, or the triangle at the point
 /// itself.
-enum class met_above : int { nothing, crossing, start, unknown };
+enum class met_above : int { nothing, leaving, entering, start, unknown };
 
 template <scalar T>
 class exact_line {
@@ -117,7 +117,7 @@ public:
         int sides = 0;
         ABUT_ROLLED
         for (int i = 0; i < 3; ++i) sides += side_if_moved(to_[i], to_[next_axis(i)]);
-        return sides == 3 || sides == -3 ? met_above::crossing : met_above::nothing;
+        return sides == 3 ? met_above::leaving : sides == -3 ? met_above::entering : met_above::nothing;
     }
 
 private:

@@ -20,6 +20,7 @@
 #include <abut/arithmetic/arithmetic.hpp>
 #include <abut/arithmetic/error_free.hpp>
 #include <abut/arithmetic/exact_stages.hpp>
+#include <abut/arithmetic/lanes.hpp>
 #include <abut/arithmetic/limits.hpp>
 #include <abut/arithmetic/magnitude.hpp>
 #include <abut/arithmetic/rolled_int.hpp>
@@ -28,9 +29,23 @@
 #include <abut/config.hpp>
 #include <abut/narrow/exact_hit_time.hpp>
 #include <abut/narrow/numbers.hpp>
+#include <abut/narrow/rounded_lanes.hpp>
 #include <abut/shape/primitive.hpp>
 
 namespace abut::detail {
+
+/// The arc tangent of q in turns, for |q| <= tan(pi / 8).
+template <class N>
+ABUT_INLINE ABUT_HD constexpr N arc_tangent(const N& q) {
+    constexpr double coefficients[] = {0x1.45f306dc9c882p-3,  -0x1.b2995e7b7b1e1p-5, 0x1.04c26be3734cfp-5,
+                                       -0x1.7483756254124p-6, 0x1.21bb8c26e37f0p-6,  -0x1.da19e726290e8p-7,
+                                       0x1.910c413a0116fp-7,  -0x1.5a51b4dc146c9p-7, 0x1.28bfcea816556p-7,
+                                       -0x1.c604729a03330p-8, 0x1.ba0ff54a5b8e4p-9};
+    const N square = q * q;
+    N value = N::of(coefficients[10]);
+    for (int k = 9; k >= 0; --k) value = value * square + N::of(coefficients[k]);
+    return value * q;
+}
 
 /// The angle of x + i y in turns, from -1/2 to 1/2: atan2(y, x) / (2 pi), within 2^-52. 0 for 0, and positive for a negative
 /// x and a y that is 0. Magnitudes stay below 2^1022.
@@ -43,14 +58,7 @@ ABUT_HD constexpr double angle_in_turns(double y, double x) {
     if (!(larger > 0)) return 0;
     const bool is_wide = smaller > plain_product(0.41421356237309503, larger);  // tan(pi / 8)
     const double q = is_wide ? plain_sum(smaller, -larger) / plain_sum(smaller, larger) : smaller / larger;
-    constexpr double coefficients[] = {0x1.45f306dc9c882p-3,  -0x1.b2995e7b7b1e1p-5, 0x1.04c26be3734cfp-5,
-                                       -0x1.7483756254124p-6, 0x1.21bb8c26e37f0p-6,  -0x1.da19e726290e8p-7,
-                                       0x1.910c413a0116fp-7,  -0x1.5a51b4dc146c9p-7, 0x1.28bfcea816556p-7,
-                                       -0x1.c604729a03330p-8, 0x1.ba0ff54a5b8e4p-9};
-    const double square = plain_product(q, q);
-    double value = coefficients[10];
-    for (int k = 9; k >= 0; --k) value = plain_sum(plain_product(value, square), coefficients[k]);
-    double turns = plain_product(value, q);
+    double turns = arc_tangent(contact_math::one_double{q}).high;
     if (is_wide) turns = plain_sum(0.125, turns);
     if (of_y > of_x) turns = plain_sum(0.25, -turns);
     if (x < 0) turns = plain_sum(0.5, -turns);
@@ -140,6 +148,17 @@ ABUT_NOINLINE ABUT_HD constexpr double careful_solid_angle_share(const triangle<
     return side * angle_in_turns(y, along.high);
 }
 
+/// x and y of the ways to the corners, the shortest first, and of their lengths; and the product of these.
+template <class N>
+struct half_angle {
+    N product, x, y;
+    ABUT_INLINE ABUT_HD constexpr half_angle(const vec3<N>& a, const vec3<N>& b, const vec3<N>& c, const N& of_a, const N& of_b,
+                                             const N& of_c)
+        : product(of_a * of_b * of_c),
+          x((product + dot(a, b) * of_c) + (dot(b, c) * of_a + dot(c, a) * of_b)),
+          y(dot(a, cross(b - a, c - a))) {}
+};
+
 /// The solid angle of a triangle from p, over 4 pi: from -1/2 to 1/2, positive where p is behind the triangle, which is
 /// where its corners go round clockwise. 0 where p is in the triangle's plane, on the triangle too: the mean of what it is
 /// on both sides.
@@ -173,12 +192,86 @@ ABUT_HD constexpr double solid_angle_share(const triangle<T>& t, const vec3<T>& 
         rotate(c, b, a);
         rotate(of_c, of_b, of_a);
     }
-    const double y = plain_dot(a, plain_cross(plain_difference(b, a), plain_difference(c, a)));
-    const double product = plain_product(plain_product(of_a, of_b), of_c);
-    const double x = plain_sum(plain_sum(product, plain_product(plain_dot(a, b), of_c)),
-                               plain_sum(plain_product(plain_dot(b, c), of_a), plain_product(plain_dot(c, a), of_b)));
+    const auto in_doubles = [](const vec3<double>& v) { return contact_math::as<contact_math::one_double>(v); };
+    const half_angle<contact_math::one_double> of(in_doubles(a), in_doubles(b), in_doubles(c), {of_a}, {of_b}, {of_c});
+    const double x = of.x.high, y = of.y.high, product = of.product.high;
     if (!(greatest(x, absolute(y)) > plain_product(0.125, product))) return careful_solid_angle_share(t, p);
     return angle_in_turns(y, x);
+}
+
+/// angle_in_turns of each.
+template <class N>
+ABUT_INLINE ABUT_HD N angles_in_turns(const N& y, const N& x) {
+    const N none = N::of(0), of_x = absolute(x), of_y = absolute(y);
+    const auto is_steep = of_y > of_x;
+    const N larger = select(is_steep, of_y, of_x), smaller = select(is_steep, of_x, of_y);
+    const auto is_wide = smaller > N::of(0.41421356237309503) * larger;
+    const N q = select(is_wide, smaller - larger, smaller) / select(is_wide, smaller + larger, larger);
+    N turns = arc_tangent(q);
+    turns = select(is_wide, N::of(0.125) + turns, turns);
+    turns = select(is_steep, N::of(0.25) - turns, turns);
+    turns = select(x < none, N::of(0.5) - turns, turns);
+    turns = select(y < none, none - turns, turns);
+    return select(larger > none, turns, none);
+}
+
+/// Four triangles, by coordinates: those of a, b, c, one after another.
+template <scalar T>
+struct four_triangles {
+    T at[9][4];
+    [[nodiscard]] ABUT_HD triangle<T> one(int k) const {
+        return {{at[0][k], at[1][k], at[2][k]}, {at[3][k], at[4][k], at[5][k]}, {at[6][k], at[7][k], at[8][k]}};
+    }
+};
+
+#if ABUT_VECTORS
+/// From p to three coordinates of all.
+template <scalar T>
+ABUT_INLINE vec3<four_rounded<double>> ways_to(const four_triangles<T>& of, int first, const vec3<T>& p) {
+    using number = four_rounded<double>;
+    const T* const x = of.at[first];
+    if constexpr (std::same_as<T, double>) {
+        return {number::load(x) - number::of(p.x), number::load(x + 4) - number::of(p.y), number::load(x + 8) - number::of(p.z)};
+    } else {
+        const auto row = [&](int k) { return number::of(x[k], x[k + 1], x[k + 2], x[k + 3]); };
+        return {row(0) - number::of(p.x), row(4) - number::of(p.y), row(8) - number::of(p.z)};
+    }
+}
+template <class Mask, class V>
+ABUT_INLINE void rotate_some(const Mask& once, const Mask& twice, V& a, V& b, V& c) {
+    const V first = a, second = b;
+    a = select(once, second, select(twice, c, first));
+    b = select(once, c, select(twice, first, second));
+    c = select(once, first, select(twice, second, c));
+}
+#endif
+
+/// solid_angle_share of each, bit for bit but for the sign of 0. On a host they are computed together.
+template <scalar T>
+ABUT_HD void solid_angle_shares(const four_triangles<T>& of, const vec3<T>& p, double* out) {
+#if ABUT_VECTORS
+    using number = four_rounded<double>;
+    vec3<number> a = ways_to(of, 0, p), b = ways_to(of, 3, p), c = ways_to(of, 6, p);
+    number of_a = root(dot(a, a)), of_b = root(dot(b, b)), of_c = root(dot(c, c));
+    const number smallest = number::of(0x1p-250), largest = number::of(0x1p250);
+    auto is_plain = (of_a > smallest) & (of_b > smallest) & (of_c > smallest) & (of_a < largest) & (of_b < largest) &
+                    (of_c < largest);
+    // To b, c, a where b is the shortest, and to c, a, b where c is.
+    const auto is_b = (of_b < of_a) & (of_b <= of_c), is_c = of_c < of_a;
+    rotate_some(is_b, is_c, a, b, c);
+    rotate_some(is_b, is_c, of_a, of_b, of_c);
+    const half_angle<number> half(a, b, c, of_a, of_b, of_c);
+    const number bound = number::of(0.125) * half.product;
+    is_plain = is_plain & ((half.x > bound) | (absolute(half.y) > bound));
+    angles_in_turns(half.y, half.x).value.store(out);
+    typename number::mask row[1] = {is_plain};
+    for (unsigned left = bits_of(row) ^ 15u; left != 0; left &= left - 1) {
+        const auto k = static_cast<int>(lowest_bit(left));
+        out[k] = careful_solid_angle_share(of.one(k), p);
+    }
+#else
+    for (int k = 0; k < 4; ++k) out[k] = solid_angle_share(of.one(k), p);
+#endif
 }
 
 }  // namespace abut::detail
