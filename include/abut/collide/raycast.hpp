@@ -169,23 +169,11 @@ ABUT_HD Hit named_hit(const execution::least_value& found) {
 }
 template <class Hit>
 struct write_hits {
+    const execution::least_value* found;  ///< null for none
     Hit* out;
-    ABUT_HD void operator()(std::size_t i, const execution::least_value& found) const { out[i] = named_hit<Hit>(found); }
-};
-template <class Ids>
-struct write_named {
-    Ids ids;
-    execution::least_value* out;
-    ABUT_HD void operator()(std::size_t i, const execution::least_value& found) const {
-        out[i] = {};
-        if (found.key < no_id) out[i] = {found.value, ids(static_cast<std::uint32_t>(found.key))};
+    ABUT_HD void operator()(std::size_t i) const {
+        out[i] = named_hit<Hit>(found == nullptr ? execution::least_value{} : found[i]);
     }
-};
-/// Where there is nothing.
-template <class Write>
-struct write_nothing {
-    Write write;
-    ABUT_HD void operator()(std::size_t i) const { write(i, execution::least_value{}); }
 };
 
 template <class X>
@@ -259,15 +247,16 @@ auto bring_lines_and_shapes(const Policy& on, const X& index, const Lines& rays,
     return lines_and_shapes{std::move(x), make_operand(on, rays, function)};
 }
 
-/// Finds what each line meets first: write(i, found) takes what line i does. in_scalars: values need only become the right
-/// scalars; they may not be the times, rounded to doubles.
-template <arithmetic A, class Policy, class Both, class Write>
-void look_for_first_hits(const Policy& on, const Both& both, bool in_scalars, const Write& write) {
-    if (both.has_nothing()) return for_each_index(on, both.size(), write_nothing<Write>{write});
-    execution::written_of_each<Write> best(write, both.wanted.most());
+/// Finds what each line meets first. finish(found) takes it: found[i] is of line i; with no shapes or no lines `found` is
+/// null. in_scalars: values need only become the right scalars; they may not be the times, rounded to doubles.
+template <arithmetic A, class Policy, class Both, class Finish>
+auto look_for_first_hits(const Policy& on, const Both& both, bool in_scalars, const Finish& finish) {
+    if (both.has_nothing()) return finish(nullptr);
+    execution::best_of_each<space_of<Policy>> best(on, both.size(), both.wanted.most());
     from_each each{both.template walk<walk_along_lines, A>(in_scalars)};
     [[maybe_unused]] const auto watch = watch_ties<Policy, !Both::filters>(64, each.all.walk, both.x.shapes());
     for_each_ordered(on, both.size(), each, best);
+    return finish(best.data());
 }
 
 /// Writes whether each line meets anything.
@@ -321,6 +310,18 @@ struct question_of_lines : row_question {
     }
 };
 
+template <class Ids>
+struct write_named {
+    const execution::least_value* found;  ///< null for none
+    Ids ids;
+    execution::least_value* out;
+    ABUT_HD void operator()(std::size_t i) const {
+        out[i] = {};
+        if (found == nullptr || found[i].key >= no_id) return;
+        out[i] = {found[i].value, ids(static_cast<std::uint32_t>(found[i].key))};
+    }
+};
+
 /// What a line meets first: its time and its id.
 template <arithmetic A, class Options = no_ray_options>
 struct ask_first_hit : question_of_lines<Options, ask_first_hit<A, Options>> {
@@ -333,10 +334,12 @@ struct ask_first_hit : question_of_lines<Options, ask_first_hit<A, Options>> {
     auto at_once(const Policy& on, const X& x, const Lines& lines, double) const {
         const auto both = lines_that_want(x, lines, this->options);
         using hit = found<typename std::remove_const_t<decltype(both)>::T, operand_id<X>>;
-        execution::buffer_of<Policy, hit> out(on, both.size());
-        look_for_first_hits<A>(on, both, true, write_hits<hit>{out.data()});
-        synchronize(on);
-        return result<hit, space_of<Policy>>(std::move(out));
+        return look_for_first_hits<A>(on, both, true, [&](const execution::least_value* met) {
+            execution::buffer_of<Policy, hit> out(on, both.size());
+            for_each_index(on, both.size(), write_hits<hit>{met, out.data()});
+            synchronize(on);
+            return result<hit, space_of<Policy>>(std::move(out));
+        });
     }
     template <scalar T>
     [[nodiscard]] ask_first_hit in_parts(double) const {
@@ -345,8 +348,10 @@ struct ask_first_hit : question_of_lines<Options, ask_first_hit<A, Options>> {
     template <class Policy, class Operand, class Rows, class Ids>
     void ask(const Policy& on, const Operand& x, const Rows& rows, const Ids& ids, answer* out) const {
         const auto both = lines_that_want(x, rows, options_in_part(this->options, ids));
-        look_for_first_hits<A>(on, both, false, write_named<Ids>{ids, out});
-        synchronize(on);
+        look_for_first_hits<A>(on, both, false, [&](const execution::least_value* met) {
+            for_each_index(on, both.size(), write_named<Ids>{met, ids, out});
+            synchronize(on);
+        });
     }
     ABUT_HD void merge(answer* best, const answer* other) const { best->offer(other->value, other->key); }
     template <class Line, scalar T>

@@ -46,11 +46,11 @@ struct write_details {
     using T = typename Shapes::scalar_type;
     Shapes shapes;
     Lines lines;
-    const execution::least_value* found;
+    const execution::least_value* found;  ///< null for none
     Ids ids;
     hit_details<T>* out;
     ABUT_HD void operator()(std::size_t i) const {
-        const std::uint64_t key = found[i].key;
+        const std::uint64_t key = found == nullptr ? no_global_id : found[i].key;
         out[i] = {{}, ray_side::any, {0, 0, 0}};
         if (key == no_global_id) return;
         using id = std::conditional_t<std::is_same_v<Ids, same_key>, std::uint64_t, std::uint32_t>;
@@ -69,10 +69,10 @@ struct details_in_parts : ask_first_hit<A, Options> {
         const auto shapes = x.shapes();
         const auto lines = rows.shapes();
         using write = write_details<A, std::remove_const_t<decltype(shapes)>, std::remove_const_t<decltype(lines)>, Ids>;
-        execution::buffer_of<Policy, execution::least_value> met(on, both.size());
-        look_for_first_hits<A>(on, both, false, execution::store_least{met.data()});
-        for_each_index(on, both.size(), write{shapes, lines, met.data(), ids, out});
-        synchronize(on);
+        look_for_first_hits<A>(on, both, false, [&](const execution::least_value* met) {
+            for_each_index(on, both.size(), write{shapes, lines, met, ids, out});
+            synchronize(on);
+        });
     }
     ABUT_HD void merge(answer* best, const answer* other) const {
         if (other->met.comes_before(best->met)) *best = *other;

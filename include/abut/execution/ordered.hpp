@@ -50,13 +50,12 @@ struct lesser_value {
     }
 };
 
-/// Of each index the least: write(i, least) takes it when the walk of i ends. Nothing is kept.
-template <class Write>
-class written_of_each {
+template <memory_space Space>
+class best_of_each {
 public:
     /// Of the index that is being walked.
     struct sink {
-        Write write;
+        least_value* out;
         double most;
         least_value mine{};
 
@@ -64,37 +63,27 @@ public:
         ABUT_HD void offer(double value, std::uint64_t key) { mine.offer(value, key); }
         [[nodiscard]] ABUT_HD double bound() const { return mine.value < most ? mine.value : most; }
         [[nodiscard]] ABUT_HD const least_value& known() const { return mine; }
-        ABUT_CALLS_ANY
-        ABUT_HD void end(std::size_t i) { write(i, mine); }
+        ABUT_HD void end(std::size_t i) { out[i] = mine; }
         ABUT_HD void close() {}
     };
 
-    explicit written_of_each(const Write& write, double bound = least_value{}.value) : write_(write), most_(bound) {}
+    template <execution_policy Policy>
+    best_of_each(const Policy& policy, std::size_t n, double bound = least_value{}.value)
+        : values_(policy, n), most_(bound) {}
 
-    [[nodiscard]] sink make_sink(std::size_t /*thread*/) { return {write_, most_}; }
+    /// By index, in the policy's memory.
+    [[nodiscard]] const least_value* data() const { return values_.data(); }
+    [[nodiscard]] least_value* data() { return values_.data(); }
+
+    [[nodiscard]] sink make_sink(std::size_t /*thread*/) { return {values_.data(), most_}; }
     template <class Policy>
     void begin(const Policy&, std::size_t /*threads*/) {}
     template <class Policy>
     void end(const Policy&) {}
 
 private:
-    Write write_;
+    buffer<least_value, Space> values_;
     double most_;
-};
-
-struct store_least {
-    least_value* out;
-    ABUT_HD void operator()(std::size_t i, const least_value& found) const { out[i] = found; }
-};
-/// The same, kept by index, in the policy's memory.
-template <memory_space Space>
-class best_of_each : buffer<least_value, Space>, public written_of_each<store_least> {
-public:
-    template <execution_policy Policy>
-    best_of_each(const Policy& policy, std::size_t n, double bound = least_value{}.value)
-        : buffer<least_value, Space>(policy, n), written_of_each<store_least>({buffer<least_value, Space>::data()}, bound) {}
-
-    using buffer<least_value, Space>::data;
 };
 
 /// Of each index the `count` least, the least first. What was kept may be offered again, and is kept once.

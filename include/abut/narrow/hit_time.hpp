@@ -128,10 +128,9 @@ ABUT_HD constexpr double hit_time(const Line& line, const triangle<T>& t) {
     }
 }
 
-/// hit_time, not inlined: for where it is seldom asked for. Arguments go in registers: what a kernel hands on by its address it
-/// has to keep in memory.
+/// hit_time, not inlined: for where it is seldom asked for.
 template <arithmetic A, class Line, scalar T>
-ABUT_NOINLINE ABUT_HD constexpr double hit_time_apart(Line line, triangle<T> t) {
+ABUT_NOINLINE ABUT_HD constexpr double hit_time_apart(const Line& line, const triangle<T>& t) {
     return hit_time<A>(line, t);
 }
 

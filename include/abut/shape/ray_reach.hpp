@@ -68,36 +68,46 @@ struct line_in_frame {
 
 template <scalar T>
 struct ray_reach {
-    vec3<T> origin;
-    T reach;           ///< by how much the origin may be off, and more
-    vec3<T> inverse;   ///< of the direction's coordinates; 0 where they say nothing
+    vec3<T> below, above;  ///< the origin, moved up and down by its slack
+    vec3<T> inverse;       ///< of the direction's coordinates; 0 where they say nothing
+    vec3<T> far;           ///< infinity where they say nothing, and else 0
+    aabb<T> around;        ///< of the coordinates in which the direction is 0; infinite in the others
     T limit;
-    int exponent;      ///< e
-    unsigned narrow;   ///< a bit for each coordinate in which the direction is 0
+    int exponent;    ///< e
+    bool is_narrow;  ///< whether it is 0 in any coordinate
 
     static constexpr T most = largest_finite<T> / 8;
 
     ray_reach() = default;
     /// last: the time at which it ends, or infinity. slack: by how much a point of it may be off.
-    ABUT_HD ray_reach(const vec3<T>& from, const vec3<T>& direction, double last, T slack = 0)
-        : origin(from), reach(slack + 4 * smallest_normal<T>), inverse{0, 0, 0}, limit(most), exponent(0), narrow(0) {
+    ABUT_HD ray_reach(const vec3<T>& origin, const vec3<T>& direction, double last, T slack = 0)
+        : below(origin), above(origin), inverse{0, 0, 0}, far{}, around{}, limit(most), exponent(0), is_narrow(false) {
+        constexpr T none = infinity<T>;
         const vec3<T> size = absolute(direction);
         const T largest = greatest(size.x, size.y, size.z);
         // Nothing is asked of a direction of denormal numbers, or of a segment's that overflows.
         const bool is_safe = largest >= smallest_normal<T> && largest <= largest_finite<T>;
         const direction_scale<T> scale(is_safe ? largest : T(1));
         exponent = scale.exponent;
-        const auto prepare = [&](T vec3<T>::*x, unsigned bit) {
+        const T reach = slack + 4 * smallest_normal<T>;
+        const auto prepare = [&](T vec3<T>::*x) {
+            below.*x = origin.*x + reach;
+            above.*x = origin.*x - reach;
+            around.lower.*x = -none, around.upper.*x = none;
+            far.*x = none;
             if (is_zero(direction.*x)) {
-                narrow |= bit;
+                around.lower.*x = above.*x - reach, around.upper.*x = below.*x + reach;
+                is_narrow = true;
                 return;
             }
             const T scaled = scale.divide(direction.*x);
-            if (is_safe && absolute(scaled) >= T(0x1p-60)) inverse.*x = 1 / scaled;
+            if (!is_safe || !(absolute(scaled) >= T(0x1p-60))) return;
+            inverse.*x = 1 / scaled;
+            far.*x = 0;
         };
-        prepare(&vec3<T>::x, 1);
-        prepare(&vec3<T>::y, 2);
-        prepare(&vec3<T>::z, 4);
+        prepare(&vec3<T>::x);
+        prepare(&vec3<T>::y);
+        prepare(&vec3<T>::z);
         shrink_to(last);
     }
 
@@ -106,32 +116,19 @@ struct ray_reach {
     /// When it enters the box, or a time above every limit.
     ABUT_HD T least_in(const aabb<T>& box) const {
         constexpr T grown = 1 + 32 * unit_roundoff<T>, tiny = 4 * smallest_normal<T>;
-        const auto first = [&](T vec3<T>::*x) { return (box.lower.*x - (origin.*x + reach)) * inverse.*x; };
-        const auto second = [&](T vec3<T>::*x) { return (box.upper.*x - (origin.*x - reach)) * inverse.*x; };
+        const auto first = [&](T vec3<T>::*x) { return (box.lower.*x - below.*x) * inverse.*x; };
+        const auto second = [&](T vec3<T>::*x) { return (box.upper.*x - above.*x) * inverse.*x; };
         const vec3<T> one{first(&vec3<T>::x), first(&vec3<T>::y), first(&vec3<T>::z)},
             other{second(&vec3<T>::x), second(&vec3<T>::y), second(&vec3<T>::z)};
-        const vec3<T> in = least(one, other), out = greatest(one, other);
-        const auto exit_of = [&](T vec3<T>::*x) { return inverse.*x == 0 ? infinity<T> : out.*x; };
+        const vec3<T> in = least(one, other), out = greatest(one, other) + far;
         const T entry = least(greatest(in.x, in.y, greatest(in.z, T(0))), most);
-        const T exit = least(exit_of(&vec3<T>::x), exit_of(&vec3<T>::y), exit_of(&vec3<T>::z));
-        if (entry > exit * grown + tiny || (narrow != 0 && !overlaps(around(), box))) return infinity<T>;
+        const T exit = least(out.x, out.y, out.z);
+        if (entry > exit * grown + tiny || (is_narrow && !overlaps(around, box))) return infinity<T>;
         return entry;
-    }
-    /// Where it is in the coordinates in which the direction is 0; infinite in the others.
-    [[nodiscard]] ABUT_HD aabb<T> around() const {
-        aabb<T> box{{-infinity<T>, -infinity<T>, -infinity<T>}, {infinity<T>, infinity<T>, infinity<T>}};
-        const auto hold = [&](T vec3<T>::*x) {
-            box.lower.*x = origin.*x - reach - reach;
-            box.upper.*x = origin.*x + reach + reach;
-        };
-        if ((narrow & 1) != 0) hold(&vec3<T>::x);
-        if ((narrow & 2) != 0) hold(&vec3<T>::y);
-        if ((narrow & 4) != 0) hold(&vec3<T>::z);
-        return box;
     }
     [[nodiscard]] ABUT_HD bool keeps(T least) const { return !(least > limit); }
     ABUT_HD bool operator()(const aabb<T>& box) const { return keeps(least_in(box)); }
-    [[nodiscard]] ABUT_HD aabb<T> bounds() const { return around(); }
+    [[nodiscard]] ABUT_HD aabb<T> bounds() const { return around; }
     /// bound: a time, in the direction's own length.
     ABUT_HD void shrink_to(double bound) {
         if (bound == infinity<double>) return;
@@ -197,7 +194,7 @@ public:
         rounded(many::all(ray_reach<T>::most)).store(most_);
         exponent_ = scale.exponent;
         is_narrow_ = !(least(size.x, size.y, size.z) >= smallest_normal<T>);
-        if (is_narrow_) around_ = ray_reach<T>(line).around();
+        if (is_narrow_) around_ = ray_reach<T>(line).around;
         set_limit(line.last == infinity<double> ? ray_reach<T>::most : ray_reach<T>::limit_of(line.last, exponent_));
     }
 
