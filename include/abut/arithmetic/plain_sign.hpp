@@ -16,6 +16,9 @@ namespace abut {
 template <class N>
     requires std::is_arithmetic_v<N>
 ABUT_HD constexpr int sign(N a) { return (a > 0) - (a < 0); }
+namespace detail {
+using abut::sign;  // which that of a number of its own would hide there
+}
 
 /// The sign of a . b
 template <class N>
