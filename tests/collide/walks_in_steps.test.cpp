@@ -61,7 +61,7 @@ void check_steps(const Index& index, const Lines& lines, const shapes<vec3<T>>& 
     const auto frame = detail::frame_of(x, detail::length_unit<T>{});
     const auto points = from.view();
     std::vector<containment> where(n);
-    const detail::walk_upward<filtered, std::remove_const_t<decltype(walk)>, std::remove_const_t<decltype(frame)>,
+    const detail::walk_upward<filtered, containment, std::remove_const_t<decltype(walk)>, std::remove_const_t<decltype(frame)>,
                               std::remove_const_t<decltype(there)>, std::remove_const_t<decltype(points)>>
         upward{walk, frame, there, points, where.data()};
     in_both_ways(upward, until, [&] {

@@ -406,7 +406,8 @@ void walk_two_trees(const Policy& on, const Pairing& pairing, Walk walk, const R
     if constexpr (host_policy<Policy> && !is_shared) {
         ties_of watch(32, walk.a, both.a, walk.b, both.b);
         if constexpr (requires { trees_with_least_ids(pairing.a), trees_with_least_ids(pairing.b); }) {
-            const auto &a = pairing.a.tree_with_least_ids().stored(), &b = pairing.b.tree_with_least_ids().stored();
+            const auto& a = pairing.a.tree_with_least_ids().stored();
+            const auto& b = pairing.b.tree_with_least_ids().stored();
             if (a.least_ids != nullptr && b.least_ids != nullptr) watch.begin_with(a.least_ids->data(), b.least_ids->data());
         }
         walk.watch = &watch;

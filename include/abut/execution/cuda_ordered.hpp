@@ -75,7 +75,7 @@ public:
         fill(on, word_.data(), 1, ABUT_BIT_CAST(std::uint64_t, bound));
     }
     [[nodiscard]] least_value least() const { return least_; }
-    /// What it began with.
+    /// What it began with: all that is not above is worth looking at.
     [[nodiscard]] double bound() const { return bound_; }
     /// What was found otherwise.
     void offer(const least_value& found) { least_.offer(found.value, found.key); }

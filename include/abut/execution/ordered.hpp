@@ -160,6 +160,10 @@ public:
         : word_(ABUT_BIT_CAST(std::uint64_t, bound)) {}
     /// The least of all loops so far.
     [[nodiscard]] least_value least() const { return least_; }
+    /// What is still worth looking at: all that is not above.
+    [[nodiscard]] double bound() const { return ABUT_BIT_CAST(double, word_); }
+    /// What was found otherwise.
+    void offer(const least_value& found) { least_.offer(found.value, found.key); }
 
     [[nodiscard]] sink make_sink(std::size_t thread) { return {&word_, of_threads_.data() + thread, least_}; }
     template <class Policy>
