@@ -15,6 +15,8 @@
 // and distances there are those of the world within 1/32. A point of the parallelepiped that is `off` below each of its faces
 // is in the hull of its corners wherever these are within off / 2. What underflows is below 2^-1000.
 
+#include <cstddef>
+
 #include <abut/arithmetic/arithmetic.hpp>
 #include <abut/arithmetic/magnitude.hpp>
 #include <abut/arithmetic/vec.hpp>
@@ -62,12 +64,12 @@ template <scalar T>
 inline constexpr double off_of_oriented = std::same_as<T, float> ? 0x1p-21 : 0x1p-45;
 
 /// Some points, all within `radius` of whose hull belongs to the shape.
-template <scalar T, int N>
+template <scalar T, std::size_t N>
 ABUT_HD constexpr verdict near_oriented(const oriented_frame<T>& box, const vec3<T> (&points)[N], T radius) {
     const double r = static_cast<double>(radius);
     vec3<double> v[N]{};
     double far = 0;
-    for (int i = 0; i < N; ++i) {
+    for (std::size_t i = 0; i < N; ++i) {
         v[i] = widened(points[i]) - box.center;
         far = greatest(far, magnitudes(widened(points[i])));
     }
@@ -78,11 +80,11 @@ ABUT_HD constexpr verdict near_oriented(const oriented_frame<T>& box, const vec3
     for (int k = 0; k < 3; ++k) {
         const double reach = box.reach[k] + (2 * off + (1 + 0x1p-8) * r);
         double lowest = 0, highest = 0;
-        for (int i = 0; i < N; ++i) {
+        for (std::size_t i = 0; i < N; ++i) {
             q[i][k] = dot(box.columns[k], v[i]);
             lowest = i == 0 ? q[i][k] : least(lowest, q[i][k]);
             highest = i == 0 ? q[i][k] : greatest(highest, q[i][k]);
-            mean[k] += q[i][k] / N;
+            mean[k] += q[i][k] / static_cast<double>(N);
         }
         if (lowest > reach || highest < -reach) return verdict::no;
     }
@@ -93,7 +95,7 @@ ABUT_HD constexpr verdict near_oriented(const oriented_frame<T>& box, const vec3
         if (least(at[0], at[1], at[2]) > reach || greatest(at[0], at[1], at[2]) < -reach) return verdict::no;
     }
     if (box.has(mean[0], mean[1], mean[2], r, off)) return verdict::yes;
-    for (int i = 0; i < N; ++i) {
+    for (std::size_t i = 0; i < N; ++i) {
         if (box.has(q[i][0], q[i][1], q[i][2], r, off)) return verdict::yes;
     }
     return verdict::unknown;
