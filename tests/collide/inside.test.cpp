@@ -1,59 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include <abut/collide/inside.hpp>
 
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include <boost/multiprecision/cpp_int.hpp>
-
 #include "collide/inside_cases.hpp"
 #include "support/catch.hpp"
 #include "support/modes.hpp"
 #include "support/surfaces.hpp"
+#include "support/tetrahedra.hpp"
 
 using namespace abut;
-
-namespace {
-
-using inside_rational = boost::multiprecision::cpp_rational;
-
-/// Where p is in a closed surface, in rational numbers and by tetrahedra: of those from one point, `apex`, to each face it
-/// is in an odd number. No way is followed and nothing is seen along an axis. That p is on no side of theirs that ends in
-/// `apex` is checked.
-template <class T>
-containment place_by_tetrahedra(const std::vector<vec3<T>>& vertices, const std::vector<face>& faces, const vec3<T>& p,
-                          const std::array<inside_rational, 3>& apex) {
-    using number = inside_rational;
-    using point = std::array<number, 3>;
-    const auto exactly = [](const vec3<T>& v) { return point{number(v.x), number(v.y), number(v.z)}; };
-    const auto volume = [](const point& a, const point& b, const point& c, const point& d) {
-        number m[3][3];
-        for (std::size_t k = 0; k < 3; ++k) m[0][k] = b[k] - a[k], m[1][k] = c[k] - a[k], m[2][k] = d[k] - a[k];
-        const number v = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-                         m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
-        return v.sign();
-    };
-    const point q = exactly(p);
-    bool is_odd = false;
-    for (const face& f : faces) {
-        const point a = exactly(vertices[f[0]]), b = exactly(vertices[f[1]]), c = exactly(vertices[f[2]]);
-        const int whole = volume(apex, a, b, c);
-        if (whole == 0) continue;
-        const int parts[4] = {volume(q, a, b, c), volume(apex, q, b, c), volume(apex, a, q, c), volume(apex, a, b, q)};
-        bool has_opposite = false, has_zero = false;
-        for (const int part : parts) has_opposite = has_opposite || part * whole < 0, has_zero = has_zero || part == 0;
-        if (has_opposite) continue;
-        if (parts[0] == 0) return containment::on_surface;
-        REQUIRE(!has_zero);
-        is_odd = !is_odd;
-    }
-    return is_odd ? containment::inside : containment::outside;
-}
-
-}  // namespace
 
 TEMPLATE_TEST_CASE("inside: serial", "", float, double) { test::check_inside<TestType>(serial{}); }
 
@@ -119,11 +78,12 @@ TEMPLATE_TEST_CASE("inside: against tetrahedra in rational numbers", "", float, 
     }
     const mesh<T> ball(data.vertices, data.faces);
     const auto found = inside(serial{}, make_bvh(serial{}, ball), points);
-    const std::array<inside_rational, 3> apex{inside_rational(1234567, 1000003), inside_rational(7654321, 1000033),
-                                              inside_rational(-3141592, 1000037)};
     std::size_t wrong = 0, within = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const containment truth = place_by_tetrahedra<T>(data.vertices, data.faces, points[i], apex);
+        const test::turns_around around = test::turns_by_tetrahedra(data.vertices, data.faces, points[i]);
+        const containment truth = around.on_surface         ? containment::on_surface
+                                  : around.turns % 2 != 0 ? containment::inside
+                                                          : containment::outside;
         wrong += found[i] != truth;
         within += truth == containment::inside;
     }

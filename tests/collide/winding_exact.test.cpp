@@ -8,51 +8,15 @@
 #include <string>
 #include <vector>
 
-#include <boost/multiprecision/cpp_int.hpp>
-
 #include <abut/abut.hpp>
 
 #include "collide/winding_cases.hpp"
 #include "support/catch.hpp"
+#include "support/tetrahedra.hpp"
 
 using namespace abut;
 
 namespace {
-
-using winding_rational = boost::multiprecision::cpp_rational;
-
-/// How often a surface goes round p, in rational numbers and by tetrahedra: those from one point, `apex`, to each face that
-/// hold p count by the side from which they see their face. No way is followed and nothing is seen along an axis. That p is
-/// on no side of theirs that ends in `apex` is checked.
-template <class T>
-winding_count count_by_tetrahedra(const test::surface_data<T>& data, const vec3<T>& p,
-                                  const std::array<winding_rational, 3>& apex) {
-    using number = winding_rational;
-    using point = std::array<number, 3>;
-    const auto exactly = [](const vec3<T>& v) { return point{number(v.x), number(v.y), number(v.z)}; };
-    const auto volume = [](const point& a, const point& b, const point& c, const point& d) {
-        number m[3][3];
-        for (std::size_t k = 0; k < 3; ++k) m[0][k] = b[k] - a[k], m[1][k] = c[k] - a[k], m[2][k] = d[k] - a[k];
-        const number v = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-                         m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
-        return v.sign();
-    };
-    const point q = exactly(p);
-    int turns = 0;
-    for (const face& f : data.faces) {
-        const point a = exactly(data.vertices[f[0]]), b = exactly(data.vertices[f[1]]), c = exactly(data.vertices[f[2]]);
-        const int whole = volume(apex, a, b, c);
-        if (whole == 0) continue;
-        const int parts[4] = {volume(q, a, b, c), volume(apex, q, b, c), volume(apex, a, q, c), volume(apex, a, b, q)};
-        bool has_opposite = false, has_zero = false;
-        for (const int part : parts) has_opposite = has_opposite || part * whole < 0, has_zero = has_zero || part == 0;
-        if (has_opposite) continue;
-        if (parts[0] == 0) return {0, true};
-        REQUIRE(!has_zero);
-        turns += whole;
-    }
-    return {turns, false};
-}
 
 /// A rough ball, moved and sized; turned inside out if asked for.
 template <class T>
@@ -114,13 +78,11 @@ TEMPLATE_TEST_CASE("winding number: exactly, against tetrahedra in rational numb
     const auto found = winding_number<exact>(serial{}, make_bvh(serial{}, surface), points).to_host();
     const auto where = inside(serial{}, surface, points).to_host();
     const auto near = winding_number(serial{}, surface, points).to_host();
-    const std::array<winding_rational, 3> apex{winding_rational(1234567, 1000003), winding_rational(7654321, 1000033),
-                                               winding_rational(-3141592, 1000037)};
     std::size_t wrong = 0, off = 0;
     std::array<std::size_t, 5> seen{};
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const winding_count truth = count_by_tetrahedra(data, points[i], apex);
-        wrong += !(found[i] == truth);
+        const test::turns_around truth = test::turns_by_tetrahedra(data.vertices, data.faces, points[i]);
+        wrong += found[i].turns != truth.turns || found[i].on_surface != truth.on_surface;
         wrong += truth.on_surface != (where[i] == containment::on_surface);
         wrong += (where[i] == containment::inside) != (truth.turns % 2 != 0);
         off += !truth.on_surface && !(std::abs(near[i] - truth.turns) < 1e-6);
