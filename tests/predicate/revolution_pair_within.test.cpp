@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <limits>
 
-#include <abut/narrow/distance.hpp>
+#include <abut/narrow/measure_apart.hpp>
 
 #include "support/catch.hpp"
 #include "support/cone_pair_families.hpp"

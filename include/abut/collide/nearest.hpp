@@ -19,6 +19,7 @@
 #include <abut/collide/nearest_group.hpp>
 #include <abut/collide/operand.hpp>
 #include <abut/collide/options.hpp>
+#include <abut/collide/ordered_look.hpp>
 #include <abut/collide/row_questions.hpp>
 #include <abut/execution/host.hpp>
 #include <abut/execution/ordered.hpp>
@@ -91,24 +92,6 @@ auto shapes_wanted(const Filter& filter, const Rows& rows) {
     } else {
         const auto numbers = numbers_of(rows);
         return some_shapes_wanted<Filter, std::remove_const_t<decltype(numbers)>, Bodies>{filter, numbers};
-    }
-}
-
-template <class Walk, shape_view Shapes>
-struct watch_of_walk : ties_of<decltype(Walk::tree), Shapes> {
-    watch_of_walk(std::size_t shapes_a_tie, Walk& walk, const Shapes& shapes)
-        : ties_of<decltype(Walk::tree), Shapes>(shapes_a_tie, walk.tree, shapes) {
-        walk.watch = this;
-    }
-};
-/// Has a walk through a tree of a host watch for ties, as long as what is returned lives. Copies have to be `Alike` to it.
-template <class Policy, bool Alike, class Walk, shape_view Shapes>
-auto watch_ties([[maybe_unused]] std::size_t shapes_a_tie, [[maybe_unused]] Walk& walk,
-                [[maybe_unused]] const Shapes& shapes) {
-    if constexpr (host_policy<Policy> && Alike && requires { walk.watch = nullptr; }) {
-        return watch_of_walk<Walk, Shapes>(shapes_a_tie, walk, shapes);
-    } else {
-        return 0;
     }
 }
 
@@ -200,70 +183,6 @@ struct write_neighbors {
         }
     }
 };
-
-template <class Operand>
-auto ordered_walk_of(const Operand& x) {
-    if constexpr (Operand::is_posed) {
-        return ordered_walk_of(x.operand);
-    } else if constexpr (Operand::has_tree) {
-        return ordered_tree_walk<decltype(x.tree())>{x.tree()};
-    } else if constexpr (Operand::is_indexed) {
-        return ordered_grid_walk<decltype(x.index.view())>{x.index.view()};
-    } else {
-        return ordered_list_walk{x.shapes().size()};
-    }
-}
-
-/// From where points look at it. `unit` is what lengths in the world are measured in.
-template <class Operand, scalar T>
-auto frame_of(const Operand& x, const length_unit<T>& unit) {
-    if constexpr (Operand::is_posed && Operand::is_indexed) {
-        return object_frame<T>(unit.length(1), x.pose, x.around);
-    } else {
-        return world_frame<T>{unit.length(1)};
-    }
-}
-
-/// The largest coordinate in a box.
-template <scalar T>
-double largest_coordinate(const aabb<T>& box) {
-    const vec3<T> most = greatest(absolute(box.lower), absolute(box.upper));
-    return static_cast<double>(greatest(most.x, most.y, most.z));
-}
-/// That of some shapes; 0 of none.
-template <class Policy, shape_view Shapes>
-double largest_coordinate(const Policy& on, const Shapes& shapes) {
-    using T = typename Shapes::scalar_type;
-    if (shapes.size() == 0) return 0;
-    return largest_coordinate(reduce(on, shapes.size(), empty_box<T>(), merge_boxes{}, box_of_shape<Shapes>{shapes}));
-}
-/// No less than that of an operand's shapes.
-template <class Policy, operand X>
-double largest_coordinate(const Policy& on, const X& x) {
-    if (x.shapes().size() == 0) return 0;
-    if constexpr (X::is_posed && X::is_indexed) {
-        return 2 * farthest(x.around) + magnitudes(x.pose.translation);
-    } else if constexpr (X::is_indexed) {
-        return largest_coordinate(x.bounds(on));
-    } else {
-        return largest_coordinate(on, x.shapes());
-    }
-}
-/// Of an operand and of points.
-template <class Policy, operand X, shape_view Points>
-double largest_coordinate(const Policy& on, const X& x, const Points& points) {
-    return greatest(largest_coordinate(on, points), largest_coordinate(on, x));
-}
-
-/// A unit for coordinates of that magnitude and below.
-template <scalar T>
-length_unit<T> unit_of_magnitude([[maybe_unused]] double largest) {
-    if constexpr (std::same_as<T, float>) {
-        return {};
-    } else {
-        return length_unit<double>(least(largest, largest_finite<double>));
-    }
-}
 
 template <class X>
 inline constexpr bool is_row_of_points = array_like<X> && !shape_view<X>;

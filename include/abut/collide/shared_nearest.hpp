@@ -23,7 +23,7 @@
 #include <abut/execution/atomic.hpp>
 #include <abut/execution/buffer.hpp>
 #include <abut/execution/generic.hpp>
-#include <abut/narrow/distance.hpp>
+#include <abut/narrow/measure_apart.hpp>
 #include <abut/shape/pair_reach.hpp>
 #include <abut/traverse/ordered_pair_walk.hpp>
 #include <abut/traverse/seeds.hpp>
