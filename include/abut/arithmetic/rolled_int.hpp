@@ -22,20 +22,37 @@ ABUT_HD constexpr std::uint64_t limb_of(const std::uint64_t* a, int n, int i) {
     return i < n ? a[i] : mask_if(static_cast<std::int64_t>(a[n - 1]) < 0);
 }
 
+#if ABUT_DEVICE_CODE
+/// r += a b, or r -= a b, modulo 2^(64 n), for an r of n limbs. What hosts do, below, made kernels of nvcc 13.0 write to wild
+/// addresses (docs/numerics.md).
+ABUT_NOINLINE ABUT_HD constexpr void add_product(std::uint64_t* r, int n, const std::uint64_t* a, int limbs_a,
+                                                 const std::uint64_t* b, int limbs_b, bool negated) {
+    ABUT_ROLLED
+    for (int i = 0; i < n; ++i) {
+        const std::uint64_t x = limb_of(a, limbs_a, i);
+        if (x == 0) continue;
+        std::uint64_t carry = negated ? x : 0;  // -b is ~b + 1
+        ABUT_ROLLED
+        for (int j = 0; i + j < n; ++j) {
+            const uint128 t = static_cast<uint128>(x) * (limb_of(b, limbs_b, j) ^ mask_if(negated)) + r[i + j] + carry;
+            r[i + j] = lower_limb(t);
+            carry = upper_limb(t);
+        }
+    }
+}
+#else
 /// r += x b, or r -= x b, modulo 2^(64 n), of limbs without a sign.
-ABUT_HD constexpr void add_row(std::uint64_t* r, int n, std::uint64_t x, const std::uint64_t* b, int limbs, bool negated) {
+constexpr void add_row(std::uint64_t* r, int n, std::uint64_t x, const std::uint64_t* b, int limbs, bool negated) {
     const int both = limbs < n ? limbs : n;
     std::uint64_t carry = 0;
     int j = 0;
     if (negated) {
-        ABUT_ROLLED
         for (; j < both; ++j) {
             const uint128 t = static_cast<uint128>(x) * b[j] + carry;
             const std::uint64_t low = lower_limb(t), before = r[j];
             r[j] = before - low;
             carry = upper_limb(t) + static_cast<std::uint64_t>(before < low);
         }
-        ABUT_ROLLED
         for (; carry != 0 && j < n; ++j) {
             const std::uint64_t before = r[j];
             r[j] = before - carry;
@@ -43,13 +60,11 @@ ABUT_HD constexpr void add_row(std::uint64_t* r, int n, std::uint64_t x, const s
         }
         return;
     }
-    ABUT_ROLLED
     for (; j < both; ++j) {
         const uint128 t = static_cast<uint128>(x) * b[j] + r[j] + carry;
         r[j] = lower_limb(t);
         carry = upper_limb(t);
     }
-    ABUT_ROLLED
     for (; carry != 0 && j < n; ++j) {
         r[j] += carry;
         carry = static_cast<std::uint64_t>(r[j] < carry);
@@ -61,13 +76,13 @@ struct used_limbs {
     int first = 0, end;
     bool is_negative;
 
-    ABUT_HD constexpr used_limbs(const std::uint64_t* a, int n) : end(n), is_negative(static_cast<std::int64_t>(a[n - 1]) < 0) {
+    constexpr used_limbs(const std::uint64_t* a, int n) : end(n), is_negative(static_cast<std::int64_t>(a[n - 1]) < 0) {
         while (end > 1 && a[end - 1] == limb_of(a, end - 1, end - 1)) --end;
         while (first < end && a[first] == 0) ++first;
     }
 };
 
-/// r += a b, or r -= a b, modulo 2^(64 n), for an r of n limbs: what is taken without signs is taken back.
+/// The same, of no more limbs than are used: what is taken without signs is taken back.
 ABUT_NOINLINE ABUT_HD constexpr void add_product(std::uint64_t* r, int n, const std::uint64_t* a, int limbs_a,
                                                  const std::uint64_t* b, int limbs_b, bool negated) {
     const used_limbs x(a, limbs_a), y(b, limbs_b);
@@ -76,7 +91,6 @@ ABUT_NOINLINE ABUT_HD constexpr void add_product(std::uint64_t* r, int n, const 
             add_row(r + at + used.first, n - at - used.first, times, of + used.first, used.end - used.first, minus);
         }
     };
-    ABUT_ROLLED
     for (int i = x.first; i < x.end; ++i) {
         if (a[i] != 0) add(i, a[i], b, y, negated);
     }
@@ -85,6 +99,7 @@ ABUT_NOINLINE ABUT_HD constexpr void add_product(std::uint64_t* r, int n, const 
     const std::uint64_t one = 1;
     if (x.is_negative && y.is_negative && x.end + y.end < n) add_row(r + x.end + y.end, n - x.end - y.end, 1, &one, 1, negated);
 }
+#endif
 
 /// r += value 2^shift, or r -= it, modulo 2^(64 n).
 ABUT_NOINLINE ABUT_HD constexpr void add_shifted(std::uint64_t* r, int n, std::int64_t value, int shift, bool negated) {
