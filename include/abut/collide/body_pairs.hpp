@@ -107,6 +107,9 @@ template <class Index>
 inline constexpr bool is_many_bodies<bodies<Index>> = true;
 template <class Index>
 inline constexpr bool is_many_bodies<std::vector<posed_object<Index>>> = true;
+/// Of several kinds (mixed_bodies.hpp).
+template <class X>
+inline constexpr bool is_mixed_bodies = false;
 
 }  // namespace detail
 
