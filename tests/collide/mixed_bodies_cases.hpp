@@ -375,7 +375,7 @@ void check_mixed_alike(const Policy& on) {
             {capsules<T>(std::vector<capsule<T>>{{{{0, 0, 0}, {1, 0, 0}}, 0.25f}})});
         draws d(20281129, 92, 0);
         scene.for_each_kind([&](auto& kind) {
-            for (std::size_t i = 0; i < 40; ++i) kind.add(i % kind.sets.size(), make_pose<T>(d, 4));
+            for (std::size_t i = 0; i < 40; ++i) kind.add(i % kind.sets.size(), make_pose<T>(d, 2.5));
         });
         return scene;
     };
