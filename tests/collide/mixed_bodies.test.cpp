@@ -39,6 +39,14 @@ TEST_CASE("bodies of several kinds: lists in another order, lists of one kind, a
     const auto parts = make_bodies(on, front, back);
     CHECK((to_host(pairs(on, parts)) == to_host(pairs(on, all))));
     CHECK(distance(on, parts) == distance(on, all));
+    const auto& rings = meshes.bodies;
+    const std::vector first_ring(rings.begin(), rings.begin() + 1), other_rings(rings.begin() + 1, rings.end());
+    std::vector<ray<float>> lines;
+    for (const auto& body : rings) lines.push_back({body.pose.translation, {1, 0, 0}});
+    const rays<float> rows(lines);
+    const auto details = to_host(raycast_detailed(on, rings, rows));
+    CHECK(std::any_of(details.begin(), details.end(), [](const auto& x) { return x.hit.body > 0 && x.hit.body < no_id; }));
+    CHECK((to_host(raycast_detailed(on, make_bodies(on, first_ring, other_rings), rows)) == details));
     CHECK((parts.size() == 7 && parts.first(1) == 3 && parts.part<1>().size() == 4));
 }
 
