@@ -58,6 +58,15 @@ struct visit_until_stopped {
     }
 };
 
+/// Of executors other than a policy.
+template <class On>
+consteval bool refuse_mixed() {
+    static_assert(
+        sizeof(On) == 0,
+        "abut: bodies of several kinds are asked by one policy; ask several devices or ranks about each two kinds");
+    return false;
+}
+
 /// Mixed bodies as a form of arguments (question.hpp), which has one pairing for each two of its parts.
 template <class... Indices>
 struct form_of_mixed {
@@ -67,6 +76,11 @@ struct form_of_mixed {
     using contact_type = body_contact<T>;
     using order = typename form_of_bodies<bodies<typename mixed_bodies<Indices...>::index_type>>::order;
     const mixed_bodies<Indices...>& all;
+
+    template <class Policy, class, class>
+    static consteval bool can_be_asked() {
+        return refuse_mixed<Policy>();  // a policy does not ask that
+    }
 };
 template <class... Indices>
 struct form_of_scene<mixed_bodies<Indices...>> {
@@ -233,31 +247,23 @@ auto ask_least(const Policy& on, const ask_distance& question, const mixed_bodie
         question, all.size(), [&](const auto& look) { return look(on, all, whole_search{}); });
 }
 
-// --- other executors
+// --- several devices, which have no bodies of several kinds
 
-template <class On>
-concept several_at_once = execution::policy_team<On> || is_ranks<On>;
-template <several_at_once On>
-consteval void refuse_mixed() {
-    static_assert(
-        !several_at_once<On>,
-        "abut: bodies of several kinds are asked by one policy; ask several devices or ranks about each two kinds");
+template <execution::policy_team Team, class... Indices>
+void ask_pairs(const Team&, const auto&, const form_of_mixed<Indices...>&, const auto&, const char*) {
+    refuse_mixed<Team>();
 }
-template <several_at_once On, class... Indices>
-auto ask_pairs(const On&, const auto&, const form_of_mixed<Indices...>&, const auto&, const char*) {
-    return refuse_mixed<On>();
+template <execution::policy_team Team, class... Indices>
+void ask_rows(const Team&, const auto&, const mixed_bodies<Indices...>&, const auto&) {
+    refuse_mixed<Team>();
 }
-template <several_at_once On, class... Indices>
-auto ask_rows(const On&, const auto&, const mixed_bodies<Indices...>&, const auto&) {
-    return refuse_mixed<On>();
+template <execution::policy_team Team, class... Indices>
+void ask_row_lists(const Team&, const auto&, const mixed_bodies<Indices...>&, const auto&) {
+    refuse_mixed<Team>();
 }
-template <several_at_once On, class... Indices>
-auto ask_row_lists(const On&, const auto&, const mixed_bodies<Indices...>&, const auto&) {
-    return refuse_mixed<On>();
-}
-template <several_at_once On, class... Indices>
-auto ask_least(const On&, const ask_distance&, const mixed_bodies<Indices...>&, each_other) {
-    return refuse_mixed<On>();
+template <execution::policy_team Team, class... Indices>
+void ask_least(const Team&, const ask_distance&, const mixed_bodies<Indices...>&, each_other) {
+    refuse_mixed<Team>();
 }
 
 }  // namespace abut::detail
