@@ -356,6 +356,23 @@ void check_mixed_ties(const Policy& on) {
     };
     check(make_bodies(on, some_boxes, some_balls), 1, 1, 1, 3);
     check(make_bodies(on, some_balls, some_boxes), 0, 1, 1, 4);
+    // Two of one kind are 3 apart, and two of two kinds less.
+    const auto between_kinds = *distance(on, make_bodies(on, box_list{posed(box, at(0)), posed(box, at(5))},
+                                                         ball_list{posed(ball, rigid<T>{.translation = {0, T(4.5), 0}})}));
+    CHECK((between_kinds.body_a == 0 && between_kinds.body_b == 2 && between_kinds.distance == 2.5));
+    // All are 2 apart, of one kind and of two.
+    const box_list two_boxes{posed(box, at(0)), posed(box, at(4))};
+    const ball_list one_ball{posed(ball, at(-4))};
+    for (const auto& found :
+         {*distance(on, make_bodies(on, one_ball, two_boxes)), *distance(on, make_bodies(on, two_boxes, one_ball))}) {
+        CHECK((found.body_a == 0 && found.body_b == 1 && found.distance == 2));
+    }
+    if constexpr (std::same_as<T, double>) {  // a unit for all kinds, so that no square overflows
+        const T far = 0x1p700;
+        const auto both = make_bodies(on, box_list{posed(box, at(far))}, one_ball);
+        const auto near = to_host(nearest(on, both, std::vector<vec3<T>>{{0, 0, 0}}, 2));
+        CHECK((near[0].body == 1 && near[1].body == 0 && near[1].distance == far));
+    }
     // Each two neighbours are 2 apart: the first two are of two kinds.
     const box_list far_boxes{posed(box, at(0)), posed(box, at(8))};
     const ball_list far_balls{posed(ball, at(4)), posed(ball, at(12))};

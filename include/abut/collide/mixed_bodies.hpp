@@ -16,6 +16,7 @@
 
 #include <abut/collide/bodies.hpp>
 #include <abut/collide/body_pairs.hpp>
+#include <abut/collide/body_rows.hpp>
 
 namespace abut {
 
@@ -65,6 +66,10 @@ namespace detail {
 
 template <class... Indices>
 inline constexpr bool is_mixed_bodies<mixed_bodies<Indices...>> = true;
+
+/// What becomes a part: a list, or bodies, in one policy's memory.
+template <class X>
+concept bodies_of_one_kind = many_bodies<X> && is_bodies<X>;
 
 /// How messages name a body of a kind.
 struct name_in_mixed {
@@ -172,8 +177,8 @@ void for_each_two_parts(const mixed_bodies<Indices...>& all, const Visit& visit)
 ///
 ///     const auto scene = abut::make_bodies(on, machines, crates, grains);
 ///     for (const auto& hit : to_host(abut::pairs(on, scene))) use(hit.body_a, hit.a, hit.body_b, hit.b);
-template <execution_policy Policy, many_bodies First, many_bodies Second, many_bodies... More>
-    requires(detail::is_bodies<First>&& detail::is_bodies<Second> && (detail::is_bodies<More> && ...))
+template <execution_policy Policy, detail::bodies_of_one_kind First, detail::bodies_of_one_kind Second,
+          detail::bodies_of_one_kind... More>
 [[nodiscard]] auto make_bodies(const Policy& on, const First& first, const Second& second, const More&... more) {
     using detail::index_of_bodies;
     if constexpr (detail::can_be_listed<Policy, typename index_of_bodies<First>::type,
