@@ -23,8 +23,9 @@ namespace abut {
 /// Bodies of several kinds of indices as one scene, which make_bodies makes of several lists: those of the first list have
 /// the first numbers, and so on. Queries of bodies (@ref many_bodies ) take it, as do `distance`, `nearest`, `raycast` and
 /// those beside it, under one policy. Answers are those of one scene, in the same order: what a query says of two bodies is
-/// what it says of these alone. Results take their memory twice while they are put together. Each two kinds of shapes have
-/// to be decidable. Immutable; copies share everything, and any number of threads may query it.
+/// what it says of these alone. A schedule reports on the last two kinds. Results take their memory twice while they are put
+/// together. Each two kinds of shapes have to be decidable. Immutable; copies share everything, and any number of threads
+/// may query it.
 /// @ingroup many_bodies
 template <class... Indices>
 class mixed_bodies {
