@@ -83,6 +83,9 @@ void query_bodies() {
     scene = abut::refit(on, scene, std::vector{here, far, near});
     for (const auto& touch : abut::to_host(abut::contacts(on, scene))) expect(touch.body_b == 2);
     expect(abut::count_within(on, scene, 5) > abut::count(on, scene));  // bodies 0 and 1, and 1 and 2
+    auto ball = abut::make_bvh(on, abut::spheres<float>({{{0, 0, 0}, 1}}));
+    const auto mixed = abut::make_bodies(on, bodies, std::vector{abut::posed(ball, near)});  // balls beside meshes
+    expect(abut::touching_bodies(on, mixed).size() == 3);  // bodies 0 and 1, and the ball, which is body 3, with both
     //! [many_bodies]
     expect(abut::count(on, bodies) == abut::count(on, scene) && abut::count(on, scene) > 0);
 }

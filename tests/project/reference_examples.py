@@ -54,6 +54,8 @@ NAMES = {
     "collide/body_distance.hpp": GEAR + "const std::vector<abut::posed_object<decltype(gear)>> bodies;",
     "collide/body_pairs.hpp": GEAR + "const auto robots = abut::make_bodies(on, std::vector{abut::posed(gear, here)});"
                                      "const auto& crates = robots;",
+    "collide/mixed_bodies.hpp": GEAR + "const std::vector machines{abut::posed(gear, here)}; const auto& crates = machines;"
+                                       "const auto& grains = machines;",
     "collide/row_each.hpp": "const auto room = abut::make_bvh(on, mesh); const abut::spheres<float> links;",
     "collide/touching_bodies.hpp": GEAR + "const std::vector<abut::posed_object<decltype(gear)>> scene;",
     "collide/ray_options.hpp": "const abut::rays<float> rays; const auto index = abut::make_bvh(on, mesh);",

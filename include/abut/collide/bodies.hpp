@@ -193,12 +193,13 @@ bodies<Index> build_bodies(const Policy& on, placed_bodies<Index> placed) {
 
 inline std::string name_of_body(std::size_t i) { return "body " + std::to_string(i); }
 
-/// Of a list, in the name of `function`.
-template <class Policy, class Index>
-bodies<Index> bodies_of(const Policy& on, const std::vector<posed_object<Index>>& list, const char* function) {
+/// Of a list, in the name of `function`; `name(i)` is that of a body.
+template <class Policy, class Index, class Name = decltype(&name_of_body)>
+bodies<Index> bodies_of(const Policy& on, const std::vector<posed_object<Index>>& list, const char* function,
+                        const Name& name = name_of_body) {
     check_count(list.size(), function);
     const auto body = [&](std::size_t i) -> const posed_object<Index>& { return list[i]; };
-    return build_bodies(on, place_bodies(on, gathered_bodies<Index>(list.size(), body), function, name_of_body));
+    return build_bodies(on, place_bodies(on, gathered_bodies<Index>(list.size(), body), function, name));
 }
 
 /// Bodies under other poses, with the refitted tree.
@@ -208,14 +209,15 @@ struct moved_bodies {
     bool wants_new_tree;
 };
 /// The same bodies under poses in the policy's memory, which are not checked yet.
-template <class Policy, class Index>
+template <class Policy, class Index, class Name = decltype(&name_of_body)>
 moved_bodies<Index> move_bodies(const Policy& on, const bodies<Index>& all,
-                                execution::buffer_of<Policy, rigid<typename Index::scalar_type>> poses) {
+                                execution::buffer_of<Policy, rigid<typename Index::scalar_type>> poses,
+                                const Name& name = name_of_body) {
     using state = body_state<Index>;
     const state& old = parts_of_bodies::of(all);
     placed_bodies<Index> placed{old.placed.objects,
                                 std::make_shared<const typename placed_bodies<Index>::pose_buffer>(std::move(poses))};
-    check_poses(on, placed, "abut::refit", name_of_body);
+    check_poses(on, placed, "abut::refit", name);
     auto boxes = box_bodies(on, placed, *old.with_shapes);
     const box_view<typename state::T, typename state::Space> shapes{boxes.data(), boxes.size()};
     typename state::tree_type tree({boxes.data(), boxes.size()}, refit_storage(on, old.tree.stored(), shapes));
@@ -243,8 +245,8 @@ bodies<Index> settle_bodies(const Policy& on, moved_bodies<Index> moved) {
 }
 
 /// Throws where there are not as many poses as bodies, or the bodies lie on another device.
-template <class Policy, class Index>
-void check_refit(const Policy& on, const bodies<Index>& all, std::size_t poses) {
+template <class Policy, class Bodies>
+void check_refit(const Policy& on, const Bodies& all, std::size_t poses) {
     constexpr const char* function = "abut::refit";
     if (poses != all.size()) {
         throw error(std::string(function) + ": there are " + std::to_string(all.size()) + " bodies and " +

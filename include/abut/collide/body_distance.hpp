@@ -83,6 +83,17 @@ auto pair_up_near(const Policy& on, const body_state<Index>& state, const char* 
         list_options<before_first_touch<list_key>>{}, function, noun_of_near, near);
 }
 
+/// And of bodies of one scene with those of another.
+template <class Policy, class IndexA, class IndexB, class Nearness>
+auto pair_up_near(const Policy& on, const body_state<IndexA>& a, const body_state<IndexB>& b, const char* function,
+                  const Nearness& near) {
+    const pair_key key{id_bits(a.tree.size()), id_bits(b.tree.size())};
+    const auto keys = find_near(on, a.tree, b.tree, key, true, whole_search{}, near, keep_all{});
+    return pair_up_entries<names_of_entries>(
+        on, a.placed, b.placed, keys.size(), near_bodies{keys.data(), key, a.with_shapes->data(), b.with_shapes->data()},
+        list_options<before_first_touch<list_key>>{}, function, noun_of_near, near);
+}
+
 /// What a key of a pairing of bodies says.
 template <class Policy, class Pairing>
 auto separation_of_bodies(const Policy& on, const Pairing& pairing, std::uint64_t key, bool touch) {
@@ -129,16 +140,32 @@ struct bodies_apart {
     }
 };
 
-/// The first of the bodies that touch, of a part of all pairs.
-template <class Policy, class Index, class Part>
-auto touching_bodies(const Policy& on, const bodies<Index>& all, const char* function, const Part& part) {
-    bodies_apart<typename Index::scalar_type> best;
-    auto pairing = pair_up_near(on, parts_of_bodies::of(all), function, near_enough_to_touch{}, part);
+/// The first of the entries whose bodies touch.
+template <class Policy, class Pairing>
+auto first_touching(const Policy& on, Pairing pairing) {
+    bodies_apart<typename Pairing::T> best;
     const std::size_t n = pairing.members.size();
     const auto touches = first_touches(on, pairing, n);
     const execution::least_value first =
         reduce(on, n, execution::least_value{}, execution::lesser_value{}, entry_touch{touches.data()});
     if (first.key != no_pair) best = {0, separation_of_bodies(on, pairing, first.key, true)};
+    return best;
+}
+/// Of a part of all pairs.
+template <class Policy, class Index, class Part>
+auto touching_bodies(const Policy& on, const bodies<Index>& all, const char* function, const Part& part) {
+    return first_touching(on, pair_up_near(on, parts_of_bodies::of(all), function, near_enough_to_touch{}, part));
+}
+
+/// Of bodies of which none touch: the nearest two, no farther than `bound`; pair_up(near) pairs up those that are near.
+template <scalar T, class Policy, class PairUp>
+bodies_apart<T> nearest_within(const Policy& on, double bound, const PairUp& pair_up) {
+    const T reach = rounded_up<T>(
+        least(bound * (1 + 64 * static_cast<double>(unit_roundoff<T>)), static_cast<double>(largest_finite<T>)));
+    const auto pairing = pair_up(near_in_distance<T>{distance_frame<T>(reach)});
+    const execution::least_value found = nearest_of_entries(on, pairing, bound);
+    bodies_apart<T> best;
+    if (found.key != no_pair) best = {found.value, separation_of_bodies(on, pairing, found.key, false)};
     return best;
 }
 
@@ -153,13 +180,7 @@ auto nearest_bodies(const Policy& on, const bodies<Index>& all, double below, co
         on, state.placed, state.placed, n - 1, next_in_order{order.data(), state.with_shapes->data()},
         list_options<before_first_touch<list_key>>{}, function, "bodies", near_enough_to_touch{});
     const double most = bound_below<T>(below), bound = least(most, nearest_of_entries(on, neighbours, most).value);
-    const T reach = rounded_up<T>(
-        least(bound * (1 + 64 * static_cast<double>(unit_roundoff<T>)), static_cast<double>(largest_finite<T>)));
-    const auto pairing = pair_up_near(on, state, function, near_in_distance<T>{distance_frame<T>(reach)}, part);
-    const execution::least_value found = nearest_of_entries(on, pairing, bound);
-    bodies_apart<T> best;
-    if (found.key != no_pair) best = {found.value, separation_of_bodies(on, pairing, found.key, false)};
-    return best;
+    return nearest_within<T>(on, bound, [&](const auto& near) { return pair_up_near(on, state, function, near, part); });
 }
 
 /// The distance of bodies, by the best of all parts: of_parts(look) is the best that look(on, bodies, part) finds.
@@ -214,7 +235,8 @@ auto ask_least(const Policy& on, const ask_distance& question, const std::vector
 ///
 ///     if (const auto apart = abut::distance(on, bodies)) use(apart->body_a, apart->body_b, apart->distance);
 /// @ingroup many_bodies
-template <executor On, many_bodies Bodies>
+template <executor On, class Bodies>
+    requires(many_bodies<Bodies> || detail::is_mixed_bodies<Bodies>)
 [[nodiscard]] auto distance(const On& on, const Bodies& all, const distance_options& options = {}) {
     return ask_least(on, detail::ask_distance{options}, all, detail::each_other{});
 }

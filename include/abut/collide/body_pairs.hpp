@@ -27,7 +27,8 @@ namespace abut {
 /// `within`, `count_within`, `any_within` and `for_each_within`: which are no farther than a distance from which.
 /// A body is `posed(index, pose)`, of an index made by `make_bvh`. Any number of bodies may share an index, and they may be
 /// over empty sets. Queries take a `std::vector` of posed indices, of which they make `bodies` for the call. A scene that is
-/// asked more than once is made once, by make_bodies, and brought to other poses by `refit`.
+/// asked more than once is made once, by make_bodies, and brought to other poses by `refit`. Bodies of different kinds of
+/// indices are one scene as well (mixed_bodies), and those of two scenes are asked about with `between`.
 ///
 /// A body is not paired with itself. Its own pairs are the same under every pose, but for the rounding of placed
 /// coordinates: `self_pairs(on, index)` gives them once for all bodies of that index. Two bodies share no vertices, also if
@@ -107,6 +108,9 @@ template <class Index>
 inline constexpr bool is_many_bodies<bodies<Index>> = true;
 template <class Index>
 inline constexpr bool is_many_bodies<std::vector<posed_object<Index>>> = true;
+/// Of several kinds (mixed_bodies.hpp).
+template <class X>
+inline constexpr bool is_mixed_bodies = false;
 
 }  // namespace detail
 

@@ -130,7 +130,10 @@ struct call_of_part {
     Call call;
     Positions position;
     ABUT_CALLS_ANY
-    ABUT_HD auto operator()(const tagged_pair& of) const { return call(position.named(of)); }
+    template <class Found>
+    ABUT_HD auto operator()(const Found& of) const {
+        return call(position.named(of));
+    }
 };
 template <class Found, class Named, class Positions>
 struct name_entries {

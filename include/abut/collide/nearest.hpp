@@ -347,10 +347,10 @@ struct write_measured {
         const std::size_t to = k * count + (i - point * count);
         const vec3<T> p = points[k];
         out[to] = {infinity<double>, no_global_id, p, infinity<T>};
-        if (found == nullptr || found[i].key >= no_id) return;
-        const auto id = static_cast<std::uint32_t>(found[i].key);
-        const neighbor<T> near = neighbor_of(p, shapes[id], id, unit);
-        out[to] = {found[i].value, ids(id), near.point, near.distance};
+        const std::uint64_t key = found == nullptr ? no_global_id : found[i].key;
+        if (key == no_global_id) return;
+        const neighbor<T> near = neighbor_of(p, shapes[key], static_cast<std::uint32_t>(key), unit);
+        out[to] = {found[i].value, in_whole(ids, key), near.point, near.distance};
     }
 };
 
@@ -383,7 +383,9 @@ struct nearest_in_parts {
             synchronize(on);
         };
         if constexpr (!std::same_as<Filter, keep_all>) {
-            look_for_nearest_few(on, x, rows, unit, count, write, shapes_wanted<false>(filter_in_part(filter, ids), rows));
+            constexpr bool are_bodies = std::same_as<operand_id<Operand>, body_and_id>;
+            look_for_nearest_few(on, x, rows, unit, count, write,
+                                 shapes_wanted<are_bodies>(filter_in_part(filter, ids), rows));
         } else if (count == 1) {
             look_for_nearest(on, x, rows, unit, write);
         } else {
@@ -407,7 +409,11 @@ struct nearest_in_parts {
     }
     template <class Found>
     [[nodiscard]] ABUT_HD Found named(const answer& near) const {
-        return {static_cast<decltype(Found::id)>(near.id), near.point, near.distance};
+        if constexpr (requires(const Found& n) { n.body; }) {
+            return {body_of_key(near.id), static_cast<std::uint32_t>(near.id), near.point, near.distance};
+        } else {
+            return {static_cast<decltype(Found::id)>(near.id), near.point, near.distance};
+        }
     }
 };
 

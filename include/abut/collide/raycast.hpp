@@ -317,8 +317,8 @@ struct write_named {
     execution::least_value* out;
     ABUT_HD void operator()(std::size_t i) const {
         out[i] = {};
-        if (found == nullptr || found[i].key >= no_id) return;
-        out[i] = {found[i].value, ids(static_cast<std::uint32_t>(found[i].key))};
+        if (found == nullptr || found[i].key == no_global_id) return;
+        out[i] = {found[i].value, in_whole(ids, found[i].key)};
     }
 };
 

@@ -236,11 +236,8 @@ struct name_timed_hit {
     Lines lines;
     Ids ids;
     ABUT_HD timed_hit operator()(std::size_t line, const execution::least_value& hit) const {
-        return {hit.value, ids(static_cast<id_type>(hit.key)), static_cast<std::uint32_t>(lines(line))};
+        return {hit.value, in_whole(ids, hit.key), static_cast<std::uint32_t>(lines(line))};
     }
-
-private:
-    using id_type = std::conditional_t<std::is_same_v<Ids, same_key>, std::uint64_t, std::uint32_t>;
 };
 template <class Lines, class Ids>
 name_timed_hit(const Lines&, const Ids&) -> name_timed_hit<Lines, Ids>;

@@ -53,8 +53,7 @@ struct write_details {
         const std::uint64_t key = found == nullptr ? no_global_id : found[i].key;
         out[i] = {{}, ray_side::any, {0, 0, 0}};
         if (key == no_global_id) return;
-        using id = std::conditional_t<std::is_same_v<Ids, same_key>, std::uint64_t, std::uint32_t>;
-        out[i] = details_of<A>(lines[i], shapes[key], {found[i].value, ids(static_cast<id>(key))});
+        out[i] = details_of<A>(lines[i], shapes[key], {found[i].value, in_whole(ids, key)});
     }
 };
 

@@ -97,6 +97,20 @@ auto numbers_of(const Rows& rows) {
 struct same_key {
     ABUT_HD std::uint64_t operator()(std::uint64_t key) const { return key; }
 };
+/// Or of bodies, of which others come before.
+struct bodies_from {
+    std::uint32_t first = 0;
+    ABUT_HD std::uint64_t operator()(std::uint64_t key) const { return key + body_key(first, 0); }
+};
+/// The id in the whole of what has a key in a part; the key of a set is an id.
+template <class Ids>
+ABUT_HD std::uint64_t in_whole(const Ids& ids, std::uint64_t key) {
+    if constexpr (std::same_as<Ids, same_key> || std::same_as<Ids, bodies_from>) {
+        return ids(key);
+    } else {
+        return ids(static_cast<std::uint32_t>(key));
+    }
+}
 /// A filter that is asked of a part's shapes.
 template <class Filter, class Ids>
 struct filter_of_part {
@@ -105,6 +119,10 @@ struct filter_of_part {
     ABUT_CALLS_ANY
     [[nodiscard]] ABUT_HD bool operator()(std::uint32_t row, std::uint32_t id) const {
         return filter(row, static_cast<std::uint32_t>(ids(id)));
+    }
+    ABUT_CALLS_ANY
+    [[nodiscard]] ABUT_HD bool operator()(std::uint32_t row, std::uint32_t body, std::uint32_t id) const {
+        return filter(row, ids.first + body, id);
     }
 };
 template <class Filter, class Ids>

@@ -90,7 +90,7 @@ struct all_bodies : of_any_shapes {
 
 /// Scenes of bodies: their form is that of many bodies.
 template <class X>
-concept scene_of_bodies = many_bodies<X> || is_bodies_between<X>;
+concept scene_of_bodies = many_bodies<X> || is_bodies_between<X> || is_mixed_bodies<X>;
 
 }  // namespace detail
 
