@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// usage: bench_nearest --benchmark_enable_random_interleaving=true --benchmark_out=nearest.json
+// usage: bench_nearest [--mesh=FILE.ply] --benchmark_enable_random_interleaving=true --benchmark_out=nearest.json
 //
 // For each of many points the nearest triangle, and the nearest vertex: the centres of the scene of Lee and Hsieh, 2019, and
 // its torus. Names:
 //
 //   nearest/INDEX/POLICY/POINTS           the query alone; the index is there
+//   nearest_close, nearest_tube           the same of points close to the torus, and in its tube
+//   nearest_mesh_box, nearest_mesh_close  of points in the box of a mesh, and close to it
 //   nearest_vertex/INDEX/POLICY/POINTS    the same of the torus's vertices
 //   nearest_few/INDEX/POLICY/POINTS       the 8 nearest of the centres to each of them, after two calls that are not
 //                                         counted: the process has the memory by then
@@ -24,49 +26,48 @@
 #include "../docs/examples/scene.hpp"
 #include "google.hpp"
 #include "nearest/peer.hpp"
+#include "nearest_scene.hpp"
 
 namespace {
 
-const abut::mesh<float>& torus() {
-    static const abut::mesh<float> made = [] {
-        const auto surface = scene::torus<float>();
-        return abut::mesh<float>(surface.vertices, surface.faces);
-    }();
+const nearest_scene::surface& torus() {
+    static const auto made = scene::torus<float>();
     return made;
 }
+abut::mesh<float> mesh_of(const nearest_scene::surface& of) { return {of.vertices, of.faces}; }
 
 struct bvh {
     static constexpr const char* name = "bvh";
-    static auto make(const auto& on) { return abut::make_bvh(on, torus()); }
+    static auto make(const auto& on, const auto& of) { return abut::make_bvh(on, mesh_of(of)); }
 };
 struct sah {
     static constexpr const char* name = "sah";
-    static auto make(const auto& on) { return abut::make_bvh(on, torus(), {.builder = abut::bvh_builder::sah}); }
+    static auto make(const auto& on, const auto& of) { return abut::make_bvh(on, mesh_of(of), {.builder = abut::bvh_builder::sah}); }
 };
 struct oriented_sah {
     static constexpr const char* name = "oriented_sah";
-    static auto make(const auto& on) { return abut::oriented(on, sah::make(on)); }
+    static auto make(const auto& on, const auto& of) { return abut::oriented(on, sah::make(on, of)); }
 };
 struct wide_sah {
     static constexpr const char* name = "wide_sah";
-    static auto make(const auto& on) { return abut::wide(on, sah::make(on)); }
+    static auto make(const auto& on, const auto& of) { return abut::wide(on, sah::make(on, of)); }
 };
 
 struct bvh_of_vertices {
     static constexpr const char* name = "bvh";
-    static auto make(const auto& on) { return abut::make_bvh(on, abut::vertices(torus())); }
+    static auto make(const auto& on, const auto& of) { return abut::make_bvh(on, abut::vertices(mesh_of(of))); }
 };
 struct sah_of_vertices {
     static constexpr const char* name = "sah";
-    static auto make(const auto& on) {
-        return abut::make_bvh(on, abut::vertices(torus()), {.builder = abut::bvh_builder::sah});
+    static auto make(const auto& on, const auto& of) {
+        return abut::make_bvh(on, abut::vertices(mesh_of(of)), {.builder = abut::bvh_builder::sah});
     }
 };
 
 template <class Index, class Policy>
-void nearest(benchmark::State& state, Policy on, std::size_t n) {
-    const auto index = Index::make(on);
-    const abut::points<float> points(scene::centers<float>(n));
+void nearest(benchmark::State& state, Policy on, const nearest_scene::question& ask, std::size_t n) {
+    const auto index = Index::make(on, *ask.mesh);
+    const abut::points<float> points(ask.points(*ask.mesh, n));
     double sum = 0;
     for (auto _ : state) {
         const auto found = abut::nearest(on, index, points);
@@ -96,20 +97,21 @@ void nearest_few(benchmark::State& state, Policy on, std::size_t n) {
     state.counters["mean_distance"] = sum / static_cast<double>(8 * n);
 }
 
-void add_row(const std::string& name, const auto& run, const auto& on) {
-    for (const std::size_t n : {std::size_t{100'000}, scene::sphere_count}) {
-        benchmark::RegisterBenchmark((name + "/" + std::to_string(n)).c_str(), run, on, n)
-            ->Repetitions(5)
-            ->ReportAggregatesOnly(true)
-            ->Unit(benchmark::kMillisecond)
-            ->UseRealTime()
-            ->Iterations(1);
-    }
+void add_row(const std::string& name, std::size_t n, const auto& run) {
+    benchmark::RegisterBenchmark((name + "/" + std::to_string(n)).c_str(), run)
+        ->Repetitions(5)
+        ->ReportAggregatesOnly(true)
+        ->Unit(benchmark::kMillisecond)
+        ->UseRealTime()
+        ->Iterations(1);
 }
 
 template <class Index, class Policy>
-void add(const char* policy, const Policy& on, const char* question = "nearest") {
-    add_row(std::string(question) + "/" + Index::name + "/" + policy, nearest<Index, Policy>, on);
+void add(const char* policy, const Policy& on, const nearest_scene::question& ask) {
+    for (const std::size_t n : ask.counts) {
+        add_row(ask.name + "/" + Index::name + "/" + policy, n,
+                [=](benchmark::State& state) { nearest<Index>(state, on, ask, n); });
+    }
 }
 
 }  // namespace
@@ -129,13 +131,20 @@ std::size_t nearest_peer::wrong_ids(const scene::surface<float>& mesh, const std
 }
 
 int main(int argc, char** argv) {
-    add<bvh>("serial", abut::serial{});
-    add<sah>("serial", abut::serial{});
-    add<wide_sah>("serial", abut::serial{});
-    add<oriented_sah>("serial", abut::serial{});
-    add<bvh>("openmp", abut::openmp{});
-    add<bvh_of_vertices>("serial", abut::serial{}, "nearest_vertex");
-    add<sah_of_vertices>("serial", abut::serial{}, "nearest_vertex");
-    add_row("nearest_few/bvh/serial", nearest_few<abut::serial>, abut::serial{});
+    const abut::serial on;
+    for (const auto& ask : nearest_scene::questions(bench::take_argument(argc, argv, "--mesh"))) {
+        add<bvh>("serial", on, ask);
+        add<sah>("serial", on, ask);
+        add<wide_sah>("serial", on, ask);
+        add<oriented_sah>("serial", on, ask);
+        if (ask.name == "nearest") add<bvh>("openmp", abut::openmp{}, ask);
+    }
+    const std::vector<std::size_t> counts{100'000, scene::sphere_count};
+    const nearest_scene::question of_vertices{"nearest_vertex", counts, &torus(), nearest_scene::far_points};
+    add<bvh_of_vertices>("serial", on, of_vertices);
+    add<sah_of_vertices>("serial", on, of_vertices);
+    for (const std::size_t n : counts) {
+        add_row("nearest_few/bvh/serial", n, [=](benchmark::State& state) { nearest_few(state, on, n); });
+    }
     return bench::run_registered("bench_nearest", argc, argv);
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// usage: bench_nearest_cuda [OUT.json]
+// usage: bench_nearest_cuda [--mesh=FILE.ply] [OUT.json]
 //
-// bench/nearest.cpp on CUDA: the same scene and the same names, policy cuda, all data resident on the device before the
+// bench/nearest.cpp on CUDA: the same scenes (nearest_scene.hpp) and the same names, policy cuda, all data resident on the device before the
 // clock starts. Each figure is the median of 21 runs after two that are not counted, taken with CUDA events around the whole
 // call. The floor is what has to be read and written at least once.
 //
@@ -18,6 +18,7 @@
 
 #include "../docs/examples/scene.hpp"
 #include "cuda_table.hpp"
+#include "nearest_scene.hpp"
 
 namespace {
 
@@ -91,11 +92,11 @@ __global__ void plain_walk(Tree tree, Shapes shapes, Points points, const std::u
 }
 
 template <class Index, class Shapes>
-void add_plain(const abut::cuda& on, const Index& index, const Shapes& shapes, table& out) {
+void add_plain(const abut::cuda& on, const nearest_scene::question& ask, const Index& index, const Shapes& shapes, table& out) {
     constexpr unsigned block = 256;
-    for (const std::size_t n : {std::size_t{100'000}, scene::sphere_count}) {
-        const abut::points<float, abut::device_space> points(on, scene::centers<float>(n));
-        out.add(joined({"nearest", "plain", "cuda", std::to_string(n)}), 20.0 * static_cast<double>(n), [&] {
+    for (const std::size_t n : ask.counts) {
+        const abut::points<float, abut::device_space> points(on, ask.points(*ask.mesh, n));
+        out.add(joined({ask.name, "plain", "cuda", std::to_string(n)}), 20.0 * static_cast<double>(n), [&] {
             const auto order = abut::detail::order_on_curve(on, points.view());
             abut::execution::buffer<plain_answer, abut::device_space> answers(on, n);
             plain_walk<<<static_cast<unsigned>((n + block - 1) / block), block, 0, on.stream>>>(
@@ -107,11 +108,12 @@ void add_plain(const abut::cuda& on, const Index& index, const Shapes& shapes, t
 }
 
 template <class Index>
-void add(const abut::cuda& on, const char* name, const Index& index, double index_bytes, table& out) {
-    for (const std::size_t n : {std::size_t{100'000}, scene::sphere_count}) {
-        const abut::points<float, abut::device_space> points(on, scene::centers<float>(n));
-        const double least = index_bytes + (12.0 + 20.0) * static_cast<double>(n);
-        out.add(joined({"nearest", name, "cuda", std::to_string(n)}), least, [&] {
+void add(const abut::cuda& on, const nearest_scene::question& ask, const char* name, const Index& index, table& out) {
+    const double mesh_bytes = 12.0 * static_cast<double>(ask.mesh->vertices.size() + ask.mesh->faces.size());
+    for (const std::size_t n : ask.counts) {
+        const abut::points<float, abut::device_space> points(on, ask.points(*ask.mesh, n));
+        const double least = mesh_bytes + static_cast<double>(index.bytes()) + (12.0 + 20.0) * static_cast<double>(n);
+        out.add(joined({ask.name, name, "cuda", std::to_string(n)}), least, [&] {
             return counters{{"points", static_cast<double>(abut::nearest(on, index, points).size())}};
         });
     }
@@ -120,18 +122,17 @@ void add(const abut::cuda& on, const char* name, const Index& index, double inde
 }  // namespace
 
 int main(int argc, char** argv) {
-    return bench::run("bench_nearest_cuda", argc, argv, [](const abut::cuda& on, table& out) {
-        const auto surface = scene::torus<float>();
-        const abut::mesh<float, abut::device_space> mesh(on, surface.vertices, surface.faces);
-        const double mesh_bytes = 12.0 * static_cast<double>(surface.vertices.size() + surface.faces.size());
-        const auto tree = abut::make_bvh(on, mesh);
-        const auto joined_tree = abut::make_bvh(on, mesh, {.builder = abut::bvh_builder::ploc});
-        add(on, "bvh", tree, mesh_bytes + static_cast<double>(tree.bytes()), out);
-        add(on, "ploc", joined_tree, mesh_bytes + static_cast<double>(joined_tree.bytes()), out);
-        add_plain(on, joined_tree, mesh, out);
-        const auto turned = abut::oriented(on, joined_tree);
-        add(on, "oriented", turned, mesh_bytes + static_cast<double>(turned.bytes()), out);
-        const auto small = abut::quantised(on, tree);
-        add(on, "quantised", small, mesh_bytes + static_cast<double>(small.bytes()), out);
+    const std::string mesh_file = bench::take_argument(argc, argv, "--mesh");
+    return bench::run("bench_nearest_cuda", argc, argv, [&](const abut::cuda& on, table& out) {
+        for (const auto& ask : nearest_scene::questions(mesh_file)) {
+            const abut::mesh<float, abut::device_space> mesh(on, ask.mesh->vertices, ask.mesh->faces);
+            const auto tree = abut::make_bvh(on, mesh);
+            const auto joined_tree = abut::make_bvh(on, mesh, {.builder = abut::bvh_builder::ploc});
+            add(on, ask, "bvh", tree, out);
+            add(on, ask, "ploc", joined_tree, out);
+            add_plain(on, ask, joined_tree, mesh, out);
+            add(on, ask, "oriented", abut::oriented(on, joined_tree), out);
+            add(on, ask, "quantised", abut::quantised(on, tree), out);
+        }
     });
 }

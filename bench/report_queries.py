@@ -176,12 +176,31 @@ def nearest_cpu(results):
     return lines + made_on(r)
 
 
+QUESTIONS = {"nearest": "far from a torus", "nearest_tube": "in its tube", "nearest_close": "close to it",
+             "nearest_mesh_box": "in the box of a scan", "nearest_mesh_close": "close to it"}
+
+
+@in_table("nearest-layouts")
+def nearest_layouts(results):
+    r = results["cpu/nearest"]
+    names = {"bvh": "`make_bvh`", "sah": "`make_bvh`, `sah`", "wide_sah": "`wide`, of a `sah` tree",
+             "oriented_sah": "`oriented`, of a `sah` tree"}
+    rows = []
+    for question, where in QUESTIONS.items():
+        ms = {index: r.get(f"{question}/{index}/serial/100000") for index in names}
+        if any(value is None for value in ms.values()):
+            continue
+        rows.append([where] + [f"{ms[index] / 100:.2f}" for index in names] + [quotient(ms["wide_sah"], min(ms.values()))])
+    return ["A point, one core, us:", ""] + table(["points"] + list(names.values()) + ["`wide` over the least"], rows) + made_on(r)
+
+
 @in_table("nearest-cuda")
 def nearest_cuda(results):
     r = results["cuda/nearest"]
     names = {"bvh": "`make_bvh`", "ploc": "`ploc`", "quantised": "`quantised`", "oriented": "`oriented`, of `ploc`",
              "plain": "a plain walk in float"}
-    rows = [[f"{int(n):,}"] + [shown(r.get(f"nearest/{i}/cuda/{n}")) for i in names] for n in r.parts("nearest/", 3)]
+    rows = [[f"{int(n):,}, {where}"] + [shown(r.get(f"{question}/{i}/cuda/{n}")) for i in names]
+            for question, where in QUESTIONS.items() for n in r.parts(f"{question}/", 3)]
     floor_ms = r.get(f"nearest/bvh/cuda/{SPHERES}", "floor_ms")
     return ["For so many points the nearest triangle, ms:", ""] + table(["points"] + list(names.values()), rows) + \
         [f"To read the scene and to write the answers once takes {shown(floor_ms)} ms at the speed of a read loop.", ""] + \

@@ -60,7 +60,7 @@ cpu fronts bench_fronts --json={} --frames=20
 cpu spheres_mesh bench_spheres_mesh $G $I
 cpu meshes bench_meshes $G $I --mesh=@D@/meshes/armadillo_345944.ply --benchmark_filter=-any/[a-z_]*/.*/
 cpu any bench_meshes $G $I --mesh=@D@/meshes/stanford-bunny.ply --benchmark_filter=any/[a-z_]*/.*/
-cpu nearest bench_nearest $G $I --benchmark_filter=/100000/
+cpu nearest bench_nearest $G $I --mesh=@D@/meshes/armadillo_345944.ply --benchmark_filter=/100000/
 cpu distance bench_distance $G $I --meshes=@D@/meshes
 cpu within bench_within $G $I --meshes=@D@/meshes
 cpu hulls bench_hulls $G $I
@@ -94,7 +94,7 @@ cuda ties bench_ties_cuda {}
 cuda devices bench_devices_cuda {}
 cuda devices_large bench_devices_large_cuda {}
 cuda devices_divided bench_devices_large_cuda {} 1000000
-cuda nearest bench_nearest_cuda {}
+cuda nearest bench_nearest_cuda --mesh=@D@/meshes/armadillo_345944.ply {}
 cuda distance bench_distance_cuda --meshes=@D@/meshes {}
 cuda raycast bench_raycast_cuda {} @D@/meshes/armadillo_345944.ply
 cuda bodies bench_bodies_cuda {}
