@@ -217,7 +217,7 @@ struct plain_points {
     const hull<T>& of;
     point origin;
     double size = 0;
-    kept_points<double> kept;
+    kept_points<double, T> kept;
 
     ABUT_HD constexpr plain_points(const hull<T>& h, const point& from) : of(h), origin(from), kept(h) {
         using namespace contact_math;

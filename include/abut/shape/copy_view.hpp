@@ -64,10 +64,12 @@ struct set_parts {
     }
     template <scalar T, memory_space Space>
     static hulls<T, Space> hulls_of(execution::buffer<vec3<T>, Space> points,
-                                    execution::buffer<std::uint32_t, Space> offsets) {
+                                    execution::buffer<std::uint32_t, Space> offsets,
+                                    execution::buffer<std::uint32_t, Space> edges) {
         hulls<T, Space> made;
         made.points_ = shared_array<vec3<T>, Space>(std::move(points));
         made.offsets_ = shared_array<std::uint32_t, Space>(std::move(offsets));
+        made.edges_ = shared_array<std::uint32_t, Space>(std::move(edges));
         return made;
     }
     template <scalar T, memory_space Space>
@@ -108,7 +110,8 @@ auto set_of(const Policy& on, const View& view) {
         return set_parts::edge_mesh_of(vertices, side_by_side<edge>(on, view.edges, view.edges.count));
     } else if constexpr (std::same_as<View, hulls_view<T, space>>) {
         return set_parts::hulls_of<T, space>(side_by_side<vec3<T>>(on, view.points, view.points.count),
-                                             side_by_side<std::uint32_t>(on, view.offsets, view.offsets.count));
+                                             side_by_side<std::uint32_t>(on, view.offsets, view.offsets.count),
+                                             side_by_side<std::uint32_t>(on, view.edges, view.edges.count));
     } else if constexpr (std::same_as<View, equal_spheres_view<T, space>>) {
         return set_parts::equal_spheres_of<T, space>(side_by_side<vec3<T>>(on, view.centers, view.centers.count),
                                                      view.radius);
