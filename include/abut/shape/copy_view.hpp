@@ -7,6 +7,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 
 #include <abut/execution/buffer.hpp>
@@ -71,6 +72,12 @@ struct set_parts {
         made.offsets_ = shared_array<std::uint32_t, Space>(std::move(offsets));
         made.edges_ = shared_array<std::uint32_t, Space>(std::move(edges));
         return made;
+    }
+    /// The same hulls with edges, as collide/hull_edges.hpp has them.
+    template <scalar T>
+    static hulls<T> with_edges(hulls<T> set, std::span<const std::uint32_t> edges) {
+        set.edges_ = shared_array<std::uint32_t, host_space>(serial{}, edges);
+        return set;
     }
     template <scalar T, memory_space Space>
     static equal_spheres<T, Space> equal_spheres_of(execution::buffer<vec3<T>, Space> centers, T radius) {
