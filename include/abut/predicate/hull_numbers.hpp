@@ -164,7 +164,7 @@ private:
         vec3<number> sum{0, 0, 0};
         kept.see_from({static_cast<number>(origin_.x), static_cast<number>(origin_.y), static_cast<number>(origin_.z)});
         if constexpr (Certified) {
-            size_ = greatest(size_, kept.largest());
+            size_ = greatest(size_, kept.size_of_all());
             sum = kept.sum();
         } else {
             for (std::size_t i = 0; i < kept.size(); ++i) sum = sum + kept[i];

@@ -94,7 +94,7 @@ public:
 #endif
         return around;
     }
-    /// No less than the magnitude of any coordinate, and not much more.
+    /// The largest magnitude of a coordinate; 0 of no points.
     [[nodiscard]] ABUT_HD constexpr F largest() const {
         if constexpr (may_climb) {
             if (is_climbed_) return climb_.largest();
@@ -103,6 +103,13 @@ public:
         const aabb<F> around = box();
         const vec3<F> far = greatest(absolute(around.lower), absolute(around.upper));
         return greatest(far.x, far.y, far.z);
+    }
+    /// No less than that, and where it takes time to find not much more.
+    [[nodiscard]] ABUT_HD constexpr F size_of_all() const {
+        if constexpr (may_climb) {
+            if (is_climbed_) return climb_.size();
+        }
+        return largest();
     }
     /// As many times a point that is about in their middle. If the hull is not climbed, their sum, in some order.
     [[nodiscard]] ABUT_HD constexpr vec3<F> sum() const {
