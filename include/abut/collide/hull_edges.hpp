@@ -264,8 +264,9 @@ std::vector<vec3<T>> wrapped(std::vector<vec3<T>> points, std::vector<std::uint3
 /// The same hulls in the policy's memory, with edges: of each that has a volume its corners alone, in their order, and which
 /// of these are neighbours. What lies inside, in a face or on an edge, and what is there twice, is left out, decided exactly;
 /// hulls without volume stay as they are, without edges. Ids stay. Whatever is decided is the same as without edges; what is
-/// measured has the same bits as of the same corners without edges. Searches climb along the edges of hulls that have 128
-/// corners or more, in time that hardly grows with their number; of fewer they read all. Edges take about 28 bytes a corner.
+/// measured has the same bits as of the same corners without edges. Decisions climb along the edges of hulls that have 128
+/// corners or more, distances and contacts from 384 on, in time that grows slowly with their number; of fewer they read all.
+/// Edges take about 28 bytes a corner.
 ///
 /// It is done on the host, by one thread, in O(n log n) for most and O(n^2) for some hulls of n points, with some 100 bytes a
 /// point meanwhile. Throws std::bad_alloc, and capacity_error above 2^32 numbers. Returns when all is done.

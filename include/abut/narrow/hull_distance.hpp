@@ -86,7 +86,12 @@ public:
     static constexpr int most_steps = 64;
 
     ABUT_HD constexpr hulls_in_plain_doubles(const hull<T>& a, const hull<T>& b)
-        : a_(a), b_(b), kept_a_(a), kept_b_(b), box_a_(box_around(a, kept_a_)), box_b_(box_around(b, kept_b_)) {
+        : a_(a),
+          b_(b),
+          kept_a_(a, decltype(kept_a_)::fewest_climbed_for_numbers),
+          kept_b_(b, decltype(kept_b_)::fewest_climbed_for_numbers),
+          box_a_(box_around(a, kept_a_)),
+          box_b_(box_around(b, kept_b_)) {
         largest_ = greatest(farthest_coordinate(box_a_), farthest_coordinate(box_b_));
         const bool far = std::same_as<T, double> && (largest_ > 0x1p200 || largest_ < 0x1p-200);
         if (largest_ > 0 && far) down_ = -contact_math::exponent_of(largest_) - 2;

@@ -219,7 +219,7 @@ struct plain_points {
     double size = 0;
     kept_points<double, T> kept;
 
-    ABUT_HD constexpr plain_points(const hull<T>& h, const point& from) : of(h), origin(from), kept(h) {
+    ABUT_HD constexpr plain_points(const hull<T>& h, const point& from) : of(h), origin(from), kept(h, decltype(kept)::fewest_climbed_for_numbers) {
         using namespace contact_math;
         kept.see_from(origin);
         size = kept.largest();

@@ -15,11 +15,11 @@
 // f by more than 2e, v is it: the corner that is next to the least is one of these.
 //
 // e: let S be the largest magnitude of a coordinate as seen, W that of products and sums where points are placed, u = 2^-53, and
-// P the sum of the coordinates' largest magnitudes where they are not placed.
-// A placed double is off by 4u W, a placed float by 2^-24 W and as much again as is below; the difference with the origin by
-// u S; the product by 4u of the sum of its magnitudes. Small floats that are read as 0 are off by less than 2^-126. The code
-// takes 2e = |n| (2^-49 S + 2^-49 W, or with floats 2^-22 W, + 2^-120 or 2^-1000) + 2^-1060, with the sum of magnitudes |n|: what underflows is below that. In the
-// frame where points are not placed, the way is off by 5u |n|, and a product with it by 10u |n| P: 2^-48 |n| P for two.
+// P the sum of the coordinates' largest magnitudes where they are not placed. A placed double is off by 4u W, a placed float by
+// 2^-24 W; the difference with the origin by u S; the product by 4u of the sum of its magnitudes. Small floats that are read as
+// 0 are off by less than 2^-126. With the sum of magnitudes |n| the code takes 2e = |n| (2^-49 S + 2^-49 W, or with floats
+// 2^-22 W, + 2^-120 or 2^-1000) + 2^-1060: what underflows is below that. In the frame where points are not placed, the way is
+// off by 5u |n|, and a product with it by 10u |n| P: 2^-47 |n| P for two, which leaves as much again for sums.
 
 #include <cstddef>
 #include <cstdint>
@@ -101,16 +101,19 @@ public:
         constexpr int room = 16;
         constexpr double lost = std::same_as<T, float> ? 0x1p-120 : 0x1p-1000, off = std::same_as<T, float> ? 0x1p-22 : 0x1p-49;
         const double margin = magnitudes(way) * (0x1p-49 * size_ + (off * placed_ + lost)) + 0x1p-1060;
-        double next_above = 0;
-        std::uint32_t at[room] = {descend(way_in_frame(way), next_above)};
+        const point in_frame = way_in_frame(way);
+        const double off_in_frame = 0x1p-47 * raw_ * magnitudes(way);
+        double low = 0, next_above = 0;
+        std::uint32_t at[room] = {descend(in_frame, low, next_above)};
         double height[room] = {height_of(way, at[0])}, least = height[0];
         std::uint32_t best = at[0];
-        const bool is_alone = next_above > margin + 0x1p-48 * raw_ * magnitudes(way) && next_above < infinity<double>;
+        const bool is_alone = next_above > margin + off_in_frame && next_above < infinity<double>;
         int count = !(margin < 0x1p900) ? room : is_alone ? 0 : 1;
+        low = low + (2 * margin + off_in_frame);  // what is higher there is so by more than the margin
         for (int k = 0; k < count && count < room; ++k) {
             if (!(height[k] <= least + margin)) continue;
             for (const std::uint32_t *next = begin_of(at[k]), *const end = begin_of(at[k] + 1); next != end; ++next) {
-                if (has(at, count, *next)) continue;
+                if (dot(in_frame, widened(raw(*next))) > low || has(at, count, *next)) continue;
                 const double x = height_of(way, *next);
                 if (!(x <= least + margin)) continue;
                 if (x < least || (x == least && *next < best)) least = x, best = *next;
@@ -155,11 +158,11 @@ private:
         return plain_sum(plain_sum(plain_product(way.x, p.x), plain_product(way.y, p.y)), plain_product(way.z, p.z));
     }
     [[nodiscard]] ABUT_HD constexpr vec3<T> raw(std::size_t i) const { return of_->unplaced(i); }
-    /// From where the last search came to, by heights in the frame in which points are not placed: a corner, and by how much the
-    /// lowest one that it has an edge to is higher.
-    [[nodiscard]] ABUT_HD constexpr std::uint32_t descend(const point& way, double& next_above) const {
+    /// From where the last search came to, by heights in the frame in which points are not placed: a corner, its
+    /// height, and by how much the lowest one that it has an edge to is higher.
+    [[nodiscard]] ABUT_HD constexpr std::uint32_t descend(const point& way, double& height, double& next_above) const {
         std::uint32_t at = at_;
-        double height = dot(way, widened(raw(at)));
+        height = dot(way, widened(raw(at)));
         for (bool better = true; better;) {
             better = false;
             next_above = infinity<double>;

@@ -31,14 +31,15 @@ template <scalar F, scalar T>
 class kept_points {
 public:
     static constexpr std::size_t room = ABUT_DEVICE_CODE ? 0 : 512;
-    /// Of so many points, hulls with edges are climbed, in doubles. Fewer are read in less time.
-    static constexpr std::size_t fewest_climbed = 128;
+    /// Of so many points, hulls with edges are climbed, in doubles, where yes or no is asked; and where numbers are, for which the
+    /// largest coordinate has to be known and faces across the way are common. Fewer are read in less time.
+    static constexpr std::size_t fewest_climbed = 128, fewest_climbed_for_numbers = 384;
 
     /// Those of a hull, its first ones, where they are in the world. What of the arrays they leave stays as it is: to clear
     /// it would take longer than a scan.
-    ABUT_HD constexpr explicit kept_points(const hull<T>& h) {
+    ABUT_HD constexpr explicit kept_points(const hull<T>& h, std::size_t fewest_to_climb = fewest_climbed) {
         if constexpr (may_climb) {
-            if (!ABUT_CONSTANT_EVALUATED() && h.edges != nullptr && h.count >= fewest_climbed) {
+            if (!ABUT_CONSTANT_EVALUATED() && h.edges != nullptr && h.count >= fewest_to_climb) {
                 climb_.begin(h);
                 is_climbed_ = true;
                 size_ = h.count;
