@@ -246,7 +246,7 @@ TEST_CASE("with_edges: sets keep their edges where they are copied, and pairs ar
         for (auto& p : lists.back()) p = p + vec3<double>{0.9 * k, 0.3 * (k % 3), 0};
     }
     const hulls<double> plain(lists);
-    const auto set = with_edges(plain), copy = copy_to(openmp{}, set);
+    const auto set = with_edges(plain), copy = copy_to(openmp{}, set.view());
     REQUIRE(copy.view()[1].edges != nullptr);
     CHECK(copy.view()[1].edges != set.view()[1].edges);
     const auto found = pairs(serial{}, copy, set);
