@@ -16,6 +16,7 @@
 #include <abut/collide/distance.hpp>
 #include <abut/collide/first_impact.hpp>
 #include <abut/collide/impacts.hpp>
+#include <abut/collide/hull_edges.hpp>
 #include <abut/collide/inside.hpp>
 #include <abut/collide/list.hpp>
 #include <abut/collide/list_distance.hpp>

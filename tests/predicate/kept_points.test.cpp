@@ -43,7 +43,7 @@ constexpr rigid<T> some_pose{{0, T(-0.6), T(0.8), 1, 0, 0, 0, T(0.8), T(0.6)}, {
 /// What differs, or null.
 template <scalar F, scalar T>
 const char* wrong_with_kept(const hull<T>& h, const vec3<T>& origin, test::draws& d) {
-    detail::kept_points<F> kept(h);
+    detail::kept_points<F, T> kept(h);
     const std::size_t n = kept.size();
     if (n > h.count || (h.count >= 4 && n != (h.count < kept.room ? h.count : kept.room))) return "their number";
     aabb<F> box = empty_box<F>();

@@ -86,7 +86,12 @@ public:
     static constexpr int most_steps = 64;
 
     ABUT_HD constexpr hulls_in_plain_doubles(const hull<T>& a, const hull<T>& b)
-        : a_(a), b_(b), kept_a_(a), kept_b_(b), box_a_(box_around(a, kept_a_)), box_b_(box_around(b, kept_b_)) {
+        : a_(a),
+          b_(b),
+          kept_a_(a, decltype(kept_a_)::fewest_climbed_for_numbers),
+          kept_b_(b, decltype(kept_b_)::fewest_climbed_for_numbers),
+          box_a_(box_around(a, kept_a_)),
+          box_b_(box_around(b, kept_b_)) {
         largest_ = greatest(farthest_coordinate(box_a_), farthest_coordinate(box_b_));
         const bool far = std::same_as<T, double> && (largest_ > 0x1p200 || largest_ < 0x1p-200);
         if (largest_ > 0 && far) down_ = -contact_math::exponent_of(largest_) - 2;
@@ -144,16 +149,16 @@ private:
         return {{static_cast<T>(l.x), static_cast<T>(l.y), static_cast<T>(l.z)},
                 {static_cast<T>(u.x), static_cast<T>(u.y), static_cast<T>(u.z)}};
     }
-    ABUT_HD static constexpr aabb<double> box_around(const hull<T>& h, const kept_points<double>& kept) {
+    ABUT_HD static constexpr aabb<double> box_around(const hull<T>& h, const kept_points<double, T>& kept) {
         aabb<double> box = kept.box();
         for (std::size_t i = kept.size(); i < h.count; ++i) box = merge(box, bounds(widened(h[i])));
         return box;
     }
-    ABUT_HD constexpr void keep_as_seen(kept_points<double>& kept, const vec3<T>& from) const {
+    ABUT_HD constexpr void keep_as_seen(kept_points<double, T>& kept, const vec3<T>& from) const {
         if (down_ == 0) return kept.see_from(widened(from));
         kept.replace([&](const vec3<double>& p) { return contact_math::rounded_off(seen(p, widened(from))); });
     }
-    ABUT_HD constexpr void look_back(const hull<T>& h, const kept_points<double>& kept, const hull<T>& other,
+    ABUT_HD constexpr void look_back(const hull<T>& h, const kept_points<double, T>& kept, const hull<T>& other,
                                      const vec3<number>& way, std::uint32_t& first) const {
         number back{infinity<double>};
         kept.look_back(contact_math::rounded_off(way), back.high, first);
@@ -168,7 +173,7 @@ private:
     const hull<T>&a_, &b_;
     double largest_ = 0;  ///< coordinate
     int down_ = 0;
-    kept_points<double> kept_a_, kept_b_;
+    kept_points<double, T> kept_a_, kept_b_;
     aabb<double> box_a_, box_b_;
 };
 

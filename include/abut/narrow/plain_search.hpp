@@ -217,14 +217,13 @@ struct plain_points {
     const hull<T>& of;
     point origin;
     double size = 0;
-    kept_points<double> kept;
+    kept_points<double, T> kept;
 
-    ABUT_HD constexpr plain_points(const hull<T>& h, const point& from) : of(h), origin(from), kept(h) {
+    ABUT_HD constexpr plain_points(const hull<T>& h, const point& from) : of(h), origin(from), kept(h, decltype(kept)::fewest_climbed_for_numbers) {
         using namespace contact_math;
         kept.see_from(origin);
-        aabb<double> box = kept.box();
-        for (std::size_t i = kept.size(); i < h.count; ++i) box = merge(box, bounds(seen(i)));
-        size = greatest(largest_of(box.lower), largest_of(box.upper));
+        size = kept.largest();
+        for (std::size_t i = kept.size(); i < h.count; ++i) size = greatest(size, largest_of(seen(i)));
     }
     [[nodiscard]] ABUT_HD constexpr point farthest(const point& n) const {
         const point back = contact_math::negated(n);

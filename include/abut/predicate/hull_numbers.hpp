@@ -149,7 +149,7 @@ private:
             return p - from;
         }
     }
-    ABUT_HD constexpr void look_back(const hull<T>& h, const kept_points<number>& kept, const vec3<number>& way,
+    ABUT_HD constexpr void look_back(const hull<T>& h, const kept_points<number, T>& kept, const vec3<number>& way,
                                      std::uint32_t& first) const {
         number back = infinity<number>;
         kept.look_back(way, back, first);
@@ -160,11 +160,11 @@ private:
     }
     /// The mean of a hull's points, which on the way are seen from the origin and count for the size of all. For `fast` they
     /// are added one by one, as a device does.
-    ABUT_HD constexpr vec3<number> middle_of(const hull<T>& h, kept_points<number>& kept) {
+    ABUT_HD constexpr vec3<number> middle_of(const hull<T>& h, kept_points<number, T>& kept) {
         vec3<number> sum{0, 0, 0};
         kept.see_from({static_cast<number>(origin_.x), static_cast<number>(origin_.y), static_cast<number>(origin_.z)});
         if constexpr (Certified) {
-            if (kept.size() > 0) size_ = greatest(size_, farthest_coordinate(kept.box()));
+            size_ = greatest(size_, kept.size_of_all());
             sum = kept.sum();
         } else {
             for (std::size_t i = 0; i < kept.size(); ++i) sum = sum + kept[i];
@@ -188,7 +188,7 @@ private:
     vec3<T> origin_;
     vec3<number> middle_way_{0, 0, 0};
     double size_ = 0;
-    kept_points<number> kept_a_, kept_b_;
+    kept_points<number, T> kept_a_, kept_b_;
 };
 
 /// The unit of two hulls' coordinates, and how many bits the largest takes in it.

@@ -4,7 +4,8 @@
 // The points of a hull as a search sees them, kept from one scan for the farthest of them to the next: placed, subtracted
 // and in the search's numbers already, and coordinate by coordinate, so that a host takes four at a time (lanes.hpp). There
 // is room for the first few hundred, on the stack; a search reads what is beyond from the hull each time. A device keeps
-// none, since its stack is memory that is far away, and constant expressions neither.
+// none, since its stack is memory that is far away, and constant expressions neither. Nor is any kept of a hull of many
+// points that has edges: it is climbed (hull_climb.hpp).
 //
 // All is computed as of one point after another, but for sums: products are rounded before they are added, so that nothing
 // is contracted, and of equal heights the first one counts.
@@ -19,36 +20,56 @@
 #include <abut/arithmetic/magnitude.hpp>
 #include <abut/arithmetic/vec.hpp>
 #include <abut/config.hpp>
+#include <abut/predicate/hull_climb.hpp>
 #include <abut/shape/hull.hpp>
 #include <abut/shape/primitive.hpp>
 #include <abut/shape/rigid.hpp>
 
 namespace abut::detail {
 
-template <scalar F>
+template <scalar F, scalar T>
 class kept_points {
 public:
     static constexpr std::size_t room = ABUT_DEVICE_CODE ? 0 : 512;
+    /// Of so many points, hulls with edges are climbed, in doubles, where yes or no is asked; and where numbers are, for which the
+    /// largest coordinate has to be known and faces across the way are common. Fewer are read in less time.
+    static constexpr std::size_t fewest_climbed = 128, fewest_climbed_for_numbers = 384;
 
     /// Those of a hull, its first ones, where they are in the world. What of the arrays they leave stays as it is: to clear
     /// it would take longer than a scan.
-    template <scalar T>
-    ABUT_HD constexpr explicit kept_points(const hull<T>& h) {
+    ABUT_HD constexpr explicit kept_points(const hull<T>& h, std::size_t fewest_to_climb = fewest_climbed) {
+        if constexpr (may_climb) {
+            if (!ABUT_CONSTANT_EVALUATED() && h.edges != nullptr && h.count >= fewest_to_climb) {
+                climb_.begin(h);
+                is_climbed_ = true;
+                size_ = h.count;
+                return;
+            }
+        }
 #if !ABUT_DEVICE_CODE
         if (!ABUT_CONSTANT_EVALUATED() && h.count >= fewest) take(h);
 #endif
     }
     /// How many there are.
     [[nodiscard]] ABUT_HD constexpr std::size_t size() const { return size_; }
-    [[nodiscard]] ABUT_HD constexpr vec3<F> operator[](std::size_t i) const { return {x_[i], y_[i], z_[i]}; }
+    [[nodiscard]] ABUT_HD constexpr vec3<F> operator[](std::size_t i) const {
+        if constexpr (may_climb) {
+            if (is_climbed_) return climb_[i];
+        }
+        return {x_[i], y_[i], z_[i]};
+    }
 
-    /// Calls change(p) of each, which says what becomes of it.
+    /// Calls change(p) of each, which says what becomes of it. Of those of a hull that is climbed none is left.
     template <class Change>
     ABUT_HD constexpr void replace(const Change& change) {
+        if (is_climbed_) return leave();
         for (std::size_t i = 0; i < filled(); ++i) set(i, change((*this)[i]));
     }
     /// As they are seen from another point: their differences, rounded.
     ABUT_HD constexpr void see_from(const vec3<F>& origin) {
+        if constexpr (may_climb) {
+            if (is_climbed_) return climb_.see_from(origin);
+        }
 #if !ABUT_DEVICE_CODE
         if (size_ == 0) return;
         const vec3<four> from = in_registers(origin);
@@ -57,6 +78,9 @@ public:
     }
     /// The smallest box around them.
     [[nodiscard]] ABUT_HD constexpr aabb<F> box() const {
+        if constexpr (may_climb) {
+            if (is_climbed_) return climb_.box();
+        }
         aabb<F> around = empty_box<F>();
 #if !ABUT_DEVICE_CODE
         if (size_ == 0) return around;
@@ -71,9 +95,29 @@ public:
 #endif
         return around;
     }
-    /// Their sum, in some order.
+    /// The largest magnitude of a coordinate; 0 of no points.
+    [[nodiscard]] ABUT_HD constexpr F largest() const {
+        if constexpr (may_climb) {
+            if (is_climbed_) return climb_.largest();
+        }
+        if (size_ == 0) return 0;
+        const aabb<F> around = box();
+        const vec3<F> far = greatest(absolute(around.lower), absolute(around.upper));
+        return greatest(far.x, far.y, far.z);
+    }
+    /// No less than that, and where it takes time to find not much more.
+    [[nodiscard]] ABUT_HD constexpr F size_of_all() const {
+        if constexpr (may_climb) {
+            if (is_climbed_) return climb_.size();
+        }
+        return largest();
+    }
+    /// As many times a point that is about in their middle. If the hull is not climbed, their sum, in some order.
     [[nodiscard]] ABUT_HD constexpr vec3<F> sum() const {
         vec3<F> total{0, 0, 0};
+        if constexpr (may_climb) {
+            if (is_climbed_) return static_cast<F>(size_) * climb_.middle();
+        }
 #if !ABUT_DEVICE_CODE
         if (size_ == 0) return total;
         vec3<four> sums = all(total);
@@ -86,6 +130,9 @@ public:
     }
     /// Where a point has a lesser product with the way than `least` is: the least product, and the first that has it.
     ABUT_HD constexpr void look_back(const vec3<F>& way, F& least, std::uint32_t& first) const {
+        if constexpr (may_climb) {
+            if (is_climbed_) return climb_.look_back(way, least, first);
+        }
 #if !ABUT_DEVICE_CODE
         if (size_ > 0) scan(way, least, first);
 #endif
@@ -93,7 +140,12 @@ public:
 
 private:
     static constexpr std::size_t block = 8, fewest = 4;
+    static constexpr bool may_climb = std::same_as<F, double>;
 
+    ABUT_HD constexpr void leave() {
+        is_climbed_ = false;
+        size_ = 0;
+    }
     ABUT_HD constexpr void set(std::size_t i, const vec3<F>& p) {
         x_[i] = p.x;
         y_[i] = p.y;
@@ -105,7 +157,6 @@ private:
 #if !ABUT_DEVICE_CODE
     using four = lanes<F>;
 
-    template <scalar T>
     ABUT_HD void take(const hull<T>& h) {
         constexpr bool later = std::same_as<T, double> && std::same_as<F, double>;  // four at a time
         size_ = h.count < room ? h.count : room;
@@ -185,6 +236,8 @@ private:
     static constexpr std::size_t held = room > 0 ? room + block : 1;
 
     std::size_t size_ = 0;
+    bool is_climbed_ = false;
+    hull_climb<T> climb_;
     alignas(16) F x_[held], y_[held], z_[held];
 };
 

@@ -7,6 +7,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 
 #include <abut/execution/buffer.hpp>
@@ -64,11 +65,19 @@ struct set_parts {
     }
     template <scalar T, memory_space Space>
     static hulls<T, Space> hulls_of(execution::buffer<vec3<T>, Space> points,
-                                    execution::buffer<std::uint32_t, Space> offsets) {
+                                    execution::buffer<std::uint32_t, Space> offsets,
+                                    execution::buffer<std::uint32_t, Space> edges) {
         hulls<T, Space> made;
         made.points_ = shared_array<vec3<T>, Space>(std::move(points));
         made.offsets_ = shared_array<std::uint32_t, Space>(std::move(offsets));
+        made.edges_ = shared_array<std::uint32_t, Space>(std::move(edges));
         return made;
+    }
+    /// The same hulls with edges, as collide/hull_edges.hpp has them.
+    template <scalar T>
+    static hulls<T> with_edges(hulls<T> set, std::span<const std::uint32_t> edges) {
+        set.edges_ = shared_array<std::uint32_t, host_space>(serial{}, edges);
+        return set;
     }
     template <scalar T, memory_space Space>
     static equal_spheres<T, Space> equal_spheres_of(execution::buffer<vec3<T>, Space> centers, T radius) {
@@ -108,7 +117,8 @@ auto set_of(const Policy& on, const View& view) {
         return set_parts::edge_mesh_of(vertices, side_by_side<edge>(on, view.edges, view.edges.count));
     } else if constexpr (std::same_as<View, hulls_view<T, space>>) {
         return set_parts::hulls_of<T, space>(side_by_side<vec3<T>>(on, view.points, view.points.count),
-                                             side_by_side<std::uint32_t>(on, view.offsets, view.offsets.count));
+                                             side_by_side<std::uint32_t>(on, view.offsets, view.offsets.count),
+                                             side_by_side<std::uint32_t>(on, view.edges, view.edges.count));
     } else if constexpr (std::same_as<View, equal_spheres_view<T, space>>) {
         return set_parts::equal_spheres_of<T, space>(side_by_side<vec3<T>>(on, view.centers, view.centers.count),
                                                      view.radius);

@@ -3,10 +3,11 @@
 
 // The convex hull of points as a shape. It refers to its points, which lie elsewhere, as those of a set do (hulls.hpp): so
 // it can have any number of them. No faces are made, and none are needed: whatever is asked of a hull is asked of its
-// points.
+// points. A set may have edges beside them (collide/hull_edges.hpp), by which the farthest one is found sooner.
 
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 
 #include <abut/arithmetic/magnitude.hpp>
 #include <abut/shape/primitive.hpp>
@@ -28,17 +29,23 @@ struct hull {
     std::size_t stride = sizeof(vec3<T>);  ///< in bytes
     bool is_placed = false;                ///< whether `pose` is applied
     rigid<T> pose;                         ///< from the points' frame to the world's
+    const std::uint32_t* edges = nullptr;  ///< those that `with_edges` made for these points, if it did
 
     /// Of no point, which is no shape yet.
     hull() = default;
     /// Of `n` points, `step` bytes apart.
-    ABUT_HD constexpr hull(const vec3<T>* first, std::size_t n, std::size_t step = sizeof(vec3<T>))
-        : points(first), count(n), stride(step) {}
+    ABUT_HD constexpr hull(const vec3<T>* first, std::size_t n, std::size_t step = sizeof(vec3<T>),
+                           const std::uint32_t* its_edges = nullptr)
+        : points(first), count(n), stride(step), edges(its_edges) {}
 
     /// Point i, where it is in the world.
     [[nodiscard]] ABUT_HD constexpr vec3<T> operator[](std::size_t i) const {
-        const vec3<T> p = stride == sizeof(vec3<T>) ? points[i] : far_point(i);
+        const vec3<T> p = unplaced(i);
         return is_placed ? place(pose, p) : p;
+    }
+    /// The same where the points are.
+    [[nodiscard]] ABUT_HD constexpr vec3<T> unplaced(std::size_t i) const {
+        return stride == sizeof(vec3<T>) ? points[i] : far_point(i);
     }
 
 private:

@@ -39,6 +39,7 @@ struct hulls_view {
 
     detail::strided<vec3<T>> points;         ///< of all hulls: first one, number and stride
     detail::strided<std::uint32_t> offsets;  ///< one more than there are hulls: from 0 to the number of points
+    detail::strided<std::uint32_t> edges;    ///< what `with_edges` made, or none
 
     /// Of no hull.
     hulls_view() = default;
@@ -62,7 +63,8 @@ struct hulls_view {
     /// Hull i, by value; its points stay where they are.
     [[nodiscard]] ABUT_HD hull<T> operator[](std::size_t i) const {
         const std::uint32_t first = offsets[i];
-        return {&points[first], offsets[i + 1] - first, points.stride};
+        const std::uint32_t at = edges.count == 0 ? 0 : edges[i];
+        return {&points[first], offsets[i + 1] - first, points.stride, at == 0 ? nullptr : edges.first() + at};
     }
     /// A hint on the host, as of any shape_view.
     ABUT_INLINE void prefetch(std::size_t i, int step) const {
@@ -269,7 +271,9 @@ public:
     /// What algorithms read; for as long as the set or a copy of it lives.
     [[nodiscard]] view_type view() const {
         const std::size_t n = offsets_.size();
-        return {points_.data(), points_.size(), offsets_.data(), n == 0 ? 0 : n - 1};
+        view_type all(points_.data(), points_.size(), offsets_.data(), n == 0 ? 0 : n - 1);
+        all.edges = {edges_.data(), edges_.size(), sizeof(std::uint32_t)};
+        return all;
     }
     /// The CUDA device that the memory lies on; -1 for the host, and of a default set.
     [[nodiscard]] int device() const { return points_.device(); }
@@ -280,6 +284,7 @@ public:
         hulls<T, space_of<Policy>> copy;
         copy.points_ = points_.copied_to(to);
         copy.offsets_ = offsets_.copied_to(to);
+        copy.edges_ = edges_.copied_to(to);
         return copy;
     }
 
@@ -289,7 +294,7 @@ private:
     friend detail::set_parts;
 
     detail::shared_array<vec3<T>, Space> points_;
-    detail::shared_array<std::uint32_t, Space> offsets_;
+    detail::shared_array<std::uint32_t, Space> offsets_, edges_;
 };
 
 ///@}
