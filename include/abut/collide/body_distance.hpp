@@ -99,14 +99,11 @@ auto separation_of_bodies(const Policy& on, const Pairing& pairing, std::uint64_
 /// The least of all entries, of which nothing touches, that is no farther than a bound.
 template <class Policy, class Pairing>
 execution::least_value nearest_of_entries(const Policy& on, const Pairing& pairing, double bound) {
-    const auto view = pairing.view();
-    using view_type = std::remove_const_t<decltype(view)>;
     const std::size_t n = pairing.members.size();
     execution::buffer_of<Policy, std::uint64_t> none(on, n);
     fill(on, none.data(), n, no_pair);
     execution::best_of_all<space_of<Policy>> best(on, bound);
-    for_each_ordered(on, n, walk_entry<view_type, typename Pairing::tree_a, typename Pairing::tree_b>{view, none.data()},
-                     best);
+    walk_entries(on, pairing, none.data(), best);
     if constexpr (!host_policy<Policy>) {
         if (entries_with_nodes(pairing).count > 0) {
             best.offer(nearest_in_trees(on, pairing, nullptr, least(bound, best.least().value), true).of_one());

@@ -290,11 +290,11 @@ void walk_two_trees(const Policy& on, const Pairing& pairing, Walk walk, const R
     constexpr bool is_shared = !std::same_as<std::remove_cvref_t<decltype(pairing.part)>, whole_search>;
     constexpr bool in_world = !decltype(pairing.a)::is_posed && !decltype(pairing.b)::is_posed;
     if constexpr (host_policy<Policy> && !is_shared) {
-        ties_of watch(32, walk.a, both.a, walk.b, both.b);
+        ties_of watch(64, false, walk.a, both.a, walk.b, both.b);
         if constexpr (requires { trees_with_least_ids(pairing.a), trees_with_least_ids(pairing.b); }) {
-            const auto& a = pairing.a.tree_with_least_ids().stored();
-            const auto& b = pairing.b.tree_with_least_ids().stored();
-            if (a.least_ids != nullptr && b.least_ids != nullptr) watch.begin_with(a.least_ids->data(), b.least_ids->data());
+            const std::uint32_t* const of_a = own_least_ids(pairing.a.tree_with_least_ids());
+            const std::uint32_t* const of_b = own_least_ids(pairing.b.tree_with_least_ids());
+            if (of_a != nullptr && of_b != nullptr) watch.begin_with(of_a, of_b);
         }
         walk.watch = &watch;
         if (concurrency(on) == 1) {
@@ -336,7 +336,7 @@ void look_for_nearest_pair(const Policy& on, const Pairing& pairing, const Index
     using T = typename decltype(both.a)::scalar_type;
     const auto look = [&](auto walk, const auto& sight) {
         using walk_type = decltype(walk);
-        [[maybe_unused]] const auto watch = watch_ties<Policy, true>(64, walk, x.shapes());
+        [[maybe_unused]] const auto watch = watch_ties<Policy, true>(64, false, walk, x.shapes());
         using sight_type = std::remove_cvref_t<decltype(sight)>;
         const look_from_shapes<RowsAreB, walk_type, sight_type, std::remove_const_t<decltype(both)>> each{walk, sight, both};
         for_each_ordered(on, rows, walk_of_part(each, pairing.part), best);

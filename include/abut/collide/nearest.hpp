@@ -248,7 +248,8 @@ void walk_alone_from_points(const Policy& on, const Operand& x, const Points& po
     auto walk = ordered_walk_of(x);
     const auto frame = frame_of(x, judge.unit);
     const auto there = x.shapes();
-    [[maybe_unused]] const auto watch = watch_ties<Policy, std::same_as<Wanted, all_shapes_wanted>>(8, walk, there);
+    [[maybe_unused]] const auto watch = watch_ties<Policy, std::same_as<Wanted, all_shapes_wanted>>(
+        8, requires { Best::sink::keeps_few; }, walk, there);
     using walk_type = walk_from_points<std::remove_const_t<decltype(walk)>, std::remove_const_t<decltype(frame)>,
                                        std::remove_const_t<decltype(there)>, Points, Judge, Wanted>;
     for_each_ordered(on, points.size(), walk_type{walk, frame, there, points, judge, order, wanted}, best);
