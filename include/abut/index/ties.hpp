@@ -71,7 +71,9 @@ public:
             place_of(links_, at) = link;
         });
     }
-    [[nodiscard]] known_below known() const { return {of_nodes_.data(), links_.data(), copies_.data()}; }
+    [[nodiscard]] known_below known() const {
+        return {of_nodes_.data(), links_.data(), copies_.empty() ? nullptr : copies_.data()};
+    }
 
 private:
     static constexpr std::uint32_t none = known_below::none;
@@ -112,6 +114,8 @@ public:
     /// Whether it is known by now what lies below the nodes; and what it is, of tree k.
     [[nodiscard]] bool is_known() const { return is_known_.load(std::memory_order_acquire); }
     [[nodiscard]] known_below known(std::size_t k) const { return is_known() ? known_[k] : known_below{least_ids_[k]}; }
+    /// What a sink knows a shape by.
+    [[nodiscard]] static std::uint64_t key_of(std::uint32_t id) { return id; }
     /// Of trees that keep their least ids.
     void begin_with(const std::uint32_t* of_a, const std::uint32_t* of_b) { least_ids_ = {of_a, of_b}; }
     /// A walk has met one more, beyond a few. Whether it is known by now: another walk may have met enough.
@@ -166,25 +170,49 @@ private:
 /// somebody asks first, from any thread.
 class ties_of_objects {
 public:
-    explicit ties_of_objects(std::size_t objects) : all_(objects) {}
+    explicit ties_of_objects(std::size_t objects, bool chains = false) : all_(objects), chains_(chains) {}
 
     [[nodiscard]] bool is_known(std::size_t k) const { return all_[k].is_known.load(std::memory_order_acquire); }
+    /// Where it is known.
+    [[nodiscard]] known_below known(std::size_t k) const { return all_[k].ties.known(); }
     template <class Object>
-    known_below of(std::size_t k, const Object& object, bool chains = false) {
+    known_below find(std::size_t k, const Object& object) {
         one& it = all_[k];
-        const std::scoped_lock lock(it.making);
-        if (!is_known(k)) it.ties.find(object.tree, object.shapes, chains);
+        const std::scoped_lock lock(making_);
+        if (!is_known(k)) it.ties.find(object.tree, object.shapes, chains_);
         it.is_known.store(true, std::memory_order_release);
         return it.ties.known();
     }
+    /// One more tie beyond a few of a walk, in object k.
+    std::size_t count(std::size_t k) { return all_[k].met.fetch_add(1, std::memory_order_relaxed) + 1; }
 
 private:
     struct one {
-        std::mutex making;
+        std::atomic<std::size_t> met{0};
         std::atomic<bool> is_known{false};
         ties_of_tree ties;
     };
     std::vector<one> all_;
+    std::mutex making_;
+    bool chains_;
+};
+/// Watches walks of one of them, the shapes of which go by keys from `first_key` on.
+template <class Object>
+struct ties_of_body {
+    ties_of_objects& all;
+    std::size_t k;
+    const Object& object;
+    std::uint64_t first_key;
+
+    [[nodiscard]] known_below known(std::size_t) const { return all.is_known(k) ? all.known(k) : known_below{}; }
+    [[nodiscard]] bool met() const {
+        if (!all.is_known(k)) {
+            if (all.count(k) < object.tree.size() / 16 + 64) return false;
+            all.find(k, object);
+        }
+        return true;
+    }
+    [[nodiscard]] std::uint64_t key_of(std::uint32_t id) const { return first_key + id; }
 };
 /// Watches a walk of two of them.
 template <class A, class B>
@@ -196,7 +224,7 @@ public:
     }
 
 private:
-    both_known find() final { return {of_a_.of(k_a_, a_), of_b_.of(k_b_, b_)}; }
+    both_known find() final { return {of_a_.find(k_a_, a_), of_b_.find(k_b_, b_)}; }
 
     ties_of_objects &of_a_, &of_b_;
     std::size_t k_a_, k_b_;

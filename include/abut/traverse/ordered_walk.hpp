@@ -125,12 +125,13 @@ struct place_in_tree {
 };
 
 /// Ties as one walk of a tree meets them, on a host: what is known lets it pass over copies (index/ties.hpp).
+template <class Watch = tie_watch>
 struct ties_met {
-    tie_watch* watch;
+    Watch* watch;
     known_below below{};
     std::uint32_t count = 0;
 
-    ABUT_HD explicit ties_met([[maybe_unused]] tie_watch* of_call) : watch(of_call) {
+    ABUT_HD explicit ties_met([[maybe_unused]] Watch* of_call) : watch(of_call) {
 #if !ABUT_DEVICE_CODE
         if (watch != nullptr) below = watch->known(0);
 #endif
@@ -154,7 +155,8 @@ struct ties_met {
 #if !ABUT_DEVICE_CODE
         if constexpr (requires { best.known(); }) {
             if (below.of_nodes == nullptr || ABUT_BIT_CAST(std::uint64_t, best.bound()) != 0) return false;
-            return (child.is_leaf() ? child.index() : below.least_id(child.index())) > best.known().key;
+            const std::uint32_t least = child.is_leaf() ? child.index() : below.least_id(child.index());
+            return watch->key_of(least) > best.known().key;
         }
 #endif
         return false;
@@ -164,12 +166,16 @@ struct ties_met {
 /// A walk through a tree, nearest child first. The others wait, and are dropped when their turn comes if the reach has
 /// shrunk below their distance. Leaves wait like nodes. A walk without branches on what is nearer and what is kept was
 /// tried, also with four nodes at a time: it took half as long again on one core, which guesses right more often than not.
-template <bvh_layout Tree>
+template <bvh_layout Tree, class Watch = tie_watch>
 struct ordered_tree_walk {
     using T = typename Tree::scalar_type;
     Tree tree;
-    tie_watch* watch = nullptr;  ///< of walks that are about the least alone, on a host
+    Watch* watch = nullptr;  ///< of walks that are about the least alone, on a host
 
+    /// The next copies of shapes, on a host, if walks pass over these.
+    [[nodiscard]] const std::uint32_t* copies_with(std::uint64_t) const {
+        return watch != nullptr && watch->is_known() ? watch->known(0).copies : nullptr;
+    }
     /// Whether walks of many indices at once are faster in steps: in a tree that a core's own cache does not hold.
     [[nodiscard]] bool pays_in_steps() const { return tree.size() >= std::size_t{1} << 16; }
 
@@ -180,7 +186,7 @@ struct ordered_tree_walk {
         typename place_in_tree<Tree>::room pending;  // not initialised
         double bound = infinity<double>;
         tighten(reach, best, bound);
-        ties_met ties(watch);
+        ties_met<Watch> ties(watch);
         place.begin(tree, ties.below);
         for (;;) {
             while (reach.keeps(place.at.least) && !place.at.child.is_leaf() && !ties.is_passed_over(place.at.child, best)) {
