@@ -27,6 +27,14 @@
 
 namespace abut::detail {
 
+/// Pairs by their ids, with a filter that is asked of subtrees. Of a user's filter members of these names say nothing.
+template <class Ids>
+concept asked_of_subtrees = requires(const Ids& ids) {
+    { ids.filter.least_a } -> std::same_as<const std::uint32_t* const* const&>;
+    { ids.filter.least_b } -> std::same_as<const std::uint32_t* const* const&>;
+    { ids.filter.is_enough() } -> std::same_as<bool>;
+};
+
 /// Each shape of one operand looks in the index of the other.
 template <bool RowsAreB, class Walk, class Rows, class Ids, class Nearness>
 struct look_up {
@@ -39,6 +47,9 @@ struct look_up {
 
     /// Whether row i may find anything at all.
     [[nodiscard]] ABUT_HD bool may_find(std::size_t i) const {
+        if constexpr (asked_of_subtrees<Ids>) {
+            if (!is_wanted_by_row<RowsAreB>(ids, static_cast<std::uint32_t>(i), 0)) return false;  // nor with another
+        }
         auto reach = near.reach(rows[i]);
         return walk.may_touch(reach);
     }
@@ -156,14 +167,6 @@ struct push_pair {
     ABUT_INLINE ABUT_HD void operator()(Number k, bool is, std::uint32_t row, std::uint32_t found) const {
         emitter.push(k, is && is_wanted_by_row<RowsAreB>(ids, row, found), pack_row<RowsAreB>(ids, row, found));
     }
-};
-
-/// Pairs by their ids, with a filter that is asked of subtrees. Of a user's filter members of these names say nothing.
-template <class Ids>
-concept asked_of_subtrees = requires(const Ids& ids) {
-    { ids.filter.least_a } -> std::same_as<const std::uint32_t* const* const&>;
-    { ids.filter.least_b } -> std::same_as<const std::uint32_t* const* const&>;
-    { ids.filter.is_enough() } -> std::same_as<bool>;
 };
 
 /// One step down two trees, of which the rows' is the walk's first.

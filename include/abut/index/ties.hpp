@@ -105,7 +105,8 @@ private:
 /// Counts the ties that walks of one call meet, from any threads.
 class tie_watch {
 public:
-    static constexpr std::uint32_t few = 16;  ///< ties of one walk that are none to care about: neighbours share a corner
+    static constexpr std::uint32_t of_neighbours = 16;  ///< who share a corner
+    std::uint32_t few = of_neighbours;  ///< ties of one walk that are none to care about; walks that share a sink count all
     using both_known = std::array<known_below, 2>;
 
     tie_watch(const tie_watch&) = delete;
@@ -199,6 +200,7 @@ private:
 /// Watches walks of one of them, the shapes of which go by keys from `first_key` on.
 template <class Object>
 struct ties_of_body {
+    static constexpr std::uint32_t few = tie_watch::of_neighbours;
     ties_of_objects& all;
     std::size_t k;
     const Object& object;

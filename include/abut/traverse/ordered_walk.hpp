@@ -45,6 +45,15 @@ ABUT_HD auto least_in_slot(const Reach& reach, const Tree& tree, const typename 
     }
 }
 
+/// Around all children of a node.
+template <class Tree>
+ABUT_HD auto box_of_node(const Tree& tree, std::uint32_t number) {
+    const auto& node = tree.fetch(number);
+    auto box = tree.bounds(node, 0);
+    for (int slot = 1; slot < tree.children(node); ++slot) box = merge(box, tree.bounds(node, slot));
+    return box;
+}
+
 /// A reach that a walk through a tree can take: it looks at one box, or at the four boxes of a node at once.
 template <class Reach, class Tree>
 concept ordered_reach = shrinking_reach<Reach, typename Tree::scalar_type> || requires { Reach::takes_four; };
@@ -142,21 +151,26 @@ struct ties_met {
     ABUT_HD void visit(const Visitor& visitor, std::uint32_t id) {
 #if !ABUT_DEVICE_CODE
         if constexpr (std::same_as<decltype(visitor(id)), bool>) {
-            if (visitor(id) && watch != nullptr && ++count > tie_watch::few && watch->met()) below = watch->known(0);
+            if (visitor(id) && watch != nullptr && ++count > watch->few && watch->met()) below = watch->known(0);
             return;
         }
 #endif
         visitor(id);
     }
-    /// Whether what is below a child cannot come before the best: nothing is less than 0. By bits: some modes take denormal
-    /// numbers for it.
-    template <class Best>
-    [[nodiscard]] ABUT_HD bool is_passed_over([[maybe_unused]] bvh_child child, [[maybe_unused]] const Best& best) const {
+    /// Whether what is below a node cannot come before the best: of visitors that say what may (ordered_pair_walk.hpp), what has no
+    /// lesser id and is no nearer; of others, since nothing is less than 0. By bits: some modes take denormal numbers for it.
+    ABUT_CALLS_ANY
+    template <class Tree, class Best, class Visitor>
+    [[nodiscard]] ABUT_HD bool is_passed_over([[maybe_unused]] const Tree& tree, [[maybe_unused]] std::uint32_t node,
+                                              [[maybe_unused]] const Best& best,
+                                              [[maybe_unused]] const Visitor& visitor) const {
 #if !ABUT_DEVICE_CODE
-        if constexpr (requires { best.known(); }) {
+        if constexpr (requires { visitor.may_be_nearer(box_of_node(tree, node)); }) {
+            return below.of_nodes != nullptr && !visitor.may_come_first(below.least_id(node)) &&
+                   !visitor.may_be_nearer(box_of_node(tree, node));
+        } else if constexpr (requires { best.known(); }) {
             if (below.of_nodes == nullptr || ABUT_BIT_CAST(std::uint64_t, best.bound()) != 0) return false;
-            const std::uint32_t least = child.is_leaf() ? child.index() : below.least_id(child.index());
-            return watch->key_of(least) > best.known().key;
+            return watch->key_of(below.least_id(node)) > best.known().key;
         }
 #endif
         return false;
@@ -189,7 +203,8 @@ struct ordered_tree_walk {
         ties_met<Watch> ties(watch);
         place.begin(tree, ties.below);
         for (;;) {
-            while (reach.keeps(place.at.least) && !place.at.child.is_leaf() && !ties.is_passed_over(place.at.child, best)) {
+            while (reach.keeps(place.at.least) && !place.at.child.is_leaf() &&
+                   !ties.is_passed_over(tree, place.at.child.index(), best, visitor)) {
                 if (!place.descend(tree, ties.below, reach, pending)) return;
             }
             if (place.at.child.is_leaf() && reach.keeps(place.at.least)) ties.visit(visitor, place.at.child.index());
