@@ -162,8 +162,9 @@ struct program {
         const auto pose = turned(0.5), still = turned(0);
         compare(name("posed"), ask(abut::posed(a, pose), abut::posed(b, pose)), ask(abut::posed(c, pose), abut::posed(d, pose)));
         compare(name("one_posed"), ask(a, abut::posed(b, still)), ask(c, abut::posed(d, still)));
-        const auto set_a = make(0, 0), set_c = make(0, roughness);
+        const auto set_a = make(0, 0), set_c = make(0, roughness), set_b = make(1, 0), set_d = make(1, roughness);
         compare(name("rows"), ask(set_a, b), ask(set_c, d));
+        compare(name("rows_of_b"), ask(a, set_b), ask(c, set_d));
         compare(name("rows_posed"), ask(set_a, abut::posed(b, still)), ask(set_c, abut::posed(d, still)));
         using index = std::remove_cvref_t<decltype(a)>;
         const auto list_of = [&](const index& x, const index& y) {

@@ -28,7 +28,7 @@ struct walk_entry {
     static constexpr bool walks_trees = std::same_as<typename TreeA::memory_space, host_space>;
     View list;
     const std::uint64_t* touches;
-    ties_of_objects *ties_a = nullptr, *ties_b = nullptr;  ///< on a host
+    ties_of_objects *ties_a, *ties_b;  ///< null on a device
 
     ABUT_CALLS_ANY
     template <class Best>
@@ -122,16 +122,19 @@ struct take_nearest_of_trees {
     }
 };
 
-/// Each entry in which nothing touches is walked; on a device those alone of which a tree has one shape.
+/// Each entry in which nothing touches is walked; on a device those alone of which a tree has one shape. What is found out of
+/// ties in objects that both sides share, `ties` keeps.
 template <class Policy, class Pairing, class Best>
-void walk_entries(const Policy& on, const Pairing& pairing, const std::uint64_t* touches, Best& best) {
+void walk_entries(const Policy& on, const Pairing& pairing, const std::uint64_t* touches, Best& best,
+                  [[maybe_unused]] ties_of_objects* ties = nullptr) {
     const auto view = pairing.view();
-    walk_entry<std::remove_const_t<decltype(view)>, typename Pairing::tree_a, typename Pairing::tree_b> walk{view, touches};
+    walk_entry<std::remove_const_t<decltype(view)>, typename Pairing::tree_a, typename Pairing::tree_b> walk{view, touches, ties, ties};
     std::optional<ties_of_objects> of_a, of_b;
     if constexpr (host_policy<Policy>) {
-        walk.ties_a = walk.ties_b = &of_a.emplace(pairing.a.objects->indices.size());
-        const void* const first = pairing.a.objects.get();
-        if (first != pairing.b.objects.get()) walk.ties_b = &of_b.emplace(pairing.b.objects->indices.size());
+        if (ties == nullptr) {
+            walk.ties_a = &of_a.emplace(pairing.a.objects->indices.size());
+            walk.ties_b = &of_b.emplace(pairing.b.objects->indices.size());
+        }
     }
     for_each_ordered(on, pairing.members.size(), walk, best);
 }
