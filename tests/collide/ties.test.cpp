@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <random>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,8 @@ namespace marks {
 
 /// Counts what is measured, in any thread.
 std::atomic<std::size_t> measured{0};
+/// And what is decided.
+std::atomic<std::size_t> decided{0};
 
 /// A box by another name.
 struct mark {
@@ -33,6 +36,7 @@ mark place(const abut::rigid<float>& pose, const mark& m) {
 bool resolve(const mark& m, const mark& n) { return overlaps(m.box, n.box); }
 template <abut::arithmetic A>
 abut::verdict decide(const mark& m, const mark& n) {
+    ++decided;
     return abut::to_verdict(resolve(m, n));
 }
 abut::separation<float> separation_between(const mark& m, const mark& n) {
@@ -131,11 +135,13 @@ void check_pairs(const Policy& on, const std::vector<cell>& a, const std::vector
     check(quantised(on, tree_a), wide(on, tree_b), are_copies ? most : a.size() * b.size());
     check(make_bvh(on, set_a, {.builder = bvh_builder::sah}), tree_b, most);
     check(make_bvh(on, set_a, {.least_ids = true}), make_bvh(on, set_b, {.least_ids = true}), most);
+    check(tree_a, set_b, 30 * (a.size() + b.size()));
+    check(set_a, tree_b, 30 * (a.size() + b.size()));
+    check(set_a, wide(on, tree_b), 30 * (a.size() + b.size()));
     if (are_copies) {
         rigid<float> pose;
         pose.translation = {0, 0, 64};
         check(posed(tree_a, pose), posed(tree_b, pose), most);
-        check(tree_a, set_b, 20 * b.size());
     }
 }
 
@@ -149,6 +155,97 @@ void check_all_pairs(const Policy& on) {
     const auto others = copies_of({{0, 0, 5}, {0, 9, 5}, {9, 0, 5}, {9, 9, 5}, {4, 4, 20}}, each, 4);
     check_pairs(on, some, others, 4000, true);
     check_pairs(on, copies_of({{0, 0, 0, 7}}, each, 5), copies_of({{9, 3, 1, 2}, {3, 9, 1, 2}}, each, 6), 2000, true);
+}
+
+/// Posed trees in lists and as bodies.
+template <class Policy>
+void check_entries(const Policy& on) {
+    const auto one = copies_of({{0, 0, 0}, {0, 9, 0}}, 700, 21), other = copies_of({{0, 0, 5}, {0, 9, 5}, {9, 9, 5}}, 700, 22);
+    const std::vector<cell> single{{3, 4, 12}};
+    const auto moved = [](std::vector<cell> cells, whole z) {
+        for (auto& c : cells) c.z += z;
+        return cells;
+    };
+    const auto run = [&](const auto& layout) {
+        const auto a = layout(make_bvh(on, marks_at(one))), b = layout(make_bvh(on, marks_at(other))), c = layout(make_bvh(on, marks_at(single)));
+        using index = std::remove_const_t<decltype(a)>;
+        const auto at = [](const index& x, whole z) {
+            rigid<float> pose;
+            pose.translation = {0, 0, static_cast<float>(z)};
+            return posed(x, pose);
+        };
+        std::vector<posed_pair<index>> list;
+        std::vector<index_pair> expected;
+        for (whole z = 0; z < 6; ++z) {
+            list.push_back({at(a, z), at(b, 0)}), expected.push_back(nearest_of(moved(one, z), other));  // they touch at 5
+            list.push_back({at(b, 0), at(a, z)}), expected.push_back(nearest_of(other, moved(one, z)));
+        }
+        list.push_back({at(a, 2), at(c, 0)}), expected.push_back(nearest_of(moved(one, 2), single));
+        list.push_back({at(c, 0), at(b, 1)}), expected.push_back(nearest_of(single, moved(other, 1)));
+        const std::size_t asked = measured_by([&] {
+            const auto found = to_host(distance(on, list));
+            for (std::size_t i = 0; i < list.size(); ++i) CHECK((index_pair{found[i].a, found[i].b} == expected[i]));
+        });
+        CHECK(asked <= 500 * list.size());
+        CHECK(marks::decided <= 20'000);
+        // Two pairs of bodies are as near; a body of one shape is far away.
+        const auto check_bodies = [&](const std::vector<posed_object<index>>& bodies, index_pair of, index_pair ids) {
+            const std::size_t of_bodies = measured_by([&] {
+                const auto found = distance(on, bodies);
+                REQUIRE(found);
+                CHECK((index_pair{found->body_a, found->body_b} == of));
+                CHECK((index_pair{found->a, found->b} == ids));
+            });
+            CHECK(of_bodies <= 4000);
+        };
+        check_bodies({at(c, 100), at(b, 0), at(a, 0), at(b, -10)}, {1, 2}, nearest_of(other, one));
+        check_bodies({at(b, -10), at(c, 100), at(a, 0), at(b, 0)}, {0, 2}, nearest_of(moved(other, -10), one));
+        check_bodies({at(a, 0), at(c, 0), at(b, -10)}, {0, 2}, nearest_of(one, moved(other, -10)));
+        check_bodies({at(a, 5), at(c, 100), at(b, 0)}, {0, 2}, nearest_of(moved(one, 5), other));
+    };
+    run([](const auto& tree) { return tree; });
+    run([&](const auto& tree) { return wide(on, tree); });
+}
+
+/// Many pairs touch, and the least of these is found without a look at all.
+template <class Policy>
+void check_touching(const Policy& on, const std::vector<cell>& a, const std::vector<cell>& b) {
+    const auto set_a = marks_at(a), set_b = marks_at(b);
+    const index_pair expected = nearest_of(a, b);
+    REQUIRE(squared_gap(a[expected.a], b[expected.b]) == 0);
+    const auto check = [&](const auto& x, const auto& y, std::size_t most) {
+        marks::decided = 0;
+        const auto found = distance(on, x, y);
+        REQUIRE(found);
+        CHECK((index_pair{found->a, found->b} == expected));
+        CHECK(found->distance == 0);
+        CHECK(marks::decided <= most);
+    };
+    const auto tree_a = make_bvh(on, set_a), tree_b = make_bvh(on, set_b);
+    const std::size_t few = 4 * (a.size() + b.size());
+    check(tree_a, tree_b, few);
+    check(wide(on, tree_a), wide(on, tree_b), few);
+    check(quantised(on, tree_a), quantised(on, tree_b), few);
+    check(quantised(on, tree_a), wide(on, tree_b), few);
+    check(make_bvh(on, set_a, {.builder = bvh_builder::sah}), tree_b, few);
+    check(make_bvh(on, set_a, {.least_ids = true}), make_bvh(on, set_b, {.least_ids = true}), few);
+    check(posed(tree_a, rigid<float>{}), tree_b, few);
+    check(posed(wide(on, tree_a), rigid<float>{}), posed(wide(on, tree_b), rigid<float>{}), few);
+    check(set_a, tree_b, few);
+    check(tree_a, set_b, few);
+    check(set_a, set_b, a.size() * b.size());
+}
+
+template <class Policy>
+void check_all_touching(const Policy& on) {
+    const auto a = copies_of({{0, 0, 0}, {50, 0, 0}, {90, 0, 0, 3}}, 400, 23);
+    check_touching(on, a, copies_of({{0, 0, 0}, {-50, 0, 0}, {91, 1, 0}}, 400, 24));
+    check_touching(on, a, copies_of({{50, 0, 0}}, 500, 25));
+    check_touching(on, plate(25, 0, 26), plate(25, 0, 27));
+    std::vector<cell> far(300, {0, 0, 70}), near(300, {0, 0, 0});
+    far.push_back({0, 0, 0});  // the last of all touches
+    check_touching(on, far, near);
+    check_touching(on, near, far);
 }
 
 template <class Policy>
@@ -193,6 +290,39 @@ void check_points(const Policy& on) {
     check_trees(1, [&](const auto& index) { return nearest(on, index, points); });
     check_trees(7, [&](const auto& index) { return nearest(on, index, points, 7); });
     check_trees(600, [&](const auto& index) { return nearest(on, index, points, 600); });
+    // Bodies share an object: of equals the least body comes first.
+    const auto check_bodies = [&](const auto& index, std::size_t count, const auto& ask) {
+        std::remove_cvref_t<decltype(index)> copy = index;
+        rigid<float> away;
+        away.translation = {0, 0, 500};
+        const std::vector bodies{posed(copy, away), posed(copy, rigid<float>{}), posed(copy, rigid<float>{})};
+        const std::size_t asked = measured_by([&] {
+            const auto found = to_host(ask(bodies));
+            REQUIRE(found.size() == count * points.size());
+            std::size_t wrong = 0;
+            for (std::size_t k = 0; k < points.size(); ++k) {
+                const auto expected = in_order(from[k], [](std::uint32_t) { return true; });
+                std::vector<std::array<std::uint32_t, 2>> both;
+                for (std::size_t j = 0; both.size() < count;) {
+                    std::size_t end = j;
+                    while (end < expected.size() && expected[end].first == expected[j].first) ++end;
+                    for (const std::uint32_t body : {1u, 2u}) {
+                        for (std::size_t i = j; i < end; ++i) both.push_back({body, expected[i].second});
+                    }
+                    j = end;
+                }
+                for (std::size_t j = 0; j < count; ++j) {
+                    wrong += found[count * k + j].body != both[j][0] || found[count * k + j].id != both[j][1];
+                }
+            }
+            CHECK(wrong == 0);
+        });
+        CHECK(asked <= (80 + 2 * count) * points.size() + cells.size());
+    };
+    check_bodies(tree, 1, [&](const auto& bodies) { return nearest(on, bodies, points); });
+    check_bodies(wide(on, tree), 1, [&](const auto& bodies) { return nearest(on, bodies, points); });
+    check_bodies(tree, 7, [&](const auto& bodies) { return nearest(on, bodies, points, 7); });
+    check_bodies(quantised(on, tree), 700, [&](const auto& bodies) { return nearest(on, bodies, points, 700); });
     // A filter tells copies apart.
     const auto odd = [](std::uint32_t, std::uint32_t id) { return id % 2 == 1; };
     const nearest_options<decltype(odd)> of_odd{.count = 3, .filter = odd};
@@ -236,6 +366,10 @@ void check_lines(const Policy& on) {
     check(wide(on, tree));
     check(make_bvh(on, marks_at(cells), {.builder = bvh_builder::sah}));
     check(posed(tree, rigid<float>{}));
+    const std::vector bodies{posed(tree, rigid<float>{}), posed(tree, rigid<float>{})};
+    check(bodies);
+    const auto in_bodies = to_host(raycast(on, bodies, lines));
+    for (const auto& hit : in_bodies) CHECK((hit.id == no_id || hit.body == 0));
     const auto odd = [](std::uint32_t, std::uint32_t id) { return id % 2 == 1; };
     const auto of_odd = to_host(raycast(on, tree, lines, raycast_options<decltype(odd)>{.filter = odd}));
     for (std::size_t k = 0; k < of_odd.size(); ++k) {
@@ -253,6 +387,17 @@ TEST_CASE("ties: the distance of copies") {
     test::check_all_pairs(serial{});
     test::check_all_pairs(openmp{1});
     test::check_all_pairs(openmp{3});
+}
+
+TEST_CASE("ties: the distance of entries of a list, and of bodies") {
+    test::check_entries(serial{});
+    test::check_entries(openmp{3});
+}
+
+TEST_CASE("ties: the first of many that touch") {
+    test::check_all_touching(serial{});
+    test::check_all_touching(openmp{1});
+    test::check_all_touching(openmp{3});
 }
 
 TEST_CASE("ties: the distance of so many copies that a wide walk has no room for all that waits") {

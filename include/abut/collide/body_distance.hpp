@@ -107,17 +107,14 @@ auto separation_of_bodies(const Policy& on, const Pairing& pairing, std::uint64_
     return found;
 }
 
-/// The least of all entries, of which nothing touches, that is no farther than a bound.
+/// The least of all entries, of which nothing touches, that is no farther than a bound. Ties: as of walk_entries.
 template <class Policy, class Pairing>
-execution::least_value nearest_of_entries(const Policy& on, const Pairing& pairing, double bound) {
-    const auto view = pairing.view();
-    using view_type = std::remove_const_t<decltype(view)>;
+execution::least_value nearest_of_entries(const Policy& on, const Pairing& pairing, double bound, ties_of_objects* ties) {
     const std::size_t n = pairing.members.size();
     execution::buffer_of<Policy, std::uint64_t> none(on, n);
     fill(on, none.data(), n, no_pair);
     execution::best_of_all<space_of<Policy>> best(on, bound);
-    for_each_ordered(on, n, walk_entry<view_type, typename Pairing::tree_a, typename Pairing::tree_b>{view, none.data()},
-                     best);
+    walk_entries(on, pairing, none.data(), best, ties);
     if constexpr (!host_policy<Policy>) {
         if (entries_with_nodes(pairing).count > 0) {
             best.offer(nearest_in_trees(on, pairing, nullptr, least(bound, best.least().value), true).of_one());
@@ -159,11 +156,11 @@ auto touching_bodies(const Policy& on, const bodies<Index>& all, const char* fun
 
 /// Of bodies of which none touch: the nearest two, no farther than `bound`; pair_up(near) pairs up those that are near.
 template <scalar T, class Policy, class PairUp>
-bodies_apart<T> nearest_within(const Policy& on, double bound, const PairUp& pair_up) {
+bodies_apart<T> nearest_within(const Policy& on, double bound, ties_of_objects* ties, const PairUp& pair_up) {
     const T reach = rounded_up<T>(
         least(bound * (1 + 64 * static_cast<double>(unit_roundoff<T>)), static_cast<double>(largest_finite<T>)));
     const auto pairing = pair_up(near_in_distance<T>{distance_frame<T>(reach)});
-    const execution::least_value found = nearest_of_entries(on, pairing, bound);
+    const execution::least_value found = nearest_of_entries(on, pairing, bound, ties);
     bodies_apart<T> best;
     if (found.key != no_pair) best = {found.value, separation_of_bodies(on, pairing, found.key, false)};
     return best;
@@ -179,8 +176,9 @@ auto nearest_bodies(const Policy& on, const bodies<Index>& all, double below, co
     const auto neighbours = pair_up_entries<names_of_entries>(
         on, state.placed, state.placed, n - 1, next_in_order{order.data(), state.with_shapes->data()},
         list_options<before_first_touch<list_key>>{}, function, "bodies", near_enough_to_touch{});
-    const double most = bound_below<T>(below), bound = least(most, nearest_of_entries(on, neighbours, most).value);
-    return nearest_within<T>(on, bound, [&](const auto& near) { return pair_up_near(on, state, function, near, part); });
+    ties_of_objects ties(host_policy<Policy> ? state.placed.objects->indices.size() : 0);
+    const double most = bound_below<T>(below), bound = least(most, nearest_of_entries(on, neighbours, most, &ties).value);
+    return nearest_within<T>(on, bound, &ties, [&](const auto& near) { return pair_up_near(on, state, function, near, part); });
 }
 
 /// The distance of bodies, by the best of all parts: of_parts(look) is the best that look(on, bodies, part) finds.

@@ -5,6 +5,7 @@
 // box that is reached through the body's own tree. What is kept has the body's number above the shape's id, so that of
 // equals the least body comes first, and of one body the least id: the answer is the best of what each body says alone.
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -14,6 +15,7 @@
 #include <abut/collide/placed.hpp>
 #include <abut/collide/raycast_all.hpp>
 #include <abut/collide/row_questions.hpp>
+#include <abut/index/ties.hpp>
 #include <abut/shape/point_reach.hpp>
 #include <abut/shape/ray_reach.hpp>
 #include <abut/traverse/ordered_walk.hpp>
@@ -56,6 +58,8 @@ struct ordered_body_walk {
     tree_of_boxes boxes;
     const std::uint32_t* with_shapes;
     placed_view<Index> all;
+    std::size_t objects;
+    ties_of_objects* ties = nullptr;  ///< on a host
 
     ABUT_CALLS_ANY
     template <class Reach, class Best, class Visitor>
@@ -64,9 +68,21 @@ struct ordered_body_walk {
             const std::uint32_t body = with_shapes[k];
             const placed_object<Index>& object = all.object(body);
             auto inside = reach.template seen_by<tree_of_body>(all.poses[body], object.bounds);
-            ordered_tree_walk<tree_of_body>{object.tree}(inside, best,
-                                                         [&](std::uint32_t id) { visitor(body_key(body, id)); });
+            const auto visit = [&](std::uint32_t id) { return visitor(body_key(body, id)); };
+            if constexpr (std::same_as<typename Index::memory_space, host_space>) {
+                if (ties != nullptr) {
+                    ties_of_body<placed_object<Index>> watch{*ties, all.object_of[body], object, body_key(body, 0)};
+                    ordered_tree_walk<tree_of_body, decltype(watch)>{object.tree, &watch}(inside, best, visit);
+                    return;
+                }
+            }
+            ordered_tree_walk<tree_of_body>{object.tree}(inside, best, visit);
         });
+    }
+    /// The next copies of the shapes of an object, if walks pass over these.
+    [[nodiscard]] const std::uint32_t* copies_with(std::uint64_t key) const {
+        const std::uint32_t k = all.object_of[body_of_key(key)];
+        return ties != nullptr && ties->is_known(k) ? ties->known(k).copies : nullptr;
     }
 };
 template <class Index>
@@ -77,6 +93,21 @@ template <class Index, scalar T>
 struct line_reach<ordered_body_walk<Index>, T> {
     using type = line_to_bodies<T>;
 };
+
+struct watch_of_bodies : ties_of_objects {
+    template <class Index>
+    watch_of_bodies(bool chains, ordered_body_walk<Index>& walk) : ties_of_objects(walk.objects, chains) {
+        walk.ties = this;
+    }
+};
+template <class Policy, bool Alike, class Index, shape_view Shapes>
+auto watch_ties(std::size_t, [[maybe_unused]] bool chains, [[maybe_unused]] ordered_body_walk<Index>& walk, const Shapes&) {
+    if constexpr (host_policy<Policy> && Alike) {
+        return watch_of_bodies(chains, walk);
+    } else {
+        return 0;
+    }
+}
 
 /// All shapes of bodies, by their keys.
 template <class Index>
@@ -110,7 +141,8 @@ struct id_in_operand<asked_bodies<Index>> {
 };
 template <class Index>
 ordered_body_walk<Index> ordered_walk_of(const asked_bodies<Index>& x) {
-    return {x.state().tree.view(), x.state().with_shapes->data(), x.state().placed.view()};
+    const auto& placed = x.state().placed;
+    return {x.state().tree.view(), x.state().with_shapes->data(), placed.view(), placed.objects->indices.size()};
 }
 template <class Index, scalar T>
 frame_of_bodies<T> frame_of(const asked_bodies<Index>&, const length_unit<T>& unit) {

@@ -198,8 +198,35 @@ struct object_sight {
     }
 };
 
+/// What a shape that looks does with one that it comes to. `InWorld` says that boxes of the walk are there.
+template <bool RowsAreB, bool InWorld, class View, class Shape, class Best, class Reach>
+struct offer_to_row {
+    using T = scalar_type_of<Shape>;
+    const View& both;
+    const Shape& shape;
+    std::uint32_t row;
+    aabb<T> box;
+    offer_distance<RowsAreB, Best, Reach>& offer;
+
+    ABUT_CALLS_ANY
+    ABUT_HD bool operator()(std::uint32_t found) const {
+        if constexpr (RowsAreB) {
+            return offer(both.a[found], shape, both.pack(found, row));
+        } else {
+            return offer(shape, both.b[found], both.pack(row, found));
+        }
+    }
+    [[nodiscard]] bool may_come_first(std::uint32_t id) const {
+        return (RowsAreB ? both.pack(id, row) : both.pack(row, id)) < offer.best.known().key;
+    }
+    /// No distance is measured below that of the boxes (narrow/distance.hpp).
+    [[nodiscard]] bool may_be_nearer(const aabb<T>& other) const requires InWorld {
+        return gap_of_boxes(box, other) < offer.best.known().value;
+    }
+};
+
 /// Each shape of one operand looks in the other, which has a walk of its own (ordered_walk.hpp).
-template <bool RowsAreB, class Walk, class Sight, class View>
+template <bool RowsAreB, bool InWorld, class Walk, class Sight, class View>
 struct look_from_shapes {
     static constexpr std::size_t grain = 16;
     Walk walk;
@@ -209,17 +236,12 @@ struct look_from_shapes {
     ABUT_CALLS_ANY
     template <class Best>
     ABUT_HD void operator()(std::size_t i, Best& best) const {
-        const auto row = static_cast<std::uint32_t>(i);
         const auto shape = shape_of_row(i);
-        auto reach = sight.reach_of(bounds(shape));
+        const auto box = bounds(shape);
+        auto reach = sight.reach_of(box);
         offer_distance<RowsAreB, Best, decltype(reach)> offer{best, reach};
-        walk(reach, best, [&](std::uint32_t found) {
-            if constexpr (RowsAreB) {
-                return offer(both.a[found], shape, both.pack(found, row));
-            } else {
-                return offer(shape, both.b[found], both.pack(row, found));
-            }
-        });
+        walk(reach, best, offer_to_row<RowsAreB, InWorld, View, std::remove_const_t<decltype(shape)>, Best, decltype(reach)>{
+                              both, shape, static_cast<std::uint32_t>(i), box, offer});
     }
 
 private:
@@ -290,11 +312,11 @@ void walk_two_trees(const Policy& on, const Pairing& pairing, Walk walk, const R
     constexpr bool is_shared = !std::same_as<std::remove_cvref_t<decltype(pairing.part)>, whole_search>;
     constexpr bool in_world = !decltype(pairing.a)::is_posed && !decltype(pairing.b)::is_posed;
     if constexpr (host_policy<Policy> && !is_shared) {
-        ties_of watch(32, walk.a, both.a, walk.b, both.b);
+        ties_of watch(64, false, walk.a, both.a, walk.b, both.b);
         if constexpr (requires { trees_with_least_ids(pairing.a), trees_with_least_ids(pairing.b); }) {
-            const auto& a = pairing.a.tree_with_least_ids().stored();
-            const auto& b = pairing.b.tree_with_least_ids().stored();
-            if (a.least_ids != nullptr && b.least_ids != nullptr) watch.begin_with(a.least_ids->data(), b.least_ids->data());
+            const std::uint32_t* const of_a = own_least_ids(pairing.a.tree_with_least_ids());
+            const std::uint32_t* const of_b = own_least_ids(pairing.b.tree_with_least_ids());
+            if (of_a != nullptr && of_b != nullptr) watch.begin_with(of_a, of_b);
         }
         walk.watch = &watch;
         if (concurrency(on) == 1) {
@@ -336,9 +358,11 @@ void look_for_nearest_pair(const Policy& on, const Pairing& pairing, const Index
     using T = typename decltype(both.a)::scalar_type;
     const auto look = [&](auto walk, const auto& sight) {
         using walk_type = decltype(walk);
-        [[maybe_unused]] const auto watch = watch_ties<Policy, true>(64, walk, x.shapes());
+        [[maybe_unused]] auto watch = watch_ties<Policy, true>(64, false, walk, x.shapes());
+        if constexpr (requires { watch.few; }) watch.few = 0;
         using sight_type = std::remove_cvref_t<decltype(sight)>;
-        const look_from_shapes<RowsAreB, walk_type, sight_type, std::remove_const_t<decltype(both)>> each{walk, sight, both};
+        constexpr bool in_world = !decltype(pairing.a)::is_posed && !decltype(pairing.b)::is_posed;
+        const look_from_shapes<RowsAreB, in_world, walk_type, sight_type, std::remove_const_t<decltype(both)>> each{walk, sight, both};
         for_each_ordered(on, rows, walk_of_part(each, pairing.part), best);
     };
     if constexpr (!Index::is_indexed) {

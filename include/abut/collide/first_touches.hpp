@@ -31,13 +31,32 @@ struct before_first_touch {
     Key key{};
     const std::uint64_t* first = nullptr;  ///< of each entry
     const std::uint32_t *const *least_a = nullptr, *const *least_b = nullptr;
+    std::uint32_t* left_out = nullptr;  ///< on a host: how many were, about
+    std::uint32_t enough = 0;           ///< of them
+
     ABUT_HD bool operator()(std::uint32_t a, std::uint32_t b) const {
-        return key.pack(a, b) < execution::atomic_load(first);
+        return counted(key.pack(a, b) < execution::atomic_load(first));
     }
     /// Of a list.
     template <class Tagged>
     ABUT_HD bool operator()(const Tagged& of) const {
-        return key.pack(of.pair, of.a, of.b) < execution::atomic_load(first + of.pair);
+        return counted(key.pack(of.pair, of.a, of.b) < execution::atomic_load(first + of.pair));
+    }
+    /// Whether so many are left out that to know the least ids would have taken less.
+    [[nodiscard]] ABUT_HD bool is_enough() const {
+#if !ABUT_DEVICE_CODE
+        return left_out != nullptr && execution::atomic_load(left_out) > enough;
+#else
+        return false;
+#endif
+    }
+
+private:
+    [[nodiscard]] ABUT_HD bool counted(bool is_before) const {
+#if !ABUT_DEVICE_CODE
+        if (!is_before && left_out != nullptr) execution::atomic_store(left_out, execution::atomic_load(left_out) + 1);
+#endif
+        return is_before;
     }
 };
 /// Takes pairs that touch.
@@ -54,13 +73,13 @@ struct keep_first_touch {
     }
 };
 
-/// The trees of an operand or of bodies, if they may have least ids.
+/// The trees of an operand or of bodies.
 ///@{
 template <may_have_least_ids Operand>
 auto trees_with_least_ids(const Operand& x) {
     return std::span(&x.tree_with_least_ids(), 1);
 }
-template <keeps_least_ids Index>
+template <class Index>
 auto trees_with_least_ids(const placed_bodies<Index>& x) {
     return std::span(std::as_const(x.objects->indices));
 }
@@ -68,33 +87,37 @@ auto trees_with_least_ids(const placed_bodies<Index>& x) {
 
 template <class Trees>
 bool have_least_ids(const Trees& trees) {
-    return std::all_of(trees.begin(), trees.end(), [](const auto& tree) { return tree.stored().least_ids != nullptr; });
+    return std::all_of(trees.begin(), trees.end(), [](const auto& tree) { return own_least_ids(tree) != nullptr; });
+}
+template <class Trees>
+std::size_t shapes_of(const Trees& trees) {
+    std::size_t all = 0;
+    for (const auto& tree : trees) all += tree.size();
+    return all;
 }
 /// The least ids of all trees of one side, by trees: those that a tree has, or made for one query.
-template <class Policy>
 class ids_of_trees {
 public:
     template <class Trees>
-    ids_of_trees(const Policy& policy, const Trees& trees) {
+    explicit ids_of_trees(const Trees& trees) {
         for (const auto& tree : trees) {
-            const auto view = tree.view();
-            const auto& own = tree.stored();
-            if (own.least_ids == nullptr) made_.push_back(make_least_ids(policy, view.nodes, own.nodes.size(), view.top));
-            all_.push_back(own.least_ids == nullptr ? made_.back().data() : own.least_ids->data());
+            const std::uint32_t* of_nodes = own_least_ids(tree);
+            if (of_nodes == nullptr) of_nodes = made_.emplace_back(least_ids_of_nodes(tree.view())).data();
+            all_.push_back(of_nodes);
         }
     }
     [[nodiscard]] const std::uint32_t* const* data() const { return all_.data(); }
 
 private:
-    std::vector<execution::buffer_of<Policy, std::uint32_t>> made_;
+    std::vector<std::vector<std::uint32_t>> made_;
     std::vector<const std::uint32_t*> all_;
 };
 
 /// For each of n entries the least key of a pair that touches, or no_pair. Of two arguments there is one entry.
 ///
-/// A host walks by least ids, of two trees if both have them: to make them takes as long as many a search. For a list they
-/// are made, but only if anything touches at all. A device opens thousands of pairs of nodes at a time, before it knows any
-/// that touches.
+/// A host walks by least ids. Of trees that do not keep them it makes them when so much is left out that they would have
+/// taken less, and goes on from what it has found. A device opens thousands of pairs of nodes
+/// at a time, before it knows any that touches.
 template <class Policy, class Pairing>
 auto first_touches(const Policy& on, Pairing& pairing, std::size_t n) {
     using key_type = decltype(pairing.key);
@@ -110,13 +133,19 @@ auto first_touches(const Policy& on, Pairing& pairing, std::size_t n) {
     if constexpr (host_policy<Policy> && requires { trees_with_least_ids(pairing.a), trees_with_least_ids(pairing.b); }) {
         const auto a = trees_with_least_ids(pairing.a);
         const auto b = trees_with_least_ids(pairing.b);
-        const bool are_there = have_least_ids(a) && have_least_ids(b);
         // Of one entry there is one tree on each side. One of a single shape is not walked with the other.
-        if (n > 1 || (n == 1 && are_there && a[0].size() > 1 && b[0].size() > 1)) {
-            execution::work_flag<host_space> any(on);
-            if (!are_there) search(on, pairing, touch<filtered>{}, any);
-            if (are_there || any.raised()) {
-                const ids_of_trees<Policy> of_a(on, a), of_b(on, b);
+        if (n > 1 || (n == 1 && a[0].size() > 1 && b[0].size() > 1)) {
+            bool by_ids = have_least_ids(a) && have_least_ids(b);
+            if (!by_ids) {
+                std::uint32_t left_out = 0;
+                filter.left_out = &left_out;
+                filter.enough = static_cast<std::uint32_t>(std::min<std::size_t>((shapes_of(a) + shapes_of(b)) / 16, 1u << 30)) + 64;
+                look();
+                by_ids = filter.is_enough();
+                filter.left_out = nullptr;
+            }
+            if (by_ids) {
+                const ids_of_trees of_a(a), of_b(b);
                 filter.least_a = of_a.data(), filter.least_b = of_b.data();
                 look();
             }

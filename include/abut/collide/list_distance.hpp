@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -27,6 +28,7 @@ struct walk_entry {
     static constexpr bool walks_trees = std::same_as<typename TreeA::memory_space, host_space>;
     View list;
     const std::uint64_t* touches;
+    ties_of_objects *ties_a, *ties_b;  ///< null on a device
 
     ABUT_CALLS_ANY
     template <class Best>
@@ -37,17 +39,19 @@ struct walk_entry {
         const auto& a = list.a.object(of.a);
         const auto& b = list.b.object(of.b);
         if (a.tree.size() == 0 || b.tree.size() == 0) return;
+        const std::uint32_t k_a = list.a.object_of[of.a], k_b = list.b.object_of[of.b];
         if (b.tree.size() == 1) {  // a tree of one shape has no nodes to walk
-            look<true>(list.b.shape(of.b, list.b.object_of[of.b], 0), a, list.a.poses[of.a], entry, best);
+            look<true>(list.b.shape(of.b, k_b, 0), a, k_a, ties_a, list.a.poses[of.a], entry, best);
         } else if (a.tree.size() == 1) {
-            look<false>(list.a.shape(of.a, list.a.object_of[of.a], 0), b, list.b.poses[of.b], entry, best);
+            look<false>(list.a.shape(of.a, k_a, 0), b, k_b, ties_b, list.b.poses[of.b], entry, best);
         } else if constexpr (walks_trees) {
             near_posed_boxes<T> reach(list.a.poses[of.a], a.bounds, list.b.poses[of.b], b.bounds);
             offer_distance<false, Best, near_posed_boxes<T>> offer{best, reach};
-            const ordered_pair_walk<TreeA, TreeB> walk{a.tree, b.tree};
+            ties_of_two_objects watch(*ties_a, k_a, a, *ties_b, k_b, b);
+            const ordered_pair_walk<TreeA, TreeB> walk{a.tree, b.tree, &watch};
             walk({a.tree.root().index(), b.tree.root().index()}, reach, best, [&](std::uint32_t id_a, std::uint32_t id_b) {
                 const std::uint64_t key = list.key.pack(entry, id_a, id_b);
-                offer(list.shape_a(key), list.shape_b(key), key);
+                return offer(list.shape_a(key), list.shape_b(key), key);
             });
         }
     }
@@ -56,14 +60,22 @@ private:
     /// The only shape of one body, which is b if `RowIsB`, looks in the other.
     ABUT_CALLS_ANY
     template <bool RowIsB, class Shape, class Object, class Best>
-    ABUT_HD void look(const Shape& shape, const Object& object, const rigid<T>& pose, std::uint32_t entry,
-                      Best& best) const {
+    ABUT_HD void look(const Shape& shape, const Object& object, [[maybe_unused]] std::uint32_t k,
+                      [[maybe_unused]] ties_of_objects* ties, const rigid<T>& pose, std::uint32_t entry, Best& best) const {
         auto reach = object_sight<T>{pose, object.bounds}.box(bounds(shape));
         offer_distance<RowIsB, Best, decltype(reach)> offer{best, reach};
-        ordered_tree_walk<std::remove_cvref_t<decltype(object.tree)>>{object.tree}(reach, best, [&](std::uint32_t found) {
+        const auto visit = [&](std::uint32_t found) {
             const std::uint64_t key = RowIsB ? list.key.pack(entry, found, 0) : list.key.pack(entry, 0, found);
-            offer(list.shape_a(key), list.shape_b(key), key);
-        });
+            return offer(list.shape_a(key), list.shape_b(key), key);
+        };
+        ordered_tree_walk<std::remove_cvref_t<decltype(object.tree)>> walk{object.tree};
+        if constexpr (walks_trees) {
+            ties_of_two_objects watch(*ties, k, object, *ties, k, object);
+            walk.watch = &watch;
+            walk(reach, best, visit);
+        } else {
+            walk(reach, best, visit);
+        }
     }
 };
 
@@ -110,6 +122,23 @@ struct take_nearest_of_trees {
     }
 };
 
+/// Each entry in which nothing touches is walked; on a device those alone of which a tree has one shape. What is found out of
+/// ties in objects that both sides share, `ties` keeps.
+template <class Policy, class Pairing, class Best>
+void walk_entries(const Policy& on, const Pairing& pairing, const std::uint64_t* touches, Best& best,
+                  [[maybe_unused]] ties_of_objects* ties = nullptr) {
+    const auto view = pairing.view();
+    walk_entry<std::remove_const_t<decltype(view)>, typename Pairing::tree_a, typename Pairing::tree_b> walk{view, touches, ties, ties};
+    std::optional<ties_of_objects> of_a, of_b;
+    if constexpr (host_policy<Policy>) {
+        if (ties == nullptr) {
+            walk.ties_a = &of_a.emplace(pairing.a.objects->indices.size());
+            walk.ties_b = &of_b.emplace(pairing.b.objects->indices.size());
+        }
+    }
+    for_each_ordered(on, pairing.members.size(), walk, best);
+}
+
 /// Whether distance takes a list of these indices.
 template <class Policy, class IndexA, class IndexB>
 consteval bool can_be_measured() {
@@ -134,8 +163,7 @@ auto distances_of(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>
     using view_type = std::remove_const_t<decltype(view)>;
     // Nothing is below 0: then no entry is looked at.
     execution::best_of_each<space_of<Policy>> best(on, n, bound_below<T>(options.below > 0 ? options.below : 0));
-    for_each_ordered(
-        on, n, walk_entry<view_type, typename IndexA::view_type, typename IndexB::view_type>{view, touches.data()}, best);
+    walk_entries(on, pairing, touches.data(), best);
     if constexpr (!host_policy<Policy>) {
         const some_entries walked = entries_with_nodes(pairing);
         const auto open = [&] { return reduce(on, walked.count, 0u, add_counts{}, is_entry_open{walked, touches.data()}); };

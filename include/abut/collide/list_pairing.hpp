@@ -206,7 +206,7 @@ private:
                                                          [[maybe_unused]] const walk& both,
                                                          [[maybe_unused]] const typename walk::item& at) const {
         if constexpr (asked_of_subtrees<View>) {
-            if (list.filter.least_a == nullptr) return true;
+            if (list.filter.least_a == nullptr) return !list.filter.is_enough();
             return ids.wanted(least_id_below(both.a, at.a, list.filter.least_a[m.object_a]),
                               least_id_below(both.b, at.b, list.filter.least_b[m.object_b]));
         } else {

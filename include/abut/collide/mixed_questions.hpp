@@ -235,7 +235,7 @@ auto nearest_bodies(const Policy& on, const mixed_bodies<Indices...>& all, doubl
             return nearest_bodies(on, one, least(below, best.measure), function, part);
         },
         [&](const auto& a, const auto& b, const auto& best) {
-            return nearest_within<T>(on, bound_below<T>(least(below, best.measure)),
+            return nearest_within<T>(on, bound_below<T>(least(below, best.measure)), nullptr,
                                      [&](const auto& near) { return pair_up_near(on, a, b, function, near); });
         });
 }

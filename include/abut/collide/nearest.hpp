@@ -119,9 +119,7 @@ struct walk_from_points {
             const double value = judge.measure(shapes[id], p, best.bound());
             const bool is_tie = value == best.bound();
             best.offer(value, id);
-            if constexpr (requires { walk.watch; Best::keeps_few; }) {
-                offer_copies(value, static_cast<std::uint32_t>(id), best);
-            }
+            if constexpr (requires { walk.copies_with(id); Best::keeps_few; }) offer_copies(value, id, best);
             return is_tie;
         });
     }
@@ -132,12 +130,16 @@ struct walk_from_points {
 private:
     /// A walk that passes over copies comes to the first of them alone; of the few nearest others may be wanted.
     template <class Best>
-    ABUT_HD void offer_copies([[maybe_unused]] double value, [[maybe_unused]] std::uint32_t id,
+    ABUT_HD void offer_copies([[maybe_unused]] double value, [[maybe_unused]] walk_id<Walk> key,
                               [[maybe_unused]] Best& best) const {
 #if !ABUT_DEVICE_CODE
-        if (walk.watch == nullptr || !walk.watch->is_known()) return;
-        const std::uint32_t* const next = walk.watch->known(0).copies;
-        while (next[id] != known_below::none && !best.known().comes_before({value, id})) best.offer(value, id = next[id]);
+        const std::uint32_t* const next = walk.copies_with(key);
+        if (next == nullptr) return;
+        auto id = static_cast<std::uint32_t>(key);
+        const auto first = static_cast<std::uint64_t>(key - id);
+        while (next[id] != known_below::none && !best.known().comes_before({value, first + id})) {
+            best.offer(value, first + (id = next[id]));
+        }
 #endif
     }
 };
@@ -248,7 +250,8 @@ void walk_alone_from_points(const Policy& on, const Operand& x, const Points& po
     auto walk = ordered_walk_of(x);
     const auto frame = frame_of(x, judge.unit);
     const auto there = x.shapes();
-    [[maybe_unused]] const auto watch = watch_ties<Policy, std::same_as<Wanted, all_shapes_wanted>>(8, walk, there);
+    [[maybe_unused]] const auto watch = watch_ties<Policy, std::same_as<Wanted, all_shapes_wanted>>(
+        8, requires { Best::sink::keeps_few; }, walk, there);
     using walk_type = walk_from_points<std::remove_const_t<decltype(walk)>, std::remove_const_t<decltype(frame)>,
                                        std::remove_const_t<decltype(there)>, Points, Judge, Wanted>;
     for_each_ordered(on, points.size(), walk_type{walk, frame, there, points, judge, order, wanted}, best);

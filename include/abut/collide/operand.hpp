@@ -54,8 +54,8 @@ struct indexed_operand<bvh<Set, Space, Layout>> {
     [[nodiscard]] bool is_along_curve() const requires std::same_as<Layout, standard_layout> {
         return index.stored().along_curve;
     }
-    /// Itself, if it may have least ids (index/least_ids.hpp).
-    [[nodiscard]] const auto& tree_with_least_ids() const requires keeps_least_ids<bvh<Set, Space, Layout>> { return index; }
+    /// Itself, which may have least ids (index/least_ids.hpp).
+    [[nodiscard]] const auto& tree_with_least_ids() const { return index; }
     /// Around all shapes, of which there are some.
     template <class Policy>
     [[nodiscard]] aabb<T> bounds(const Policy&) const {

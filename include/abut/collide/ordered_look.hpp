@@ -23,17 +23,17 @@ namespace abut::detail {
 
 template <class Walk, shape_view Shapes>
 struct watch_of_walk : ties_of<decltype(Walk::tree), Shapes> {
-    watch_of_walk(std::size_t shapes_a_tie, Walk& walk, const Shapes& shapes)
-        : ties_of<decltype(Walk::tree), Shapes>(shapes_a_tie, walk.tree, shapes) {
+    watch_of_walk(std::size_t shapes_a_tie, bool chains, Walk& walk, const Shapes& shapes)
+        : ties_of<decltype(Walk::tree), Shapes>(shapes_a_tie, chains, walk.tree, shapes) {
         walk.watch = this;
     }
 };
 /// Has a walk through a tree of a host watch for ties, as long as what is returned lives. Copies have to be `Alike` to it.
 template <class Policy, bool Alike, class Walk, shape_view Shapes>
-auto watch_ties([[maybe_unused]] std::size_t shapes_a_tie, [[maybe_unused]] Walk& walk,
+auto watch_ties([[maybe_unused]] std::size_t shapes_a_tie, [[maybe_unused]] bool chains, [[maybe_unused]] Walk& walk,
                 [[maybe_unused]] const Shapes& shapes) {
     if constexpr (host_policy<Policy> && Alike && requires { walk.watch = nullptr; }) {
-        return watch_of_walk<Walk, Shapes>(shapes_a_tie, walk, shapes);
+        return watch_of_walk<Walk, Shapes>(shapes_a_tie, chains, walk, shapes);
     } else {
         return 0;
     }

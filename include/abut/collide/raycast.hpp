@@ -254,7 +254,7 @@ auto look_for_first_hits(const Policy& on, const Both& both, bool in_scalars, co
     if (both.has_nothing()) return finish(nullptr);
     execution::best_of_each<space_of<Policy>> best(on, both.size(), both.wanted.most());
     from_each each{both.template walk<walk_along_lines, A>(in_scalars)};
-    [[maybe_unused]] const auto watch = watch_ties<Policy, !Both::filters>(64, each.all.walk, both.x.shapes());
+    [[maybe_unused]] const auto watch = watch_ties<Policy, !Both::filters>(64, false, each.all.walk, both.x.shapes());
     for_each_ordered(on, both.size(), each, best);
     return finish(best.data());
 }

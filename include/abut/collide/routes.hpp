@@ -27,6 +27,14 @@
 
 namespace abut::detail {
 
+/// Pairs by their ids, with a filter that is asked of subtrees. Of a user's filter members of these names say nothing.
+template <class Ids>
+concept asked_of_subtrees = requires(const Ids& ids) {
+    { ids.filter.least_a } -> std::same_as<const std::uint32_t* const* const&>;
+    { ids.filter.least_b } -> std::same_as<const std::uint32_t* const* const&>;
+    { ids.filter.is_enough() } -> std::same_as<bool>;
+};
+
 /// Each shape of one operand looks in the index of the other.
 template <bool RowsAreB, class Walk, class Rows, class Ids, class Nearness>
 struct look_up {
@@ -39,6 +47,9 @@ struct look_up {
 
     /// Whether row i may find anything at all.
     [[nodiscard]] ABUT_HD bool may_find(std::size_t i) const {
+        if constexpr (asked_of_subtrees<Ids>) {
+            if (!is_wanted_by_row<RowsAreB>(ids, static_cast<std::uint32_t>(i), 0)) return false;  // nor with another
+        }
         auto reach = near.reach(rows[i]);
         return walk.may_touch(reach);
     }
@@ -158,18 +169,11 @@ struct push_pair {
     }
 };
 
-/// Pairs by their ids, with a filter that is asked of subtrees. Of a user's filter members of these names say nothing.
-template <class Ids>
-concept asked_of_subtrees = requires(const Ids& ids) {
-    { ids.filter.least_a } -> std::same_as<const std::uint32_t* const* const&>;
-    { ids.filter.least_b } -> std::same_as<const std::uint32_t* const* const&>;
-};
-
 /// One step down two trees, of which the rows' is the walk's first.
 ///
 /// A filter may leave out, with a pair, all pairs in which neither id is less. Such a one is asked of subtrees as well, by
 /// their least ids: its `least_a[0]` and `least_b[0]` say these of each node of the trees (index/least_ids.hpp). Both tables
-/// may be null.
+/// may be null: then it may say that it is enough, and that nothing more is to be walked.
 template <bool RowsAreB, class Walk, class Ids>
 struct expand_pair {
     using item = typename Walk::item;
@@ -192,7 +196,7 @@ struct expand_pair {
 private:
     [[nodiscard]] ABUT_INLINE ABUT_HD bool may_be_wanted([[maybe_unused]] const item& at) const {
         if constexpr (asked_of_subtrees<Ids>) {
-            if (ids.filter.least_a == nullptr) return true;
+            if (ids.filter.least_a == nullptr) return !ids.filter.is_enough();
             const std::uint32_t* const of_rows = (RowsAreB ? ids.filter.least_b : ids.filter.least_a)[0];
             const std::uint32_t* const of_others = (RowsAreB ? ids.filter.least_a : ids.filter.least_b)[0];
             return is_wanted_by_row<RowsAreB>(ids, least_id_below(walk.a, at.a, of_rows),

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include <abut/index/bvh.hpp>
+#include <abut/index/least_ids.hpp>
 #include <abut/shape/view.hpp>
 
 namespace abut::detail {
@@ -44,27 +45,15 @@ struct known_below {
 /// What belongs to it.
 class ties_of_tree {
 public:
-    /// Of a tree with shapes that lie in host memory. In time proportional to their number (of copies, as for a sort);
-    /// 12 bytes a shape at most, and 4 more while it works. Throws std::bad_alloc.
+    /// Of a tree with shapes that lie in host memory. In time proportional to their number (with `chains` of copies, as for
+    /// a sort); 8 bytes a shape, with chains 12, and 4 more while it works. Throws std::bad_alloc.
     template <bvh_layout Tree, shape_view Shapes>
-    void find(const Tree& tree, const Shapes& shapes) {
-        if (tree.size() < 2) return;
+    void find(const Tree& tree, const Shapes& shapes, bool chains) {
         constexpr std::uint32_t width = Tree::width;
-        std::vector<std::uint32_t> order{tree.root().index()};  // parents first
-        std::uint32_t last = 0;
-        for (std::size_t i = 0; i < order.size(); ++i) {
-            const std::uint32_t at = order[i];
-            if (at > last) last = at;
-            const auto& node = tree.fetch(at);
-            for (int slot = 0; slot < tree.children(node); ++slot) {
-                if (!tree.child(node, slot).is_leaf()) order.push_back(tree.child(node, slot).index());
-            }
-        }
-        of_nodes_.resize(std::size_t{last} + 1);
-        links_.resize(of_nodes_.size());
-        copies_.assign(tree.size(), none);
-        for (std::size_t i = order.size(); i-- > 0;) {
-            const std::uint32_t at = order[i];
+        of_nodes_.reserve(tree.size());
+        links_.reserve(tree.size());
+        if (chains) copies_.assign(tree.size(), none);
+        for_each_node_up(tree, [&](std::uint32_t at) {
             const auto& node = tree.fetch(at);
             std::uint32_t least = none, link = 0, first = none;
             bool copies = true;
@@ -77,12 +66,14 @@ public:
                 least = below.index();
                 link = child.is_leaf() ? width * at + static_cast<std::uint32_t>(slot) : links_[child.index()];
             }
-            if (copies) join(tree, node);
-            of_nodes_[at] = copies ? bvh_child::leaf(least).bits : least;
-            links_[at] = link;
-        }
+            if (copies && chains) join(tree, node);
+            place_of(of_nodes_, at) = copies ? bvh_child::leaf(least).bits : least;
+            place_of(links_, at) = link;
+        });
     }
-    [[nodiscard]] known_below known() const { return {of_nodes_.data(), links_.data(), copies_.data()}; }
+    [[nodiscard]] known_below known() const {
+        return {of_nodes_.data(), links_.data(), copies_.empty() ? nullptr : copies_.data()};
+    }
 
 private:
     static constexpr std::uint32_t none = known_below::none;
@@ -114,16 +105,18 @@ private:
 /// Counts the ties that walks of one call meet, from any threads.
 class tie_watch {
 public:
-    static constexpr std::uint32_t few = 16;  ///< ties of one walk that are none to care about: neighbours share a corner
+    static constexpr std::uint32_t of_neighbours = 16;  ///< who share a corner
+    std::uint32_t few = of_neighbours;  ///< ties of one walk that are none to care about; walks that share a sink count all
+    using both_known = std::array<known_below, 2>;
 
     tie_watch(const tie_watch&) = delete;
     tie_watch& operator=(const tie_watch&) = delete;
 
     /// Whether it is known by now what lies below the nodes; and what it is, of tree k.
     [[nodiscard]] bool is_known() const { return is_known_.load(std::memory_order_acquire); }
-    [[nodiscard]] known_below known(std::size_t k) const {
-        return is_known() ? trees_[k].known() : known_below{least_ids_[k]};
-    }
+    [[nodiscard]] known_below known(std::size_t k) const { return is_known() ? known_[k] : known_below{least_ids_[k]}; }
+    /// What a sink knows a shape by.
+    [[nodiscard]] static std::uint64_t key_of(std::uint32_t id) { return id; }
     /// Of trees that keep their least ids.
     void begin_with(const std::uint32_t* of_a, const std::uint32_t* of_b) { least_ids_ = {of_a, of_b}; }
     /// A walk has met one more, beyond a few. Whether it is known by now: another walk may have met enough.
@@ -131,26 +124,27 @@ public:
         if (is_known()) return true;
         if (met_.fetch_add(1, std::memory_order_relaxed) + 1 < enough_) return false;
         const std::scoped_lock lock(making_);
-        if (!is_known()) {
-            find(trees_.data());
-            is_known_.store(true, std::memory_order_release);
-        }
+        if (!is_known()) know(find());
         return true;
     }
 
 protected:
-    /// What is to be known costs some 20 ns a shape; a tie costs as much or more where a point looks, and 400 ns of two shapes
+    /// What is to be known costs some 10 ns a shape; a tie costs as much or more where a point looks, and 400 ns of two shapes
     /// or of a line.
     explicit tie_watch(std::size_t enough) : enough_(enough + 64) {}
     ~tie_watch() = default;
-    virtual void find(ties_of_tree* trees) const = 0;
+    virtual both_known find() = 0;
+    void know(const both_known& found) {
+        known_ = found;
+        is_known_.store(true, std::memory_order_release);
+    }
 
 private:
     std::size_t enough_;
     std::atomic<std::size_t> met_{0};
     std::atomic<bool> is_known_{false};
     std::mutex making_;
-    std::array<ties_of_tree, 2> trees_;
+    both_known known_;
     std::array<const std::uint32_t*, 2> least_ids_{};
 };
 
@@ -158,16 +152,86 @@ private:
 template <class... Looked>
 class ties_of : public tie_watch {
 public:
-    /// It is found out after a tie for each so many shapes.
-    explicit ties_of(std::size_t shapes_a_tie, const Looked&... looked)
-        : tie_watch((looked.size() + ...) / 2 / shapes_a_tie), looked_(looked...) {}
+    /// It is found out after a tie for each so many shapes. With chains of copies, where walks look for several shapes.
+    explicit ties_of(std::size_t shapes_a_tie, bool chains, const Looked&... looked)
+        : tie_watch((looked.size() + ...) / 2 / shapes_a_tie), looked_(looked...), chains_(chains) {}
 
 private:
-    void find(ties_of_tree* trees) const override {
-        trees[0].find(std::get<0>(looked_), std::get<1>(looked_));
-        if constexpr (sizeof...(Looked) == 4) trees[1].find(std::get<2>(looked_), std::get<3>(looked_));
+    both_known find() override {
+        trees_[0].find(std::get<0>(looked_), std::get<1>(looked_), chains_);
+        if constexpr (sizeof...(Looked) == 4) trees_[1].find(std::get<2>(looked_), std::get<3>(looked_), chains_);
+        return {trees_[0].known(), trees_[1].known()};
     }
     std::tuple<Looked...> looked_;
+    bool chains_;
+    std::array<ties_of_tree, 2> trees_;
+};
+
+/// What belongs to many trees, by the numbers of objects: anything with `tree` and `shapes`. Of each it is found out when
+/// somebody asks first, from any thread.
+class ties_of_objects {
+public:
+    explicit ties_of_objects(std::size_t objects, bool chains = false) : all_(objects), chains_(chains) {}
+
+    [[nodiscard]] bool is_known(std::size_t k) const { return all_[k].is_known.load(std::memory_order_acquire); }
+    /// Where it is known.
+    [[nodiscard]] known_below known(std::size_t k) const { return all_[k].ties.known(); }
+    template <class Object>
+    known_below find(std::size_t k, const Object& object) {
+        one& it = all_[k];
+        const std::scoped_lock lock(making_);
+        if (!is_known(k)) it.ties.find(object.tree, object.shapes, chains_);
+        it.is_known.store(true, std::memory_order_release);
+        return it.ties.known();
+    }
+    /// One more tie beyond a few of a walk, in object k.
+    std::size_t count(std::size_t k) { return all_[k].met.fetch_add(1, std::memory_order_relaxed) + 1; }
+
+private:
+    struct one {
+        std::atomic<std::size_t> met{0};
+        std::atomic<bool> is_known{false};
+        ties_of_tree ties;
+    };
+    std::vector<one> all_;
+    std::mutex making_;
+    bool chains_;
+};
+/// Watches walks of one of them, the shapes of which go by keys from `first_key` on.
+template <class Object>
+struct ties_of_body {
+    static constexpr std::uint32_t few = tie_watch::of_neighbours;
+    ties_of_objects& all;
+    std::size_t k;
+    const Object& object;
+    std::uint64_t first_key;
+
+    [[nodiscard]] known_below known(std::size_t) const { return all.is_known(k) ? all.known(k) : known_below{}; }
+    [[nodiscard]] bool met() const {
+        if (!all.is_known(k)) {
+            if (all.count(k) < object.tree.size() / 16 + 64) return false;
+            all.find(k, object);
+        }
+        return true;
+    }
+    [[nodiscard]] std::uint64_t key_of(std::uint32_t id) const { return first_key + id; }
+};
+/// Watches a walk of two of them.
+template <class A, class B>
+class ties_of_two_objects : public tie_watch {
+public:
+    ties_of_two_objects(ties_of_objects& of_a, std::size_t k_a, const A& a, ties_of_objects& of_b, std::size_t k_b, const B& b)
+        : tie_watch((a.tree.size() + b.tree.size()) / 128), of_a_(of_a), of_b_(of_b), k_a_(k_a), k_b_(k_b), a_(a), b_(b) {
+        if (of_a.is_known(k_a) && of_b.is_known(k_b)) know(find());
+    }
+
+private:
+    both_known find() final { return {of_a_.find(k_a_, a_), of_b_.find(k_b_, b_)}; }
+
+    ties_of_objects &of_a_, &of_b_;
+    std::size_t k_a_, k_b_;
+    const A& a_;
+    const B& b_;
 };
 
 }  // namespace abut::detail

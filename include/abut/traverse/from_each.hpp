@@ -35,7 +35,7 @@ public:
     void begin(Reach& reach, const Best& best) {
         bound_ = infinity<double>;
         tighten(reach, best, bound_);
-        ties_ = ties_met(watch_);
+        ties_ = ties_met<>(watch_);
         place_.begin(tree_, ties_.below);
         is_asked_for_ = false;
     }
@@ -69,7 +69,7 @@ public:
 private:
     Tree tree_;
     tie_watch* watch_;
-    ties_met ties_{nullptr};
+    ties_met<> ties_{nullptr};
     place_in_tree<Tree> place_;
     typename place_in_tree<Tree>::room pending_;
     double bound_;
@@ -238,7 +238,7 @@ public:
             auto look = all_->start(i);
             if (entries_.count() > 0) {
                 reach_of_look<All> reach(all_->seen(i));
-                ties_met ties(all_->walk.watch);
+                ties_met<> ties(all_->walk.watch);
                 walk(reach, sink, [&](std::uint32_t id) {
                     ties.visit([&](std::uint32_t shape) { return look(*all_, shape, sink); }, id);
                 });

@@ -195,7 +195,7 @@ private:
         const std::uint32_t id_a = shape_of_leaf(a, at.a), id_b = shape_of_leaf(b, at.b);
 #if !ABUT_DEVICE_CODE
         if constexpr (std::same_as<decltype(visitor(id_a, id_b)), bool>) {
-            if (visitor(id_a, id_b) && watch != nullptr && ++ties.met > tie_watch::few && watch->met()) ties.learn(watch);
+            if (visitor(id_a, id_b) && watch != nullptr && ++ties.met > watch->few && watch->met()) ties.learn(watch);
             return;
         }
 #endif
@@ -267,11 +267,8 @@ private:
     template <class Tree>
     [[nodiscard]] ABUT_HD static aabb<T> bounds_of(const Tree& tree, std::uint32_t bits) {
         const node_or_leaf at(bits, Tree::width);
-        const auto& node = tree.fetch(at.node);
-        if (at.is_leaf) return tree.bounds(node, static_cast<int>(at.slot));
-        aabb<T> box = tree.bounds(node, 0);
-        for (int slot = 1; slot < tree.children(node); ++slot) box = merge(box, tree.bounds(node, slot));
-        return box;
+        if (at.is_leaf) return tree.bounds(tree.fetch(at.node), static_cast<int>(at.slot));
+        return box_of_node(tree, at.node);
     }
     /// A child's volume, if both trees have volumes that the reach knows, or else its box.
     template <class Reach, class Tree>

@@ -45,6 +45,15 @@ ABUT_HD auto least_in_slot(const Reach& reach, const Tree& tree, const typename 
     }
 }
 
+/// Around all children of a node.
+template <class Tree>
+ABUT_HD auto box_of_node(const Tree& tree, std::uint32_t number) {
+    const auto& node = tree.fetch(number);
+    auto box = tree.bounds(node, 0);
+    for (int slot = 1; slot < tree.children(node); ++slot) box = merge(box, tree.bounds(node, slot));
+    return box;
+}
+
 /// A reach that a walk through a tree can take: it looks at one box, or at the four boxes of a node at once.
 template <class Reach, class Tree>
 concept ordered_reach = shrinking_reach<Reach, typename Tree::scalar_type> || requires { Reach::takes_four; };
@@ -125,12 +134,13 @@ struct place_in_tree {
 };
 
 /// Ties as one walk of a tree meets them, on a host: what is known lets it pass over copies (index/ties.hpp).
+template <class Watch = tie_watch>
 struct ties_met {
-    tie_watch* watch;
+    Watch* watch;
     known_below below{};
     std::uint32_t count = 0;
 
-    ABUT_HD explicit ties_met([[maybe_unused]] tie_watch* of_call) : watch(of_call) {
+    ABUT_HD explicit ties_met([[maybe_unused]] Watch* of_call) : watch(of_call) {
 #if !ABUT_DEVICE_CODE
         if (watch != nullptr) below = watch->known(0);
 #endif
@@ -141,20 +151,26 @@ struct ties_met {
     ABUT_HD void visit(const Visitor& visitor, std::uint32_t id) {
 #if !ABUT_DEVICE_CODE
         if constexpr (std::same_as<decltype(visitor(id)), bool>) {
-            if (visitor(id) && watch != nullptr && ++count > tie_watch::few && watch->met()) below = watch->known(0);
+            if (visitor(id) && watch != nullptr && ++count > watch->few && watch->met()) below = watch->known(0);
             return;
         }
 #endif
         visitor(id);
     }
-    /// Whether what is below a child cannot come before the best: nothing is less than 0. By bits: some modes take denormal
-    /// numbers for it.
-    template <class Best>
-    [[nodiscard]] ABUT_HD bool is_passed_over([[maybe_unused]] bvh_child child, [[maybe_unused]] const Best& best) const {
+    /// Whether what is below a node cannot come before the best: of visitors that say what may (ordered_pair_walk.hpp), what has no
+    /// lesser id and is no nearer; of others, since nothing is less than 0. By bits: some modes take denormal numbers for it.
+    ABUT_CALLS_ANY
+    template <class Tree, class Best, class Visitor>
+    [[nodiscard]] ABUT_HD bool is_passed_over([[maybe_unused]] const Tree& tree, [[maybe_unused]] std::uint32_t node,
+                                              [[maybe_unused]] const Best& best,
+                                              [[maybe_unused]] const Visitor& visitor) const {
 #if !ABUT_DEVICE_CODE
-        if constexpr (requires { best.known(); }) {
+        if constexpr (requires { visitor.may_be_nearer(box_of_node(tree, node)); }) {
+            return below.of_nodes != nullptr && !visitor.may_come_first(below.least_id(node)) &&
+                   !visitor.may_be_nearer(box_of_node(tree, node));
+        } else if constexpr (requires { best.known(); }) {
             if (below.of_nodes == nullptr || ABUT_BIT_CAST(std::uint64_t, best.bound()) != 0) return false;
-            return (child.is_leaf() ? child.index() : below.least_id(child.index())) > best.known().key;
+            return watch->key_of(below.least_id(node)) > best.known().key;
         }
 #endif
         return false;
@@ -164,12 +180,16 @@ struct ties_met {
 /// A walk through a tree, nearest child first. The others wait, and are dropped when their turn comes if the reach has
 /// shrunk below their distance. Leaves wait like nodes. A walk without branches on what is nearer and what is kept was
 /// tried, also with four nodes at a time: it took half as long again on one core, which guesses right more often than not.
-template <bvh_layout Tree>
+template <bvh_layout Tree, class Watch = tie_watch>
 struct ordered_tree_walk {
     using T = typename Tree::scalar_type;
     Tree tree;
-    tie_watch* watch = nullptr;  ///< of walks that are about the least alone, on a host
+    Watch* watch = nullptr;  ///< of walks that are about the least alone, on a host
 
+    /// The next copies of shapes, on a host, if walks pass over these.
+    [[nodiscard]] const std::uint32_t* copies_with(std::uint64_t) const {
+        return watch != nullptr && watch->is_known() ? watch->known(0).copies : nullptr;
+    }
     /// Whether walks of many indices at once are faster in steps: in a tree that a core's own cache does not hold.
     [[nodiscard]] bool pays_in_steps() const { return tree.size() >= std::size_t{1} << 16; }
 
@@ -180,10 +200,11 @@ struct ordered_tree_walk {
         typename place_in_tree<Tree>::room pending;  // not initialised
         double bound = infinity<double>;
         tighten(reach, best, bound);
-        ties_met ties(watch);
+        ties_met<Watch> ties(watch);
         place.begin(tree, ties.below);
         for (;;) {
-            while (reach.keeps(place.at.least) && !place.at.child.is_leaf() && !ties.is_passed_over(place.at.child, best)) {
+            while (reach.keeps(place.at.least) && !place.at.child.is_leaf() &&
+                   !ties.is_passed_over(tree, place.at.child.index(), best, visitor)) {
                 if (!place.descend(tree, ties.below, reach, pending)) return;
             }
             if (place.at.child.is_leaf() && reach.keeps(place.at.least)) ties.visit(visitor, place.at.child.index());
