@@ -42,7 +42,7 @@ struct plain_foot {
     double length = 0;                          ///< of the way; or inside, to the nearest part of the boundary
 
     template <solid_of_revolution S>
-    ABUT_NOINLINE ABUT_HD constexpr plain_foot(const S& s, const vec3<T>& center, double radius_of_center)
+    ABUT_INLINE ABUT_HD constexpr plain_foot(const S& s, const vec3<T>& center, double radius_of_center)
         : radius(s.radius), is_cone(requires { s.apex; }) {
         using namespace contact_math;
         const segment<T> axis = axis_of(s);
@@ -168,7 +168,7 @@ struct plain_pair<S, U> : plain_gap {
 /// right as in round_contact.hpp.
 template <solid_of_revolution S, class U>
     requires has_plain_pair<S, U>
-ABUT_NOINLINE ABUT_HD constexpr auto first_contact_of(const S& s, const U& t, const plain_pair<S, U>& both) {
+ABUT_INLINE ABUT_HD constexpr auto first_contact_of(const S& s, const U& t, const plain_pair<S, U>& both) {
     using namespace contact_math;
     using T = scalar_type_of<S>;
     const plain_foot<T>& foot = both.foot;
@@ -177,8 +177,7 @@ ABUT_NOINLINE ABUT_HD constexpr auto first_contact_of(const S& s, const U& t, co
     const point n = plain_normal<T>(foot.ahead);
     const double depth = plain_sum(plain_sum(both.radius_b, -plain_dot(n, foot.p)), foot.reach(n)),
                  least_depth = plain_sum(both.radius_b, foot.is_inside ? both.length : -both.length);
-    const auto magnitude = static_cast<double>(greatest(magnitude_of(s), magnitude_of(t)));
-    if (!(plain_sum(depth, -least_depth) <= tolerable_excess<T> / 2 * magnitude)) return first_contact<T>{};
+    if (!is_tolerable(plain_sum(depth, -least_depth), foot.size / 14, s, t)) return first_contact<T>{};
     const vec3<T> where = foot.is_inside ? core_of(t).at[0] : both.on_a(s).at(0, n);
     answer.found = plain_contact(where, negated(n), depth);
     return answer;

@@ -49,11 +49,12 @@
 namespace abut::detail {
 
 /// y - x in double, rounded once. In constant expressions, where nothing may overflow, a number that is as far out of range.
+/// Hidden from a compiler that would read two coordinates at once, which waits long where a caller has just written them.
 template <scalar T>
 ABUT_HD constexpr double plain_step_from(T x, T y) {
     const auto from = static_cast<double>(x), to = static_cast<double>(y);
     if (ABUT_CONSTANT_EVALUATED() && absolute(to / 4 - from / 4) > 0x1p900) return 0x1p900;
-    return plain_sum(to, -from);
+    return rounded(plain_sum(to, -from));
 }
 template <scalar T>
 ABUT_HD constexpr vec3<double> plain_way_to(const vec3<T>& from, const vec3<T>& to) {
@@ -74,8 +75,9 @@ ABUT_HD constexpr bool are_plain_sizes(double size) {
     return size > 0x1p-200 && size < (std::same_as<T, float> ? 0x1p100 : 0x1p200);
 }
 
-/// x where it lies in [0, 1], or the end that it is beyond; 0 for NaN.
-ABUT_HD constexpr double into_unit_of_doubles(double x) { return least(greatest(x, 0.0), 1.0); }
+/// x where it lies in [0, 1], or the end that it is beyond; 0 for NaN. Hidden, so that what asks for the ends later does not
+/// become branches here, which nobody can predict.
+ABUT_HD constexpr double into_unit_of_doubles(double x) { return rounded(least(greatest(x, 0.0), 1.0)); }
 
 /// Two cores of one or two corners, the one of fewer first, and the least way from the first to the second.
 template <int N, int M>
@@ -143,9 +145,9 @@ struct plain_cores {
         using contact_math::plain_dot;
         if constexpr (M == 1) return way;
         // Of edges inside which it does not end nothing counts. Without branches, which nobody can predict.
-        const double on_b = part_b > 0 && part_b < 1 ? 1.0 : 0.0, rest_f = plain_product(on_b, plain_dot(way, f));
+        const double on_b = (part_b > 0) & (part_b < 1), rest_f = plain_product(on_b, plain_dot(way, f));
         if constexpr (N == 1) return plain_step(way, -plain_product(rest_f, per_ff), f);
-        const double on_a = part_a > 0 && part_a < 1 ? 1.0 : 0.0, rest_e = plain_product(on_a, plain_dot(way, e));
+        const double on_a = (part_a > 0) & (part_a < 1), rest_e = plain_product(on_a, plain_dot(way, e));
         const double both = on_a * on_b, mixed = plain_product(both, ef);
         const double per =
             plain_sum(plain_product(both, per_determinant), plain_product(1 - both, plain_product(per_ee, per_ff)));
@@ -212,7 +214,7 @@ struct plain_place {
     vec3<double> along{0, 0, 0};
 
     /// Rounded, and so far along a way from there.
-    [[nodiscard]] ABUT_HD constexpr vec3<T> at(double part, const vec3<double>& way) const {
+    [[nodiscard]] ABUT_INLINE ABUT_HD constexpr vec3<T> at(double part, const vec3<double>& way) const {
         const vec3<double> v = part == 0 ? along : plain_step(along, part, way);
         const auto one = [](T x, double step) { return rounded(static_cast<T>(plain_sum(static_cast<double>(x), step))); };
         return {one(from.x, v.x), one(from.y, v.y), one(from.z, v.z)};
@@ -406,11 +408,11 @@ struct first_contact {
 
 /// A unit vector along one whose length is 1 but for a few roundings, as contacts hold it.
 template <scalar T>
-ABUT_HD constexpr contact_math::point plain_normal(const contact_math::point& n) {
+ABUT_INLINE ABUT_HD constexpr contact_math::point plain_normal(const contact_math::point& n) {
     return std::same_as<T, float> ? contact_math::as_stored_direction<T>(n) : plain_unit(n);
 }
 template <scalar T>
-ABUT_HD constexpr contact<T> plain_contact(const vec3<T>& where, const contact_math::point& n, double depth) {
+ABUT_INLINE ABUT_HD constexpr contact<T> plain_contact(const vec3<T>& where, const contact_math::point& n, double depth) {
     const auto one = [](double x) { return static_cast<T>(plain_sum(x, 0.0)); };  // not -0
     return {0, 0, where, {one(n.x), one(n.y), one(n.z)}, rounded(static_cast<T>(greatest(depth, 0.0)))};
 }
