@@ -126,7 +126,7 @@ template <scalar T, class U>
 struct plain_pair<hull<T>, U> : plain_gap {
     plain_corner_box<T> box;
 
-    ABUT_HD constexpr plain_pair(const hull<T>& s, const U& t)
+    ABUT_INLINE ABUT_HD constexpr plain_pair(const hull<T>& s, const U& t)
         : plain_gap{0, static_cast<double>(radius_around_core(t))},
           box(s.count != 8 ? plain_corner_box<T>() : with_eight_points(s, [&](const vec3<T>* h) {
               return plain_corner_box<T>(h, core_of(t).at[0], radius_b);

@@ -75,9 +75,11 @@ ABUT_HD constexpr bool are_plain_sizes(double size) {
     return size > 0x1p-200 && size < (std::same_as<T, float> ? 0x1p100 : 0x1p200);
 }
 
-/// x where it lies in [0, 1], or the end that it is beyond; 0 for NaN. Hidden, so that what asks for the ends later does not
-/// become branches here, which nobody can predict.
-ABUT_HD constexpr double into_unit_of_doubles(double x) { return rounded(least(greatest(x, 0.0), 1.0)); }
+/// x where it lies in [0, 1], or the end that it is beyond; 0 for NaN. Numbers are hidden so that neither these comparisons nor
+/// those of the ends later become branches, which nobody can predict.
+ABUT_INLINE ABUT_HD constexpr double into_unit_of_doubles(double x) {
+    return rounded(least(greatest(x, rounded(0.0)), rounded(1.0)));
+}
 
 /// Two cores of one or two corners, the one of fewer first, and the least way from the first to the second.
 template <int N, int M>
@@ -91,7 +93,7 @@ struct plain_cores {
     bool is_good = false;
 
     template <scalar T>
-    ABUT_HD constexpr plain_cores(const corner_hull<T, N>& a, const corner_hull<T, M>& b, double radii)
+    ABUT_INLINE ABUT_HD constexpr plain_cores(const corner_hull<T, N>& a, const corner_hull<T, M>& b, double radii)
         : d(plain_way_to(a.at[0], b.at[0])), way(d), size(plain_sum(plain_magnitudes(d), radii)) {
         using contact_math::plain_dot;
         if constexpr (M > 1) {
@@ -189,7 +191,9 @@ private:
     ///@}
     /// What is left of a slope that should be 0, or at 0 not above, or at 1 not below.
     ABUT_HD static constexpr double slope(double x, double at) {
-        return least(greatest(x, at <= 0 ? 0 : -infinity<double>), at >= 1 ? 0 : infinity<double>);
+        const double ahead = at < 1, behind = at > 0;
+        const double zero = rounded(0.0);
+        return plain_sum(plain_product(ahead, greatest(x, zero)), plain_product(behind, least(x, zero)));
     }
 };
 
@@ -233,7 +237,7 @@ struct plain_pair<S, U> : plain_gap {
     using T = scalar_type_of<S>;
     plain_cores<corners_of_core<S>, corners_of_core<U>> cores;
 
-    ABUT_HD constexpr plain_pair(const S& s, const U& t)
+    ABUT_INLINE ABUT_HD constexpr plain_pair(const S& s, const U& t)
         : plain_gap{static_cast<double>(radius_around_core(s)), static_cast<double>(radius_around_core(t))},
           cores(core_of(s), core_of(t), plain_step_from(-radius_a, radius_b)) {
         length = cores.length, size = cores.size, is_good = cores.is_good;
@@ -263,7 +267,7 @@ struct plain_pair<aabb<T>, U> : plain_gap {
     vec3<T> nearest;
     vec3<double> from_box;
 
-    ABUT_HD constexpr plain_pair(const aabb<T>& s, const U& t)
+    ABUT_INLINE ABUT_HD constexpr plain_pair(const aabb<T>& s, const U& t)
         : plain_gap{0, static_cast<double>(radius_around_core(t))},
           nearest(nearest_in_box(s, core_of(t).at[0])),
           from_box(plain_way_to(nearest, core_of(t).at[0])) {
@@ -363,7 +367,7 @@ struct plain_pair<aabb<T>, U> : plain_gap {
     plain_box_and_edge box;
     vec3<T> start;
 
-    ABUT_HD constexpr plain_pair(const aabb<T>& s, const U& t)
+    ABUT_INLINE ABUT_HD constexpr plain_pair(const aabb<T>& s, const U& t)
         : plain_gap{0, static_cast<double>(radius_around_core(t))}, box(s, core_of(t), radius_b), start(core_of(t).at[0]) {
         size = box.size, is_good = box.is_good;
         if (is_good) length = contact_math::root(contact_math::one_double{contact_math::plain_dot(box.way, box.way)}).high;
