@@ -34,7 +34,7 @@ auto made(const shape& s) {
 }
 
 template <kind K, class S>
-auto placed(const abut::rigid<double>& pose, const S& s) {
+ABUT_INLINE auto placed(const abut::rigid<double>& pose, const S& s) {
     if constexpr (K == kind::sphere) {
         return S{pose.translation, s.radius};
     } else if constexpr (K == kind::box) {

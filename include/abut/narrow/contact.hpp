@@ -128,7 +128,9 @@ template <arithmetic A = filtered, class S, class U>
         if (first.touch == verdict::no) return optional_contact<T>();
         if (first.touch == verdict::yes) return optional_contact<T>(first.found);
     }
-    return detail::contact_by_stages<A, T>(detail::as_stored(s), detail::as_stored(t));
+    const optional_contact<T> late = detail::contact_by_stages<A, T>(detail::as_stored(s), detail::as_stored(t));
+    if (!late) return optional_contact<T>();
+    return optional_contact<T>(*late);  // a copy, so that the answer above need not lie in memory
 }
 
 }  // namespace abut

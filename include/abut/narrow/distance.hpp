@@ -497,7 +497,9 @@ ABUT_INLINE ABUT_HD constexpr auto separation_of(const S& s, const U& t) {
             const plain_pair<S, U> first(s, t);
             if (first.touch() == verdict::no) return plain_separation(s, t, first);
         }
-        return separation_if_not_apart(s, t);
+        const auto late = separation_if_not_apart(s, t);
+        // A copy, so that the answer above need not lie in memory.
+        return separation<scalar_type_of<S>>{late.a, late.b, late.point_a, late.point_b, late.distance};
     }
 }
 

@@ -129,7 +129,9 @@ struct plain_cores {
                     const double most = 0x1p-96 * all, of_e = slope_a(way), of_f = slope_b(way);
                     is_good = is_good && of_e * of_e <= most * ee && of_f * of_f <= most * ff;
                 } else if (is_good) {
-                    is_good = take_ends(de, df);
+                    plain_cores ends = *this;  // a copy, so that this need not lie in memory
+                    is_good = ends.take_ends(de, df);
+                    part_a = ends.part_a, part_b = ends.part_b, way = ends.way;
                 }
             } else {
                 part_b = into_unit_of_doubles(-plain_product(df, per_ff));
@@ -143,7 +145,7 @@ struct plain_cores {
     }
 
     /// The way again, orthogonal to edges inside which it ends but for roundings of its own length.
-    [[nodiscard]] ABUT_HD constexpr vec3<double> straightened() const {
+    [[nodiscard]] ABUT_INLINE ABUT_HD constexpr vec3<double> straightened() const {
         using contact_math::plain_dot;
         if constexpr (M == 1) return way;
         // Of edges inside which it does not end nothing counts. Without branches, which nobody can predict.
@@ -158,7 +160,7 @@ struct plain_cores {
         return plain_step(plain_step(way, plain_product(of_f, per), f), -plain_product(of_e, per), e);
     }
     /// How far a has to go along n to be apart from b, but for radii.
-    [[nodiscard]] ABUT_HD constexpr double overlap(const vec3<double>& n) const {
+    [[nodiscard]] ABUT_INLINE ABUT_HD constexpr double overlap(const vec3<double>& n) const {
         double most = contact_math::plain_dot(n, d);
         if constexpr (M > 1) most = plain_sum(most, greatest(contact_math::plain_dot(n, f), 0.0));
         if constexpr (N > 1) most = plain_sum(most, -least(contact_math::plain_dot(n, e), 0.0));
@@ -186,11 +188,11 @@ private:
     }
     /// What is left of the slopes along the edges.
     ///@{
-    [[nodiscard]] ABUT_HD constexpr double slope_a(const vec3<double>& w) const { return slope(contact_math::plain_dot(w, e), part_a); }
-    [[nodiscard]] ABUT_HD constexpr double slope_b(const vec3<double>& w) const { return slope(-contact_math::plain_dot(w, f), part_b); }
+    [[nodiscard]] ABUT_INLINE ABUT_HD constexpr double slope_a(const vec3<double>& w) const { return slope(contact_math::plain_dot(w, e), part_a); }
+    [[nodiscard]] ABUT_INLINE ABUT_HD constexpr double slope_b(const vec3<double>& w) const { return slope(-contact_math::plain_dot(w, f), part_b); }
     ///@}
     /// What is left of a slope that should be 0, or at 0 not above, or at 1 not below.
-    ABUT_HD static constexpr double slope(double x, double at) {
+    ABUT_INLINE ABUT_HD static constexpr double slope(double x, double at) {
         const double ahead = at < 1, behind = at > 0;
         const double zero = rounded(0.0);
         return plain_sum(plain_product(ahead, greatest(x, zero)), plain_product(behind, least(x, zero)));
@@ -252,10 +254,11 @@ struct plain_pair<S, U> : plain_gap {
 
 private:
     template <int N>
-    ABUT_HD static constexpr plain_place<T> place_in(const corner_hull<T, N>& core, double part, const vec3<double>& edge) {
+    ABUT_INLINE ABUT_HD static constexpr plain_place<T> place_in(const corner_hull<T, N>& core, double part, const vec3<double>& edge) {
         if constexpr (N == 1) return {core.at[0]};
-        const int end = part == 1 ? 1 : 0;
-        return {core.at[end * (N - 1)], plain_times(part - end, edge)};
+        const auto from = [&](T first, T last) { return part == 1 ? last : first; };
+        const vec3<T>&a = core.at[0], &b = core.at[N - 1];
+        return {{from(a.x, b.x), from(a.y, b.y), from(a.z, b.z)}, plain_times(part == 1 ? 0 : part, edge)};
     }
 };
 
