@@ -94,9 +94,9 @@ struct plain_foot {
             is_inside = !(most > 0);
             take(along, aside);
             length = root(one_double{plain_sum(plain_product(along, along), plain_product(aside, aside))}).high;
+            if (!(length > 0) || (per_rho == 0 && aside != 0) || absolute(most) <= 0x1p-40 * size) return;
             const double outward = is_inside ? -length : length;
             ahead = plain_step(plain_times(plain_product(along / outward, per_height), e), aside / outward, straight());
-            if (((per_rho == 0) & (aside != 0)) | (absolute(most) <= 0x1p-40 * size)) return;
         } else {
             const double side = root(one_double{side_square}).high, c = height / side, k = radius / side;
             // Along the side, from its end that is nearer.
