@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: MIT
 #
-# Libraries that no distribution packages, out of checkouts: ABUT_PEERS is a folder with coal/, fcpw/, libigl/ and tinybvh/, each where it
-# is wanted. They are packages like others (cmake/development.cmake): a source that includes one that is not there is left out.
+# Libraries that no distribution packages, out of checkouts: ABUT_PEERS is a folder with coal/, fcpw/, ipc-toolkit/, libigl/ and tinybvh/,
+# each where it is wanted. They are packages like others (cmake/development.cmake): a source that includes one that is not there is left out.
 
-set(ABUT_PEERS "" CACHE PATH "Folder of checkouts of libraries that benchmarks are compared with: coal, fcpw, libigl, tinybvh")
+set(ABUT_PEERS "" CACHE PATH "Folder of checkouts of libraries that benchmarks are compared with: coal, fcpw, ipc-toolkit, libigl, tinybvh")
 
 # The definition says which version of a peer it is.
 function(abut_peer_version target name number)
     execute_process(COMMAND git -C ${ABUT_PEERS}/${name} log -1 --format=%h OUTPUT_VARIABLE commit ERROR_QUIET
                     OUTPUT_STRIP_TRAILING_WHITESPACE)
     string(STRIP "${number} ${commit}" version)
+    string(MAKE_C_IDENTIFIER ${name} name)
     string(TOUPPER ${name} name)
     target_compile_definitions(${target} INTERFACE "ABUT_${name}_VERSION=\"${version}\"")
 endfunction()
@@ -77,3 +78,35 @@ if(EXISTS ${ABUT_PEERS}/libigl/include/igl/FastWindingNumberForSoups.h AND TARGE
     abut_peer_version(abut_libigl libigl "")
 endif()
 abut_package(libigl "<igl/" "libigl in ABUT_PEERS" abut_libigl)
+
+# Additive CCD of the IPC Toolkit, and the distances that it asks, compile alone: its logger, which wants spdlog, only warns there. The
+# header that its own build writes says what is left out.
+if(EXISTS ${ABUT_PEERS}/ipc-toolkit/src/ipc/ccd/additive_ccd.cpp AND TARGET Eigen3::Eigen)
+    set(headers ${CMAKE_CURRENT_BINARY_DIR}/peers_ipc)
+    file(READ ${ABUT_PEERS}/ipc-toolkit/src/ipc/config.hpp.in config)
+    string(REGEX REPLACE "#cmakedefine[^\n]*" "" config "${config}")
+    string(REPLACE "@IPC_TOOLKIT_VERTEX_DERIVATIVE_LAYOUT@" RowMajor config "${config}")
+    file(CONFIGURE OUTPUT ${headers}/ipc/config.hpp CONTENT "${config}" @ONLY)
+    file(CONFIGURE OUTPUT ${headers}/ipc/utils/logger.hpp CONTENT "#pragma once
+#include <stdexcept>
+#include <string>
+namespace ipc {
+struct silent_logger {
+    template <class... A>
+    void warn(const A&...) const {}
+};
+inline silent_logger logger() { return {}; }
+template <class... A>
+[[noreturn]] void log_and_throw_error(const std::string& what, const A&...) { throw std::runtime_error(what); }
+}
+" @ONLY)
+    file(GLOB sources ${ABUT_PEERS}/ipc-toolkit/src/ipc/distance/*.cpp)
+    list(FILTER sources EXCLUDE REGEX "mollifier")
+    add_library(abut_ipc STATIC EXCLUDE_FROM_ALL ${sources} ${ABUT_PEERS}/ipc-toolkit/src/ipc/ccd/additive_ccd.cpp)
+    target_include_directories(abut_ipc SYSTEM PUBLIC ${headers} ${ABUT_PEERS}/ipc-toolkit/src)
+    target_compile_features(abut_ipc PUBLIC cxx_std_20)
+    target_compile_options(abut_ipc PRIVATE -w)
+    target_link_libraries(abut_ipc PUBLIC Eigen3::Eigen)
+    abut_peer_version(abut_ipc ipc-toolkit "")
+endif()
+abut_package(ipc "<ipc/" "ipc-toolkit in ABUT_PEERS" abut_ipc)

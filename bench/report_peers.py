@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The tables of bench/peers.cpp and bench/winding.cpp: abut beside libraries out of checkouts."""
+"""The tables of bench/peers.cpp, winding.cpp and impact_times.cpp: abut beside libraries out of checkouts."""
 
 from report_core import *  # noqa: F403
 
@@ -60,3 +60,20 @@ def winding(results):
             "off by, rms", "at most", "made once, ms"]
     versions = ", ".join(f"{name} {r.context[name]}" for name in others)
     return table(head, rows, 3) + made_on(r, f". {versions}")
+
+
+@in_table("impact_times")
+def impact_times(results):
+    r = results["cpu/impact_times"]
+    rows = []
+    for scene in r.parts("", 0):
+        for kind in r.parts(f"{scene}/", 1):
+            for name in r.parts(f"{scene}/{kind}/", 2):
+                def of(key):
+                    return r.get(f"{scene}/{kind}/{name}", key)
+                rows.append([f"{scene}, {kind.replace('_', '-')}", name.replace("_", ", "), shown(of("ns")),
+                             f"{of('over'):.2f}", f"{whole(of('missed'))} of {whole(of('of'))}", whole(of("late")),
+                             f"{whole(of('phantom'))} of {whole(of('and'))}", f"{of('early'):.1e}", f"{of('worst'):.1e}"])
+    head = ["pairs", "", "ns a pair that touches", "over ACCD", "missed", "late", "said to touch that do not",
+            "too early, half of them by at most", "at most"]
+    return table(head, rows, 2) + made_on(r, f". ACCD of the IPC Toolkit {r.context['ACCD']}")

@@ -66,6 +66,7 @@ cpu within bench_within $G $I --meshes=@D@/meshes
 cpu hulls bench_hulls $G $I
 cpu peers bench_peers --json={}
 cpu winding bench_winding @D@/meshes --json={}
+cpu impact_times bench_impact_times @D@/ccd --json={}
 cpu raycast bench_raycast $G $I --mesh=@D@/meshes/armadillo_345944.ply
 cpu descents bench_descents --json={} --mesh=@D@/meshes/armadillo_345944.ply
 cpu descents_138376 bench_descents --json={} --mesh=@D@/meshes/armadillo_138376.ply

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// abut's answers for bench_peers: shapes are placed anew for each question, as a peer's are.
+// abut's answers for bench_peers: shapes are placed anew for each question, as a peer's are. Of a pose a sphere takes the translation
+// alone, and a box is an oriented one.
 
 #include <stdexcept>
 
@@ -32,11 +33,23 @@ auto made(const shape& s) {
     }
 }
 
+template <kind K, class S>
+ABUT_INLINE auto placed(const abut::rigid<double>& pose, const S& s) {
+    if constexpr (K == kind::sphere) {
+        return S{pose.translation, s.radius};
+    } else if constexpr (K == kind::box) {
+        const double* const r = pose.rotation;
+        return abut::oriented_box<double>{pose.translation, s.upper, {r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8]}};
+    } else {
+        return place(pose, s);
+    }
+}
+
 template <abut::arithmetic A, kind KA, kind KB>
 ask answers_of(const shape& first, const shape& second, question asked) {
     const auto loop = [&](const auto& one) -> ask {
         return [a = made<KA>(first), b = made<KB>(second), one](const std::vector<pose_pair>& poses, std::vector<answer>& out) {
-            for (std::size_t i = 0; i < poses.size(); ++i) one(place(poses[i].a, a), place(poses[i].b, b), out[i]);
+            for (std::size_t i = 0; i < poses.size(); ++i) one(placed<KA>(poses[i].a, a), placed<KB>(poses[i].b, b), out[i]);
         };
     };
     if (asked == question::boolean) {

@@ -91,7 +91,7 @@ namespace abut::detail {
 /// along an axis.
 template <scalar T, class U>
     requires(has_radius<U> && corners_of_core<U> == 1 && has_plain_pair<aabb<T>, U>)
-ABUT_NOINLINE ABUT_HD constexpr first_contact<T> first_contact_of(const aabb<T>& s, const U& t,
+ABUT_INLINE ABUT_HD constexpr first_contact<T> first_contact_of(const aabb<T>& s, const U& t,
                                                                   const plain_pair<aabb<T>, U>& both) {
     using namespace contact_math;
     first_contact<T> answer{both.touch()};
@@ -118,7 +118,7 @@ ABUT_NOINLINE ABUT_HD constexpr first_contact<T> first_contact_of(const aabb<T>&
 /// The same of a box and a capsule whose axis is not in it. The normal is right as in round_contact.hpp.
 template <scalar T, class U>
     requires(has_radius<U> && corners_of_core<U> == 2 && has_plain_pair<aabb<T>, U>)
-ABUT_NOINLINE ABUT_HD constexpr first_contact<T> first_contact_of(const aabb<T>& s, const U& t,
+ABUT_INLINE ABUT_HD constexpr first_contact<T> first_contact_of(const aabb<T>& s, const U& t,
                                                                   const plain_pair<aabb<T>, U>& both) {
     using namespace contact_math;
     first_contact<T> answer{both.touch()};
@@ -127,8 +127,7 @@ ABUT_NOINLINE ABUT_HD constexpr first_contact<T> first_contact_of(const aabb<T>&
     const double per_length = 1 / root(one_double{plain_dot(ahead, ahead)}).high;
     const point n = plain_normal<T>(plain_times(-per_length, ahead));
     const double depth = plain_sum(both.radius_b, both.box.overlap(n)), least_depth = plain_sum(both.radius_b, -both.length);
-    const auto magnitude = static_cast<double>(greatest(magnitude_of(s), magnitude_of(t)));
-    if (!(plain_sum(depth, -least_depth) <= tolerable_excess<T> / 2 * magnitude)) return {};
+    if (!is_tolerable(plain_sum(depth, -least_depth), both.size / 13, s, t)) return {};
     answer.found = plain_contact(both.on_a(s).at(0, n), n, depth);
     return answer;
 }

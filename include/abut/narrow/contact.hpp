@@ -87,7 +87,7 @@ ABUT_HD constexpr auto contact_in_any_order(const S& s, const U& t) {
 
 /// What the closed form tells, nothing where there is none.
 template <scalar T, class S, class U>
-ABUT_HD constexpr first_contact<T> first_contact_in_any_order(const S& s, const U& t) {
+ABUT_INLINE ABUT_HD constexpr first_contact<T> first_contact_in_any_order(const S& s, const U& t) {
     if constexpr (seen_as_hull<S> || seen_as_hull<U>) {
         const auto a = hull_form(s);
         const auto b = hull_form(t);
@@ -102,6 +102,13 @@ ABUT_HD constexpr first_contact<T> first_contact_in_any_order(const S& s, const 
     }
 }
 
+/// Decided, and asked, where the closed form does not tell.
+template <arithmetic A, scalar T, class S, class U>
+ABUT_NOINLINE ABUT_HD constexpr optional_contact<T> contact_by_stages(const S& s, const U& t) {
+    if (!intersects<A>(s, t)) return {};
+    return contact_in_any_order(s, t);
+}
+
 }  // namespace detail
 
 /// The contact of two closed shapes, with ids 0, or none where they do not touch. It takes the pairs that docs/contacts.md
@@ -113,7 +120,7 @@ ABUT_HD constexpr first_contact<T> first_contact_in_any_order(const S& s, const 
 ///     static_assert(c && c->depth == 1 && c->normal == abut::vec3<float>{0, 0, 1});
 /// @ingroup one_pair
 template <arithmetic A = filtered, class S, class U>
-[[nodiscard]] ABUT_HD constexpr auto contact_of(const S& s, const U& t) {
+[[nodiscard]] ABUT_INLINE ABUT_HD constexpr auto contact_of(const S& s, const U& t) {
     using found = decltype(detail::contact_in_any_order(s, t));
     using T = decltype(found::depth);
     if constexpr (std::same_as<A, filtered>) {
@@ -121,8 +128,9 @@ template <arithmetic A = filtered, class S, class U>
         if (first.touch == verdict::no) return optional_contact<T>();
         if (first.touch == verdict::yes) return optional_contact<T>(first.found);
     }
-    if (!intersects<A>(s, t)) return optional_contact<T>();
-    return optional_contact<T>(detail::contact_in_any_order(detail::as_stored(s), detail::as_stored(t)));
+    const optional_contact<T> late = detail::contact_by_stages<A, T>(detail::as_stored(s), detail::as_stored(t));
+    if (!late) return optional_contact<T>();
+    return optional_contact<T>(*late);  // a copy, so that the answer above need not lie in memory
 }
 
 }  // namespace abut

@@ -92,7 +92,7 @@ ABUT_HD constexpr double positive_distance_over(const aabb<T>& a, const aabb<T>&
     return greatest(measured, gap_of_boxes(a, b), 0x1p-1074);
 }
 template <class S, class U>
-ABUT_HD constexpr double positive_distance(const S& s, const U& t, double measured) {
+ABUT_NOINLINE ABUT_HD constexpr double positive_distance(const S& s, const U& t, double measured) {
     return positive_distance_over(bounds(s), bounds(t), measured);
 }
 /// Of measured hulls, whose boxes are known.
@@ -115,18 +115,25 @@ ABUT_HD constexpr T rounded_distance(double distance) {
     return d > 0 ? d : least_positive;
 }
 
-/// Two shapes that are apart, by a closed form in plain doubles. Their boxes are asked where the way is along an axis, but
-/// for what radii leave room for: elsewhere they are nearer to each other. What is rounded is below 16u size, as
-/// plain_ways.hpp says.
+/// Whether the boxes around two shapes are nearer to each other than the shapes for sure, by the way between their cores and
+/// what is rounded. In a coordinate x of the way boxes are no farther apart than |x| - radii, or not at all; with m for the
+/// largest |x| that is no more than |x| (1 - radii / m), so that boxes lose radii length / m, where shapes lose radii. Without
+/// branches, which nobody can predict.
+ABUT_HD constexpr bool are_boxes_nearer(const vec3<double>& way, double length, double radii, double rounding) {
+    const double most = contact_math::largest_of(way);
+    return plain_product(radii, plain_sum(length, -most)) > plain_product(2 * rounding, most) &&
+           plain_sum(length, -radii) > 2 * rounding;
+}
+
+/// Two shapes that are apart, by a closed form in plain doubles. What is rounded is below 16u size, as plain_ways.hpp says.
 template <class S, class U>
-ABUT_HD constexpr double plain_distance(const S& s, const U& t, const plain_pair<S, U>& both) {
-    const double gap = plain_sum(both.length, -both.radii()), inside = plain_sum(0x1p-49 * both.size, -both.radii());
-    const auto beyond = [&](double x) { return greatest(plain_sum(absolute(x), inside), 0.0); };
-    const vec3<double> boxes{beyond(both.way().x), beyond(both.way().y), beyond(both.way().z)};
-    return plain_dot(boxes, boxes) < plain_product(gap, gap) ? gap : positive_distance(s, t, gap);
+ABUT_INLINE ABUT_HD constexpr double plain_distance(const S& s, const U& t, const plain_pair<S, U>& both) {
+    const double gap = plain_sum(both.length, -both.radii());
+    const bool is_more = are_boxes_nearer(both.way(), both.length, both.radii(), 0x1p-49 * both.size);
+    return is_more ? gap : positive_distance(s, t, gap);
 }
 template <class S, class U>
-ABUT_HD constexpr auto plain_separation(const S& s, const U& t, const plain_pair<S, U>& both) {
+ABUT_INLINE ABUT_HD constexpr auto plain_separation(const S& s, const U& t, const plain_pair<S, U>& both) {
     using T = scalar_type_of<S>;
     const double per_length = 1 / both.length;
     return separation<T>{0, 0, both.on_a(s).at(plain_product(both.radius_a, per_length), both.way()),
@@ -287,14 +294,9 @@ ABUT_HD constexpr triangle<T> nearest_triangle_of(const S& s, const hull<T>& h) 
 template <class S, class U, scalar T>
 ABUT_HD constexpr double distance_of_searched(const S& s, const U& t, const measured_plainly<T>& m) {
     const double distance = m.distance();
-    if (m.radius_b > 0) {
-        const double inside = plain_sum(0x1p-48 * plain_sum(m.nearest.size, m.radius_b), -m.radius_b);
-        const auto beyond = [&](double x) { return greatest(plain_sum(absolute(x), inside), 0.0); };
-        const vec3<double>& way = m.nearest.way;
-        const vec3<double> boxes{beyond(way.x), beyond(way.y), beyond(way.z)};
-        if (contact_math::plain_dot(boxes, boxes) < plain_product(distance, distance)) return distance;
-    }
-    return positive_distance(s, t, distance);
+    const double rounding = 0x1p-48 * plain_sum(m.nearest.size, m.radius_b);
+    const bool is_more = are_boxes_nearer(m.nearest.way, m.nearest.length, m.radius_b, rounding);
+    return is_more ? distance : positive_distance(s, t, distance);
 }
 
 /// Of two shapes that do not touch, rounded to double: positive, or infinite.
@@ -434,22 +436,29 @@ ABUT_HD constexpr auto separation_of(const S& s, const U& t, [[maybe_unused]] bo
     }
 }
 
-/// Two shapes of which it is not known whether they touch. Of hulls the search for the distance mostly tells that too; a
-/// device asks both, which is less code.
+/// Whether the closed form is looked at first. Boxes are decided sooner than they are measured.
 template <class S, class U>
-ABUT_HD constexpr auto separation_of(const S& s, const U& t) {
+inline constexpr bool is_measured_plainly = false;
+template <class S, class U>
+    requires(contact_pair<S, U> && has_plain_pair<S, U>)
+inline constexpr bool is_measured_plainly<S, U> = !std::same_as<S, aabb<scalar_type_of<S>>> || has_radius<U>;
+
+template <class S, class U>
+ABUT_HD constexpr auto separation_of(const S& s, const U& t);
+
+/// The same where the closed form does not say that they are apart. Of hulls the search for the distance mostly tells that
+/// too; a device asks both, which is less code.
+template <class S, class U>
+ABUT_NOINLINE ABUT_HD constexpr auto separation_if_not_apart(const S& s, const U& t) {
     using T = scalar_type_of<S>;
     constexpr bool on_device = ABUT_DEVICE_CODE != 0;
-    constexpr bool decided_sooner = std::same_as<S, aabb<T>> && !has_radius<U>;  // than measured
-    if constexpr (contact_pair<S, U> && has_plain_pair<S, U> && !decided_sooner) {
+    if constexpr (is_measured_plainly<S, U>) {
         const plain_pair<S, U> first(s, t);
-        const verdict touch = first.touch();
-        if (touch == verdict::no) return plain_separation(s, t, first);
         if constexpr (has_first_contact<S, U>) {
             const auto found = first_contact_of(s, t, first);
             if (found.touch == verdict::yes) return separation<T>{0, 0, found.found.point, found.found.point, T(0)};
         }
-        if (touch == verdict::yes) return separation_of(s, t, true);
+        if (first.touch() == verdict::yes) return separation_of(s, t, true);
     }
     if constexpr (own_separation<S, U> || own_separation<U, S>) {
         return separation_of(s, t, false);
@@ -472,10 +481,25 @@ ABUT_HD constexpr auto separation_of(const S& s, const U& t) {
         });
     } else if constexpr (!contact_pair<S, U> && measured_hulls<U, S> && !on_device) {
         return reversed(separation_of(t, s));
-    } else if constexpr (!contact_pair<S, U> && has_plain_pair<U, S>) {
-        return reversed(separation_of(t, s));
     } else {
         return separation_of(s, t, intersects(s, t));
+    }
+}
+
+/// Two shapes of which it is not known whether they touch. What closed forms say of shapes apart is part of the caller: shapes
+/// that it has placed and the answer need not go through memory.
+template <class S, class U>
+ABUT_INLINE ABUT_HD constexpr auto separation_of(const S& s, const U& t) {
+    if constexpr (!contact_pair<S, U> && is_measured_plainly<U, S>) {
+        return reversed(separation_of(t, s));
+    } else {
+        if constexpr (is_measured_plainly<S, U>) {
+            const plain_pair<S, U> first(s, t);
+            if (first.touch() == verdict::no) return plain_separation(s, t, first);
+        }
+        const auto late = separation_if_not_apart(s, t);
+        // A copy, so that the answer above need not lie in memory.
+        return separation<scalar_type_of<S>>{late.a, late.b, late.point_a, late.point_b, late.distance};
     }
 }
 
@@ -492,7 +516,7 @@ ABUT_HD constexpr auto separation_of(const S& s, const U& t) {
 ///     static_assert(d.distance == 3 && d.point_a == abut::vec3<float>{0, 0, 3});
 /// @ingroup one_pair
 template <shape S, shape U>
-[[nodiscard]] ABUT_HD constexpr auto distance(const S& s, const U& t) {
+[[nodiscard]] ABUT_INLINE ABUT_HD constexpr auto distance(const S& s, const U& t) {
     constexpr bool are = detail::measurable<S, U>;
     static_assert(are, "abut: there is no distance of this pair of shapes");
     if constexpr (are) {

@@ -126,7 +126,7 @@ template <scalar T, class U>
 struct plain_pair<hull<T>, U> : plain_gap {
     plain_corner_box<T> box;
 
-    ABUT_HD constexpr plain_pair(const hull<T>& s, const U& t)
+    ABUT_INLINE ABUT_HD constexpr plain_pair(const hull<T>& s, const U& t)
         : plain_gap{0, static_cast<double>(radius_around_core(t))},
           box(s.count != 8 ? plain_corner_box<T>() : with_eight_points(s, [&](const vec3<T>* h) {
               return plain_corner_box<T>(h, core_of(t).at[0], radius_b);
@@ -143,13 +143,12 @@ struct plain_pair<hull<T>, U> : plain_gap {
 /// edges. Corners that are off by a few roundings of themselves move overlaps by as much, which contact_bound covers.
 template <scalar T, class U>
     requires has_plain_pair<hull<T>, U>
-ABUT_NOINLINE ABUT_HD constexpr first_contact<T> first_contact_of(const hull<T>& s, const U& t,
+ABUT_INLINE ABUT_HD constexpr first_contact<T> first_contact_of(const hull<T>& s, const U& t,
                                                                   const plain_pair<hull<T>, U>& both) {
     using namespace contact_math;
     first_contact<T> answer{both.touch()};
     if (answer.touch == verdict::no) return answer;
     const auto& box = both.box;
-    const auto magnitude = static_cast<double>(greatest(magnitude_of(s), magnitude_of(t)));
     const double radius = both.radius_b;
     const auto unit = [](const point& v) {
         return plain_normal<T>(plain_times(1 / root(one_double{plain_dot(v, v)}).high, v));
@@ -160,9 +159,10 @@ ABUT_NOINLINE ABUT_HD constexpr first_contact<T> first_contact_of(const hull<T>&
     if (answer.touch == verdict::yes) {
         const point n = unit(box.ahead);
         const double depth = overlap(n), excess = plain_sum(depth, -plain_sum(radius, -both.length));
-        if (!(excess <= tolerable_excess<T> / 2 * magnitude)) return first_contact<T>{};
+        if (!is_tolerable(excess, box.size / 25, s, t)) return first_contact<T>{};
         answer.found = plain_contact(box.nearest.at(0, n), negated(n), depth);
-    } else if (box.is_inside && box.off <= 8 * static_cast<double>(unit_roundoff<T>) * magnitude) {
+    } else if (box.is_inside &&
+               box.off <= 8 * static_cast<double>(unit_roundoff<T>) * static_cast<double>(greatest(magnitude_of(s), magnitude_of(t)))) {
         const double sure = plain_sum(radius, plain_sum(4 * box.off, 0x1p-44 * box.size));
         least_overlap way;
         for (int k = 0; k < 3; ++k) {

@@ -42,7 +42,7 @@ struct plain_foot {
     double length = 0;                          ///< of the way; or inside, to the nearest part of the boundary
 
     template <solid_of_revolution S>
-    ABUT_NOINLINE ABUT_HD constexpr plain_foot(const S& s, const vec3<T>& center, double radius_of_center)
+    ABUT_INLINE ABUT_HD constexpr plain_foot(const S& s, const vec3<T>& center, double radius_of_center)
         : radius(s.radius), is_cone(requires { s.apex; }) {
         using namespace contact_math;
         const segment<T> axis = axis_of(s);
@@ -60,12 +60,11 @@ struct plain_foot {
         const double rho = root(one_double{plain_dot(across, across)}).high, out = plain_sum(rho, -radius);
         const double per_rho = rho > 0x1p-20 * size ? 1 / rho : 0;  // nearer to the axis nothing is said that asks for it
         const double side_square = is_cone ? plain_sum(ee, plain_product(radius, radius)) : ee;
-        if (2 * (is_cone ? plain_sum(pe, plain_product(rho, radius)) : pe) > side_square || pe > ee) {
-            is_last = true;
-            end = axis.b;
-            p = plain_way_to(axis.b, center);
-            pe = plain_dot(p, e);
-        }
+        is_last = (2 * (is_cone ? plain_sum(pe, plain_product(rho, radius)) : pe) > side_square) | (pe > ee);
+        const vec3<T> ends[] = {axis.a, axis.b};
+        end = ends[is_last ? 1 : 0];
+        p = plain_way_to(end, center);
+        pe = plain_dot(p, e);
         const double over_end = plain_product(pe, per_height);
         const double beyond = is_last ? over_end : -over_end;
         // So much of e, and of the direction across.
@@ -87,24 +86,17 @@ struct plain_foot {
             length = absolute(beyond);
         };
         if (!is_cone) {
-            if (beyond > 0 && out > 0) {
-                if (!(per_rho > 0)) return;
-                take(over_end, out);
-                measure();
-            } else if (beyond > 0) {
-                to_end();
-            } else {
-                is_inside = !(out > 0);
-                if (is_inside && beyond > out) {
-                    to_end();
-                } else {
-                    take(0, out);
-                    length = absolute(out);
-                    ahead = straight();
-                    if (!(per_rho > 0)) return;
-                }
-                if (is_inside && !(beyond < -0x1p-40 * size && out < -0x1p-40 * size)) return;
-            }
+            // Along the axis and across, as far as the centre is outside; inside, to what is nearer. Without branches, which
+            // nobody can predict.
+            const double most = rounded(greatest(beyond, out)), to_side = out >= rounded(least(beyond, 0.0)),
+                         to_cap = beyond > rounded(least(out, 0.0)), along = plain_product(to_cap, over_end),
+                         aside = plain_product(to_side, out);
+            is_inside = !(most > 0);
+            take(along, aside);
+            length = root(one_double{plain_sum(plain_product(along, along), plain_product(aside, aside))}).high;
+            if (!(length > 0) || (per_rho == 0 && aside != 0) || absolute(most) <= 0x1p-40 * size) return;
+            const double outward = is_inside ? -length : length;
+            ahead = plain_step(plain_times(plain_product(along / outward, per_height), e), aside / outward, straight());
         } else {
             const double side = root(one_double{side_square}).high, c = height / side, k = radius / side;
             // Along the side, from its end that is nearer.
@@ -141,7 +133,8 @@ struct plain_foot {
         const point turned = plain_cross(n, e);
         const double around =
                          plain_product(radius, plain_product(root(one_double{plain_dot(turned, turned)}).high, per_height)),
-                     along = plain_dot(n, e), first = is_last ? -along : 0, last = is_last ? 0 : along;
+                     along = plain_dot(n, e), to_last = is_last, first = plain_product(-to_last, along),
+                     last = plain_product(1 - to_last, along);
         return greatest(is_cone ? first : plain_sum(first, around), plain_sum(last, around));
     }
 };
@@ -153,7 +146,7 @@ struct plain_pair<S, U> : plain_gap {
     using T = scalar_type_of<S>;
     plain_foot<T> foot;
 
-    ABUT_HD constexpr plain_pair(const S& s, const U& t)
+    ABUT_INLINE ABUT_HD constexpr plain_pair(const S& s, const U& t)
         : plain_gap{0, static_cast<double>(radius_around_core(t))}, foot(s, core_of(t).at[0], radius_b) {
         length = foot.length, size = foot.size, is_good = foot.is_good && !foot.is_inside;
     }
@@ -168,7 +161,7 @@ struct plain_pair<S, U> : plain_gap {
 /// right as in round_contact.hpp.
 template <solid_of_revolution S, class U>
     requires has_plain_pair<S, U>
-ABUT_NOINLINE ABUT_HD constexpr auto first_contact_of(const S& s, const U& t, const plain_pair<S, U>& both) {
+ABUT_INLINE ABUT_HD constexpr auto first_contact_of(const S& s, const U& t, const plain_pair<S, U>& both) {
     using namespace contact_math;
     using T = scalar_type_of<S>;
     const plain_foot<T>& foot = both.foot;
@@ -177,8 +170,7 @@ ABUT_NOINLINE ABUT_HD constexpr auto first_contact_of(const S& s, const U& t, co
     const point n = plain_normal<T>(foot.ahead);
     const double depth = plain_sum(plain_sum(both.radius_b, -plain_dot(n, foot.p)), foot.reach(n)),
                  least_depth = plain_sum(both.radius_b, foot.is_inside ? both.length : -both.length);
-    const auto magnitude = static_cast<double>(greatest(magnitude_of(s), magnitude_of(t)));
-    if (!(plain_sum(depth, -least_depth) <= tolerable_excess<T> / 2 * magnitude)) return first_contact<T>{};
+    if (!is_tolerable(plain_sum(depth, -least_depth), foot.size / 14, s, t)) return first_contact<T>{};
     const vec3<T> where = foot.is_inside ? core_of(t).at[0] : both.on_a(s).at(0, n);
     answer.found = plain_contact(where, negated(n), depth);
     return answer;

@@ -49,11 +49,12 @@
 namespace abut::detail {
 
 /// y - x in double, rounded once. In constant expressions, where nothing may overflow, a number that is as far out of range.
+/// Hidden from a compiler that would read two coordinates at once, which waits long where a caller has just written them.
 template <scalar T>
 ABUT_HD constexpr double plain_step_from(T x, T y) {
     const auto from = static_cast<double>(x), to = static_cast<double>(y);
     if (ABUT_CONSTANT_EVALUATED() && absolute(to / 4 - from / 4) > 0x1p900) return 0x1p900;
-    return plain_sum(to, -from);
+    return rounded(plain_sum(to, -from));
 }
 template <scalar T>
 ABUT_HD constexpr vec3<double> plain_way_to(const vec3<T>& from, const vec3<T>& to) {
@@ -74,8 +75,11 @@ ABUT_HD constexpr bool are_plain_sizes(double size) {
     return size > 0x1p-200 && size < (std::same_as<T, float> ? 0x1p100 : 0x1p200);
 }
 
-/// x where it lies in [0, 1], or the end that it is beyond; 0 for NaN.
-ABUT_HD constexpr double into_unit_of_doubles(double x) { return least(greatest(x, 0.0), 1.0); }
+/// x where it lies in [0, 1], or the end that it is beyond; 0 for NaN. Numbers are hidden so that neither these comparisons nor
+/// those of the ends later become branches, which nobody can predict.
+ABUT_INLINE ABUT_HD constexpr double into_unit_of_doubles(double x) {
+    return rounded(least(greatest(x, rounded(0.0)), rounded(1.0)));
+}
 
 /// Two cores of one or two corners, the one of fewer first, and the least way from the first to the second.
 template <int N, int M>
@@ -89,7 +93,7 @@ struct plain_cores {
     bool is_good = false;
 
     template <scalar T>
-    ABUT_HD constexpr plain_cores(const corner_hull<T, N>& a, const corner_hull<T, M>& b, double radii)
+    ABUT_INLINE ABUT_HD constexpr plain_cores(const corner_hull<T, N>& a, const corner_hull<T, M>& b, double radii)
         : d(plain_way_to(a.at[0], b.at[0])), way(d), size(plain_sum(plain_magnitudes(d), radii)) {
         using contact_math::plain_dot;
         if constexpr (M > 1) {
@@ -125,7 +129,9 @@ struct plain_cores {
                     const double most = 0x1p-96 * all, of_e = slope_a(way), of_f = slope_b(way);
                     is_good = is_good && of_e * of_e <= most * ee && of_f * of_f <= most * ff;
                 } else if (is_good) {
-                    is_good = take_ends(de, df);
+                    plain_cores ends = *this;  // a copy, so that this need not lie in memory
+                    is_good = ends.take_ends(de, df);
+                    part_a = ends.part_a, part_b = ends.part_b, way = ends.way;
                 }
             } else {
                 part_b = into_unit_of_doubles(-plain_product(df, per_ff));
@@ -139,13 +145,13 @@ struct plain_cores {
     }
 
     /// The way again, orthogonal to edges inside which it ends but for roundings of its own length.
-    [[nodiscard]] ABUT_HD constexpr vec3<double> straightened() const {
+    [[nodiscard]] ABUT_INLINE ABUT_HD constexpr vec3<double> straightened() const {
         using contact_math::plain_dot;
         if constexpr (M == 1) return way;
         // Of edges inside which it does not end nothing counts. Without branches, which nobody can predict.
-        const double on_b = part_b > 0 && part_b < 1 ? 1.0 : 0.0, rest_f = plain_product(on_b, plain_dot(way, f));
+        const double on_b = (part_b > 0) & (part_b < 1), rest_f = plain_product(on_b, plain_dot(way, f));
         if constexpr (N == 1) return plain_step(way, -plain_product(rest_f, per_ff), f);
-        const double on_a = part_a > 0 && part_a < 1 ? 1.0 : 0.0, rest_e = plain_product(on_a, plain_dot(way, e));
+        const double on_a = (part_a > 0) & (part_a < 1), rest_e = plain_product(on_a, plain_dot(way, e));
         const double both = on_a * on_b, mixed = plain_product(both, ef);
         const double per =
             plain_sum(plain_product(both, per_determinant), plain_product(1 - both, plain_product(per_ee, per_ff)));
@@ -154,7 +160,7 @@ struct plain_cores {
         return plain_step(plain_step(way, plain_product(of_f, per), f), -plain_product(of_e, per), e);
     }
     /// How far a has to go along n to be apart from b, but for radii.
-    [[nodiscard]] ABUT_HD constexpr double overlap(const vec3<double>& n) const {
+    [[nodiscard]] ABUT_INLINE ABUT_HD constexpr double overlap(const vec3<double>& n) const {
         double most = contact_math::plain_dot(n, d);
         if constexpr (M > 1) most = plain_sum(most, greatest(contact_math::plain_dot(n, f), 0.0));
         if constexpr (N > 1) most = plain_sum(most, -least(contact_math::plain_dot(n, e), 0.0));
@@ -182,12 +188,14 @@ private:
     }
     /// What is left of the slopes along the edges.
     ///@{
-    [[nodiscard]] ABUT_HD constexpr double slope_a(const vec3<double>& w) const { return slope(contact_math::plain_dot(w, e), part_a); }
-    [[nodiscard]] ABUT_HD constexpr double slope_b(const vec3<double>& w) const { return slope(-contact_math::plain_dot(w, f), part_b); }
+    [[nodiscard]] ABUT_INLINE ABUT_HD constexpr double slope_a(const vec3<double>& w) const { return slope(contact_math::plain_dot(w, e), part_a); }
+    [[nodiscard]] ABUT_INLINE ABUT_HD constexpr double slope_b(const vec3<double>& w) const { return slope(-contact_math::plain_dot(w, f), part_b); }
     ///@}
     /// What is left of a slope that should be 0, or at 0 not above, or at 1 not below.
-    ABUT_HD static constexpr double slope(double x, double at) {
-        return least(greatest(x, at <= 0 ? 0 : -infinity<double>), at >= 1 ? 0 : infinity<double>);
+    ABUT_INLINE ABUT_HD static constexpr double slope(double x, double at) {
+        const double ahead = at < 1, behind = at > 0;
+        const double zero = rounded(0.0);
+        return plain_sum(plain_product(ahead, greatest(x, zero)), plain_product(behind, least(x, zero)));
     }
 };
 
@@ -212,7 +220,7 @@ struct plain_place {
     vec3<double> along{0, 0, 0};
 
     /// Rounded, and so far along a way from there.
-    [[nodiscard]] ABUT_HD constexpr vec3<T> at(double part, const vec3<double>& way) const {
+    [[nodiscard]] ABUT_INLINE ABUT_HD constexpr vec3<T> at(double part, const vec3<double>& way) const {
         const vec3<double> v = part == 0 ? along : plain_step(along, part, way);
         const auto one = [](T x, double step) { return rounded(static_cast<T>(plain_sum(static_cast<double>(x), step))); };
         return {one(from.x, v.x), one(from.y, v.y), one(from.z, v.z)};
@@ -231,7 +239,7 @@ struct plain_pair<S, U> : plain_gap {
     using T = scalar_type_of<S>;
     plain_cores<corners_of_core<S>, corners_of_core<U>> cores;
 
-    ABUT_HD constexpr plain_pair(const S& s, const U& t)
+    ABUT_INLINE ABUT_HD constexpr plain_pair(const S& s, const U& t)
         : plain_gap{static_cast<double>(radius_around_core(s)), static_cast<double>(radius_around_core(t))},
           cores(core_of(s), core_of(t), plain_step_from(-radius_a, radius_b)) {
         length = cores.length, size = cores.size, is_good = cores.is_good;
@@ -246,10 +254,11 @@ struct plain_pair<S, U> : plain_gap {
 
 private:
     template <int N>
-    ABUT_HD static constexpr plain_place<T> place_in(const corner_hull<T, N>& core, double part, const vec3<double>& edge) {
+    ABUT_INLINE ABUT_HD static constexpr plain_place<T> place_in(const corner_hull<T, N>& core, double part, const vec3<double>& edge) {
         if constexpr (N == 1) return {core.at[0]};
-        const int end = part == 1 ? 1 : 0;
-        return {core.at[end * (N - 1)], plain_times(part - end, edge)};
+        const auto from = [&](T first, T last) { return part == 1 ? last : first; };
+        const vec3<T>&a = core.at[0], &b = core.at[N - 1];
+        return {{from(a.x, b.x), from(a.y, b.y), from(a.z, b.z)}, plain_times(part == 1 ? 0 : part, edge)};
     }
 };
 
@@ -261,7 +270,7 @@ struct plain_pair<aabb<T>, U> : plain_gap {
     vec3<T> nearest;
     vec3<double> from_box;
 
-    ABUT_HD constexpr plain_pair(const aabb<T>& s, const U& t)
+    ABUT_INLINE ABUT_HD constexpr plain_pair(const aabb<T>& s, const U& t)
         : plain_gap{0, static_cast<double>(radius_around_core(t))},
           nearest(nearest_in_box(s, core_of(t).at[0])),
           from_box(plain_way_to(nearest, core_of(t).at[0])) {
@@ -361,7 +370,7 @@ struct plain_pair<aabb<T>, U> : plain_gap {
     plain_box_and_edge box;
     vec3<T> start;
 
-    ABUT_HD constexpr plain_pair(const aabb<T>& s, const U& t)
+    ABUT_INLINE ABUT_HD constexpr plain_pair(const aabb<T>& s, const U& t)
         : plain_gap{0, static_cast<double>(radius_around_core(t))}, box(s, core_of(t), radius_b), start(core_of(t).at[0]) {
         size = box.size, is_good = box.is_good;
         if (is_good) length = contact_math::root(contact_math::one_double{contact_math::plain_dot(box.way, box.way)}).high;
@@ -406,11 +415,11 @@ struct first_contact {
 
 /// A unit vector along one whose length is 1 but for a few roundings, as contacts hold it.
 template <scalar T>
-ABUT_HD constexpr contact_math::point plain_normal(const contact_math::point& n) {
+ABUT_INLINE ABUT_HD constexpr contact_math::point plain_normal(const contact_math::point& n) {
     return std::same_as<T, float> ? contact_math::as_stored_direction<T>(n) : plain_unit(n);
 }
 template <scalar T>
-ABUT_HD constexpr contact<T> plain_contact(const vec3<T>& where, const contact_math::point& n, double depth) {
+ABUT_INLINE ABUT_HD constexpr contact<T> plain_contact(const vec3<T>& where, const contact_math::point& n, double depth) {
     const auto one = [](double x) { return static_cast<T>(plain_sum(x, 0.0)); };  // not -0
     return {0, 0, where, {one(n.x), one(n.y), one(n.z)}, rounded(static_cast<T>(greatest(depth, 0.0)))};
 }

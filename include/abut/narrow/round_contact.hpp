@@ -52,6 +52,14 @@ struct round_pair {
 template <scalar T>
 inline constexpr double tolerable_excess = (std::same_as<T, float> ? 8 : 16) * static_cast<double>(unit_roundoff<T>);
 
+/// Whether half of that is enough in plain doubles: of the largest magnitude, which is looked for where `less`, that is no
+/// larger, does not tell.
+template <class S, class U>
+ABUT_INLINE ABUT_HD constexpr bool is_tolerable(double excess, double less, const S& s, const U& t) {
+    constexpr double part = tolerable_excess<scalar_type_of<S>> / 2;
+    return excess <= part * less || excess <= part * static_cast<double>(greatest(magnitude_of(s), magnitude_of(t)));
+}
+
 /// The directions of faces: of the triangle, and of what the axis and each edge span. One of them separates an axis that
 /// lies in the triangle soonest.
 template <scalar T>
@@ -134,7 +142,7 @@ inline constexpr bool are_spheres = has_radius<S> && has_radius<U> && corners_of
 /// contact_bound.
 template <class S, class U>
     requires(has_plain_pair<S, U> && corners_of_core<S> > 0 && corners_of_core<U> < 3)
-ABUT_NOINLINE ABUT_HD constexpr auto first_contact_of(const S& s, const U& t, const plain_pair<S, U>& both) {
+ABUT_INLINE ABUT_HD constexpr auto first_contact_of(const S& s, const U& t, const plain_pair<S, U>& both) {
     using namespace contact_math;
     using T = scalar_type_of<S>;
     first_contact<T> answer{both.touch()};
@@ -143,8 +151,8 @@ ABUT_NOINLINE ABUT_HD constexpr auto first_contact_of(const S& s, const U& t, co
     const double distance = root(one_double{plain_dot(away, away)}).high, radii = both.radii(), per_distance = 1 / distance;
     const point n = plain_normal<T>(plain_times(per_distance, away));
     const double depth = plain_sum(both.cores.overlap(n), radii), excess = plain_sum(depth, -plain_sum(radii, -distance));
-    const auto magnitude = static_cast<double>(greatest(magnitude_of(s), magnitude_of(t)));
-    if (!(excess <= tolerable_excess<T> / 2 * magnitude)) return first_contact<T>{};
+    constexpr int corners = corners_of_core<S> + corners_of_core<U>;
+    if (!is_tolerable(excess, both.size / (6 * corners - 4), s, t)) return first_contact<T>{};
     const double from = greatest(plain_sum(distance, -both.radius_a), -both.radius_b);
     const double to = least(plain_sum(distance, both.radius_a), both.radius_b);
     double part = plain_product(plain_sum(from, to) / 2, per_distance);

@@ -29,7 +29,7 @@ ABUT_HD constexpr aabb<T> bounds(const cone<T>& s) {
 
 /// By the ends of its axis; the radius stays, as of a ball.
 template <scalar T>
-ABUT_HD constexpr cone<T> place(const rigid<T>& pose, const cone<T>& s) {
+ABUT_INLINE ABUT_HD constexpr cone<T> place(const rigid<T>& pose, const cone<T>& s) {
     return {place(pose, s.apex), place(pose, s.base_center), s.radius};
 }
 

@@ -28,7 +28,7 @@ ABUT_HD constexpr aabb<T> bounds(const cylinder<T>& s) {
 
 /// By the ends of its axis; the radius stays, as of a ball.
 template <scalar T>
-ABUT_HD constexpr cylinder<T> place(const rigid<T>& pose, const cylinder<T>& s) {
+ABUT_INLINE ABUT_HD constexpr cylinder<T> place(const rigid<T>& pose, const cylinder<T>& s) {
     return {place(pose, s.axis), s.radius};
 }
 

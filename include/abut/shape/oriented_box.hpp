@@ -56,13 +56,34 @@ ABUT_HD constexpr placed_box<T> box_under(const rigid<T>& pose, const corner_hul
     for (int i = 0; i < 8; ++i) box.corners[i] = place(pose, points.at[i]);
     return box;
 }
+/// One coordinate of each corner of a box along the axes, by a row of a rotation: the numbers of `placed`, of which corners share
+/// products and sums.
+template <scalar T>
+struct coordinates_under {
+    T at[8];
+
+    ABUT_INLINE ABUT_HD constexpr coordinates_under(const T* row, T shift, const vec3<T>& lower, const vec3<T>& upper) : at{} {
+        const double r[] = {static_cast<double>(row[0]), static_cast<double>(row[1]), static_cast<double>(row[2])},
+                     t = rounded(static_cast<double>(shift));
+        const double x[] = {plain_product(r[0], static_cast<double>(lower.x)), plain_product(r[0], static_cast<double>(upper.x))},
+                     y[] = {plain_product(r[1], static_cast<double>(lower.y)), plain_product(r[1], static_cast<double>(upper.y))},
+                     z[] = {plain_product(r[2], static_cast<double>(lower.z)), plain_product(r[2], static_cast<double>(upper.z))};
+        const double xy[] = {plain_sum(x[0], y[0]), plain_sum(x[1], y[0]), plain_sum(x[0], y[1]), plain_sum(x[1], y[1])};
+        for (int i = 0; i < 8; ++i) at[i] = rounded(static_cast<T>(plain_sum(plain_sum(xy[i & 3], z[i >> 2]), t)));
+    }
+};
+template <scalar T>
+ABUT_HD constexpr placed_box<T> box_under(const T (&rotation)[9], const vec3<T>& shift, const vec3<T>& lower, const vec3<T>& upper) {
+    const coordinates_under<T> x(rotation, shift.x, lower, upper), y(rotation + 3, shift.y, lower, upper),
+        z(rotation + 6, shift.z, lower, upper);
+    placed_box<T> box;
+    for (int i = 0; i < 8; ++i) box.corners[i] = {x.at[i], y.at[i], z.at[i]};
+    return box;
+}
 template <scalar T>
 ABUT_HD constexpr corner_hull<T, 8> points_of(const oriented_box<T>& box) {
     const vec3<T>& h = box.half;
-    rigid<T> pose;
-    for (int i = 0; i < 9; ++i) pose.rotation[i] = box.rotation[i];
-    pose.translation = box.center;
-    return points_of(box_under(pose, points_of(aabb<T>{{-h.x, -h.y, -h.z}, h})));
+    return points_of(box_under(box.rotation, box.center, {-h.x, -h.y, -h.z}, h));
 }
 
 /// Shapes that are decided and measured as the hull of `points_of` them.
@@ -109,7 +130,7 @@ ABUT_HD constexpr auto bounds(const S& s) {
 ///@{
 template <scalar T>
 ABUT_HD constexpr placed_box<T> place(const rigid<T>& pose, const aabb<T>& box) {
-    return detail::box_under(pose, detail::points_of(box));
+    return detail::box_under(pose.rotation, pose.translation, box.lower, box.upper);
 }
 template <scalar T, detail::seen_as_hull S>
 ABUT_HD constexpr placed_box<T> place(const rigid<T>& pose, const S& box) {

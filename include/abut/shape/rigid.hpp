@@ -80,7 +80,7 @@ ABUT_HD constexpr double farthest(const aabb<T>& box) {
 /// 4 |r| . |p| + |t| units of roundoff (float: |r| . |p| + |t|) and some smallest numbers; what is too large becomes
 /// infinite.
 template <scalar T>
-ABUT_HD constexpr vec3<T> place(const rigid<T>& pose, const vec3<T>& p) {
+ABUT_INLINE ABUT_HD constexpr vec3<T> place(const rigid<T>& pose, const vec3<T>& p) {
     const T* const r = pose.rotation;
     return {detail::placed(r[0], r[1], r[2], p, pose.translation.x), detail::placed(r[3], r[4], r[5], p, pose.translation.y),
             detail::placed(r[6], r[7], r[8], p, pose.translation.z)};

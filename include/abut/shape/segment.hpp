@@ -26,7 +26,7 @@ ABUT_HD constexpr aabb<T> bounds(const segment<T>& s) {
 
 /// By its ends.
 template <scalar T>
-ABUT_HD constexpr segment<T> place(const rigid<T>& pose, const segment<T>& s) {
+ABUT_INLINE ABUT_HD constexpr segment<T> place(const rigid<T>& pose, const segment<T>& s) {
     return {place(pose, s.a), place(pose, s.b)};
 }
 

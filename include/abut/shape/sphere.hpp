@@ -28,7 +28,7 @@ ABUT_HD constexpr aabb<T> bounds(const sphere<T>& s) {
 
 /// By its centre. The radius stays: the world sees the ball of that radius around the placed centre.
 template <scalar T>
-ABUT_HD constexpr sphere<T> place(const rigid<T>& pose, const sphere<T>& s) {
+ABUT_INLINE ABUT_HD constexpr sphere<T> place(const rigid<T>& pose, const sphere<T>& s) {
     return {place(pose, s.center), s.radius};
 }
 
