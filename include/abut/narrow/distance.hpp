@@ -449,7 +449,7 @@ ABUT_HD constexpr auto separation_of(const S& s, const U& t);
 /// The same where the closed form does not say that they are apart. Of hulls the search for the distance mostly tells that
 /// too; a device asks both, which is less code.
 template <class S, class U>
-ABUT_NOINLINE ABUT_HD constexpr auto separation_if_not_apart(const S& s, const U& t) {
+ABUT_HD constexpr auto separation_if_not_apart(const S& s, const U& t) {
     using T = scalar_type_of<S>;
     constexpr bool on_device = ABUT_DEVICE_CODE != 0;
     if constexpr (is_measured_plainly<S, U>) {
@@ -486,6 +486,11 @@ ABUT_NOINLINE ABUT_HD constexpr auto separation_if_not_apart(const S& s, const U
     }
 }
 
+template <class S, class U>
+ABUT_NOINLINE ABUT_HD constexpr auto late_separation_of(const S& s, const U& t) {
+    return separation_if_not_apart(s, t);
+}
+
 /// Two shapes of which it is not known whether they touch. What closed forms say of shapes apart is part of the caller: shapes
 /// that it has placed and the answer need not go through memory.
 template <class S, class U>
@@ -496,10 +501,12 @@ ABUT_INLINE ABUT_HD constexpr auto separation_of(const S& s, const U& t) {
         if constexpr (is_measured_plainly<S, U>) {
             const plain_pair<S, U> first(s, t);
             if (first.touch() == verdict::no) return plain_separation(s, t, first);
+            const auto late = late_separation_of(s, t);
+            // A copy, so that the answer above need not lie in memory.
+            return separation<scalar_type_of<S>>{late.a, late.b, late.point_a, late.point_b, late.distance};
+        } else {
+            return separation_if_not_apart(s, t);
         }
-        const auto late = separation_if_not_apart(s, t);
-        // A copy, so that the answer above need not lie in memory.
-        return separation<scalar_type_of<S>>{late.a, late.b, late.point_a, late.point_b, late.distance};
     }
 }
 

@@ -75,11 +75,9 @@ ABUT_HD constexpr bool are_plain_sizes(double size) {
     return size > 0x1p-200 && size < (std::same_as<T, float> ? 0x1p100 : 0x1p200);
 }
 
-/// x where it lies in [0, 1], or the end that it is beyond; 0 for NaN. Numbers are hidden so that neither these comparisons nor
-/// those of the ends later become branches, which nobody can predict.
-ABUT_INLINE ABUT_HD constexpr double into_unit_of_doubles(double x) {
-    return rounded(least(greatest(x, rounded(0.0)), rounded(1.0)));
-}
+/// x where it lies in [0, 1], or the end that it is beyond; 0 for NaN. Hidden, so that what asks for the ends later does not
+/// become branches here, which nobody can predict.
+ABUT_HD constexpr double into_unit_of_doubles(double x) { return rounded(least(greatest(x, 0.0), 1.0)); }
 
 /// Two cores of one or two corners, the one of fewer first, and the least way from the first to the second.
 template <int N, int M>
@@ -193,9 +191,7 @@ private:
     ///@}
     /// What is left of a slope that should be 0, or at 0 not above, or at 1 not below.
     ABUT_INLINE ABUT_HD static constexpr double slope(double x, double at) {
-        const double ahead = at < 1, behind = at > 0;
-        const double zero = rounded(0.0);
-        return plain_sum(plain_product(ahead, greatest(x, zero)), plain_product(behind, least(x, zero)));
+        return least(greatest(x, at <= 0 ? 0 : -infinity<double>), at >= 1 ? 0 : infinity<double>);
     }
 };
 
