@@ -516,10 +516,9 @@ auto ask_least(const Policy& on, const ask_distance& question, const X& x, const
 /// has shapes of both sets. Of ranks the answer is a `global_separation`, the same on all; each gives the same options.
 ///
 /// @par Memory
-/// As in @ref queries. Nothing is stored for each pair. Where many pairs are equally far apart, a call of two trees takes
-/// 12 bytes for each shape in host memory while it works, and 4 more for a moment; not under `cuda`. A call of a list of
-/// two entries or more takes 12 bytes for each shape of its trees in host memory where something touches, unless these keep
-/// their least ids. Under `cuda` two trees take half a megabyte besides, and each entry of a list some 210 bytes in float and
+/// As in @ref queries. Nothing is stored for each pair. Where many pairs are equally far apart, or touch, a call
+/// takes 12 bytes for each shape of its trees in host memory while it works, and 4 more for a moment, of lists and bodies
+/// too, unless these keep their least ids; not under `cuda`. There two trees take half a megabyte besides, and each entry of a list some 210 bytes in float and
 /// 370 in double.
 ///
 /// @par Errors
