@@ -155,7 +155,7 @@ def nearest_cpu(results):
     r = results["cpu/nearest"]
     lines = []
     for question, title, names in (
-            ("nearest", "the nearest triangle", {"embree": "Embree, point queries", "bvh": "`make_bvh`",
+            ("nearest", "the nearest triangle", {"embree": "Embree, point queries", "fcpw": "FCPW, in vectors of AVX2", "bvh": "`make_bvh`",
                                                  "sah": "`make_bvh`, `sah`",
                                                  "wide_sah": "`wide`, of a `sah` tree",
                                                  "oriented_sah": "`oriented`, of a `sah` tree"}),
@@ -170,14 +170,15 @@ def nearest_cpu(results):
         for index, name in names.items():
             ms = r.get(f"{question}/{index}/serial/{points}")
             if ms is not None:
-                rows.append([name, shown(ms), shown(points / ms / 1e3), quotient(ms, peer)])
+                wrong = r.get(f"{question}/{index}/serial/{points}", "wrong")
+                rows.append([name, shown(ms), shown(points / ms / 1e3), quotient(ms, peer), "" if wrong is None else f"{wrong:,.0f}"])
         lines += [f"For {points:,} points {title}, one core, ms:", ""] + \
-            table(["", "ms", "million points a second", "over the peer"], rows)
+            table(["", "ms", "million points a second", "over the first", "wrong shapes, of a peer"], rows)
     return lines + made_on(r)
 
 
-QUESTIONS = {"nearest": "far from a torus", "nearest_tube": "in its tube", "nearest_close": "close to it",
-             "nearest_mesh_box": "in the box of a scan", "nearest_mesh_close": "close to it"}
+QUESTIONS = {"nearest": "far from a torus", "nearest_tube": "in its tube", "nearest_close": "close to the torus",
+             "nearest_mesh_box": "in the box of a scan", "nearest_mesh_close": "close to the scan"}
 
 
 @in_table("nearest-layouts")

@@ -518,8 +518,8 @@ auto ask_least(const Policy& on, const ask_distance& question, const X& x, const
 /// @par Memory
 /// As in @ref queries. Nothing is stored for each pair. Where many pairs are equally far apart, or touch, a call
 /// takes 12 bytes for each shape of its trees in host memory while it works, and 4 more for a moment, of lists and bodies
-/// too, unless these keep their least ids; not under `cuda`. There two trees take half a megabyte besides, and each entry of a list some 210 bytes in float and
-/// 370 in double.
+/// too, unless these keep their least ids; not under `cuda`. There two trees take half a megabyte besides, and each entry of
+/// a list some 210 bytes in float and 370 in double.
 ///
 /// @par Errors
 /// As in @ref queries, and `error` where `below` is negative or NaN.
