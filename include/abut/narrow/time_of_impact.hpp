@@ -5,8 +5,8 @@
 //
 // For `filtered` and `exact` the time is by definition the largest multiple of 2^-40 that is not above the true one: so it
 // is never later, within 10^-12, and the same bits however it was found. In registers f is followed to its root in double;
-// then its signs on both sides of the multiple are made sure of in pairs of doubles. What these leave open is found in
-// integers.
+// then its signs on both sides of the multiple are made sure of, in double or in pairs of doubles. What these leave open is
+// found in integers.
 
 #include <cstdint>
 
@@ -144,7 +144,12 @@ ABUT_NOINLINE ABUT_HD constexpr time_in_bits filtered_time(const moving_points<T
     const double part = root_of_cubic(
         {k[0], 3 * (k[1] - k[0]), 3 * (k[2] - 2 * k[1] + k[0]), k[3] - 3 * (k[2] - k[1]) - k[0]}, k[3]);
     const double error = filter.volume_error(0x1p-90);
-    return count_of_time(found.j, found.depth, part, [&](double t) { return sign_of_volume<Edges>(p, t, error); });
+    return count_of_time(found.j, found.depth, part, [&](double t) {
+#if !ABUT_DEVICE_CODE  // which would be more code there, for what few pairs ask
+        if (const int sign = filter.sign_of_volume(t); sign != 0) return sign;
+#endif
+        return sign_of_volume<Edges>(p, t, error);
+    });
 }
 
 /// In registers; `unknown` only of filtered and exact.

@@ -234,6 +234,12 @@ public:
         const feature_frame a = at(in.j, in.depth), b = at(in.j + 1, in.depth);
         return {a, b, cross(a.u, a.v), cross(a.u, b.v) + cross(b.u, a.v), cross(b.u, b.v)};
     }
+    /// The sign of f at a time, or 0 where double does not tell.
+    [[nodiscard]] ABUT_HD constexpr int sign_of_volume(double t) const {
+        const feature_frame a = at(t);
+        const double f = dot(cross(a.u, a.v), a.w), error = 0x1p-44 * u_ * v_ * w_;
+        return f > error ? 1 : f < -error ? -1 : 0;
+    }
     /// The area of the answer's condition there.
     [[nodiscard]] ABUT_HD constexpr area_in_time area(const answer& in, int axis) const {
         const feature_frame a = at(in.j, in.depth), b = at(in.j + 1, in.depth);

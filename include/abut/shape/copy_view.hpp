@@ -66,7 +66,7 @@ struct set_parts {
     template <scalar T, memory_space Space>
     static hulls<T, Space> hulls_of(execution::buffer<vec3<T>, Space> points,
                                     execution::buffer<std::uint32_t, Space> offsets,
-                                    execution::buffer<std::uint32_t, Space> edges) {
+                                    execution::buffer<std::uint32_t, Space> edges = {}) {
         hulls<T, Space> made;
         made.points_ = shared_array<vec3<T>, Space>(std::move(points));
         made.offsets_ = shared_array<std::uint32_t, Space>(std::move(offsets));
