@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // expect: abut: bodies of several kinds are asked by one policy; ask several devices or ranks about each two kinds
-#include "devices/host_team.hpp"
+#include "host_team.hpp"
 
 int main() {
     const abut::serial on;
