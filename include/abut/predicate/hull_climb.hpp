@@ -42,7 +42,7 @@ public:
     using point = vec3<double>;
 
     /// Of no hull.
-    ABUT_HD constexpr hull_climb() = default;
+    hull_climb() = default;
     /// Of a hull that has edges and outlives this.
     ABUT_HD constexpr void begin(const hull<T>& h) {
         of_ = &h;
