@@ -56,6 +56,7 @@ NAMES = {
                                      "const auto& crates = robots;",
     "collide/mixed_bodies.hpp": GEAR + "const std::vector machines{abut::posed(gear, here)}; const auto& crates = machines;"
                                        "const auto& grains = machines;",
+    "collide/hull_edges.hpp": "const std::vector<std::vector<abut::vec3<float>>> lists;",
     "collide/row_each.hpp": "const auto room = abut::make_bvh(on, mesh); const abut::spheres<float> links;",
     "collide/touching_bodies.hpp": GEAR + "const std::vector<abut::posed_object<decltype(gear)>> scene;",
     "collide/ray_options.hpp": "const abut::rays<float> rays; const auto index = abut::make_bvh(on, mesh);",
