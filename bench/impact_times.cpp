@@ -26,8 +26,6 @@
 #include <string>
 #include <vector>
 
-#include <time.h>
-
 #include <abut/io/read.hpp>
 #include <abut/narrow/time_of_impact.hpp>
 #include <abut/shape/motion.hpp>
@@ -38,12 +36,6 @@
 namespace {
 
 using namespace impact_peer;
-
-double processor_time() {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return 1e9 * static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec);
-}
 
 template <abut::motion_arithmetic A, int Exponent = 0>
 void times_of(kind k, const std::vector<features>& all, std::vector<double>& out) {
@@ -113,9 +105,9 @@ int main(int argc, char** argv) {
                     for (int run = 0; run < runs; ++run) {
                         for (std::size_t i = 0; i < all.size(); ++i) {
                             found[i].assign(some.size(), 0);
-                            const double start = processor_time();
+                            const double start = bench::processor_time();
                             all[i].times(k, some, found[i]);
-                            times[i].push_back((processor_time() - start) / static_cast<double>(some.size()));
+                            times[i].push_back((bench::processor_time() - start) / static_cast<double>(some.size()));
                         }
                     }
                     std::vector<double> ns;

@@ -8,8 +8,6 @@
 #include <cstdint>
 #include <vector>
 
-#include <time.h>
-
 #include <abut/abut.hpp>
 
 #include "google.hpp"
@@ -22,13 +20,6 @@ constexpr const char* scalar_name = sizeof(T) == 4 ? "float" : "double";
 inline double median(std::vector<double>& times) {
     std::sort(times.begin(), times.end());
     return times[times.size() / 2];
-}
-
-/// Of this thread, in ns.
-inline double processor_time() {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return 1e9 * static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec);
 }
 
 /// `ask(A{})` returns the number of hits of so many items. Counters: the medians of processor times in ns of an item;

@@ -28,8 +28,6 @@
 #include <utility>
 #include <vector>
 
-#include <time.h>
-
 #include "peers/abut.hpp"
 #include "peers/arm.hpp"
 #include "peers/judge.hpp"
@@ -39,12 +37,6 @@
 namespace {
 
 using namespace peers;
-
-double processor_time() {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return 1e9 * static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec);
-}
 
 /// An ellipsoid, by an octahedron whose faces are divided: 18, 66, 258 points. Numbers are rounded to 2^-20.
 shape ellipsoid(int divisions) {
@@ -192,9 +184,9 @@ int main(int argc, char** argv) {
             }
             for (int run = 0; run < runs; ++run) {
                 for (std::size_t k = 0; k < all.size(); ++k) {
-                    const double start = processor_time();
+                    const double start = bench::processor_time();
                     ask_of[k](poses, answers[k]);
-                    times[k].push_back((processor_time() - start) / static_cast<double>(poses.size()));
+                    times[k].push_back((bench::processor_time() - start) / static_cast<double>(poses.size()));
                 }
             }
             std::vector<double> ns;
@@ -253,9 +245,9 @@ int main(int argc, char** argv) {
                 const auto check = make(arm);
                 std::vector<double> times;
                 for (int run = 0; run < std::min(runs, 5); ++run) {
-                    const double start = processor_time();
+                    const double start = bench::processor_time();
                     check(found);
-                    times.push_back((processor_time() - start) / static_cast<double>(right.size()));
+                    times.push_back((bench::processor_time() - start) / static_cast<double>(right.size()));
                 }
                 const double ns = median(times);
                 if (name == "abut") ours = ns;

@@ -23,6 +23,8 @@
 #include <utility>
 #include <vector>
 
+#include <time.h>
+
 namespace bench {
 
 using counters = std::vector<std::pair<std::string, double>>;
@@ -129,6 +131,13 @@ private:
     description context_;
     std::vector<std::pair<std::string, counters>> rows_;
 };
+
+/// Of this thread, in ns.
+inline double processor_time() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return 1e9 * static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec);
+}
 
 /// Takes NAME=VALUE out of the arguments, where NAME is such as "--json"; `otherwise` if it is not there.
 inline std::string take_argument(int& argc, char** argv, const std::string& name, std::string otherwise = "") {

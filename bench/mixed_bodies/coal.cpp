@@ -17,33 +17,17 @@ namespace {
 
 using namespace mixed_scene;
 
-std::shared_ptr<coal::CollisionGeometry> made(const body& b, const std::shared_ptr<coal::CollisionGeometry>& mesh) {
-    switch (b.of) {
-        case kind::mesh:
-            return mesh;
-        case kind::box:
-            return std::make_shared<coal::Box>(2 * b.half.x, 2 * b.half.y, 2 * b.half.z);
-        case kind::capsule:
-            return std::make_shared<coal::Capsule>(b.radius, 2 * b.half_length);
-        case kind::cylinder:
-            return std::make_shared<coal::Cylinder>(b.radius, 2 * b.half_length);
-        case kind::sphere:
-            break;
-    }
-    return std::make_shared<coal::Sphere>(b.radius);
-}
-coal::Transform3s made(const abut::rigid<double>& pose) {
-    coal::Matrix3s m;
-    for (int i = 0; i < 9; ++i) m(i / 3, i % 3) = pose.rotation[i];
-    return {m, coal::Vec3s(pose.translation.x, pose.translation.y, pose.translation.z)};
-}
-
 struct held : coal::CollisionCallBackBase {
     std::vector<std::unique_ptr<coal::CollisionObject>> objects;
     std::vector<std::uint32_t> numbers;
     coal::DynamicAABBTreeCollisionManager tree;
     std::vector<abut::index_pair> found;
 
+    static coal::Transform3s placed(const abut::rigid<double>& pose) {
+        coal::Matrix3s m;
+        for (int i = 0; i < 9; ++i) m(i / 3, i % 3) = pose.rotation[i];
+        return {m, coal::Vec3s(pose.translation.x, pose.translation.y, pose.translation.z)};
+    }
     explicit held(const crowd& s) : numbers(s.bodies.size()) {
         const auto mesh = std::make_shared<coal::BVHModel<coal::OBBRSS>>();
         std::vector<coal::Vec3s> vertices;
@@ -54,7 +38,8 @@ struct held : coal::CollisionCallBackBase {
         mesh->addSubModel(vertices, faces);
         mesh->endModel();
         for (std::size_t i = 0; i < s.bodies.size(); ++i) {
-            objects.push_back(std::make_unique<coal::CollisionObject>(made(s.bodies[i], mesh), made(s.now[i])));
+            const auto shape = shape_of<coal::CollisionGeometry, coal::Box, coal::Capsule, coal::Cylinder, coal::Sphere>(s.bodies[i], mesh);
+            objects.push_back(std::make_unique<coal::CollisionObject>(shape, placed(s.now[i])));
             numbers[i] = static_cast<std::uint32_t>(i);
             objects.back()->setUserData(&numbers[i]);
             tree.registerObject(objects.back().get());
@@ -69,26 +54,11 @@ struct held : coal::CollisionCallBackBase {
         found.push_back(a < b ? abut::index_pair{a, b} : abut::index_pair{b, a});
         return false;
     }
+    void find() { tree.collide(this); }
 };
 
-holder make_coal(const crowd& s) {
-    const auto all = std::make_shared<held>(s);
-    return {[=](const poses& at) {
-                for (std::size_t i = 0; i < at.size(); ++i) {
-                    all->objects[i]->setTransform(made(at[i]));
-                    all->objects[i]->computeAABB();
-                }
-                all->tree.update();
-            },
-            [=] {
-                all->found.clear();
-                all->tree.collide(all.get());
-                return all->found;
-            }};
-}
-
 [[maybe_unused]] const bool added = [] {
-    peers().push_back({"coal", make_coal});
+    peers().push_back({"coal", holder_of<held>});
     return true;
 }();
 

@@ -13,34 +13,18 @@ namespace {
 
 using namespace mixed_scene;
 
-std::shared_ptr<fcl::CollisionGeometryd> made(const body& b, const std::shared_ptr<fcl::CollisionGeometryd>& mesh) {
-    switch (b.of) {
-        case kind::mesh:
-            return mesh;
-        case kind::box:
-            return std::make_shared<fcl::Boxd>(2 * b.half.x, 2 * b.half.y, 2 * b.half.z);
-        case kind::capsule:
-            return std::make_shared<fcl::Capsuled>(b.radius, 2 * b.half_length);
-        case kind::cylinder:
-            return std::make_shared<fcl::Cylinderd>(b.radius, 2 * b.half_length);
-        case kind::sphere:
-            break;
-    }
-    return std::make_shared<fcl::Sphered>(b.radius);
-}
-fcl::Transform3d made(const abut::rigid<double>& pose) {
-    fcl::Transform3d t = fcl::Transform3d::Identity();
-    for (int i = 0; i < 9; ++i) t(i / 3, i % 3) = pose.rotation[i];
-    t.translation() = fcl::Vector3d(pose.translation.x, pose.translation.y, pose.translation.z);
-    return t;
-}
-
 struct held {
     std::vector<std::unique_ptr<fcl::CollisionObjectd>> objects;
     std::vector<std::uint32_t> numbers;
     fcl::DynamicAABBTreeCollisionManagerd tree;
     std::vector<abut::index_pair> found;
 
+    static fcl::Transform3d placed(const abut::rigid<double>& pose) {
+        fcl::Transform3d t = fcl::Transform3d::Identity();
+        for (int i = 0; i < 9; ++i) t(i / 3, i % 3) = pose.rotation[i];
+        t.translation() = fcl::Vector3d(pose.translation.x, pose.translation.y, pose.translation.z);
+        return t;
+    }
     explicit held(const crowd& s) : numbers(s.bodies.size()) {
         const auto mesh = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
         mesh->beginModel(static_cast<int>(s.faces.size()), static_cast<int>(s.vertices.size()));
@@ -48,7 +32,8 @@ struct held {
         for (const auto& f : s.faces) mesh->addTriangle(at(f[0]), at(f[1]), at(f[2]));
         mesh->endModel();
         for (std::size_t i = 0; i < s.bodies.size(); ++i) {
-            objects.push_back(std::make_unique<fcl::CollisionObjectd>(made(s.bodies[i], mesh), made(s.now[i])));
+            const auto shape = shape_of<fcl::CollisionGeometryd, fcl::Boxd, fcl::Capsuled, fcl::Cylinderd, fcl::Sphered>(s.bodies[i], mesh);
+            objects.push_back(std::make_unique<fcl::CollisionObjectd>(shape, placed(s.now[i])));
             numbers[i] = static_cast<std::uint32_t>(i);
             objects.back()->setUserData(&numbers[i]);
             tree.registerObject(objects.back().get());
@@ -63,26 +48,11 @@ struct held {
         static_cast<held*>(data)->found.push_back(a < b ? abut::index_pair{a, b} : abut::index_pair{b, a});
         return false;
     }
+    void find() { tree.collide(this, meet); }
 };
 
-holder make_fcl(const crowd& s) {
-    const auto all = std::make_shared<held>(s);
-    return {[=](const poses& at) {
-                for (std::size_t i = 0; i < at.size(); ++i) {
-                    all->objects[i]->setTransform(made(at[i]));
-                    all->objects[i]->computeAABB();
-                }
-                all->tree.update();
-            },
-            [=] {
-                all->found.clear();
-                all->tree.collide(all.get(), held::meet);
-                return all->found;
-            }};
-}
-
 [[maybe_unused]] const bool added = [] {
-    peers().push_back({"fcl", make_fcl});
+    peers().push_back({"fcl", holder_of<held>});
     return true;
 }();
 

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -67,6 +68,40 @@ struct peer {
     std::string name;
     holder (*make)(const crowd&);
 };
+/// A body's shape, by the classes of a library.
+template <class Shape, class Box, class Capsule, class Cylinder, class Sphere>
+std::shared_ptr<Shape> shape_of(const body& b, const std::shared_ptr<Shape>& mesh) {
+    switch (b.of) {
+        case kind::mesh:
+            return mesh;
+        case kind::box:
+            return std::make_shared<Box>(2 * b.half.x, 2 * b.half.y, 2 * b.half.z);
+        case kind::capsule:
+            return std::make_shared<Capsule>(b.radius, 2 * b.half_length);
+        case kind::cylinder:
+            return std::make_shared<Cylinder>(b.radius, 2 * b.half_length);
+        case kind::sphere:
+            break;
+    }
+    return std::make_shared<Sphere>(b.radius);
+}
+/// What holds bodies as `objects` in a `tree`, and finds those that touch.
+template <class Held>
+holder holder_of(const crowd& s) {
+    const auto all = std::make_shared<Held>(s);
+    return {[=](const poses& at) {
+                for (std::size_t i = 0; i < at.size(); ++i) {
+                    all->objects[i]->setTransform(Held::placed(at[i]));
+                    all->objects[i]->computeAABB();
+                }
+                all->tree.update();
+            },
+            [=] {
+                all->found.clear();
+                all->find();
+                return all->found;
+            }};
+}
 inline std::vector<peer>& peers() {
     static std::vector<peer> all;
     return all;
