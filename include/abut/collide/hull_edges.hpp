@@ -176,7 +176,7 @@ private:
         std::vector<border> edges;
         faces_[first].is_seen = faces_[first].is_gone = true;
         for (std::size_t k = 0; k < seen.size(); ++k) {
-            for (int e = 0; e < 3; ++e) {
+            for (std::size_t e = 0; e < 3; ++e) {
                 const face& f = faces_[seen[k]];
                 const id beyond = f.across[e];
                 face& next = faces_[beyond];
@@ -195,7 +195,7 @@ private:
             faces_.push_back({{b.from, b.to, p}, {b.outside, none, none}, {}});
             at_[b.from] = f;
             face& outside = faces_[b.outside];
-            for (int e = 0; e < 3; ++e) {
+            for (std::size_t e = 0; e < 3; ++e) {
                 if (outside.corner[e] == b.to && outside.corner[(e + 1) % 3] == b.from) outside.across[e] = f;
             }
         }
