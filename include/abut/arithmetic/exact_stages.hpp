@@ -5,10 +5,11 @@
 // is a type with one function, `holds(const N (&value)[V]) -> bool`, written over a number type N with +, -, *,
 // `sign_of_dot` and `squares_at_most`; the values are the coordinates (and radii) that it depends on, all of one unit. It may
 // state the `degree` of its polynomials, and how many of the values' first triples are `points`, which may all be moved by
-// one vector: then it is also asked in words.
+// one vector: then it is also asked in words. In place of bool it may say more, by a type of its own that stage_answer knows.
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include <abut/arithmetic/align.hpp>
 #include <abut/arithmetic/arithmetic.hpp>
@@ -50,10 +51,28 @@ ABUT_HD constexpr auto in_a_row(const vec3<T>& first, const Rest&... rest) {
 
 }  // namespace detail
 
+namespace detail {
+
+/// What a stage makes of what a predicate says, and what it says where it does not decide.
+template <class Said>
+struct stage_answer {
+    ABUT_HD static constexpr Said of(const Said& said) { return said; }
+    ABUT_HD static constexpr Said unknown() { return Said::unknown(); }
+};
+template <>
+struct stage_answer<bool> {
+    ABUT_HD static constexpr verdict of(bool said) { return to_verdict(said); }
+    ABUT_HD static constexpr verdict unknown() { return verdict::unknown; }
+};
+template <class Predicate, std::size_t V>
+using said_by = decltype(Predicate::holds(std::declval<const double (&)[V]>()));
+
+}  // namespace detail
+
 /// In integers of `L` limbs a degree. Coordinates of up to 64 L - 4 bits leave headroom: a sum of three products of
 /// differences (a bit wider each) has degree 2 and at most 128 L - 4 bits, and it is down from there for higher degrees.
 template <class Predicate, int L, std::size_t V>
-ABUT_HD constexpr bool holds_in_limbs(const aligned<V>& x) {
+ABUT_HD constexpr auto holds_in_limbs(const aligned<V>& x) {
     wide_int<L> value[V]{};
     for (int i = 0; i < int{V}; ++i) value[i] = x.template integer<L>(i);
     return Predicate::holds(value);
@@ -127,29 +146,30 @@ inline constexpr int word_digits<Predicate> = Predicate::degree <= 4 ? 30 : 19;
 /// and every kernel that decides would else be compiled with its thousands of instructions once more. Numbers that are few
 /// digits apart need no wide integers.
 template <class Predicate, scalar T, std::size_t V>
-ABUT_NOINLINE ABUT_HD constexpr verdict decide_in_limbs(const T (&value)[V]) {
+ABUT_NOINLINE ABUT_HD constexpr auto decide_in_limbs(const T (&value)[V]) {
+    using answer = detail::stage_answer<detail::said_by<Predicate, V>>;
     constexpr int word_digits = detail::word_digits<Predicate>;
     detail::short_integers<V> x(value);
     if (!x.exact) {
         const aligned<V> wide(value);
-        return wide.width() <= 124 ? to_verdict(holds_in_limbs<Predicate, 2>(wide)) : verdict::unknown;
+        return wide.width() <= 124 ? answer::of(holds_in_limbs<Predicate, 2>(wide)) : answer::unknown();
     }
     if constexpr (word_digits > 0) {
         if (!x.fit(word_digits)) x.template move_first_point_to_0<Predicate::points>();
         if (x.fit(word_digits)) {
             const int zeros = x.zeros();
             for (std::int64_t& n : x.at) n >>= zeros;
-            return to_verdict(Predicate::holds(x.at));
+            return answer::of(Predicate::holds(x.at));
         }
     }
     wide_int<1> limb[V]{};
     for (int i = 0; i < int{V}; ++i) limb[i] = wide_int<1>::shifted(x.at[i], 0);
-    return to_verdict(Predicate::holds(limb));
+    return answer::of(Predicate::holds(limb));
 }
 
 /// The last stage: any finite values, through sums that are never added up.
 template <class Predicate, scalar T, std::size_t V>
-ABUT_HD constexpr bool decide_at_any_span(const T (&value)[V]) {
+ABUT_HD constexpr auto decide_at_any_span(const T (&value)[V]) {
     const aligned<V> x(value);
     sparse_sum<T, 1, 1> sum[V]{};
     for (int i = 0; i < int{V}; ++i) sum[i] = sparse_number<T>(x, i);

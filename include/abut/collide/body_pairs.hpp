@@ -18,6 +18,7 @@
 #include <abut/collide/list_pairing.hpp>
 #include <abut/collide/question.hpp>
 #include <abut/collide/self_pairing.hpp>
+#include <abut/shape/crossing.hpp>
 
 namespace abut {
 
@@ -172,6 +173,10 @@ struct names_of_bodies {
     ABUT_HD static body_contact<T> tagged(const body_pair& of, const contact<T>& c) {
         return {of.body_a, of.body_b, of.a, of.b, c.point, c.normal, c.depth};
     }
+    template <scalar T>
+    ABUT_HD static body_crossing<T> tagged(const body_pair& of, const crossing<T>& c) {
+        return {of.body_a, of.body_b, of.a, of.b, c};
+    }
 };
 
 /// The judge of boxes, which are near each other as a frame tells (traverse/pair_walk.hpp).
@@ -319,6 +324,8 @@ struct form_of_bodies {
     using pair_type = body_pair;
     template <scalar T>
     using contact_type = body_contact<T>;
+    template <scalar T>
+    using crossing_type = body_crossing<T>;
     struct order {
         template <class Found>
         ABUT_HD bool operator()(const Found& x, const Found& y) const {

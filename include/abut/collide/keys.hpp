@@ -52,6 +52,9 @@ struct pair_view {
     [[nodiscard]] ABUT_HD shape_type_b shape_b(std::uint64_t k) const { return b[key.b(k)]; }
     [[nodiscard]] ABUT_HD std::uint64_t pack(std::uint32_t id_a, std::uint32_t id_b) const { return key.pack(id_a, id_b); }
     [[nodiscard]] ABUT_HD index_pair ids(std::uint64_t k) const { return key.unpack(k); }
+    /// The vertices of triangles.
+    [[nodiscard]] ABUT_HD corner_ids vertices_a(std::uint64_t k) const { return vertices_of_shape(a, key.a(k)); }
+    [[nodiscard]] ABUT_HD corner_ids vertices_b(std::uint64_t k) const { return vertices_of_shape(b, key.b(k)); }
     /// The same of a contact.
     template <class Contact>
     [[nodiscard]] ABUT_HD Contact tagged(std::uint64_t k, Contact c) const {

@@ -17,6 +17,7 @@
 #include <abut/collide/list_pairing.hpp>
 #include <abut/collide/placed.hpp>
 #include <abut/collide/question.hpp>
+#include <abut/shape/crossing.hpp>
 
 namespace abut {
 
@@ -106,6 +107,10 @@ struct names_of_entries {
     ABUT_HD static tagged_contact<T> tagged(const tagged_pair& of, const contact<T>& c) {
         return {of.pair, of.a, of.b, c.point, c.normal, c.depth};
     }
+    template <scalar T>
+    ABUT_HD static tagged_crossing<T> tagged(const tagged_pair& of, const crossing<T>& c) {
+        return {of.pair, of.a, of.b, c};
+    }
 };
 
 /// Entry i is of the i-th body of each side.
@@ -191,6 +196,8 @@ struct form_of_list {
     using pair_type = tagged_pair;
     template <scalar T>
     using contact_type = tagged_contact<T>;
+    template <scalar T>
+    using crossing_type = tagged_crossing<T>;
     struct order {
         template <class Found>
         ABUT_HD bool operator()(const Found& x, const Found& y) const {

@@ -110,7 +110,18 @@ struct list_view {
     [[nodiscard]] ABUT_HD auto name(const entry_pair& at) const {
         return Names::pair(at.entry, bodies[at.entry], at.a, at.b);
     }
-    [[nodiscard]] ABUT_HD auto tagged(std::uint64_t k, const contact<T>& c) const { return Names::tagged(ids(k), c); }
+    template <class Found>
+    [[nodiscard]] ABUT_HD auto tagged(std::uint64_t k, const Found& found) const {
+        return Names::tagged(ids(k), found);
+    }
+    [[nodiscard]] ABUT_HD corner_ids vertices_a(std::uint64_t k) const {
+        const entry_pair at = key.unpack(k);
+        return vertices_of_shape(a.objects[members[at.entry].object_a].shapes, at.a);
+    }
+    [[nodiscard]] ABUT_HD corner_ids vertices_b(std::uint64_t k) const {
+        const entry_pair at = key.unpack(k);
+        return vertices_of_shape(b.objects[members[at.entry].object_b].shapes, at.b);
+    }
     ABUT_INLINE void prefetch(std::uint64_t k, int step) const {
         const entry_pair at = key.unpack(k);
         prefetch_shape(a.objects[members[at.entry].object_a].shapes, at.a, step);

@@ -74,6 +74,8 @@ struct form_of_mixed {
     using pair_type = body_pair;
     template <scalar T>
     using contact_type = body_contact<T>;
+    template <scalar T>
+    using crossing_type = body_crossing<T>;
     using order = typename form_of_bodies<bodies<typename mixed_bodies<Indices...>::index_type>>::order;
     const mixed_bodies<Indices...>& all;
 

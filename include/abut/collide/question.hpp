@@ -25,7 +25,7 @@
 // and a list also found_type<Form, T>, what it holds, and judge<A>(relation), which also knows that of a pair.
 //
 // A form has
-//   pair_type, contact_type<T>, order   how what is found is named, and in which order lists are
+//   pair_type, contact_type<T>, crossing_type<T>, order   how what is found is named, and in which order lists are
 //   can_be_asked<Policy, Question, Filter>()   consteval: whether the policy takes the arguments
 //   pair_up(on, relation, options, in_order, function)   the pairing
 
@@ -44,6 +44,8 @@ namespace abut {
 
 template <scalar T>
 struct contact;  // narrow/directions.hpp
+template <scalar T>
+struct crossing;  // shape/crossing.hpp
 
 namespace detail {
 
@@ -226,6 +228,8 @@ struct two {
     using pair_type = index_pair;
     template <scalar T>
     using contact_type = contact<T>;
+    template <scalar T>
+    using crossing_type = crossing<T>;
     using order = by_ids;
     const X& a;
     const Y& b;
@@ -253,6 +257,8 @@ two(const X&, const Y&) -> two<X, Y>;
 template <class X>
 struct alone {
     using pair_type = index_pair;
+    template <scalar T>
+    using crossing_type = crossing<T>;
     using order = by_ids;
     const X& x;
 

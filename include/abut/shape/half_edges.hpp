@@ -19,11 +19,6 @@
 
 namespace abut::detail {
 
-/// The vertices of a face. Not abut::face, whose operator[] is a host function.
-struct corner_ids {
-    std::uint32_t of[3];
-};
-
 ABUT_HD inline corner_ids corners_of(const strided<face>& faces, std::size_t f) {
     const std::uint32_t* const corner = corners_at(faces, f);
     return {{corner[0], corner[1], corner[2]}};

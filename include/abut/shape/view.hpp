@@ -74,6 +74,25 @@ ABUT_HD const std::uint32_t* corners_at(const strided<std::array<std::uint32_t, 
     return static_cast<const std::uint32_t*>(static_cast<const void*>(elements.data + i * elements.stride));
 }
 
+/// The vertices of a face. Not abut::face, whose operator[] is a host function.
+struct corner_ids {
+    std::uint32_t of[3];
+};
+/// The vertices of triangle i of a view; of one that has no faces the number of each corner.
+template <class View>
+ABUT_HD corner_ids vertices_of_shape(const View& v, std::uint32_t i) {
+    if constexpr (requires { corners_at(v.faces, i); }) {
+        const std::uint32_t* const corner = corners_at(v.faces, i);
+        return {{corner[0], corner[1], corner[2]}};
+    } else if constexpr (requires { v.triangles; }) {
+        return vertices_of_shape(v.triangles, i);
+    } else if constexpr (requires { v.shapes[i]; }) {
+        return vertices_of_shape(v.shapes, i);
+    } else {
+        return {{3 * i, 3 * i + 1, 3 * i + 2}};
+    }
+}
+
 }  // namespace detail
 
 /// Shapes as they are, each with all its numbers: triangles that share nothing, spheres each with its own radius, any shape.
