@@ -13,7 +13,7 @@
 namespace abut {
 
 /// What part of a mesh a point lies in: the least one, so on an edge it is in no vertex.
-enum class mesh_part : unsigned char { vertex, edge, face };
+enum class mesh_part : unsigned char { at_vertex, on_edge, in_face };
 
 /// A vertex, an edge or a face of a mesh, by which a point of a crossing is known. Two points of one name are one point.
 struct mesh_feature {
@@ -53,11 +53,11 @@ struct crossing {
     friend constexpr bool operator==(const crossing&, const crossing&) = default;
 
 private:
-    ABUT_HD static constexpr mesh_feature feature(std::uint32_t face, const std::uint32_t (&vertices)[3], unsigned in) {
-        if (in > 5) return {mesh_part::face, face, face};
+    ABUT_HD static constexpr mesh_feature feature(std::uint32_t id, const std::uint32_t (&vertices)[3], unsigned in) {
+        if (in > 5) return {mesh_part::in_face, id, id};
         const std::uint32_t from = vertices[in % 3], to = vertices[(in + 1) % 3];
-        if (in < 3) return {mesh_part::vertex, from, from};
-        return from < to ? mesh_feature{mesh_part::edge, from, to} : mesh_feature{mesh_part::edge, to, from};
+        if (in < 3) return {mesh_part::at_vertex, from, from};
+        return from < to ? mesh_feature{mesh_part::on_edge, from, to} : mesh_feature{mesh_part::on_edge, to, from};
     }
 };
 
