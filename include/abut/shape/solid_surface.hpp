@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The surface of a solid on the host: its faces, what lies beyond each edge, which faces are at a vertex, its connected parts,
+// and which way their faces are turned. Made of triangles that name their vertices; throws where they bound no solid. What two
+// solids have in common is asked of it (collide/relation.hpp).
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <abut/arithmetic/align.hpp>
+#include <abut/arithmetic/big_int.hpp>
+#include <abut/arithmetic/magnitude.hpp>
+#include <abut/error.hpp>
+#include <abut/narrow/crossing.hpp>
+#include <abut/predicate/certified_triangles.hpp>
+#include <abut/predicate/solid_cones.hpp>
+#include <abut/predicate/zero_area.hpp>
+#include <abut/shape/mesh_face.hpp>
+#include <abut/shape/primitive.hpp>
+
+namespace abut::detail {
+
+/// Which side of each other's plane: the sign of the determinant of three vectors from c0, summed over many faces: of six times
+/// the volume between them and a point.
+template <scalar T>
+class volume_sign {
+public:
+    explicit volume_sign(const vec3<T>& from) : from_(from) {}
+    void add(const triangle<T>& t) { faces_.push_back(t); }
+    /// 0 only where the volume is.
+    [[nodiscard]] int sign() const {
+        double sum = 0, most = 0;
+        for (const triangle<T>& t : faces_) {
+            const vec3<double> a = between(widened(from_), widened(t.a)), b = between(widened(from_), widened(t.b)),
+                               c = between(widened(from_), widened(t.c));
+            sum += dot(cross(a, b), c);
+            most += magnitudes(a) * magnitudes(b) * magnitudes(c);
+        }
+        // Each term is off by less than 20 u of its product, and the sum by u for each.
+        const double error = most * (static_cast<double>(faces_.size()) + 40) * 0x1p-52 + 0x1p-300;
+        if (is_finite(most) && absolute(sum) > error) return sum > 0 ? 1 : -1;
+        return exact_sign();
+    }
+
+private:
+    [[nodiscard]] int exact_sign() const {
+        int lowest = 0;
+        bool any = false;
+        const auto parts_of = [](T x) { return take_apart(x); };
+        const auto look = [&](const vec3<T>& p) {
+            for (const T x : {p.x, p.y, p.z}) {
+                if (is_zero(x)) continue;
+                const int e = parts_of(x).exponent;
+                lowest = any ? std::min(lowest, e) : e;
+                any = true;
+            }
+        };
+        look(from_);
+        for (const triangle<T>& t : faces_) look(t.a), look(t.b), look(t.c);
+        const auto whole = [&](T x) {
+            if (is_zero(x)) return big_int();
+            const auto parts = parts_of(x);
+            return big_int(parts.mantissa, parts.exponent - lowest);
+        };
+        const auto to = [&](const vec3<T>& p) {
+            return vec3<big_int>{whole(p.x) - whole(from_.x), whole(p.y) - whole(from_.y), whole(p.z) - whole(from_.z)};
+        };
+        big_int sum;
+        for (const triangle<T>& t : faces_) {
+            const vec3<big_int> a = to(t.a), b = to(t.b), c = to(t.c);
+            sum = sum + (a.y * b.z - a.z * b.y) * c.x + (a.z * b.x - a.x * b.z) * c.y + (a.x * b.y - a.y * b.x) * c.z;
+        }
+        return sum.sign();
+    }
+
+    vec3<T> from_;
+    std::vector<triangle<T>> faces_;
+};
+
+template <scalar T>
+class solid_surface {
+public:
+    using id = std::uint32_t;
+
+    /// Of faces with the numbers of their vertices. Throws invalid_geometry in the name of `function` for the first face that
+    /// is no part of a closed surface whose edges have two faces each, turned alike.
+    solid_surface(std::vector<mesh_face<T>> faces, const char* function) : faces_(std::move(faces)) {
+        check_faces(function);
+        find_neighbours(function);
+        gather_vertices();
+        find_parts();
+        find_turned_parts(function);
+    }
+
+    [[nodiscard]] std::size_t size() const { return faces_.size(); }
+    [[nodiscard]] const triangle<T>& face(id f) const { return faces_[f].corners; }
+    [[nodiscard]] std::size_t parts() const { return first_face_of_part_.size(); }
+    [[nodiscard]] id part_of(id f) const { return part_[f]; }
+    /// A vertex of a part.
+    [[nodiscard]] const vec3<T>& vertex_of_part(id part) const { return faces_[first_face_of_part_[part]].corners.a; }
+
+    /// The solid near a point that lies in a vertex, on an edge or in a face of which this is a place in face f.
+    [[nodiscard]] solid_cone<T> cone_at(id f, place_in_triangle in) const {
+        solid_cone<T> cone;
+        const triangle<T>& t = face(f);
+        if (in == inside_of_triangle) {
+            cone = {{{t.a, t.b}, {t.b, t.c}, {t.c, t.a}}};
+        } else if (in >= side_of_triangle) {
+            const id side = 3 * f + in - side_of_triangle, other = across_[side];
+            const vec3<T> &u = end_of(side), &v = end_of(next(side));
+            cone = {{{u, v}, {u, end_of(next(next(side)))}, {v, u}, {u, end_of(next(next(other)))}}};
+        } else {
+            cone = cone_at_vertex(faces_[f].vertex[in]);
+        }
+        if (is_turned_[part_[f]]) {
+            for (auto& border : cone) std::reverse(border.begin(), border.end());
+        }
+        return cone;
+    }
+
+private:
+    [[nodiscard]] static id next(id side) { return side % 3 == 2 ? side - 2 : side + 1; }
+    [[nodiscard]] id vertex_of(id side) const { return faces_[side / 3].vertex[side % 3]; }
+    /// Where a side begins.
+    [[nodiscard]] const vec3<T>& end_of(id side) const {
+        const triangle<T>& t = faces_[side / 3].corners;
+        return side % 3 == 0 ? t.a : side % 3 == 1 ? t.b : t.c;
+    }
+
+    void check_faces(const char* function) const {
+        for (std::size_t f = 0; f < faces_.size(); ++f) {
+            const verdict v = decide_zero_area<filtered>(faces_[f].corners);
+            if (v == verdict::no) continue;
+            const triangle<T>& t = faces_[f].corners;
+            if (decide_at_any_span<has_inner_points>(in_a_row(t.a, t.b, t.c).value)) continue;
+            throw invalid_geometry(function, "face", f, "the face has no area, so that the solid has no side there; its area is", 0);
+        }
+    }
+
+    void find_neighbours(const char* function) {
+        const std::size_t sides = 3 * faces_.size();
+        std::vector<id> order(sides);
+        std::iota(order.begin(), order.end(), id{0});
+        const auto ends = [&](id s) {
+            const id from = vertex_of(s), to = vertex_of(next(s));
+            return std::pair(std::min(from, to), std::max(from, to));
+        };
+        std::sort(order.begin(), order.end(), [&](id s, id t) {
+            const auto x = ends(s), y = ends(t);
+            return x != y ? x < y : s < t;
+        });
+        across_.assign(sides, 0);
+        for (std::size_t i = 0; i < sides;) {
+            std::size_t last = i;
+            while (last < sides && ends(order[last]) == ends(order[i])) ++last;
+            const id first = order[i];
+            if (last - i != 2) {
+                throw invalid_geometry(function, "face", first / 3,
+                                       last - i == 1 ? "the mesh is not closed: faces at an edge of this face are"
+                                                     : "an edge of this face has not two faces, but",
+                                       static_cast<double>(last - i));
+            }
+            const id second = order[i + 1];
+            if (vertex_of(first) == vertex_of(second)) {
+                throw invalid_geometry(function, "face", first / 3, "faces are turned against each other at an edge of this face; the other one is face",
+                                       second / 3);
+            }
+            across_[first] = second;
+            across_[second] = first;
+            i = last;
+        }
+    }
+
+    void gather_vertices() {
+        id most = 0;
+        for (const auto& f : faces_) most = std::max({most, f.vertex[0], f.vertex[1], f.vertex[2]});
+        first_at_.assign(faces_.empty() ? 1 : std::size_t{most} + 2, 0);
+        for (id s = 0; s < 3 * faces_.size(); ++s) ++first_at_[vertex_of(s) + 1];
+        for (std::size_t v = 0; v + 1 < first_at_.size(); ++v) first_at_[v + 1] += first_at_[v];
+        at_.resize(3 * faces_.size());
+        std::vector<id> put(first_at_.begin(), first_at_.end() - 1);
+        for (id s = 0; s < 3 * faces_.size(); ++s) at_[put[vertex_of(s)]++] = s;
+    }
+
+    /// Faces that share vertices are of one part.
+    void find_parts() {
+        part_.assign(faces_.size(), none);
+        std::vector<id> open;
+        for (id f = 0; f < faces_.size(); ++f) {
+            if (part_[f] != none) continue;
+            const auto number = static_cast<id>(first_face_of_part_.size());
+            first_face_of_part_.push_back(f);
+            part_[f] = number;
+            open.push_back(f);
+            while (!open.empty()) {
+                const id g = open.back();
+                open.pop_back();
+                for (int k = 0; k < 3; ++k) {
+                    const id v = faces_[g].vertex[k];
+                    for (id i = first_at_[v]; i < first_at_[v + 1]; ++i) {
+                        const id h = at_[i] / 3;
+                        if (part_[h] != none) continue;
+                        part_[h] = number;
+                        open.push_back(h);
+                    }
+                }
+            }
+        }
+    }
+
+    /// A part that is inside of an even number of others bounds the solid from outside, and its volume has to be positive; else
+    /// it bounds a hollow. Where that is not so, its faces are turned inside out.
+    void find_turned_parts(const char* function) {
+        is_turned_.assign(parts(), 0);
+        std::vector<volume_sign<T>> volume;
+        std::vector<aabb<T>> box(parts());
+        std::vector<std::vector<id>> faces_of(parts());
+        for (id p = 0; p < parts(); ++p) {
+            volume.emplace_back(vertex_of_part(p));
+            box[p] = bounds(face(first_face_of_part_[p]));
+        }
+        for (id f = 0; f < faces_.size(); ++f) {
+            volume[part_[f]].add(face(f));
+            box[part_[f]] = merge(box[part_[f]], bounds(face(f)));
+            faces_of[part_[f]].push_back(f);
+        }
+        for (id p = 0; p < parts(); ++p) {
+            const int sign = volume[p].sign();
+            if (sign == 0) throw invalid_geometry(function, "face", first_face_of_part_[p], "the part of the surface with this face encloses a volume of", 0);
+            bool is_hollow = false;
+            const vec3<T>& v = vertex_of_part(p);
+            for (id q = 0; q < parts(); ++q) {
+                const auto &lower = box[q].lower, &upper = box[q].upper;
+                if (q == p || v.x < lower.x || v.x > upper.x || v.y < lower.y || v.y > upper.y || v.z > upper.z) continue;
+                for (const id f : faces_of[q]) {
+                    const met_above met = crossing_of<filtered>(v, face(f));
+                    is_hollow ^= met == met_above::leaving || met == met_above::entering;
+                }
+            }
+            is_turned_[p] = (sign > 0) == is_hollow ? 1 : 0;
+        }
+    }
+
+    /// All that goes from a vertex: a border for each fan of faces.
+    [[nodiscard]] solid_cone<T> cone_at_vertex(id v) const {
+        solid_cone<T> cone;
+        std::vector<id> left(at_.begin() + first_at_[v], at_.begin() + first_at_[v + 1]);
+        while (!left.empty()) {
+            auto& border = cone.emplace_back();
+            const id first = left.back();
+            for (id side = first;;) {
+                left.erase(std::find(left.begin(), left.end(), side));
+                border.push_back({end_of(side), end_of(next(side))});
+                side = across_[next(next(side))];
+                if (side == first) break;
+            }
+        }
+        return cone;
+    }
+
+    static constexpr id none = static_cast<id>(-1);
+
+    std::vector<mesh_face<T>> faces_;
+    std::vector<id> across_;              ///< the side beyond each side
+    std::vector<id> first_at_, at_;       ///< sides that begin at each vertex
+    std::vector<id> part_;                ///< of each face
+    std::vector<id> first_face_of_part_;
+    std::vector<char> is_turned_;         ///< of each part
+};
+
+}  // namespace abut::detail

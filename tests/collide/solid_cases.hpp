@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Solids whose relation is known otherwise than by their surfaces: sets of cells of a grid, and tetrahedra.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include <abut/collide/relation.hpp>
+#include <abut/shape/set.hpp>
+
+#include "support/catch.hpp"
+#include "support/draws.hpp"
+
+namespace abut::test {
+
+using place = std::array<int, 3>;
+
+/// What is made of the integer coordinates of a solid: a linear map of determinant 1 or -1, a unit, and an offset.
+struct frame_of_grid {
+    int map[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    double unit = 1;
+
+    template <scalar T>
+    [[nodiscard]] vec3<T> operator()(const place& p) const {
+        const auto row = [&](int i) {
+            const auto sum = map[i][0] * p[0] + map[i][1] * p[1] + map[i][2] * p[2];
+            return static_cast<T>(sum * unit);
+        };
+        return {row(0), row(1), row(2)};
+    }
+};
+
+/// A union of cubes of a grid: cells by their lower corners, in units of `side`.
+struct cells {
+    std::set<place> in;
+    int side = 1;
+    place offset{0, 0, 0};
+
+    [[nodiscard]] place corner(const place& cell, int dx, int dy, int dz) const {
+        return {offset[0] + side * (cell[0] + dx), offset[1] + side * (cell[1] + dy), offset[2] + side * (cell[2] + dz)};
+    }
+    /// The unit cells of which it consists.
+    [[nodiscard]] std::set<place> units() const {
+        std::set<place> all;
+        for (const place& c : in) {
+            const place from = corner(c, 0, 0, 0);
+            for (int x = 0; x < side; ++x) {
+                for (int y = 0; y < side; ++y) {
+                    for (int z = 0; z < side; ++z) all.insert({from[0] + x, from[1] + y, from[2] + z});
+                }
+            }
+        }
+        return all;
+    }
+};
+
+/// The faces of a set of cells, each side of a cell in two triangles by a diagonal that is drawn; all turned outwards, or those
+/// of all turned inwards.
+template <scalar T>
+mesh<T> surface_of(const cells& of, const frame_of_grid& frame, draws& d, bool inwards = false) {
+    std::map<place, std::uint32_t> number;
+    std::vector<vec3<T>> vertices;
+    std::vector<std::array<std::uint32_t, 3>> faces;
+    const auto vertex = [&](const place& p) {
+        const auto [at, fresh] = number.try_emplace(p, static_cast<std::uint32_t>(vertices.size()));
+        if (fresh) vertices.push_back(frame.operator()<T>(p));
+        return at->second;
+    };
+    const auto& m = frame.map;
+    const int determinant = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+                            m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+    for (const place& c : of.in) {
+        for (int axis = 0; axis < 3; ++axis) {
+            for (const int up : {0, 1}) {
+                place beyond = c;
+                beyond[static_cast<std::size_t>(axis)] += up == 1 ? 1 : -1;
+                if (of.in.contains(beyond)) continue;
+                std::array<std::uint32_t, 4> ring{};
+                for (int k = 0; k < 4; ++k) {
+                    int at[3] = {0, 0, 0};
+                    at[axis] = up;
+                    at[(axis + 1) % 3] = k == 1 || k == 2;
+                    at[(axis + 2) % 3] = k >= 2;
+                    ring[static_cast<std::size_t>(k)] = vertex(of.corner(c, at[0], at[1], at[2]));
+                }
+                if ((up == 0) != inwards != (determinant < 0)) std::swap(ring[1], ring[3]);
+                if (d.below(2) == 0) std::rotate(ring.begin(), ring.begin() + 1, ring.end());
+                faces.push_back({ring[0], ring[1], ring[2]});
+                faces.push_back({ring[0], ring[2], ring[3]});
+            }
+        }
+    }
+    return {std::move(vertices), std::move(faces)};
+}
+
+/// Whether the surface has two faces at each edge and one fan at each vertex: no two cells meet in an edge or a corner alone,
+/// and no two cells that are missing.
+inline bool is_manifold(const cells& of) {
+    for (int x = -1; x <= 8; ++x) {
+        for (int y = -1; y <= 8; ++y) {
+            for (int z = -1; z <= 8; ++z) {
+                // The eight cells around a corner: those that are in hang together by sides, and so do the others.
+                std::vector<place> in, out;
+                for (int k = 0; k < 8; ++k) {
+                    const place c{x + (k & 1), y + (k >> 1 & 1), z + (k >> 2)};
+                    (of.in.contains(c) ? in : out).push_back(c);
+                }
+                for (auto* const some : {&in, &out}) {
+                    if (some->empty()) continue;
+                    std::vector<place> open{some->back()};
+                    some->pop_back();
+                    while (!open.empty()) {
+                        const place c = open.back();
+                        open.pop_back();
+                        for (std::size_t i = some->size(); i-- > 0;) {
+                            const place e = (*some)[i];
+                            if (std::abs(c[0] - e[0]) + std::abs(c[1] - e[1]) + std::abs(c[2] - e[2]) != 1) continue;
+                            open.push_back(e);
+                            some->erase(some->begin() + static_cast<std::ptrdiff_t>(i));
+                        }
+                    }
+                    if (!some->empty()) return false;
+                }
+            }
+        }
+    }
+    return true;
+}
+
+inline cells draw_cells(draws& d, int size, int side, int spread) {
+    for (;;) {
+        cells of;
+        of.side = side;
+        const int share = 1 + d.below(9);
+        for (int x = 0; x < size; ++x) {
+            for (int y = 0; y < size; ++y) {
+                for (int z = 0; z < size; ++z) {
+                    if (d.below(10) < share) of.in.insert({x, y, z});
+                }
+            }
+        }
+        if (of.in.empty() || !is_manifold(of)) continue;
+        for (int& x : of.offset) x = d.below(2 * spread + 1) - spread;
+        return of;
+    }
+}
+
+/// What relation says, of the two sets alone.
+inline solid_relation truth_of(const cells& first, const cells& second) {
+    const std::set<place> a = first.units(), b = second.units();
+    const auto count = [](const std::set<place>& x, const std::set<place>& y) {
+        return std::count_if(x.begin(), x.end(), [&](const place& c) { return y.contains(c); });
+    };
+    const auto common = static_cast<std::size_t>(count(a, b));
+    // Surfaces touch in a corner of a unit cell: one at which some unit cell is in a and some is not, and the same of b; or
+    // they cross, which only overlapping solids do.
+    bool touches = false;
+    const auto mixed = [](const std::set<place>& of, const place& p) {
+        int in = 0;
+        for (int k = 0; k < 8; ++k) in += of.contains({p[0] - (k & 1), p[1] - (k >> 1 & 1), p[2] - (k >> 2)});
+        return in > 0 && in < 8;
+    };
+    for (const place& c : a) {
+        for (int k = 0; k < 8 && !touches; ++k) {
+            const place p{c[0] + (k & 1), c[1] + (k >> 1 & 1), c[2] + (k >> 2)};
+            touches = mixed(a, p) && mixed(b, p);
+        }
+    }
+    if (common == 0) return touches ? solid_relation::externally_connected : solid_relation::disconnected;
+    if (common < a.size() && common < b.size()) return solid_relation::partially_overlapping;
+    if (common < b.size()) return touches ? solid_relation::tangential_part : solid_relation::nontangential_part;
+    if (common < a.size()) {
+        return touches ? solid_relation::tangential_part_inverse : solid_relation::nontangential_part_inverse;
+    }
+    return solid_relation::equal;
+}
+
+/// A map by a few shears and swaps.
+inline frame_of_grid draw_frame(draws& d) {
+    frame_of_grid f;
+    for (int k = 0; k < 4; ++k) {
+        const int i = d.below(3), j = (i + 1 + d.below(2)) % 3, by = d.below(3) - 1;
+        for (int c = 0; c < 3; ++c) f.map[i][c] += by * f.map[j][c];
+    }
+    if (d.below(2) == 0) {
+        for (int c = 0; c < 3; ++c) std::swap(f.map[0][c], f.map[1][c]);
+    }
+    f.unit = d.below(2) == 0 ? 1 : 0x1p-20;
+    return f;
+}
+
+// --- tetrahedra
+
+using tetrahedron = std::array<place, 4>;
+
+inline std::int64_t volume_of(const place& a, const place& b, const place& c, const place& d) {
+    const auto x = [&](const place& p) { return std::int64_t{p[0]} - a[0]; };
+    const auto y = [&](const place& p) { return std::int64_t{p[1]} - a[1]; };
+    const auto z = [&](const place& p) { return std::int64_t{p[2]} - a[2]; };
+    return x(b) * (y(c) * z(d) - z(c) * y(d)) - y(b) * (x(c) * z(d) - z(c) * x(d)) + z(b) * (x(c) * y(d) - y(c) * x(d));
+}
+inline tetrahedron draw_tetrahedron(draws& d, int size) {
+    for (;;) {
+        tetrahedron t;
+        for (place& p : t) {
+            for (int& x : p) x = d.below(size);
+        }
+        const std::int64_t volume = volume_of(t[0], t[1], t[2], t[3]);
+        if (volume == 0) continue;
+        if (volume < 0) std::swap(t[0], t[1]);
+        return t;
+    }
+}
+template <scalar T>
+mesh<T> surface_of(const tetrahedron& t, const frame_of_grid& frame) {
+    std::vector<vec3<T>> vertices;
+    for (const place& p : t) vertices.push_back(frame.operator()<T>(p));
+    return {std::move(vertices), {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+}
+
+/// By planes: two convex bodies have no interior point in common if a plane along a face of one, or along an edge of each,
+/// has them on different sides.
+inline solid_relation truth_of(const tetrahedron& a, const tetrahedron& b) {
+    using normal = std::array<std::int64_t, 3>;
+    const auto minus = [](const place& p, const place& q) { return normal{p[0] - q[0], p[1] - q[1], p[2] - q[2]}; };
+    const auto across = [](const normal& u, const normal& v) {
+        return normal{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+    };
+    const auto height = [](const normal& n, const place& p) { return n[0] * p[0] + n[1] * p[1] + n[2] * p[2]; };
+    std::vector<normal> faces_a, faces_b, all;
+    const auto faces = [&](const tetrahedron& t) {
+        std::vector<normal> found;
+        for (std::size_t i = 0; i < 4; ++i) {
+            normal n = across(minus(t[(i + 2) % 4], t[(i + 1) % 4]), minus(t[(i + 3) % 4], t[(i + 1) % 4]));
+            if (height(n, t[i]) > height(n, t[(i + 1) % 4])) n = {-n[0], -n[1], -n[2]};
+            found.push_back(n);
+        }
+        return found;
+    };
+    faces_a = faces(a);
+    faces_b = faces(b);
+    all = faces_a;
+    all.insert(all.end(), faces_b.begin(), faces_b.end());
+    for (std::size_t i = 0; i < 4; ++i) {
+        for (std::size_t j = i + 1; j < 4; ++j) {
+            for (std::size_t k = 0; k < 4; ++k) {
+                for (std::size_t l = k + 1; l < 4; ++l) {
+                    const normal n = across(minus(a[j], a[i]), minus(b[l], b[k]));
+                    if (n != normal{0, 0, 0}) all.push_back(n);
+                }
+            }
+        }
+    }
+    bool both = true, apart = false;
+    for (const normal& n : all) {
+        std::int64_t low_a = height(n, a[0]), high_a = low_a, low_b = height(n, b[0]), high_b = low_b;
+        for (const place& p : a) low_a = std::min(low_a, height(n, p)), high_a = std::max(high_a, height(n, p));
+        for (const place& p : b) low_b = std::min(low_b, height(n, p)), high_b = std::max(high_b, height(n, p));
+        if (high_a <= low_b || high_b <= low_a) both = false;
+        if (high_a < low_b || high_b < low_a) apart = true;
+    }
+    // A plane along two edges alone may leave out that tetrahedra with a common plane are apart in it: points and edges of
+    // one against faces of the other, by faces of the common part of their surfaces.
+    if (apart) return solid_relation::disconnected;
+    const auto is_in = [&](const tetrahedron& x, const tetrahedron& y, const std::vector<normal>& n, bool& touches) {
+        bool in = true;
+        touches = false;
+        for (const place& p : x) {
+            for (std::size_t i = 0; i < 4; ++i) {
+                const std::int64_t above = height(n[i], p) - height(n[i], y[(i + 1) % 4]);
+                in &= above <= 0;
+                touches |= above == 0;
+            }
+        }
+        return in;
+    };
+    bool touches_a = false, touches_b = false;
+    const bool a_in_b = is_in(a, b, faces_b, touches_a), b_in_a = is_in(b, a, faces_a, touches_b);
+    if (a_in_b && b_in_a) return solid_relation::equal;
+    if (a_in_b) return touches_a ? solid_relation::tangential_part : solid_relation::nontangential_part;
+    if (b_in_a) return touches_b ? solid_relation::tangential_part_inverse : solid_relation::nontangential_part_inverse;
+    return both ? solid_relation::partially_overlapping : solid_relation::externally_connected;
+}
+
+/// Two sets of cells of many kinds.
+inline std::pair<cells, cells> draw_two_sets(draws& d, std::uint64_t k) {
+    cells a = draw_cells(d, 3, 2, 0), b = draw_cells(d, 1 + d.below(3), 1 + d.below(2), 3);
+    if (k % 8 == 3) std::swap(a, b);
+    if (k % 8 == 5) {  // a shell, and something in it or in its wall
+        a.in.clear();
+        a.side = 1 + d.below(2);
+        for (int x = 0; x < 5; ++x) {
+            for (int y = 0; y < 5; ++y) {
+                for (int z = 0; z < 5; ++z) {
+                    if (x % 4 == 0 || y % 4 == 0 || z % 4 == 0) a.in.insert({x, y, z});
+                }
+            }
+        }
+        b = draw_cells(d, 1 + d.below(2), 1, 4);
+    }
+    if (k % 8 == 7) {  // a block, and something in it
+        a.in.clear();
+        for (int i = 0; i < 125; ++i) a.in.insert({i % 5, i / 5 % 5, i / 25});
+        b = draw_cells(d, 1 + d.below(3), 1, 3);
+    }
+    if (k % 4 == 0) {  // a itself, or one cell more or less of it
+        cells other = a;
+        const place c{d.below(3), d.below(3), d.below(3)};
+        if (k % 8 == 0 && !other.in.insert(c).second && other.in.size() > 1) other.in.erase(c);
+        if (is_manifold(other)) b = other;
+    }
+    return {a, b};
+}
+
+/// A few of them on a policy, as meshes, trees and under poses.
+template <scalar T, class Policy>
+void check_relations(const Policy& on) {
+    for (std::uint64_t k = 0; k < 24; ++k) {
+        draws d(20270514, 4, k);
+        const auto [a, b] = draw_two_sets(d, k);
+        const frame_of_grid f = draw_frame(d);
+        const auto x = copy_to(on, surface_of<T>(a, f, d)), y = copy_to(on, surface_of<T>(b, f, d));
+        const auto tree = make_bvh(on, y);
+        const solid_relation truth = truth_of(a, b);
+        const rigid<T> there{{0, -1, 0, 1, 0, 0, 0, 0, 1}, {2, 0, -1}};
+        CAPTURE(k);
+        CHECK(relation(on, x, tree) == truth);
+        CHECK(relation<exact>(on, posed(x, there), posed(tree, there), {.known_solid = true}) == truth);
+        CHECK(overlaps(on, tree, x) == (truth > solid_relation::externally_connected));
+    }
+}
+
+inline const char* name_of(solid_relation r) {
+    constexpr const char* names[] = {"disconnected", "externally connected", "partially overlapping", "equal", "tangential part",
+                                     "nontangential part", "tangential part, inverse", "nontangential part, inverse"};
+    return names[static_cast<int>(r)];
+}
+
+}  // namespace abut::test

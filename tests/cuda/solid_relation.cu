@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: MIT
+#include <abut/cuda.hpp>
+
+#include "collide/solid_cases.hpp"
+#include "support/catch.hpp"
+
+TEMPLATE_TEST_CASE("relation of solids: cuda", "", float, double) { abut::test::check_relations<TestType>(abut::cuda{}); }
