@@ -175,6 +175,17 @@ void query_rays() {
     //! [raycast_all]
 }
 
+void query_relation() {
+    const abut::serial on;
+    //! [relation]
+    const abut::rigid<float> beside{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {4, 0, 0}};
+    const auto other = abut::posed(tetrahedron, beside);
+    expect(abut::relation(on, tetrahedron, tetrahedron) == abut::solid_relation::equal);
+    expect(abut::relation(on, tetrahedron, other) == abut::solid_relation::externally_connected);
+    expect(!abut::overlaps(on, tetrahedron, other));
+    //! [relation]
+}
+
 void query_inside() {
     const abut::serial on;
     //! [inside]
@@ -241,6 +252,7 @@ int main() {
     query_distance();
     query_within();
     query_rays();
+    query_relation();
     query_inside();
     query_mesh();
     query_one_pair();

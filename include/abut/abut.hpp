@@ -29,6 +29,7 @@
 #include <abut/collide/raycast_all.hpp>
 #include <abut/collide/raycast_detailed.hpp>
 #include <abut/collide/reduce_contacts.hpp>
+#include <abut/collide/relation.hpp>
 #include <abut/collide/row_each.hpp>
 #include <abut/collide/self_pairs.hpp>
 #include <abut/collide/touching_bodies.hpp>

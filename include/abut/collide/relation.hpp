@@ -17,7 +17,7 @@
 #include <abut/collide/inside.hpp>
 #include <abut/collide/question.hpp>
 #include <abut/index/bvh.hpp>
-#include <abut/shape/solid_surface.hpp>
+#include <abut/collide/solid_surface.hpp>
 
 namespace abut {
 
