@@ -289,6 +289,12 @@ inline solid_relation truth_of(const tetrahedron& a, const tetrahedron& b) {
     return both ? solid_relation::partially_overlapping : solid_relation::externally_connected;
 }
 
+/// Which bodies are looked at.
+struct only_below {
+    std::uint32_t end;
+    ABUT_HD bool operator()(std::uint32_t a, std::uint32_t b) const { return a < end && b < end; }
+};
+
 /// Two sets of cells of many kinds.
 inline std::pair<cells, cells> draw_two_sets(draws& d, std::uint64_t k) {
     cells a = draw_cells(d, 3, 2, 0), b = draw_cells(d, 1 + d.below(3), 1 + d.below(2), 3);
@@ -335,6 +341,54 @@ void check_relations(const Policy& on) {
         CHECK(relation<exact>(on, posed(x, there), posed(tree, there), {.known_solid = true}) == truth);
         CHECK(overlaps(on, tree, x) == (truth > solid_relation::externally_connected));
     }
+}
+
+/// Scenes of bodies and lists of them.
+template <scalar T, class Policy>
+void check_scenes_of_solids(const Policy& on, std::uint64_t scenes) {
+    using tree = decltype(make_bvh(on, copy_to(on, mesh<T>())));
+    std::uint64_t of[8] = {}, wrong = 0;
+    for (std::uint64_t k = 0; k < scenes; ++k) {
+        draws d(20270514, 5, k);
+        const frame_of_grid f = draw_frame(d);
+        std::vector<cells> all;
+        std::vector<posed_object<tree>> scene;
+        for (int i = 0; i < 8; ++i) {
+            cells c = draw_cells(d, 1 + d.below(4), 1 + d.below(2), 4);
+            if (i == 7) {
+                c = {};
+                for (int p = 0; p < 125; ++p) c.in.insert({p % 5, p / 5 % 5, p / 25});
+                c.offset = {-1, -1, -1};
+            }
+            const rigid<T> there{{0, -1, 0, 1, 0, 0, 0, 0, 1}, {2, 0, -1}};
+            all.push_back(c);
+            scene.push_back(posed(make_bvh(on, copy_to(on, surface_of<T>(c, f, d))), there));
+        }
+        std::vector<posed_pair<tree>> list;
+        for (const auto& a : scene) {
+            for (const auto& b : scene) list.push_back({a, b});
+        }
+        const auto each = relation(on, list, {.known_solid = k % 2 == 0});
+        auto found = relation(on, scene, {.known_solid = k % 2 == 1});
+        CHECK(found == relation(on, make_bodies(on, scene)));
+        std::size_t next = 0;
+        for (std::uint32_t i = 0; i < 8; ++i) {
+            for (std::uint32_t j = 0; j < 8; ++j) {
+                const solid_relation truth = truth_of(all[i], all[j]);
+                ++of[static_cast<int>(truth)];
+                wrong += each[8 * i + j] != truth;
+                if (i >= j || truth == solid_relation::disconnected) continue;
+                wrong += next >= found.size() || found[next] != body_relation{i, j, truth};
+                ++next;
+            }
+        }
+        CHECK(found.size() == next);
+        const auto without_last = relation(on, scene, {}, body_options{.bodies = only_below{7}});
+        std::erase_if(found, [](const body_relation& r) { return r.body_b == 7; });
+        CHECK(without_last == found);
+    }
+    CHECK(wrong == 0);
+    for (int i = 0; i < 8; ++i) CHECK((of[i] > 0 || scenes < 20));
 }
 
 inline const char* name_of(solid_relation r) {

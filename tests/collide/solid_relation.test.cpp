@@ -152,6 +152,32 @@ TEMPLATE_TEST_CASE("relation: on each policy", "", float, double) {
     check_relations<TestType>(openmp{.threads = 3});
 }
 
+TEMPLATE_TEST_CASE("relation: scenes of bodies and lists", "", float, double) {
+    check_scenes_of_solids<TestType>(serial{}, 20);
+    check_scenes_of_solids<TestType>(openmp{.threads = 3}, 4);
+}
+
+TEST_CASE("relation: a body that is no solid is named") {
+    const serial on;
+    cells one;
+    one.in.insert({0, 0, 0});
+    draws d(1, 1, 1);
+    const mesh<float> box = surface_of<float>(one, {}, d);
+    std::vector<vec3<float>> vertices;
+    std::vector<std::array<std::uint32_t, 3>> faces;
+    for (std::size_t i = 0; i < 8; ++i) vertices.push_back(box.view().vertices[i]);
+    for (std::size_t i = 0; i < 11; ++i) faces.push_back(box.view().faces[i]);
+    const rigid<float> there{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {0.5F, 0, 0}};
+    const auto good = make_bvh(on, box), open = make_bvh(on, mesh<float>(vertices, faces));
+    const std::vector scene{posed(good, there), posed(good, there), posed(open, there)};
+    try {
+        (void)relation(on, scene);
+        FAIL("nothing was thrown");
+    } catch (const invalid_geometry& e) {
+        CHECK(std::string(e.what()).find("abut::relation: body 2, face") == 0);
+    }
+}
+
 namespace {
 
 /// A box, and the number of the face that a test spoils.

@@ -4,4 +4,7 @@
 #include "collide/solid_cases.hpp"
 #include "support/catch.hpp"
 
-TEMPLATE_TEST_CASE("relation of solids: cuda", "", float, double) { abut::test::check_relations<TestType>(abut::cuda{}); }
+TEMPLATE_TEST_CASE("relation of solids: cuda", "", float, double) {
+    abut::test::check_relations<TestType>(abut::cuda{});
+    abut::test::check_scenes_of_solids<TestType>(abut::cuda{}, 4);
+}

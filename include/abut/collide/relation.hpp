@@ -10,7 +10,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <abut/collide/crossings.hpp>
@@ -18,6 +23,7 @@
 #include <abut/collide/question.hpp>
 #include <abut/index/bvh.hpp>
 #include <abut/collide/solid_surface.hpp>
+#include <abut/collide/touching_bodies.hpp>
 
 namespace abut {
 
@@ -114,84 +120,104 @@ aabb<T> box_of(const std::vector<mesh_face<T>>& faces) {
     return box;
 }
 
-/// Two solids on the host, and what is known of them.
+/// A solid on the host. Not for several threads at a time.
 template <scalar T>
-class two_solids {
+class solid_on_host {
 public:
-    two_solids(std::vector<mesh_face<T>> a, std::vector<mesh_face<T>> b, const char* function)
-        : a_(std::move(a), function), b_(std::move(b), function) {}
+    solid_on_host(std::vector<mesh_face<T>> faces, const char* function, const std::string& element = "face")
+        : surface_(std::move(faces), function, element) {}
 
-    /// What is common near the points in which surfaces touch, until `is_enough` says so of what is found.
-    template <class Enough>
-    void look_near(const std::vector<crossing<T>>& contacts, const Enough& is_enough) {
-        struct place {
-            mesh_feature a, b;
-            std::uint32_t face_a, face_b;
-            unsigned char in_a, in_b;
-        };
-        std::vector<place> places;
-        for (const crossing<T>& c : contacts) {
-            const auto add = [&](unsigned in_a, unsigned in_b) {
-                crossing<T> one = c;
-                one.in_a[0] = static_cast<unsigned char>(in_a);
-                one.in_b[0] = static_cast<unsigned char>(in_b);
-                places.push_back({one.feature_a(0), one.feature_b(0), c.a, c.b, one.in_a[0], one.in_b[0]});
-            };
-            for (int i = 0; i < c.count; ++i) {
-                add(c.in_a[i], c.in_b[i]);
-                const int j = i + 1 == c.count ? 0 : i + 1;
-                if (i < j || c.count > 2) add(place_between(c.in_a[i], c.in_a[j]), place_between(c.in_b[i], c.in_b[j]));
-            }
-            if (c.count > 2) add(inside_of_triangle, inside_of_triangle);
-            touched_a_[a_.part_of(c.a)] = touched_b_[b_.part_of(c.b)] = 1;
+    [[nodiscard]] const solid_surface<T>& surface() const { return surface_; }
+    /// Whether points that are not on the surface are inside.
+    [[nodiscard]] std::vector<bool> have_inside(std::vector<vec3<T>> vertices) const {
+        const serial on;
+        if (!tree_) {
+            std::vector<triangle<T>> corners;
+            corners.reserve(surface_.size());
+            for (const mesh_face<T>& f : surface_.faces()) corners.push_back(f.corners);
+            tree_.emplace(make_bvh(on, triangle_soup<T>(std::move(corners))));
         }
-        const auto name = [](const place& p) { return std::array<mesh_feature, 2>{p.a, p.b}; };
-        std::sort(places.begin(), places.end(), [&](const place& p, const place& q) { return name(p) < name(q); });
-        touches_ = !contacts.empty();
-        for (std::size_t i = 0; i < places.size() && !is_enough(found_); ++i) {
-            if (i > 0 && name(places[i]) == name(places[i - 1])) continue;
-            const place& p = places[i];
-            found_ |= regions_of_cones(a_.cone_at(p.face_a, p.in_a), b_.cone_at(p.face_b, p.in_b));
-        }
+        execution::buffer_of<serial, containment> where(on, vertices.size());
+        const auto rows = make_operand(on, points<T>(std::move(vertices)), "abut::relation");
+        look_upward<filtered>(on, make_operand(on, *tree_, "abut::relation"), rows, where.data());
+        std::vector<bool> are(where.size());
+        for (std::size_t i = 0; i < are.size(); ++i) are[i] = where.data()[i] == containment::inside;
+        return are;
     }
-    /// And what is known of parts that touch nothing.
-    void look_at_parts(const std::vector<mesh_face<T>>& faces_a, const std::vector<mesh_face<T>>& faces_b) {
-        look_at_parts(a_, touched_a_, faces_b, {true, false, true}, {false, true, false});
-        look_at_parts(b_, touched_b_, faces_a, {true, true, false}, {false, false, true});
-    }
-
-    [[nodiscard]] const common_regions& found() const { return found_; }
-    [[nodiscard]] bool touches() const { return touches_; }
 
 private:
-    void look_at_parts(const solid_surface<T>& of, const std::vector<char>& touched, const std::vector<mesh_face<T>>& other,
-                       const common_regions& if_inside, const common_regions& if_outside) {
+    using tree_type = decltype(make_bvh(serial{}, triangle_soup<T>()));
+
+    solid_surface<T> surface_;
+    mutable std::optional<tree_type> tree_;
+};
+
+/// What two solids have in common of which no faces pass through each other, from what faces do have in common, until that is
+/// enough.
+template <scalar T, class Enough>
+common_regions regions_of_solids(const solid_on_host<T>& a, const solid_on_host<T>& b, std::span<const crossing<T>> contacts,
+                                 const Enough& is_enough) {
+    const solid_surface<T>&of_a = a.surface(), &of_b = b.surface();
+    std::vector<char> touched_a(of_a.parts(), 0), touched_b(of_b.parts(), 0);
+    struct contact_place {
+        std::array<mesh_feature, 2> name;
+        std::uint32_t face_a, face_b;
+        place_in_triangle in_a, in_b;
+    };
+    std::vector<contact_place> places;
+    for (crossing<T> c : contacts) {
+        const auto add = [&](place_in_triangle in_a, place_in_triangle in_b) {
+            c.in_a[0] = static_cast<unsigned char>(in_a);
+            c.in_b[0] = static_cast<unsigned char>(in_b);
+            places.push_back({{c.feature_a(0), c.feature_b(0)}, c.a, c.b, in_a, in_b});
+        };
+        const crossing<T> all = c;
+        for (int i = 0; i < all.count; ++i) {
+            add(all.in_a[i], all.in_b[i]);
+            const int j = i + 1 == all.count ? 0 : i + 1;
+            if (i < j || all.count > 2) add(place_between(all.in_a[i], all.in_a[j]), place_between(all.in_b[i], all.in_b[j]));
+        }
+        if (all.count > 2) add(inside_of_triangle, inside_of_triangle);
+        touched_a[of_a.part_of(c.a)] = touched_b[of_b.part_of(c.b)] = 1;
+    }
+    std::sort(places.begin(), places.end(), [](const auto& p, const auto& q) { return p.name < q.name; });
+    common_regions found;
+    for (std::size_t i = 0; i < places.size() && !is_enough(found); ++i) {
+        const contact_place& p = places[i];
+        if (i > 0 && p.name == places[i - 1].name) continue;
+        found |= regions_of_cones(of_a.cone_at(p.face_a, p.in_a), of_b.cone_at(p.face_b, p.in_b));
+    }
+    // Parts that touch nothing.
+    const auto look_at_parts = [&](const solid_surface<T>& of, const std::vector<char>& touched, const solid_on_host<T>& other,
+                                   const common_regions& if_inside, const common_regions& if_outside) {
         std::vector<vec3<T>> vertices;
         for (std::uint32_t p = 0; p < of.parts(); ++p) {
             if (touched[p] == 0) vertices.push_back(of.vertex_of_part(p));
         }
-        if (vertices.empty()) return;
-        std::vector<triangle<T>> corners;
-        for (const auto& f : other) corners.push_back(f.corners);
-        const auto tree = make_bvh(serial{}, triangle_soup<T>(std::move(corners)));
-        execution::buffer_of<serial, containment> where(serial{}, vertices.size());
-        const auto rows = make_operand(serial{}, points<T>(std::move(vertices)), "abut::relation");
-        look_upward<filtered>(serial{}, make_operand(serial{}, tree, "abut::relation"), rows, where.data());
-        for (std::size_t i = 0; i < where.size(); ++i) found_ |= where.data()[i] == containment::inside ? if_inside : if_outside;
-    }
+        if (vertices.empty() || is_enough(found)) return;
+        for (const bool is : other.have_inside(std::move(vertices))) found |= is ? if_inside : if_outside;
+    };
+    look_at_parts(of_a, touched_a, b, {true, false, true}, {false, true, false});
+    look_at_parts(of_b, touched_b, a, {true, true, false}, {false, false, true});
+    return found;
+}
 
-    solid_surface<T> a_, b_;
-    std::vector<char> touched_a_ = std::vector<char>(a_.parts(), 0), touched_b_ = std::vector<char>(b_.parts(), 0);
-    common_regions found_;
-    bool touches_ = false;
-};
+inline solid_relation named(const common_regions& found, bool touches) {
+    if (!found.both) return touches ? solid_relation::externally_connected : solid_relation::disconnected;
+    if (found.first_alone && found.second_alone) return solid_relation::partially_overlapping;
+    if (found.second_alone) return touches ? solid_relation::tangential_part : solid_relation::nontangential_part;
+    if (found.first_alone) {
+        return touches ? solid_relation::tangential_part_inverse : solid_relation::nontangential_part_inverse;
+    }
+    return solid_relation::equal;
+}
 
 /// Throws where a surface passes through itself or touches itself.
 template <class Policy, class X>
-void require_simple(const Policy& on, const X& x, const char* function) {
+void require_simple(const Policy& on, const X& x, const char* function, const std::string& element = "face") {
     const auto pairs = to_host(self_pairs(on, x));
     if (pairs.empty()) return;
-    throw invalid_geometry(function, "face", pairs.front().a,
+    throw invalid_geometry(function, element, pairs.front().a,
                            "the surface passes through itself or touches itself at this face; the other face is",
                            pairs.front().b);
 }
@@ -224,11 +250,134 @@ std::pair<common_regions, bool> regions_of(const Policy& on, const X& x, const Y
     if (options.known_solid && pass()) return {{true, true, true}, true};
     const auto faces_a = faces_on_host(on, a), faces_b = faces_on_host(on, b);
     if (options.known_solid && !overlaps(box_of(faces_a), box_of(faces_b))) return {{false, true, true}, false};
-    two_solids<T> solids(faces_a, faces_b, function);
+    const solid_on_host<T> solid_a(faces_a, function), solid_b(faces_b, function);
     if (!options.known_solid && pass()) return {{true, true, true}, true};
-    solids.look_near(to_host(ask_for<A>(touching{}, all_crossings{}).find(on, pairing)), is_enough);
-    if (!is_enough(solids.found())) solids.look_at_parts(faces_a, faces_b);
-    return {solids.found(), solids.touches()};
+    const std::vector<crossing<T>> contacts = to_host(ask_for<A>(touching{}, all_crossings{}).find(on, pairing));
+    return {regions_of_solids<T>(solid_a, solid_b, contacts, is_enough), !contacts.empty()};
+}
+
+// --- many bodies
+
+/// Shapes of an entry by the number of the entry.
+struct names_of_open_entries : names_of_entries_of_bodies {
+    template <scalar T>
+    ABUT_HD static tagged_crossing<T> tagged(const pair_of_entry& of, const crossing<T>& c) {
+        return {of.pair, of.a, of.b, c};
+    }
+};
+
+/// Bodies on the host, each made when it is asked for.
+template <class Policy, class Index>
+class bodies_on_host {
+public:
+    using T = typename Index::scalar_type;
+
+    bodies_on_host(const Policy& on, const placed_bodies<Index>& all, const char* function, const char* what)
+        : on_(on), objects_(*all.objects), function_(function), what_(what), object_of_(all.size()), poses_(all.size()), made_(all.size()) {
+        download(on, all.objects->object_of.data(), all.size(), object_of_.data());
+        download(on, all.poses->data(), all.size(), poses_.data());
+    }
+    const solid_on_host<T>& operator[](std::uint32_t i) {
+        if (!made_[i]) {
+            const auto shapes = view_of(objects_.indices[object_of_[i]].set());
+            const placed_shapes<std::remove_const_t<decltype(shapes)>> placed{{shapes, poses_[i]}};
+            made_[i] = std::make_unique<solid_on_host<T>>(faces_on_host(on_, placed), function_, element(i));
+        }
+        return *made_[i];
+    }
+    /// Throws where the surface of a body's index passes through itself.
+    void require_solids(const std::vector<index_pair>& entries, bool second) {
+        std::vector<char> looked(objects_.indices.size(), 0);
+        for (const index_pair& e : entries) {
+            const std::uint32_t i = second ? e.b : e.a, object = object_of_[i];
+            if (std::exchange(looked[object], 1) != 0) continue;
+            require_simple(on_, objects_.indices[object], function_, element(i));
+            (void)(*this)[i];
+        }
+    }
+
+private:
+    template <class View>
+    struct placed_shapes {
+        posed_view<View> placed;
+        [[nodiscard]] const posed_view<View>& shapes() const { return placed; }
+    };
+    [[nodiscard]] std::string element(std::uint32_t i) const { return std::string(what_) + " " + std::to_string(i) + ", face"; }
+
+    const Policy& on_;
+    const placed_objects<Index>& objects_;
+    const char *function_, *what_;
+    std::vector<std::uint32_t> object_of_;
+    std::vector<rigid<T>> poses_;
+    std::vector<std::unique_ptr<solid_on_host<T>>> made_;
+};
+
+/// The relation of each entry of a pairing. `both_are_one`: a's bodies are b's.
+template <arithmetic A, class Policy, class Pairing>
+std::vector<solid_relation> relations_of_entries(const Policy& on, const Pairing& pairing, const std::vector<index_pair>& entries,
+                                                 const solid_options& options, const char* function, const char* what) {
+    using index_a = std::remove_cvref_t<decltype(pairing.a.objects->indices.front())>;
+    using index_b = std::remove_cvref_t<decltype(pairing.b.objects->indices.front())>;
+    using T = typename Pairing::T;
+    const std::size_t n = entries.size();
+    std::vector<solid_relation> found(n, solid_relation::partially_overlapping);
+    bodies_on_host<Policy, index_a> bodies_a(on, pairing.a, function, what);
+    std::optional<bodies_on_host<Policy, index_b>> others;
+    const bool is_one = static_cast<const void*>(pairing.a.objects.get()) == static_cast<const void*>(pairing.b.objects.get()) &&
+                        static_cast<const void*>(pairing.a.poses.get()) == static_cast<const void*>(pairing.b.poses.get());
+    const auto solid_b = [&](std::uint32_t i) -> const solid_on_host<T>& {
+        if constexpr (std::same_as<index_a, index_b>) {
+            if (is_one) return bodies_a[i];
+        }
+        if (!others) others.emplace(on, pairing.b, function, what);
+        return (*others)[i];
+    };
+    if (!options.known_solid) {
+        bodies_a.require_solids(entries, false);
+        if constexpr (std::same_as<index_a, index_b>) {
+            if (is_one) bodies_a.require_solids(entries, true);
+        }
+        if (!is_one) others.emplace(on, pairing.b, function, what), others->require_solids(entries, true);
+    }
+    execution::buffer_of<Policy, std::uint32_t> marks(on, n);
+    mark_entries<A>(on, pairing, passing_through{}, marks.data());
+    std::vector<std::uint32_t> pass(n);
+    download(on, marks.data(), n, pass.data());
+    using closing = until_found_pairing<Pairing, names_of_open_entries>;
+    const typename closing::filter until{{}, pairing.options.filter, marks.data()};
+    auto sorted = with_filter(pairing.options, until);
+    sorted.sorted = true;
+    const auto contacts = to_host(all_crossings{}.find<A>(on, closing{pairing, sorted}, touching{}));
+    std::vector<crossing<T>> some;
+    for (std::size_t i = 0, k = 0; i < n; ++i) {
+        some.clear();
+        for (; k < contacts.size() && contacts[k].pair == i; ++k) {
+            some.push_back(contacts[k].common);
+            some.back().a = contacts[k].a;
+            some.back().b = contacts[k].b;
+        }
+        if (pass[i] != 0) continue;
+        const solid_on_host<T>&a = bodies_a[entries[i].a], &b = solid_b(entries[i].b);
+        const auto all_known = [](const common_regions& regions) { return regions.all(); };
+        found[i] = a.surface().size() == 0 || b.surface().size() == 0
+                       ? solid_relation::disconnected
+                       : named(regions_of_solids<T>(a, b, some, all_known), !some.empty());
+    }
+    return found;
+}
+/// Which bodies the entries of a pairing are.
+template <class Policy, class Pairing>
+std::vector<index_pair> entries_of(const Policy& on, const Pairing& pairing) {
+    std::vector<index_pair> entries(pairing.members.size());
+    download(on, pairing.bodies.data(), entries.size(), entries.data());
+    return entries;
+}
+
+template <class Index>
+consteval bool are_solid_bodies() {
+    constexpr bool are = has_faces<Index>;
+    static_assert(are, "abut: solids are closed meshes: trees of meshes");
+    return are;
 }
 
 }  // namespace detail
@@ -275,13 +424,7 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Y>
     if constexpr (detail::are_solids<X, Y>()) {
         const auto [found, touches] = detail::regions_of<A>(on, a, b, options, "abut::relation",
                                                                    [](const auto& regions) { return regions.all(); });
-        if (!found.both) return touches ? solid_relation::externally_connected : solid_relation::disconnected;
-        if (found.first_alone && found.second_alone) return solid_relation::partially_overlapping;
-        if (found.second_alone) return touches ? solid_relation::tangential_part : solid_relation::nontangential_part;
-        if (found.first_alone) {
-            return touches ? solid_relation::tangential_part_inverse : solid_relation::nontangential_part_inverse;
-        }
-        return solid_relation::equal;
+        return detail::named(found, touches);
     } else {
         return solid_relation::disconnected;
     }
@@ -297,6 +440,54 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Y>
         return detail::regions_of<A>(on, a, b, options, "abut::overlaps", is_enough).first.both;
     } else {
         return false;
+    }
+}
+
+/// Two bodies that are not disconnected, and how the first lies to the second.
+struct body_relation {
+    std::uint32_t body_a;     ///< position of the first body
+    std::uint32_t body_b;     ///< position of the second one, which is higher
+    solid_relation relation;  ///< of the first to the second
+
+    friend constexpr bool operator==(const body_relation&, const body_relation&) = default;
+};
+
+/// The same of all bodies of a scene, `bodies` or a std::vector of posed trees of meshes: a std::vector in host memory, of all
+/// two that are not disconnected, sorted by body_a, then body_b. `which` says as of `pairs` which bodies are looked at
+/// (`body_options::bodies`); its other members are not used. A body that is no solid is named in the message; each index is
+/// looked at once.
+///
+/// Which bodies have faces that pass through each other is found for all of them in one go, and so is where the others touch.
+/// What follows is for one thread of the host. There each body that touches another one, or whose box does, takes up to 250
+/// bytes a face.
+template <arithmetic A = filtered, execution_policy Policy, many_bodies Scene, class Which = body_options<>>
+    requires(!std::same_as<A, fast> && detail::are_body_options<Which>)
+[[nodiscard]] std::vector<body_relation> relation(const Policy& on, const Scene& scene, const solid_options& options = {},
+                                                  const Which& which = {}) {
+    std::vector<body_relation> found;
+    if constexpr (detail::are_solid_bodies<typename detail::index_of_bodies<Scene>::type>()) {
+        constexpr const char* function = "abut::relation";
+        const auto pairing = detail::whole(scene).pair_up(on, detail::touching{}, which, true, function);
+        const std::vector<index_pair> entries = detail::entries_of(on, pairing);
+        const auto relations = detail::relations_of_entries<A>(on, pairing, entries, options, function, "body");
+        for (std::size_t i = 0; i < entries.size(); ++i) {
+            if (relations[i] != solid_relation::disconnected) found.push_back({entries[i].a, entries[i].b, relations[i]});
+        }
+    }
+    return found;
+}
+
+/// The same of each entry of a list, in its order: a std::vector in host memory.
+template <arithmetic A = filtered, execution_policy Policy, class IndexA, class IndexB>
+    requires(!std::same_as<A, fast>)
+[[nodiscard]] std::vector<solid_relation> relation(const Policy& on, const std::vector<posed_pair<IndexA, IndexB>>& list,
+                                                   const solid_options& options = {}) {
+    if constexpr (detail::are_solid_bodies<IndexA>() && detail::are_solid_bodies<IndexB>()) {
+        constexpr const char* function = "abut::relation";
+        const auto pairing = detail::whole(list).pair_up(on, detail::touching{}, list_options<>{}, true, function);
+        return detail::relations_of_entries<A>(on, pairing, detail::entries_of(on, pairing), options, function, "entry");
+    } else {
+        return {};
     }
 }
 

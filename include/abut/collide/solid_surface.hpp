@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
-#include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -90,16 +90,18 @@ public:
     using id = std::uint32_t;
 
     /// Of faces with the numbers of their vertices. Throws invalid_geometry in the name of `function` for the first face that
-    /// is no part of a closed surface whose edges have two faces each, turned alike.
-    solid_surface(std::vector<mesh_face<T>> faces, const char* function) : faces_(std::move(faces)) {
-        check_faces(function);
-        find_neighbours(function);
+    /// is no part of a closed surface whose edges have two faces each, turned alike; it is called an `element`.
+    solid_surface(std::vector<mesh_face<T>> faces, const char* function, const std::string& element = "face")
+        : faces_(std::move(faces)) {
+        check_faces(function, element);
+        find_neighbours(function, element);
         gather_vertices();
         find_parts();
-        find_turned_parts(function);
+        find_turned_parts(function, element);
     }
 
     [[nodiscard]] std::size_t size() const { return faces_.size(); }
+    [[nodiscard]] const std::vector<mesh_face<T>>& faces() const { return faces_; }
     [[nodiscard]] const triangle<T>& face(id f) const { return faces_[f].corners; }
     [[nodiscard]] std::size_t parts() const { return first_face_of_part_.size(); }
     [[nodiscard]] id part_of(id f) const { return part_[f]; }
@@ -134,17 +136,17 @@ private:
         return side % 3 == 0 ? t.a : side % 3 == 1 ? t.b : t.c;
     }
 
-    void check_faces(const char* function) const {
+    void check_faces(const char* function, const std::string& element) const {
         for (std::size_t f = 0; f < faces_.size(); ++f) {
             const verdict v = decide_zero_area<filtered>(faces_[f].corners);
             if (v == verdict::no) continue;
             const triangle<T>& t = faces_[f].corners;
             if (decide_at_any_span<has_inner_points>(in_a_row(t.a, t.b, t.c).value)) continue;
-            throw invalid_geometry(function, "face", f, "the face has no area, so that the solid has no side there; its area is", 0);
+            throw invalid_geometry(function, element, f, "the face has no area, so that the solid has no side there; its area is", 0);
         }
     }
 
-    void find_neighbours(const char* function) {
+    void find_neighbours(const char* function, const std::string& element) {
         const std::size_t sides = 3 * faces_.size();
         std::vector<id> order(sides);
         std::iota(order.begin(), order.end(), id{0});
@@ -162,14 +164,14 @@ private:
             while (last < sides && ends(order[last]) == ends(order[i])) ++last;
             const id first = order[i];
             if (last - i != 2) {
-                throw invalid_geometry(function, "face", first / 3,
+                throw invalid_geometry(function, element, first / 3,
                                        last - i == 1 ? "the mesh is not closed: faces at an edge of this face are"
                                                      : "an edge of this face has not two faces, but",
                                        static_cast<double>(last - i));
             }
             const id second = order[i + 1];
             if (vertex_of(first) == vertex_of(second)) {
-                throw invalid_geometry(function, "face", first / 3, "faces are turned against each other at an edge of this face; the other one is face",
+                throw invalid_geometry(function, element, first / 3, "faces are turned against each other at an edge of this face; the other one is face",
                                        second / 3);
             }
             across_[first] = second;
@@ -217,7 +219,7 @@ private:
 
     /// A part that is inside of an even number of others bounds the solid from outside, and its volume has to be positive; else
     /// it bounds a hollow. Where that is not so, its faces are turned inside out.
-    void find_turned_parts(const char* function) {
+    void find_turned_parts(const char* function, const std::string& element) {
         is_turned_.assign(parts(), 0);
         std::vector<volume_sign<T>> volume;
         std::vector<aabb<T>> box(parts());
@@ -233,7 +235,7 @@ private:
         }
         for (id p = 0; p < parts(); ++p) {
             const int sign = volume[p].sign();
-            if (sign == 0) throw invalid_geometry(function, "face", first_face_of_part_[p], "the part of the surface with this face encloses a volume of", 0);
+            if (sign == 0) throw invalid_geometry(function, element, first_face_of_part_[p], "the part of the surface with this face encloses a volume of", 0);
             bool is_hollow = false;
             const vec3<T>& v = vertex_of_part(p);
             for (id q = 0; q < parts(); ++q) {

@@ -28,17 +28,19 @@ struct names_of_entries_of_bodies {
     }
 };
 
-/// A pairing of bodies, of which each two are looked at until something is found.
-template <class Pairing>
+/// A pairing of bodies, of which each two are looked at until something is found, and shapes are named by the number of the
+/// entry too.
+template <class Pairing, class NamesOfEntries = names_of_entries_of_bodies>
 struct until_found_pairing;
-template <class Policy, class Names, class IndexA, class IndexB, class Options, class Nearness>
-struct until_found_pairing<list_pairing<Policy, Names, IndexA, IndexB, Options, Nearness>> {
+template <class Policy, class Names, class IndexA, class IndexB, class Options, class Nearness, class NamesOfEntries>
+struct until_found_pairing<list_pairing<Policy, Names, IndexA, IndexB, Options, Nearness>, NamesOfEntries> {
     using filter = until_found<decltype(Options::filter)>;
     using options_type = decltype(with_filter(std::declval<const Options&>(), std::declval<const filter&>()));
-    using view_type = list_view<names_of_entries_of_bodies, IndexA, IndexB, filter>;
+    using view_type = list_view<NamesOfEntries, IndexA, IndexB, filter>;
 
     const list_pairing<Policy, Names, IndexA, IndexB, Options, Nearness>& of;
     options_type options;
+    list_key key = of.key;
 
     [[nodiscard]] view_type view() const {
         return {of.a.view(), of.b.view(), of.bodies.data(), of.members.data(), of.key, options.filter};
@@ -61,6 +63,15 @@ struct gather_bodies {
     ABUT_HD void operator()(std::size_t i) const { out[i] = bodies[which[i]]; }
 };
 
+/// Writes 1 for each entry of a pairing of which any two shapes are in the relation, and 0 for the others.
+template <arithmetic A, class Policy, class Pairing, class Relation>
+void mark_entries(const Policy& on, const Pairing& pairing, const Relation& how, std::uint32_t* found) {
+    fill(on, found, pairing.members.size(), std::uint32_t{0});
+    using closing = until_found_pairing<Pairing>;
+    const typename closing::filter until{{}, pairing.options.filter, found};
+    visited_by(mark_entry{found}).template find<A>(on, closing{pairing, with_filter(pairing.options, until)}, how);
+}
+
 /// All pairs of bodies of which any two shapes are in the relation.
 struct all_bodies : of_any_shapes {
     static constexpr answer_kind kind = answer_kind::list;
@@ -70,11 +81,7 @@ struct all_bodies : of_any_shapes {
     [[nodiscard]] auto find(const Policy& on, const Pairing& pairing, const Relation& how) const {
         const std::size_t n = pairing.members.size();
         execution::buffer_of<Policy, std::uint32_t> found(on, n);
-        fill(on, found.data(), n, std::uint32_t{0});
-        using closing = until_found_pairing<Pairing>;
-        const typename closing::filter until{{}, pairing.options.filter, found.data()};
-        visited_by(mark_entry{found.data()})
-            .template find<A>(on, closing{pairing, with_filter(pairing.options, until)}, how);
+        mark_entries<A>(on, pairing, how, found.data());
         execution::buffer_of<Policy, std::uint32_t> which(on, n);
         which.shrink(compact(on, n, has_touched{found.data()}, which.data()));
         execution::buffer_of<Policy, index_pair> out(on, which.size());
