@@ -9,6 +9,7 @@ import report_queries  # noqa: F401
 import report_motion  # noqa: F401
 import report_runs  # noqa: F401
 import report_peers  # noqa: F401
+import report_solids  # noqa: F401
 import report_scaling  # noqa: F401
 import report_sources  # noqa: F401
 import report_pages  # noqa: F401

@@ -273,17 +273,31 @@ public:
     using T = typename Index::scalar_type;
 
     bodies_on_host(const Policy& on, const placed_bodies<Index>& all, const char* function, const char* what)
-        : on_(on), objects_(*all.objects), function_(function), what_(what), object_of_(all.size()), poses_(all.size()), made_(all.size()) {
+        : on_(on), objects_(*all.objects), function_(function), what_(what), object_of_(all.size()), poses_(all.size()),
+          faces_(all.size()), made_(all.size()), one_part_(all.objects->indices.size()) {
         download(on, all.objects->object_of.data(), all.size(), object_of_.data());
         download(on, all.poses->data(), all.size(), poses_.data());
     }
     const solid_on_host<T>& operator[](std::uint32_t i) {
-        if (!made_[i]) {
+        if (!made_[i]) made_[i] = std::make_unique<solid_on_host<T>>(faces(i).first, function_, element(i));
+        return *made_[i];
+    }
+    /// The faces of a body, and the box around them.
+    const std::pair<std::vector<mesh_face<T>>, aabb<T>>& faces(std::uint32_t i) {
+        if (!faces_[i]) {
             const auto shapes = view_of(objects_.indices[object_of_[i]].set());
             const placed_shapes<std::remove_const_t<decltype(shapes)>> placed{{shapes, poses_[i]}};
-            made_[i] = std::make_unique<solid_on_host<T>>(faces_on_host(on_, placed), function_, element(i));
+            auto all = faces_on_host(on_, placed);
+            const aabb<T> box = box_of(all);
+            faces_[i].emplace(std::move(all), box);
         }
-        return *made_[i];
+        return *faces_[i];
+    }
+    /// Whether a body's surface is of one part. It is the same of all bodies of an index.
+    bool has_one_part(std::uint32_t i) {
+        std::optional<bool>& has = one_part_[object_of_[i]];
+        if (!has) has = (*this)[i].surface().parts() <= 1;
+        return *has;
     }
     /// Throws where the surface of a body's index passes through itself.
     void require_solids(const std::vector<index_pair>& entries, bool second) {
@@ -309,7 +323,9 @@ private:
     const char *function_, *what_;
     std::vector<std::uint32_t> object_of_;
     std::vector<rigid<T>> poses_;
+    std::vector<std::optional<std::pair<std::vector<mesh_face<T>>, aabb<T>>>> faces_;
     std::vector<std::unique_ptr<solid_on_host<T>>> made_;
+    std::vector<std::optional<bool>> one_part_;  ///< of each index
 };
 
 /// The relation of each entry of a pairing. `both_are_one`: a's bodies are b's.
@@ -325,19 +341,13 @@ std::vector<solid_relation> relations_of_entries(const Policy& on, const Pairing
     std::optional<bodies_on_host<Policy, index_b>> others;
     const bool is_one = static_cast<const void*>(pairing.a.objects.get()) == static_cast<const void*>(pairing.b.objects.get()) &&
                         static_cast<const void*>(pairing.a.poses.get()) == static_cast<const void*>(pairing.b.poses.get());
-    const auto solid_b = [&](std::uint32_t i) -> const solid_on_host<T>& {
-        if constexpr (std::same_as<index_a, index_b>) {
-            if (is_one) return bodies_a[i];
-        }
-        if (!others) others.emplace(on, pairing.b, function, what);
-        return (*others)[i];
-    };
+    if (!is_one) others.emplace(on, pairing.b, function, what);
     if (!options.known_solid) {
         bodies_a.require_solids(entries, false);
         if constexpr (std::same_as<index_a, index_b>) {
             if (is_one) bodies_a.require_solids(entries, true);
         }
-        if (!is_one) others.emplace(on, pairing.b, function, what), others->require_solids(entries, true);
+        if (others) others->require_solids(entries, true);
     }
     execution::buffer_of<Policy, std::uint32_t> marks(on, n);
     mark_entries<A>(on, pairing, passing_through{}, marks.data());
@@ -349,6 +359,17 @@ std::vector<solid_relation> relations_of_entries(const Policy& on, const Pairing
     sorted.sorted = true;
     const auto contacts = to_host(all_crossings{}.find<A>(on, closing{pairing, sorted}, touching{}));
     std::vector<crossing<T>> some;
+    const auto relation_of = [&](auto& bodies_b, const index_pair& e) {
+        if (some.empty() && bodies_a.has_one_part(e.a) && bodies_b.has_one_part(e.b)) {
+            // One in the other, or apart.
+            const aabb<T>&box_a = bodies_a.faces(e.a).second, &box_b = bodies_b.faces(e.b).second;
+            if (!contains(box_a, box_b) && !contains(box_b, box_a)) return solid_relation::disconnected;
+        }
+        const solid_on_host<T>&a = bodies_a[e.a], &b = bodies_b[e.b];
+        const auto all_known = [](const common_regions& regions) { return regions.all(); };
+        if (a.surface().size() == 0 || b.surface().size() == 0) return solid_relation::disconnected;
+        return named(regions_of_solids<T>(a, b, some, all_known), !some.empty());
+    };
     for (std::size_t i = 0, k = 0; i < n; ++i) {
         some.clear();
         for (; k < contacts.size() && contacts[k].pair == i; ++k) {
@@ -357,11 +378,13 @@ std::vector<solid_relation> relations_of_entries(const Policy& on, const Pairing
             some.back().b = contacts[k].b;
         }
         if (pass[i] != 0) continue;
-        const solid_on_host<T>&a = bodies_a[entries[i].a], &b = solid_b(entries[i].b);
-        const auto all_known = [](const common_regions& regions) { return regions.all(); };
-        found[i] = a.surface().size() == 0 || b.surface().size() == 0
-                       ? solid_relation::disconnected
-                       : named(regions_of_solids<T>(a, b, some, all_known), !some.empty());
+        if constexpr (std::same_as<index_a, index_b>) {
+            if (is_one) {
+                found[i] = relation_of(bodies_a, entries[i]);
+                continue;
+            }
+        }
+        found[i] = relation_of(*others, entries[i]);
     }
     return found;
 }
