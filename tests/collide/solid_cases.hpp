@@ -100,34 +100,19 @@ mesh<T> surface_of(const cells& of, const frame_of_grid& frame, draws& d, bool i
     return {std::move(vertices), std::move(faces)};
 }
 
-/// Whether the surface has two faces at each edge and one fan at each vertex: no two cells meet in an edge or a corner alone,
-/// and no two cells that are missing.
-inline bool is_manifold(const cells& of) {
-    for (int x = -1; x <= 8; ++x) {
-        for (int y = -1; y <= 8; ++y) {
-            for (int z = -1; z <= 8; ++z) {
-                // The eight cells around a corner: those that are in hang together by sides, and so do the others.
-                std::vector<place> in, out;
-                for (int k = 0; k < 8; ++k) {
-                    const place c{x + (k & 1), y + (k >> 1 & 1), z + (k >> 2)};
-                    (of.in.contains(c) ? in : out).push_back(c);
-                }
-                for (auto* const some : {&in, &out}) {
-                    if (some->empty()) continue;
-                    std::vector<place> open{some->back()};
-                    some->pop_back();
-                    while (!open.empty()) {
-                        const place c = open.back();
-                        open.pop_back();
-                        for (std::size_t i = some->size(); i-- > 0;) {
-                            const place e = (*some)[i];
-                            if (std::abs(c[0] - e[0]) + std::abs(c[1] - e[1]) + std::abs(c[2] - e[2]) != 1) continue;
-                            open.push_back(e);
-                            some->erase(some->begin() + static_cast<std::ptrdiff_t>(i));
-                        }
-                    }
-                    if (!some->empty()) return false;
-                }
+/// Whether the surface has two faces at each edge: of the four cells around an edge never are two opposite ones in and the
+/// others out. Cells that meet in a corner alone share a vertex, which then has several fans.
+inline bool has_two_faces_at_each_edge(const cells& of) {
+    for (const place& c : of.in) {
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto u = static_cast<std::size_t>((axis + 1) % 3), v = static_cast<std::size_t>((axis + 2) % 3);
+            for (const int dv : {-1, 1}) {
+                place side = c, other = c, opposite = c;
+                side[u] += 1;
+                other[v] += dv;
+                opposite[u] += 1;
+                opposite[v] += dv;
+                if (of.in.contains(opposite) && !of.in.contains(side) && !of.in.contains(other)) return false;
             }
         }
     }
@@ -146,7 +131,7 @@ inline cells draw_cells(draws& d, int size, int side, int spread) {
                 }
             }
         }
-        if (of.in.empty() || !is_manifold(of)) continue;
+        if (of.in.empty() || !has_two_faces_at_each_edge(of)) continue;
         for (int& x : of.offset) x = d.below(2 * spread + 1) - spread;
         return of;
     }
@@ -320,7 +305,7 @@ inline std::pair<cells, cells> draw_two_sets(draws& d, std::uint64_t k) {
         cells other = a;
         const place c{d.below(3), d.below(3), d.below(3)};
         if (k % 8 == 0 && !other.in.insert(c).second && other.in.size() > 1) other.in.erase(c);
-        if (is_manifold(other)) b = other;
+        if (has_two_faces_at_each_edge(other)) b = other;
     }
     return {a, b};
 }

@@ -77,6 +77,9 @@ struct passes {
     }
     template <scalar T>
     ABUT_HD verdict finish(const triangle<T>& s, const triangle<T>& t) const {
+        if constexpr (!std::same_as<A, exact>) {
+            if (const shared_corners first = certified_corners(s, t); first.is_known()) return to_verdict(pass_through(first));
+        }
         const shared_corners found = exact_corners(s, t);
         return found.is_known() ? to_verdict(pass_through(found)) : verdict::unknown;
     }
@@ -412,7 +415,8 @@ consteval bool are_solid_bodies() {
 ///
 /// A solid is what a closed mesh bounds: each edge has two faces, which go along it in opposite directions, no face is without
 /// area, and the surface neither passes through itself nor touches itself but where faces share vertices. It may have many
-/// parts, handles and hollows. A point is in it as `inside` says, whichever way the faces are turned. Bodies whose vertices
+/// parts, handles and hollows. A part is of faces that share vertices. A point is in the solid as `inside` says, whichever way
+/// the faces of each part are turned. Bodies whose vertices
 /// in one place have different numbers are not closed: `welded` joins them.
 ///
 /// @par Memory
@@ -437,7 +441,7 @@ consteval bool are_solid_bodies() {
 /// decided of the placed coordinates. A solid without faces is empty, and disconnected from every other one.
 ///
 /// Where faces pass through each other, no more than a first pair of them is looked for. Else each place in which the surfaces
-/// touch is looked at, on one thread of the host: a corner of n faces on one of m takes n m steps.
+/// touch is looked at, on one thread of the host: a corner of n faces on one of m takes up to n^2 + m^2 steps.
 ///
 ///     abut::mesh<double> wall = ..., pipe = ...;
 ///     if (abut::relation(on, wall, pipe) == abut::solid_relation::externally_connected) puts("they only touch");

@@ -194,6 +194,7 @@ private:
     /// Faces that share vertices are of one part.
     void find_parts() {
         part_.assign(faces_.size(), none);
+        std::vector<char> is_known(first_at_.size(), 0);  // of vertices: all their faces are
         std::vector<id> open;
         for (id f = 0; f < faces_.size(); ++f) {
             if (part_[f] != none) continue;
@@ -206,6 +207,7 @@ private:
                 open.pop_back();
                 for (int k = 0; k < 3; ++k) {
                     const id v = faces_[g].vertex[k];
+                    if (std::exchange(is_known[v], 1) != 0) continue;
                     for (id i = first_at_[v]; i < first_at_[v + 1]; ++i) {
                         const id h = at_[i] / 3;
                         if (part_[h] != none) continue;
