@@ -368,7 +368,7 @@ void check_scenes_of_solids(const Policy& on, std::uint64_t scenes) {
             }
         }
         CHECK(found.size() == next);
-        const auto without_last = relation(on, scene, {}, body_options{.bodies = only_below{7}});
+        const auto without_last = relation(on, scene, {}, body_options<keep_all, schedule::shared_list, only_below>{.bodies = only_below{7}});
         std::erase_if(found, [](const body_relation& r) { return r.body_b == 7; });
         CHECK(without_last == found);
     }

@@ -221,7 +221,7 @@ TEMPLATE_TEST_CASE("relation: a wall, by one unit in the last place", "", float,
     const serial on;
     const mesh<T> wall = box_between<T>({0, 0, 0}, {3, 1, 1});
     const auto next_wall = [&](T from) { return relation(on, wall, box_between<T>({from, 0, 0}, {5, 1, 1})); };
-    CHECK(next_wall(T{2.95}) == solid_relation::partially_overlapping);
+    CHECK(next_wall(static_cast<T>(2.95)) == solid_relation::partially_overlapping);
     CHECK(next_wall(std::nextafter(T{3}, T{0})) == solid_relation::partially_overlapping);
     CHECK(next_wall(3) == solid_relation::externally_connected);
     CHECK(next_wall(std::nextafter(T{3}, T{9})) == solid_relation::disconnected);

@@ -20,6 +20,7 @@
 #include <abut/error.hpp>
 #include <abut/narrow/crossing.hpp>
 #include <abut/predicate/certified_triangles.hpp>
+#include <abut/predicate/shared_corners.hpp>
 #include <abut/predicate/solid_cones.hpp>
 #include <abut/predicate/zero_area.hpp>
 #include <abut/shape/mesh_face.hpp>
