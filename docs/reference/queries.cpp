@@ -175,6 +175,18 @@ void query_rays() {
     //! [raycast_all]
 }
 
+void query_crossings() {
+    const abut::serial on;
+    //! [crossings]
+    const abut::mesh<float> square{{{-9, -9, 1}, {9, -9, 1}, {9, 9, 1}, {-9, 9, 1}}, {{0, 1, 2}, {0, 2, 3}}};
+    const auto found = abut::crossings(on, tetrahedron, square);
+    expect(found.size() == abut::count(on, tetrahedron, square));
+    const auto lines = abut::curves(on, found);
+    expect(lines.size() == 1 && lines[0].closed);
+    expect(lines[0].features_a[0].part == abut::mesh_part::on_edge);  // of the tetrahedron
+    //! [crossings]
+}
+
 void query_relation() {
     const abut::serial on;
     //! [relation]
@@ -252,6 +264,7 @@ int main() {
     query_distance();
     query_within();
     query_rays();
+    query_crossings();
     query_relation();
     query_inside();
     query_mesh();

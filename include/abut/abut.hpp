@@ -13,6 +13,8 @@
 #include <abut/collide/body_pairs.hpp>
 #include <abut/collide/body_rows.hpp>
 #include <abut/collide/contacts.hpp>
+#include <abut/collide/crossings.hpp>
+#include <abut/collide/curves.hpp>
 #include <abut/collide/distance.hpp>
 #include <abut/collide/first_impact.hpp>
 #include <abut/collide/impacts.hpp>

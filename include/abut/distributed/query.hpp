@@ -404,6 +404,12 @@ template <scalar T>
 struct global_of<contact<T>> : std::type_identity<global_contact<T>> {};
 template <scalar T>
 struct global_of<tagged_contact<T>> : std::type_identity<global_tagged_contact<T>> {};
+template <scalar T>
+struct global_of<crossing<T>> : std::type_identity<crossing<T>> {
+    static_assert(sizeof(T) == 0, "abut: ranks are not asked for crossings, whose vertices have no global numbers");
+};
+template <scalar T>
+struct global_of<tagged_crossing<T>> : global_of<crossing<T>> {};
 
 template <execution_policy Local, class Question, class Form, class Options>
 auto ask_pairs(const distributed<Local>& on, const Question& question, const Form& form, const Options& options,
