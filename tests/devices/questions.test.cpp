@@ -140,3 +140,15 @@ TEST_CASE("devices: bodies as wholes") {
     CHECK((to_host(pairs(team, both)) == to_host(pairs(on, both_here))));
     CHECK(count(team, both) == count(on, both_here));
 }
+
+TEST_CASE("devices: crossings") {
+    using namespace abut;
+    const test::host_team<serial> team(GENERATE(1, 2, 5));
+    const auto data = test::ball_surface<float>(2, 1);
+    const mesh<float> ball(data.vertices, data.faces);
+    const rigid<float> pose{{1, 0, 0, 0, 0.8F, -0.6F, 0, 0.6F, 0.8F}, {0.3F, 0.2F, 0}};
+    const auto there = make_bvh(team, replicate(team, ball));
+    const auto expected = to_host(crossings(serial{}, ball, posed(ball, pose)));
+    CHECK(expected.size() > 20);
+    CHECK(to_host(crossings(team, there, posed(there, pose))) == expected);
+}
