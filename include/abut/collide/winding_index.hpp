@@ -30,7 +30,7 @@ namespace detail {
 struct alignas(64) winding_node {
     static constexpr std::uint32_t of_block = std::uint32_t{1} << 31;
 
-    double center[3][4];
+    float center[3][4], center_low[3][4];                    ///< sums of two
     float radius[4], weight[4], noise[4], noise_of_high[4];  ///< as of far_bounds
     std::uint32_t child[4], count;
 };
@@ -164,7 +164,12 @@ struct write_winding_nodes {
         for (std::uint32_t k = 0; k < 4; ++k) {
             const bvh_child one = child[k < node.count ? k : 0];
             const winding_moments of = one.is_leaf() ? moments_of(shapes[one.index()], frame) : slots.moments[one.index()];
-            node.center[0][k] = of.center.x, node.center[1][k] = of.center.y, node.center[2][k] = of.center.z;
+            const double center[3] = {of.center.x, of.center.y, of.center.z};
+            for (int axis = 0; axis < 3; ++axis) {
+                const auto high = static_cast<float>(center[axis]);
+                node.center[axis][k] = high;
+                node.center_low[axis][k] = static_cast<float>(plain_sum(center[axis], -static_cast<double>(high)));
+            }
             const far_bounds bounds = write_far_terms(of, terms[number], static_cast<int>(k));
             node.radius[k] = bounds.radius, node.weight[k] = bounds.weight, node.noise[k] = bounds.noise;
             node.noise_of_high[k] = bounds.noise_of_high;
