@@ -286,7 +286,7 @@ private:
 /// tree it takes the shape, and trees that are better to query give a better index: one of `ploc` or `sah`. Without a tree
 /// it makes one of `ploc`.
 ///
-/// Some 230 bytes a triangle in single precision, 310 in double; scratch takes twice as much again. The same bits on every
+/// Some 290 bytes a triangle in single precision, 370 in double; scratch takes twice as much again. The same bits on every
 /// policy, of trees that are the same. Linear time but for the tree.
 ///
 /// Lies in the policy's memory. Returns when it is done; under `cuda` it waits for the policy's stream, which has to outlive

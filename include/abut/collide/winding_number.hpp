@@ -66,7 +66,7 @@ struct wind_around_all {
 ///
 /// What may be off by most is looked at more closely first, until all together may be off by no more than the tolerance. A
 /// list holds the nodes that were opened, with what each of their children may be off by. Children above a level are opened,
-/// and the level falls by a quarter at a time. Where the list is full, the walk begins again, depth first: all above a level
+/// a generation after another, and the level falls. Where the list is full, the walk begins again, depth first: all above a level
 /// is opened, and the level falls until the rest is off by no more than the tolerance. Either way the order of the sum
 /// depends on the index and the point alone.
 template <scalar T>
