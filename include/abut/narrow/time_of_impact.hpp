@@ -50,6 +50,7 @@ struct time_in_bits {
 };
 inline constexpr double last_time_bit = 0x1p-40;
 static_assert(time_bits == 40);
+inline constexpr double longest_halving = 0x1p-4;
 
 // Signs at a time, as far as pairs of doubles tell; 0 where they do not.
 
@@ -158,6 +159,11 @@ ABUT_HD constexpr double time_in_registers(const moving_points<T>& p, const cons
     if constexpr (std::same_as<A, fast>) {
         return static_cast<double>(fast_motion<Edges, T>(p).time());
     } else if constexpr (std::same_as<A, conservative>) {
+        // Halving takes longer than the exact time, if the tolerance is small.
+        if (bounds.separation == 0 && bounds.tolerance >= last_time_bit && bounds.tolerance < longest_halving) {
+            const std::int64_t count = filtered_time<Edges>(p).count;
+            if (count != time_in_bits::unknown) return count < 0 ? -1 : static_cast<double>(count) * last_time_bit;
+        }
         return motion_filter<Edges>(p).conservative_time(bounds.separation, bounds.tolerance);
     } else if constexpr (std::same_as<A, exact>) {
         return time_in_bits::unknown;
