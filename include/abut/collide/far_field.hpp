@@ -111,13 +111,20 @@ ABUT_HD constexpr void add_product(one_double* to, const vector& v, const one_do
 /// Where the numbers of a form begin.
 ABUT_HD constexpr int first_of(int l) { return l * l - 1; }
 
-/// A coordinate that two floats hold.
-ABUT_HD inline double held_by_floats(double x) {
-    const auto high = static_cast<double>(static_cast<float>(x));
-    return plain_sum(high, static_cast<double>(static_cast<float>(plain_sum(x, -high))));
+/// A double to so many bits (T. J. Dekker, A floating-point technique for extending the available precision, 1971). Casts to float
+/// and back would do as well, if g++ 12 did not drop both where it makes vectors of them.
+ABUT_HD inline double of_bits(double x, int bits) {
+    const double more = plain_product(x, contact_math::power_of_two(53 - bits) + 1);
+    return plain_sum(more, -plain_sum(more, -x));
+}
+/// As the sum of two floats, of 48 bits.
+ABUT_HD inline void write_floats(double x, float& high, float& low) {
+    const double first = of_bits(x, 24);
+    high = static_cast<float>(first);
+    low = static_cast<float>(plain_sum(x, -first));
 }
 ABUT_HD inline vec3<double> held_by_floats(const vector& v) {
-    return {held_by_floats(v.x.high), held_by_floats(v.y.high), held_by_floats(v.z.high)};
+    return {of_bits(v.x.high, 46), of_bits(v.y.high, 46), of_bits(v.z.high, 46)};
 }
 
 }  // namespace winding
@@ -247,9 +254,8 @@ ABUT_HD inline far_bounds write_far_terms(const winding_moments& all, far_terms&
         for (int k = 0; k < 2 * l + 1; ++k) {
             double term = plain_product(all.form[winding::first_of(l) + k].high, plain_product(leading, k == 0 ? 1.0 * l : 2.0 * l));
             for (int power = 0; power < l; ++power) term = term / r;
-            float& high = terms.high[winding::first_of(l) + k][node];
-            high = static_cast<float>(term);
-            terms.low[winding::first_of(l) + k][node] = static_cast<float>(plain_sum(term, -static_cast<double>(high)));
+            const int at = winding::first_of(l) + k;
+            winding::write_floats(term, terms.high[at][node], terms.low[at][node]);
             double& part = parts[l < 3 ? 0 : 1];
             part = plain_sum(part, absolute(term));
         }
@@ -409,8 +415,8 @@ execution::buffer_of<Policy, winding_moments> moments_of_nodes(const Policy& on,
     execution::buffer_of<Policy, winding_moments> moments(on, count);
     execution::buffer_of<Policy, std::uint32_t> reached(on, gather::words * count);
     fill(on, reached.data(), reached.size(), std::uint32_t{0});
-    // In each of 96 levels at most a centre is rounded, and the areas that weigh it: by 200 units of roundoff or less.
-    for_each_index(on, count, gather{tree, shapes, frame, 0x1p-37, above, reached.data(), moments.data()});
+    // In each of 96 levels at most a centre is rounded, to 46 bits, and the areas that weigh it: by 2^-43 or less.
+    for_each_index(on, count, gather{tree, shapes, frame, 0x1p-36, above, reached.data(), moments.data()});
     return moments;
 }
 

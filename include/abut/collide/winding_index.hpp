@@ -166,9 +166,7 @@ struct write_winding_nodes {
             const winding_moments of = one.is_leaf() ? moments_of(shapes[one.index()], frame) : slots.moments[one.index()];
             const double center[3] = {of.center.x, of.center.y, of.center.z};
             for (int axis = 0; axis < 3; ++axis) {
-                const auto high = static_cast<float>(center[axis]);
-                node.center[axis][k] = high;
-                node.center_low[axis][k] = static_cast<float>(plain_sum(center[axis], -static_cast<double>(high)));
+                winding::write_floats(center[axis], node.center[axis][k], node.center_low[axis][k]);
             }
             const far_bounds bounds = write_far_terms(of, terms[number], static_cast<int>(k));
             node.radius[k] = bounds.radius, node.weight[k] = bounds.weight, node.noise[k] = bounds.noise;

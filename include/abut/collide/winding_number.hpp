@@ -74,10 +74,7 @@ class winding_walk {
 public:
     ABUT_HD winding_walk(const winding_view<T>& in, const vec3<T>& p) : in_(in), p_(p), from_(in.frame.of(widened(p))) {
         const double from[3] = {from_.x, from_.y, from_.z};
-        for (int axis = 0; axis < 3; ++axis) {
-            high_[axis] = static_cast<float>(from[axis]);
-            low_[axis] = static_cast<float>(plain_sum(from[axis], -static_cast<double>(high_[axis])));
-        }
+        for (int axis = 0; axis < 3; ++axis) winding::write_floats(from[axis], high_[axis], low_[axis]);
     }
 
     /// All triangles, in the order of the index.
