@@ -50,7 +50,7 @@ struct time_in_bits {
 };
 inline constexpr double last_time_bit = 0x1p-40;
 static_assert(time_bits == 40);
-inline constexpr double longest_halving = 0x1p-4;
+inline constexpr double longest_halving = 0x1p-4;  ///< below this tolerance halving takes longer than the exact time
 
 // Signs at a time, as far as pairs of doubles tell; 0 where they do not.
 
@@ -85,14 +85,18 @@ ABUT_HD constexpr int sign_of_area(const moving_points<T>& p, int condition, int
 /// `start`, before it in the interval and the other after it.
 template <class Sign>
 ABUT_HD constexpr time_in_bits count_of_time(std::uint32_t j, int depth, double part, int start, const Sign& sign_at) {
-    const std::int64_t one = std::int64_t{1} << time_bits, width = one >> depth, least_count = width * j;
+    const std::int64_t width = std::int64_t{1} << (time_bits - depth), first = width * j;
+    std::int64_t low = first, high = first + width, step = 1;
     auto count = static_cast<std::int64_t>((static_cast<double>(j) + part) * static_cast<double>(width));
-    for (int step = 0; step < 4 && count >= least_count && count < least_count + width; ++step) {
-        const int before = sign_at(static_cast<double>(count) * last_time_bit);
-        const int after = sign_at(static_cast<double>(count + 1) * last_time_bit);
-        if (before == 0 || after == 0) break;
-        if (before == start && after == -start) return {count};
-        count += before == start ? 1 : -1;
+    if (count <= low) count = low + 1;
+    for (int tries = 0; tries < 32; ++tries) {
+        if (count <= low || count >= high) count = low + (high - low) / 2;
+        const int sign = sign_at(static_cast<double>(count) * last_time_bit);
+        if (sign == 0) break;
+        (sign == start ? low : high) = count;
+        if (high - low == 1) return {low};
+        count += sign == start ? step : -step;
+        step *= 2;
     }
     return {time_in_bits::unknown};
 }
@@ -141,7 +145,6 @@ ABUT_HD constexpr double time_in_registers(const moving_points<T>& p, const cons
     if constexpr (std::same_as<A, fast>) {
         return static_cast<double>(fast_motion<Edges, T>(p).time());
     } else if constexpr (std::same_as<A, conservative>) {
-        // Halving takes longer than the exact time, if the tolerance is small.
         if (bounds.separation == 0 && bounds.tolerance >= last_time_bit && bounds.tolerance < longest_halving) {
             const std::int64_t count = filtered_time<Edges>(p).count;
             if (count != time_in_bits::unknown) return count < 0 ? -1 : static_cast<double>(count) * last_time_bit;

@@ -117,10 +117,9 @@ ABUT_HD constexpr double root_of_cubic(const double (&c)[4], double at_1) {
     for (int i = 0; i < 64; ++i) {
         const double value = c[0] + x * (c[1] + x * (c[2] + x * c[3])), slope = c[1] + x * (2 * c[2] + 3 * x * c[3]);
         ((value < 0) == (c[0] < 0) ? low : high) = x;
-        const double newton = x - value / slope, next = newton > low && newton < high ? newton : 0.5 * (low + high);
-        const bool is_enough = absolute(next - x) <= 0x1p-24;
-        x = next;
-        if (is_enough) break;
+        const double newton = x - value / slope;
+        if (absolute(newton - x) <= 0x1p-24) return least(greatest(newton, 0.0), 1.0);
+        x = newton > low && newton < high ? newton : 0.5 * (low + high);
     }
     return x;
 }
