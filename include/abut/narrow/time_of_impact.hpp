@@ -27,7 +27,7 @@ struct conservative {};
 template <class A>
 concept motion_arithmetic = arithmetic<A> || std::same_as<A, conservative>;
 
-/// What `conservative` promises.
+/// What `conservative` promises. Without a separation, and with a tolerance below 1/16, times are mostly those of `filtered`.
 struct conservative_bounds {
     /// A time that is reported is at most this much before features come within `separation`. Features that pass each other
     /// are reported as well if they come nearer than `separation` and half of what they move relative to each other in a
