@@ -139,49 +139,64 @@ struct winding_moments {
     std::uint32_t count;                  ///< of triangles
 };
 
-/// Of one triangle, about the mean of its corners as it is rounded.
-template <scalar T>
-ABUT_HD winding_moments moments_of(const triangle<T>& t, const winding_frame& frame) {
+/// The corners of a triangle.
+struct corners_in_frame {
+    winding::vector at[3];
+
+    template <scalar T>
+    ABUT_HD corners_in_frame(const triangle<T>& t, const winding_frame& frame)
+        : at{winding::vector_of(frame.of(widened(t.a))), winding::vector_of(frame.of(widened(t.b))), winding::vector_of(frame.of(widened(t.c)))} {}
+    [[nodiscard]] ABUT_HD winding::vector normal() const {
+        return scale(winding::number(0.5), cross(at[1] - at[0], at[2] - at[0]));
+    }
+    /// Adds its moments about a centre.
+    ABUT_HD void add_forms(const vec3<double>& center, winding::one_double* to) const {
+        using namespace winding;
+        // The mean of (y.u)^k is 2 k! / (k + 2)! times the sum of all products of k of the corners' (y.u).
+        one_double mean[far_count] = {};  // of degrees 0 to L - 1
+        mean[0] = number(1);
+        for (const vector& corner : at) {
+            const vector way = corner - vector_of(center);
+            for (int k = 1; k < far_degree; ++k) add_product(mean + k * k, way, mean + (k - 1) * (k - 1), k);
+        }
+        const vector n = normal();
+        for (int l = 1; l <= far_degree; ++l) {
+            add_product(to + first_of(l), scale(number(2.0 / (l * (l + 1))), n), mean + (l - 1) * (l - 1), l);
+        }
+    }
+};
+
+/// Of one triangle, about the mean of its corners as it is rounded, but the forms, which are 0.
+ABUT_HD inline winding_moments place_of(const corners_in_frame& t) {
     using namespace winding;
-    const auto corner = [&](const vec3<T>& p) {
-        const vec3<double> at = frame.of(widened(p));
-        return vector_of(at);
-    };
-    const vector a = corner(t.a), b = corner(t.b), c = corner(t.c);
-    const vector sum = a + b + c;
+    const vector &a = t.at[0], &b = t.at[1], &c = t.at[2], sum = a + b + c;
     winding_moments of;
     of.center = held_by_floats({sum.x / number(3), sum.y / number(3), sum.z / number(3)});
-    const vector center = vector_of(of.center), to[3] = {a - center, b - center, c - center};
-    const vector double_normal = cross(b - a, c - a), all = to[0] + to[1] + to[2], n = scale(number(0.5), double_normal);
-    // The mean of (y.u)^k is 2 k! / (k + 2)! times the sum of all products of k of the corners' (y.u).
-    one_double mean[far_count] = {};  // of degrees 0 to L - 1
-    mean[0] = number(1);
-    for (const vector& way : to) {
-        for (int k = 1; k < far_degree; ++k) add_product(mean + k * k, way, mean + (k - 1) * (k - 1), k);
-    }
-    for (int l = 1; l <= far_degree; ++l) {
-        one_double* const form = of.form + first_of(l);
-        for (int k = 0; k < 2 * l + 1; ++k) form[k] = number(0);
-        add_product(form, scale(number(2.0 / (l * (l + 1))), n), mean + (l - 1) * (l - 1), l);
-    }
-    of.lower = contact_math::rounded_off(vector{{least(a.x.high, b.x.high, c.x.high)},
-                                                {least(a.y.high, b.y.high, c.y.high)},
-                                                {least(a.z.high, b.z.high, c.z.high)}});
-    of.upper = contact_math::rounded_off(vector{{greatest(a.x.high, b.x.high, c.x.high)},
-                                                {greatest(a.y.high, b.y.high, c.y.high)},
-                                                {greatest(a.z.high, b.z.high, c.z.high)}});
+    const vector center = vector_of(of.center), to[3] = {a - center, b - center, c - center}, all = to[0] + to[1] + to[2];
+    for (one_double& x : of.form) x = number(0);
+    of.lower = {least(a.x.high, b.x.high, c.x.high), least(a.y.high, b.y.high, c.y.high), least(a.z.high, b.z.high, c.z.high)};
+    of.upper = {greatest(a.x.high, b.x.high, c.x.high), greatest(a.y.high, b.y.high, c.y.high),
+                greatest(a.z.high, b.z.high, c.z.high)};
     of.count = 1;
     of.radius = greatest(length_of(to[0]), length_of(to[1]), length_of(to[2]));
-    of.area = length_of(n);
+    of.area = length_of(t.normal());
     // The mean of a square is that of corners' squares, and the square of their sum, over 12.
     one_double squares = dot(all, all);
     for (const vector& way : to) squares = squares + dot(way, way);
     of.spread = (number(of.area) * squares / number(12)).high;
     return of;
 }
+/// And the forms.
+template <scalar T>
+ABUT_HD winding_moments moments_of(const triangle<T>& t, const winding_frame& frame) {
+    const corners_in_frame corners(t, frame);
+    winding_moments of = place_of(corners);
+    corners.add_forms(of.center, of.form);
+    return of;
+}
 
-/// Of two parts or more, about the centre of their areas.
-ABUT_HD inline winding_moments joined_moments(const winding_moments* parts, int count, double off_center) {
+/// Of two parts or more, about the centre of their areas. Forms of single triangles may be left to the caller.
+ABUT_HD inline winding_moments joined_moments(const winding_moments* parts, int count, double off_center, bool without_triangles = false) {
     using namespace winding;
     // The centre is moved from that of the first towards each of the others: it stays among them, whatever is rounded.
     one_double area = number(parts[0].area);
@@ -212,6 +227,7 @@ ABUT_HD inline winding_moments joined_moments(const winding_moments* parts, int 
         // R2 about a centre that is moved from that of the area is R2 + area times the square; a part's is not quite that.
         const one_double reach = moved + number(off_center);
         spread = spread + (number(part.spread) + number(part.area) * (reach * reach));
+        if (without_triangles && part.count == 1) continue;
         // About the new centre (y.u)^k is (y.u + way.u)^k: binomials, as in Pascal's triangle.
         one_double form[far_count];
         for (int j = 0; j < far_count; ++j) form[j] = part.form[j];
@@ -248,18 +264,17 @@ ABUT_HD inline float rounded_up(double x) { return static_cast<float>(plain_prod
 ABUT_HD inline far_bounds write_far_terms(const winding_moments& all, far_terms& terms, int node) {
     const float radius = rounded_up(all.radius);
     const auto r = static_cast<double>(radius);
-    // Times l, the leading coefficient of P_l: that of l + 1 is (2 l + 1) / (l + 1) of it.
-    double leading = per_full_angle, parts[2] = {};
+    // The leading coefficient of P_l, over r^l: that of P_(l + 1) is (2 l + 1) / (l + 1) of it.
+    double leading = per_full_angle / r, parts[2] = {};
     for (int l = 1; l <= far_degree; ++l) {
         for (int k = 0; k < 2 * l + 1; ++k) {
-            double term = plain_product(all.form[winding::first_of(l) + k].high, plain_product(leading, k == 0 ? 1.0 * l : 2.0 * l));
-            for (int power = 0; power < l; ++power) term = term / r;
             const int at = winding::first_of(l) + k;
+            const double term = plain_product(all.form[at].high, plain_product(leading, k == 0 ? 1.0 * l : 2.0 * l));
             winding::write_floats(term, terms.high[at][node], terms.low[at][node]);
             double& part = parts[l < 3 ? 0 : 1];
             part = plain_sum(part, absolute(term));
         }
-        leading = plain_product(leading, -(2.0 * l + 1) / (l + 1));
+        leading = plain_product(leading, -(2.0 * l + 1) / (l + 1)) / r;
     }
     // A coordinate of the way over d is off by less than 16 2^-24, so a form of degree l by 16 l 2^-24 and by what some thirty
     // roundings more leave, of parts that add up to no more than this: |z^m q_lm| is at most 5/2 (3/2 for l < 3) with all its parts
@@ -373,9 +388,15 @@ private:
             winding_moments parts[std::size_t{Tree::width}];
             for (int k = 0; k < children; ++k) {
                 const bvh_child child = tree.child(node, k);
-                parts[k] = child.is_leaf() ? moments_of(shapes[child.index()], frame) : moments[child.index()];
+                parts[k] = child.is_leaf() ? place_of(corners_in_frame(shapes[child.index()], frame)) : moments[child.index()];
             }
-            moments[number] = joined_moments(parts, children, off_center);
+            winding_moments all = joined_moments(parts, children, off_center, true);
+            // Of triangles they are made where they are wanted, instead of being moved there.
+            for (int k = 0; k < children; ++k) {
+                const bvh_child child = tree.child(node, k);
+                if (child.is_leaf()) corners_in_frame(shapes[child.index()], frame).add_forms(all.center, all.form);
+            }
+            moments[number] = all;
             const std::uint32_t next = above[number];
             if (next == no_link) return;
             const auto& parent = tree.fetch(next);
