@@ -223,16 +223,17 @@ public:
             const verdict seen = look(a, b, one_root, shared, f, may_narrow);
             if (seen == verdict::yes && one_root) in.part = f.root(), in.before = f.k[0] > 0 ? 1 : -1;
             if (!may_narrow || seen != verdict::unknown || !has_one_root(f)) return seen;
-            // Where the only root is, a small part decides for all of it: once, since it seldom fails.
+            // Where the only root is, a small part decides for all of it: once, since it seldom fails. A root at the end may be
+            // rounded out of the interval, where another could follow.
             may_narrow = false;
             constexpr int narrower = 8;
             const double place = f.root() * (1 << narrower);
+            if (in.depth + narrower > most_depth || !(place < (1 << narrower))) return verdict::unknown;
             answer inner = in;
             inner.j = (in.j << narrower) + static_cast<std::uint32_t>(place);
             inner.depth = in.depth + narrower;
             inner.before = f.k[0] > 0 ? 1 : -1;
             inner.part = place - static_cast<double>(static_cast<std::uint32_t>(place));
-            if (inner.depth > most_depth) return verdict::unknown;
             const verdict there = look(at(inner.j, inner.depth), at(inner.j + 1, inner.depth), false, shared, f, false);
             if (!f.changes_sign(0x1p-42 * u_ * v_ * w_)) return verdict::unknown;
             if (there == verdict::yes) in = inner;
