@@ -7,20 +7,26 @@
 //
 // Seen from p, a surface contributes the integral of n . grad f over 4 pi, where f(x) = -1 / |x - p| and n is the normal.
 // With x = c + y, v = c - p, d = |v| and u = v / d, f is the sum over l of -h_l(y) / d^(l + 1), where h_l is the homogeneous
-// harmonic polynomial |y|^l P_l(-cos) of the angle between y and u. The terms to l = 4 are kept: their gradients are of
-// degree 0 to 3 in y, and what of y is left in the integrals are moments of the surface about c:
+// harmonic polynomial |y|^l P_l(-cos) of the angle between y and u. The terms to l = L are kept. What of y is left in the
+// integrals of their gradients are moments of the surface about c, forms in u:
 //
-//   S_i = integral of n_i,   M_ij of n_i y_j,   Q_ijk of n_i y_j y_k,   T_ijkl of n_i y_j y_k y_l
-//   4 pi w = S.u / d^2  -  3 M[u, u] / d^3  +  15/2 Q[u, u, u] / d^4  -  35/2 T[u, u, u, u] / d^5
+//   F_l(u) = integral of (n.u) (y.u)^(l - 1)
+//   4 pi w = F_1 / d^2 - 3 F_2 / d^3 + 15/2 F_3 / d^4 - 35/2 F_4 / d^5 ...
 //
-// M, Q and T are multiplied by derivatives of a harmonic function. These are symmetric and without trace, so that nothing but
-// that part of them is asked for.
+// with the leading coefficients of P_l, times l and (-1)^(l + 1). That holds of the harmonic part of F_l: what is |u|^2 times
+// another form belongs to a derivative of a harmonic function without trace, and so to none.
+//
+// The harmonic part is what F_l is where u.u = 0, of complex u, which are (s^2 - t^2) / 2, (s^2 + t^2) / 2i and s t. So a form is
+// kept as a polynomial in s and t, the sum over |m| <= l of g_m s^(l + m) t^(l - m), where g_-m is (-1)^m times the conjugate
+// of g_m: 2 l + 1 numbers. A product of forms is one of polynomials. With z = u.x + i u.y the harmonic part is
+//
+//   g_0 q_l0(u.z) + 2 Re of the sum over m > 0 of g_m z^m q_lm(u.z),   q_lm = x^(l - m) + ..., the m-th derivative of P_l
 //
 // The rest: |h_l| <= |y|^l, since |P_l| <= 1. A homogeneous polynomial of degree l that is at most 1 on the unit sphere has
 // a gradient of at most l there (S. Banach, Über homogene Polynome in (L2), 1938). So what is left out is, with |y| <= r < d
 // and R2 the integral of |y|^2, at most
 //
-//   sum over l >= 5 of l r^(l - 3) R2 / d^(l + 1)  =  R2 r^2 (5 d - 4 r) / (d^5 (d - r)^2)
+//   sum over l > L of l r^(l - 3) R2 / d^(l + 1)  =  R2 r^(L - 2) ((L + 1) d - L r) / (d^(L + 1) (d - r)^2)
 
 #include <cstddef>
 #include <cstdint>
@@ -72,18 +78,8 @@ private:
     static double magnitude(const vec3<double>& v) { return contact_math::largest_of(v); }
 };
 
-/// The symmetric part without trace of the moments of some triangles about a centre.
-struct winding_moments {
-    using point = vec3<double>;
-    point center, lower, upper;  ///< and the box around the corners
-    double radius;               ///< no corner is farther from the centre
-    double area, spread;         ///< the triangles' area, and R2 or more
-    point s;
-    double m[6];   ///< xx, yy, zz, xy, yz, zx; each as often as it occurs in M[u, u]
-    double q[10];  ///< xxx, yyy, zzz, xxy, yyz, zzx, xyy, yzz, zxx, xyz; each as often as it occurs in Q[u, u, u]
-    double t[15];  ///< xxxx, yyyy, zzzz, xxxy, yyyz, zzzx, xyyy, yzzz, zxxx, xxyy, yyzz, zzxx, xxyz, yyzx, zzxy; likewise
-    std::uint32_t count;  ///< of triangles
-};
+inline constexpr int far_degree = 5;                               ///< L
+inline constexpr int far_count = far_degree * (far_degree + 2);    ///< of numbers that forms of degrees 1 to L have
 
 namespace winding {
 
@@ -94,141 +90,113 @@ ABUT_HD constexpr one_double number(double x) { return {x}; }
 ABUT_HD constexpr vector vector_of(const vec3<double>& v) { return {{v.x}, {v.y}, {v.z}}; }
 ABUT_HD constexpr double length_of(const vector& v) { return contact_math::root(dot(v, v)).high; }
 
-/// Forms in u of degree 2, 3 and 4, by their coefficients as above; v.u times one of lower degree is added to each.
-///@{
-using quadratic = one_double[6];
-using cubic = one_double[10];
-using quartic = one_double[15];
-ABUT_HD constexpr void add_product(quadratic& m, const vector& v, const vector& w) {
-    m[0] = m[0] + v.x * w.x;
-    m[1] = m[1] + v.y * w.y;
-    m[2] = m[2] + v.z * w.z;
-    m[3] = m[3] + (v.x * w.y + v.y * w.x);
-    m[4] = m[4] + (v.y * w.z + v.z * w.y);
-    m[5] = m[5] + (v.z * w.x + v.x * w.z);
+/// Adds v.u times a form of degree l - 1 to one of degree l. Their numbers are g_0, then real and imaginary parts of g_1, g_2 ...
+ABUT_HD constexpr void add_product(one_double* to, const vector& v, const one_double* by, int l) {
+    // v.u = g_1 s^2 + v.z s t - conj(g_1) t^2
+    const one_double x = number(0.5) * v.x, y = number(0.5) * v.y;
+    to[0] = to[0] + v.z * by[0];
+    if (l > 1) to[0] = to[0] - number(2) * (x * by[1] - y * by[2]);
+    for (int m = 1; m <= l; ++m) {
+        one_double re = x * (m > 1 ? by[2 * m - 3] : by[0]), im = -(y * (m > 1 ? by[2 * m - 3] : by[0]));
+        if (m > 1) re = re + y * by[2 * m - 2], im = im + x * by[2 * m - 2];
+        if (m < l) re = re + v.z * by[2 * m - 1], im = im + v.z * by[2 * m];
+        if (m + 1 < l) {
+            re = re - (x * by[2 * m + 1] - y * by[2 * m + 2]);
+            im = im - (x * by[2 * m + 2] + y * by[2 * m + 1]);
+        }
+        to[2 * m - 1] = to[2 * m - 1] + re;
+        to[2 * m] = to[2 * m] + im;
+    }
 }
-ABUT_HD constexpr void add_product(cubic& q, const vector& v, const quadratic& m) {
-    q[0] = q[0] + v.x * m[0];
-    q[1] = q[1] + v.y * m[1];
-    q[2] = q[2] + v.z * m[2];
-    q[3] = q[3] + (v.x * m[3] + v.y * m[0]);
-    q[4] = q[4] + (v.y * m[4] + v.z * m[1]);
-    q[5] = q[5] + (v.z * m[5] + v.x * m[2]);
-    q[6] = q[6] + (v.x * m[1] + v.y * m[3]);
-    q[7] = q[7] + (v.y * m[2] + v.z * m[4]);
-    q[8] = q[8] + (v.z * m[0] + v.x * m[5]);
-    q[9] = q[9] + (v.x * m[4] + v.y * m[5] + v.z * m[3]);
-}
-ABUT_HD constexpr void add_product(quartic& t, const vector& v, const cubic& q) {
-    t[0] = t[0] + v.x * q[0];
-    t[1] = t[1] + v.y * q[1];
-    t[2] = t[2] + v.z * q[2];
-    t[3] = t[3] + (v.x * q[3] + v.y * q[0]);
-    t[4] = t[4] + (v.y * q[4] + v.z * q[1]);
-    t[5] = t[5] + (v.z * q[5] + v.x * q[2]);
-    t[6] = t[6] + (v.x * q[1] + v.y * q[6]);
-    t[7] = t[7] + (v.y * q[2] + v.z * q[7]);
-    t[8] = t[8] + (v.z * q[0] + v.x * q[8]);
-    t[9] = t[9] + (v.x * q[6] + v.y * q[3]);
-    t[10] = t[10] + (v.y * q[7] + v.z * q[4]);
-    t[11] = t[11] + (v.z * q[8] + v.x * q[5]);
-    t[12] = t[12] + (v.x * q[9] + v.y * q[8] + v.z * q[3]);
-    t[13] = t[13] + (v.y * q[9] + v.z * q[6] + v.x * q[4]);
-    t[14] = t[14] + (v.z * q[9] + v.x * q[7] + v.y * q[5]);
-}
-///@}
+/// Where the numbers of a form begin.
+ABUT_HD constexpr int first_of(int l) { return l * l - 1; }
 
-/// Moments as forms, while they are added up.
-struct moment_sums {
-    quadratic m{};
-    cubic q{};
-    quartic t{};
+/// A double to so many bits (T. J. Dekker, A floating-point technique for extending the available precision, 1971). Casts to float
+/// and back would do as well, if g++ 12 did not drop both where it makes vectors of them.
+ABUT_HD inline double of_bits(double x, int bits) {
+    const double more = plain_product(x, contact_math::power_of_two(53 - bits) + 1);
+    return plain_sum(more, -plain_sum(more, -x));
+}
+/// As the sum of two floats, of 48 bits.
+ABUT_HD inline void write_floats(double x, float& high, float& low) {
+    const double first = of_bits(x, 24);
+    high = static_cast<float>(first);
+    low = static_cast<float>(plain_sum(x, -first));
+}
+ABUT_HD inline vec3<double> held_by_floats(const vector& v) {
+    return {of_bits(v.x.high, 46), of_bits(v.y.high, 46), of_bits(v.z.high, 46)};
+}
 
-    /// Takes off |u|^2 times a form of lower degree, so that what is left is harmonic, and writes it.
-    ABUT_HD constexpr void write_harmonic(winding_moments& to) const {
-        const one_double third = (m[0] + m[1] + m[2]) / number(3);
-        for (int k = 0; k < 6; ++k) to.m[k] = (k < 3 ? m[k] - third : m[k]).high;
-        // The Laplacian of a cubic form is 6 xxx + 2 xyy + 2 zzx along x; that of |u|^2 l is 10 l for a linear l.
-        const auto tenth = [](one_double cube, one_double first, one_double second) {
-            return (number(3) * cube + first + second) / number(5);
-        };
-        const one_double x = tenth(q[0], q[6], q[5]), y = tenth(q[1], q[7], q[3]), z = tenth(q[2], q[8], q[4]);
-        const one_double off[10] = {x, y, z, y, z, x, x, y, z, number(0)};
-        for (int k = 0; k < 10; ++k) to.q[k] = (q[k] - off[k]).high;
-        // F less |u|^2 of its Laplacian G over 14, and |u|^4 of that of G over 280.
-        const auto twice = [](one_double a) { return a + a; };
-        const auto of_square = [&](one_double fourth, one_double a, one_double b) {
-            return number(12) * fourth + twice(a + b);
-        };
-        const auto mixed = [&](one_double a, one_double b, one_double c) { return number(6) * (a + b) + twice(c); };
-        const one_double g[6] = {of_square(t[0], t[9], t[11]), of_square(t[1], t[9], t[10]), of_square(t[2], t[10], t[11]),
-                                 mixed(t[3], t[6], t[14]),     mixed(t[4], t[7], t[12]),     mixed(t[5], t[8], t[13])};
-        const one_double f = twice(g[0] + g[1] + g[2]) / number(280);
-        const one_double by_g[15] = {g[0], g[1], g[2], g[3],        g[4],        g[5],        g[3], g[4],
-                                     g[5], g[0] + g[1], g[1] + g[2], g[2] + g[0], g[4], g[5], g[3]};
-        for (int k = 0; k < 15; ++k) {
-            const one_double fourth = k < 3 ? f : k >= 9 && k < 12 ? twice(f) : number(0);
-            to.t[k] = (t[k] - by_g[k] / number(14) + fourth).high;
+}  // namespace winding
+
+/// The moments of some triangles about a centre.
+struct winding_moments {
+    using point = vec3<double>;
+    point center, lower, upper;  ///< two floats hold each coordinate of the centre; and the box around the corners
+    double radius;               ///< no corner is farther from the centre
+    double area, spread;         ///< the triangles' area, and R2 or more
+    winding::one_double form[far_count];  ///< F_1, F_2 ...
+    std::uint32_t count;                  ///< of triangles
+};
+
+/// The corners of a triangle.
+struct corners_in_frame {
+    winding::vector at[3];
+
+    template <scalar T>
+    ABUT_HD corners_in_frame(const triangle<T>& t, const winding_frame& frame)
+        : at{winding::vector_of(frame.of(widened(t.a))), winding::vector_of(frame.of(widened(t.b))), winding::vector_of(frame.of(widened(t.c)))} {}
+    [[nodiscard]] ABUT_HD winding::vector normal() const {
+        return scale(winding::number(0.5), cross(at[1] - at[0], at[2] - at[0]));
+    }
+    /// Adds its moments about a centre.
+    ABUT_HD void add_forms(const vec3<double>& center, winding::one_double* to) const {
+        using namespace winding;
+        // The mean of (y.u)^k is 2 k! / (k + 2)! times the sum of all products of k of the corners' (y.u).
+        one_double mean[far_count] = {};  // of degrees 0 to L - 1
+        mean[0] = number(1);
+        for (const vector& corner : at) {
+            const vector way = corner - vector_of(center);
+            for (int k = 1; k < far_degree; ++k) add_product(mean + k * k, way, mean + (k - 1) * (k - 1), k);
+        }
+        const vector n = normal();
+        for (int l = 1; l <= far_degree; ++l) {
+            add_product(to + first_of(l), scale(number(2.0 / (l * (l + 1))), n), mean + (l - 1) * (l - 1), l);
         }
     }
 };
 
-}  // namespace winding
-
-/// Of one triangle, about the mean of its corners as it is rounded.
+/// Of one triangle, about the mean of its corners as it is rounded, but the forms, which are 0.
+ABUT_HD inline winding_moments place_of(const corners_in_frame& t) {
+    using namespace winding;
+    const vector &a = t.at[0], &b = t.at[1], &c = t.at[2], sum = a + b + c;
+    winding_moments of;
+    of.center = held_by_floats({sum.x / number(3), sum.y / number(3), sum.z / number(3)});
+    const vector center = vector_of(of.center), to[3] = {a - center, b - center, c - center}, all = to[0] + to[1] + to[2];
+    for (one_double& x : of.form) x = number(0);
+    of.lower = {least(a.x.high, b.x.high, c.x.high), least(a.y.high, b.y.high, c.y.high), least(a.z.high, b.z.high, c.z.high)};
+    of.upper = {greatest(a.x.high, b.x.high, c.x.high), greatest(a.y.high, b.y.high, c.y.high),
+                greatest(a.z.high, b.z.high, c.z.high)};
+    of.count = 1;
+    of.radius = greatest(length_of(to[0]), length_of(to[1]), length_of(to[2]));
+    of.area = length_of(t.normal());
+    // The mean of a square is that of corners' squares, and the square of their sum, over 12.
+    one_double squares = dot(all, all);
+    for (const vector& way : to) squares = squares + dot(way, way);
+    of.spread = (number(of.area) * squares / number(12)).high;
+    return of;
+}
+/// And the forms.
 template <scalar T>
 ABUT_HD winding_moments moments_of(const triangle<T>& t, const winding_frame& frame) {
-    using namespace winding;
-    const auto corner = [&](const vec3<T>& p) {
-        const vec3<double> at = frame.of(widened(p));
-        return vector_of(at);
-    };
-    const vector a = corner(t.a), b = corner(t.b), c = corner(t.c);
-    const auto third = [](const vector& v) { return vector{v.x / number(3), v.y / number(3), v.z / number(3)}; };
-    const vector center = third(a + b + c), to_a = a - center, to_b = b - center, to_c = c - center;
-    const vector double_normal = cross(b - a, c - a), all = to_a + to_b + to_c, mean = third(all);
-    const vector n{number(0.5) * double_normal.x, number(0.5) * double_normal.y, number(0.5) * double_normal.z};
-    // The mean of (y.u)^2 is (sum of corners' squares + the square of their sum) / 12; that of (y.u)^3, with sums p1, p2 and p3
-    // of the corners' powers, is (p1^3 + 3 p1 p2 + 2 p3) / 60.
-    const auto powers_of = [](const vector& v, quadratic& square, cubic& cube, double factor) {
-        quadratic own{};
-        add_product(own, v, v);
-        const vector more = scale(number(factor), v);
-        add_product(square, v, v);
-        add_product(cube, more, own);
-    };
-    quadratic square{};
-    cubic cube{};
-    powers_of(to_a, square, cube, 2);
-    powers_of(to_b, square, cube, 2);
-    powers_of(to_c, square, cube, 2);
-    add_product(cube, scale(number(3), all), square);
-    powers_of(all, square, cube, 1);
-    for (one_double& x : square) x = x / number(12);
-    for (one_double& x : cube) x = x / number(60);
-    moment_sums sums;
-    add_product(sums.m, n, mean);
-    add_product(sums.q, n, square);
-    add_product(sums.t, n, cube);
-    winding_moments of;
-    of.center = contact_math::rounded_off(center);
-    of.lower = contact_math::rounded_off(vector{{least(a.x.high, b.x.high, c.x.high)},
-                                                {least(a.y.high, b.y.high, c.y.high)},
-                                                {least(a.z.high, b.z.high, c.z.high)}});
-    of.upper = contact_math::rounded_off(vector{{greatest(a.x.high, b.x.high, c.x.high)},
-                                                {greatest(a.y.high, b.y.high, c.y.high)},
-                                                {greatest(a.z.high, b.z.high, c.z.high)}});
-    of.count = 1;
-    of.radius = greatest(length_of(to_a), length_of(to_b), length_of(to_c));
-    of.area = length_of(n);
-    of.spread = (number(of.area) * (square[0] + square[1] + square[2])).high;
-    of.s = contact_math::rounded_off(n);
-    sums.write_harmonic(of);
+    const corners_in_frame corners(t, frame);
+    winding_moments of = place_of(corners);
+    corners.add_forms(of.center, of.form);
     return of;
 }
 
-/// Of two parts or more, about the centre of their areas.
-ABUT_HD inline winding_moments joined_moments(const winding_moments* parts, int count, double off_center) {
+/// Of two parts or more, about the centre of their areas. Forms of single triangles may be left to the caller.
+ABUT_HD inline winding_moments joined_moments(const winding_moments* parts, int count, double off_center, bool without_triangles = false) {
     using namespace winding;
     // The centre is moved from that of the first towards each of the others: it stays among them, whatever is rounded.
     one_double area = number(parts[0].area);
@@ -239,7 +207,8 @@ ABUT_HD inline winding_moments joined_moments(const winding_moments* parts, int 
         center = center + scale(weight, vector_of(parts[k].center) - center);
     }
     winding_moments all;
-    all.center = contact_math::rounded_off(center);
+    all.center = held_by_floats(center);
+    center = vector_of(all.center);
     all.area = area.high;
     all.lower = parts[0].lower, all.upper = parts[0].upper, all.count = parts[0].count;
     for (int k = 1; k < count; ++k) {
@@ -247,60 +216,45 @@ ABUT_HD inline winding_moments joined_moments(const winding_moments* parts, int 
         all.upper = greatest(all.upper, parts[k].upper);
         all.count += parts[k].count;
     }
+    for (one_double& x : all.form) x = number(0);
     one_double spread{};
     double radius = 0;
-    vector s{};
-    moment_sums sums;
     for (int k = 0; k < count; ++k) {
         const winding_moments& part = parts[k];
-        const vector way = vector_of(part.center) - center, n = vector_of(part.s);
+        const vector way = vector_of(part.center) - center;
         const one_double moved = number(length_of(way));
         radius = greatest(radius, (moved + number(part.radius)).high);
         // R2 about a centre that is moved from that of the area is R2 + area times the square; a part's is not quite that.
         const one_double reach = moved + number(off_center);
         spread = spread + (number(part.spread) + number(part.area) * (reach * reach));
-        s = s + n;
-        // About the new centre they are M + S w, Q + (2 M + S w) w and T + (3 Q + (3 M + S w) w) w, where w is way.u.
-        quadratic by_s{}, twice, thrice;
-        cubic by_m{}, all_q;
-        add_product(by_s, way, n);
-        for (int j = 0; j < 6; ++j) {
-            const one_double m = number(part.m[j]);
-            sums.m[j] = sums.m[j] + (m + by_s[j]);
-            twice[j] = number(2) * m + by_s[j];
-            thrice[j] = number(3) * m + by_s[j];
+        if (without_triangles && part.count == 1) continue;
+        // About the new centre (y.u)^k is (y.u + way.u)^k: binomials, as in Pascal's triangle.
+        one_double form[far_count];
+        for (int j = 0; j < far_count; ++j) form[j] = part.form[j];
+        for (int least = 2; least <= far_degree; ++least) {
+            for (int l = far_degree; l >= least; --l) add_product(form + first_of(l), way, form + first_of(l - 1), l);
         }
-        add_product(by_m, way, thrice);
-        for (int j = 0; j < 10; ++j) {
-            const one_double q = number(part.q[j]);
-            sums.q[j] = sums.q[j] + q;
-            all_q[j] = number(3) * q + by_m[j];
-        }
-        add_product(sums.q, way, twice);
-        for (int j = 0; j < 15; ++j) sums.t[j] = sums.t[j] + number(part.t[j]);
-        add_product(sums.t, way, all_q);
+        for (int j = 0; j < far_count; ++j) all.form[j] = all.form[j] + form[j];
     }
     // The box's farthest corner may be nearer than what the parts' balls say.
     const vec3<double> far = greatest(contact_math::plain_difference(all.upper, all.center),
                                       contact_math::plain_difference(all.center, all.lower));
     all.radius = plain_product(least(radius, length_of(vector_of(far))), 1 + 0x1p-46);
     all.spread = spread.high;
-    all.s = contact_math::rounded_off(s);
-    sums.write_harmonic(all);
     return all;
 }
 
 inline constexpr double per_full_angle = 0.079577471545947668;  ///< 1 / (4 pi)
 
-/// What a walk reads of the far fields of four nodes: coefficients of S.u, M[u, u] / r, Q[u, u, u] / r^2 and T[u, u, u, u] / r^3,
-/// over 4 pi and with the factors of the expansion; of the forms those that say all. So all are like the area, and no product
-/// of floats is too small, however small the node. One is the sum of two floats, of which the first may do.
+/// What a walk reads of the far fields of four nodes: the numbers of F_l / r^l, over 4 pi and with the factors of the expansion and
+/// of g_m. So all are like the area over r, and no product of floats is too small, however small the node. One is the sum of two
+/// floats, of which the first may do.
 struct alignas(16) far_terms {
-    static constexpr int count = 24;
+    static constexpr int count = far_count;
     float high[count][4], low[count][4];
 };
 /// And what its error is made of: the radius; the factor of the bound that does not depend on the point, R2 / (4 pi r^2); and
-/// what floats may lose of S and M, and of Q and T, as factors of 1 / d^2 and r^2 / d^4. Rounded up.
+/// what floats may lose of F_1 and F_2, and of the others, as factors of 1 / d^2 and r^2 / d^4. Rounded up.
 struct far_bounds {
     float radius, weight, noise, noise_of_high;
 };
@@ -308,27 +262,26 @@ struct far_bounds {
 ABUT_HD inline float rounded_up(double x) { return static_cast<float>(plain_product(x, 1 + 0x1p-20) + 0x1p-120); }
 
 ABUT_HD inline far_bounds write_far_terms(const winding_moments& all, far_terms& terms, int node) {
-    const double *const m = all.m, *const q = all.q, *const t = all.t, unit = per_full_angle;
     const float radius = rounded_up(all.radius);
     const auto r = static_cast<double>(radius);
-    const double of[far_terms::count] = {all.s.x, all.s.y, all.s.z, m[0], m[1], m[3], m[4], m[5], q[0], q[1], q[2], q[6],
-                                         q[7],    q[8],    q[9],    t[0], t[1], t[2], t[3], t[4], t[5], t[6], t[7], t[8]};
-    double sum[4] = {};
-    for (int k = 0; k < far_terms::count; ++k) {
-        const int degree = k < 3 ? 0 : k < 8 ? 1 : k < 15 ? 2 : 3;
-        const double factor = degree == 0 ? unit : degree == 1 ? -3 * unit : degree == 2 ? 7.5 * unit : -17.5 * unit;
-        double term = plain_product(of[k], factor);
-        for (int power = 0; power < degree; ++power) term = term / r;
-        const auto high = static_cast<float>(term);
-        terms.high[k][node] = high;
-        terms.low[k][node] = static_cast<float>(plain_sum(term, -static_cast<double>(high)));
-        sum[degree] = plain_sum(sum[degree], absolute(term));
+    // The leading coefficient of P_l, over r^l: that of P_(l + 1) is (2 l + 1) / (l + 1) of it.
+    double leading = per_full_angle / r, parts[2] = {};
+    for (int l = 1; l <= far_degree; ++l) {
+        for (int k = 0; k < 2 * l + 1; ++k) {
+            const int at = winding::first_of(l) + k;
+            const double term = plain_product(all.form[at].high, plain_product(leading, k == 0 ? 1.0 * l : 2.0 * l));
+            winding::write_floats(term, terms.high[at][node], terms.low[at][node]);
+            double& part = parts[l < 3 ? 0 : 1];
+            part = plain_sum(part, absolute(term));
+        }
+        leading = plain_product(leading, -(2.0 * l + 1) / (l + 1)) / r;
     }
-    // Less than forty roundings are one upon another, of parts that add up to no more than this: a coefficient of Q comes with
-    // a polynomial of at most 3/2, one of T with 2, and r < d.
-    const auto noise = [](double parts) { return rounded_up(plain_product(40 * 0x1p-24, parts)); };
-    return {radius, rounded_up(plain_product(all.spread / r / r, per_full_angle * (1 + 0x1p-8))),
-            noise(plain_sum(sum[0], sum[1])), noise(plain_sum(1.5 * sum[2], 2 * sum[3]))};
+    // A coordinate of the way over d is off by less than 16 2^-24, so a form of degree l by 16 l 2^-24 and by what some thirty
+    // roundings more leave, of parts that add up to no more than this: |z^m q_lm| is at most 5/2 (3/2 for l < 3) with all its parts
+    // positive, and r < d.
+    const auto noise = [&](double units, double x) { return rounded_up(plain_product(plain_product(units * 0x1p-24, r), x)); };
+    return {radius, rounded_up(plain_product(all.spread / r / r, per_full_angle * (1 + 0x1p-8))), noise(1.5 * 64, parts[0]),
+            noise(2.5 * 110, parts[1])};
 }
 
 /// By how much a far field may be off at a distance whose square is given, in floats: infinite where the gap to the ball has
@@ -336,31 +289,53 @@ ABUT_HD inline far_bounds write_far_terms(const winding_moments& all, far_terms&
 /// less.
 template <class N>
 ABUT_INLINE ABUT_HD N far_error(const N& squared, const N& radius, const N& weight, const N& noise, const N& noise_of_high) {
-    const N one = N::of(1), inverse = one / root(squared), square = inverse * inverse, x = radius * inverse, gap = one - x;
-    const N x2 = x * x, left_out = (weight * (x2 * x2) * (N::of(5) - N::of(4) * x)) / (gap * gap);
+    const N distance = root(squared), inverse = N::of(1) / distance, by_gap = N::of(1) / (distance - radius);
+    const N square = inverse * inverse, x = radius * inverse, x2 = x * x, stretch = distance * by_gap;
+    static_assert(far_degree == 5);
+    const N left_out = (weight * (x2 * x2 * x)) * (N::of(far_degree + 1) - N::of(far_degree) * x) * (stretch * stretch);
     const N error = square * (left_out + (noise + noise_of_high * x2));
-    const auto is_outside = (gap > N::of(0x1p-10f)) & (squared > N::of(1e-30f)) & (squared < N::of(1e30f));
+    const auto is_outside = (distance - radius > N::of(0x1p-10f) * distance) & (squared > N::of(1e-30f)) & (squared < N::of(1e30f));
     return select(is_outside, error + N::of(1e-30f), N::of(infinity<float>));
+}
+
+/// Adds what the numbers of degrees l and above say of order m to re + i im; q and below are q_lm and that of degree l - 1, as
+/// forms: `squared` is the square of the way's length, of which z is a coordinate.
+template <int L, int M, class N, class Terms>
+ABUT_INLINE ABUT_HD void add_order(const Terms& term, const N& z, const N& squared, const N& q, const N& below, N& re, N& im) {
+    constexpr int at = winding::first_of(L);
+    re = re + q * term[M > 0 ? at + 2 * M - 1 : at];
+    if constexpr (M > 0) im = im + q * term[at + 2 * M];
+    if constexpr (L < far_degree) {
+        constexpr float ratio = static_cast<float>((L * L - M * M) / (4.0 * L * L - 1));
+        add_order<L + 1, M>(term, z, squared, z * q - (N::of(ratio) * squared) * below, q, re, im);
+    }
+}
+/// Of orders m and below, where re + i im is what higher ones say, over (x + i y)^(m + 1).
+template <int M, class N, class Terms>
+ABUT_INLINE ABUT_HD N sum_of_orders(const Terms& term, const vec3<N>& v, const N& squared, const N& re, const N& im) {
+    const N one = N::of(1);
+    N real = re * v.x - im * v.y;
+    if constexpr (M == 0) {
+        N none = one;
+        add_order<1, 0>(term, v.z, squared, v.z, one, real, none);
+        return real;
+    } else {
+        constexpr int at = winding::first_of(M);
+        N imaginary = re * v.y + im * v.x;
+        real = real + term[at + 2 * M - 1];
+        imaginary = imaginary + term[at + 2 * M];
+        if constexpr (M < far_degree) add_order<M + 1, M>(term, v.z, squared, v.z, one, real, imaginary);
+        return sum_of_orders<M - 1>(term, v, squared, real, imaginary);
+    }
 }
 
 /// The far field at `way` from the centre of a node, of which term[k] are the coefficients.
 template <class N, class Terms>
 ABUT_INLINE ABUT_HD N far_value(const vec3<N>& way, const N& radius, const Terms& term) {
-    const N inverse = N::of(1) / root(dot(way, way)), x = radius * inverse;
-    const vec3<N> v{way.x * inverse, way.y * inverse, way.z * inverse};
-    const N xx = v.x * v.x, yy = v.y * v.y, zz = v.z * v.z, x_z = xx - zz, y_z = yy - zz, x_y = xx - yy;
-    const N xy = v.x * v.y, yz = v.y * v.z, zx = v.z * v.x, three = N::of(3);
-    const N x_3z = x_z - (zz + zz), y_3x = yy - three * xx, z_3y = zz - three * yy;
-    const N of_s = term[0] * v.x + term[1] * v.y + term[2] * v.z;
-    const N of_m = term[3] * x_z + term[4] * y_z + term[5] * xy + term[6] * yz + term[7] * zx;
-    const N of_q = v.x * (term[8] * x_3z + term[11] * y_z) + v.y * (term[9] * y_3x - term[12] * x_z) +
-                   v.z * (term[10] * z_3y + term[13] * x_y) + term[14] * (v.x * yz);
-    const N a = xx * yy, b = yy * zz, c = zz * xx;
-    const N squares = term[15] * (xx * xx - three * (a - b + c)) + term[16] * (yy * yy - three * (a + b - c)) +
-                      term[17] * (zz * zz - three * (b + c - a));
-    const N of_t = squares + xy * (term[18] * x_3z + term[21] * (yy - three * zz)) +
-                   yz * (term[19] * y_3x + term[22] * (zz - three * xx)) + zx * (term[20] * z_3y + term[23] * (xx - three * yy));
-    return (inverse * inverse) * (of_s + x * (of_m + x * (of_q + x * of_t)));
+    const N inverse = N::of(1) / root(dot(way, way)), unit = radius * (inverse * inverse);
+    const vec3<N> v{way.x * unit, way.y * unit, way.z * unit};  // x u
+    constexpr int at = winding::first_of(far_degree) + 2 * far_degree;
+    return inverse * sum_of_orders<far_degree - 1>(term, v, radius * unit, N(term[at - 1]), N(term[at]));
 }
 
 // --- of all nodes of a tree, from the leaves up --------------------------------------------------------------------------
@@ -413,9 +388,15 @@ private:
             winding_moments parts[std::size_t{Tree::width}];
             for (int k = 0; k < children; ++k) {
                 const bvh_child child = tree.child(node, k);
-                parts[k] = child.is_leaf() ? moments_of(shapes[child.index()], frame) : moments[child.index()];
+                parts[k] = child.is_leaf() ? place_of(corners_in_frame(shapes[child.index()], frame)) : moments[child.index()];
             }
-            moments[number] = joined_moments(parts, children, off_center);
+            winding_moments all = joined_moments(parts, children, off_center, true);
+            // Of triangles they are made where they are wanted, instead of being moved there.
+            for (int k = 0; k < children; ++k) {
+                const bvh_child child = tree.child(node, k);
+                if (child.is_leaf()) corners_in_frame(shapes[child.index()], frame).add_forms(all.center, all.form);
+            }
+            moments[number] = all;
             const std::uint32_t next = above[number];
             if (next == no_link) return;
             const auto& parent = tree.fetch(next);
@@ -455,8 +436,8 @@ execution::buffer_of<Policy, winding_moments> moments_of_nodes(const Policy& on,
     execution::buffer_of<Policy, winding_moments> moments(on, count);
     execution::buffer_of<Policy, std::uint32_t> reached(on, gather::words * count);
     fill(on, reached.data(), reached.size(), std::uint32_t{0});
-    // In each of 96 levels at most a centre is rounded, and the areas that weigh it: by 200 units of roundoff or less.
-    for_each_index(on, count, gather{tree, shapes, frame, 0x1p-37, above, reached.data(), moments.data()});
+    // In each of 96 levels at most a centre is rounded, to 46 bits, and the areas that weigh it: by 2^-43 or less.
+    for_each_index(on, count, gather{tree, shapes, frame, 0x1p-36, above, reached.data(), moments.data()});
     return moments;
 }
 

@@ -66,13 +66,16 @@ struct wind_around_all {
 ///
 /// What may be off by most is looked at more closely first, until all together may be off by no more than the tolerance. A
 /// list holds the nodes that were opened, with what each of their children may be off by. Children above a level are opened,
-/// and the level falls by a quarter at a time. Where the list is full, the walk begins again, depth first: all above a level
+/// a generation after another, and the level falls. Where the list is full, the walk begins again, depth first: all above a level
 /// is opened, and the level falls until the rest is off by no more than the tolerance. Either way the order of the sum
 /// depends on the index and the point alone.
 template <scalar T>
 class winding_walk {
 public:
-    ABUT_HD winding_walk(const winding_view<T>& in, const vec3<T>& p) : in_(in), p_(p), from_(in.frame.of(widened(p))) {}
+    ABUT_HD winding_walk(const winding_view<T>& in, const vec3<T>& p) : in_(in), p_(p), from_(in.frame.of(widened(p))) {
+        const double from[3] = {from_.x, from_.y, from_.z};
+        for (int axis = 0; axis < 3; ++axis) winding::write_floats(from[axis], high_[axis], low_[axis]);
+    }
 
     /// All triangles, in the order of the index.
     ABUT_HD double add_all() {
@@ -88,11 +91,6 @@ public:
 private:
     static constexpr int room = 512;
     static_assert(room >= 3 * bvh_max_depth + 1);
-    struct opened {
-        std::uint32_t node;
-        float error[4];  ///< below 0 of what was opened in turn
-    };
-
     ABUT_HD void add_block(std::uint32_t block) {
         double shares[4];
         solid_angle_shares(in_.blocks[block], p_, shares);
@@ -101,11 +99,11 @@ private:
 
     template <scalar F>
     ABUT_HD double add_far_fields(double tolerance) {
-        // Less for what is rounded in sums of bounds.
-        tolerance = plain_product(tolerance, 1 - 0x1p-20);
-        double level = plain_product(tolerance, 0.125);  // there are more nodes than eight
+        // Less for what is rounded in sums of bounds, of 512 floats at most.
+        tolerance = plain_product(tolerance, 1 - 0x1p-14);
+        double level = plain_product(tolerance, 0.0625);
         if (open_largest<F>(tolerance, level)) {
-            for (int i = 0; i < count_; ++i) add_far<F>(list_[i]);
+            for (int i = 0; i < count_; ++i) add_far<F>(node_[i], error_[i]);
         } else {
             for (double left = infinity<double>; !(left <= tolerance);) {
                 if (left < infinity<double>) level = plain_product(0.6, level_for(level, tolerance / left));
@@ -123,33 +121,52 @@ private:
         return plain_product(level, plain_product(share, std::sqrt(share)));
     }
 
-    /// What the far fields of a node's children may be off by.
+    /// What the far fields of a node's children may be off by; below 0 of those that are not there.
     template <scalar F>
-    ABUT_HD void bound(opened& at) const {
+    ABUT_INLINE ABUT_HD void bound(std::uint32_t number, float* error) const {
         constexpr bool is_float = std::same_as<F, float>;
-        const winding_node& node = in_.nodes[at.node];
+        const winding_node& node = in_.nodes[number];
 #if ABUT_VECTORS
-        using number = four_rounded<float>;
-        const auto v = in_floats(ways_to(node));
-        const number noise = is_float ? number::load(node.noise) : number::of(0);
-        const number of_high = is_float ? number::load(node.noise_of_high) : number::of(0);
-        far_error(dot(v, v), number::load(node.radius), number::load(node.weight), noise, of_high).value.store(at.error);
+        using row = four_rounded<float>;
+        const auto v = ways_to<row>(node, 0);
+        const row none = row::of(0), noise = is_float ? row::load_aligned(node.noise) : none,
+                  of_high = is_float ? row::load_aligned(node.noise_of_high) : none;
+        far_error(dot(v, v), row::load_aligned(node.radius), row::load_aligned(node.weight), noise, of_high).value.store(error);
 #else
-        using number = one_rounded<float>;
+        using row = one_rounded<float>;
         for (int k = 0; k < 4; ++k) {
-            const auto v = in_floats(way_to(node, k));
-            const number noise{is_float ? node.noise[k] : 0.0f}, of_high{is_float ? node.noise_of_high[k] : 0.0f};
-            at.error[k] = far_error(dot(v, v), number{node.radius[k]}, number{node.weight[k]}, noise, of_high).value;
+            const auto v = ways_to<row>(node, k);
+            const row noise{is_float ? node.noise[k] : 0.0f}, of_high{is_float ? node.noise_of_high[k] : 0.0f};
+            error[k] = far_error(dot(v, v), row{node.radius[k]}, row{node.weight[k]}, noise, of_high).value;
         }
 #endif
         if (node.count == 4) return;
-        for (std::uint32_t k = node.count; k < 4; ++k) at.error[k] = -1;
+        for (std::uint32_t k = node.count; k < 4; ++k) error[k] = -1;
     }
+    /// From the point to the centres of a node's children, of all or of child k. Between floats a difference of parts that are
+    /// close is exact, so that it is off by 2^-22 of itself.
+    ///@{
+    template <class N>
+    [[nodiscard]] ABUT_INLINE ABUT_HD static N row_of(const float* from, int k) {
+        if constexpr (std::same_as<N, one_rounded<float>>) {
+            return {from[k]};
+        } else {
+            return N::load_aligned(from);
+        }
+    }
+    template <class N>
+    [[nodiscard]] ABUT_INLINE ABUT_HD vec3<N> ways_to(const winding_node& node, int k) const {
+        const auto one = [&](int axis) {
+            return (row_of<N>(node.center[axis], k) - N::of(high_[axis])) + (row_of<N>(node.center_low[axis], k) - N::of(low_[axis]));
+        };
+        return {one(0), one(1), one(2)};
+    }
+    ///@}
 #if ABUT_VECTORS
     /// Coefficients, which are read where they are needed.
     struct rows_of_floats {
         const float (*high)[4];
-        ABUT_INLINE four_rounded<float> operator[](int k) const { return four_rounded<float>::load(high[k]); }
+        ABUT_INLINE four_rounded<float> operator[](int k) const { return four_rounded<float>::load_aligned(high[k]); }
     };
     struct rows_of_doubles {
         const float (*high)[4], (*low)[4];
@@ -157,40 +174,45 @@ private:
             return in_doubles(four_rounded<float>::load(high[k])) + in_doubles(four_rounded<float>::load(low[k]));
         }
     };
-    [[nodiscard]] ABUT_INLINE vec3<four_rounded<double>> ways_to(const winding_node& node) const {
+    [[nodiscard]] ABUT_INLINE vec3<four_rounded<double>> long_ways_to(const winding_node& node) const {
         using wide = four_rounded<double>;
-        return {wide::load(node.center[0]) - wide::of(from_.x), wide::load(node.center[1]) - wide::of(from_.y),
-                wide::load(node.center[2]) - wide::of(from_.z)};
+        const auto row = [](const float* from) { return in_doubles(four_rounded<float>::load(from)); };
+        const auto one = [&](int axis, double from) { return (row(node.center[axis]) + row(node.center_low[axis])) - wide::of(from); };
+        return {one(0, from_.x), one(1, from_.y), one(2, from_.z)};
     }
 #endif
-    [[nodiscard]] ABUT_HD vec3<one_rounded<double>> way_to(const winding_node& node, int k) const {
-        return {{plain_sum(node.center[0][k], -from_.x)},
-                {plain_sum(node.center[1][k], -from_.y)},
-                {plain_sum(node.center[2][k], -from_.z)}};
+    [[nodiscard]] ABUT_HD vec3<one_rounded<double>> long_way_to(const winding_node& node, int k) const {
+        const double from[3] = {from_.x, from_.y, from_.z};
+        one_rounded<double> way[3];
+        for (int axis = 0; axis < 3; ++axis) {
+            const double center = plain_sum(static_cast<double>(node.center[axis][k]), static_cast<double>(node.center_low[axis][k]));
+            way[axis] = {plain_sum(center, -from[axis])};
+        }
+        return {way[0], way[1], way[2]};
     }
 
     /// Adds the far fields of a node's children that were not opened: each to a sum of its own.
     template <scalar F>
-    ABUT_HD void add_far(const opened& at) {
+    ABUT_INLINE ABUT_HD void add_far(std::uint32_t number, const float* error) {
         constexpr bool is_float = std::same_as<F, float>;
-        const winding_node& node = in_.nodes[at.node];
-        const far_terms& terms = in_.terms[at.node];
+        const winding_node& node = in_.nodes[number];
+        const far_terms& terms = in_.terms[number];
 #if ABUT_VECTORS
         using wide = four_rounded<double>;
         using single = four_rounded<float>;
         wide kept;
-        const single error = single::load(at.error);
+        const single off = single::load_aligned(error), radius = single::load_aligned(node.radius);
         if constexpr (is_float) {
-            const single value = far_value(in_floats(ways_to(node)), single::load(node.radius), rows_of_floats{terms.high});
-            kept = in_doubles(select(error < single::of(0), single::of(0), value));
+            const single value = far_value(ways_to<single>(node, 0), radius, rows_of_floats{terms.high});
+            kept = in_doubles(select(off < single::of(0), single::of(0), value));
         } else {
-            const wide value = far_value(ways_to(node), in_doubles(single::load(node.radius)), rows_of_doubles{terms.high, terms.low});
-            kept = select(in_doubles(error) < wide::of(0), wide::of(0), value);
+            const wide value = far_value(long_ways_to(node), in_doubles(radius), rows_of_doubles{terms.high, terms.low});
+            kept = select(in_doubles(off) < wide::of(0), wide::of(0), value);
         }
         (wide::load(far_) + kept).value.store(far_);
 #else
         for (int k = 0; k < 4; ++k) {
-            if (at.error[k] < 0) continue;
+            if (error[k] < 0) continue;
             one_rounded<F> term[far_terms::count];
             for (int j = 0; j < far_terms::count; ++j) {
                 term[j].value = terms.high[j][k];
@@ -198,86 +220,100 @@ private:
             }
             one_rounded<F> value;
             if constexpr (is_float) {
-                value = far_value(in_floats(way_to(node, k)), one_rounded<F>{node.radius[k]}, term);
+                value = far_value(ways_to<one_rounded<float>>(node, k), one_rounded<F>{node.radius[k]}, term);
             } else {
-                value = far_value(way_to(node, k), one_rounded<F>{node.radius[k]}, term);
+                value = far_value(long_way_to(node, k), one_rounded<F>{node.radius[k]}, term);
             }
             far_[k] = plain_sum(far_[k], static_cast<double>(value.value));
         }
 #endif
     }
 
+    /// What all that is not open may be off by, rounded in floats.
+    [[nodiscard]] ABUT_HD double all_of_list() const {
+        float four[4] = {};
+#if ABUT_VECTORS
+        using row = four_rounded<float>;
+        row sum = row::of(0);
+        for (int i = 0; i < count_; ++i) {
+            const row error = row::load_aligned(error_[i]);
+            sum = sum + select(error > row::of(0), error, row::of(0));
+        }
+        sum.value.store(four);
+#else
+        for (int i = 0; i < count_; ++i) {
+            for (int k = 0; k < 4; ++k) four[k] = plain_sum(four[k], greatest(error_[i][k], 0.0f));
+        }
+#endif
+        return static_cast<double>(plain_sum(plain_sum(four[0], four[1]), plain_sum(four[2], four[3])));
+    }
     /// Which children are above a level.
-    ABUT_HD static unsigned above(const opened& at, float level) {
+    ABUT_HD static unsigned above(const float* error, float level) {
 #if ABUT_VECTORS
         using row = lanes<float>;
-        typename row::mask which[1] = {row::load(at.error) > row::all(level)};
+        typename row::mask which[1] = {row::load_aligned(error) > row::all(level)};
         return bits_of(which);
 #else
         unsigned bits = 0;
-        for (int k = 0; k < 4; ++k) bits |= (at.error[k] > level ? 1u : 0u) << k;
+        for (int k = 0; k < 4; ++k) bits |= (error[k] > level ? 1u : 0u) << k;
         return bits;
 #endif
     }
-    ABUT_HD static double all_of(const opened& at) {
-        const auto of = [&](int k) { return static_cast<double>(greatest(at.error[k], 0.0f)); };
-        return plain_sum(plain_sum(of(0), of(1)), plain_sum(of(2), of(3)));
-    }
 
-    /// Asks memory for what is read of children that are opened.
-    ABUT_HD void ask_for([[maybe_unused]] std::uint32_t node, [[maybe_unused]] unsigned which) const {
+    /// Asks memory for what is read of a node that is opened.
+    ABUT_HD void ask_for([[maybe_unused]] std::uint32_t node) const {
 #if !ABUT_DEVICE_CODE
-        for (; which != 0; which &= which - 1) {
-            const std::uint32_t child = in_.nodes[node].child[lowest_bit(which)];
-            if ((child & winding_node::of_block) != 0) continue;
-            const char* const at = reinterpret_cast<const char*>(in_.nodes + child);
-            for (std::size_t line = 0; line < sizeof(winding_node); line += 64) ABUT_PREFETCH(at + line);
-        }
+        const char* const at = reinterpret_cast<const char*>(in_.nodes + node);
+        for (std::size_t line = 0; line < sizeof(winding_node); line += 64) ABUT_PREFETCH(at + line);
 #endif
+    }
+    /// Opens those children of a node that are above a level: blocks are added up, nodes come to the end of the list. False where
+    /// it is full.
+    ABUT_INLINE ABUT_HD bool open(std::uint32_t number, float* error, float level) {
+        for (unsigned which = above(error, level); which != 0; which &= which - 1) {
+            const auto k = static_cast<int>(lowest_bit(which));
+            const std::uint32_t child = in_.nodes[number].child[k];
+            error[k] = -1;
+            if ((child & winding_node::of_block) != 0) {
+                add_block(child ^ winding_node::of_block);
+            } else {
+                if (count_ == room) return false;
+                ask_for(child);
+                node_[count_++] = child;
+            }
+        }
+        return true;
     }
     /// False where the list is full, or will be; `level` is then one that may do for the rest.
     template <scalar F>
     ABUT_HD bool open_largest(double tolerance, double& level) {
         count_ = 1;
-        list_[0].node = in_.root;
-        bound<F>(list_[0]);
-        double all = infinity<double>;
-        for (;; level = plain_product(level, 0.25)) {
-            const auto rounded_level = static_cast<float>(level);
-            for (int i = 0; i < count_; ++i) {
-                unsigned which = above(list_[i], rounded_level);
-                ask_for(list_[i].node, which);
-                for (; which != 0; which &= which - 1) {
-                    const auto k = static_cast<int>(lowest_bit(which));
-                    const std::uint32_t child = in_.nodes[list_[i].node].child[k];
-                    double more = -static_cast<double>(list_[i].error[k]);
-                    list_[i].error[k] = -1;
-                    if ((child & winding_node::of_block) != 0) {
-                        add_block(child ^ winding_node::of_block);
-                    } else {
-                        if (count_ == room) {
-                            level = plain_product(0.25, level);
-                            return false;
-                        }
-                        opened& next = list_[count_++];
-                        next.node = child;
-                        bound<F>(next);
-                        more = plain_sum(more, all_of(next));
-                    }
-                    if (!(all < infinity<double>)) continue;
-                    all = plain_sum(all, more);
-                    if (all <= tolerance) return true;
-                }
-            }
-            // Infinite ones are gone, and the sum begins again.
-            all = 0;
-            for (int i = 0; i < count_; ++i) all = plain_sum(all, all_of(list_[i]));
+        node_[0] = in_.root;
+        bound<F>(node_[0], error_[0]);
+        for (bool is_first = true;; is_first = false) {
+            const double all = all_of_list();
             if (all <= tolerance) return true;
-            // N grows as the root of 1 / share.
-            const double share = tolerance / all, more = static_cast<double>(room) / count_;
-            if (plain_product(plain_product(more, more), share) < 1) {
-                level = plain_product(0.6, level_for(level, share));
-                return false;
+            if (!is_first) {
+                // N grows as the root of 1 / share.
+                const double share = tolerance / all, more = static_cast<double>(room) / count_;
+                const double next = level_for(level, share);
+                if (plain_product(plain_product(more, more), share) < 1) {
+                    level = plain_product(0.6, next);
+                    return false;
+                }
+                level = greatest(plain_product(0.25, level), least(next, plain_product(0.75, level)));
+            }
+            // A generation after another, of which bounds are computed together.
+            for (int first = 0; first < count_;) {
+                const int end = count_;
+                for (int i = first; i < end; ++i) {
+                    if (!open(node_[i], error_[i], static_cast<float>(level))) {
+                        level = plain_product(0.25, level);
+                        return false;
+                    }
+                }
+                for (int i = end; i < count_; ++i) bound<F>(node_[i], error_[i]);
+                first = end;
             }
         }
     }
@@ -285,25 +321,17 @@ private:
     /// Opens all that is above the level, and adds up the rest. Returns by what that may be off.
     template <scalar F>
     ABUT_HD double walk_down(double level) {
-        const auto rounded_level = static_cast<float>(level);
         double all = 0;
-        count_ = 0;
-        list_[count_++].node = in_.root;
+        node_[0] = in_.root;
+        count_ = 1;
         while (count_ > 0) {
-            opened at = list_[--count_];
-            bound<F>(at);
-            for (unsigned which = above(at, rounded_level); which != 0; which &= which - 1) {
-                const auto k = static_cast<int>(lowest_bit(which));
-                at.error[k] = -1;
-                const std::uint32_t child = in_.nodes[at.node].child[k];
-                if ((child & winding_node::of_block) == 0) {
-                    list_[count_++].node = child;
-                } else {
-                    add_block(child ^ winding_node::of_block);
-                }
-            }
-            add_far<F>(at);
-            all = plain_sum(all, all_of(at));
+            const std::uint32_t number = node_[--count_];
+            float* const error = error_[count_];  // nodes that come to the list have none yet
+            bound<F>(number, error);
+            (void)open(number, error, static_cast<float>(level));
+            add_far<F>(number, error);
+            const auto of = [&](int k) { return static_cast<double>(greatest(error[k], 0.0f)); };
+            all = plain_sum(all, plain_sum(plain_sum(of(0), of(1)), plain_sum(of(2), of(3))));
         }
         return all;
     }
@@ -311,10 +339,13 @@ private:
     const winding_view<T>& in_;
     vec3<T> p_;
     vec3<double> from_;
+    float high_[3], low_[3];  ///< of from_
     long_sum near_;
     double far_[4] = {};
     int count_;
-    opened list_[room];  // not initialised
+    // A list of open nodes, and what each of their children may be off by, below 0 where it is open in turn. Not initialised.
+    std::uint32_t node_[room];
+    alignas(16) float error_[room][4];
 };
 
 /// The triangles of an index.

@@ -44,6 +44,7 @@ struct four_rounded {
     ABUT_INLINE ABUT_HD static four_rounded of(T x) { return {row::all(x)}; }
     ABUT_INLINE ABUT_HD static four_rounded of(T a, T b, T c, T d) { return {row::of(a, b, c, d)}; }
     ABUT_INLINE ABUT_HD static four_rounded load(const T* from) { return {row::load(from)}; }
+    ABUT_INLINE ABUT_HD static four_rounded load_aligned(const T* from) { return {row::load_aligned(from)}; }
 
 #if ABUT_VECTORS
     ABUT_INLINE friend four_rounded operator+(const four_rounded& a, const four_rounded& b) { return {a.value + b.value}; }

@@ -27,7 +27,7 @@ struct conservative {};
 template <class A>
 concept motion_arithmetic = arithmetic<A> || std::same_as<A, conservative>;
 
-/// What `conservative` promises.
+/// What `conservative` promises. Without a separation, and with a tolerance below 1/16, times are mostly those of `filtered`.
 struct conservative_bounds {
     /// A time that is reported is at most this much before features come within `separation`. Features that pass each other
     /// are reported as well if they come nearer than `separation` and half of what they move relative to each other in a
@@ -50,6 +50,7 @@ struct time_in_bits {
 };
 inline constexpr double last_time_bit = 0x1p-40;
 static_assert(time_bits == 40);
+inline constexpr double longest_halving = 0x1p-4;  ///< below this tolerance halving takes longer than the exact time
 
 // Signs at a time, as far as pairs of doubles tell; 0 where they do not.
 
@@ -80,33 +81,22 @@ ABUT_HD constexpr int sign_of_area(const moving_points<T>& p, int condition, int
     return sign_beyond(coordinate_along({n.x.high, n.y.high, n.z.high}, axis), error);
 }
 
-/// The only root of c[0] + c[1] x + c[2] x^2 + c[3] x^3 in [0, 1], where it changes its sign, by Newton's iteration in a
-/// bracket.
-ABUT_HD constexpr double root_of_cubic(const double (&c)[4], double at_1) {
-    double low = 0, high = 1, x = c[0] / (c[0] - at_1);
-    for (int i = 0; i < 64; ++i) {
-        const double value = c[0] + x * (c[1] + x * (c[2] + x * c[3])), slope = c[1] + x * (2 * c[2] + 3 * x * c[3]);
-        ((value < 0) == (c[0] < 0) ? low : high) = x;
-        const double newton = x - value / slope, next = newton > low && newton < high ? newton : 0.5 * (low + high);
-        if (absolute(next - x) <= 0x1p-52) break;
-        x = next;
-    }
-    return x;
-}
-
-/// The time as a multiple of 2^-40, given in which part of an interval it seems to be, and sign_at(t), which has one sign
-/// before it in the interval and the other after it.
+/// The time as a multiple of 2^-40, given in which part of an interval it seems to be, and sign_at(t), which has one sign,
+/// `start`, before it in the interval and the other after it.
 template <class Sign>
-ABUT_HD constexpr time_in_bits count_of_time(std::uint32_t j, int depth, double part, const Sign& sign_at) {
-    const std::int64_t one = std::int64_t{1} << time_bits, width = one >> depth, least_count = width * j;
-    const int start = sign_at(static_cast<double>(least_count) * last_time_bit);
+ABUT_HD constexpr time_in_bits count_of_time(std::uint32_t j, int depth, double part, int start, const Sign& sign_at) {
+    const std::int64_t width = std::int64_t{1} << (time_bits - depth), first = width * j;
+    std::int64_t low = first, high = first + width, step = 1;
     auto count = static_cast<std::int64_t>((static_cast<double>(j) + part) * static_cast<double>(width));
-    for (int step = 0; step < 4 && start != 0 && count >= least_count && count < least_count + width; ++step) {
-        const int before = sign_at(static_cast<double>(count) * last_time_bit);
-        const int after = sign_at(static_cast<double>(count + 1) * last_time_bit);
-        if (before == 0 || after == 0) break;
-        if (before == start && after == -start) return {count};
-        count += before == start ? 1 : -1;
+    if (count <= low) count = low + 1;
+    for (int tries = 0; tries < 32; ++tries) {
+        if (count <= low || count >= high) count = low + (high - low) / 2;
+        const int sign = sign_at(static_cast<double>(count) * last_time_bit);
+        if (sign == 0) break;
+        (sign == start ? low : high) = count;
+        if (high - low == 1) return {low};
+        count += sign == start ? step : -step;
+        step *= 2;
     }
     return {time_in_bits::unknown};
 }
@@ -133,18 +123,15 @@ ABUT_NOINLINE ABUT_HD constexpr time_in_bits filtered_time(const moving_points<T
         const area_in_time a = filter.area(found, axis);
         const double part = root_of_cubic({a.first, a.twice_middle - 2 * a.first, a.first - a.twice_middle + a.last, 0}, a.last);
         const double error = filter.area_error(0x1p-90);
-        return count_of_time(found.j, found.depth, part,
-                             [&](double t) { return sign_of_area<Edges>(p, found.condition, axis, t, error); });
+        const auto sign_at = [&](double t) { return sign_of_area<Edges>(p, found.condition, axis, t, error); };
+        const int before = sign_at(static_cast<double>(found.j) / static_cast<double>(std::uint32_t{1} << found.depth));
+        return before == 0 ? known(verdict::unknown) : count_of_time(found.j, found.depth, part, before, sign_at);
     }
     const auto found = filter.search(true, shared);
     if (found.touch == verdict::unknown) return known(at_start() == verdict::yes ? verdict::yes : verdict::unknown);
     if (found.touch == verdict::no) return known(verdict::no);
-    const volume_in_time f = filter.volume(found);
-    const auto& k = f.k;
-    const double part = root_of_cubic(
-        {k[0], 3 * (k[1] - k[0]), 3 * (k[2] - 2 * k[1] + k[0]), k[3] - 3 * (k[2] - k[1]) - k[0]}, k[3]);
     const double error = filter.volume_error(0x1p-90);
-    return count_of_time(found.j, found.depth, part, [&](double t) {
+    return count_of_time(found.j, found.depth, found.part, found.before, [&](double t) {
 #if !ABUT_DEVICE_CODE  // which would be more code there, for what few pairs ask
         if (const int sign = filter.sign_of_volume(t); sign != 0) return sign;
 #endif
@@ -158,6 +145,10 @@ ABUT_HD constexpr double time_in_registers(const moving_points<T>& p, const cons
     if constexpr (std::same_as<A, fast>) {
         return static_cast<double>(fast_motion<Edges, T>(p).time());
     } else if constexpr (std::same_as<A, conservative>) {
+        if (bounds.separation == 0 && bounds.tolerance >= last_time_bit && bounds.tolerance < longest_halving) {
+            const std::int64_t count = filtered_time<Edges>(p).count;
+            if (count != time_in_bits::unknown) return count < 0 ? -1 : static_cast<double>(count) * last_time_bit;
+        }
         return motion_filter<Edges>(p).conservative_time(bounds.separation, bounds.tolerance);
     } else if constexpr (std::same_as<A, exact>) {
         return time_in_bits::unknown;

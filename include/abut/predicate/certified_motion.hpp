@@ -110,10 +110,25 @@ struct area_in_time {
     }
 };
 
+/// The only root of c[0] + c[1] x + c[2] x^2 + c[3] x^3 in [0, 1], where it changes its sign, by Newton's iteration in a
+/// bracket. The last step is no longer than 2^-24, and so it is off by some 2^-48.
+ABUT_HD constexpr double root_of_cubic(const double (&c)[4], double at_1) {
+    double low = 0, high = 1, x = c[0] / (c[0] - at_1);
+    for (int i = 0; i < 64; ++i) {
+        const double value = c[0] + x * (c[1] + x * (c[2] + x * c[3])), slope = c[1] + x * (2 * c[2] + 3 * x * c[3]);
+        ((value < 0) == (c[0] < 0) ? low : high) = x;
+        const double newton = x - value / slope;
+        if (absolute(newton - x) <= 0x1p-24) return least(greatest(newton, 0.0), 1.0);
+        x = newton > low && newton < high ? newton : 0.5 * (low + high);
+    }
+    return x;
+}
+
 /// f by its four Bernstein coefficients, times 3.
 struct volume_in_time {
     double k[4];
 
+    ABUT_HD constexpr volume_in_time() : k{} {}
     ABUT_HD constexpr volume_in_time(const feature_frame& a, const feature_frame& b, const vec3<double>& normal_a,
                                      const vec3<double>& twice_middle, const vec3<double>& normal_b)
         : k{3 * dot(normal_a, a.w), dot(twice_middle, a.w) + dot(normal_a, b.w), dot(twice_middle, b.w) + dot(normal_b, a.w),
@@ -128,6 +143,10 @@ struct volume_in_time {
     [[nodiscard]] ABUT_HD constexpr bool is_monotone(double error) const {
         const double a = k[1] - k[0], b = k[2] - k[1], c = k[3] - k[2];
         return least(a, b, c) > 4 * error || greatest(a, b, c) < -4 * error;
+    }
+    /// The part of the interval at which the only root is.
+    [[nodiscard]] ABUT_HD constexpr double root() const {
+        return root_of_cubic({k[0], 3 * (k[1] - k[0]), 3 * (k[2] - 2 * k[1] + k[0]), k[3] - 3 * (k[2] - k[1]) - k[0]}, k[3]);
     }
 };
 
@@ -182,7 +201,8 @@ public:
 
     /// The whole step at once.
     [[nodiscard]] ABUT_HD constexpr verdict look_once() const {
-        return can_bound() ? look(t0_, t1_, false, 0) : verdict::unknown;
+        volume_in_time f;
+        return can_bound() ? look(t0_, t1_, false, 0, f, false) : verdict::unknown;
     }
 
     /// An interval in which they touch first: [j, j + 1] / 2^depth. Or there is none; or what is found out ends before it.
@@ -191,18 +211,41 @@ public:
         std::uint32_t j;
         int depth;
         int condition = 0;  ///< of search_in_plane
+        double part = 0;    ///< of search: where in it,
+        int before = 0;     ///< and the sign of f at its start
     };
     /// Halves intervals. If one root is asked for, f has one alone in the interval that is found, and changes its sign
-    /// there. `shared` are the shared_coordinates, or 0.
+    /// there, near `part` of it. `shared` are the shared_coordinates, or 0.
     [[nodiscard]] ABUT_HD constexpr answer search(bool one_root, std::uint32_t shared) const {
-        return search_by([&](const feature_frame& a, const feature_frame& b, int&) { return look(a, b, one_root, shared); });
+        bool may_narrow = true;
+        return search_by([&](const feature_frame& a, const feature_frame& b, answer& in) {
+            volume_in_time f;
+            const verdict seen = look(a, b, one_root, shared, f, may_narrow);
+            if (seen == verdict::yes && one_root) in.part = f.root(), in.before = f.k[0] > 0 ? 1 : -1;
+            if (!may_narrow || seen != verdict::unknown || !has_one_root(f)) return seen;
+            // Where the only root is, a small part decides for all of it: once, since it seldom fails. A root at the end may be
+            // rounded out of the interval, where another could follow.
+            may_narrow = false;
+            constexpr int narrower = 8;
+            const double place = f.root() * (1 << narrower);
+            if (in.depth + narrower > most_depth || !(place < (1 << narrower))) return verdict::unknown;
+            answer inner = in;
+            inner.j = (in.j << narrower) + static_cast<std::uint32_t>(place);
+            inner.depth = in.depth + narrower;
+            inner.before = f.k[0] > 0 ? 1 : -1;
+            inner.part = place - static_cast<double>(static_cast<std::uint32_t>(place));
+            const verdict there = look(at(inner.j, inner.depth), at(inner.j + 1, inner.depth), false, shared, f, false);
+            if (!f.changes_sign(0x1p-42 * u_ * v_ * w_)) return verdict::unknown;
+            if (there == verdict::yes) in = inner;
+            return there;
+        });
     }
 
     /// The same of features in one plane, across an axis, all the time, which do not touch at the start (exact_motion.hpp
     /// says what happens then). In the interval that is found a point meets an edge, as `condition` says, and no other does.
     [[nodiscard]] ABUT_HD constexpr answer search_in_plane(int axis) const {
-        return search_by([&](const feature_frame& a, const feature_frame& b, int& condition) {
-            return look_in_plane(a, b, axis, condition);
+        return search_by([&](const feature_frame& a, const feature_frame& b, answer& in) {
+            return look_in_plane(a, b, axis, in.condition);
         });
     }
 
@@ -212,10 +255,11 @@ public:
         if (!can_bound()) return 0;
         std::uint64_t j = 0;
         int depth = 0;
+        volume_in_time f;
         for (int looked = 0;; ++looked) {
             const double width = 1.0 / static_cast<double>(std::uint64_t{1} << depth), from = static_cast<double>(j) * width;
             const feature_frame a = at(from), b = at(from + width);
-            const bool apart = (separation > 0 ? is_apart(a, b, separation) : look(a, b, false, 0) == verdict::no) ||
+            const bool apart = (separation > 0 ? is_apart(a, b, separation) : look(a, b, false, 0, f, false) == verdict::no) ||
                                is_apart_across(a, b, separation);
             if (!apart) {
                 if (width <= tolerance || depth == 50 || looked >= 1 << 14) return from;
@@ -229,11 +273,6 @@ public:
         }
     }
 
-    /// f on the interval of an answer.
-    [[nodiscard]] ABUT_HD constexpr volume_in_time volume(const answer& in) const {
-        const feature_frame a = at(in.j, in.depth), b = at(in.j + 1, in.depth);
-        return {a, b, cross(a.u, a.v), cross(a.u, b.v) + cross(b.u, a.v), cross(b.u, b.v)};
-    }
     /// The sign of f at a time, or 0 where double does not tell.
     [[nodiscard]] ABUT_HD constexpr int sign_of_volume(double t) const {
         const feature_frame a = at(t);
@@ -280,24 +319,23 @@ private:
         return at(static_cast<double>(j) / static_cast<double>(std::uint32_t{1} << depth));
     }
 
-    /// The earliest interval of which look(frame at its start, frame at its end, condition) says yes; none, if it says no of
-    /// all.
+    /// The earliest interval of which look(frame at its start, frame at its end, interval) says yes, which may make it smaller;
+    /// none, if it says no of all.
     template <class Look>
     [[nodiscard]] ABUT_HD constexpr answer search_by(const Look& look) const {
-        if (!can_bound()) return {verdict::unknown, 0, 0};
-        std::uint32_t j = 0;
-        int depth = 0, condition = 0;
+        answer in{verdict::unknown, 0, 0};
+        if (!can_bound()) return in;
         for (;;) {
-            const verdict v = look(at(j, depth), at(j + 1, depth), condition);
-            if (v == verdict::yes || (v == verdict::unknown && depth == most_depth)) return {v, j, depth, condition};
-            if (v == verdict::unknown) {
-                j *= 2;
-                ++depth;
+            in.touch = look(at(in.j, in.depth), at(in.j + 1, in.depth), in);
+            if (in.touch == verdict::yes || (in.touch == verdict::unknown && in.depth == most_depth)) return in;
+            if (in.touch == verdict::unknown) {
+                in.j *= 2;
+                ++in.depth;
                 continue;
             }
-            ++j;
-            while (depth > 0 && (j & 1) == 0) j >>= 1, --depth;
-            if (depth == 0) return {verdict::no, 0, 0};
+            ++in.j;
+            while (in.depth > 0 && (in.j & 1) == 0) in.j >>= 1, --in.depth;
+            if (in.depth == 0) return {verdict::no, 0, 0};
         }
     }
 
@@ -349,11 +387,17 @@ private:
         return near == 1 && met == 1 ? verdict::yes : verdict::unknown;
     }
 
-    /// The interval between two times.
+    /// f, where it is of both signs surely, has one root alone.
+    [[nodiscard]] ABUT_HD constexpr bool has_one_root(const volume_in_time& f) const {
+        const double error = 0x1p-42 * u_ * v_ * w_;
+        return f.changes_sign(error) && f.is_monotone(error);
+    }
+    /// The interval between two times, of which f is told. If `briefly`, one with one root alone is not asked whether the features
+    /// are apart all the time, which they seldom are.
     [[nodiscard]] ABUT_HD constexpr verdict look(const feature_frame& a, const feature_frame& b, bool one_root,
-                                                 std::uint32_t shared) const {
+                                                 std::uint32_t shared, volume_in_time& f, bool briefly) const {
         const vec3<double> normal_a = cross(a.u, a.v), normal_b = cross(b.u, b.v), twice = cross(a.u, b.v) + cross(b.u, a.v);
-        const volume_in_time f(a, b, normal_a, twice, normal_b);
+        f = volume_in_time(a, b, normal_a, twice, normal_b);
         const double error = 0x1p-42 * u_ * v_ * w_;
         if (f.has_no_root(error)) return verdict::no;
 
@@ -387,6 +431,7 @@ private:
             if (out) return verdict::no;
             if (in && f.changes_sign(error) && (!one_root || f.is_monotone(error))) return verdict::yes;
         }
+        if (briefly && has_one_root(f)) return verdict::unknown;
         return is_apart(a, b, 0) ? verdict::no : verdict::unknown;
     }
 
