@@ -29,6 +29,7 @@
 //   sum over l > L of l r^(l - 3) R2 / d^(l + 1)  =  R2 r^(L - 2) ((L + 1) d - L r) / (d^(L + 1) (d - r)^2)
 
 #include <cstddef>
+#include <concepts>
 #include <cstdint>
 
 #include <abut/arithmetic/error_free.hpp>
@@ -294,7 +295,14 @@ ABUT_INLINE ABUT_HD N far_error(const N& squared, const N& radius, const N& weig
     static_assert(far_degree == 5);
     const N left_out = (weight * (x2 * x2 * x)) * (N::of(far_degree + 1) - N::of(far_degree) * x) * (stretch * stretch);
     const N error = square * (left_out + (noise + noise_of_high * x2));
-    const auto is_outside = (distance - radius > N::of(0x1p-10f) * distance) & (squared > N::of(1e-30f)) & (squared < N::of(1e30f));
+    const auto both = [](const auto& x, const auto& y) {
+        if constexpr (std::same_as<std::remove_cvref_t<decltype(x)>, bool>) {
+            return x && y;
+        } else {
+            return x & y;
+        }
+    };
+    const auto is_outside = both(distance - radius > N::of(0x1p-10f) * distance, both(squared > N::of(1e-30f), squared < N::of(1e30f)));
     return select(is_outside, error + N::of(1e-30f), N::of(infinity<float>));
 }
 
