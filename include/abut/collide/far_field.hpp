@@ -28,9 +28,10 @@
 //
 //   sum over l > L of l r^(l - 3) R2 / d^(l + 1)  =  R2 r^(L - 2) ((L + 1) d - L r) / (d^(L + 1) (d - r)^2)
 
-#include <cstddef>
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include <abut/arithmetic/error_free.hpp>
 #include <abut/arithmetic/magnitude.hpp>
