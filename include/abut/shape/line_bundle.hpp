@@ -89,7 +89,7 @@ public:
     [[nodiscard]] int coordinates_told() const { return told_; }
 
     /// Of four boxes, by their planes (ray_reach_of_four), a bit for each that is reached.
-    [[nodiscard]] ABUT_INLINE unsigned reached(const T (&planes)[6][4]) const {
+    [[nodiscard]] ABUT_INLINE unsigned reached(const T (&planes)[6][4], T (&to)[4]) const {
         constexpr T grown = 1 + 32 * unit_roundoff<T>, tiny = 4 * smallest_normal<T>;
         many entry = many::all(T(0)), exit = many::all(limit_);
         for (int k = 0; k < 3; ++k) {
@@ -99,6 +99,7 @@ public:
             entry = greatest(least(in * low, in * high), entry);
             exit = least(greatest(out * low, out * high), exit);  // none where the planes say nothing: no number is less
         }
+        entry.store(to);
         auto apart = least(entry, many::all(ray_reach<T>::most)) > exit * many::all(grown) + many::all(tiny);
         if (is_narrow_) {
             for (int k = 0; k < 3; ++k) {

@@ -119,86 +119,106 @@ private:
     steps_through_tree<tree_type> steps_;
 };
 
-/// Where the walks of some lines begin that are asked together: at nodes and shapes below the root, which one of them at
-/// least may reach, in groups of four, the nearest first. All lines go down from the root as one, as far as that leaves out
-/// boxes and there is room: A. Reshetov, A. Soupikov, J. Hurley, Multi-level ray tracing algorithm (2005).
+/// Where the walks of some lines begin that are asked together: at shapes, and at nodes, which one of them at least may reach,
+/// in groups of four, near ones first. All lines go down from the root as one, nearest child first, as far as there is room:
+/// A. Reshetov, A. Soupikov, J. Hurley, Multi-level ray tracing algorithm (2005). So what lies in front is found down to
+/// its shapes, and what lies behind it may stay nodes.
 template <bvh_layout Tree>
 class bundle_entries {
 public:
     using T = typename Tree::scalar_type;
-    static constexpr int most = 16;
+    static constexpr int most = MOST;
 
-    /// False where so little is left out that the lines had better begin at the root. Near is what comes first along a way.
-    bool find(const Tree& tree, const bundle_reach<T>& lines, const vec3<T>& way) {
-        part queue[3 * most + 1] = {{tree.root_bounds(), tree.root()}};
-        int first = 0, last = 1, opened = 0, looked_at = 0, left_out = 0;
+    /// False where so little is left out that the lines had better begin at the root.
+    template <class Shapes>
+    bool find(const Tree& tree, const bundle_reach<T>& lines, const Shapes& shapes) {
+        part waits[most + 1];  // not initialised
+        int waiting = 0, opened = 0, looked_at = 0, left_out = 0;
         count_ = 0;
-        while (first < last) {
-            const part at = queue[first++];
-            if (at.child.is_leaf() || opened == most) {
-                found_[count_++] = at;
-                continue;
-            }
-            const auto& node = tree.fetch(at.child.index());
-            const int children = tree.children(node);
-            unsigned kept = lines.reached(tree.all_planes(node)) & ((1u << children) - 1);
-            int reached = 0;
-            for (unsigned bits = kept; bits != 0; bits &= bits - 1) ++reached;
+        if (tree.root().is_leaf()) return false;
+        const auto* node = &tree.fetch(tree.root().index());
+        part at{nullptr, 0};
+        for (;;) {
+            T times[4];
+            const int children = tree.children(*node);
+            unsigned kept = lines.reached(tree.all_planes(*node), times) & ((1u << children) - 1);
+            const int reached = __builtin_popcount(kept);
             ++opened;
-            looked_at += children;
-            if (reached == Tree::width || count_ + (last - first) + reached > most) {
-                found_[count_++] = at;
-                continue;
+            if (opened <= 16) {
+                looked_at += children;
+                left_out += children - reached;
             }
-            left_out += children - reached;
-            for (; kept != 0; kept &= kept - 1) {
-                const auto slot = static_cast<int>(lowest_bit(kept));
-                queue[last++] = {tree.bounds(node, slot), tree.child(node, slot)};
+            if (count_ + waiting + reached > most) {
+                add(at);
+            } else {
+                const int first = waiting;
+                for (; kept != 0; kept &= kept - 1) {
+                    const auto slot = static_cast<int>(lowest_bit(kept));
+                    const bvh_child child = tree.child(*node, slot);
+                    tree.prefetch(child);
+                    if (child.is_leaf()) prefetch_shape(shapes, child.index(), 0);
+                    int k = waiting++;
+                    for (; k > first && times[slot] > waits[k - 1].time; --k) waits[k] = waits[k - 1];
+                    waits[k] = {node, slot, times[slot]};
+                }
+            }
+            for (;;) {
+                if (waiting == 0) {
+                    finish(shapes);
+                    return CRIT * left_out >= looked_at;
+                }
+                at = waits[--waiting];
+                const bvh_child child = tree.child(*at.node, at.slot);
+                if (!child.is_leaf()) {
+                    node = &tree.fetch(child.index());
+                    break;
+                }
+                add(at);
             }
         }
-        sort_along(way);
-        for (int k = 0; k < count_; ++k) {
-            const vec3<T>&lower = found_[k].box.lower, &upper = found_[k].box.upper;
-            const T box[] = {lower.x, lower.y, lower.z, upper.x, upper.y, upper.z};
-            for (int plane = 0; plane < 6; ++plane) planes_[k / 4][plane][k % 4] = box[plane];
-        }
-        for (int k = count_; k % 4 != 0; ++k) {
-            found_[k] = found_[k - 1];
-            for (T(&row)[4] : planes_[k / 4]) row[k % 4] = row[0];
-        }
-        return 2 * left_out >= looked_at;
     }
 
     [[nodiscard]] int count() const { return count_; }
     [[nodiscard]] int groups() const { return (count_ + 3) / 4; }
     [[nodiscard]] auto planes(int group) const -> const T (&)[6][4] { return planes_[group]; }
+    [[nodiscard]] auto around(int k) const -> const T (&)[6][4] { return around_[k]; }
     /// A bit for each entry of a group.
     [[nodiscard]] unsigned all_of(int group) const { return (1u << least(count_ - 4 * group, 4)) - 1; }
-    [[nodiscard]] bvh_child child(int group, int slot) const { return found_[4 * group + slot].child; }
+    [[nodiscard]] bvh_child child(int k) const { return found_[k]; }
 
 private:
     struct part {
-        aabb<T> box;
-        bvh_child child;
+        const typename Tree::node_type* node;
+        int slot;
+        T time;
     };
 
-    void sort_along(const vec3<T>& way) {
-        T places[most];
-        for (int k = 0; k < count_; ++k) {
-            const part one = found_[k];
-            const T place = dot(one.box.lower + one.box.upper, way);
-            int at = k;
-            for (; at > 0 && places[at - 1] > place; --at) {
-                found_[at] = found_[at - 1];
-                places[at] = places[at - 1];
+    void add(const part& at) {
+        for (int plane = 0; plane < 6; ++plane) planes_[count_ / 4][plane][count_ % 4] = at.node->planes[plane][at.slot];
+        found_[count_++] = at.node->child[at.slot];
+    }
+    template <class Shapes>
+    void finish(const Shapes& shapes) {
+        for (int k = count_; k % 4 != 0; ++k) {
+            for (T(&row)[4] : planes_[k / 4]) row[k % 4] = row[0];
+        }
+        for (int g = 0; g < groups(); ++g) {
+            for (int plane = 0; plane < 6; ++plane) {
+                const T(&row)[4] = planes_[g][plane];
+                around_[g / 4][plane][g % 4] = plane < 3 ? least(row[0], row[1], row[2], row[3]) : greatest(row[0], row[1], row[2], row[3]);
             }
-            found_[at] = one;
-            places[at] = place;
+        }
+        for (int g = groups(); g % 4 != 0; ++g) {
+            for (T(&row)[4] : around_[g / 4]) row[g % 4] = row[0];
+        }
+        for (int k = 0; k < count_; ++k) {
+            if (found_[k].is_leaf()) prefetch_shape(shapes, found_[k].index(), 1);
         }
     }
 
     alignas(16) T planes_[most / 4][6][4];  // not initialised
-    part found_[most];
+    alignas(16) T around_[most / 16][6][4];
+    bvh_child found_[most];
     int count_ = 0;
 };
 
@@ -230,9 +250,10 @@ public:
         for (std::size_t i = first + 1; i < last; ++i) between.add(all_->seen(i));
         if (!(apart(between, last - first) <= size_of_shape_)) return false;
         const bundle_reach<T> lines(between);
-        if (lines.coordinates_told() < 2 || !entries_.find(all_->walk.tree, lines, all_->seen(first).direction)) {
+        if (lines.coordinates_told() < 2 || !entries_.find(all_->walk.tree, lines, all_->shapes)) {
             return false;
         }
+        for (int rep = 0; rep < REP; ++rep)
         for (std::size_t i = first; i < last; ++i) {
             sink.begin(i);
             auto look = all_->start(i);
@@ -263,16 +284,46 @@ private:
     ABUT_INLINE void walk(Reach& reach, const Best& best, const Visitor& visitor) {
         double bound = infinity<double>;
         tighten(reach, best, bound);
-        T least_of[4];
-        for (int group = 0; group < entries_.groups(); ++group) {
-            entry* top = pending_;
-            const unsigned kept = reach.least_in_four(entries_.planes(group), least_of) & entries_.all_of(group);
-            for (int slot = 3; slot >= 0; --slot) {  // the nearest last
-                *top = {entries_.child(group, slot), least_of[slot]};
-                top += kept >> slot & 1;
-            }
-            take_waiting(top, reach, best, bound, visitor);
+        alignas(16) T least_of[bundle_entries<tree_type>::most];
+        alignas(16) T ignored[4];
+        unsigned groups = 0;
+        for (int k = 0; 16 * k < entries_.count(); ++k) {
+            groups |= reach.least_in_four(entries_.around(k), ignored) << 4 * k;
         }
+        groups &= (1u << entries_.groups()) - 1;
+        const auto see = [&](int k) {
+            const bvh_child child = entries_.child(k);
+            if (child.is_leaf()) {
+                visitor(child.index());
+                tighten(reach, best, bound);
+            } else {
+                pending_[0] = {child, least_of[k]};
+                take_waiting(pending_ + 1, reach, best, bound, visitor);
+            }
+        };
+#if VAR==0
+        for (; groups != 0; groups &= groups - 1) {
+            const auto group = static_cast<int>(lowest_bit(groups));
+            T(&to)[4] = *reinterpret_cast<T(*)[4]>(least_of + 4 * group);
+            unsigned kept = reach.least_in_four(entries_.planes(group), to) & entries_.all_of(group);
+            for (; kept != 0; kept &= kept - 1) {
+                const int k = 4 * group + static_cast<int>(lowest_bit(kept));
+                if (reach.keeps(least_of[k])) see(k);
+            }
+        }
+#else
+        std::uint64_t kept = 0;
+        for (; groups != 0; groups &= groups - 1) {
+            const auto group = static_cast<int>(lowest_bit(groups));
+            T(&to)[4] = *reinterpret_cast<T(*)[4]>(least_of + 4 * group);
+            kept |= std::uint64_t{reach.least_in_four(entries_.planes(group), to)} << 4 * group;
+        }
+        if (entries_.count() < 64) kept &= (std::uint64_t{1} << entries_.count()) - 1;
+        for (; kept != 0; kept &= kept - 1) {
+            const int k = __builtin_ctzll(kept);
+            if (reach.keeps(least_of[k])) see(k);
+        }
+#endif
     }
     /// Those that wait from pending_ up to `top`, until none does.
     template <class Reach, class Best, class Visitor>
