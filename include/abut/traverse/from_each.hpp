@@ -119,105 +119,95 @@ private:
     steps_through_tree<tree_type> steps_;
 };
 
-/// Where the walks of some lines begin that are asked together: at shapes, and at nodes, which one of them at least may reach,
-/// in groups of four, near ones first. All lines go down from the root as one, nearest child first, as far as there is room:
-/// A. Reshetov, A. Soupikov, J. Hurley, Multi-level ray tracing algorithm (2005). So what lies in front is found down to
-/// its shapes, and what lies behind it may stay nodes.
+/// What some lines that are asked together may reach of a tree: shapes, and nodes where there was no room to go on, in groups
+/// of four, near ones first. All lines go down from the root as one, to the nearest child first: A. Reshetov, A. Soupikov,
+/// J. Hurley, Multi-level ray tracing algorithm (2005). So what lies in front is found down to its shapes, and what lies
+/// behind that, which few of the lines come to, stays in nodes.
 template <bvh_layout Tree>
 class bundle_entries {
 public:
     using T = typename Tree::scalar_type;
-    static constexpr int most = MOST;
+    static constexpr int most = 64;
 
-    /// False where so little is left out that the lines had better begin at the root.
-    template <class Shapes>
+    /// False where so little is left out below the root that the lines had better begin there. Shapes are asked for.
+    template <shape_view Shapes>
     bool find(const Tree& tree, const bundle_reach<T>& lines, const Shapes& shapes) {
-        part waits[most + 1];  // not initialised
+        constexpr int first_nodes = 16, most_nodes = 4 * most;
+        part waits[most];  // not initialised
         int waiting = 0, opened = 0, looked_at = 0, left_out = 0;
         count_ = 0;
         if (tree.root().is_leaf()) return false;
-        const auto* node = &tree.fetch(tree.root().index());
-        part at{nullptr, 0};
+        part at{nullptr, 0, 0};
+        bvh_child child = tree.root();
         for (;;) {
-            T times[4];
-            const int children = tree.children(*node);
-            unsigned kept = lines.reached(tree.all_planes(*node), times) & ((1u << children) - 1);
-            const int reached = __builtin_popcount(kept);
-            ++opened;
-            if (opened <= 16) {
-                looked_at += children;
-                left_out += children - reached;
-            }
-            if (count_ + waiting + reached > most) {
-                add(at);
+            if (child.is_leaf() || count_ + waiting + Tree::width > most || opened == most_nodes) {
+                add(at, child);
             } else {
-                const int first = waiting;
-                for (; kept != 0; kept &= kept - 1) {
+                const auto& node = tree.fetch(child.index());
+                const int children = tree.children(node), first = waiting;
+                T times[4];
+                for (unsigned kept = lines.reached(tree.all_planes(node), times) & ((1u << children) - 1); kept != 0; kept &= kept - 1) {
                     const auto slot = static_cast<int>(lowest_bit(kept));
-                    const bvh_child child = tree.child(*node, slot);
-                    tree.prefetch(child);
-                    if (child.is_leaf()) prefetch_shape(shapes, child.index(), 0);
+                    const part one{&node, slot, times[slot]};
+                    tree.prefetch(tree.child(node, slot));
+                    if (tree.child(node, slot).is_leaf()) prefetch_shape(shapes, tree.child(node, slot).index(), 0);
                     int k = waiting++;
-                    for (; k > first && times[slot] > waits[k - 1].time; --k) waits[k] = waits[k - 1];
-                    waits[k] = {node, slot, times[slot]};
+                    for (; k > first && one.time > waits[k - 1].time; --k) waits[k] = waits[k - 1];
+                    waits[k] = one;
+                }
+                if (++opened <= first_nodes) {
+                    looked_at += children;
+                    left_out += children - (waiting - first);
                 }
             }
-            for (;;) {
-                if (waiting == 0) {
-                    finish(shapes);
-                    return CRIT * left_out >= looked_at;
-                }
-                at = waits[--waiting];
-                const bvh_child child = tree.child(*at.node, at.slot);
-                if (!child.is_leaf()) {
-                    node = &tree.fetch(child.index());
-                    break;
-                }
-                add(at);
-            }
+            if (waiting == 0) break;
+            at = waits[--waiting];
+            child = tree.child(*at.node, at.slot);
         }
+        finish(shapes);
+        return 4 * left_out >= looked_at;
     }
 
     [[nodiscard]] int count() const { return count_; }
-    [[nodiscard]] int groups() const { return (count_ + 3) / 4; }
     [[nodiscard]] auto planes(int group) const -> const T (&)[6][4] { return planes_[group]; }
+    /// Around each of four groups, from 4 k on.
     [[nodiscard]] auto around(int k) const -> const T (&)[6][4] { return around_[k]; }
-    /// A bit for each entry of a group.
-    [[nodiscard]] unsigned all_of(int group) const { return (1u << least(count_ - 4 * group, 4)) - 1; }
     [[nodiscard]] bvh_child child(int k) const { return found_[k]; }
 
 private:
+    /// What a slot of a node holds, and when the lines come to it at the soonest.
     struct part {
         const typename Tree::node_type* node;
         int slot;
         T time;
     };
 
-    void add(const part& at) {
-        for (int plane = 0; plane < 6; ++plane) planes_[count_ / 4][plane][count_ % 4] = at.node->planes[plane][at.slot];
-        found_[count_++] = at.node->child[at.slot];
+    void add(const part& at, bvh_child child) {
+        const auto& planes = Tree::all_planes(*at.node);
+        for (int plane = 0; plane < 6; ++plane) planes_[count_ / 4][plane][count_ % 4] = planes[plane][at.slot];
+        found_[count_++] = child;
     }
+    /// Empty slots hold what the last one does: they are passed over later.
     template <class Shapes>
     void finish(const Shapes& shapes) {
+        const int groups = (count_ + 3) / 4;
         for (int k = count_; k % 4 != 0; ++k) {
             for (T(&row)[4] : planes_[k / 4]) row[k % 4] = row[0];
         }
-        for (int g = 0; g < groups(); ++g) {
+        for (int g = 0; g < groups || g % 4 != 0; ++g) {
             for (int plane = 0; plane < 6; ++plane) {
-                const T(&row)[4] = planes_[g][plane];
-                around_[g / 4][plane][g % 4] = plane < 3 ? least(row[0], row[1], row[2], row[3]) : greatest(row[0], row[1], row[2], row[3]);
+                const T(&row)[4] = planes_[least(g, groups - 1)][plane];
+                around_[g / 4][plane][g % 4] =
+                    plane < 3 ? least(row[0], row[1], row[2], row[3]) : greatest(row[0], row[1], row[2], row[3]);
             }
-        }
-        for (int g = groups(); g % 4 != 0; ++g) {
-            for (T(&row)[4] : around_[g / 4]) row[g % 4] = row[0];
         }
         for (int k = 0; k < count_; ++k) {
             if (found_[k].is_leaf()) prefetch_shape(shapes, found_[k].index(), 1);
         }
     }
 
-    alignas(16) T planes_[most / 4][6][4];  // not initialised
-    alignas(16) T around_[most / 16][6][4];
+    alignas(16) T planes_[most / 4][6][4];   // not initialised
+    alignas(16) T around_[most / 16][6][4];  // likewise
     bvh_child found_[most];
     int count_ = 0;
 };
@@ -253,7 +243,6 @@ public:
         if (lines.coordinates_told() < 2 || !entries_.find(all_->walk.tree, lines, all_->shapes)) {
             return false;
         }
-        for (int rep = 0; rep < REP; ++rep)
         for (std::size_t i = first; i < last; ++i) {
             sink.begin(i);
             auto look = all_->start(i);
@@ -273,57 +262,42 @@ public:
 private:
     /// How far apart neighbours are, about, where they are as far away as the middle of the tree. No number for some lines.
     [[nodiscard]] double apart(const line_bounds<T>& lines, std::size_t count) const {
+        const aabb<T> origins = lines.origins(), directions = lines.directions();
         const auto middle = [](const aabb<T>& box) { return 0.5 * (widened(box.lower) + widened(box.upper)); };
         const auto longest = [](const vec3<double>& v) { return greatest(absolute(v.x), absolute(v.y), absolute(v.z)); };
         const auto sides = [](const aabb<T>& box) { return widened(box.upper) - widened(box.lower); };
-        const double time = longest(middle_ - middle(lines.origins)) / longest(middle(lines.directions));
-        return longest(sides(lines.origins) + time * sides(lines.directions)) / static_cast<double>(count - 1);
+        const double time = longest(middle_ - middle(origins)) / longest(middle(directions));
+        return longest(sides(origins) + time * sides(directions)) / static_cast<double>(count - 1);
     }
 
     template <class Reach, class Best, class Visitor>
     ABUT_INLINE void walk(Reach& reach, const Best& best, const Visitor& visitor) {
         double bound = infinity<double>;
         tighten(reach, best, bound);
-        alignas(16) T least_of[bundle_entries<tree_type>::most];
-        alignas(16) T ignored[4];
-        unsigned groups = 0;
-        for (int k = 0; 16 * k < entries_.count(); ++k) {
-            groups |= reach.least_in_four(entries_.around(k), ignored) << 4 * k;
-        }
-        groups &= (1u << entries_.groups()) - 1;
-        const auto see = [&](int k) {
-            const bvh_child child = entries_.child(k);
-            if (child.is_leaf()) {
-                visitor(child.index());
-                tighten(reach, best, bound);
-            } else {
-                pending_[0] = {child, least_of[k]};
-                take_waiting(pending_ + 1, reach, best, bound, visitor);
+        T least_of[8][4], ignored[4];
+        for (int begin = 0; begin < entries_.count(); begin += 32) {
+            const int count = least(entries_.count() - begin, 32);
+            const int first = begin / 4;
+            unsigned groups = reach.least_in_four(entries_.around(first / 4), ignored);
+            if (count > 16) groups |= reach.least_in_four(entries_.around(first / 4 + 1), ignored) << 4;
+            unsigned kept = 0;
+            for (groups &= ~0u >> (32 - (count + 3) / 4); groups != 0; groups &= groups - 1) {
+                const auto g = static_cast<int>(lowest_bit(groups));
+                kept |= reach.least_in_four(entries_.planes(first + g), least_of[g]) << 4 * g;
             }
-        };
-#if VAR==0
-        for (; groups != 0; groups &= groups - 1) {
-            const auto group = static_cast<int>(lowest_bit(groups));
-            T(&to)[4] = *reinterpret_cast<T(*)[4]>(least_of + 4 * group);
-            unsigned kept = reach.least_in_four(entries_.planes(group), to) & entries_.all_of(group);
-            for (; kept != 0; kept &= kept - 1) {
-                const int k = 4 * group + static_cast<int>(lowest_bit(kept));
-                if (reach.keeps(least_of[k])) see(k);
+            for (kept &= ~0u >> (32 - count); kept != 0; kept &= kept - 1) {
+                const auto k = static_cast<int>(lowest_bit(kept));
+                const entry at{entries_.child(begin + k), least_of[k / 4][k % 4]};
+                if (!reach.keeps(at.least)) continue;
+                if (at.child.is_leaf()) {
+                    visitor(at.child.index());
+                    tighten(reach, best, bound);
+                } else {
+                    pending_[0] = at;
+                    take_waiting(pending_ + 1, reach, best, bound, visitor);
+                }
             }
         }
-#else
-        std::uint64_t kept = 0;
-        for (; groups != 0; groups &= groups - 1) {
-            const auto group = static_cast<int>(lowest_bit(groups));
-            T(&to)[4] = *reinterpret_cast<T(*)[4]>(least_of + 4 * group);
-            kept |= std::uint64_t{reach.least_in_four(entries_.planes(group), to)} << 4 * group;
-        }
-        if (entries_.count() < 64) kept &= (std::uint64_t{1} << entries_.count()) - 1;
-        for (; kept != 0; kept &= kept - 1) {
-            const int k = __builtin_ctzll(kept);
-            if (reach.keeps(least_of[k])) see(k);
-        }
-#endif
     }
     /// Those that wait from pending_ up to `top`, until none does.
     template <class Reach, class Best, class Visitor>
