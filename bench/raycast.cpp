@@ -30,38 +30,44 @@
 
 namespace {
 
-/// Rows of a query: ask(rays) gives its answers, and is_hit(answer) tells which are hits.
-template <class Ask, class IsHit>
-void add_rays(const char* query, const std::string& name, const Ask& ask, const IsHit& is_hit) {
+/// Rows of a query: ask(rays) gives its answers, and note(state, kind of rays, answers) what is told of them.
+template <class Ask, class Note>
+void add_rays(const char* query, const std::string& name, const Ask& ask, const Note& note) {
     for (std::size_t kind = 0; kind < raycast_scene::kinds.size(); ++kind) {
         const abut::rays<float> rays(raycast_scene::rays_at(raycast_peer::mesh(), kind, raycast_scene::default_side));
         raycast_peer::add(std::string(query) + "/" + raycast_scene::kinds[kind] + "/" + name, [=](benchmark::State& state) {
-            std::size_t hits = 0;
             for (auto _ : state) {
                 const auto found = ask(rays);
                 state.PauseTiming();
-                hits = 0;
-                for (const auto& hit : found) hits += is_hit(hit) ? 1u : 0u;
+                note(state, kind, found);
                 state.ResumeTiming();
             }
-            raycast_peer::note(state, rays.size(), hits);
         });
     }
 }
 
 template <abut::arithmetic A, class Policy, class Index>
 void add(const char* index_name, const char* arithmetic, const char* policy, const Policy& on, const Index& index) {
+    // Of faces in another order the ids are others: they say nothing of what is wrong.
+    const bool has_ids = std::string(index_name) != "wide_in_order";
     add_rays("raycast", std::string(index_name) + "/" + arithmetic + "/" + policy,
              [=](const auto& rays) { return abut::raycast<A>(on, index, rays); },
-             [](const auto& hit) { return hit.id != abut::no_id; });
+             [=](benchmark::State& state, std::size_t kind, const auto& found) {
+                 std::vector<std::uint32_t> named;
+                 for (const auto& hit : found) named.push_back(hit.id);
+                 raycast_peer::note_hits(state, kind, named, has_ids);
+             });
 }
 
 template <class Policy, class Index>
 void add_others(const char* index_name, const Policy& on, const Index& index) {
     const std::string name = std::string(index_name) + "/filtered/serial";
     add_rays("occluded", name, [=](const auto& rays) { return abut::raycast_any(on, index, rays); },
-             [](std::uint8_t hit) { return hit; });
-    add_rays("all", name, [=](const auto& rays) { return abut::raycast_all(on, index, rays); }, [](const auto&) { return 1; });
+             [](benchmark::State& state, std::size_t kind, const auto& found) {
+                 raycast_peer::note_flags(state, kind, {found.begin(), found.end()});
+             });
+    add_rays("all", name, [=](const auto& rays) { return abut::raycast_all(on, index, rays); },
+             [](benchmark::State& state, std::size_t, const auto& found) { raycast_peer::note(state, found.size(), found.size()); });
 }
 
 template <class Policy, class Index>

@@ -287,33 +287,31 @@ RAYS = {"coherent": "from a camera", "scattered": "scattered"}
 @in_table("raycast-cpu")
 def raycast_cpu(results):
     r = results["cpu/raycast"]
-    names = {"embree/float": "Embree", "embree_robust/float": "Embree, robust", "bvh/filtered": "`make_bvh`", "sah/filtered": "`make_bvh`, `sah`",
+    names = {"embree/float": "Embree", "embree_robust/float": "Embree, robust", "tinybvh/float": "tinybvh, eight children, spatial splits", "bvh/filtered": "`make_bvh`", "sah/filtered": "`make_bvh`, `sah`",
              "wide_sah/filtered": "`wide`, of a `sah` tree", "wide_in_order/filtered": "the same, faces in the order of leaves",
              "sah/fast": "`make_bvh`, `sah`, by `fast`"}
     rays = r.get("raycast/coherent/sah/filtered/serial", "rays")
-    rows = []
-    for index, name in names.items():
-        if r.get(f"raycast/coherent/{index}/serial") is None:
-            continue  # an older run
-        row = [name]
-        for kind in RAYS:
-            ms, peer = r.get(f"raycast/{kind}/{index}/serial"), r.get(f"raycast/{kind}/embree/float/serial")
-            row += [shown(ms), shown(rays / ms / 1e3), quotient(ms, peer)]
-        rows.append(row)
-    head = [""] + [h for kind in RAYS.values() for h in (f"{kind}, ms", "million rays a second", "over Embree")]
-    others = []
-    for question, index, name in (("occluded", "embree/float", "Embree, `rtcOccluded1`"),
-                                  ("occluded", "wide_sah/filtered", "`raycast_any`, `wide`, of a `sah` tree"),
-                                  ("all", "wide_sah/filtered", "`raycast_all`, the same")):
-        row = [name]
-        for kind in RAYS:
-            ms, peer = r.get(f"{question}/{kind}/{index}/serial"), r.get(f"{question}/{kind}/embree/float/serial")
-            row += [shown(ms), quotient(ms, peer) if peer else ""]
-        others.append(row)
-    other_head = [""] + [h for kind in RAYS.values() for h in (f"{kind}, ms", "over Embree")]
+
+    def rows_of(question, names):
+        rows = []
+        for index, name in names.items():
+            if r.get(f"{question}/coherent/{index}/serial") is None:
+                continue  # an older run, or a peer that is not there
+            row = [name]
+            for kind in RAYS:
+                ms, wrong = r.get(f"{question}/{kind}/{index}/serial"), r.get(f"{question}/{kind}/{index}/serial", "wrong")
+                peers = [r.get(f"{question}/{kind}/{peer}/float/serial") for peer in ("embree", "tinybvh")]
+                row += [shown(ms)] + [quotient(ms, peer) if peer else "" for peer in peers] + ["" if wrong is None else f"{int(wrong):,}"]
+            rows.append(row)
+        return rows
+
+    head = [""] + [h for kind in RAYS.values() for h in (f"{kind}, ms", "over Embree", "over tinybvh", "wrong")]
+    any_names = {"embree/float": "Embree, `rtcOccluded1`", "embree_robust/float": "Embree, robust", "tinybvh/float": "tinybvh, `IsOccluded`",
+                 "wide_sah/filtered": "`raycast_any`, `wide`, of a `sah` tree"}
+    rows, others = rows_of("raycast", names), rows_of("occluded", any_names) + rows_of("all", {"wide_sah/filtered": "`raycast_all`, the same"})
     inside, cgal = (r.get(f"inside/points/{i}/serial") for i in ("wide_sah/filtered", "cgal/double"))
     return [f"First hits of {int(rays):,} rays in a mesh of 345,944 triangles, one core, ms:", ""] + table(head, rows) + \
-        ["Of the same rays, whether they meet anything, and all that they meet:", ""] + table(other_head, others) + \
+        ["Of the same rays, whether they meet anything, and all that they meet:", ""] + table(head, others) + \
         [f"For 100,000 points `inside` takes {shown(inside)} ms with that tree, {quotient(inside, cgal)} of what CGAL's "
          f"`Side_of_triangle_mesh` takes in double.", ""] + made_on(r)
 

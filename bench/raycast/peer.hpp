@@ -43,10 +43,10 @@ inline void note(benchmark::State& state, std::size_t rays, std::size_t hits) {
     state.counters["rays"] = static_cast<double>(rays);
     state.counters["hits"] = static_cast<double>(hits);
 }
-/// The same of a peer's answers.
-inline void note_hits(benchmark::State& state, std::size_t kind, const std::vector<std::uint32_t>& named) {
+/// The same, and what of it is wrong, unless ids are others.
+inline void note_hits(benchmark::State& state, std::size_t kind, const std::vector<std::uint32_t>& named, bool has_ids = true) {
     note(state, named.size(), named.size() - static_cast<std::size_t>(std::count(named.begin(), named.end(), abut::no_id)));
-    state.counters["wrong"] = static_cast<double>(wrong_hits(kind, named));
+    if (has_ids) state.counters["wrong"] = static_cast<double>(wrong_hits(kind, named));
 }
 inline void note_flags(benchmark::State& state, std::size_t kind, const std::vector<std::uint8_t>& named) {
     note(state, named.size(), named.size() - static_cast<std::size_t>(std::count(named.begin(), named.end(), std::uint8_t{0})));

@@ -153,6 +153,47 @@ TEMPLATE_TEST_CASE("raycast: segments longer than the largest number", "", float
     test::check_hits(serial{}, wide(serial{}, tree), lines, expected);
 }
 
+TEMPLATE_TEST_CASE("raycast: rows of rays go down a wide tree as one", "", float, double) {
+    // Waves one behind the other: 64 rays of a row may reach more shapes than a bundle keeps. Some rays pass through corners.
+    using T = TestType;
+    const int side = 48, layers = 4;
+    std::vector<vec3<T>> corners;
+    std::vector<face> faces;
+    for (int layer = 0; layer < layers; ++layer) {
+        for (int k = 0; k < (side + 1) * (side + 1); ++k) {
+            const T x = static_cast<T>(k % (side + 1)) / side, y = static_cast<T>(k / (side + 1)) / side;
+            corners.push_back({x, y, T(0.25) * static_cast<T>(layer) + T(0.0625) * std::sin(20 * x) * std::cos(17 * y)});
+        }
+        for (int k = 0; k < side * side; ++k) {
+            if ((k + layer) % 5 == 0) continue;  // holes
+            const auto at = static_cast<std::uint32_t>(layer * (side + 1) * (side + 1) + k / side * (side + 1) + k % side);
+            const auto next = at + static_cast<std::uint32_t>(side) + 1;
+            faces.push_back({at, at + 1, next});
+            faces.push_back({at + 1, next + 1, next});
+        }
+    }
+    const mesh<T> waves(corners, faces);
+    const openmp on{3};
+    const auto tree = make_bvh(on, waves, {.builder = bvh_builder::sah});
+    const auto wide_tree = wide(on, tree);
+    for (const int kind : {0, 1, 2}) {
+        std::vector<ray<T>> rays;
+        for (int i = 0; i < 193 * 40; ++i) {
+            const T x = static_cast<T>(i % 193) / 192, y = static_cast<T>(i / 193) / 39;
+            if (kind == 0) rays.push_back({{T(0.4), T(0.6), 3}, {x - T(0.4), y - T(0.6), T(-2.5)}});
+            if (kind == 1) rays.push_back({{x, y, 2}, {0, 0, -1}});
+            if (kind == 2) rays.push_back({{x, T(-1), y}, {T(0.125), 1, T(-0.25)}});
+        }
+        const shapes<ray<T>> looking(rays);
+        const auto expected = to_host(raycast<exact>(on, tree, looking));
+        CHECK(test::share_of_hits(expected) > 0.5);
+        CHECK(to_host(raycast(serial{}, wide_tree, looking)) == expected);
+        CHECK(to_host(raycast(on, wide_tree, looking)) == expected);
+        CHECK(to_host(raycast(on, wide_tree, looking, {.most_t = 1})) == to_host(raycast<exact>(on, tree, looking, {.most_t = 1})));
+        CHECK(to_host(raycast_any(serial{}, wide_tree, looking)) == to_host(raycast_any<exact>(on, tree, looking)));
+    }
+}
+
 TEST_CASE("raycast: nothing to meet, and nothing that looks") {
     const mesh<float> none;
     const triangle<float> floor{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};

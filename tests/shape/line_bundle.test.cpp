@@ -92,7 +92,8 @@ TEMPLATE_TEST_CASE("bundles of lines: what a line reaches its bundle reaches", "
                 test::in_mode(mode, [&] {
                     detail::line_bounds<T> between(as_line(lines.rays[0], lines.last));
                     for (const auto& r : lines.rays) between.add(as_line(r, lines.last));
-                    const unsigned together = detail::bundle_reach<T>(between).reached(planes);
+                    T soonest[4];
+                    const unsigned together = detail::bundle_reach<T>(between).reached(planes, soonest);
                     for (std::size_t i = 0; i < lines.rays.size(); ++i) {
                         const ray<T>& r = lines.rays[i];
                         const detail::ray_reach<T> alone(as_line(r, lines.last));

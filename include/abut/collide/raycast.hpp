@@ -176,6 +176,23 @@ struct write_hits {
     }
 };
 
+/// The same as soon as it is known, on a host, which then writes and reads nothing between.
+template <class Hit>
+struct hits_of_each {
+    struct sink : execution::best_of_each<host_space>::sink {
+        Hit* hits;
+        void end(std::size_t i) { hits[i] = named_hit<Hit>(this->mine); }
+    };
+    Hit* hits;
+    double most;
+
+    [[nodiscard]] sink make_sink(std::size_t /*thread*/) { return {{nullptr, most}, hits}; }
+    template <class Policy>
+    void begin(const Policy&, std::size_t /*threads*/) {}
+    template <class Policy>
+    void end(const Policy&) {}
+};
+
 template <class X>
 inline constexpr bool is_grid = false;
 template <class Set, memory_space Space>
@@ -247,15 +264,20 @@ auto bring_lines_and_shapes(const Policy& on, const X& index, const Lines& rays,
     return lines_and_shapes{std::move(x), make_operand(on, rays, function)};
 }
 
+/// Offers `best` what each line meets first.
+template <arithmetic A, class Policy, class Both, class Best>
+void walk_to_first_hits(const Policy& on, const Both& both, bool in_scalars, Best& best) {
+    from_each each{both.template walk<walk_along_lines, A>(in_scalars)};
+    [[maybe_unused]] const auto watch = watch_ties<Policy, !Both::filters>(64, false, each.all.walk, both.x.shapes());
+    for_each_ordered(on, both.size(), each, best);
+}
 /// Finds what each line meets first. finish(found) takes it: found[i] is of line i; with no shapes or no lines `found` is
 /// null. in_scalars: values need only become the right scalars; they may not be the times, rounded to doubles.
 template <arithmetic A, class Policy, class Both, class Finish>
 auto look_for_first_hits(const Policy& on, const Both& both, bool in_scalars, const Finish& finish) {
     if (both.has_nothing()) return finish(nullptr);
     execution::best_of_each<space_of<Policy>> best(on, both.size(), both.wanted.most());
-    from_each each{both.template walk<walk_along_lines, A>(in_scalars)};
-    [[maybe_unused]] const auto watch = watch_ties<Policy, !Both::filters>(64, false, each.all.walk, both.x.shapes());
-    for_each_ordered(on, both.size(), each, best);
+    walk_to_first_hits<A>(on, both, in_scalars, best);
     return finish(best.data());
 }
 
@@ -334,6 +356,14 @@ struct ask_first_hit : question_of_lines<Options, ask_first_hit<A, Options>> {
     auto at_once(const Policy& on, const X& x, const Lines& lines, double) const {
         const auto both = lines_that_want(x, lines, this->options);
         using hit = found<typename std::remove_const_t<decltype(both)>::T, operand_id<X>>;
+        if constexpr (host_policy<Policy>) {
+            if (!both.has_nothing()) {
+                execution::buffer_of<Policy, hit> out(on, both.size());
+                hits_of_each<hit> best{out.data(), both.wanted.most()};
+                walk_to_first_hits<A>(on, both, true, best);
+                return result<hit, space_of<Policy>>(std::move(out));
+            }
+        }
         return look_for_first_hits<A>(on, both, true, [&](const execution::least_value* met) {
             execution::buffer_of<Policy, hit> out(on, both.size());
             for_each_index(on, both.size(), write_hits<hit>{met, out.data()});

@@ -273,7 +273,7 @@ private:
 
     template <class Sink>
     void look_at_bundle(Sink& sink) {
-        constexpr std::size_t size = 32, longest = 8;
+        constexpr std::size_t size = 64, longest = 8;
         const std::size_t left = end_ - next_, last = next_ + (left < size ? left : size);
         if (bundles_(next_, last, sink)) {
             next_ = looked_at_ = last;

@@ -119,86 +119,96 @@ private:
     steps_through_tree<tree_type> steps_;
 };
 
-/// Where the walks of some lines begin that are asked together: at nodes and shapes below the root, which one of them at
-/// least may reach, in groups of four, the nearest first. All lines go down from the root as one, as far as that leaves out
-/// boxes and there is room: A. Reshetov, A. Soupikov, J. Hurley, Multi-level ray tracing algorithm (2005).
+/// What some lines that are asked together may reach of a tree: shapes, and nodes where there was no room to go on, in groups
+/// of four, near ones first. All lines go down from the root as one, to the nearest child first: A. Reshetov, A. Soupikov,
+/// J. Hurley, Multi-level ray tracing algorithm (2005). So what lies in front is found down to its shapes, and what lies
+/// behind that, which few of the lines come to, stays in nodes.
 template <bvh_layout Tree>
 class bundle_entries {
 public:
     using T = typename Tree::scalar_type;
-    static constexpr int most = 16;
+    static constexpr int most = 64;
 
-    /// False where so little is left out that the lines had better begin at the root. Near is what comes first along a way.
-    bool find(const Tree& tree, const bundle_reach<T>& lines, const vec3<T>& way) {
-        part queue[3 * most + 1] = {{tree.root_bounds(), tree.root()}};
-        int first = 0, last = 1, opened = 0, looked_at = 0, left_out = 0;
+    /// False where so little is left out below the root that the lines had better begin there. Shapes are asked for.
+    template <shape_view Shapes>
+    bool find(const Tree& tree, const bundle_reach<T>& lines, const Shapes& shapes) {
+        constexpr int first_nodes = 16, most_nodes = 4 * most;
+        part waits[most];  // not initialised
+        int waiting = 0, opened = 0, looked_at = 0, left_out = 0;
         count_ = 0;
-        while (first < last) {
-            const part at = queue[first++];
-            if (at.child.is_leaf() || opened == most) {
-                found_[count_++] = at;
-                continue;
+        if (tree.root().is_leaf()) return false;
+        part at{nullptr, 0, 0};
+        bvh_child child = tree.root();
+        for (;;) {
+            if (child.is_leaf() || count_ + waiting + Tree::width > most || opened == most_nodes) {
+                add(at, child);
+            } else {
+                const auto& node = tree.fetch(child.index());
+                const int children = tree.children(node), first = waiting;
+                T times[4];
+                for (unsigned kept = lines.reached(tree.all_planes(node), times) & ((1u << children) - 1); kept != 0; kept &= kept - 1) {
+                    const auto slot = static_cast<int>(lowest_bit(kept));
+                    const part one{&node, slot, times[slot]};
+                    tree.prefetch(tree.child(node, slot));
+                    if (tree.child(node, slot).is_leaf()) prefetch_shape(shapes, tree.child(node, slot).index(), 0);
+                    int k = waiting++;
+                    for (; k > first && one.time > waits[k - 1].time; --k) waits[k] = waits[k - 1];
+                    waits[k] = one;
+                }
+                if (++opened <= first_nodes) {
+                    looked_at += children;
+                    left_out += children - (waiting - first);
+                }
             }
-            const auto& node = tree.fetch(at.child.index());
-            const int children = tree.children(node);
-            unsigned kept = lines.reached(tree.all_planes(node)) & ((1u << children) - 1);
-            int reached = 0;
-            for (unsigned bits = kept; bits != 0; bits &= bits - 1) ++reached;
-            ++opened;
-            looked_at += children;
-            if (reached == Tree::width || count_ + (last - first) + reached > most) {
-                found_[count_++] = at;
-                continue;
-            }
-            left_out += children - reached;
-            for (; kept != 0; kept &= kept - 1) {
-                const auto slot = static_cast<int>(lowest_bit(kept));
-                queue[last++] = {tree.bounds(node, slot), tree.child(node, slot)};
-            }
+            if (waiting == 0) break;
+            at = waits[--waiting];
+            child = tree.child(*at.node, at.slot);
         }
-        sort_along(way);
-        for (int k = 0; k < count_; ++k) {
-            const vec3<T>&lower = found_[k].box.lower, &upper = found_[k].box.upper;
-            const T box[] = {lower.x, lower.y, lower.z, upper.x, upper.y, upper.z};
-            for (int plane = 0; plane < 6; ++plane) planes_[k / 4][plane][k % 4] = box[plane];
-        }
-        for (int k = count_; k % 4 != 0; ++k) {
-            found_[k] = found_[k - 1];
-            for (T(&row)[4] : planes_[k / 4]) row[k % 4] = row[0];
-        }
-        return 2 * left_out >= looked_at;
+        finish(shapes);
+        return 4 * left_out >= looked_at;
     }
 
     [[nodiscard]] int count() const { return count_; }
-    [[nodiscard]] int groups() const { return (count_ + 3) / 4; }
     [[nodiscard]] auto planes(int group) const -> const T (&)[6][4] { return planes_[group]; }
-    /// A bit for each entry of a group.
-    [[nodiscard]] unsigned all_of(int group) const { return (1u << least(count_ - 4 * group, 4)) - 1; }
-    [[nodiscard]] bvh_child child(int group, int slot) const { return found_[4 * group + slot].child; }
+    /// Around each of four groups, from 4 k on.
+    [[nodiscard]] auto around(int k) const -> const T (&)[6][4] { return around_[k]; }
+    [[nodiscard]] bvh_child child(int k) const { return found_[k]; }
 
 private:
+    /// What a slot of a node holds, and when the lines come to it at the soonest.
     struct part {
-        aabb<T> box;
-        bvh_child child;
+        const typename Tree::node_type* node;
+        int slot;
+        T time;
     };
 
-    void sort_along(const vec3<T>& way) {
-        T places[most];
-        for (int k = 0; k < count_; ++k) {
-            const part one = found_[k];
-            const T place = dot(one.box.lower + one.box.upper, way);
-            int at = k;
-            for (; at > 0 && places[at - 1] > place; --at) {
-                found_[at] = found_[at - 1];
-                places[at] = places[at - 1];
+    void add(const part& at, bvh_child child) {
+        const auto& planes = Tree::all_planes(*at.node);
+        for (int plane = 0; plane < 6; ++plane) planes_[count_ / 4][plane][count_ % 4] = planes[plane][at.slot];
+        found_[count_++] = child;
+    }
+    /// Empty slots hold what the last one does: they are passed over later.
+    template <class Shapes>
+    void finish(const Shapes& shapes) {
+        const int groups = (count_ + 3) / 4;
+        for (int k = count_; k % 4 != 0; ++k) {
+            for (T(&row)[4] : planes_[k / 4]) row[k % 4] = row[0];
+        }
+        for (int g = 0; g < groups || g % 4 != 0; ++g) {
+            for (int plane = 0; plane < 6; ++plane) {
+                const T(&row)[4] = planes_[least(g, groups - 1)][plane];
+                around_[g / 4][plane][g % 4] =
+                    plane < 3 ? least(row[0], row[1], row[2], row[3]) : greatest(row[0], row[1], row[2], row[3]);
             }
-            found_[at] = one;
-            places[at] = place;
+        }
+        for (int k = 0; k < count_; ++k) {
+            if (found_[k].is_leaf()) prefetch_shape(shapes, found_[k].index(), 1);
         }
     }
 
-    alignas(16) T planes_[most / 4][6][4];  // not initialised
-    part found_[most];
+    alignas(16) T planes_[most / 4][6][4];   // not initialised
+    alignas(16) T around_[most / 16][6][4];  // likewise
+    bvh_child found_[most];
     int count_ = 0;
 };
 
@@ -230,7 +240,7 @@ public:
         for (std::size_t i = first + 1; i < last; ++i) between.add(all_->seen(i));
         if (!(apart(between, last - first) <= size_of_shape_)) return false;
         const bundle_reach<T> lines(between);
-        if (lines.coordinates_told() < 2 || !entries_.find(all_->walk.tree, lines, all_->seen(first).direction)) {
+        if (lines.coordinates_told() < 2 || !entries_.find(all_->walk.tree, lines, all_->shapes)) {
             return false;
         }
         for (std::size_t i = first; i < last; ++i) {
@@ -252,26 +262,41 @@ public:
 private:
     /// How far apart neighbours are, about, where they are as far away as the middle of the tree. No number for some lines.
     [[nodiscard]] double apart(const line_bounds<T>& lines, std::size_t count) const {
+        const aabb<T> origins = lines.origins(), directions = lines.directions();
         const auto middle = [](const aabb<T>& box) { return 0.5 * (widened(box.lower) + widened(box.upper)); };
         const auto longest = [](const vec3<double>& v) { return greatest(absolute(v.x), absolute(v.y), absolute(v.z)); };
         const auto sides = [](const aabb<T>& box) { return widened(box.upper) - widened(box.lower); };
-        const double time = longest(middle_ - middle(lines.origins)) / longest(middle(lines.directions));
-        return longest(sides(lines.origins) + time * sides(lines.directions)) / static_cast<double>(count - 1);
+        const double time = longest(middle_ - middle(origins)) / longest(middle(directions));
+        return longest(sides(origins) + time * sides(directions)) / static_cast<double>(count - 1);
     }
 
     template <class Reach, class Best, class Visitor>
     ABUT_INLINE void walk(Reach& reach, const Best& best, const Visitor& visitor) {
         double bound = infinity<double>;
         tighten(reach, best, bound);
-        T least_of[4];
-        for (int group = 0; group < entries_.groups(); ++group) {
-            entry* top = pending_;
-            const unsigned kept = reach.least_in_four(entries_.planes(group), least_of) & entries_.all_of(group);
-            for (int slot = 3; slot >= 0; --slot) {  // the nearest last
-                *top = {entries_.child(group, slot), least_of[slot]};
-                top += kept >> slot & 1;
+        T least_of[8][4], ignored[4];
+        for (int begin = 0; begin < entries_.count(); begin += 32) {
+            const int count = least(entries_.count() - begin, 32);
+            const int first = begin / 4;
+            unsigned groups = reach.least_in_four(entries_.around(first / 4), ignored);
+            if (count > 16) groups |= reach.least_in_four(entries_.around(first / 4 + 1), ignored) << 4;
+            unsigned kept = 0;
+            for (groups &= ~0u >> (32 - (count + 3) / 4); groups != 0; groups &= groups - 1) {
+                const auto g = static_cast<int>(lowest_bit(groups));
+                kept |= reach.least_in_four(entries_.planes(first + g), least_of[g]) << 4 * g;
             }
-            take_waiting(top, reach, best, bound, visitor);
+            for (kept &= ~0u >> (32 - count); kept != 0; kept &= kept - 1) {
+                const auto k = static_cast<int>(lowest_bit(kept));
+                const entry at{entries_.child(begin + k), least_of[k / 4][k % 4]};
+                if (!reach.keeps(at.least)) continue;
+                if (at.child.is_leaf()) {
+                    visitor(at.child.index());
+                    tighten(reach, best, bound);
+                } else {
+                    pending_[0] = at;
+                    take_waiting(pending_ + 1, reach, best, bound, visitor);
+                }
+            }
         }
     }
     /// Those that wait from pending_ up to `top`, until none does.
