@@ -481,8 +481,8 @@ struct body_relation {
 
 /// The same of all bodies of a scene, `bodies` or a std::vector of posed trees of meshes: a std::vector in host memory, of all
 /// two that are not disconnected, sorted by body_a, then body_b. `which` says as of `pairs` which bodies are looked at
-/// (`body_options::bodies`); its other members are not used. A body that is no solid is named in the message; each index is
-/// looked at once.
+/// (`body_options::bodies`); its other members are not used. A body that is no solid is named in the message. Whether a surface
+/// passes through itself is looked at once for each index, in its own frame.
 ///
 /// Which bodies have faces that pass through each other is found for all of them in one go, and so is where the others touch.
 /// What follows is for one thread of the host. There each body that touches another one, or whose box does, takes up to 250
