@@ -296,11 +296,11 @@ ABUT_INLINE ABUT_HD N far_error(const N& squared, const N& radius, const N& weig
     static_assert(far_degree == 5);
     const N left_out = (weight * (x2 * x2 * x)) * (N::of(far_degree + 1) - N::of(far_degree) * x) * (stretch * stretch);
     const N error = square * (left_out + (noise + noise_of_high * x2));
-    const auto both = [](const auto& x, const auto& y) {
-        if constexpr (std::same_as<std::remove_cvref_t<decltype(x)>, bool>) {
-            return x && y;
+    const auto both = [](const auto& one, const auto& other) {
+        if constexpr (std::same_as<std::remove_cvref_t<decltype(one)>, bool>) {
+            return one && other;
         } else {
-            return x & y;
+            return one & other;
         }
     };
     const auto is_outside = both(distance - radius > N::of(0x1p-10f) * distance, both(squared > N::of(1e-30f), squared < N::of(1e30f)));
