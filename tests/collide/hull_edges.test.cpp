@@ -124,7 +124,7 @@ void check_climbs(const hull<T>& h, test::draws& d) {
     std::vector<bool> reached(h.count, false);
     for (int k = 0; k < 400; ++k) {
         vec3<double> way{d.uniform(-1, 1), d.uniform(-1, 1), d.uniform(-1, 1)};
-        const auto any = [&] { return seen(d.below(static_cast<int>(h.count))); };
+        const auto any = [&] { return seen(static_cast<std::size_t>(d.below(static_cast<int>(h.count)))); };
         if (k % 4 == 1) way = cross(any() - any(), any() - any());                               // across a face, perhaps
         if (k % 4 == 2) way = {double(d.below(3)) - 1, double(d.below(3)) - 1, double(d.below(3)) - 1};  // across many
         if (k % 8 == 3) way = 1e-200 * way;

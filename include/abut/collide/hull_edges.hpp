@@ -59,7 +59,7 @@ public:
     [[nodiscard]] std::vector<std::vector<id>> neighbours() const {
         std::vector<std::vector<id>> of(points_.size());
         for (const face& f : faces_) {
-            for (int k = 0; !f.is_gone && k < 3; ++k) {
+            for (std::size_t k = 0; !f.is_gone && k < 3; ++k) {
                 if (side(f, apex(faces_[f.across[k]], f.corner[k])) != 0) of[f.corner[k]].push_back(f.corner[(k + 1) % 3]);
             }
         }
@@ -103,7 +103,7 @@ private:
     }
     /// The corner of a face that is not on the edge which ends at `end`, as seen from there.
     [[nodiscard]] static id apex(const face& f, id end) {
-        for (int k = 0; k < 3; ++k) {
+        for (std::size_t k = 0; k < 3; ++k) {
             if (f.corner[k] == end) return f.corner[(k + 1) % 3];
         }
         return none;
