@@ -246,17 +246,20 @@ std::pair<common_regions, bool> regions_of(const Policy& on, const X& x, const Y
         require_simple(on, x, function);
         require_simple(on, y, function);
     }
-    if (a.shapes().size() == 0 || b.shapes().size() == 0) {
-        return {{false, a.shapes().size() > 0, b.shapes().size() > 0}, false};
-    }
+    using answer = std::pair<common_regions, bool>;
+    const bool has_a = a.shapes().size() > 0, has_b = b.shapes().size() > 0;
+    if (!has_a || !has_b) return answer(common_regions{false, has_a, has_b}, false);
     const auto pass = [&] { return ask_for<A>(passing_through{}, whether{}).find(on, pairing); };
-    if (options.known_solid && pass()) return {{true, true, true}, true};
+    const answer of_passing(common_regions{true, true, true}, true);
+    if (options.known_solid && pass()) return of_passing;
     const auto faces_a = faces_on_host(on, a), faces_b = faces_on_host(on, b);
-    if (options.known_solid && !overlaps(box_of(faces_a), box_of(faces_b))) return {{false, true, true}, false};
+    if (options.known_solid && !overlaps(box_of(faces_a), box_of(faces_b))) {
+        return answer(common_regions{false, true, true}, false);
+    }
     const solid_on_host<T> solid_a(faces_a, function), solid_b(faces_b, function);
-    if (!options.known_solid && pass()) return {{true, true, true}, true};
+    if (!options.known_solid && pass()) return of_passing;
     const std::vector<crossing<T>> contacts = to_host(ask_for<A>(touching{}, all_crossings{}).find(on, pairing));
-    return {regions_of_solids<T>(solid_a, solid_b, contacts, is_enough), !contacts.empty()};
+    return answer(regions_of_solids<T>(solid_a, solid_b, contacts, is_enough), !contacts.empty());
 }
 
 // --- many bodies

@@ -54,20 +54,22 @@ private:
     [[nodiscard]] int exact_sign() const {
         int lowest = 0;
         bool any = false;
-        const auto parts_of = [](T x) { return take_apart(x); };
+        const auto look_at = [&](T x) {
+            if (is_zero(x)) return;
+            const int e = take_apart(x).exponent;
+            lowest = any ? std::min(lowest, e) : e;
+            any = true;
+        };
         const auto look = [&](const vec3<T>& p) {
-            for (const T x : {p.x, p.y, p.z}) {
-                if (is_zero(x)) continue;
-                const int e = parts_of(x).exponent;
-                lowest = any ? std::min(lowest, e) : e;
-                any = true;
-            }
+            look_at(p.x);
+            look_at(p.y);
+            look_at(p.z);
         };
         look(from_);
         for (const triangle<T>& t : faces_) look(t.a), look(t.b), look(t.c);
         const auto whole = [&](T x) {
             if (is_zero(x)) return big_int();
-            const auto parts = parts_of(x);
+            const auto parts = take_apart(x);
             return big_int(parts.mantissa, parts.exponent - lowest);
         };
         const auto to = [&](const vec3<T>& p) {

@@ -52,7 +52,9 @@ struct sign_of_three {
             const N* const p = v + 6 * i + 3;
             return vec3<N>{p[0], p[1], p[2]};
         };
-        return {sign_of_dot(cross(end(0) - direction(0), end(1) - direction(1)), end(2) - direction(2))};
+        // Named first: of braces around a call nvcc 13.0 makes code that g++ does not take.
+        const int sign = sign_of_dot(cross(end(0) - direction(0), end(1) - direction(1)), end(2) - direction(2));
+        return {sign};
     }
 };
 /// The sign of (a x b) . (c x d). Not asked in words, whose squares would not fit two.
@@ -63,7 +65,8 @@ struct sign_of_four {
             const N* const p = v + 6 * i;
             return vec3<N>{p[3], p[4], p[5]} - vec3<N>{p[0], p[1], p[2]};
         };
-        return {sign_of_dot(cross(along(0), along(1)), cross(along(2), along(3)))};
+        const int sign = sign_of_dot(cross(along(0), along(1)), cross(along(2), along(3)));
+        return {sign};
     }
 };
 
