@@ -211,8 +211,8 @@ struct all_crossings {
 /// Arguments are those of `pairs`, of triangles: sets, views, single triangles and indices, posed or not. Ranks do not take
 /// them. Vertices of a mesh that is divided among devices count as those of a soup.
 ///
-///     for (const auto& c : abut::crossings(abut::openmp{}, wall, abut::posed(pipe, pose))) {
-///         if (c.count == 2) draw(c.points[0], c.points[1]);
+///     for (const auto& c : abut::crossings(abut::openmp{}, mesh, abut::posed(other, there))) {
+///         if (c.count == 2) use(c.points[0], c.points[1]);
 ///     }
 template <arithmetic A = filtered, executor On, class X, class Y, class Filter = keep_all>
     requires(!detail::scene<X>)

@@ -234,7 +234,7 @@ private:
 /// Runs on one thread, of crossings in host memory; those of a device are copied. Takes about 100 bytes a segment. Throws
 /// std::bad_alloc and cuda_error.
 ///
-///     for (const auto& c : abut::curves(on, abut::crossings(on, wall, pipe))) {
+///     for (const auto& c : abut::curves(on, abut::crossings(on, mesh, other))) {
 ///         std::printf("%zu points, %s\n", c.points.size(), c.closed ? "closed" : "open");
 ///     }
 ///@{

@@ -423,7 +423,7 @@ consteval bool are_solid_bodies() {
 /// in one place have different numbers are not closed: `welded` joins them.
 ///
 /// @par Memory
-/// As in @ref queries: arguments lie in the policy's memory. Where surfaces touch and faces do not pass through each other,
+/// As in @ref queries, arguments lie in the policy's memory. Where surfaces touch and faces do not pass through each other,
 /// the faces of both come to the host, where they take up to 150 bytes each, and crossings of what touches 120 bytes each in
 /// float and 192 in double.
 ///
@@ -446,8 +446,7 @@ consteval bool are_solid_bodies() {
 /// Where faces pass through each other, no more than a first pair of them is looked for. Else each place in which the surfaces
 /// touch is looked at, on one thread of the host: a corner of n faces on one of m takes up to n^2 + m^2 steps.
 ///
-///     abut::mesh<double> wall = ..., pipe = ...;
-///     if (abut::relation(on, wall, pipe) == abut::solid_relation::externally_connected) puts("they only touch");
+///     if (abut::relation(on, mesh, other) == abut::solid_relation::externally_connected) std::puts("they only touch");
 template <arithmetic A = filtered, execution_policy Policy, class X, class Y>
     requires(!std::same_as<A, fast>)
 [[nodiscard]] solid_relation relation(const Policy& on, const X& a, const Y& b, const solid_options& options = {}) {

@@ -273,6 +273,11 @@ public:
         }
     }
 
+    /// f on the interval of an answer.
+    [[nodiscard]] ABUT_HD constexpr volume_in_time volume(const answer& in) const {
+        const feature_frame a = at(in.j, in.depth), b = at(in.j + 1, in.depth);
+        return {a, b, cross(a.u, a.v), cross(a.u, b.v) + cross(b.u, a.v), cross(b.u, b.v)};
+    }
     /// The sign of f at a time, or 0 where double does not tell.
     [[nodiscard]] ABUT_HD constexpr int sign_of_volume(double t) const {
         const feature_frame a = at(t);

@@ -13,7 +13,11 @@
 namespace abut {
 
 /// What part of a mesh a point lies in: the least one, so on an edge it is in no vertex.
-enum class mesh_part : unsigned char { at_vertex, on_edge, in_face };
+enum class mesh_part : unsigned char {
+    at_vertex,  ///< in a vertex
+    on_edge,    ///< on an edge, and in no vertex
+    in_face     ///< in the inside of a face
+};
 
 /// A vertex, an edge or a face of a mesh, by which a point of a crossing is known. Two points of one name are one point.
 struct mesh_feature {
