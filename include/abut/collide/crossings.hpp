@@ -97,21 +97,20 @@ struct naming_crossings : Judge {
 };
 
 /// The crossing in what is found: itself, or that of an entry.
-template <scalar T>
-ABUT_HD constexpr crossing<T>& crossing_in(crossing<T>& found) {
-    return found;
-}
 template <class Found>
 ABUT_HD constexpr auto& crossing_in(Found& found) {
-    return found.common;
+    if constexpr (requires { found.common; }) {
+        return found.common;
+    } else {
+        return found;
+    }
 }
 
 template <class Found>
 struct is_left_open {
     const Found* found;
     ABUT_HD bool operator()(std::size_t i) const {
-        Found one = found[i];
-        return crossing_in(one).count == 7;
+        return crossing_in(found[i]).count == shared_corners::unknown().count();
     }
 };
 struct gather_keys {

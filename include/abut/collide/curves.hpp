@@ -231,7 +231,7 @@ private:
 /// meshes whose faces look outwards, that keeps the inside of b to its left, as seen from outside of a. Closed curves begin
 /// with their least name. The order of curves depends on the names alone, so it is the same for crossings of each policy.
 ///
-/// Runs on one thread, of crossings in host memory; those of a device are copied. Takes about 100 bytes a segment. Throws
+/// Runs on one thread, of crossings in host memory; those of a device are copied. Takes up to 500 bytes a segment. Throws
 /// std::bad_alloc and cuda_error.
 ///
 ///     for (const auto& c : abut::curves(on, abut::crossings(on, mesh, other))) {

@@ -252,11 +252,11 @@ std::pair<common_regions, bool> regions_of(const Policy& on, const X& x, const Y
     const auto pass = [&] { return ask_for<A>(passing_through{}, whether{}).find(on, pairing); };
     const answer of_passing(common_regions{true, true, true}, true);
     if (options.known_solid && pass()) return of_passing;
-    const auto faces_a = faces_on_host(on, a), faces_b = faces_on_host(on, b);
+    auto faces_a = faces_on_host(on, a), faces_b = faces_on_host(on, b);
     if (options.known_solid && !overlaps(box_of(faces_a), box_of(faces_b))) {
         return answer(common_regions{false, true, true}, false);
     }
-    const solid_on_host<T> solid_a(faces_a, function), solid_b(faces_b, function);
+    const solid_on_host<T> solid_a(std::move(faces_a), function), solid_b(std::move(faces_b), function);
     if (!options.known_solid && pass()) return of_passing;
     const std::vector<crossing<T>> contacts = to_host(ask_for<A>(touching{}, all_crossings{}).find(on, pairing));
     return answer(regions_of_solids<T>(solid_a, solid_b, contacts, is_enough), !contacts.empty());
@@ -424,8 +424,8 @@ consteval bool are_solid_bodies() {
 ///
 /// @par Memory
 /// As in @ref queries, arguments lie in the policy's memory. Where surfaces touch and faces do not pass through each other,
-/// the faces of both come to the host, where they take up to 150 bytes each, and crossings of what touches 120 bytes each in
-/// float and 192 in double.
+/// the faces of both come to the host, where they take up to 200 bytes each, and 150 more where a part of a surface touches
+/// nothing; crossings of what touches take 120 bytes each in float and 192 in double.
 ///
 /// @par Errors
 /// - `invalid_geometry`: a mesh is no solid. The message has a face and says why. Without `known_solid` that is found out in
@@ -487,7 +487,7 @@ struct body_relation {
 /// passes through itself is looked at once for each index, in its own frame.
 ///
 /// Which bodies have faces that pass through each other is found for all of them in one go, and so is where the others touch.
-/// What follows is for one thread of the host. There each body that touches another one, or whose box does, takes up to 250
+/// What follows is for one thread of the host. There each body that touches another one, or whose box does, takes up to 450
 /// bytes a face.
 template <arithmetic A = filtered, execution_policy Policy, many_bodies Scene, class Which = body_options<>>
     requires(!std::same_as<A, fast> && detail::are_body_options<Which>)

@@ -28,24 +28,24 @@
 
 namespace abut::detail {
 
-/// Which side of each other's plane: the sign of the determinant of three vectors from c0, summed over many faces: of six times
-/// the volume between them and a point.
+/// The sign of the volume between some faces of a closed surface and a point: positive where they face outwards.
 template <scalar T>
 class volume_sign {
 public:
-    explicit volume_sign(const vec3<T>& from) : from_(from) {}
-    void add(const triangle<T>& t) { faces_.push_back(t); }
+    volume_sign(const vec3<T>& from, const std::vector<mesh_face<T>>& faces, const std::vector<std::uint32_t>& which)
+        : from_(from), faces_(faces), which_(which) {}
     /// 0 only where the volume is.
     [[nodiscard]] int sign() const {
         double sum = 0, most = 0;
-        for (const triangle<T>& t : faces_) {
+        for (const std::uint32_t f : which_) {
+            const triangle<T>& t = faces_[f].corners;
             const vec3<double> a = between(widened(from_), widened(t.a)), b = between(widened(from_), widened(t.b)),
                                c = between(widened(from_), widened(t.c));
             sum += dot(cross(a, b), c);
             most += magnitudes(a) * magnitudes(b) * magnitudes(c);
         }
         // Each term is off by less than 20 u of its product, and the sum by u for each.
-        const double error = most * (static_cast<double>(faces_.size()) + 40) * 0x1p-52 + 0x1p-300;
+        const double error = most * (static_cast<double>(which_.size()) + 40) * 0x1p-52 + 0x1p-300;
         if (is_finite(most) && absolute(sum) > error) return sum > 0 ? 1 : -1;
         return exact_sign();
     }
@@ -66,7 +66,10 @@ private:
             look_at(p.z);
         };
         look(from_);
-        for (const triangle<T>& t : faces_) look(t.a), look(t.b), look(t.c);
+        for (const std::uint32_t f : which_) {
+            const triangle<T>& t = faces_[f].corners;
+            look(t.a), look(t.b), look(t.c);
+        }
         const auto whole = [&](T x) {
             if (is_zero(x)) return big_int();
             const auto parts = take_apart(x);
@@ -76,7 +79,8 @@ private:
             return vec3<big_int>{whole(p.x) - whole(from_.x), whole(p.y) - whole(from_.y), whole(p.z) - whole(from_.z)};
         };
         big_int sum;
-        for (const triangle<T>& t : faces_) {
+        for (const std::uint32_t f : which_) {
+            const triangle<T>& t = faces_[f].corners;
             const vec3<big_int> a = to(t.a), b = to(t.b), c = to(t.c);
             sum = sum + (a.y * b.z - a.z * b.y) * c.x + (a.z * b.x - a.x * b.z) * c.y + (a.x * b.y - a.y * b.x) * c.z;
         }
@@ -84,7 +88,8 @@ private:
     }
 
     vec3<T> from_;
-    std::vector<triangle<T>> faces_;
+    const std::vector<mesh_face<T>>& faces_;
+    const std::vector<std::uint32_t>& which_;
 };
 
 template <scalar T>
@@ -226,20 +231,15 @@ private:
     /// it bounds a hollow. Where that is not so, its faces are turned inside out.
     void find_turned_parts(const char* function, const std::string& element) {
         is_turned_.assign(parts(), 0);
-        std::vector<volume_sign<T>> volume;
         std::vector<aabb<T>> box(parts());
         std::vector<std::vector<id>> faces_of(parts());
-        for (id p = 0; p < parts(); ++p) {
-            volume.emplace_back(vertex_of_part(p));
-            box[p] = bounds(face(first_face_of_part_[p]));
-        }
+        for (id p = 0; p < parts(); ++p) box[p] = bounds(face(first_face_of_part_[p]));
         for (id f = 0; f < faces_.size(); ++f) {
-            volume[part_[f]].add(face(f));
             box[part_[f]] = merge(box[part_[f]], bounds(face(f)));
             faces_of[part_[f]].push_back(f);
         }
         for (id p = 0; p < parts(); ++p) {
-            const int sign = volume[p].sign();
+            const int sign = volume_sign<T>(vertex_of_part(p), faces_, faces_of[p]).sign();
             if (sign == 0) throw invalid_geometry(function, element, first_face_of_part_[p], "the part of the surface with this face encloses a volume of", 0);
             bool is_hollow = false;
             const vec3<T>& v = vertex_of_part(p);

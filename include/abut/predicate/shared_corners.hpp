@@ -119,7 +119,7 @@ ABUT_HD constexpr shared_corners shared_by_chords(const chord_places& s, const c
     return all;
 }
 
-/// Of triangles whose planes cross in a line. The corners of the first line of `above` are lone ones: see lone_corner.
+/// Of triangles whose planes cross in a line, of which they share something.
 template <class N>
 ABUT_HD constexpr shared_corners shared_along_line(const three_points<N>& s, const plane_sides& of_s, const three_points<N>& t,
                                                    const plane_sides& of_t) {
