@@ -39,6 +39,25 @@ TEST_CASE("off: counts on the first line or the next, with and without edges, co
     CHECK(parse("OFF\n0 0 0\n").vertices.empty());
 }
 
+TEST_CASE("off: rows may go on across lines, if all of the text fits that") {
+    const std::vector<abut::vec3<double>> corners{{0, 0, 0}, {1, 0, 0}, {1, 0.1, 0}, {0, 1, 0}};
+    for (const std::string text : {"OFF\n4\n2 0\n0 0\n0 1 0 0 1 0.1\n\n0 # a comment\n0 1 0 4 0 1\n2 3\n3\n2\n1\n0\n",
+                                   "OFF 4 2 0 0 0 0 1 0 0 1 0.1 0 0 1 0 4 0 1 2 3 0.5 0.5 0.5\n3 2 1 0 255\n",
+                                   "OFF\n4 2 0\n0 0 0 1 0 0\n1 0.1 0 0 1 0\n4 0 1 2 3\n3 2 1 0\n"}) {
+        INFO(text);
+        const auto read = parse(text);
+        CHECK(read.vertices == corners);
+        CHECK(read.faces == faces{{0, 1, 2}, {0, 2, 3}, {2, 1, 0}});
+    }
+    // A number too few or too many is refused as before, by the line.
+    CHECK(refusal("OFF\n4 1 0\n0 0\n1 0 0\n1 0.1 0\n0 1 0\n3 0 1 2\n") ==
+          "t.off:3: expected the z coordinate of a vertex, found the end of the line");
+    CHECK(refusal("COFF\n1 0 0\n0 0\n0\n") == "t.off:3: expected the z coordinate of a vertex, found the end of the line");
+    const std::string short_row = "OFF\n4 1 0\n0 0 0\n1 0\n1 1 0\n0 1 0\n3 0 1 2\n";
+    CHECK(io_test::refusal([&] { abut::io::parse_off<float>(short_row, "t.off", {.lenient = true}); }) ==
+          "t.off:4: expected the z coordinate of a vertex, found the end of the line");
+}
+
 TEST_CASE("off: polygons that are not convex are cut") {
     const auto read = parse("OFF\n4 1 0\n0 0 0\n4 0 0\n1 1 0\n0 4 0\n4 1 2 3 0\n");
     CHECK(read.faces == faces{{0, 1, 2}, {0, 2, 3}});

@@ -71,6 +71,7 @@ TEST_CASE("stl: ASCII, several solids, any case, decimals rounded once") {
     CHECK(read.vertices[2] == abut::vec3<double>{0, 0.1, 0});
     CHECK(parse<float>("solid\n" + facet + "endsolid\n").vertices[2].y == 0.1f);
     CHECK(parse("solid\nendsolid\n").faces.empty());
+    CHECK(parse("solid part\n" + facet + "endsolidpart\nsolid\n" + facet + "ENDSOLID_2").faces.size() == 2);
     CHECK(parse("\xef\xbb\xbfsolid\nendsolid\n").faces.empty());
 }
 

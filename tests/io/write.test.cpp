@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <string>
@@ -56,6 +57,61 @@ TEMPLATE_TEST_CASE("write_ply: what is written is read back, bit for bit", "", f
         CHECK(read.faces == faces);
         const auto view = abut::io::read_mesh<TestType>(folder / "a.ply").view();
         CHECK(view.size() == 2);
+    }
+}
+
+TEMPLATE_TEST_CASE("write_obj, write_off: what is written is read back, bit for bit", "", float, double) {
+    const io_test::scratch folder;
+    using limits = std::numeric_limits<TestType>;
+    const std::vector<abut::vec3<TestType>> vertices{{TestType(0.1), limits::max(), limits::denorm_min()},
+                                                     {-limits::max(), TestType(-0.0), limits::min()},
+                                                     {TestType(1) / 3, 2, 1e10},
+                                                     {4, 5, 6}};
+    const std::vector<std::array<std::uint32_t, 3>> faces{{0, 1, 2}, {3, 3, 3}};
+    for (const char* name : {"a.obj", "a.OFF"}) {
+        abut::io::write_mesh(folder / name, abut::mesh<TestType>{vertices, faces});
+        const auto read = abut::io::read_mesh_data<TestType>(folder / name);
+        CHECK(read.vertices == vertices);
+        CHECK(std::signbit(read.vertices[1].y));
+        CHECK(read.faces == faces);
+    }
+}
+
+TEST_CASE("write_stl, write_obj, write_off: the files, byte for byte, and what they refuse") {
+    const io_test::scratch folder;
+    const abut::mesh<double> mesh{{{0, 0, 0}, {2, 0, 0}, {0, 0.1, 0}, {1e-50, 0, 0}}, {{0, 2, 1}, {0, 1, 3}}};
+    abut::io::write_mesh(folder / "a.obj", mesh);
+    CHECK(io_test::content(folder / "a.obj") == "v 0 0 0\nv 2 0 0\nv 0 0.1 0\nv 1e-50 0 0\nf 1 3 2\nf 1 2 4\n");
+    abut::io::write_mesh(folder / "a.off", mesh.view());
+    CHECK(io_test::content(folder / "a.off") == "OFF\n4 2 0\n0 0 0\n2 0 0\n0 0.1 0\n1e-50 0 0\n3 0 2 1\n3 0 1 3\n");
+    abut::io::write_mesh(folder / "a.stl", mesh);
+    const std::string stl = io_test::content(folder / "a.stl");
+    REQUIRE(stl.size() == 84 + 2 * 50);
+    CHECK(stl.substr(0, 5) != "solid");
+    CHECK(stl.substr(80, 4) == std::string("\2\0\0\0", 4));
+    float z = 0;  // of the first normal
+    std::memcpy(&z, stl.data() + 92, sizeof z);
+    CHECK(z == -1);
+    const auto read = abut::io::read_mesh_data<float>(folder / "a.stl");
+    CHECK(read.vertices == std::vector<abut::vec3<float>>{{0, 0, 0}, {0, 0.1f, 0}, {2, 0, 0}, {0, 0, 0}, {2, 0, 0}, {0, 0, 0}});
+    CHECK(read.faces == std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {3, 4, 5}});
+
+    const std::vector<std::uint8_t> hit{0, 1};
+    for (const char* name : {"b.stl", "b.obj", "b.off"}) {
+        CHECK(io_test::refusal([&] { abut::io::write_mesh(folder / name, mesh, {.hit = hit}); })
+                  .find("expected .ply or .vtp for a mesh with values") != std::string::npos);
+        CHECK(!std::filesystem::exists(folder / name));
+    }
+    CHECK(io_test::refusal([&] { abut::io::write_stl(folder / "b.stl", abut::mesh<double>{{{0, 0, 1e39}}, {{0, 0, 0}}}); })
+              .find("expected coordinates that float can hold, found 1e+39 in vertex 0") != std::string::npos);
+    const std::vector<std::array<std::uint32_t, 3>> wrong{{0, 1, 4}};
+    const abut::mesh_view<float> bad(square.data(), square.size(), wrong.data(), 1);
+    CHECK(io_test::refusal([&] { abut::io::write_obj(folder / "b.obj", bad); })
+              .find("expected vertex indices below 4, found 4 in face 0") != std::string::npos);
+    CHECK(io_test::refusal([&] { abut::io::write_mesh(folder / "b.dae", square, halves); })
+              .find("expected a file name that ends with .ply, .vtp, .stl, .obj or .off") != std::string::npos);
+    if (std::filesystem::exists(full)) {
+        CHECK(io_test::refusal([&] { abut::io::write_off(full, mesh); }).find("cannot be written") != std::string::npos);
     }
 }
 
@@ -161,10 +217,10 @@ TEST_CASE("write_mesh and write_points: the extension chooses the format") {
         abut::io::write_points(folder / ("b" + name), square);
         CHECK(io_test::content(folder / ("b" + name)) == io_test::content(folder / ("a" + name)));
     }
-    for (const std::string name : {"a.obj", "a", "vtp"}) {
+    for (const std::string name : {"a.dae", "a", "vtp"}) {
         const auto path = folder / name;
         CHECK(io_test::refusal([&] { abut::io::write_mesh(path, mesh); }) ==
-              path.string() + ": expected a file name that ends with .ply or .vtp");
+              path.string() + ": expected a file name that ends with .ply, .vtp, .stl, .obj or .off");
         CHECK(io_test::refusal([&] { abut::io::write_points(path, square); }) ==
               path.string() + ": expected a file name that ends with .ply or .vtp");
         CHECK_FALSE(std::filesystem::exists(path));

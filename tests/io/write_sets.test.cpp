@@ -9,7 +9,10 @@
 #include <string>
 #include <vector>
 
+#include <abut/collide/crossings.hpp>
+#include <abut/collide/curves.hpp>
 #include <abut/io/read.hpp>
+#include <abut/io/write_gltf.hpp>
 
 #include "io/support.hpp"
 #include "support/catch.hpp"
@@ -120,6 +123,52 @@ TEST_CASE("write_boxes: a closed mesh of each box, with the box's values") {
           }).ends_with("expected 2 values of 'depth', one for each shape, found 1"));
     CHECK(io_test::refusal([&] { abut::io::write_boxes(folder / "c.obj", set); }).ends_with("ends with .ply or .vtp"));
     CHECK_FALSE(std::filesystem::exists(folder / "c.ply"));
+}
+
+TEST_CASE("write_curves: the segments of an open and of a closed curve, with their faces") {
+    const io_test::scratch folder;
+    // A square cuts a tetrahedron, and ends within it.
+    const abut::mesh<float> tetrahedron{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+    const abut::mesh<float> square{{{0.5f, -9, 1}, {9, -9, 1}, {9, 9, 1}, {0.5f, 9, 1}}, {{0, 1, 2}, {0, 2, 3}}};
+    const abut::mesh<float> plate{{{-9, -9, 2}, {9, -9, 2}, {9, 9, 2}, {-9, 9, 2}}, {{0, 1, 2}, {0, 2, 3}}};
+    const abut::serial on;
+    auto all = abut::curves(on, abut::crossings(on, tetrahedron, square));
+    REQUIRE(all.size() == 1);
+    CHECK(!all[0].closed);
+    for (const auto& c : abut::curves(on, abut::crossings(on, tetrahedron, plate))) all.push_back(c);
+    REQUIRE(all.size() == 2);
+    CHECK(all[1].closed);
+    const std::size_t segments = all[0].segments() + all[1].segments();
+    CHECK(all[1].segments() == all[1].points.size());
+
+    abut::io::write_curves(folder / "a.ply", all);
+    std::string expected, edges;
+    std::int32_t vertex = 0;
+    for (std::uint32_t k = 0; k < 2; ++k) {
+        for (std::size_t i = 0; i < all[k].segments(); ++i) {
+            for (const vec3<float>& p : {all[k].points[i], all[k].points[(i + 1) % all[k].points.size()]}) {
+                expected += bytes(p.x, p.y, p.z);
+            }
+            const auto faces = all[k].pairs_of(i)[0];
+            edges += bytes(vertex, vertex + 1, k, faces.a, faces.b);
+            vertex += 2;
+        }
+    }
+    CHECK(io_test::content(folder / "a.ply")
+              .ends_with("element edge " + std::to_string(segments) +
+                         "\nproperty int vertex1\nproperty int vertex2\nproperty uint curve\nproperty uint face_a\nproperty uint "
+                         "face_b\nend_header\n" +
+                         expected + edges));
+    abut::io::write_curves(folder / "a.vtp", all);
+    CHECK(io_test::content(folder / "a.vtp").find("Name=\"curve\"") != std::string::npos);
+    abut::io::write_curves(folder / "b.vtp", std::vector<abut::curve<float>>{});
+
+    abut::io::gltf_scene scene;
+    CHECK(scene.add_curves("cut", all).number == 0);
+    abut::io::write_gltf(folder / "a.glb", scene);
+    const std::string glb = io_test::content(folder / "a.glb");
+    CHECK(glb.find("\"kind\":\"segments\"") != std::string::npos);
+    CHECK(glb.find("\"count\":" + std::to_string(segments)) != std::string::npos);
 }
 
 }  // namespace io_test::write_sets_cases

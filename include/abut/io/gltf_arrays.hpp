@@ -4,6 +4,7 @@
 // The numbers of a glTF file: its JSON and its buffers, and the accessors that say what lies where in them. gltf.hpp makes
 // meshes of it.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -85,28 +86,36 @@ struct gltf_elements {
     std::size_t count = 0, stride = 0, components = 0;
     int type = 0;
     bool is_normalised = false;
+    std::vector<std::uint32_t> replaced{};  // of a sparse accessor: these elements, in order, are others
+    const char* others = nullptr;
+    std::size_t others_stride = 0;
 
+    [[nodiscard]] const char* at(std::size_t i) const {
+        const auto found = std::lower_bound(replaced.begin(), replaced.end(), i);
+        if (found == replaced.end() || *found != i) return data + i * stride;
+        return others + static_cast<std::size_t>(found - replaced.begin()) * others_stride;
+    }
     /// Number k of element i. Normalised integers stand for numbers from -1 or 0 to 1.
     [[nodiscard]] double real(std::size_t i, std::size_t k) const {
-        if (type == 5126) return static_cast<double>(get_little_endian<float>(data + i * stride + 4 * k));
+        if (type == 5126) return static_cast<double>(get_little_endian<float>(at(i) + 4 * k));
         const double value = static_cast<double>(whole(i, k));
         if (!is_normalised) return value;
         constexpr std::array<double, 4> most{127, 255, 32767, 65535};
         return std::fmax(value / most[static_cast<std::size_t>(type - 5120)], -1.0);
     }
     [[nodiscard]] std::int64_t whole(std::size_t i, std::size_t k) const {
-        const char* const at = data + i * stride;
+        const char* const bytes = at(i);
         switch (type) {
             case 5120:
-                return static_cast<std::int8_t>(at[k]);
+                return static_cast<std::int8_t>(bytes[k]);
             case 5121:
-                return static_cast<std::uint8_t>(at[k]);
+                return static_cast<std::uint8_t>(bytes[k]);
             case 5122:
-                return get_little_endian<std::int16_t>(at + 2 * k);
+                return get_little_endian<std::int16_t>(bytes + 2 * k);
             case 5123:
-                return get_little_endian<std::uint16_t>(at + 2 * k);
+                return get_little_endian<std::uint16_t>(bytes + 2 * k);
             default:
-                return get_little_endian<std::uint32_t>(at + 4 * k);
+                return get_little_endian<std::uint32_t>(bytes + 4 * k);
         }
     }
 };
@@ -130,34 +139,29 @@ public:
     /// What an accessor, by its number, says is there. `type` is its form ("VEC3"), of so many components.
     gltf_elements elements(const json_value& number, std::string_view type, std::size_t components) {
         const json_value& accessor = item("accessors", number);
-        if (find(accessor, "sparse") != nullptr) refuse(accessor, "an accessor that is not sparse");
         const json_value& form = get(accessor, "type", json_kind::string);
         if (form.text != type) refuse(form, "'" + std::string(type) + "'");
         gltf_elements made;
-        const json_value& component = get(accessor, "componentType", json_kind::number);
-        made.type = static_cast<int>(whole(component, "a type of components", 5126));
-        const std::size_t size = component_size(made.type);
-        if (size == 0) refuse(component, "a type of components (5120 to 5123, 5125, 5126)");
+        made.type = component_type(accessor);
         made.components = components;
         const json_value* const normalised = find(accessor, "normalized", json_kind::boolean);
         made.is_normalised = normalised != nullptr && normalised->text == "true" && made.type < 5124;
-        constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
-        made.count = static_cast<std::size_t>(whole(get(accessor, "count", json_kind::number), "a count", most));
+        const json_value& count = get(accessor, "count", json_kind::number);
+        made.count = static_cast<std::size_t>(whole(count, "a count", most_bytes));
 
-        const json_value& view = item("bufferViews", get(accessor, "bufferView", json_kind::number));
-        const std::string_view buffer = bytes_of(get(view, "buffer", json_kind::number));
-        const std::uint64_t begin = whole(view, "byteOffset", 0, most), length = whole(view, "byteLength", 0, most);
-        if (begin + length > buffer.size()) {
-            refuse(view, "a part of its buffer, which has " + std::to_string(buffer.size()) + " bytes");
+        const std::size_t size = component_size(made.type) * components;
+        if (find(accessor, "bufferView") != nullptr) {
+            const stretch found = part_of_view(accessor, made.count, size, true);
+            made.data = found.data;
+            made.stride = found.stride;
+        } else {
+            // Zeros, by the format. No bytes stand for them, so their number has a bound of its own.
+            static constexpr std::array<char, 64> zeros{};
+            constexpr std::size_t most = 1 << 24;
+            if (made.count > most) refuse(count, "at most 16777216 elements of an accessor without a buffer view");
+            made.data = zeros.data();
         }
-        made.stride = static_cast<std::size_t>(whole(view, "byteStride", size * components, most));
-        const std::uint64_t offset = whole(accessor, "byteOffset", 0, most);
-        // One element takes all of its components; from one to the next it is a stride. 2^32 strides of 2^32 bytes fit.
-        const std::uint64_t needed = made.count == 0 ? 0 : std::uint64_t{made.count - 1} * made.stride + size * components;
-        if (made.stride < size * components || offset > length || needed > length - offset) {
-            refuse(accessor, "a part of its buffer view, which has " + std::to_string(length) + " bytes");
-        }
-        made.data = buffer.data() + begin + offset;
+        if (const json_value* const sparse = find(accessor, "sparse", json_kind::object)) replace(made, *sparse, size);
         return made;
     }
 
@@ -172,6 +176,62 @@ private:
         loaded_.resize(buffers == nullptr ? 0 : buffers->items.size());
     }
 
+    static constexpr std::uint64_t most_bytes = std::numeric_limits<std::uint32_t>::max();
+
+    /// Elements of a buffer view, one every `stride` bytes.
+    struct stretch {
+        const char* data;
+        std::size_t stride;
+    };
+    /// Those of an accessor or of a part of one, `count` of `size` bytes each.
+    stretch part_of_view(const json_value& owner, std::size_t count, std::size_t size, bool may_have_gaps) {
+        const json_value& view = item("bufferViews", get(owner, "bufferView", json_kind::number));
+        const std::string_view buffer = bytes_of(get(view, "buffer", json_kind::number));
+        const std::uint64_t begin = whole(view, "byteOffset", 0, most_bytes), length = whole(view, "byteLength", 0, most_bytes);
+        if (begin + length > buffer.size()) {
+            refuse(view, "a part of its buffer, which has " + std::to_string(buffer.size()) + " bytes");
+        }
+        const std::size_t stride = may_have_gaps ? static_cast<std::size_t>(whole(view, "byteStride", size, most_bytes)) : size;
+        const std::uint64_t offset = whole(owner, "byteOffset", 0, most_bytes);
+        // One element takes all of its components; from one to the next it is a stride. 2^32 strides of 2^32 bytes fit.
+        const std::uint64_t needed = count == 0 ? 0 : std::uint64_t{count - 1} * stride + size;
+        if (stride < size || offset > length || needed > length - offset) {
+            refuse(owner, "a part of its buffer view, which has " + std::to_string(length) + " bytes");
+        }
+        return {buffer.data() + begin + offset, stride};
+    }
+
+    /// What a sparse accessor has in place of some elements: their numbers, which increase, and their values.
+    void replace(gltf_elements& made, const json_value& sparse, std::size_t size) {
+        const json_value& count = get(sparse, "count", json_kind::number);
+        const auto others = static_cast<std::size_t>(whole(count, "a count of at most all elements", made.count));
+        const json_value& places = get(sparse, "indices", json_kind::object);
+        gltf_elements numbers;
+        numbers.type = component_type(places);
+        if (numbers.type != 5121 && numbers.type != 5123 && numbers.type != 5125) {
+            refuse(places, "numbers of elements without a sign (5121, 5123, 5125)");
+        }
+        const stretch found = part_of_view(places, others, component_size(numbers.type), false);
+        numbers.data = found.data;
+        numbers.stride = found.stride;
+        const stretch values = part_of_view(get(sparse, "values", json_kind::object), others, size, false);
+        made.others = values.data;
+        made.others_stride = values.stride;
+        for (std::size_t i = 0; i < others; ++i) {
+            const auto one = static_cast<std::uint64_t>(numbers.whole(i, 0));
+            if (one >= made.count || (i > 0 && one <= made.replaced.back())) {
+                refuse(places, "numbers of elements that increase and are below " + std::to_string(made.count));
+            }
+            made.replaced.push_back(static_cast<std::uint32_t>(one));
+        }
+    }
+
+    [[nodiscard]] int component_type(const json_value& owner) const {
+        const json_value& component = get(owner, "componentType", json_kind::number);
+        const auto type = static_cast<int>(whole(component, "a type of components", 5126));
+        if (component_size(type) == 0) refuse(component, "a type of components (5120 to 5123, 5125, 5126)");
+        return type;
+    }
     static std::size_t component_size(int type) {
         constexpr std::array<std::size_t, 7> sizes{1, 1, 2, 2, 0, 4, 4};
         return type < 5120 ? 0 : sizes[static_cast<std::size_t>(type - 5120)];

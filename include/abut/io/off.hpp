@@ -20,8 +20,10 @@ namespace detail {
 template <scalar T>
 class off_reader {
 public:
-    off_reader(std::string_view text, const std::string& file, const read_options& options)
-        : file_(file), text_(text, file), options_(options) {
+    /// With `across_lines` a vertex or a face may go on in the next line, as the form allows: a vertex has three numbers
+    /// then, and no others.
+    off_reader(std::string_view text, const std::string& file, const read_options& options, bool across_lines)
+        : file_(file), text_(text, file), options_(options), across_lines_(across_lines) {
         refuse_utf16(text, file);
     }
 
@@ -56,6 +58,12 @@ private:
         text_.skip_blanks();
         return text_.peek() == '#' ? std::string_view() : text_.token();
     }
+    /// A value that the row must have.
+    std::string_view value() {
+        std::string_view word = next();
+        if (word.empty() && across_lines_) begin_row(), word = next();
+        return word;
+    }
     /// What is left of a row are numbers, which are colours, normals or the like.
     void end_row() {
         for (std::string_view word = next(); !word.empty(); word = next()) {
@@ -82,6 +90,7 @@ private:
         }
         word.remove_prefix(kind.size());
         kind.remove_suffix(3);
+        if (across_lines_ && !kind.empty()) text_.fail("vertices of three numbers (OFF)", kind);
         for (const std::string_view with : {"ST", "C", "N"}) {
             if (kind.starts_with(with)) kind.remove_prefix(with.size());
         }
@@ -95,9 +104,10 @@ private:
             word = next();
         }
         const std::uint64_t vertices = count(word, "the number of vertices, up to 2147483647");
-        const std::uint64_t faces = count(next(), "the number of faces, up to 2147483647");
-        if (const std::string_view edges = next(); !edges.empty()) count(edges, "the number of edges, which is not used");
-        end_row();
+        const std::uint64_t faces = count(value(), "the number of faces, up to 2147483647");
+        const std::string_view edges = next();
+        if (!edges.empty()) count(edges, "the number of edges, which is not used");
+        if (!across_lines_) end_row();
         return {vertices, faces};
     }
     void check_rows(std::uint64_t rows, std::size_t least, const char* what) const {
@@ -109,11 +119,11 @@ private:
 
     void vertex() {
         begin_row();
-        const T x = text_.template finite<T>(next(), "the x coordinate of a vertex");
-        const T y = text_.template finite<T>(next(), "the y coordinate of a vertex");
-        const T z = text_.template finite<T>(next(), "the z coordinate of a vertex");
+        const T x = text_.template finite<T>(value(), "the x coordinate of a vertex");
+        const T y = text_.template finite<T>(value(), "the y coordinate of a vertex");
+        const T z = text_.template finite<T>(value(), "the z coordinate of a vertex");
         mesh_.vertices.push_back({x, y, z});
-        end_row();
+        if (!across_lines_) end_row();
     }
     void face(face_collector<T>& collector) {
         begin_row();
@@ -122,7 +132,7 @@ private:
         if (corners < 3 && !options_.lenient) text_.fail("a face of at least 3 corners", word);
         corners_.clear();
         for (std::uint64_t i = 0; i < corners; ++i) {
-            const std::string_view corner = next();
+            const std::string_view corner = value();
             std::uint32_t index = 0;
             const number how = to_number(corner, index);
             if (how == number::malformed) text_.fail("a vertex index", corner);
@@ -143,6 +153,7 @@ private:
     const std::string& file_;
     text_cursor text_;
     const read_options options_;
+    const bool across_lines_;
     mesh_data<T> mesh_;
     std::vector<std::uint32_t> corners_;
 };
@@ -153,13 +164,23 @@ private:
 ///@{
 
 /// Reads the text of an OFF file; `file` is its name in messages. Polygons are cut into triangles as docs/files.md says.
-/// Positions are the decimal text rounded once to T; colours, normals and the like are not used. Throws io_error with the
-/// line for text that is malformed.
+/// Positions are the decimal text rounded once to T; colours, normals and the like are not used. Rows are lines, or all
+/// rows go on across lines. Throws io_error with the line for text that is malformed.
 ///
 ///     const auto mesh = abut::io::parse_off<double>("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "inline");
 template <scalar T>
 mesh_data<T> parse_off(std::string_view text, const std::string& file, const read_options& options = {}) {
-    return detail::off_reader<T>(text, file, options).parse();
+    try {
+        return detail::off_reader<T>(text, file, options, false).parse();
+    } catch (const io_error&) {
+        // Rows that go on in the next line are rare, and a number that is missing is not. So the text is taken for such rows
+        // only if all of it fits them.
+        try {
+            return detail::off_reader<T>(text, file, {}, true).parse();
+        } catch (const io_error&) {
+        }
+        throw;
+    }
 }
 
 ///@}

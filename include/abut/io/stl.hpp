@@ -97,7 +97,8 @@ public:
             text_.rest();  // its name
             std::string_view word = next();
             for (; is_keyword(word, "facet"); word = next()) facet();
-            if (!is_keyword(word, "endsolid")) text_.fail("'facet' or 'endsolid'", word);
+            // Some programs forget the blank before the name that it ends with.
+            if (!is_keyword(word.substr(0, 8), "endsolid")) text_.fail("'facet' or 'endsolid'", word);
             text_.rest();
         }
         if (!word_.empty()) {

@@ -2,7 +2,7 @@
 #pragma once
 
 // Results into files that other programs open: meshes with values for their faces, and points with normals, as PLY or VTP;
-// pairs of ids as CSV. Layout and who shows what: docs/files.md.
+// meshes alone as STL, OBJ or OFF; pairs of ids as CSV. Layout and who shows what: docs/files.md.
 
 #include <array>
 #include <concepts>
@@ -16,6 +16,7 @@
 #include <abut/io/error.hpp>
 #include <abut/io/file.hpp>
 #include <abut/io/property.hpp>
+#include <abut/io/write_plain.hpp>
 #include <abut/io/write_ply.hpp>
 #include <abut/io/write_vtp.hpp>
 
@@ -26,12 +27,18 @@ namespace abut::io {
 
 namespace detail {
 
-/// Whether the file is to be VTP; PLY if not. Throws io_error for other extensions.
-inline bool is_vtp(const std::filesystem::path& path) {
+/// In lower case.
+inline std::string extension_of(const std::filesystem::path& path) {
     std::string extension = path.extension().string();
     for (char& c : extension) {
         if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
     }
+    return extension;
+}
+
+/// Whether the file is to be VTP; PLY if not. Throws io_error for other extensions.
+inline bool is_vtp(const std::filesystem::path& path) {
+    const std::string extension = extension_of(path);
     if (extension != ".ply" && extension != ".vtp") {
         throw io_error(path.string(), "expected a file name that ends with .ply or .vtp");
     }
@@ -40,14 +47,25 @@ inline bool is_vtp(const std::filesystem::path& path) {
 
 }  // namespace detail
 
-/// Writes a mesh as the extension says: .ply (`write_ply`) or .vtp (`write_vtp`), in any case. `mesh` is a mesh or a
-/// mesh_view in host memory. Throws io_error for another extension, and as those do.
+/// Writes a mesh as the extension says, in any case: .ply (`write_ply`), .vtp (`write_vtp`), .stl (`write_stl`), .obj
+/// (`write_obj`) or .off (`write_off`). `mesh` is a mesh or a mesh_view in host memory. Throws io_error for another
+/// extension, for options with one of the last three, which hold a mesh alone, and as those do.
 ///
 ///     abut::io::write_mesh("hits.vtp", mesh, {.hit = hit});
 template <class Mesh>
     requires requires(const std::filesystem::path& path, const Mesh& mesh) { write_ply(path, mesh); }
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const mesh_options& options = {}) {
-    detail::is_vtp(path) ? write_vtp(path, mesh, options) : write_ply(path, mesh, options);
+    const std::string extension = detail::extension_of(path);
+    const bool is_plain = extension == ".stl" || extension == ".obj" || extension == ".off";
+    if (is_plain && !(options.hit.empty() && options.face_properties.empty() && options.vertex_properties.empty())) {
+        throw io_error(path.string(), "expected .ply or .vtp for a mesh with values, which " + extension + " cannot hold");
+    }
+    if (extension == ".ply") return write_ply(path, mesh, options);
+    if (extension == ".vtp") return write_vtp(path, mesh, options);
+    if (extension == ".stl") return write_stl(path, mesh);
+    if (extension == ".obj") return write_obj(path, mesh);
+    if (extension == ".off") return write_off(path, mesh);
+    throw io_error(path.string(), "expected a file name that ends with .ply, .vtp, .stl, .obj or .off");
 }
 
 /// The same for vectors, as the parsers return them.

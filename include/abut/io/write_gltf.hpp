@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include <abut/io/curve_lines.hpp>
 #include <abut/io/file.hpp>
 #include <abut/io/gltf_canvas.hpp>
 #include <abut/io/gltf_drawing.hpp>
@@ -127,6 +128,15 @@ public:
         const auto at = [&](std::size_t frame, std::size_t i) { return frames[frame].view()[i]; };
         const auto corner = [&](std::size_t i, std::size_t k) { return detail::gltf_corner(view, i, k); };
         return add_drawn(name, view.size(), frames.size(), at, corner, options);
+    }
+
+    /// Adds curves, as `curves` makes them, as a set of segments, all of them `hit`.
+    template <std::ranges::input_range Curves>
+        requires curve_like<std::ranges::range_value_t<Curves>>
+    gltf_set add_curves(const std::string& name, const Curves& curves) {
+        const auto lines = detail::lines_of(curves);
+        const std::vector<std::uint8_t> all(lines.segments.size(), 1);
+        return add(name, shapes(lines.segments), {.hit = all});
     }
 
     /// Adds pairs of ids of shapes of two sets, or of one (`b` the same as `a`).

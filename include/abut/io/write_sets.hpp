@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Sets other than meshes as PLY or VTP: segments as edges or lines, boxes as meshes of their faces, spheres as points with a
-// radius. Layout: docs/files.md.
+// Sets other than meshes as PLY or VTP: segments and curves as edges or lines, boxes as meshes of their faces, spheres as
+// points with a radius. Layout: docs/files.md.
 
 #include <array>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <ranges>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,6 +18,7 @@
 #include <variant>
 #include <vector>
 
+#include <abut/io/curve_lines.hpp>
 #include <abut/io/file.hpp>
 #include <abut/io/gltf_drawing.hpp>
 #include <abut/io/property.hpp>
@@ -121,6 +123,7 @@ void write_boxes(const std::filesystem::path& path, const Set& set, const set_op
     const std::string file = path.string();
     if (!options.hit.empty()) detail::check_count(file, "hit", "shape", view.size(), options.hit.size());
     detail::check_properties(file, "shape", view.size(), options.properties, {"box"});
+    (void)detail::is_vtp(path);  // or PLY; no other form has the values
     if (view.size() > detail::most_written / 12) {
         throw io_error(file, "expected at most 178956970 boxes, found " + std::to_string(view.size()));
     }
@@ -208,6 +211,18 @@ void write_segments(const std::filesystem::path& path, const Set& set, const set
         row.write(file);
     }
     file.close();
+}
+
+/// Writes curves, as `curves` makes them: their segments one after another, as `write_segments` does. Each segment has its
+/// `curve`, counted from 0, and the first pair of faces that have it in common, `face_a` and `face_b`.
+///
+///     abut::io::write_curves("cut.vtp", abut::curves(on, abut::crossings(on, a, b)));
+template <std::ranges::input_range Curves>
+    requires curve_like<std::ranges::range_value_t<Curves>>
+void write_curves(const std::filesystem::path& path, const Curves& curves) {
+    const auto lines = detail::lines_of(curves);
+    write_segments(path, shapes(lines.segments),
+                   {.properties = {{"curve", lines.curve}, {"face_a", lines.face_a}, {"face_b", lines.face_b}}});
 }
 
 ///@}
