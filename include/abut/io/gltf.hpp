@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -45,9 +46,18 @@ struct gltf_transform {
         return made;
     }
     [[nodiscard]] bool is_identity() const { return rows == gltf_transform{}.rows; }
-    [[nodiscard]] bool mirrors() const {
-        const auto column = [&](std::size_t j) { return vec3<double>{rows[0][j], rows[1][j], rows[2][j]}; };
-        return dot(cross(column(0), column(1)), column(2)) < 0;
+    [[nodiscard]] vec3<double> column(std::size_t j) const { return {rows[0][j], rows[1][j], rows[2][j]}; }
+    [[nodiscard]] bool mirrors() const { return dot(cross(column(0), column(1)), column(2)) < 0; }
+    /// Whether it only turns and moves, as far as numbers of seven digits say.
+    [[nodiscard]] bool is_rigid() const {
+        constexpr double tolerance = 1e-6;
+        bool is = !mirrors();
+        for (std::size_t i = 0; i < 3; ++i) {
+            for (std::size_t j = i; j < 3; ++j) {
+                is = is && std::fabs(dot(column(i), column(j)) - (i == j ? 1 : 0)) <= tolerance;
+            }
+        }
+        return is;
     }
     /// Of a translation, a rotation as a quaternion x, y, z, w, and factors along the axes.
     static gltf_transform of(const std::array<double, 3>& t, const std::array<double, 4>& q,
@@ -61,7 +71,7 @@ struct gltf_transform {
     }
 };
 
-/// Walks over the scene's nodes and adds their meshes, one after another.
+/// Walks over the scene's nodes and adds their meshes, one after another, or each as a part of its own.
 template <scalar T>
 class gltf_meshes {
 public:
@@ -69,6 +79,47 @@ public:
         : file_(file), in_(data, file, load) {}
 
     mesh_data<T> read() {
+        walk([this](const json_value&, const json_value& mesh, const gltf_transform& here) {
+            add(in_.item("meshes", mesh), here);
+        });
+        return std::move(mesh_);
+    }
+    parts_data<T> read_parts() {
+        parts_data<T> made;
+        std::vector<std::optional<std::size_t>> known;  // of each mesh of the file, where it is among those made
+        const auto take = [&] {
+            made.meshes.push_back(std::move(mesh_));
+            mesh_ = {};
+            return made.meshes.size() - 1;
+        };
+        walk([&](const json_value& node, const json_value& number, const gltf_transform& here) {
+            const json_value& mesh = in_.item("meshes", number);
+            mesh_part<T> part{name_of(node, mesh), 0, {}};
+            if (!here.is_rigid()) {
+                add(mesh, here);
+                part.mesh = take();
+            } else {
+                known.resize(in_.root_items("meshes"));
+                auto& place = known[static_cast<std::size_t>(in_.whole(number, "a mesh", known.size() - 1))];
+                if (!place) add(mesh, {}), place = take();
+                part.mesh = *place;
+                for (std::size_t i = 0; i < 9; ++i) part.pose.rotation[i] = static_cast<T>(here.rows[i / 3][i % 3]);
+                const vec3<double> to = here.column(3);
+                part.pose.translation = {static_cast<T>(to.x), static_cast<T>(to.y), static_cast<T>(to.z)};
+                if (!std::isfinite(part.pose.translation.x) || !std::isfinite(part.pose.translation.y) ||
+                    !std::isfinite(part.pose.translation.z)) {
+                    in_.refuse(number, "finite places of meshes");
+                }
+            }
+            if (!made.meshes[part.mesh].faces.empty()) made.parts.push_back(std::move(part));
+        });
+        return made;
+    }
+
+private:
+    /// visit(node, mesh, transform) for each node that has a mesh, as often as it is there.
+    template <class Visit>
+    void walk(const Visit& visit) {
         refuse_extensions();
         const json_value* const nodes = in_.find(in_.root(), "nodes", json_kind::array);
         is_used_.resize(nodes == nullptr ? 0 : nodes->items.size());
@@ -76,12 +127,15 @@ public:
         while (!waiting_.empty()) {
             const auto [number, outer] = waiting_.back();
             waiting_.pop_back();
-            node(*number, outer);
+            node(*number, outer, visit);
         }
-        return std::move(mesh_);
     }
-
-private:
+    [[nodiscard]] std::string name_of(const json_value& node, const json_value& mesh) const {
+        for (const json_value* const one : {&node, &mesh}) {
+            if (const json_value* const name = in_.find(*one, "name", json_kind::string)) return json_unescaped(name->text);
+        }
+        return "";
+    }
     /// Those without which the positions would not be what the file means. What concerns looks alone may be required.
     void refuse_extensions() const {
         const json_value* const required = in_.find(in_.root(), "extensionsRequired", json_kind::array);
@@ -127,14 +181,15 @@ private:
         return made;
     }
 
-    void node(const json_value& number, const gltf_transform& outer) {
+    template <class Visit>
+    void node(const json_value& number, const gltf_transform& outer, const Visit& visit) {
         const json_value& node = in_.item("nodes", number);
         const auto index = static_cast<std::size_t>(in_.whole(number, "a node", is_used_.size() - 1));
         if (is_used_[index]) in_.refuse(number, "a node that no other one has as its child, nor the scene twice");
         is_used_[index] = true;
         const gltf_transform here = outer * transform_of(node);
         if (const json_value* const mesh = in_.find(node, "mesh", json_kind::number)) {
-            for (const gltf_transform& inner : instances(node)) add(in_.item("meshes", *mesh), here * inner);
+            for (const gltf_transform& inner : instances(node)) visit(node, *mesh, here * inner);
         }
         if (const json_value* const children = in_.find(node, "children", json_kind::array)) push(*children, here);
     }
@@ -253,6 +308,16 @@ private:
 template <scalar T>
 mesh_data<T> parse_gltf(std::string_view data, const std::string& file, const load_file& load = {}) {
     return detail::gltf_meshes<T>(data, file, load).read();
+}
+
+/// The same, with each node's mesh as a part of its own, by the node's name or its mesh's; nodes without triangles are left
+/// out. A node that turns and moves its mesh, and no more, has it in common with others: the transform is the part's pose,
+/// rounded to T. Any other node has a mesh of its own, as `parse_gltf` gives it.
+///
+///     const auto scene = abut::io::parse_gltf_parts<float>({bytes.data(), bytes.size()}, "house.glb");
+template <scalar T>
+parts_data<T> parse_gltf_parts(std::string_view data, const std::string& file, const load_file& load = {}) {
+    return detail::gltf_meshes<T>(data, file, load).read_parts();
 }
 
 ///@}

@@ -136,6 +136,12 @@ public:
         return found->items[whole(number, ("a number of '" + std::string(list) + "'").c_str(), size - 1)];
     }
 
+    /// How many items one of the document's lists has.
+    [[nodiscard]] std::size_t root_items(std::string_view list) const {
+        const json_value* const found = find(root_, list, json_kind::array);
+        return found == nullptr ? 0 : found->items.size();
+    }
+
     /// What an accessor, by its number, says is there. `type` is its form ("VEC3"), of so many components.
     gltf_elements elements(const json_value& number, std::string_view type, std::size_t components) {
         const json_value& accessor = item("accessors", number);
@@ -172,8 +178,7 @@ private:
         if (root_.kind != json_kind::object) refuse(root_, "an object");
         const json_value& version = get(get(root_, "asset", json_kind::object), "version", json_kind::string);
         if (!version.text.starts_with("2.")) refuse(version, "version 2 of glTF");
-        const json_value* const buffers = find(root_, "buffers", json_kind::array);
-        loaded_.resize(buffers == nullptr ? 0 : buffers->items.size());
+        loaded_.resize(root_items("buffers"));
     }
 
     static constexpr std::uint64_t most_bytes = std::numeric_limits<std::uint32_t>::max();

@@ -15,6 +15,7 @@
 #include <abut/arithmetic/vec.hpp>
 #include <abut/collide/flag.hpp>
 #include <abut/io/error.hpp>
+#include <abut/shape/rigid.hpp>
 
 namespace abut::io {
 
@@ -45,6 +46,21 @@ struct mesh_data {
     std::vector<vec3<T>> vertices;                    ///< in units of the file
     std::vector<std::array<std::uint32_t, 3>> faces;  ///< three vertex indices each, from 0
     skipped_parts skipped{};                          ///< nothing, unless the file was read leniently
+};
+
+/// A part of a scene: a mesh, and where it is.
+template <scalar T>
+struct mesh_part {
+    std::string name;      ///< as the file has it; may be that of other parts too
+    std::size_t mesh = 0;  ///< number of its mesh
+    rigid<T> pose{};       ///< from the mesh's frame to the scene's
+};
+
+/// Parts of a scene, and their meshes, each once however many parts have it.
+template <scalar T>
+struct parts_data {
+    std::vector<mesh_data<T>> meshes;
+    std::vector<mesh_part<T>> parts;  ///< in the order of the file
 };
 
 ///@}

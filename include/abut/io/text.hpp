@@ -137,6 +137,12 @@ public:
         while (at_ != end_ && !is_blank(*at_) && !is_line_end(*at_) && *at_ != stop) ++at_;
         return {first, static_cast<std::size_t>(at_ - first)};
     }
+    /// The characters up to the next `stop` or line end, blanks included.
+    std::string_view up_to(char stop) {
+        const char* const first = at_;
+        while (at_ != end_ && !is_line_end(*at_) && *at_ != stop) ++at_;
+        return {first, static_cast<std::size_t>(at_ - first)};
+    }
     /// The rest of the line, without its end.
     std::string_view rest() {
         const char* const first = at_;

@@ -7,6 +7,7 @@
 //     ./fuzz_csv -max_total_time=600 -max_len=4096 -timeout=10 corpus tests/io/seeds/csv
 
 #include <abut/io/csv.hpp>
+#include <abut/io/read_parts.hpp>
 
 #include "fuzz.hpp"
 
@@ -24,6 +25,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     });
     fuzz::check_rows([&] {
         for (const auto& center : abut::io::parse_centers<float>(text, "fuzz")) fuzz::require(fuzz::is_finite(center));
+    });
+    fuzz::check_rows([&] {
+        const auto no_mesh = [](const std::string&) { return abut::io::mesh_data<float>{}; };
+        const auto scene = abut::io::parse_parts<float>(text, "fuzz", no_mesh);
+        for (const auto& part : scene.parts) {
+            fuzz::require(part.mesh < scene.meshes.size() && fuzz::is_finite(part.pose.translation));
+            for (const float x : part.pose.rotation) fuzz::require(std::isfinite(x));
+        }
     });
     return 0;
 }

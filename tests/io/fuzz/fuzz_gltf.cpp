@@ -14,5 +14,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string_view bytes(reinterpret_cast<const char*>(data), size);
     fuzz::check_mesh<float>([&] { return abut::io::parse_gltf<float>(bytes, "fuzz"); });
     fuzz::check_mesh<double>([&] { return abut::io::parse_gltf<double>(bytes, "fuzz"); });
+    fuzz::check_rows([&] {
+        const auto scene = abut::io::parse_gltf_parts<float>(bytes, "fuzz");
+        for (const auto& part : scene.parts) {
+            fuzz::require(part.mesh < scene.meshes.size() && fuzz::is_finite(part.pose.translation));
+            for (const float x : part.pose.rotation) fuzz::require(std::isfinite(x));
+        }
+        for (const auto& mesh : scene.meshes) fuzz::check_mesh<float>([&] { return mesh; });
+    });
     return 0;
 }
