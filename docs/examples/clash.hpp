@@ -372,7 +372,7 @@ void write_topics(const std::string& path, const input<T>& in, const outcome& fo
     });
 }
 
-/// Parts that clash, the worst first, and where surfaces of those cross that overlap.
+/// Parts that clash, the worst first; of those that overlap, the faces that meet, and where they cross.
 template <abut::scalar T>
 void write_view(const settings& s, const input<T>& in, const outcome& found) {
     constexpr std::size_t most_parts = 256;
@@ -396,14 +396,13 @@ void write_view(const settings& s, const input<T>& in, const outcome& found) {
             continue;
         }
         const auto at = [&](std::uint32_t i) { return abut::posed(in.meshes[in.parts[i].mesh], in.parts[i].pose); };
-        if (c.what == kind::near) continue;
+        if (c.what == kind::near || c.what == kind::touch) continue;
         const auto a = at(c.a);
         const auto tree = abut::posed(abut::make_bvh(on, a.object), a.pose);
         const auto crossings = abut::crossings(on, tree, at(c.b));
         std::vector<abut::index_pair> pairs;
         for (const auto& x : crossings) pairs.push_back({x.a, x.b});
         scene.add_pairs(shown.at(c.a), shown.at(c.b), pairs);
-        if (c.what == kind::touch) continue;
         for (auto& line : abut::curves(on, crossings)) cuts.push_back(std::move(line));
     }
     if (!cuts.empty()) scene.add_curves("where surfaces cross", cuts);
