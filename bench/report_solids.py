@@ -20,6 +20,14 @@ def solids(results):
     head = ["a mesh and its copy", "", "relation", "any, ms", "overlaps, ms", "overlaps / any", "relation, ms", "if not known to be solids, ms"]
     lines = table(head, rows, 3)
     rows = []
+    for mesh in r.parts("crossings/", 1):
+        def of(key):
+            return r.get(f"crossings/{mesh}", key)
+        rows.append([mesh.replace("_", ", "), whole(of("faces")), shown(of("pairs")), shown(of("crossings")), f"{of('over'):,.2f}",
+                     shown(of("curves")), whole(of("found")), whole(of("lines")), whole(of("open"))])
+    lines += table(["a mesh and its copy, turned", "faces each", "pairs, ms", "crossings, ms", "crossings / pairs", "curves, ms", "crossings",
+                    "curves", "open"], rows)
+    rows = []
     for scene in r.parts("scene/", 1):
         def of(key):
             return r.get(f"scene/{scene}", key)

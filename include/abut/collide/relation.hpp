@@ -233,6 +233,20 @@ consteval bool are_solids() {
     return are;
 }
 
+/// A box around an argument that knows one: a tree, posed or not. Of all space around any other.
+template <class X>
+auto known_box([[maybe_unused]] const X& x) {
+    using T = scalar_of_argument<X>;
+    if constexpr (requires { x.bounds(); }) {
+        return x.bounds();
+    } else if constexpr (requires { world_box(x.pose, x.object.bounds()); }) {
+        return world_box(x.pose, x.object.bounds());
+    } else {
+        constexpr T far = infinity<T>;
+        return aabb<T>{{-far, -far, -far}, {far, far, far}};
+    }
+}
+
 /// What two solids have in common, until that is enough, and whether their surfaces touch.
 template <arithmetic A, class Policy, class X, class Y, class Enough>
 std::pair<common_regions, bool> regions_of(const Policy& on, const X& x, const Y& y, const solid_options& options,
@@ -250,12 +264,11 @@ std::pair<common_regions, bool> regions_of(const Policy& on, const X& x, const Y
     const bool has_a = a.shapes().size() > 0, has_b = b.shapes().size() > 0;
     if (!has_a || !has_b) return answer(common_regions{false, has_a, has_b}, false);
     const auto pass = [&] { return ask_for<A>(passing_through{}, whether{}).find(on, pairing); };
-    const answer of_passing(common_regions{true, true, true}, true);
+    const answer of_passing(common_regions{true, true, true}, true), of_apart(common_regions{false, true, true}, false);
+    if (options.known_solid && !overlaps(known_box(x), known_box(y))) return of_apart;
     if (options.known_solid && pass()) return of_passing;
     auto faces_a = faces_on_host(on, a), faces_b = faces_on_host(on, b);
-    if (options.known_solid && !overlaps(box_of(faces_a), box_of(faces_b))) {
-        return answer(common_regions{false, true, true}, false);
-    }
+    if (options.known_solid && !overlaps(box_of(faces_a), box_of(faces_b))) return of_apart;
     const solid_on_host<T> solid_a(std::move(faces_a), function), solid_b(std::move(faces_b), function);
     if (!options.known_solid && pass()) return of_passing;
     const std::vector<crossing<T>> contacts = to_host(ask_for<A>(touching{}, all_crossings{}).find(on, pairing));
