@@ -9,6 +9,7 @@
 #include <abut/arithmetic/self_test.hpp>
 #include <abut/collide/advise.hpp>
 #include <abut/collide/bodies.hpp>
+#include <abut/collide/boundary.hpp>
 #include <abut/collide/body_distance.hpp>
 #include <abut/collide/body_pairs.hpp>
 #include <abut/collide/body_rows.hpp>

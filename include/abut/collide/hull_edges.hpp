@@ -2,7 +2,8 @@
 #pragma once
 
 // with_edges: hulls of many points with the edges that their corners have, so that whatever looks for a farthest point climbs
-// along these instead of reading all points (predicate/hull_climb.hpp). Not for faces: nothing asks for them.
+// along these instead of reading all points (predicate/hull_climb.hpp). Its triangles are what
+// `boundary` gives (collide/boundary.hpp).
 //
 // The hull grows by one point at a time, the farthest of those beyond some face (C. Barber, D. Dobkin, H. Huhdanpaa, The
 // quickhull algorithm for convex hulls, 1996). Each point that is not taken yet waits at one face that it is beyond. Which
@@ -65,6 +66,15 @@ public:
         }
         for (std::vector<id>& list : of) std::sort(list.begin(), list.end());
         return of;
+    }
+
+    /// The corners of all triangles, counterclockwise as seen from outside.
+    [[nodiscard]] std::vector<numbers> triangles() const {
+        std::vector<numbers> all;
+        for (const face& f : faces_) {
+            if (!f.is_gone) all.push_back(f.corner);
+        }
+        return all;
     }
 
 private:

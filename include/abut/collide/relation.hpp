@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include <abut/collide/boundary.hpp>
 #include <abut/collide/crossings.hpp>
 #include <abut/collide/inside.hpp>
 #include <abut/collide/question.hpp>
@@ -229,7 +230,7 @@ void require_simple(const Policy& on, const X& x, const char* function, const st
 template <class X, class Y>
 consteval bool are_solids() {
     constexpr bool are = has_faces<X> && has_faces<Y>;
-    static_assert(are, "abut: solids are closed meshes: a mesh, a mesh_view, or a tree of one, posed or not");
+    static_assert(are, "abut: solids are closed meshes (a mesh, a mesh_view, or a tree of one), boxes, oriented boxes and hulls, posed or not");
     return are;
 }
 
@@ -453,8 +454,8 @@ consteval bool are_solid_bodies() {
 ///@{
 
 /// How the solid `a` lies to the solid `b`, exactly, for every finite input: the same with `filtered` and `exact`, on each
-/// policy, and of every index. `a` and `b` are meshes, views of meshes or trees of these, posed or not; under a pose it is
-/// decided of the placed coordinates. A solid without faces is empty, and disconnected from every other one.
+/// policy, and of every index. `a` and `b` are meshes, views of meshes or trees of these, or a box, an oriented box or a hull,
+/// which is taken by its `boundary`; posed or not. Under a pose it is decided of the placed coordinates. A solid without faces is empty, and disconnected from every other one.
 ///
 /// Where faces pass through each other, no more than a first pair of them is looked for. Else each place in which the surfaces
 /// touch is looked at, on one thread of the host: a corner of n faces on one of m takes up to n^2 + m^2 steps.
@@ -463,7 +464,10 @@ consteval bool are_solid_bodies() {
 template <arithmetic A = filtered, execution_policy Policy, class X, class Y>
     requires(!std::same_as<A, fast>)
 [[nodiscard]] solid_relation relation(const Policy& on, const X& a, const Y& b, const solid_options& options = {}) {
-    if constexpr (detail::are_solids<X, Y>()) {
+    if constexpr (detail::is_polytope<X> || detail::is_polytope<Y>) {
+        constexpr const char* function = "abut::relation";
+        return relation<A>(on, detail::as_solid(on, a, function), detail::as_solid(on, b, function), options);
+    } else if constexpr (detail::are_solids<X, Y>()) {
         const auto [found, touches] = detail::regions_of<A>(on, a, b, options, "abut::relation",
                                                                    [](const auto& regions) { return regions.all(); });
         return detail::named(found, touches);
@@ -477,7 +481,10 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Y>
 template <arithmetic A = filtered, execution_policy Policy, class X, class Y>
     requires(!std::same_as<A, fast>)
 [[nodiscard]] bool overlaps(const Policy& on, const X& a, const Y& b, const solid_options& options = {}) {
-    if constexpr (detail::are_solids<X, Y>()) {
+    if constexpr (detail::is_polytope<X> || detail::is_polytope<Y>) {
+        constexpr const char* function = "abut::overlaps";
+        return overlaps<A>(on, detail::as_solid(on, a, function), detail::as_solid(on, b, function), options);
+    } else if constexpr (detail::are_solids<X, Y>()) {
         const auto is_enough = [](const auto& regions) { return regions.both; };
         return detail::regions_of<A>(on, a, b, options, "abut::overlaps", is_enough).first.both;
     } else {
