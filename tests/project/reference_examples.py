@@ -48,7 +48,7 @@ NAMES = {
     "narrow/feature_weights.hpp": "const abut::motion<abut::vec3<float>> vertex{};"
                                   "const abut::motion<abut::triangle<float>> face{};",
     "experimental/front.hpp": "auto tree = abut::make_bvh(on, mesh); const auto ground = tree; const auto& moved = mesh;",
-    "io/read_parts.hpp": "const std::string_view text; const auto mesh_of = [](const std::string&) { return abut::io::mesh_data<float>{}; };",
+    "io/read_parts.hpp": "const std::string_view text; static const auto mesh_of = [](const std::string&) { return abut::io::mesh_data<float>{}; };",
     "io/write.hpp": "const abut::result<abut::index_pair, abut::host_space> pairs;",
     "collide/impact_index.hpp": STEP,
     "collide/first_impact.hpp": STEP,
