@@ -59,7 +59,7 @@ struct mesh_part {
 /// Parts of a scene, and their meshes, each once however many parts have it.
 template <scalar T>
 struct parts_data {
-    std::vector<mesh_data<T>> meshes;
+    std::vector<mesh_data<T>> meshes;  ///< by number
     std::vector<mesh_part<T>> parts;  ///< in the order of the file
 };
 
