@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// penetration: how deep two solids are in each other, and a move that separates them, between proven bounds. The deepest points
+// are found by the search in farthest_point.hpp. A move that separates is found by trying directions, each of which is bisected:
+// whatever comes out was tested. What no move can be below is proven by the deepest points: a point of one solid that is so deep
+// in the other has to come out.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <abut/collide/distance.hpp>
+#include <abut/collide/farthest_point.hpp>
+#include <abut/collide/query.hpp>
+#include <abut/collide/relation.hpp>
+#include <abut/collide/solid_surface.hpp>
+
+namespace abut {
+
+/// @addtogroup solids
+///@{
+
+/// Options of `penetration`.
+struct penetration_options {
+    /// As of `relation`.
+    flag known_solid = false;
+    /// As of `hausdorff`.
+    double tolerance = 0;
+    /// As of `hausdorff`.
+    std::uint64_t most_pieces = std::uint64_t{1} << 20;
+};
+
+/// How deep two solids are in each other.
+template <scalar T>
+struct penetration_depth {
+    bool overlap = false;     ///< whether interiors meet; if not, all else is 0
+    farthest_point a_in_b{};  ///< the deepest point of a's surface in b: how far it is from b's surface
+    farthest_point b_in_a{};  ///< the deepest point of b's surface in a
+    vec3<T> move{0, 0, 0};    ///< a moved by this is apart from b: tested
+    double least = 0;         ///< proven: any move that separates them is at least so long
+    double most = 0;          ///< the length of `move`, rounded up: the least move is no longer
+
+    friend constexpr bool operator==(const penetration_depth&, const penetration_depth&) = default;
+};
+
+///@}
+
+namespace detail {
+
+/// Looks for a short move of a that takes it out of b.
+template <class Policy, scalar T>
+class separating_move {
+public:
+    separating_move(const Policy& on, const std::vector<triangle<T>>& a, const std::vector<triangle<T>>& b,
+                    std::vector<vec3<T>> of_parts_a, std::vector<vec3<T>> of_parts_b, const unit_of_search& unit)
+        : on_(on), a_(a), b_(b), of_parts_a_(std::move(of_parts_a)), of_parts_b_(std::move(of_parts_b)), unit_(unit),
+          tree_a_(make_bvh(on, copy_to(on, triangle_soup<T>(a)))), tree_b_(make_bvh(on, copy_to(on, triangle_soup<T>(b)))) {}
+
+    /// Along a direction: nothing comes of it that is not shorter than what was found before. `least` is below any move, and
+    /// moves are told apart by `tolerance`, both in the unit of the search.
+    bool try_along(const vec3<double>& direction, double least, double tolerance) {
+        const double size = length_of(direction);
+        if (!(size > 0) || !(size < infinity<double>)) return false;
+        const vec3<double> u{direction.x / size, direction.y / size, direction.z / size};
+        double apart = reach(b_, u) + reach(a_, {-u.x, -u.y, -u.z}) + room;
+        if (is_found_) apart = std::min(apart, length_ * (1 - 0x1p-7));
+        for (int k = 0; !is_free(along(u, apart)); ++k) {
+            if (is_found_ || k == 40) return false;
+            apart += std::ldexp(room, k);
+        }
+        double within = least;
+        for (int k = 0; k < 40 && apart - within > tolerance; ++k) {
+            const double middle = 0.5 * (within + apart);
+            (is_free(along(u, middle)) ? apart : within) = middle;
+        }
+        is_found_ = true;
+        move_ = along(u, apart);
+        length_ = length_of(unit_.bring(widened(move_))) * (1 + 0x1p-50);
+        return true;
+    }
+    /// The same along the normals of those two faces that are nearest to each other after the best move so far, and across an
+    /// edge of each.
+    bool improve(double least, double tolerance) {
+        const auto near = distance(on_, posed(tree_a_, pose_of(move_)), tree_b_);
+        if (!near) return false;
+        std::array<std::array<vec3<double>, 3>, 2> sides;
+        for (std::size_t k = 0; k < 2; ++k) {
+            const triangle<T>& t = k == 0 ? a_[near->a] : b_[near->b];
+            const vec3<double> p = unit_.bring(widened(t.a)), q = unit_.bring(widened(t.b)), r = unit_.bring(widened(t.c));
+            sides[k] = {q - p, r - q, p - r};
+        }
+        std::vector<vec3<double>> ways{cross(sides[1][0], sides[1][1]), cross(sides[0][0], sides[0][1])};
+        for (const vec3<double>& u : sides[0]) {
+            for (const vec3<double>& v : sides[1]) ways.push_back(cross(u, v));
+        }
+        bool better = false;
+        for (const vec3<double>& n : ways) better |= try_along(dot(n, unit_.bring(widened(move_))) < 0 ? vec3<double>{-n.x, -n.y, -n.z} : n, least, tolerance);
+        return better;
+    }
+    [[nodiscard]] const vec3<T>& move() const { return move_; }
+    [[nodiscard]] double length() const { return length_; }
+
+private:
+    /// For roundings of placed points, in the unit of the search.
+    static constexpr double room = std::same_as<T, float> ? 0x1p-21 : 0x1p-48;
+
+    static rigid<T> pose_of(const vec3<T>& move) {
+        rigid<T> pose;
+        pose.translation = move;
+        return pose;
+    }
+    [[nodiscard]] vec3<T> along(const vec3<double>& u, double length) const {
+        const vec3<double> v = unit_.back(length * u);
+        return {static_cast<T>(v.x), static_cast<T>(v.y), static_cast<T>(v.z)};
+    }
+    [[nodiscard]] double reach(const std::vector<triangle<T>>& faces, const vec3<double>& u) const {
+        double most = -infinity<double>;
+        for (const triangle<T>& t : faces) {
+            for (const vec3<T>& p : {t.a, t.b, t.c}) most = std::max(most, dot(u, unit_.bring(widened(p))));
+        }
+        return most;
+    }
+    template <class X>
+    bool has_inside(const X& x, const std::vector<vec3<T>>& points) const {
+        const auto set = copy_to(on_, abut::points<T>(points));
+        const auto of = make_operand(on_, x, "abut::penetration");
+        const auto rows = make_operand(on_, set, "abut::penetration");
+        execution::buffer_of<Policy, containment> where(on_, points.size());
+        look_upward<filtered>(on_, of, rows, where.data());
+        std::vector<containment> here(points.size());
+        download(on_, where.data(), here.size(), here.data());
+        return std::find(here.begin(), here.end(), containment::inside) != here.end();
+    }
+    /// Whether nothing touches, and no part of a surface is in the other solid.
+    [[nodiscard]] bool is_free(const vec3<T>& move) const {
+        const auto moved = posed(tree_a_, pose_of(move));
+        if (any(on_, moved, tree_b_)) return false;
+        std::vector<vec3<T>> of_a;
+        for (const vec3<T>& p : of_parts_a_) of_a.push_back(place(moved.pose, p));
+        return !has_inside(tree_b_, of_a) && !has_inside(moved, of_parts_b_);
+    }
+
+    using tree_type = decltype(make_bvh(std::declval<const Policy&>(), copy_to(std::declval<const Policy&>(), triangle_soup<T>())));
+    const Policy& on_;
+    const std::vector<triangle<T>>&a_, &b_;
+    std::vector<vec3<T>> of_parts_a_, of_parts_b_;
+    const unit_of_search& unit_;
+    tree_type tree_a_, tree_b_;
+    bool is_found_ = false;
+    vec3<T> move_{0, 0, 0};
+    double length_ = infinity<double>;
+};
+
+}  // namespace detail
+
+/// @addtogroup solids
+///@{
+
+/// How deep two solids are in each other, and a move that takes `a` out of `b`.
+///
+/// - The deepest point of a's surface in b, and of b's in a: of each the distance from the other surface, between bounds that
+///   differ by `options.tolerance` or less unless `options.most_pieces` were looked at. Where no point of one surface is found in
+///   the other solid, `face` is no_id.
+/// - `move`: after it nothing touches, and neither solid is in the other. That was tested, of a placed first and moved then.
+///   `most` is its length. `least` is proven: the depth of the deepest point. These two may differ by more than the tolerance: to
+///   find the least move of solids with dents is as hard as to find their Minkowski sum. Directions that are tried are the axes,
+///   between the middles, out by the deepest points, and normals of faces that come nearest.
+///
+/// `a` and `b` are what `relation` takes, and are refused as there. The same bits on every policy and number of threads. Memory
+/// and time as of `hausdorff`; besides, some hundred queries of whether both touch. Returns when all is known; under `cuda` it
+/// waits for the policy's stream. Throws as `relation` and `hausdorff` do.
+///
+///     const auto d = abut::penetration(on, part, other);
+///     if (d.overlap) std::printf("between %g and %g\n", d.least, d.most);
+template <execution_policy Policy, class X, class Y>
+[[nodiscard]] auto penetration(const Policy& on, const X& a, const Y& b, const penetration_options& options = {}) {
+    constexpr const char* function = "abut::penetration";
+    if constexpr (detail::is_polytope<X> || detail::is_polytope<Y>) {
+        return penetration(on, detail::as_solid(on, a, function), detail::as_solid(on, b, function), options);
+    } else {
+        using T = detail::scalar_of_argument<X>;
+        penetration_depth<T> found;
+        const auto of_a = detail::triangles_on_host(on, a, function), of_b = detail::triangles_on_host(on, b, function);
+        detail::unit_of_search unit;
+        unit.see(of_a);
+        unit.see(of_b);
+        const double tolerance = unit.tolerance(options.tolerance, function);
+        found.overlap = overlaps(on, a, b, {.known_solid = options.known_solid});
+        if (!found.overlap) return found;
+        const detail::measured_surface<Policy> x(on, unit.bring(of_a)), y(on, unit.bring(of_b));
+        const farthest_point deepest_a = detail::farthest_search<Policy>(x, y, true).run(tolerance, options.most_pieces),
+                             deepest_b = detail::farthest_search<Policy>(y, x, true).run(tolerance, options.most_pieces);
+        const double least = std::max(deepest_a.lower, deepest_b.lower);
+
+        const auto parts_of = [&](const auto& solid) {
+            const detail::solid_surface<T> surface(detail::faces_on_host(on, detail::make_operand(on, solid, function)), function, "face");
+            std::vector<vec3<T>> vertices;
+            for (std::uint32_t p = 0; p < surface.parts(); ++p) vertices.push_back(surface.vertex_of_part(p));
+            return vertices;
+        };
+        detail::separating_move<Policy, T> move(on, of_a, of_b, parts_of(a), parts_of(b), unit);
+        std::vector<vec3<double>> ways{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+        const auto middle = [&](const auto& faces) {
+            aabb<double> box = empty_box<double>();
+            for (const auto& t : faces) {
+                for (const auto& p : {t.a, t.b, t.c}) {
+                    const vec3<double> q = unit.bring(detail::widened(p));
+                    box = merge(box, aabb<double>{q, q});
+                }
+            }
+            return 0.5 * (box.lower + box.upper);
+        };
+        ways.push_back(middle(of_a) - middle(of_b));
+        if (deepest_a.face != no_id) ways.push_back(deepest_a.nearest - deepest_a.point);
+        if (deepest_b.face != no_id) ways.push_back(deepest_b.point - deepest_b.nearest);
+        for (const vec3<double>& way : ways) move.try_along(way, least, tolerance);
+        for (int k = 0; k < 16 && move.improve(least, tolerance); ++k) {
+        }
+        found.a_in_b = unit.back(deepest_a);
+        found.b_in_a = unit.back(deepest_b);
+        found.move = move.move();
+        found.least = unit.length_back(least);
+        found.most = unit.length_back(move.length());
+        return found;
+    }
+}
+
+///@}
+
+}  // namespace abut
