@@ -19,6 +19,7 @@
 #include <abut/collide/distance.hpp>
 #include <abut/collide/first_impact.hpp>
 #include <abut/collide/impacts.hpp>
+#include <abut/collide/hausdorff.hpp>
 #include <abut/collide/hull_edges.hpp>
 #include <abut/collide/inside.hpp>
 #include <abut/collide/list.hpp>
@@ -27,6 +28,7 @@
 #include <abut/collide/mixed_bodies.hpp>
 #include <abut/collide/mixed_questions.hpp>
 #include <abut/collide/nearest.hpp>
+#include <abut/collide/penetration.hpp>
 #include <abut/collide/query.hpp>
 #include <abut/collide/raycast.hpp>
 #include <abut/collide/raycast_all.hpp>
