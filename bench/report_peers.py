@@ -16,7 +16,7 @@ def peers(results):
         for pair in r.parts(f"{question}/", 1):
             def of(library, key):
                 return r.get(f"{question}/{pair}/{library}", key)
-            row = [pair.replace("_", ", "), shown(of("abut", "ns")), f"{whole(of('abut', 'wrong'))} of {whole(of('abut', 'of'))}"]
+            row = [pair.replace("_", ", ").replace("-", " "), shown(of("abut", "ns")), f"{whole(of('abut', 'wrong'))} of {whole(of('abut', 'of'))}"]
             for name in others:
                 row += [shown(of(name, "ns")), f"{of(name, 'over'):.2f}", whole(of(name, "wrong"))]
             if question in ("distance", "contact"):
