@@ -312,12 +312,10 @@ void walk_two_trees(const Policy& on, const Pairing& pairing, Walk walk, const R
     constexpr bool is_shared = !std::same_as<std::remove_cvref_t<decltype(pairing.part)>, whole_search>;
     constexpr bool in_world = !decltype(pairing.a)::is_posed && !decltype(pairing.b)::is_posed;
     if constexpr (host_policy<Policy> && !is_shared) {
-        ties_of watch(64, false, walk.a, both.a, walk.b, both.b);
-        if constexpr (requires { trees_with_least_ids(pairing.a), trees_with_least_ids(pairing.b); }) {
-            const std::uint32_t* const of_a = own_least_ids(pairing.a.tree_with_least_ids());
-            const std::uint32_t* const of_b = own_least_ids(pairing.b.tree_with_least_ids());
-            if (of_a != nullptr && of_b != nullptr) watch.begin_with(of_a, of_b);
-        }
+        const auto &a = pairing.a.tree_with_least_ids(), &b = pairing.b.tree_with_least_ids();
+        const auto of_a = as_object(a), of_b = as_object(b);
+        ties_of_two watch(a.ties(), of_a, b.ties(), of_b);
+        if (own_least_ids(a) != nullptr && own_least_ids(b) != nullptr) watch.begin_with(own_least_ids(a), own_least_ids(b));
         walk.watch = &watch;
         if (concurrency(on) == 1) {
             const walk_from_rest<Walk, Reach, view, in_world> all{{walk, reach, both}, nullptr};

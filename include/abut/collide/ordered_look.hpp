@@ -22,9 +22,9 @@
 namespace abut::detail {
 
 template <class Walk, shape_view Shapes>
-struct watch_of_walk : ties_of<decltype(Walk::tree), Shapes> {
+struct watch_of_walk : ties_of_one<decltype(Walk::tree), Shapes> {
     watch_of_walk(std::size_t shapes_a_tie, bool chains, Walk& walk, const Shapes& shapes)
-        : ties_of<decltype(Walk::tree), Shapes>(shapes_a_tie, chains, walk.tree, shapes) {
+        : ties_of_one<decltype(Walk::tree), Shapes>(shapes_a_tie, chains, walk.tree, shapes) {
         walk.watch = this;
     }
 };
