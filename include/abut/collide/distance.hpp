@@ -514,10 +514,10 @@ auto ask_least(const Policy& on, const ask_distance& question, const X& x, const
 /// has shapes of both sets. Of ranks the answer is a `global_separation`, the same on all; each gives the same options.
 ///
 /// @par Memory
-/// As in @ref queries. Nothing is stored for each pair. Where many pairs are equally far apart, or touch, a call
-/// takes 12 bytes for each shape of its trees in host memory while it works, and 4 more for a moment, of lists and bodies
-/// too, unless these keep their least ids; not under `cuda`. There two trees take half a megabyte besides, and each entry of
-/// a list some 210 bytes in float and 370 in double.
+/// As in @ref queries. Nothing is stored for each pair. On a host, of lists and bodies too: where many pairs of two trees are
+/// equally far apart, the trees keep 8 bytes for each shape from then on, which makes the calls that follow fast. Where many
+/// touch, or rows ask, a call takes as much while it works, unless the trees keep their least ids; and 4 more for a moment.
+/// Under `cuda` two trees take half a megabyte, and each entry of a list some 210 bytes in float and 370 in double.
 ///
 /// @par Errors
 /// As in @ref queries, and `error` where `below` is negative or NaN.
