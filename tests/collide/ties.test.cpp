@@ -230,6 +230,17 @@ void check_kept(const Policy& on) {
         pose.translation = {0, 0, 64};
         const std::vector<posed_pair<std::remove_const_t<decltype(tree_a)>>> list{{posed(tree_a, pose), posed(tree_b, pose)}};
         CHECK(measured_by([&] { CHECK(to_host(distance(on, list))[0].b == 0); }) <= 30 * threads_of(on));
+        // One row at a time asks the same tree.
+        const auto fresh = layout(make_bvh(on, marks_at(a)));
+        const std::vector<vec3<float>> point{{3, 4, 12}};
+        const rays<float> line(std::vector<ray<float>>{{{0, 0, -5}, {0, 0, 1}}});
+        const auto look = [&] { CHECK(to_host(nearest(on, fresh, point))[0].id == 0); };
+        CHECK(measured_by(look) > 50);
+        CHECK(measured_by(look) <= 10);
+        CHECK(measured_by([&] { CHECK(to_host(raycast(on, fresh, line))[0].id == 0); }) <= 10);
+        CHECK(measured_by([&] { CHECK(to_host(nearest(on, std::vector{posed(fresh, pose)}, point))[0].id == 0); }) <= 10);
+        CHECK(to_host(nearest(on, fresh, point, 3))[2].id == 2);
+        CHECK(measured_by(look) <= 10);
     };
     run([](const auto& tree) { return tree; });
     run([&](const auto& tree) { return wide(on, tree); });

@@ -356,7 +356,7 @@ void look_for_nearest_pair(const Policy& on, const Pairing& pairing, const Index
     using T = typename decltype(both.a)::scalar_type;
     const auto look = [&](auto walk, const auto& sight) {
         using walk_type = decltype(walk);
-        [[maybe_unused]] auto watch = watch_ties<Policy, true>(64, false, walk, x.shapes());
+        [[maybe_unused]] auto watch = watch_ties<Policy, true>(64, false, walk, x);
         if constexpr (requires { watch.few; }) watch.few = 0;
         using sight_type = std::remove_cvref_t<decltype(sight)>;
         constexpr bool in_world = !decltype(pairing.a)::is_posed && !decltype(pairing.b)::is_posed;

@@ -5,8 +5,7 @@
 // every tie has to be visited: that makes n copies of a shape cost n visits each time. A walk therefore counts the ties that
 // it meets. Once they have cost about as much, it is found out which nodes hold copies of one shape alone, and the least id
 // below each node (least_ids.hpp). Copies are as near and are met as soon as each other, whatever is measured, so that one
-// visit is enough for all of them. Trees keep what `distance` of two of them finds; what rows find is for the rest of a call,
-// which has many.
+// visit is enough for all of them. Trees keep what was found, but for chains of copies, which are for the rest of a call.
 
 #include <array>
 #include <atomic>
@@ -171,16 +170,18 @@ template <class Tree, class Shapes>
 class ties_of_one : public tie_watch {
 public:
     /// It is found out after a tie for each so many shapes. With chains of copies, where walks look for several shapes.
-    ties_of_one(std::size_t shapes_a_tie, bool chains, const Tree& tree, const Shapes& shapes)
-        : tie_watch(tree.size() / shapes_a_tie), tree_(tree), shapes_(shapes), chains_(chains) {}
+    ties_of_one(std::size_t shapes_a_tie, bool chains, kept_ties& kept, const Tree& tree, const Shapes& shapes)
+        : tie_watch(tree.size() / shapes_a_tie), tree_(tree), shapes_(shapes), chains_(chains), kept_(chains ? of_call_ : kept) {
+        if (kept_.is_known) know({known_of(kept_)});
+    }
 
 private:
-    both_known find() final { return {find_ties(found_, tree_, shapes_, chains_)}; }
+    both_known find() final { return {find_ties(kept_, tree_, shapes_, chains_)}; }
 
     Tree tree_;
     Shapes shapes_;
     bool chains_;
-    kept_ties found_;
+    kept_ties of_call_, &kept_;
 };
 /// Of two objects with `tree` and `shapes`, where these keep it.
 template <class A, class B>
@@ -205,12 +206,10 @@ private:
 /// somebody asks first, from any thread.
 class ties_of_objects {
 public:
-    /// For one call.
-    ties_of_objects(std::size_t objects, bool chains) : all_(objects), chains_(chains) {}
-    /// Kept with the trees of the objects.
+    /// Of the trees of all objects, which keep it, but with chains.
     template <class Index>
-    explicit ties_of_objects(const std::vector<Index>& trees) : all_(trees.size()), chains_(false) {
-        for (std::size_t k = 0; k < trees.size(); ++k) all_[k].kept = &trees[k].ties();
+    explicit ties_of_objects(const std::vector<Index>& trees, bool chains = false) : all_(trees.size()), chains_(chains) {
+        for (std::size_t k = 0; k < trees.size(); ++k) all_[k].kept = chains ? &all_[k].of_call : &trees[k].ties();
     }
 
     [[nodiscard]] kept_ties& of(std::size_t k) { return *all_[k].kept; }
@@ -225,7 +224,7 @@ private:
     struct one {
         std::atomic<std::size_t> met{0};
         kept_ties of_call;
-        kept_ties* kept = &of_call;
+        kept_ties* kept = nullptr;
     };
     std::vector<one> all_;
     bool chains_;
