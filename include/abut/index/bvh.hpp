@@ -282,7 +282,7 @@ public:
     [[nodiscard]] view_type view() const { return stored().view_of(size()); }
     /// The CUDA device that the tree lies on; -1 for the host.
     [[nodiscard]] int device() const { return stored().root.device(); }
-    /// Memory of the tree itself, in bytes, without least ids, what refit keeps, and what `distance` finds of copies.
+    /// Memory of the tree itself, in bytes, without least ids, what refit keeps, and what queries find of copies.
     [[nodiscard]] std::size_t bytes() const { return stored().bytes(); }
     /// What owns the nodes.
     [[nodiscard]] const storage& stored() const { return *parts_->tree; }
