@@ -22,7 +22,8 @@ namespace abut::test {
 /// How many pairs of an entry's shapes touch, by the exact predicate alone; those of them that `wants(a, b)`.
 template <class Pair, class Wants>
 std::uint64_t touching_in(const Pair& entry, const Wants& wants) {
-    const auto a = entry.a.object.set().view(), b = entry.b.object.set().view();
+    const auto a = entry.a.object.set().view();
+    const auto b = entry.b.object.set().view();
     std::uint64_t n = 0;
     for (std::uint32_t i = 0; i < a.size(); ++i) {
         for (std::uint32_t j = 0; j < b.size(); ++j) {

@@ -312,8 +312,10 @@ void walk_two_trees(const Policy& on, const Pairing& pairing, Walk walk, const R
     constexpr bool is_shared = !std::same_as<std::remove_cvref_t<decltype(pairing.part)>, whole_search>;
     constexpr bool in_world = !decltype(pairing.a)::is_posed && !decltype(pairing.b)::is_posed;
     if constexpr (host_policy<Policy> && !is_shared) {
-        const auto &a = pairing.a.tree_with_least_ids(), &b = pairing.b.tree_with_least_ids();
-        const auto of_a = as_object(a), of_b = as_object(b);
+        const auto& a = pairing.a.tree_with_least_ids();
+        const auto& b = pairing.b.tree_with_least_ids();
+        const auto of_a = as_object(a);
+        const auto of_b = as_object(b);
         ties_of_two watch(a.ties(), of_a, b.ties(), of_b);
         if (own_least_ids(a) != nullptr && own_least_ids(b) != nullptr) watch.begin_with(own_least_ids(a), own_least_ids(b));
         walk.watch = &watch;
