@@ -5,15 +5,17 @@
 // What equal values cost where the least ids win: scenes in which as many shapes as can be are as near, or are met as soon,
 // beside the same scenes with numbers moved a little at random, in which hardly any are. One core. Names:
 //
-//   SCENE/FORM/N      N shapes, or N on either side: `ms` with ties, `ms_without`, and `over`, their quotient
+//   SCENE/FORM/N      N shapes, or N on either side: `ms` with ties, `ms_without`, and `over`, their quotient; of two trees also
+//                     `ms_first`, of the first call with ties, of trees that nobody has asked, and `ms_made`, of making these
 //
-// Each pair of times is of calls in turn, and the quotient is one of medians.
+// Each pair of times is of calls in turn, and the quotient is one of medians. First calls are the median of five.
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -122,7 +124,7 @@ struct program {
     std::string only;
 
     template <class With, class Without>
-    void compare(const std::string& name, const With& with, const Without& without) {
+    void compare(const std::string& name, const With& with, const Without& without, bench::counters more = {}) {
         if (name.find(only) == std::string::npos) return;
         std::vector<double> of_with, of_without;
         double spent = 0;
@@ -132,7 +134,8 @@ struct program {
             spent += of_with.back() + of_without.back();
         }
         const double a = median(of_with), b = median(of_without);
-        results.add(name, {{"ms", a}, {"ms_without", b}, {"over", a / b}});
+        more.insert(more.begin(), {{"ms", a}, {"ms_without", b}, {"over", a / b}});
+        results.add(name, more);
     }
 
     /// `make(k, rough)` is side k.
@@ -149,7 +152,17 @@ struct program {
             if (name(form).find(only) == std::string::npos) return;
             const auto tree = [&](int k, double rough) { return Layout::of(abut::make_bvh(on, make(k, rough), options)); };
             const auto a = tree(0, 0), b = tree(1, 0), c = tree(0, roughness), d = tree(1, roughness);
-            compare(name(form), ask(a, b), ask(c, d));
+            const auto set_a = make(0, 0), set_b = make(1, 0);
+            std::vector<double> first, made;
+            for (int i = 0; i < 5; ++i) {
+                std::optional<std::remove_const_t<decltype(a)>> x, y;
+                made.push_back(once([&] {
+                    x = Layout::of(abut::make_bvh(on, set_a, options));
+                    y = Layout::of(abut::make_bvh(on, set_b, options));
+                }));
+                first.push_back(once(ask(*x, *y)));
+            }
+            compare(name(form), ask(a, b), ask(c, d), {{"ms_first", median(first)}, {"ms_made", median(made)}});
         };
         of_trees("bvh", as_made{}, {});
         of_trees("sah", as_made{}, {.builder = abut::bvh_builder::sah});

@@ -163,5 +163,10 @@ int main(int argc, char** argv) {
     for (const bool frame : {false, true}) {
         for (const peer& who : peers()) add(who, frame);
     }
+    std::string versions;
+    for (const peer& who : peers()) {
+        if (!who.version.empty()) versions += (versions.empty() ? "" : ", ") + who.version;
+    }
+    if (!versions.empty()) benchmark::AddCustomContext("peers", versions);
     return bench::run_registered("bench_mixed_bodies", argc, argv);
 }

@@ -20,13 +20,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <map>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <abut/collide/hull_edges.hpp>
 
 #include "peers/abut.hpp"
 #include "peers/arm.hpp"
@@ -38,7 +42,7 @@ namespace {
 
 using namespace peers;
 
-/// An ellipsoid, by an octahedron whose faces are divided: 18, 66, 258 points. Numbers are rounded to 2^-20.
+/// An ellipsoid, by an octahedron whose faces are divided: 18, 66, 258, 1,026 points. Numbers are rounded to 2^-20.
 shape ellipsoid(int divisions) {
     shape s{"", kind::hull};
     std::vector<vec3> points{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
@@ -66,6 +70,13 @@ shape ellipsoid(int divisions) {
     for (const vec3& p : s.points) {
         if (outside(s, {}, p) > 1e-15L) throw std::logic_error("a hull's faces are not its own");
     }
+    return s;
+}
+
+shape with_edges(shape s) {
+    const abut::hulls<double> alone(std::vector<std::vector<vec3>>{s.points});
+    s.with_edges = std::make_shared<const abut::hulls<double>>(abut::with_edges(alone));
+    s.name += "-with-edges";
     return s;
 }
 
@@ -159,13 +170,15 @@ int main(int argc, char** argv) {
         const shape sphere{"sphere", kind::sphere, 0.875}, capsule{"capsule", kind::capsule, 0.5, 0.75};
         const shape box{"box", kind::box, 0, 0, {1, 0.75, 0.5}}, cylinder{"cylinder", kind::cylinder, 0.625, 0.75};
         const shape cone{"cone", kind::cone, 0.75, 0.875};
-        const shape hull18 = ellipsoid(1), hull66 = ellipsoid(2), hull258 = ellipsoid(3);
+        const shape hull18 = ellipsoid(1), hull66 = ellipsoid(2), hull258 = ellipsoid(3), hull1026 = ellipsoid(4);
+        const shape edges258 = with_edges(hull258), edges1026 = with_edges(hull1026);
         const std::vector<std::pair<const shape*, const shape*>> pairs{
             {&sphere, &sphere},    {&capsule, &sphere},  {&capsule, &capsule},   {&box, &sphere},     {&box, &capsule},
             {&box, &box},          {&box, &cylinder},    {&box, &cone},          {&cylinder, &sphere}, {&cylinder, &capsule},
             {&cylinder, &cylinder}, {&cone, &sphere},     {&cone, &capsule},      {&cone, &cylinder},  {&cone, &cone},
             {&hull66, &sphere},    {&hull66, &capsule},  {&hull66, &box},        {&hull66, &cylinder}, {&hull18, &hull18},
-            {&hull66, &hull66},    {&hull258, &hull258}};
+            {&hull66, &hull66},    {&hull258, &hull258}, {&edges258, &edges258}, {&hull1026, &hull1026}, {&edges1026, &edges1026},
+            {&edges1026, &sphere}, {&edges1026, &box}};
 
         std::vector<library> all{{"abut", "", abut_answers<abut::filtered>}};
         all.insert(all.end(), libraries().begin(), libraries().end());

@@ -136,7 +136,7 @@ def read(path):
                          "per_family_instance_index"}
                 values.update({k: v for k, v in row.items() if isinstance(v, (int, float)) and k not in known})
                 rows[name] = values
-            kept = ("program", "machine", "cores", "threads", "compiler", "flags", "commit", "date", "mesh")
+            kept = ("program", "machine", "cores", "threads", "compiler", "flags", "commit", "date", "mesh", "peers")
             context = {k: context[k][:10] if k == "date" else context[k] for k in kept if k in context}
         rows = {name: {k: rounded(float(v)) for k, v in row.items()} for name, row in rows.items()}
         return {"context": context, "rows": rows}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The tables of bench/peers.cpp, winding.cpp and impact_times.cpp: abut beside libraries out of checkouts."""
+"""The tables of bench/peers.cpp, winding.cpp, impact_times.cpp and mixed_bodies.cpp: abut beside libraries out of checkouts."""
 
 from report_core import *  # noqa: F403
 
@@ -16,7 +16,7 @@ def peers(results):
         for pair in r.parts(f"{question}/", 1):
             def of(library, key):
                 return r.get(f"{question}/{pair}/{library}", key)
-            row = [pair.replace("_", ", "), shown(of("abut", "ns")), f"{whole(of('abut', 'wrong'))} of {whole(of('abut', 'of'))}"]
+            row = [pair.replace("_", ", ").replace("-", " "), shown(of("abut", "ns")), f"{whole(of('abut', 'wrong'))} of {whole(of('abut', 'of'))}"]
             for name in others:
                 row += [shown(of(name, "ns")), f"{of(name, 'over'):.2f}", whole(of(name, "wrong"))]
             if question in ("distance", "contact"):
@@ -77,3 +77,18 @@ def impact_times(results):
     head = ["pairs", "", "ns a pair that touches", "over ACCD", "missed", "late", "said to touch that do not",
             "too early, half of them by at most", "at most"]
     return table(head, rows, 2) + made_on(r, f". ACCD of the IPC Toolkit {r.context['ACCD']}")
+
+
+@in_table("mixed_bodies")
+def mixed_bodies(results):
+    r = results["cpu/mixed_bodies"]
+    rows = []
+    for asked, title in (("touching", "as they lie"), ("frame", "moved, and asked")):
+        for name in r.parts(f"mixed_bodies/{asked}/", 2):
+            def of(key):
+                return r.get(f"mixed_bodies/{asked}/{name}", key)
+            ours = r.get(f"mixed_bodies/{asked}/abut")
+            rows.append([title if name == "abut" else "", {"by_hand": "abut, by hand", "coal": "Coal", "fcl": "FCL"}.get(name, name),
+                         shown(of("ms")), quotient(ours, of("ms")), whole(of("touching")), whole(of("wrong"))])
+    head = ["1,000 bodies of five kinds", "", "ms", "abut / it", "pairs that touch", "wrong"]
+    return table(head, rows, 2) + made_on(r, f". {r.context['peers']}" if "peers" in r.context else "")

@@ -752,3 +752,35 @@ def compile_cost(results):
             [whole(r.get(name, f"{c}_megabytes")) for c in ("gcc", "nvcc")] for name in r.rows]
     head = ["program", "g++: seconds of a processor", "nvcc", "g++: MB of memory", "nvcc"]
     return filled(head, rows) + made_on(r)
+
+
+# --- equal values -----------------------------------------------------------------------------------------------------------
+
+FORMS = ("bvh", "sah", "least_ids", "wide", "oriented", "quantised", "posed", "one_posed", "rows", "rows_of_b", "rows_posed", "list", "bodies")
+ASKED = ("nearest_few", "nearest", "raycast_detailed", "raycast")
+
+
+@in_table("equal")
+def equal(results):
+    r = results["cpu/equal"]
+    pairs, rows = {}, {}
+    for name in r.rows:
+        scene, form, n = name.split("/")
+        asked = next((a for a in ASKED if form.startswith(a)), None)
+        if asked is None:
+            pairs.setdefault((scene, n), {})[form] = name
+        else:
+            rows.setdefault((scene, asked, n), {})[form[len(asked) + 1:]] = name
+
+    def over(of, form):
+        return f"{r.get(of[form], 'over'):.2f}" if form in of else ""
+    head = ["`distance` of", "each", "first call, ms", "later, ms", "without ties, ms", "trees made, ms"] + [f.replace("_", " ") for f in FORMS]
+    body = [[scene.replace("_", ", "), whole(int(n)), shown(r.get(of["bvh"], "ms_first")), shown(r.get(of["bvh"])),
+             shown(r.get(of["bvh"], "ms_without")), shown(r.get(of["bvh"], "ms_made"))] + [over(of, f) for f in FORMS]
+            for (scene, n), of in pairs.items()]
+    lines = table(head, body)
+    layouts = ("", "wide", "oriented", "quantised", "posed", "bodies")
+    head = ["1,000 rows", "", "shapes", "ms", "without ties, ms"] + [f or "bvh" for f in layouts]
+    body = [[f"`{asked}`".replace("nearest_few", "nearest, 8"), scene, whole(int(n)), shown(r.get(of[""])), shown(r.get(of[""], "ms_without"))] +
+            [over(of, f) for f in layouts] for (scene, asked, n), of in rows.items()]
+    return lines + table(head, body, 2) + made_on(r)

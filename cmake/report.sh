@@ -56,6 +56,7 @@ cpu builders bench_builders $G $I --mesh=@D@/meshes/armadillo_345944.ply
 cpu validate bench_validate $G
 cpu families bench_families $G
 cpu ties bench_ties $G --mesh=@D@/meshes/armadillo_27674.ply
+cpu equal bench_equal --json={}
 cpu fronts bench_fronts --json={} --frames=20
 cpu spheres_mesh bench_spheres_mesh $G $I
 cpu meshes bench_meshes $G $I --mesh=@D@/meshes/armadillo_345944.ply --benchmark_filter=-any/[a-z_]*/.*/
@@ -67,6 +68,7 @@ cpu hulls bench_hulls $G $I
 cpu peers bench_peers --json={}
 cpu winding bench_winding @D@/meshes --json={}
 cpu impact_times bench_impact_times @D@/ccd --json={}
+cpu mixed_bodies bench_mixed_bodies $G $I
 cpu solids bench_solids @D@/meshes/armadillo_2766.ply @D@/meshes/armadillo_27674.ply @D@/meshes/armadillo_345944.ply --json={}
 cpu raycast bench_raycast $G $I --mesh=@D@/meshes/armadillo_345944.ply
 cpu descents bench_descents --json={} --mesh=@D@/meshes/armadillo_345944.ply

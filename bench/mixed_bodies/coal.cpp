@@ -58,7 +58,7 @@ struct held : coal::CollisionCallBackBase {
 };
 
 [[maybe_unused]] const bool added = [] {
-    peers().push_back({"coal", holder_of<held>});
+    peers().push_back({"coal", holder_of<held>, "Coal " ABUT_COAL_VERSION});
     return true;
 }();
 

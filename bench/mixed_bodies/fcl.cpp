@@ -52,7 +52,7 @@ struct held {
 };
 
 [[maybe_unused]] const bool added = [] {
-    peers().push_back({"fcl", holder_of<held>});
+    peers().push_back({"fcl", holder_of<held>, "FCL " FCL_VERSION});
     return true;
 }();
 

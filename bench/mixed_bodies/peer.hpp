@@ -67,6 +67,7 @@ struct holder {
 struct peer {
     std::string name;
     holder (*make)(const crowd&);
+    std::string version{};  ///< of a library
 };
 /// A body's shape, by the classes of a library.
 template <class Shape, class Box, class Capsule, class Cylinder, class Sphere>

@@ -29,7 +29,7 @@ auto made(const shape& s) {
     } else if constexpr (K == kind::cone) {
         return abut::cone<double>{{0, 0, s.half}, {0, 0, -s.half}, s.radius};
     } else {
-        return abut::hull<double>(s.points.data(), s.points.size());
+        return s.with_edges ? s.with_edges->view()[0] : abut::hull<double>(s.points.data(), s.points.size());
     }
 }
 

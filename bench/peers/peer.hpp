@@ -5,9 +5,11 @@
 // what only one of them has.
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include <abut/shape/hulls.hpp>
 #include <abut/shape/rigid.hpp>
 #include <abut/shape/view.hpp>
 
@@ -26,6 +28,7 @@ struct shape {
     vec3 halves{0, 0, 0};           ///< of a box
     std::vector<vec3> points{};     ///< of a hull
     std::vector<abut::face> faces{};  ///< of a hull, seen from outside counterclockwise
+    std::shared_ptr<const abut::hulls<double>> with_edges{};  ///< of a hull, if abut gets it with edges
 };
 
 struct pose_pair {

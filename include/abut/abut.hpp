@@ -26,6 +26,7 @@
 #include <abut/collide/list_distance.hpp>
 #include <abut/collide/list_each.hpp>
 #include <abut/collide/mixed_bodies.hpp>
+#include <abut/collide/mixed_list.hpp>
 #include <abut/collide/mixed_questions.hpp>
 #include <abut/collide/nearest.hpp>
 #include <abut/collide/penetration.hpp>

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <random>
+#include <thread>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -212,6 +213,47 @@ void check_entries(const Policy& on) {
     run([&](const auto& tree) { return wide(on, tree); });
 }
 
+/// Trees keep what is found of copies: whoever asks again measures next to nothing, and a tree of moved shapes knows none of it.
+template <class Policy>
+void check_kept(const Policy& on) {
+    auto a = copies_of({{0, 0, 0}}, 3000, 31), b = copies_of({{3, 4, 12}}, 3000, 32);
+    const auto run = [&](const auto& layout) {
+        const auto tree_a = layout(make_bvh(on, marks_at(a))), tree_b = layout(make_bvh(on, marks_at(b)));
+        const auto ask = [&] {
+            const auto found = distance(on, tree_a, tree_b);
+            REQUIRE(found);
+            CHECK((index_pair{found->a, found->b} == index_pair{0, 0}));
+        };
+        CHECK(measured_by(ask) > 50);
+        CHECK(measured_by(ask) <= 10 * threads_of(on));
+        rigid<float> pose;
+        pose.translation = {0, 0, 64};
+        const std::vector<posed_pair<std::remove_const_t<decltype(tree_a)>>> list{{posed(tree_a, pose), posed(tree_b, pose)}};
+        CHECK(measured_by([&] { CHECK(to_host(distance(on, list))[0].b == 0); }) <= 30 * threads_of(on));
+        // One row at a time asks the same tree.
+        const auto fresh = layout(make_bvh(on, marks_at(a)));
+        const std::vector<vec3<float>> point{{3, 4, 12}};
+        const rays<float> line(std::vector<ray<float>>{{{0, 0, -5}, {0, 0, 1}}});
+        const auto look = [&] { CHECK(to_host(nearest(on, fresh, point))[0].id == 0); };
+        CHECK(measured_by(look) > 50);
+        CHECK(measured_by(look) <= 10);
+        CHECK(measured_by([&] { CHECK(to_host(raycast(on, fresh, line))[0].id == 0); }) <= 10);
+        CHECK(measured_by([&] { CHECK(to_host(nearest(on, std::vector{posed(fresh, pose)}, point))[0].id == 0); }) <= 10);
+        CHECK(to_host(nearest(on, fresh, point, 3))[2].id == 2);
+        CHECK(measured_by(look) <= 10);
+    };
+    run([](const auto& tree) { return tree; });
+    run([&](const auto& tree) { return wide(on, tree); });
+    const auto tree_a = make_bvh(on, marks_at(a)), tree_b = make_bvh(on, marks_at(b));
+    for (const std::uint32_t nearer : {2999u, 1234u}) {
+        CHECK(distance(on, tree_a, tree_b)->b == 0);
+        auto moved = b;
+        moved[nearer].z = 11;
+        const auto found = distance(on, tree_a, refit(on, tree_b, marks_at(moved)));
+        CHECK((index_pair{found->a, found->b} == index_pair{0, nearer}));
+    }
+}
+
 /// Many pairs touch, and the least of these is found without a look at all.
 template <class Policy>
 void check_touching(const Policy& on, const std::vector<cell>& a, const std::vector<cell>& b) {
@@ -397,6 +439,26 @@ TEST_CASE("ties: the distance of copies") {
 TEST_CASE("ties: the distance of entries of a list, and of bodies") {
     test::check_entries(serial{});
     test::check_entries(openmp{3});
+}
+
+TEST_CASE("ties: what trees keep of their copies") {
+    test::check_kept(serial{});
+    test::check_kept(openmp{3});
+    // Threads that ask first at the same time.
+    const auto set = test::marks_at(test::copies_of({{0, 0, 0}}, 3000, 33)), other = test::marks_at(test::copies_of({{0, 0, 5}}, 3000, 34));
+    for (int k = 0; k < 20; ++k) {
+        const auto a = make_bvh(serial{}, set), b = make_bvh(serial{}, other);
+        std::atomic<int> right{0};
+        std::vector<std::thread> all;
+        for (int i = 0; i < 4; ++i) {
+            all.emplace_back([&, i] {
+                const auto found = i % 2 == 0 ? distance(serial{}, a, b) : distance(serial{}, b, a);
+                right += found && found->a == 0 && found->b == 0 && found->distance == 5;
+            });
+        }
+        for (auto& one : all) one.join();
+        CHECK(right == 4);
+    }
 }
 
 TEST_CASE("ties: the first of many that touch") {

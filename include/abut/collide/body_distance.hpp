@@ -176,7 +176,7 @@ auto nearest_bodies(const Policy& on, const bodies<Index>& all, double below, co
     const auto neighbours = pair_up_entries<names_of_entries>(
         on, state.placed, state.placed, n - 1, next_in_order{order.data(), state.with_shapes->data()},
         list_options<before_first_touch<list_key>>{}, function, "bodies", near_enough_to_touch{});
-    ties_of_objects ties(host_policy<Policy> ? state.placed.objects->indices.size() : 0);
+    ties_of_objects ties(state.placed.objects->indices);
     const double most = bound_below<T>(below), bound = least(most, nearest_of_entries(on, neighbours, most, &ties).value);
     return nearest_within<T>(on, bound, &ties, [&](const auto& near) { return pair_up_near(on, state, function, near, part); });
 }

@@ -58,7 +58,7 @@ struct ordered_body_walk {
     tree_of_boxes boxes;
     const std::uint32_t* with_shapes;
     placed_view<Index> all;
-    std::size_t objects;
+    const std::vector<Index>* objects;  ///< on a host
     ties_of_objects* ties = nullptr;  ///< on a host
 
     ABUT_CALLS_ANY
@@ -96,12 +96,12 @@ struct line_reach<ordered_body_walk<Index>, T> {
 
 struct watch_of_bodies : ties_of_objects {
     template <class Index>
-    watch_of_bodies(bool chains, ordered_body_walk<Index>& walk) : ties_of_objects(walk.objects, chains) {
+    watch_of_bodies(bool chains, ordered_body_walk<Index>& walk) : ties_of_objects(*walk.objects, chains) {
         walk.ties = this;
     }
 };
-template <class Policy, bool Alike, class Index, shape_view Shapes>
-auto watch_ties(std::size_t, [[maybe_unused]] bool chains, [[maybe_unused]] ordered_body_walk<Index>& walk, const Shapes&) {
+template <class Policy, bool Alike, class Index, class Asked>
+auto watch_ties(std::size_t, [[maybe_unused]] bool chains, [[maybe_unused]] ordered_body_walk<Index>& walk, const Asked&) {
     if constexpr (host_policy<Policy> && Alike) {
         return watch_of_bodies(chains, walk);
     } else {
@@ -142,7 +142,7 @@ struct id_in_operand<asked_bodies<Index>> {
 template <class Index>
 ordered_body_walk<Index> ordered_walk_of(const asked_bodies<Index>& x) {
     const auto& placed = x.state().placed;
-    return {x.state().tree.view(), x.state().with_shapes->data(), placed.view(), placed.objects->indices.size()};
+    return {x.state().tree.view(), x.state().with_shapes->data(), placed.view(), &placed.objects->indices};
 }
 template <class Index, scalar T>
 frame_of_bodies<T> frame_of(const asked_bodies<Index>&, const length_unit<T>& unit) {

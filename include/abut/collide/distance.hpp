@@ -312,12 +312,12 @@ void walk_two_trees(const Policy& on, const Pairing& pairing, Walk walk, const R
     constexpr bool is_shared = !std::same_as<std::remove_cvref_t<decltype(pairing.part)>, whole_search>;
     constexpr bool in_world = !decltype(pairing.a)::is_posed && !decltype(pairing.b)::is_posed;
     if constexpr (host_policy<Policy> && !is_shared) {
-        ties_of watch(64, false, walk.a, both.a, walk.b, both.b);
-        if constexpr (requires { trees_with_least_ids(pairing.a), trees_with_least_ids(pairing.b); }) {
-            const std::uint32_t* const of_a = own_least_ids(pairing.a.tree_with_least_ids());
-            const std::uint32_t* const of_b = own_least_ids(pairing.b.tree_with_least_ids());
-            if (of_a != nullptr && of_b != nullptr) watch.begin_with(of_a, of_b);
-        }
+        const auto& a = pairing.a.tree_with_least_ids();
+        const auto& b = pairing.b.tree_with_least_ids();
+        const auto of_a = as_object(a);
+        const auto of_b = as_object(b);
+        ties_of_two watch(a.ties(), of_a, b.ties(), of_b);
+        if (own_least_ids(a) != nullptr && own_least_ids(b) != nullptr) watch.begin_with(own_least_ids(a), own_least_ids(b));
         walk.watch = &watch;
         if (concurrency(on) == 1) {
             const walk_from_rest<Walk, Reach, view, in_world> all{{walk, reach, both}, nullptr};
@@ -358,7 +358,7 @@ void look_for_nearest_pair(const Policy& on, const Pairing& pairing, const Index
     using T = typename decltype(both.a)::scalar_type;
     const auto look = [&](auto walk, const auto& sight) {
         using walk_type = decltype(walk);
-        [[maybe_unused]] auto watch = watch_ties<Policy, true>(64, false, walk, x.shapes());
+        [[maybe_unused]] auto watch = watch_ties<Policy, true>(64, false, walk, x);
         if constexpr (requires { watch.few; }) watch.few = 0;
         using sight_type = std::remove_cvref_t<decltype(sight)>;
         constexpr bool in_world = !decltype(pairing.a)::is_posed && !decltype(pairing.b)::is_posed;
@@ -516,10 +516,10 @@ auto ask_least(const Policy& on, const ask_distance& question, const X& x, const
 /// has shapes of both sets. Of ranks the answer is a `global_separation`, the same on all; each gives the same options.
 ///
 /// @par Memory
-/// As in @ref queries. Nothing is stored for each pair. Where many pairs are equally far apart, or touch, a call
-/// takes 12 bytes for each shape of its trees in host memory while it works, and 4 more for a moment, of lists and bodies
-/// too, unless these keep their least ids; not under `cuda`. There two trees take half a megabyte besides, and each entry of
-/// a list some 210 bytes in float and 370 in double.
+/// As in @ref queries. Nothing is stored for each pair. On a host, of lists and bodies too: where many pairs of two trees are
+/// equally far apart, the trees keep 8 bytes for each shape from then on, which makes the calls that follow fast. Where many
+/// touch, or rows ask, a call takes as much while it works, unless the trees keep their least ids; and 4 more for a moment.
+/// Under `cuda` two trees take half a megabyte, and each entry of a list some 210 bytes in float and 370 in double.
 ///
 /// @par Errors
 /// As in @ref queries, and `error` where `below` is negative or NaN.

@@ -47,7 +47,7 @@ struct walk_entry {
         } else if constexpr (walks_trees) {
             near_posed_boxes<T> reach(list.a.poses[of.a], a.bounds, list.b.poses[of.b], b.bounds);
             offer_distance<false, Best, near_posed_boxes<T>> offer{best, reach};
-            ties_of_two_objects watch(*ties_a, k_a, a, *ties_b, k_b, b);
+            ties_of_two watch(ties_a->of(k_a), a, ties_b->of(k_b), b);
             const ordered_pair_walk<TreeA, TreeB> walk{a.tree, b.tree, &watch};
             walk({a.tree.root().index(), b.tree.root().index()}, reach, best, [&](std::uint32_t id_a, std::uint32_t id_b) {
                 const std::uint64_t key = list.key.pack(entry, id_a, id_b);
@@ -70,7 +70,7 @@ private:
         };
         ordered_tree_walk<std::remove_cvref_t<decltype(object.tree)>> walk{object.tree};
         if constexpr (walks_trees) {
-            ties_of_two_objects watch(*ties, k, object, *ties, k, object);
+            ties_of_two watch(ties->of(k), object, ties->of(k), object);
             walk.watch = &watch;
             walk(reach, best, visit);
         } else {
@@ -132,8 +132,8 @@ void walk_entries(const Policy& on, const Pairing& pairing, const std::uint64_t*
     std::optional<ties_of_objects> of_a, of_b;
     if constexpr (host_policy<Policy>) {
         if (ties == nullptr) {
-            walk.ties_a = &of_a.emplace(pairing.a.objects->indices.size());
-            walk.ties_b = &of_b.emplace(pairing.b.objects->indices.size());
+            walk.ties_a = &of_a.emplace(pairing.a.objects->indices);
+            walk.ties_b = &of_b.emplace(pairing.b.objects->indices);
         }
     }
     for_each_ordered(on, pairing.members.size(), walk, best);

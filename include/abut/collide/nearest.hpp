@@ -251,7 +251,7 @@ void walk_alone_from_points(const Policy& on, const Operand& x, const Points& po
     const auto frame = frame_of(x, judge.unit);
     const auto there = x.shapes();
     [[maybe_unused]] const auto watch = watch_ties<Policy, std::same_as<Wanted, all_shapes_wanted>>(
-        8, requires { Best::sink::keeps_few; }, walk, there);
+        8, requires { Best::sink::keeps_few; }, walk, x);
     using walk_type = walk_from_points<std::remove_const_t<decltype(walk)>, std::remove_const_t<decltype(frame)>,
                                        std::remove_const_t<decltype(there)>, Points, Judge, Wanted>;
     for_each_ordered(on, points.size(), walk_type{walk, frame, there, points, judge, order, wanted}, best);
@@ -503,7 +503,8 @@ struct ask_nearest : question_of_points {
 /// @par Memory
 /// As in @ref queries; a vector or a span of points lies in host memory, and is copied under `cuda`. The result lies in the
 /// policy's memory, 20 bytes a point in float and 40 in double. Among many shapes that are
-/// equally near a host takes 12 bytes for each shape of a tree while it works, and 4 more for a moment.
+/// equally near a host keeps 8 bytes for each shape with their tree, or takes 12 while it looks for several; and 4 more for
+/// a moment.
 ///
 /// @par Errors
 /// - `invalid_geometry`: a view, a single shape or a row of points holds no geometry, or a pose is no rotation.

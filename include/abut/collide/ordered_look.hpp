@@ -22,18 +22,21 @@
 namespace abut::detail {
 
 template <class Walk, shape_view Shapes>
-struct watch_of_walk : ties_of<decltype(Walk::tree), Shapes> {
-    watch_of_walk(std::size_t shapes_a_tie, bool chains, Walk& walk, const Shapes& shapes)
-        : ties_of<decltype(Walk::tree), Shapes>(shapes_a_tie, chains, walk.tree, shapes) {
+struct watch_of_walk : ties_of_one<decltype(Walk::tree), Shapes> {
+    watch_of_walk(std::size_t shapes_a_tie, bool chains, Walk& walk, kept_ties& kept, const Shapes& shapes)
+        : ties_of_one<decltype(Walk::tree), Shapes>(shapes_a_tie, chains, kept, walk.tree, shapes) {
         walk.watch = this;
     }
 };
-/// Has a walk through a tree of a host watch for ties, as long as what is returned lives. Copies have to be `Alike` to it.
-template <class Policy, bool Alike, class Walk, shape_view Shapes>
+/// Has a walk through a tree of a host watch for ties, as long as what is returned and the operand live. Copies have to be
+/// `Alike` to it.
+template <class Policy, bool Alike, class Walk, class Operand>
 auto watch_ties([[maybe_unused]] std::size_t shapes_a_tie, [[maybe_unused]] bool chains, [[maybe_unused]] Walk& walk,
-                [[maybe_unused]] const Shapes& shapes) {
+                [[maybe_unused]] const Operand& x) {
     if constexpr (host_policy<Policy> && Alike && requires { walk.watch = nullptr; }) {
-        return watch_of_walk<Walk, Shapes>(shapes_a_tie, chains, walk, shapes);
+        const auto& tree = x.tree_with_least_ids();
+        using shapes = decltype(view_of(tree.set()));
+        return watch_of_walk<Walk, shapes>(shapes_a_tie, chains, walk, tree.ties(), view_of(tree.set()));
     } else {
         return 0;
     }

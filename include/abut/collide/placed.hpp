@@ -56,6 +56,11 @@ struct placed_object {
     aabb<typename Index::scalar_type> bounds;  ///< of all shapes; empty where there are none
 };
 
+template <class Index>
+placed_object<Index> as_object(const Index& index) {
+    return {index.view(), view_of(index.set()), index.bounds()};
+}
+
 /// What the shapes of an index are under a pose.
 template <class Index>
 using shape_in_world = placed_shape<typename Index::shape_type>;
@@ -141,7 +146,7 @@ std::shared_ptr<const placed_objects<Index>> make_objects(const Policy& on, std:
     views.reserve(indices.size());
     for (const Index& index : indices) {
         require_same_device(on, index, function);
-        views.push_back({index.view(), view_of(index.set()), index.bounds()});
+        views.push_back(as_object(index));
         made->most_shapes = std::max(made->most_shapes, index.size());
         made->all_have_nodes = made->all_have_nodes && index.size() > 1;
     }

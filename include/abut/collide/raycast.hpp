@@ -268,7 +268,7 @@ auto bring_lines_and_shapes(const Policy& on, const X& index, const Lines& rays,
 template <arithmetic A, class Policy, class Both, class Best>
 void walk_to_first_hits(const Policy& on, const Both& both, bool in_scalars, Best& best) {
     from_each each{both.template walk<walk_along_lines, A>(in_scalars)};
-    [[maybe_unused]] const auto watch = watch_ties<Policy, !Both::filters>(64, false, each.all.walk, both.x.shapes());
+    [[maybe_unused]] const auto watch = watch_ties<Policy, !Both::filters>(64, false, each.all.walk, both.x);
     for_each_ordered(on, both.size(), each, best);
 }
 /// Finds what each line meets first. finish(found) takes it: found[i] is of line i; with no shapes or no lines `found` is
@@ -449,7 +449,7 @@ struct ask_any_hit : question_of_lines<Options, ask_any_hit<A, Options>> {
 ///
 /// @par Memory
 /// As in @ref queries. The result lies in the policy's memory, 8 bytes a ray in float and 16 in double. Among many shapes
-/// that are equally near a host takes 12 bytes for each shape of a tree while it works, and 4 more for a moment. Under
+/// that are equally near a host keeps 8 bytes for each shape with their tree, and takes 4 more for a moment. Under
 /// `cuda` the last stage has a stack of 1.7 KB in float and 8.7 KB in double for triangles, and of 4.3 and 23 KB for
 /// spheres, boxes, capsules, cylinders and cones. CUDA sets that aside once for all threads that the device holds at a
 /// time.

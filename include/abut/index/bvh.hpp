@@ -6,6 +6,7 @@
 // (quantised.hpp, wide.hpp, bounded.hpp, experimental/leafless.hpp); traversals are in traverse/ and read nodes through the
 // accessor concept below alone, so that another layout needs no second traversal.
 
+#include <atomic>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -159,6 +160,17 @@ struct shared_refit_plan {
     std::shared_ptr<const refit_plan<Space>> made;  ///< null before the first refit
 };
 
+namespace detail {
+class ties_of_tree;
+}
+/// Where the first query that meets many equal values leaves what it finds of a tree's copies, for those that follow
+/// (index/ties.hpp).
+struct kept_ties {
+    std::mutex making;                                 ///< held by who makes it
+    std::atomic<bool> is_known{false};                 ///< from when on `made` may be read
+    std::shared_ptr<const detail::ties_of_tree> made;  ///< null before
+};
+
 /// The layout that trees are built in.
 struct standard_layout {
     /// What kernels see.
@@ -270,10 +282,12 @@ public:
     [[nodiscard]] view_type view() const { return stored().view_of(size()); }
     /// The CUDA device that the tree lies on; -1 for the host.
     [[nodiscard]] int device() const { return stored().root.device(); }
-    /// Memory of the tree itself, in bytes, without least ids and what refit keeps.
+    /// Memory of the tree itself, in bytes, without least ids, what refit keeps, and what queries find of copies.
     [[nodiscard]] std::size_t bytes() const { return stored().bytes(); }
     /// What owns the nodes.
     [[nodiscard]] const storage& stored() const { return *parts_->tree; }
+    /// For queries: what they find of copies.
+    [[nodiscard]] kept_ties& ties() const { return parts_->ties; }
     /// The box around all shapes; empty where there are none. The first call on a tree in device memory copies it to the
     /// host and waits for that.
     [[nodiscard]] aabb<scalar_type> bounds() const {
@@ -292,6 +306,7 @@ private:
         std::shared_ptr<const storage> tree;
         std::once_flag once{};
         aabb<scalar_type> bounds{};  ///< copied to the host
+        kept_ties ties{};
 
         parts(Set s, std::shared_ptr<const storage> t) : set(std::move(s)), tree(std::move(t)) {}
     };

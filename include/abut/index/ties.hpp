@@ -3,17 +3,17 @@
 
 // What walks for the least value know of equal ones, on a host. The least id wins among ties, so that where nothing is known
 // every tie has to be visited: that makes n copies of a shape cost n visits each time. A walk therefore counts the ties that
-// it meets. Once they have cost about as much, it is found out for the rest of the call which nodes hold copies of one shape
-// alone, and the least id below each node (least_ids.hpp). Copies are as near and are met as soon as each other, whatever
-// is measured, so that one visit is enough for all of them. No tree keeps what was found.
+// it meets. Once they have cost about as much, it is found out which nodes hold copies of one shape alone, and the least id
+// below each node (least_ids.hpp). Copies are as near and are met as soon as each other, whatever is measured, so that one
+// visit is enough for all of them. Trees keep what was found, but for chains of copies, which are for the rest of a call.
 
 #include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <mutex>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -102,6 +102,23 @@ private:
     std::vector<std::uint32_t> of_nodes_, links_, copies_;
 };
 
+/// What a tree keeps of it: nothing before somebody asks.
+inline known_below known_of(const kept_ties& kept) {
+    return kept.is_known.load(std::memory_order_acquire) ? kept.made->known() : known_below{};
+}
+/// The same, found out by who asks first, from any thread, as `ties_of_tree` says.
+template <bvh_layout Tree, shape_view Shapes>
+known_below find_ties(kept_ties& kept, const Tree& tree, const Shapes& shapes, bool chains) {
+    const std::scoped_lock lock(kept.making);
+    if (kept.made == nullptr) {
+        const auto made = std::make_shared<ties_of_tree>();
+        made->find(tree, shapes, chains);
+        kept.made = made;
+        kept.is_known.store(true, std::memory_order_release);
+    }
+    return kept.made->known();
+}
+
 /// Counts the ties that walks of one call meet, from any threads.
 class tie_watch {
 public:
@@ -148,53 +165,68 @@ private:
     std::array<const std::uint32_t*, 2> least_ids_{};
 };
 
-/// The same of one tree, or of two: tree, shapes, tree, shapes.
-template <class... Looked>
-class ties_of : public tie_watch {
+/// The same of one tree.
+template <class Tree, class Shapes>
+class ties_of_one : public tie_watch {
 public:
     /// It is found out after a tie for each so many shapes. With chains of copies, where walks look for several shapes.
-    explicit ties_of(std::size_t shapes_a_tie, bool chains, const Looked&... looked)
-        : tie_watch((looked.size() + ...) / 2 / shapes_a_tie), looked_(looked...), chains_(chains) {}
+    ties_of_one(std::size_t shapes_a_tie, bool chains, kept_ties& kept, const Tree& tree, const Shapes& shapes)
+        : tie_watch(tree.size() / shapes_a_tie), tree_(tree), shapes_(shapes), chains_(chains), kept_(chains ? of_call_ : kept) {
+        if (kept_.is_known) know({known_of(kept_)});
+    }
 
 private:
-    both_known find() override {
-        trees_[0].find(std::get<0>(looked_), std::get<1>(looked_), chains_);
-        if constexpr (sizeof...(Looked) == 4) trees_[1].find(std::get<2>(looked_), std::get<3>(looked_), chains_);
-        return {trees_[0].known(), trees_[1].known()};
-    }
-    std::tuple<Looked...> looked_;
+    both_known find() final { return {find_ties(kept_, tree_, shapes_, chains_)}; }
+
+    Tree tree_;
+    Shapes shapes_;
     bool chains_;
-    std::array<ties_of_tree, 2> trees_;
+    kept_ties of_call_, &kept_;
+};
+/// Of two objects with `tree` and `shapes`, where these keep it.
+template <class A, class B>
+class ties_of_two : public tie_watch {
+public:
+    ties_of_two(kept_ties& of_a, const A& a, kept_ties& of_b, const B& b)
+        : tie_watch((a.tree.size() + b.tree.size()) / 128), of_a_(of_a), of_b_(of_b), a_(a), b_(b) {
+        if (of_a.is_known && of_b.is_known) know({known_of(of_a), known_of(of_b)});
+    }
+
+private:
+    both_known find() final {
+        return {find_ties(of_a_, a_.tree, a_.shapes, false), find_ties(of_b_, b_.tree, b_.shapes, false)};
+    }
+
+    kept_ties &of_a_, &of_b_;
+    const A& a_;
+    const B& b_;
 };
 
 /// What belongs to many trees, by the numbers of objects: anything with `tree` and `shapes`. Of each it is found out when
 /// somebody asks first, from any thread.
 class ties_of_objects {
 public:
-    explicit ties_of_objects(std::size_t objects, bool chains = false) : all_(objects), chains_(chains) {}
-
-    [[nodiscard]] bool is_known(std::size_t k) const { return all_[k].is_known.load(std::memory_order_acquire); }
-    /// Where it is known.
-    [[nodiscard]] known_below known(std::size_t k) const { return all_[k].ties.known(); }
-    template <class Object>
-    known_below find(std::size_t k, const Object& object) {
-        one& it = all_[k];
-        const std::scoped_lock lock(making_);
-        if (!is_known(k)) it.ties.find(object.tree, object.shapes, chains_);
-        it.is_known.store(true, std::memory_order_release);
-        return it.ties.known();
+    /// Of the trees of all objects, which keep it, but with chains.
+    template <class Index>
+    explicit ties_of_objects(const std::vector<Index>& trees, bool chains = false) : all_(trees.size()), chains_(chains) {
+        for (std::size_t k = 0; k < trees.size(); ++k) all_[k].kept = chains ? &all_[k].of_call : &trees[k].ties();
     }
+
+    [[nodiscard]] kept_ties& of(std::size_t k) { return *all_[k].kept; }
+    [[nodiscard]] known_below known(std::size_t k) const { return known_of(*all_[k].kept); }
+    [[nodiscard]] bool is_known(std::size_t k) const { return all_[k].kept->is_known.load(std::memory_order_acquire); }
+    template <class Object>
+    void find(std::size_t k, const Object& object) { find_ties(of(k), object.tree, object.shapes, chains_); }
     /// One more tie beyond a few of a walk, in object k.
     std::size_t count(std::size_t k) { return all_[k].met.fetch_add(1, std::memory_order_relaxed) + 1; }
 
 private:
     struct one {
         std::atomic<std::size_t> met{0};
-        std::atomic<bool> is_known{false};
-        ties_of_tree ties;
+        kept_ties of_call;
+        kept_ties* kept = nullptr;
     };
     std::vector<one> all_;
-    std::mutex making_;
     bool chains_;
 };
 /// Watches walks of one of them, the shapes of which go by keys from `first_key` on.
@@ -206,7 +238,7 @@ struct ties_of_body {
     const Object& object;
     std::uint64_t first_key;
 
-    [[nodiscard]] known_below known(std::size_t) const { return all.is_known(k) ? all.known(k) : known_below{}; }
+    [[nodiscard]] known_below known(std::size_t) const { return all.known(k); }
     [[nodiscard]] bool met() const {
         if (!all.is_known(k)) {
             if (all.count(k) < object.tree.size() / 16 + 64) return false;
@@ -215,23 +247,6 @@ struct ties_of_body {
         return true;
     }
     [[nodiscard]] std::uint64_t key_of(std::uint32_t id) const { return first_key + id; }
-};
-/// Watches a walk of two of them.
-template <class A, class B>
-class ties_of_two_objects : public tie_watch {
-public:
-    ties_of_two_objects(ties_of_objects& of_a, std::size_t k_a, const A& a, ties_of_objects& of_b, std::size_t k_b, const B& b)
-        : tie_watch((a.tree.size() + b.tree.size()) / 128), of_a_(of_a), of_b_(of_b), k_a_(k_a), k_b_(k_b), a_(a), b_(b) {
-        if (of_a.is_known(k_a) && of_b.is_known(k_b)) know(find());
-    }
-
-private:
-    both_known find() final { return {of_a_.find(k_a_, a_), of_b_.find(k_b_, b_)}; }
-
-    ties_of_objects &of_a_, &of_b_;
-    std::size_t k_a_, k_b_;
-    const A& a_;
-    const B& b_;
 };
 
 }  // namespace abut::detail
