@@ -36,6 +36,7 @@
 #include <abut/collide/self_pairs.hpp>
 #include <abut/collide/touching_bodies.hpp>
 #include <abut/collide/validate.hpp>
+#include <abut/collide/welded_near.hpp>
 #include <abut/collide/winding_number.hpp>
 #include <abut/collide/within.hpp>
 #include <abut/config.hpp>
