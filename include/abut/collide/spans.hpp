@@ -247,7 +247,7 @@ consteval bool have_spans() {
 ///
 /// Number and order are exact, for every finite input, with `filtered` as with `exact`, and all is the same on every policy.
 /// Places are the times that `raycast` tells, so that two that differ by less than rounding are equal numbers. `mesh` and
-/// `options` are as of `inside`; `rays` as of `raycast`, but no segments. A ray without a direction has no stretch. Segments
+/// `options` are as of `inside`, but for the rule; `rays` as of `raycast`, but no segments. A ray without a direction has no stretch. Segments
 /// and lists of bodies are not taken.
 ///
 /// @par Memory
@@ -277,7 +277,7 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Rays>
         const auto asked = lines.shapes();
         using line = typename std::remove_const_t<decltype(asked)>::shape_type;
         static_assert(std::same_as<line, ray<T>>, "abut::spans: expected rays, of the scalar type of the mesh");
-        detail::ask_inside<A> look{{}, function, bool(options.known_closed)};
+        const detail::ask_inside<A> look{{}, function, {.known_closed = options.known_closed, .check = options.check}};
         look.check(on, x, lines, nullptr);
         const auto both = detail::lines_that_want(x, lines, detail::no_ray_options{});
         const auto hits = detail::look_for_all_hits<A, hit_of_ray<T>>(on, both, detail::name_hit<hit_of_ray<T>>{});
