@@ -21,7 +21,7 @@
 #include "support/catch.hpp"
 #include "support/rational.hpp"
 
-namespace abut::test {
+namespace abut::test::mended {
 
 namespace {
 
@@ -180,11 +180,11 @@ TEMPLATE_TEST_CASE("welded by a distance: the rule over all vertices, in integer
     std::mt19937 random(54);
     std::size_t moved = 0;
     for (int round = 0; round < 60; ++round) {
-        const auto m = random_mesh<TestType>(random, 40 + round % 3 * 20, round % 4);
+        const auto m = random_mesh<TestType>(random, static_cast<std::size_t>(40 + round % 3 * 20), round % 4);
         for (const double share : {0.0, 1e-3, 0.1, 0.25, 0.5}) {
             double distance = share;
             if (round % 4 == 0) distance = share * 8;  // 0.8, 2 and 4 on a lattice: ties, and distances of the lattice
-            if (round % 4 == 2) distance = std::abs(static_cast<double>(m.vertices[round % 40].x)) * (share > 0.3 ? 1 : share);
+            if (round % 4 == 2) distance = std::abs(static_cast<double>(m.vertices[static_cast<std::size_t>(round % 40)].x)) * (share > 0.3 ? 1 : share);
             if (round % 4 == 3) distance = std::ldexp(share * 8, 1 - std::numeric_limits<TestType>::digits);
             CAPTURE(round, distance);
             check_weld(m, distance);
@@ -394,4 +394,4 @@ TEST_CASE("validate: measures of what is open, flat, wrong, large and small") {
     CHECK(validate(serial{}, view, {.measures = true}).measures->area == 6);
 }
 
-}  // namespace abut::test
+}  // namespace abut::test::mended

@@ -21,7 +21,7 @@
 
 #include "support/catch.hpp"
 
-namespace abut::test {
+namespace abut::test::stretches_of_rays {
 
 namespace {
 
@@ -304,4 +304,4 @@ TEST_CASE("spans: one through the poles of a sphere, none along a wall, two thro
     CHECK(spans(serial{}, m.made(), rays<double>({{{0, 0, 0}, {0, 0, 0}}})).empty());
 }
 
-}  // namespace abut::test
+}  // namespace abut::test::stretches_of_rays
