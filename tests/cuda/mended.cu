@@ -54,6 +54,6 @@ TEMPLATE_TEST_CASE("meshes as they come, and rays through them: cuda as serial",
     // Doubled, both ways.
     auto doubled = faces;
     for (const abut::face& f : faces) doubled.push_back({f[0], f[2], f[1]});
-    CHECK_THROWS_AS(inside(device, abut::mesh<T>(device, vertices, doubled), abut::points<T>(points), {.check = true}),
+    CHECK_THROWS_AS(inside(device, copy_to(device, abut::mesh<T>(vertices, doubled)), abut::points<T>(points), {.check = true}),
                     abut::invalid_geometry);
 }
