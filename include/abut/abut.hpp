@@ -38,8 +38,10 @@
 #include <abut/collide/relation.hpp>
 #include <abut/collide/row_each.hpp>
 #include <abut/collide/self_pairs.hpp>
+#include <abut/collide/spans.hpp>
 #include <abut/collide/touching_bodies.hpp>
 #include <abut/collide/validate.hpp>
+#include <abut/collide/welded_near.hpp>
 #include <abut/collide/winding_number.hpp>
 #include <abut/collide/within.hpp>
 #include <abut/config.hpp>

@@ -271,4 +271,19 @@ ABUT_HD constexpr T add_down(T a, T b) {
     return detail::is_zero(up) ? detail::plain_sum(a, b) : -up;  // so that an exact zero keeps the sign of a + b
 }
 
+namespace detail {
+
+/// A sum of many numbers, as if it had twice as many digits.
+struct long_sum {
+    double high = 0, low = 0;
+    ABUT_HD void add(double x) {
+        const error_free<double> s = two_sum(high, x);
+        high = s.value;
+        low = plain_sum(low, s.error);
+    }
+    [[nodiscard]] ABUT_HD double total() const { return plain_sum(high, low); }
+};
+
+}  // namespace detail
+
 }  // namespace abut

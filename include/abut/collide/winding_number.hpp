@@ -36,17 +36,6 @@ inline void check_tolerance(double tolerance, const char* function) {
     throw error(std::string(function) + ": tolerance is " + std::to_string(tolerance) + ", expected 0 or more, and finite");
 }
 
-/// A sum of many numbers, as if it had twice as many digits.
-struct long_sum {
-    double high = 0, low = 0;
-    ABUT_HD void add(double x) {
-        const error_free<double> s = two_sum(high, x);
-        high = s.value;
-        low = plain_sum(low, s.error);
-    }
-    [[nodiscard]] ABUT_HD double total() const { return plain_sum(high, low); }
-};
-
 /// All triangles, one after another.
 template <shape_view Shapes, shape_view Points>
 struct wind_around_all {

@@ -3,9 +3,12 @@
 
 // What `validate` (collide/validate.hpp) says of a mesh.
 
+#include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include <abut/arithmetic/vec.hpp>
 #include <abut/config.hpp>
 
 namespace abut {
@@ -44,6 +47,39 @@ struct coincident_vertex {
     friend auto operator<=>(const coincident_vertex&, const coincident_vertex&) = default;
 };
 
+/// Faces that are joined by edges of two faces.
+struct mesh_sheet {
+    std::uint32_t first_face;  ///< the lowest of them
+    std::uint32_t faces;       ///< how many they are
+    bool closed;               ///< each edge of each of them has two faces
+    bool oriented;             ///< no two of them run along an edge in the same direction
+    /// The sign of the volume that a closed, oriented sheet encloses, exactly: 1 where it faces outwards, -1 inwards. 0 of others.
+    int volume_sign;
+
+    friend bool operator==(const mesh_sheet&, const mesh_sheet&) = default;
+};
+
+/// What a mesh measures, and which way it faces. Faces that name a vertex twice, or one that does not exist, are of no sheet
+/// and measure nothing; nor do corners that are not finite.
+///
+/// Numbers are sums in double, the same bits on each policy. Let V be the sum over all faces of the products of three
+/// distances from the first corner of the first face to the corners, a distance being the sum of the coordinates'
+/// differences, and r the greatest such distance. The volume is off by less than 2^-50 V and a rounding, the center by less
+/// than 2^-46 r V / volume and roundings where that is below r / 4, the area by less than 2^-48 of the sum of products of two
+/// sides of each face. What is too large for a double is infinite.
+struct mesh_measures {
+    double area = 0;                ///< of all faces, each once
+    double volume = 0;              ///< below 0 of what faces inwards; 0 unless all sheets have a volume_sign
+    vec3<double> center_of_mass{};  ///< of what is enclosed; at 0 unless there is a volume
+    std::vector<mesh_sheet> sheets;   ///< by their first faces
+
+    /// Whether all sheets are closed and face outwards. A hollow of a solid should not.
+    [[nodiscard]] bool outward() const {
+        return !sheets.empty() && std::all_of(sheets.begin(), sheets.end(), [](const mesh_sheet& s) { return s.volume_sign > 0; });
+    }
+    friend bool operator==(const mesh_measures&, const mesh_measures&) = default;
+};
+
 /// What there is of a mesh and what is wrong with it, in host memory. Every list is complete and ascending.
 ///
 /// A face that names a vertex twice, or one that does not exist, spans no triangle. It is listed as such and then passed
@@ -79,6 +115,8 @@ struct mesh_report {
     std::vector<std::uint32_t> nonmanifold_vertices;
     /// All but the first of vertices in one place, unused ones too. -0.0 and 0.0 are one place; what is not finite is none.
     std::vector<coincident_vertex> coincident_vertices;
+
+    std::optional<mesh_measures> measures;  ///< where `validate_options` ask for it
 
     /// Every face is three edges and every edge two faces, so that E = 3F/2. A mesh without faces is not closed.
     [[nodiscard]] bool closed() const {
