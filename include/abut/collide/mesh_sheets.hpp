@@ -19,6 +19,7 @@
 #include <abut/collide/solid_surface.hpp>
 #include <abut/error.hpp>
 #include <abut/shape/copy_view.hpp>
+#include <abut/collide/keys.hpp>
 #include <abut/shape/half_edges.hpp>
 #include <abut/shape/mesh_report.hpp>
 
