@@ -209,7 +209,8 @@ private:
         places.reserve(3 * from_.size());
         for (std::uint32_t f = 0; f < from_.size(); ++f) {
             const triangle<double>& t = from_.face(f);
-            for (const vec3<double>& p : {t.a, t.b, t.c}) places.push_back({p, static_cast<std::uint32_t>(places.size())});
+            const vec3<double> all[] = {t.a, t.b, t.c};
+            for (const vec3<double>& p : all) places.push_back({p, static_cast<std::uint32_t>(places.size())});
         }
         std::sort(places.begin(), places.end(), [](const place& x, const place& y) {
             const vec3<double>&p = x.at, &q = y.at;
@@ -249,9 +250,8 @@ private:
             const auto& c = pieces[k].corners;
             const corner &ab = middles[3 * k], &bc = middles[3 * k + 1], &ca = middles[3 * k + 2];
             const int level = pieces[k].level + 1;
-            for (const auto& part : {std::array{c[0], ab, ca}, std::array{ab, c[1], bc}, std::array{ca, bc, c[2]}, std::array{ab, bc, ca}}) {
-                add(part, pieces[k].near, pieces[k].face, level);
-            }
+            const std::array<corner, 3> parts[] = {{c[0], ab, ca}, {ab, c[1], bc}, {ca, bc, c[2]}, {ab, bc, ca}};
+            for (const auto& part : parts) add(part, pieces[k].near, pieces[k].face, level);
         }
     }
     /// `near` is a face of the other surface that may be near all of the piece.
@@ -319,9 +319,10 @@ public:
     template <scalar T>
     void see(const std::vector<triangle<T>>& faces) {
         for (const triangle<T>& t : faces) {
-            for (const vec3<T>& p : {t.a, t.b, t.c}) {
+            const vec3<T> corners[] = {t.a, t.b, t.c};
+            for (const vec3<T>& p : corners) {
                 const vec3<double> q = widened(p);
-                for (const double x : {q.x, q.y, q.z}) largest_ = std::max(largest_, std::fabs(x));
+                largest_ = std::max({largest_, std::fabs(q.x), std::fabs(q.y), std::fabs(q.z)});
                 box_ = merge(box_, aabb<double>{q, q});
             }
         }

@@ -155,7 +155,8 @@ mesh_measures measures_of(const mesh_view<T, host_space>& mesh) {
     for (std::size_t f = 0; f < mesh.size(); ++f) {
         if (!counts(f)) continue;
         const triangle<T> t = mesh[f];
-        for (const vec3<T>& p : {t.a, t.b, t.c}) {
+        const vec3<T> corners[] = {t.a, t.b, t.c};
+        for (const vec3<T>& p : corners) {
             most = greatest(most, greatest(static_cast<double>(absolute(p.x)), static_cast<double>(absolute(p.y)), static_cast<double>(absolute(p.z))));
         }
     }

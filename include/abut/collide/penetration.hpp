@@ -122,7 +122,8 @@ private:
     [[nodiscard]] double reach(const std::vector<triangle<T>>& faces, const vec3<double>& u) const {
         double most = -infinity<double>;
         for (const triangle<T>& t : faces) {
-            for (const vec3<T>& p : {t.a, t.b, t.c}) most = std::max(most, dot(u, unit_.bring(widened(p))));
+            const vec3<T> corners[] = {t.a, t.b, t.c};
+            for (const vec3<T>& p : corners) most = std::max(most, dot(u, unit_.bring(widened(p))));
         }
         return most;
     }
@@ -206,15 +207,10 @@ template <execution_policy Policy, class X, class Y>
         };
         detail::separating_move<Policy, T> move(on, of_a, of_b, parts_of(a), parts_of(b), unit);
         std::vector<vec3<double>> ways{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-        const auto middle = [&](const auto& faces) {
-            aabb<double> box = empty_box<double>();
-            for (const auto& t : faces) {
-                for (const auto& p : {t.a, t.b, t.c}) {
-                    const vec3<double> q = unit.bring(detail::widened(p));
-                    box = merge(box, aabb<double>{q, q});
-                }
-            }
-            return 0.5 * (box.lower + box.upper);
+        const auto middle = [&](const std::vector<triangle<T>>& faces) {
+            aabb<T> box = empty_box<T>();
+            for (const triangle<T>& t : faces) box = merge(box, bounds(t));
+            return 0.5 * (unit.bring(detail::widened(box.lower)) + unit.bring(detail::widened(box.upper)));
         };
         ways.push_back(middle(of_a) - middle(of_b));
         if (deepest_a.face != no_id) ways.push_back(deepest_a.nearest - deepest_a.point);

@@ -188,7 +188,8 @@ private:
     }
     static int lowest_of(std::initializer_list<vec3<T>> places, int lowest = 1 << 20) {
         for (const vec3<T>& p : places) {
-            for (const T x : {p.x, p.y, p.z}) lowest = is_zero(x) ? lowest : std::min(lowest, take_apart(x).exponent);
+            const T all[] = {p.x, p.y, p.z};
+            for (const T x : all) lowest = is_zero(x) ? lowest : std::min(lowest, take_apart(x).exponent);
         }
         return lowest;
     }

@@ -55,7 +55,8 @@ template <scalar T>
 bool is_nearer(const vec3<T>& p, const vec3<T>& a, const vec3<T>& b) {
     int lowest = 0;
     bool any = false;
-    for (const T x : {p.x, p.y, p.z, a.x, a.y, a.z, b.x, b.y, b.z}) {
+    const T all[] = {p.x, p.y, p.z, a.x, a.y, a.z, b.x, b.y, b.z};
+    for (const T x : all) {
         if (is_zero(x)) continue;
         const int e = take_apart(x).exponent;
         lowest = any ? std::min(lowest, e) : e;

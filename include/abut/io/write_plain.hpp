@@ -39,7 +39,8 @@ void check_corners(const std::string& file, const mesh_view<T>& mesh) {
 /// The three coordinates with a blank before each, in the fewest digits that give them back.
 template <scalar T>
 void write_position(output_file& file, const vec3<T>& p, bool blank_first) {
-    for (const T x : {p.x, p.y, p.z}) {
+    const T all[] = {p.x, p.y, p.z};
+    for (const T x : all) {
         std::array<char, 32> text;
         if (blank_first) file.write(' ');
         blank_first = true;
@@ -66,7 +67,9 @@ void write_stl(const std::filesystem::path& path, const mesh_view<T>& mesh) {
     const std::string name = path.string();
     detail::check_corners(name, mesh);
     for (std::size_t v = 0; v < mesh.vertices.count; ++v) {
-        for (const T x : {mesh.vertices[v].x, mesh.vertices[v].y, mesh.vertices[v].z}) {
+        const vec3<T> p = mesh.vertices[v];
+        const T all[] = {p.x, p.y, p.z};
+        for (const T x : all) {
             if (std::isfinite(static_cast<float>(x))) continue;
             throw io_error(name, "expected coordinates that float can hold, found " +
                                      abut::detail::shortest(static_cast<double>(x)) + " in vertex " + std::to_string(v));
