@@ -494,22 +494,23 @@ ABUT_NOINLINE ABUT_HD constexpr auto late_separation_of(const S& s, const U& t, 
 }
 
 /// Two shapes of which it is not known whether they touch. What closed forms say of shapes apart is part of the caller: shapes
-/// that it has placed and the answer need not go through memory.
+/// that it has placed and the answer need not go through memory. Nor does what the form knows of points and axes.
 template <class S, class U>
 ABUT_INLINE ABUT_HD constexpr auto separation_of(const S& s, const U& t) {
     if constexpr (!contact_pair<S, U> && is_measured_plainly<U, S>) {
         return reversed(separation_of(t, s));
-    } else {
-        if constexpr (is_measured_plainly<S, U>) {
-            const plain_pair<S, U> first(s, t);
-            if (first.touch() == verdict::no) return plain_separation(s, t, first);
-            // Copies, so that what is above need not lie in memory.
-            const plain_pair<S, U> known = first;
+    } else if constexpr (is_measured_plainly<S, U>) {
+        const plain_pair<S, U> first(s, t);
+        if (first.touch() == verdict::no) return plain_separation(s, t, first);
+        if constexpr (requires { first.cores; }) {
+            const plain_pair<S, U> known = first;  // copies, so that what is above need not lie in memory
             const auto late = late_separation_of(s, t, known);
             return separation<scalar_type_of<S>>{late.a, late.b, late.point_a, late.point_b, late.distance};
         } else {
-            return separation_if_not_apart(s, t, no_plain_pair{});
+            return separation_if_not_apart(s, t, first);
         }
+    } else {
+        return separation_if_not_apart(s, t, no_plain_pair{});
     }
 }
 
