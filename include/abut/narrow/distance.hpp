@@ -488,10 +488,17 @@ ABUT_HD constexpr auto separation_if_not_apart(const S& s, const U& t, [[maybe_u
     }
 }
 
+/// The same, out of its callers: with the closed form, or with what it takes to look again.
+///@{
 template <class S, class U>
 ABUT_NOINLINE ABUT_HD constexpr auto late_separation_of(const S& s, const U& t, const plain_pair<S, U>& first) {
     return separation_if_not_apart(s, t, first);
 }
+template <class S, class U>
+ABUT_NOINLINE ABUT_HD constexpr auto late_separation_of(const S& s, const U& t) {
+    return separation_if_not_apart(s, t, plain_pair<S, U>(s, t));
+}
+///@}
 
 /// Two shapes of which it is not known whether they touch. What closed forms say of shapes apart is part of the caller: shapes
 /// that it has placed and the answer need not go through memory. Nor does what the form knows of points and axes.
@@ -502,12 +509,16 @@ ABUT_INLINE ABUT_HD constexpr auto separation_of(const S& s, const U& t) {
     } else if constexpr (is_measured_plainly<S, U>) {
         const plain_pair<S, U> first(s, t);
         if (first.touch() == verdict::no) return plain_separation(s, t, first);
-        if constexpr (requires { first.cores; }) {
-            const plain_pair<S, U> known = first;  // copies, so that what is above need not lie in memory
+        // Copies, so that what is above need not lie in memory. To look again is sooner done, but for two axes.
+        if constexpr (!requires { first.cores; }) {
+            return separation_if_not_apart(s, t, first);
+        } else if constexpr (corners_of_core<S> == 2) {
+            const plain_pair<S, U> known = first;
             const auto late = late_separation_of(s, t, known);
             return separation<scalar_type_of<S>>{late.a, late.b, late.point_a, late.point_b, late.distance};
         } else {
-            return separation_if_not_apart(s, t, first);
+            const auto late = late_separation_of(s, t);
+            return separation<scalar_type_of<S>>{late.a, late.b, late.point_a, late.point_b, late.distance};
         }
     } else {
         return separation_if_not_apart(s, t, no_plain_pair{});
