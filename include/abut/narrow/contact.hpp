@@ -128,7 +128,8 @@ template <arithmetic A = filtered, class S, class U>
 [[nodiscard]] ABUT_INLINE ABUT_HD constexpr auto contact_of(const S& s, const U& t) {
     using found = decltype(detail::contact_in_any_order(s, t));
     using T = decltype(found::depth);
-    const auto &a = detail::as_stored(s), &b = detail::as_stored(t);
+    const auto& a = detail::as_stored(s);
+    const auto& b = detail::as_stored(t);
     if constexpr (std::same_as<A, filtered> && detail::has_early_contact<S, U>) {
         const auto first = detail::first_contact_in_any_order<T>(a, b);
         if (first.touch == verdict::no) return optional_contact<T>();

@@ -449,8 +449,8 @@ struct no_plain_pair {};
 template <class S, class U>
 ABUT_HD constexpr auto separation_of(const S& s, const U& t);
 
-/// The same where the closed form, `first`, does not say that they are apart. Of hulls the search for the distance mostly tells that
-/// too; a device asks both, which is less code.
+/// The same where the closed form, `first`, does not say that they are apart. Of hulls the search for the distance mostly
+/// tells that too; a device asks both, which is less code.
 template <class S, class U, class First>
 ABUT_HD constexpr auto separation_if_not_apart(const S& s, const U& t, [[maybe_unused]] const First& first) {
     using T = scalar_type_of<S>;
