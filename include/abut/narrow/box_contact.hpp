@@ -91,7 +91,7 @@ namespace abut::detail {
 /// along an axis.
 template <scalar T, class U>
     requires(has_radius<U> && corners_of_core<U> == 1 && has_plain_pair<aabb<T>, U>)
-ABUT_INLINE ABUT_HD constexpr first_contact<T> first_contact_of(const aabb<T>& s, const U& t,
+ABUT_NOINLINE ABUT_HD constexpr first_contact<T> first_contact_of(const aabb<T>& s, const U& t,
                                                                   const plain_pair<aabb<T>, U>& both) {
     using namespace contact_math;
     first_contact<T> answer{both.touch()};

@@ -66,6 +66,11 @@ template <class S, class U>
 concept has_first_contact =
     contact_pair<S, U> && requires(const S& s, const U& t) { first_contact_of(s, t, plain_pair<S, U>(s, t)); };
 
+/// The same of what is decided about both, in either order.
+template <class S, class U>
+concept has_early_contact = has_first_contact<hull_form_of<S>, hull_form_of<U>> ||
+                            (!contact_pair<S, U> && has_first_contact<hull_form_of<U>, hull_form_of<S>>);
+
 /// In either order.
 template <class S, class U>
 ABUT_HD constexpr auto contact_in_any_order(const S& s, const U& t) {
@@ -123,14 +128,19 @@ template <arithmetic A = filtered, class S, class U>
 [[nodiscard]] ABUT_INLINE ABUT_HD constexpr auto contact_of(const S& s, const U& t) {
     using found = decltype(detail::contact_in_any_order(s, t));
     using T = decltype(found::depth);
-    if constexpr (std::same_as<A, filtered>) {
-        const auto first = detail::first_contact_in_any_order<T>(detail::as_stored(s), detail::as_stored(t));
+    const auto& a = detail::as_stored(s);
+    const auto& b = detail::as_stored(t);
+    if constexpr (std::same_as<A, filtered> && detail::has_early_contact<S, U>) {
+        const auto first = detail::first_contact_in_any_order<T>(a, b);
         if (first.touch == verdict::no) return optional_contact<T>();
         if (first.touch == verdict::yes) return optional_contact<T>(first.found);
+        const optional_contact<T> late = detail::contact_by_stages<A, T>(a, b);
+        if (!late) return optional_contact<T>();
+        return optional_contact<T>(*late);  // a copy, so that the answer above need not lie in memory
+    } else {
+        if (!intersects<A>(s, t)) return optional_contact<T>();
+        return optional_contact<T>(detail::contact_in_any_order(a, b));
     }
-    const optional_contact<T> late = detail::contact_by_stages<A, T>(detail::as_stored(s), detail::as_stored(t));
-    if (!late) return optional_contact<T>();
-    return optional_contact<T>(*late);  // a copy, so that the answer above need not lie in memory
 }
 
 }  // namespace abut

@@ -443,17 +443,19 @@ template <class S, class U>
     requires(contact_pair<S, U> && has_plain_pair<S, U>)
 inline constexpr bool is_measured_plainly<S, U> = !std::same_as<S, aabb<scalar_type_of<S>>> || has_radius<U>;
 
+/// Where the closed form is not looked at first.
+struct no_plain_pair {};
+
 template <class S, class U>
 ABUT_HD constexpr auto separation_of(const S& s, const U& t);
 
-/// The same where the closed form does not say that they are apart. Of hulls the search for the distance mostly tells that
-/// too; a device asks both, which is less code.
-template <class S, class U>
-ABUT_HD constexpr auto separation_if_not_apart(const S& s, const U& t) {
+/// The same where the closed form, `first`, does not say that they are apart. Of hulls the search for the distance mostly
+/// tells that too; a device asks both, which is less code.
+template <class S, class U, class First>
+ABUT_HD constexpr auto separation_if_not_apart(const S& s, const U& t, [[maybe_unused]] const First& first) {
     using T = scalar_type_of<S>;
     constexpr bool on_device = ABUT_DEVICE_CODE != 0;
     if constexpr (is_measured_plainly<S, U>) {
-        const plain_pair<S, U> first(s, t);
         if constexpr (has_first_contact<S, U>) {
             const auto found = first_contact_of(s, t, first);
             if (found.touch == verdict::yes) return separation<T>{0, 0, found.found.point, found.found.point, T(0)};
@@ -486,27 +488,40 @@ ABUT_HD constexpr auto separation_if_not_apart(const S& s, const U& t) {
     }
 }
 
+/// The same, out of its callers: with the closed form, or with what it takes to look again.
+///@{
+template <class S, class U>
+ABUT_NOINLINE ABUT_HD constexpr auto late_separation_of(const S& s, const U& t, const plain_pair<S, U>& first) {
+    return separation_if_not_apart(s, t, first);
+}
 template <class S, class U>
 ABUT_NOINLINE ABUT_HD constexpr auto late_separation_of(const S& s, const U& t) {
-    return separation_if_not_apart(s, t);
+    return separation_if_not_apart(s, t, plain_pair<S, U>(s, t));
 }
+///@}
 
 /// Two shapes of which it is not known whether they touch. What closed forms say of shapes apart is part of the caller: shapes
-/// that it has placed and the answer need not go through memory.
+/// that it has placed and the answer need not go through memory. Nor does what the form knows of points and axes.
 template <class S, class U>
 ABUT_INLINE ABUT_HD constexpr auto separation_of(const S& s, const U& t) {
     if constexpr (!contact_pair<S, U> && is_measured_plainly<U, S>) {
         return reversed(separation_of(t, s));
-    } else {
-        if constexpr (is_measured_plainly<S, U>) {
-            const plain_pair<S, U> first(s, t);
-            if (first.touch() == verdict::no) return plain_separation(s, t, first);
-            const auto late = late_separation_of(s, t);
-            // A copy, so that the answer above need not lie in memory.
+    } else if constexpr (is_measured_plainly<S, U>) {
+        const plain_pair<S, U> first(s, t);
+        if (first.touch() == verdict::no) return plain_separation(s, t, first);
+        // Copies, so that what is above need not lie in memory. To look again is sooner done, but for two axes.
+        if constexpr (!requires { first.cores; }) {
+            return separation_if_not_apart(s, t, first);
+        } else if constexpr (corners_of_core<S> == 2) {
+            const plain_pair<S, U> known = first;
+            const auto late = late_separation_of(s, t, known);
             return separation<scalar_type_of<S>>{late.a, late.b, late.point_a, late.point_b, late.distance};
         } else {
-            return separation_if_not_apart(s, t);
+            const auto late = late_separation_of(s, t);
+            return separation<scalar_type_of<S>>{late.a, late.b, late.point_a, late.point_b, late.distance};
         }
+    } else {
+        return separation_if_not_apart(s, t, no_plain_pair{});
     }
 }
 
