@@ -68,13 +68,13 @@ void check_mixed_list(const Policy& on) {
     std::vector<entry> list;
     for (int k = 0; k < 60; ++k) {
         switch (random.below(4)) {  // nothing is of the last kind but for one
-            case 0: list.emplace_back(std::in_place_index<0>, posed(of_balls, pose()), posed(of_faces, pose())); break;
-            case 1: list.emplace_back(std::in_place_index<1>, posed(of_crates, pose()), posed(of_faces, pose())); break;
-            case 2: list.emplace_back(std::in_place_index<2>, posed(of_faces, pose()), posed(of_faces, pose())); break;
-            default: list.emplace_back(std::in_place_index<3>, posed(of_pills, pose()), posed(of_balls, pose())); break;
+            case 0: list.emplace_back(std::in_place_index<0>, std::variant_alternative_t<0, entry>{posed(of_balls, pose()), posed(of_faces, pose())}); break;
+            case 1: list.emplace_back(std::in_place_index<1>, std::variant_alternative_t<1, entry>{posed(of_crates, pose()), posed(of_faces, pose())}); break;
+            case 2: list.emplace_back(std::in_place_index<2>, std::variant_alternative_t<2, entry>{posed(of_faces, pose()), posed(of_faces, pose())}); break;
+            default: list.emplace_back(std::in_place_index<3>, std::variant_alternative_t<3, entry>{posed(of_pills, pose()), posed(of_balls, pose())}); break;
         }
     }
-    list.emplace_back(std::in_place_index<4>, posed(of_faces, pose()), posed(of_faces, pose()));
+    list.emplace_back(std::in_place_index<4>, std::variant_alternative_t<4, entry>{posed(of_faces, pose()), posed(of_faces, pose())});
 
     const auto odd = [](const tagged_pair& of) { return (of.pair + of.a + of.b) % 2 == 1; };
     const list_options<decltype(odd)> of_odd{.filter = odd};

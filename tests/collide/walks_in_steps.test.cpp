@@ -63,7 +63,7 @@ void check_steps(const Index& index, const Lines& lines, const shapes<vec3<T>>& 
     std::vector<containment> where(n);
     const detail::walk_upward<filtered, containment, std::remove_const_t<decltype(walk)>, std::remove_const_t<decltype(frame)>,
                               std::remove_const_t<decltype(there)>, std::remove_const_t<decltype(points)>>
-        upward{walk, frame, there, points, where.data()};
+        upward{walk, frame, there, points, inside_rule::parity, where.data()};
     in_both_ways(upward, until, [&] {
         auto found = where;
         where.assign(n, containment::on_surface);
