@@ -116,6 +116,14 @@ public:
     /// A vertex of a part.
     [[nodiscard]] const vec3<T>& vertex_of_part(id part) const { return faces_[first_face_of_part_[part]].corners.a; }
 
+    /// Whether a face looks into the solid.
+    [[nodiscard]] bool is_turned(id f) const { return is_turned_[part_[f]] != 0; }
+    /// One more than the largest number of a vertex.
+    [[nodiscard]] std::size_t vertex_numbers() const { return first_at_.size() - 1; }
+    /// Where a vertex is that a face has.
+    [[nodiscard]] const vec3<T>& vertex(id v) const { return end_of(at_[first_at_[v]]); }
+    [[nodiscard]] bool is_used(id v) const { return first_at_[v] < first_at_[v + 1]; }
+
     /// The solid near a point that lies in a vertex, on an edge or in a face of which this is a place in face f.
     [[nodiscard]] solid_cone<T> cone_at(id f, place_in_triangle in) const {
         solid_cone<T> cone;

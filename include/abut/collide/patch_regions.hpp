@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Which crossings of two solids belong together: those that a connected part of a surface joins within the other solid. By
+// names of points and by edges that nothing crosses. What is said of each region is in collide/contact_patches.hpp.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <abut/collide/curves.hpp>
+#include <abut/collide/relation.hpp>
+#include <abut/collide/solid_surface.hpp>
+#include <abut/narrow/numbers.hpp>
+
+namespace abut::detail {
+
+/// Sets of numbers that are joined.
+class disjoint_sets {
+public:
+    using id = std::uint32_t;
+    explicit disjoint_sets(std::size_t n) : of_(n) { std::iota(of_.begin(), of_.end(), id{0}); }
+    /// The least of a set.
+    [[nodiscard]] id find(id x) {
+        while (of_[x] != x) x = of_[x] = of_[of_[x]];
+        return x;
+    }
+    void join(id x, id y) {
+        x = find(x), y = find(y);
+        of_[std::max(x, y)] = std::min(x, y);
+    }
+
+private:
+    std::vector<id> of_;
+};
+
+/// A vertex of a surface is within the other solid as all are that edges lead to which do not meet its surface: that is known of
+/// all of them by one. Points on an edge are joined if what of the edge is between them is within. The points' order there, and
+/// the middle of two that nothing else joins, are rounded.
+template <scalar T>
+class patch_regions {
+public:
+    using id = std::uint32_t;
+    static constexpr id none = static_cast<id>(-1);
+
+    patch_regions(const joined_curves<T>& all, const solid_on_host<T>& a, const solid_on_host<T>& b)
+        : all_(all), first_vertex_{static_cast<id>(all.names().size()),
+                                   static_cast<id>(all.names().size() + a.surface().vertex_numbers())},
+          sets_(all.names().size() + a.surface().vertex_numbers() + b.surface().vertex_numbers()) {
+        for (const auto& s : all.sides()) sets_.join(s.from, s.to);
+        look_at(0, a.surface(), b);
+        look_at(1, b.surface(), a);
+        number_regions();
+    }
+    [[nodiscard]] std::size_t size() const { return count_; }
+    /// Of a point.
+    [[nodiscard]] id region_of(id point) { return number_[sets_.find(point)]; }
+    /// Of a vertex of one of the surfaces, 0 or 1: none if it is not within the other solid, or no region has it.
+    [[nodiscard]] id region_of_vertex(int which, id v) {
+        const id root = sets_.find(first_vertex_[which] + v);
+        return root < first_vertex_[0] ? number_[root] : none;
+    }
+
+private:
+    using edge = std::array<id, 2>;
+    struct edge_point {
+        edge of;
+        double along;
+        id point;
+        friend bool operator<(const edge_point& x, const edge_point& y) {
+            return x.of != y.of ? x.of < y.of : x.along != y.along ? x.along < y.along : x.point < y.point;
+        }
+    };
+
+    void look_at(int which, const solid_surface<T>& surface, const solid_on_host<T>& other) {
+        const id first = first_vertex_[which];
+        std::vector<id> at(surface.vertex_numbers(), none);  // the points that vertices are
+        std::vector<edge_point> on_edges;
+        for (id p = 0; p < all_.names().size(); ++p) {
+            const mesh_feature f = all_.names()[p][static_cast<std::size_t>(which)];
+            if (f.part == mesh_part::at_vertex) at[f.first] = p;
+            if (f.part != mesh_part::on_edge) continue;
+            using namespace contact_math;
+            const auto from = widened(surface.vertex(f.first));
+            const auto way = plain_difference(widened(surface.vertex(f.second)), from);
+            on_edges.push_back({{f.first, f.second}, plain_dot(way, plain_difference(widened(all_.points()[p]), from)), p});
+        }
+        std::sort(on_edges.begin(), on_edges.end());
+        // Each edge once, as the face has it that goes from the lesser vertex to the greater one.
+        std::vector<edge> cut;
+        for (id f = 0; f < surface.size(); ++f) {
+            for (int k = 0; k < 3; ++k) {
+                const id u = surface.faces()[f].vertex[k], v = surface.faces()[f].vertex[(k + 1) % 3];
+                if (u > v) continue;
+                const auto [begin, end] = points_on({u, v}, on_edges);
+                if (begin == end && at[u] == none && at[v] == none) {
+                    sets_.join(first + u, first + v);
+                } else {
+                    cut.push_back({u, v});
+                }
+            }
+        }
+        const std::vector<char> is_within = which_are_within(first, cut, at, surface, other);
+        const auto joins = [&](id v) { return at[v] == none && is_within[sets_.find(first + v) - first] != 0; };
+        // All are asked for before any is joined to a point, which would change what `find` says.
+        std::vector<edge> joined, between;
+        for (const edge& e : cut) {
+            const auto [begin, end] = points_on(e, on_edges);
+            id last = at[e[0]];
+            if (joins(e[0])) joined.push_back({first + e[0], begin != end ? begin->point : at[e[1]]});
+            for (auto i = begin; i != end; ++i) {
+                if (last != none) between.push_back({last, i->point});
+                last = i->point;
+            }
+            if (joins(e[1])) joined.push_back({first + e[1], last});
+            if (at[e[1]] != none && last != none) between.push_back({last, at[e[1]]});
+        }
+        for (const edge& e : joined) sets_.join(e[0], e[1]);
+        std::erase_if(between, [&](const edge& e) { return sets_.find(e[0]) == sets_.find(e[1]); });
+        if (between.empty()) return;
+        std::vector<vec3<T>> middles;
+        for (const edge& e : between) middles.push_back(middle(all_.points()[e[0]], all_.points()[e[1]]));
+        const std::vector<bool> are = other.have_inside(std::move(middles));
+        for (std::size_t i = 0; i < are.size(); ++i) {
+            if (are[i]) sets_.join(between[i][0], between[i][1]);
+        }
+    }
+
+    static auto points_on(const edge& e, const std::vector<edge_point>& all) {
+        const auto begin = std::lower_bound(all.begin(), all.end(), e, [](const edge_point& p, const edge& of) { return p.of < of; });
+        auto end = begin;
+        while (end != all.end() && end->of == e) ++end;
+        return std::pair(begin, end);
+    }
+    /// Of sets of vertices at edges that the other surface meets, by their least vertices: whether they are within.
+    std::vector<char> which_are_within(id first, const std::vector<edge>& cut, const std::vector<id>& at, const solid_surface<T>& surface,
+                                       const solid_on_host<T>& other) {
+        std::vector<char> is_within(at.size(), 0), is_asked(at.size(), 0);
+        std::vector<id> roots;
+        std::vector<vec3<T>> vertices;
+        for (const edge& e : cut) {
+            for (const id v : e) {
+                if (at[v] != none) continue;
+                const id root = sets_.find(first + v) - first;
+                if (std::exchange(is_asked[root], 1) != 0) continue;
+                roots.push_back(root);
+                vertices.push_back(surface.vertex(root));
+            }
+        }
+        if (roots.empty()) return is_within;
+        const std::vector<bool> are = other.have_inside(std::move(vertices));
+        for (std::size_t i = 0; i < roots.size(); ++i) is_within[roots[i]] = are[i];
+        return is_within;
+    }
+    static vec3<T> middle(const vec3<T>& p, const vec3<T>& q) {
+        return {p.x / 2 + q.x / 2, p.y / 2 + q.y / 2, p.z / 2 + q.z / 2};
+    }
+
+    void number_regions() {
+        number_.assign(first_vertex_[0], none);
+        for (id p = 0; p < first_vertex_[0]; ++p) {
+            if (sets_.find(p) == p) number_[p] = static_cast<id>(count_++);
+        }
+    }
+
+    const joined_curves<T>& all_;
+    id first_vertex_[2];  ///< points come first, then vertices of the first surface, and of the second one
+    disjoint_sets sets_;
+    std::vector<id> number_;  ///< of the least point of each region
+    std::size_t count_ = 0;
+};
+
+}  // namespace abut::detail
