@@ -49,7 +49,8 @@ struct contact_patch {
     vec3<T> normal;                       ///< from b to a, of length 1; or 0 where no side is the right one
     T area;                               ///< of the region as seen along the normal
     T depth;                              ///< from the lowest point of a to the highest of b in the region, along the normal
-    vec3<T> deepest_a;                    ///< the lowest point of a's surface in b; the middle of several
+    vec3<T> deepest_a;                    ///< the lowest point of a's surface in b; the middle of those within 2^-20 of
+                                          ///< the region's size
     vec3<T> deepest_b;                    ///< the highest point of b's surface in a
     std::vector<patch_point<T>> points;   ///< corners, as they lie around the normal
 };
@@ -79,7 +80,13 @@ public:
     std::vector<curve<T>> curves;
     std::vector<border> borders;
     std::vector<vec3<T>> points, vertices_a, vertices_b;  ///< of both surfaces; of a's in b; of b's in a
-    std::vector<std::pair<triangle<T>, double>> faces;    ///< with 1 where they look to a
+    /// A face, 1 where it looks to a, else -1, and what of it the region has: a segment, or a point twice.
+    struct face {
+        triangle<T> corners;
+        double way;
+        vec3<T> from, to;
+    };
+    std::vector<face> faces;
 
     contact_patch<T> measured(std::size_t most_points) {
         contact_patch<T> p{};
@@ -101,7 +108,7 @@ public:
         // one whose parts cancel, the normal says nothing.
         const N unsure = length * N{largest_} * N{sizeof(T) == 4 ? 0x1p-20 : 0x1p-48} + of_sizes * N{0x1p-12};
         const bool is_area = unsure < area;
-        const point normal = is_area ? unit_vector(vec{-sum.x, -sum.y, -sum.z}) : normal_of_faces();
+        const point normal = is_area ? unit_vector(vec{-sum.x, -sum.y, -sum.z}) : normal_of_faces(length.high > 0);
         const vec n = contact_math::as<N>(normal);
         vec center = middle;
         if (is_area) {
@@ -164,11 +171,13 @@ private:
         }
         return {sum.x / total, sum.y / total, sum.z / total};
     }
-    /// Between the faces of b, and against those of a.
-    [[nodiscard]] point normal_of_faces() const {
+    /// Of the faces of b, and against those of a: by the lengths of their segments, if there are some.
+    [[nodiscard]] point normal_of_faces(bool by_length) const {
         vec sum{};
-        for (const auto& [t, way] : faces) {
-            sum = sum + N{way} * contact_math::as<N>(unit_normal_of(t));
+        for (const face& f : faces) {
+            const vec way = local(f.to) - local(f.from);
+            const N weight = by_length ? root(dot(way, way)) : N{1};
+            sum = sum + weight * N{f.way} * contact_math::as<N>(unit_normal_of(f.corners));
         }
         return dot(sum, sum).high > 0x1p-20 ? unit_vector(sum) : point{};
     }
@@ -176,15 +185,15 @@ private:
     void find_depth(const vec& n, contact_patch<T>& p) const {
         const auto farthest = [&](const std::vector<vec3<T>>& more, double way, vec& at) {
             double most = -infinity<double>;
+            for (const auto* all : {&points, &more}) {
+                for (const vec3<T>& q : *all) most = std::max(most, way * dot(local(q), n).high);
+            }
             vec sum{};
             double count = 0;
             for (const auto* all : {&points, &more}) {
                 for (const vec3<T>& q : *all) {
                     const vec here = local(q);
-                    const double height = way * dot(here, n).high;
-                    if (height < most) continue;
-                    if (height > most) sum = {}, count = 0;
-                    most = height;
+                    if (way * dot(here, n).high < (N{most} - N{0x1p-20}).high) continue;
                     sum = sum + here;
                     ++count;
                 }
@@ -285,8 +294,9 @@ std::vector<contact_patch<T>> patches_of(const solid_on_host<T>& a, const solid_
     for (const crossing<T>& c : contacts) {
         if (c.count == 0 || c.count > 6) continue;
         auto& faces = found[regions.region_of(all.point_of(joined_curves<T>::name_of(c, 0)))].faces;
-        faces.push_back({of_a.face(c.a), of_a.is_turned(c.a) ? 1 : -1});
-        faces.push_back({of_b.face(c.b), of_b.is_turned(c.b) ? -1 : 1});
+        const vec3<T>& to = c.points[c.count == 1 ? 0 : 1];
+        faces.push_back({of_a.face(c.a), of_a.is_turned(c.a) ? 1.0 : -1.0, c.points[0], to});
+        faces.push_back({of_b.face(c.b), of_b.is_turned(c.b) ? -1.0 : 1.0, c.points[0], to});
     }
     for (auto& line : all.take()) {
         auto& to = found[regions.region_of(all.point_of({line.features_a[0], line.features_b[0]}))].curves;
