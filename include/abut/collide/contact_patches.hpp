@@ -57,14 +57,6 @@ struct contact_patch {
 
 namespace detail {
 
-template <scalar T>
-contact_math::point unit_normal_of(const triangle<T>& t) {
-    using namespace contact_math;
-    const auto u = brought_to_one(contact_math::between<two_doubles>(widened(t.a), widened(t.b))),
-               v = brought_to_one(contact_math::between<two_doubles>(widened(t.a), widened(t.c)));
-    return unit_vector(accurate_cross(u, v));
-}
-
 /// What is said of one region.
 template <scalar T>
 class patch_of_region {
@@ -72,7 +64,7 @@ public:
     using N = contact_math::one_double;
     using vec = vec3<N>;
 
-    /// A segment that bounds the region, and how often: 1 or -1 as it runs, 1/2 where both solids are on one side of a plane.
+    /// A segment, and how often it bounds the region (`border_weight`).
     struct border {
         vec3<T> from, to;
         double weight;
@@ -275,21 +267,9 @@ std::vector<contact_patch<T>> patches_of(const solid_on_host<T>& a, const solid_
     const solid_surface<T>&of_a = a.surface(), &of_b = b.surface();
     add_vertices(0, of_a, &patch_of_region<T>::vertices_a);
     add_vertices(1, of_b, &patch_of_region<T>::vertices_b);
+    const border_weight<T> weight(all, of_a, of_b);
     for (const auto& s : all.segments()) {
-        int way = 0;
-        bool is_halved = false;
-        for (std::size_t k = s.first; k < s.last; ++k) {
-            const auto& side = all.sides()[k];
-            const crossing<T>& c = all.crossing_of(side);
-            const bool is_one_turned = of_a.is_turned(c.a) != of_b.is_turned(c.b);
-            if (side.has_direction) way += side.is_swapped != is_one_turned ? -1 : 1;
-            if (!side.is_of_area) continue;
-            const bool look_alike = contact_math::plain_dot(unit_normal_of(of_a.face(c.a)), unit_normal_of(of_b.face(c.b))) > 0;
-            is_halved |= look_alike != is_one_turned;
-        }
-        const double weight = way == 0 ? 0 : (way > 0 ? 1 : -1) * (is_halved ? 0.5 : 1);
-        // As a's faces look; the normal is to look the other way.
-        found[regions.region_of(s.from)].borders.push_back({all.points()[s.from], all.points()[s.to], weight});
+        found[regions.region_of(s.from)].borders.push_back({all.points()[s.from], all.points()[s.to], weight.of(s)});
     }
     for (const crossing<T>& c : contacts) {
         if (c.count == 0 || c.count > 6) continue;

@@ -55,7 +55,8 @@ public:
     /// Sides that are one.
     struct segment {
         id from, to;
-        std::size_t first, last;  ///< sides
+        std::size_t first, last;  ///< sides that curves keep
+        std::size_t end;          ///< where those of the next segment begin
         bool is_open = true;      ///< not yet in a curve
     };
 
@@ -136,7 +137,7 @@ private:
             const auto stays = [&](const side& s) { return !is_inside || all_[s.of].coplanar == 0; };
             const auto kept = std::stable_partition(begin, end, stays);
             const std::size_t count = static_cast<std::size_t>(kept - begin);
-            if (count > 0) segments_.push_back({sides_[i].from, sides_[i].to, i, i + count});
+            if (count > 0) segments_.push_back({sides_[i].from, sides_[i].to, i, i + count, last});
         }
         first_at_.assign(names_.size() + 1, 0);
         for (const segment& s : segments_) ++first_at_[s.from + 1], ++first_at_[s.to + 1];

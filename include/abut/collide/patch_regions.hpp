@@ -175,4 +175,89 @@ private:
     std::size_t count_ = 0;
 };
 
+template <scalar T>
+contact_math::point unit_normal_of(const triangle<T>& t) {
+    using namespace contact_math;
+    const auto u = brought_to_one(contact_math::between<two_doubles>(widened(t.a), widened(t.b))),
+               v = brought_to_one(contact_math::between<two_doubles>(widened(t.a), widened(t.c)));
+    return unit_vector(accurate_cross(u, v));
+}
+
+/// How often a segment of crossings bounds what of a's surface is in b, as it runs from its first point to its second: 1, -1, 0,
+/// and 1/2 less of a face of a that lies in one of b which looks the same way.
+///
+/// Across the segment each surface is two rays, in one face or two: the first in the face that has the segment along its side, or
+/// to the left of it, the second in the other one. The solid b is what is between its second ray and its first one, anticlockwise
+/// as seen against the segment's way. On which side of a ray another one is, crossings say: by the cross product of normals.
+template <scalar T>
+class border_weight {
+public:
+    border_weight(const joined_curves<T>& all, const solid_surface<T>& a, const solid_surface<T>& b) : all_(all), a_(a), b_(b) {}
+
+    [[nodiscard]] double of(const typename joined_curves<T>::segment& s) const {
+        rays r;
+        for (std::size_t k = s.first; k < s.end; ++k) look_at(all_.sides()[k], s, r);
+        return share(r, 0) - share(r, 1);
+    }
+
+private:
+    struct rays {
+        int turn[2][2] = {};        ///< from a's ray to b's: 1 is anticlockwise, 0 along the same line
+        bool is_same[2][2] = {};    ///< areas that both have
+        std::uint32_t edge_b = static_cast<std::uint32_t>(-1);  ///< a side of a face of b, if the segment is on an edge
+    };
+
+    /// The ray that a face has: 0 or 1, or 2 for both.
+    static int ray_of(const solid_surface<T>& of, std::uint32_t f, place_in_triangle in, const vec3<T>& from, const vec3<T>& to) {
+        if (in == inside_of_triangle) return 2;
+        const triangle<T>& t = of.face(f);
+        const vec3<T> corners[3] = {t.a, t.b, t.c};
+        const unsigned k = in - side_of_triangle;
+        const auto way = contact_math::plain_difference(widened(corners[(k + 1) % 3]), widened(corners[k]));
+        const bool is_along = contact_math::plain_dot(way, contact_math::plain_difference(widened(to), widened(from))) > 0;
+        return is_along != of.is_turned(f) ? 0 : 1;
+    }
+    void look_at(const typename joined_curves<T>::side& side, const typename joined_curves<T>::segment& s, rays& r) const {
+        const crossing<T>& c = all_.crossing_of(side);
+        const int i = corner_of(c, s.from), j = corner_of(c, s.to);
+        const vec3<T>&from = all_.points()[s.from], &to = all_.points()[s.to];
+        const place_in_triangle in_a = place_between(c.in_a[i], c.in_a[j]), in_b = place_between(c.in_b[i], c.in_b[j]);
+        const int of_a = ray_of(a_, c.a, in_a, from, to), of_b = ray_of(b_, c.b, in_b, from, to);
+        if (in_b != inside_of_triangle) r.edge_b = 3 * c.b + in_b - side_of_triangle;
+        const bool turned_a = a_.is_turned(c.a), turned_b = b_.is_turned(c.b);
+        if (side.is_of_area) {
+            const bool look_alike = (contact_math::plain_dot(unit_normal_of(a_.face(c.a)), unit_normal_of(b_.face(c.b))) > 0) !=
+                                    (turned_a != turned_b);
+            // The area is to the left of its side, as a's face is turned.
+            const int x = of_a != 2 ? of_a : of_b != 2 ? (look_alike ? of_b : 1 - of_b) : side.is_swapped != turned_a ? 1 : 0;
+            r.is_same[x][look_alike ? x : 1 - x] = true;
+        }
+        if (!side.has_direction) return;
+        const int sign = side.is_swapped != (turned_a != turned_b) ? -1 : 1;
+        for (int x = 0; x < 2; ++x) {
+            for (int y = 0; y < 2; ++y) {
+                if ((of_a == 2 || of_a == x) && (of_b == 2 || of_b == y)) r.turn[x][y] = x == y ? sign : -sign;
+            }
+        }
+    }
+    int corner_of(const crossing<T>& c, std::uint32_t point) const {
+        for (int i = 0; i < c.count; ++i) {
+            if (joined_curves<T>::name_of(c, i) == all_.names()[point]) return i;
+        }
+        return 0;
+    }
+    /// Of a's ray: 1 if it is in b, or between both.
+    [[nodiscard]] double share(const rays& r, int x) const {
+        if (r.is_same[x][x]) return 0.5;
+        if (r.is_same[x][1 - x]) return 1;
+        const int first = r.turn[x][0], second = r.turn[x][1];
+        if (first > 0 && second < 0) return 1;
+        if ((first < 0 && second > 0) || r.edge_b == static_cast<std::uint32_t>(-1)) return 0;
+        return b_.is_reflex(r.edge_b) ? 1 : 0;
+    }
+
+    const joined_curves<T>& all_;
+    const solid_surface<T>&a_, &b_;
+};
+
 }  // namespace abut::detail

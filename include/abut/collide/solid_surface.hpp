@@ -124,6 +124,12 @@ public:
     [[nodiscard]] const vec3<T>& vertex(id v) const { return end_of(at_[first_at_[v]]); }
     [[nodiscard]] bool is_used(id v) const { return first_at_[v] < first_at_[v + 1]; }
 
+    /// Whether the solid is reflex at a side of a face.
+    [[nodiscard]] bool is_reflex(id side) const {
+        const int sign = volume_sign<T>(end_of(next(next(across_[side]))), faces_, {side / 3}).sign();
+        return is_turned(side / 3) ? sign > 0 : sign < 0;
+    }
+
     /// The solid near a point that lies in a vertex, on an edge or in a face of which this is a place in face f.
     [[nodiscard]] solid_cone<T> cone_at(id f, place_in_triangle in) const {
         solid_cone<T> cone;
