@@ -14,6 +14,7 @@
 //   patches    contact_patches, that of the largest area
 //   contacts   all contacts (discard_sideways): the mean of points, the mean normal, and the largest depth
 //   reduced    reduce_contacts of these, 4 at most, and the same of what is left
+//   bullet     Bullet's manifolds (bench/patches/bullet.cpp), where it is installed
 //
 // Counters: normal, center, depth: the largest change between two frames, angles in thousandths and lengths in thousandths of the
 // body's size, so that 1 is as much as the body moves; *_99: that which 99 of 100 frames do not pass. found: how many contacts or
@@ -24,7 +25,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <functional>
@@ -36,6 +36,7 @@
 #include <abut/abut.hpp>
 #include <abut/io/read.hpp>
 
+#include "patches/peer.hpp"
 #include "results.hpp"
 
 namespace {
@@ -48,20 +49,8 @@ using tree = decltype(abut::make_bvh(abut::serial{}, abut::mesh<float>()));
 vec wide(const abut::vec3<float>& v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
 double length(const vec& v) { return std::sqrt(abut::dot(v, v)); }
 
-/// What a method says of a frame.
-struct answer {
-    bool is_known = false;
-    vec normal{}, center{};
-    double depth = 0;
-    std::size_t found = 0;
-};
-
-struct scene {
-    std::string name;
-    tree a, b;
-    std::function<abut::rigid<float>(double)> pose;  ///< of a, at a time in [0, 1]
-    double size;
-};
+using patches_peer::answer;
+using patches_peer::scene;
 
 /// A box of n x n squares a side of z, and sides of as many faces as that takes.
 abut::mesh<float> slab(const vec& l, const vec& u, int n) {
@@ -124,8 +113,7 @@ abut::rigid<float> turned(double angle, const vec& by) {
     return {{c, 0, s, 0, 1, 0, -s, 0, c}, {static_cast<float>(by.x), static_cast<float>(by.y), static_cast<float>(by.z)}};
 }
 
-answer of_patches(const scene& s, const abut::rigid<float>& pose) {
-    const auto all = abut::contact_patches(abut::serial{}, abut::posed(s.a, pose), s.b, {.known_solid = true});
+answer of_patches(const std::vector<abut::contact_patch<float>>& all) {
     answer found;
     found.found = all.size();
     const auto most = std::max_element(all.begin(), all.end(), [](const auto& p, const auto& q) { return p.area < q.area; });
@@ -153,16 +141,20 @@ answer of_contacts(const std::vector<abut::contact<float>>& all) {
 
 void run(const scene& s, int frames, bench::results& out) {
     const abut::serial on;
-    const std::pair<const char*, std::function<answer(const abut::rigid<float>&)>> methods[] = {
-        {"patches", [&](const abut::rigid<float>& pose) { return of_patches(s, pose); }},
-        {"contacts",
+    const tree a = abut::make_bvh(on, s.a), b = abut::make_bvh(on, s.b);
+    const auto contacts = [&](const abut::rigid<float>& pose) {
+        return abut::contacts(on, abut::posed(a, pose), b, {.discard_sideways = true});
+    };
+    std::vector<std::pair<std::string, patches_peer::method>> methods{
+        {"patches",
          [&](const abut::rigid<float>& pose) {
-             return of_contacts(abut::to_host(abut::contacts(on, abut::posed(s.a, pose), s.b, {.discard_sideways = true})));
+             return of_patches(abut::contact_patches(on, abut::posed(a, pose), b, {.known_solid = true}));
          }},
+        {"contacts", [&](const abut::rigid<float>& pose) { return of_contacts(abut::to_host(contacts(pose))); }},
         {"reduced", [&](const abut::rigid<float>& pose) {
-             const auto all = abut::contacts(on, abut::posed(s.a, pose), s.b, {.discard_sideways = true});
-             return of_contacts(abut::to_host(abut::reduce_contacts(on, all, {.most = 4})));
+             return of_contacts(abut::to_host(abut::reduce_contacts(on, contacts(pose), {.most = 4})));
          }}};
+    for (const auto& [name, make] : patches_peer::peers()) methods.emplace_back(name, make(s));
     for (const auto& [name, method] : methods) {
         std::vector<double> normals, centers, depths, times;
         std::size_t most = 0;
@@ -202,20 +194,19 @@ int main(int argc, char** argv) {
         const std::string path = bench::take_argument(argc, argv, "--json");
         const int frames = std::stoi(bench::take_argument(argc, argv, "--frames", "1000"));
         bench::results out("bench_patches");
-        const abut::serial on;
-        const auto plate = abut::make_bvh(on, slab({-3, -3, -1}, {3, 3, 0}, 32));
+        const auto plate = slab({-3, -3, -1}, {3, 3, 0}, 32);
         // Over N frames it moves by N thousandths.
         const double way = frames / 1000.0;
-        run({"box", abut::make_bvh(on, slab({-0.5, -0.5, 0}, {0.5, 0.5, 1}, 8)), plate,
+        run({"box", slab({-0.5, -0.5, 0}, {0.5, 0.5, 1}, 8), plate,
              [&](double t) { return turned(0.035 * std::sin(6.28 * t), {way * (t - 0.5), 0.3 * way * t, -0.01}); }, 1},
             frames, out);
-        run({"ball", abut::make_bvh(on, ball(32, 64)), plate,
+        run({"ball", ball(32, 64), plate,
              [&](double t) { return turned(2 * way * t, {2 * way * (t - 0.5), 0.1 * t, 0.99 - 0.09 * t}); }, 2},
             frames, out);
         for (int i = 1; i < argc; ++i) {
-            const auto mesh = abut::make_bvh(on, abut::io::read_mesh<float>(argv[i]));
-            const auto box = mesh.bounds();
-            const double size = std::max({box.upper.x - box.lower.x, box.upper.y - box.lower.y, box.upper.z - box.lower.z});
+            const auto mesh = abut::io::read_mesh<float>(argv[i]);
+            const auto box = abut::make_bvh(abut::serial{}, mesh).bounds();
+            const double size = static_cast<double>(std::max({box.upper.x - box.lower.x, box.upper.y - box.lower.y, box.upper.z - box.lower.z}));
             const vec middle = abut::scale(0.5, wide(box.lower) + wide(box.upper));
             run({std::filesystem::path(argv[i]).stem().string(), mesh, mesh,
                  [=](double t) {
