@@ -112,7 +112,10 @@ public:
                 total = total + part;
                 of_parts = of_parts + N{absolute(part.high)};
             }
-            if (8 * total.high > of_parts.high) center = middle + vec{moved.x / total, moved.y / total, moved.z / total};
+            // Of a region bent so far that parts are seen from behind, that is none of its points: by and by the middle is taken.
+            const N part = N{8} * (total / of_parts) - N{1};
+            const N share{least(1.0, part.high)};
+            if (share.high > 0) center = middle + (share / total) * moved;
         }
         p.curves = std::move(curves);
         p.center = world(center);
