@@ -10,8 +10,8 @@ def few(value):
     return "" if value is None else "0.000" if value < 0.001 else shown(value)
 
 
-@in_table("patches")
-def patches(results):
+@in_table("contact-patches")
+def contact_patches(results):
     r = results["cpu/patches"]
     rows = []
     for scene in r.parts("", 0):
