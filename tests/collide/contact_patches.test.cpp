@@ -18,6 +18,7 @@
 #include <abut/index/quantised.hpp>
 #include <abut/index/wide.hpp>
 
+#include "patch_cases.hpp"
 #include "solid_cases.hpp"
 #include "support/catch.hpp"
 #include "support/draws.hpp"
@@ -56,17 +57,6 @@ template <scalar T>
 bool near(const vec3<T>& p, const vec3<double>& q, double within = 1e-5) {
     return std::abs(static_cast<double>(p.x) - q.x) <= within && std::abs(static_cast<double>(p.y) - q.y) <= within &&
            std::abs(static_cast<double>(p.z) - q.z) <= within;
-}
-
-/// All but the curves, which are those of `curves`.
-template <scalar T>
-bool are_same(const std::vector<contact_patch<T>>& x, const std::vector<contact_patch<T>>& y) {
-    return std::equal(x.begin(), x.end(), y.begin(), y.end(), [](const auto& p, const auto& q) {
-        return p.center == q.center && p.normal == q.normal && p.area == q.area && p.depth == q.depth &&
-               p.deepest_a == q.deepest_a && p.deepest_b == q.deepest_b && p.points == q.points &&
-               std::equal(p.curves.begin(), p.curves.end(), q.curves.begin(), q.curves.end(),
-                          [](const auto& c, const auto& d) { return c.points == d.points && c.closed == d.closed; });
-    });
 }
 
 /// A ball of radius 1 in rings.
@@ -180,6 +170,20 @@ TEMPLATE_TEST_CASE("contact patches of boxes are known", "[patches]", float, dou
         CHECK(same.normal == vec3<T>{0, 0, 0});
         CHECK(same.area < 1e-5);
         CHECK(same.depth == 0);
+    }
+}
+
+TEST_CASE("patches of huge and tiny solids are those of others", "[patches]") {
+    const serial on;
+    for (const double unit : {0x1p1020, 0x1p300, 0x1p-300, 0x1p-1000}) {
+        const auto of = [&](const vec3<double>& l, const vec3<double>& u) { return box_of<double>(scale(unit, l), scale(unit, u)); };
+        const auto all = contact_patches(on, of({0, 0, -0.125}, {1, 1, 1}), of({-5, -5, -1}, {5, 5, 0}));
+        CAPTURE(unit);
+        REQUIRE(all.size() == 1);
+        CHECK(near(all[0].normal, {0, 0, 1}));
+        CHECK(all[0].depth == Approx(0.125 * unit).epsilon(1e-12));
+        CHECK(near(scale(1 / unit, all[0].center), {0.5, 0.5, 0}));
+        CHECK(all[0].points.size() == 4);
     }
 }
 
@@ -441,6 +445,7 @@ TEMPLATE_TEST_CASE("patches are the same bits on each policy and of each index",
     REQUIRE(first.size() == 1);
     CHECK(first.front().points.size() == 8);
     const openmp many{3};
+    check_patches<T>(many);
     CHECK(are_same(first, contact_patches(many, a, posed(make_bvh(many, b), there))));
     CHECK(are_same(first, contact_patches(many, make_bvh(many, a), posed(wide(many, make_bvh(many, b)), there), {.known_solid = true})));
     CHECK(are_same(first, contact_patches(on, quantised(on, make_bvh(on, a)), posed(b, there))));

@@ -39,6 +39,19 @@ private:
     std::vector<id> of_;
 };
 
+/// How far it is along a way from a point to another one, in units of that way's size: without overflow. The second one is not
+/// longer.
+template <scalar T>
+double along(const vec3<T>& from, const vec3<T>& to, const vec3<T>& p, const vec3<T>& q) {
+    using namespace contact_math;
+    const auto halved = [](const vec3<T>& a, const vec3<T>& b) { return plain_difference(scaled(widened(b), -1), scaled(widened(a), -1)); };
+    const auto way = halved(from, to);
+    const double size = largest_of(way);
+    if (!(size > 0)) return 0;
+    const int e = -exponent_of(size);
+    return plain_dot(scaled(way, e), scaled(halved(p, q), e));
+}
+
 /// A vertex of a surface is within the other solid as all are that edges lead to which do not meet its surface: that is known of
 /// all of them by one. Points on an edge are joined if what of the edge is between them is within. The points' order there, and
 /// the middle of two that nothing else joins, are rounded.
@@ -85,10 +98,8 @@ private:
             const mesh_feature f = all_.names()[p][static_cast<std::size_t>(which)];
             if (f.part == mesh_part::at_vertex) at[f.first] = p;
             if (f.part != mesh_part::on_edge) continue;
-            using namespace contact_math;
-            const auto from = widened(surface.vertex(f.first));
-            const auto way = plain_difference(widened(surface.vertex(f.second)), from);
-            on_edges.push_back({{f.first, f.second}, plain_dot(way, plain_difference(widened(all_.points()[p]), from)), p});
+            const vec3<T>& from = surface.vertex(f.first);
+            on_edges.push_back({{f.first, f.second}, along(from, surface.vertex(f.second), from, all_.points()[p]), p});
         }
         std::sort(on_edges.begin(), on_edges.end());
         // Each edge once, as the face has it that goes from the lesser vertex to the greater one.
@@ -213,9 +224,7 @@ private:
         const triangle<T>& t = of.face(f);
         const vec3<T> corners[3] = {t.a, t.b, t.c};
         const unsigned k = in - side_of_triangle;
-        const auto way = contact_math::plain_difference(widened(corners[(k + 1) % 3]), widened(corners[k]));
-        const bool is_along = contact_math::plain_dot(way, contact_math::plain_difference(widened(to), widened(from))) > 0;
-        return is_along != of.is_turned(f) ? 0 : 1;
+        return (along(corners[k], corners[(k + 1) % 3], from, to) > 0) != of.is_turned(f) ? 0 : 1;
     }
     void look_at(const typename joined_curves<T>::side& side, const typename joined_curves<T>::segment& s, rays& r) const {
         const crossing<T>& c = all_.crossing_of(side);
