@@ -7,6 +7,7 @@ import report_extremes  # noqa: F401
 import report_predicates  # noqa: F401
 import report_queries  # noqa: F401
 import report_motion  # noqa: F401
+import report_patches  # noqa: F401
 import report_runs  # noqa: F401
 import report_peers  # noqa: F401
 import report_solids  # noqa: F401

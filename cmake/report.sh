@@ -70,6 +70,7 @@ cpu winding bench_winding @D@/meshes --json={}
 cpu impact_times bench_impact_times @D@/ccd --json={}
 cpu mixed_bodies bench_mixed_bodies $G $I
 cpu solids bench_solids @D@/meshes/armadillo_2766.ply @D@/meshes/armadillo_27674.ply @D@/meshes/armadillo_345944.ply --json={}
+cpu patches bench_patches @D@/meshes/cow.obj @D@/meshes/fandisk.ply @D@/meshes/armadillo_2766.ply --json={}
 cpu raycast bench_raycast $G $I --mesh=@D@/meshes/armadillo_345944.ply
 cpu descents bench_descents --json={} --mesh=@D@/meshes/armadillo_345944.ply
 cpu descents_138376 bench_descents --json={} --mesh=@D@/meshes/armadillo_138376.ply

@@ -252,6 +252,16 @@ void query_one_pair() {
     //! [one_pair]
 }
 
+void query_patches() {
+    const abut::serial on;
+    //! [contact_patches]
+    const abut::aabb<float> table{{-9, -9, -1}, {9, 9, 0.5f}};
+    const auto found = abut::contact_patches(on, tetrahedron, table);
+    expect(found.size() == 1 && found[0].depth == 0.5f);
+    expect(found[0].curves.size() == 1 && found[0].points.size() == 3);
+    //! [contact_patches]
+}
+
 }  // namespace
 
 int main() {
@@ -266,6 +276,7 @@ int main() {
     query_rays();
     query_crossings();
     query_relation();
+    query_patches();
     query_inside();
     query_mesh();
     query_one_pair();

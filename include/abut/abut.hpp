@@ -13,6 +13,7 @@
 #include <abut/collide/body_distance.hpp>
 #include <abut/collide/body_pairs.hpp>
 #include <abut/collide/body_rows.hpp>
+#include <abut/collide/contact_patches.hpp>
 #include <abut/collide/contacts.hpp>
 #include <abut/collide/crossings.hpp>
 #include <abut/collide/curves.hpp>

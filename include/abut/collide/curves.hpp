@@ -44,14 +44,6 @@ namespace detail {
 template <scalar T>
 class joined_curves {
 public:
-    explicit joined_curves(std::span<const crossing<T>> all) : all_(all) {
-        name_ends();
-        merge_sides();
-        walk_all();
-    }
-    std::vector<curve<T>> take() { return std::move(curves_); }
-
-private:
     using name = std::array<mesh_feature, 2>;
     using id = std::uint32_t;
     /// A segment of a crossing, or a side of a polygon.
@@ -63,25 +55,45 @@ private:
     /// Sides that are one.
     struct segment {
         id from, to;
-        std::size_t first, last;  ///< sides
+        std::size_t first, last;  ///< sides that curves keep
+        std::size_t end;          ///< where those of the next segment begin
         bool is_open = true;      ///< not yet in a curve
     };
 
+    explicit joined_curves(std::span<const crossing<T>> all) : all_(all) {
+        name_ends();
+        merge_sides();
+        walk_all();
+    }
+    std::vector<curve<T>> take() { return std::move(curves_); }
+
+    [[nodiscard]] const crossing<T>& crossing_of(const side& s) const { return all_[s.of]; }
+    /// Of all corners, ascending; a point is known by its position among them.
+    [[nodiscard]] const std::vector<name>& names() const { return names_; }
+    [[nodiscard]] const std::vector<vec3<T>>& points() const { return points_; }
+    /// Sides by their points, those of a segment together.
+    [[nodiscard]] const std::vector<side>& sides() const { return sides_; }
+    [[nodiscard]] const std::vector<segment>& segments() const { return segments_; }
+    [[nodiscard]] id point_of(const name& n) const {
+        return static_cast<id>(std::lower_bound(names_.begin(), names_.end(), n) - names_.begin());
+    }
     static name name_of(const crossing<T>& c, int i) {
         name n{c.feature_a(i), c.feature_b(i)};
         if (c.of_one_mesh != 0 && n[1] < n[0]) std::swap(n[0], n[1]);
         return n;
     }
 
+private:
     void name_ends() {
         struct end {
             name is;
-            std::size_t of;  ///< position in sides, twice, and which end
+            std::size_t of;  ///< position in sides, twice, and which end; or that of none
             vec3<T> at;
         };
         std::vector<end> ends;
         for (std::size_t k = 0; k < all_.size(); ++k) {
             const crossing<T>& c = all_[k];
+            if (c.count == 1) ends.push_back({name_of(c, 0), static_cast<std::size_t>(-1), c.points[0]});
             if (c.count < 2 || c.count > 6) continue;
             for (int i = 0; i < (c.count == 2 ? 1 : c.count); ++i) {
                 const int j = i + 1 == c.count ? 0 : i + 1;
@@ -98,6 +110,7 @@ private:
                 names_.push_back(e.is);
                 points_.push_back(e.at);
             }
+            if (e.of / 2 >= sides_.size()) continue;
             side& of = sides_[e.of / 2];
             (e.of % 2 == 0 ? of.from : of.to) = static_cast<id>(names_.size() - 1);
         }
@@ -124,7 +137,7 @@ private:
             const auto stays = [&](const side& s) { return !is_inside || all_[s.of].coplanar == 0; };
             const auto kept = std::stable_partition(begin, end, stays);
             const std::size_t count = static_cast<std::size_t>(kept - begin);
-            if (count > 0) segments_.push_back({sides_[i].from, sides_[i].to, i, i + count});
+            if (count > 0) segments_.push_back({sides_[i].from, sides_[i].to, i, i + count, last});
         }
         first_at_.assign(names_.size() + 1, 0);
         for (const segment& s : segments_) ++first_at_[s.from + 1], ++first_at_[s.to + 1];

@@ -135,6 +135,11 @@ public:
     /// Whether points that are not on the surface are inside.
     [[nodiscard]] std::vector<bool> have_inside(std::vector<vec3<T>> vertices) const {
         const serial on;
+        if (!tree_ && vertices.size() <= few) {
+            std::vector<bool> are;
+            for (const vec3<T>& v : vertices) are.push_back(surface_.has_inside(v));
+            return are;
+        }
         if (!tree_) {
             std::vector<triangle<T>> corners;
             corners.reserve(surface_.size());
@@ -152,6 +157,7 @@ public:
 private:
     using tree_type = decltype(make_bvh(serial{}, triangle_soup<T>()));
 
+    static constexpr std::size_t few = 8;  ///< points for which all faces are looked at sooner than a tree is made
     solid_surface<T> surface_;
     mutable std::optional<tree_type> tree_;
 };

@@ -9,7 +9,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -116,6 +115,26 @@ public:
     /// A vertex of a part.
     [[nodiscard]] const vec3<T>& vertex_of_part(id part) const { return faces_[first_face_of_part_[part]].corners.a; }
 
+    /// Whether a point that is not on the surface is inside. Looks at all faces.
+    [[nodiscard]] bool has_inside(const vec3<T>& v) const {
+        bool is = false;
+        for (const mesh_face<T>& f : faces_) is ^= is_passed_above(v, f.corners);
+        return is;
+    }
+    /// Whether a face looks into the solid.
+    [[nodiscard]] bool is_turned(id f) const { return is_turned_[part_[f]] != 0; }
+    /// One more than the largest number of a vertex.
+    [[nodiscard]] std::size_t vertex_numbers() const { return first_at_.size() - 1; }
+    /// Where a vertex is that a face has.
+    [[nodiscard]] const vec3<T>& vertex(id v) const { return end_of(at_[first_at_[v]]); }
+    [[nodiscard]] bool is_used(id v) const { return first_at_[v] < first_at_[v + 1]; }
+
+    /// Whether the solid is reflex at a side of a face.
+    [[nodiscard]] bool is_reflex(id side) const {
+        const int sign = volume_sign<T>(end_of(next(next(across_[side]))), faces_, {side / 3}).sign();
+        return is_turned(side / 3) ? sign > 0 : sign < 0;
+    }
+
     /// The solid near a point that lies in a vertex, on an edge or in a face of which this is a place in face f.
     [[nodiscard]] solid_cone<T> cone_at(id f, place_in_triangle in) const {
         solid_cone<T> cone;
@@ -136,6 +155,11 @@ public:
     }
 
 private:
+    /// Whether the way up from a point passes through a face that is not at the point.
+    static bool is_passed_above(const vec3<T>& v, const triangle<T>& t) {
+        const met_above met = crossing_of<filtered>(v, t);
+        return met == met_above::leaving || met == met_above::entering;
+    }
     [[nodiscard]] static id next(id side) { return side % 3 == 2 ? side - 2 : side + 1; }
     [[nodiscard]] id vertex_of(id side) const { return faces_[side / 3].vertex[side % 3]; }
     /// Where a side begins.
@@ -156,16 +180,23 @@ private:
 
     void find_neighbours(const char* function, const std::string& element) {
         const std::size_t sides = 3 * faces_.size();
-        std::vector<id> order(sides);
-        std::iota(order.begin(), order.end(), id{0});
         const auto ends = [&](id s) {
             const id from = vertex_of(s), to = vertex_of(next(s));
             return std::pair(std::min(from, to), std::max(from, to));
         };
-        std::sort(order.begin(), order.end(), [&](id s, id t) {
-            const auto x = ends(s), y = ends(t);
-            return x != y ? x < y : s < t;
-        });
+        // By their lesser vertices first, of which each has few.
+        id most = 0;
+        for (const auto& f : faces_) most = std::max({most, f.vertex[0], f.vertex[1], f.vertex[2]});
+        std::vector<id> first_of(std::size_t{most} + 2, 0), order(sides);
+        for (id s = 0; s < sides; ++s) ++first_of[ends(s).first + 1];
+        for (std::size_t v = 0; v <= most; ++v) first_of[v + 1] += first_of[v];
+        for (id s = 0; s < sides; ++s) order[first_of[ends(s).first]++] = s;
+        for (std::size_t v = 0, first = 0; v <= most; first = first_of[v++]) {
+            std::sort(order.begin() + static_cast<std::ptrdiff_t>(first), order.begin() + static_cast<std::ptrdiff_t>(first_of[v]), [&](id s, id t) {
+                const id x = ends(s).second, y = ends(t).second;
+                return x != y ? x < y : s < t;
+            });
+        }
         across_.assign(sides, 0);
         for (std::size_t i = 0; i < sides;) {
             std::size_t last = i;
@@ -247,8 +278,7 @@ private:
                 const auto &lower = box[q].lower, &upper = box[q].upper;
                 if (q == p || v.x < lower.x || v.x > upper.x || v.y < lower.y || v.y > upper.y || v.z > upper.z) continue;
                 for (const id f : faces_of[q]) {
-                    const met_above met = crossing_of<filtered>(v, face(f));
-                    is_hollow ^= met == met_above::leaving || met == met_above::entering;
+                    is_hollow ^= is_passed_above(v, face(f));
                 }
             }
             is_turned_[p] = (sign > 0) == is_hollow ? 1 : 0;
