@@ -58,6 +58,9 @@ NAMES = {
                                      "const auto& crates = robots;",
     "collide/mixed_bodies.hpp": GEAR + "const std::vector machines{abut::posed(gear, here)}; const auto& crates = machines;"
                                        "const auto& grains = machines;",
+    "collide/contact_patches.hpp": "static const auto push = [](auto&&...) {};",
+    "collide/spans.hpp": GEAR + "const auto& tree = gear; const abut::rays<float> rays; std::vector<float> thickness(9);",
+    "collide/inside.hpp": "const auto& scan = mesh;",
     "collide/hull_edges.hpp": "const std::vector<std::vector<abut::vec3<float>>> lists;",
     "collide/row_each.hpp": "const auto room = abut::make_bvh(on, mesh); const abut::spheres<float> links;",
     "collide/touching_bodies.hpp": GEAR + "const std::vector<abut::posed_object<decltype(gear)>> scene;",

@@ -232,7 +232,7 @@ oriented_result<T, space_of<Policy>> orient(const Policy& on, const mesh_view<T,
 
 }  // namespace detail
 
-/// @addtogroup mesh_checks
+/// @addtogroup sets
 ///@{
 
 /// The same mesh with faces turned so that two faces at an edge go along it in opposite directions. Faces of a sheet, those that
@@ -248,6 +248,9 @@ oriented_result<T, space_of<Policy>> orient(const Policy& on, const mesh_view<T,
 /// @par Errors
 /// `invalid_geometry`: a sheet has one side only (the message has its first face); of a view, as queries. `capacity_error`:
 /// more than 1,431,655,765 faces. `std::bad_alloc`, `cuda_error`.
+///
+/// @par Synchronisation
+/// Returns when the mesh is there; under `cuda` it waits for the policy's stream.
 ///
 ///     const auto part = abut::oriented_consistently(on, mesh).mesh;
 template <execution_policy Policy, scalar T, memory_space Space>

@@ -32,6 +32,7 @@ namespace abut {
 /// @ingroup queries
 template <scalar T>
 struct ray_span {
+    /// Where a ray begins or ends inside.
     static constexpr std::uint32_t no_face = static_cast<std::uint32_t>(-1);
 
     std::uint32_t ray;    ///< its number
