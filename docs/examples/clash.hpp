@@ -33,7 +33,7 @@ namespace clash {
 
 struct settings : example::common_settings {
     std::vector<std::string> files;
-    double within = 0;
+    double within = 0, weld = 0;
     std::uint32_t generate = 0;
     bool touches = true;
     std::string out = "clash";
@@ -169,11 +169,12 @@ outcome solve(const Policy& on, const input<T>& in, const settings& s, example::
     using tree = decltype(abut::make_bvh(on, abut::copy_to(on, in.meshes.front())));
     std::vector<tree> trees;
     watch.time("trees", [&] {
-        for (const auto& m : in.meshes) trees.push_back(abut::make_bvh(on, abut::welded(on, abut::copy_to(on, m))));
-    });
-    watch.time("check", [&] {
-        for (std::size_t m = 0; m < trees.size(); ++m) {
-            found.no_solids.push_back(why_no_solid(on, trees[m], abut::welded(on, abut::copy_to(on, in.meshes[m]))));
+        for (const auto& m : in.meshes) {
+            const auto mesh = abut::copy_to(on, m);
+            const auto joined = s.weld > 0 ? abut::welded(on, mesh, s.weld, {.drop_collapsed = true, .drop_duplicates = true}).mesh
+                                           : abut::welded(on, mesh);
+            trees.push_back(abut::make_bvh(on, joined));
+            found.no_solids.push_back(why_no_solid(on, trees.back(), joined));
         }
     });
     std::vector<abut::posed_object<tree>> solids, surfaces, all;
@@ -487,6 +488,10 @@ void describe(CLI::App& app, settings& s) {
     app.add_option("--within", s.within, "Report parts that are no farther apart than D, too (0: do not)")
         ->type_name("D")
         ->capture_default_str();
+    app.add_option("--weld", s.weld,
+                   "Make vertices of a mesh one that are no farther apart than D, where seams are off by rounding")
+        ->type_name("D")
+        ->capture_default_str();
     app.add_flag("--no-touches{false}", s.touches, "Do not report parts that only touch");
     app.add_option("--generate", s.generate, "Without files: N rings of 1,024 triangles")->type_name("N")->check(CLI::Range(1, 10'000'000));
     example::add_policy<Program>(app, s);
@@ -503,6 +508,7 @@ void describe(CLI::App& app, settings& s) {
 /// What CLI11 does not check.
 inline void check(const settings& s) {
     if (!std::isfinite(s.within) || s.within < 0) throw example::usage_error("--within: expected a finite distance, 0 or more");
+    if (!std::isfinite(s.weld) || s.weld < 0) throw example::usage_error("--weld: expected a finite distance, 0 or more");
     if (s.generate > 0 && !s.files.empty()) throw example::usage_error("--generate goes without files");
     example::check_threads(s);
     example::check_view(s);
