@@ -237,8 +237,8 @@ private:
         if (side.is_of_area) {
             const bool look_alike = (contact_math::plain_dot(unit_normal_of(a_.face(c.a)), unit_normal_of(b_.face(c.b))) > 0) !=
                                     (turned_a != turned_b);
-            // The area is to the left of its side, as a's face is turned.
-            const int x = of_a != 2 ? of_a : of_b != 2 ? (look_alike ? of_b : 1 - of_b) : side.is_swapped != turned_a ? 1 : 0;
+            // A side of an area is on an edge of a's or of b's.
+            const int x = of_a != 2 ? of_a : look_alike ? of_b : 1 - of_b;
             r.is_same[x][look_alike ? x : 1 - x] = true;
         }
         if (!side.has_direction) return;
