@@ -24,7 +24,7 @@ hull<T> hull_of(const std::vector<vec3<T>>& points) {
 
 /// The surface of points of a grid is closed, turned outwards, and no point is beyond a face; all in integers.
 template <scalar T>
-bool is_boundary(const mesh<T>& surface, const std::vector<place>& of, T unit) {
+bool is_boundary(const mesh<T>& surface, const std::vector<grid_place>& of, T unit) {
     const serial on;
     const mesh_report report = validate(on, surface);
     if (!report.closed() || !report.manifold() || !report.oriented() || !report.unused_vertices.empty()) return false;
@@ -32,11 +32,11 @@ bool is_boundary(const mesh<T>& surface, const std::vector<place>& of, T unit) {
     const auto view = surface.view();
     const auto at = [&](std::uint32_t v) {
         const vec3<T> p = view.vertices[v];
-        return place{static_cast<int>(p.x / unit), static_cast<int>(p.y / unit), static_cast<int>(p.z / unit)};
+        return grid_place{static_cast<int>(p.x / unit), static_cast<int>(p.y / unit), static_cast<int>(p.z / unit)};
     };
     for (std::size_t f = 0; f < view.size(); ++f) {
         bool has_behind = false;
-        for (const place& p : of) {
+        for (const grid_place& p : of) {
             const std::int64_t beyond = volume_of(at(view.faces[f][0]), at(view.faces[f][1]), at(view.faces[f][2]), p);
             if (beyond > 0) return false;
             has_behind |= beyond < 0;
@@ -55,12 +55,12 @@ TEMPLATE_TEST_CASE("boundary: of hulls of points of a grid, closed, convex, and 
         draws d(20270601, 1, k);
         const int size = 2 + d.below(5);
         const TestType unit = k % 2 == 0 ? TestType(1) : TestType(0x1p-30);
-        std::vector<place> grid;
+        std::vector<grid_place> grid;
         std::vector<vec3<TestType>> points;
         bool has_volume = false;
         for (int n = 4 + d.below(k % 8 == 0 ? 200 : 12); n > 0; --n) {
             grid.push_back({d.below(size), d.below(size), d.below(size)});
-            const place& p = grid.back();
+            const grid_place& p = grid.back();
             points.push_back({unit * static_cast<TestType>(p[0]), unit * static_cast<TestType>(p[1]), unit * static_cast<TestType>(p[2])});
         }
         for (std::size_t i = 1; i < grid.size() && !has_volume; ++i) {
@@ -131,7 +131,7 @@ TEMPLATE_TEST_CASE("relation: boxes and hulls as shapes, against planes in integ
                 }
             }
             if (k % 32 != 1) b[0] = {4 * a[0][0] + 4 * a[1][0], 4 * a[0][1] + 4 * a[1][1], 4 * a[0][2] + 4 * a[1][2]};
-            for (place& p : a) {
+            for (grid_place& p : a) {
                 for (int& x : p) x *= 8;
             }
             if (volume_of(b[0], b[1], b[2], b[3]) < 0) std::swap(b[0], b[1]);
@@ -162,7 +162,7 @@ TEMPLATE_TEST_CASE("relation: boxes and hulls as shapes, against planes in integ
         // Boxes by their corners, which are cells.
         cells first, second;
         const auto box = [&](cells& c) {
-            const place s{1 + d.below(3), 1 + d.below(3), 1 + d.below(3)};
+            const grid_place s{1 + d.below(3), 1 + d.below(3), 1 + d.below(3)};
             for (int i = 0; i < s[0] * s[1] * s[2]; ++i) c.in.insert({i % s[0], i / s[0] % s[1], i / s[0] / s[1]});
             for (int& o : c.offset) o = d.below(4);
             const auto t = [](int v) { return static_cast<TestType>(v); };

@@ -249,17 +249,17 @@ namespace {
 /// What the unit squares of two sets of cells say.
 struct region_of_squares {
     double sum[3] = {0, 0, 0};  ///< of the area vectors of a's squares in b, outwards of a; half of those that both have
-    std::vector<place> corners_a, corners_b;
+    std::vector<grid_place> corners_a, corners_b;
     bool has_curve = false;
 };
 
 struct unit_square {
-    place cell;  ///< inside of the solid
+    grid_place cell;  ///< inside of the solid
     int axis, way;
     bool of_a;
     double weight;
-    [[nodiscard]] place corner(int k) const {
-        place p = cell;
+    [[nodiscard]] grid_place corner(int k) const {
+        grid_place p = cell;
         p[static_cast<std::size_t>(axis)] += way > 0;
         p[static_cast<std::size_t>((axis + 1) % 3)] += k == 1 || k == 2;
         p[static_cast<std::size_t>((axis + 2) % 3)] += k >= 2;
@@ -267,11 +267,11 @@ struct unit_square {
     }
 };
 
-void squares_in(const std::set<place>& of, const std::set<place>& other, bool of_a, std::vector<unit_square>& out) {
-    for (const place& c : of) {
+void squares_in(const std::set<grid_place>& of, const std::set<grid_place>& other, bool of_a, std::vector<unit_square>& out) {
+    for (const grid_place& c : of) {
         for (int axis = 0; axis < 3; ++axis) {
             for (const int way : {-1, 1}) {
-                place beyond = c;
+                grid_place beyond = c;
                 beyond[static_cast<std::size_t>(axis)] += way;
                 if (of.contains(beyond)) continue;
                 const bool here = other.contains(c), there = other.contains(beyond);
@@ -282,7 +282,7 @@ void squares_in(const std::set<place>& of, const std::set<place>& other, bool of
 }
 
 std::vector<region_of_squares> regions_of_squares(const cells& a, const cells& b) {
-    const std::set<place> in_a = a.units(), in_b = b.units();
+    const std::set<grid_place> in_a = a.units(), in_b = b.units();
     std::vector<unit_square> all;
     squares_in(in_a, in_b, true, all);
     squares_in(in_b, in_a, false, all);
@@ -292,12 +292,12 @@ std::vector<region_of_squares> regions_of_squares(const cells& a, const cells& b
         while (root[i] != i) i = root[i];
         return i;
     };
-    std::map<std::pair<place, place>, std::vector<std::size_t>> at_edge;  // an edge; or a corner of one solid
+    std::map<std::pair<grid_place, grid_place>, std::vector<std::size_t>> at_edge;  // an edge; or a corner of one solid
     for (std::size_t i = 0; i < all.size(); ++i) {
         for (int k = 0; k < 4; ++k) {
-            const place p = all[i].corner(k), q = all[i].corner((k + 1) % 4);
+            const grid_place p = all[i].corner(k), q = all[i].corner((k + 1) % 4);
             at_edge[{std::min(p, q), std::max(p, q)}].push_back(i);
-            const place mark{all[i].of_a ? 1 : 2, -1000, 0};
+            const grid_place mark{all[i].of_a ? 1 : 2, -1000, 0};
             at_edge[{p, mark}].push_back(i);
         }
     }
@@ -395,8 +395,8 @@ TEMPLATE_TEST_CASE("patches of cells are those of their squares", "[patches]", f
                 }
                 if (most == 0) fits &= static_cast<double>(p.area) <= reach;
                 double lowest = 1e300, highest = -1e300;
-                for (const place& q : expected[i].corners_a) lowest = std::min(lowest, height(p, f.operator()<double>(q)));
-                for (const place& q : expected[i].corners_b) highest = std::max(highest, height(p, f.operator()<double>(q)));
+                for (const grid_place& q : expected[i].corners_a) lowest = std::min(lowest, height(p, f.operator()<double>(q)));
+                for (const grid_place& q : expected[i].corners_b) highest = std::max(highest, height(p, f.operator()<double>(q)));
                 fits &= std::abs(std::max(0.0, highest - lowest) - static_cast<double>(p.depth)) <= 1e-3 * f.unit;
                 if (!fits) continue;
                 is_used[i] = 1;

@@ -23,7 +23,7 @@ namespace {
 /// their Minkowski difference). In long double of integers.
 double least_move(const tetrahedron& a, const tetrahedron& b) {
     using normal = std::array<std::int64_t, 3>;
-    const auto across = [](const place& p, const place& q, const place& r, const place& s) {
+    const auto across = [](const grid_place& p, const grid_place& q, const grid_place& r, const grid_place& s) {
         const std::int64_t u[] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]}, v[] = {s[0] - r[0], s[1] - r[1], s[2] - r[2]};
         return normal{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
     };
@@ -41,10 +41,10 @@ double least_move(const tetrahedron& a, const tetrahedron& b) {
     long double least = std::numeric_limits<long double>::max();
     for (const normal& n : all) {
         if (n == normal{0, 0, 0}) continue;
-        const auto height = [&](const place& p) { return n[0] * p[0] + n[1] * p[1] + n[2] * p[2]; };
+        const auto height = [&](const grid_place& p) { return n[0] * p[0] + n[1] * p[1] + n[2] * p[2]; };
         std::int64_t low_a = height(a[0]), high_a = low_a, low_b = height(b[0]), high_b = low_b;
-        for (const place& p : a) low_a = std::min(low_a, height(p)), high_a = std::max(high_a, height(p));
-        for (const place& p : b) low_b = std::min(low_b, height(p)), high_b = std::max(high_b, height(p));
+        for (const grid_place& p : a) low_a = std::min(low_a, height(p)), high_a = std::max(high_a, height(p));
+        for (const grid_place& p : b) low_b = std::min(low_b, height(p)), high_b = std::max(high_b, height(p));
         const auto length = std::sqrt(static_cast<long double>(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]));
         least = std::min(least, static_cast<long double>(std::min(high_a - low_b, high_b - low_a)) / length);
     }
@@ -58,7 +58,7 @@ mesh<T> moved(const mesh<T>& m, const vec3<T>& by) {
     std::vector<std::array<std::uint32_t, 3>> faces;
     rigid<T> pose;
     pose.translation = by;
-    for (std::size_t i = 0; i < m.view().vertices.count; ++i) vertices.push_back(abut::place(pose, m.view().vertices[i]));
+    for (std::size_t i = 0; i < m.view().vertices.count; ++i) vertices.push_back(place(pose, m.view().vertices[i]));
     for (std::size_t f = 0; f < m.size(); ++f) faces.push_back(m.view().faces[f]);
     return {vertices, faces};
 }
@@ -82,7 +82,7 @@ TEMPLATE_TEST_CASE("penetration: of tetrahedra, against their Minkowski differen
         const bool meet = truth != solid_relation::disconnected && truth != solid_relation::externally_connected;
         if (found.overlap != meet) ++wrong;
         if (!meet) {
-            if (!(found == penetration_depth<TestType>{})) ++wrong;
+            if (!(found == penetration_bounds<TestType>{})) ++wrong;
             continue;
         }
         ++deep;

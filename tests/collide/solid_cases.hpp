@@ -20,7 +20,7 @@
 
 namespace abut::test {
 
-using place = std::array<int, 3>;
+using grid_place = std::array<int, 3>;
 
 /// What is made of the integer coordinates of a solid: a linear map of determinant 1 or -1, a unit, and an offset.
 struct frame_of_grid {
@@ -28,7 +28,7 @@ struct frame_of_grid {
     double unit = 1;
 
     template <scalar T>
-    [[nodiscard]] vec3<T> operator()(const place& p) const {
+    [[nodiscard]] vec3<T> operator()(const grid_place& p) const {
         const auto row = [&](int i) {
             const auto sum = map[i][0] * p[0] + map[i][1] * p[1] + map[i][2] * p[2];
             return static_cast<T>(sum * unit);
@@ -39,18 +39,18 @@ struct frame_of_grid {
 
 /// A union of cubes of a grid: cells by their lower corners, in units of `side`.
 struct cells {
-    std::set<place> in;
+    std::set<grid_place> in;
     int side = 1;
-    place offset{0, 0, 0};
+    grid_place offset{0, 0, 0};
 
-    [[nodiscard]] place corner(const place& cell, int dx, int dy, int dz) const {
+    [[nodiscard]] grid_place corner(const grid_place& cell, int dx, int dy, int dz) const {
         return {offset[0] + side * (cell[0] + dx), offset[1] + side * (cell[1] + dy), offset[2] + side * (cell[2] + dz)};
     }
     /// The unit cells of which it consists.
-    [[nodiscard]] std::set<place> units() const {
-        std::set<place> all;
-        for (const place& c : in) {
-            const place from = corner(c, 0, 0, 0);
+    [[nodiscard]] std::set<grid_place> units() const {
+        std::set<grid_place> all;
+        for (const grid_place& c : in) {
+            const grid_place from = corner(c, 0, 0, 0);
             for (int x = 0; x < side; ++x) {
                 for (int y = 0; y < side; ++y) {
                     for (int z = 0; z < side; ++z) all.insert({from[0] + x, from[1] + y, from[2] + z});
@@ -65,10 +65,10 @@ struct cells {
 /// of all turned inwards.
 template <scalar T>
 mesh<T> surface_of(const cells& of, const frame_of_grid& frame, draws& d, bool inwards = false) {
-    std::map<place, std::uint32_t> number;
+    std::map<grid_place, std::uint32_t> number;
     std::vector<vec3<T>> vertices;
     std::vector<std::array<std::uint32_t, 3>> faces;
-    const auto vertex = [&](const place& p) {
+    const auto vertex = [&](const grid_place& p) {
         const auto [at, fresh] = number.try_emplace(p, static_cast<std::uint32_t>(vertices.size()));
         if (fresh) vertices.push_back(frame.operator()<T>(p));
         return at->second;
@@ -76,10 +76,10 @@ mesh<T> surface_of(const cells& of, const frame_of_grid& frame, draws& d, bool i
     const auto& m = frame.map;
     const int determinant = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
                             m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
-    for (const place& c : of.in) {
+    for (const grid_place& c : of.in) {
         for (int axis = 0; axis < 3; ++axis) {
             for (const int up : {0, 1}) {
-                place beyond = c;
+                grid_place beyond = c;
                 beyond[static_cast<std::size_t>(axis)] += up == 1 ? 1 : -1;
                 if (of.in.contains(beyond)) continue;
                 std::array<std::uint32_t, 4> ring{};
@@ -103,11 +103,11 @@ mesh<T> surface_of(const cells& of, const frame_of_grid& frame, draws& d, bool i
 /// Whether the surface has two faces at each edge: of the four cells around an edge never are two opposite ones in and the
 /// others out. Cells that meet in a corner alone share a vertex, which then has several fans.
 inline bool has_two_faces_at_each_edge(const cells& of) {
-    for (const place& c : of.in) {
+    for (const grid_place& c : of.in) {
         for (int axis = 0; axis < 3; ++axis) {
             const auto u = static_cast<std::size_t>((axis + 1) % 3), v = static_cast<std::size_t>((axis + 2) % 3);
             for (const int dv : {-1, 1}) {
-                place side = c, other = c, opposite = c;
+                grid_place side = c, other = c, opposite = c;
                 side[u] += 1;
                 other[v] += dv;
                 opposite[u] += 1;
@@ -139,22 +139,22 @@ inline cells draw_cells(draws& d, int size, int side, int spread) {
 
 /// What relation says, of the two sets alone.
 inline solid_relation truth_of(const cells& first, const cells& second) {
-    const std::set<place> a = first.units(), b = second.units();
-    const auto count = [](const std::set<place>& x, const std::set<place>& y) {
-        return std::count_if(x.begin(), x.end(), [&](const place& c) { return y.contains(c); });
+    const std::set<grid_place> a = first.units(), b = second.units();
+    const auto count = [](const std::set<grid_place>& x, const std::set<grid_place>& y) {
+        return std::count_if(x.begin(), x.end(), [&](const grid_place& c) { return y.contains(c); });
     };
     const auto common = static_cast<std::size_t>(count(a, b));
     // Surfaces touch in a corner of a unit cell: one at which some unit cell is in a and some is not, and the same of b; or
     // they cross, which only overlapping solids do.
     bool touches = false;
-    const auto mixed = [](const std::set<place>& of, const place& p) {
+    const auto mixed = [](const std::set<grid_place>& of, const grid_place& p) {
         int in = 0;
         for (int k = 0; k < 8; ++k) in += of.contains({p[0] - (k & 1), p[1] - (k >> 1 & 1), p[2] - (k >> 2)});
         return in > 0 && in < 8;
     };
-    for (const place& c : a) {
+    for (const grid_place& c : a) {
         for (int k = 0; k < 8 && !touches; ++k) {
-            const place p{c[0] + (k & 1), c[1] + (k >> 1 & 1), c[2] + (k >> 2)};
+            const grid_place p{c[0] + (k & 1), c[1] + (k >> 1 & 1), c[2] + (k >> 2)};
             touches = mixed(a, p) && mixed(b, p);
         }
     }
@@ -183,18 +183,18 @@ inline frame_of_grid draw_frame(draws& d) {
 
 // --- tetrahedra
 
-using tetrahedron = std::array<place, 4>;
+using tetrahedron = std::array<grid_place, 4>;
 
-inline std::int64_t volume_of(const place& a, const place& b, const place& c, const place& d) {
-    const auto x = [&](const place& p) { return std::int64_t{p[0]} - a[0]; };
-    const auto y = [&](const place& p) { return std::int64_t{p[1]} - a[1]; };
-    const auto z = [&](const place& p) { return std::int64_t{p[2]} - a[2]; };
+inline std::int64_t volume_of(const grid_place& a, const grid_place& b, const grid_place& c, const grid_place& d) {
+    const auto x = [&](const grid_place& p) { return std::int64_t{p[0]} - a[0]; };
+    const auto y = [&](const grid_place& p) { return std::int64_t{p[1]} - a[1]; };
+    const auto z = [&](const grid_place& p) { return std::int64_t{p[2]} - a[2]; };
     return x(b) * (y(c) * z(d) - z(c) * y(d)) - y(b) * (x(c) * z(d) - z(c) * x(d)) + z(b) * (x(c) * y(d) - y(c) * x(d));
 }
 inline tetrahedron draw_tetrahedron(draws& d, int size) {
     for (;;) {
         tetrahedron t;
-        for (place& p : t) {
+        for (grid_place& p : t) {
             for (int& x : p) x = d.below(size);
         }
         const std::int64_t volume = volume_of(t[0], t[1], t[2], t[3]);
@@ -206,7 +206,7 @@ inline tetrahedron draw_tetrahedron(draws& d, int size) {
 template <scalar T>
 mesh<T> surface_of(const tetrahedron& t, const frame_of_grid& frame) {
     std::vector<vec3<T>> vertices;
-    for (const place& p : t) vertices.push_back(frame.operator()<T>(p));
+    for (const grid_place& p : t) vertices.push_back(frame.operator()<T>(p));
     return {std::move(vertices), {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
 }
 
@@ -214,11 +214,11 @@ mesh<T> surface_of(const tetrahedron& t, const frame_of_grid& frame) {
 /// has them on different sides.
 inline solid_relation truth_of(const tetrahedron& a, const tetrahedron& b) {
     using normal = std::array<std::int64_t, 3>;
-    const auto minus = [](const place& p, const place& q) { return normal{p[0] - q[0], p[1] - q[1], p[2] - q[2]}; };
+    const auto minus = [](const grid_place& p, const grid_place& q) { return normal{p[0] - q[0], p[1] - q[1], p[2] - q[2]}; };
     const auto across = [](const normal& u, const normal& v) {
         return normal{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
     };
-    const auto height = [](const normal& n, const place& p) { return n[0] * p[0] + n[1] * p[1] + n[2] * p[2]; };
+    const auto height = [](const normal& n, const grid_place& p) { return n[0] * p[0] + n[1] * p[1] + n[2] * p[2]; };
     std::vector<normal> faces_a, faces_b, all;
     const auto faces = [&](const tetrahedron& t) {
         std::vector<normal> found;
@@ -246,8 +246,8 @@ inline solid_relation truth_of(const tetrahedron& a, const tetrahedron& b) {
     bool both = true, apart = false;
     for (const normal& n : all) {
         std::int64_t low_a = height(n, a[0]), high_a = low_a, low_b = height(n, b[0]), high_b = low_b;
-        for (const place& p : a) low_a = std::min(low_a, height(n, p)), high_a = std::max(high_a, height(n, p));
-        for (const place& p : b) low_b = std::min(low_b, height(n, p)), high_b = std::max(high_b, height(n, p));
+        for (const grid_place& p : a) low_a = std::min(low_a, height(n, p)), high_a = std::max(high_a, height(n, p));
+        for (const grid_place& p : b) low_b = std::min(low_b, height(n, p)), high_b = std::max(high_b, height(n, p));
         if (high_a <= low_b || high_b <= low_a) both = false;
         if (high_a < low_b || high_b < low_a) apart = true;
     }
@@ -257,7 +257,7 @@ inline solid_relation truth_of(const tetrahedron& a, const tetrahedron& b) {
     const auto is_in = [&](const tetrahedron& x, const tetrahedron& y, const std::vector<normal>& n, bool& touches) {
         bool in = true;
         touches = false;
-        for (const place& p : x) {
+        for (const grid_place& p : x) {
             for (std::size_t i = 0; i < 4; ++i) {
                 const std::int64_t above = height(n[i], p) - height(n[i], y[(i + 1) % 4]);
                 in &= above <= 0;
@@ -303,7 +303,7 @@ inline std::pair<cells, cells> draw_two_sets(draws& d, std::uint64_t k) {
     }
     if (k % 4 == 0) {  // a itself, or one cell more or less of it
         cells other = a;
-        const place c{d.below(3), d.below(3), d.below(3)};
+        const grid_place c{d.below(3), d.below(3), d.below(3)};
         if (k % 8 == 0 && !other.in.insert(c).second && other.in.size() > 1) other.in.erase(c);
         if (has_two_faces_at_each_edge(other)) b = other;
     }

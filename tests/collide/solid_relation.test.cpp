@@ -54,7 +54,7 @@ TEMPLATE_TEST_CASE("relation: boxes of a grid, against their cells", "", float, 
         const auto box = [&] {
             cells c;
             const int most = 1 + d.below(5);
-            const place size{1 + d.below(most), 1 + d.below(most), 1 + d.below(most)};
+            const grid_place size{1 + d.below(most), 1 + d.below(most), 1 + d.below(most)};
             for (int x = 0; x < size[0]; ++x) {
                 for (int y = 0; y < size[1]; ++y) {
                     for (int z = 0; z < size[2]; ++z) c.in.insert({x, y, z});
@@ -68,9 +68,9 @@ TEMPLATE_TEST_CASE("relation: boxes of a grid, against their cells", "", float, 
         if (k % 16 == 0) b = a;
         if (k % 8 == 1) {  // within the other one, most often
             b.in = a.in;
-            const place last = *a.in.rbegin();
+            const grid_place last = *a.in.rbegin();
             const bool apart = d.below(2) == 0;
-            std::erase_if(b.in, [&](const place& c) {
+            std::erase_if(b.in, [&](const grid_place& c) {
                 bool is_at_side = false;
                 for (std::size_t i = 0; i < 3; ++i) is_at_side |= c[i] == 0 || (apart && c[i] == last[i]);
                 return is_at_side;
@@ -125,13 +125,13 @@ TEMPLATE_TEST_CASE("relation: tetrahedra of a small grid, against planes in inte
         const int size = 3 + d.below(4);
         tetrahedron a = draw_tetrahedron(d, size), b = k % 16 == 0 ? a : draw_tetrahedron(d, size);
         if (k % 16 == 1) {  // of middles of a's corners
-            for (place& p : a) {
+            for (grid_place& p : a) {
                 for (int& x : p) x *= 8;
             }
-            for (place& p : b) {
+            for (grid_place& p : b) {
                 p = {0, 0, 0};
                 for (int i = 0; i < 8; ++i) {
-                    const place& of = a[static_cast<std::size_t>(i < 4 && k % 32 == 1 ? i : d.below(4))];
+                    const grid_place& of = a[static_cast<std::size_t>(i < 4 && k % 32 == 1 ? i : d.below(4))];
                     for (std::size_t c = 0; c < 3; ++c) p[c] += of[c] / 8;
                 }
             }

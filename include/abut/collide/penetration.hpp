@@ -38,7 +38,7 @@ struct penetration_options {
 
 /// How deep two solids are in each other.
 template <scalar T>
-struct penetration_depth {
+struct penetration_bounds {
     bool overlap = false;     ///< whether interiors meet; if not, all else is 0
     farthest_point a_in_b{};  ///< the deepest point of a's surface in b: how far it is from b's surface
     farthest_point b_in_a{};  ///< the deepest point of b's surface in a
@@ -46,7 +46,7 @@ struct penetration_depth {
     double least = 0;         ///< proven: any move that separates them is at least so long
     double most = 0;          ///< the length of `move`, rounded up: the least move is no longer
 
-    friend constexpr bool operator==(const penetration_depth&, const penetration_depth&) = default;
+    friend constexpr bool operator==(const penetration_bounds&, const penetration_bounds&) = default;
 };
 
 ///@}
@@ -186,7 +186,7 @@ template <execution_policy Policy, class X, class Y>
         return penetration(on, detail::as_solid(on, a, function), detail::as_solid(on, b, function), options);
     } else {
         using T = detail::scalar_of_argument<X>;
-        penetration_depth<T> found;
+        penetration_bounds<T> found;
         const auto of_a = detail::triangles_on_host(on, a, function), of_b = detail::triangles_on_host(on, b, function);
         detail::unit_of_search unit;
         unit.see(of_a);
