@@ -36,6 +36,7 @@
 #include <abut/abut.hpp>
 #include <abut/io/read.hpp>
 
+#include "ball.hpp"
 #include "patches/peer.hpp"
 #include "results.hpp"
 
@@ -77,32 +78,6 @@ abut::mesh<float> slab(const vec& l, const vec& u, int n) {
         quad(at(i + 1, n, 0), at(i, n, 0), at(i, n, 1), at(i + 1, n, 1));
         quad(at(0, i + 1, 0), at(0, i, 0), at(0, i, 1), at(0, i + 1, 1));
         quad(at(n, i, 0), at(n, i + 1, 0), at(n, i + 1, 1), at(n, i, 1));
-    }
-    return {std::move(v), std::move(f)};
-}
-
-/// A ball of radius 1 in rings.
-abut::mesh<float> ball(int rings, int around) {
-    constexpr double pi = 3.14159265358979323846;
-    vertices v{{0, 0, 1}};
-    faces f;
-    for (int i = 1; i < rings; ++i) {
-        for (int k = 0; k < around; ++k) {
-            const double a = pi * i / rings, b = 2 * pi * k / around;
-            v.push_back({static_cast<float>(std::sin(a) * std::cos(b)), static_cast<float>(std::sin(a) * std::sin(b)),
-                         static_cast<float>(std::cos(a))});
-        }
-    }
-    v.push_back({0, 0, -1});
-    const auto last = static_cast<std::uint32_t>(v.size() - 1);
-    const auto at = [&](int i, int k) { return static_cast<std::uint32_t>(1 + (i - 1) * around + k % around); };
-    for (int k = 0; k < around; ++k) {
-        f.push_back({0, at(1, k), at(1, k + 1)});
-        f.push_back({last, at(rings - 1, k + 1), at(rings - 1, k)});
-        for (int i = 1; i + 1 < rings; ++i) {
-            f.push_back({at(i, k), at(i + 1, k), at(i + 1, k + 1)});
-            f.push_back({at(i, k), at(i + 1, k + 1), at(i, k + 1)});
-        }
     }
     return {std::move(v), std::move(f)};
 }
@@ -200,7 +175,7 @@ int main(int argc, char** argv) {
         run({"box", slab({-0.5, -0.5, 0}, {0.5, 0.5, 1}, 8), plate,
              [&](double t) { return turned(0.035 * std::sin(6.28 * t), {way * (t - 0.5), 0.3 * way * t, -0.01}); }, 1},
             frames, out);
-        run({"ball", ball(32, 64), plate,
+        run({"ball", bench::ball(32, 64), plate,
              [&](double t) { return turned(2 * way * t, {2 * way * (t - 0.5), 0.1 * t, 0.99 - 0.09 * t}); }, 2},
             frames, out);
         for (int i = 1; i < argc; ++i) {

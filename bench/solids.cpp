@@ -34,6 +34,7 @@
 #include <abut/abut.hpp>
 #include <abut/io/read.hpp>
 
+#include "ball.hpp"
 #include "results.hpp"
 
 namespace {
@@ -59,32 +60,6 @@ abut::mesh<float> brick(float x, float y, float z) {
     for (int i = 0; i < 8; ++i) v.push_back({(i & 1) != 0 ? x : 0, (i & 2) != 0 ? y : 0, (i & 4) != 0 ? z : 0});
     return {std::move(v), {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                            {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}}};
-}
-
-/// A ball of radius 1 in rings.
-abut::mesh<float> ball(int rings, int around) {
-    constexpr double pi = 3.14159265358979323846;
-    vertices v{{0, 0, 1}};
-    faces f;
-    for (int i = 1; i < rings; ++i) {
-        for (int k = 0; k < around; ++k) {
-            const double a = pi * i / rings, b = 2 * pi * k / around;
-            v.push_back({static_cast<float>(std::sin(a) * std::cos(b)), static_cast<float>(std::sin(a) * std::sin(b)),
-                         static_cast<float>(std::cos(a))});
-        }
-    }
-    v.push_back({0, 0, -1});
-    const auto last = static_cast<std::uint32_t>(v.size() - 1);
-    const auto at = [&](int i, int k) { return static_cast<std::uint32_t>(1 + (i - 1) * around + k % around); };
-    for (int k = 0; k < around; ++k) {
-        f.push_back({0, at(1, k), at(1, k + 1)});
-        f.push_back({last, at(rings - 1, k + 1), at(rings - 1, k)});
-        for (int i = 1; i + 1 < rings; ++i) {
-            f.push_back({at(i, k), at(i + 1, k), at(i + 1, k + 1)});
-            f.push_back({at(i, k), at(i + 1, k + 1), at(i, k + 1)});
-        }
-    }
-    return {std::move(v), std::move(f)};
 }
 
 abut::rigid<float> moved(float x, float y, float z) { return {{1, 0, 0, 0, 1, 0, 0, 0, 1}, {x, y, z}}; }
@@ -203,8 +178,8 @@ void bricks(int runs, bench::results& out) {
 
 void balls(int runs, bench::results& out) {
     const abut::serial on;
-    const auto large = abut::make_bvh(on, ball(17, 32)), small = abut::make_bvh(on, ball(17, 32));
-    std::vector<abut::posed_object<decltype(abut::make_bvh(on, ball(3, 3)))>> scene;
+    const auto large = abut::make_bvh(on, bench::ball(17, 32)), small = abut::make_bvh(on, bench::ball(17, 32));
+    std::vector<abut::posed_object<decltype(abut::make_bvh(on, bench::ball(3, 3)))>> scene;
     std::mt19937 random(1);
     std::uniform_real_distribution<float> draw(0, 1);
     std::vector<abut::vec3<double>> at;

@@ -147,6 +147,13 @@ TEMPLATE_TEST_CASE("hausdorff: what is known in closed form", "", float, double)
     const auto over = hausdorff(on, mesh<T>{{{0, 0, 0}, {8, 0, 0}, {8, 8, 0}, {0, 8, 0}}, {{0, 1, 2}, {0, 2, 3}}}, roof, {.tolerance = 1e-4});
     CHECK(over.b_from_a.lower == Approx(2).epsilon(1e-9));
     CHECK(over.a_from_b.upper >= over.a_from_b.lower);
+    // From its border a triangle is farthest in the middle of the inscribed circle.
+    const mesh<T> whole{{{0, 0, 0}, {8, 0, 0}, {0, 8, 0}}, {{0, 1, 2}}}, border{{{0, 0, 0}, {8, 0, 0}, {0, 8, 0}}, {{0, 1, 1}, {1, 2, 2}, {2, 0, 0}}};
+    const auto inner = hausdorff(on, whole, border, {.tolerance = 1e-4});
+    const double radius = 8 - 4 * std::sqrt(2.0);
+    CHECK(inner.a_from_b.lower == Approx(radius).margin(1e-4));
+    CHECK(inner.a_from_b.upper >= radius);
+    CHECK(inner.b_from_a.upper < 1e-4);
     // Under a pose.
     const rigid<T> up{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 0, 5}};
     const auto moved = hausdorff(on, make_bvh(on, square<T>(0, 0, 0, 4)), posed(make_bvh(on, square<T>(0, 0, 0, 4)), up), {.tolerance = 1e-6});

@@ -169,6 +169,17 @@ TEMPLATE_TEST_CASE("penetration: of cells with holes and dents: no sample of a s
     CHECK(deep > count / 8);
 }
 
+TEMPLATE_TEST_CASE("penetration: a needle through a cube is deepest far from all of its corners", "", float, double) {
+    using T = TestType;
+    const mesh<T> needle{{{-20, 0, 0}, {2, T(0.125), 0}, {2, T(-0.125), 0}, {2, 0, T(0.125)}}, {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}};
+    const auto found = penetration(serial{}, needle, aabb<T>{{-1, -1, -1}, {1, 1, 1}}, {.tolerance = 0.01});
+    // One of its faces goes through the middle of the cube.
+    CHECK(found.a_in_b.lower > 0.985);
+    CHECK(found.a_in_b.upper >= 1);
+    CHECK(found.a_in_b.upper < 1.015);
+    CHECK(std::abs(found.a_in_b.point.x) < 0.02);
+}
+
 TEMPLATE_TEST_CASE("penetration: walls, boxes in boxes, and what is refused", "", float, double) {
     const serial on;
     using T = TestType;

@@ -80,17 +80,8 @@ public:
     [[nodiscard]] const tree_type& tree() const { return tree_; }
     [[nodiscard]] auto nearest_to(const std::vector<vec3<double>>& points) const { return to_host(nearest(on_, tree_, points)); }
     /// Of a closed surface, for each point whether it is inside.
-    [[nodiscard]] std::vector<char> have_inside(const std::vector<vec3<double>>& points) const {
-        const auto x = make_operand(on_, tree_, "abut::penetration");
-        const auto set = copy_to(on_, abut::points<double>(points));
-        const auto rows = make_operand(on_, set, "abut::penetration");
-        execution::buffer_of<Policy, containment> where(on_, points.size());
-        look_upward<filtered>(on_, x, rows, where.data());
-        std::vector<containment> here(points.size());
-        download(on_, where.data(), here.size(), here.data());
-        std::vector<char> are;
-        for (const containment c : here) are.push_back(c == containment::inside ? 1 : 0);
-        return are;
+    [[nodiscard]] std::vector<bool> have_inside(const std::vector<vec3<double>>& points) const {
+        return are_inside(on_, tree_, points, "abut::penetration");
     }
 
 private:
@@ -183,12 +174,12 @@ private:
     /// What is known of points, and the farthest of those.
     std::vector<corner> look(const std::vector<vec3<double>>& points, const std::vector<std::uint32_t>& faces) {
         const auto near = to_.nearest_to(points);
-        std::vector<char> inside;
+        std::vector<bool> inside;
         if (only_inside_) inside = to_.have_inside(points);
         std::vector<corner> all;
         all.reserve(points.size());
         for (std::size_t i = 0; i < points.size(); ++i) {
-            const bool counts = !only_inside_ || inside[i] != 0;
+            const bool counts = !only_inside_ || inside[i];
             all.push_back({points[i], near[i].distance, near[i].id, counts});
             const double lower = near[i].distance - slack_of_search;
             if (!counts || !(lower > found_.lower)) continue;
@@ -326,6 +317,7 @@ public:
                 box_ = merge(box_, aabb<double>{q, q});
             }
         }
+        std::frexp(largest_, &exponent_);
     }
     template <scalar T>
     [[nodiscard]] std::vector<triangle<double>> bring(const std::vector<triangle<T>>& faces) const {
@@ -335,10 +327,10 @@ public:
         return all;
     }
     [[nodiscard]] vec3<double> bring(const vec3<double>& p) const {
-        return {std::ldexp(p.x, -exponent()), std::ldexp(p.y, -exponent()), std::ldexp(p.z, -exponent())};
+        return {std::ldexp(p.x, -exponent_), std::ldexp(p.y, -exponent_), std::ldexp(p.z, -exponent_)};
     }
-    [[nodiscard]] double length(double x) const { return std::ldexp(x, -exponent()); }
-    [[nodiscard]] double length_back(double x) const { return std::ldexp(x, exponent()); }
+    [[nodiscard]] double length(double x) const { return std::ldexp(x, -exponent_); }
+    [[nodiscard]] double length_back(double x) const { return std::ldexp(x, exponent_); }
     [[nodiscard]] vec3<double> back(const vec3<double>& p) const {
         return {length_back(p.x), length_back(p.y), length_back(p.z)};
     }
@@ -355,12 +347,8 @@ public:
     }
 
 private:
-    [[nodiscard]] int exponent() const {
-        int e = 0;
-        std::frexp(largest_, &e);
-        return e;
-    }
     double largest_ = 0;
+    int exponent_ = 0;
     aabb<double> box_ = empty_box<double>();
 };
 

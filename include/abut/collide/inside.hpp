@@ -263,6 +263,21 @@ void look_upward(const Policy& on, const Operand& x, const Queries& queries, Ans
     for_each_ordered(on, from.size(), from_each{walk_type{walk, frame, there, from, rule, out}}, until);
 }
 
+/// Of each point, in host memory, whether it is inside of a surface that is known to be closed: a tree of triangles, posed or not.
+template <class Policy, class X, scalar T>
+std::vector<bool> are_inside(const Policy& on, const X& surface, const std::vector<vec3<T>>& asked, const char* function) {
+    const auto x = make_operand(on, surface, function);
+    const auto set = copy_to(on, points<T>(asked));
+    const auto rows = make_operand(on, set, function);
+    execution::buffer_of<Policy, containment> where(on, asked.size());
+    look_upward<filtered>(on, x, rows, where.data());
+    std::vector<containment> here(asked.size());
+    download(on, where.data(), here.size(), here.data());
+    std::vector<bool> are(here.size());
+    for (std::size_t i = 0; i < are.size(); ++i) are[i] = here[i] == containment::inside;
+    return are;
+}
+
 /// Where a point is, or how often the surface goes round it: of a part, what the way up from it crosses of the part's triangles.
 template <arithmetic A, class Answer = containment>
 struct ask_inside : question_of_points {

@@ -129,14 +129,8 @@ private:
     }
     template <class X>
     bool has_inside(const X& x, const std::vector<vec3<T>>& points) const {
-        const auto set = copy_to(on_, abut::points<T>(points));
-        const auto of = make_operand(on_, x, "abut::penetration");
-        const auto rows = make_operand(on_, set, "abut::penetration");
-        execution::buffer_of<Policy, containment> where(on_, points.size());
-        look_upward<filtered>(on_, of, rows, where.data());
-        std::vector<containment> here(points.size());
-        download(on_, where.data(), here.size(), here.data());
-        return std::find(here.begin(), here.end(), containment::inside) != here.end();
+        const std::vector<bool> are = are_inside(on_, x, points, "abut::penetration");
+        return std::find(are.begin(), are.end(), true) != are.end();
     }
     /// Whether nothing touches, and no part of a surface is in the other solid.
     [[nodiscard]] bool is_free(const vec3<T>& move) const {

@@ -146,12 +146,7 @@ public:
             for (const mesh_face<T>& f : surface_.faces()) corners.push_back(f.corners);
             tree_.emplace(make_bvh(on, triangle_soup<T>(std::move(corners))));
         }
-        execution::buffer_of<serial, containment> where(on, vertices.size());
-        const auto rows = make_operand(on, points<T>(std::move(vertices)), "abut::relation");
-        look_upward<filtered>(on, make_operand(on, *tree_, "abut::relation"), rows, where.data());
-        std::vector<bool> are(where.size());
-        for (std::size_t i = 0; i < are.size(); ++i) are[i] = where.data()[i] == containment::inside;
-        return are;
+        return are_inside(on, *tree_, vertices, "abut::relation");
     }
 
 private:

@@ -40,7 +40,7 @@ public:
 
     template <class Add>
     void run(const Add& add) {
-        for (bool first = true; next_row(); first = false) {
+        for (bool first = true; text_.to_next_row(); first = false) {
             if (first && is_header()) {
                 header();
             } else {
@@ -51,16 +51,6 @@ public:
     }
 
 private:
-    /// To the next line that is neither empty nor a comment.
-    bool next_row() {
-        for (;; text_.next_line()) {
-            text_.skip_blanks();
-            if (text_.peek() == '#') text_.rest();
-            if (!text_.at_line_end()) return true;
-            if (text_.at_end()) return false;
-        }
-    }
-
     /// Whether the first line, where the cursor is, starts with something that is no number.
     [[nodiscard]] bool is_header() const {
         text_cursor ahead = text_;

@@ -36,7 +36,7 @@ public:
         mesh_.faces.reserve(static_cast<std::size_t>(faces));
         face_collector<T> collector(mesh_, file_);
         for (std::uint64_t f = 0; f < faces; ++f) face(collector);
-        begin_row();
+        text_.to_next_row();
         if (!text_.at_end()) {
             if (!options_.lenient) text_.fail("the end of the file after the last face", text_.token());
             mesh_.skipped.bytes = text_.bytes_left();
@@ -46,14 +46,6 @@ public:
     }
 
 private:
-    /// To the next line that is neither empty nor a comment.
-    void begin_row() {
-        for (;; text_.next_line()) {
-            text_.skip_blanks();
-            if (text_.peek() == '#') text_.rest();
-            if (!text_.at_line_end() || text_.at_end()) return;
-        }
-    }
     std::string_view next() {
         text_.skip_blanks();
         return text_.peek() == '#' ? std::string_view() : text_.token();
@@ -61,7 +53,7 @@ private:
     /// A value that the row must have.
     std::string_view value() {
         std::string_view word = next();
-        if (word.empty() && across_lines_) begin_row(), word = next();
+        if (word.empty() && across_lines_) text_.to_next_row(), word = next();
         return word;
     }
     /// What is left of a row are numbers, which are colours, normals or the like.
@@ -82,7 +74,7 @@ private:
     /// The keyword, and the numbers of vertices, faces and edges, on its line or on the next one. Many programs leave out
     /// the edges, and some the blank after the keyword.
     std::pair<std::uint64_t, std::uint64_t> counts() {
-        begin_row();
+        text_.to_next_row();
         std::string_view word = next();
         std::string_view kind = word.substr(0, word.find_first_of("0123456789"));
         if (!kind.ends_with("OFF") || (kind.size() < word.size() && kind != "OFF")) {
@@ -100,7 +92,7 @@ private:
         if (word.empty()) {
             text_.rest();  // a comment
             text_.next_line();
-            begin_row();
+            text_.to_next_row();
             word = next();
         }
         const std::uint64_t vertices = count(word, "the number of vertices, up to 2147483647");
@@ -118,7 +110,7 @@ private:
     }
 
     void vertex() {
-        begin_row();
+        text_.to_next_row();
         const T x = text_.template finite<T>(value(), "the x coordinate of a vertex");
         const T y = text_.template finite<T>(value(), "the y coordinate of a vertex");
         const T z = text_.template finite<T>(value(), "the z coordinate of a vertex");
@@ -126,7 +118,7 @@ private:
         if (!across_lines_) end_row();
     }
     void face(face_collector<T>& collector) {
-        begin_row();
+        text_.to_next_row();
         const std::string_view word = next();
         const std::uint64_t corners = count(word, "the number of corners of a face");
         if (corners < 3 && !options_.lenient) text_.fail("a face of at least 3 corners", word);

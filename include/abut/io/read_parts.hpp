@@ -49,7 +49,7 @@ public:
     /// add(file, name, pose) of each row.
     template <class Add>
     void run(const Add& add) {
-        for (bool is_first = true; next_row(); is_first = false) {
+        for (bool is_first = true; text_.to_next_row(); is_first = false) {
             const std::string_view path = word("the file of a mesh");
             comma("the file of a mesh");
             const std::string_view name = word("the name of a part");
@@ -64,14 +64,6 @@ public:
     }
 
 private:
-    bool next_row() {
-        for (;; text_.next_line()) {
-            text_.skip_blanks();
-            if (text_.peek() == '#') text_.rest();
-            if (!text_.at_line_end()) return true;
-            if (text_.at_end()) return false;
-        }
-    }
     /// Up to the next comma, without blanks around it.
     std::string_view word(const char* what) {
         text_.skip_blanks();

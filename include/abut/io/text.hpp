@@ -156,6 +156,16 @@ public:
         ++line_;
     }
 
+    /// To the next line that is neither empty nor a comment, which '#' begins. Whether there is one.
+    bool to_next_row() {
+        for (;; next_line()) {
+            skip_blanks();
+            if (peek() == '#') rest();
+            if (!at_line_end()) return true;
+            if (at_end()) return false;
+        }
+    }
+
     /// Throws io_error of this line: `expected ..., found ...`. What was found is the token given or, if that is empty, what
     /// the cursor stands at.
     [[noreturn]] void fail(const std::string& expected, std::string_view found) const {
