@@ -319,7 +319,8 @@ def raycast_cpu(results):
 @in_table("raycast-cuda")
 def raycast_cuda(results):
     r = results["cuda/raycast"]
-    names = {"bvh/filtered": "`make_bvh`", "ploc/filtered": "`ploc`", "ploc/fast": "`ploc`, by `fast`"}
+    names = {"bvh/filtered": "`make_bvh`", "ploc/filtered": "`ploc`", "ploc/fast": "`ploc`, by `fast`",
+             "plain": "a plain walk in float, `ploc`"}
     rays = r.get("raycast/coherent/bvh/filtered/cuda", "items")
     rows = []
     for index, name in names.items():

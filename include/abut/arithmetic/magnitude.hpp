@@ -6,6 +6,8 @@
 // jumps. These are the library's only minimum and maximum of numbers: std::fmin is a call, and std::min says the opposite of
 // NaN.
 
+#include <concepts>
+
 #include <abut/arithmetic/arithmetic.hpp>
 #include <abut/arithmetic/vec.hpp>
 
@@ -47,6 +49,23 @@ ABUT_HD constexpr F greatest(F a, F b, Rest... rest) {
     return greatest(a > b ? a : b, rest...);
 }
 
+/// The lesser and the greater of two numbers where it does not matter what is made of NaN, or of zeros of two signs: one
+/// instruction of devices too, which need two for `least`.
+template <scalar F>
+ABUT_HD F lesser(F a, F b) {
+#if ABUT_DEVICE_CODE
+    if constexpr (std::same_as<F, float>) return ::fminf(a, b);
+#endif
+    return a < b ? a : b;
+}
+template <scalar F>
+ABUT_HD F greater(F a, F b) {
+#if ABUT_DEVICE_CODE
+    if constexpr (std::same_as<F, float>) return ::fmaxf(a, b);
+#endif
+    return a > b ? a : b;
+}
+
 /// Coordinate by coordinate.
 template <class T>
 ABUT_HD constexpr vec3<T> least(const vec3<T>& a, const vec3<T>& b) {
@@ -55,6 +74,14 @@ ABUT_HD constexpr vec3<T> least(const vec3<T>& a, const vec3<T>& b) {
 template <class T>
 ABUT_HD constexpr vec3<T> greatest(const vec3<T>& a, const vec3<T>& b) {
     return {greatest(a.x, b.x), greatest(a.y, b.y), greatest(a.z, b.z)};
+}
+template <class T>
+ABUT_HD vec3<T> lesser(const vec3<T>& a, const vec3<T>& b) {
+    return {lesser(a.x, b.x), lesser(a.y, b.y), lesser(a.z, b.z)};
+}
+template <class T>
+ABUT_HD vec3<T> greater(const vec3<T>& a, const vec3<T>& b) {
+    return {greater(a.x, b.x), greater(a.y, b.y), greater(a.z, b.z)};
 }
 
 template <scalar T>

@@ -288,7 +288,11 @@ auto look_for_nearest(const Policy& on, const Operand& x, const Queries& queries
     const auto order = order_of_points<Operand>(on, from);
     if constexpr (look_in_groups<Policy, std::remove_const_t<decltype(walk)>, typename shapes_type::shape_type>) {
         const auto frame = frame_of(x, unit);
-        return finish(order.data(), nearest_in_groups(on, walk.tree, frame, there, from, judge, order.data()).data());
+        const walk_from_points<std::remove_const_t<decltype(walk)>, std::remove_const_t<decltype(frame)>, shapes_type, points_type,
+                               measure_distance<T>, all_shapes_wanted>
+            by_itself{walk, frame, there, from, judge, order.data(), {}};
+        return finish(order.data(),
+                      nearest_in_groups(on, walk.tree, frame, there, from, judge, order.data(), by_itself).data());
     } else {
         execution::best_of_each<space_of<Policy>> best(on, n);
         walk_alone_from_points(on, x, from, judge, order.data(), best);

@@ -19,13 +19,32 @@
 
 namespace abut::detail {
 
+/// Of a shape's corners, seen from where p is seen too, the one that is nearest to p.
+template <scalar T>
+struct corner_near {
+    vec3<T> at;
+    T square = infinity<T>, size = 0, longest = 0;  ///< squares: from p, of the farthest corner, of the longest edge
+
+    template <int N>
+    ABUT_HD corner_near(const corners_from<T, N>& seen, const vec3<T>& p) : at(seen.at[0]) {
+        for (int k = 0; k < N; ++k) {
+            const vec3<T> way = seen.at[k] - p, edge = seen.at[k] - seen.at[k + 1 < N ? k + 1 : 0];
+            size = greatest(size, dot(seen.at[k], seen.at[k]));
+            longest = greatest(longest, dot(edge, edge));
+            if (dot(way, way) < square) square = dot(way, way), at = seen.at[k];
+        }
+    }
+};
+
 /// As many points as a subgroup has members look for their nearest shapes. What their box and a corner near its middle leave
 /// over, a node or a shape for each member, comes to a list, which the members share. Each member tests its point with each
 /// shape of the list, by bounds that take little (shape/corners.hpp), and so its limit shrinks. The pairs that are left are
 /// shared out, and tested once more by what the limits are by then. What is left is measured, a pair for each member.
 ///
 /// Some groups lie around what is as near to them on all sides, such as the middle of a tube, and find long lists. Their
-/// points are left for a second run, in which each looks by itself, with all members of a group.
+/// points are left for a second run, in which each looks by itself, with all members of a group. Where all points of a group
+/// are close to a shape each, next to its size, they have hardly more to look at than that. They are left for walks of single
+/// points.
 template <bvh_layout Tree, class Frame, shape_view Shapes, shape_view Points, class Judge>
 struct nearest_to_group {
     using T = typename Points::scalar_type;
@@ -35,6 +54,8 @@ struct nearest_to_group {
     using seen_shape = seen_shape_of<shape_type>;
     /// most_lists: full ones, after which a group is left for the second run.
     static constexpr unsigned members = execution::subgroup_size, room = 2 * members, most_lists = 24;
+    /// A point is close to a shape whose longest edge has at least this part of the square of the way to a corner of it.
+    static constexpr T close = T(0x1p-4);
     struct waiting_pair {
         T at_least;
         std::uint32_t id, point;
@@ -66,8 +87,11 @@ struct nearest_to_group {
     const std::uint32_t* order;
     std::size_t count;
     execution::least_value* out;
-    std::uint32_t *left, *left_count;  ///< numbers of groups that are left; null in the second run
-    const std::uint32_t* alone;        ///< these, in the second run, and null in the first
+    /// Numbers of groups that are left for the second run, from its begin on, and of those left for walks of single points,
+    /// before its end; null in the second run.
+    std::uint32_t *left, *left_end;
+    std::uint32_t* counts;       ///< how many these are
+    const std::uint32_t* alone;  ///< the groups of the second run, and null in the first
 
     ABUT_HD void operator()(const group& all) const {
         shared& memory = all.shared;
@@ -112,11 +136,27 @@ struct nearest_to_group {
             });
         };
         look_past(walk.shape_near(frame.ball_around(middle).center));
-        all.each([&](unsigned k) {
+        const T farthest = all.least([&](unsigned k) {
             const vec3<T> minus_twice = T(-2) * (memory.world[k] - middle);
-            const T limit = memory.corner.at_most + dot(minus_twice, memory.corner.at);
+            T limit = memory.corner.at_most + dot(minus_twice, memory.corner.at), is_close = 0;
+            if (left != nullptr) {
+                const auto shape = shapes[walk.shape_near(frame.ball_around(memory.world[k]).center)];
+                const corner_near<T> own(seen_corners_of<shape_type>(shape, middle), memory.world[k] - middle);
+                const seen_corner<T> corner(own.at, own.size, far_squared);
+                limit = least(corner.at_most + dot(minus_twice, corner.at), limit);
+                is_close = own.square * close <= own.longest ? T(1) : T(0);
+            }
             memory.points[k] = {minus_twice, least(limit, infinity<T>)};  // not NaN
             memory.mine[k] = 0;
+            return is_close;
+        });
+        if (farthest > 0) {
+            all.each([&](unsigned k) {
+                if (k == 0) *(left_end - 1 - execution::atomic_add(counts + 1, 1u)) = static_cast<std::uint32_t>(number);
+            });
+            return;
+        }
+        all.each([&](unsigned k) {
             if (k < there) out[first + k] = {};
         });
 
@@ -239,7 +279,7 @@ struct nearest_to_group {
                 look_past_nearest_of_list();
             } else {
                 all.each([&](unsigned k) {
-                    if (k == 0) left[execution::atomic_add(left_count, 1u)] = static_cast<std::uint32_t>(number);
+                    if (k == 0) left[execution::atomic_add(counts, 1u)] = static_cast<std::uint32_t>(number);
                 });
             }
             listed = 0;
@@ -266,22 +306,66 @@ template <class Policy, class Walk, class Shape>
 concept look_in_groups = looks_in_groups<Policy> && has_corners<Shape> && requires(const Walk& walk) { walk.tree; } &&
     !requires(const Walk& walk) { walk.tree.volume(walk.tree.fetch(0), 0); };
 
+/// The points of some groups, of n points in all. The last group may have fewer.
+struct points_of_groups {
+    const std::uint32_t* groups;  ///< their numbers
+    std::size_t n;
+    ABUT_HD std::size_t operator()(std::size_t i) const {
+        constexpr unsigned members = execution::subgroup_size;
+        return std::size_t{members} * groups[i / members] + i % members;
+    }
+};
+/// The walks of these points.
+template <class Walk>
+struct walk_in_groups {
+    Walk walk;
+    points_of_groups point;
+    ABUT_CALLS_ANY
+    template <class Best>
+    ABUT_HD void operator()(std::size_t i, Best& best) const {
+        if (point(i) < point.n) walk(point(i), best);
+    }
+};
+/// What they find, each where its point is.
+template <memory_space Space>
+struct best_in_groups {
+    struct sink : execution::best_of_each<Space>::sink {
+        points_of_groups point;
+        ABUT_HD void end(std::size_t i) {
+            if (point(i) < point.n) this->out[point(i)] = this->mine;
+        }
+    };
+    execution::least_value* out;
+    points_of_groups point;
+
+    [[nodiscard]] sink make_sink(std::size_t /*thread*/) const { return {{out, execution::least_value{}.value}, point}; }
+    template <class Policy>
+    void begin(const Policy&, std::size_t /*threads*/) {}
+    template <class Policy>
+    void end(const Policy&) {}
+};
+
 /// For each point in the order of `order`, or in their own if that is null, the nearest shape. There are some points.
-template <class Policy, bvh_layout Tree, class Frame, shape_view Shapes, shape_view Points, class Judge>
+/// `by_itself` is the walk of a single point.
+template <class Policy, bvh_layout Tree, class Frame, shape_view Shapes, shape_view Points, class Judge, class Alone>
 auto nearest_in_groups(const Policy& on, const Tree& tree, const Frame& frame, const Shapes& shapes, const Points& points,
-                       const Judge& judge, const std::uint32_t* order) {
+                       const Judge& judge, const std::uint32_t* order, const Alone& by_itself) {
     using group_type = nearest_to_group<Tree, Frame, Shapes, Points, Judge>;
     constexpr std::size_t members = group_type::members;
-    const std::size_t n = points.size();
+    const std::size_t n = points.size(), groups = n / members + 1;
     execution::buffer_of<Policy, execution::least_value> found(on, n);
-    execution::buffer_of<Policy, std::uint32_t> left(on, n / members + 2);
-    fill(on, left.data(), 1, 0u);
-    group_type look{{tree}, frame, shapes, points, judge, order, n, found.data(), left.data() + 1, left.data(), nullptr};
+    execution::buffer_of<Policy, std::uint32_t> numbers(on, groups + 2);
+    std::uint32_t *const left = numbers.data() + 2, *const end = left + groups;
+    fill(on, numbers.data(), 2, 0u);
+    group_type look{{tree}, frame, shapes, points, judge, order, n, found.data(), left, end, numbers.data(), nullptr};
     for_each_group(on, n, look);
-    std::uint32_t groups = 0;
-    download(on, left.data(), 1, &groups);
+    std::uint32_t counts[2] = {};
+    download(on, numbers.data(), 2, counts);
     look.alone = std::exchange(look.left, nullptr);
-    for_each_group(on, members * members * groups, look);
+    for_each_group(on, members * members * counts[0], look);
+    const points_of_groups single{end - counts[1], n};
+    best_in_groups<space_of<Policy>> best{found.data(), single};
+    for_each_ordered(on, members * counts[1], walk_in_groups<Alone>{by_itself, single}, best);
     return found;
 }
 

@@ -123,6 +123,45 @@ struct walk_along_lines {
     };
     ABUT_HD look start(std::size_t i) const { return {lines[i], wanted.row(i)}; }
     ABUT_HD auto seen(std::size_t i) const { return line_along(frame, lines[i]); }
+
+    /// The same as long as plain numbers tell all that is asked. Where they do not it gives up, and all is asked again. So a
+    /// device has nothing in a walk that is called out of line, for which it would keep room, and lines in memory.
+    struct plain_look {
+        typename Lines::shape_type line;
+        double earliest = infinity<double>;
+        bool has_given_up = false;
+
+        ABUT_CALLS_ANY
+        template <class Best>
+        ABUT_HD void operator()(const walk_along_lines& all, walk_id<Walk> id, Best& best) {
+            const time_bounds time = plain_hit_time_bounds<A>(line, all.shapes[id]);
+            if (time.first < 0 || time.first > best.bound()) return;
+            if (!(time.last < earliest) && !(time.is_one() && time.last == best.known().value)) {
+                has_given_up = true;
+                return best.offer(0, id);  // which ends the walk soon
+            }
+            earliest = time.first;
+            best.offer(time.last, id);
+        }
+        /// False where it has given up.
+        template <class Best>
+        [[nodiscard]] ABUT_HD bool end(const walk_along_lines& all, Best& best) const {
+            using T = typename Lines::scalar_type;
+            if (has_given_up) return false;
+            const execution::least_value last = best.known();
+            if (earliest == last.value || (all.in_scalars && time_as<T>(earliest) == time_as<T>(last.value))) return true;
+            const auto again = line;
+            best.offer(hit_time_apart<A>(again, all.shapes[static_cast<walk_id<Walk>>(last.key)]), last.key);
+            return true;
+        }
+    };
+    ABUT_HD plain_look start_plainly(std::size_t i) const
+        requires std::same_as<Wanted, all_hits_wanted> && requires(const typename Lines::shape_type& line, std::size_t id) {
+            plain_hit_time_bounds<A>(line, shapes[id]);
+        }
+    {
+        return {lines[i]};
+    }
 };
 
 /// Of each line whether it meets anything: the same, which ends at what it meets at all.
@@ -167,21 +206,12 @@ ABUT_HD Hit named_hit(const execution::least_value& found) {
         return {static_cast<decltype(Hit::id)>(found.key), t};
     }
 }
-template <class Hit>
-struct write_hits {
-    const execution::least_value* found;  ///< null for none
-    Hit* out;
-    ABUT_HD void operator()(std::size_t i) const {
-        out[i] = named_hit<Hit>(found == nullptr ? execution::least_value{} : found[i]);
-    }
-};
-
-/// The same as soon as it is known, on a host, which then writes and reads nothing between.
-template <class Hit>
+/// best_of_each that keeps nothing else: what was met is written as soon as it is known.
+template <class Hit, memory_space Space>
 struct hits_of_each {
-    struct sink : execution::best_of_each<host_space>::sink {
+    struct sink : execution::best_of_each<Space>::sink {
         Hit* hits;
-        void end(std::size_t i) { hits[i] = named_hit<Hit>(this->mine); }
+        ABUT_HD void end(std::size_t i) { hits[i] = named_hit<Hit>(this->mine); }
     };
     Hit* hits;
     double most;
@@ -356,20 +386,15 @@ struct ask_first_hit : question_of_lines<Options, ask_first_hit<A, Options>> {
     auto at_once(const Policy& on, const X& x, const Lines& lines, double) const {
         const auto both = lines_that_want(x, lines, this->options);
         using hit = found<typename std::remove_const_t<decltype(both)>::T, operand_id<X>>;
-        if constexpr (host_policy<Policy>) {
-            if (!both.has_nothing()) {
-                execution::buffer_of<Policy, hit> out(on, both.size());
-                hits_of_each<hit> best{out.data(), both.wanted.most()};
-                walk_to_first_hits<A>(on, both, true, best);
-                return result<hit, space_of<Policy>>(std::move(out));
-            }
+        execution::buffer_of<Policy, hit> out(on, both.size());
+        if (both.has_nothing()) {
+            fill(on, out.data(), both.size(), named_hit<hit>({}));
+        } else {
+            hits_of_each<hit, space_of<Policy>> best{out.data(), both.wanted.most()};
+            walk_to_first_hits<A>(on, both, true, best);
         }
-        return look_for_first_hits<A>(on, both, true, [&](const execution::least_value* met) {
-            execution::buffer_of<Policy, hit> out(on, both.size());
-            for_each_index(on, both.size(), write_hits<hit>{met, out.data()});
-            synchronize(on);
-            return result<hit, space_of<Policy>>(std::move(out));
-        });
+        synchronize(on);
+        return result<hit, space_of<Policy>>(std::move(out));
     }
     template <scalar T>
     [[nodiscard]] ask_first_hit in_parts(double) const {

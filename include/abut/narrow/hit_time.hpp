@@ -106,15 +106,20 @@ ABUT_NOINLINE ABUT_HD constexpr double exact_hit_time(const Line& line, const tr
     return met.first_time();
 }
 
+/// When a line that meets a triangle does, in plain numbers: 0 where these do not tell.
+template <scalar T>
+ABUT_HD constexpr double plain_time(const line_of<T>& l, const triangle<T>& t) {
+    const vec3<T> n = cross(t.b - t.a, t.c - t.a);
+    const T time = dot(n, t.a - l.origin) / dot(n, l.direction());
+    return time >= 0 && is_finite(time) ? static_cast<double>(time) : 0;
+}
+
 /// When a ray or a segment meets a triangle, or a negative number if it does not.
 template <arithmetic A, class Line, scalar T>
 ABUT_HD constexpr double hit_time(const Line& line, const triangle<T>& t) {
     const line_of<T> l(line);
     if constexpr (std::same_as<A, fast>) {
-        if (!intersects<fast>(line, t)) return -1;
-        const vec3<T> n = cross(t.b - t.a, t.c - t.a);
-        const T time = dot(n, t.a - l.origin) / dot(n, l.direction());
-        return time >= 0 && is_finite(time) ? static_cast<double>(time) : 0;
+        return intersects<fast>(line, t) ? plain_time(l, t) : -1;
     } else {
         if (std::same_as<A, filtered> && !ABUT_CONSTANT_EVALUATED()) {
             const verdict v = decide<filtered>(as_stored(line), as_stored(t));
@@ -134,23 +139,37 @@ ABUT_NOINLINE ABUT_HD constexpr double hit_time_apart(const Line& line, const tr
     return hit_time<A>(line, t);
 }
 
+/// The same as far as plain numbers tell: from 0 to infinity where they do not. Nothing is called out of line.
+template <arithmetic A, class Line, scalar T>
+requires(!std::same_as<A, exact>) ABUT_HD time_bounds plain_hit_time_bounds(const Line& line, const triangle<T>& t) {
+    constexpr time_bounds any_time{0, infinity<double>};
+    time_bounds times{-1, -1};
+    if constexpr (std::same_as<A, fast>) {
+        const verdict v = decide<fast>(line, t);
+        if (v == verdict::no) return times;
+        if (v == verdict::unknown) return any_time;
+        const double time = plain_time(line_of<T>(line), t);
+        return {time, time};
+    } else if constexpr (std::same_as<Line, ray<T>>) {
+        plane_approach met{};
+        const verdict v = decide_by_sides(as_stored(line), as_stored(t), met);
+        if (v == verdict::no) return times;
+        if (v == verdict::yes) times = crossing_of(met);
+    } else {
+        const verdict v = decide<filtered>(as_stored(line), as_stored(t));
+        if (v == verdict::no) return times;
+        if (v == verdict::yes) times = crossing_in_doubles(line_of<T>(line), t);
+    }
+    return times.first >= 0 ? times : any_time;
+}
+
 /// Bounds of what hit_time gives; nearly always in single doubles.
 template <arithmetic A, class Line, scalar T>
 ABUT_HD constexpr time_bounds hit_time_bounds(const Line& line, const triangle<T>& t) {
     if constexpr (std::same_as<A, filtered>) {
         if (!ABUT_CONSTANT_EVALUATED()) {
-            time_bounds times{-1, -1};
-            if constexpr (std::same_as<Line, ray<T>>) {
-                plane_approach met{};
-                const verdict v = decide_by_sides(as_stored(line), as_stored(t), met);
-                if (v == verdict::no) return times;
-                if (v == verdict::yes) times = crossing_of(met);
-            } else {
-                const verdict v = decide<filtered>(as_stored(line), as_stored(t));
-                if (v == verdict::no) return times;
-                if (v == verdict::yes) times = crossing_in_doubles(line_of<T>(line), t);
-            }
-            if (times.first >= 0) return times;
+            const time_bounds times = plain_hit_time_bounds<A>(line, t);
+            if (times.last < infinity<double>) return times;
         }
         const double time = hit_time_apart<A>(line, t);
         return {time, time};

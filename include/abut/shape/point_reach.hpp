@@ -46,7 +46,7 @@ struct shrinking_ball {
     T limit = infinity<T>;
 
     ABUT_HD T least_in(const aabb<T>& box) const {
-        const vec3<T> away = center - least(greatest(center, box.lower), box.upper);
+        const vec3<T> away = center - lesser(greater(center, box.lower), box.upper);
         return dot(away, away);
     }
     /// Of a volume that bounds distances better than the box around it.
@@ -140,9 +140,9 @@ struct group_reach {
         margin = static_cast<T>(moved * (1 + slack) + slack * far) + (extra + 16 * smallest_normal<T>);
     }
     ABUT_HD bool operator()(const aabb<T>& box) const {
-        const vec3<T> from_lower = squares(around.lower - least(greatest(around.lower, box.lower), box.upper));
-        const vec3<T> from_upper = squares(around.upper - least(greatest(around.upper, box.lower), box.upper));
-        const vec3<T> most = greatest(at_lower - from_lower, at_upper - from_upper);
+        const vec3<T> from_lower = squares(around.lower - lesser(greater(around.lower, box.lower), box.upper));
+        const vec3<T> from_upper = squares(around.upper - lesser(greater(around.upper, box.lower), box.upper));
+        const vec3<T> most = greater(at_lower - from_lower, at_upper - from_upper);
         return !(most.x + most.y + most.z < -margin);
     }
 

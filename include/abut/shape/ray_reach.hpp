@@ -5,15 +5,24 @@
 // when the ray passes the two planes of a box in each coordinate.
 //
 // The direction is divided by a power of two, 2^e, that brings its largest coordinate to [1, 2); times become 2^e times as
-// long. The time at which a plane is passed is (plane - origin) times the inverse of a coordinate: three roundings of 2u
-// each in any mode, so it is off by less than 7u of itself, and of two such the lesser may seem the greater by 15u. The exit
-// is taken 32u later. What is flushed to zero moves a difference by less than 3 m, where m is the smallest normal number:
-// the origin's own reach, `slack`, is 4 m at least. Inverses are above 1/2, so times above 2 m are not flushed; 4 m is
-// added. Differences may overflow. An entry is held below an eighth of the largest number, which the true one is above if it
-// overflows, and a limit that is not below that is none.
+// long. A plane p is passed at (p - o) / s, where o is the origin's coordinate and s the direction's. With the inverse v of s
+// that is p v - o v, one product and one sum, with o v computed once. Let u be the roundoff; roundings may be off by 2u, in
+// any mode.
+//
+//   v is off by 2u of itself, which is 2u of the time, and p v, o v and both sums are off by 2u each. Since |p v| is not above
+//   the time's magnitude and |o v| in sum, the time is off by less than 7u of itself and 7u |o v| in all, and where the origin
+//   is off by `slack` by 2 slack |v| more.
+//   What is flushed to zero is below 4 m, where m is the smallest normal number.
+//
+// What does not grow with the time, `lost`, is 16u |o v| + 2 (slack + 8 m) |v|; |v| is above 1/2. So o v comes in two forms:
+// entries are `lost` earlier, and exits `lost` later. By what is left, an entry may seem the later by 15u of an exit that is
+// not before it: the exit is taken 32u later, and 4 m. Products with p may overflow, to infinite times of the right sign, while
+// |o v| + lost is below `most`, an eighth of the largest number. An entry is held below `most`, which the true one is above
+// if it overflows, and a limit that is not below that is none.
 //
 // Where the direction is 0 in a coordinate the origin has to lie between both planes. Where it is less than 2^-60 of the
-// largest, the planes say nothing.
+// largest, or o v is too large, the planes say nothing: m p - infinity and m p + infinity are what they come to, also where p
+// is infinite.
 
 #include <cstddef>
 
@@ -68,10 +77,9 @@ struct line_in_frame {
 
 template <scalar T>
 struct ray_reach {
-    vec3<T> below, above;  ///< the origin, moved up and down by its slack
-    vec3<T> inverse;       ///< of the direction's coordinates; 0 where they say nothing
-    vec3<T> far;           ///< infinity where they say nothing, and else 0
-    aabb<T> around;        ///< of the coordinates in which the direction is 0; infinite in the others
+    vec3<T> inverse;             ///< of the direction's coordinates; m where they say nothing
+    vec3<T> at_lower, at_upper;  ///< what is added for lower and for upper planes
+    aabb<T> around;              ///< of the coordinates in which the direction is 0; infinite in the others
     T limit;
     int exponent;    ///< e
     bool is_narrow;  ///< whether it is 0 in any coordinate
@@ -81,7 +89,7 @@ struct ray_reach {
     ray_reach() = default;
     /// last: the time at which it ends, or infinity. slack: by how much a point of it may be off.
     ABUT_HD ray_reach(const vec3<T>& origin, const vec3<T>& direction, double last, T slack = 0)
-        : below(origin), above(origin), inverse{0, 0, 0}, far{}, around{}, limit(most), exponent(0), is_narrow(false) {
+        : inverse{}, at_lower{}, at_upper{}, around{}, limit(most), exponent(0), is_narrow(false) {
         constexpr T none = infinity<T>;
         const vec3<T> size = absolute(direction);
         const T largest = greatest(size.x, size.y, size.z);
@@ -89,21 +97,23 @@ struct ray_reach {
         const bool is_safe = largest >= smallest_normal<T> && largest <= largest_finite<T>;
         const direction_scale<T> scale(is_safe ? largest : T(1));
         exponent = scale.exponent;
-        const T reach = slack + 4 * smallest_normal<T>;
+        const T reach = slack + 8 * smallest_normal<T>;
         const auto prepare = [&](T vec3<T>::*x) {
-            below.*x = origin.*x + reach;
-            above.*x = origin.*x - reach;
             around.lower.*x = -none, around.upper.*x = none;
-            far.*x = none;
+            inverse.*x = smallest_normal<T>, at_lower.*x = -none, at_upper.*x = none;
             if (is_zero(direction.*x)) {
-                around.lower.*x = above.*x - reach, around.upper.*x = below.*x + reach;
+                around.lower.*x = (origin.*x - reach) - reach, around.upper.*x = (origin.*x + reach) + reach;
                 is_narrow = true;
                 return;
             }
             const T scaled = scale.divide(direction.*x);
             if (!is_safe || !(absolute(scaled) >= T(0x1p-60))) return;
-            inverse.*x = 1 / scaled;
-            far.*x = 0;
+            const T v = 1 / scaled, at = origin.*x * v;
+            const T lost = 16 * unit_roundoff<T> * absolute(at) + 2 * (reach * absolute(v));
+            if (!(absolute(at) + lost < most)) return;
+            inverse.*x = v;
+            at_lower.*x = v > 0 ? -at - lost : lost - at;
+            at_upper.*x = v > 0 ? lost - at : -at - lost;
         };
         prepare(&vec3<T>::x);
         prepare(&vec3<T>::y);
@@ -116,15 +126,14 @@ struct ray_reach {
     /// When it enters the box, or a time above every limit.
     ABUT_HD T least_in(const aabb<T>& box) const {
         constexpr T grown = 1 + 32 * unit_roundoff<T>, tiny = 4 * smallest_normal<T>;
-        const auto first = [&](T vec3<T>::*x) { return (box.lower.*x - below.*x) * inverse.*x; };
-        const auto second = [&](T vec3<T>::*x) { return (box.upper.*x - above.*x) * inverse.*x; };
-        const vec3<T> one{first(&vec3<T>::x), first(&vec3<T>::y), first(&vec3<T>::z)},
-            other{second(&vec3<T>::x), second(&vec3<T>::y), second(&vec3<T>::z)};
-        const vec3<T> in = least(one, other), out = greatest(one, other) + far;
-        const T entry = least(greatest(in.x, in.y, greatest(in.z, T(0))), most);
-        const T exit = least(out.x, out.y, out.z);
-        if (entry > exit * grown + tiny || (is_narrow && !overlaps(around, box))) return infinity<T>;
-        return entry;
+        const auto one = [&](T vec3<T>::*x) { return box.lower.*x * inverse.*x + at_lower.*x; };
+        const auto other = [&](T vec3<T>::*x) { return box.upper.*x * inverse.*x + at_upper.*x; };
+        const T x = one(&vec3<T>::x), y = one(&vec3<T>::y), z = one(&vec3<T>::z), to_x = other(&vec3<T>::x),
+                to_y = other(&vec3<T>::y), to_z = other(&vec3<T>::z);
+        const T soonest = greater(greater(lesser(x, to_x), lesser(y, to_y)), greater(lesser(z, to_z), T(0)));
+        const T in = lesser(soonest, most), out = lesser(lesser(greater(x, to_x), greater(y, to_y)), greater(z, to_z));
+        if (in > out * grown + tiny || (is_narrow && !overlaps(around, box))) return infinity<T>;
+        return in;
     }
     [[nodiscard]] ABUT_HD bool keeps(T least) const { return !(least > limit); }
     ABUT_HD bool operator()(const aabb<T>& box) const { return keeps(least_in(box)); }

@@ -352,7 +352,8 @@ private:
 
 /// A functor for for_each_ordered: a walk from each index. `all` has `walk` and `shapes`; all.start(i) is what looks from
 /// index i: its look(all, id, sink) at shapes that it comes to, and look.end(all, i, sink) after the last. Where the least is
-/// looked for, a look says whether it was at a tie. all.seen(i) is the line along which it looks.
+/// looked for, a look says whether it was at a tie. all.seen(i) is the line along which it looks. all.start_plainly(i), if it has
+/// that, is a look that may give up in the end: on a device it goes first.
 template <class All>
 struct from_each {
     All all;
@@ -360,14 +361,37 @@ struct from_each {
     ABUT_CALLS_ANY
     template <class Sink>
     ABUT_HD void operator()(std::size_t i, Sink& sink) const {
+#if ABUT_DEVICE_CODE
+        if constexpr (requires { all.start_plainly(i); }) {
+            Sink mine = sink;
+            auto look = all.start_plainly(i);
+            reach_of_look<All> reach(all.seen(i));
+            all.walk(reach, mine, [&](walk_id<decltype(All::walk)> id) { look(all, id, mine); });
+            // By value: nothing of the walk above has an address that others know.
+            sink = look.end(all, mine) ? mine : walk_apart(all, i, sink);
+            return;
+        }
+#endif
+        walk(i, sink);
+    }
+    [[nodiscard]] bool pays_in_steps() const requires goes_in_steps<decltype(All::walk)> { return all.walk.pays_in_steps(); }
+    [[nodiscard]] auto in_steps() const requires goes_in_steps<decltype(All::walk)> { return steps_from(all); }
+    [[nodiscard]] auto in_bundles() const requires goes_in_steps<decltype(All::walk)> { return bundle_walk(all); }
+
+private:
+    template <class Sink>
+    ABUT_NOINLINE ABUT_HD static Sink walk_apart(All all, std::size_t i, Sink sink) {
+        from_each{all}.walk(i, sink);
+        return sink;
+    }
+    ABUT_CALLS_ANY
+    template <class Sink>
+    ABUT_HD void walk(std::size_t i, Sink& sink) const {
         auto look = all.start(i);
         reach_of_look<All> reach(all.seen(i));
         all.walk(reach, sink, [&](walk_id<decltype(All::walk)> id) { return look(all, id, sink); });
         look.end(all, i, sink);
     }
-    [[nodiscard]] bool pays_in_steps() const requires goes_in_steps<decltype(All::walk)> { return all.walk.pays_in_steps(); }
-    [[nodiscard]] auto in_steps() const requires goes_in_steps<decltype(All::walk)> { return steps_from(all); }
-    [[nodiscard]] auto in_bundles() const requires goes_in_steps<decltype(All::walk)> { return bundle_walk(all); }
 };
 template <class All>
 from_each(const All&) -> from_each<All>;

@@ -24,17 +24,20 @@ struct group_tree_walk {
     };
     Tree tree;
 
-    /// A shape near p: that of the leaf which is found by the nearer child each time.
+    /// A shape near p: that of the leaf which is found by the nearer child each time; of boxes around p by that with the nearer
+    /// middle.
     ABUT_HD std::uint32_t shape_near(const vec3<T>& p) const {
         const shrinking_ball<T> ball{p, {}};
         bvh_child at = tree.root();
         while (!at.is_leaf()) {
             const auto& node = tree.fetch(at.index());
-            at = tree.child(node, 0);
-            T least = ball.least_in(tree.bounds(node, 0));
-            for (int slot = 1; slot < tree.children(node); ++slot) {
-                const T other = ball.least_in(tree.bounds(node, slot));
-                if (other < least) at = tree.child(node, slot), least = other;
+            T least = infinity<T>, least_to_middle = infinity<T>;
+            for (int slot = 0; slot < tree.children(node); ++slot) {
+                const aabb<T> box = tree.bounds(node, slot);
+                const vec3<T> way = p - (T(0.5) * box.lower + T(0.5) * box.upper);
+                const T to_box = ball.least_in(box), to_middle = dot(way, way);
+                if (slot > 0 && !(to_box < least || (to_box == least && to_middle < least_to_middle))) continue;
+                at = tree.child(node, slot), least = to_box, least_to_middle = to_middle;
             }
         }
         return at.index();
