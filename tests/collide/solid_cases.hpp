@@ -310,6 +310,18 @@ inline std::pair<cells, cells> draw_two_sets(draws& d, std::uint64_t k) {
     return {a, b};
 }
 
+/// The same, with one of them in the interior of the other now and then, and in either order.
+inline std::pair<cells, cells> draw_two_of_all_kinds(draws& d, std::uint64_t k) {
+    auto [a, b] = draw_two_sets(d, k);
+    if (k % 8 == 6) {
+        a = b = {};
+        for (int i = 0; i < 125; ++i) a.in.insert({i % 5, i / 5 % 5, i / 25});
+        b.in.insert({1 + d.below(3), 1 + d.below(3), 1 + d.below(3)});
+    }
+    if (k % 16 > 7) std::swap(a, b);
+    return {a, b};
+}
+
 /// A few of them on a policy, as meshes, trees and under poses.
 template <scalar T, class Policy>
 void check_relations(const Policy& on) {

@@ -28,7 +28,7 @@ TEST_CASE("devices: relations of two solids, of lists and of bodies") {
     const rigid<float> there{{0, -1, 0, 1, 0, 0, 0, 0, 1}, {2, 0, -1}};
     for (std::uint64_t k = 0; k < 60; ++k) {
         draws d(20270514, 6, k);
-        const auto [a, b] = draw_two_sets(d, k);
+        const auto [a, b] = draw_two_of_all_kinds(d, k);
         const frame_of_grid f;
         const auto x = surface_of<float>(a, f, d), y = surface_of<float>(b, f, d);
         const auto tree_x = make_bvh(team, replicate(team, x)), tree_y = make_bvh(team, replicate(team, y));
@@ -37,6 +37,10 @@ TEST_CASE("devices: relations of two solids, of lists and of bodies") {
         wrong += relation(team, tree_x, posed(tree_y, rigid<float>{})) != truth;
         wrong += relation<exact>(team, x, tree_y, {.known_solid = true}) != truth;
         wrong += overlaps(team, tree_x, tree_y, {.known_solid = k % 2 == 0}) != (truth > solid_relation::externally_connected);
+        const auto part_x = divide(team, x), part_y = divide(team, y);
+        wrong += relation(team, part_x, make_bvh(team, part_y)) != truth;
+        wrong += relation(team, posed(part_x, rigid<float>{}), tree_y, {.known_solid = true}) != truth;
+        wrong += overlaps(team, tree_x, part_y, {.known_solid = true}) != (truth > solid_relation::externally_connected);
         const auto here = contact_patches(on, x, y, {.known_solid = true}), on_team = contact_patches(team, tree_x, tree_y, {.known_solid = true});
         patches += here.size();
         REQUIRE(here.size() == on_team.size());

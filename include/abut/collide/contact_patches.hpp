@@ -306,7 +306,7 @@ struct ask_patches {
         using answer = std::vector<contact_patch<T>>;
         if (!known_solid) solids.require_simple();
         if (!solids.has_a() || !solids.has_b()) return answer();
-        return solids.template decide<filtered>(answer(), [&](const auto& here) {
+        return solids.template decide<filtered>(answer(), [&](auto& here) {
             const std::vector<crossing<T>> contacts = here.contacts();
             if (known_solid && contacts.empty()) return answer();
             const solid_on_host<T> solid_a(here.faces_a(), function), solid_b(here.faces_b(), function);

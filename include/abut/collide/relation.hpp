@@ -216,9 +216,9 @@ struct ask_relations_of {
     solid_options options;
 
     /// Of each entry of a list, `position` of which says where it is in the whole.
-    template <class Policy, class List, class Position = same_number>
+    template <class Policy, class List, class Position = own_positions>
     [[nodiscard]] std::vector<solid_relation> of_list(const Policy& on, const List& list, const Position& position = {}) const {
-        const auto pairing = whole(list).pair_up(on, touching{}, list_options<>{}, true, function);
+        const auto pairing = whole(list).pair_up(on, touching{}, list_options<>{}, true, function, position);
         return relations_of_entries<A>(on, pairing, entries_of(on, pairing), options, function, name_of_solid<Position>{"entry", position});
     }
     /// Of all two bodies that are not disconnected, in a part of the search.
@@ -295,7 +295,7 @@ template <arithmetic A = filtered, executor On, class X, class Y>
     requires(!std::same_as<A, fast>)
 [[nodiscard]] bool overlaps(const On& on, const X& a, const Y& b, const solid_options& options = {}) {
     const auto is_enough = [](const auto& regions) { return regions.both; };
-    return ask_solids(on, detail::regions_until<A>("abut::overlaps", options, is_enough), a, b).first.both;
+    return ask_solids(on, detail::regions_until<A>("abut::overlaps", options, is_enough), a, b).found.both;
 }
 
 /// The same of all bodies of a scene, `bodies` or a std::vector of posed trees of meshes: a std::vector in host memory, of all

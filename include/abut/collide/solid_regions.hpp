@@ -194,8 +194,9 @@ common_regions regions_of_solids(const solid_on_host<T>& a, const solid_on_host<
 
 /// Throws where a surface passes through itself or touches itself.
 template <class Policy, class X>
-void require_simple(const Policy& on, const X& x, const char* function, const std::string& element = "face") {
-    const auto pairs = to_host(self_pairs(on, x));
+void require_simple(const Policy& on, const X& x, const char* function, const std::string& element = "face",
+                    coincident_vertices by = coincident_vertices::distinct) {
+    const auto pairs = to_host(self_pairs(on, x, {.coincident = by}));
     if (pairs.empty()) return;
     throw invalid_geometry(function, element, pairs.front().a,
                            "the surface passes through itself or touches itself at this face; the other face is",
@@ -208,6 +209,14 @@ consteval bool are_solids() {
     constexpr bool are = has_faces<X> && has_faces<Y>;
     static_assert(are, "abut: solids are closed meshes (a mesh, a mesh_view, or a tree of one), boxes, oriented boxes and hulls, posed or not");
     return are;
+}
+
+/// Whether parts of such shapes are taken as a solid: vertices in one place are one there.
+template <class Shape>
+consteval bool is_solid_in_parts() {
+    constexpr bool is = is_triangle<Shape>;
+    static_assert(is, "abut: the parts of a solid are triangles");
+    return is;
 }
 
 /// A box around an argument that knows one: a tree, posed or not. Of all space around any other.
@@ -231,7 +240,8 @@ auto known_box([[maybe_unused]] const X& x) {
 //   has_a(), has_b()     whether they have faces
 //   may_meet()           false where boxes that are known are apart
 //   passes<A>()          whether faces pass through each other
-//   decide<A>(answer, f)  f(here) where all faces are, or `answer`; here.faces_a(), here.faces_b() and here.contacts()
+//   decide<A>(answer, f, touch)  f(here) where all faces are, and its answer for all who ask, or `answer` for the others; of
+//                        here are faces_a(), faces_b(), and if it is asked which faces touch, contacts(), each to be called once
 // ask_solids is overloaded for devices (devices/solids.hpp) and ranks (distributed/solids.hpp).
 
 /// Two solids in the memory of a policy.
@@ -260,8 +270,9 @@ public:
         return ask_for<A>(passing_through{}, whether{}).find(on_, pairing_);
     }
     template <arithmetic A, class Answer, class F>
-    [[nodiscard]] Answer decide(const Answer&, const F& f) const {
-        return f(here<A>{*this});
+    [[nodiscard]] Answer decide(const Answer&, const F& f, bool = true) const {
+        here<A> all{*this};
+        return f(all);
     }
 
 private:
@@ -286,6 +297,61 @@ private:
                            std::declval<const query_options<>&>())) pairing_;
 };
 
+/// Triangles with numbers of their corners: those in one place have one number, in the order in which triangles name them.
+template <scalar T>
+std::vector<mesh_face<T>> faces_by_place(const std::vector<triangle<T>>& all) {
+    using id = std::uint32_t;
+    const auto corner = [&](id i) -> const vec3<T>& {
+        const triangle<T>& t = all[i / 3];
+        return i % 3 == 0 ? t.a : i % 3 == 1 ? t.b : t.c;
+    };
+    const auto before = [&](id i, id j) {
+        const vec3<T>&p = corner(i), &q = corner(j);
+        return p.x < q.x || (p.x == q.x && (p.y < q.y || (p.y == q.y && p.z < q.z)));
+    };
+    std::vector<id> order(3 * all.size()), first(order.size());
+    for (id i = 0; i < order.size(); ++i) order[i] = i;
+    std::sort(order.begin(), order.end(), [&](id i, id j) { return before(i, j) || (!before(j, i) && i < j); });
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        first[order[i]] = i > 0 && !before(order[i - 1], order[i]) ? first[order[i - 1]] : order[i];
+    }
+    std::vector<mesh_face<T>> faces;
+    faces.reserve(all.size());
+    id next = 0;
+    std::vector<id>& number = order;
+    for (id i = 0; i < first.size(); ++i) number[i] = first[i] == i ? next++ : number[first[i]];
+    for (id f = 0; f < all.size(); ++f) faces.push_back({all[f], {number[3 * f], number[3 * f + 1], number[3 * f + 2]}});
+    return faces;
+}
+
+/// Two solids that were in parts, of which all has come to the host: triangles, and ids of those that touch, in order.
+template <arithmetic A, scalar T>
+class gathered_solids {
+public:
+    template <class Pair>
+    gathered_solids(const std::vector<triangle<T>>& a, const std::vector<triangle<T>>& b, const std::vector<Pair>& touching)
+        : faces_a_(faces_by_place(a)), faces_b_(faces_by_place(b)) {
+        contacts_.reserve(touching.size());
+        for (const Pair& p : touching) {
+            const mesh_face<T>&s = faces_a_[p.a], &t = faces_b_[p.b];
+            crossing<T> c{};
+            c.a = static_cast<std::uint32_t>(p.a);
+            c.b = static_cast<std::uint32_t>(p.b);
+            std::copy(std::begin(s.vertex), std::end(s.vertex), c.vertices_a);
+            std::copy(std::begin(t.vertex), std::end(t.vertex), c.vertices_b);
+            put_corners(shared_by<A>(s.corners, t.corners), s.corners, t.corners, c);
+            contacts_.push_back(c);
+        }
+    }
+    [[nodiscard]] std::vector<mesh_face<T>> faces_a() { return std::move(faces_a_); }
+    [[nodiscard]] std::vector<mesh_face<T>> faces_b() { return std::move(faces_b_); }
+    [[nodiscard]] std::vector<crossing<T>> contacts() { return std::move(contacts_); }
+
+private:
+    std::vector<mesh_face<T>> faces_a_, faces_b_;
+    std::vector<crossing<T>> contacts_;
+};
+
 template <execution_policy Policy, class Question, class X, class Y>
 auto ask_solids(const Policy& on, const Question& question, const X& x, const Y& y) {
     if constexpr (is_polytope<X> || is_polytope<Y>) {
@@ -300,7 +366,10 @@ auto ask_solids(const Policy& on, const Question& question, const X& x, const Y&
 /// What two solids have in common, until that is enough, and whether their surfaces touch.
 template <arithmetic A, class Enough>
 struct ask_regions {
-    using answer = std::pair<common_regions, bool>;
+    struct answer {
+        common_regions found;
+        bool touch;
+    };
     const char* function;
     bool known_solid;
     Enough is_enough;
@@ -314,19 +383,20 @@ struct ask_regions {
         using T = typename Solids::T;
         if (!known_solid) solids.require_simple();
         const bool has_a = solids.has_a(), has_b = solids.has_b();
-        if (!has_a || !has_b) return answer(common_regions{false, has_a, has_b}, false);
-        const answer of_passing(common_regions{true, true, true}, true), of_apart(common_regions{false, true, true}, false);
+        if (!has_a || !has_b) return answer{{false, has_a, has_b}, false};
+        const answer of_passing{{true, true, true}, true}, of_apart{{false, true, true}, false};
         if (known_solid && !solids.may_meet()) return of_apart;
         const bool passes = solids.template passes<A>();
         if (known_solid && passes) return of_passing;
-        return solids.template decide<A>(of_passing, [&](const auto& here) {
+        const auto look = [&](auto& here) {
             auto faces_a = here.faces_a(), faces_b = here.faces_b();
             if (known_solid && !overlaps(box_of(faces_a), box_of(faces_b))) return of_apart;
             const solid_on_host<T> solid_a(std::move(faces_a), function), solid_b(std::move(faces_b), function);
             if (passes) return of_passing;
             const std::vector<crossing<T>> contacts = here.contacts();
-            return answer(regions_of_solids<T>(solid_a, solid_b, contacts, is_enough), !contacts.empty());
-        });
+            return answer{regions_of_solids<T>(solid_a, solid_b, contacts, is_enough), !contacts.empty()};
+        };
+        return solids.template decide<A>(of_passing, look, !passes);
     }
 };
 template <arithmetic A, class Enough>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Several devices as those who are asked about solids (collide/solid_regions.hpp): relation, overlaps and contact_patches of two
-// that each device has, of lists and of bodies. All devices look for faces that pass through each other, and for crossings.
-// What is the host's is done once. Of lists and bodies each device decides its share.
+// Several devices as those who are asked about solids (collide/solid_regions.hpp): relation, overlaps and contact_patches of
+// two, of lists and of bodies. All devices look for faces that pass through each other, and for those that touch. What is the
+// host's is done once; faces of divided solids come together there. Of lists and bodies each device decides its share.
 
 #include <algorithm>
 #include <cstddef>
@@ -23,33 +23,81 @@
 
 namespace abut::detail {
 
-/// Two solids of which each device has all, or which lie in host memory.
+struct write_part_ids {
+    part_ids ids;
+    std::uint32_t* out;
+    ABUT_HD void operator()(std::size_t i) const { out[i] = ids(static_cast<std::uint32_t>(i)); }
+};
+/// A set of triangles that devices have, as one vector of the host.
+template <class Team, class X>
+auto triangles_of_parts(const Team& team, const X& x, const char* function) {
+    using T = scalar_of_argument<type_on_device<X>>;
+    std::vector<triangle<T>> all;
+    for (int k = 0; k < (is_divided<X> ? team.size() : 1); ++k) {
+        const auto faces = faces_on_host(team[k], make_operand(team[k], on_device(x, k), function));
+        if constexpr (is_divided<X>) {
+            execution::buffer_of<typename Team::local_policy, std::uint32_t> numbers(team[k], faces.size());
+            for_each_index(team[k], faces.size(), write_part_ids{x.ids(k), numbers.data()});
+            std::vector<std::uint32_t> here(faces.size());
+            download(team[k], numbers.data(), here.size(), here.data());
+            all.resize(x.size());
+            for (std::size_t i = 0; i < here.size(); ++i) all[here[i]] = faces[i].corners;
+        } else {
+            for (const auto& f : faces) all.push_back(f.corners);
+        }
+    }
+    return all;
+}
+
+/// Two solids: each device has all, or its part, or they lie in host memory.
 template <class Team, class X, class Y>
 class solids_by_team {
+    static constexpr bool in_parts = is_divided<X> || is_divided<Y>;
+    static constexpr coincident_vertices by = in_parts ? coincident_vertices::merged : coincident_vertices::distinct;
+
 public:
     using T = scalar_of_argument<type_on_device<X>>;
     solids_by_team(const Team& team, const X& x, const Y& y, const char* function)
         : team_(team), x_(x), y_(y), function_(function) {
         require_as_many(team, x, function);
         require_as_many(team, y, function);
-        first_of(x_, [&](const auto& a) { has_a_ = a.shapes().size() > 0; });
-        first_of(y_, [&](const auto& b) { has_b_ = b.shapes().size() > 0; });
+        if constexpr (is_divided<X>) {
+            has_a_ = x.size() > 0;
+        } else {
+            first_of(x_, [&](const auto& a) { has_a_ = a.shapes().size() > 0; });
+        }
+        if constexpr (is_divided<Y>) {
+            has_b_ = y.size() > 0;
+        } else {
+            first_of(y_, [&](const auto& b) { has_b_ = b.shapes().size() > 0; });
+        }
     }
 
     void require_simple() const {
-        detail::require_simple(team_, x_, function_);
-        detail::require_simple(team_, y_, function_);
+        detail::require_simple(team_, x_, function_, "face", by);
+        detail::require_simple(team_, y_, function_, "face", by);
     }
     [[nodiscard]] bool has_a() const { return has_a_; }
     [[nodiscard]] bool has_b() const { return has_b_; }
-    [[nodiscard]] bool may_meet() const { return overlaps(known_box(on_device(x_, 0)), known_box(on_device(y_, 0))); }
+    [[nodiscard]] bool may_meet() const {
+        if constexpr (in_parts) return true;
+        return overlaps(known_box(on_device(x_, 0)), known_box(on_device(y_, 0)));
+    }
     template <arithmetic A>
     [[nodiscard]] bool passes() const {
         return ask_pairs(team_, ask_for<A>(passing_through{}, whether{}), two{x_, y_}, query_options<>{}, function_);
     }
     template <arithmetic A, class Answer, class F>
-    [[nodiscard]] Answer decide(const Answer&, const F& f) const {
-        return f(here<A>{*this});
+    [[nodiscard]] Answer decide(const Answer&, const F& f, bool touch = true) const {
+        if constexpr (in_parts) {
+            std::vector<index_pair> touching_faces;
+            if (touch) touching_faces = to_host(ask_pairs(team_, ask_for<A>(touching{}, all_pairs{}), two{x_, y_}, query_options<>{}, function_));
+            gathered_solids<A, T> all(triangles_of_parts(team_, x_, function_), triangles_of_parts(team_, y_, function_), touching_faces);
+            return f(all);
+        } else {
+            here<A> all{*this};
+            return f(all);
+        }
     }
 
 private:
@@ -92,20 +140,22 @@ decltype(auto) as_solid_on_host(const X& x, const char* function) {
     }
 }
 
+/// Whether devices take it as a solid: of what is divided they know triangles, and no vertices.
 template <class X>
-consteval bool is_whole_on_devices() {
-    constexpr bool is = !is_divided<X> && !is_divided_mesh<X>;
-    static_assert(is, "abut: several devices are asked about solids that each of them has: replicate them");
-    return is;
+consteval bool is_solid_of_devices() {
+    if constexpr (is_divided<X>) {
+        return is_solid_in_parts<typename X::shape_type>();
+    } else {
+        static_assert(!is_divided_mesh<X>, "abut: what divide_mesh made is asked about motion; as a solid, divide or replicate the mesh");
+        return are_solids<type_on_device<X>, type_on_device<X>>();
+    }
 }
 
 template <execution::policy_team Team, class Question, class X, class Y>
 auto ask_solids(const Team& team, const Question& question, const X& x, const Y& y) {
-    if constexpr (!is_whole_on_devices<X>() || !is_whole_on_devices<Y>()) {
-        return question.template nothing<float>();
-    } else if constexpr (is_polytope<X> || is_polytope<Y>) {
+    if constexpr (is_polytope<X> || is_polytope<Y>) {
         return ask_solids(team, question, as_solid_on_host(x, question.function), as_solid_on_host(y, question.function));
-    } else if constexpr (are_solids<type_on_device<X>, type_on_device<Y>>()) {
+    } else if constexpr (is_solid_of_devices<X>() && is_solid_of_devices<Y>()) {
         return question.find(solids_by_team<Team, X, Y>(team, x, y, question.function));
     } else {
         return question.template nothing<float>();
