@@ -322,6 +322,19 @@ inline std::pair<cells, cells> draw_two_of_all_kinds(draws& d, std::uint64_t k) 
     return {a, b};
 }
 
+/// Rays among them, many through vertices, along edges and in faces.
+template <scalar T>
+std::vector<ray<T>> draw_rays_of_grid(draws& d, std::size_t n) {
+    std::vector<ray<T>> all;
+    while (all.size() < n) {
+        const auto half = [&] { return static_cast<T>(d.below(17) - 4) / 2; };
+        const auto way = [&] { return static_cast<T>(d.below(5) - 2); };
+        const T x = half(), y = half(), z = half(), dx = way(), dy = way(), dz = way();
+        all.push_back({{x, y, z}, {dx, dy, dz}});
+    }
+    return all;
+}
+
 /// A few of them on a policy, as meshes, trees and under poses.
 template <scalar T, class Policy>
 void check_relations(const Policy& on) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <abut/devices/bodies.hpp>
+#include <abut/devices/rows.hpp>
 #include <abut/devices/solids.hpp>
 
 #include "collide/solid_cases.hpp"
@@ -67,6 +68,24 @@ TEST_CASE("devices: relations of two solids, of lists and of bodies") {
     CHECK((relation(team, make_bodies(team, indices, index_of, poses)) == expected));
     const aabb<float> room{{0, 0, 0}, {4, 3, 3}}, cupboard{{3, 0, 0}, {4, 1, 2}};
     CHECK(relation(team, cupboard, room) == solid_relation::tangential_part);
+}
+
+TEST_CASE("devices: stretches of rays inside") {
+    const host_team<serial> team(GENERATE(1, 2, 3));
+    std::size_t stretches = 0;
+    for (std::uint64_t k = 0; k < 6; ++k) {
+        draws d(20270514, 8, k);
+        const auto x = surface_of<float>(draw_two_sets(d, k).first, frame_of_grid{}, d);
+        const rays<float> lines(draw_rays_of_grid<float>(d, k == 5 ? 9000 : 700));
+        const auto expected = spans(serial{}, make_bvh(serial{}, x), lines);
+        stretches += expected.size();
+        CHECK((spans(team, make_bvh(team, replicate(team, x)), lines) == expected));
+        CHECK((spans(team, x, replicate(team, lines), {.known_closed = true}) == expected));
+        CHECK((spans(team, divide(team, x), lines, {.known_closed = true}) == expected));
+        CHECK((spans<exact>(team, posed(make_bvh(team, divide(team, x)), rigid<float>{}), lines, {.known_closed = true}) == expected));
+        CHECK_THROWS_AS(spans(team, divide(team, x), lines), error);
+    }
+    CHECK(stretches > 2000);
 }
 
 TEST_CASE("devices: what is no solid is named by its place in the whole") {

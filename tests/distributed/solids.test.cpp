@@ -4,6 +4,7 @@
 
 #include <abut/mpi.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
@@ -60,7 +61,45 @@ bool same_patches(const std::vector<contact_patch<T>>& some, const std::vector<c
     return true;
 }
 
+template <scalar T>
+std::vector<global_crossing<T>> in_all_parts(const std::vector<crossing<T>>& all) {
+    std::vector<global_crossing<T>> out;
+    for (const auto& c : all) {
+        global_crossing<T> g{c.a, c.b, c.count, c.coplanar, {}, {}, {}};
+        std::copy(c.in_a, c.in_a + 6, g.in_a);
+        std::copy(c.in_b, c.in_b + 6, g.in_b);
+        std::copy(c.points, c.points + 6, g.points);
+        out.push_back(g);
+    }
+    return out;
+}
+
 }  // namespace
+
+TEST_CASE("distributed: crossings") {
+    const distributed on(world(), serial{});
+    std::size_t areas = 0, lines = 0;
+    for (std::uint64_t k = 0; k < 16; ++k) {
+        draws d(20270514, 9, k);
+        const auto [a, b] = draw_two_of_all_kinds(d, k);
+        const auto x = corners_of_faces(surface_of<float>(a, frame_of_grid{}, d)), y = corners_of_faces(surface_of<float>(b, frame_of_grid{}, d));
+        rigid<float> near;
+        near.translation = {k % 2 == 0 ? 0 : 0.375f, 0, 0};
+        const auto expected = in_all_parts(to_host(crossings(serial{}, mesh_by_place(x), posed(mesh_by_place(y), near))));
+        for (const auto& c : expected) ++(c.count > 2 ? areas : lines);
+        const auto part_x = mesh_by_place(part_of(x, divisions[k % 4], on.rank(), on.size()));
+        const auto part_y = mesh_by_place(part_of(y, division::uneven, on.rank(), on.size()));
+        CHECK((lists_of_all(on.ranks(), to_host(crossings(on, part_x, posed(make_bvh(on.local(), part_y), near)))) == expected));
+        CHECK((lists_of_all(on.ranks(), to_host(crossings<exact>(on, make_bvh(on.local(), part_x), posed(part_y, near)))) == expected));
+        auto both = x;
+        for (const auto& t : y) both.push_back({t.a + near.translation, t.b + near.translation, t.c + near.translation});
+        const auto among = in_all_parts(to_host(self_crossings(serial{}, mesh_by_place(both), {.coincident = coincident_vertices::merged})));
+        const auto part = mesh_by_place(part_of(both, divisions[k % 4], on.rank(), on.size()));
+        CHECK((lists_of_all(on.ranks(), to_host(self_crossings(on, part, {.coincident = coincident_vertices::merged}))) == among));
+    }
+    CHECK(areas > 100);
+    CHECK(lines > 100);
+}
 
 TEST_CASE("distributed: relations of solids in parts") {
     const distributed on(world(), serial{});
@@ -90,6 +129,26 @@ TEST_CASE("distributed: relations of solids in parts") {
     for (const std::uint64_t some : of) CHECK(some > 0);
 }
 
+TEST_CASE("distributed: stretches of rays inside") {
+    const distributed on(world(), serial{});
+    std::size_t stretches = 0;
+    for (std::uint64_t k = 0; k < 8; ++k) {
+        draws d(20270514, 8, k);
+        const auto x = surface_of<float>(draw_two_sets(d, k).first, frame_of_grid{}, d);
+        const auto lines = draw_rays_of_grid<float>(d, 600);
+        std::vector<global_ray_span<float>> expected;
+        const auto global = [](std::uint32_t id) { return id == ray_span<float>::no_face ? global_ray_span<float>::no_face : std::uint64_t{id}; };
+        for (const auto& s : spans(serial{}, x, rays<float>(lines))) expected.push_back({s.ray, global(s.enter), global(s.leave), s.from, s.to});
+        stretches += expected.size();
+        const auto part = mesh_by_place(part_of(corners_of_faces(x), divisions[k % 4], on.rank(), on.size()));
+        const rays<float> mine(part_of(lines, divisions[k / 4], on.rank(), on.size()));
+        CHECK((lists_of_all(on.ranks(), spans(on, part, mine, {.known_closed = true})) == expected));
+        CHECK((lists_of_all(on.ranks(), spans<exact>(on, make_bvh(on.local(), part), mine, {.known_closed = true})) == expected));
+        CHECK_THROWS_AS(spans(on, part, mine), error);
+    }
+    CHECK(stretches > 400);
+}
+
 TEST_CASE("distributed: relations of lists, and what is no solid") {
     const distributed on(world(), serial{});
     const mesh<float> part({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
@@ -103,7 +162,12 @@ TEST_CASE("distributed: relations of lists, and what is no solid") {
     const auto expected = relation(serial{}, list);
     CHECK(expected.front() == solid_relation::equal);
     CHECK(expected[8] == solid_relation::externally_connected);
-    CHECK(lists_of_all(on.ranks(), relation(on, part_of(list, division::uneven, on.rank(), on.size()))) == expected);
+    const auto mine_of_list = part_of(list, division::uneven, on.rank(), on.size());
+    CHECK(lists_of_all(on.ranks(), relation(on, mine_of_list)) == expected);
+    std::vector<global_tagged_crossing<float>> common;
+    for (const auto& c : to_host(crossings(serial{}, list))) common.push_back({c.pair, c.a, c.b, c.common});
+    CHECK(common.size() > 50);
+    CHECK((lists_of_all(on.ranks(), to_host(crossings(on, mine_of_list))) == common));
     // All but one face, on the last rank alone.
     const mesh<float> open({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}}), none;
     const auto& mine = on.rank() + 1 == on.size() ? open : none;
