@@ -293,6 +293,7 @@ std::vector<contact_patch<T>> patches_of(const solid_on_host<T>& a, const solid_
 /// The patches of two solids.
 struct ask_patches {
     static constexpr const char* function = "abut::contact_patches";
+    static constexpr bool takes_round = false;
     bool known_solid;
     std::size_t most_points;
 

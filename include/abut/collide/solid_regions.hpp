@@ -24,6 +24,8 @@
 #include <abut/collide/question.hpp>
 #include <abut/collide/solid_surface.hpp>
 #include <abut/index/bvh.hpp>
+#include <abut/predicate/round_solids.hpp>
+#include <abut/shape/check.hpp>
 
 namespace abut {
 
@@ -207,7 +209,8 @@ void require_simple(const Policy& on, const X& x, const char* function, const st
 template <class X, class Y>
 consteval bool are_solids() {
     constexpr bool are = has_faces<X> && has_faces<Y>;
-    static_assert(are, "abut: solids are closed meshes (a mesh, a mesh_view, or a tree of one), boxes, oriented boxes and hulls, posed or not");
+    static_assert(are, "abut: solids are closed meshes (a mesh, a mesh_view, or a tree of one), boxes, oriented boxes, hulls, spheres and capsules, "
+                       "posed or not");
     return are;
 }
 
@@ -217,6 +220,22 @@ consteval bool is_solid_in_parts() {
     constexpr bool is = is_triangle<Shape>;
     static_assert(is, "abut: the parts of a solid are triangles");
     return is;
+}
+
+/// A sphere or a capsule as a capsule. Throws where it is none, or has no volume.
+template <class Shape>
+auto solid_capsule(const Shape& shape, const char* function) {
+    if constexpr (is_posed<Shape>) {
+        check(shape.pose, function);
+        return solid_capsule(place(shape.pose, shape.object), function);
+    } else {
+        check(serial{}, single_view<Shape>{shape}, function);
+        if (!(shape.radius > 0)) {
+            throw invalid_geometry(function, "shape", 0, "a solid has a volume, and this shape has none; its radius is",
+                                   static_cast<double>(shape.radius));
+        }
+        return as_capsule(shape);
+    }
 }
 
 /// A box around an argument that knows one: a tree, posed or not. Of all space around any other.
@@ -354,7 +373,14 @@ private:
 
 template <execution_policy Policy, class Question, class X, class Y>
 auto ask_solids(const Policy& on, const Question& question, const X& x, const Y& y) {
-    if constexpr (is_polytope<X> || is_polytope<Y>) {
+    if constexpr (is_round<X> || is_round<Y>) {
+        static_assert(Question::takes_round, "abut: patches are those of meshes, boxes and hulls: spheres and capsules have no faces");
+        if constexpr (Question::takes_round) {
+            return question.find_round(on, x, y);
+        } else {
+            return question.template nothing<float>();
+        }
+    } else if constexpr (is_polytope<X> || is_polytope<Y>) {
         return ask_solids(on, question, as_solid(on, x, question.function), as_solid(on, y, question.function));
     } else if constexpr (are_solids<X, Y>()) {
         return question.find(solids_by_policy<Policy, X, Y>(on, x, y, question.function));
@@ -366,10 +392,8 @@ auto ask_solids(const Policy& on, const Question& question, const X& x, const Y&
 /// What two solids have in common, until that is enough, and whether their surfaces touch.
 template <arithmetic A, class Enough>
 struct ask_regions {
-    struct answer {
-        common_regions found;
-        bool touch;
-    };
+    using answer = regions_and_touch;
+    static constexpr bool takes_round = true;
     const char* function;
     bool known_solid;
     Enough is_enough;
@@ -397,6 +421,34 @@ struct ask_regions {
             return answer{regions_of_solids<T>(solid_a, solid_b, contacts, is_enough), !contacts.empty()};
         };
         return solids.template decide<A>(of_passing, look, !passes);
+    }
+    /// Of a round solid and another one: the policy looks for the faces that it meets.
+    template <class Policy, class X, class Y>
+    [[nodiscard]] answer find_round(const Policy& on, const X& x, const Y& y) const {
+        if constexpr (!is_round<X>) {
+            answer of = find_round(on, y, x);
+            std::swap(of.found.first_alone, of.found.second_alone);
+            return of;
+        } else if constexpr (is_round<Y>) {
+            return regions_of_round(solid_capsule(x, function), solid_capsule(y, function));
+        } else if constexpr (is_polytope<Y>) {
+            return find_round(on, x, as_solid(on, y, function));
+        } else if constexpr (are_solids<Y, Y>()) {
+            using T = scalar_of_argument<Y>;
+            const capsule<T> round = solid_capsule(x, function);
+            const auto b = make_operand(on, y, function);
+            if (!known_solid) require_simple(on, y, function);
+            const answer of_apart{{false, true, b.shapes().size() > 0}, false};
+            if (b.shapes().size() == 0 || (known_solid && !overlaps(known_box(y), bounds(round)))) return of_apart;
+            const solid_on_host<T> solid(faces_on_host(on, b), function);
+            std::vector<std::uint32_t> met;
+            for (const index_pair& p : to_host(ask_pairs(on, ask_for<A>(touching{}, all_pairs{}), two{y, round}, query_options<>{}, function))) {
+                met.push_back(p.a);
+            }
+            return regions_of_round(round, solid.surface().faces(), met, [&](const vec3<T>& p) { return bool(solid.have_inside({p}).front()); });
+        } else {
+            return {};
+        }
     }
 };
 template <arithmetic A, class Enough>

@@ -16,12 +16,11 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <initializer_list>
 #include <utility>
 #include <vector>
 
-#include <abut/arithmetic/align.hpp>
 #include <abut/arithmetic/big_int.hpp>
+#include <abut/arithmetic/whole_numbers.hpp>
 #include <abut/collide/inside.hpp>
 #include <abut/collide/raycast_all.hpp>
 #include <abut/predicate/certified_faces.hpp>
@@ -115,14 +114,20 @@ class exact_spans {
 
 public:
     exact_spans(const ray<T>& r, const met_face<T>* hits, std::size_t n) : hits_(hits), n_(n), begin_(n), end_(n), passes_(n, 0) {
-        const int of_places = lowest_of_faces(r.origin), of_direction = lowest_of({r.direction});
-        along_ = at(r.direction, of_direction);
-        const way from = at(r.origin, of_places);
+        whole_numbers<T> of_places, of_direction;
+        of_direction.look_at(r.direction);
+        of_places.look_at(r.origin);
+        for (std::size_t k = 0; k < n; ++k) {
+            const triangle<T>& t = hits[k].corners;
+            of_places.look_at(t.a), of_places.look_at(t.b), of_places.look_at(t.c);
+        }
+        along_ = of_direction(r.direction);
+        const way from = of_places(r.origin);
         std::vector<event> events;
         events.push_back({time(number(), number(1)), n, false});
         for (std::size_t k = 0; k < n; ++k) {
             const triangle<T>& t = hits[k].corners;
-            const way to[3] = {minus(at(t.a, of_places), from), minus(at(t.b, of_places), from), minus(at(t.c, of_places), from)};
+            const way to[3] = {of_places(t.a) - from, of_places(t.b) - from, of_places(t.c) - from};
             look_at(k, to, events);
         }
         std::sort(events.begin(), events.end(), [](const event& x, const event& y) { return x.at < y.at; });
@@ -168,16 +173,16 @@ private:
     void look_at(std::size_t k, const way (&to)[3], std::vector<event>& events) {
         number side[3], speed;
         for (std::size_t i = 0; i < 3; ++i) {
-            side[i] = along(along_, across(to[i], to[(i + 1) % 3]));
+            side[i] = dot(along_, cross(to[i], to[(i + 1) % 3]));
             speed = speed + side[i];
         }
         if (speed.sign() != 0) {
-            const time at(along(to[2], across(to[0], to[1])), speed);
+            const time at(dot(to[2], cross(to[0], to[1])), speed);
             events.push_back({at, k, false});
             events.push_back({at, k, true});
             int sides = 0;
             for (std::size_t i = 0; i < 3; ++i) {
-                const way turn = across(minus(to[i], to[(i + 1) % 3]), along_);
+                const way turn = cross(to[i] - to[(i + 1) % 3], along_);
                 const int signs[4] = {side[i].sign(), turn.x.sign(), turn.y.sign(), turn.z.sign()};
                 const int* sign = signs;
                 while (*sign == 0) ++sign;
@@ -189,7 +194,7 @@ private:
         // In one plane with the ray: from where to where it is in the face.
         std::vector<time> ends;
         for (std::size_t i = 0; i < 3; ++i) {
-            const way &p = to[i], &q = to[(i + 1) % 3], edge = minus(q, p), turn = across(along_, edge), beside = across(p, along_);
+            const way &p = to[i], &q = to[(i + 1) % 3], edge = q - p, turn = cross(along_, edge), beside = cross(p, along_);
             const number* const of_turn[3] = {&turn.x, &turn.y, &turn.z};
             int axis = 0;
             while (axis < 3 && of_turn[axis]->sign() == 0) ++axis;
@@ -201,38 +206,14 @@ private:
                 continue;
             }
             const int sense = of(turn).sign();
-            if (of(beside).sign() * sense < 0 || of(across(q, along_)).sign() * sense > 0) continue;
-            ends.emplace_back(of(across(p, edge)), of(turn));
+            if (of(beside).sign() * sense < 0 || of(cross(q, along_)).sign() * sense > 0) continue;
+            ends.emplace_back(of(cross(p, edge)), of(turn));
         }
         const time start(number(), number(1));
         const auto clipped = [&](const time& t) { return t < start ? start : t; };
         events.push_back({clipped(*std::min_element(ends.begin(), ends.end())), k, false});
         events.push_back({clipped(*std::max_element(ends.begin(), ends.end())), k, true});
     }
-    static int lowest_of(std::initializer_list<vec3<T>> places, int lowest = 1 << 20) {
-        for (const vec3<T>& p : places) {
-            const T all[] = {p.x, p.y, p.z};
-            for (const T x : all) lowest = is_zero(x) ? lowest : std::min(lowest, take_apart(x).exponent);
-        }
-        return lowest;
-    }
-    int lowest_of_faces(const vec3<T>& origin) const {
-        int lowest = lowest_of({origin});
-        for (std::size_t k = 0; k < n_; ++k) lowest = lowest_of({hits_[k].corners.a, hits_[k].corners.b, hits_[k].corners.c}, lowest);
-        return lowest;
-    }
-    static way at(const vec3<T>& p, int lowest) {
-        const auto whole = [lowest](T x) {
-            if (is_zero(x)) return number();
-            const auto parts = take_apart(x);
-            return number(parts.mantissa, parts.exponent - lowest);
-        };
-        return {whole(p.x), whole(p.y), whole(p.z)};
-    }
-    static way minus(const way& p, const way& q) { return {p.x - q.x, p.y - q.y, p.z - q.z}; }
-    static way across(const way& p, const way& q) { return {p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x}; }
-    static number along(const way& p, const way& q) { return p.x * q.x + p.y * q.y + p.z * q.z; }
-
     const met_face<T>* hits_;
     std::size_t n_, ranks_ = 0;
     way along_;
