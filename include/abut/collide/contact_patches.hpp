@@ -350,6 +350,9 @@ inline ask_patches patches_by(const patch_options& options) {
 /// All are rounded, in doubles, by one order of operations: the same bits on each policy and for every index. Patches come in
 /// the order of their least names (`curves`), so which faces have which numbers says nothing but that.
 ///
+/// Of several devices and of ranks as of `relation`; there vertices of solids in parts have numbers in the order in which the
+/// faces name them. The first rank has all patches, and the others have none. Spheres and capsules are not taken.
+///
 /// Crossings are the policy's to find. All else is one thread's: sorts of all sides of both, and a tree of them where a
 /// surface is in the other. Takes up to 500 bytes a face in host memory, and those of `curves`.
 ///

@@ -247,7 +247,7 @@ std::vector<solid_relation> ask_relations(const Policy& on, const Question& ques
 
 /// @defgroup solids What solids have in common
 ///
-/// `relation` and `overlaps` of two solids: closed meshes. Whether their interiors meet, whether one is in the other, and
+/// `relation` and `overlaps` of two solids: closed meshes, boxes, hulls, spheres and capsules. Whether their interiors meet, whether one is in the other, and
 /// whether their surfaces touch, all of it exactly.
 ///
 /// A solid is what a closed mesh bounds: each edge has two faces, which go along it in opposite directions, no face is without
@@ -259,26 +259,36 @@ std::vector<solid_relation> ask_relations(const Policy& on, const Question& ques
 /// @par Memory
 /// As in @ref queries, arguments lie in the policy's memory. Where surfaces touch and faces do not pass through each other,
 /// the faces of both come to the host, where they take up to 200 bytes each, and 150 more where a part of a surface touches
-/// nothing; crossings of what touches take 120 bytes each in float and 192 in double.
+/// nothing; crossings of what touches take 120 bytes each in float and 192 in double. Of ranks (@ref distributed), and of what is
+/// divided among devices (@ref devices), triangles and the pairs that touch come together on the host of the first rank, or of
+/// the caller: 36 bytes a face in float, 72 in double and 16 a pair, beside what was said.
 ///
 /// @par Errors
 /// - `invalid_geometry`: a mesh is no solid. The message has a face and says why. Without `known_solid` that is found out in
 ///   each call, before anything else; it takes longer than the question, as a rule.
+/// - `capacity_error`: more than 715,827,882 faces or pairs come to the first rank.
 /// - Those of @ref queries.
 ///
 /// @par Synchronisation
-/// Each call returns when its answer is known; under `cuda` it waits for the policy's stream.
+/// Each call returns when its answer is known; under `cuda` it waits for the policy's stream. All ranks make each call.
 ///
 /// @par Example
 /// @snippet queries.cpp relation
 ///@{
 
 /// How the solid `a` lies to the solid `b`, exactly, for every finite input: the same with `filtered` and `exact`, on each
-/// policy, and of every index. `a` and `b` are meshes, views of meshes or trees of these, or a box, an oriented box or a hull,
-/// which is taken by its `boundary`; posed or not. Under a pose it is decided of the placed coordinates. A solid without faces is empty, and disconnected from every other one.
+/// policy, and of every index. `a` and `b` are meshes, views of meshes or trees of these; or a box, an oriented box or a hull,
+/// which is taken by its `boundary`; or a sphere or a capsule of positive radius; posed or not. Under a pose it is decided of the
+/// placed coordinates. A solid without faces is empty, and disconnected from every other one. Cylinders and cones are not taken.
+///
+/// Of several devices (@ref devices) both are on each device, or divided, or in host memory. Of ranks (@ref distributed) each has a
+/// part of both, and all get the answer. In parts vertices in one place are one, and triangles of a soup will do; boxes, spheres
+/// and the like are for devices and ranks their `boundary`, or not taken.
 ///
 /// Where faces pass through each other, no more than a first pair of them is looked for. Else each place in which the surfaces
-/// touch is looked at, on one thread of the host: a corner of n faces on one of m takes up to n^2 + m^2 steps.
+/// touch is looked at, on one thread of the host: a corner of n faces on one of m takes up to n^2 + m^2 steps. A sphere or a
+/// capsule takes some microseconds for each face that it touches, until it meets one with its interior; and for each vertex of a
+/// solid that it may have in it.
 ///
 ///     if (abut::relation(on, mesh, other) == abut::solid_relation::externally_connected) std::puts("they only touch");
 template <arithmetic A = filtered, executor On, class X, class Y>
@@ -300,7 +310,8 @@ template <arithmetic A = filtered, executor On, class X, class Y>
 
 /// The same of all bodies of a scene, `bodies` or a std::vector of posed trees of meshes: a std::vector in host memory, of all
 /// two that are not disconnected, sorted by body_a, then body_b. `which` says as of `pairs` which bodies are looked at
-/// (`body_options::bodies`); its other members are not used. A body that is no solid is named in the message. Whether a surface
+/// (`body_options::bodies`); its other members are not used. Several devices take bodies that each has, and each decides those
+/// that its share of the search finds; ranks take none. A body that is no solid is named in the message. Whether a surface
 /// passes through itself is looked at once for each index, in its own frame.
 ///
 /// Which bodies have faces that pass through each other is found for all of them in one go, and so is where the others touch.
@@ -317,7 +328,8 @@ template <arithmetic A = filtered, executor On, many_bodies Scene, class Which =
     return found;
 }
 
-/// The same of each entry of a list, in its order: a std::vector in host memory.
+/// The same of each entry of a list, in its order: a std::vector in host memory. Of several devices each decides its share of the
+/// entries, and a rank gets the relations of its own ones.
 template <arithmetic A = filtered, executor On, class IndexA, class IndexB>
     requires(!std::same_as<A, fast>)
 [[nodiscard]] std::vector<solid_relation> relation(const On& on, const std::vector<posed_pair<IndexA, IndexB>>& list,

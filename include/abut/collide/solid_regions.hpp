@@ -222,6 +222,8 @@ consteval bool is_solid_in_parts() {
     return is;
 }
 
+template <class Shape>
+inline constexpr bool is_round<posed_object<Shape>> = is_round<Shape>;
 /// A sphere or a capsule as a capsule. Throws where it is none, or has no volume.
 template <class Shape>
 auto solid_capsule(const Shape& shape, const char* function) {

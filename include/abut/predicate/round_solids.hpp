@@ -20,7 +20,6 @@
 #include <abut/predicate/intersects.hpp>
 #include <abut/predicate/solid_cones.hpp>
 #include <abut/shape/capsule.hpp>
-#include <abut/shape/posed.hpp>
 #include <abut/shape/primitive.hpp>
 #include <abut/shape/sphere.hpp>
 
@@ -32,8 +31,6 @@ template <scalar T>
 inline constexpr bool is_round<sphere<T>> = true;
 template <scalar T>
 inline constexpr bool is_round<capsule<T>> = true;
-template <class Shape>
-inline constexpr bool is_round<posed_object<Shape>> = is_round<Shape>;
 
 /// A round shape as a capsule, which may have no length.
 template <scalar T>
@@ -43,10 +40,6 @@ capsule<T> as_capsule(const sphere<T>& s) {
 template <scalar T>
 capsule<T> as_capsule(const capsule<T>& s) {
     return s;
-}
-template <class Shape>
-auto as_capsule(const posed_object<Shape>& s) {
-    return as_capsule(place(s.pose, s.object));
 }
 
 /// Signs of distances less a length, squared and exact.
