@@ -10,4 +10,5 @@
 #include <abut/devices/impacts.hpp>
 #include <abut/devices/query.hpp>
 #include <abut/devices/rows.hpp>
+#include <abut/devices/solids.hpp>
 #include <abut/execution/cuda_devices.hpp>

@@ -13,3 +13,4 @@
 #include <abut/distributed/redistribute.hpp>
 #include <abut/distributed/row_lists.hpp>
 #include <abut/distributed/rows.hpp>
+#include <abut/distributed/solids.hpp>

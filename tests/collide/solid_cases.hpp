@@ -310,6 +310,31 @@ inline std::pair<cells, cells> draw_two_sets(draws& d, std::uint64_t k) {
     return {a, b};
 }
 
+/// The same, with one of them in the interior of the other now and then, and in either order.
+inline std::pair<cells, cells> draw_two_of_all_kinds(draws& d, std::uint64_t k) {
+    auto [a, b] = draw_two_sets(d, k);
+    if (k % 8 == 6) {
+        a = b = {};
+        for (int i = 0; i < 125; ++i) a.in.insert({i % 5, i / 5 % 5, i / 25});
+        b.in.insert({1 + d.below(3), 1 + d.below(3), 1 + d.below(3)});
+    }
+    if (k % 16 > 7) std::swap(a, b);
+    return {a, b};
+}
+
+/// Rays among them, many through vertices, along edges and in faces.
+template <scalar T>
+std::vector<ray<T>> draw_rays_of_grid(draws& d, std::size_t n) {
+    std::vector<ray<T>> all;
+    while (all.size() < n) {
+        const auto half = [&] { return static_cast<T>(d.below(17) - 4) / 2; };
+        const auto way = [&] { return static_cast<T>(d.below(5) - 2); };
+        const T x = half(), y = half(), z = half(), dx = way(), dy = way(), dz = way();
+        all.push_back({{x, y, z}, {dx, dy, dz}});
+    }
+    return all;
+}
+
 /// A few of them on a policy, as meshes, trees and under poses.
 template <scalar T, class Policy>
 void check_relations(const Policy& on) {

@@ -290,25 +290,37 @@ std::vector<contact_patch<T>> patches_of(const solid_on_host<T>& a, const solid_
     return patches;
 }
 
-template <class Policy, class X, class Y>
-auto patches_of_two(const Policy& on, const X& x, const Y& y, const patch_options& options, const char* function) {
-    using T = scalar_of_argument<X>;
+/// The patches of two solids.
+struct ask_patches {
+    static constexpr const char* function = "abut::contact_patches";
+    static constexpr bool takes_round = false;
+    bool known_solid;
+    std::size_t most_points;
+
+    template <scalar T>
+    static std::vector<contact_patch<T>> nothing() {
+        return {};
+    }
+    template <class Solids>
+    [[nodiscard]] auto find(const Solids& solids) const {
+        using T = typename Solids::T;
+        using answer = std::vector<contact_patch<T>>;
+        if (!known_solid) solids.require_simple();
+        if (!solids.has_a() || !solids.has_b()) return answer();
+        return solids.template decide<filtered>(answer(), [&](auto& here) {
+            const std::vector<crossing<T>> contacts = here.contacts();
+            if (known_solid && contacts.empty()) return answer();
+            const solid_on_host<T> solid_a(here.faces_a(), function), solid_b(here.faces_b(), function);
+            return patches_of<T>(solid_a, solid_b, contacts, most_points);
+        });
+    }
+};
+inline ask_patches patches_by(const patch_options& options) {
     if (options.most_points < 4) {
-        throw invalid_geometry(function, "most_points", 0, "a patch has up to 4 points at least, not", static_cast<double>(options.most_points));
+        throw invalid_geometry(ask_patches::function, "most_points", 0, "a patch has up to 4 points at least, not",
+                               static_cast<double>(options.most_points));
     }
-    const auto a = make_operand(on, x, function);
-    const auto b = make_operand(on, y, function);
-    const query_options<> all;
-    const auto pairing = pair_operands(on, a, b, all);
-    if (!options.known_solid) {
-        require_simple(on, x, function);
-        require_simple(on, y, function);
-    }
-    if (a.shapes().size() == 0 || b.shapes().size() == 0) return std::vector<contact_patch<T>>();
-    const std::vector<crossing<T>> contacts = to_host(ask_for<filtered>(touching{}, all_crossings{}).find(on, pairing));
-    if (options.known_solid && contacts.empty()) return std::vector<contact_patch<T>>();
-    const solid_on_host<T> solid_a(faces_on_host(on, a), function), solid_b(faces_on_host(on, b), function);
-    return patches_of<T>(solid_a, solid_b, contacts, options.most_points);
+    return {bool(options.known_solid), options.most_points};
 }
 
 }  // namespace detail
@@ -338,6 +350,9 @@ auto patches_of_two(const Policy& on, const X& x, const Y& y, const patch_option
 /// All are rounded, in doubles, by one order of operations: the same bits on each policy and for every index. Patches come in
 /// the order of their least names (`curves`), so which faces have which numbers says nothing but that.
 ///
+/// Of several devices and of ranks as of `relation`; there vertices of solids in parts have numbers in the order in which the
+/// faces name them. The first rank has all patches, and the others have none. Spheres and capsules are not taken.
+///
 /// Crossings are the policy's to find. All else is one thread's: sorts of all sides of both, and a tree of them where a
 /// surface is in the other. Takes up to 500 bytes a face in host memory, and those of `curves`.
 ///
@@ -346,16 +361,9 @@ auto patches_of_two(const Policy& on, const X& x, const Y& y, const patch_option
 ///     for (const auto& p : abut::contact_patches(on, mesh, abut::posed(other, there), {.known_solid = true})) {
 ///         push(p.normal, p.depth, p.points);
 ///     }
-template <execution_policy Policy, class X, class Y>
-[[nodiscard]] auto contact_patches(const Policy& on, const X& a, const Y& b, const patch_options& options = {}) {
-    constexpr const char* function = "abut::contact_patches";
-    if constexpr (detail::is_polytope<X> || detail::is_polytope<Y>) {
-        return contact_patches(on, detail::as_solid(on, a, function), detail::as_solid(on, b, function), options);
-    } else if constexpr (detail::are_solids<X, Y>()) {
-        return detail::patches_of_two(on, a, b, options, function);
-    } else {
-        return std::vector<contact_patch<float>>();
-    }
+template <executor On, class X, class Y>
+[[nodiscard]] auto contact_patches(const On& on, const X& a, const Y& b, const patch_options& options = {}) {
+    return ask_solids(on, detail::patches_by(options), a, b);
 }
 
 ///@}

@@ -207,8 +207,9 @@ struct all_crossings {
 /// A face without area is the segment between its two vertices farthest apart, or its first vertex. Crossings of `fast` may
 /// have no corners.
 ///
-/// Arguments are those of `pairs`, of triangles: sets, views, single triangles and indices, posed or not. Ranks do not take
-/// them. Vertices of a mesh that is divided among devices count as those of a soup.
+/// Arguments are those of `pairs`, of triangles: sets, views, single triangles and indices, posed or not. Vertices of
+/// a mesh that is divided among devices count as those of a soup. Of ranks (@ref distributed) these are a `global_crossing` for each
+/// pair of the rank's own a-shapes, which has no numbers of vertices; of a list a `global_tagged_crossing`.
 ///
 ///     for (const auto& c : abut::crossings(abut::openmp{}, mesh, abut::posed(other, there))) {
 ///         if (c.count == 2) use(c.points[0], c.points[1]);

@@ -215,6 +215,7 @@ void require_closed(const Policy& on, const mesh_view<T, Space>& mesh, const cha
                            static_cast<double>(other.key));
 }
 template <class Policy, class View>
+    requires(is_mesh<View>)
 void require_closed(const Policy& on, const posed_view<View>& mesh, const char* function, bool turned = false,
                     bool doubled = false, inside_rule rule = inside_rule::parity) {
     require_closed(on, mesh.shapes, function, turned, doubled, rule);

@@ -199,13 +199,32 @@ struct timed_hit {
     std::uint32_t line;
 };
 
+/// As a caller gets them.
+template <class Hit>
+struct write_timed_hits {
+    const timed_hit* found;
+    name_hit<Hit> name;
+    Hit* out;
+    ABUT_HD void operator()(std::size_t i) const { out[i] = name(found[i].line, {found[i].time, found[i].id}); }
+};
+
 /// All that lines meet: no answer of a fixed size. Of parts each gives a list in order, and lists are merged: ask_row_lists.
+/// Such a question has item<T>, what is in these lists, and finish<Found>(on, rows, items, first), what becomes of them all.
 template <arithmetic A, class Options = no_ray_options>
 struct ask_all_hits : question_of_lines<Options, ask_all_hits<A, Options>> {
     template <scalar T, class Id>
     using found = by_id<Id, hit_of_ray<T>, body_hit_of_ray<T>, global_hit_of_ray<T>>;
+    template <scalar>
+    using item = timed_hit;
     static constexpr const char* function = "abut::raycast_all";
 
+    template <class Found, class Policy, class Lines>
+    static auto finish(const Policy& on, const Lines&, const result<timed_hit, space_of<Policy>>& hits, decltype(Found::ray) first) {
+        execution::buffer_of<Policy, Found> out(on, hits.size());
+        for_each_index(on, hits.size(), write_timed_hits<Found>{hits.data(), {first}, out.data()});
+        synchronize(on);
+        return result<Found, space_of<Policy>>(std::move(out));
+    }
     template <class Policy, class X, class Lines>
     auto at_once(const Policy& on, const X& x, const Lines& lines, double) const {
         const auto both = lines_that_want(x, lines, this->options);
@@ -225,7 +244,8 @@ auto ask_row_lists(const Policy& on, const Question& question, const X& index, c
 }
 
 struct by_line_and_time {
-    ABUT_HD bool operator()(const timed_hit& x, const timed_hit& y) const {
+    template <class Item>
+    ABUT_HD bool operator()(const Item& x, const Item& y) const {
         if (x.line != y.line) return x.line < y.line;
         return x.time < y.time || (x.time == y.time && x.id < y.id);
     }
@@ -241,14 +261,6 @@ struct name_timed_hit {
 };
 template <class Lines, class Ids>
 name_timed_hit(const Lines&, const Ids&) -> name_timed_hit<Lines, Ids>;
-/// As a caller gets them.
-template <class Hit>
-struct write_timed_hits {
-    const timed_hit* found;
-    name_hit<Hit> name;
-    Hit* out;
-    ABUT_HD void operator()(std::size_t i) const { out[i] = name(found[i].line, {found[i].time, found[i].id}); }
-};
 
 }  // namespace detail
 

@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include <abut/arithmetic/align.hpp>
 #include <abut/arithmetic/big_int.hpp>
+#include <abut/arithmetic/whole_numbers.hpp>
 #include <abut/arithmetic/magnitude.hpp>
 #include <abut/error.hpp>
 #include <abut/narrow/crossing.hpp>
@@ -51,37 +51,17 @@ public:
 
 private:
     [[nodiscard]] int exact_sign() const {
-        int lowest = 0;
-        bool any = false;
-        const auto look_at = [&](T x) {
-            if (is_zero(x)) return;
-            const int e = take_apart(x).exponent;
-            lowest = any ? std::min(lowest, e) : e;
-            any = true;
-        };
-        const auto look = [&](const vec3<T>& p) {
-            look_at(p.x);
-            look_at(p.y);
-            look_at(p.z);
-        };
-        look(from_);
+        whole_numbers<T> unit;
+        unit.look_at(from_);
         for (const std::uint32_t f : which_) {
             const triangle<T>& t = faces_[f].corners;
-            look(t.a), look(t.b), look(t.c);
+            unit.look_at(t.a), unit.look_at(t.b), unit.look_at(t.c);
         }
-        const auto whole = [&](T x) {
-            if (is_zero(x)) return big_int();
-            const auto parts = take_apart(x);
-            return big_int(parts.mantissa, parts.exponent - lowest);
-        };
-        const auto to = [&](const vec3<T>& p) {
-            return vec3<big_int>{whole(p.x) - whole(from_.x), whole(p.y) - whole(from_.y), whole(p.z) - whole(from_.z)};
-        };
+        const vec3<big_int> from = unit(from_);
         big_int sum;
         for (const std::uint32_t f : which_) {
             const triangle<T>& t = faces_[f].corners;
-            const vec3<big_int> a = to(t.a), b = to(t.b), c = to(t.c);
-            sum = sum + (a.y * b.z - a.z * b.y) * c.x + (a.z * b.x - a.x * b.z) * c.y + (a.x * b.y - a.y * b.x) * c.z;
+            sum = sum + dot(cross(unit(t.a) - from, unit(t.b) - from), unit(t.c) - from);
         }
         return sum.sign();
     }

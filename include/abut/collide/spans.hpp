@@ -16,12 +16,11 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <initializer_list>
 #include <utility>
 #include <vector>
 
-#include <abut/arithmetic/align.hpp>
 #include <abut/arithmetic/big_int.hpp>
+#include <abut/arithmetic/whole_numbers.hpp>
 #include <abut/collide/inside.hpp>
 #include <abut/collide/raycast_all.hpp>
 #include <abut/predicate/certified_faces.hpp>
@@ -44,21 +43,42 @@ struct ray_span {
     friend constexpr bool operator==(const ray_span&, const ray_span&) = default;
 };
 
+/// A `ray_span` with numbers in sets of many parts.
+/// @ingroup distributed
+template <scalar T>
+struct global_ray_span {
+    /// Where a ray begins or ends inside.
+    static constexpr std::uint64_t no_face = static_cast<std::uint64_t>(-1);
+
+    std::uint64_t ray;    ///< its number among the rays of all ranks
+    std::uint64_t enter;  ///< as of ray_span
+    std::uint64_t leave;  ///< as of ray_span
+    T from;               ///< as of ray_span
+    T to;                 ///< as of ray_span
+
+    friend constexpr bool operator==(const global_ray_span&, const global_ray_span&) = default;
+};
+
 namespace detail {
 
 /// A face that a ray meets.
 template <scalar T>
 struct met_face {
     triangle<T> corners;
-    std::uint32_t ray, id;
-    T t;
+    double time;
+    std::uint64_t id;
+    std::uint32_t line;
+    [[nodiscard]] T t() const { return time_as<T>(time); }
 };
-template <class Shapes, scalar T>
-struct gather_met_face {
+/// With the numbers of lines and ids of all.
+template <class Shapes, class Name>
+struct name_met_face {
     Shapes shapes;
-    const hit_of_ray<T>* hits;
-    met_face<T>* out;
-    ABUT_HD void operator()(std::size_t k) const { out[k] = {shapes[hits[k].id], hits[k].ray, hits[k].id, hits[k].t}; }
+    Name name;
+    ABUT_HD auto operator()(std::size_t line, const execution::least_value& hit) const {
+        const timed_hit found = name(line, hit);
+        return met_face<typename Shapes::scalar_type>{shapes[static_cast<std::size_t>(hit.key)], found.time, found.id, found.line};
+    }
 };
 
 /// Whether a ray certainly passes through the inner of a face.
@@ -75,8 +95,9 @@ bool surely_passes(const ray<T>& r, const triangle<T>& t) {
 }
 
 /// The stretches of one ray, from all that it meets, in exact numbers.
-template <scalar T>
+template <class Span>
 class exact_spans {
+    using T = decltype(Span::from);
     using number = big_int;
     using way = vec3<big_int>;
     struct time {
@@ -93,14 +114,20 @@ class exact_spans {
 
 public:
     exact_spans(const ray<T>& r, const met_face<T>* hits, std::size_t n) : hits_(hits), n_(n), begin_(n), end_(n), passes_(n, 0) {
-        const int of_places = lowest_of_faces(r.origin), of_direction = lowest_of({r.direction});
-        along_ = at(r.direction, of_direction);
-        const way from = at(r.origin, of_places);
+        whole_numbers<T> of_places, of_direction;
+        of_direction.look_at(r.direction);
+        of_places.look_at(r.origin);
+        for (std::size_t k = 0; k < n; ++k) {
+            const triangle<T>& t = hits[k].corners;
+            of_places.look_at(t.a), of_places.look_at(t.b), of_places.look_at(t.c);
+        }
+        along_ = of_direction(r.direction);
+        const way from = of_places(r.origin);
         std::vector<event> events;
         events.push_back({time(number(), number(1)), n, false});
         for (std::size_t k = 0; k < n; ++k) {
             const triangle<T>& t = hits[k].corners;
-            const way to[3] = {minus(at(t.a, of_places), from), minus(at(t.b, of_places), from), minus(at(t.c, of_places), from)};
+            const way to[3] = {of_places(t.a) - from, of_places(t.b) - from, of_places(t.c) - from};
             look_at(k, to, events);
         }
         std::sort(events.begin(), events.end(), [](const event& x, const event& y) { return x.at < y.at; });
@@ -111,7 +138,7 @@ public:
         }
         ranks_ = rank + 1;
     }
-    void append(std::uint32_t number_of_ray, std::vector<ray_span<T>>& out) const {
+    void append(decltype(Span::ray) number_of_ray, std::vector<Span>& out) const {
         std::vector<char> odd(ranks_ + 1, 0);       // after rank i: faces passed from rank i on, or not
         std::vector<int> covered(ranks_ + 1, 0);    // stretches in the surface that begin at rank i, less those that end
         std::vector<std::size_t> first(ranks_, n_);  // the hit of the least face at a rank
@@ -131,10 +158,10 @@ public:
             if (is_inside == was_inside) continue;
             was_inside = is_inside;
             const std::size_t k = first[i];
-            const std::uint32_t id = k < n_ ? hits_[k].id : ray_span<T>::no_face;
-            const T t = k < n_ ? hits_[k].t : T{0};
+            const auto id = k < n_ ? static_cast<decltype(Span::enter)>(hits_[k].id) : Span::no_face;
+            const T t = k < n_ ? hits_[k].t() : T{0};
             if (is_inside) {
-                out.push_back({number_of_ray, id, ray_span<T>::no_face, t, t});
+                out.push_back({number_of_ray, id, Span::no_face, t, t});
             } else {
                 out.back().leave = id;
                 out.back().to = t;
@@ -146,16 +173,16 @@ private:
     void look_at(std::size_t k, const way (&to)[3], std::vector<event>& events) {
         number side[3], speed;
         for (std::size_t i = 0; i < 3; ++i) {
-            side[i] = along(along_, across(to[i], to[(i + 1) % 3]));
+            side[i] = dot(along_, cross(to[i], to[(i + 1) % 3]));
             speed = speed + side[i];
         }
         if (speed.sign() != 0) {
-            const time at(along(to[2], across(to[0], to[1])), speed);
+            const time at(dot(to[2], cross(to[0], to[1])), speed);
             events.push_back({at, k, false});
             events.push_back({at, k, true});
             int sides = 0;
             for (std::size_t i = 0; i < 3; ++i) {
-                const way turn = across(minus(to[i], to[(i + 1) % 3]), along_);
+                const way turn = cross(to[i] - to[(i + 1) % 3], along_);
                 const int signs[4] = {side[i].sign(), turn.x.sign(), turn.y.sign(), turn.z.sign()};
                 const int* sign = signs;
                 while (*sign == 0) ++sign;
@@ -167,7 +194,7 @@ private:
         // In one plane with the ray: from where to where it is in the face.
         std::vector<time> ends;
         for (std::size_t i = 0; i < 3; ++i) {
-            const way &p = to[i], &q = to[(i + 1) % 3], edge = minus(q, p), turn = across(along_, edge), beside = across(p, along_);
+            const way &p = to[i], &q = to[(i + 1) % 3], edge = q - p, turn = cross(along_, edge), beside = cross(p, along_);
             const number* const of_turn[3] = {&turn.x, &turn.y, &turn.z};
             int axis = 0;
             while (axis < 3 && of_turn[axis]->sign() == 0) ++axis;
@@ -179,38 +206,14 @@ private:
                 continue;
             }
             const int sense = of(turn).sign();
-            if (of(beside).sign() * sense < 0 || of(across(q, along_)).sign() * sense > 0) continue;
-            ends.emplace_back(of(across(p, edge)), of(turn));
+            if (of(beside).sign() * sense < 0 || of(cross(q, along_)).sign() * sense > 0) continue;
+            ends.emplace_back(of(cross(p, edge)), of(turn));
         }
         const time start(number(), number(1));
         const auto clipped = [&](const time& t) { return t < start ? start : t; };
         events.push_back({clipped(*std::min_element(ends.begin(), ends.end())), k, false});
         events.push_back({clipped(*std::max_element(ends.begin(), ends.end())), k, true});
     }
-    static int lowest_of(std::initializer_list<vec3<T>> places, int lowest = 1 << 20) {
-        for (const vec3<T>& p : places) {
-            const T all[] = {p.x, p.y, p.z};
-            for (const T x : all) lowest = is_zero(x) ? lowest : std::min(lowest, take_apart(x).exponent);
-        }
-        return lowest;
-    }
-    int lowest_of_faces(const vec3<T>& origin) const {
-        int lowest = lowest_of({origin});
-        for (std::size_t k = 0; k < n_; ++k) lowest = lowest_of({hits_[k].corners.a, hits_[k].corners.b, hits_[k].corners.c}, lowest);
-        return lowest;
-    }
-    static way at(const vec3<T>& p, int lowest) {
-        const auto whole = [lowest](T x) {
-            if (is_zero(x)) return number();
-            const auto parts = take_apart(x);
-            return number(parts.mantissa, parts.exponent - lowest);
-        };
-        return {whole(p.x), whole(p.y), whole(p.z)};
-    }
-    static way minus(const way& p, const way& q) { return {p.x - q.x, p.y - q.y, p.z - q.z}; }
-    static way across(const way& p, const way& q) { return {p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x}; }
-    static number along(const way& p, const way& q) { return p.x * q.x + p.y * q.y + p.z * q.z; }
-
     const met_face<T>* hits_;
     std::size_t n_, ranks_ = 0;
     way along_;
@@ -219,24 +222,75 @@ private:
 };
 
 /// The stretches of one ray, from the n > 0 faces that it meets, in their order.
-template <scalar T>
-void append_spans(const ray<T>& r, std::uint32_t number, const met_face<T>* hits, std::size_t n, std::vector<ray_span<T>>& out) {
+template <class Span, scalar T>
+void append_spans(const ray<T>& r, decltype(Span::ray) number, const met_face<T>* hits, std::size_t n, std::vector<Span>& out) {
     if (is_zero(r.direction.x) && is_zero(r.direction.y) && is_zero(r.direction.z)) return;
-    bool is_plain = hits[0].t > 0;
+    bool is_plain = hits[0].t() > 0;
     for (std::size_t k = 0; k < n && is_plain; ++k) {
-        is_plain = (k == 0 || hits[k - 1].t < hits[k].t) && surely_passes(r, hits[k].corners);
+        is_plain = (k == 0 || hits[k - 1].t() < hits[k].t()) && surely_passes(r, hits[k].corners);
     }
-    if (!is_plain) return exact_spans<T>(r, hits, n).append(number, out);
-    if (n % 2 == 1) out.push_back({number, ray_span<T>::no_face, hits[0].id, 0, hits[0].t});
-    for (std::size_t k = n % 2; k < n; k += 2) out.push_back({number, hits[k].id, hits[k + 1].id, hits[k].t, hits[k + 1].t});
+    if (!is_plain) return exact_spans<Span>(r, hits, n).append(number, out);
+    const auto id = [&](std::size_t k) { return static_cast<decltype(Span::enter)>(hits[k].id); };
+    if (n % 2 == 1) out.push_back({number, Span::no_face, id(0), 0, hits[0].t()});
+    for (std::size_t k = n % 2; k < n; k += 2) out.push_back({number, id(k), id(k + 1), hits[k].t(), hits[k + 1].t()});
 }
 
-template <class X, class Rays>
-consteval bool have_spans() {
-    constexpr bool are = has_faces<X>;
-    static_assert(are, "abut::spans: expected a closed mesh: a mesh, a mesh_view, or a tree of one, posed or not");
-    return are;
-}
+template <arithmetic A>
+struct ask_spans : question_of_lines<no_ray_options, ask_spans<A>> {
+    template <scalar T, class Id>
+    using found = by_id<Id, ray_span<T>, ray_span<T>, global_ray_span<T>>;
+    template <scalar T>
+    using item = met_face<T>;
+    static constexpr const char* function = "abut::spans";
+    inside_options surface;
+
+    template <class Policy, class X, class Lines, bool Whole>
+    static consteval bool takes() {
+        constexpr bool has = has_faces<X> || (!Whole && std::same_as<typename shape_of_argument<X>::type, triangle<scalar_of_argument<X>>>);
+        static_assert(has, "abut::spans: expected a closed mesh: a mesh, a mesh_view, or a tree of one, posed or not; in parts triangles");
+        if constexpr (has) {
+            constexpr bool are = std::same_as<typename shape_of_argument<Lines>::type, ray<scalar_of_argument<X>>>;
+            static_assert(are, "abut::spans: expected rays, of the scalar type of the mesh");
+            return are && can_be_met<Policy, X, Lines>();
+        } else {
+            return false;
+        }
+    }
+    template <class Policy, class X, class Lines>
+    void check(const Policy& on, const X& x, const Lines& lines, const char* holder) const {
+        const ask_inside<A> look{{}, function, {.known_closed = surface.known_closed, .check = surface.check}};
+        look.check(on, x, lines, holder);
+    }
+    template <class Policy, class X, class Lines>
+    auto at_once(const Policy& on, const X& x, const Lines& lines, double) const {
+        using T = typename std::remove_cvref_t<decltype(lines.shapes())>::scalar_type;
+        const result<met_face<T>, space_of<Policy>> met(ask(on, x, lines, name_timed_hit{same_number{}, same_key{}}));
+        return finish<ray_span<T>>(on, lines, met, 0);
+    }
+    template <class Policy, class X, class Lines, class Name>
+    auto ask(const Policy& on, const X& x, const Lines& lines, const Name& name) const {
+        const auto shapes = x.shapes();
+        using view = std::remove_const_t<decltype(shapes)>;
+        return look_for_all_hits<A, met_face<typename view::scalar_type>>(on, lines_that_want(x, lines, no_ray_options{}),
+                                                                          name_met_face<view, Name>{shapes, name});
+    }
+    template <class Found, class Policy, class Lines, class Met>
+    static std::vector<Found> finish(const Policy& on, const Lines& lines, const Met& all_met, decltype(Found::ray) first_ray) {
+        std::vector<Found> found;
+        const std::size_t n = all_met.size();
+        if (n == 0) return found;
+        const auto asked = lines.shapes();
+        using line = typename std::remove_const_t<decltype(asked)>::shape_type;
+        const auto met = to_host(all_met);
+        const auto all = downloaded<Policy, line>(on, side_by_side<line>(on, asked, asked.size()));
+        for (std::size_t first = 0, last = 0; first < n; first = last) {
+            const std::uint32_t number = met[first].line;
+            while (last < n && met[last].line == number) ++last;
+            append_spans<Found>(all[number], first_ray + number, met.data() + first, last - first, found);
+        }
+        return found;
+    }
+};
 
 }  // namespace detail
 
@@ -253,9 +307,14 @@ consteval bool have_spans() {
 /// `options` are as of `inside`, but for the rule; `rays` as of `raycast`, but no segments. A ray without a direction has no stretch. Segments
 /// and lists of bodies are not taken.
 ///
+/// Of several devices (@ref devices) the mesh is on each, or divided; each device finds the hits of its share of the rays, or those
+/// in its part. Of ranks (@ref distributed) a row is a `global_ray_span` of the rank's own rays, and the lists of all ranks, one
+/// after another, are the list of one machine; hits go where their rays are, as those of `raycast_all`, 56 or 96 bytes each. Of a
+/// mesh in parts nobody can see whether it is closed: say `{.known_closed = true}`.
+///
 /// @par Memory
-/// As in @ref queries. The result takes 20 bytes a stretch in float and 32 in double. Scratch is that of `raycast_all`, 48 bytes a
-/// hit in float and 88 in double beside it, in the policy's memory and in the host's, and that of `inside`.
+/// As in @ref queries. The result takes 20 bytes a stretch in float and 32 in double. Scratch is that of `raycast_all`, 56 bytes a
+/// hit in float and 96 in double beside it, in the policy's memory and in the host's, and that of `inside`.
 ///
 /// @par Errors
 /// Those of `inside` and of `raycast`.
@@ -267,37 +326,10 @@ consteval bool have_spans() {
 ///     for (const auto& s : abut::spans(on, tree, rays)) thickness[s.ray] += s.to - s.from;
 ///
 /// @ingroup queries
-template <arithmetic A = filtered, execution_policy Policy, class X, class Rays>
+template <arithmetic A = filtered, executor On, class X, class Rays>
     requires(!std::same_as<A, fast>)
-[[nodiscard]] auto spans(const Policy& on, const X& mesh, const Rays& rays, const inside_options& options = {}) {
-    using T = detail::scalar_of_argument<X>;
-    std::vector<ray_span<T>> found;
-    if constexpr (detail::have_spans<X, Rays>()) {
-        constexpr const char* function = "abut::spans";
-        const auto x = detail::make_operand(on, mesh, function);
-        const auto lines = detail::make_operand(on, rays, function);
-        const auto shapes = x.shapes();
-        const auto asked = lines.shapes();
-        using line = typename std::remove_const_t<decltype(asked)>::shape_type;
-        static_assert(std::same_as<line, ray<T>>, "abut::spans: expected rays, of the scalar type of the mesh");
-        const detail::ask_inside<A> look{{}, function, {.known_closed = options.known_closed, .check = options.check}};
-        look.check(on, x, lines, nullptr);
-        const auto both = detail::lines_that_want(x, lines, detail::no_ray_options{});
-        const auto hits = detail::look_for_all_hits<A, hit_of_ray<T>>(on, both, detail::name_hit<hit_of_ray<T>>{});
-        const std::size_t n = hits.size();
-        if (n == 0) return found;
-        execution::buffer_of<Policy, detail::met_face<T>> faces(on, n);
-        using gather = detail::gather_met_face<std::remove_const_t<decltype(shapes)>, T>;
-        for_each_index(on, n, gather{shapes, hits.data(), faces.data()});
-        const auto met = detail::downloaded<Policy, detail::met_face<T>>(on, faces);
-        const auto all = detail::downloaded<Policy, line>(on, detail::side_by_side<line>(on, asked, asked.size()));
-        for (std::size_t first = 0, last = 0; first < n; first = last) {
-            const std::uint32_t number = met[first].ray;
-            while (last < n && met[last].ray == number) ++last;
-            detail::append_spans(all[number], number, met.data() + first, last - first, found);
-        }
-    }
-    return found;
+[[nodiscard]] auto spans(const On& on, const X& mesh, const Rays& rays, const inside_options& options = {}) {
+    return ask_row_lists(on, detail::ask_spans<A>{{}, options}, mesh, rays);
 }
 
 }  // namespace abut

@@ -198,9 +198,10 @@ auto ask_row_lists(const Team& team, const Question& question, const X& index, c
     if constexpr (can_ask_devices<Team, Question, X, Rows>()) {
         using there_type = type_on_device<X>;
         using hit = found_by<Question, there_type, std::conditional_t<is_bodies<there_type>, body_and_id, std::uint32_t>>;
-        using list = result<timed_hit, space_of<local>>;
+        using list = result<typename Question::template item<scalar_of_argument<there_type>>, space_of<local>>;
         const auto there = asked_on_each(team, question, index, rows);
-        question.check(team[0], there.front().shapes, there.front().rows, nullptr);
+        question.check(team[0], there.front().shapes, there.front().rows,
+                       is_divided<X> ? "device has all of a divided mesh" : nullptr);
         const list hits =
             on_first(team,
                      each_of(team,
@@ -218,10 +219,7 @@ auto ask_row_lists(const Team& team, const Question& question, const X& index, c
                                  }
                              }),
                      true, by_line_and_time{});
-        execution::buffer_of<local, hit> out(team[0], hits.size());
-        for_each_index(team[0], hits.size(), write_timed_hits<hit>{hits.data(), {}, out.data()});
-        synchronize(team[0]);
-        return result<hit, space_of<local>>(std::move(out));
+        return question.template finish<hit>(team[0], there.front().rows, hits, 0);
     } else {
         return no_answer<Question, std::uint32_t, space_of<local>>();
     }

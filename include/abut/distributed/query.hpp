@@ -26,6 +26,7 @@
 #include <abut/execution/atomic.hpp>
 #include <abut/index/bvh.hpp>
 #include <abut/narrow/directions.hpp>
+#include <abut/shape/crossing.hpp>
 
 #include <mpi.h>
 
@@ -78,6 +79,31 @@ struct global_tagged_contact {
     friend constexpr bool operator==(const global_tagged_contact&, const global_tagged_contact&) = default;
 };
 
+/// A `crossing` with ids in sets of many parts. Vertices have no numbers there: what a corner lies in is told by the faces.
+template <scalar T>
+struct global_crossing {
+    std::uint64_t a;         ///< id of the first face; in `self_crossings` the lower one
+    std::uint64_t b;         ///< id of the second one
+    unsigned char count;     ///< as of crossing
+    unsigned char coplanar;  ///< as of crossing
+    unsigned char in_a[6];   ///< as of crossing
+    unsigned char in_b[6];   ///< as of crossing
+    vec3<T> points[6];       ///< as of crossing
+
+    friend constexpr bool operator==(const global_crossing&, const global_crossing&) = default;
+};
+
+/// A `tagged_crossing` of a list of many parts.
+template <scalar T>
+struct global_tagged_crossing {
+    std::uint64_t pair;  ///< position in the list of all ranks
+    std::uint32_t a;     ///< id in the entry's first set
+    std::uint32_t b;     ///< id in its second one
+    crossing<T> common;  ///< what they have in common
+
+    friend constexpr bool operator==(const global_tagged_crossing&, const global_tagged_crossing&) = default;
+};
+
 ///@}
 
 namespace detail {
@@ -97,6 +123,17 @@ struct global_ids {
     [[nodiscard]] ABUT_HD global_contact<T> named(const contact<T>& c) const {
         const global_pair pair = (*this)(c.a, c.b);
         return {pair.a, pair.b, c.point, c.normal, c.depth};
+    }
+    template <scalar T>
+    [[nodiscard]] ABUT_HD global_crossing<T> named(const crossing<T>& c) const {
+        const global_pair pair = (*this)(c.a, c.b);
+        global_crossing<T> out{pair.a, pair.b, c.count, c.coplanar, {}, {}, {}};
+        for (int i = 0; i < 6; ++i) {
+            out.in_a[i] = c.in_a[i];
+            out.in_b[i] = c.in_b[i];
+            out.points[i] = c.points[i];
+        }
+        return out;
     }
     ///@}
     template <class Visitor>
@@ -307,6 +344,10 @@ struct entries_of_rank {
     [[nodiscard]] ABUT_HD global_tagged_contact<T> named(const tagged_contact<T>& of) const {
         return {first + of.pair, of.a, of.b, of.point, of.normal, of.depth};
     }
+    template <scalar T>
+    [[nodiscard]] ABUT_HD global_tagged_crossing<T> named(const tagged_crossing<T>& of) const {
+        return {first + of.pair, of.a, of.b, of.common};
+    }
 };
 
 /// Where the entries of this rank are in the list of all of them, each of which gives how many it has.
@@ -405,11 +446,9 @@ struct global_of<contact<T>> : std::type_identity<global_contact<T>> {};
 template <scalar T>
 struct global_of<tagged_contact<T>> : std::type_identity<global_tagged_contact<T>> {};
 template <scalar T>
-struct global_of<crossing<T>> : std::type_identity<crossing<T>> {
-    static_assert(sizeof(T) == 0, "abut: ranks are not asked for crossings, whose vertices have no global numbers");
-};
+struct global_of<crossing<T>> : std::type_identity<global_crossing<T>> {};
 template <scalar T>
-struct global_of<tagged_crossing<T>> : global_of<crossing<T>> {};
+struct global_of<tagged_crossing<T>> : std::type_identity<global_tagged_crossing<T>> {};
 
 template <execution_policy Local, class Question, class Form, class Options>
 auto ask_pairs(const distributed<Local>& on, const Question& question, const Form& form, const Options& options,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Questions of lines whose answers are lists (raycast_all) to sets whose parts lie on many ranks: lines go to all ranks
+// Questions of lines whose answers are lists (raycast_all, spans) to sets whose parts lie on many ranks: lines go to all ranks
 // whose parts they pass, and lists come back.
 
 #include <array>
@@ -50,18 +50,19 @@ private:
 };
 
 /// Lists of hits, one for each rank. use(hits, n) is called for what comes, in memory that is used again after it.
-template <class Local, class Use>
+template <class Local, class Hit, class Use>
 class hit_parcels {
 public:
     using sizes = std::array<std::uint64_t, 1>;
-    using list = execution::buffer_of<Local, timed_hit>;
+    using list = execution::buffer_of<Local, Hit>;
 
-    hit_parcels(const Local& local, std::vector<list>& lists, const Use& use) : local_(local), lists_(lists), use_(use) {}
+    hit_parcels(const Local& local, const char* function, std::vector<list>& lists, const Use& use)
+        : local_(local), function_(function), lists_(lists), use_(use) {}
 
     [[nodiscard]] sizes measure(int to) const {
         const std::size_t n = lists_[static_cast<std::size_t>(to)].size();
         if (n >= std::size_t{1} << 31) {
-            throw capacity_error("abut::raycast_all: " + std::to_string(n) +
+            throw capacity_error(std::string(function_) + ": " + std::to_string(n) +
                                  " hits of one rank's rays in the part of another, expected fewer than 2^31");
         }
         return {n};
@@ -95,10 +96,11 @@ public:
 
 private:
     const Local& local_;
+    const char* function_;
     std::vector<list>& lists_;
     const Use& use_;
-    message_type<timed_hit> type_;
-    std::optional<message_room<Local, timed_hit>> out_, in_;
+    message_type<Hit> type_;
+    std::optional<message_room<Local, Hit>> out_, in_;
 };
 
 /// Numbers that lines had where they came from.
@@ -110,11 +112,12 @@ struct part_lines {
 /// All hits of this rank's lines: some lists, each in order.
 template <class Local, class Question, class Here>
 auto all_hits_of_ranks(const distributed<Local>& on, const Question& question, const Here& here) {
-    using list = execution::buffer_of<Local, timed_hit>;
     using lines_type = std::remove_cvref_t<decltype(here.rows->shapes())>;
+    using item = typename Question::template item<typename lines_type::scalar_type>;
+    using list = execution::buffer_of<Local, item>;
     const Local& local = on.local();
     const ids_from ids{here.parts.first_of(on.rank())};
-    found_lists<Local, timed_hit> found;
+    found_lists<Local, item> found;
     std::vector<list> for_others;
     parcel_room<std::array<std::uint64_t, 1>> lines_room, hits_room;
     attempts attempt;
@@ -138,13 +141,13 @@ auto all_hits_of_ranks(const distributed<Local>& on, const Question& question, c
     shape_parcels lines(local, lines_that_pass<Local, lines_type>(here.rows->shapes()), here.parts, answer);
     exchange_parcels(on, attempt, lines_room, asks, lines);
 
-    const auto keep = [&](const timed_hit* hits, std::size_t n) {
+    const auto keep = [&](const item* hits, std::size_t n) {
         list some(local, n);
         copy(local, hits, n, some.data());
         synchronize(local);
         found.emplace_back(std::move(some));
     };
-    hit_parcels hits(local, for_others, keep);
+    hit_parcels<Local, item, decltype(keep)> hits(local, Question::function, for_others, keep);
     exchange_parcels(
         on, attempt, hits_room, [&](int from, int to) { return asks(to, from); }, hits);
     return found;
@@ -159,11 +162,9 @@ auto ask_row_lists(const distributed<Local>& on, const Question& question, const
         std::uint64_t first_ray = 0;
         for (int k = 0; k < on.rank(); ++k) first_ray += here.rows_of_rank[static_cast<std::size_t>(k)];
         return make_of_answers(on, by_its_policy{}, [&](const Local& local) {
-            const auto hits = joined<Local, timed_hit>(local, std::move(lists), true, by_line_and_time{});
-            execution::buffer_of<Local, hit> out(local, hits.size());
-            for_each_index(local, hits.size(), write_timed_hits<hit>{hits.data(), {first_ray}, out.data()});
-            synchronize(local);
-            return result<hit, space_of<Local>>(std::move(out));
+            using item = typename Question::template item<scalar_of_argument<X>>;
+            const auto hits = joined<Local, item>(local, std::move(lists), true, by_line_and_time{});
+            return question.template finish<hit>(local, *here.rows, hits, first_ray);
         });
     } else {
         return no_answer<Question, std::uint64_t, space_of<Local>>();
