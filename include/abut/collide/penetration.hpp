@@ -19,7 +19,7 @@
 #include <abut/collide/farthest_point.hpp>
 #include <abut/collide/query.hpp>
 #include <abut/collide/relation.hpp>
-#include <abut/collide/solid_surface.hpp>
+#include <abut/collide/solid_on_host.hpp>
 
 namespace abut {
 
@@ -52,6 +52,14 @@ struct penetration_bounds {
 ///@}
 
 namespace detail {
+
+template <scalar T>
+std::vector<triangle<T>> triangles_of_faces(const std::vector<mesh_face<T>>& faces) {
+    std::vector<triangle<T>> all;
+    all.reserve(faces.size());
+    for (const mesh_face<T>& f : faces) all.push_back(f.corners);
+    return all;
+}
 
 /// Looks for a short move of a that takes it out of b.
 template <class Policy, scalar T>
@@ -117,7 +125,7 @@ private:
     }
     [[nodiscard]] vec3<T> along(const vec3<double>& u, double length) const {
         const vec3<double> v = unit_.back(length * u);
-        return {static_cast<T>(v.x), static_cast<T>(v.y), static_cast<T>(v.z)};
+        return {rounded(static_cast<T>(v.x)), rounded(static_cast<T>(v.y)), rounded(static_cast<T>(v.z))};
     }
     [[nodiscard]] double reach(const std::vector<triangle<T>>& faces, const vec3<double>& u) const {
         double most = -infinity<double>;
@@ -178,32 +186,34 @@ template <execution_policy Policy, class X, class Y>
     constexpr const char* function = "abut::penetration";
     if constexpr (detail::is_polytope<X> || detail::is_polytope<Y>) {
         return penetration(on, detail::as_solid(on, a, function), detail::as_solid(on, b, function), options);
-    } else {
+    } else if constexpr (detail::are_solids<X, Y>()) {
         using T = detail::scalar_of_argument<X>;
         penetration_bounds<T> found;
-        const auto of_a = detail::triangles_on_host(on, a, function), of_b = detail::triangles_on_host(on, b, function);
+        auto faces = detail::faces_of_both(on, a, b, function);
+        const auto of_a = detail::triangles_of_faces(faces.first), of_b = detail::triangles_of_faces(faces.second);
         detail::unit_of_search unit;
         unit.see(of_a);
         unit.see(of_b);
         const double tolerance = unit.tolerance(options.tolerance, function);
-        found.overlap = overlaps(on, a, b, {.known_solid = options.known_solid});
+        const solid_options known{.known_solid = options.known_solid};
+        found.overlap = detail::have_common_interior<filtered>(on, a, b, known, function, [&] { return faces; });
         if (!found.overlap) return found;
         const detail::measured_surface<Policy> x(on, unit.bring(of_a)), y(on, unit.bring(of_b));
         const farthest_point deepest_a = detail::farthest_search<Policy>(x, y, true).run(tolerance, options.most_pieces),
                              deepest_b = detail::farthest_search<Policy>(y, x, true).run(tolerance, options.most_pieces);
         const double least = std::max(deepest_a.lower, deepest_b.lower);
 
-        const auto parts_of = [&](const auto& solid) {
-            const detail::solid_surface<T> surface(detail::faces_on_host(on, detail::make_operand(on, solid, function)), function, "face");
+        const auto parts_of = [&](std::vector<detail::mesh_face<T>>& of) {
+            const detail::solid_surface<T> surface(std::move(of), function);
             std::vector<vec3<T>> vertices;
             for (std::uint32_t p = 0; p < surface.parts(); ++p) vertices.push_back(surface.vertex_of_part(p));
             return vertices;
         };
-        detail::separating_move<Policy, T> move(on, of_a, of_b, parts_of(a), parts_of(b), unit);
+        detail::separating_move<Policy, T> move(on, of_a, of_b, parts_of(faces.first), parts_of(faces.second), unit);
         std::vector<vec3<double>> ways{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-        const auto middle = [&](const std::vector<triangle<T>>& faces) {
+        const auto middle = [&](const std::vector<triangle<T>>& of) {
             aabb<T> box = empty_box<T>();
-            for (const triangle<T>& t : faces) box = merge(box, bounds(t));
+            for (const triangle<T>& t : of) box = merge(box, bounds(t));
             return 0.5 * (unit.bring(detail::widened(box.lower)) + unit.bring(detail::widened(box.upper)));
         };
         ways.push_back(middle(of_a) - middle(of_b));

@@ -6,24 +6,18 @@
 // both solids are cones (predicate/solid_cones.hpp). Parts of a surface that do not touch the other one are inside of it or
 // outside as one of their vertices is.
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
-#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 #include <abut/collide/boundary.hpp>
 #include <abut/collide/crossings.hpp>
-#include <abut/collide/inside.hpp>
 #include <abut/collide/question.hpp>
-#include <abut/index/bvh.hpp>
-#include <abut/collide/solid_surface.hpp>
+#include <abut/collide/solid_on_host.hpp>
 #include <abut/collide/touching_bodies.hpp>
 
 namespace abut {
@@ -52,15 +46,6 @@ struct solid_options {
 
 namespace detail {
 
-/// What of a triangle a segment lies in that runs between two places of it.
-ABUT_HD constexpr place_in_triangle place_between(place_in_triangle p, place_in_triangle q) {
-    if (p == q) return p;
-    if (p > q) return place_between(q, p);
-    if (q < side_of_triangle) return side_between(p, q);
-    if (q == inside_of_triangle || p >= side_of_triangle) return inside_of_triangle;
-    const unsigned from = q - side_of_triangle, to = from == 2 ? 0 : from + 1;
-    return p == from || p == to ? q : inside_of_triangle;
-}
 /// Whether two triangles pass through each other: with points of a segment that is inside of both.
 ABUT_HD constexpr bool pass_through(const shared_corners& all) {
     return all.count() == 2 && !all.is_flat() && place_between(all.in_first(0), all.in_first(1)) == inside_of_triangle &&
@@ -96,117 +81,6 @@ struct passing_through : touching {
     }
 };
 
-template <class View, scalar T>
-struct copy_face {
-    View shapes;
-    mesh_face<T>* out;
-    ABUT_HD void operator()(std::size_t i) const {
-        const corner_ids v = vertices_of_shape(shapes, static_cast<std::uint32_t>(i));
-        out[i] = {shapes[i], {v.of[0], v.of[1], v.of[2]}};
-    }
-};
-/// The faces of an operand, where they are placed, in host memory.
-template <class Policy, class Operand>
-auto faces_on_host(const Policy& on, const Operand& x) {
-    const auto shapes = x.shapes();
-    using T = typename std::remove_const_t<decltype(shapes)>::scalar_type;
-    execution::buffer_of<Policy, mesh_face<T>> faces(on, shapes.size());
-    for_each_index(on, shapes.size(), copy_face<std::remove_const_t<decltype(shapes)>, T>{shapes, faces.data()});
-    std::vector<mesh_face<T>> here(shapes.size());
-    download(on, faces.data(), here.size(), here.data());
-    return here;
-}
-
-template <scalar T>
-aabb<T> box_of(const std::vector<mesh_face<T>>& faces) {
-    aabb<T> box = empty_box<T>();
-    for (const auto& f : faces) box = merge(box, bounds(f.corners));
-    return box;
-}
-
-/// A solid on the host. Not for several threads at a time.
-template <scalar T>
-class solid_on_host {
-public:
-    solid_on_host(std::vector<mesh_face<T>> faces, const char* function, const std::string& element = "face")
-        : surface_(std::move(faces), function, element) {}
-
-    [[nodiscard]] const solid_surface<T>& surface() const { return surface_; }
-    /// Whether points that are not on the surface are inside.
-    [[nodiscard]] std::vector<bool> have_inside(std::vector<vec3<T>> vertices) const {
-        const serial on;
-        if (!tree_ && vertices.size() <= few) {
-            std::vector<bool> are;
-            for (const vec3<T>& v : vertices) are.push_back(surface_.has_inside(v));
-            return are;
-        }
-        if (!tree_) {
-            std::vector<triangle<T>> corners;
-            corners.reserve(surface_.size());
-            for (const mesh_face<T>& f : surface_.faces()) corners.push_back(f.corners);
-            tree_.emplace(make_bvh(on, triangle_soup<T>(std::move(corners))));
-        }
-        return are_inside(on, *tree_, vertices, "abut::relation");
-    }
-
-private:
-    using tree_type = decltype(make_bvh(serial{}, triangle_soup<T>()));
-
-    static constexpr std::size_t few = 8;  ///< points for which all faces are looked at sooner than a tree is made
-    solid_surface<T> surface_;
-    mutable std::optional<tree_type> tree_;
-};
-
-/// What two solids have in common of which no faces pass through each other, from what faces do have in common, until that is
-/// enough.
-template <scalar T, class Enough>
-common_regions regions_of_solids(const solid_on_host<T>& a, const solid_on_host<T>& b, std::span<const crossing<T>> contacts,
-                                 const Enough& is_enough) {
-    const solid_surface<T>&of_a = a.surface(), &of_b = b.surface();
-    std::vector<char> touched_a(of_a.parts(), 0), touched_b(of_b.parts(), 0);
-    struct contact_place {
-        std::array<mesh_feature, 2> name;
-        std::uint32_t face_a, face_b;
-        place_in_triangle in_a, in_b;
-    };
-    std::vector<contact_place> places;
-    for (crossing<T> c : contacts) {
-        const auto add = [&](place_in_triangle in_a, place_in_triangle in_b) {
-            c.in_a[0] = static_cast<unsigned char>(in_a);
-            c.in_b[0] = static_cast<unsigned char>(in_b);
-            places.push_back({{c.feature_a(0), c.feature_b(0)}, c.a, c.b, in_a, in_b});
-        };
-        const crossing<T> all = c;
-        for (int i = 0; i < all.count; ++i) {
-            add(all.in_a[i], all.in_b[i]);
-            const int j = i + 1 == all.count ? 0 : i + 1;
-            if (i < j || all.count > 2) add(place_between(all.in_a[i], all.in_a[j]), place_between(all.in_b[i], all.in_b[j]));
-        }
-        if (all.count > 2) add(inside_of_triangle, inside_of_triangle);
-        touched_a[of_a.part_of(c.a)] = touched_b[of_b.part_of(c.b)] = 1;
-    }
-    std::sort(places.begin(), places.end(), [](const auto& p, const auto& q) { return p.name < q.name; });
-    common_regions found;
-    for (std::size_t i = 0; i < places.size() && !is_enough(found); ++i) {
-        const contact_place& p = places[i];
-        if (i > 0 && p.name == places[i - 1].name) continue;
-        found |= regions_of_cones(of_a.cone_at(p.face_a, p.in_a), of_b.cone_at(p.face_b, p.in_b));
-    }
-    // Parts that touch nothing.
-    const auto look_at_parts = [&](const solid_surface<T>& of, const std::vector<char>& touched, const solid_on_host<T>& other,
-                                   const common_regions& if_inside, const common_regions& if_outside) {
-        std::vector<vec3<T>> vertices;
-        for (std::uint32_t p = 0; p < of.parts(); ++p) {
-            if (touched[p] == 0) vertices.push_back(of.vertex_of_part(p));
-        }
-        if (vertices.empty() || is_enough(found)) return;
-        for (const bool is : other.have_inside(std::move(vertices))) found |= is ? if_inside : if_outside;
-    };
-    look_at_parts(of_a, touched_a, b, {true, false, true}, {false, true, false});
-    look_at_parts(of_b, touched_b, a, {true, true, false}, {false, false, true});
-    return found;
-}
-
 inline solid_relation named(const common_regions& found, bool touches) {
     if (!found.both) return touches ? solid_relation::externally_connected : solid_relation::disconnected;
     if (found.first_alone && found.second_alone) return solid_relation::partially_overlapping;
@@ -215,16 +89,6 @@ inline solid_relation named(const common_regions& found, bool touches) {
         return touches ? solid_relation::tangential_part_inverse : solid_relation::nontangential_part_inverse;
     }
     return solid_relation::equal;
-}
-
-/// Throws where a surface passes through itself or touches itself.
-template <class Policy, class X>
-void require_simple(const Policy& on, const X& x, const char* function, const std::string& element = "face") {
-    const auto pairs = to_host(self_pairs(on, x));
-    if (pairs.empty()) return;
-    throw invalid_geometry(function, element, pairs.front().a,
-                           "the surface passes through itself or touches itself at this face; the other face is",
-                           pairs.front().b);
 }
 
 /// Whether relation and overlaps take the arguments.
@@ -249,10 +113,11 @@ auto known_box([[maybe_unused]] const X& x) {
     }
 }
 
-/// What two solids have in common, until that is enough, and whether their surfaces touch.
-template <arithmetic A, class Policy, class X, class Y, class Enough>
-std::pair<common_regions, bool> regions_of(const Policy& on, const X& x, const Y& y, const solid_options& options,
-                                           const char* function, const Enough& is_enough) {
+/// What two solids have in common, until that is enough, and, if that is wanted, whether their surfaces touch. `faces` gives
+/// the faces of both on the host; it is asked only where faces of both do not pass through each other.
+template <arithmetic A, class Policy, class X, class Y, class Enough, class Faces>
+std::pair<common_regions, bool> regions_of(const Policy& on, const X& x, const Y& y, const solid_options& options, bool wants_touching,
+                                           const char* function, const Enough& is_enough, const Faces& faces) {
     const auto a = make_operand(on, x, function);
     const auto b = make_operand(on, y, function);
     const query_options<> all;
@@ -266,15 +131,27 @@ std::pair<common_regions, bool> regions_of(const Policy& on, const X& x, const Y
     const bool has_a = a.shapes().size() > 0, has_b = b.shapes().size() > 0;
     if (!has_a || !has_b) return answer(common_regions{false, has_a, has_b}, false);
     const auto pass = [&] { return ask_for<A>(passing_through{}, whether{}).find(on, pairing); };
-    const answer of_passing(common_regions{true, true, true}, true), of_apart(common_regions{false, true, true}, false);
-    if (options.known_solid && !overlaps(known_box(x), known_box(y))) return of_apart;
+    const auto beside = [&] {
+        return answer(common_regions{false, true, true}, wants_touching && ask_for<A>(touching{}, whether{}).find(on, pairing));
+    };
+    const answer of_passing(common_regions{true, true, true}, true);
+    if (options.known_solid && are_beside(known_box(x), known_box(y))) return beside();
     if (options.known_solid && pass()) return of_passing;
-    auto faces_a = faces_on_host(on, a), faces_b = faces_on_host(on, b);
-    if (options.known_solid && !overlaps(box_of(faces_a), box_of(faces_b))) return of_apart;
+    auto [faces_a, faces_b] = faces();
+    const bool are_boxes_beside = are_beside(box_of(faces_a), box_of(faces_b));
+    if (options.known_solid && are_boxes_beside) return beside();
     const solid_on_host<T> solid_a(std::move(faces_a), function), solid_b(std::move(faces_b), function);
+    if (are_boxes_beside) return beside();
     if (!options.known_solid && pass()) return of_passing;
     const std::vector<crossing<T>> contacts = to_host(ask_for<A>(touching{}, all_crossings{}).find(on, pairing));
     return answer(regions_of_solids<T>(solid_a, solid_b, contacts, is_enough), !contacts.empty());
+}
+
+/// Whether the interiors of two solids meet.
+template <arithmetic A, class Policy, class X, class Y, class Faces>
+bool have_common_interior(const Policy& on, const X& x, const Y& y, const solid_options& options, const char* function, const Faces& faces) {
+    const auto is_enough = [](const common_regions& regions) { return regions.both; };
+    return regions_of<A>(on, x, y, options, false, function, is_enough, faces).first.both;
 }
 
 // --- many bodies
@@ -285,68 +162,6 @@ struct names_of_open_entries : names_of_entries_of_bodies {
     ABUT_HD static tagged_crossing<T> tagged(const pair_of_entry& of, const crossing<T>& c) {
         return {of.pair, of.a, of.b, c};
     }
-};
-
-/// Bodies on the host, each made when it is asked for.
-template <class Policy, class Index>
-class bodies_on_host {
-public:
-    using T = typename Index::scalar_type;
-
-    bodies_on_host(const Policy& on, const placed_bodies<Index>& all, const char* function, const char* what)
-        : on_(on), objects_(*all.objects), function_(function), what_(what), object_of_(all.size()), poses_(all.size()),
-          faces_(all.size()), made_(all.size()), one_part_(all.objects->indices.size()) {
-        download(on, all.objects->object_of.data(), all.size(), object_of_.data());
-        download(on, all.poses->data(), all.size(), poses_.data());
-    }
-    const solid_on_host<T>& operator[](std::uint32_t i) {
-        if (!made_[i]) made_[i] = std::make_unique<solid_on_host<T>>(faces(i).first, function_, element(i));
-        return *made_[i];
-    }
-    /// The faces of a body, and the box around them.
-    const std::pair<std::vector<mesh_face<T>>, aabb<T>>& faces(std::uint32_t i) {
-        if (!faces_[i]) {
-            const auto shapes = view_of(objects_.indices[object_of_[i]].set());
-            const placed_shapes<std::remove_const_t<decltype(shapes)>> placed{{shapes, poses_[i]}};
-            auto all = faces_on_host(on_, placed);
-            const aabb<T> box = box_of(all);
-            faces_[i].emplace(std::move(all), box);
-        }
-        return *faces_[i];
-    }
-    /// Whether a body's surface is of one part. It is the same of all bodies of an index.
-    bool has_one_part(std::uint32_t i) {
-        std::optional<bool>& has = one_part_[object_of_[i]];
-        if (!has) has = (*this)[i].surface().parts() <= 1;
-        return *has;
-    }
-    /// Throws where the surface of a body's index passes through itself.
-    void require_solids(const std::vector<index_pair>& entries, bool second) {
-        std::vector<char> looked(objects_.indices.size(), 0);
-        for (const index_pair& e : entries) {
-            const std::uint32_t i = second ? e.b : e.a, object = object_of_[i];
-            if (std::exchange(looked[object], 1) != 0) continue;
-            require_simple(on_, objects_.indices[object], function_, element(i));
-            (void)(*this)[i];
-        }
-    }
-
-private:
-    template <class View>
-    struct placed_shapes {
-        posed_view<View> placed;
-        [[nodiscard]] const posed_view<View>& shapes() const { return placed; }
-    };
-    [[nodiscard]] std::string element(std::uint32_t i) const { return std::string(what_) + " " + std::to_string(i) + ", face"; }
-
-    const Policy& on_;
-    const placed_objects<Index>& objects_;
-    const char *function_, *what_;
-    std::vector<std::uint32_t> object_of_;
-    std::vector<rigid<T>> poses_;
-    std::vector<std::optional<std::pair<std::vector<mesh_face<T>>, aabb<T>>>> faces_;
-    std::vector<std::unique_ptr<solid_on_host<T>>> made_;
-    std::vector<std::optional<bool>> one_part_;  ///< of each index
 };
 
 /// The relation of each entry of a pairing. `both_are_one`: a's bodies are b's.
@@ -370,9 +185,29 @@ std::vector<solid_relation> relations_of_entries(const Policy& on, const Pairing
         }
         if (others) others->require_solids(entries, true);
     }
+    const auto with_bodies = [&](const auto& f) {
+        if constexpr (std::same_as<index_a, index_b>) {
+            if (is_one) return f(bodies_a);
+        }
+        return f(*others);
+    };
+    // Which entries are beside each other, and so whether they touch is all that is asked of them. Others are looked at later.
+    std::vector<std::uint32_t> beside(n, 0), not_beside(n, 1), touch(n), pass(n);
+    with_bodies([&](auto& bodies_b) {
+        for (std::size_t i = 0; i < n; ++i) {
+            const auto [a, b] = entries[i];
+            if (!are_nearly_beside(bodies_a.known_box(a), bodies_b.known_box(b))) continue;
+            if (!are_beside(bodies_a.faces(a).second, bodies_b.faces(b).second)) continue;
+            beside[i] = 1;
+            not_beside[i] = 0;
+        }
+    });
     execution::buffer_of<Policy, std::uint32_t> marks(on, n);
+    upload(on, not_beside.data(), n, marks.data());
+    mark_entries<A>(on, pairing, touching{}, marks.data());
+    download(on, marks.data(), n, touch.data());
+    upload(on, beside.data(), n, marks.data());
     mark_entries<A>(on, pairing, passing_through{}, marks.data());
-    std::vector<std::uint32_t> pass(n);
     download(on, marks.data(), n, pass.data());
     using closing = until_found_pairing<Pairing, names_of_open_entries>;
     const typename closing::filter until{{}, pairing.options.filter, marks.data()};
@@ -386,6 +221,7 @@ std::vector<solid_relation> relations_of_entries(const Policy& on, const Pairing
             const aabb<T>&box_a = bodies_a.faces(e.a).second, &box_b = bodies_b.faces(e.b).second;
             if (!contains(box_a, box_b) && !contains(box_b, box_a)) return solid_relation::disconnected;
         }
+        if (are_beside(bodies_a.faces(e.a).second, bodies_b.faces(e.b).second)) return named({false, true, true}, !some.empty());
         const solid_on_host<T>&a = bodies_a[e.a], &b = bodies_b[e.b];
         const auto all_known = [](const common_regions& regions) { return regions.all(); };
         if (a.surface().size() == 0 || b.surface().size() == 0) return solid_relation::disconnected;
@@ -398,14 +234,11 @@ std::vector<solid_relation> relations_of_entries(const Policy& on, const Pairing
             some.back().a = contacts[k].a;
             some.back().b = contacts[k].b;
         }
-        if (pass[i] != 0) continue;
-        if constexpr (std::same_as<index_a, index_b>) {
-            if (is_one) {
-                found[i] = relation_of(bodies_a, entries[i]);
-                continue;
-            }
+        if (beside[i] != 0) {
+            found[i] = named({false, true, true}, touch[i] != 0);
+        } else if (pass[i] == 0) {
+            found[i] = with_bodies([&](auto& bodies_b) { return relation_of(bodies_b, entries[i]); });
         }
-        found[i] = relation_of(*others, entries[i]);
     }
     return found;
 }
@@ -469,8 +302,10 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Y>
         constexpr const char* function = "abut::relation";
         return relation<A>(on, detail::as_solid(on, a, function), detail::as_solid(on, b, function), options);
     } else if constexpr (detail::are_solids<X, Y>()) {
-        const auto [found, touches] = detail::regions_of<A>(on, a, b, options, "abut::relation",
-                                                                   [](const auto& regions) { return regions.all(); });
+        constexpr const char* function = "abut::relation";
+        const auto is_enough = [](const auto& regions) { return regions.all(); };
+        const auto faces = [&] { return detail::faces_of_both(on, a, b, function); };
+        const auto [found, touches] = detail::regions_of<A>(on, a, b, options, true, function, is_enough, faces);
         return detail::named(found, touches);
     } else {
         return solid_relation::disconnected;
@@ -486,8 +321,8 @@ template <arithmetic A = filtered, execution_policy Policy, class X, class Y>
         constexpr const char* function = "abut::overlaps";
         return overlaps<A>(on, detail::as_solid(on, a, function), detail::as_solid(on, b, function), options);
     } else if constexpr (detail::are_solids<X, Y>()) {
-        const auto is_enough = [](const auto& regions) { return regions.both; };
-        return detail::regions_of<A>(on, a, b, options, "abut::overlaps", is_enough).first.both;
+        constexpr const char* function = "abut::overlaps";
+        return detail::have_common_interior<A>(on, a, b, options, function, [&] { return detail::faces_of_both(on, a, b, function); });
     } else {
         return false;
     }
