@@ -78,11 +78,17 @@ public:
         const vec3<double> u{direction.x / size, direction.y / size, direction.z / size};
         double apart = reach(b_, u) + reach(a_, {-u.x, -u.y, -u.z}) + room;
         if (is_found_) apart = std::min(apart, length_ * (1 - 0x1p-7));
-        for (int k = 0; !is_free(along(u, apart)); ++k) {
+        // Short moves first: out of a dent they lead, and somewhat longer ones may lead into the other solid again.
+        double within = least;
+        bool is_known = false;
+        for (double length = 1.125 * std::max(least, tolerance); !is_known && length < apart; length *= 2) {
+            is_known = is_free(along(u, length));
+            (is_known ? apart : within) = length;
+        }
+        for (int k = 0; !is_known && !is_free(along(u, apart)); ++k) {
             if (is_found_ || k == 40) return false;
             apart += std::ldexp(room, k);
         }
-        double within = least;
         for (int k = 0; k < 40 && apart - within > tolerance; ++k) {
             const double middle = 0.5 * (within + apart);
             (is_free(along(u, middle)) ? apart : within) = middle;
