@@ -5,6 +5,7 @@
 // on the host, whatever the indices, the poses and the form of the arguments. What a crossing has to be is tests/predicate's.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -22,6 +23,21 @@ namespace abut::test {
 template <scalar T>
 mesh<T> mesh_of(const surface_data<T>& s) {
     return {s.vertices, s.faces};
+}
+
+/// A mesh that is turned and moved, its vertices rounded.
+inline mesh<float> turned_and_moved(const mesh<float>& of, draws& d, double reach) {
+    const double turn = d.uniform(0, 3), c = std::cos(turn), s = std::sin(turn);
+    const double x = d.uniform(-reach, reach), y = d.uniform(-reach, reach), z = d.uniform(-reach, reach);
+    std::vector<vec3<float>> vertices;
+    for (std::size_t i = 0; i < of.view().vertices.count; ++i) {
+        const auto v = detail::widened(of.view().vertices[i]);
+        const double p = c * v.x - s * v.y, q = s * v.x + c * v.y;
+        vertices.push_back({static_cast<float>(p + x), static_cast<float>(c * q - s * v.z + y), static_cast<float>(s * q + c * v.z + z)});
+    }
+    std::vector<face> faces;
+    for (std::size_t i = 0; i < of.size(); ++i) faces.push_back(of.view().faces[i]);
+    return {vertices, faces};
 }
 
 /// By a plain loop.

@@ -13,9 +13,9 @@
 
 #include <abut/io/read.hpp>
 
+#include "collide/crossing_cases.hpp"
 #include "io/support.hpp"
 #include "support/catch.hpp"
-#include "support/draws.hpp"
 #include "support/needs.hpp"
 #include "support/samples.hpp"
 
@@ -43,21 +43,6 @@ their_mesh theirs(const mesh<float>& of) {
     return m;
 }
 
-/// A mesh that is turned and moved, its vertices rounded.
-mesh<float> moved(const mesh<float>& of, draws& d, double reach) {
-    const double turn = d.uniform(0, 3), c = std::cos(turn), s = std::sin(turn);
-    const double x = d.uniform(-reach, reach), y = d.uniform(-reach, reach), z = d.uniform(-reach, reach);
-    std::vector<vec3<float>> vertices;
-    for (std::size_t i = 0; i < of.view().vertices.count; ++i) {
-        const auto v = detail::widened(of.view().vertices[i]);
-        const double p = c * v.x - s * v.y, q = s * v.x + c * v.y;
-        vertices.push_back({static_cast<float>(p + x), static_cast<float>(c * q - s * v.z + y), static_cast<float>(s * q + c * v.z + z)});
-    }
-    std::vector<face> faces;
-    for (std::size_t i = 0; i < of.size(); ++i) faces.push_back(of.view().faces[i]);
-    return {vertices, faces};
-}
-
 }  // namespace
 
 TEST_CASE("curves: as many as CGAL's surface_intersection finds, with as many points") {
@@ -73,7 +58,7 @@ TEST_CASE("curves: as many as CGAL's surface_intersection finds, with as many po
         for (std::size_t i = 0; i < still.view().vertices.count; ++i) reach = std::max(reach, std::abs(still.view().vertices[i].x));
         for (std::uint64_t k = 0; k < (sample_count() > 100000 ? 50u : 5u); ++k) {
             draws d(20270516, 1, k);
-            const auto other = moved(still, d, static_cast<double>(reach) / 4);
+            const auto other = turned_and_moved(still, d, static_cast<double>(reach) / 4);
             CAPTURE(name, k);
             std::size_t points = 0, closed = 0;
             const auto all = curves(on, crossings(on, still, other));

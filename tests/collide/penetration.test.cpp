@@ -5,9 +5,13 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <limits>
+#include <set>
 #include <string>
 #include <vector>
+
+#include <boost/multiprecision/cpp_int.hpp>
 
 #include <abut/abut.hpp>
 
@@ -61,6 +65,81 @@ mesh<T> moved(const mesh<T>& m, const vec3<T>& by) {
     for (std::size_t i = 0; i < m.view().vertices.count; ++i) vertices.push_back(place(pose, m.view().vertices[i]));
     for (std::size_t f = 0; f < m.size(); ++f) faces.push_back(m.view().faces[f]);
     return {vertices, faces};
+}
+
+using rational = boost::multiprecision::cpp_rational;
+
+/// A unit square of a surface of cells: its least corner, and the axis across it.
+struct unit_square {
+    grid_place at;
+    std::size_t across;
+};
+std::vector<unit_square> squares_of(const std::set<grid_place>& units) {
+    std::vector<unit_square> all;
+    for (const grid_place& c : units) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            grid_place below = c, above = c;
+            below[axis] -= 1;
+            above[axis] += 1;
+            if (!units.contains(below)) all.push_back({c, axis});
+            if (!units.contains(above)) all.push_back({above, axis});
+        }
+    }
+    return all;
+}
+/// The square of the distance from a point to a square, both in units of one part of a cell's side.
+template <class N>
+N squared_to(const std::array<N, 3>& p, const unit_square& q, int parts = 1) {
+    N sum = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const N low = q.at[c] * parts, high = (q.at[c] + (c == q.across ? 0 : 1)) * parts;
+        const N way = p[c] < low ? N(low - p[c]) : p[c] > high ? N(p[c] - high) : N(0);
+        sum += way * way;
+    }
+    return sum;
+}
+/// Whether all cells around a place are in the solid, by its lower neighbours where it lies between cells.
+bool is_within(const grid_place& cell, const std::array<bool, 3>& is_between, const std::set<grid_place>& solid) {
+    for (int k = 0; k < 8; ++k) {
+        grid_place c = cell;
+        for (std::size_t i = 0; i < 3; ++i) c[i] -= is_between[i] && (k >> i & 1) != 0 ? 1 : 0;
+        if (!solid.contains(c)) return false;
+    }
+    return true;
+}
+bool is_within(const std::array<rational, 3>& p, const std::set<grid_place>& solid) {
+    grid_place cell{0, 0, 0};
+    std::array<bool, 3> is_between{};
+    for (std::size_t c = 0; c < 3; ++c) {
+        cell[c] = static_cast<int>(std::floor(p[c].convert_to<double>()));  // p is a double
+        is_between[c] = p[c] == cell[c];
+    }
+    return is_within(cell, is_between, solid);
+}
+/// The square of the largest depth of a point of some squares within a solid, among those of a lattice of eighths; in eighths.
+int deepest_sample(const std::vector<unit_square>& of, const std::set<grid_place>& solid, const std::vector<unit_square>& surface) {
+    int most = 0;
+    for (const unit_square& q : of) {
+        const std::size_t u = (q.across + 1) % 3, v = (q.across + 2) % 3;
+        for (int i = 0; i <= 8; ++i) {
+            for (int j = 0; j <= 8; ++j) {
+                std::array<int, 3> p{8 * q.at[0], 8 * q.at[1], 8 * q.at[2]};
+                p[u] += i;
+                p[v] += j;
+                grid_place cell = q.at;
+                cell[u] += i / 8;
+                cell[v] += j / 8;
+                if (!is_within(cell, {p[0] % 8 == 0, p[1] % 8 == 0, p[2] % 8 == 0}, solid)) continue;
+                int least = std::numeric_limits<int>::max();
+                for (const unit_square& s : surface) {
+                    least = std::min(least, squared_to(p, s, 8));
+                    if (least <= most) break;
+                }
+                most = std::max(most, least);
+            }
+        }
+    }
+    return most;
 }
 
 }  // namespace
@@ -122,49 +201,28 @@ TEMPLATE_TEST_CASE("penetration: of cells with holes and dents: no sample of a s
         ++deep;
         const mesh<TestType> free = moved(x, found.move);
         if (any(on, free, y) || relation(on, free, y) != solid_relation::disconnected) ++wrong;
-        // Points of a's faces on a lattice of quarters, which are exact.
-        const auto check = [&](const mesh<TestType>& of, const mesh<TestType>& in, const farthest_point& f) {
-            std::vector<vec3<double>> points;
-            const auto view = of.view();
-            for (std::size_t i = 0; i < view.size(); ++i) {
-                const triangle<TestType> t = view[i];
-                for (int u = 0; u <= 4; ++u) {
-                    for (int v = 0; u + v <= 4; ++v) {
-                        const auto at = [&](TestType p, TestType q, TestType r) {
-                            return 0.25 * (u * static_cast<double>(p) + v * static_cast<double>(q) + (4 - u - v) * static_cast<double>(r));
-                        };
-                        points.push_back({at(t.a.x, t.b.x, t.c.x), at(t.a.y, t.b.y, t.c.y), at(t.a.z, t.b.z, t.c.z)});
-                    }
-                }
-            }
-            std::vector<vec3<double>> vertices;
-            std::vector<std::array<std::uint32_t, 3>> faces;
-            for (std::size_t i = 0; i < in.view().vertices.count; ++i) {
-                const vec3<TestType> p = in.view().vertices[i];
-                vertices.push_back({static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)});
-            }
-            for (std::size_t i = 0; i < in.size(); ++i) faces.push_back(in.view().faces[i]);
-            const mesh<double> solid(vertices, faces);
-            const auto where = to_host(inside(on, solid, points));
-            for (std::size_t i = 0; i < points.size(); ++i) {
-                if (where[i] != containment::inside) continue;
-                double least = infinity<double>;
-                for (std::size_t j = 0; j < solid.size(); ++j) {
-                    const auto way = nearest_point(solid.view()[j], points[i]) - points[i];
-                    least = std::min(least, std::sqrt(dot(way, way)));
-                }
-                if (least > f.upper + 1e-12) ++wrong;
-            }
-            if (f.face != no_id) {
-                const std::vector<vec3<double>> one{f.point};
-                if (f.lower > 1e-9 && to_host(inside(on, solid, one))[0] != containment::inside) ++wrong;
+        const auto check = [&](const cells& of, const cells& in, const farthest_point& f) {
+            const std::set<grid_place> from = of.units(), solid = in.units();
+            const std::vector<unit_square> to = squares_of(solid);
+            // No sample is deeper, and the point that was found is in the solid and as deep as is said: in whole eighths, and
+            // in rationals of what the doubles are.
+            const rational upper = rational(f.upper) * 8;
+            if (rational(deepest_sample(squares_of(from), solid, to)) > upper * upper) ++wrong;
+            if (f.face == no_id) {
+                if (f.lower > 0) ++wrong;
+            } else {
+                const std::array<rational, 3> p{rational(f.point.x), rational(f.point.y), rational(f.point.z)};
+                const rational lower(f.lower);
+                for (const unit_square& q : to) wrong += squared_to(p, q) < lower * lower;
+                if (!is_within(p, solid)) ++wrong;
             }
             if (f.upper - f.lower > 0.0201) ++wrong;
         };
-        check(x, y, found.a_in_b);
-        check(y, x, found.b_in_a);
-        if (found.least > found.most) ++wrong;
+        check(a, b, found.a_in_b);
+        check(b, a, found.b_in_a);
+        if (found.least > found.most || found.least > std::max(found.a_in_b.upper, found.b_in_a.upper)) ++wrong;
     }
+    std::printf("cells: %llu deep of %llu\n", static_cast<unsigned long long>(deep), static_cast<unsigned long long>(count));
     CHECK(wrong == 0);
     CHECK(deep > count / 8);
 }

@@ -210,68 +210,188 @@ mesh<T> surface_of(const tetrahedron& t, const frame_of_grid& frame) {
     return {std::move(vertices), {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
 }
 
-/// By planes: two convex bodies have no interior point in common if a plane along a face of one, or along an edge of each,
-/// has them on different sides.
-inline solid_relation truth_of(const tetrahedron& a, const tetrahedron& b) {
+// --- convex polyhedra
+
+/// A convex body of a grid: its corners, and its sides, each an outward normal and the corners around it, turning left.
+struct polyhedron {
     using normal = std::array<std::int64_t, 3>;
-    const auto minus = [](const grid_place& p, const grid_place& q) { return normal{p[0] - q[0], p[1] - q[1], p[2] - q[2]}; };
-    const auto across = [](const normal& u, const normal& v) {
-        return normal{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+    struct side {
+        normal outward;
+        std::vector<std::uint32_t> corners;
     };
-    const auto height = [](const normal& n, const grid_place& p) { return n[0] * p[0] + n[1] * p[1] + n[2] * p[2]; };
-    std::vector<normal> faces_a, faces_b, all;
-    const auto faces = [&](const tetrahedron& t) {
-        std::vector<normal> found;
-        for (std::size_t i = 0; i < 4; ++i) {
-            normal n = across(minus(t[(i + 2) % 4], t[(i + 1) % 4]), minus(t[(i + 3) % 4], t[(i + 1) % 4]));
-            if (height(n, t[i]) > height(n, t[(i + 1) % 4])) n = {-n[0], -n[1], -n[2]};
-            found.push_back(n);
+    std::vector<grid_place> at;
+    std::vector<side> sides;
+
+    static std::int64_t height(const normal& n, const grid_place& p) { return n[0] * p[0] + n[1] * p[1] + n[2] * p[2]; }
+    static normal minus(const grid_place& p, const grid_place& q) { return {p[0] - q[0], p[1] - q[1], p[2] - q[2]}; }
+    static normal across(const normal& u, const normal& v) {
+        return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+    }
+    static std::int64_t along(const normal& u, const normal& v) { return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]; }
+
+    /// The hull of points, by all planes through three of them. No sides where the points lie in one plane.
+    explicit polyhedron(std::vector<grid_place> points) : at(std::move(points)) {
+        const auto n = static_cast<std::uint32_t>(at.size());
+        std::set<std::vector<std::uint32_t>> known;
+        for (std::uint32_t i = 0; i < n; ++i) {
+            for (std::uint32_t j = i + 1; j < n; ++j) {
+                for (std::uint32_t k = j + 1; k < n; ++k) add_side(i, j, k, known);
+            }
+        }
+    }
+
+private:
+    void add_side(std::uint32_t i, std::uint32_t j, std::uint32_t k, std::set<std::vector<std::uint32_t>>& known) {
+        normal outward = across(minus(at[j], at[i]), minus(at[k], at[i]));
+        if (outward == normal{0, 0, 0}) return;
+        bool above = false, below = false;
+        std::vector<std::uint32_t> on;
+        for (std::uint32_t p = 0; p < at.size(); ++p) {
+            const std::int64_t h = height(outward, at[p]) - height(outward, at[i]);
+            above |= h > 0;
+            below |= h < 0;
+            if (h == 0) on.push_back(p);
+        }
+        if (above == below || !known.insert(on).second) return;
+        if (above) outward = {-outward[0], -outward[1], -outward[2]};
+        // Around the side: from each corner to the one that has all others to its left, the farthest of these.
+        std::vector<std::uint32_t> corners{*std::min_element(on.begin(), on.end(), [&](auto p, auto q) { return at[p] < at[q]; })};
+        for (;;) {
+            const grid_place& from = at[corners.back()];
+            std::uint32_t next = corners.back();
+            for (const std::uint32_t p : on) {
+                const normal to = minus(at[p], from), best = minus(at[next], from);
+                if (to == normal{0, 0, 0}) continue;
+                const std::int64_t turn = along(outward, across(best, to));
+                if (best == normal{0, 0, 0} || turn < 0 || (turn == 0 && along(to, to) > along(best, best))) next = p;
+            }
+            if (next == corners.front()) break;
+            corners.push_back(next);
+        }
+        sides.push_back({outward, corners});
+    }
+};
+
+/// A prism, a box without some of its corners, or the hull of a few points.
+inline polyhedron draw_polyhedron(draws& d, int size) {
+    for (;;) {
+        std::vector<grid_place> points;
+        const int kind = d.below(3);
+        const auto place = [&] {
+            grid_place p{0, 0, 0};
+            for (int& x : p) x = d.below(size);
+            return p;
+        };
+        if (kind == 0) {
+            grid_place up{d.below(3) - 1, d.below(3) - 1, 1 + d.below(size)};
+            for (int k = 3 + d.below(3); k > 0; --k) {
+                grid_place p = place();
+                p[2] = 0;
+                points.push_back(p);
+                points.push_back({p[0] + up[0], p[1] + up[1], up[2]});
+            }
+        } else if (kind == 1) {
+            const grid_place from = place(), to{2 + d.below(size), 2 + d.below(size), 2 + d.below(size)};
+            const int share = d.below(4);
+            for (int k = 0; k < 8; ++k) {
+                const grid_place corner{k & 1, k >> 1 & 1, k >> 2};
+                grid_place p = from;
+                for (std::size_t c = 0; c < 3; ++c) p[c] += corner[c] * to[c];
+                if (d.below(4) >= share) {
+                    points.push_back(p);
+                    continue;
+                }
+                for (std::size_t c = 0; c < 3; ++c) {
+                    grid_place q = p;
+                    q[c] += corner[c] == 0 ? 1 : -1;
+                    points.push_back(q);
+                }
+            }
+        } else {
+            for (int k = 4 + d.below(5); k > 0; --k) points.push_back(place());
+        }
+        // One axis for another, so that prisms stand in all directions.
+        const auto turn = static_cast<std::size_t>(d.below(3));
+        for (grid_place& p : points) std::rotate(p.begin(), p.begin() + static_cast<std::ptrdiff_t>(turn), p.end());
+        std::sort(points.begin(), points.end());
+        points.erase(std::unique(points.begin(), points.end()), points.end());
+        polyhedron body(std::move(points));
+        if (!body.sides.empty()) return body;
+    }
+}
+template <scalar T>
+mesh<T> surface_of(const polyhedron& of, const frame_of_grid& frame, draws& d) {
+    std::vector<vec3<T>> vertices;
+    for (const grid_place& p : of.at) vertices.push_back(frame.operator()<T>(p));
+    std::vector<std::array<std::uint32_t, 3>> faces;
+    for (const auto& side : of.sides) {
+        std::vector<std::uint32_t> c = side.corners;
+        std::rotate(c.begin(), c.begin() + d.below(static_cast<int>(c.size())), c.end());
+        for (std::size_t k = 2; k < c.size(); ++k) faces.push_back({c[0], c[k - 1], c[k]});
+    }
+    return {std::move(vertices), std::move(faces)};
+}
+
+/// By planes: two convex bodies have no interior point in common if a plane along a side of one, or along an edge of each,
+/// has them on different sides; and no point at all if it is between them.
+inline solid_relation truth_of(const polyhedron& a, const polyhedron& b) {
+    using normal = polyhedron::normal;
+    const auto edges_of = [](const polyhedron& x) {
+        std::set<normal> edges;
+        for (const auto& side : x.sides) {
+            for (std::size_t k = 0; k < side.corners.size(); ++k) {
+                normal e = polyhedron::minus(x.at[side.corners[(k + 1) % side.corners.size()]], x.at[side.corners[k]]);
+                if (e < normal{0, 0, 0}) e = {-e[0], -e[1], -e[2]};
+                edges.insert(e);
+            }
+        }
+        return edges;
+    };
+    std::vector<normal> all;
+    for (const polyhedron* x : {&a, &b}) {
+        for (const auto& side : x->sides) all.push_back(side.outward);
+    }
+    const std::set<normal> of_a = edges_of(a), of_b = edges_of(b);
+    for (const normal& u : of_a) {
+        for (const normal& v : of_b) {
+            const normal n = polyhedron::across(u, v);
+            if (n != normal{0, 0, 0}) all.push_back(n);
+        }
+    }
+    const auto heights = [](const polyhedron& x, const normal& n) {
+        std::pair<std::int64_t, std::int64_t> found(polyhedron::height(n, x.at[0]), polyhedron::height(n, x.at[0]));
+        for (const grid_place& p : x.at) {
+            found.first = std::min(found.first, polyhedron::height(n, p));
+            found.second = std::max(found.second, polyhedron::height(n, p));
         }
         return found;
     };
-    faces_a = faces(a);
-    faces_b = faces(b);
-    all = faces_a;
-    all.insert(all.end(), faces_b.begin(), faces_b.end());
-    for (std::size_t i = 0; i < 4; ++i) {
-        for (std::size_t j = i + 1; j < 4; ++j) {
-            for (std::size_t k = 0; k < 4; ++k) {
-                for (std::size_t l = k + 1; l < 4; ++l) {
-                    const normal n = across(minus(a[j], a[i]), minus(b[l], b[k]));
-                    if (n != normal{0, 0, 0}) all.push_back(n);
-                }
-            }
-        }
-    }
-    bool both = true, apart = false;
+    bool both = true;
     for (const normal& n : all) {
-        std::int64_t low_a = height(n, a[0]), high_a = low_a, low_b = height(n, b[0]), high_b = low_b;
-        for (const grid_place& p : a) low_a = std::min(low_a, height(n, p)), high_a = std::max(high_a, height(n, p));
-        for (const grid_place& p : b) low_b = std::min(low_b, height(n, p)), high_b = std::max(high_b, height(n, p));
+        const auto [low_a, high_a] = heights(a, n);
+        const auto [low_b, high_b] = heights(b, n);
+        if (high_a < low_b || high_b < low_a) return solid_relation::disconnected;
         if (high_a <= low_b || high_b <= low_a) both = false;
-        if (high_a < low_b || high_b < low_a) apart = true;
     }
-    // A plane along two edges alone may leave out that tetrahedra with a common plane are apart in it: points and edges of
-    // one against faces of the other, by faces of the common part of their surfaces.
-    if (apart) return solid_relation::disconnected;
-    const auto is_in = [&](const tetrahedron& x, const tetrahedron& y, const std::vector<normal>& n, bool& touches) {
+    const auto is_in = [&](const polyhedron& x, const polyhedron& y, bool& touches) {
         bool in = true;
-        touches = false;
-        for (const grid_place& p : x) {
-            for (std::size_t i = 0; i < 4; ++i) {
-                const std::int64_t above = height(n[i], p) - height(n[i], y[(i + 1) % 4]);
-                in &= above <= 0;
-                touches |= above == 0;
-            }
+        for (const auto& side : y.sides) {
+            const std::int64_t above = heights(x, side.outward).second - polyhedron::height(side.outward, y.at[side.corners[0]]);
+            in &= above <= 0;
+            touches |= above == 0;
         }
         return in;
     };
     bool touches_a = false, touches_b = false;
-    const bool a_in_b = is_in(a, b, faces_b, touches_a), b_in_a = is_in(b, a, faces_a, touches_b);
+    const bool a_in_b = is_in(a, b, touches_a), b_in_a = is_in(b, a, touches_b);
     if (a_in_b && b_in_a) return solid_relation::equal;
     if (a_in_b) return touches_a ? solid_relation::tangential_part : solid_relation::nontangential_part;
     if (b_in_a) return touches_b ? solid_relation::tangential_part_inverse : solid_relation::nontangential_part_inverse;
     return both ? solid_relation::partially_overlapping : solid_relation::externally_connected;
+}
+inline solid_relation truth_of(const tetrahedron& a, const tetrahedron& b) {
+    const auto body = [](const tetrahedron& t) { return polyhedron({t.begin(), t.end()}); };
+    return truth_of(body(a), body(b));
 }
 
 /// Which bodies are looked at.

@@ -147,6 +147,36 @@ TEMPLATE_TEST_CASE("relation: tetrahedra of a small grid, against planes in inte
     for (const std::uint64_t n : all.of) CHECK((n > 0 || count < 1000));
 }
 
+TEMPLATE_TEST_CASE("relation: prisms, boxes without corners, and hulls of a small grid, against planes in integers", "", float, double) {
+    tally all;
+    const serial on;
+    const std::uint64_t count = std::min<std::uint64_t>(sample_count() / 4, 400000);
+    for (std::uint64_t k = 0; k < count; ++k) {
+        draws d(20270514, 6, k);
+        const int size = 2 + d.below(4);
+        polyhedron a = draw_polyhedron(d, size), b = k % 16 == 0 ? a : draw_polyhedron(d, size);
+        if (k % 16 == 0) {  // moved, so that sides still lie in one plane
+            const grid_place by{d.below(3) - 1, d.below(2), 0};
+            for (grid_place& p : b.at) {
+                for (std::size_t c = 0; c < 3; ++c) p[c] += by[c];
+            }
+        }
+        if (k % 16 == 1 || k % 16 == 2) {  // a of three times its size, so that b is within it
+            for (grid_place& p : a.at) {
+                for (int& x : p) x = 3 * x - size;
+            }
+            a = polyhedron(std::move(a.at));
+        }
+        const frame_of_grid f = draw_frame(d);
+        const mesh<TestType> x = surface_of<TestType>(a, f, d), y = surface_of<TestType>(b, f, d);
+        all.note(relation(on, x, y, {.known_solid = k % 8 != 0}), truth_of(a, b));
+        all.note(relation(on, y, x, {.known_solid = true}), truth_of(b, a));
+    }
+    all.print("polyhedra");
+    CHECK(all.wrong == 0);
+    for (const std::uint64_t n : all.of) CHECK((n > 0 || count < 1000));
+}
+
 TEMPLATE_TEST_CASE("relation: on each policy", "", float, double) {
     check_relations<TestType>(serial{});
     check_relations<TestType>(openmp{.threads = 3});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <abut/io/write_gltf.hpp>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -17,8 +18,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include <abut/collide/validate.hpp>
 #include <abut/io/gltf.hpp>
 #include <abut/io/write_html.hpp>
+#include <abut/shape/welded.hpp>
 
 #include "io/support.hpp"
 #include "support/catch.hpp"
@@ -417,6 +420,40 @@ TEST_CASE("write_gltf: what a scene cannot hold is refused") {
     CHECK(refusal([&] {
               abut::io::write_gltf("/dev/null/a.glb", scene);
           }).starts_with("/dev/null/a.glb: cannot be written: "));
+}
+
+TEST_CASE("write_gltf: a move is an arrow from its point to its end") {
+    for (const vec3<double> by : {vec3<double>{3, 0, 0}, vec3<double>{-1, 2, -2}, vec3<double>{0, 0, 1e-3}}) {
+        const vec3<double> from{5, -1, 2};
+        const auto faces = abut::io::detail::arrow_faces(from, by);
+        REQUIRE(faces.size() == 24);
+        std::vector<vec3<double>> corners;
+        std::vector<abut::face> numbers;
+        for (const auto& t : faces) {
+            const auto first = static_cast<std::uint32_t>(corners.size());
+            corners.insert(corners.end(), {t.a, t.b, t.c});
+            numbers.push_back({first, first + 1, first + 2});
+        }
+        const auto joined = abut::welded(abut::serial{}, abut::mesh<double>(corners, numbers));
+        const auto report = abut::validate(abut::serial{}, joined, {.measures = true});
+        CHECK(report.closed());
+        CHECK(report.measures->outward());
+        const double square = dot(by, by);
+        double least = 1, most = 0;
+        for (const vec3<double>& p : corners) {
+            least = std::min(least, dot(p - from, by) / square);
+            most = std::max(most, dot(p - from, by) / square);
+        }
+        CHECK(least == Approx(0).margin(1e-12));
+        CHECK(most == Approx(1));
+    }
+    abut::io::gltf_scene scene;
+    CHECK(scene.add_move("a", {0, 0, 0}, {0, 0, 1}).number == 0);
+    CHECK(glb::bytes_of(scene).find("\"count\":24") != std::string::npos);
+    for (const vec3<double> by : {vec3<double>{0, 0, 0}, vec3<double>{0, 1e200, 0}}) {
+        CHECK(refusal([&] { scene.add_move("a", {0, 0, 0}, by); }) ==
+              "abut::io::gltf_scene::add_move: expected a move of a length above 0 whose square is finite");
+    }
 }
 
 TEST_CASE("write_html: the scene lies between the page's tags, in base64") {

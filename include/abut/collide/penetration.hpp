@@ -19,7 +19,7 @@
 #include <abut/collide/farthest_point.hpp>
 #include <abut/collide/query.hpp>
 #include <abut/collide/relation.hpp>
-#include <abut/collide/solid_surface.hpp>
+#include <abut/collide/solid_regions.hpp>
 
 namespace abut {
 
@@ -53,6 +53,14 @@ struct penetration_bounds {
 
 namespace detail {
 
+template <scalar T>
+std::vector<triangle<T>> triangles_of_faces(const std::vector<mesh_face<T>>& faces) {
+    std::vector<triangle<T>> all;
+    all.reserve(faces.size());
+    for (const mesh_face<T>& f : faces) all.push_back(f.corners);
+    return all;
+}
+
 /// Looks for a short move of a that takes it out of b.
 template <class Policy, scalar T>
 class separating_move {
@@ -70,11 +78,17 @@ public:
         const vec3<double> u{direction.x / size, direction.y / size, direction.z / size};
         double apart = reach(b_, u) + reach(a_, {-u.x, -u.y, -u.z}) + room;
         if (is_found_) apart = std::min(apart, length_ * (1 - 0x1p-7));
-        for (int k = 0; !is_free(along(u, apart)); ++k) {
+        // Short moves first: out of a dent they lead, and somewhat longer ones may lead into the other solid again.
+        double within = least;
+        bool is_known = false;
+        for (double length = 1.125 * std::max(least, tolerance); !is_known && length < apart; length *= 2) {
+            is_known = is_free(along(u, length));
+            (is_known ? apart : within) = length;
+        }
+        for (int k = 0; !is_known && !is_free(along(u, apart)); ++k) {
             if (is_found_ || k == 40) return false;
             apart += std::ldexp(room, k);
         }
-        double within = least;
         for (int k = 0; k < 40 && apart - within > tolerance; ++k) {
             const double middle = 0.5 * (within + apart);
             (is_free(along(u, middle)) ? apart : within) = middle;
@@ -117,7 +131,7 @@ private:
     }
     [[nodiscard]] vec3<T> along(const vec3<double>& u, double length) const {
         const vec3<double> v = unit_.back(length * u);
-        return {static_cast<T>(v.x), static_cast<T>(v.y), static_cast<T>(v.z)};
+        return {rounded(static_cast<T>(v.x)), rounded(static_cast<T>(v.y)), rounded(static_cast<T>(v.z))};
     }
     [[nodiscard]] double reach(const std::vector<triangle<T>>& faces, const vec3<double>& u) const {
         double most = -infinity<double>;
@@ -178,32 +192,36 @@ template <execution_policy Policy, class X, class Y>
     constexpr const char* function = "abut::penetration";
     if constexpr (detail::is_polytope<X> || detail::is_polytope<Y>) {
         return penetration(on, detail::as_solid(on, a, function), detail::as_solid(on, b, function), options);
-    } else {
+    } else if constexpr (detail::are_solids<X, Y>()) {
         using T = detail::scalar_of_argument<X>;
         penetration_bounds<T> found;
-        const auto of_a = detail::triangles_on_host(on, a, function), of_b = detail::triangles_on_host(on, b, function);
+        detail::faces_of_two<T> faces(detail::faces_on_host(on, detail::make_operand(on, a, function)),
+                                      detail::faces_on_host(on, detail::make_operand(on, b, function)));
+        const auto of_a = detail::triangles_of_faces(faces.first), of_b = detail::triangles_of_faces(faces.second);
         detail::unit_of_search unit;
         unit.see(of_a);
         unit.see(of_b);
         const double tolerance = unit.tolerance(options.tolerance, function);
-        found.overlap = overlaps(on, a, b, {.known_solid = options.known_solid});
+        const solid_options known{.known_solid = options.known_solid};
+        const detail::solids_by_policy<Policy, X, Y> solids(on, a, b, function, &faces);
+        found.overlap = detail::common_interior<filtered>(function, known).find(solids).found.both;
         if (!found.overlap) return found;
         const detail::measured_surface<Policy> x(on, unit.bring(of_a)), y(on, unit.bring(of_b));
         const farthest_point deepest_a = detail::farthest_search<Policy>(x, y, true).run(tolerance, options.most_pieces),
                              deepest_b = detail::farthest_search<Policy>(y, x, true).run(tolerance, options.most_pieces);
         const double least = std::max(deepest_a.lower, deepest_b.lower);
 
-        const auto parts_of = [&](const auto& solid) {
-            const detail::solid_surface<T> surface(detail::faces_on_host(on, detail::make_operand(on, solid, function)), function, "face");
+        const auto parts_of = [&](std::vector<detail::mesh_face<T>>& of) {
+            const detail::solid_surface<T> surface(std::move(of), function);
             std::vector<vec3<T>> vertices;
             for (std::uint32_t p = 0; p < surface.parts(); ++p) vertices.push_back(surface.vertex_of_part(p));
             return vertices;
         };
-        detail::separating_move<Policy, T> move(on, of_a, of_b, parts_of(a), parts_of(b), unit);
+        detail::separating_move<Policy, T> move(on, of_a, of_b, parts_of(faces.first), parts_of(faces.second), unit);
         std::vector<vec3<double>> ways{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-        const auto middle = [&](const std::vector<triangle<T>>& faces) {
+        const auto middle = [&](const std::vector<triangle<T>>& of) {
             aabb<T> box = empty_box<T>();
-            for (const triangle<T>& t : faces) box = merge(box, bounds(t));
+            for (const triangle<T>& t : of) box = merge(box, bounds(t));
             return 0.5 * (unit.bring(detail::widened(box.lower)) + unit.bring(detail::widened(box.upper)));
         };
         ways.push_back(middle(of_a) - middle(of_b));

@@ -100,6 +100,10 @@ public:
         }
         return *faces_[i];
     }
+    /// A box around a body, which may be larger than that around its faces.
+    [[nodiscard]] aabb<T> known_box(std::uint32_t i) const {
+        return world_box(poses_[i], objects_.indices[object_of_[i]].bounds());
+    }
     /// Whether a body's surface is of one part. It is the same of all bodies of an index.
     bool has_one_part(std::uint32_t i) {
         std::optional<bool>& has = one_part_[object_of_[i]];
@@ -155,9 +159,29 @@ std::vector<solid_relation> relations_of_entries(const Policy& on, const Pairing
         }
         if (others) others->require_solids(entries, true);
     }
+    const auto with_bodies = [&](const auto& f) {
+        if constexpr (std::same_as<index_a, index_b>) {
+            if (is_one) return f(bodies_a);
+        }
+        return f(*others);
+    };
+    // Which entries are beside each other, and so whether they touch is all that is asked of them. Others are looked at later.
+    std::vector<std::uint32_t> beside(n, 0), not_beside(n, 1), touch(n), pass(n);
+    with_bodies([&](auto& bodies_b) {
+        for (std::size_t i = 0; i < n; ++i) {
+            const auto [a, b] = entries[i];
+            if (!are_nearly_beside(bodies_a.known_box(a), bodies_b.known_box(b))) continue;
+            if (!are_beside(bodies_a.faces(a).second, bodies_b.faces(b).second)) continue;
+            beside[i] = 1;
+            not_beside[i] = 0;
+        }
+    });
     execution::buffer_of<Policy, std::uint32_t> marks(on, n);
+    upload(on, not_beside.data(), n, marks.data());
+    mark_entries<A>(on, pairing, touching{}, marks.data());
+    download(on, marks.data(), n, touch.data());
+    upload(on, beside.data(), n, marks.data());
     mark_entries<A>(on, pairing, passing_through{}, marks.data());
-    std::vector<std::uint32_t> pass(n);
     download(on, marks.data(), n, pass.data());
     using closing = until_found_pairing<Pairing, names_of_open_entries>;
     const typename closing::filter until{{}, pairing.options.filter, marks.data()};
@@ -171,6 +195,7 @@ std::vector<solid_relation> relations_of_entries(const Policy& on, const Pairing
             const aabb<T>&box_a = bodies_a.faces(e.a).second, &box_b = bodies_b.faces(e.b).second;
             if (!contains(box_a, box_b) && !contains(box_b, box_a)) return solid_relation::disconnected;
         }
+        if (are_beside(bodies_a.faces(e.a).second, bodies_b.faces(e.b).second)) return named({false, true, true}, !some.empty());
         const solid_on_host<T>&a = bodies_a[e.a], &b = bodies_b[e.b];
         const auto all_known = [](const common_regions& regions) { return regions.all(); };
         if (a.surface().size() == 0 || b.surface().size() == 0) return solid_relation::disconnected;
@@ -183,14 +208,11 @@ std::vector<solid_relation> relations_of_entries(const Policy& on, const Pairing
             some.back().a = contacts[k].a;
             some.back().b = contacts[k].b;
         }
-        if (pass[i] != 0) continue;
-        if constexpr (std::same_as<index_a, index_b>) {
-            if (is_one) {
-                found[i] = relation_of(bodies_a, entries[i]);
-                continue;
-            }
+        if (beside[i] != 0) {
+            found[i] = named({false, true, true}, touch[i] != 0);
+        } else if (pass[i] == 0) {
+            found[i] = with_bodies([&](auto& bodies_b) { return relation_of(bodies_b, entries[i]); });
         }
-        found[i] = relation_of(*others, entries[i]);
     }
     return found;
 }
@@ -295,7 +317,7 @@ template <arithmetic A = filtered, executor On, class X, class Y>
     requires(!std::same_as<A, fast>)
 [[nodiscard]] solid_relation relation(const On& on, const X& a, const Y& b, const solid_options& options = {}) {
     const auto all_known = [](const auto& regions) { return regions.all(); };
-    const auto [found, touches] = ask_solids(on, detail::regions_until<A>("abut::relation", options, all_known), a, b);
+    const auto [found, touches] = ask_solids(on, detail::regions_until<A>("abut::relation", options, true, all_known), a, b);
     return detail::named(found, touches);
 }
 
@@ -304,8 +326,7 @@ template <arithmetic A = filtered, executor On, class X, class Y>
 template <arithmetic A = filtered, executor On, class X, class Y>
     requires(!std::same_as<A, fast>)
 [[nodiscard]] bool overlaps(const On& on, const X& a, const Y& b, const solid_options& options = {}) {
-    const auto is_enough = [](const auto& regions) { return regions.both; };
-    return ask_solids(on, detail::regions_until<A>("abut::overlaps", options, is_enough), a, b).found.both;
+    return ask_solids(on, detail::common_interior<A>("abut::overlaps", options), a, b).found.both;
 }
 
 /// The same of all bodies of a scene, `bodies` or a std::vector of posed trees of meshes: a std::vector in host memory, of all

@@ -111,6 +111,29 @@ aabb<T> box_of(const std::vector<mesh_face<T>>& faces) {
     return box;
 }
 
+/// The faces of two solids in host memory.
+template <scalar T>
+using faces_of_two = std::pair<std::vector<mesh_face<T>>, std::vector<mesh_face<T>>>;
+
+/// Whether no inner point of one box is one of the other. Then solids within them have none in common.
+template <scalar T>
+constexpr bool are_beside(const aabb<T>& a, const aabb<T>& b) {
+    const auto are = [](T lower_a, T upper_a, T lower_b, T upper_b) { return upper_a <= lower_b || upper_b <= lower_a; };
+    return are(a.lower.x, a.upper.x, b.lower.x, b.upper.x) || are(a.lower.y, a.upper.y, b.lower.y, b.upper.y) ||
+           are(a.lower.z, a.upper.z, b.lower.z, b.upper.z);
+}
+
+/// Whether boxes are beside each other but for roundings, which are small beside their sizes. Saves looking more closely.
+template <scalar T>
+constexpr bool are_nearly_beside(const aabb<T>& a, const aabb<T>& b) {
+    const auto are = [](T lower_a, T upper_a, T lower_b, T upper_b) {
+        const T common = std::min(upper_a, upper_b) - std::max(lower_a, lower_b);
+        return common <= T(0x1p-8) * std::min(upper_a - lower_a, upper_b - lower_b);
+    };
+    return are(a.lower.x, a.upper.x, b.lower.x, b.upper.x) || are(a.lower.y, a.upper.y, b.lower.y, b.upper.y) ||
+           are(a.lower.z, a.upper.z, b.lower.z, b.upper.z);
+}
+
 /// A solid on the host. Not for several threads at a time.
 template <scalar T>
 class solid_on_host {
@@ -259,10 +282,11 @@ auto known_box([[maybe_unused]] const X& x) {
 // A question about two solids has find<T>(solids), and what it is told of them is
 //   require_simple()     throws where one of them meets itself
 //   has_a(), has_b()     whether they have faces
-//   may_meet()           false where boxes that are known are apart
-//   passes<A>()          whether faces pass through each other
+//   are_beside()         whether boxes that are known share no inner point
+//   passes<A>(), touches<A>()    whether faces pass through each other, whether any touch
 //   decide<A>(answer, f, touch)  f(here) where all faces are, and its answer for all who ask, or `answer` for the others; of
-//                        here are faces_a(), faces_b(), and if it is asked which faces touch, contacts(), each to be called once
+//                        here are faces_a(), faces_b(), and if it is asked which faces touch, contacts(), each to be called
+//                        once, or touches() instead of that
 // ask_solids is overloaded for devices (devices/solids.hpp) and ranks (distributed/solids.hpp).
 
 /// Two solids in the memory of a policy.
@@ -273,8 +297,9 @@ class solids_by_policy {
 
 public:
     using T = scalar_of_argument<X>;
-    solids_by_policy(const Policy& on, const X& x, const Y& y, const char* function)
-        : on_(on), x_(x), y_(y), function_(function), a_(make_operand(on, x, function)), b_(make_operand(on, y, function)),
+    /// faces: of both on the host, where they are there; or null
+    solids_by_policy(const Policy& on, const X& x, const Y& y, const char* function, const faces_of_two<T>* faces = nullptr)
+        : on_(on), x_(x), y_(y), function_(function), faces_(faces), a_(make_operand(on, x, function)), b_(make_operand(on, y, function)),
           pairing_(pair_operands(on_, a_, b_, all_)) {}
     solids_by_policy(const solids_by_policy&) = delete;
     solids_by_policy& operator=(const solids_by_policy&) = delete;
@@ -285,10 +310,14 @@ public:
     }
     [[nodiscard]] bool has_a() const { return a_.shapes().size() > 0; }
     [[nodiscard]] bool has_b() const { return b_.shapes().size() > 0; }
-    [[nodiscard]] bool may_meet() const { return overlaps(known_box(x_), known_box(y_)); }
+    [[nodiscard]] bool are_beside() const { return detail::are_beside(known_box(x_), known_box(y_)); }
     template <arithmetic A>
     [[nodiscard]] bool passes() const {
         return ask_for<A>(passing_through{}, whether{}).find(on_, pairing_);
+    }
+    template <arithmetic A>
+    [[nodiscard]] bool touches() const {
+        return ask_for<A>(touching{}, whether{}).find(on_, pairing_);
     }
     template <arithmetic A, class Answer, class F>
     [[nodiscard]] Answer decide(const Answer&, const F& f, bool = true) const {
@@ -300,8 +329,9 @@ private:
     template <arithmetic A>
     struct here {
         const solids_by_policy& all;
-        [[nodiscard]] auto faces_a() const { return faces_on_host(all.on_, all.a_); }
-        [[nodiscard]] auto faces_b() const { return faces_on_host(all.on_, all.b_); }
+        [[nodiscard]] auto faces_a() const { return all.faces_ != nullptr ? all.faces_->first : faces_on_host(all.on_, all.a_); }
+        [[nodiscard]] auto faces_b() const { return all.faces_ != nullptr ? all.faces_->second : faces_on_host(all.on_, all.b_); }
+        [[nodiscard]] bool touches() const { return all.template touches<A>(); }
         [[nodiscard]] std::vector<crossing<T>> contacts() const {
             return to_host(ask_for<A>(touching{}, all_crossings{}).find(all.on_, all.pairing_));
         }
@@ -311,6 +341,7 @@ private:
     const X& x_;
     const Y& y_;
     const char* function_;
+    const faces_of_two<T>* faces_;
     operand_a a_;
     operand_b b_;
     query_options<> all_;
@@ -367,6 +398,7 @@ public:
     [[nodiscard]] std::vector<mesh_face<T>> faces_a() { return std::move(faces_a_); }
     [[nodiscard]] std::vector<mesh_face<T>> faces_b() { return std::move(faces_b_); }
     [[nodiscard]] std::vector<crossing<T>> contacts() { return std::move(contacts_); }
+    [[nodiscard]] bool touches() const { return !contacts_.empty(); }
 
 private:
     std::vector<mesh_face<T>> faces_a_, faces_b_;
@@ -391,13 +423,13 @@ auto ask_solids(const Policy& on, const Question& question, const X& x, const Y&
     }
 }
 
-/// What two solids have in common, until that is enough, and whether their surfaces touch.
+/// What two solids have in common, until that is enough, and, if that is asked, whether their surfaces touch.
 template <arithmetic A, class Enough>
 struct ask_regions {
     using answer = regions_and_touch;
     static constexpr bool takes_round = true;
     const char* function;
-    bool known_solid;
+    bool known_solid, whether_touching;
     Enough is_enough;
 
     template <scalar>
@@ -411,14 +443,17 @@ struct ask_regions {
         const bool has_a = solids.has_a(), has_b = solids.has_b();
         if (!has_a || !has_b) return answer{{false, has_a, has_b}, false};
         const answer of_passing{{true, true, true}, true}, of_apart{{false, true, true}, false};
-        if (known_solid && !solids.may_meet()) return of_apart;
+        if (known_solid && solids.are_beside()) return answer{of_apart.found, whether_touching && solids.template touches<A>()};
         const bool passes = solids.template passes<A>();
         if (known_solid && passes) return of_passing;
         const auto look = [&](auto& here) {
             auto faces_a = here.faces_a(), faces_b = here.faces_b();
-            if (known_solid && !overlaps(box_of(faces_a), box_of(faces_b))) return of_apart;
+            const bool beside = are_beside(box_of(faces_a), box_of(faces_b));
+            const auto of_beside = [&] { return answer{of_apart.found, whether_touching && here.touches()}; };
+            if (known_solid && beside) return of_beside();
             const solid_on_host<T> solid_a(std::move(faces_a), function), solid_b(std::move(faces_b), function);
             if (passes) return of_passing;
+            if (beside) return of_beside();
             const std::vector<crossing<T>> contacts = here.contacts();
             return answer{regions_of_solids<T>(solid_a, solid_b, contacts, is_enough), !contacts.empty()};
         };
@@ -454,8 +489,13 @@ struct ask_regions {
     }
 };
 template <arithmetic A, class Enough>
-ask_regions<A, Enough> regions_until(const char* function, const solid_options& options, const Enough& is_enough) {
-    return {function, bool(options.known_solid), is_enough};
+ask_regions<A, Enough> regions_until(const char* function, const solid_options& options, bool whether_touching, const Enough& is_enough) {
+    return {function, bool(options.known_solid), whether_touching, is_enough};
+}
+/// Whether interiors meet.
+template <arithmetic A>
+auto common_interior(const char* function, const solid_options& options) {
+    return regions_until<A>(function, options, false, [](const common_regions& regions) { return regions.both; });
 }
 
 }  // namespace detail

@@ -63,10 +63,9 @@ struct gather_bodies {
     ABUT_HD void operator()(std::size_t i) const { out[i] = bodies[which[i]]; }
 };
 
-/// Writes 1 for each entry of a pairing of which any two shapes are in the relation, and 0 for the others.
+/// Writes 1 for each entry of a pairing of which any two shapes are in the relation. Those that have a 1 are not looked at.
 template <arithmetic A, class Policy, class Pairing, class Relation>
 void mark_entries(const Policy& on, const Pairing& pairing, const Relation& how, std::uint32_t* found) {
-    fill(on, found, pairing.members.size(), std::uint32_t{0});
     using closing = until_found_pairing<Pairing>;
     const typename closing::filter until{{}, pairing.options.filter, found};
     visited_by(mark_entry{found}).template find<A>(on, closing{pairing, with_filter(pairing.options, until)}, how);
@@ -81,6 +80,7 @@ struct all_bodies : of_any_shapes {
     [[nodiscard]] auto find(const Policy& on, const Pairing& pairing, const Relation& how) const {
         const std::size_t n = pairing.members.size();
         execution::buffer_of<Policy, std::uint32_t> found(on, n);
+        fill(on, found.data(), n, std::uint32_t{0});
         mark_entries<A>(on, pairing, how, found.data());
         execution::buffer_of<Policy, std::uint32_t> which(on, n);
         which.shrink(compact(on, n, has_touched{found.data()}, which.data()));

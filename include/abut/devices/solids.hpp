@@ -79,13 +79,17 @@ public:
     }
     [[nodiscard]] bool has_a() const { return has_a_; }
     [[nodiscard]] bool has_b() const { return has_b_; }
-    [[nodiscard]] bool may_meet() const {
-        if constexpr (in_parts) return true;
-        return overlaps(known_box(on_device(x_, 0)), known_box(on_device(y_, 0)));
+    [[nodiscard]] bool are_beside() const {
+        if constexpr (in_parts) return false;
+        return detail::are_beside(known_box(on_device(x_, 0)), known_box(on_device(y_, 0)));
     }
     template <arithmetic A>
     [[nodiscard]] bool passes() const {
         return ask_pairs(team_, ask_for<A>(passing_through{}, whether{}), two{x_, y_}, query_options<>{}, function_);
+    }
+    template <arithmetic A>
+    [[nodiscard]] bool touches() const {
+        return ask_pairs(team_, ask_for<A>(touching{}, whether{}), two{x_, y_}, query_options<>{}, function_);
     }
     template <arithmetic A, class Answer, class F>
     [[nodiscard]] Answer decide(const Answer&, const F& f, bool touch = true) const {
@@ -106,6 +110,7 @@ private:
         const solids_by_team& all;
         [[nodiscard]] auto faces_a() const { return all.faces_of(all.x_); }
         [[nodiscard]] auto faces_b() const { return all.faces_of(all.y_); }
+        [[nodiscard]] bool touches() const { return all.template touches<A>(); }
         [[nodiscard]] std::vector<crossing<T>> contacts() const {
             return to_host(ask_pairs(all.team_, ask_for<A>(touching{}, all_crossings{}), two{all.x_, all.y_}, query_options<>{},
                                      all.function_));

@@ -86,10 +86,14 @@ public:
     }
     [[nodiscard]] bool has_a() const { return has_a_; }
     [[nodiscard]] bool has_b() const { return has_b_; }
-    [[nodiscard]] static bool may_meet() { return true; }
+    [[nodiscard]] static bool are_beside() { return false; }
     template <arithmetic A>
     [[nodiscard]] bool passes() const {
         return ask_pairs(on_, ask_for<A>(passing_through{}, whether{}), two{x_, y_}, query_options<>{}, function_);
+    }
+    template <arithmetic A>
+    [[nodiscard]] bool touches() const {
+        return ask_pairs(on_, ask_for<A>(touching{}, whether{}), two{x_, y_}, query_options<>{}, function_);
     }
     template <arithmetic A, class Answer, class F>
     [[nodiscard]] Answer decide(const Answer& otherwise, const F& f, bool touch = true) const {

@@ -122,6 +122,31 @@ constexpr std::array<std::array<std::uint32_t, 3>, 12> box_corners() {
              {4, 7, 6}}};
 }
 
+/// An arrow from a point: a shaft of four sides, and a head of three tenths of its length, turned outwards.
+inline std::vector<triangle<double>> arrow_faces(const vec3<double>& from, const vec3<double>& by) {
+    const double length = std::sqrt(dot(by, by));
+    const vec3<double> along = (1 / length) * by;
+    const vec3<double> aside = std::fabs(along.x) < 0.5 ? vec3<double>{1, 0, 0} : vec3<double>{0, 1, 0};
+    const vec3<double> across = cross(along, aside);
+    const vec3<double> u = (1 / std::sqrt(dot(across, across))) * across, v = cross(along, u);
+    const auto at = [&](double part, double width, int k) {
+        const double x = (k + 1) % 4 < 2 ? width : -width, y = k % 4 < 2 ? width : -width;
+        return from + part * by + (length * x) * u + (length * y) * v;
+    };
+    std::vector<triangle<double>> faces;
+    for (int k = 0; k < 4; ++k) {
+        const vec3<double> a = at(0, 0.04, k), b = at(0, 0.04, k + 1), c = at(0.7, 0.04, k + 1), d = at(0.7, 0.04, k);
+        const vec3<double> e = at(0.7, 0.12, k), f = at(0.7, 0.12, k + 1);
+        faces.push_back({a, b, c});
+        faces.push_back({a, c, d});
+        faces.push_back({from, b, a});
+        faces.push_back({d, c, f});
+        faces.push_back({d, f, e});
+        faces.push_back({e, f, from + by});
+    }
+    return faces;
+}
+
 /// What is read of an argument of `gltf_scene::add`, after a check.
 template <class Object>
 auto gltf_view(const Object& object) {

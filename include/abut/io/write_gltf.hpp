@@ -139,6 +139,18 @@ public:
         return add(name, shapes(lines.segments), {.hit = all});
     }
 
+    /// Adds an arrow from a point, as long as a move: the one that `penetration` found, say. It is a set of 24 triangles,
+    /// all of them `hit`. The body that moves is added by `moving(body, moved)`, and a page plays its way. Throws `error` where the move is 0 or not finite.
+    gltf_set add_move(const std::string& name, const vec3<double>& from, const vec3<double>& by) {
+        const double square = dot(by, by);
+        if (!(square > 0) || !std::isfinite(square)) {
+            detail::refuse_scene("add_move", "expected a move of a length above 0 whose square is finite");
+        }
+        const auto faces = detail::arrow_faces(from, by);
+        const std::vector<std::uint8_t> all(faces.size(), 1);
+        return add(name, shapes(faces), {.hit = all});
+    }
+
     /// Adds pairs of ids of shapes of two sets, or of one (`b` the same as `a`).
     template <std::ranges::input_range Pairs>
         requires id_pair<std::ranges::range_value_t<Pairs>>
