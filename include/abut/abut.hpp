@@ -38,6 +38,7 @@
 #include <abut/collide/reduce_contacts.hpp>
 #include <abut/collide/relation.hpp>
 #include <abut/collide/row_each.hpp>
+#include <abut/collide/safe_step.hpp>
 #include <abut/collide/self_pairs.hpp>
 #include <abut/collide/spans.hpp>
 #include <abut/collide/touching_bodies.hpp>
