@@ -18,16 +18,16 @@
 
 namespace abut::test {
 
-/// A bumpy sheet over the square of `side` cells, and where it goes.
+/// A bumpy sheet of `side` times `side` vertices, `cell` apart, and where it goes.
 struct moving_sheet {
     std::vector<vec3<double>> t0, t1;
     std::vector<face> faces;
 
     /// Of heights around z, that goes down by about `way`, each vertex by its own.
-    moving_sheet(draws& d, std::uint32_t side, double z, double way) {
+    moving_sheet(draws& d, std::uint32_t side, double cell, double z, double way) {
         const auto on_grid = [](double x) { return std::floor(x * 64) / 64; };
         for (std::uint32_t i = 0; i < side * side; ++i) {
-            const double x = i % side + d.uniform(-0.3, 0.3), y = i / side + d.uniform(-0.3, 0.3);
+            const double x = cell * (i % side + d.uniform(-0.3, 0.3)), y = cell * (i / side + d.uniform(-0.3, 0.3));
             const vec3<double> from{on_grid(x), on_grid(y), on_grid(z + d.uniform(-0.2, 0.2))};
             const double across = d.uniform(-0.5, 0.5), along = d.uniform(-0.5, 0.5), down = way * d.uniform(0.5, 1);
             t0.push_back(from);
@@ -73,7 +73,8 @@ struct safe_scene {
 
 private:
     safe_scene(draws d, int kind)
-        : upper(d, 9, 1, kind == 0 ? 0.2 : kind == 1 ? 8 : 2), lower(d, 9, 0, kind == 2 ? -2 : kind == 3 ? 1.5 : 0) {}
+        : upper(d, 9, 1, 1, kind == 0 ? 0.2 : kind == 1 ? 8 : 2),
+          lower(d, kind < 2 ? 9 : 3, kind < 2 ? 1 : 4, 0, kind == 2 ? -2 : kind == 3 ? 1.5 : 0) {}
 };
 
 /// safe_step of scenes that meet early, late, and not at all.
