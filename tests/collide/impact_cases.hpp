@@ -791,11 +791,13 @@ void check_details(const Policy& on) {
         for (std::size_t i = 0; i < all.size(); ++i) {
             vec3<double> sum[2] = {{0, 0, 0}, {0, 0, 0}}, way = {0, 0, 0};
             for (std::size_t k = 0; k < 4; ++k) {
-                const bool in_a = all[i].kind == feature_pair::edge_edge ? k < 2 : (k == 0) == (all[i].kind == feature_pair::vertex_face);
+                const bool in_a =
+                    all[i].kind == feature_pair::edge_edge ? k < 2 : (k == 0) == (all[i].kind == feature_pair::vertex_face);
                 const frame<T>& m = in_a ? of_a : of_b;
                 const double weight = known[i].weights.of[k];
                 const auto add = [](vec3<double>& to, double by, const vec3<T>& p) {
-                    to = to + by * vec3<double>{static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
+                    to =
+                        to + by * vec3<double>{static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
                 };
                 const vec3<T>&from = m.t0[all[i].vertices[k]], &to = m.t1[all[i].vertices[k]];
                 add(sum[in_a ? 0 : 1], weight * (1 - all[i].time), from);

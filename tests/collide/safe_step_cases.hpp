@@ -73,8 +73,14 @@ struct safe_scene {
 
 private:
     safe_scene(draws d, int kind)
-        : upper(d, 9, 1, 1, kind == 0 ? 0.2 : kind == 1 ? 8 : 2),
-          lower(d, kind < 2 ? 9 : 3, kind < 2 ? 1 : 4, 0, kind == 2 ? -2 : kind == 3 ? 1.5 : 0) {}
+        : upper(d, 9, 1, 1,
+                kind == 0   ? 0.2
+                : kind == 1 ? 8
+                            : 2),
+          lower(d, kind < 2 ? 9 : 3, kind < 2 ? 1 : 4, 0,
+                kind == 2   ? -2
+                : kind == 3 ? 1.5
+                            : 0) {}
 };
 
 /// safe_step of scenes that meet early, late, and not at all.
@@ -89,7 +95,9 @@ void check_safe_step(const Policy& on, std::uint64_t scenes) {
         CAPTURE(i);
         const serial host;
         const auto always = [](double part) { return [part](std::size_t) { return part; }; };
-        const auto between = [&](double t) { return impacts(host, s.upper.until(always(t)), s.lower.until(always(t))).size(); };
+        const auto between = [&](double t) {
+            return impacts(host, s.upper.until(always(t)), s.lower.until(always(t))).size();
+        };
         const auto within_one = [&](double t) { return self_impacts(host, whole.until(always(t))).size(); };
 
         const double t = safe_step(on, a, b), self = safe_self_step(on, make_impact_index(on, both));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What is known of an impact, against rational numbers: where features are at the reported time, which way their exact normal
-// goes, how fast their points come together. Each within the bound that is reported with it.
+// What is known of an impact, against rational numbers: where features are at the reported time, which way their exact
+// normal goes, how fast their points come together. Each within the bound that is reported with it.
 
 #include <algorithm>
 #include <cmath>
@@ -72,8 +72,8 @@ void check_detail(const detail::moving_points<T>& p, details_seen& seen) {
             return std::pair(motion<segment<T>>{{p.t0[0], p.t0[1]}, {p.t1[0], p.t1[1]}},
                              motion<segment<T>>{{p.t0[2], p.t0[3]}, {p.t1[2], p.t1[3]}});
         } else {
-            return std::pair(motion<vec3<T>>{p.t0[0], p.t1[0]}, motion<triangle<T>>{{p.t0[1], p.t0[2], p.t0[3]},
-                                                                                     {p.t1[1], p.t1[2], p.t1[3]}});
+            return std::pair(motion<vec3<T>>{p.t0[0], p.t1[0]},
+                             motion<triangle<T>>{{p.t0[1], p.t0[2], p.t0[3]}, {p.t1[1], p.t1[2], p.t1[3]}});
         }
     }();
     const double time = time_of_impact(features.first, features.second);
@@ -100,9 +100,11 @@ void check_detail(const detail::moving_points<T>& p, details_seen& seen) {
     const exact_vector named = Edges ? w[0] * at[0] + w[1] * at[1] : at[0];
     seen.far_points += !(point - named).is_below(size / (integer(1) << 46));
     if constexpr (Edges) {
-        seen.far_features += !hull_is_near({at[0], at[1]}, point, found.gap) || !hull_is_near({at[2], at[3]}, point, found.gap);
+        seen.far_features +=
+            !hull_is_near({at[0], at[1]}, point, found.gap) || !hull_is_near({at[2], at[3]}, point, found.gap);
     } else {
-        seen.far_features += !hull_is_near({at[0]}, point, found.gap) || !hull_is_near({at[1], at[2], at[3]}, point, found.gap);
+        seen.far_features +=
+            !hull_is_near({at[0]}, point, found.gap) || !hull_is_near({at[1], at[2], at[3]}, point, found.gap);
     }
     seen.small_gaps += detail_fraction(found.gap) < (size + fastest) / (integer(1) << 34);
 

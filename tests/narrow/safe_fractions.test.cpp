@@ -55,7 +55,7 @@ safe_points drawn_points(draws& d, int family) {
                 all[i].*x = on_grid(d.uniform(-1, 1) * (family == 1 && all == p.t0 ? 0x1p-16 : 1));
             }
         }
-        if (family == 2) p.t0[i].z *= 0x1p-8, p.t0[i].z = on_grid(p.t0[i].z);         // flat at the start
+        if (family == 2) p.t0[i].z *= 0x1p-8, p.t0[i].z = on_grid(p.t0[i].z);          // flat at the start
         if (family == 3 && i > 0) p.t0[i].y = p.t0[i].z = on_grid(0.001 * p.t0[i].y);  // needles along x
         if (family == 4 && i % 2 == 0) p.t1[i] = p.t0[i];                              // some rest
     }
@@ -141,7 +141,8 @@ TEST_CASE("safe fractions: whatever part each point takes, the features stay apa
 }
 
 TEST_CASE("safe fractions: a side that rests leaves the gap to the other") {
-    const safe_points falls{{{0, 0, 1}, {-9, -9, 0}, {9, -9, 0}, {0, 9, 0}}, {{0, 0, -3}, {-9, -9, 0}, {9, -9, 0}, {0, 9, 0}}};
+    const safe_points falls{{{0, 0, 1}, {-9, -9, 0}, {9, -9, 0}, {0, 9, 0}},
+                            {{0, 0, -3}, {-9, -9, 0}, {9, -9, 0}, {0, 9, 0}}};
     const auto at = detail::parting_plane<false, double>(falls).fractions(0);
     CHECK((at.of[0] > 0.2497 && at.of[0] < 0.25 && at.of[1] == 1 && at.of[2] == 1 && at.of[3] == 1));
     const auto kept = detail::parting_plane<false, double>(falls).fractions(0.5);

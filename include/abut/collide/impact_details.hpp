@@ -67,9 +67,9 @@ struct bad_impact {
 /// @addtogroup motion
 ///@{
 
-/// What is known of an impact: see impact_detail. `a` and `b` are the meshes of the query as moving views, of a self query the
-/// same one twice; reads their vertices, on hosts and devices. The normal goes from b's feature to a's, of a self query from
-/// the second feature to the first.
+/// What is known of an impact: see impact_detail. `a` and `b` are the meshes of the query as moving views, of a self query
+/// the same one twice; reads their vertices, on hosts and devices. The normal goes from b's feature to a's, of a self query
+/// from the second feature to the first.
 ///
 ///     const auto step = abut::moving(cloth_t0, cloth_t1);
 ///     for (const auto& i : abut::self_impacts(on, step)) use(i, abut::details_of(i, step.view(), step.view()));
@@ -99,8 +99,8 @@ struct write_impact_detail {
 ///@{
 
 /// What is known of each impact of a list, in its order: a `result` of impact_detail in the policy's memory, 104 bytes each.
-/// `found` lies there too; `a` and `b` are the arguments of its query, of a self query the same one twice. Throws `error` for
-/// an impact whose vertices these meshes do not have, with its number.
+/// `found` lies there too; `a` and `b` are the arguments of its query, of a self query the same one twice. Throws `error`
+/// for an impact whose vertices these meshes do not have, with its number.
 ///
 ///     const auto step = abut::moving(cloth_t0, cloth_t1);
 ///     const auto found = abut::impacts(on, step, ball);
@@ -113,14 +113,14 @@ template <execution_policy Policy, scalar T, memory_space Space, class X, class 
         const auto x = detail::mesh_of_impacts(on, a, function), y = detail::mesh_of_impacts(on, b, function);
         const std::size_t of_x = x.t0().view().vertices.count, of_y = y.t0().view().vertices.count;
         const std::size_t bad = reduce(on, found.size(), detail::none_is_bad, detail::minimum{},
-                                               detail::bad_impact<T>{found.data(), of_x, of_y});
+                                       detail::bad_impact<T>{found.data(), of_x, of_y});
         if (bad != detail::none_is_bad) {
             throw error(std::string(function) + ": impact " + std::to_string(bad) + " is none of meshes of " +
                         std::to_string(of_x) + " and " + std::to_string(of_y) + " vertices");
         }
         execution::buffer_of<Policy, impact_detail> out(on, found.size());
         for_each_index(on, found.size(),
-                               detail::write_impact_detail<T, Space>{found.data(), x.view(), y.view(), out.data()});
+                       detail::write_impact_detail<T, Space>{found.data(), x.view(), y.view(), out.data()});
         return result<impact_detail, Space>(std::move(out));
     } else {
         return result<impact_detail, Space>();

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// safe_step, safe_self_step: how much of a step is free. safe_steps, safe_self_steps: how much of its own way each vertex may
-// go, whatever the others do.
+// safe_step, safe_self_step: how much of a step is free. safe_steps, safe_self_steps: how much of its own way each vertex
+// may go, whatever the others do.
 //
 // The first is a question to first_impact. A time of impact is the true one rounded down, so it may be that of a contact
 // itself; the multiple of 2^-40 before it is not.
 //
-// For the second, pairs of features are those of `impacts`: whose boxes around the whole step come near. A box holds each place
-// that a vertex may take on its way, so features whose boxes are apart are apart whatever part of their ways their vertices
-// go. Of the others a plane says how far each of the four vertices may go (narrow/safe_fractions.hpp, with the proof), and a
-// vertex takes the least of what its pairs say. Then each pair that could meet is parted by its plane.
+// For the second, pairs of features are those of `impacts`: whose boxes around the whole step come near. A box holds each
+// place that a vertex may take on its way, so features whose boxes are apart are apart whatever part of their ways their
+// vertices go. Of the others a plane says how far each of the four vertices may go (narrow/safe_fractions.hpp, with the
+// proof), and a vertex takes the least of what its pairs say. Then each pair that could meet is parted by its plane.
 
 #include <algorithm>
 #include <concepts>
@@ -157,8 +157,8 @@ auto safe_steps_of(const Policy& on, const X& a, const Y& b, const conservative_
 /// Without a separation no feature of one mesh touches one of the other at any time in [0, t], decided exactly: 1 if nothing
 /// is met; otherwise a multiple of 2^-40 that is less than 2^-39 below the time of the first contact, and not that time; 0
 /// if it is there within 2^-40 of the start, or at it. With one, features are farther apart than it is at any time in [0,
-/// t], and t is early by the tolerance at most, but as `conservative` says: 0 if features begin nearer, also if they go away.
-/// A tolerance matters to this alone. What is never a contact of features, as a mesh in another, is not looked at.
+/// t], and t is early by the tolerance at most, but as `conservative` says: 0 if features begin nearer, also if they go
+/// away. A tolerance matters to this alone. What is never a contact of features, as a mesh in another, is not looked at.
 ///
 /// Several devices and ranks (@ref distributed) take it as they take first_impact; all ranks have one answer.
 ///
@@ -182,8 +182,8 @@ template <executor On, class X>
 ///
 /// It is a bound, and no search for the farthest: each pair of features that may meet is parted by a plane between the two
 /// points that are nearest at the start, and vertices may go up to it (narrow/safe_fractions.hpp has the proof). Each side
-/// has half of the gap, or what the other does not need of it. A vertex whose feature touches at the start, or is nearer than the
-/// separation, or than double precision can tell, has 0; one that does not move has 1.
+/// has half of the gap, or what the other does not need of it. A vertex whose feature touches at the start, or is nearer
+/// than the separation, or than double precision can tell, has 0; one that does not move has 1.
 ///
 ///     const auto [of_cloth, of_ball] = abut::safe_steps(on, step, ball);
 template <execution_policy Policy, class X, class Y>

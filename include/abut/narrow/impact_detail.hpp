@@ -28,17 +28,18 @@ struct impact_detail {
     /// Where: the vertex, or the point of the first edge that the weights name. It is within 2^-46 of the largest coordinate
     /// of the one that exact arithmetic has.
     vec3<double> point;
-    /// No less than how far either feature is from `point` at that time. So it tells how good point and weights are: times of
-    /// `filtered` leave what features move in 2^-40 of the step, and edges that are nearly parallel leave more.
+    /// No less than how far either feature is from `point` at that time. So it tells how good point and weights are: times
+    /// of `filtered` leave what features move in 2^-40 of the step, and edges that are nearly parallel leave more.
     double gap;
-    /// Across the face, or across both edges, at that time; of length 1. From the second feature to the first (of queries: from
-    /// b to a), so that they come together against it.
+    /// Across the face, or across both edges, at that time; of length 1. From the second feature to the first (of queries:
+    /// from b to a), so that they come together against it.
     vec3<double> normal;
-    /// How long the difference of `normal` from the exact one is at most. 2 if nothing is known of that, as of parallel edges
-    /// and faces without an area: then `normal` goes against the relative motion at `point`, or along z where there is none.
+    /// How long the difference of `normal` from the exact one is at most. 2 if nothing is known of that, as of parallel
+    /// edges and faces without an area: then `normal` goes against the relative motion at `point`, or along z where there is
+    /// none.
     double normal_error;
-    /// How fast the points that the weights name come together along `normal`, 0 or more, in units of coordinates for the whole
-    /// step; of the numbers above within 2^-46 of the largest coordinate of the ways.
+    /// How fast the points that the weights name come together along `normal`, 0 or more, in units of coordinates for the
+    /// whole step; of the numbers above within 2^-46 of the largest coordinate of the ways.
     double speed;
 };
 
@@ -62,7 +63,8 @@ struct direction_of_one {
 }  // namespace detail
 
 /// What is known of two moving features at `time`, a time of impact of theirs. The first is a vertex or an edge. At another
-/// time it is of points that are near each other, and `gap` tells how near. For coordinates below 2^1000. On hosts and devices.
+/// time it is of points that are near each other, and `gap` tells how near. For coordinates below 2^1000. On hosts and
+/// devices.
 ///
 ///     const auto d = abut::details_at(vertex, face, abut::time_of_impact(vertex, face));
 /// @ingroup one_pair

@@ -13,10 +13,10 @@
 // which is above 0 for all f in [0, F] if F c_i < s_i - m. Likewise of the second with signs turned. For a distance h to be
 // kept, both sides take h |g| / 2 off s_i - m: then there is a slab of that width between them.
 //
-// The plane is in the middle of the gap, or leaves to a side that needs less than half of it what that side needs, and the rest
-// to the other. With g between the two nearest points, half of the gap over the length of a way is the bound by spheres of A.
-// H. Chen, J. Hsu, Z. Liu, M. Macklin, Y. Yang, C. Yuksel, Offset geometric contact (2025): a point that stays in the sphere
-// of half the distance around its place has not come to the middle. So the plane allows no less than that.
+// The plane is in the middle of the gap, or leaves to a side that needs less than half of it what that side needs, and the
+// rest to the other. With g between the two nearest points, half of the gap over the length of a way is the bound by spheres
+// of A. H. Chen, J. Hsu, Z. Liu, M. Macklin, Y. Yang, C. Yuksel, Offset geometric contact (2025): a point that stays in the
+// sphere of half the distance around its place has not come to the middle. So the plane allows no less than that.
 //
 // Rounding. g and m are right by definition. u = 2^-52, X the largest coordinate of x_i relative to one of the points, D
 // that of the ways. s_i - m is off by less than 8u |g| X and c_i by 5u |g| D, |g| the sum of magnitudes: 2^-46 is eight
@@ -88,11 +88,13 @@ private:
         return dot(n, place_[0] - place_[of_first]) < 0 ? -1.0 * n : n;
     }
 
-    [[nodiscard]] ABUT_HD constexpr bool part_by(const vec3<double>& normal, double separation, safe_fractions& found) const {
+    [[nodiscard]] ABUT_HD constexpr bool part_by(const vec3<double>& normal, double separation,
+                                                 safe_fractions& found) const {
         const double size = largest_coordinate(normal);
         if (!(size > 0 && size < infinity<double>)) return false;
         const vec3<double> g{normal.x / size, normal.y / size, normal.z / size};
-        const double sum = magnitudes(g), lost_at = 0x1p-46 * sum * extent_ + tiny, lost_way = 0x1p-46 * sum * longest_ + tiny;
+        const double sum = magnitudes(g), lost_at = 0x1p-46 * sum * extent_ + tiny,
+                     lost_way = 0x1p-46 * sum * longest_ + tiny;
         const double kept = separation > 0 ? 0.5 * (1 + 0x1p-40) * separation * length_above(g) : 0;
 
         double side[4]{}, closing[4]{}, low = infinity<double>, high = -infinity<double>, fastest[2] = {0, 0};
