@@ -191,7 +191,9 @@ struct no_sooner_in_motion {
 struct rank_of_time {
     const double* times;
     std::uint64_t* ranks;
-    ABUT_HD void operator()(std::size_t i) const { ranks[i] = static_cast<std::uint64_t>(times[i] / no_sooner_in_motion::coarse); }
+    ABUT_HD void operator()(std::size_t i) const {
+        ranks[i] = static_cast<std::uint64_t>(times[i] / no_sooner_in_motion::coarse);
+    }
 };
 template <motion_arithmetic A, class View>
 struct time_keys {
@@ -207,9 +209,7 @@ struct time_keys_on_host {
     time_in_motion<A> judge;
     const std::uint64_t* keys;
     double* times;
-    void operator()(std::size_t i) const {
-        times[i] = both.with_shapes(keys[i], time_on_host_by<time_in_motion<A>>{judge});
-    }
+    void operator()(std::size_t i) const { times[i] = both.with_shapes(keys[i], time_on_host_by<time_in_motion<A>>{judge}); }
 };
 
 /// The first of what a search finds, in `filtered` or `conservative`.
@@ -276,8 +276,8 @@ private:
         return half_surface(half_sides<double>(merge(merge(box_of(corner[0]), box_of(corner[1])), box_of(corner[2]))));
     }
 };
-/// Whether the boxes of both, or of x alone `Within` one, are so much smaller in the first part of the step that few are near
-/// others there, by a sample of them. The answer moves speed alone.
+/// Whether the boxes of both, or of x alone `Within` one, are so much smaller in the first part of the step that few are
+/// near others there, by a sample of them. The answer moves speed alone.
 template <bool Within, class Policy, class Index>
 bool is_first_part_small(const Policy& on, const Index& x, const Index& y) {
     constexpr std::size_t sample = 4096;
@@ -301,7 +301,8 @@ bool is_first_part_small(const Policy& on, const Index& x, const Index& y) {
 /// The first impact; first_until(time) tells the first of those in a part of the step, which has all that begin in it.
 /// `fast` may tell times at which boxes do not meet yet: it looks at the whole step.
 template <motion_arithmetic A, class FirstUntil>
-auto first_of_step(const FirstUntil& first_until, const conservative_bounds& bounds, double first_part = first_part_of_step) {
+auto first_of_step(const FirstUntil& first_until, const conservative_bounds& bounds,
+                   double first_part = first_part_of_step) {
     // A time is the true one rounded down, or early by the tolerance. None that is as early by it is missing.
     const double early = last_time_bit + (std::same_as<A, conservative> ? bounds.tolerance : 0);
     for (double time = std::same_as<A, fast> ? 1 : first_part;;) {
@@ -319,14 +320,14 @@ auto first_until(const Policy& on, const Index& x, const Index& y, double time, 
     const auto during = [&](const Index& all) { return time >= 1 ? all : until(on, all, time); };
     const Index a = during(x);
     const auto first = [&](const Index& b) {
-        return with_search_of_indices<A, Within>(on, a, b, options, fronts, function, part,
-                                                 [&](const auto& both, const auto& search) {
-                                                     if constexpr (std::same_as<A, filtered> || std::same_as<A, conservative>) {
-                                                         return first_by_bounds<A>(on, options.bounds, both, search);
-                                                     } else {
-                                                         return first_of(on, impacts_of<A>(on, options, both, search));
-                                                     }
-                                                 });
+        return with_search_of_indices<A, Within>(
+            on, a, b, options, fronts, function, part, [&](const auto& both, const auto& search) {
+                if constexpr (std::same_as<A, filtered> || std::same_as<A, conservative>) {
+                    return first_by_bounds<A>(on, options.bounds, both, search);
+                } else {
+                    return first_of(on, impacts_of<A>(on, options, both, search));
+                }
+            });
     };
     return Within ? first(a) : first(during(y));
 }
