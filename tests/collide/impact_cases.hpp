@@ -547,6 +547,8 @@ void check_all_ways(const Policy& on, const impact_case<T>& c) {
         CHECK(first_self_impact<fast>(on, a) == first_of(to_host(self_impacts<fast>(on, a))));
         const impact_options apart{.bounds = {.tolerance = 0.01, .separation = 0.1}};
         CHECK(first_impact<conservative>(on, a, b, apart) == first_of(to_host(impacts<conservative>(on, a, b, apart))));
+        CHECK(first_self_impact<conservative>(on, a, apart) == first_of(to_host(self_impacts<conservative>(on, a, apart))));
+        CHECK(first_impact<conservative>(on, a, b) == first_of(to_host(impacts<conservative>(on, a, b))));
     }
     const frame<T> rests{c.b.t0, c.b.t0, c.b.faces};
     const auto with_rest = in_order(impacts_by_loops(c.a, rests));
