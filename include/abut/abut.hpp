@@ -19,6 +19,7 @@
 #include <abut/collide/curves.hpp>
 #include <abut/collide/distance.hpp>
 #include <abut/collide/first_impact.hpp>
+#include <abut/collide/impact_details.hpp>
 #include <abut/collide/impacts.hpp>
 #include <abut/collide/hausdorff.hpp>
 #include <abut/collide/hull_edges.hpp>
@@ -38,6 +39,7 @@
 #include <abut/collide/reduce_contacts.hpp>
 #include <abut/collide/relation.hpp>
 #include <abut/collide/row_each.hpp>
+#include <abut/collide/safe_step.hpp>
 #include <abut/collide/self_pairs.hpp>
 #include <abut/collide/spans.hpp>
 #include <abut/collide/touching_bodies.hpp>
@@ -59,6 +61,7 @@
 #include <abut/narrow/contact.hpp>
 #include <abut/narrow/distance.hpp>
 #include <abut/narrow/feature_weights.hpp>
+#include <abut/narrow/impact_detail.hpp>
 #include <abut/narrow/nearest_point.hpp>
 #include <abut/narrow/time_of_impact.hpp>
 #include <abut/predicate/intersects.hpp>

@@ -12,6 +12,7 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -546,6 +547,8 @@ void check_all_ways(const Policy& on, const impact_case<T>& c) {
         CHECK(first_self_impact<fast>(on, a) == first_of(to_host(self_impacts<fast>(on, a))));
         const impact_options apart{.bounds = {.tolerance = 0.01, .separation = 0.1}};
         CHECK(first_impact<conservative>(on, a, b, apart) == first_of(to_host(impacts<conservative>(on, a, b, apart))));
+        CHECK(first_self_impact<conservative>(on, a, apart) == first_of(to_host(self_impacts<conservative>(on, a, apart))));
+        CHECK(first_impact<conservative>(on, a, b) == first_of(to_host(impacts<conservative>(on, a, b))));
     }
     const frame<T> rests{c.b.t0, c.b.t0, c.b.faces};
     const auto with_rest = in_order(impacts_by_loops(c.a, rests));
@@ -775,6 +778,60 @@ void check_large_impacts(const Policy& on) {
         CHECK(first_self_impact(on, of_a) == first_of(self));
     }
     check_same("from the host", to_host(impacts(on, a, b)), between);
+}
+
+/// What is known of impacts of each kind: the meshes' points come together against a normal that goes from b to a.
+template <class T, class Policy>
+void check_details(const Policy& on) {
+    const large_scene<T> s(4, 0.07);
+    const auto a = s.a.as_set(), b = s.b.as_set();
+    const auto check = [&](const auto& found, const auto& details, const frame<T>& of_a, const frame<T>& of_b) {
+        const auto all = to_host(found);
+        const auto known = to_host(details);
+        REQUIRE((all.size() > 100 && known.size() == all.size()));
+        std::size_t far = 0, wrong_speed = 0;
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            vec3<double> sum[2] = {{0, 0, 0}, {0, 0, 0}}, way = {0, 0, 0};
+            for (std::size_t k = 0; k < 4; ++k) {
+                const bool in_a =
+                    all[i].kind == feature_pair::edge_edge ? k < 2 : (k == 0) == (all[i].kind == feature_pair::vertex_face);
+                const frame<T>& m = in_a ? of_a : of_b;
+                const double weight = known[i].weights.of[k];
+                const auto add = [](vec3<double>& to, double by, const vec3<T>& p) {
+                    to =
+                        to + by * vec3<double>{static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
+                };
+                const vec3<T>&from = m.t0[all[i].vertices[k]], &to = m.t1[all[i].vertices[k]];
+                add(sum[in_a ? 0 : 1], weight * (1 - all[i].time), from);
+                add(sum[in_a ? 0 : 1], weight * all[i].time, to);
+                add(way, in_a ? weight : -weight, to);
+                add(way, in_a ? -weight : weight, from);
+            }
+            for (const auto& p : sum) {
+                const vec3<double> off = p - known[i].point;
+                far += !(std::sqrt(dot(off, off)) <= known[i].gap);
+            }
+            wrong_speed += !(std::abs(known[i].speed + dot(known[i].normal, way)) <= 1e-12 && known[i].speed >= 0);
+        }
+        CHECK(far == 0);
+        CHECK(wrong_speed == 0);
+    };
+    const auto of_a = make_impact_index(on, a);
+    const auto between = impacts(on, of_a, b);
+    check(between, impact_details(on, between, of_a, b), s.a, s.b);
+    const auto within_one = self_impacts(on, of_a);
+    check(within_one, impact_details(on, within_one, a, of_a), s.a, s.a);
+    const auto with_rest = impacts(on, b, s.a.at_rest());
+    check(with_rest, impact_details(on, with_rest, b, s.a.at_rest()), s.b, frame<T>{s.a.t0, s.a.t0, s.a.faces});
+    CHECK(impact_details(on, impacts(on, a, mesh<T>()), a, mesh<T>()).size() == 0);
+    const auto few = impacts(on, a, b);
+    bool refused = false;
+    try {
+        (void)impact_details(on, few, a, mesh<T>());
+    } catch (const error& e) {
+        refused = std::string(e.what()).find("abut::impact_details: impact 0 is none of meshes of ") == 0;
+    }
+    CHECK(refused);
 }
 
 /// All boxes overlap: 9.6 million candidates, more than a device gathers of meshes so small at a time. It looks for parts of

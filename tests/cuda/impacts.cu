@@ -2,6 +2,7 @@
 #include <abut/cuda.hpp>
 
 #include "collide/impact_cases.hpp"
+#include "collide/safe_step_cases.hpp"
 #include "out_of_memory.hpp"
 #include "support/catch.hpp"
 
@@ -16,6 +17,13 @@ TEST_CASE("impacts: cuda, float") {
 TEST_CASE("impacts: cuda, float, thousands of faces") { abut::test::check_large_impacts<float>(abut::cuda{}); }
 
 TEST_CASE("impacts: cuda, candidates that find no room") { abut::test::check_many_candidates<float>(abut::cuda{}); }
+
+TEST_CASE("impact_details: cuda") { abut::test::check_details<float>(abut::cuda{}); }
+
+TEST_CASE("safe_step, safe_steps: cuda") {
+    abut::test::check_safe_step(abut::cuda{}, 10);
+    abut::test::check_safe_steps(abut::cuda{}, 10);
+}
 
 TEST_CASE("vertices and faces in motion in a query: cuda") {
     for (const auto& c : abut::test::impact_cases<float>()) {

@@ -488,6 +488,9 @@ void check_impacts(const Team& team) {
     CHECK(to_host(self_impacts(team, index_a)) == within);
     CHECK(first_impact(team, index_a, index_b) == first_impact(serial{}, a, b));
     CHECK(first_self_impact(team, index_a) == first_self_impact(serial{}, a));
+    CHECK(safe_step(team, index_a, index_b) == safe_step(serial{}, a, b));
+    const conservative_bounds kept{.tolerance = 0.01, .separation = 0.01};
+    CHECK(safe_self_step(team, index_a, kept) == safe_self_step(serial{}, a, kept));
     const auto parts_a = divide_mesh(team, a), parts_b = divide_mesh(team, b);
     CHECK(to_host(impacts(team, parts_a, make_impact_index(team, parts_b))) == expected);
     CHECK(first_impact(team, parts_a, parts_b) == first_impact(serial{}, a, b));

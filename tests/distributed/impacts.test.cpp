@@ -184,6 +184,7 @@ TEST_CASE("distributed: impacts of a mesh with itself, and what comes first") {
         const auto between = first_impact(serial{}, whole, whole_y);
         REQUIRE(between.has_value());
         CHECK(first_impact(on, x, y) == global(*between));
+        CHECK(safe_step(on, x, y) == safe_step(serial{}, whole, whole_y));
     }
     const auto far = make_sheet<float>(4, 50, 1, 11), near = make_sheet<float>(4, 0, 1, 12);
     const auto x = part_of_frames(near, division::even, on.rank(), on.size()).set();

@@ -52,6 +52,9 @@ NAMES = {
     "io/write.hpp": "const abut::result<abut::index_pair, abut::host_space> pairs;",
     "collide/impact_index.hpp": STEP,
     "collide/first_impact.hpp": STEP,
+    "collide/safe_step.hpp": STEP,
+    "narrow/impact_detail.hpp": "const abut::motion<abut::vec3<float>> vertex{};"
+                                "const abut::motion<abut::triangle<float>> face{};",
     "collide/list_distance.hpp": GEAR + "std::vector<abut::posed_pair<decltype(gear)>> list; float clearance = 9;",
     "collide/body_distance.hpp": GEAR + "const std::vector<abut::posed_object<decltype(gear)>> bodies;",
     "collide/body_pairs.hpp": GEAR + "const auto robots = abut::make_bodies(on, std::vector{abut::posed(gear, here)});"

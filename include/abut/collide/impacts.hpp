@@ -420,6 +420,35 @@ template <motion_arithmetic A = filtered, executor On, class X, std::same_as<imp
     return ask_motion(on, detail::ask_impacts<A, true>{}, x, x, options, detail::fronts_of(fronts)...);
 }
 
+namespace detail {
+
+/// f(vertex, face), or f(edge, edge), with the features of an impact.
+ABUT_CALLS_ANY
+template <scalar T, memory_space Space, class F>
+ABUT_HD auto with_features_of(const impact<T>& found, const moving_view<mesh_view<T, Space>>& a,
+                              const moving_view<mesh_view<T, Space>>& b, const F& f) {
+    const auto* const v = reinterpret_cast<const std::uint32_t*>(&found.vertices);
+    const auto point = [](const auto& m, std::uint32_t i) { return motion<vec3<T>>{m.t0.vertices[i], m.t1.vertices[i]}; };
+    const auto edge_of = [&](const auto& m, std::uint32_t i, std::uint32_t j) {
+        const auto from = point(m, i), to = point(m, j);
+        return motion<segment<T>>{{from.t0, to.t0}, {from.t1, to.t1}};
+    };
+    if (found.kind == feature_pair::edge_edge) return f(edge_of(a, v[0], v[1]), edge_of(b, v[2], v[3]));
+    const bool vertex_first = found.kind == feature_pair::vertex_face;
+    const auto &of_vertex = vertex_first ? a : b, &of_face = vertex_first ? b : a;
+    const auto x = point(of_face, v[1]), y = point(of_face, v[2]), z = point(of_face, v[3]);
+    return f(point(of_vertex, v[0]), motion<triangle<T>>{{x.t0, y.t0, z.t0}, {x.t1, y.t1, z.t1}});
+}
+struct weights_at_time {
+    double time;
+    template <class S, class U>
+    ABUT_HD feature_weights operator()(const S& s, const U& t) const {
+        return weights_at(s, t, time);
+    }
+};
+
+}  // namespace detail
+
 /// Where the features of an impact touch (narrow/feature_weights.hpp). `a` and `b` are the meshes of the query as moving
 /// views, of a self query the same one twice; reads their vertices, on hosts and devices.
 ///
@@ -428,17 +457,7 @@ template <motion_arithmetic A = filtered, executor On, class X, std::same_as<imp
 template <scalar T, memory_space Space>
 [[nodiscard]] ABUT_HD feature_weights weights_of(const impact<T>& found, const moving_view<mesh_view<T, Space>>& a,
                                                  const moving_view<mesh_view<T, Space>>& b) {
-    const auto* const v = reinterpret_cast<const std::uint32_t*>(&found.vertices);
-    const auto point = [](const auto& m, std::uint32_t i) { return motion<vec3<T>>{m.t0.vertices[i], m.t1.vertices[i]}; };
-    const auto edge_of = [&](const auto& m, std::uint32_t i, std::uint32_t j) {
-        const auto from = point(m, i), to = point(m, j);
-        return motion<segment<T>>{{from.t0, to.t0}, {from.t1, to.t1}};
-    };
-    if (found.kind == feature_pair::edge_edge) return weights_at(edge_of(a, v[0], v[1]), edge_of(b, v[2], v[3]), found.time);
-    const bool vertex_first = found.kind == feature_pair::vertex_face;
-    const auto &of_vertex = vertex_first ? a : b, &of_face = vertex_first ? b : a;
-    const auto x = point(of_face, v[1]), y = point(of_face, v[2]), z = point(of_face, v[3]);
-    return weights_at(point(of_vertex, v[0]), motion<triangle<T>>{{x.t0, y.t0, z.t0}, {x.t1, y.t1, z.t1}}, found.time);
+    return detail::with_features_of(found, a, b, detail::weights_at_time{found.time});
 }
 
 ///@}

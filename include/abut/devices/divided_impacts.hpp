@@ -308,7 +308,7 @@ auto first_of_divided(const Team& team, const X& x, const Y& y, const impact_opt
                              (one->found.time == first->found.time && by_places{}(*one, *first));
         if (earlier) first = one;
     };
-    return first_of_step<A>([&](double time) {
+    const auto first_until_time = [&](double time) {
         const auto found = each_of(team, [&](int k) {
             const auto& mine = parts[static_cast<std::size_t>(k)];
             first_type first;
@@ -322,7 +322,8 @@ auto first_of_divided(const Team& team, const X& x, const Y& y, const impact_opt
         first_type first;
         for (const first_type& one : found) keep_earlier(first, one);
         return first;
-    });
+    };
+    return first_of_step<A>(first_until_time, options.bounds);
 }
 
 }  // namespace abut::detail

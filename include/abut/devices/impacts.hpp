@@ -98,7 +98,7 @@ auto impacts_on_devices(const Team& team, const std::vector<Index>& x, const std
 template <motion_arithmetic A, bool Within, class Team, class Index>
 auto first_on_devices(const Team& team, const std::vector<Index>& x, const std::vector<Index>& y,
                       const impact_options& options, const char* function) {
-    return first_of_step<A>([&](double time) {
+    const auto first_until_time = [&](double time) {
         const auto found = each_of(team, [&](int k) {
             const auto i = static_cast<std::size_t>(k);
             return first_until<A, Within>(team[k], x[i], y[i], time, options, no_fronts{}, function, share_of(team, k));
@@ -106,7 +106,8 @@ auto first_on_devices(const Team& team, const std::vector<Index>& x, const std::
         auto first = found.front();
         for (const auto& one : found) keep_earlier(first, one);
         return first;
-    });
+    };
+    return first_of_step<A>(first_until_time, options.bounds);
 }
 
 template <execution::policy_team Team, motion_arithmetic A, bool Within, class X, class Y>
