@@ -134,7 +134,7 @@ struct write_sweeps {
         const std::uint64_t key = found == nullptr ? no_global_id : found[i].key;
         out[i] = {{}, {{0, 0, 0}, {0, 0, 0}}};
         if (key == no_global_id) return;
-        const sweep_place<T> place = sweep_place_of(rows[i], shapes[key]);
+        const sweep_place<T> place = sweep_place_of(rows[i], shapes[key], static_cast<double>(time_as<T>(found[i].value)));
         out[i] = {{found[i].value, in_whole(ids, key)}, place};
     }
 };

@@ -141,7 +141,8 @@ public:
     double time = 0;                      ///< where the search came to
     sweep_feature feature;                ///< of the differences there
     point normal{0, 0, 0};                ///< from the shape that goes to the other one, of any length; zero if it is not known
-    point on_b{0, 0, 0};                  ///< where on the core that is met
+    point on_b{0, 0, 0};                  ///< where on the core that is met, if it is settled
+    double gap_at_start = infinity<double>;  ///< between the cores, where they touch at the start
     bool is_settled = false;              ///< whether time and feature are those of the first touch, but for rounding
 
     /// Looks for a touch until `until`, which is 1 or less.
@@ -162,15 +163,41 @@ public:
         return detail::rounded_time(line_entry<fine_estimate>{entry.met, 0, entry.time});
     }
 
+    /// Where they are nearest at a time at which they touch, where nothing better is known.
+    ABUT_NOINLINE ABUT_HD constexpr void come_near(double at) {
+        using namespace contact_math;
+        if (is_settled || !is_searched(size_)) return;
+        plain_simplex s;
+        point along = is_zero(normal) ? way_between_first() : normal;
+        for (int step = 0; step < 48; ++step) {
+            const std::uint32_t i = a_.farthest(along), j = b_.farthest(negated(along));
+            const point tag{static_cast<double>(i), static_cast<double>(j), 0};
+            bool is_there = false;
+            for (int k = 0; k < s.count; ++k) is_there = is_there || s.on_a[k] == tag;
+            if (is_there || s.append(tag, tag, plain_step(plain_difference(b_[j], a_[i]), -at, way_)) != plain_simplex::result::nearer) break;
+            along = s.along;
+        }
+        point sum = b_[numbers_in(s, 0).b];
+        for (int k = 1; k < s.count; ++k) sum = plain_step(sum, s.weight[k], plain_difference(b_[numbers_in(s, k).b], b_[numbers_in(s, 0).b]));
+        on_b = sum;
+        if (s.count < 4 && s.square > plain_product(plain_product(0x1p-60, size_), size_)) normal = s.mean;
+        if (s.count == 4 && at == 0) normal = {0, 0, 0};
+        if (at == 0) gap_at_start = s.count < 4 ? root(one_double{s.square}).high : 0;
+    }
+
 private:
     static constexpr double share = 0x1p-46;
+
+    [[nodiscard]] ABUT_HD constexpr point way_between_first() const {
+        const point along = contact_math::plain_difference(b_[0], a_[0]);
+        return contact_math::is_zero(along) ? point{1, 0, 0} : along;
+    }
 
     ABUT_HD constexpr void look(double until) {
         using namespace contact_math;
         double stop = greatest(r_, plain_product(0x1p-16, extent_));
         plain_simplex s;
-        point along = plain_difference(b_[0], a_[0]);
-        if (is_zero(along)) along = {1, 0, 0};
+        point along = way_between_first();
         for (int step = 0; step < 96; ++step) {
             const double of_n = root(one_double{plain_dot(along, along)}).high;
             if (!(of_n > 0x1p-600)) return stop_at(s);
@@ -215,17 +242,7 @@ private:
 
     /// Where cores overlap, or nothing more is found out.
     ABUT_HD constexpr void stop_at(const plain_simplex& s) {
-        if (s.count == 4 && s.square == 0) {
-            point sum{0, 0, 0};
-            for (int k = 0; k < 4; ++k) sum = plain_step(sum, s.weight[k], b_[numbers_in(s, k).b]);
-            on_b = sum;
-            if (time == 0) {
-                normal = {0, 0, 0};
-                if (hold_origin<T>(s.w)) met = verdict::yes, last = 0;
-            }
-            return;
-        }
-        keep(s);
+        if (s.count == 4 && time == 0 && hold_origin<T>(s.w)) met = verdict::yes, last = 0;
     }
     struct pair_of_numbers {
         std::uint32_t a, b;
@@ -235,23 +252,18 @@ private:
     }
     ABUT_HD constexpr void keep(const plain_simplex& s) {
         feature.count = least(s.count, 3);
-        point sum{0, 0, 0};
         for (int k = 0; k < feature.count; ++k) {
             const pair_of_numbers of = numbers_in(s, k);
             feature.a[k] = of.a, feature.b[k] = of.b;
-            sum = plain_step(sum, s.weight[k], b_[of.b]);
         }
-        on_b = sum;
     }
     /// Whether the nearest points are within r at the start for certain.
     ABUT_HD constexpr bool touch_at_start(const plain_simplex& s) {
         using namespace contact_math;
         const double length = root(one_double{s.square}).high;
         if (!(plain_sum(length, plain_product(share, size_)) < r_)) return false;
-        keep(s);
         met = verdict::yes;
         last = 0;
-        normal = s.along;
         return true;
     }
 
@@ -291,7 +303,7 @@ private:
         for (int k = 0; k < feature.count; ++k) p[k] = plain_difference(b_[feature.b[k]], a_[feature.a[k]]);
         const point seen = plain_step(p[0], -at, way_), e = plain_difference(p[1], p[0]);
         point n = seen;
-        double weight[3] = {1, 0, 0};
+        double weight[3] = {0, 0, 0};
         if (feature.count == 2) {
             weight[1] = -plain_dot(seen, e) / plain_dot(e, e);
             n = plain_cross(e, plain_cross(seen, e));
@@ -303,7 +315,6 @@ private:
             weight[2] = plain_dot(n, plain_cross(e, c)) / nn;
             if (plain_dot(n, p[0]) < 0) n = negated(n);
         }
-        weight[0] = plain_sum(plain_sum(1.0, -weight[1]), -weight[2]);
         const double of_n = root(one_double{plain_dot(n, n)}).high, speed = plain_dot(n, way_);
         if (!(of_n > 0x1p-600)) return false;
         const std::uint32_t i = a_.farthest(n), j = b_.farthest(negated(n));
@@ -321,9 +332,8 @@ private:
         is_settled = true;
         time = least(at, 1.0);
         normal = n;
-        point sum{0, 0, 0};
-        for (int k = 0; k < feature.count; ++k) sum = plain_step(sum, weight[k], b_[feature.b[k]]);
-        on_b = sum;
+        on_b = b_[feature.b[0]];
+        for (int k = 1; k < feature.count; ++k) on_b = plain_step(on_b, weight[k], plain_difference(b_[feature.b[k]], b_[feature.b[0]]));
         first = soonest;
         last = plain_sum(at, lost);
         if (first > 1) met = verdict::no;

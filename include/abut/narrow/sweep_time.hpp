@@ -102,7 +102,7 @@ ABUT_HD constexpr time_bounds sweep_bounds(const swept<S>& s, const U& t, double
     return {time, time};
 }
 
-/// Where a shape on its way touches another one, and in which direction. In double, in one order of operations; nothing is
+/// Where a shape on its way touches another one at that time, and in which direction. In double, in one order of operations; nothing is
 /// decided by them.
 template <scalar T>
 struct sweep_place {
@@ -110,12 +110,14 @@ struct sweep_place {
 };
 template <class S, class U>
     requires sweepable_pair<S, U>
-ABUT_NOINLINE ABUT_HD constexpr auto sweep_place_of(const swept<S>& s, const U& t) {
+ABUT_NOINLINE ABUT_HD constexpr auto sweep_place_of(const swept<S>& s, const U& t, double time) {
     using T = scalar_type_of<S>;
-    return with_cores_on_way(s, t, [](const cores_on_way<T>& both) {
-        const sweep_search<T> found(both, 1);
-        const vec3<double> out = contact_math::negated(contact_math::unit_vector(contact_math::as<contact_math::one_double>(found.normal)));
-        const vec3<double> on = plain_step(found.on_b, static_cast<double>(both.radius_b), out);
+    return with_cores_on_way(s, t, [time](const cores_on_way<T>& both) {
+        sweep_search<T> found(both, 1);
+        found.come_near(time);
+        const vec3<double> along = contact_math::unit_vector(contact_math::as<contact_math::one_double>(found.normal)),
+                           out = contact_math::plain_difference({0, 0, 0}, along);
+        const vec3<double> on = plain_step(found.on_b, least(static_cast<double>(both.radius_b), found.gap_at_start), out);
         return sweep_place<T>{from_seen<T>(widened(both.a[0]), on),
                               {static_cast<T>(out.x), static_cast<T>(out.y), static_cast<T>(out.z)}};
     });
@@ -169,7 +171,7 @@ template <arithmetic A = filtered, shape S, shape U>
         const swept<S> s{mover, way};
         const double time = detail::sweep_time<A>(detail::as_stored(s), detail::as_stored(met));
         if (time < 0) return hit;
-        const auto place = detail::sweep_place_of(s, met);
+        const auto place = detail::sweep_place_of(s, met, static_cast<double>(static_cast<T>(time)));
         hit = {0, static_cast<T>(time), place.point, place.normal};
     }
     return hit;
