@@ -206,7 +206,7 @@ private:
             const double ahead = plain_dot(along, d), speed = plain_dot(along, way_),
                          off = plain_product(plain_product(share, of_n), size_);
             const double gap = plain_sum(plain_sum(ahead, -plain_product(r_, of_n)), -off);
-            if (gap > 0 && plain_sum(gap, -plain_product(until, speed)) > 0) {
+            if (are_apart(gap, speed, off, until)) {
                 met = verdict::no;
                 return;
             }
@@ -238,6 +238,16 @@ private:
             stop = greatest(r_, plain_product(0x1p-6, stop));
         }
         stop_at(s);
+    }
+
+    /// Whether a way along which all differences are `gap` farther ahead than r at the start, for certain, and come nearer at
+    /// a speed, proves that they are apart until then. From a time until which they are known to be, which it may advance.
+    ABUT_HD constexpr bool are_apart(double gap, double speed, double off, double until) {
+        const auto apart_at = [&](double t) { return plain_sum(gap, -plain_product(t, speed)) > 0; };
+        if (!apart_at(apart_until_)) return false;
+        if (apart_at(until)) return true;
+        apart_until_ = greatest(apart_until_, plain_product(gap / plain_sum(speed, off), 1 - 0x1p-50));
+        return false;
     }
 
     /// Where cores overlap, or nothing more is found out.
@@ -320,13 +330,12 @@ private:
         const std::uint32_t i = a_.farthest(n), j = b_.farthest(negated(n));
         const double ahead = plain_dot(n, plain_difference(b_[j], a_[i])), off = plain_product(plain_product(share, of_n), size_);
         const double gap = plain_sum(plain_sum(ahead, -plain_product(r_, of_n)), -off);
-        if (gap > 0 && plain_sum(gap, -plain_product(until, speed)) > 0) {
+        if (are_apart(gap, speed, off, until)) {
             met = verdict::no;
             return true;
         }
-        const double least_speed = plain_sum(speed, off);
         if (!(speed > off)) return false;
-        const double soonest = greatest(plain_product(gap / least_speed, gap > 0 ? 1 - 0x1p-50 : 1 + 0x1p-50), 0.0);
+        const double soonest = apart_until_;
         // The axis is known to some digits. Where the feature is not touched first, another one is ahead by more than that.
         if (!(plain_sum(at, -soonest) <= plain_sum(plain_product(0x1p-36, at), 64 * off / speed))) return false;
         is_settled = true;
@@ -375,7 +384,7 @@ private:
     point from_;
     core_seen<T> a_, b_;
     point way_;
-    double r_, extent_ = 0, size_ = 0;
+    double r_, extent_ = 0, size_ = 0, apart_until_ = 0;
 };
 
 }  // namespace abut::detail
