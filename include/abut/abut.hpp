@@ -40,6 +40,7 @@
 #include <abut/collide/row_each.hpp>
 #include <abut/collide/self_pairs.hpp>
 #include <abut/collide/spans.hpp>
+#include <abut/collide/sweep.hpp>
 #include <abut/collide/touching_bodies.hpp>
 #include <abut/collide/validate.hpp>
 #include <abut/collide/welded_near.hpp>

@@ -38,6 +38,7 @@ ABUT_HD constexpr aabb<scalar_type_of<S>> bounds(const swept<S>& s) {
 
 /// That of the shape, or that the way is not finite.
 template <shape S>
+    requires tells_flaw<S>
 ABUT_HD constexpr shape_flaw flaw_of(const swept<S>& s) {
     shape_flaw flaw = flaw_of(s.start);
     if (!flaw) {
@@ -45,6 +46,13 @@ ABUT_HD constexpr shape_flaw flaw_of(const swept<S>& s) {
         flaw.of = "way ";
     }
     return flaw;
+}
+
+/// The same of a shape that does not tell its flaw.
+template <shape S>
+    requires(!tells_flaw<S>)
+ABUT_HD constexpr bool is_valid(const swept<S>& s) {
+    return is_valid(s.start) && is_valid(s.way);
 }
 
 /// A shape that goes along a vector. Of a point write `swept{point, way}`: `moving` of two points is a motion from one to the
