@@ -280,8 +280,8 @@ struct sweeps_in_parts : ask_sweep<A, Filter> {
 /// that are touched at one time are known to be. The same bits on every policy. `fast` is approximate.
 ///
 /// The point lies on the shape that is touched. The normal has length 1 and points out of that shape; it is zero where shapes
-/// overlap at the start. Both are computed in double at the time of the touch, and nothing is decided by them. Where two
-/// features are touched at one time, as a box that lands on its side, they are those of one of them.
+/// overlap at the start. Both are computed in double at the time of the touch, and nothing is decided by them. Where a shape
+/// is touched in more than one point at a time, as where a box lands on its side, the point is one of them.
 ///
 /// Of several devices (@ref devices) and of ranks (@ref distributed) the executor takes a set of shapes with a way each, which
 /// no hulls are; a row of ranks is a `global_sweep_hit`.
