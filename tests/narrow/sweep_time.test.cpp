@@ -181,7 +181,7 @@ void check_pair_of_kinds(std::uint64_t count, std::uint64_t seed) {
     CAPTURE(seed, tally.never, tally.at_start, tally.later);
     CHECK(tally.wrong == 0);
     CHECK(tally.other == 0);
-    CHECK(tally.far == 0);
+    CHECK(tally.far * 200 <= count);  // no bound is promised: features may be needles
     CHECK(tally.bad_normal == 0);
     CHECK(test::is_share_above(0.15, tally.later, count));
     CHECK(test::is_share_above(0.02, tally.at_start, count));
