@@ -210,6 +210,31 @@ TEMPLATE_TEST_CASE("sweep_time: of all kinds against rationals", "", float, doub
     check_pair_of_kinds<oriented_box, hull, T>(test::some_samples(1000), 15);
 }
 
+// The search stops a little before the touch, and what is nearest there need not be what is touched: past the ends of an edge, or
+// the edges of a face.
+TEST_CASE("sweep_time: what passes the rim of a feature by little") {
+    std::size_t wrong = 0, touched = 0;
+    constexpr std::size_t count = 300;
+    const segment<double> edge{{0, 0, 0}, {1, 0, 0}};
+    const triangle<double> face{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
+    for (std::size_t i = 0; i < count; ++i) {
+        test::uniform random(7000 + i);
+        const double slope = random(0.05, 1), radius = i % 3 == 0 ? 0 : std::ldexp(random(0.5, 1), -20);
+        const vec3<double> at{1 + random(-6e-5, 6e-5), random(-2e-6, 2e-6), i % 2 == 0 ? 0 : random(-2e-4, 2e-4)};
+        const vec3<double> back{-3, 3 * slope, 0};
+        const sphere<double> ball{at + back, radius};
+        const vec3<double> way{3.01, -3.01 * slope, 0};
+        const double to_edge = detail::sweep_time<filtered>(swept<sphere<double>>{ball, way}, edge);
+        wrong += !sweep_oracle(ball, edge, way).is_first(to_edge);
+        const double to_face = detail::sweep_time<filtered>(swept<sphere<double>>{ball, way}, face);
+        wrong += !sweep_oracle(ball, face, way).is_first(to_face);
+        touched += (to_edge >= 0) + (to_face >= 0);
+    }
+    CHECK(wrong == 0);
+    CHECK(touched > count / 4);
+    CHECK(touched < 2 * count);
+}
+
 TEST_CASE("sweep_time: numbers of all exponents, and times that are tiny") {
     std::size_t wrong = 0, touched = 0;
     test::uniform random(5);
