@@ -228,7 +228,8 @@ TEST_CASE("sweep_time: what passes the rim of a feature by little") {
         wrong += !sweep_oracle(ball, edge, way).is_first(to_edge);
         const double to_face = detail::sweep_time<filtered>(swept<sphere<double>>{ball, way}, face);
         wrong += !sweep_oracle(ball, face, way).is_first(to_face);
-        touched += (to_edge >= 0) + (to_face >= 0);
+        touched += to_edge >= 0;
+        touched += to_face >= 0;
     }
     CHECK(wrong == 0);
     CHECK(touched > count / 4);

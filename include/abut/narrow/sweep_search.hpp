@@ -79,6 +79,45 @@ private:
     point from_, kept_[room]{};
 };
 
+/// An `estimate` whose operations are rounded one by one, so that what it decides is decided alike everywhere: what a point and
+/// a normal are made of depends on it.
+struct plain_estimate {
+    double value, error;
+
+    ABUT_HD friend constexpr plain_estimate operator+(const plain_estimate& a, const plain_estimate& b) {
+        return sum(plain_sum(a.value, b.value), plain_sum(a.error, b.error));
+    }
+    ABUT_HD friend constexpr plain_estimate operator-(const plain_estimate& a) { return {-a.value, a.error}; }
+    ABUT_HD friend constexpr plain_estimate operator-(const plain_estimate& a, const plain_estimate& b) { return a + -b; }
+    ABUT_HD friend constexpr plain_estimate operator*(const plain_estimate& a, const plain_estimate& b) {
+        return sum(plain_product(a.value, b.value),
+                   plain_sum(plain_product(absolute(a.value), b.error),
+                             plain_product(a.error, plain_sum(absolute(b.value), b.error))));
+    }
+    ABUT_HD friend constexpr plain_estimate operator/(const plain_estimate& a, const plain_estimate& b) {
+        const double divisor = plain_sum(absolute(b.value), -plain_product(1 + 0x1p-30, b.error)), v = a.value / b.value,
+                     size = absolute(v);
+        if (a.value == 0 && a.error == 0 && divisor > 0) return {0, 0};
+        if (!(divisor > 0 && size > 0x1p-900 && size < 0x1p900)) return {0, infinity<double>};
+        return sum(v, plain_sum(a.error, plain_product(size, b.error)) / divisor);
+    }
+
+private:
+    /// With what rounding may add.
+    ABUT_HD static constexpr plain_estimate sum(double v, double lost) {
+        return {v, plain_sum(lost, plain_product(estimate::roundoff, absolute(v)))};
+    }
+};
+ABUT_HD constexpr plain_estimate root_of(const plain_estimate& x) {
+    if (x.value == 0) return {0, 0};
+    const double v = contact_math::root(contact_math::one_double{x.value}).high;
+    return {v, plain_sum(x.error / v, plain_product(estimate::roundoff, v))};
+}
+ABUT_HD constexpr int sign_or_unknown(const plain_estimate& x) {
+    const double error = plain_product(1 + 0x1p-30, x.error);
+    return x.value > error ? 1 : x.value < -error ? -1 : x.error == 0 ? 0 : unknown_sign;
+}
+
 /// Up to three differences of points b and a, by their numbers.
 struct sweep_feature {
     std::uint32_t a[3]{}, b[3]{};
@@ -304,9 +343,9 @@ private:
     ABUT_HD constexpr bool settle(const plain_simplex& s, double until) {
         using namespace contact_math;
         keep(s);
-        const feature_entry<estimate> entry = enter<52>([](double v) { return estimate{v, 0}; });
+        const feature_entry<plain_estimate> entry = enter<52>([](double v) { return plain_estimate{v, 0}; });
         if (entry.met != verdict::yes) return false;
-        const double at = entry.time.value, lost = (1 + 0x1p-30) * entry.time.error;
+        const double at = entry.time.value, lost = plain_product(1 + 0x1p-30, entry.time.error);
         if (!(lost < infinity<double> && at < 4)) return false;
         // Across the feature, where the line comes to it.
         point p[3]{};
