@@ -163,6 +163,14 @@ void query_rays() {
     const auto detailed = abut::to_host(abut::raycast_detailed(abut::serial{}, tetrahedron, rays, {.most_t = 2}));
     expect(detailed[0].hit == hits[0] && detailed[0].side == abut::ray_side::front && detailed[0].weights.x > 0);
     //! [raycast_detailed]
+    //! [sweep]
+    const abut::spheres<float> balls({{{1, 1, -4}, 1}, {{9, 9, 9}, 1}});
+    const abut::points<float> ways({{0, 0, 6}, {1, 0, 0}});
+    const auto touched = abut::to_host(abut::sweep(abut::serial{}, tetrahedron, balls, ways));
+    expect(touched[0].id == 0 && touched[0].t == 0.5f);  // face 0, from below, when the centre is at -1
+    expect(touched[0].normal == abut::vec3<float>{0, 0, -1});
+    expect(touched[1].id == abut::no_id);                // nothing
+    //! [sweep]
     //! [raycast_any]
     const abut::segments<float> to_light({{{1, 1, -3}, {1, 1, 9}}, {{1, 1, -3}, {1, 1, -1}}});
     const auto in_shadow = abut::raycast_any(abut::serial{}, tetrahedron, to_light);
