@@ -20,6 +20,7 @@
 #include <abut/narrow/numbers.hpp>
 #include <abut/narrow/plain_box.hpp>
 #include <abut/narrow/plain_distance.hpp>
+#include <abut/narrow/plain_oriented.hpp>
 #include <abut/narrow/plain_ways.hpp>
 #include <abut/narrow/revolution_contact.hpp>
 #include <abut/narrow/revolution_hull_distance.hpp>
