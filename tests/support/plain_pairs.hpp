@@ -63,7 +63,7 @@ std::pair<capsule<T>, capsule<T>> make_plain_capsules(std::uint64_t i) {
 }
 
 template <scalar T>
-std::pair<placed_box<T>, sphere<T>> make_plain_box_and_ball(std::uint64_t i) {
+std::pair<oriented_box<T>, sphere<T>> make_plain_box_and_ball(std::uint64_t i) {
     using namespace construction;
     draws d(plain_seed, 2, i);
     const int kind = static_cast<int>(i % 8);
@@ -78,7 +78,8 @@ std::pair<placed_box<T>, sphere<T>> make_plain_box_and_ball(std::uint64_t i) {
     if (kind == 4) pose.rotation[d.below(9)] += static_cast<T>(std::ldexp(1.0, -11 - d.below(20)));
     pose.translation = round_to<T>(at);
     const vec3<T> h = round_to<T>(point{kind == 5 ? 0 : size.x, size.y, size.z});
-    const placed_box<T> box = place(pose, aabb<T>{{-h.x, -h.y, -h.z}, h});
+    oriented_box<T> box{pose.translation, h};
+    for (int k = 0; k < 9; ++k) box.rotation[k] = pose.rotation[k];
     // In the frame of the box: beyond a face or more by the same gap, or inside.
     const double gap = std::ldexp(d.uniform(0.5, 1), -d.below(25));
     int beyond = 0;

@@ -11,6 +11,7 @@
 #include <abut/narrow/half_space_contact.hpp>
 #include <abut/narrow/hull_contact.hpp>
 #include <abut/narrow/plain_box.hpp>
+#include <abut/narrow/plain_oriented.hpp>
 #include <abut/narrow/revolution_contact.hpp>
 #include <abut/narrow/revolution_hull_contact.hpp>
 #include <abut/narrow/revolution_pair_contact.hpp>
@@ -94,6 +95,13 @@ ABUT_HD constexpr auto contact_in_any_order(const S& s, const U& t) {
 template <scalar T, class S, class U>
 ABUT_INLINE ABUT_HD constexpr first_contact<T> first_contact_in_any_order(const S& s, const U& t) {
     if constexpr (seen_as_hull<S> || seen_as_hull<U>) {
+        if constexpr (has_first_contact<S, U>) {
+            const auto first = first_contact_of(s, t, plain_pair<S, U>(s, t));
+            if (first.touch != verdict::unknown) return first;
+        } else if constexpr (has_first_contact<U, S>) {
+            const auto first = first_contact_of(t, s, plain_pair<U, S>(t, s));
+            if (first.touch != verdict::unknown) return {first.touch, reversed(first.found)};
+        }
         const auto a = hull_form(s);
         const auto b = hull_form(t);
         return first_contact_in_any_order<T>(a.as_hull(), b.as_hull());

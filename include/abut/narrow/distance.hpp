@@ -20,6 +20,7 @@
 #include <abut/narrow/numbers.hpp>
 #include <abut/narrow/plain_box.hpp>
 #include <abut/narrow/plain_distance.hpp>
+#include <abut/narrow/plain_oriented.hpp>
 #include <abut/narrow/plain_ways.hpp>
 #include <abut/narrow/revolution_contact.hpp>
 #include <abut/narrow/revolution_hull_distance.hpp>
@@ -95,13 +96,19 @@ template <class S, class U>
 ABUT_NOINLINE ABUT_HD constexpr double positive_distance(const S& s, const U& t, double measured) {
     return positive_distance_over(bounds(s), bounds(t), measured);
 }
-/// Of measured hulls, whose boxes are known.
+/// Of measured hulls, whose boxes are known, or smaller ones that are no nearer to each other: mostly those tell enough.
 template <class U, class Measured>
 ABUT_HD constexpr double positive_distance_of(const U& t, const Measured& m) {
+    using hulls = hulls_in_plain_doubles<scalar_type_of<U>>;
+    const double measured = m.distance();
     if constexpr (refers_to_memory<U>) {
-        return positive_distance_over(m.nearest.box_a, m.nearest.box_b, m.distance());
+        const double first = positive_distance_over(m.nearest.box_a, m.nearest.box_b, measured);
+        if (first == measured || m.nearest.are_boxes_whole) return first;
+        return positive_distance_over(hulls::whole_box(m.a), hulls::whole_box(m.b), measured);
     } else {
-        return positive_distance_over(m.nearest.box_a, bounds(t), m.distance());
+        const double first = positive_distance_over(m.nearest.box_a, bounds(t), measured);
+        if (first == measured || m.nearest.are_boxes_whole) return first;
+        return positive_distance_over(hulls::whole_box(m.a), bounds(t), measured);
     }
 }
 ///@}

@@ -85,24 +85,43 @@ public:
     using number = contact_math::one_double;
     static constexpr int most_steps = 64;
 
-    ABUT_HD constexpr hulls_in_plain_doubles(const hull<T>& a, const hull<T>& b)
+    /// Of which it is known whether they touch, or not.
+    ABUT_HD constexpr hulls_in_plain_doubles(const hull<T>& a, const hull<T>& b, verdict known)
         : a_(a),
           b_(b),
-          kept_a_(a, decltype(kept_a_)::fewest_climbed_for_numbers),
-          kept_b_(b, decltype(kept_b_)::fewest_climbed_for_numbers),
-          box_a_(box_around(a, kept_a_)),
-          box_b_(box_around(b, kept_b_)) {
-        largest_ = greatest(farthest_coordinate(box_a_), farthest_coordinate(box_b_));
-        const bool far = std::same_as<T, double> && (largest_ > 0x1p200 || largest_ < 0x1p-200);
-        if (largest_ > 0 && far) down_ = -contact_math::exponent_of(largest_) - 2;
+          kept_a_(a, fewest_climbed(known)),
+          kept_b_(b, fewest_climbed(known)),
+          box_a_(box_around(a, kept_a_, kept_a_.inner_box())),
+          box_b_(box_around(b, kept_b_, kept_b_.inner_box())),
+          are_boxes_whole_(!kept_a_.are_climbed() && !kept_b_.are_climbed()) {
+        const double sure = greatest(farthest_coordinate(box_a_), farthest_coordinate(box_b_));
+        largest_ = sure;
+        if (kept_a_.are_climbed()) largest_ = greatest(largest_, kept_a_.size_of_all());
+        if (kept_b_.are_climbed()) largest_ = greatest(largest_, kept_b_.size_of_all());
+        if (std::same_as<T, double> && (largest_ > 0x1p200 || sure < 0x1p-200)) {
+            if (!are_boxes_whole_) {
+                box_a_ = box_around(a, kept_a_, kept_a_.box());
+                box_b_ = box_around(b, kept_b_, kept_b_.box());
+                are_boxes_whole_ = true;
+                largest_ = greatest(farthest_coordinate(box_a_), farthest_coordinate(box_b_));
+            }
+            const bool far = largest_ > 0x1p200 || largest_ < 0x1p-200;
+            if (largest_ > 0 && far) down_ = -contact_math::exponent_of(largest_) - 2;
+        }
         keep_as_seen(kept_a_, b[0]);
         keep_as_seen(kept_b_, a[0]);
     }
-    /// Around the hulls.
+    /// Around the hulls, if they are whole; or around some points of each.
     ///@{
     [[nodiscard]] ABUT_HD constexpr aabb<T> box_a() const { return narrowed(box_a_); }
     [[nodiscard]] ABUT_HD constexpr aabb<T> box_b() const { return narrowed(box_b_); }
+    [[nodiscard]] ABUT_HD constexpr bool are_boxes_whole() const { return are_boxes_whole_; }
     ///@}
+    /// Around a hull.
+    ABUT_NOINLINE ABUT_HD static constexpr aabb<T> whole_box(const hull<T>& h) {
+        const kept_points<double, T> kept(h);
+        return narrowed(box_around(h, kept, kept.box()));
+    }
     [[nodiscard]] ABUT_HD constexpr vec3<number> difference(std::uint32_t i, std::uint32_t j) const {
         return seen(widened(a_[i]), widened(b_[j]));
     }
@@ -149,8 +168,12 @@ private:
         return {{static_cast<T>(l.x), static_cast<T>(l.y), static_cast<T>(l.z)},
                 {static_cast<T>(u.x), static_cast<T>(u.y), static_cast<T>(u.z)}};
     }
-    ABUT_HD static constexpr aabb<double> box_around(const hull<T>& h, const kept_points<double, T>& kept) {
-        aabb<double> box = kept.box();
+    ABUT_HD static constexpr std::size_t fewest_climbed(verdict known) {
+        using kept = kept_points<double, T>;
+        return known == verdict::yes ? kept::fewest_climbed_for_numbers : kept::fewest_climbed;
+    }
+    /// That of the kept points, and of the others.
+    ABUT_HD static constexpr aabb<double> box_around(const hull<T>& h, const kept_points<double, T>& kept, aabb<double> box) {
         for (std::size_t i = kept.size(); i < h.count; ++i) box = merge(box, bounds(widened(h[i])));
         return box;
     }
@@ -171,10 +194,11 @@ private:
     }
 
     const hull<T>&a_, &b_;
-    double largest_ = 0;  ///< coordinate
+    double largest_ = 0;  ///< coordinate, or not much more
     int down_ = 0;
     kept_points<double, T> kept_a_, kept_b_;
     aabb<double> box_a_, box_b_;
+    bool are_boxes_whole_;
 };
 
 /// Points of two hulls that are as near to each other as any, as means of the hulls' points, and their distance; or, where
@@ -184,12 +208,13 @@ struct nearest_in_hulls {
     difference_simplex at;
     double weight[4] = {1, 0, 0, 0};
     double length = 0;
-    aabb<T> box_a, box_b;  ///< around the hulls
+    aabb<T> box_a, box_b;  ///< around the hulls, if they are whole; or around some points of each
+    bool are_boxes_whole = true;
 
     /// Where it is known whether the shapes touch, another feature may be taken that is as near, but for rounding.
     ABUT_NOINLINE ABUT_HD constexpr nearest_in_hulls(const hull<T>& a, const hull<T>& b, verdict known = verdict::unknown) {
         vec3<contact_math::one_double> rough[4];
-        const hulls_in_plain_doubles<T> doubles(a, b);
+        const hulls_in_plain_doubles<T> doubles(a, b, known);
         const verdict seems = search(doubles, rough);
         finish(a, b, doubles, rough, seems, known);
     }
@@ -199,7 +224,7 @@ struct nearest_in_hulls {
     ABUT_NOINLINE ABUT_HD constexpr nearest_in_hulls(const hull<T>& a, const hull<T>& b, double radii, const Ask& ask,
                                                      bool& touch) {
         vec3<contact_math::one_double> rough[4];
-        const hulls_in_plain_doubles<T> doubles(a, b);
+        const hulls_in_plain_doubles<T> doubles(a, b, verdict::unknown);
         const verdict seems = search(doubles, rough);
         if (seems != verdict::yes && measure_in_doubles(doubles, rough, verdict::no) &&
             doubles.are_surely_beyond(radii, length)) {
@@ -256,6 +281,7 @@ private:
     ABUT_HD constexpr verdict search(const hulls_in_plain_doubles<T>& doubles, vec3<contact_math::one_double> (&rough)[4]) {
         box_a = doubles.box_a();
         box_b = doubles.box_b();
+        are_boxes_whole = doubles.are_boxes_whole();
         return search_origin<sought::nearest>(doubles, at, rough);
     }
     /// From where the search in doubles came to.

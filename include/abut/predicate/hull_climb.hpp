@@ -83,6 +83,13 @@ public:
         for (int k = 0; k < 6; ++k) box = merge(box, bounds(last_along(k)));
         return box;
     }
+    /// A box within that, around the points that are first and last along an axis where they are not placed.
+    [[nodiscard]] ABUT_HD constexpr aabb<double> inner_box() const {
+        aabb<double> box = empty_box<double>();
+        ABUT_ROLLED
+        for (int k = 0; k < 6; ++k) box = merge(box, bounds((*this)[of_->edges[k]]));
+        return box;
+    }
     /// The largest magnitude of a coordinate. Looks no way along which there is none, as the box tells that is not placed.
     [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr double largest() const {
         const point c = middle();

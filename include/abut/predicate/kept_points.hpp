@@ -31,8 +31,8 @@ template <scalar F, scalar T>
 class kept_points {
 public:
     static constexpr std::size_t room = ABUT_DEVICE_CODE ? 0 : 512;
-    /// Of so many points, hulls with edges are climbed, in doubles, where yes or no is asked; and where numbers are, for which the
-    /// largest coordinate has to be known and faces across the way are common. Fewer are read in less time.
+    /// Of so many points, hulls with edges are climbed, in doubles, where yes or no is asked, or how far apart they are; and where
+    /// numbers of shapes that touch, or of solids are, with which faces across the way are common. Fewer are read in less time.
     static constexpr std::size_t fewest_climbed = 128, fewest_climbed_for_numbers = 384;
 
     /// Those of a hull, its first ones, where they are in the world. What of the arrays they leave stays as it is: to clear
@@ -94,6 +94,15 @@ public:
                   {greatest_of(upper.x), greatest_of(upper.y), greatest_of(upper.z)}};
 #endif
         return around;
+    }
+    /// Whether the points are not kept but climbed, so that their box takes time to find.
+    [[nodiscard]] ABUT_HD constexpr bool are_climbed() const { return is_climbed_; }
+    /// The smallest box around some of them where they are climbed, or around all.
+    [[nodiscard]] ABUT_HD constexpr aabb<F> inner_box() const {
+        if constexpr (may_climb) {
+            if (is_climbed_) return climb_.inner_box();
+        }
+        return box();
     }
     /// The largest magnitude of a coordinate; 0 of no points.
     [[nodiscard]] ABUT_HD constexpr F largest() const {
