@@ -12,6 +12,14 @@
 
 namespace abut::detail {
 
+// Of vectors of such integers: those of arithmetic/vec.hpp are for devices too, where these are not.
+
+inline vec3<big_int> operator-(const vec3<big_int>& a, const vec3<big_int>& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline big_int dot(const vec3<big_int>& a, const vec3<big_int>& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline vec3<big_int> cross(const vec3<big_int>& a, const vec3<big_int>& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
 /// A unit of all numbers that were looked at.
 template <scalar T>
 class whole_numbers {
