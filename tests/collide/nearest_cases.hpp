@@ -194,6 +194,16 @@ void check_nearest_to_mesh(const Policy& on) {
     check_answers(on, tree, shapes<vec3<T>>(points), expected);
     check_answers(on, tree, points[0], std::vector<neighbor<T>>{expected[0]});
     check_answers(on, there, points[0], std::vector<neighbor<T>>{expected[0]});
+    // Points that lie close to faces look alone on a device; from farther away than some edges they look together.
+    std::vector<vec3<T>> close, far;
+    for (std::size_t i = 0; i < 1000; ++i) {
+        const triangle<T> t = surface.view()[static_cast<std::uint32_t>(random.below(shape.faces.size()))];
+        close.push_back(T(0.25) * t.a + T(0.25) * t.b + T(0.5) * t.c + random.point<T>(-0.01, 0.01));
+        far.push_back(T(i % 2 == 0 ? 40 : 12) * points[i]);
+    }
+    for (const auto& some : {close, far}) {
+        check_answers(on, tree, some, nearest_by_definition(surface.view(), some, unit_of_all(surface.view(), some)));
+    }
     const rigid<T> pose{{0, -1, 0, 1, 0, 0, 0, 0, 1}, {1, 2, 3}};
     const posed_view<mesh_view<T>> placed{surface.view(), pose};
     check_answers(on, posed(tree, pose), points, nearest_by_definition(placed, points, unit_of_all(placed, points)));
