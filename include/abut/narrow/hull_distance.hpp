@@ -337,7 +337,17 @@ private:
         length = 0;
         if (known == verdict::no || far.high > 0x1p-51 * size) {
             // Integers measure what is much less than D.
-            if (!(far.high > 0x1p-10 * size && (far - x.least_product(v) / far).high <= 0x1p-51 * size)) return false;
+            if (!(far.high > 0x1p-10 * size)) return false;
+            // What lies between: along the way, or along the normal of a triangle, which is known to more digits.
+            const auto shows = [&](const vec3<one_double>& n, const one_double& length_of_n) {
+                return (far - x.least_product(n) / length_of_n).high <= 0x1p-51 * size;
+            };
+            if (!shows(v, far)) {
+                if (at.count != 3) return false;
+                auto n = cross(w[1] - w[0], w[2] - w[0]);
+                if (dot(n, w[0]).high < 0) n = cross(w[2] - w[0], w[1] - w[0]);
+                if (!shows(n, root(dot(n, n)))) return false;
+            }
             length = x.length_of(far);
         }
         for (int k = 0; k < at.count; ++k) weight[k] = part[k];

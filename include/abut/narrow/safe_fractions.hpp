@@ -18,18 +18,20 @@
 // of A. H. Chen, J. Hsu, Z. Liu, M. Macklin, Y. Yang, C. Yuksel, Offset geometric contact (2025): a point that stays in the
 // sphere of half the distance around its place has not come to the middle. So the plane allows no less than that.
 //
-// Rounding. g and m are right by definition. u = 2^-52, X the largest coordinate of x_i relative to one of the points, D
+// Rounding. Each operation is rounded by itself, so that the bits are the same everywhere. g and m are right by definition. u = 2^-52, X the largest coordinate of x_i relative to one of the points, D
 // that of the ways. s_i - m is off by less than 8u |g| X and c_i by 5u |g| D, |g| the sum of magnitudes: 2^-46 is eight
 // times that. g is scaled to coordinates of 1 at most, so that what underflows, or is a denormal float that a mode reads as
 // 0, is below `tiny`. The quotient is rounded down by 2^-48. Where coordinates are beyond 2^200, nothing that moves may.
 
 #include <concepts>
 
+#include <abut/arithmetic/error_free.hpp>
 #include <abut/arithmetic/limits.hpp>
 #include <abut/arithmetic/magnitude.hpp>
 #include <abut/arithmetic/vec.hpp>
+#include <abut/narrow/nearest_point.hpp>
+#include <abut/narrow/numbers.hpp>
 #include <abut/predicate/motion.hpp>
-#include <abut/shape/outward.hpp>
 
 namespace abut::detail {
 
@@ -74,18 +76,28 @@ private:
     /// Between the points that are nearest to each other at t = 0; it need not be right.
     [[nodiscard]] ABUT_HD constexpr vec3<double> from_second_to_first() const {
         if constexpr (Edges) {
-            const vec3<double> u = place_[1] - place_[0], v = place_[3] - place_[2], w = place_[2] - place_[0];
-            const parts_of_edges at = nearest_on_edges(u, v, w);
-            return at.of_u * u - w - at.of_v * v;
+            const vec3<double> u = plain_difference(place_[1], place_[0]), v = plain_difference(place_[3], place_[2]),
+                               w = plain_difference(place_[2], place_[0]);
+            const double uu = plain_dot(u, u), uv = plain_dot(u, v), vv = plain_dot(v, v), uw = plain_dot(u, w), vw = plain_dot(v, w);
+            const auto into_unit = [](double x) { return x > 0 ? least(x, 1.0) : 0.0; };  // 0 for NaN
+            const auto less = [](double x, double y) { return plain_sum(x, -y); };
+            const double s = into_unit(less(plain_product(uw, vv), plain_product(vw, uv)) /
+                                       less(plain_product(uu, vv), plain_product(uv, uv)));
+            const double of_v = into_unit(less(plain_product(uv, s), vw) / vv);
+            const double of_u = into_unit(plain_sum(plain_product(uv, of_v), uw) / uu);
+            const vec3<double> on_u = plain_step({0, 0, 0}, of_u, u), on_v = plain_step(w, of_v, v);
+            return plain_difference(on_u, on_v);
         } else {
-            return nearest_to_origin(place_[0] - place_[1], place_[0] - place_[2], place_[0] - place_[3]);
+            const auto from_first = [&](int i) { return plain_difference(place_[i], place_[0]); };
+            const vec3<double> foot = foot_on_triangle(from_first(1), from_first(2), from_first(3));
+            return {-foot.x, -foot.y, -foot.z};
         }
     }
     /// Across the face, or both edges: known to many digits where the other is not, as of needles.
     [[nodiscard]] ABUT_HD constexpr vec3<double> across() const {
-        const vec3<double> n = Edges ? cross(place_[1] - place_[0], place_[3] - place_[2])
-                                     : cross(place_[2] - place_[1], place_[3] - place_[1]);
-        return dot(n, place_[0] - place_[of_first]) < 0 ? -1.0 * n : n;
+        const vec3<double> n = Edges ? plain_cross(plain_difference(place_[1], place_[0]), plain_difference(place_[3], place_[2]))
+                                     : plain_cross(plain_difference(place_[2], place_[1]), plain_difference(place_[3], place_[1]));
+        return plain_dot(n, plain_difference(place_[0], place_[of_first])) < 0 ? vec3<double>{-n.x, -n.y, -n.z} : n;
     }
 
     [[nodiscard]] ABUT_HD constexpr bool part_by(const vec3<double>& normal, double separation,
@@ -93,26 +105,31 @@ private:
         const double size = largest_coordinate(normal);
         if (!(size > 0 && size < infinity<double>)) return false;
         const vec3<double> g{normal.x / size, normal.y / size, normal.z / size};
-        const double sum = magnitudes(g), lost_at = 0x1p-46 * sum * extent_ + tiny,
-                     lost_way = 0x1p-46 * sum * longest_ + tiny;
-        const double kept = separation > 0 ? 0.5 * (1 + 0x1p-40) * separation * length_above(g) : 0;
+        const double sum = plain_sum(plain_sum(absolute(g.x), absolute(g.y)), absolute(g.z));
+        const auto lost_of = [&](double most) { return plain_sum(plain_product(0x1p-46, plain_product(sum, most)), tiny); };
+        const double lost_at = lost_of(extent_), lost_way = lost_of(longest_);
+        const double length = contact_math::root(contact_math::one_double{plain_dot(g, g)}).high;  // from 1 to 2
+        const double kept = separation > 0 ? plain_product(plain_product(0.5 * (1 + 0x1p-40), separation), length) : 0;
 
         double side[4]{}, closing[4]{}, low = infinity<double>, high = -infinity<double>, fastest[2] = {0, 0};
         for (int i = 0; i < 4; ++i) {
             const bool first = i < of_first;
-            side[i] = dot(g, place_[i]);
-            closing[i] = rests_[i] ? 0 : (first ? -1.0 : 1.0) * dot(g, way_[i]) + lost_way;
+            side[i] = plain_dot(g, place_[i]);
+            const double along = plain_dot(g, way_[i]);
+            closing[i] = rests_[i] ? 0 : plain_sum(first ? -along : along, lost_way);
             (first ? low : high) = first ? least(side[i], low) : greatest(side[i], high);
             fastest[first ? 0 : 1] = greatest(closing[i], fastest[first ? 0 : 1]);
         }
-        const double room = low - high - 2 * (lost_at + kept);
+        const double lost = plain_sum(lost_at, kept), room = plain_sum(plain_sum(low, -high), -2 * lost);
         if (!(room > 0)) return false;
         // What each needs and a little more, so that both sides are sure to be off the plane.
-        const auto share = [&](double needed) { return least(needed / room * (1 + 0x1p-10) + 0x1p-10, 0.5); };
+        const auto share = [&](double needed) {
+            return least(plain_sum(plain_product(needed / room, 1 + 0x1p-10), 0x1p-10), 0.5);
+        };
         const double of_1 = share(fastest[0]), of_2 = share(fastest[1]), part_of_1 = of_2 < 0.5 ? 1 - of_2 : of_1;
-        const double plane = low - lost_at - kept - part_of_1 * room;
+        const double plane = plain_sum(plain_sum(low, -lost), -plain_product(part_of_1, room));
         for (int i = 0; i < 4; ++i) {
-            const double left = (i < of_first ? side[i] - plane : plane - side[i]) - lost_at - kept;
+            const double off = plain_sum(side[i], -plane), left = plain_sum(i < of_first ? off : -off, -lost);
             if (!(left > 0)) return false;
             const double part = closing[i] > 0 ? (1 - 0x1p-48) * (left / closing[i]) : 1;
             found.of[i] = part < 1 ? part : 1;
