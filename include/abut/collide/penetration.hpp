@@ -195,7 +195,7 @@ template <execution_policy Policy, class X, class Y>
     } else if constexpr (detail::are_solids<X, Y>()) {
         using T = detail::scalar_of_argument<X>;
         penetration_bounds<T> found;
-        detail::faces_of_two<T> faces(detail::faces_on_host(on, detail::make_operand(on, a, function)),
+        detail::faces_of_solids<T> faces(detail::faces_on_host(on, detail::make_operand(on, a, function)),
                                       detail::faces_on_host(on, detail::make_operand(on, b, function)));
         const auto of_a = detail::triangles_of_faces(faces.first), of_b = detail::triangles_of_faces(faces.second);
         detail::unit_of_search unit;

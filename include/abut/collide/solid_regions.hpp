@@ -113,7 +113,7 @@ aabb<T> box_of(const std::vector<mesh_face<T>>& faces) {
 
 /// The faces of two solids in host memory.
 template <scalar T>
-using faces_of_two = std::pair<std::vector<mesh_face<T>>, std::vector<mesh_face<T>>>;
+using faces_of_solids = std::pair<std::vector<mesh_face<T>>, std::vector<mesh_face<T>>>;
 
 /// Whether no inner point of one box is one of the other. Then solids within them have none in common.
 template <scalar T>
@@ -298,7 +298,7 @@ class solids_by_policy {
 public:
     using T = scalar_of_argument<X>;
     /// faces: of both on the host, where they are there; or null
-    solids_by_policy(const Policy& on, const X& x, const Y& y, const char* function, const faces_of_two<T>* faces = nullptr)
+    solids_by_policy(const Policy& on, const X& x, const Y& y, const char* function, const faces_of_solids<T>* faces = nullptr)
         : on_(on), x_(x), y_(y), function_(function), faces_(faces), a_(make_operand(on, x, function)), b_(make_operand(on, y, function)),
           pairing_(pair_operands(on_, a_, b_, all_)) {}
     solids_by_policy(const solids_by_policy&) = delete;
@@ -341,7 +341,7 @@ private:
     const X& x_;
     const Y& y_;
     const char* function_;
-    const faces_of_two<T>* faces_;
+    const faces_of_solids<T>* faces_;
     operand_a a_;
     operand_b b_;
     query_options<> all_;
