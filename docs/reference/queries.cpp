@@ -164,9 +164,9 @@ void query_rays() {
     expect(detailed[0].hit == hits[0] && detailed[0].side == abut::ray_side::front && detailed[0].weights.x > 0);
     //! [raycast_detailed]
     //! [sweep]
-    const abut::spheres<float> balls({{{1, 1, -4}, 1}, {{9, 9, 9}, 1}});
+    const abut::spheres<float> moved_balls({{{1, 1, -4}, 1}, {{9, 9, 9}, 1}});
     const abut::points<float> ways({{0, 0, 6}, {1, 0, 0}});
-    const auto touched = abut::to_host(abut::sweep(abut::serial{}, tetrahedron, balls, ways));
+    const auto touched = abut::to_host(abut::sweep(abut::serial{}, tetrahedron, moved_balls, ways));
     expect(touched[0].id == 0 && touched[0].t == 0.5f);  // face 0, from below, when the centre is at -1
     expect(touched[0].normal == abut::vec3<float>{0, 0, -1});
     expect(touched[1].id == abut::no_id);                // nothing
