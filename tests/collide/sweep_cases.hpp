@@ -149,6 +149,25 @@ void check_sweep_of_sets(const Policy& on, int movers_of_a_kind) {
     }
 }
 
+/// Balls on their ways among triangles of a lattice, with ties.
+struct sweep_scene {
+    std::vector<triangle<float>> triangles;
+    std::vector<swept<sphere<float>>> balls;
+
+    sweep_scene(std::size_t faces, std::size_t movers) {
+        uniform random(197);
+        const auto place = [&](float far) { return on_sweep_lattice(random.point<float>(-far, far), true); };
+        for (std::size_t i = 0; i < faces; ++i) {
+            const vec3<float> p = place(4);
+            triangles.push_back({p, p + place(1.5f), p + place(1.5f)});
+        }
+        for (std::size_t i = 0; i < movers; ++i) {
+            const vec3<float> from = place(6);
+            balls.push_back({{from, static_cast<float>(random.below(3)) / 2}, place(4) - from});
+        }
+    }
+};
+
 /// At the ends of the range, where squares overflow and are flushed.
 template <class T, class Policy>
 void check_sweep_scales(const Policy& on) {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "devices/host_team.hpp"
 
+#include <algorithm>
+
 #include "collide/ray_options_cases.hpp"
+#include "collide/sweep_cases.hpp"
 #include "devices/question_cases.hpp"
 #include "support/scenes.hpp"
 #include "support/surfaces.hpp"
@@ -15,6 +18,19 @@ TEST_CASE("devices: points, rays and distances in double, on several threads eac
     const abut::test::host_team<abut::openmp> team(3, abut::openmp{.threads = 2});
     abut::test::device_cases::check_nearest_few<double>(team);
     abut::test::device_cases::check_distance_on<double>(team);
+}
+
+TEST_CASE("devices: balls touch on their ways what they touch on one policy") {
+    using namespace abut;
+    const test::host_team<serial> team(GENERATE(1, 3));
+    const test::sweep_scene scene(150, 300);
+    const triangle_soup<float> soup(scene.triangles);
+    const shapes<swept<sphere<float>>> balls(scene.balls);
+    const auto expected = to_host(sweep(serial{}, make_bvh(serial{}, soup), balls));
+    CHECK(std::count_if(expected.begin(), expected.end(), [](const auto& hit) { return hit.t > 0 && hit.t < 1; }) > 100);
+    CHECK((to_host(sweep(team, make_bvh(team, soup), balls)) == expected));
+    CHECK((to_host(sweep(team, make_bvh(team, divide(team, soup)), balls)) == expected));
+    CHECK((to_host(sweep<exact>(team, make_bvh(team, divide(team, soup)), replicate(team, balls))) == expected));
 }
 
 TEST_CASE("devices: rays meet solids on several policies as on one") {

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "collide/sweep_cases.hpp"
 #include "distributed/world.hpp"
 #include "support/poses.hpp"
 #include "support/surfaces.hpp"
@@ -132,6 +133,21 @@ TEST_CASE("distributed: segments in double, and more rays than a message takes")
     const divided_set many(rays_around<float>(70'000, 86), division::all_on_first, on.ranks());
     const auto expected = to_host(raycast(serial{}, make_bvh(serial{}, few.whole), many.whole));
     CHECK((lists_of_all(on.ranks(), to_host(raycast(alone, few.part, many.part))) == in_all_parts(expected)));
+}
+
+TEST_CASE("distributed: balls touch on their ways what is first of all parts") {
+    const distributed on(world(), serial{});
+    const sweep_scene scene(150, 300);
+    std::vector<global_sweep_hit<float>> expected;
+    for (const auto& hit : to_host(sweep(serial{}, triangle_soup<float>(scene.triangles), shapes<swept<sphere<float>>>(scene.balls)))) {
+        expected.push_back({hit.id == no_id ? no_global_id : hit.id, hit.t, hit.point, hit.normal});
+    }
+    for (const division how : {division::even, division::uneven}) {
+        const triangle_soup<float> part(part_of(scene.triangles, how, on.rank(), on.size()));
+        const shapes<swept<sphere<float>>> mine(part_of(scene.balls, how, on.rank(), on.size()));
+        CHECK((lists_of_all(on.ranks(), to_host(sweep(on, part, mine))) == expected));
+        CHECK((lists_of_all(on.ranks(), to_host(sweep<exact>(on, make_bvh(on.local(), part), mine))) == expected));
+    }
 }
 
 TEST_CASE("distributed: options of rays") {

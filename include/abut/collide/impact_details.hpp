@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include <abut/collide/features.hpp>
 #include <abut/collide/impact_index.hpp>
 #include <abut/collide/impacts.hpp>
 #include <abut/error.hpp>
@@ -55,8 +56,7 @@ struct bad_impact {
             kind == feature_pair::vertex_face || kind == feature_pair::face_vertex || kind == feature_pair::edge_edge;
         bool good = is_kind && all[i].time >= 0 && all[i].time <= 1;
         for (int k = 0; k < 4; ++k) {
-            const bool in_a = kind == feature_pair::edge_edge ? k < 2 : (k == 0) == (kind == feature_pair::vertex_face);
-            good = good && v[k] < (in_a ? of_a : of_b);
+            good = good && v[k] < (is_of_first(kind, k) ? of_a : of_b);
         }
         return good ? none_is_bad : i;
     }

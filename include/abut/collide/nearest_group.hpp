@@ -136,7 +136,7 @@ struct nearest_to_group {
             });
         };
         look_past(walk.shape_near(frame.ball_around(middle).center));
-        const T farthest = all.least([&](unsigned k) {
+        const T are_close = all.least([&](unsigned k) {
             const vec3<T> minus_twice = T(-2) * (memory.world[k] - middle);
             T limit = memory.corner.at_most + dot(minus_twice, memory.corner.at), is_close = 0;
             if (left != nullptr) {
@@ -150,7 +150,7 @@ struct nearest_to_group {
             memory.mine[k] = 0;
             return is_close;
         });
-        if (farthest > 0) {
+        if (are_close > 0) {
             all.each([&](unsigned k) {
                 if (k == 0) *(left_end - 1 - execution::atomic_add(counts + 1, 1u)) = static_cast<std::uint32_t>(number);
             });

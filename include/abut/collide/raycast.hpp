@@ -75,52 +75,69 @@ ABUT_HD T time_as(double time) {
     return static_cast<T>(time < most ? time : most);
 }
 
-/// Of each line what it meets first. Times are rounded where two shapes are met at nearly the same one, and at the end.
+/// Looks for what a line, or something else that goes along one, meets first. `All` has
+///   bounds(line, row, id, until)   between which times a shape is met, negative ones where that is not by `until`
+///   time(line, id)                 that time, rounded
+///   in_scalars                     whether times need only become the right scalars: then they may be off by less than that tells
+/// Times are rounded where two shapes are met at nearly the same one, and at the end.
+template <class All>
+struct look_for_first {
+    typename All::line_type line;
+    typename All::row_type row;
+    double earliest = infinity<double>;  ///< the least time that the first shape so far may have; the sink has the most
+
+    ABUT_CALLS_ANY
+    template <class Id, class Best>
+    ABUT_HD bool operator()(const All& all, Id id, Best& best) {
+        time_bounds time = all.bounds(line, row, id, best.bound());
+        if (time.first < 0 || time.first > best.bound()) return false;
+        bool is_tie = false;
+        if (!(time.last < earliest)) {
+            round(all, best);
+            if (time.first > best.bound()) return false;
+            if (!time.is_one()) time.first = time.last = all.time(line, id);
+            is_tie = time.first == best.bound();
+            if (!execution::least_value{time.first, id}.comes_before(best.known())) return is_tie;
+        }
+        earliest = time.first;
+        best.offer(time.last, id);
+        return is_tie;
+    }
+    template <class Best>
+    ABUT_HD void end(const All& all, std::size_t, Best& best) {
+        using T = scalar_type_of<typename All::line_type>;
+        if (!all.in_scalars || time_as<T>(earliest) != time_as<T>(best.known().value)) round(all, best);
+    }
+
+private:
+    template <class Best>
+    ABUT_HD void round(const All& all, Best& best) {
+        const execution::least_value last = best.known();
+        if (earliest == last.value) return;
+        earliest = all.time(line, static_cast<typename All::id_type>(last.key));
+        best.offer(earliest, last.key);
+    }
+};
+
+/// Of each line what it meets first.
 template <class A, class Walk, class Frame, class Shapes, class Lines, class Wanted>
 struct walk_along_lines {
+    using line_type = typename Lines::shape_type;
+    using row_type = typename Wanted::row_type;
+    using id_type = walk_id<Walk>;
     Walk walk;
     Frame frame;
     Shapes shapes;
     Lines lines;
     Wanted wanted;
-    bool in_scalars;  ///< whether times need only become the right scalars: then they may be off by less than that tells
+    bool in_scalars;
 
-    struct look {
-        typename Lines::shape_type line;
-        typename Wanted::row_type row;
-        double earliest = infinity<double>;  ///< the least time that the first shape so far may have; the sink has the most
-
-        ABUT_CALLS_ANY
-        template <class Best>
-        ABUT_HD bool operator()(const walk_along_lines& all, walk_id<Walk> id, Best& best) {
-            time_bounds time = all.wanted.template bounds<A>(row, line, all.shapes[id], id);
-            if (time.first < 0 || time.first > best.bound()) return false;
-            bool is_tie = false;
-            if (!(time.last < earliest)) {
-                round(all, best);
-                if (!time.is_one()) time.first = time.last = hit_time_apart<A>(line, all.shapes[id]);
-                is_tie = time.first == best.bound();
-                if (!execution::least_value{time.first, id}.comes_before(best.known())) return is_tie;
-            }
-            earliest = time.first;
-            best.offer(time.last, id);
-            return is_tie;
-        }
-        template <class Best>
-        ABUT_HD void end(const walk_along_lines& all, std::size_t, Best& best) {
-            using T = typename Lines::scalar_type;
-            if (!all.in_scalars || time_as<T>(earliest) != time_as<T>(best.known().value)) round(all, best);
-        }
-
-    private:
-        template <class Best>
-        ABUT_HD void round(const walk_along_lines& all, Best& best) {
-            const execution::least_value last = best.known();
-            if (earliest == last.value) return;
-            earliest = hit_time_apart<A>(line, all.shapes[static_cast<walk_id<Walk>>(last.key)]);
-            best.offer(earliest, last.key);
-        }
-    };
+    ABUT_CALLS_ANY
+    [[nodiscard]] ABUT_HD time_bounds bounds(const line_type& line, const row_type& row, id_type id, double) const {
+        return wanted.template bounds<A>(row, line, shapes[id], id);
+    }
+    [[nodiscard]] ABUT_HD double time(const line_type& line, id_type id) const { return hit_time_apart<A>(line, shapes[id]); }
+    using look = look_for_first<walk_along_lines>;
     ABUT_HD look start(std::size_t i) const { return {lines[i], wanted.row(i)}; }
     ABUT_HD auto seen(std::size_t i) const { return line_along(frame, lines[i]); }
 
@@ -151,7 +168,7 @@ struct walk_along_lines {
             const execution::least_value last = best.known();
             if (earliest == last.value || (all.in_scalars && time_as<T>(earliest) == time_as<T>(last.value))) return true;
             const auto again = line;
-            best.offer(hit_time_apart<A>(again, all.shapes[static_cast<walk_id<Walk>>(last.key)]), last.key);
+            best.offer(all.time(again, static_cast<id_type>(last.key)), last.key);
             return true;
         }
     };

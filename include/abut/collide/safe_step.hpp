@@ -21,6 +21,7 @@
 
 #include <abut/arithmetic/align.hpp>
 #include <abut/collide/executor.hpp>
+#include <abut/collide/features.hpp>
 #include <abut/collide/first_impact.hpp>
 #include <abut/collide/impact_index.hpp>
 #include <abut/collide/impacts.hpp>
@@ -88,14 +89,9 @@ struct limit_vertices {
         both.write_vertices(key, vertices);
         const feature_pair kind = both.key.kind(key);
         for (int k = 0; k < 4; ++k) {
-            const bool in_a = kind == feature_pair::edge_edge ? k < 2 : (k == 0) == (kind == feature_pair::vertex_face);
-            execution::atomic_min((in_a ? of_a : of_b) + vertices[k], ABUT_BIT_CAST(std::uint64_t, part.of[k]));
+            execution::atomic_min((is_of_first(kind, k) ? of_a : of_b) + vertices[k], ABUT_BIT_CAST(std::uint64_t, part.of[k]));
         }
     }
-};
-struct set_bits {
-    std::uint64_t *out, value;
-    ABUT_HD void operator()(std::size_t i) const { out[i] = value; }
 };
 struct bits_to_number {
     const std::uint64_t* bits;
@@ -108,7 +104,7 @@ template <class Policy>
 class vertex_limits {
 public:
     vertex_limits(const Policy& policy, std::size_t count) : on_(policy), bits_(policy, count) {
-        for_each_index(on_, count, set_bits{bits_.data(), ABUT_BIT_CAST(std::uint64_t, 1.0)});
+        fill(on_, bits_.data(), count, ABUT_BIT_CAST(std::uint64_t, 1.0));
     }
     [[nodiscard]] std::uint64_t* data() { return bits_.data(); }
     [[nodiscard]] auto numbers() const {

@@ -67,51 +67,22 @@ struct swept_operand {
 /// Of each shape on its way what it touches first, as walk_along_lines.
 template <class A, class Walk, class Frame, class Shapes, class Rows, class Wanted>
 struct walk_along_ways {
+    using line_type = typename Rows::shape_type;
+    using row_type = std::size_t;
+    using id_type = walk_id<Walk>;
     Walk walk;
     Frame frame;
     Shapes shapes;
     Rows rows;
     Wanted wanted;
-    bool in_scalars;  ///< whether times need only become the right scalars
+    bool in_scalars;
 
-    struct look {
-        typename Rows::shape_type mover;
-        std::size_t row;
-        double earliest = infinity<double>;  ///< the least time that the first shape so far may have; the sink has the most
-
-        ABUT_CALLS_ANY
-        template <class Best>
-        ABUT_HD bool operator()(const walk_along_ways& all, walk_id<Walk> id, Best& best) {
-            if (!all.wanted(row, id)) return false;
-            time_bounds time = sweep_bounds<A>(mover, all.shapes[id], best.bound());
-            if (time.first < 0 || time.first > best.bound()) return false;
-            bool is_tie = false;
-            if (!(time.last < earliest)) {
-                round(all, best);
-                if (time.first > best.bound()) return false;
-                if (!time.is_one()) time.first = time.last = sweep_time<A>(mover, all.shapes[id]);
-                is_tie = time.first == best.bound();
-                if (!execution::least_value{time.first, id}.comes_before(best.known())) return is_tie;
-            }
-            earliest = time.first;
-            best.offer(time.last, id);
-            return is_tie;
-        }
-        template <class Best>
-        ABUT_HD void end(const walk_along_ways& all, std::size_t, Best& best) {
-            using T = typename Rows::scalar_type;
-            if (!all.in_scalars || time_as<T>(earliest) != time_as<T>(best.known().value)) round(all, best);
-        }
-
-    private:
-        template <class Best>
-        ABUT_HD void round(const walk_along_ways& all, Best& best) {
-            const execution::least_value last = best.known();
-            if (earliest == last.value) return;
-            earliest = sweep_time<A>(mover, all.shapes[static_cast<walk_id<Walk>>(last.key)]);
-            best.offer(earliest, last.key);
-        }
-    };
+    ABUT_CALLS_ANY
+    [[nodiscard]] ABUT_HD time_bounds bounds(const line_type& mover, row_type row, id_type id, double until) const {
+        return wanted(row, id) ? sweep_bounds<A>(mover, shapes[id], until) : time_bounds{-1, -1};
+    }
+    [[nodiscard]] ABUT_HD double time(const line_type& mover, id_type id) const { return sweep_time<A>(mover, shapes[id]); }
+    using look = look_for_first<walk_along_ways>;
     ABUT_HD look start(std::size_t i) const { return {rows[i], i}; }
     ABUT_HD auto seen(std::size_t i) const { return sweep_seen(frame, rows[i]); }
 };

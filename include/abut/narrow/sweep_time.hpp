@@ -12,6 +12,7 @@
 #include <cstdint>
 
 #include <abut/arithmetic/arithmetic.hpp>
+#include <abut/arithmetic/error_free.hpp>
 #include <abut/arithmetic/limits.hpp>
 #include <abut/narrow/hit_time.hpp>
 #include <abut/narrow/nearest_point.hpp>
@@ -90,12 +91,13 @@ ABUT_HD constexpr time_bounds sweep_bounds(const swept<S>& s, const U& t, double
     using T = scalar_type_of<S>;
     if constexpr (std::same_as<A, filtered>) {
         if (!ABUT_CONSTANT_EVALUATED()) {
-            const auto bounds = with_cores_on_way(s, t, [until](const cores_on_way<T>& both) {
+            return with_cores_on_way(s, t, [until](const cores_on_way<T>& both) {
                 const sweep_search<T> found(both, least(until * (1 + 0x1p-50), 1.0));
-                return found.met == verdict::no ? time_bounds{-1, -1}
-                                                : time_bounds{found.first, found.met == verdict::yes ? found.last : -1};
+                if (found.met == verdict::no) return time_bounds{-1, -1};
+                if (found.met == verdict::yes) return time_bounds{found.first, found.last};
+                const double time = exact_sweep_time(both, found.time);
+                return time_bounds{time, time};
             });
-            if (bounds.first < 0 || bounds.last >= 0) return bounds;
         }
     }
     const double time = sweep_time<A>(s, t);
@@ -119,7 +121,7 @@ ABUT_NOINLINE ABUT_HD constexpr auto sweep_place_of(const swept<S>& s, const U& 
                            out = contact_math::plain_difference({0, 0, 0}, along);
         const vec3<double> on = plain_step(found.on_b, least(static_cast<double>(both.radius_b), found.gap_at_start), out);
         return sweep_place<T>{from_seen<T>(widened(both.a[0]), on),
-                              {static_cast<T>(out.x), static_cast<T>(out.y), static_cast<T>(out.z)}};
+                              {rounded(static_cast<T>(out.x)), rounded(static_cast<T>(out.y)), rounded(static_cast<T>(out.z))}};
     });
 }
 
@@ -171,8 +173,9 @@ template <arithmetic A = filtered, shape S, shape U>
         const swept<S> s{mover, way};
         const double time = detail::sweep_time<A>(detail::as_stored(s), detail::as_stored(met));
         if (time < 0) return hit;
-        const auto place = detail::sweep_place_of(s, met, static_cast<double>(static_cast<T>(time)));
-        hit = {0, static_cast<T>(time), place.point, place.normal};
+        const T at = detail::rounded(static_cast<T>(time));
+        const auto place = detail::sweep_place_of(s, met, static_cast<double>(at));
+        hit = {0, at, place.point, place.normal};
     }
     return hit;
 }

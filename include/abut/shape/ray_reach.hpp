@@ -11,16 +11,17 @@
 //
 //   v is off by 2u of itself, which is 2u of the time, and p v, o v and both sums are off by 2u each. Since |p v| is not above
 //   the time's magnitude and |o v| in sum, the time is off by less than 7u of itself and 7u |o v| in all, and where the origin
-//   is off by `slack` by 2 slack |v| more.
+//   is off by `slack` by (1 + 8u) slack |v| more.
 //   What is flushed to zero is below 4 m, where m is the smallest normal number.
 //
-// What does not grow with the time, `lost`, is 16u |o v| + 2 (slack + 8 m) |v|; |v| is above 1/2. So o v comes in two forms:
+// What does not grow with the time, `lost`, is 16u |o v| + (1 + 32u) (slack + 8 m) |v|; |v| is above 1/2. So o v comes in two forms:
 // entries are `lost` earlier, and exits `lost` later. By what is left, an entry may seem the later by 15u of an exit that is
 // not before it: the exit is taken 32u later, and 4 m. Products with p may overflow, to infinite times of the right sign, while
 // |o v| + lost is below `most`, an eighth of the largest number. An entry is held below `most`, which the true one is above
 // if it overflows, and a limit that is not below that is none.
 //
-// Where the direction is 0 in a coordinate the origin has to lie between both planes. Where it is less than 2^-60 of the
+// Where the direction is 0 in a coordinate the origin has to lie between both planes, but for slack + 8 m and for 8u of that and of
+// the origin. Where it is less than 2^-60 of the
 // largest, or o v is too large, the planes say nothing: m p - infinity and m p + infinity are what they come to, also where p
 // is infinite.
 
@@ -102,14 +103,15 @@ struct ray_reach {
             around.lower.*x = -none, around.upper.*x = none;
             inverse.*x = smallest_normal<T>, at_lower.*x = -none, at_upper.*x = none;
             if (is_zero(direction.*x)) {
-                around.lower.*x = (origin.*x - reach) - reach, around.upper.*x = (origin.*x + reach) + reach;
+                const T off = reach + 8 * unit_roundoff<T> * (absolute(origin.*x) + reach);
+                around.lower.*x = origin.*x - off, around.upper.*x = origin.*x + off;
                 is_narrow = true;
                 return;
             }
             const T scaled = scale.divide(direction.*x);
             if (!is_safe || !(absolute(scaled) >= T(0x1p-60))) return;
             const T v = 1 / scaled, at = origin.*x * v;
-            const T lost = 16 * unit_roundoff<T> * absolute(at) + 2 * (reach * absolute(v));
+            const T lost = 16 * unit_roundoff<T> * absolute(at) + (1 + 32 * unit_roundoff<T>)*(reach * absolute(v));
             if (!(absolute(at) + lost < most)) return;
             inverse.*x = v;
             at_lower.*x = v > 0 ? -at - lost : lost - at;
