@@ -193,14 +193,14 @@ void refuse_doubled(const Policy& on, const mesh_view<T, Space>& mesh, const sor
 /// asked, where bodies are doubled.
 template <class Policy, scalar T, memory_space Space>
 void require_closed(const Policy& on, const mesh_view<T, Space>& mesh, const char* function, bool turned = false,
-                    bool doubled = false, inside_rule rule = inside_rule::parity) {
+                    bool doubled = false, inside_rule rule = inside_rule::parity, const std::string& element = "face") {
     check_sides(mesh.size(), function);
     const half_edge_table<Policy> sorted(on, mesh, id_bits(mesh.vertices.count));
     const sorted_half_edges table = sorted.view();
     const execution::least_value first =
         reduce(on, table.count, execution::least_value{}, execution::lesser_value{}, face_at_odd_edge{table});
     if (!(first == execution::least_value{})) {
-        throw invalid_geometry(function, "face", static_cast<std::size_t>(first.value),
+        throw invalid_geometry(function, element, static_cast<std::size_t>(first.value),
                                "the mesh is not closed: an edge of this face has an odd number of faces",
                                static_cast<double>(first.key));
     }
@@ -209,7 +209,7 @@ void require_closed(const Policy& on, const mesh_view<T, Space>& mesh, const cha
     const execution::least_value other =
         reduce(on, table.count, execution::least_value{}, execution::lesser_value{}, face_at_turned_edge{table});
     if (other == execution::least_value{}) return;
-    throw invalid_geometry(function, "face", static_cast<std::size_t>(other.value),
+    throw invalid_geometry(function, element, static_cast<std::size_t>(other.value),
                            "faces at an edge of this face are turned against each other: more go along it one way than the "
                            "other, by",
                            static_cast<double>(other.key));

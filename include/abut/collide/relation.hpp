@@ -81,7 +81,7 @@ public:
 
     bodies_on_host(const Policy& on, const placed_bodies<Index>& all, const char* function, const Name& name)
         : on_(on), objects_(*all.objects), function_(function), name_(name), object_of_(all.size()), poses_(all.size()),
-          faces_(all.size()), made_(all.size()), one_part_(all.objects->indices.size()) {
+          faces_(all.size()), made_(all.size()), one_part_(all.objects->indices.size()), is_closed_(one_part_.size(), 0) {
         download(on, all.objects->object_of.data(), all.size(), object_of_.data());
         download(on, all.poses->data(), all.size(), poses_.data());
     }
@@ -99,6 +99,12 @@ public:
             faces_[i].emplace(std::move(all), box);
         }
         return *faces_[i];
+    }
+    /// The faces of a body that is taken by a rule. Throws where it is not closed.
+    const std::vector<mesh_face<T>>& faces_by_rule(std::uint32_t i, const solid_options& options) {
+        const auto& all = faces(i).first;
+        if (!options.known_solid && std::exchange(is_closed_[object_of_[i]], 1) == 0) require_turns(all, *options.rule, function_, name_(i));
+        return all;
     }
     /// A box around a body, which may be larger than that around its faces.
     [[nodiscard]] aabb<T> known_box(std::uint32_t i) const {
@@ -136,6 +142,7 @@ private:
     std::vector<std::optional<std::pair<std::vector<mesh_face<T>>, aabb<T>>>> faces_;
     std::vector<std::unique_ptr<solid_on_host<T>>> made_;
     std::vector<std::optional<bool>> one_part_;  ///< of each index
+    std::vector<char> is_closed_;                ///< of each index: that was looked at
 };
 
 /// The relation of each entry of a pairing. `both_are_one`: a's bodies are b's.
@@ -152,6 +159,22 @@ std::vector<solid_relation> relations_of_entries(const Policy& on, const Pairing
     const bool is_one = static_cast<const void*>(pairing.a.objects.get()) == static_cast<const void*>(pairing.b.objects.get()) &&
                         static_cast<const void*>(pairing.a.poses.get()) == static_cast<const void*>(pairing.b.poses.get());
     if (!is_one) others.emplace(on, pairing.b, function, name);
+    const auto with_bodies = [&](const auto& f) {
+        if constexpr (std::same_as<index_a, index_b>) {
+            if (is_one) return f(bodies_a);
+        }
+        return f(*others);
+    };
+    if (options.rule) {
+        with_bodies([&](auto& bodies_b) {
+            for (std::size_t i = 0; i < n; ++i) {
+                const auto &a = bodies_a.faces_by_rule(entries[i].a, options), &b = bodies_b.faces_by_rule(entries[i].b, options);
+                const auto [regions, touch] = regions_by_rule(a, b, *options.rule, [](const common_regions& all) { return all.all(); });
+                found[i] = named(regions, touch);
+            }
+        });
+        return found;
+    }
     if (!options.known_solid) {
         bodies_a.require_solids(entries, false);
         if constexpr (std::same_as<index_a, index_b>) {
@@ -159,12 +182,6 @@ std::vector<solid_relation> relations_of_entries(const Policy& on, const Pairing
         }
         if (others) others->require_solids(entries, true);
     }
-    const auto with_bodies = [&](const auto& f) {
-        if constexpr (std::same_as<index_a, index_b>) {
-            if (is_one) return f(bodies_a);
-        }
-        return f(*others);
-    };
     // Which entries are beside each other, and so whether they touch is all that is asked of them. Others are looked at later.
     std::vector<std::uint32_t> beside(n, 0), not_beside(n, 1), touch(n), pass(n);
     with_bodies([&](auto& bodies_b) {

@@ -23,6 +23,7 @@
 #include <abut/collide/inside.hpp>
 #include <abut/collide/question.hpp>
 #include <abut/collide/solid_surface.hpp>
+#include <abut/collide/winding_regions.hpp>
 #include <abut/index/bvh.hpp>
 #include <abut/predicate/round_solids.hpp>
 #include <abut/shape/check.hpp>
@@ -33,8 +34,12 @@ namespace abut {
 /// @ingroup solids
 struct solid_options {
     /// The caller knows that both are solids, and that is not looked at. Of others the answer means nothing, or
-    /// invalid_geometry is thrown.
+    /// invalid_geometry is thrown. With a rule: that both are closed and, but for `parity`, that faces are turned alike.
     flag known_solid = false;
+    /// Takes each as what its surface goes round by this rule: the closure of all points off the surface that `inside` says to
+    /// be inside. So faces with inside on both sides of them are in its interior, and those with outside on both are no part of
+    /// it. A surface may pass through itself then, touch itself, and have faces without area. If not set, that is refused.
+    std::optional<inside_rule> rule{};
 };
 
 namespace detail {
@@ -423,13 +428,22 @@ auto ask_solids(const Policy& on, const Question& question, const X& x, const Y&
     }
 }
 
+/// What two have in common that are taken by a rule, of which require_turns holds, until that is enough.
+template <scalar T, class Enough>
+regions_and_touch regions_by_rule(const std::vector<mesh_face<T>>& a, const std::vector<mesh_face<T>>& b, inside_rule rule,
+                                  const Enough& is_enough) {
+    if (!overlaps(box_of(a), box_of(b))) return {{false, true, true}, false};
+    return winding_regions<T>(a, b, rule).find(is_enough);
+}
+
 /// What two solids have in common, until that is enough, and, if that is asked, whether their surfaces touch.
 template <arithmetic A, class Enough>
 struct ask_regions {
     using answer = regions_and_touch;
     static constexpr bool takes_round = true;
     const char* function;
-    bool known_solid, whether_touching;
+    solid_options options;
+    bool whether_touching;
     Enough is_enough;
 
     template <scalar>
@@ -439,8 +453,18 @@ struct ask_regions {
     template <class Solids>
     [[nodiscard]] answer find(const Solids& solids) const {
         using T = typename Solids::T;
+        const bool known_solid = options.known_solid, has_a = solids.has_a(), has_b = solids.has_b();
+        if (options.rule) {
+            const auto look = [&](auto& here) {
+                const auto faces_a = here.faces_a(), faces_b = here.faces_b();
+                for (const auto* of : {&faces_a, &faces_b}) {
+                    if (!known_solid) require_turns(*of, *options.rule, function);
+                }
+                return regions_by_rule(faces_a, faces_b, *options.rule, is_enough);
+            };
+            return solids.template decide<A>(answer{}, look, false);
+        }
         if (!known_solid) solids.require_simple();
-        const bool has_a = solids.has_a(), has_b = solids.has_b();
         if (!has_a || !has_b) return answer{{false, has_a, has_b}, false};
         const answer of_passing{{true, true, true}, true}, of_apart{{false, true, true}, false};
         if (known_solid && solids.are_beside()) return answer{of_apart.found, whether_touching && solids.template touches<A>()};
@@ -472,6 +496,8 @@ struct ask_regions {
             return find_round(on, x, as_solid(on, y, function));
         } else if constexpr (are_solids<Y, Y>()) {
             using T = scalar_of_argument<Y>;
+            const bool known_solid = options.known_solid;
+            if (options.rule) throw error(std::string(function) + ": no mesh beside a sphere or a capsule is taken by a rule; expected no `rule`");
             const capsule<T> round = solid_capsule(x, function);
             const auto b = make_operand(on, y, function);
             if (!known_solid) require_simple(on, y, function);
@@ -490,7 +516,7 @@ struct ask_regions {
 };
 template <arithmetic A, class Enough>
 ask_regions<A, Enough> regions_until(const char* function, const solid_options& options, bool whether_touching, const Enough& is_enough) {
-    return {function, bool(options.known_solid), whether_touching, is_enough};
+    return {function, options, whether_touching, is_enough};
 }
 /// Whether interiors meet.
 template <arithmetic A>

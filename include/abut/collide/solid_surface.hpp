@@ -71,6 +71,12 @@ private:
     const std::vector<std::uint32_t>& which_;
 };
 
+/// Whether the corners of a triangle lie in no line.
+template <scalar T>
+bool has_area(const triangle<T>& t) {
+    return decide_zero_area<filtered>(t) == verdict::no || decide_at_any_span<has_inner_points>(in_a_row(t.a, t.b, t.c).value);
+}
+
 template <scalar T>
 class solid_surface {
 public:
@@ -150,10 +156,7 @@ private:
 
     void check_faces(const char* function, const std::string& element) const {
         for (std::size_t f = 0; f < faces_.size(); ++f) {
-            const verdict v = decide_zero_area<filtered>(faces_[f].corners);
-            if (v == verdict::no) continue;
-            const triangle<T>& t = faces_[f].corners;
-            if (decide_at_any_span<has_inner_points>(in_a_row(t.a, t.b, t.c).value)) continue;
+            if (has_area(faces_[f].corners)) continue;
             throw invalid_geometry(function, element, f, "the face has no area, so that the solid has no side there; its area is", 0);
         }
     }
