@@ -111,10 +111,10 @@ def main():
     text = page.read_text(encoding="utf-8")
     told = text
     for name, block in blocks(root, compiler).items():
-        pattern = rf"(<!-- matrix-{name}: begin -->\n).*?(<!-- matrix-{name}: end -->)"
+        pattern = rf"(<!-- matrix.py writes {name} -->\n).*?(<!-- end of {name} -->)"
         told, n = re.subn(pattern, lambda m: m[1] + block + m[2], told, flags=re.DOTALL)
         if n != 1:
-            fail(f"{page}: no block matrix-{name}")
+            fail(f"{page}: no block of {name}")
     if told == text:
         return
     if sys.argv[1] == "write":
