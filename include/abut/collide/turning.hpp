@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// first_meeting, first_meetings, any_each: when bodies that turn meet, and which shapes. By definition the first is the pair of
+// shapes with the least time, as narrow/turning_time.hpp computes it of the two alone, and of equal ones the one with the least
+// ids. Trees only pass over what comes no nearer than the tolerance by then (traverse/turning_walk.hpp). Each entry of a list is
+// walked by one thread.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <abut/collide/options.hpp>
+#include <abut/collide/placed.hpp>
+#include <abut/error.hpp>
+#include <abut/execution/ordered.hpp>
+#include <abut/index/lbvh.hpp>
+#include <abut/index/operand.hpp>
+#include <abut/narrow/turning_time.hpp>
+#include <abut/shape/turning.hpp>
+#include <abut/traverse/turning_walk.hpp>
+
+namespace abut {
+
+/// What two bodies in motion meet first: two shapes and when. Where they do not meet: `no_id`, and infinite numbers.
+/// @ingroup motion
+struct meeting {
+    double time;      ///< from 0 to 1: before it no shapes touch
+    std::uint32_t a;  ///< id of the first body's shape
+    std::uint32_t b;  ///< id of the second one's
+    double distance;  ///< no less than what is between the two at that time; the tolerance at most
+
+    friend constexpr bool operator==(const meeting&, const meeting&) = default;
+};
+
+/// Options of `first_meeting` and its like.
+/// @ingroup motion
+struct meeting_options {
+    /// A length, above 0: how near shapes that are met are to each other, at most.
+    double tolerance = 0;
+};
+
+/// Two bodies, each in motion or at rest: `moving(posed(index, from), posed(index, to))`, or `posed(index, pose)`. Any number of
+/// entries of a list may share an index.
+/// @ingroup motion
+template <class IndexA, class IndexB = IndexA>
+struct moving_pair {
+    posed_motion<IndexA> a;  ///< the first one
+    posed_motion<IndexB> b;  ///< the second one
+};
+
+namespace detail {
+
+/// An entry of a list in the policy's memory.
+struct turning_entry {
+    turning_pair both;
+};
+
+/// The first of an entry, or any.
+template <bool Any, class IndexA, class IndexB>
+struct first_of_entry {
+    const placed_object<IndexA>* objects_a;
+    const placed_object<IndexB>* objects_b;
+    const std::uint32_t *object_of_a, *object_of_b;
+    const turning_pair* entries;
+    double tolerance;
+
+    struct best_so_far {
+        meeting found{infinity<double>, no_id, no_id, infinity<double>};
+        [[nodiscard]] ABUT_HD double until() const { return found.time < 1 ? found.time : 1; }
+        ABUT_HD bool offer(const turning_time& t, std::uint32_t a, std::uint32_t b) {
+            const bool is_first = t.time < found.time || (t.time == found.time && t.time <= 1 && (a < found.a || (a == found.a && b < found.b)));
+            if (is_first) found = {t.time, a, b, t.distance};
+            return !Any || !(found.time <= 1);
+        }
+    };
+    [[nodiscard]] ABUT_HD meeting operator()(std::size_t i) const {
+        const placed_object<IndexA>& a = objects_a[object_of_a[i]];
+        const placed_object<IndexB>& b = objects_b[object_of_b[i]];
+        const turning_pair& both = entries[i];
+        best_so_far best;
+        const turning_walk<decltype(a.tree), decltype(b.tree)> walk{a.tree, b.tree};
+        walk(both, tolerance, best, [&](std::uint32_t id_a, std::uint32_t id_b) {
+            return best.offer(turning_time_of(a.shapes[id_a], b.shapes[id_b], both, tolerance, best.until()), id_a, id_b);
+        });
+        return best.found;
+    }
+};
+template <class First>
+struct write_meetings {
+    First first;
+    meeting* out;
+    ABUT_HD void operator()(std::size_t i) const { out[i] = first(i); }
+};
+template <class First>
+struct write_whether_met {
+    First first;
+    std::uint8_t* out;
+    ABUT_HD void operator()(std::size_t i) const { out[i] = first(i).time <= 1; }
+};
+
+inline void check(const meeting_options& options, const std::string& function) {
+    if (options.tolerance > 0 && options.tolerance < infinity<double>) return;
+    throw error(function + ": the tolerance is " + shortest(options.tolerance) + "; expected a length above 0");
+}
+
+/// Throws where the tolerance is so small that rounding may hide it.
+inline void check_tolerance(double tolerance, const turning_pair& both, const std::string& where) {
+    if (!(both.margin < infinity<double>)) throw error(where + ": coordinates are too large for a motion in doubles");
+    if (tolerance >= 8 * both.margin) return;
+    throw error(where + ": the tolerance is " + shortest(tolerance) + "; doubles tell " + shortest(8 * both.margin) +
+                " and more, 2^-37 of the sizes of bodies and ways");
+}
+
+/// Whether a list can hold both.
+template <class Policy, class IndexA, class IndexB>
+consteval bool can_turn() {
+    if constexpr (can_be_listed<Policy, IndexA, IndexB>()) {
+        constexpr bool alike = std::same_as<typename IndexA::scalar_type, typename IndexB::scalar_type>;
+        static_assert(alike, "abut: both bodies of a motion have to be of one scalar type");
+        constexpr bool are = turnable<typename IndexA::shape_type> && turnable<typename IndexB::shape_type>;
+        static_assert(are, "abut: points, segments, triangles, spheres, capsules, boxes, oriented boxes and hulls can turn; cylinders, "
+                           "cones, planes and rays cannot");
+        return alike && are;
+    } else {
+        return false;
+    }
+}
+
+/// Of each entry what make(on, n, functor) makes of the first.
+template <bool Any, class Policy, class IndexA, class IndexB, class Make>
+auto meetings_of(const Policy& on, const std::vector<moving_pair<IndexA, IndexB>>& list, const meeting_options& options,
+                 const std::string& function, bool is_list, const Make& make) {
+    check(options, function);
+    const std::size_t n = list.size();
+    const gathered_bodies<IndexA> of_a(n, [&](std::size_t i) { return posed_object<IndexA>{list[i].a.object, list[i].a.from}; });
+    const gathered_bodies<IndexB> of_b(n, [&](std::size_t i) { return posed_object<IndexB>{list[i].b.object, list[i].b.from}; });
+    std::vector<turning_pair> entries;
+    entries.reserve(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::string where = is_list ? function + ": entry " + std::to_string(i) + " of the list" : function;
+        const auto motion_of = [&](const auto& body, const char* which) {
+            return make_rigid_motion(body.from, body.to, body.about, where + ": " + which);
+        };
+        const rigid_motion a = motion_of(list[i].a, "the first body"), b = motion_of(list[i].b, "the second body");
+        if (list[i].a.size() == 0 || list[i].b.size() == 0) {
+            entries.emplace_back();
+            continue;
+        }
+        entries.emplace_back(a, list[i].a.object.bounds(), b, list[i].b.object.bounds());
+        check_tolerance(options.tolerance, entries.back(), where);
+    }
+    const auto objects_a = make_objects(on, of_a.indices, of_a.object_of, function.c_str());
+    const auto objects_b = make_objects(on, of_b.indices, of_b.object_of, function.c_str());
+    execution::buffer_of<Policy, turning_pair> there(on, n);
+    upload(on, entries.data(), n, there.data());
+    const first_of_entry<Any, IndexA, IndexB> first{objects_a->objects.data(),   objects_b->objects.data(), objects_a->object_of.data(),
+                                                    objects_b->object_of.data(), there.data(),              options.tolerance};
+    auto made = make(n, first);
+    synchronize(on);
+    return made;
+}
+
+/// A body of which a query of two is asked, over an index.
+template <class Policy, class X>
+auto motion_of_argument(const Policy& on, const X& x) {
+    if constexpr (is_posed<X>) {
+        return motion_of_argument(on, posed_motion<std::remove_cvref_t<decltype(x.object)>>(x));
+    } else if constexpr (is_posed_motion<X>) {
+        if constexpr (is_tree<std::remove_cvref_t<decltype(x.object)>>) {
+            return x;
+        } else {
+            auto tree = make_bvh(on, x.object);
+            return posed_motion<decltype(tree)>(std::move(tree), x.from, x.to, x.about);
+        }
+    } else {
+        return motion_of_argument(on, posed_motion<X>(x, {}, {}));
+    }
+}
+
+}  // namespace detail
+
+template <execution_policy Policy, class IndexA, class IndexB>
+[[nodiscard]] auto first_meetings(const Policy& on, const std::vector<moving_pair<IndexA, IndexB>>& list, const meeting_options& options) {
+    using out = execution::buffer_of<Policy, meeting>;
+    if constexpr (detail::can_turn<Policy, IndexA, IndexB>()) {
+        auto found = detail::meetings_of<false>(on, list, options, "abut::first_meetings", true, [&](std::size_t n, const auto& first) {
+            out all(on, n);
+            for_each_index(on, n, detail::write_meetings<std::remove_cvref_t<decltype(first)>>{first, all.data()});
+            return all;
+        });
+        return result<meeting, space_of<Policy>>(std::move(found));
+    } else {
+        return result<meeting, space_of<Policy>>();
+    }
+}
+
+template <execution_policy Policy, class IndexA, class IndexB>
+[[nodiscard]] auto any_each(const Policy& on, const std::vector<moving_pair<IndexA, IndexB>>& list, const meeting_options& options) {
+    using out = execution::buffer_of<Policy, std::uint8_t>;
+    if constexpr (detail::can_turn<Policy, IndexA, IndexB>()) {
+        auto found = detail::meetings_of<true>(on, list, options, "abut::any_each", true, [&](std::size_t n, const auto& first) {
+            out all(on, n);
+            for_each_index(on, n, detail::write_whether_met<std::remove_cvref_t<decltype(first)>>{first, all.data()});
+            return all;
+        });
+        return result<std::uint8_t, space_of<Policy>>(std::move(found));
+    } else {
+        return result<std::uint8_t, space_of<Policy>>();
+    }
+}
+
+template <execution_policy Policy, class X, class Y>
+[[nodiscard]] std::optional<meeting> first_meeting(const Policy& on, const X& a, const Y& b, const meeting_options& options) {
+    auto of_a = detail::motion_of_argument(on, a);
+    auto of_b = detail::motion_of_argument(on, b);
+    using index_a = std::remove_cvref_t<decltype(of_a.object)>;
+    using index_b = std::remove_cvref_t<decltype(of_b.object)>;
+    if constexpr (detail::can_turn<Policy, index_a, index_b>()) {
+        const std::vector<moving_pair<index_a, index_b>> list{{std::move(of_a), std::move(of_b)}};
+        meeting found{};
+        detail::meetings_of<false>(on, list, options, "abut::first_meeting", false, [&](std::size_t n, const auto& first) {
+            execution::buffer_of<Policy, meeting> all(on, n);
+            for_each_index(on, n, detail::write_meetings<std::remove_cvref_t<decltype(first)>>{first, all.data()});
+            download(on, all.data(), n, &found);
+            return 0;
+        });
+        if (found.a != no_id) return found;
+    }
+    return std::nullopt;
+}
+
+}  // namespace abut

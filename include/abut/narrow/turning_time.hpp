@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// When two shapes of bodies that turn come together: never too late, and early by no more than a length, the tolerance. By
+// conservative advancement: at a time the shapes' distance is bracketed by the search of Gilbert, Johnson and Keerthi in doubles;
+// if it is within the tolerance, that is the time; and else they are apart for some time along the direction that the search
+// ended with (shape/turning_reach.hpp). So the answer is a function of the two shapes, the motions and the tolerance alone.
+//
+// For points, segments, triangles, spheres, capsules, boxes, oriented boxes and hulls, which have a core of points.
+
+#include <cstddef>
+#include <cstdint>
+
+#include <abut/arithmetic/error_free.hpp>
+#include <abut/arithmetic/limits.hpp>
+#include <abut/arithmetic/magnitude.hpp>
+#include <abut/narrow/numbers.hpp>
+#include <abut/narrow/plain_search.hpp>
+#include <abut/predicate/hull_within.hpp>
+#include <abut/shape/core.hpp>
+#include <abut/shape/hull.hpp>
+#include <abut/shape/oriented_box.hpp>
+#include <abut/shape/primitive.hpp>
+#include <abut/shape/turning_reach.hpp>
+
+namespace abut::detail {
+
+/// Shapes that can turn.
+template <class S>
+concept turnable = has_core_points<S, scalar_type_of<S>>;
+
+/// The points of a core in the body's frame, as seen from the centre of its motion.
+template <scalar T>
+class turned_core {
+public:
+    ABUT_HD turned_core(const hull<T>& h, const vec3<double>& centre) : of_(h), centre_(centre) {
+        const std::size_t n = least(h.count, room);
+        for (std::size_t i = 0; i < n; ++i) kept_[i] = seen(i);
+    }
+    [[nodiscard]] ABUT_HD std::size_t size() const { return of_.count; }
+    [[nodiscard]] ABUT_HD vec3<double> operator[](std::size_t i) const { return i < room ? kept_[i] : seen(i); }
+    [[nodiscard]] ABUT_HD vec3<double> farthest(const vec3<double>& n) const {
+        vec3<double> best = kept_[0];
+        double most = plain_along(n, best);
+        for (std::size_t i = 1; i < size(); ++i) {
+            const vec3<double> p = (*this)[i];
+            const double x = plain_along(n, p);
+            if (x > most) most = x, best = p;
+        }
+        return best;
+    }
+    /// Some point amid them.
+    [[nodiscard]] ABUT_HD vec3<double> middle() const {
+        const std::size_t n = least(size(), room);
+        vec3<double> sum = kept_[0];
+        for (std::size_t i = 1; i < n; ++i) sum = plain_move(sum, 1.0, kept_[i]);
+        const double share = 1 / static_cast<double>(n);
+        return {plain_product(share, sum.x), plain_product(share, sum.y), plain_product(share, sum.z)};
+    }
+    /// As of a box: half the greatest second derivative of a point. The distance to the axis is the greatest of a corner.
+    [[nodiscard]] ABUT_HD double bend(const rigid_motion& m, const turned_frame& at) const {
+        if (m.angle == 0) return 0;
+        double far = 0;
+        for (std::size_t i = 0; i < size(); ++i) {
+            const vec3<double> across = plain_across(m.axis, at.turned((*this)[i]));
+            far = greatest(far, plain_along(across, across));
+        }
+        return plain_product(plain_product(0.5 * (1 + 0x1p-40), plain_product(m.angle, m.angle)), std::sqrt(far));
+    }
+
+private:
+    static constexpr std::size_t room = 8;
+    [[nodiscard]] ABUT_HD vec3<double> seen(std::size_t i) const { return plain_move(widened(of_[i]), -1.0, centre_); }
+
+    const hull<T>& of_;
+    vec3<double> centre_, kept_[room]{};
+};
+
+/// When two shapes meet, and how far apart they are then, no farther than that. Infinite where they do not meet.
+struct turning_time {
+    double time = infinity<double>;
+    double distance = infinity<double>;
+};
+
+/// The search for it.
+template <scalar T>
+class turning_search {
+    using point = vec3<double>;
+
+public:
+    ABUT_HD turning_search(const hull<T>& a, double radius_a, const hull<T>& b, double radius_b, const turning_pair& both,
+                           double tolerance)
+        : both_(both), a_(a, both.a.centre), b_(b, both.b.centre), radius_(plain_sum(radius_a, radius_b)), tolerance_(tolerance) {}
+
+    /// The time, where it is not after `until`; else one that may be infinite. Never more than most_steps: by then shapes have
+    /// come as near as the tolerance for long, or it is far below what doubles tell; what is said is not late.
+    [[nodiscard]] ABUT_HD turning_time find(double until) {
+        constexpr int most_steps = 1 << 16;
+        double time = 0;
+        for (int step = 0;; ++step) {
+            frame_a_ = both_.a.frame(time);
+            frame_b_ = both_.b.frame(time);
+            bend_ = plain_sum(a_.bend(both_.a, frame_a_), b_.bend(both_.b, frame_b_));
+            double distance = infinity<double>;
+            double ahead = 0;
+            const double left = plain_sum(1.0, -time);
+            if (step == 0) {
+                along_ = plain_move(frame_b_.place(b_.middle()), -1.0, frame_a_.place(a_.middle()));
+                if (is_later(plain_sum(until, -time))) return {};
+                ahead = free_for(left);
+                if (ahead < plain_product(0x1p-4, left)) ahead = 0;
+            }
+            if (!(ahead > 0)) {
+                distance = nearest();
+                if (distance <= plain_sum(tolerance_, -both_.margin)) return {time, greatest(distance, 0.0)};
+                if (is_later(plain_sum(until, -time))) return {};
+                ahead = free_for(left);
+                const bool is_stuck = !(plain_sum(time, ahead) > time) && left > 0;
+                if (is_stuck || step >= most_steps) return {time, distance};
+            }
+            if (!(ahead < left)) return {};
+            time = plain_sum(time, ahead);
+        }
+    }
+
+private:
+    using ahead_type = gap_ahead<turned_core<T>, turned_core<T>>;
+
+    [[nodiscard]] ABUT_HD bool has_way() const { return contact_math::largest_of(along_) > 0x1p-400; }
+    [[nodiscard]] ABUT_HD ahead_type ahead(double radius) const {
+        const double length = plain_length(along_);
+        return {a_, b_, both_, frame_a_, frame_b_, {along_.x / length, along_.y / length, along_.z / length}, radius, bend_};
+    }
+    [[nodiscard]] ABUT_HD double free_for(double end) const { return has_way() ? ahead(radius_).free_for(end) : 0; }
+    /// Whether they are farther apart than the tolerance until then: so no time is told that is not later.
+    [[nodiscard]] ABUT_HD bool is_later(double end) const {
+        if (!has_way() || !(end >= 0)) return end < 0;
+        const ahead_type far = ahead(plain_sum(radius_, tolerance_));
+        return far.after(0).gap > 0 && far.after(end).gap >= 0;
+    }
+
+    /// How far apart they are, at most, less the radii; it is at least a little less, along the direction that is left, if that is
+    /// more than the tolerance.
+    [[nodiscard]] ABUT_NOINLINE ABUT_HD double nearest() {
+        using namespace contact_math;
+        plain_simplex at;
+        point along = has_way() ? along_ : point{1, 0, 0};
+        double most = infinity<double>, least = -infinity<double>;
+        constexpr int most_steps = 48;
+        for (int step = 0; step < most_steps; ++step) {
+            const double of_along = plain_length(along);
+            if (!(of_along > 0x1p-400)) break;
+            const point p = frame_a_.place(a_.farthest(frame_a_.back(along))),
+                        q = frame_b_.place(b_.farthest(frame_b_.back(negated(along)))), w = plain_difference(q, p);
+            const double gap = plain_dot(along, w) / of_along;
+            if (gap > least) least = gap, along_ = along;
+            // A share of what is left between the shapes is enough to go on.
+            if (step > 0 && plain_sum(most, -least) <= plain_product(0x1p-5, plain_sum(most, -radius_))) break;
+            const auto result = at.append(p, q, w);
+            if (result == plain_simplex::result::holds_origin) return -radius_;
+            if (result != plain_simplex::result::nearer) break;
+            along = at.along;
+            most = root(one_double{at.square}).high;
+            if (plain_sum(most, -radius_) <= plain_product(0.5, tolerance_)) break;
+        }
+        return plain_sum(most, -radius_);
+    }
+
+    const turning_pair& both_;
+    turned_core<T> a_, b_;
+    double radius_, tolerance_, bend_ = 0;
+    turned_frame frame_a_{}, frame_b_{};
+    point along_{0, 0, 0};
+};
+
+/// When two shapes of bodies in motion meet, if not after `until`.
+template <turnable S, turnable U>
+ABUT_NOINLINE ABUT_HD turning_time turning_time_of(const S& s, const U& t, const turning_pair& both, double tolerance, double until) {
+    const auto points_a = core_points_of(s);
+    const auto points_b = core_points_of(t);
+    turning_search<scalar_type_of<S>> search(points_a.as_hull(), static_cast<double>(radius_around_core(s)), points_b.as_hull(),
+                                             static_cast<double>(radius_around_core(t)), both, tolerance);
+    return search.find(until);
+}
+
+}  // namespace abut::detail
