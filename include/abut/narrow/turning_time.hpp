@@ -178,8 +178,9 @@ template <turnable S, turnable U>
 ABUT_NOINLINE ABUT_HD turning_time turning_time_of(const S& s, const U& t, const turning_pair& both, double tolerance, double until) {
     const auto points_a = core_points_of(s);
     const auto points_b = core_points_of(t);
-    turning_search<scalar_type_of<S>> search(points_a.as_hull(), static_cast<double>(radius_around_core(s)), points_b.as_hull(),
-                                             static_cast<double>(radius_around_core(t)), both, tolerance);
+    const hull<scalar_type_of<S>>&a = points_a.as_hull(), &b = points_b.as_hull();  // perhaps of what is made here
+    turning_search<scalar_type_of<S>> search(a, static_cast<double>(radius_around_core(s)), b, static_cast<double>(radius_around_core(t)),
+                                             both, tolerance);
     return search.find(until);
 }
 
