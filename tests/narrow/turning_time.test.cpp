@@ -101,7 +101,7 @@ void check_one_turning(int family, std::uint64_t i, turning_tally& tally) {
     draws d(sample_seed, static_cast<std::uint64_t>(family) + (std::same_as<T, float> ? 100 : 0), i);
     const double far = family == 6 ? 50 : 0, thin = family == 4 ? 1e-5 : 1, tolerance = d.power_of_ten(-7, -2);
     const vec3<T> at{static_cast<T>(far), 0, 0}, away{static_cast<T>(family == 7 ? 4096 : 0), 0, 0};
-    const vec3<T> apart = family == 3 ? vec3<T>{0, 0, 0} : vec3<T>{2, 0, 0};
+    const vec3<T> apart{static_cast<T>(family == 3 ? 0 : family == 2 ? 1 : 2), 0, 0};
     drawn_motion<T> a = draw_motion<T>(family, d, false, apart), b = draw_motion<T>(family, d, d.below(2) == 0, vec3<T>{0, 0, 0} - apart);
     if (family == 6) {  // so that it comes to where the others are
         a.about.centre = {0, 0, 0};
@@ -133,7 +133,7 @@ void check_one_turning(int family, std::uint64_t i, turning_tally& tally) {
                                        mb = detail::make_rigid_motion(b.from, b.to, b.about, "test");
             const detail::turning_pair both(ma, bounds(s), mb, bounds(t));
             const double asked = std::max(tolerance, 8 * both.margin);
-            const auto told = detail::turning_time_of(s, t, both, asked, 1);
+            const auto told = detail::turning_time_of(s, t, both, asked);
             const long_pair truth{seen_s, seen_t, {a.from, a.to, a.about}, {b.from, b.to, b.about}};
             // Of floats the two axes differ by as much as rotations are off.
             const long double slack = std::same_as<T, float> ? 2e-6L * (1 + far) : 1e-11L * (1 + far) + 0x1p-40L * away.x;

@@ -72,9 +72,11 @@ struct first_of_entry {
     struct best_so_far {
         meeting found{infinity<double>, no_id, no_id, infinity<double>};
         [[nodiscard]] ABUT_HD double until() const { return found.time < 1 ? found.time : 1; }
+        [[nodiscard]] ABUT_HD bool may_come_first(double time, std::uint32_t a, std::uint32_t b) const {
+            return time < found.time || (time == found.time && (a < found.a || (a == found.a && b < found.b)));
+        }
         ABUT_HD bool offer(const turning_time& t, std::uint32_t a, std::uint32_t b) {
-            const bool is_first = t.time < found.time || (t.time == found.time && t.time <= 1 && (a < found.a || (a == found.a && b < found.b)));
-            if (is_first) found = {t.time, a, b, t.distance};
+            if (t.time <= 1 && may_come_first(t.time, a, b)) found = {t.time, a, b, t.distance};
             return !Any || !(found.time <= 1);
         }
     };
@@ -84,8 +86,9 @@ struct first_of_entry {
         const turning_pair& both = entries[i];
         best_so_far best;
         const turning_walk<decltype(a.tree), decltype(b.tree)> walk{a.tree, b.tree};
-        walk(both, tolerance, best, [&](std::uint32_t id_a, std::uint32_t id_b) {
-            return best.offer(turning_time_of(a.shapes[id_a], b.shapes[id_b], both, tolerance, best.until()), id_a, id_b);
+        walk(both, tolerance, best, [&](std::uint32_t id_a, std::uint32_t id_b, double from) {
+            if (!best.may_come_first(from, id_a, id_b)) return true;
+            return best.offer(turning_time_of(a.shapes[id_a], b.shapes[id_b], both, tolerance, from, best.until()), id_a, id_b);
         });
         return best.found;
     }

@@ -92,51 +92,73 @@ public:
                            double tolerance)
         : both_(both), a_(a, both.a.centre), b_(b, both.b.centre), radius_(plain_sum(radius_a, radius_b)), tolerance_(tolerance) {}
 
-    /// The time, where it is not after `until`; else one that may be infinite. Never more than most_steps: by then shapes have
-    /// come as near as the tolerance for long, or it is far below what doubles tell; what is said is not late.
-    [[nodiscard]] ABUT_HD turning_time find(double until) {
-        constexpr int most_steps = 1 << 16;
-        double time = 0;
+    /// The time, where it is not after `until`; else one that may be infinite. They are known to be farther apart than the
+    /// tolerance before `from`.
+    ///
+    /// The way is searched in parts of 2^-6, each by itself, and what is found in the first that has something is the time. So
+    /// it is the same wherever a search begins: what is known to be far apart has nothing. A part takes at most most_steps
+    /// steps: after so many shapes have come as near as the tolerance for long, or that is far below what doubles tell; what is
+    /// said then is not late.
+    [[nodiscard]] ABUT_HD turning_time find(double from, double until) {
+        for (int part = part_of(from); part < parts;) {
+            const turning_time found = look_in(part, until);
+            if (part < 0 || found.time <= 1) return found;
+        }
+        return {};
+    }
+
+private:
+    static constexpr int parts = 64, most_steps = 1 << 12;
+    using ahead_type = gap_ahead<turned_core<T>, turned_core<T>>;
+
+    [[nodiscard]] ABUT_HD static int part_of(double time) {
+        const int part = static_cast<int>(time * parts);
+        return part < parts ? part : parts - 1;
+    }
+    /// What is in a part; and the part in which to go on, which is negative where nothing is by `until`.
+    [[nodiscard]] ABUT_HD turning_time look_in(int& part, double until) {
+        const double begin = static_cast<double>(part) / parts, end = static_cast<double>(part + 1) / parts;
+        double time = begin;
         for (int step = 0;; ++step) {
             frame_a_ = both_.a.frame(time);
             frame_b_ = both_.b.frame(time);
             bend_ = plain_sum(a_.bend(both_.a, frame_a_), b_.bend(both_.b, frame_b_));
-            double distance = infinity<double>;
-            double ahead = 0;
-            const double left = plain_sum(1.0, -time);
             if (step == 0) {
                 along_ = plain_move(frame_b_.place(b_.middle()), -1.0, frame_a_.place(a_.middle()));
-                if (is_later(plain_sum(until, -time))) return {};
-                ahead = free_for(left);
-                if (ahead < plain_product(0x1p-4, left)) ahead = 0;
+                if (is_passed(time, until, part)) return {};
             }
-            if (!(ahead > 0)) {
-                distance = nearest();
-                if (distance <= plain_sum(tolerance_, -both_.margin)) return {time, greatest(distance, 0.0)};
-                if (is_later(plain_sum(until, -time))) return {};
-                ahead = free_for(left);
-                const bool is_stuck = !(plain_sum(time, ahead) > time) && left > 0;
-                if (is_stuck || step >= most_steps) return {time, distance};
+            const double distance = nearest();
+            if (distance <= plain_sum(tolerance_, -both_.margin)) return {time, greatest(distance, 0.0)};
+            if (is_passed(time, until, part)) return {};
+            const double left = plain_sum(end, -time), ahead = has_way() ? way_ahead(radius_).free_for(left) : 0;
+            if (ahead >= left) {
+                ++part;
+                return {};
             }
-            if (!(ahead < left)) return {};
+            if (!(plain_sum(time, ahead) > time) || step >= most_steps) return {time, distance};
             time = plain_sum(time, ahead);
         }
     }
-
-private:
-    using ahead_type = gap_ahead<turned_core<T>, turned_core<T>>;
-
+    /// Whether they are farther apart than the tolerance until `until`, or as far as into another part: then that is the part.
+    [[nodiscard]] ABUT_HD bool is_passed(double time, double until, int& part) const {
+        if (!(until >= time)) {
+            part = -1;
+            return true;
+        }
+        if (!has_way()) return false;
+        const double left = plain_sum(until, -time);
+        const ahead_type far = way_ahead(plain_sum(radius_, tolerance_));
+        const double free = far.free_for(left);
+        const bool is_past = left > 0 ? free >= left : far.after(0).gap > 0;
+        const int next = part_of(plain_sum(time, free));
+        if (!is_past && next <= part) return false;
+        part = is_past ? -1 : next;
+        return true;
+    }
     [[nodiscard]] ABUT_HD bool has_way() const { return contact_math::largest_of(along_) > 0x1p-400; }
-    [[nodiscard]] ABUT_HD ahead_type ahead(double radius) const {
+    [[nodiscard]] ABUT_HD ahead_type way_ahead(double radius) const {
         const double length = plain_length(along_);
         return {a_, b_, both_, frame_a_, frame_b_, {along_.x / length, along_.y / length, along_.z / length}, radius, bend_};
-    }
-    [[nodiscard]] ABUT_HD double free_for(double end) const { return has_way() ? ahead(radius_).free_for(end) : 0; }
-    /// Whether they are farther apart than the tolerance until then: so no time is told that is not later.
-    [[nodiscard]] ABUT_HD bool is_later(double end) const {
-        if (!has_way() || !(end >= 0)) return end < 0;
-        const ahead_type far = ahead(plain_sum(radius_, tolerance_));
-        return far.after(0).gap > 0 && far.after(end).gap >= 0;
     }
 
     /// How far apart they are, at most, less the radii; it is at least a little less, along the direction that is left, if that is
@@ -146,8 +168,8 @@ private:
         plain_simplex at;
         point along = has_way() ? along_ : point{1, 0, 0};
         double most = infinity<double>, least = -infinity<double>;
-        constexpr int most_steps = 48;
-        for (int step = 0; step < most_steps; ++step) {
+        constexpr int most_searched = 48;
+        for (int step = 0; step < most_searched; ++step) {
             const double of_along = plain_length(along);
             if (!(of_along > 0x1p-400)) break;
             const point p = frame_a_.place(a_.farthest(frame_a_.back(along))),
@@ -173,15 +195,16 @@ private:
     point along_{0, 0, 0};
 };
 
-/// When two shapes of bodies in motion meet, if not after `until`.
+/// When two shapes of bodies in motion meet, if not after `until`. They are farther apart than the tolerance before `from`.
 template <turnable S, turnable U>
-ABUT_NOINLINE ABUT_HD turning_time turning_time_of(const S& s, const U& t, const turning_pair& both, double tolerance, double until) {
+ABUT_NOINLINE ABUT_HD turning_time turning_time_of(const S& s, const U& t, const turning_pair& both, double tolerance, double from = 0,
+                                                   double until = 1) {
     const auto points_a = core_points_of(s);
     const auto points_b = core_points_of(t);
     const hull<scalar_type_of<S>>&a = points_a.as_hull(), &b = points_b.as_hull();  // perhaps of what is made here
     turning_search<scalar_type_of<S>> search(a, static_cast<double>(radius_around_core(s)), b, static_cast<double>(radius_around_core(t)),
                                              both, tolerance);
-    return search.find(until);
+    return search.find(from, until);
 }
 
 }  // namespace abut::detail

@@ -75,15 +75,15 @@ ABUT_HD constexpr sine_and_versine sine_and_versine_of(double angle) {
 
 // In doubles, each operation rounded.
 
-ABUT_HD constexpr double plain_along(const vec3<double>& v, const vec3<double>& p) { return placed(v.x, v.y, v.z, p, 0.0); }
-ABUT_HD constexpr vec3<double> plain_across(const vec3<double>& a, const vec3<double>& b) {
+ABUT_INLINE ABUT_HD constexpr double plain_along(const vec3<double>& v, const vec3<double>& p) { return placed(v.x, v.y, v.z, p, 0.0); }
+ABUT_INLINE ABUT_HD constexpr vec3<double> plain_across(const vec3<double>& a, const vec3<double>& b) {
     const auto minor = [](double s, double t, double x, double y) {
         return plain_sum(plain_product(s, t), -plain_product(x, y));
     };
     return {minor(a.y, b.z, a.z, b.y), minor(a.z, b.x, a.x, b.z), minor(a.x, b.y, a.y, b.x)};
 }
 /// p + t v
-ABUT_HD constexpr vec3<double> plain_move(const vec3<double>& p, double t, const vec3<double>& v) {
+ABUT_INLINE ABUT_HD constexpr vec3<double> plain_move(const vec3<double>& p, double t, const vec3<double>& v) {
     return {plain_sum(p.x, plain_product(t, v.x)), plain_sum(p.y, plain_product(t, v.y)),
             plain_sum(p.z, plain_product(t, v.z))};
 }
@@ -94,15 +94,15 @@ struct turned_frame {
     vec3<double> rows[3];
     vec3<double> at;
 
-    [[nodiscard]] ABUT_HD constexpr vec3<double> turned(const vec3<double>& p) const {
+    [[nodiscard]] ABUT_INLINE ABUT_HD constexpr vec3<double> turned(const vec3<double>& p) const {
         return {plain_along(rows[0], p), plain_along(rows[1], p), plain_along(rows[2], p)};
     }
-    [[nodiscard]] ABUT_HD constexpr vec3<double> place(const vec3<double>& p) const {
+    [[nodiscard]] ABUT_INLINE ABUT_HD constexpr vec3<double> place(const vec3<double>& p) const {
         return {placed(rows[0].x, rows[0].y, rows[0].z, p, at.x), placed(rows[1].x, rows[1].y, rows[1].z, p, at.y),
                 placed(rows[2].x, rows[2].y, rows[2].z, p, at.z)};
     }
     /// A direction of the world, by the transposed.
-    [[nodiscard]] ABUT_HD constexpr vec3<double> back(const vec3<double>& n) const {
+    [[nodiscard]] ABUT_INLINE ABUT_HD constexpr vec3<double> back(const vec3<double>& n) const {
         return plain_move(plain_move({plain_product(n.x, rows[0].x), plain_product(n.x, rows[0].y), plain_product(n.x, rows[0].z)}, n.y,
                                      rows[1]),
                           n.z, rows[2]);

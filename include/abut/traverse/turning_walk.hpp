@@ -14,7 +14,8 @@
 namespace abut::detail {
 
 /// Down from both roots, depth first, always through the larger of two boxes. The best tells `until()`, a time after which nothing
-/// is wanted; visitor(id, id) tells it of what it finds. What is told does not depend on the trees: a pair is passed over
+/// is wanted; visitor(id, id, from) tells it of what it finds
+/// of a pair that comes no nearer than `far` before a time, and whether to go on. What is told does not depend on the trees: a pair is passed over
 /// only where its boxes are farther apart than `far` until that time.
 template <bvh_layout A, bvh_layout B>
 struct turning_walk {
@@ -46,7 +47,7 @@ struct turning_walk {
             const item at = pending[--count];
             if (at.from > best.until()) continue;
             if (at.a.is_leaf() && at.b.is_leaf()) {
-                if (!visitor(at.a.index(), at.b.index())) return;
+                if (!visitor(at.a.index(), at.b.index(), at.from)) return;
                 continue;
             }
             const int first = count;
