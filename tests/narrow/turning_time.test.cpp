@@ -131,8 +131,9 @@ void check_one_turning(int family, std::uint64_t i, turning_tally& tally) {
             }
             const detail::rigid_motion ma = detail::make_rigid_motion(a.from, a.to, a.about, "test"),
                                        mb = detail::make_rigid_motion(b.from, b.to, b.about, "test");
-            const detail::turning_pair both(ma, bounds(s), mb, bounds(t));
-            const double asked = std::max(tolerance, 8 * both.margin);
+            const detail::turning_pair both{ma, mb};
+            const double of_a = detail::turning_bounds::radius(ma, bounds(s)), of_b = detail::turning_bounds::radius(mb, bounds(t)),
+                         asked = std::max(tolerance, 8 * detail::turning_bounds(both, of_a, of_b).margin);
             const auto told = detail::turning_time_of(s, t, both, asked);
             const long_pair truth{seen_s, seen_t, {a.from, a.to, a.about}, {b.from, b.to, b.about}};
             // Of floats the two axes differ by as much as rotations are off.

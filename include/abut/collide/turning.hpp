@@ -57,7 +57,8 @@ namespace detail {
 
 /// An entry of a list in the policy's memory.
 struct turning_entry {
-    turning_pair both;
+    turning_pair both{};
+    turning_bounds bounds{};  ///< of all shapes
 };
 
 /// The first of an entry, or any.
@@ -66,7 +67,7 @@ struct first_of_entry {
     const placed_object<IndexA>* objects_a;
     const placed_object<IndexB>* objects_b;
     const std::uint32_t *object_of_a, *object_of_b;
-    const turning_pair* entries;
+    const turning_entry* entries;
     double tolerance;
 
     struct best_so_far {
@@ -83,10 +84,10 @@ struct first_of_entry {
     [[nodiscard]] ABUT_HD meeting operator()(std::size_t i) const {
         const placed_object<IndexA>& a = objects_a[object_of_a[i]];
         const placed_object<IndexB>& b = objects_b[object_of_b[i]];
-        const turning_pair& both = entries[i];
+        const turning_pair& both = entries[i].both;
         best_so_far best;
         const turning_walk<decltype(a.tree), decltype(b.tree)> walk{a.tree, b.tree};
-        walk(both, tolerance, best, [&](std::uint32_t id_a, std::uint32_t id_b, double from) {
+        walk(both, entries[i].bounds, tolerance, best, [&](std::uint32_t id_a, std::uint32_t id_b, double from) {
             if (!best.may_come_first(from, id_a, id_b)) return true;
             return best.offer(turning_time_of(a.shapes[id_a], b.shapes[id_b], both, tolerance, from, best.until()), id_a, id_b);
         });
@@ -112,7 +113,7 @@ inline void check(const meeting_options& options, const std::string& function) {
 }
 
 /// Throws where the tolerance is so small that rounding may hide it.
-inline void check_tolerance(double tolerance, const turning_pair& both, const std::string& where) {
+inline void check_tolerance(double tolerance, const turning_bounds& both, const std::string& where) {
     if (!(both.margin < infinity<double>)) throw error(where + ": coordinates are too large for a motion in doubles");
     if (tolerance >= 8 * both.margin) return;
     throw error(where + ": the tolerance is " + shortest(tolerance) + "; doubles tell " + shortest(8 * both.margin) +
@@ -142,24 +143,23 @@ auto meetings_of(const Policy& on, const std::vector<moving_pair<IndexA, IndexB>
     const std::size_t n = list.size();
     const gathered_bodies<IndexA> of_a(n, [&](std::size_t i) { return posed_object<IndexA>{list[i].a.object, list[i].a.from}; });
     const gathered_bodies<IndexB> of_b(n, [&](std::size_t i) { return posed_object<IndexB>{list[i].b.object, list[i].b.from}; });
-    std::vector<turning_pair> entries;
+    std::vector<turning_entry> entries;
     entries.reserve(n);
     for (std::size_t i = 0; i < n; ++i) {
         const std::string where = is_list ? function + ": entry " + std::to_string(i) + " of the list" : function;
         const auto motion_of = [&](const auto& body, const char* which) {
             return make_rigid_motion(body.from, body.to, body.about, where + ": " + which);
         };
-        const rigid_motion a = motion_of(list[i].a, "the first body"), b = motion_of(list[i].b, "the second body");
-        if (list[i].a.size() == 0 || list[i].b.size() == 0) {
-            entries.emplace_back();
-            continue;
-        }
-        entries.emplace_back(a, list[i].a.object.bounds(), b, list[i].b.object.bounds());
-        check_tolerance(options.tolerance, entries.back(), where);
+        turning_entry& one = entries.emplace_back();
+        one.both = {motion_of(list[i].a, "the first body"), motion_of(list[i].b, "the second body")};
+        if (list[i].a.size() == 0 || list[i].b.size() == 0) continue;
+        one.bounds = turning_bounds(one.both, turning_bounds::radius(one.both.a, list[i].a.object.bounds()),
+                                    turning_bounds::radius(one.both.b, list[i].b.object.bounds()));
+        check_tolerance(options.tolerance, one.bounds, where);
     }
     const auto objects_a = make_objects(on, of_a.indices, of_a.object_of, function.c_str());
     const auto objects_b = make_objects(on, of_b.indices, of_b.object_of, function.c_str());
-    execution::buffer_of<Policy, turning_pair> there(on, n);
+    execution::buffer_of<Policy, turning_entry> there(on, n);
     upload(on, entries.data(), n, there.data());
     const first_of_entry<Any, IndexA, IndexB> first{objects_a->objects.data(),   objects_b->objects.data(), objects_a->object_of.data(),
                                                     objects_b->object_of.data(), there.data(),              options.tolerance};

@@ -57,6 +57,12 @@ public:
         const double share = 1 / static_cast<double>(n);
         return {plain_product(share, sum.x), plain_product(share, sum.y), plain_product(share, sum.z)};
     }
+    /// No point is farther from the centre of the motion, where it is placed.
+    [[nodiscard]] ABUT_HD double radius() const {
+        double far = 0;
+        for (std::size_t i = 0; i < size(); ++i) far = greatest(far, plain_along((*this)[i], (*this)[i]));
+        return plain_product(turning_bounds::stretch, std::sqrt(far));
+    }
     /// As of a box: half the greatest second derivative of a point. The distance to the axis is the greatest of a corner.
     [[nodiscard]] ABUT_HD double bend(const rigid_motion& m, const turned_frame& at) const {
         if (m.angle == 0) return 0;
@@ -90,7 +96,8 @@ class turning_search {
 public:
     ABUT_HD turning_search(const hull<T>& a, double radius_a, const hull<T>& b, double radius_b, const turning_pair& both,
                            double tolerance)
-        : both_(both), a_(a, both.a.centre), b_(b, both.b.centre), radius_(plain_sum(radius_a, radius_b)), tolerance_(tolerance) {}
+        : both_(both), a_(a, both.a.centre), b_(b, both.b.centre), bounds_(both, a_.radius(), b_.radius()),
+          radius_(plain_sum(radius_a, radius_b)), tolerance_(tolerance) {}
 
     /// The time, where it is not after `until`; else one that may be infinite. They are known to be farther apart than the
     /// tolerance before `from`.
@@ -128,7 +135,7 @@ private:
                 if (is_passed(time, until, part)) return {};
             }
             const double distance = nearest();
-            if (distance <= plain_sum(tolerance_, -both_.margin)) return {time, greatest(distance, 0.0)};
+            if (distance <= plain_sum(tolerance_, -bounds_.margin)) return {time, greatest(distance, 0.0)};
             if (is_passed(time, until, part)) return {};
             const double left = plain_sum(end, -time), ahead = has_way() ? way_ahead(radius_).free_for(left) : 0;
             if (ahead >= left) {
@@ -158,7 +165,7 @@ private:
     [[nodiscard]] ABUT_HD bool has_way() const { return contact_math::largest_of(along_) > 0x1p-400; }
     [[nodiscard]] ABUT_HD ahead_type way_ahead(double radius) const {
         const double length = plain_length(along_);
-        return {a_, b_, both_, frame_a_, frame_b_, {along_.x / length, along_.y / length, along_.z / length}, radius, bend_};
+        return {a_, b_, both_, bounds_, frame_a_, frame_b_, {along_.x / length, along_.y / length, along_.z / length}, radius, bend_};
     }
 
     /// How far apart they are, at most, less the radii; it is at least a little less, along the direction that is left, if that is
@@ -190,6 +197,7 @@ private:
 
     const turning_pair& both_;
     turned_core<T> a_, b_;
+    turning_bounds bounds_;  ///< of these two, and not of all in a tree
     double radius_, tolerance_, bend_ = 0;
     turned_frame frame_a_{}, frame_b_{};
     point along_{0, 0, 0};

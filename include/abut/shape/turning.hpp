@@ -55,13 +55,14 @@ inline constexpr bool is_posed_motion<posed_motion<Object>> = true;
 
 namespace detail {
 
-/// Whether two objects are one: the same nodes, the same shapes, or equal.
+/// Whether two objects are one: the same nodes, or the same shapes; or shapes with equal boxes, which tells slips.
 template <class Object>
 bool are_one(const Object& a, const Object& b) {
     if constexpr (requires { a.stored(); }) {
         return &a.stored() == &b.stored();
-    } else if constexpr (std::equality_comparable<Object>) {
-        return a == b;
+    } else if constexpr (shape<Object>) {
+        const auto p = bounds(a), q = bounds(b);
+        return p.lower == q.lower && p.upper == q.upper;
     } else if constexpr (requires { a.view(); }) {
         return are_one(a.view(), b.view());
     } else if constexpr (requires { a.vertices.data; }) {

@@ -30,50 +30,52 @@
 
 namespace abut::detail {
 
-/// Two bodies in motion, with what bounds are made of for all of their points.
+/// Two bodies in motion.
 struct turning_pair {
     rigid_motion a, b;
+};
+
+/// What bounds are made of for all points of two bodies that are no farther from the centres of their motions than two radii,
+/// where they are placed.
+struct turning_bounds {
     double margin;  ///< for rounding
     double drift;   ///< the greatest speed that both have by E
     double bend;    ///< half the greatest second derivative that E adds
 
-    /// How far points of a box are from the centre of the motion where they are placed, at most.
-    template <scalar T>
-    static double radius(const rigid_motion& m, const aabb<T>& box) {
-        const vec3<double> lower = widened(box.lower), upper = widened(box.upper);
-        const vec3<double> far = greatest(absolute(plain_move(lower, -1.0, m.centre)), absolute(plain_move(upper, -1.0, m.centre)));
-        return plain_length(far) * stretch;
-    }
-    static double size_of(const rigid_motion& m, double radius) {
-        return radius + magnitudes(m.centre) + magnitudes(m.start) + magnitudes(m.way);
-    }
     /// No singular value of a rotation that queries take is larger.
     static constexpr double stretch = 1.002;
 
-    turning_pair() = default;
+    turning_bounds() = default;
+    ABUT_HD turning_bounds(const turning_pair& both, double radius_a, double radius_b)
+        : margin(plain_product(0x1p-40, plain_sum(size_of(both.a, radius_a), size_of(both.b, radius_b)))),
+          drift(plain_product(1 + 0x1p-20, plain_sum(plain_product(both.a.off, radius_a), plain_product(both.b.off, radius_b)))),
+          bend(plain_product(1 + 0x1p-20, plain_sum(bend_of(both.a, radius_a), bend_of(both.b, radius_b)))) {}
+
+    /// Of a box.
     template <scalar T>
-    turning_pair(const rigid_motion& first, const aabb<T>& around_a, const rigid_motion& second, const aabb<T>& around_b)
-        : a(first), b(second) {
-        const double of_a = radius(a, around_a), of_b = radius(b, around_b);
-        margin = 0x1p-40 * (size_of(a, of_a) + size_of(b, of_b) + magnitudes(widened(around_a.lower)) + magnitudes(widened(around_a.upper)) +
-                            magnitudes(widened(around_b.lower)) + magnitudes(widened(around_b.upper)));
-        drift = (a.off * of_a + b.off * of_b) * (1 + 0x1p-20);
-        const auto bend_of = [](const rigid_motion& m, double r) { return 0.5 * m.angle * (m.angle + 2) * m.off * r; };
-        bend = (bend_of(a, of_a) + bend_of(b, of_b)) * (1 + 0x1p-20);
+    static double radius(const rigid_motion& m, const aabb<T>& box) {
+        const vec3<double> lower = plain_move(widened(box.lower), -1.0, m.centre), upper = plain_move(widened(box.upper), -1.0, m.centre);
+        return plain_product(stretch, plain_length(greatest(absolute(lower), absolute(upper))));
+    }
+
+private:
+    ABUT_HD static double size_of(const rigid_motion& m, double radius) {
+        return 2 * (radius + magnitudes(m.centre)) + (magnitudes(m.start) + magnitudes(m.way));
+    }
+    ABUT_HD static double bend_of(const rigid_motion& m, double radius) {
+        return plain_product(0.5 * plain_product(m.angle, m.angle + 2), plain_product(m.off, radius));
     }
 };
 
 /// A box in its body's frame, as seen from the centre of the motion.
 struct turned_box {
     vec3<double> middle, half;
-    double radius;  ///< around the middle
 
     template <scalar T>
-    ABUT_HD turned_box(const aabb<T>& box, const vec3<double>& centre) {
+    ABUT_INLINE ABUT_HD turned_box(const aabb<T>& box, const vec3<double>& centre) {
         const vec3<double> lower = widened(box.lower), upper = widened(box.upper);
         middle = plain_move({0.5 * (lower.x + upper.x), 0.5 * (lower.y + upper.y), 0.5 * (lower.z + upper.z)}, -1.0, centre);
         half = {0.5 * (upper.x - lower.x), 0.5 * (upper.y - lower.y), 0.5 * (upper.z - lower.z)};
-        radius = plain_length(half) * turning_pair::stretch;
     }
     [[nodiscard]] ABUT_HD vec3<double> farthest(const vec3<double>& n) const {
         const auto end = [](double m, double h, double by) { return by > 0 ? plain_sum(m, h) : plain_sum(m, -h); };
@@ -82,6 +84,7 @@ struct turned_box {
     /// Half the greatest second derivative of a point, without what E adds.
     [[nodiscard]] ABUT_HD double bend(const rigid_motion& m, const turned_frame& at) const {
         if (m.angle == 0) return 0;
+        const double radius = plain_length(half) * turning_bounds::stretch;  // around the middle
         return 0.5 * (m.angle * m.angle) * (plain_length(plain_across(m.axis, at.turned(middle))) + radius) * (1 + 0x1p-40);
     }
 };
@@ -99,13 +102,13 @@ struct gap_ahead {
     };
 
     /// What is within `radius` of one of them belongs to it. The bend of the shapes is given.
-    ABUT_HD gap_ahead(const A& first, const B& second, const turning_pair& both, const turned_frame& at_a, const turned_frame& at_b,
-                      const vec3<double>& n, double radius, double bend_of_shapes)
+    ABUT_HD gap_ahead(const A& first, const B& second, const turning_pair& both, const turning_bounds& bounds, const turned_frame& at_a,
+                      const turned_frame& at_b, const vec3<double>& n, double radius, double bend_of_shapes)
         : a(first), b(second), height_a(at_a.back(n)), speed_a(speed_along(both.a, at_a, n)), height_b(at_b.back(n)),
           speed_b(speed_along(both.b, at_b, n)),
-          apart(plain_sum(plain_along(n, plain_move(at_b.at, -1.0, at_a.at)), -plain_sum(radius, both.margin))),
-          closing(plain_sum(plain_along(n, plain_move(both.b.way, -1.0, both.a.way)), -both.drift)),
-          bend(plain_sum(bend_of_shapes, both.bend)) {}
+          apart(plain_sum(plain_along(n, plain_move(at_b.at, -1.0, at_a.at)), -plain_sum(radius, bounds.margin))),
+          closing(plain_sum(plain_along(n, plain_move(both.b.way, -1.0, both.a.way)), -bounds.drift)),
+          bend(plain_sum(bend_of_shapes, bounds.bend)) {}
 
     /// No less than that is between them after a time, and how the bound changes there.
     [[nodiscard]] ABUT_HD value after(double s) const {
@@ -187,8 +190,8 @@ struct turned_frames {
     }
     /// Boxes are farther apart than `far` from the frames' time until the one that is returned, or until `end`. `gap` is that
     /// along the direction that was tried.
-    [[nodiscard]] ABUT_HD double free_until(const turned_box& p, const turned_box& q, const turning_pair& both, double far, double end,
-                                            double& gap) const {
+    [[nodiscard]] ABUT_HD double free_until(const turned_box& p, const turned_box& q, const turning_pair& both, const turning_bounds& bounds,
+                                            double far, double end, double& gap) const {
         const vec3<double>(&r)[3] = b_in_a;
         const vec3<double> d = vec3<double>{dot(r[0], q.middle), dot(r[1], q.middle), dot(r[2], q.middle)} + apart - p.middle;
         const vec3<double> d_in_b = d.x * r[0] + d.y * r[1] + d.z * r[2];
@@ -213,7 +216,7 @@ struct turned_frames {
         if (!(gap > far)) return time;
         const double of_n = plain_length(n);
         if (!(of_n > 0)) return time;
-        const gap_ahead<turned_box, turned_box> ahead(p, q, both, a, b, {n.x / of_n, n.y / of_n, n.z / of_n}, far,
+        const gap_ahead<turned_box, turned_box> ahead(p, q, both, bounds, a, b, {n.x / of_n, n.y / of_n, n.z / of_n}, far,
                                                       plain_sum(p.bend(both.a, a), q.bend(both.b, b)));
         const double left = plain_sum(end, -time), free = ahead.free_for(left);
         return free < left ? plain_sum(time, free) : infinity<double>;

@@ -37,9 +37,9 @@ struct turning_walk {
 
     ABUT_CALLS_ANY
     template <class Best, class Visitor>
-    ABUT_HD void operator()(const turning_pair& both, double far, const Best& best, const Visitor& visitor) const {
+    ABUT_HD void operator()(const turning_pair& both, const turning_bounds& bounds, double far, const Best& best, const Visitor& visitor) const {
         if (a.size() == 0 || b.size() == 0) return;
-        step<Best, Visitor> one{*this, both, far, best, visitor};
+        step<Best, Visitor> one{*this, both, bounds, far, best, visitor};
         heap waiting;
         const side<A> at_a{a, root_of(a)};
         const side<B> at_b{b, root_of(b)};
@@ -138,6 +138,7 @@ private:
     struct step {
         const turning_walk& walk;
         const turning_pair& both;
+        const turning_bounds& bounds;
         double far;
         const Best& best;
         const Visitor& visitor;
@@ -151,7 +152,7 @@ private:
             const side<B> in_b{walk.b, at.b};
             if (in_a.is_leaf() && in_b.is_leaf()) return visitor(in_a.shape(), in_b.shape(), static_cast<double>(at.from));
             const turned_box p(in_a.box(), both.a.centre), q(in_b.box(), both.b.centre);
-            if (!in_a.is_leaf() && (in_b.is_leaf() || p.radius >= q.radius)) {
+            if (!in_a.is_leaf() && (in_b.is_leaf() || dot(p.half, p.half) >= dot(q.half, q.half))) {
                 in_a.each_child([&](std::uint32_t link, const auto& box) {
                     keep({link, at.b, at.from, 0}, turned_box(box, both.a.centre), q, pending);
                 });
@@ -170,7 +171,7 @@ private:
             if (since > until) return;
             frames.move_to(since, both);
             double gap = 0;
-            const double from = frames.free_until(p, q, both, far, until, gap);
+            const double from = frames.free_until(p, q, both, bounds, far, until, gap);
             if (from > until) return;
             if (from > since) one.from = greatest(one.from, static_cast<float>(from * (1 - 0x1p-22)));
             one.gap = static_cast<float>(gap);
