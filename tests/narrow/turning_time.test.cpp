@@ -4,7 +4,8 @@
 // When two shapes of bodies that turn come together, against a dense subdivision of time in long double that shares no formula
 // (support/turning_oracle.hpp): nothing touches before the time that is told, the shapes are within the tolerance then, and what is
 // told to be free is. Drawn are small and large turns, turns by more than a half, ones in place, starts in contact, needles, ways
-// that pass each other as near as the tolerance, bodies far from the axis and far from the origin, each side in motion or at rest.
+// that pass each other as near as the tolerance, bodies far from the axis and far from the origin, rotations that are off from
+// orthonormal, each side in motion or at rest.
 
 #include <cmath>
 #include <vector>
@@ -21,8 +22,8 @@ using namespace abut::test;
 namespace {
 
 constexpr const char* turning_families[] = {"small turns",   "large turns",       "in place",          "starts in contact", "needles",
-                                            "grazing",       "far from the axis", "far from the origin", "the longer way",  "no turn"};
-constexpr int turning_family_count = 10;
+                                            "grazing",       "far from the axis", "far from the origin", "the longer way",  "no turn",           "bent"};
+constexpr int turning_family_count = 11;
 
 template <class T>
 vec3<T> drawn_point(draws& d, double half) {
@@ -84,6 +85,9 @@ drawn_motion<T> draw_motion(int family, draws& d, bool rests, const vec3<T>& tow
     m.to.translation = family == 2 ? m.from.translation : towards + drawn_point<T>(d, 0.7);
     if (family == 8) m.about.axis = {static_cast<T>(axis.x), static_cast<T>(axis.y), static_cast<T>(axis.z)};
     if (d.below(2) == 0) m.about.centre = drawn_point<T>(d, 1);
+    if (family == 10) {  // as far from orthonormal as that
+        for (T& x : m.to.rotation) x = static_cast<T>(x + static_cast<T>(d.uniform(-0x1p-13, 0x1p-13)));
+    }
     if (rests) m.to = m.from, m.about.axis = {0, 0, 0};
     return m;
 }
@@ -135,7 +139,8 @@ void check_one_turning(int family, std::uint64_t i, turning_tally& tally) {
             const double of_a = detail::turning_bounds::radius(ma, bounds(s)), of_b = detail::turning_bounds::radius(mb, bounds(t)),
                          asked = std::max(tolerance, 8 * detail::turning_bounds(both, of_a, of_b).margin);
             const auto told = detail::turning_time_of(s, t, both, asked);
-            const long_pair truth{seen_s, seen_t, {a.from, a.to, a.about}, {b.from, b.to, b.about}};
+            long_pair truth{seen_s, seen_t, {a.from, a.to, a.about}, {b.from, b.to, b.about}};
+            if (family == 10) truth.a.turn_about(as_long(ma.axis), ma.angle), truth.b.turn_about(as_long(mb.axis), mb.angle);
             // Of floats the two axes differ by as much as rotations are off.
             const long double slack = std::same_as<T, float> ? 2e-6L * (1 + far) : 1e-11L * (1 + far) + 0x1p-40L * away.x;
             if (told.time <= 1) {

@@ -52,20 +52,20 @@ public:
         axis_ = norm(odd) > 0 ? (1 / norm(odd)) * odd : long_vector{1, 0, 0};
         if (angle_ > 2) {
             // R + R^T + (1 - trace) I is a multiple of u u^T.
-            std::size_t k = 0;
             long_vector best{};
             for (std::size_t i = 0; i < 3; ++i) {
                 long_vector column;
                 for (std::size_t j = 0; j < 3; ++j) column[j] = turn[i][j] + turn[j][i] + (i == j ? 1 - trace : 0);
-                if (i == 0 || norm(column) > norm(best)) best = column, k = i;
+                if (norm(column) > norm(best)) best = column;
             }
-            (void)k;
             if (inner(best, odd) < 0) best = -1.0L * best;
             axis_ = (1 / norm(best)) * best;
         }
         const long_vector wish = as_long(about.axis);
         if (norm(wish) > 0 && inner(wish, axis_) < 0) axis_ = -1.0L * axis_, angle_ = 2 * std::acos(-1.0L) - angle_;
     }
+    /// Of rotations that are off from orthonormal the axis and the angle are those of the definition alone: these are given.
+    void turn_about(const long_vector& axis, long double angle) { axis_ = (1 / norm(axis)) * axis, angle_ = angle; }
     [[nodiscard]] long_vector place(const long_vector& p, long double t) const {
         const long_vector r = p - centre_;
         // exp(t theta [u]) ((1 - t) F r + t exp(-theta [u]) G r): E is the difference of the two.
@@ -77,7 +77,6 @@ public:
         const long_vector r = p - centre_, f = turned(first_, r), e = by(-angle_, turned(last_, r)) - f;
         return norm(way_) + angle_ * (norm(outer(axis_, f)) + norm(e)) + norm(e);
     }
-    [[nodiscard]] long double angle() const { return angle_; }
 
 private:
     using matrix = std::array<long_vector, 3>;
