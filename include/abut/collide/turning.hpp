@@ -187,6 +187,42 @@ auto motion_of_argument(const Policy& on, const X& x) {
 
 }  // namespace detail
 
+/// @addtogroup motion
+///@{
+
+/// What the two bodies of each entry meet first: a `result` of `meeting`, one of each entry in their order, 32 bytes each. The
+/// time is never late: before it no shapes of the two touch. It is early by no more than the tolerance: at that time the two
+/// shapes that are named are no farther apart than that, so that shapes that pass each other as near may count as met. What touches
+/// at the start has the time 0. Where the time is infinite and the ids are `no_id` it is proven that nothing touches from 0
+/// to 1. Of pairs of shapes with equal times the least ids come first, a's before b's.
+///
+/// A pair's time is a function of the two shapes, both motions and the tolerance alone, in operations that are each rounded: so
+/// the same bits on every policy, and with any tree over the same sets, but for tolerances that one tree refuses. docs/turning.md
+/// says what the way between two poses is.
+///
+/// Bodies are indices made by make_bvh of any layout, over points, segments, triangles, spheres, capsules, boxes, oriented boxes and
+/// hulls. Solids are met from outside: a shape that is inside of a hull or a ball touches it; one that is inside of a closed mesh
+/// does not.
+///
+/// @par Memory
+/// Indices lie in the policy's memory, the list in host memory. The call copies 700 bytes an entry to the policy's memory, and
+/// needs no more as it works but 8 KB a thread (27 KB with `wide` trees). One thread walks an entry.
+///
+/// @par Errors
+/// - `error`, whose message names the entry: the tolerance is not above 0, or below what doubles tell of bodies and ways
+///   of that size (2^-37 of it; for a robot of 1 m in a hall of 100 m a few nanometres); a half turn without an axis, or an
+///   axis at more than 60 degrees to that of the turn.
+/// - `invalid_geometry`, likewise: a pose is no rotation, or a number is not finite.
+/// - `error`: an index lies on another device.
+/// - `std::bad_alloc`, `cuda_error`.
+///
+/// @par Synchronisation
+/// Returns when the answers are complete; under `cuda` it waits for the policy's stream.
+///
+/// @par Example
+///     std::vector<abut::moving_pair<index>> edges;
+///     for (const auto& [from, to] : roadmap) edges.push_back({moving(posed(robot, from), posed(robot, to)), posed(room, {})});
+///     for (const auto& m : abut::to_host(abut::first_meetings(on, edges, {.tolerance = 1e-3}))) use(m.time);
 template <execution_policy Policy, class IndexA, class IndexB>
 [[nodiscard]] auto first_meetings(const Policy& on, const std::vector<moving_pair<IndexA, IndexB>>& list, const meeting_options& options) {
     using out = execution::buffer_of<Policy, meeting>;
@@ -202,6 +238,9 @@ template <execution_policy Policy, class IndexA, class IndexB>
     }
 }
 
+/// Which entries meet anything: a `result` of `std::uint8_t`, one of each entry in their order, 1 where `first_meetings` has a
+/// time and else 0. An entry is looked at no more after its first such pair, so that this takes less time. Memory, errors and
+/// synchronisation are those of `first_meetings`.
 template <execution_policy Policy, class IndexA, class IndexB>
 [[nodiscard]] auto any_each(const Policy& on, const std::vector<moving_pair<IndexA, IndexB>>& list, const meeting_options& options) {
     using out = execution::buffer_of<Policy, std::uint8_t>;
@@ -217,6 +256,12 @@ template <execution_policy Policy, class IndexA, class IndexB>
     }
 }
 
+/// What two bodies meet first, as `first_meetings` says of an entry; empty where they are proven to meet nothing. An argument is in
+/// motion, `moving(posed(x, from), posed(x, to))`, or at rest, `posed(x, pose)` or x: an index, a set, a view or one shape. A tree is
+/// made for the call where x is none. Memory, errors and synchronisation are those of `first_meetings` and `make_bvh`. One
+/// thread walks: give many motions to one call of that.
+///
+///     if (abut::first_meeting(on, abut::moving(posed(robot, from), posed(robot, to)), room, {.tolerance = 1e-3})) turn_back();
 template <execution_policy Policy, class X, class Y>
 [[nodiscard]] std::optional<meeting> first_meeting(const Policy& on, const X& a, const Y& b, const meeting_options& options) {
     auto of_a = detail::motion_of_argument(on, a);
@@ -236,5 +281,7 @@ template <execution_policy Policy, class X, class Y>
     }
     return std::nullopt;
 }
+
+///@}
 
 }  // namespace abut
