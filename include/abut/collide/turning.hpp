@@ -49,6 +49,9 @@ struct meeting_options {
 /// @ingroup motion
 template <class IndexA, class IndexB = IndexA>
 struct moving_pair {
+    static_assert(!std::is_const_v<IndexA> && !std::is_const_v<IndexB>,
+                  "abut: moving_pair of the type of a const index: leave out const where the index is made, or write "
+                  "moving_pair<std::remove_const_t<decltype(index)>>");
     posed_motion<IndexA> a;  ///< the first one
     posed_motion<IndexB> b;  ///< the second one
 };
@@ -114,10 +117,11 @@ inline void check(const meeting_options& options, const std::string& function) {
 
 /// Throws where the tolerance is so small that rounding may hide it.
 inline void check_tolerance(double tolerance, const turning_bounds& both, const std::string& where) {
-    if (!(both.margin < infinity<double>)) throw error(where + ": coordinates are too large for a motion in doubles");
-    if (tolerance >= 8 * both.margin) return;
-    throw error(where + ": the tolerance is " + shortest(tolerance) + "; doubles tell " + shortest(8 * both.margin) +
-                " and more, 2^-37 of the sizes of bodies and ways");
+    // So that no square of a volume overflows, and none underflows that matters.
+    if (!(both.margin < 0x1p100)) throw error(where + ": coordinates are too large for a motion: 2^138 is the most that is taken");
+    if (tolerance >= 8 * both.margin && tolerance > 0x1p-120) return;
+    throw error(where + ": the tolerance is " + shortest(tolerance) + "; doubles tell " +
+                shortest(greatest(8 * both.margin, 0x1p-120)) + " and more, 2^-37 of the sizes of bodies and ways");
 }
 
 /// Whether a list can hold both.
@@ -205,8 +209,8 @@ auto motion_of_argument(const Policy& on, const X& x) {
 /// does not.
 ///
 /// @par Memory
-/// Indices lie in the policy's memory, the list in host memory. The call copies 700 bytes an entry to the policy's memory, and
-/// needs no more as it works but 8 KB a thread (27 KB with `wide` trees). One thread walks an entry.
+/// Indices lie in the policy's memory, the list in host memory. The call copies 550 bytes an entry to the policy's memory, and
+/// needs no more as it works but 8 KB a thread (14 KB with `wide` trees). One thread walks an entry.
 ///
 /// @par Errors
 /// - `error`, whose message names the entry: the tolerance is not above 0, or below what doubles tell of bodies and ways
@@ -229,7 +233,7 @@ template <execution_policy Policy, class IndexA, class IndexB>
     if constexpr (detail::can_turn<Policy, IndexA, IndexB>()) {
         auto found = detail::meetings_of<false>(on, list, options, "abut::first_meetings", true, [&](std::size_t n, const auto& first) {
             out all(on, n);
-            for_each_index(on, n, detail::write_meetings<std::remove_cvref_t<decltype(first)>>{first, all.data()});
+            for_each_task(on, n, detail::write_meetings<std::remove_cvref_t<decltype(first)>>{first, all.data()});
             return all;
         });
         return result<meeting, space_of<Policy>>(std::move(found));
@@ -247,7 +251,7 @@ template <execution_policy Policy, class IndexA, class IndexB>
     if constexpr (detail::can_turn<Policy, IndexA, IndexB>()) {
         auto found = detail::meetings_of<true>(on, list, options, "abut::any_each", true, [&](std::size_t n, const auto& first) {
             out all(on, n);
-            for_each_index(on, n, detail::write_whether_met<std::remove_cvref_t<decltype(first)>>{first, all.data()});
+            for_each_task(on, n, detail::write_whether_met<std::remove_cvref_t<decltype(first)>>{first, all.data()});
             return all;
         });
         return result<std::uint8_t, space_of<Policy>>(std::move(found));
@@ -273,7 +277,7 @@ template <execution_policy Policy, class X, class Y>
         meeting found{};
         detail::meetings_of<false>(on, list, options, "abut::first_meeting", false, [&](std::size_t n, const auto& first) {
             execution::buffer_of<Policy, meeting> all(on, n);
-            for_each_index(on, n, detail::write_meetings<std::remove_cvref_t<decltype(first)>>{first, all.data()});
+            for_each_task(on, n, detail::write_meetings<std::remove_cvref_t<decltype(first)>>{first, all.data()});
             download(on, all.data(), n, &found);
             return 0;
         });

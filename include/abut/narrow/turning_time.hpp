@@ -49,11 +49,28 @@ public:
         }
         return best;
     }
-    /// Some point amid them.
+    /// Brings them to the world.
+    ABUT_HD void move_to(const turned_frame& frame) {
+        frame_ = frame;
+        const std::size_t n = least(size(), room);
+        for (std::size_t i = 0; i < n; ++i) placed_[i] = frame.place(kept_[i]);
+    }
+    /// The farthest one there.
+    [[nodiscard]] ABUT_HD vec3<double> farthest_placed(const vec3<double>& n) const {
+        if (size() > room) return frame_.place(farthest(frame_.back(n)));
+        vec3<double> best = placed_[0];
+        double most = plain_along(n, best);
+        for (std::size_t i = 1; i < size(); ++i) {
+            const double x = plain_along(n, placed_[i]);
+            if (x > most) most = x, best = placed_[i];
+        }
+        return best;
+    }
+    /// Some point amid them there.
     [[nodiscard]] ABUT_HD vec3<double> middle() const {
         const std::size_t n = least(size(), room);
-        vec3<double> sum = kept_[0];
-        for (std::size_t i = 1; i < n; ++i) sum = plain_move(sum, 1.0, kept_[i]);
+        vec3<double> sum = placed_[0];
+        for (std::size_t i = 1; i < n; ++i) sum = plain_move(sum, 1.0, placed_[i]);
         const double share = 1 / static_cast<double>(n);
         return {plain_product(share, sum.x), plain_product(share, sum.y), plain_product(share, sum.z)};
     }
@@ -79,7 +96,8 @@ private:
     [[nodiscard]] ABUT_HD vec3<double> seen(std::size_t i) const { return plain_move(widened(of_[i]), -1.0, centre_); }
 
     const hull<T>& of_;
-    vec3<double> centre_, kept_[room]{};
+    vec3<double> centre_, kept_[room]{}, placed_[room]{};
+    turned_frame frame_{};
 };
 
 /// When two shapes meet, and how far apart they are then, no farther than that. Infinite where they do not meet.
@@ -129,9 +147,11 @@ private:
         for (int step = 0;; ++step) {
             frame_a_ = both_.a.frame(time);
             frame_b_ = both_.b.frame(time);
+            a_.move_to(frame_a_);
+            b_.move_to(frame_b_);
             bend_ = plain_sum(a_.bend(both_.a, frame_a_), b_.bend(both_.b, frame_b_));
             if (step == 0) {
-                along_ = plain_move(frame_b_.place(b_.middle()), -1.0, frame_a_.place(a_.middle()));
+                along_ = plain_move(b_.middle(), -1.0, a_.middle());
                 if (is_passed(time, until, part)) return {};
             }
             const double distance = nearest();
@@ -179,8 +199,7 @@ private:
         for (int step = 0; step < most_searched; ++step) {
             const double of_along = plain_length(along);
             if (!(of_along > 0x1p-400)) break;
-            const point p = frame_a_.place(a_.farthest(frame_a_.back(along))),
-                        q = frame_b_.place(b_.farthest(frame_b_.back(negated(along)))), w = plain_difference(q, p);
+            const point p = a_.farthest_placed(along), q = b_.farthest_placed(negated(along)), w = plain_difference(q, p);
             const double gap = plain_dot(along, w) / of_along;
             if (gap > least) least = gap, along_ = along;
             // A share of what is left between the shapes is enough to go on.
